@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# warren_library(FOLDER [FOLDER ...]): the folder's sources as library warren_FOLDER, linked to the folders that it may
+# include. Sources are found by pattern: a file belongs to the library of the folder that it lies in, always.
+function(warren_library folder)
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp ${PROJECT_SOURCE_DIR}/${folder}/*.hpp)
+  if(folder STREQUAL "parallel")
+    set(other tbb)
+    if(WARREN_PARALLEL STREQUAL "tbb")
+      set(other std)
+    endif()
+    list(FILTER sources EXCLUDE REGEX "_${other}\\.cpp$")
+  endif()
+  add_library(warren_${folder} STATIC ${sources})
+  add_library(warren::${folder} ALIAS warren_${folder})
+  set_target_properties(warren_${folder} PROPERTIES LINKER_LANGUAGE CXX EXPORT_NAME ${folder})
+  target_include_directories(warren_${folder} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+                                                     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/warren>)
+  foreach(below IN LISTS ARGN)
+    target_link_libraries(warren_${folder} PUBLIC warren_${below})
+  endforeach()
+endfunction()

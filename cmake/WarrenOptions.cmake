@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Options of the build and the flags that every target shares.
+
+option(WARREN_TESTS "build the tests" ON)
+option(WARREN_BENCH "build the microbenchmarks" OFF)
+option(WARREN_WERROR "warnings are errors" OFF)
+option(WARREN_NATIVE "tune for this machine (the default build runs on any x86-64)" OFF)
+set(WARREN_PARALLEL "tbb" CACHE STRING "back end of parallel/: tbb, or std (for ThreadSanitizer)")
+set_property(CACHE WARREN_PARALLEL PROPERTY STRINGS tbb std)
+set(WARREN_SANITIZE "" CACHE STRING "sanitizers, as -fsanitize= takes them")
+
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+
+# Every machine computes the same bits: no contraction into fused operations, no fast-math.
+add_compile_options(-ffp-contract=off -fno-fast-math)
+add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Wnull-dereference)
+if(WARREN_WERROR)
+  add_compile_options(-Werror)
+endif()
+if(WARREN_NATIVE)
+  add_compile_options(-march=native)
+endif()
+if(WARREN_SANITIZE)
+  add_compile_options(-fsanitize=${WARREN_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${WARREN_SANITIZE})
+endif()

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/graph.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/error.hpp"
+
+namespace warren {
+
+Graph Graph::from_edges(std::size_t vertex_count, std::span<const Edge> edges) {
+  if (edges.size() > std::numeric_limits<EdgeEnd>::max() / 2) {
+    throw InputError("graph", "too many edges for 32-bit positions; use fewer samples or neighbours");
+  }
+  RawVector<EdgeEnd> offsets(vertex_count + 1, 0);
+  for (const Edge& e : edges) {
+    ++offsets[e.from + 1];
+    ++offsets[e.to + 1];
+  }
+  for (std::size_t v = 0; v < vertex_count; ++v) offsets[v + 1] += offsets[v];
+  RawVector<VertexId> targets(2 * edges.size());
+  RawVector<EdgeEnd> next(offsets.begin(), offsets.end() - 1);
+  for (const Edge& e : edges) {
+    targets[next[e.from]++] = e.to;
+    targets[next[e.to]++] = e.from;
+  }
+  for (std::size_t v = 0; v < vertex_count; ++v) {
+    std::sort(targets.begin() + offsets[v], targets.begin() + offsets[v + 1]);
+  }
+  return Graph(std::move(offsets), std::move(targets));
+}
+
+std::size_t Components::size_of(VertexId v) const {
+  return static_cast<std::size_t>(std::count(label.begin(), label.end(), label[v]));
+}
+
+Components components(const Graph& graph) {
+  const auto n = static_cast<VertexId>(graph.vertex_count());
+  Components result;
+  RawVector<VertexId>& parent = result.label;
+  parent.resize(n);
+  for (VertexId v = 0; v < n; ++v) parent[v] = v;
+  const auto root = [&parent](VertexId v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (VertexId v = 0; v < n; ++v) {
+    for (const VertexId w : graph.neighbours(v)) {
+      if (w > v) break;  // each edge once, from its larger end
+      const VertexId a = root(v);
+      const VertexId b = root(w);
+      parent[std::max(a, b)] = std::min(a, b);
+    }
+  }
+  for (VertexId v = 0; v < n; ++v) {
+    parent[v] = parent[parent[v]];  // roots are the smallest of their component, so parent[v] is final already
+    result.count += parent[v] == v ? 1U : 0U;
+  }
+  return result;
+}
+
+}  // namespace warren

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An undirected graph in compressed sparse rows (CSR): the neighbours of vertex v are targets[offsets[v] ..
+// offsets[v + 1]), ascending. Each edge stands twice. 4 bytes a vertex, 4 an edge end; lengths, 8 an edge end, only where
+// they can't be computed from the states at once.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/raw_vector.hpp"
+#include "core/types.hpp"
+
+namespace warren {
+
+/// Position in the array of edge ends. 2^32 - 1 ends are the most that a Graph takes; builders throw InputError before.
+using EdgeEnd = std::uint32_t;
+
+/// An undirected edge between two different vertices.
+struct Edge {
+  VertexId from;
+  VertexId to;
+  friend constexpr auto operator<=>(const Edge&, const Edge&) = default;
+};
+
+/// Immutable; any number of threads may read.
+class Graph {
+ public:
+  Graph() : offsets_(1, 0) {}
+  /// Takes finished arrays: offsets has vertex_count + 1 entries, rows ascending; lengths is empty or one an edge end.
+  Graph(RawVector<EdgeEnd> offsets, RawVector<VertexId> targets, RawVector<double> lengths = {})
+      : offsets_(std::move(offsets)), targets_(std::move(targets)), lengths_(std::move(lengths)) {}
+
+  /// Serial reference builder. Edges may come in any order; duplicates are kept as they are. O(V + E log degree).
+  static Graph from_edges(std::size_t vertex_count, std::span<const Edge> edges);
+
+  std::size_t vertex_count() const { return offsets_.size() - 1; }
+  std::size_t edge_count() const { return targets_.size() / 2; }
+  std::span<const VertexId> neighbours(VertexId v) const {
+    return {targets_.data() + offsets_[v], targets_.data() + offsets_[v + 1]};
+  }
+  std::size_t degree(VertexId v) const { return offsets_[v + 1] - offsets_[v]; }
+  bool has_lengths() const { return !lengths_.empty(); }
+  /// Lengths of the edges to neighbours(v), in the same order; only if has_lengths().
+  std::span<const double> lengths(VertexId v) const {
+    return {lengths_.data() + offsets_[v], lengths_.data() + offsets_[v + 1]};
+  }
+  std::size_t bytes() const {
+    return offsets_.size() * sizeof(EdgeEnd) + targets_.size() * sizeof(VertexId) + lengths_.size() * sizeof(double);
+  }
+
+ private:
+  RawVector<EdgeEnd> offsets_;
+  RawVector<VertexId> targets_;
+  RawVector<double> lengths_;
+};
+
+/// Connected components: label[v] is the smallest vertex of v's component. Union-find with path halving, O(E α(V)).
+struct Components {
+  RawVector<VertexId> label;
+  std::size_t count = 0;
+  bool connected(VertexId a, VertexId b) const { return label[a] == label[b]; }
+  std::size_t size_of(VertexId v) const;  ///< vertices in v's component; O(V)
+};
+Components components(const Graph& graph);
+
+}  // namespace warren

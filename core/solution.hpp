@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a planner returns: an answer, the path that goes with it, and the account of the work.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/counters.hpp"
+
+namespace warren {
+
+/// How a plan ended. An answer, never an error.
+enum class Outcome : std::uint8_t { solved, start_blocked, goal_blocked, not_connected, infeasible, stopped };
+
+constexpr std::string_view name_of(Outcome outcome) {
+  constexpr std::string_view names[] = {"solved", "start_blocked", "goal_blocked", "not_connected", "infeasible", "stopped"};
+  return names[static_cast<std::size_t>(outcome)];
+}
+
+/// Size of the roadmap that gave the answer.
+struct RoadmapSize {
+  std::uint64_t milestones = 0;  ///< start and goal included
+  std::uint64_t edges = 0;       ///< undirected; lazy planners: edges that were checked and found free
+  std::uint64_t components = 0;  ///< 0 where the planner doesn't compute them (lazy ones)
+};
+
+/// Why start and goal are not joined: sizes of their components, and the shortest distance between a milestone of one
+/// and a milestone of the other (in the world's metric).
+struct Separation {
+  std::uint64_t start_size = 0;
+  std::uint64_t goal_size = 0;
+  double nearest_gap = std::numeric_limits<double>::quiet_NaN();
+};
+
+template <class State>
+struct Solution {
+  Outcome outcome = Outcome::not_connected;
+  std::vector<State> path;  ///< start to goal; empty unless solved
+  RoadmapSize roadmap;
+  Separation separation;  ///< only for not_connected
+  Counters counters;      ///< exact, the same for any thread count
+  StageTimes seconds;
+};
+
+/// Sum of the motions' lengths, in the path's order.
+template <class State, class Distance>
+double path_length(const std::vector<State>& path, Distance&& distance_between) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) length += distance_between(path[i - 1], path[i]);
+  return length;
+}
+
+}  // namespace warren

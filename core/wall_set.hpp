@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The walls of a world: N segments in memory, in the narrowest type that holds every coordinate exactly. Walls of a
+// grid maze are half-integers, so they fit in float: 16 bytes a wall instead of 32.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <variant>
+
+#include "core/raw_vector.hpp"
+#include "core/types.hpp"
+
+namespace warren {
+
+/// One wall as files hold it: four numbers.
+template <class T>
+struct WallOf {
+  T x1, y1, x2, y2;
+  Segment segment() const {
+    return {{static_cast<double>(x1), static_cast<double>(y1)}, {static_cast<double>(x2), static_cast<double>(y2)}};
+  }
+  friend bool operator==(const WallOf&, const WallOf&) = default;
+};
+using FloatWall = WallOf<float>;
+using DoubleWall = WallOf<double>;
+
+/// Owns the walls. Immutable after construction, so any number of threads may read.
+class WallSet {
+ public:
+  WallSet() = default;
+  explicit WallSet(RawVector<FloatWall> walls) : walls_(std::move(walls)) {}
+  explicit WallSet(RawVector<DoubleWall> walls) : walls_(std::move(walls)) {}
+
+  /// Keeps floats where all coordinates are exact as float, doubles otherwise.
+  static WallSet narrowest(std::span<const Segment> segments);
+
+  /// Calls f with a span<const FloatWall> or a span<const DoubleWall>.
+  template <class F>
+  decltype(auto) visit(F&& f) const {
+    if (const auto* floats = std::get_if<RawVector<FloatWall>>(&walls_)) return f(std::span<const FloatWall>(*floats));
+    return f(std::span<const DoubleWall>(std::get<RawVector<DoubleWall>>(walls_)));
+  }
+  std::size_t size() const {
+    return visit([](auto walls) { return walls.size(); });
+  }
+  bool holds_floats() const { return std::holds_alternative<RawVector<FloatWall>>(walls_); }
+  std::size_t bytes() const { return size() * (holds_floats() ? sizeof(FloatWall) : sizeof(DoubleWall)); }
+  Segment segment(std::size_t i) const {
+    return visit([i](auto walls) { return walls[i].segment(); });
+  }
+
+ private:
+  std::variant<RawVector<FloatWall>, RawVector<DoubleWall>> walls_;
+};
+
+}  // namespace warren

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// for_chunks: spreads a loop over the cores. Borders depend on n and grain alone, never on the threads, so parts that
+// are kept one slot a chunk and joined in chunk order are the same bits for any thread count. Deadline and progress are
+// served once a chunk; an exception of a body ends the loop and is rethrown here. Back ends: chunks_tbb.cpp, and
+// chunks_std.cpp for ThreadSanitizer.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <type_traits>
+
+#include "parallel/execution.hpp"
+
+namespace warren {
+
+/// Indices first .. last - 1.
+struct Range {
+  std::size_t first;
+  std::size_t last;
+  std::size_t size() const { return last - first; }
+};
+
+constexpr std::size_t chunk_count(std::size_t n, std::size_t grain) { return (n + grain - 1) / grain; }
+
+namespace detail {
+/// Calls call(body, chunk) for chunk = 0 .. chunks - 1 on up to `threads` threads; returns when all are done.
+void run_chunks(std::size_t chunks, unsigned threads, const void* body, void (*call)(const void*, std::size_t));
+/// Tells progress and trace about one chunk.
+class ChunkTrace {
+ public:
+  explicit ChunkTrace(const Execution& execution);
+  void end(std::size_t items);
+
+ private:
+  const Execution& execution_;
+  std::chrono::steady_clock::time_point begin_;
+};
+}  // namespace detail
+
+/// Calls body(Range) for each chunk of `grain` indices of 0 .. n - 1; chunks run in any order, at most
+/// thread_count(execution.threads) at a time. Chunk number = range.first / grain. Throws Stopped at the deadline.
+template <class Body>
+void for_chunks(std::size_t n, std::size_t grain, const Execution& execution, const Body& body) {
+  const auto run = [&](std::size_t chunk) {
+    execution.check();
+    detail::ChunkTrace trace(execution);
+    const Range range{chunk * grain, std::min(n, (chunk + 1) * grain)};
+    body(range);
+    trace.end(range.size());
+  };
+  using Run = decltype(run);
+  const std::size_t chunks = chunk_count(n, grain);
+  if (chunks <= 1 || thread_count(execution.threads) == 1) {
+    for (std::size_t chunk = 0; chunk < chunks; ++chunk) run(chunk);
+    return;
+  }
+  detail::run_chunks(chunks, thread_count(execution.threads), &run,
+                     [](const void* f, std::size_t chunk) { (*static_cast<const Run*>(f))(chunk); });
+}
+
+}  // namespace warren

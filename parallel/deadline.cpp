@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "parallel/deadline.hpp"
+
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace warren {
+namespace {
+
+struct CloseFile {
+  void operator()(std::FILE* f) const { std::fclose(f); }
+};
+using File = std::unique_ptr<std::FILE, CloseFile>;
+
+/// The first number of a small file, or nothing ("max" counts as nothing).
+std::optional<std::size_t> number_in(const char* path) {
+  const File file(std::fopen(path, "r"));
+  unsigned long long value = 0;
+  if (!file || std::fscanf(file.get(), "%llu", &value) != 1) return std::nullopt;
+  return static_cast<std::size_t>(value);
+}
+
+std::size_t machine_available_bytes() {
+  const File file(std::fopen("/proc/meminfo", "r"));
+  char line[128];
+  while (file && std::fgets(line, sizeof line, file.get()) != nullptr) {
+    unsigned long long kilobytes = 0;
+    if (std::sscanf(line, "MemAvailable: %llu", &kilobytes) == 1) return static_cast<std::size_t>(kilobytes) * 1024;
+  }
+  return std::numeric_limits<std::size_t>::max();
+}
+
+}  // namespace
+
+Deadline::Deadline(double seconds, std::size_t memory_bytes, const SignalFlag* signal)
+    : memory_bytes_(memory_bytes), signal_(signal) {
+  constexpr double longest_s = 1e9;  // about thirty years: beyond it the clock's own type would overflow
+  if (std::isfinite(seconds) && seconds < longest_s) {
+    end_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  }
+}
+
+std::optional<StopReason> Deadline::reached() const noexcept {
+  if (signal_ != nullptr) {
+    const int number = signal_->load(std::memory_order_relaxed);
+    if (number != 0) return number == SIGTERM ? StopReason::terminate : StopReason::interrupt;
+  }
+  if (end_ && Clock::now() >= *end_) return StopReason::time;
+  return std::nullopt;
+}
+
+void Deadline::reserve(std::size_t bytes) const {
+  check();
+  if (memory_bytes_ == std::numeric_limits<std::size_t>::max()) return;
+  const std::size_t held = resident_bytes();
+  if (held >= memory_bytes_ || bytes > memory_bytes_ - held) throw Stopped{StopReason::memory};
+}
+
+std::size_t resident_bytes() {
+  const File file(std::fopen("/proc/self/statm", "r"));
+  unsigned long long total = 0;
+  unsigned long long resident = 0;
+  if (!file || std::fscanf(file.get(), "%llu %llu", &total, &resident) != 2) return 0;
+  return static_cast<std::size_t>(resident) * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+}
+
+std::size_t peak_resident_bytes() {
+  rusage usage{};
+  if (::getrusage(RUSAGE_SELF, &usage) != 0) return 0;
+  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+}
+
+std::size_t available_bytes() {
+  std::size_t bytes = machine_available_bytes() + resident_bytes();
+  if (const auto limit = number_in("/sys/fs/cgroup/memory.max")) bytes = std::min(bytes, *limit);
+  if (const auto limit = number_in("/sys/fs/cgroup/memory/memory.limit_in_bytes")) bytes = std::min(bytes, *limit);
+  return bytes;
+}
+
+}  // namespace warren

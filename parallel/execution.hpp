@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How a computation is run: on how many threads, until when, and who is told how far it is. Passed by const& through
+// every stage; none of it changes a result.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+
+#include "parallel/deadline.hpp"
+
+namespace warren {
+
+/// How far a stage is; written by the workers, read by whoever draws it.
+class Progress {
+ public:
+  void begin(const char* stage, std::uint64_t total) noexcept {
+    done_.store(0, std::memory_order_relaxed);
+    total_.store(total, std::memory_order_relaxed);
+    stage_.store(stage, std::memory_order_release);
+  }
+  void set_total(std::uint64_t total) noexcept { total_.store(total, std::memory_order_relaxed); }
+  void advance(std::uint64_t items) noexcept { done_.fetch_add(items, std::memory_order_relaxed); }
+  const char* stage() const noexcept { return stage_.load(std::memory_order_acquire); }  ///< a literal, or nullptr
+  std::uint64_t done() const noexcept { return done_.load(std::memory_order_relaxed); }
+  std::uint64_t total() const noexcept { return total_.load(std::memory_order_relaxed); }  ///< 0: not known
+
+ private:
+  std::atomic<const char*> stage_{nullptr};
+  std::atomic<std::uint64_t> done_{0};
+  std::atomic<std::uint64_t> total_{0};
+};
+
+class Trace;  // parallel/trace.hpp
+
+struct Execution {
+  unsigned threads = 0;           ///< 0: one a core that this process may use; changes the time, never the result
+  const Deadline* deadline = nullptr;  ///< nullptr: no limit
+  Progress* progress = nullptr;        ///< nullptr: nobody watches
+  Trace* trace = nullptr;              ///< nullptr: nobody records
+
+  void check() const {
+    if (deadline != nullptr) deadline->check();
+  }
+  bool should_stop() const noexcept { return deadline != nullptr && deadline->reached().has_value(); }
+  void reserve(std::size_t bytes) const {
+    if (deadline != nullptr) deadline->reserve(bytes);
+  }
+  void advance(std::uint64_t items) const noexcept {
+    if (progress != nullptr) progress->advance(items);
+  }
+};
+
+/// The threads that `threads` asks for: itself, or for 0 the smallest of hardware, affinity mask and cgroup quota.
+unsigned thread_count(unsigned threads);
+
+/// Measures one stage: adds the seconds between construction and destruction to `seconds` and names the stage to
+/// whoever watches.
+class StageTimer {
+ public:
+  StageTimer(const Execution& execution, const char* stage, double& seconds, std::uint64_t items = 0);
+  ~StageTimer();
+  StageTimer(const StageTimer&) = delete;
+  StageTimer& operator=(const StageTimer&) = delete;
+
+ private:
+  const Execution& execution_;
+  const char* stage_;
+  double& seconds_;
+  std::chrono::steady_clock::time_point begin_;
+};
+
+}  // namespace warren

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Records when each stage and each chunk ran and on which thread, for the Chrome trace format. Each worker appends to a
+// list of its own; a mutex guards only the hand-out of lists.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace warren {
+
+class Trace {
+ public:
+  using Clock = std::chrono::steady_clock;
+  struct Event {
+    const char* name;  ///< a literal
+    double begin_us;   ///< since the trace was made
+    double duration_us;
+    std::uint32_t thread;  ///< 0 is the thread that made the trace
+    bool is_stage;
+  };
+
+  Trace() : start_(Clock::now()) { lanes_.push_back({std::this_thread::get_id(), {}}); }
+
+  void record(const char* name, Clock::time_point begin, Clock::time_point end, bool is_stage) {
+    const auto micros = [](Clock::duration d) { return std::chrono::duration<double, std::micro>(d).count(); };
+    const std::lock_guard lock(mutex_);  // once a chunk, so it is never contended for long
+    const std::uint32_t lane = lane_of(std::this_thread::get_id());
+    lanes_[lane].events.push_back({name, micros(begin - start_), micros(end - begin), lane, is_stage});
+  }
+
+  /// All events, thread by thread. Call when no worker runs.
+  std::vector<Event> events() const {
+    std::vector<Event> all;
+    for (const Lane& lane : lanes_) all.insert(all.end(), lane.events.begin(), lane.events.end());
+    return all;
+  }
+  std::size_t thread_count() const { return lanes_.size(); }
+
+ private:
+  struct Lane {
+    std::thread::id thread;
+    std::vector<Event> events;
+  };
+  std::uint32_t lane_of(std::thread::id id) {
+    for (std::uint32_t i = 0; i < lanes_.size(); ++i) {
+      if (lanes_[i].thread == id) return i;
+    }
+    lanes_.push_back({id, {}});
+    return static_cast<std::uint32_t>(lanes_.size() - 1);
+  }
+
+  Clock::time_point start_;
+  std::mutex mutex_;  // guards lanes_
+  std::vector<Lane> lanes_;
+};
+
+}  // namespace warren

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How a roadmap is built and searched: the options that prm and lazy_prm share, as plain aggregates.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/types.hpp"
+
+namespace warren {
+
+enum class SamplerKind : std::uint8_t { uniform, lattice, halton };
+enum class SearchKind : std::uint8_t { astar, dijkstra, bfs, dfs };
+enum class QueueKind : std::uint8_t { heap, lazy_heap, sorted_array, resorted_array };
+/// path: Bohlin and Kavraki 2000, check the edges of the path found, drop the bad ones, repair, repeat.
+/// expansion: check an edge when the search first wants to use it.
+enum class LazyCheck : std::uint8_t { expansion, path };
+
+/// Cell centres (1..cols) x (1..rows): what SamplerKind::lattice needs to know.
+struct LatticeSize {
+  std::uint32_t rows = 0;
+  std::uint32_t cols = 0;
+};
+
+/// validate() refuses values outside the stated ranges with InputError.
+struct RoadmapOptions {
+  SamplerKind sampler = SamplerKind::uniform;
+  LatticeSize lattice;                    ///< only for SamplerKind::lattice; both >= 1
+  std::optional<std::uint64_t> samples;   ///< states drawn, 1 .. 2^31; none: grow until start and goal connect
+  std::optional<std::uint32_t> neighbours;  ///< k of the k nearest, 1 .. 4096; none: by the sampler's rule
+  std::optional<double> radius;           ///< longest edge, world units, > 0 (replaces neighbours); none: by rule
+  std::uint64_t seed = 1;                 ///< any value
+  SearchKind search = SearchKind::astar;
+  QueueKind queue = QueueKind::heap;
+  LazyCheck lazy = LazyCheck::expansion;  ///< only for lazy_prm
+
+  void validate() const;
+};
+
+}  // namespace warren

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A point or disc among wall segments: the world of mazes, and of any other set of walls. The reference point stays in
+// the box of the walls (or strictly inside the bounds, which count as four walls); every point of a motion keeps the
+// clearance. Planning widens the clearance by the factor 1 + 1e-9, so that rounding can't fail the verification.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/types.hpp"
+#include "core/world.hpp"
+#include "parallel/execution.hpp"
+#include "spatial/wall_index.hpp"
+#include "worlds/scene.hpp"
+
+namespace warren {
+
+/// Immutable after construction; one Query a thread.
+class MazeWorld {
+ public:
+  static constexpr std::size_t dimension = 2;
+  using State = Vec2;
+  struct Query {};
+
+  /// Indexes the scene's walls and bounds. clearance >= 0 and finite (InputError otherwise); with 0, touching a wall
+  /// is blocked. Throws InputError for a scene without walls and bounds.
+  MazeWorld(const Scene& scene, double clearance, const Execution& execution);
+
+  Query make_query() const { return {}; }
+  State at_unit(const std::array<double, 2>& u) const {
+    return {box_.min.x + u[0] * box_.width(), box_.min.y + u[1] * box_.height()};
+  }
+  bool is_free(const State& a, Query&) const noexcept;
+  bool is_free_motion(const State& a, const State& b, Query&) const noexcept {
+    return index_.keeps_clearance(a, b, planning_clearance_);
+  }
+  static double distance(const State& a, const State& b) { return warren::distance(a, b); }
+  std::array<double, 2> embed(const State& a) const { return {a.x, a.y}; }
+
+  const Box& box() const { return box_; }
+  double clearance() const { return clearance_; }
+  const WallIndex& walls() const { return index_; }
+
+ private:
+  Box box_;
+  double clearance_;
+  double planning_clearance_;
+  WallIndex index_;
+};
+
+static_assert(World<MazeWorld>);
+
+}  // namespace warren

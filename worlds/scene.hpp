@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Everything that a world file can say, as plain data: the common ground of readers, writers, generator and worlds.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/types.hpp"
+#include "core/wall_set.hpp"
+
+namespace warren {
+
+/// A simple polygon as its file gives it: corners in order, either orientation; `line` is its line in the file (0: none).
+struct ScenePolygon {
+  std::vector<Vec2> corners;
+  std::size_t line = 0;
+};
+
+/// A closed ball.
+struct Sphere {
+  double x, y, z, radius;
+};
+
+/// "this is a maze": walls lie on the unit grid, cell centres at 1..cols x 1..rows.
+struct MazeHint {
+  std::uint32_t rows = 0;
+  std::uint32_t cols = 0;
+  friend bool operator==(const MazeHint&, const MazeHint&) = default;
+};
+
+enum class RobotKind : std::uint8_t { point, disc, polygon, car, puma560 };
+
+struct RobotSpec {
+  RobotKind kind = RobotKind::point;
+  double radius = 0.0;          ///< disc, car, puma560 links; >= 0
+  double turning_radius = 0.0;  ///< car; > 0
+  double tool = 0.0;            ///< puma560: tool length; >= 0
+  std::vector<Vec2> outline;    ///< polygon, around the reference point
+};
+
+/// Raster for the grid planner.
+struct GridSpec {
+  double cell = 1.0;          ///< > 0
+  std::uint32_t angles = 1;   ///< >= 1
+};
+
+struct Scene {
+  WallSet walls;
+  std::vector<ScenePolygon> polygons;
+  std::vector<Sphere> spheres;
+  std::optional<Box> bounds;
+  std::optional<double> clearance;
+  std::optional<MazeHint> maze;
+  std::optional<RobotSpec> robot;
+  std::vector<double> start;  ///< 2, 3 or 6 numbers; empty: none
+  std::vector<double> goal;
+  std::optional<GridSpec> grid;
+  std::string source;  ///< file name or maze:... as given
+};
+
+/// "polygon" and "car" turn, so their states have an angle; 2, 3 or 6 numbers.
+std::size_t state_size(const RobotSpec& robot);
+
+/// 64-bit FNV-1a over the bits of everything that shapes the free space (walls, polygons, spheres, bounds): the same
+/// for the same world whatever file it came from, as 16 hex digits. O(input).
+std::string scene_hash(const Scene& scene);
+
+/// The box of all walls and polygons (not of the bounds).
+Box obstacle_box(const Scene& scene);
+
+}  // namespace warren
