@@ -49,6 +49,7 @@ struct Box {
     max = {std::max(max.x, p.x), std::max(max.y, p.y)};
   }
   constexpr void include(const Box& o) {
+    if (o.empty()) return;
     include(o.min);
     include(o.max);
   }

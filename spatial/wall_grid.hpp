@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The grid behind WallIndex: walls filed by the midpoint of each piece of at most one cell's length, copied into cell
+// order, rows of cells contiguous. A query reads, for each row of cells that its box grown by half a cell meets, one
+// contiguous run of walls. A cell that stays crowded is given a finer grid of its own.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/raw_vector.hpp"
+#include "core/types.hpp"
+#include "core/wall_set.hpp"
+
+namespace warren {
+
+template <class T>
+class WallGrid {
+ public:
+  /// Calls visit(const Segment&) for every wall whose box meets `box` (and some others, some twice), rows upwards,
+  /// until it returns false. Returns false if it was stopped.
+  template <class Visit>
+  bool for_each_near(const Box& box, const Visit& visit) const {
+    const auto first_row = row_of(box.min.y - reach_.y);
+    const auto last_row = row_of(box.max.y + reach_.y);
+    const auto first_col = col_of(box.min.x - reach_.x);
+    const auto last_col = col_of(box.max.x + reach_.x);
+    for (std::uint32_t row = first_row; row <= last_row; ++row) {
+      if (!visit_run(row, first_col, last_col, box, visit)) return false;
+    }
+    return true;
+  }
+
+  /// The same for the walls near the segment a-b grown by r: in each row only the cells that the segment passes.
+  template <class Visit>
+  bool for_each_along(const Segment& s, double r, const Visit& visit) const {
+    const Box box = box_of(s).grown(r);
+    if (box.height() <= 4 * cell_ || box.width() <= 4 * cell_) return for_each_near(box, visit);
+    const std::uint32_t last_row = row_of(box.max.y + reach_.y);
+    const double slope = (s.b.x - s.a.x) / (s.b.y - s.a.y);
+    for (std::uint32_t row = row_of(box.min.y - reach_.y); row <= last_row; ++row) {
+      const double low = origin_.y + row * cell_ - reach_.y - r;
+      const double high = low + cell_ + 2 * (reach_.y + r);
+      const double x1 = s.a.x + slope * (low - s.a.y);
+      const double x2 = s.a.x + slope * (high - s.a.y);
+      const double margin = reach_.x + r + 1e-9 * (cell_ + std::abs(x1) + std::abs(x2));
+      const std::uint32_t first_col = col_of(std::max(box.min.x - reach_.x, std::min(x1, x2) - margin));
+      const std::uint32_t last_col = col_of(std::min(box.max.x + reach_.x, std::max(x1, x2) + margin));
+      if (!visit_run(row, first_col, last_col, box, visit)) return false;
+    }
+    return true;
+  }
+
+  double cell() const { return cell_; }
+  std::size_t bytes() const;
+
+ private:
+  template <class U>
+  friend class WallGridBuilder;
+
+  static constexpr std::uint32_t no_child = 0xffffffffU;
+
+  std::uint32_t clamped(double cell, std::uint32_t count) const {
+    return cell <= 0.0 ? 0 : cell >= count ? count - 1 : static_cast<std::uint32_t>(cell);
+  }
+  std::uint32_t col_of(double x) const { return clamped((x - origin_.x) * inverse_cell_, cols_); }
+  std::uint32_t row_of(double y) const { return clamped((y - origin_.y) * inverse_cell_, rows_); }
+
+  template <class Visit>
+  bool visit_run(std::uint32_t row, std::uint32_t first_col, std::uint32_t last_col, const Box& box,
+                 const Visit& visit) const {
+    const std::size_t base = std::size_t{row} * cols_;
+    if (child_of_.empty()) return visit_walls(base + first_col, base + last_col, visit);
+    for (std::size_t cell = base + first_col; cell <= base + last_col; ++cell) {
+      const std::uint32_t child = child_of_[cell];
+      const bool goes_on =
+          child == no_child ? visit_walls(cell, cell, visit) : children_[child].for_each_near(box, visit);
+      if (!goes_on) return false;
+    }
+    return true;
+  }
+
+  template <class Visit>
+  bool visit_walls(std::size_t first_cell, std::size_t last_cell, const Visit& visit) const {
+    for (std::uint32_t i = offsets_[first_cell], end = offsets_[last_cell + 1]; i < end; ++i) {
+      if (!visit(walls_[i].segment())) return false;
+    }
+    return true;
+  }
+
+  Vec2 origin_;
+  Vec2 reach_;  ///< no piece's midpoint is farther than this from any point of the piece, an axis
+  double cell_ = 1.0;
+  double inverse_cell_ = 1.0;
+  std::uint32_t cols_ = 1;
+  std::uint32_t rows_ = 1;
+  RawVector<std::uint32_t> offsets_;   ///< cols * rows + 1
+  RawVector<WallOf<T>> walls_;         ///< in cell order
+  RawVector<std::uint32_t> child_of_;  ///< a cell's finer grid, or no_child; empty if no cell has one
+  std::vector<WallGrid> children_;
+};
+
+template <class T>
+std::size_t WallGrid<T>::bytes() const {
+  std::size_t total = offsets_.size() * sizeof(std::uint32_t) + walls_.size() * sizeof(WallOf<T>) +
+                      child_of_.size() * sizeof(std::uint32_t);
+  for (const WallGrid& child : children_) total += child.bytes();
+  return total;
+}
+
+}  // namespace warren

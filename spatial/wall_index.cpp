@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "spatial/wall_index.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "core/geometry.hpp"
+#include "spatial/wall_grid_builder.hpp"
+
+namespace warren {
+namespace {
+
+bool fits_float(std::span<const Segment> segments) { return WallSet::narrowest(segments).holds_floats(); }
+
+template <class T>
+WallOf<T> wall_of(const Segment& s) {
+  return {static_cast<T>(s.a.x), static_cast<T>(s.a.y), static_cast<T>(s.b.x), static_cast<T>(s.b.y)};
+}
+
+/// Are all points of s farther than r from p, or just r? Squared and without a division.
+bool keeps(Vec2 p, const Segment& s, double r_sq) noexcept {
+  const Vec2 along = s.b - s.a;
+  const Vec2 to_p = p - s.a;
+  const double length_sq = dot(along, along);
+  const double t = dot(to_p, along);
+  if (t <= 0.0) return dot(to_p, to_p) >= r_sq;
+  if (t >= length_sq) return dot(p - s.b, p - s.b) >= r_sq;
+  const double c = cross(along, to_p);
+  return c * c >= r_sq * length_sq;
+}
+
+/// Do the segments cross properly, by plain doubles? In doubt an end is within rounding of the other segment, and its
+/// distance decides.
+bool crosses(const Segment& s, const Segment& t) noexcept {
+  const Vec2 u = s.b - s.a;
+  const Vec2 v = t.b - t.a;
+  const Vec2 w = t.a - s.a;
+  const double a1 = cross(u, w);
+  const double a2 = cross(u, t.b - s.a);
+  const double b1 = cross(v, s.a - t.a);
+  const double b2 = cross(v, s.b - t.a);
+  return (a1 > 0) != (a2 > 0) && (b1 > 0) != (b2 > 0);
+}
+
+}  // namespace
+
+bool segments_keep_distance(const Segment& s, const Segment& t, double r) noexcept {
+  const double r_sq = r * r;
+  return keeps(t.a, s, r_sq) && keeps(t.b, s, r_sq) && keeps(s.a, t, r_sq) && keeps(s.b, t, r_sq) && !crosses(s, t);
+}
+
+WallIndex::WallIndex(const WallSet& walls, std::span<const Segment> more, const Execution& execution)
+    : wall_count_(walls.size() + more.size()) {
+  if (wall_count_ > (std::size_t{1} << 31)) throw InputError("walls", "at most 2^31 walls can be indexed");
+  walls.visit([&]<class Span>(Span given) {
+    using T = decltype(Span::element_type::x1);
+    const auto build = [&]<class U>(U) {
+      const auto filed = [&](std::size_t i) {
+        if (i >= given.size()) return FiledWall<U>{wall_of<U>(more[i - given.size()]), more[i - given.size()]};
+        const Segment s = given[i].segment();
+        return FiledWall<U>{wall_of<U>(s), s};
+      };
+      const WallStatistics statistics = statistics_of<U>(wall_count_, filed, execution);
+      box_ = statistics.box;
+      if (statistics.total_length > 0.0) mean_gap_ = box_.width() * box_.height() / statistics.total_length;
+      grid_ = WallGridBuilder<U>(statistics, 65536, 0, execution).build(wall_count_, filed);
+    };
+    if (std::is_same_v<T, float> && fits_float(more)) {
+      build(float{});
+    } else {
+      build(double{});
+    }
+  });
+}
+
+std::size_t WallIndex::bytes() const {
+  return std::visit([](const auto& grid) { return grid.bytes(); }, grid_);
+}
+
+bool WallIndex::blocks(Vec2 a, Vec2 b) const noexcept {
+  const Segment motion{a, b};
+  const Box box = box_of(motion);
+  const auto passes = [&](const Segment& wall) { return !box.meets(box_of(wall)) || !segments_touch(motion, wall); };
+  return !std::visit([&](const auto& grid) { return grid.for_each_along(motion, 0.0, passes); }, grid_);
+}
+
+bool WallIndex::keeps_clearance(Vec2 a, Vec2 b, double r) const noexcept {
+  if (r <= 0.0) return !blocks(a, b);
+  const Segment motion{a, b};
+  const Box box = box_of(motion).grown(r);
+  const auto keeps_off = [&](const Segment& wall) {
+    return !box.meets(box_of(wall)) || segments_keep_distance(motion, wall, r);
+  };
+  return std::visit([&](const auto& grid) { return grid.for_each_along(motion, r, keeps_off); }, grid_);
+}
+
+double WallIndex::clearance(Vec2 p, double at_most) const noexcept {
+  if (wall_count_ == 0) return at_most;
+  const double farthest = std::max({p.x - box_.min.x, box_.max.x - p.x, p.y - box_.min.y, box_.max.y - p.y, 0.0});
+  const double cell = std::visit([](const auto& grid) { return grid.cell(); }, grid_);
+  double nearest_sq = at_most * at_most;
+  for (double radius = std::min(cell, at_most);; radius = std::min(2 * radius, at_most)) {
+    for_each_near(Box{p, p}.grown(radius), [&](const Segment& wall) {
+      nearest_sq = std::min(nearest_sq, distance_sq(p, wall));
+      return nearest_sq > 0.0;
+    });
+    if (nearest_sq <= radius * radius || radius >= at_most || radius > farthest) break;
+  }
+  return std::min(at_most, std::sqrt(nearest_sq));
+}
+
+}  // namespace warren
