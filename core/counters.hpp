@@ -7,11 +7,11 @@
 namespace warren {
 
 struct Counters {
-  std::uint64_t samples = 0;             ///< states drawn
-  std::uint64_t neighbour_queries = 0;   ///< k-nearest or radius queries
-  std::uint64_t edges_checked = 0;       ///< motions tested for collision
-  std::uint64_t expanded = 0;            ///< vertices settled by the search
-  std::uint64_t rounds = 0;              ///< roadmaps built, or lazy repairs made
+  std::uint64_t samples = 0;            ///< states drawn
+  std::uint64_t neighbour_queries = 0;  ///< k-nearest or radius queries
+  std::uint64_t edges_checked = 0;      ///< motions tested for collision
+  std::uint64_t expanded = 0;           ///< vertices settled by the search
+  std::uint64_t rounds = 0;             ///< roadmaps built, or lazy repairs made
   Counters& operator+=(const Counters& o) {
     samples += o.samples;
     neighbour_queries += o.neighbour_queries;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The only predicates. Orientation is exact: a filtered double evaluation, decided by exact expansion arithmetic when
 // the filter is in doubt (Shewchuk, Discrete & Computational Geometry 18, 1997). Everything that decides "touches" or
-// "crosses" is made of it alone, so it is exact for all coordinates with smallest_coordinate <= |c| <= largest_coordinate
-// or c = 0. Distances are plain doubles, relative error below 1e-14 of the coordinate differences.
+// "crosses" is made of it alone, so it is exact for all coordinates with smallest_coordinate <= |c| <=
+// largest_coordinate or c = 0. Distances are plain doubles, relative error below 1e-14 of the coordinate differences.
 #pragma once
 
 #include "core/types.hpp"

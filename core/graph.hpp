@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // An undirected graph in compressed sparse rows (CSR): the neighbours of vertex v are targets[offsets[v] ..
-// offsets[v + 1]), ascending. Each edge stands twice. 4 bytes a vertex, 4 an edge end; lengths, 8 an edge end, only where
-// they can't be computed from the states at once.
+// offsets[v + 1]), ascending. Each edge stands twice. 4 bytes a vertex, 4 an edge end; lengths, 8 an edge end, only
+// where they can't be computed from the states at once.
 #pragma once
 
 #include <cstdint>

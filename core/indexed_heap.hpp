@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A d-ary heap of vertices with decrease-key: each vertex stands at most once, its place is kept in an array. Keys are
 // kept beside the vertices so that sifting touches one cache line a level; order is (key, vertex), so that ties break
-// by number and every queue of search_queues.hpp pops in the same order. push, decrease and pop are O(Arity log_Arity n).
+// by number and every queue of search_queues.hpp pops in the same order. push, decrease and pop are O(Arity log_Arity
+// n).
 #pragma once
 
 #include <cassert>

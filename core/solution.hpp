@@ -16,7 +16,8 @@ namespace warren {
 enum class Outcome : std::uint8_t { solved, start_blocked, goal_blocked, not_connected, infeasible, stopped };
 
 constexpr std::string_view name_of(Outcome outcome) {
-  constexpr std::string_view names[] = {"solved", "start_blocked", "goal_blocked", "not_connected", "infeasible", "stopped"};
+  constexpr std::string_view names[] = {"solved",        "start_blocked", "goal_blocked",
+                                        "not_connected", "infeasible",    "stopped"};
   return names[static_cast<std::size_t>(outcome)];
 }
 

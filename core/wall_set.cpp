@@ -10,7 +10,9 @@ namespace {
 bool fits_float(double x) {
   return std::abs(x) <= std::numeric_limits<float>::max() && static_cast<double>(static_cast<float>(x)) == x;
 }
-bool fits_float(const Segment& s) { return fits_float(s.a.x) && fits_float(s.a.y) && fits_float(s.b.x) && fits_float(s.b.y); }
+bool fits_float(const Segment& s) {
+  return fits_float(s.a.x) && fits_float(s.a.y) && fits_float(s.b.x) && fits_float(s.b.y);
+}
 
 template <class T>
 RawVector<WallOf<T>> converted(std::span<const Segment> segments) {

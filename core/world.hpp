@@ -23,13 +23,13 @@ template <class W>
 concept World = std::copyable<typename W::State> &&
     requires(const W& w, typename W::Query& q, const typename W::State& a, const typename W::State& b,
              const std::array<double, W::dimension>& u) {
-      { w.make_query() } -> std::same_as<typename W::Query>;
-      { w.at_unit(u) } -> std::same_as<typename W::State>;
-      { w.is_free(a, q) } -> std::same_as<bool>;
-      { w.is_free_motion(a, b, q) } -> std::same_as<bool>;
-      { W::distance(a, b) } -> std::same_as<double>;
-      { w.embed(a)[0] } -> std::convertible_to<double>;
-    };
+  { w.make_query() } -> std::same_as<typename W::Query>;
+  { w.at_unit(u) } -> std::same_as<typename W::State>;
+  { w.is_free(a, q) } -> std::same_as<bool>;
+  { w.is_free_motion(a, b, q) } -> std::same_as<bool>;
+  { W::distance(a, b) } -> std::same_as<double>;
+  { w.embed(a)[0] } -> std::convertible_to<double>;
+};
 
 /// The index-th uniform sample of a seed: a pure function.
 template <class W>

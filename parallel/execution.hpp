@@ -35,7 +35,7 @@ class Progress {
 class Trace;  // parallel/trace.hpp
 
 struct Execution {
-  unsigned threads = 0;           ///< 0: one a core that this process may use; changes the time, never the result
+  unsigned threads = 0;                ///< 0: one a core that this process may use; changes the time, never the result
   const Deadline* deadline = nullptr;  ///< nullptr: no limit
   Progress* progress = nullptr;        ///< nullptr: nobody watches
   Trace* trace = nullptr;              ///< nullptr: nobody records

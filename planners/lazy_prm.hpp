@@ -14,7 +14,7 @@ namespace warren {
 /// a deadline gives Outcome::stopped. `keep`, where given, receives the roadmap of the last round.
 template <World W>
 Solution<typename W::State> lazy_prm(const W& world, const typename W::State& start, const typename W::State& goal,
-                                const RoadmapOptions& options, const Execution& execution,
-                                Roadmap<typename W::State>* keep = nullptr);
+                                     const RoadmapOptions& options, const Execution& execution,
+                                     Roadmap<typename W::State>* keep = nullptr);
 
 }  // namespace warren

@@ -10,8 +10,8 @@
 
 namespace warren {
 
-/// Probabilistic roadmap (Kavraki, Svestka, Latombe, Overmars 1996), every candidate edge checked. Never throws Stopped:
-/// a deadline gives Outcome::stopped. `keep`, where given, receives the roadmap of the last round.
+/// Probabilistic roadmap (Kavraki, Svestka, Latombe, Overmars 1996), every candidate edge checked. Never throws
+/// Stopped: a deadline gives Outcome::stopped. `keep`, where given, receives the roadmap of the last round.
 template <World W>
 Solution<typename W::State> prm(const W& world, const typename W::State& start, const typename W::State& goal,
                                 const RoadmapOptions& options, const Execution& execution,

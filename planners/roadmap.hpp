@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A roadmap as a planner leaves it behind, for pictures and second queries: milestones in tile order with start and goal
-// as the last two, the graph over them, and the search's tree.
+// A roadmap as a planner leaves it behind, for pictures and second queries: milestones in tile order with start and
+// goal as the last two, the graph over them, and the search's tree.
 #pragma once
 
 #include <vector>
@@ -12,9 +12,9 @@ namespace warren {
 
 template <class State>
 struct Roadmap {
-  RawVector<State> states;          ///< milestones, then start, then goal
-  Graph graph;                      ///< free edges; lazy planners: the edges that were checked and found free
-  std::vector<Edge> search_tree;    ///< (vertex, parent) of every vertex that the search reached
+  RawVector<State> states;        ///< milestones, then start, then goal
+  Graph graph;                    ///< free edges; lazy planners: the edges that were checked and found free
+  std::vector<Edge> search_tree;  ///< (vertex, parent) of every vertex that the search reached
 };
 
 }  // namespace warren

@@ -95,7 +95,8 @@ WallStatistics statistics_of(std::size_t n, const Filed& filed, const Execution&
   }
   constexpr std::size_t sampled = 1001;
   std::vector<double> lengths;
-  for (std::size_t i = 0; i < std::min(n, sampled); ++i) lengths.push_back(length_of(filed(i * n / std::min(n, sampled)).part));
+  for (std::size_t i = 0; i < std::min(n, sampled); ++i)
+    lengths.push_back(length_of(filed(i * n / std::min(n, sampled)).part));
   if (!lengths.empty()) {
     const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
     std::nth_element(lengths.begin(), middle, lengths.end());
@@ -135,7 +136,8 @@ void WallGridBuilder<T>::choose_cell(const WallStatistics& s) {
   h = std::max({h, std::sqrt(area / (2 * n + slack)), s.total_length / (4 * n + slack), longest * 1e-9});
   if (s.median_length >= h && s.median_length <= 2 * h) h = s.median_length * (1 + 1e-9);
   if (!s.box.empty()) {
-    rounding_ = 1e-15 * std::max({std::abs(s.box.min.x), std::abs(s.box.min.y), std::abs(s.box.max.x), std::abs(s.box.max.y)});
+    rounding_ =
+        1e-15 * std::max({std::abs(s.box.min.x), std::abs(s.box.min.y), std::abs(s.box.max.x), std::abs(s.box.max.y)});
   }
   grid_.cell_ = h;
   grid_.inverse_cell_ = 1.0 / h;
@@ -186,7 +188,8 @@ WallGrid<T> WallGridBuilder<T>::build(std::size_t n, const Filed& filed) {
     }
     reaches[chunk] = reach;
   });
-  for (const Vec2 reach : reaches) grid_.reach_ = {std::max(grid_.reach_.x, reach.x), std::max(grid_.reach_.y, reach.y)};
+  for (const Vec2 reach : reaches)
+    grid_.reach_ = {std::max(grid_.reach_.x, reach.x), std::max(grid_.reach_.y, reach.y)};
   grid_.reach_ = (1 + 1e-9) * grid_.reach_ + Vec2{rounding_, rounding_};
   std::uint32_t total = 0;
   for (std::uint32_t& count : counts) total += std::exchange(count, total);
@@ -235,7 +238,8 @@ void WallGridBuilder<T>::refine_crowded_cells() {
   std::vector<std::vector<std::uint32_t>> found(chunk_count(cells, grain));
   for_chunks(cells, grain, execution_, [&](Range r) {
     for (std::size_t c = r.first; c < r.last; ++c) {
-      if (grid_.offsets_[c + 1] - grid_.offsets_[c] > crowded) found[r.first / grain].push_back(static_cast<std::uint32_t>(c));
+      if (grid_.offsets_[c + 1] - grid_.offsets_[c] > crowded)
+        found[r.first / grain].push_back(static_cast<std::uint32_t>(c));
     }
   });
   for (const auto& part : found) {
