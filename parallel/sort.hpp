@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Stable counting sort by an integer key, in parallel, deterministic: the order of n items whose keys are below `keys`,
+// and where each key begins. Few keys: one histogram a chunk, prefix sums over (key, chunk), scatter. Many keys: the
+// same over at most 2048 buckets of neighbouring keys, then each bucket is counted and scattered by one thread inside
+// its cache; that replaces one cache miss an item by two passes over streams. Chunk borders depend on n alone and the
+// sort is stable, so the result is a function of the keys.
+// Cost O(n + keys); 8 bytes an item of scratch where there are more than 2048 keys.
+#pragma once
+
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/raw_vector.hpp"
+#include "parallel/chunks.hpp"
+
+namespace warren {
+
+/// item[first[k]] .. item[first[k + 1] - 1] are the items with key k, ascending; first has keys + 1 elements.
+struct KeyOrder {
+  RawVector<std::uint32_t> first;
+  RawVector<std::uint32_t> item;
+};
+
+namespace detail {
+
+inline constexpr std::size_t sort_buckets = 2048;
+
+/// Chunks of at least 16384 items, at most 64 of them: so that the histograms stay small beside the items.
+constexpr std::size_t sort_grain(std::size_t n) { return std::max<std::size_t>(std::size_t{1} << 14, (n + 63) / 64); }
+
+/// The same work without telling progress: passes inside a stage are not items of the stage.
+inline Execution quiet(const Execution& execution) {
+  Execution inner = execution;
+  inner.progress = nullptr;
+  return inner;
+}
+
+/// Turns histograms [chunk][bucket] into the first place of each (bucket, chunk); returns where each bucket begins.
+inline std::vector<std::uint32_t> places_of_buckets(std::vector<std::uint32_t>& counts, std::size_t chunks,
+                                                    std::size_t buckets) {
+  std::vector<std::uint32_t> begin(buckets + 1);
+  std::uint32_t place = 0;
+  for (std::size_t bucket = 0; bucket < buckets; ++bucket) {
+    begin[bucket] = place;
+    for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
+      std::uint32_t& count = counts[chunk * buckets + bucket];
+      const std::uint32_t here = count;
+      count = place;
+      place += here;
+    }
+  }
+  begin[buckets] = place;
+  return begin;
+}
+
+/// Stable scatter of put(i) for i in 0 .. n - 1 to the bucket bucket_of(i); returns where each bucket begins.
+template <class BucketOf, class Put>
+std::vector<std::uint32_t> scatter_to_buckets(std::size_t n, std::size_t buckets, const Execution& execution,
+                                              const BucketOf& bucket_of, const Put& put) {
+  const std::size_t grain = sort_grain(n);
+  const std::size_t chunks = chunk_count(n, grain);
+  std::vector<std::uint32_t> counts(chunks * buckets, 0);
+  for_chunks(n, grain, execution, [&](Range range) {
+    std::uint32_t* const count = counts.data() + range.first / grain * buckets;
+    for (std::size_t i = range.first; i < range.last; ++i) ++count[bucket_of(i)];
+  });
+  std::vector<std::uint32_t> begin = places_of_buckets(counts, chunks, buckets);
+  for_chunks(n, grain, execution, [&](Range range) {
+    std::uint32_t* const place = counts.data() + range.first / grain * buckets;
+    for (std::size_t i = range.first; i < range.last; ++i) put(place[bucket_of(i)]++, i);
+  });
+  return begin;
+}
+
+/// Sorts the (key, item) pairs of the keys first_key .. last_key - 1, which lie at places begin .. end - 1.
+inline void sort_bucket(const RawVector<std::uint64_t>& pairs, Range places, Range keys,
+                        std::vector<std::uint32_t>& scratch, KeyOrder& order) {
+  scratch.assign(keys.size(), 0);
+  for (std::size_t i = places.first; i < places.last; ++i) ++scratch[(pairs[i] >> 32) - keys.first];
+  auto place = static_cast<std::uint32_t>(places.first);
+  for (std::size_t key = keys.first; key < keys.last; ++key) {
+    order.first[key] = place;
+    place += scratch[key - keys.first];
+    scratch[key - keys.first] = order.first[key];
+  }
+  for (std::size_t i = places.first; i < places.last; ++i) {
+    order.item[scratch[(pairs[i] >> 32) - keys.first]++] = static_cast<std::uint32_t>(pairs[i]);
+  }
+}
+
+}  // namespace detail
+
+/// Sorts items 0 .. n - 1 by key_of(i) < keys; key_of is called twice for each item, from several threads, and must
+/// give the same both times. n and keys below 2^32, keys >= 1. Throws Stopped at the deadline.
+template <class KeyOf>
+KeyOrder counting_sort(std::size_t n, std::size_t keys, const Execution& execution, const KeyOf& key_of) {
+  assert(keys >= 1 && n < (std::uint64_t{1} << 32) && keys < (std::uint64_t{1} << 32));
+  const Execution quiet = detail::quiet(execution);
+  unsigned shift = 0;
+  while (((keys - 1) >> shift) >= detail::sort_buckets) ++shift;
+  const std::size_t buckets = ((keys - 1) >> shift) + 1;
+  quiet.reserve((n + keys) * sizeof(std::uint32_t) + (shift == 0 ? 0 : n * sizeof(std::uint64_t)));
+  KeyOrder order;
+  order.first.resize(keys + 1);
+  order.item.resize(n);
+  order.first[keys] = static_cast<std::uint32_t>(n);
+  if (shift == 0) {
+    const auto begin = detail::scatter_to_buckets(n, buckets, quiet, key_of, [&](std::size_t place, std::size_t i) {
+      order.item[place] = static_cast<std::uint32_t>(i);
+    });
+    std::copy(begin.begin(), begin.end(), order.first.begin());
+    return order;
+  }
+  RawVector<std::uint64_t> pairs(n);
+  const auto begin = detail::scatter_to_buckets(
+      n, buckets, quiet, [&](std::size_t i) { return std::size_t{key_of(i)} >> shift; },
+      [&](std::size_t place, std::size_t i) { pairs[place] = std::uint64_t{key_of(i)} << 32 | i; });
+  for_chunks(buckets, 8, quiet, [&](Range range) {
+    std::vector<std::uint32_t> scratch;
+    for (std::size_t b = range.first; b < range.last; ++b) {
+      const Range some_keys{b << shift, std::min(keys, (b + 1) << shift)};
+      detail::sort_bucket(pairs, {begin[b], begin[b + 1]}, some_keys, scratch, order);
+    }
+  });
+  return order;
+}
+
+}  // namespace warren

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The words that all neighbour indices share: a neighbour, the order of neighbours, and a radius that is ready to be
+// compared with squares. Distances are plain (never squared) doubles: the rounded root of the rounded sum of the
+// rounded squares, axis 0 first, as in core's distance(). Every index gives these very bits and breaks ties by id.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+#include "core/types.hpp"
+
+namespace warren {
+
+/// A point of D-dimensional space, as the indices take it: Vec2 in the plane, else an array.
+template <int D>
+using PointOf = std::conditional_t<D == 2, Vec2, std::array<double, static_cast<std::size_t>(D)>>;
+
+struct Neighbour {
+  VertexId id;
+  double distance;  ///< world units
+  friend constexpr bool operator==(const Neighbour&, const Neighbour&) = default;
+  /// Nearer first, ties by id.
+  friend constexpr bool operator<(const Neighbour& a, const Neighbour& b) {
+    return a.distance != b.distance ? a.distance < b.distance : a.id < b.id;
+  }
+};
+
+/// A radius, made once and used for many queries. Converts from a number, so that a single query needs no more.
+class SearchRadius {
+ public:
+  SearchRadius(double radius) noexcept  // NOLINT(google-explicit-constructor): a number is a radius
+      : length_(radius), square_(largest_square(radius)), reach_(radius * (1.0 + 1e-15)) {}
+
+  double length() const { return length_; }
+  /// sqrt(s) <= length() exactly for s <= square(); negative if no distance is that small.
+  double square() const { return square_; }
+  /// A little more than length(): no point within length() lies further on any axis, rounding included.
+  double reach() const { return reach_; }
+
+ private:
+  static double largest_square(double radius) noexcept {
+    if (!(radius >= 0.0)) return -1.0;
+    double square = radius * radius;
+    if (square > std::numeric_limits<double>::max()) return square;
+    const auto step = [](double s, std::int64_t by) {
+      return std::bit_cast<double>(std::bit_cast<std::int64_t>(s) + by);
+    };
+    while (square > 0.0 && std::sqrt(square) > radius) square = step(square, -1);
+    while (std::sqrt(step(square, 1)) <= radius) square = step(square, 1);
+    return square;
+  }
+
+  double length_;
+  double square_;
+  double reach_;
+};
+
+}  // namespace warren

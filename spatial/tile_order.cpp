@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "spatial/tile_order.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "parallel/sort.hpp"
+
+namespace warren {
+namespace {
+constexpr std::size_t grain = std::size_t{1} << 15;
+}  // namespace
+
+CellFrame::CellFrame(const Box& box, std::size_t count, double load) {
+  if (count == 0 || box.empty()) return;
+  const double width = box.width();
+  const double height = box.height();
+  const double share = load / static_cast<double>(count);  // of the box, for one cell
+  // The second term keeps a thin box from being cut into more columns than there are points.
+  const double size =
+      std::max(std::sqrt(width) * std::sqrt(height) * std::sqrt(share), std::max(width, height) * share);
+  origin_ = box.min;
+  cell_size_ = size > 0.0 ? size : 1.0;
+  scale_ = 1.0 / cell_size_;
+  columns_ = static_cast<std::uint32_t>(std::floor(width * scale_)) + 1;
+  rows_ = static_cast<std::uint32_t>(std::floor(height * scale_)) + 1;
+}
+
+Box bounding_box(PlanarView positions, const Execution& execution) {
+  std::vector<Box> boxes(chunk_count(positions.count, grain));
+  for_chunks(positions.count, grain, detail::quiet(execution), [&](Range range) {
+    Box box;
+    for (std::size_t i = range.first; i < range.last; ++i) box.include(positions[i]);
+    boxes[range.first / grain] = box;
+  });
+  Box all;
+  for (const Box& box : boxes) all.include(box);
+  return all;
+}
+
+TileOrder tile_order(PlanarView positions, const Execution& execution) {
+  const CellFrame frame(bounding_box(positions, execution), positions.count);
+  KeyOrder order = counting_sort(positions.count, frame.cell_count(), execution,
+                                 [&](std::size_t i) { return frame.cell_of(positions[i]); });
+  return {std::move(order.item)};
+}
+
+TileOrder tile_order(std::span<const Vec2> positions, const Execution& execution) {
+  static_assert(sizeof(Vec2) == 2 * sizeof(double));
+  return tile_order(PlanarView{positions.empty() ? nullptr : &positions.front().x, 2, positions.size()}, execution);
+}
+
+}  // namespace warren
