@@ -10,8 +10,9 @@ namespace {
 
 TEST(TileOrder, IsAPermutationThatIsSortedByCellAndStable) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    for (const auto& [name, points] : testing::point_sets<2>(seed, 3000)) {
-      SCOPED_TRACE(name);
+    for (const auto& set : testing::point_sets<2>(seed, 3000)) {
+      SCOPED_TRACE(set.name);
+      const std::vector<Vec2>& points = set.points;
       const TileOrder order = tile_order(points, {});
       Box box;
       for (const Vec2 p : points) box.include(p);
