@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "parallel/components.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "parallel/chunks.hpp"
+
+namespace warren {
+namespace {
+
+constexpr std::size_t grain = std::size_t{1} << 14;
+
+/// Parents of the forest. Invariants: parent[v] <= v, and a vertex that is no root never becomes one again. Only these
+/// numbers pass between threads, no other memory depends on them, so relaxed order is enough.
+class Forest {
+ public:
+  explicit Forest(RawVector<VertexId>& parent) : parent_(parent) {}
+
+  VertexId parent(VertexId v) const { return std::atomic_ref(parent_[v]).load(std::memory_order_relaxed); }
+  VertexId root(VertexId v) const {
+    for (VertexId p = parent(v); p != v; p = parent(v)) {
+      const VertexId above = parent(p);
+      if (above == p) return p;
+      std::atomic_ref(parent_[v]).store(above, std::memory_order_relaxed);  // path halving: an ancestor stays one
+      v = above;
+    }
+    return v;
+  }
+  /// The root without writing on the way: another vertex may hold its final label already.
+  VertexId root_of(VertexId v) const {
+    for (VertexId p = parent(v); p != v; p = parent(v)) v = p;
+    return v;
+  }
+  void join(VertexId a, VertexId b) const {
+    for (;;) {
+      a = root(a);
+      b = root(b);
+      if (a == b) return;
+      if (a < b) std::swap(a, b);
+      VertexId expected = a;  // fails when another thread has hung this root meanwhile: look again
+      if (std::atomic_ref(parent_[a]).compare_exchange_strong(expected, b, std::memory_order_relaxed)) return;
+    }
+  }
+
+ private:
+  RawVector<VertexId>& parent_;
+};
+
+void join_inside(const Graph& graph, Range block, RawVector<VertexId>& parent) {
+  const auto root = [&parent](VertexId v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (auto v = static_cast<VertexId>(block.first); v < block.last; ++v) {
+    parent[v] = v;
+    for (const VertexId w : graph.neighbours(v)) {
+      if (w > v) break;  // each edge once, from its larger end
+      if (w < block.first) continue;
+      const VertexId a = root(v);
+      const VertexId b = root(w);
+      parent[std::max(a, b)] = std::min(a, b);
+    }
+  }
+}
+
+}  // namespace
+
+Components components(const Graph& graph, const Execution& execution) {
+  const std::size_t n = graph.vertex_count();
+  Components result;
+  execution.reserve(n * sizeof(VertexId));
+  result.label.resize(n);
+  const Forest forest(result.label);
+  Execution quiet = execution;
+  quiet.progress = nullptr;
+  for_chunks(n, grain, execution, [&](Range r) { join_inside(graph, r, result.label); });
+  for_chunks(n, grain, quiet, [&](Range r) {
+    for (auto v = static_cast<VertexId>(r.first); v < r.last; ++v) {
+      for (const VertexId w : graph.neighbours(v)) {
+        if (w >= r.first) break;
+        forest.join(v, w);
+      }
+    }
+  });
+  std::vector<std::size_t> roots(chunk_count(n, grain), 0);
+  for_chunks(n, grain, quiet, [&](Range r) {
+    std::size_t count = 0;
+    for (auto v = static_cast<VertexId>(r.first); v < r.last; ++v) {
+      const VertexId root = forest.root_of(v);
+      std::atomic_ref(result.label[v]).store(root, std::memory_order_relaxed);
+      count += root == v ? 1U : 0U;
+    }
+    roots[r.first / grain] = count;
+  });
+  result.count = std::accumulate(roots.begin(), roots.end(), std::size_t{0});
+  return result;
+}
+
+std::size_t component_size(const Components& components, VertexId v, const Execution& execution) {
+  const VertexId label = components.label[v];
+  std::vector<std::size_t> sizes(chunk_count(components.label.size(), grain), 0);
+  for_chunks(components.label.size(), grain, execution, [&](Range r) {
+    const auto begin = components.label.begin();
+    sizes[r.first / grain] = static_cast<std::size_t>(
+        std::count(begin + static_cast<std::ptrdiff_t>(r.first), begin + static_cast<std::ptrdiff_t>(r.last), label));
+  });
+  return std::accumulate(sizes.begin(), sizes.end(), std::size_t{0});
+}
+
+}  // namespace warren
