@@ -2,6 +2,7 @@
 #include "spatial/point_grid.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "parallel/sort.hpp"
 
@@ -17,6 +18,22 @@ PointGrid::PointGrid(std::span<const Vec2> points, const Execution& execution) {
   x_.resize(points.size());
   y_.resize(points.size());
   if (!take_points(points, execution)) sort_points(points, execution);
+  count_crowding(execution);
+}
+
+void PointGrid::count_crowding(const Execution& execution) {
+  const std::size_t cells = frame_.cell_count();
+  std::vector<std::uint64_t> sums(chunk_count(cells, grain), 0);  // of squares: below 2^64, n is below 2^32
+  for_chunks(cells, grain, detail::quiet(execution), [&](Range range) {
+    std::uint64_t sum = 0;
+    for (std::size_t cell = range.first; cell < range.last; ++cell) {
+      const std::uint64_t count = begin_[cell + 1] - begin_[cell];
+      sum += count * count;
+    }
+    sums[range.first / grain] = sum;
+  });
+  const std::uint64_t sum = std::accumulate(sums.begin(), sums.end(), std::uint64_t{0});
+  crowding_ = static_cast<double>(sum) / static_cast<double>(size());
 }
 
 std::size_t PointGrid::bytes() const {

@@ -34,6 +34,15 @@ class PointGrid {
   /// Did the points come in tile order?
   bool in_tile_order() const { return id_.empty(); }
 
+  /// Point `id`, as it came.
+  Vec2 point(VertexId id) const {
+    const std::uint32_t place = place_of_.empty() ? id : place_of_[id];
+    return {x_[place], y_[place]};
+  }
+  /// Mean number of points in the cell of a point, itself included: about 3 if they are spread evenly, size() if all
+  /// share one cell. What a query costs grows with it. Counted on construction, exactly.
+  double crowding() const { return crowding_; }
+
   /// The k points nearest to p (fewer if there are not so many) but `except`, ascending by (distance, id).
   void nearest(Vec2 p, std::size_t k, VertexId except, std::vector<Neighbour>& out) const;
   /// All points at a distance <= radius from p but `except`, ascending by (distance, id).
@@ -67,7 +76,10 @@ class PointGrid {
   void collect(Vec2 p, const Window& w, std::size_t k, VertexId except, double square,
                std::vector<Neighbour>& out) const;
 
+  void count_crowding(const Execution& execution);
+
   CellFrame frame_;
+  double crowding_ = 0.0;
   RawVector<double> x_, y_;            // in cell order
   RawVector<std::uint32_t> begin_;     // place of the first point of each cell, and the number of points
   RawVector<VertexId> id_;             // of each place; empty: the place
@@ -108,8 +120,7 @@ void PointGrid::for_each_within(Vec2 p, const SearchRadius& radius, const Visit&
 template <class Visit>
 void PointGrid::for_each_later_within(VertexId i, const SearchRadius& radius, const Visit& visit) const {
   if (radius.square() < 0.0) return;
-  const std::uint32_t own = place_of_.empty() ? i : place_of_[i];
-  const Vec2 p{x_[own], y_[own]};
+  const Vec2 p = point(i);
   if (!id_.empty()) {
     for_each_within(p, radius, [&](VertexId j, double distance) {
       if (j > i) visit(j, distance);
@@ -117,7 +128,7 @@ void PointGrid::for_each_later_within(VertexId i, const SearchRadius& radius, co
     return;
   }
   const auto later = [&](std::uint32_t first, std::uint32_t last) {
-    visit_run(p, radius.square(), std::max(first, own + 1), last, visit);
+    visit_run(p, radius.square(), std::max(first, i + 1), last, visit);
   };
   // Of the point's own strip only the rows from its own one on hold later points; strips to the left hold none.
   const Window all = window(p, radius.reach());

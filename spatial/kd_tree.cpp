@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// nanoflann 1.4.3 works on squares and drops points that tie with the worst one it holds. The result sets below
+// therefore report a worst square that is `slack` larger than the true one, and decide by (distance, id) themselves;
+// the slack also covers the rounding of nanoflann's lower bounds, a few units in the last place.
+#include "spatial/kd_tree.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <nanoflann.hpp>
+#include <numeric>
+#include <optional>
+
+#include "core/raw_vector.hpp"
+#include "parallel/sort.hpp"
+
+namespace warren {
+namespace {
+
+constexpr double slack = 1.0 + 1e-12;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t tree_size = 16'384;  // points of a subtree: aimed at
+constexpr std::size_t most_trees = 4096;
+constexpr std::size_t samples_per_tree = 32;
+constexpr std::size_t leaf_size = 12;
+constexpr std::size_t grain = std::size_t{1} << 14;
+
+/// A square that is larger than the squares of all distances <= `distance`, as nanoflann computes them.
+double loose_square(double distance) { return distance * distance * slack + std::numeric_limits<double>::min(); }
+
+template <int D>
+double coordinate(const PointOf<D>& p, std::size_t axis) {
+  if constexpr (D == 2) {
+    return axis == 0 ? p.x : p.y;
+  } else {
+    return p[axis];
+  }
+}
+
+/// The points of one subtree as nanoflann wants to see them.
+template <int D>
+struct TreePoints {
+  const PointOf<D>* points;
+  std::size_t count;
+
+  std::size_t kdtree_get_point_count() const { return count; }
+  double kdtree_get_pt(std::size_t i, std::size_t axis) const { return coordinate<D>(points[i], axis); }
+  template <class BoundingBox>
+  bool kdtree_get_bbox(BoundingBox&) const {
+    return false;
+  }
+};
+
+template <int D>
+using FlannTree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, TreePoints<D>>,
+                                                      TreePoints<D>, D, std::uint32_t>;
+
+template <int D>
+struct Tree {
+  Tree(const PointOf<D>* points, std::size_t count)
+      : view{points, count},
+        index(D, view,
+              nanoflann::KDTreeSingleIndexAdaptorParams(
+                  leaf_size, nanoflann::KDTreeSingleIndexAdaptorFlags::SkipInitialBuildIndex)) {}
+  TreePoints<D> view;
+  FlannTree<D> index;
+};
+
+/// Cuts of a complete binary tree: node 1 is the root, node i has children 2 i (below the cut) and 2 i + 1.
+template <int D>
+struct TopTree {
+  struct Cut {
+    std::size_t axis;
+    double value;
+  };
+  std::size_t leaves = 1;  // a power of two
+  std::vector<Cut> cuts;
+
+  explicit TopTree(std::span<const PointOf<D>> points) {
+    while (leaves < most_trees && leaves * tree_size < points.size()) leaves *= 2;
+    cuts.resize(leaves);
+    if (leaves == 1) return;
+    const std::size_t count = leaves * samples_per_tree;
+    std::vector<PointOf<D>> sample(count);
+    for (std::size_t i = 0; i < count; ++i) sample[i] = points[i * points.size() / count];
+    cut(1, sample);
+  }
+  void cut(std::size_t node, std::span<PointOf<D>> sample) {
+    if (node >= leaves) return;
+    const std::size_t axis = widest_axis(sample);
+    const std::size_t half = sample.size() / 2;
+    const auto less = [axis](const auto& a, const auto& b) { return coordinate<D>(a, axis) < coordinate<D>(b, axis); };
+    std::nth_element(sample.begin(), sample.begin() + static_cast<std::ptrdiff_t>(half), sample.end(), less);
+    cuts[node] = {axis, coordinate<D>(sample[half], axis)};
+    cut(2 * node, sample.first(half));
+    cut(2 * node + 1, sample.subspan(half));
+  }
+  static std::size_t widest_axis(std::span<const PointOf<D>> sample) {
+    std::size_t best = 0;
+    double widest = -1.0;
+    for (std::size_t axis = 0; axis < D; ++axis) {
+      const auto less = [axis](const auto& a, const auto& b) {
+        return coordinate<D>(a, axis) < coordinate<D>(b, axis);
+      };
+      const auto [low, high] = std::minmax_element(sample.begin(), sample.end(), less);
+      const double width = coordinate<D>(*high, axis) - coordinate<D>(*low, axis);
+      if (width > widest) {
+        widest = width;
+        best = axis;
+      }
+    }
+    return best;
+  }
+  std::uint32_t leaf_of(const PointOf<D>& p) const {
+    std::size_t node = 1;
+    while (node < leaves) node = 2 * node + (coordinate<D>(p, cuts[node].axis) >= cuts[node].value ? 1 : 0);
+    return static_cast<std::uint32_t>(node - leaves);
+  }
+};
+
+/// The k best so far, a heap with the worst on top once it is full.
+class NearestSet {
+ public:
+  using DistanceType = double;
+  NearestSet(std::size_t k, VertexId except, std::vector<Neighbour>& out) : k_(k), except_(except), out_(out) {}
+
+  double worstDist() const { return worst_; }          // NOLINT(readability-identifier-naming): nanoflann's names
+  bool full() const { return true; }
+  bool addPoint(double square, std::uint32_t place) {  // NOLINT(readability-identifier-naming)
+    const Neighbour found{ids[place], std::sqrt(square)};
+    if (found.id == except_) return true;
+    if (out_.size() == k_) {
+      if (!(found < out_.front())) return true;
+      std::pop_heap(out_.begin(), out_.end());
+      out_.back() = found;
+    } else {
+      out_.push_back(found);
+    }
+    std::push_heap(out_.begin(), out_.end());
+    if (out_.size() == k_) worst_ = loose_square(out_.front().distance);
+    return true;
+  }
+
+  const VertexId* ids = nullptr;  ///< of the places of the tree that is searched
+
+ private:
+  std::size_t k_;
+  VertexId except_;
+  std::vector<Neighbour>& out_;
+  double worst_ = infinity;
+};
+
+/// Passes on each point that lies within the radius.
+template <class Take>
+class RadiusSet {
+ public:
+  using DistanceType = double;
+  RadiusSet(const SearchRadius& radius, const Take& take)
+      : square_(radius.square()), worst_(loose_square(radius.length())), take_(take) {}
+
+  double worstDist() const { return worst_; }          // NOLINT(readability-identifier-naming): nanoflann's names
+  bool full() const { return true; }
+  bool addPoint(double square, std::uint32_t place) {  // NOLINT(readability-identifier-naming)
+    if (square <= square_) take_(ids[place], std::sqrt(square));
+    return true;
+  }
+
+  const VertexId* ids = nullptr;
+
+ private:
+  double square_;
+  double worst_;
+  const Take& take_;
+};
+
+}  // namespace
+
+template <int D>
+struct KdTree<D>::Forest {
+  TopTree<D> top;
+  RawVector<Point> points;                      // subtree by subtree, in the order of the leaves
+  RawVector<VertexId> ids;                      // of the places
+  RawVector<std::uint32_t> place_of;            // of the ids
+  RawVector<std::uint32_t> first;               // place of each subtree's first point
+  std::vector<std::unique_ptr<Tree<D>>> trees;  // null where there is no point
+
+  Forest(std::span<const Point> input, const Execution& execution) : top(input) {
+    const Execution quiet = detail::quiet(execution);
+    quiet.reserve(input.size() * (sizeof(Point) + 16 + 12));
+    KeyOrder order =
+        counting_sort(input.size(), top.leaves, quiet, [&](std::size_t i) { return top.leaf_of(input[i]); });
+    first = std::move(order.first);
+    ids = std::move(order.item);
+    points.resize(input.size());
+    place_of.resize(input.size());
+    trees.resize(top.leaves);
+    for_chunks(top.leaves, 1, quiet, [&](Range range) { plant(range.first, input); });
+    for_chunks(input.size(), grain, quiet, [&](Range range) {
+      for (std::size_t i = range.first; i < range.last; ++i) place_of[ids[i]] = static_cast<std::uint32_t>(i);
+    });
+  }
+
+  /// Builds a subtree, then puts its points in the order of its leaves, so that a leaf is one run of memory.
+  void plant(std::size_t leaf, std::span<const Point> input) {
+    const std::size_t begin = first[leaf];
+    const std::size_t count = first[leaf + 1] - begin;
+    if (count == 0) return;
+    for (std::size_t i = begin; i < begin + count; ++i) points[i] = input[ids[i]];
+    trees[leaf] = std::make_unique<Tree<D>>(points.data() + begin, count);
+    auto& index = trees[leaf]->index;
+    index.buildIndex();
+    const std::vector<VertexId> unsorted(ids.begin() + static_cast<std::ptrdiff_t>(begin),
+                                         ids.begin() + static_cast<std::ptrdiff_t>(begin + count));
+    for (std::size_t i = 0; i < count; ++i) {
+      ids[begin + i] = unsorted[index.vAcc[i]];
+      points[begin + i] = input[ids[begin + i]];
+    }
+    std::iota(index.vAcc.begin(), index.vAcc.end(), 0U);
+  }
+
+  /// Shows the result set all points that may be nearer than its worst one, the likeliest subtrees first.
+  template <class Results>
+  void search(const Point& p, Results& results, std::size_t node = 1) const {
+    if (node >= top.leaves) return search_tree(p, results, node - top.leaves);
+    const double ahead = coordinate<D>(p, top.cuts[node].axis) - top.cuts[node].value;
+    const std::size_t near = 2 * node + (ahead >= 0.0 ? 1 : 0);
+    search(p, results, near);
+    if (ahead * ahead <= results.worstDist()) search(p, results, near ^ 1);
+  }
+  template <class Results>
+  void search_tree(const Point& p, Results& results, std::size_t leaf) const {
+    if (trees[leaf] == nullptr) return;
+    const auto& index = trees[leaf]->index;
+    std::array<double, D> query;
+    double gap_sq = 0.0;  // to the box of the subtree's points
+    for (std::size_t axis = 0; axis < D; ++axis) {
+      query[axis] = coordinate<D>(p, axis);
+      const double nearest = std::clamp(query[axis], index.root_bbox[axis].low, index.root_bbox[axis].high);
+      gap_sq += (query[axis] - nearest) * (query[axis] - nearest);
+    }
+    if (gap_sq > results.worstDist()) return;
+    results.ids = ids.data() + first[leaf];
+    index.findNeighbors(results, query.data(), nanoflann::SearchParams());
+  }
+};
+
+template <int D>
+KdTree<D>::KdTree() = default;
+template <int D>
+KdTree<D>::~KdTree() = default;
+template <int D>
+KdTree<D>::KdTree(KdTree&&) noexcept = default;
+template <int D>
+KdTree<D>& KdTree<D>::operator=(KdTree&&) noexcept = default;
+
+template <int D>
+KdTree<D>::KdTree(std::span<const Point> points, const Execution& execution) {
+  execution.check();
+  if (!points.empty()) forest_ = std::make_unique<Forest>(points, execution);
+}
+
+template <int D>
+std::size_t KdTree<D>::size() const {
+  return forest_ == nullptr ? 0 : forest_->points.size();
+}
+
+template <int D>
+std::size_t KdTree<D>::bytes() const {
+  if (forest_ == nullptr) return 0;
+  std::size_t sum = size() * (sizeof(Point) + sizeof(VertexId) + sizeof(std::uint32_t));
+  for (const auto& tree : forest_->trees) sum += tree == nullptr ? 0 : tree->index.usedMemory(tree->index);
+  return sum;
+}
+
+template <int D>
+const PointOf<D>& KdTree<D>::point(VertexId id) const {
+  return forest_->points[forest_->place_of[id]];
+}
+
+template <int D>
+void KdTree<D>::nearest(const Point& p, std::size_t k, VertexId except, std::vector<Neighbour>& out) const {
+  out.clear();
+  if (k == 0 || forest_ == nullptr) return;
+  NearestSet results(k, except, out);
+  forest_->search(p, results);
+  std::sort_heap(out.begin(), out.end());
+}
+
+template <int D>
+void KdTree<D>::within(const Point& p, const SearchRadius& radius, VertexId except, std::vector<Neighbour>& out) const {
+  out.clear();
+  for_each_within(p, radius, [&](VertexId id, double distance) {
+    if (id != except) out.push_back({id, distance});
+  });
+  std::sort(out.begin(), out.end());
+}
+
+template <int D>
+void KdTree<D>::visit_within(const Point& p, const SearchRadius& radius, const void* visit, Call call) const {
+  if (forest_ == nullptr || radius.square() < 0.0) return;
+  const auto take = [&](VertexId id, double distance) { call(visit, id, distance); };
+  RadiusSet results(radius, take);
+  forest_->search(p, results);
+}
+
+template class KdTree<2>;
+template class KdTree<3>;
+template class KdTree<4>;
+template class KdTree<6>;
+
+}  // namespace warren

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Neighbours in D dimensions, for any distribution of points: a forest of k-d trees. A small top tree, cut at medians
+// of a sample of the points, deals them to subtrees of about 16,384 points, which nanoflann builds in parallel; points
+// are then stored in the order of the leaves. Everything is a function of the points alone, whatever the threads. Build
+// O(n log n); a query O(log n + k) for points in general position. Memory 8 D + 12 bytes a point and the nodes. Many
+// equal points are the one weak spot: all points that tie with the k-th are looked at, since ties break by id.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "parallel/execution.hpp"
+#include "spatial/neighbour.hpp"
+
+namespace warren {
+
+/// Immutable after construction; any number of threads may query. All answers are exact: the same neighbours, distances
+/// and order as brute force. Instantiated for D = 2, 3, 4 and 6.
+template <int D>
+class KdTree {
+ public:
+  using Point = PointOf<D>;
+
+  KdTree();  ///< no points
+  /// Copies the points. Coordinates finite; below 2^32 points. Throws Stopped.
+  KdTree(std::span<const Point> points, const Execution& execution);
+  ~KdTree();
+  KdTree(KdTree&&) noexcept;
+  KdTree& operator=(KdTree&&) noexcept;
+
+  std::size_t size() const;
+  std::size_t bytes() const;
+  /// Point `id`, as it came.
+  const Point& point(VertexId id) const;
+
+  /// The k points nearest to p (fewer if there are not so many) but `except`, ascending by (distance, id).
+  void nearest(const Point& p, std::size_t k, VertexId except, std::vector<Neighbour>& out) const;
+  /// All points at a distance <= radius from p but `except`, ascending by (distance, id).
+  void within(const Point& p, const SearchRadius& radius, VertexId except, std::vector<Neighbour>& out) const;
+  /// Calls visit(id, distance) for all points at a distance <= radius from p, in an order that depends on the points.
+  template <class Visit>
+  void for_each_within(const Point& p, const SearchRadius& radius, const Visit& visit) const {
+    visit_within(p, radius, &visit,
+                 [](const void* f, VertexId id, double d) { (*static_cast<const Visit*>(f))(id, d); });
+  }
+  /// Calls visit(j, distance) for all points j > i at a distance <= radius from point i: over all i, each pair once.
+  template <class Visit>
+  void for_each_later_within(VertexId i, const SearchRadius& radius, const Visit& visit) const {
+    for_each_within(point(i), radius, [&](VertexId j, double distance) {
+      if (j > i) visit(j, distance);
+    });
+  }
+
+ private:
+  struct Forest;
+  using Call = void (*)(const void*, VertexId, double);
+  void visit_within(const Point& p, const SearchRadius& radius, const void* visit, Call call) const;
+
+  std::unique_ptr<Forest> forest_;
+};
+
+extern template class KdTree<2>;
+extern template class KdTree<3>;
+extern template class KdTree<4>;
+extern template class KdTree<6>;
+
+}  // namespace warren

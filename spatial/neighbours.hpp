@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Neighbours<D>: one interface to PointGrid and KdTree<D>, which of them by a rule of counts. In the plane the grid is
+// built first (it is cheap) and kept unless points crowd in few of its cells; there, and in more dimensions, the k-d
+// trees. The answers are the same bits either way. bench/neighbours_bench.cpp has the crossing point of the two.
+#pragma once
+
+#include <vector>
+
+#include "parallel/chunks.hpp"
+#include "spatial/kd_tree.hpp"
+#include "spatial/point_grid.hpp"
+
+namespace warren {
+
+/// Crowding (see PointGrid) beyond which the k-d trees answer sooner; evenly spread points have 3.
+inline constexpr double most_crowding = 24.0;
+
+/// Immutable after construction; any number of threads may query.
+template <int D>
+class Neighbours {
+ public:
+  using Point = PointOf<D>;
+
+  Neighbours() = default;  ///< no points
+  /// Copies the points; in the plane, best when they are in tile order. Below 2^32 points. Throws Stopped.
+  Neighbours(std::span<const Point> points, const Execution& execution) {
+    if constexpr (D == 2) {
+      grid_ = PointGrid(points, execution);
+      if (grid_.crowding() <= most_crowding) return;
+      grid_ = PointGrid();
+    }
+    tree_ = KdTree<D>(points, execution);
+    uses_tree_ = true;
+  }
+
+  bool uses_tree() const { return uses_tree_; }
+  std::size_t size() const {
+    return with([](const auto& index) { return index.size(); });
+  }
+  std::size_t bytes() const {
+    return with([](const auto& index) { return index.bytes(); });
+  }
+  /// Point `id`, as it came.
+  Point point(VertexId id) const {
+    return with([&](const auto& index) -> Point { return index.point(id); });
+  }
+
+  /// The k points nearest to p (fewer if there are not so many) but `except`, ascending by (distance, id).
+  void nearest(const Point& p, std::size_t k, VertexId except, std::vector<Neighbour>& out) const {
+    with([&](const auto& index) { index.nearest(p, k, except, out); });
+  }
+  /// All points at a distance <= radius from p but `except`, ascending by (distance, id).
+  void within(const Point& p, const SearchRadius& radius, VertexId except, std::vector<Neighbour>& out) const {
+    with([&](const auto& index) { index.within(p, radius, except, out); });
+  }
+  /// Calls visit(j, distance) for all points j > i at a distance <= radius from point i: over all i, each pair once.
+  template <class Visit>
+  void for_each_later_within(VertexId i, const SearchRadius& radius, const Visit& visit) const {
+    with([&](const auto& index) { index.for_each_later_within(i, radius, visit); });
+  }
+  /// Calls visit(i, neighbours) for each point i of the range, with its k nearest other points as a vector that is
+  /// valid during the call. One range a chunk: ranges may run at once.
+  template <class Visit>
+  void for_each_nearest(Range ids, std::size_t k, const Visit& visit) const {
+    with([&](const auto& index) {
+      std::vector<Neighbour> found;
+      for (std::size_t i = ids.first; i < ids.last; ++i) {
+        const auto id = static_cast<VertexId>(i);
+        index.nearest(index.point(id), k, id, found);
+        visit(id, std::as_const(found));
+      }
+    });
+  }
+
+ private:
+  template <class Use>
+  auto with(const Use& use) const {
+    if constexpr (D == 2) {
+      if (!uses_tree_) return use(grid_);
+    }
+    return use(tree_);
+  }
+
+  PointGrid grid_;
+  KdTree<D> tree_;
+  bool uses_tree_ = false;
+};
+
+}  // namespace warren
