@@ -1,1 +1,36 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# What `cmake --install` leaves behind: headers, the five libraries, a package for find_package(warren), a file for
+# pkg-config, the licence. Targets: warren::core, warren::parallel, warren::spatial, warren::worlds, warren::planners, and
+# warren::warren, which is all of them. Component "library" is the package without the program.
+include(CMakePackageConfigHelpers)
+
+set(warren_libraries core parallel spatial worlds planners)
+set(warren_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/warren)
+
+add_library(warren_all INTERFACE)
+add_library(warren::warren ALIAS warren_all)
+set_target_properties(warren_all PROPERTIES EXPORT_NAME warren)
+foreach(folder IN LISTS warren_libraries)
+  target_link_libraries(warren_all INTERFACE warren_${folder})
+  install(TARGETS warren_${folder} EXPORT warren ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/warren COMPONENT library
+          FILES_MATCHING PATTERN *.hpp)
+endforeach()
+install(TARGETS warren_all EXPORT warren COMPONENT library)
+install(EXPORT warren NAMESPACE warren:: FILE warrenTargets.cmake DESTINATION ${warren_package_dir} COMPONENT library)
+
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/warrenConfig.cmake.in ${PROJECT_BINARY_DIR}/warrenConfig.cmake
+                              INSTALL_DESTINATION ${warren_package_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/warrenConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/warrenConfig.cmake ${PROJECT_BINARY_DIR}/warrenConfigVersion.cmake
+        DESTINATION ${warren_package_dir} COMPONENT library)
+
+# The way from the file to the prefix, so that an installation may be moved.
+file(RELATIVE_PATH warren_pc_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+set(warren_pc_tbb "")
+if(WARREN_PARALLEL STREQUAL "tbb")
+  set(warren_pc_tbb ", tbb")
+endif()
+configure_file(${CMAKE_CURRENT_LIST_DIR}/warren.pc.in ${PROJECT_BINARY_DIR}/warren.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/warren.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT library)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT library)
