@@ -12,7 +12,8 @@
 
 namespace warren {
 
-/// A simple polygon as its file gives it: corners in order, either orientation; `line` is its line in the file (0: none).
+/// A simple polygon as its file gives it: corners in order, either orientation; `line` is its line in the file (0:
+/// none).
 struct ScenePolygon {
   std::vector<Vec2> corners;
   std::size_t line = 0;
@@ -42,8 +43,8 @@ struct RobotSpec {
 
 /// Raster for the grid planner.
 struct GridSpec {
-  double cell = 1.0;          ///< > 0
-  std::uint32_t angles = 1;   ///< >= 1
+  double cell = 1.0;         ///< > 0
+  std::uint32_t angles = 1;  ///< >= 1
 };
 
 struct Scene {

@@ -20,20 +20,20 @@ namespace warren {
 enum class Contact : std::uint8_t { blocked, allowed };
 
 struct VerifyOptions {
-  double clearance = 0.0;             ///< every point of the path stays at least so far from every wall
+  double clearance = 0.0;              ///< every point of the path stays at least so far from every wall
   Contact contact = Contact::blocked;  ///< with clearance 0: touching counts as blocked, or only crossing
   double start_tolerance = 0.0;        ///< path.front() must be within this of the start asked for
 };
 
 struct Violation {
-  std::size_t leg = 0;      ///< 0-based: from path[leg] to path[leg + 1]
-  double distance = 0.0;    ///< between that leg and the obstacle
-  std::string obstacle;     ///< e.g. "wall 17: 1.5 0.5 1.5 1.5"
+  std::size_t leg = 0;    ///< 0-based: from path[leg] to path[leg + 1]
+  double distance = 0.0;  ///< between that leg and the obstacle
+  std::string obstacle;   ///< e.g. "wall 17: 1.5 0.5 1.5 1.5"
 };
 
 struct Verification {
   bool verified = false;
-  double length = 0.0;         ///< Euclidean
+  double length = 0.0;                                             ///< Euclidean
   double min_clearance = std::numeric_limits<double>::infinity();  ///< least distance of the path to any obstacle
   std::optional<Violation> first_violation;  ///< the one with the smallest leg, then the smallest wall number
 };
