@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planners/prm.hpp"
+#include "worlds/maze_generator.hpp"
+#include "worlds/maze_world.hpp"
+#include "worlds/verify.hpp"
+
+int main() {
+  const warren::Scene maze = warren::maze_scene({.rows = 21, .cols = 31, .seed = 7}, true, {});
+  const warren::MazeWorld world(maze, 0.1, {});  // a disc of radius 0.1 among the maze's walls
+  const auto answer = warren::prm(world, {0.5, 1.0}, {31.5, 21.0}, {}, {});
+  return warren::verify_path(maze, answer.path, {.clearance = 0.1}, {}).verified ? 0 : 1;
+}
