@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Mazes of any size from a seed, the same bits on every machine. Cell (c, r) is the unit square around the integer
 // point (c, r), c in 1..cols, r in 1..rows; the outline opens at the left of (1, 1) and at the right of (cols, rows).
-// Serial by nature; scratch is at most 2 bytes a cell for the backtracker.
+// Carving is serial by nature and needs, cells included, 1 byte a cell for backtracker and wilson, 1 and the frontier
+// for prim, 13 for kruskal and 5 for course; all else is parallel. One file an algorithm: maze_backtracker.cpp, ...
 #pragma once
 
+#include <cassert>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
-#include <vector>
+#include <utility>
 
 #include "core/raw_vector.hpp"
 #include "parallel/execution.hpp"
@@ -29,40 +32,75 @@ struct MazeOptions {
   double loops = 0.0;  ///< fraction in [0, 1] of the interior walls left that are taken out, chosen by the seed
 };
 
-/// The maze as bits: which walls stand. Two bits a cell: wall to the right, wall above.
+/// The maze as bits: which walls stand. One byte a cell, column after column, the cells of a column from low to high, a
+/// gap byte before each column and after the last; so a neighbour is one index away and every index has a lower and an
+/// upper neighbour. The outline counts as standing (its two openings are not cells' business), gap bytes have all
+/// walls.
 class MazeCells {
  public:
-  MazeCells(std::uint32_t rows, std::uint32_t cols);
+  static constexpr std::uint8_t right_wall = 1;
+  static constexpr std::uint8_t upper_wall = 2;
+  static constexpr std::uint8_t all_walls = 3;  ///< other bits are scratch of the generators, 0 outside them
+
+  /// All walls stand. Throws InputError unless rows, cols >= 1 and rows * cols < 2^32; asks `execution` for the memory,
+  /// rows * cols + cols + 1 bytes.
+  MazeCells(std::uint32_t rows, std::uint32_t cols, const Execution& execution = {});
   std::uint32_t rows() const { return rows_; }
   std::uint32_t cols() const { return cols_; }
+  std::uint64_t cell_count() const { return std::uint64_t{rows_} * cols_; }
   /// Cell numbers are zero-based here: column 0 .. cols - 1, row 0 .. rows - 1 (row 0 is the lowest).
-  bool wall_right(std::uint32_t col, std::uint32_t row) const;
-  bool wall_above(std::uint32_t col, std::uint32_t row) const;
-  void open_right(std::uint32_t col, std::uint32_t row);
-  void open_above(std::uint32_t col, std::uint32_t row);
+  bool wall_right(std::uint32_t col, std::uint32_t row) const { return (bits_[index(col, row)] & right_wall) != 0; }
+  bool wall_above(std::uint32_t col, std::uint32_t row) const { return (bits_[index(col, row)] & upper_wall) != 0; }
+  /// Interior walls only: col + 1 < cols().
+  void open_right(std::uint32_t col, std::uint32_t row) {
+    assert(col + 1 < cols_);
+    open(index(col, row), right_wall);
+  }
+  /// Interior walls only: row + 1 < rows().
+  void open_above(std::uint32_t col, std::uint32_t row) {
+    assert(row + 1 < rows_);
+    open(index(col, row), upper_wall);
+  }
+
+  /// For kernels: the bytes, where a cell's byte lies, and how far apart the bytes of neighbours in a row are.
+  std::span<std::uint8_t> bytes() { return bits_; }
+  std::span<const std::uint8_t> bytes() const { return bits_; }
+  std::size_t stride() const { return std::size_t{rows_} + 1; }
+  std::size_t index(std::uint32_t col, std::uint32_t row) const { return 1 + col * stride() + row; }
 
  private:
+  void open(std::size_t i, std::uint8_t wall) { bits_[i] = static_cast<std::uint8_t>(bits_[i] & ~wall); }
+
   std::uint32_t rows_;
   std::uint32_t cols_;
   RawVector<std::uint8_t> bits_;
 };
 
-/// Throws InputError for sizes out of range, Stopped at the deadline or when memory would pass its limit.
+/// The interior walls that stand: rows * cols - rows - cols + 1 in a perfect maze.
+std::uint64_t interior_walls(const MazeCells& cells, const Execution& execution);
+
+/// Throws InputError for sizes and loops out of range, Stopped at the deadline or when memory would pass its limit.
 MazeCells generate_maze(const MazeOptions& options, const Execution& execution);
 
-/// The walls in the course's order: four outline segments, then unit walls column by column, a cell's right wall before
-/// its upper one. merged: interior walls that join in a line become one segment.
+/// The walls in the course's order: four outline segments (bottom, top, left from y = 1.5 up, right up to rows - 0.5),
+/// then unit walls column by column, a cell's right wall before its upper one, ends in ascending order. merged:
+/// interior walls that join in a line become one segment, which stands where its first unit wall stood. Floats up to
+/// 2^23 rows and columns, doubles beyond.
 WallSet maze_walls(const MazeCells& cells, bool merged, const Execution& execution);
 
 /// A scene with walls, maze hint, start (0.5, 1) and goal (cols + 0.5, rows).
 Scene maze_scene(const MazeOptions& options, bool merged, const Execution& execution);
 
-/// Reads the cells back from walls that lie on the unit grid; nothing is assumed of their order or how they are cut.
-/// Throws InputError("maze", ...) if a wall is off the grid or outside the box.
+/// The first wall that a maze of this size can't have (off the unit grid, oblique or outside the box), if any:
+/// O(walls), in parallel. Walls of length zero at a grid point are allowed and mean nothing.
+std::optional<std::size_t> first_wall_off_grid(const WallSet& walls, MazeHint hint, const Execution& execution);
+
+/// Reads the cells back from walls that lie on the unit grid; nothing is assumed of their order, direction or how they
+/// are cut. Throws InputError("maze", ...) if a wall is off the grid or outside the box.
 MazeCells cells_of_walls(const WallSet& walls, MazeHint hint, const Execution& execution);
 
-/// Can one walk from cell a to cell b (zero-based {col, row})? Breadth-first flood, O(cells): the proof behind
-/// Outcome::infeasible.
+/// Can one walk from cell a to cell b (zero-based {col, row})? Depth-first flood, O(cells) time, 1 byte a cell: the
+/// proof behind Outcome::infeasible. Throws InputError for cells outside the maze.
 bool flood_connects(const MazeCells& cells, std::pair<std::uint32_t, std::uint32_t> a,
                     std::pair<std::uint32_t, std::uint32_t> b, const Execution& execution);
 

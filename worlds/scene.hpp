@@ -9,6 +9,7 @@
 
 #include "core/types.hpp"
 #include "core/wall_set.hpp"
+#include "parallel/execution.hpp"
 
 namespace warren {
 
@@ -64,11 +65,12 @@ struct Scene {
 /// "polygon" and "car" turn, so their states have an angle; 2, 3 or 6 numbers.
 std::size_t state_size(const RobotSpec& robot);
 
-/// 64-bit FNV-1a over the bits of everything that shapes the free space (walls, polygons, spheres, bounds): the same
-/// for the same world whatever file it came from, as 16 hex digits. O(input).
-std::string scene_hash(const Scene& scene);
+/// A 64-bit hash of everything that shapes the free space (walls in order, polygons, spheres, bounds), as 16 hex
+/// digits: the same for the same world whatever file it came from and however its walls are held. Words are folded by
+/// wide multiplications (as wyhash does), chunk by chunk in parallel; about memory speed. Not for adversaries.
+std::string scene_hash(const Scene& scene, const Execution& execution = {});
 
-/// The box of all walls and polygons (not of the bounds).
-Box obstacle_box(const Scene& scene);
+/// The box of all walls and polygons (not of the bounds, nor of spheres); empty if there are none.
+Box obstacle_box(const Scene& scene, const Execution& execution = {});
 
 }  // namespace warren

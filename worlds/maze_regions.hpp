@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Disjoint regions of cells (union-find) for the maze generators that join regions: path halving, the smaller number
+// becomes the root; O(log n) expected for joins in random order, in practice two or three steps. One Id an element.
+#pragma once
+
+#include <cstddef>
+#include <utility>
+
+#include "core/raw_vector.hpp"
+
+namespace warren::maze {
+
+template <class Id>
+class Regions {
+ public:
+  explicit Regions(std::size_t count) : parents_(count) {
+    for (std::size_t i = 0; i < count; ++i) parents_[i] = static_cast<Id>(i);
+  }
+  Id root(Id i) {
+    while (parents_[i] != i) {
+      parents_[i] = parents_[parents_[i]];
+      i = parents_[i];
+    }
+    return i;
+  }
+  /// Joins the regions of a and b; false if they were one already.
+  bool join(Id a, Id b) {
+    a = root(a);
+    b = root(b);
+    if (a == b) return false;
+    if (b < a) std::swap(a, b);
+    parents_[b] = a;
+    return true;
+  }
+
+ private:
+  RawVector<Id> parents_;
+};
+
+}  // namespace warren::maze

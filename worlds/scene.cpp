@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Box and hash of a scene. Walls are hashed as the doubles that they mean (-0 as 0), so floats and doubles agree; each
+// wall costs two 64 x 64 -> 128 bit multiplications in two independent chains, and chunks are folded in their order.
+#include "worlds/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <span>
+#include <vector>
+
+#include "core/rng.hpp"
+#include "parallel/chunks.hpp"
+
+namespace warren {
+namespace {
+
+constexpr std::size_t grain = std::size_t{1} << 16;
+
+__extension__ using Wide = unsigned __int128;
+
+/// Folds two words into one: the halves of their product.
+std::uint64_t fold(std::uint64_t a, std::uint64_t b) {
+  const Wide product = static_cast<Wide>(a) * b;
+  return static_cast<std::uint64_t>(product) ^ static_cast<std::uint64_t>(product >> 64);
+}
+
+/// The words of a double, where -0 is 0; never equal to a secret, which are no doubles of a sane size.
+std::uint64_t word(double x) { return std::bit_cast<std::uint64_t>(x + 0.0); }
+
+constexpr std::uint64_t secret_a = 0xa0761d6478bd642fU;
+constexpr std::uint64_t secret_b = 0xe7037ed1a0b428dbU;
+
+template <class Wall>
+std::uint64_t hash_of(std::span<const Wall> walls) {
+  std::uint64_t first = secret_a;
+  std::uint64_t second = secret_b;
+  for (const Wall& wall : walls) {
+    const Segment s = wall.segment();
+    first = fold(word(s.a.x) ^ secret_a, word(s.a.y) ^ first);
+    second = fold(word(s.b.x) ^ secret_b, word(s.b.y) ^ second);
+  }
+  return fold(first ^ secret_b, second ^ secret_a ^ walls.size());
+}
+
+std::uint64_t hash_of(const WallSet& set, const Execution& execution) {
+  return set.visit([&](auto walls) {
+    std::vector<std::uint64_t> parts(chunk_count(walls.size(), grain));
+    for_chunks(walls.size(), grain, execution,
+               [&](Range r) { parts[r.first / grain] = hash_of(walls.subspan(r.first, r.size())); });
+    std::uint64_t hash = walls.size();
+    for (const std::uint64_t part : parts) hash = fold(hash ^ secret_a, part ^ secret_b);
+    return hash;
+  });
+}
+
+/// Folds numbers, and how many there are, into a hash.
+class Hasher {
+ public:
+  explicit Hasher(std::uint64_t state) : state_(state) {}
+  void add(std::uint64_t bits) { state_ = fold(state_ ^ secret_a, bits ^ secret_b); }
+  void add(double x) { add(word(x)); }
+  std::uint64_t value() const { return mix64(state_); }
+
+ private:
+  std::uint64_t state_;
+};
+
+template <class Walls>
+Box box_of_walls(Walls walls, const Execution& execution) {
+  std::vector<Box> parts(chunk_count(walls.size(), grain));
+  for_chunks(walls.size(), grain, execution, [&](Range r) {
+    Box box;
+    for (const auto& wall : walls.subspan(r.first, r.size())) {
+      const Segment s = wall.segment();
+      box.include(s.a);
+      box.include(s.b);
+    }
+    parts[r.first / grain] = box;
+  });
+  Box all;
+  for (const Box& part : parts) all.include(part);
+  return all;
+}
+
+}  // namespace
+
+std::size_t state_size(const RobotSpec& robot) {
+  switch (robot.kind) {
+    case RobotKind::point:
+    case RobotKind::disc:
+      return 2;
+    case RobotKind::polygon:
+    case RobotKind::car:
+      return 3;
+    case RobotKind::puma560:
+      return 6;
+  }
+  return 2;
+}
+
+std::string scene_hash(const Scene& scene, const Execution& execution) {
+  Hasher hasher(hash_of(scene.walls, execution));
+  hasher.add(std::uint64_t{scene.polygons.size()});
+  for (const ScenePolygon& polygon : scene.polygons) {
+    hasher.add(std::uint64_t{polygon.corners.size()});
+    for (const Vec2 corner : polygon.corners) {
+      hasher.add(corner.x);
+      hasher.add(corner.y);
+    }
+  }
+  hasher.add(std::uint64_t{scene.spheres.size()});
+  for (const Sphere& sphere : scene.spheres) {
+    for (const double number : {sphere.x, sphere.y, sphere.z, sphere.radius}) hasher.add(number);
+  }
+  hasher.add(std::uint64_t{scene.bounds.has_value()});
+  if (scene.bounds) {
+    const Box& box = *scene.bounds;
+    for (const double number : {box.min.x, box.min.y, box.max.x, box.max.y}) hasher.add(number);
+  }
+  return fmt::format("{:016x}", hasher.value());
+}
+
+Box obstacle_box(const Scene& scene, const Execution& execution) {
+  Box box = scene.walls.visit([&](auto walls) { return box_of_walls(walls, execution); });
+  for (const ScenePolygon& polygon : scene.polygons) {
+    for (const Vec2 corner : polygon.corners) box.include(corner);
+  }
+  return box;
+}
+
+}  // namespace warren
