@@ -22,13 +22,14 @@ struct QueueEntry {
   }
 };
 
+/// 16 bytes a vertex in the heap, 4 a vertex of the graph.
 template <unsigned Arity = 4>
 class IndexedHeap {
  public:
-  /// Ready for vertices 0 .. vertex_count - 1. The heap must be empty.
+  /// Ready for vertices 0 .. vertex_count - 1. The heap must be empty. O(vertex_count) only where it grows.
   void resize(std::size_t vertex_count) {
     assert(empty());
-    place_.assign(vertex_count, 0);
+    if (vertex_count > place_.size()) place_.assign(vertex_count, 0);
   }
   bool empty() const { return entries_.empty(); }
   std::size_t size() const { return entries_.size(); }

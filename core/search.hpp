@@ -3,14 +3,17 @@
 // and breadth- and depth-first search.
 //
 // A graph is any callable neighbours(v, visit) that calls visit(w, length) for each neighbour in ascending order; a
-// lazily checked roadmap tests an edge there, and improves(w, g) tells it before the test whether the edge could help.
-// Heuristics must be consistent, so that each vertex is settled once. Ties break by vertex number, therefore the path
-// and the counts don't depend on the queue. Time O((V + E) log V); memory 16 bytes a vertex and the queue.
+// lazily checked roadmap tests an edge there, and SearchState::improves tells it before the test whether the edge could
+// help.
+// Heuristics must be consistent and lengths non-negative, so that each vertex is settled once. Ties break by vertex
+// number, therefore the path and the counts don't depend on the queue. Time O((V + E) log V); memory 12 bytes a vertex
+// and the queue.
 #pragma once
 
-#include <cassert>
+#include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "core/graph.hpp"
@@ -28,46 +31,66 @@ struct SearchResult {
   std::uint64_t expanded = 0;  ///< vertices settled, the goal included
 };
 
-/// Distances and parents of one search, as arrays. Clearing costs only what was touched.
+/// Distances and parents of one search, as arrays. A settled vertex keeps its distance with the sign bit set, so that
+/// one load answers "settled, or no farther than this" at once. Touched vertices are remembered by blocks of 64:
+/// clearing costs only the blocks that the last search touched.
 class SearchState {
  public:
+  /// Clears, and makes room for vertices 0 .. vertex_count - 1; costs O(vertex_count) only where it grows.
   void resize(std::size_t vertex_count) {
-    g_.assign(vertex_count, unreached);
-    parent_.resize(vertex_count);
-    closed_.assign(vertex_count, 0);
-    touched_.clear();
-  }
-  void clear() {
-    for (const VertexId v : touched_) {
-      g_[v] = unreached;
-      closed_[v] = 0;
+    clear();
+    if (vertex_count > g_.size()) {
+      g_.assign(vertex_count, unreached);
+      parent_.resize(vertex_count);
+      is_touched_.assign((vertex_count + block_size - 1) / block_size, 0);
     }
-    touched_.clear();
+    vertex_count_ = vertex_count;
   }
-  double g(VertexId v) const { return g_[v]; }
+  void clear();
+  double g(VertexId v) const { return std::abs(g_[v]); }
   bool reached(VertexId v) const { return g_[v] != unreached; }
-  bool closed(VertexId v) const { return closed_[v] != 0; }
+  bool closed(VertexId v) const { return std::signbit(g_[v]); }
+  /// Is v open or unreached, and would a path of this length (>= 0) be shorter than the one it has?
+  bool improves(VertexId v, double through) const { return through < g_[v]; }
   VertexId parent(VertexId v) const { return parent_[v]; }
-  std::size_t vertex_count() const { return g_.size(); }
+  std::size_t vertex_count() const { return vertex_count_; }
 
   void reach(VertexId v, double g, VertexId parent) {
-    if (!reached(v)) touched_.push_back(v);
+    std::uint8_t& is_touched = is_touched_[v / block_size];
+    if (is_touched == 0) {
+      is_touched = 1;
+      touched_blocks_.push_back(static_cast<VertexId>(v / block_size));
+    }
     g_[v] = g;
     parent_[v] = parent;
   }
-  void close(VertexId v) { closed_[v] = 1; }
+  void close(VertexId v) { g_[v] = -g(v); }  // -0.0 for the start: closed() reads the sign bit
 
   /// The vertices from start to v along the parents.
   std::vector<VertexId> path_to(VertexId v) const;
-  /// Vertices that the search has reached, in the order of first touch: the search tree, for pictures.
-  const std::vector<VertexId>& touched() const { return touched_; }
+  /// Vertices that the search has reached, ascending: the search tree, for pictures. O(touched blocks log).
+  std::vector<VertexId> touched() const;
+  std::size_t bytes() const {
+    return g_.size() * (sizeof(double) + sizeof(VertexId)) + is_touched_.size() +
+           touched_blocks_.capacity() * sizeof(VertexId);
+  }
 
  private:
   static constexpr double unreached = std::numeric_limits<double>::infinity();
+  static constexpr std::size_t block_size = 64;
+  std::size_t vertex_count_ = 0;
   RawVector<double> g_;
   RawVector<VertexId> parent_;
-  RawVector<std::uint8_t> closed_;
-  std::vector<VertexId> touched_;
+  std::vector<std::uint8_t> is_touched_;  // one a block
+  std::vector<VertexId> touched_blocks_;
+};
+
+/// How many expansions pass between two looks at should_stop().
+inline constexpr std::uint64_t expansions_per_poll = 1024;
+
+/// For callers without a deadline.
+struct NeverStop {
+  bool operator()() const { return false; }
 };
 
 /// A* from start to goal. state and queue must be cleared and sized for all vertices; should_stop() is asked every
@@ -89,14 +112,14 @@ SearchResult best_first(VertexId start, VertexId goal, const Neighbours& neighbo
       result.path = state.path_to(v);
       return result;
     }
-    if (result.expanded % 1024 == 0 && should_stop()) {
+    if (result.expanded % expansions_per_poll == 0 && should_stop()) {
       result.status = SearchStatus::stopped;
       return result;
     }
     const double g = state.g(v);
     neighbours(v, [&](VertexId w, double length) {
       const double through = g + length;
-      if (state.closed(w) || through >= state.g(w)) return;
+      if (!state.improves(w, through)) return;
       state.reach(w, through, v);
       queue.push(w, through + heuristic(w));
     });
@@ -104,9 +127,67 @@ SearchResult best_first(VertexId start, VertexId goal, const Neighbours& neighbo
   return result;
 }
 
-/// Fewest edges; neighbours in the graph's order; a vertex is marked when it is queued. length is left 0.
-SearchResult breadth_first(const Graph& graph, VertexId start, VertexId goal, SearchState& state);
-/// Some path: the last vertex found is expanded first, neighbours in the graph's order. length is left 0.
-SearchResult depth_first(const Graph& graph, VertexId start, VertexId goal, SearchState& state);
+/// Fewest edges; neighbours in the graph's order; a vertex is marked when it is queued. length is left 0; state.g()
+/// counts edges. O(V + E); 4 bytes a vertex reached beside the state.
+template <class ShouldStop = NeverStop>
+SearchResult breadth_first(const Graph& graph, VertexId start, VertexId goal, SearchState& state,
+                           const ShouldStop& should_stop = {}) {
+  SearchResult result;
+  std::vector<VertexId> queue{start};
+  state.reach(start, 0.0, no_vertex);
+  for (std::size_t head = 0; head < queue.size(); ++head) {
+    const VertexId v = queue[head];
+    ++result.expanded;
+    if (v == goal) {
+      result.status = SearchStatus::found;
+      result.path = state.path_to(v);
+      return result;
+    }
+    if (result.expanded % expansions_per_poll == 0 && should_stop()) {
+      result.status = SearchStatus::stopped;
+      return result;
+    }
+    for (const VertexId w : graph.neighbours(v)) {
+      if (state.reached(w)) continue;
+      state.reach(w, state.g(v) + 1.0, v);
+      queue.push_back(w);
+    }
+  }
+  return result;
+}
+
+/// Some path: the last vertex found is expanded first, neighbours in the graph's order. length is left 0; state.g()
+/// counts edges. O(V + E); 8 bytes a vertex of the deepest path beside the state.
+template <class ShouldStop = NeverStop>
+SearchResult depth_first(const Graph& graph, VertexId start, VertexId goal, SearchState& state,
+                         const ShouldStop& should_stop = {}) {
+  struct Frame {
+    VertexId vertex;
+    std::uint32_t next;  // how many of its neighbours have been looked at
+  };
+  SearchResult result;
+  std::vector<Frame> stack;
+  const auto enter = [&](VertexId v, VertexId parent) {
+    state.reach(v, static_cast<double>(stack.size()), parent);
+    stack.push_back({v, 0});
+    ++result.expanded;
+    if (v == goal) result.status = SearchStatus::found;
+    if (result.expanded % expansions_per_poll == 0 && should_stop()) result.status = SearchStatus::stopped;
+  };
+  enter(start, no_vertex);
+  while (!stack.empty() && result.status == SearchStatus::exhausted) {
+    Frame& top = stack.back();
+    const std::span<const VertexId> neighbours = graph.neighbours(top.vertex);
+    while (top.next < neighbours.size() && state.reached(neighbours[top.next])) ++top.next;
+    if (top.next == neighbours.size()) {
+      stack.pop_back();
+    } else {
+      const VertexId v = top.vertex;
+      enter(neighbours[top.next++], v);
+    }
+  }
+  if (result.status == SearchStatus::found) result.path = state.path_to(goal);
+  return result;
+}
 
 }  // namespace warren

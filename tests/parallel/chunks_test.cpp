@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "parallel/chunks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <csignal>
+#include <limits>
+#include <mutex>
+#include <numeric>
+#include <set>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include "core/rng.hpp"
+#include "parallel/scan.hpp"
+#include "parallel/trace.hpp"
+
+namespace warren {
+namespace {
+
+constexpr unsigned thread_counts[] = {1, 2, 3, 8};
+
+Execution on(unsigned threads) {
+  Execution execution;
+  execution.threads = threads;
+  return execution;
+}
+
+TEST(ForChunks, VisitsEachIndexOnceInChunksThatDependOnSizeAndGrainAlone) {
+  for (const unsigned threads : thread_counts) {
+    for (const std::size_t n : {0U, 1U, 99U, 100U, 101U, 5000U}) {
+      std::vector<int> visits(n, 0);  // each slot belongs to one chunk
+      std::vector<Range> borders(chunk_count(n, 100), Range{1, 0});
+      for_chunks(n, 100, on(threads), [&](Range r) {
+        borders[r.first / 100] = r;
+        for (std::size_t i = r.first; i < r.last; ++i) ++visits[i];
+      });
+      EXPECT_EQ(std::count(visits.begin(), visits.end(), 1), static_cast<std::ptrdiff_t>(n));
+      for (std::size_t c = 0; c < borders.size(); ++c) {
+        EXPECT_EQ(borders[c].first, 100 * c);
+        EXPECT_EQ(borders[c].last, std::min<std::size_t>(n, 100 * (c + 1)));
+      }
+    }
+  }
+}
+
+TEST(ForChunks, AnExceptionOfABodyEndsTheLoopAndArrivesHere) {
+  for (const unsigned threads : thread_counts) {
+    std::atomic<int> runs{0};
+    const auto loop = [&] {
+      for_chunks(100000, 1, on(threads), [&](Range r) {
+        ++runs;
+        if (r.first == 17) throw std::out_of_range("seventeen");
+      });
+    };
+    EXPECT_THROW(loop(), std::out_of_range);
+    if (threads == 1) {
+      EXPECT_EQ(runs, 18);
+    }
+  }
+}
+
+TEST(ForChunks, UsesAsManyThreadsAsAskedForAndNoMore) {
+  for (const unsigned threads : thread_counts) {
+    std::mutex mutex;
+    std::set<std::thread::id> seen;
+    std::atomic<unsigned> inside{0};
+    std::atomic<unsigned> most{0};
+    for_chunks(2000, 1, on(threads), [&](Range) {
+      const unsigned now = ++inside;
+      for (unsigned before = most; before < now && !most.compare_exchange_weak(before, now);) {
+      }
+      const std::lock_guard lock(mutex);
+      seen.insert(std::this_thread::get_id());
+      --inside;
+    });
+    EXPECT_LE(most, threads);
+    EXPECT_LE(seen.size(), threads);
+    if (threads == 1) {
+      EXPECT_EQ(*seen.begin(), std::this_thread::get_id());
+    }
+  }
+}
+
+TEST(ForChunks, TwoBodiesRunAtTheSameTimeOnTwoThreads) {
+  std::atomic<int> arrived{0};
+  for_chunks(2, 1, on(2), [&](Range) {  // each waits for the other: with one thread this would never end
+    ++arrived;
+    while (arrived < 2) std::this_thread::yield();
+  });
+  EXPECT_EQ(arrived, 2);
+}
+
+TEST(ForChunks, StopsAtTheDeadline) {
+  const Deadline over(0.0);
+  for (const unsigned threads : thread_counts) {
+    Execution execution = on(threads);
+    execution.deadline = &over;
+    std::atomic<int> runs{0};
+    EXPECT_THROW(for_chunks(1000, 1, execution, [&](Range) { ++runs; }), Stopped);
+    EXPECT_EQ(runs, 0);
+    EXPECT_TRUE(execution.should_stop());
+  }
+}
+
+TEST(ForChunks, StopsInTheMiddleWhenASignalComes) {
+  for (const unsigned threads : thread_counts) {
+    SignalFlag flag{0};
+    const Deadline deadline(std::numeric_limits<double>::infinity(), std::numeric_limits<std::size_t>::max(), &flag);
+    Execution execution = on(threads);
+    execution.deadline = &deadline;
+    std::atomic<int> runs{0};
+    const auto loop = [&] {
+      for_chunks(100000, 1, execution, [&](Range r) {
+        ++runs;
+        if (r.first == 5) flag = SIGINT;
+      });
+    };
+    EXPECT_THROW(loop(), Stopped);
+    EXPECT_LT(runs, 100000);
+  }
+}
+
+TEST(ForChunks, TellsProgressEachItemAndTraceEachChunk) {
+  for (const unsigned threads : thread_counts) {
+    Progress progress;
+    Trace trace;
+    Execution execution = on(threads);
+    execution.progress = &progress;
+    execution.trace = &trace;
+    double seconds = 0.0;
+    {
+      const StageTimer timer(execution, "stage", seconds, 1050);
+      EXPECT_STREQ(progress.stage(), "stage");
+      EXPECT_EQ(progress.total(), 1050U);
+      for_chunks(1050, 100, execution, [](Range) {});
+    }
+    EXPECT_EQ(progress.done(), 1050U);
+    EXPECT_GE(seconds, 0.0);
+    const auto events = trace.events();
+    EXPECT_EQ(events.size(), 12U);
+    EXPECT_EQ(std::count_if(events.begin(), events.end(), [](const Trace::Event& e) { return e.is_stage; }), 1);
+    for (const Trace::Event& e : events) {
+      EXPECT_STREQ(e.name, "stage");
+      EXPECT_GE(e.begin_us, 0.0);
+      EXPECT_GE(e.duration_us, 0.0);
+      EXPECT_LT(e.thread, trace.thread_count());
+    }
+    EXPECT_LE(trace.thread_count(), threads);
+  }
+}
+
+TEST(StageTimer, AddsToTheSecondsAndLeavesTheRestAlone) {
+  double seconds = 5.0;
+  { const StageTimer timer(Execution(), "alone", seconds); }
+  EXPECT_GE(seconds, 5.0);
+}
+
+TEST(ThreadCount, IsTheNumberAskedForOrAtLeastOne) {
+  EXPECT_EQ(thread_count(7), 7U);
+  EXPECT_GE(thread_count(0), 1U);
+}
+
+TEST(ExclusiveScan, EqualsTheSerialOne) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(seed);
+    SequentialRng rng(seed);
+    std::vector<std::uint32_t> values(seed == 1 ? 0 : rng.below(300'000));
+    for (auto& v : values) v = static_cast<std::uint32_t>(rng.below(1000));
+    std::vector<std::uint32_t> expected(values.size());
+    std::exclusive_scan(values.begin(), values.end(), expected.begin(), 0U);
+    const std::uint64_t total = std::accumulate(values.begin(), values.end(), std::uint64_t{0});
+    for (const unsigned threads : thread_counts) {
+      auto scanned = values;
+      ASSERT_EQ(exclusive_scan(scanned, on(threads)), total);
+      ASSERT_EQ(scanned, expected);
+    }
+  }
+}
+
+TEST(ExclusiveScan, TotalsPass32Bits) {
+  std::vector<std::uint64_t> values(200'000, std::uint64_t{1} << 20);
+  EXPECT_EQ(exclusive_scan(values, on(2)), std::uint64_t{200'000} << 20);
+  EXPECT_EQ(values.back(), std::uint64_t{199'999} << 20);
+}
+
+}  // namespace
+}  // namespace warren

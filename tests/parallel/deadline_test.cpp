@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "parallel/deadline.hpp"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <limits>
+
+#include "parallel/execution.hpp"
+
+namespace warren {
+namespace {
+
+constexpr double forever = std::numeric_limits<double>::infinity();
+
+StopReason reason_of(const Deadline& deadline, std::size_t bytes) {
+  try {
+    deadline.reserve(bytes);
+  } catch (const Stopped& stopped) {
+    return stopped.reason;
+  }
+  ADD_FAILURE() << "did not stop";
+  return StopReason::time;
+}
+
+TEST(Deadline, WithoutLimitsNeverEnds) {
+  EXPECT_FALSE(Deadline().reached());
+  EXPECT_FALSE(Deadline(forever).reached());
+  EXPECT_FALSE(Deadline(1e300).reached());
+  EXPECT_NO_THROW(Deadline(forever).reserve(std::size_t{1} << 60));
+  EXPECT_NO_THROW(Execution().check());
+  EXPECT_FALSE(Execution().should_stop());
+}
+
+TEST(Deadline, EndsWhenItsTimeIsOver) {
+  EXPECT_EQ(Deadline(0.0).reached(), StopReason::time);
+  EXPECT_EQ(Deadline(-1.0).reached(), StopReason::time);
+  EXPECT_FALSE(Deadline(1000.0).reached());
+  EXPECT_EQ(reason_of(Deadline(0.0), 1), StopReason::time);
+}
+
+TEST(Deadline, RefusesBytesBeyondItsMemory) {
+  const std::size_t limit = resident_bytes() + (std::size_t{1} << 30);
+  const Deadline deadline(forever, limit);
+  EXPECT_NO_THROW(deadline.reserve(std::size_t{1} << 20));
+  EXPECT_EQ(reason_of(deadline, std::size_t{2} << 30), StopReason::memory);
+  EXPECT_EQ(reason_of(deadline, std::numeric_limits<std::size_t>::max()), StopReason::memory);
+  EXPECT_EQ(reason_of(Deadline(forever, 1), 0), StopReason::memory);
+  EXPECT_EQ(deadline.memory_bytes(), limit);
+}
+
+TEST(Deadline, NamesTheSignalThatCame) {
+  SignalFlag flag{0};
+  const Deadline deadline(forever, std::numeric_limits<std::size_t>::max(), &flag);
+  EXPECT_FALSE(deadline.reached());
+  flag = SIGINT;
+  EXPECT_EQ(deadline.reached(), StopReason::interrupt);
+  flag = SIGTERM;
+  EXPECT_EQ(deadline.reached(), StopReason::terminate);
+}
+
+TEST(Memory, FiguresAreInAPlausibleOrder) {
+  EXPECT_GT(resident_bytes(), 0U);
+  EXPECT_GE(peak_resident_bytes(), resident_bytes() / 2);
+  EXPECT_GT(available_bytes(), std::size_t{1} << 20);
+}
+
+}  // namespace
+}  // namespace warren
