@@ -123,7 +123,7 @@ class NearestSet {
   using DistanceType = double;
   NearestSet(std::size_t k, VertexId except, std::vector<Neighbour>& out) : k_(k), except_(except), out_(out) {}
 
-  double worstDist() const { return worst_; }          // NOLINT(readability-identifier-naming): nanoflann's names
+  double worstDist() const { return worst_; }  // NOLINT(readability-identifier-naming): nanoflann's names
   bool full() const { return true; }
   bool addPoint(double square, std::uint32_t place) {  // NOLINT(readability-identifier-naming)
     const Neighbour found{ids[place], std::sqrt(square)};
@@ -157,7 +157,7 @@ class RadiusSet {
   RadiusSet(const SearchRadius& radius, const Take& take)
       : square_(radius.square()), worst_(loose_square(radius.length())), take_(take) {}
 
-  double worstDist() const { return worst_; }          // NOLINT(readability-identifier-naming): nanoflann's names
+  double worstDist() const { return worst_; }  // NOLINT(readability-identifier-naming): nanoflann's names
   bool full() const { return true; }
   bool addPoint(double square, std::uint32_t place) {  // NOLINT(readability-identifier-naming)
     if (square <= square_) take_(ids[place], std::sqrt(square));
