@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Is this path free? Independent of everything that found it: nothing from spatial/ is included, distances and
-// orientations are computed here with code of its own (exact by rationals of integers or long double expansions, not
-// core/geometry). Legs of the path are binned in a grid of its own and the walls are streamed past them once, so that
-// millions of legs among hundreds of millions of walls take seconds: O(walls + legs), memory of the order of the legs.
+// Is this path free? Independent of everything that found it: nothing from spatial/ and no predicate of core/geometry
+// is used; distances and orientations are computed by worlds/exact_segments, exact where they decide. The legs of the
+// path are binned (worlds/leg_index) and the obstacles are streamed past them, so that millions of legs among hundreds
+// of millions of walls take seconds: O(walls + legs), memory of the order of the legs. One pass over the walls and a
+// sample of them; a second pass only where no wall comes within some leg lengths of the path.
 #pragma once
 
 #include <cstddef>
@@ -20,15 +21,17 @@ namespace warren {
 enum class Contact : std::uint8_t { blocked, allowed };
 
 struct VerifyOptions {
-  double clearance = 0.0;              ///< every point of the path stays at least so far from every wall
+  double clearance = 0.0;              ///< every point of the path stays at least so far from every wall; >= 0, finite
   Contact contact = Contact::blocked;  ///< with clearance 0: touching counts as blocked, or only crossing
-  double start_tolerance = 0.0;        ///< path.front() must be within this of the start asked for
+  std::optional<Vec2> start;           ///< where the path must begin; nullopt: anywhere
+  std::optional<Vec2> goal;            ///< where it must end
+  double start_tolerance = 0.0;        ///< distance from start and goal that still counts as there; >= 0
 };
 
 struct Violation {
   std::size_t leg = 0;    ///< 0-based: from path[leg] to path[leg + 1]
-  double distance = 0.0;  ///< between that leg and the obstacle
-  std::string obstacle;   ///< e.g. "wall 17: 1.5 0.5 1.5 1.5"
+  double distance = 0.0;  ///< between that leg and the obstacle; 0 inside a polygon or outside the box
+  std::string obstacle;  ///< e.g. "wall 17: 1.5 0.5 1.5 1.5", "polygon 2: ...", "bounds: ...", "box: ...", "start: ..."
 };
 
 struct Verification {
@@ -38,8 +41,9 @@ struct Verification {
   std::optional<Violation> first_violation;  ///< the one with the smallest leg, then the smallest wall number
 };
 
-/// Point or disc among walls (and bounds, polygons where the scene has them). The path has at least one point; all
-/// points must be finite and inside the obstacles' box (or the bounds).
+/// Point or disc among the scene's walls, polygons and bounds; spheres are not looked at. The path has at least one
+/// point, all finite, fewer than 500 million (InputError otherwise); a single point is a leg of length zero. The points
+/// must lie in the box of walls and polygons, or in the bounds. The result is the same for any number of threads.
 Verification verify_path(const Scene& scene, std::span<const Vec2> path, const VerifyOptions& options,
                          const Execution& execution);
 

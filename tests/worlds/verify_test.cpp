@@ -1,0 +1,577 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "worlds/verify.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/rng.hpp"
+
+namespace warren {
+namespace {
+
+__extension__ using Int = __int128;
+
+Scene scene_of(const std::vector<Segment>& walls) {
+  Scene scene;
+  scene.walls = WallSet::narrowest(walls);
+  return scene;
+}
+
+Verification verified(const Scene& scene, const std::vector<Vec2>& path, double r, Contact contact = Contact::blocked) {
+  VerifyOptions options;
+  options.clearance = r;
+  options.contact = contact;
+  return verify_path(scene, path, options, {});
+}
+
+/// The four sides of a square around everything, so that the box confines nothing.
+std::vector<Segment> with_far_box(std::vector<Segment> walls, double low, double high) {
+  walls.push_back({{low, low}, {high, low}});
+  walls.push_back({{low, high}, {high, high}});
+  walls.push_back({{low, low}, {low, high}});
+  walls.push_back({{high, low}, {high, high}});
+  return walls;
+}
+
+// ---- the oracle: everything against everything in 128-bit integers --------------------------------------------------
+
+Int cross_int(Vec2 a, Vec2 b, Vec2 c) {
+  const auto i = [](double x) { return static_cast<Int>(x); };
+  return (i(b.x) - i(a.x)) * (i(c.y) - i(a.y)) - (i(b.y) - i(a.y)) * (i(c.x) - i(a.x));
+}
+Int dot_int(Vec2 a, Vec2 b, Vec2 c) {
+  const auto i = [](double x) { return static_cast<Int>(x); };
+  return (i(b.x) - i(a.x)) * (i(c.x) - i(a.x)) + (i(b.y) - i(a.y)) * (i(c.y) - i(a.y));
+}
+int sign(Int x) { return (x > 0) - (x < 0); }
+bool on(const Segment& s, Vec2 p) { return cross_int(s.a, s.b, p) == 0 && dot_int(p, s.a, s.b) <= 0; }
+bool touch_int(const Segment& s, const Segment& t) {
+  if (on(s, t.a) || on(s, t.b) || on(t, s.a) || on(t, s.b)) return true;
+  return sign(cross_int(s.a, s.b, t.a)) * sign(cross_int(s.a, s.b, t.b)) < 0 &&
+         sign(cross_int(t.a, t.b, s.a)) * sign(cross_int(t.a, t.b, s.b)) < 0;
+}
+/// Is the distance of p from s below the root of r_sq?
+bool nearer_int(Vec2 p, const Segment& s, Int r_sq) {
+  const Int length_sq = dot_int(s.a, s.b, s.b);
+  const Int t = dot_int(s.a, s.b, p);
+  if (t <= 0) return dot_int(s.a, p, p) < r_sq;
+  if (t >= length_sq) return dot_int(s.b, p, p) < r_sq;
+  const Int c = cross_int(s.a, s.b, p);
+  return c * c < r_sq * length_sq;
+}
+bool nearer_int(const Segment& s, const Segment& t, Int r) {
+  return touch_int(s, t) || nearer_int(s.a, t, r * r) || nearer_int(s.b, t, r * r) || nearer_int(t.a, s, r * r) ||
+         nearer_int(t.b, s, r * r);
+}
+double distance_of(Vec2 p, const Segment& s) {
+  const double length_sq = dot(s.b - s.a, s.b - s.a);
+  const double t = length_sq > 0.0 ? std::clamp(dot(p - s.a, s.b - s.a) / length_sq, 0.0, 1.0) : 0.0;
+  return norm(p - (s.a + t * (s.b - s.a)));
+}
+double distance_of(const Segment& s, const Segment& t) {
+  if (touch_int(s, t)) return 0.0;
+  return std::min({distance_of(s.a, t), distance_of(s.b, t), distance_of(t.a, s), distance_of(t.b, s)});
+}
+
+struct Expected {
+  std::size_t leg = SIZE_MAX;
+  std::size_t wall = 0;
+  double least = std::numeric_limits<double>::infinity();
+};
+Expected by_brute_force(const std::vector<Segment>& walls, const std::vector<Vec2>& path, Int r) {
+  Expected e;
+  for (std::size_t leg = 0; leg + 1 < path.size(); ++leg) {
+    for (std::size_t w = 0; w < walls.size(); ++w) {
+      const Segment s{path[leg], path[leg + 1]};
+      e.least = std::min(e.least, distance_of(s, walls[w]));
+      const bool bad = r > 0 ? nearer_int(s, walls[w], r) : touch_int(s, walls[w]);
+      if (bad && e.leg == SIZE_MAX) e.leg = leg, e.wall = w;
+    }
+  }
+  return e;
+}
+
+Vec2 random_point(std::uint64_t seed, std::uint64_t i, double size) {
+  return {std::floor(uniform(seed, i, 0) * size), std::floor(uniform(seed, i, 1) * size)};
+}
+
+/// Walls of very mixed lengths, some of them points, some parallel to the axes.
+std::vector<Segment> random_walls(std::uint64_t seed, std::size_t count, double size) {
+  std::vector<Segment> walls;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double reach = std::pow(size, uniform(seed + 1, i, 2));
+    Segment s{random_point(seed, 2 * i, size), {}};
+    s.b = s.a + random_point(seed + 2, 2 * i, reach);
+    if (i % 3 == 0) s.b.x = s.a.x;
+    if (i % 7 == 0) s.b = s.a;
+    walls.push_back(s);
+  }
+  return with_far_box(walls, -2.0 * size, 4.0 * size);
+}
+
+std::vector<Vec2> random_path(std::uint64_t seed, std::size_t count, double size, double step) {
+  std::vector<Vec2> path{random_point(seed, 0, size)};
+  for (std::size_t i = 1; i < count; ++i) {
+    const double reach = i % 9 == 0 ? size : step;
+    Vec2 next = path.back() + random_point(seed, i, reach) - Vec2{std::floor(0.5 * reach), std::floor(0.5 * reach)};
+    next.x = std::clamp(next.x, -size, 2.0 * size);
+    next.y = std::clamp(next.y, -size, 2.0 * size);
+    path.push_back(next);
+  }
+  return path;
+}
+
+void expect_same(const Verification& v, const Expected& e, const std::vector<Segment>& walls) {
+  EXPECT_EQ(v.verified, e.leg == SIZE_MAX);
+  EXPECT_NEAR(v.min_clearance, e.least, 1e-12 * (1.0 + e.least));
+  ASSERT_EQ(v.first_violation.has_value(), e.leg != SIZE_MAX);
+  if (!v.first_violation) return;
+  EXPECT_EQ(v.first_violation->leg, e.leg);
+  EXPECT_EQ(v.first_violation->obstacle.rfind("wall " + std::to_string(e.wall) + ":", 0), 0U)
+      << v.first_violation->obstacle << " instead of " << e.wall << " of " << walls.size();
+}
+
+TEST(Verify, AgreesWithBruteForceInIntegers) {
+  int solved = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    const double size = seed % 2 == 0 ? 40.0 : 2000.0;
+    const std::vector<Segment> walls = random_walls(10 * seed, 3 + seed * 7, size);
+    for (const double r : {0.0, 1.0, 5.0, 25.0}) {
+      SCOPED_TRACE(r);
+      const std::vector<Vec2> path = random_path(seed + 77, 2 + seed % 40, size, seed % 3 == 0 ? 3.0 : 30.0);
+      const Verification v = verified(scene_of(walls), path, r);
+      expect_same(v, by_brute_force(walls, path, static_cast<Int>(r)), walls);
+      solved += v.verified ? 1 : 0;
+    }
+  }
+  EXPECT_GT(solved, 10);  // else nothing but refusals was compared
+}
+
+TEST(Verify, FindsTheFirstViolationOfAPathThatStaysLong) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    std::vector<Vec2> path;  // many short legs far from all walls, then one that isn't
+    for (int i = 0; i < 3000; ++i) path.push_back({static_cast<double>(i % 40), 10.0 + static_cast<double>(i / 40)});
+    std::vector<Segment> walls = with_far_box({}, -1000.0, 1000.0);
+    EXPECT_TRUE(verified(scene_of(walls), path, 3.0).verified);
+    const auto leg = static_cast<std::size_t>(uniform(seed, 0, 0) * 2999.0);
+    const Vec2 at = 0.5 * (path[leg] + path[leg + 1]);
+    walls.push_back({at, at + Vec2{200.0, 1.0}});
+    const Expected e = by_brute_force(
+        {{{2.0 * at.x, 2.0 * at.y}, {2.0 * at.x + 400.0, 2.0 * at.y + 2.0}}},
+        [&] {
+          std::vector<Vec2> doubled = path;
+          for (Vec2& p : doubled) p = 2.0 * p;
+          return doubled;
+        }(),
+        6);
+    const Verification v = verified(scene_of(walls), path, 3.0);
+    ASSERT_TRUE(v.first_violation);
+    EXPECT_EQ(v.first_violation->leg, e.leg);
+    EXPECT_EQ(v.min_clearance, 0.0);
+  }
+}
+
+TEST(Verify, LeastClearanceIsRightHoweverFarTheWallsAre) {
+  std::vector<Vec2> path;
+  for (int i = 0; i < 1000; ++i) path.push_back({0.001 * i, (i % 2) * 0.001});
+  const Scene scene = scene_of(with_far_box({}, -5000.0, 70000.0));
+  EXPECT_EQ(verified(scene, path, 0.1).min_clearance, 5000.0);
+  EXPECT_EQ(verified(scene, std::vector<Vec2>{{3.0, 4.0}}, 0.1).min_clearance, 5003.0);
+}
+
+TEST(Verify, DistanceEqualToTheClearanceIsFree) {
+  const Scene scene = scene_of(with_far_box({{{0.0, 0.0}, {4.0, 3.0}}}, -20.0, 20.0));
+  const std::vector<Vec2> path{{-3.0, 4.0}, {1.0, 7.0}};  // parallel, exactly 5 away
+  EXPECT_TRUE(verified(scene, path, 5.0).verified);
+  EXPECT_FALSE(verified(scene, path, std::nextafter(5.0, 6.0)).verified);
+  EXPECT_EQ(verified(scene, path, 5.0).min_clearance, 5.0);
+  const Scene flat = scene_of(with_far_box({{{0.0, 0.1}, {1.0, 0.1}}, {{0.0, -5.0}, {1.0, -5.0}}}, -20.0, 20.0));
+  EXPECT_TRUE(verified(flat, {{0.0, -4.5}, {1.0, -4.5}}, 0.5).verified);
+  // 0.3 - 0.1 is below 0.2 in the exact numbers that these doubles are, and above it after rounding
+  EXPECT_FALSE(verified(flat, {{0.0, 0.3}, {1.0, 0.3}}, 0.2).verified);
+}
+
+TEST(Verify, AMutatedPathIsRefuted) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    std::vector<Segment> walls;  // corridors: a snake path is free until one corner is moved through a wall
+    for (int i = 0; i < 60; ++i) {
+      const double low = i % 2 == 0 ? 0.5 : 1.5;
+      walls.push_back({{i + 0.5, low}, {i + 0.5, low + 9.0}});
+    }
+    walls = with_far_box(walls, -2.0, 70.0);
+    std::vector<Vec2> path;
+    for (int i = 0; i < 60; ++i) {
+      const double turn = i % 2 == 0 ? 10.0 : 0.75;
+      path.push_back({static_cast<double>(i), path.empty() ? 1.0 : path.back().y});
+      path.push_back({static_cast<double>(i), turn});
+    }
+    ASSERT_TRUE(verified(scene_of(walls), path, 0.2).verified);
+    const auto moved = 2 + 2 * static_cast<std::size_t>(uniform(seed, 1, 0) * 57.0);
+    path[moved + 1].y = 5.0;
+    const Verification v = verified(scene_of(walls), path, 0.2);
+    ASSERT_FALSE(v.verified);
+    EXPECT_EQ(v.first_violation->leg, moved + 1);
+    EXPECT_EQ(v.first_violation->distance, 0.0);
+  }
+}
+
+TEST(Verify, TranslationAndScaleDoNotMatter) {
+  for (const double shift : {0.0, 1048576.0, -33554432.0}) {
+    for (const double scale : {1.0, 1.0 / 1024.0, 1024.0}) {
+      SCOPED_TRACE(testing::Message() << shift << " " << scale);
+      const auto at = [&](double x, double y) { return Vec2{shift + scale * x, shift + scale * y}; };
+      std::vector<Segment> walls;
+      for (int i = 0; i < 200; ++i) walls.push_back({at(i, 0.0), at(i, 1.0)});
+      walls.push_back({at(0.0, -5.0), at(200.0, 6.0)});
+      const Scene scene = scene_of(walls);
+      std::vector<Vec2> path;
+      for (int i = 0; i < 200; ++i) path.push_back(at(i, 1.5));
+      EXPECT_FALSE(verified(scene, path, scale * 0.5).verified);  // the long wall is in the way
+      path.resize(100);
+      EXPECT_TRUE(verified(scene, path, scale * 0.5).verified);
+      EXPECT_FALSE(verified(scene, path, scale * 0.501).verified);
+      EXPECT_EQ(verified(scene, path, scale * 0.5).min_clearance, scale * 0.5);
+      path[50] = at(50.0, 0.5);
+      EXPECT_EQ(verified(scene, path, scale * 0.25).first_violation->leg, 49U);
+    }
+  }
+}
+
+TEST(Verify, HugeWallsAndTinyLegsMeet) {
+  const Scene scene = scene_of({{{-1e15, -1e15}, {1e15, 1e15}}, {{-1e15, 0.0}, {-1e15, 1e15}}, {{0, 0}, {0, -1.0}}});
+  EXPECT_FALSE(verified(scene, {{0.001, 0.002}, {0.002, 0.001}}, 0.0).verified);
+  EXPECT_TRUE(verified(scene, {{0.001, 0.002}, {0.0015, 0.0016}}, 0.0).verified);
+  EXPECT_TRUE(verified(scene, {{0.001, 0.002}, {0.0015, 0.0016}}, 1e-5).verified);
+  EXPECT_FALSE(verified(scene, {{0.001, 0.002}, {0.0015, 0.0016}}, 1e-3).verified);
+}
+
+TEST(Verify, ThePathStaysInTheBox) {
+  const Scene scene = scene_of({{{0.0, 0.0}, {1.0, 0.0}}, {{10.0, 10.0}, {9.0, 10.0}}});
+  EXPECT_TRUE(verified(scene, {{0.0, 1.0}, {10.0, 5.0}}, 0.5).verified);  // on its border
+  const Verification v = verified(scene, {{2.0, 1.0}, {10.0, 5.0}, {10.5, 5.0}, {10.0, 5.0}}, 0.5);
+  ASSERT_FALSE(v.verified);
+  EXPECT_EQ(v.first_violation->leg, 1U);
+  EXPECT_EQ(v.first_violation->obstacle, "box: 0 0 10 10");
+}
+
+TEST(Verify, BoundsAreWalls) {
+  Scene scene = scene_of({{{5.0, 5.0}, {6.0, 5.0}}});
+  scene.bounds = Box{{0.0, 0.0}, {10.0, 10.0}};
+  EXPECT_TRUE(verified(scene, {{1.0, 1.0}, {9.0, 1.0}}, 1.0).verified);
+  const Verification v = verified(scene, {{1.0, 2.0}, {9.0, 0.5}}, 1.0);
+  ASSERT_FALSE(v.verified);
+  EXPECT_EQ(v.first_violation->obstacle.rfind("bounds", 0), 0U);
+  EXPECT_EQ(v.first_violation->distance, 0.5);
+  EXPECT_FALSE(verified(scene, {{0.0, 1.0}, {9.0, 1.0}}, 0.0).verified);
+  EXPECT_TRUE(verified(scene, {{0.0, 1.0}, {0.0, 9.0}, {5.0, 5.0}}, 0.0, Contact::allowed).verified);
+  EXPECT_FALSE(verified(scene, {{0.0, 1.0}, {-1.0, 9.0}}, 0.0, Contact::allowed).verified);
+}
+
+TEST(Verify, PolygonsAreSolid) {
+  for (const bool reversed : {false, true}) {
+    Scene scene = scene_of(with_far_box({}, -10.0, 20.0));
+    std::vector<Vec2> l_shape{{0.0, 0.0}, {4.0, 0.0}, {4.0, 1.0}, {1.0, 1.0}, {1.0, 4.0}, {0.0, 4.0}};
+    if (reversed) std::reverse(l_shape.begin(), l_shape.end());
+    scene.polygons.push_back({l_shape, 0});
+    EXPECT_FALSE(verified(scene, {{0.5, 0.5}, {0.6, 0.5}}, 0.1).verified);  // inside, and far from the sides
+    EXPECT_FALSE(verified(scene, std::vector<Vec2>{{0.5, 0.5}}, 0.0, Contact::allowed).verified);
+    EXPECT_TRUE(verified(scene, {{2.0, 2.0}, {3.0, 2.0}}, 1.0).verified);
+    EXPECT_FALSE(verified(scene, {{2.0, 2.0}, {3.0, 1.75}}, 1.0).verified);
+    struct Case {
+      std::vector<Vec2> path;
+      bool blocked, allowed;
+    };
+    const Case cases[] = {
+        {{{1.0, 4.0}, {1.0, 1.0}, {4.0, 1.0}}, false, true},              // slides along the notch
+        {{{1.0, 5.0}, {1.0, 1.0}, {5.0, 1.0}}, false, true},              // from outside and out again
+        {{{0.0, 0.0}, {1.0, 1.0}}, false, false},                         // corner to corner through the inside
+        {{{1.0, 4.0}, {4.0, 1.0}}, false, true},                          // over the notch
+        {{{0.0, 4.0}, {4.0, 0.0}}, false, false},                         // through both arms
+        {{{-1.0, 1.0}, {1.0, -1.0}}, false, true},                        // touches the corner
+        {{{0.0, -1.0}, {0.0, 5.0}}, false, true},                         // along a side and on
+        {{{0.0, 2.0}, {1.0, 2.0}}, false, false},                         // from side to side
+        {{{0.0, 2.0}, {-1.0, 2.0}}, false, true},                         // off a side
+        {{{0.0, 0.0}, {4.0, 0.0}, {4.0, 1.0}, {1.0, 1.0}}, false, true},  // all along
+        {{{1.0, 4.0}, {1.0, 0.5}}, false, false},                         // along a side, then inside
+        {{{-1.0, -1.0}, {5.0, -1.0}}, true, true},
+    };
+    for (const Case& c : cases) {
+      SCOPED_TRACE(testing::Message() << c.path[0].x << " " << c.path[0].y << " reversed " << reversed);
+      EXPECT_EQ(verified(scene, c.path, 0.0).verified, c.blocked);
+      EXPECT_EQ(verified(scene, c.path, 0.0, Contact::allowed).verified, c.allowed);
+    }
+  }
+}
+
+TEST(Verify, ContactWithWallsFollowsTheRules) {
+  struct Case {
+    const char* claim;
+    std::vector<Segment> walls;
+    std::vector<Vec2> path;
+    bool allowed;
+  };
+  const Segment floor{{0.0, 0.0}, {4.0, 0.0}};
+  const Case cases[] = {
+      {"running along a wall", {floor}, {{-1.0, 0.0}, {5.0, 0.0}}, true},
+      {"landing on a wall and leaving on the same side", {floor}, {{1.0, 1.0}, {2.0, 0.0}, {3.0, 1.0}}, true},
+      {"landing on a wall and leaving on the other side", {floor}, {{1.0, 1.0}, {2.0, 0.0}, {3.0, -1.0}}, false},
+      {"crossing a wall", {floor}, {{2.0, 1.0}, {2.0, -1.0}}, false},
+      {"running, then leaving on the side it came from",
+       {floor},
+       {{1.0, 1.0}, {2.0, 0.0}, {3.0, 0.0}, {3.5, 1.0}},
+       true},
+      {"running, then leaving on the other side", {floor}, {{1.0, 1.0}, {2.0, 0.0}, {3.0, 0.0}, {3.5, -1.0}}, false},
+      {"around the end of a wall", {floor}, {{3.0, 1.0}, {4.0, 0.0}, {3.0, -1.0}}, true},
+      {"running to the end and back on the other side",
+       {floor},
+       {{3.0, 1.0}, {3.0, 0.0}, {4.0, 0.0}, {2.0, -1.0}},
+       true},
+      {"over the end of a wall", {floor}, {{4.0, 1.0}, {4.0, -1.0}}, true},
+      {"through the corner of two walls", {floor, {{4.0, 0.0}, {4.0, 3.0}}}, {{3.0, 1.0}, {5.0, -1.0}}, false},
+      {"past the corner of two walls outside", {floor, {{4.0, 0.0}, {4.0, 3.0}}}, {{3.0, -1.0}, {5.0, 1.0}}, true},
+      {"into the corner and back", {floor, {{4.0, 0.0}, {4.0, 3.0}}}, {{3.0, 1.0}, {4.0, 0.0}, {3.0, 2.0}}, true},
+      {"between two walls that meet end to end", {floor, {{4.0, 0.0}, {8.0, 0.0}}}, {{4.0, 1.0}, {4.0, -1.0}}, false},
+      {"changing sides where two walls meet end to end",
+       {floor, {{4.0, 0.0}, {8.0, 0.0}}},
+       {{3.0, 1.0}, {3.0, 0.0}, {5.0, 0.0}, {5.0, -1.0}},
+       false},
+      {"changing sides in the gap between two walls",
+       {floor, {{4.5, 0.0}, {8.0, 0.0}}},
+       {{3.0, 1.0}, {3.0, 0.0}, {5.0, 0.0}, {5.0, -1.0}},
+       true},
+      {"running past a wall that ends here, on its side",
+       {floor, {{2.0, 0.0}, {2.0, 2.0}}},
+       {{1.0, 1.0}, {1.0, 0.0}, {3.0, 0.0}},
+       false},
+      {"running past a wall that ends here, on the other side",
+       {floor, {{2.0, 0.0}, {2.0, 2.0}}},
+       {{1.0, -1.0}, {1.0, 0.0}, {3.0, 0.0}},
+       true},
+      {"running between walls on both sides",
+       {floor, {{1.0, 0.0}, {1.0, 2.0}}, {{2.0, 0.0}, {2.0, -2.0}}},
+       {{0.0, 0.0}, {4.0, 0.0}},
+       false},
+      {"a wall of length zero stops nobody", {{{2.0, 2.0}, {2.0, 2.0}}}, {{1.0, 2.0}, {3.0, 2.0}}, true},
+      {"a point on a wall doesn't open it", {floor, {{2.0, 0.0}, {2.0, 0.0}}}, {{2.0, 1.0}, {2.0, -1.0}}, false},
+      {"starting on a wall, either side", {floor}, {{2.0, 0.0}, {2.0, -1.0}}, true},
+      {"starting on a wall and coming back through it", {floor}, {{2.0, 0.0}, {2.0, -1.0}, {3.0, 1.0}}, false},
+      {"overlapping walls count once",
+       {floor, {{2.0, 0.0}, {6.0, 0.0}}},
+       {{3.0, 1.0}, {3.0, 0.0}, {5.0, 0.0}, {5.0, 1.0}},
+       true},
+      {"overlapping walls close their ends", {floor, {{2.0, 0.0}, {6.0, 0.0}}}, {{4.0, 1.0}, {4.0, -1.0}}, false},
+      {"through a crossing", {floor, {{1.0, 1.0}, {3.0, -1.0}}}, {{1.0, -1.0}, {3.0, 1.0}}, false},
+      {"turning back at a wall", {floor}, {{2.0, 1.0}, {2.0, 0.0}, {2.0, 1.0}}, true},
+      {"standing still on a wall", {floor}, {{2.0, 1.0}, {2.0, 0.0}, {2.0, 0.0}, {2.0, -1.0}}, false},
+      {"a single point on a wall", {floor}, {{2.0, 0.0}}, true},
+  };
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.claim);
+    for (const bool box : {true, false}) {
+      std::vector<Segment> walls = with_far_box(c.walls, box ? -20.0 : -30.0, 30.0);
+      std::vector<Vec2> path = c.path;
+      EXPECT_EQ(verified(scene_of(walls), path, 0.0, Contact::allowed).verified, c.allowed);
+      EXPECT_FALSE(verified(scene_of(walls), path, 0.0).verified);  // every case touches something
+      std::reverse(path.begin(), path.end());
+      EXPECT_EQ(verified(scene_of(walls), path, 0.0, Contact::allowed).verified, c.allowed) << "backwards";
+      for (Vec2& p : path) p = {1e6 - p.y, p.x};
+      for (Segment& s : walls) s = {{1e6 - s.b.y, s.b.x}, {1e6 - s.a.y, s.a.x}};
+      EXPECT_EQ(verified(scene_of(walls), path, 0.0, Contact::allowed).verified, c.allowed) << "turned";
+    }
+  }
+}
+
+TEST(Verify, TheBoxCannotBeSlippedAround) {
+  std::vector<Segment> walls = with_far_box({{{2.0, 0.0}, {2.0, 3.0}}}, 0.0, 5.0);
+  const std::vector<Vec2> past{{1.0, 1.0}, {1.0, 0.0}, {3.0, 0.0}, {3.0, 1.0}};  // under the wall, on the outline
+  EXPECT_FALSE(verified(scene_of(walls), past, 0.0, Contact::allowed).verified);
+  EXPECT_TRUE(
+      verified(scene_of(walls), {{1.0, 1.0}, {1.0, 0.0}, {2.0, 0.0}, {2.0, 3.0}, {3.0, 1.0}}, 0.0, Contact::allowed)
+          .verified);
+}
+
+// ---- contact allowed, decided by an oracle: can the path be moved off its obstacles by a thousandth?
+// -----------------
+
+constexpr int ring_size = 120;
+Vec2 ring_point(Vec2 at, int i) {
+  const double angle = (i + 0.123456) * 2.0 * std::numbers::pi / ring_size;
+  return {at.x + 1e-3 * std::cos(angle), at.y + 1e-3 * std::sin(angle)};
+}
+bool crosses_any(const std::vector<Segment>& walls, Vec2 p, Vec2 q) {
+  const auto side = [](Vec2 a, Vec2 b, Vec2 c) { return cross(b - a, c - a) > 0.0; };
+  return std::any_of(walls.begin(), walls.end(), [&](const Segment& w) {
+    return side(w.a, w.b, p) != side(w.a, w.b, q) && side(p, q, w.a) != side(p, q, w.b);
+  });
+}
+using Ring = std::vector<char>;
+void spread(Ring& ring, Vec2 at, const std::vector<Segment>& walls) {
+  for (int pass = 0; pass < 2 * ring_size; ++pass) {
+    for (const int step : {1, ring_size - 1}) {
+      const int i = step == 1 ? pass % ring_size : ring_size - 1 - pass % ring_size;
+      const int j = (i + step) % ring_size;
+      if (ring[i] != 0 && ring[j] == 0 && !crosses_any(walls, ring_point(at, i), ring_point(at, j))) ring[j] = 1;
+    }
+  }
+}
+/// Rings of points around every contact point: can one get from ring to ring, and around each, without crossing a wall?
+bool can_be_moved_off(const std::vector<Segment>& walls, const std::vector<Vec2>& path,
+                      const std::vector<Vec2>& triangle) {
+  std::vector<Vec2> stops{path.front()};
+  for (std::size_t leg = 0; leg + 1 < path.size(); ++leg) {
+    const Segment s{path[leg], path[leg + 1]};
+    std::vector<Vec2> here{s.b};
+    for (const Segment& w : walls) {
+      for (const Vec2 p : {w.a, w.b}) {
+        if (on(s, p)) here.push_back(p);
+      }
+    }
+    std::sort(here.begin(), here.end(), [&](Vec2 p, Vec2 q) { return norm(p - s.a) < norm(q - s.a); });
+    stops.insert(stops.end(), here.begin(), here.end());
+  }
+  Ring ring(ring_size, 1);
+  for (int i = 0; i < ring_size && !triangle.empty(); ++i) {
+    const Vec2 p = ring_point(stops[0], i);
+    int left = 0;
+    for (int k = 0; k < 3; ++k) left += cross(triangle[(k + 1) % 3] - triangle[k], p - triangle[k]) > 0.0 ? 1 : 0;
+    if (left == 3) ring[i] = 0;
+  }
+  for (std::size_t stop = 0; stop + 1 < stops.size(); ++stop) {
+    spread(ring, stops[stop], walls);
+    Ring next(ring_size, 0);
+    for (int i = 0; i < ring_size; ++i) {
+      for (int j = 0; j < ring_size && ring[i] != 0; ++j) {
+        if (next[j] == 0 && !crosses_any(walls, ring_point(stops[stop], i), ring_point(stops[stop + 1], j)))
+          next[j] = 1;
+      }
+    }
+    ring = next;
+  }
+  return std::count(ring.begin(), ring.end(), 0) < ring_size;
+}
+
+TEST(Verify, ContactAllowedMeansThatThePathCanBeMovedOffTheWalls) {
+  int allowed = 0;
+  int refused_touching = 0;
+  for (std::uint64_t seed = 0; seed < 600; ++seed) {
+    SCOPED_TRACE(seed);
+    std::vector<Segment> walls;
+    for (std::uint64_t i = 0; i < 2 + seed % 3; ++i)
+      walls.push_back({random_point(seed, 2 * i, 4.0), random_point(seed, 2 * i + 1, 4.0)});
+    std::vector<Vec2> path;
+    for (std::uint64_t i = 0; i < 3 + seed % 2; ++i) path.push_back(random_point(seed + 5000, i, 4.0));
+    Scene scene = scene_of(with_far_box(walls, -9.0, 9.0));
+    std::vector<Vec2> triangle;
+    if (seed % 4 == 0) {
+      for (std::uint64_t i = 0; i < 3; ++i) triangle.push_back(random_point(seed + 9000, i, 4.0));
+      if (cross_int(triangle[0], triangle[1], triangle[2]) == 0) continue;
+      scene.polygons.push_back({triangle, 0});
+      if (cross_int(triangle[0], triangle[1], triangle[2]) < 0) std::swap(triangle[1], triangle[2]);
+      for (std::size_t i = 0; i < 3; ++i) walls.push_back({triangle[i], triangle[(i + 1) % 3]});
+    }
+    const Verification v = verified(scene, path, 0.0, Contact::allowed);
+    EXPECT_EQ(v.verified, can_be_moved_off(walls, path, triangle));
+    if (v.min_clearance > 0.0) continue;
+    allowed += v.verified ? 1 : 0;
+    refused_touching += v.verified ? 0 : 1;
+  }
+  EXPECT_GT(allowed, 50);
+  EXPECT_GT(refused_touching, 50);
+}
+
+// ---- the rest
+// --------------------------------------------------------------------------------------------------------
+
+TEST(Verify, ThreadsDoNotChangeTheResult) {
+  std::vector<Segment> walls;
+  for (int i = 0; i < 400000; ++i) {
+    const Vec2 at = random_point(3, static_cast<std::uint64_t>(i), 3000.0);
+    walls.push_back({at, at + (i % 2 == 0 ? Vec2{1.0, 0.0} : Vec2{0.0, 1.0})});
+  }
+  walls = with_far_box(walls, -10.0, 3010.0);
+  const Scene scene = scene_of(walls);
+  const std::vector<Vec2> path = random_path(8, 2000, 3000.0, 9.0);
+  for (const double r : {0.0, 0.25}) {
+    for (const Contact contact : {Contact::blocked, Contact::allowed}) {
+      VerifyOptions options;
+      options.clearance = r;
+      options.contact = contact;
+      Execution execution;
+      execution.threads = 1;
+      const Verification one = verify_path(scene, path, options, execution);
+      ASSERT_TRUE(one.first_violation);
+      for (const unsigned threads : {2U, 3U, 8U}) {
+        execution.threads = threads;
+        const Verification many = verify_path(scene, path, options, execution);
+        EXPECT_EQ(many.min_clearance, one.min_clearance);
+        EXPECT_EQ(many.first_violation->leg, one.first_violation->leg);
+        EXPECT_EQ(many.first_violation->obstacle, one.first_violation->obstacle);
+      }
+    }
+  }
+}
+
+TEST(Verify, ManyWallsAreComparedAsByBruteForce) {  // enough of them for the sample that sets the reach
+  std::vector<Segment> walls;
+  for (int i = 0; i < 300000; ++i) {
+    const Vec2 at = random_point(4, static_cast<std::uint64_t>(i), 6000.0);
+    walls.push_back({at, at + (i % 2 == 0 ? Vec2{4.0, 0.0} : Vec2{0.0, 4.0})});
+  }
+  walls = with_far_box(walls, -100.0, 6100.0);
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    SCOPED_TRACE(seed);
+    const std::vector<Vec2> path = random_path(seed, 3, 6000.0, 9.0);
+    expect_same(verified(scene_of(walls), path, 2.0), by_brute_force(walls, path, 2), walls);
+  }
+}
+
+TEST(Verify, StartAndGoalAreChecked) {
+  const Scene scene = scene_of(with_far_box({}, -10.0, 10.0));
+  const std::vector<Vec2> path{{0.0, 0.0}, {3.0, 4.0}};
+  VerifyOptions options;
+  options.start = Vec2{0.0, 0.0};
+  options.goal = Vec2{3.0, 4.0};
+  const Verification good = verify_path(scene, path, options, {});
+  EXPECT_TRUE(good.verified);
+  EXPECT_EQ(good.length, 5.0);
+  options.goal = Vec2{3.0, 4.5};
+  EXPECT_EQ(verify_path(scene, path, options, {}).first_violation->obstacle, "goal: 3 4.5");
+  options.start_tolerance = 0.5;
+  EXPECT_TRUE(verify_path(scene, path, options, {}).verified);
+  options.start = Vec2{1.0, 0.0};
+  EXPECT_EQ(verify_path(scene, path, options, {}).first_violation->obstacle, "start: 1 0");
+}
+
+TEST(Verify, RefusesBadInput) {
+  const Scene scene = scene_of(with_far_box({}, -10.0, 10.0));
+  EXPECT_THROW(verified(scene, {}, 0.1), InputError);
+  EXPECT_THROW(verified(scene, {{0.0, std::nan("")}}, 0.1), InputError);
+  EXPECT_THROW(verified(scene, {{0.0, 0.0}, {1e300, 0.0}}, 0.1), InputError);
+  EXPECT_THROW(verified(scene, {{0.0, 0.0}}, -0.1), InputError);
+  EXPECT_THROW(verified(scene, {{0.0, 0.0}}, std::nan("")), InputError);
+}
+
+TEST(Verify, StopsAtTheDeadline) {
+  const Deadline over(0.0);
+  Execution execution;
+  execution.deadline = &over;
+  const std::vector<Vec2> path{{0.0, 0.0}, {1.0, 0.0}};
+  EXPECT_THROW(verify_path(scene_of(with_far_box({}, -10.0, 10.0)), path, {}, execution), Stopped);
+}
+
+TEST(Verify, AWorldWithoutObstaclesConfinesNothing) {
+  const Verification v = verified({}, {{0.0, 0.0}, {1.0, 0.0}}, 0.1);
+  EXPECT_TRUE(v.verified);
+  EXPECT_TRUE(std::isinf(v.min_clearance));
+}
+
+}  // namespace
+}  // namespace warren

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The verification's own geometry: it shares nothing with core/geometry, so that a mistake there can't confirm itself.
+// A double evaluation with an error bound answers first; what it leaves open is decided by Dyadic numbers. Exact for
+// coordinates within core/types.hpp's limits.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/types.hpp"
+
+namespace warren::exact {
+
+/// +1 when c lies left of the line a -> b, -1 right of it, 0 on it.
+int side_of(Vec2 a, Vec2 b, Vec2 c) noexcept;
+
+/// Does p lie on the closed segment?
+bool contains(const Segment& s, Vec2 p) noexcept;
+
+/// Do the closed segments share a point?
+bool touch(const Segment& s, const Segment& t) noexcept;
+
+/// Do they cross in one point that is no end of either?
+bool cross_inside(const Segment& s, const Segment& t) noexcept;
+
+/// Is some point of s nearer than r (> 0) to some point of t?
+bool closer_than(const Segment& s, const Segment& t, double r) noexcept;
+
+/// Distance of the closed segments, 0 where they touch; error below 1e-14 of the coordinate differences.
+double distance(const Segment& s, const Segment& t) noexcept;
+
+/// Square of the distance of two boxes.
+inline double gap_sq(const Box& a, const Box& b) noexcept {
+  const double dx = std::max({0.0, a.min.x - b.max.x, b.min.x - a.max.x});
+  const double dy = std::max({0.0, a.min.y - b.max.y, b.min.y - a.max.y});
+  return dx * dx + dy * dy;
+}
+
+}  // namespace warren::exact

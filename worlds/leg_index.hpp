@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which legs of a path are near this wall? Made for one path and a stream of very many walls, most of them far away.
+//
+// A grid over the path's box (cells about as large as a leg): one bit a cell says whether a leg passes, a rank over the
+// bits leads to runs of consecutive legs. A pyramid of coarser copies, widened by the reach, answers "nothing near"
+// with one lookup for a wall of any length: the level is chosen so that half the wall fits a cell, and where the bit is
+// set the wall is halved and asked again one level below. Long runs are searched by boxes over 8, 64, 512, ... legs.
+//
+// Memory: at most 128 bits a leg four times over, 12 to 80 bytes a leg for the runs, 4 for the boxes (a path of few
+// legs among many walls: 2^18 bits). A leg costs about its length in cells; the cell is chosen so that this is some 5 a
+// leg on average (65536 in all for a path of few legs). A wall costs one lookup, plus the legs that are near.
+// Conservative throughout: walls nearer than the reach always find their legs (cell numbers are exact to 2^-20 cells,
+// and every test is wider than that).
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/raw_vector.hpp"
+#include "core/types.hpp"
+#include "parallel/execution.hpp"
+#include "worlds/exact_segments.hpp"
+
+namespace warren {
+
+/// Refers to the path, which must outlive it. After set_reach any number of threads may ask.
+class LegIndex {
+ public:
+  /// What is to come; it only decides on the cells.
+  struct Plan {
+    double clearance = 0.0;     ///< the least reach that will be set
+    std::size_t walls = 0;      ///< how many will be asked for
+    double typical_wall = 0.0;  ///< half their extent, 0 if not known
+  };
+
+  /// path: at least two points.
+  LegIndex(std::span<const Vec2> path, const Plan& plan, const Execution& execution);
+
+  double cell() const { return cell_; }
+  std::size_t leg_count() const { return path_.size() - 1; }
+  Segment leg(std::size_t i) const { return {path_[i], path_[i + 1]}; }
+
+  /// for_each_near will find every leg nearer than this to a wall. At most 4 cells.
+  void set_reach(double reach, const Execution& execution);
+
+  /// Calls visit(first, last) for runs of legs: every leg nearer than the reach to the wall is in one of them; so are
+  /// others, and some come again and again.
+  template <class Visit>
+  void for_each_near(const Segment& wall, const Visit& visit) const {
+    const Point a = cells_of(wall.a);
+    const Point b = cells_of(wall.b);
+    const double half = 0.5 * std::max(std::abs(b.u - a.u), std::abs(b.v - a.v));
+    if (half <= 1.0) {
+      if (passes(0, middle(a, b))) visit_cells(a, b, visit);
+    } else {
+      visit_long(a, b, visit);
+    }
+  }
+
+  /// Calls visit(leg) for legs first .. last, leaving out blocks of them where skip(box of the block) is true.
+  template <class Skip, class Visit>
+  void for_each_in(std::size_t first, std::size_t last, const Skip& skip, const Visit& visit) const;
+
+ private:
+  /// A place in cells, from the grid's lower corner.
+  struct Point {
+    double u, v;
+  };
+  struct Run {
+    std::uint32_t first, last;
+  };
+  /// Bits of one level, row by row.
+  struct Level {
+    std::size_t columns = 0, rows = 0, words = 0;  ///< words: a row's
+    RawVector<std::uint64_t> bits;
+  };
+
+  static constexpr std::size_t margin = 7;  ///< empty cells around the path's box: walls outside fall on these
+  static constexpr double slack = 1e-6;     ///< cells; far above the rounding of cell numbers
+  static constexpr double far_away = 1e9;   ///< cells; beyond this their numbers are no longer good to the slack
+
+  static Point middle(Point a, Point b) { return {0.5 * (a.u + b.u), 0.5 * (a.v + b.v)}; }
+  Point cells_of(Vec2 p) const { return {(p.x - origin_.x) * per_cell_, (p.y - origin_.y) * per_cell_}; }
+  static std::size_t clamped(double u, std::size_t count) {
+    return static_cast<std::size_t>(std::min(std::max(u, 0.0), static_cast<double>(count - 1)));
+  }
+  bool passes(std::size_t level, Point p) const {
+    const Level& near = near_[level];
+    const double scale = scale_[level];
+    const std::size_t column = clamped(p.u * scale, near.columns);
+    const std::size_t row = clamped(p.v * scale, near.rows);
+    return ((near.bits[row * near.words + column / 64] >> (column % 64)) & 1U) != 0;
+  }
+
+  void choose_cell(const Plan& plan);
+  static Level empty_level(std::size_t columns, std::size_t rows, const Execution& execution);
+  template <class Visit>
+  void for_each_cell_of_leg(std::size_t leg, const Visit& visit) const;
+  std::uint32_t slot_of(std::size_t word, int bit) const {
+    const std::uint64_t below = levels_[0].bits[word] & ((std::uint64_t{1} << bit) - 1);
+    return rank_[word] + static_cast<std::uint32_t>(std::popcount(below));
+  }
+  void mark_cells(const Execution& execution);
+  void gather_runs(const Execution& execution);
+  void gather_boxes(const Execution& execution);
+  static Level halved(const Level& fine, const Execution& execution);
+  static Level widened(const Level& level, std::size_t cells, const Execution& execution);
+  bool clip(Point& a, Point& b) const;
+
+  template <class Visit>
+  void visit_cells(Point a, Point b, const Visit& visit) const;
+  template <class Visit>
+  void visit_long(Point a, Point b, const Visit& visit) const;
+  template <class Visit>
+  void visit_halves(std::size_t level, Point a, Point b, const Visit& visit) const;
+  template <class Skip, class Visit>
+  void visit_block(std::size_t level, std::size_t block, std::size_t first, std::size_t last, const Skip& skip,
+                   const Visit& visit) const;
+
+  std::span<const Vec2> path_;
+  Box box_;
+  double cell_ = 1.0;
+  double per_cell_ = 1.0;
+  double reach_cells_ = 0.0;
+  Vec2 origin_;
+  std::vector<Level> levels_;           ///< which cells a leg passes; levels_[k] has cells of 2^k
+  std::vector<Level> near_;             ///< the same, widened by the reach and half a wall
+  std::vector<double> scale_;           ///< 2^-k
+  RawVector<std::uint32_t> rank_;       ///< a word of levels_[0]: marked cells before it
+  RawVector<std::uint32_t> first_run_;  ///< a marked cell: its runs begin here; one more at the end
+  RawVector<Run> runs_;
+  std::vector<std::vector<Box>> boxes_;  ///< boxes_[k][i]: of legs i * 8^(k+1) and the 8^(k+1) - 1 after it
+};
+
+template <class Visit>
+void LegIndex::visit_cells(Point a, Point b, const Visit& visit) const {
+  const Level& cells = levels_[0];
+  const double grow = reach_cells_ + slack;
+  const std::size_t column_first = clamped(std::min(a.u, b.u) - grow, cells.columns);
+  const std::size_t column_last = clamped(std::max(a.u, b.u) + grow, cells.columns);
+  const std::size_t row_first = clamped(std::min(a.v, b.v) - grow, cells.rows);
+  const std::size_t row_last = clamped(std::max(a.v, b.v) + grow, cells.rows);
+  const std::size_t word_first = column_first / 64;
+  const std::size_t word_last = column_last / 64;
+  for (std::size_t row = row_first; row <= row_last; ++row) {
+    for (std::size_t w = word_first; w <= word_last; ++w) {
+      const std::size_t word = row * cells.words + w;
+      std::uint64_t mask = cells.bits[word];
+      if (w == word_first) mask &= ~std::uint64_t{0} << (column_first % 64);
+      if (w == word_last) mask &= ~std::uint64_t{0} >> (63 - column_last % 64);
+      if (mask == 0) continue;
+      // Marked cells of one word have neighbouring runs, so a stretch of them is one range.
+      const std::uint32_t run_first = first_run_[slot_of(word, std::countr_zero(mask))];
+      const std::uint32_t run_end = first_run_[slot_of(word, 63 - std::countl_zero(mask)) + 1];
+      for (std::uint32_t r = run_first; r < run_end; ++r) visit(runs_[r].first, runs_[r].last);
+    }
+  }
+}
+
+template <class Visit>
+void LegIndex::visit_long(Point a, Point b, const Visit& visit) const {
+  const double largest = std::max({std::abs(a.u), std::abs(a.v), std::abs(b.u), std::abs(b.v)});
+  if (!(largest < far_away)) return visit(std::uint32_t{0}, static_cast<std::uint32_t>(leg_count() - 1));
+  if (!clip(a, b)) return;
+  const double half = 0.5 * std::max(std::abs(b.u - a.u), std::abs(b.v - a.v));
+  std::size_t level = 0;
+  while (level + 1 < near_.size() && half * scale_[level] > 1.0) ++level;
+  visit_halves(level, a, b, visit);
+}
+
+template <class Visit>
+void LegIndex::visit_halves(std::size_t level, Point a, Point b, const Visit& visit) const {
+  const Point m = middle(a, b);
+  if (!passes(level, m)) return;
+  if (level == 0) return visit_cells(a, b, visit);
+  visit_halves(level - 1, a, m, visit);
+  visit_halves(level - 1, m, b, visit);
+}
+
+template <class Skip, class Visit>
+void LegIndex::for_each_in(std::size_t first, std::size_t last, const Skip& skip, const Visit& visit) const {
+  if (last - first < 16) {
+    for (std::size_t i = first; i <= last; ++i) visit(i);
+    return;
+  }
+  const std::size_t top = boxes_.size() - 1;
+  const std::size_t shift = 3 * (top + 1);
+  for (std::size_t block = first >> shift; block <= last >> shift; ++block) {
+    visit_block(top, block, first, last, skip, visit);
+  }
+}
+
+template <class Skip, class Visit>
+void LegIndex::visit_block(std::size_t level, std::size_t block, std::size_t first, std::size_t last, const Skip& skip,
+                           const Visit& visit) const {
+  if (skip(boxes_[level][block])) return;
+  const std::size_t shift = 3 * level;  // of this block's eight parts
+  const std::size_t from = std::max(first >> shift, 8 * block);
+  const std::size_t to = std::min(last >> shift, 8 * block + 7);
+  for (std::size_t part = from; part <= to; ++part) {
+    if (level == 0) {
+      visit(part);
+    } else {
+      visit_block(level - 1, part, first, last, skip, visit);
+    }
+  }
+}
+
+}  // namespace warren
