@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/counters.hpp"
+#include "core/stop_reason.hpp"
 
 namespace warren {
 
@@ -39,6 +40,7 @@ struct Separation {
 template <class State>
 struct Solution {
   Outcome outcome = Outcome::not_connected;
+  StopReason stop_reason = StopReason::time;  ///< only for stopped
   std::vector<State> path;  ///< start to goal; empty unless solved
   RoadmapSize roadmap;
   Separation separation;  ///< only for not_connected

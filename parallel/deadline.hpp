@@ -10,9 +10,9 @@
 #include <limits>
 #include <optional>
 
-namespace warren {
+#include "core/stop_reason.hpp"
 
-enum class StopReason : std::uint8_t { time, memory, interrupt, terminate };
+namespace warren {
 
 /// Thrown where a budget ended or a signal came. Not an error: carries no text.
 struct Stopped {

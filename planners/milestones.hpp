@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Draws the milestones of a roadmap: samples are pure functions of (seed, index), the free ones are kept and numbered
+// tile by tile, which is worth 3 to 6 times in neighbour queries and 5 to 8 in search. Lattice samples are enumerated
+// in tile order at once; others are sorted. O(samples); 16 bytes a sample and 8 while sorting (plane).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/raw_vector.hpp"
+#include "core/types.hpp"
+#include "core/world.hpp"
+#include "parallel/chunks.hpp"
+#include "planners/roadmap_options.hpp"
+#include "spatial/tile_order.hpp"
+
+namespace warren {
+
+/// The index-th point of the lattice (1..cols) x (1..rows), enumerated tile by tile: 64 x 64 points a tile, rows of
+/// tiles upwards, within a tile rows of points upwards.
+constexpr Vec2 lattice_point(LatticeSize size, std::uint64_t index) {
+  constexpr std::uint64_t side = 64;
+  const std::uint64_t band = index / (side * size.cols);  // full bands of tiles below
+  const std::uint64_t height = std::min<std::uint64_t>(side, size.rows - band * side);
+  const std::uint64_t in_band = index - band * side * size.cols;
+  const std::uint64_t tile = in_band / (side * height);
+  const std::uint64_t width = std::min<std::uint64_t>(side, size.cols - tile * side);
+  const std::uint64_t in_tile = in_band - tile * side * height;
+  return {static_cast<double>(tile * side + in_tile % width + 1), static_cast<double>(band * side + in_tile / width + 1)};
+}
+
+/// The index-th point of the Halton sequence in bases 2, 3, 5, 7, 11, 13, shifted by a random vector of the seed
+/// (Cranley-Patterson), so that seeds differ.
+template <std::size_t D>
+std::array<double, D> halton_point(std::uint64_t seed, std::uint64_t index) {
+  static_assert(D <= 6);
+  constexpr std::uint64_t bases[] = {2, 3, 5, 7, 11, 13};
+  std::array<double, D> point;
+  for (std::size_t axis = 0; axis < D; ++axis) {
+    double digit = 1.0;
+    double value = 0.0;
+    for (std::uint64_t i = index + 1; i > 0; i /= bases[axis]) {
+      digit /= static_cast<double>(bases[axis]);
+      value += digit * static_cast<double>(i % bases[axis]);
+    }
+    value += uniform(seed, 0, axis);
+    point[axis] = value < 1.0 ? value : value - 1.0;
+  }
+  return point;
+}
+
+/// The index-th sample.
+template <World W>
+typename W::State sample_state(const W& world, const RoadmapOptions& options, std::uint64_t index) {
+  if constexpr (std::same_as<typename W::State, Vec2>) {
+    if (options.sampler == SamplerKind::lattice) return lattice_point(options.lattice, index);
+  }
+  if (options.sampler == SamplerKind::halton) return world.at_unit(halton_point<W::dimension>(options.seed, index));
+  return uniform_state(world, options.seed, index);
+}
+
+namespace detail {
+
+/// Joins parts in their order.
+template <class T>
+RawVector<T> joined(const std::vector<RawVector<T>>& parts, const Execution& execution, std::size_t spare = 0) {
+  std::vector<std::size_t> first(parts.size() + 1, 0);
+  for (std::size_t i = 0; i < parts.size(); ++i) first[i + 1] = first[i] + parts[i].size();
+  execution.reserve((first.back() + spare) * sizeof(T));
+  RawVector<T> all;
+  all.reserve(first.back() + spare);
+  all.resize(first.back());
+  for_chunks(parts.size(), 1, execution, [&](Range r) {
+    std::copy(parts[r.first].begin(), parts[r.first].end(), all.begin() + static_cast<std::ptrdiff_t>(first[r.first]));
+  });
+  return all;
+}
+
+template <World W>
+RawVector<typename W::State> in_tile_order(const W& world, const RawVector<typename W::State>& states,
+                                           const Execution& execution) {
+  constexpr std::size_t grain = std::size_t{1} << 14;
+  execution.reserve(states.size() * (sizeof(Vec2) + 16 + sizeof(typename W::State)));
+  RawVector<Vec2> positions(states.size());
+  for_chunks(states.size(), grain, execution, [&](Range r) {
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      const auto point = world.embed(states[i]);
+      positions[i] = {point[0], point[1]};
+    }
+  });
+  const TileOrder order = tile_order(positions, execution);
+  RawVector<typename W::State> sorted;
+  sorted.reserve(states.size() + 2);  // start and goal will follow
+  sorted.resize(states.size());
+  for_chunks(states.size(), grain, execution, [&](Range r) {
+    for (std::size_t i = r.first; i < r.last; ++i) sorted[i] = states[order.sample_of[i]];
+  });
+  return sorted;
+}
+
+}  // namespace detail
+
+/// The free ones of samples 0 .. count - 1, in tile order.
+template <World W>
+RawVector<typename W::State> draw_milestones(const W& world, const RoadmapOptions& options, std::uint64_t count,
+                                             const Execution& execution) {
+  constexpr std::size_t grain = std::size_t{1} << 12;
+  execution.reserve(count * sizeof(typename W::State));
+  std::vector<RawVector<typename W::State>> parts(chunk_count(count, grain));
+  for_chunks(count, grain, execution, [&](Range r) {
+    auto query = world.make_query();
+    RawVector<typename W::State>& part = parts[r.first / grain];
+    part.reserve(r.size());
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      const typename W::State state = sample_state(world, options, i);
+      if (world.is_free(state, query)) part.push_back(state);
+    }
+  });
+  RawVector<typename W::State> states = detail::joined(parts, execution, 2);
+  parts.clear();
+  return options.sampler == SamplerKind::lattice ? states : detail::in_tile_order(world, states, execution);
+}
+
+}  // namespace warren
