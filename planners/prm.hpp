@@ -1,20 +1,178 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// placeholder
+// PRM: the probabilistic roadmap method (Kavraki, Svestka, Latombe, Overmars 1996), every candidate edge checked.
+//
+// A round draws milestones in tile order, indexes them, checks the candidate edges on all cores, assembles the graph,
+// labels its components and, where start and goal are joined, searches it. With samples on auto a round that leaves
+// them apart is followed by a larger one (roadmap_rule.hpp), until a documented cap. Time a round: O(n log n) for n
+// milestones with a bounded number of neighbours; memory: 36 bytes a milestone, 16 an edge (plane).
+// The result is a function of world, start, goal and options: the same bits for any thread count.
 #pragma once
+
+#include <utility>
 
 #include "core/solution.hpp"
 #include "core/world.hpp"
+#include "parallel/assemble_graph.hpp"
+#include "parallel/components.hpp"
 #include "parallel/execution.hpp"
+#include "planners/connection.hpp"
+#include "planners/milestones.hpp"
 #include "planners/roadmap.hpp"
 #include "planners/roadmap_options.hpp"
+#include "planners/roadmap_search.hpp"
+#include "planners/separation.hpp"
 
 namespace warren {
 
-/// Probabilistic roadmap (Kavraki, Svestka, Latombe, Overmars 1996), every candidate edge checked. Never throws
-/// Stopped: a deadline gives Outcome::stopped. `keep`, where given, receives the roadmap of the last round.
+namespace detail {
+
+/// One plan: what its rounds share.
+template <World W>
+class PrmPlan {
+ public:
+  using State = typename W::State;
+  PrmPlan(const W& world, const State& start, const State& goal, const RoadmapOptions& options,
+          const Execution& execution)
+      : world_(world), start_(start), goal_(goal), options_(options), execution_(execution) {}
+
+  /// Builds and searches a roadmap with so many samples; true when the answer is final.
+  bool round(std::uint64_t samples) {
+    ++solution_.counters.rounds;
+    solution_.counters.samples += samples;
+    draw(samples);
+    const EdgeParts edges = connect(samples);
+    assemble(edges);
+    return joined() && search();
+  }
+  void finish(Roadmap<State>* keep);
+  Solution<State>& solution() { return solution_; }
+
+ private:
+  void draw(std::uint64_t samples);
+  EdgeParts connect(std::uint64_t samples);
+  void assemble(const EdgeParts& edges);
+  bool joined();
+  bool search();
+  VertexId start_vertex() const { return static_cast<VertexId>(roadmap_.states.size() - 2); }
+  VertexId goal_vertex() const { return static_cast<VertexId>(roadmap_.states.size() - 1); }
+  std::span<const State> milestones() const { return {roadmap_.states.data(), roadmap_.states.size() - 2}; }
+
+  const W& world_;
+  const State start_;
+  const State goal_;
+  const RoadmapOptions& options_;
+  const Execution& execution_;
+  Roadmap<State> roadmap_;
+  Components components_;
+  SearchState search_state_;
+  Solution<State> solution_;
+};
+
+template <World W>
+void PrmPlan<W>::draw(std::uint64_t samples) {
+  const StageTimer timer(execution_, "sample", solution_.seconds.sample, samples);
+  roadmap_.graph = Graph();
+  roadmap_.states = draw_milestones(world_, options_, samples, execution_);
+  roadmap_.states.push_back(start_);
+  roadmap_.states.push_back(goal_);
+  solution_.roadmap = {roadmap_.states.size(), 0, 0};
+}
+
+template <World W>
+EdgeParts PrmPlan<W>::connect(std::uint64_t samples) {
+  PointGrid index;
+  {
+    const StageTimer timer(execution_, "neighbours", solution_.seconds.neighbours, milestones().size());
+    index = index_of_milestones(world_, milestones(), execution_);
+  }
+  const StageTimer timer(execution_, "connect", solution_.seconds.connect, milestones().size());
+  const ConnectionRule rule = connection_rule(options_, samples, sampled_area(world_));
+  EdgeParts edges = connect_milestones(world_, milestones(), index, rule, execution_, solution_.counters);
+  RawVector<Edge> ends = attach(world_, milestones(), index, rule, start_, start_vertex(), solution_.counters);
+  const RawVector<Edge> at_goal = attach(world_, milestones(), index, rule, goal_, goal_vertex(), solution_.counters);
+  ends.insert(ends.end(), at_goal.begin(), at_goal.end());
+  auto query = world_.make_query();
+  ++solution_.counters.edges_checked;
+  if (W::distance(start_, goal_) <= direct_reach(rule) && world_.is_free_motion(start_, goal_, query)) {
+    ends.push_back({start_vertex(), goal_vertex()});
+  }
+  edges.push_back(std::move(ends));
+  return edges;
+}
+
+template <World W>
+void PrmPlan<W>::assemble(const EdgeParts& edges) {
+  const StageTimer timer(execution_, "graph", solution_.seconds.graph, roadmap_.states.size());
+  roadmap_.graph = assemble_graph(roadmap_.states.size(), edges, execution_);
+  components_ = components(roadmap_.graph, execution_);
+  solution_.roadmap.edges = roadmap_.graph.edge_count();
+  solution_.roadmap.components = components_.count;
+}
+
+template <World W>
+bool PrmPlan<W>::joined() {
+  if (components_.connected(start_vertex(), goal_vertex())) return true;
+  solution_.outcome = Outcome::not_connected;
+  return false;
+}
+
+template <World W>
+bool PrmPlan<W>::search() {
+  const StageTimer timer(execution_, "search", solution_.seconds.search);
+  const SearchResult found = search_roadmap<W>(roadmap_.graph, roadmap_.states, start_vertex(), goal_vertex(), options_,
+                                               execution_, search_state_);
+  solution_.counters.expanded += found.expanded;
+  if (found.status != SearchStatus::found) return false;
+  solution_.outcome = Outcome::solved;
+  for (const VertexId v : found.path) solution_.path.push_back(roadmap_.states[v]);
+  return true;
+}
+
+template <World W>
+void PrmPlan<W>::finish(Roadmap<State>* keep) {
+  if (solution_.outcome == Outcome::not_connected && !roadmap_.states.empty()) {
+    solution_.separation =
+        separation_of(world_, roadmap_.states, components_, start_vertex(), goal_vertex(), execution_);
+  }
+  if (keep == nullptr) return;
+  roadmap_.search_tree = search_tree(search_state_);
+  *keep = std::move(roadmap_);
+}
+
+/// start_blocked, goal_blocked, or nothing.
+template <World W>
+std::optional<Outcome> blocked_end(const W& world, const typename W::State& start, const typename W::State& goal) {
+  auto query = world.make_query();
+  if (!world.is_free(start, query)) return Outcome::start_blocked;
+  if (!world.is_free(goal, query)) return Outcome::goal_blocked;
+  return std::nullopt;
+}
+
+}  // namespace detail
+
+/// Plans from start to goal. Never throws Stopped: a deadline or a memory limit gives Outcome::stopped. InputError for
+/// options out of range. `keep`, where given, receives the roadmap of the last round.
 template <World W>
 Solution<typename W::State> prm(const W& world, const typename W::State& start, const typename W::State& goal,
                                 const RoadmapOptions& options, const Execution& execution,
-                                Roadmap<typename W::State>* keep = nullptr);
+                                Roadmap<typename W::State>* keep = nullptr) {
+  options.validate();
+  detail::PrmPlan<W> plan(world, start, goal, options, execution);
+  if (const auto blocked = detail::blocked_end(world, start, goal)) {
+    plan.solution().outcome = *blocked;
+    return std::move(plan.solution());
+  }
+  try {
+    const std::uint64_t first = first_samples(world, options);
+    for (std::uint64_t samples = first; samples != 0; samples = next_samples(options, first, samples)) {
+      if (plan.round(samples)) break;
+    }
+    plan.finish(keep);
+  } catch (const Stopped& stopped) {
+    plan.solution().outcome = Outcome::stopped;
+    plan.solution().stop_reason = stopped.reason;
+  }
+  return std::move(plan.solution());
+}
 
 }  // namespace warren

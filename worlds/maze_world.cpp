@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "worlds/maze_world.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -36,6 +37,18 @@ MazeWorld::MazeWorld(const Scene& scene, double clearance, const Execution& exec
 
 bool MazeWorld::is_free(const State& a, Query&) const noexcept {
   return box_.contains(a) && index_.keeps_clearance(a, a, planning_clearance_);
+}
+
+double MazeWorld::suggested_samples() const {
+  constexpr std::uint64_t probes = 255;
+  constexpr double samples_a_square = 10.0;
+  std::array<double, probes> clearances;
+  for (std::uint64_t i = 0; i < probes; ++i) clearances[i] = index_.clearance(uniform_state(*this, 0, i));
+  // Across a corridor of width w the clearance of random points is uniform in [0, w / 2]: its quarter is w / 8.
+  std::nth_element(clearances.begin(), clearances.begin() + probes / 4, clearances.end());
+  const double corridor = 8.0 * clearances[probes / 4];
+  const double width = std::max(corridor - 2.0 * clearance_, 0.1 * corridor);
+  return samples_a_square * sampled_area() / (width * width);
 }
 
 }  // namespace warren

@@ -37,6 +37,12 @@ class MazeWorld {
   static double distance(const State& a, const State& b) { return warren::distance(a, b); }
   std::array<double, 2> embed(const State& a) const { return {a.x, a.y}; }
 
+  /// Area of the box that uniform samples are drawn from.
+  double sampled_area() const { return box_.width() * box_.height(); }
+  /// Uniform samples that a first roadmap needs: so many for each square as wide as the corridors, whose free width is
+  /// estimated from the clearance of 255 fixed points. A pure function of the walls.
+  double suggested_samples() const;
+
   const Box& box() const { return box_; }
   double clearance() const { return clearance_; }
   const WallIndex& walls() const { return index_; }

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Joins milestones: finds the candidate edges, each pair once, and keeps those whose motion is free. Radius rule: pairs
+// within the radius, seen from the smaller vertex. k rule: pairs of which one is among the other's k nearest.
+// Chunks of milestones on all cores; parts joined in chunk order. Cost: one neighbour query a milestone, one motion
+// check a candidate; memory 8 bytes a free edge, and 4 k a milestone for the k rule.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "core/counters.hpp"
+#include "core/graph.hpp"
+#include "core/world.hpp"
+#include "parallel/chunks.hpp"
+#include "planners/roadmap_rule.hpp"
+#include "spatial/point_grid.hpp"
+
+namespace warren {
+
+/// Candidate or free edges, one part a chunk of milestones.
+using EdgeParts = std::vector<RawVector<Edge>>;
+
+namespace detail {
+
+inline constexpr std::size_t connection_grain = 2048;
+
+inline std::uint64_t total_edges(const EdgeParts& parts) {
+  std::uint64_t total = 0;
+  for (const auto& part : parts) total += part.size();
+  return total;
+}
+
+/// The k nearest of each milestone, flat: row i holds counts[i] of k places.
+struct NearestLists {
+  std::uint32_t k = 0;
+  RawVector<VertexId> ids;
+  RawVector<std::uint32_t> counts;
+  std::span<const VertexId> of(std::size_t i) const { return {ids.data() + i * k, counts[i]}; }
+};
+
+template <World W>
+NearestLists nearest_lists(const W& world, std::span<const typename W::State> milestones, const PointGrid& index,
+                           std::uint32_t k, const Execution& execution) {
+  execution.reserve(milestones.size() * (std::size_t{k} + 1) * sizeof(VertexId));
+  NearestLists lists{k, RawVector<VertexId>(milestones.size() * k), RawVector<std::uint32_t>(milestones.size())};
+  for_chunks(milestones.size(), connection_grain, execution, [&](Range r) {
+    std::vector<Neighbour> near;
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      const auto point = world.embed(milestones[i]);
+      index.nearest({point[0], point[1]}, k, static_cast<VertexId>(i), near);
+      lists.counts[i] = static_cast<std::uint32_t>(near.size());
+      std::transform(near.begin(), near.end(), lists.ids.begin() + static_cast<std::ptrdiff_t>(i * k),
+                     [](const Neighbour& n) { return n.id; });
+    }
+  });
+  return lists;
+}
+
+}  // namespace detail
+
+/// An index over the embedded milestones.
+template <World W>
+PointGrid index_of_milestones(const W& world, std::span<const typename W::State> milestones,
+                              const Execution& execution) {
+  if constexpr (std::same_as<typename W::State, Vec2>) {
+    return PointGrid(milestones, execution);
+  } else {
+    RawVector<Vec2> points(milestones.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto point = world.embed(milestones[i]);
+      points[i] = {point[0], point[1]};
+    }
+    return PointGrid(points, execution);
+  }
+}
+
+/// Start and goal are joined directly when they are no farther apart than this.
+inline double direct_reach(const ConnectionRule& rule) {
+  return rule.neighbours > 0 ? std::numeric_limits<double>::infinity() : rule.radius;
+}
+
+/// Calls candidate(j) for each candidate edge (i, j) that milestone i is to check; over all i each pair comes once.
+template <class Candidate>
+void for_each_candidate(const PointGrid& index, const detail::NearestLists& lists, const SearchRadius& radius,
+                        VertexId i, const Candidate& candidate) {
+  if (lists.k == 0) {
+    index.for_each_later_within(i, radius, [&](VertexId j, double) { candidate(j); });
+    return;
+  }
+  for (const VertexId j : lists.of(i)) {
+    const auto theirs = lists.of(j);
+    if (j > i || std::find(theirs.begin(), theirs.end(), i) == theirs.end()) candidate(j);
+  }
+}
+
+/// The free edges among the milestones.
+template <World W>
+EdgeParts connect_milestones(const W& world, std::span<const typename W::State> milestones, const PointGrid& index,
+                             const ConnectionRule& rule, const Execution& execution, Counters& counters) {
+  const std::size_t n = milestones.size();
+  detail::NearestLists lists;
+  if (rule.neighbours > 0) lists = detail::nearest_lists(world, milestones, index, rule.neighbours, execution);
+  const SearchRadius radius(rule.radius);
+  EdgeParts parts(chunk_count(n, detail::connection_grain));
+  std::vector<std::uint64_t> checked(parts.size(), 0);
+  for_chunks(n, detail::connection_grain, execution, [&](Range r) {
+    auto query = world.make_query();
+    const std::size_t chunk = r.first / detail::connection_grain;
+    RawVector<Edge> edges;
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      const auto from = static_cast<VertexId>(i);
+      for_each_candidate(index, lists, radius, from, [&](VertexId to) {
+        ++checked[chunk];
+        if (world.is_free_motion(milestones[from], milestones[to], query)) edges.push_back({from, to});
+      });
+    }
+    parts[chunk] = std::move(edges);
+  });
+  for (const std::uint64_t count : checked) counters.edges_checked += count;
+  counters.neighbour_queries += n;
+  return parts;
+}
+
+/// The free edges from `vertex` (start or goal, which stands at `state` and is no milestone) to milestones: those within
+/// the rule; where none of them is free, to the nearest free one of the 256 nearest.
+template <World W>
+RawVector<Edge> attach(const W& world, std::span<const typename W::State> milestones, const PointGrid& index,
+                       const ConnectionRule& rule, const typename W::State& state, VertexId vertex,
+                       Counters& counters) {
+  constexpr std::size_t farthest = 256;
+  auto query = world.make_query();
+  const auto point = world.embed(state);
+  const Vec2 at{point[0], point[1]};
+  RawVector<Edge> edges;
+  std::vector<Neighbour> near;
+  const auto try_all = [&](bool first_only) {
+    ++counters.neighbour_queries;
+    for (const Neighbour& n : near) {
+      ++counters.edges_checked;
+      if (!world.is_free_motion(state, milestones[n.id], query)) continue;
+      edges.push_back({n.id, vertex});
+      if (first_only) return;
+    }
+  };
+  if (rule.neighbours > 0) {
+    index.nearest(at, rule.neighbours, no_vertex, near);
+  } else {
+    index.within(at, rule.radius, no_vertex, near);
+  }
+  try_all(false);
+  if (!edges.empty()) return edges;
+  index.nearest(at, farthest, no_vertex, near);
+  try_all(true);
+  return edges;
+}
+
+}  // namespace warren

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What "auto" means: how many samples a round draws and how milestones are joined, as pure functions of the options and
+// of counts, so that the answer is the same on every machine.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "core/world.hpp"
+#include "planners/roadmap_options.hpp"
+
+namespace warren {
+
+/// How the milestones of one round are joined: by a radius, or (radius 0) by the k nearest.
+struct ConnectionRule {
+  double radius = 0.0;
+  std::uint32_t neighbours = 0;
+};
+
+/// Neighbours that the radius rule expects around a milestone in the open: enough for roadmaps in corridors five radii
+/// wide to percolate; see the table "uniform sampling that connects" in docs/performance.md.
+inline constexpr double expected_neighbours = 20.0;
+/// A round that leaves start and goal apart is followed by one with so many times the samples,
+inline constexpr double growth = 1.6;
+/// until there are this many times the first round's: then the answer is not_connected.
+inline constexpr double growth_cap = 64.0;
+inline constexpr std::uint64_t most_samples = std::uint64_t{1} << 31;
+
+template <class W>
+concept SuggestsSamples = requires(const W& w) {
+  { w.suggested_samples() } -> std::convertible_to<double>;
+};
+
+/// Area that the world's samples are drawn from, where it is plane; else 0.
+template <World W>
+double sampled_area(const W& world) {
+  if constexpr (requires { { world.sampled_area() } -> std::convertible_to<double>; }) {
+    return world.sampled_area();
+  } else {
+    return 0.0;
+  }
+}
+
+/// Samples of the first round.
+template <World W>
+std::uint64_t first_samples(const W& world, const RoadmapOptions& options) {
+  if (options.sampler == SamplerKind::lattice) return std::uint64_t{options.lattice.rows} * options.lattice.cols;
+  if (options.samples) return *options.samples;
+  double suggested = 1000.0;
+  if constexpr (SuggestsSamples<W>) suggested = world.suggested_samples();
+  return static_cast<std::uint64_t>(std::clamp(suggested, 64.0, static_cast<double>(most_samples)));
+}
+
+/// Samples of the round after one with `samples`; 0 when there is none.
+inline std::uint64_t next_samples(const RoadmapOptions& options, std::uint64_t first, std::uint64_t samples) {
+  if (options.samples || options.sampler == SamplerKind::lattice || samples >= most_samples) return 0;
+  if (static_cast<double>(samples) >= growth_cap * static_cast<double>(first)) return 0;
+  return std::min(most_samples, static_cast<std::uint64_t>(growth * static_cast<double>(samples)));
+}
+
+/// volume: of the space that the samples were drawn from, in the world's metric; only for the plane, else the rule is by k.
+inline ConnectionRule connection_rule(const RoadmapOptions& options, std::uint64_t samples, double volume) {
+  if (options.radius) return {*options.radius, 0};
+  if (options.neighbours) return {0.0, *options.neighbours};
+  if (options.sampler == SamplerKind::lattice) return {1.0, 0};  // the four neighbours in the lattice
+  if (!(volume > 0.0)) return {0.0, static_cast<std::uint32_t>(expected_neighbours)};
+  return {std::sqrt(expected_neighbours * volume / (std::numbers::pi * static_cast<double>(samples))), 0};
+}
+
+}  // namespace warren

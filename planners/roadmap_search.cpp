@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planners/roadmap_search.hpp"
+
+namespace warren {
+
+std::vector<Edge> search_tree(const SearchState& state) {
+  std::vector<Edge> tree;
+  for (const VertexId v : state.touched()) {
+    if (state.parent(v) != no_vertex) tree.push_back({v, state.parent(v)});
+  }
+  return tree;
+}
+
+}  // namespace warren
