@@ -94,36 +94,59 @@ void for_each_candidate(const PointGrid& index, const detail::NearestLists& list
   }
 }
 
-/// The free edges among the milestones.
-template <World W>
-EdgeParts connect_milestones(const W& world, std::span<const typename W::State> milestones, const PointGrid& index,
-                             const ConnectionRule& rule, const Execution& execution, Counters& counters) {
+namespace detail {
+
+/// The candidate edges for which keep(i, j, query) holds.
+template <World W, class Keep>
+EdgeParts edges_that(const W& world, std::span<const typename W::State> milestones, const PointGrid& index,
+                     const ConnectionRule& rule, const Execution& execution, const Keep& keep) {
   const std::size_t n = milestones.size();
-  detail::NearestLists lists;
-  if (rule.neighbours > 0) lists = detail::nearest_lists(world, milestones, index, rule.neighbours, execution);
+  NearestLists lists;
+  if (rule.neighbours > 0) lists = nearest_lists(world, milestones, index, rule.neighbours, execution);
   const SearchRadius radius(rule.radius);
-  EdgeParts parts(chunk_count(n, detail::connection_grain));
-  std::vector<std::uint64_t> checked(parts.size(), 0);
-  for_chunks(n, detail::connection_grain, execution, [&](Range r) {
+  EdgeParts parts(chunk_count(n, connection_grain));
+  for_chunks(n, connection_grain, execution, [&](Range r) {
     auto query = world.make_query();
-    const std::size_t chunk = r.first / detail::connection_grain;
     RawVector<Edge> edges;
     for (std::size_t i = r.first; i < r.last; ++i) {
       const auto from = static_cast<VertexId>(i);
       for_each_candidate(index, lists, radius, from, [&](VertexId to) {
-        ++checked[chunk];
-        if (world.is_free_motion(milestones[from], milestones[to], query)) edges.push_back({from, to});
+        if (keep(r.first / connection_grain, from, to, query)) edges.push_back({from, to});
       });
     }
-    parts[chunk] = std::move(edges);
+    parts[r.first / connection_grain] = std::move(edges);
   });
-  for (const std::uint64_t count : checked) counters.edges_checked += count;
-  counters.neighbour_queries += n;
   return parts;
 }
 
-/// The free edges from `vertex` (start or goal, which stands at `state` and is no milestone) to milestones: those within
-/// the rule; where none of them is free, to the nearest free one of the 256 nearest.
+}  // namespace detail
+
+/// All candidate edges among the milestones, unchecked.
+template <World W>
+EdgeParts candidate_edges(const W& world, std::span<const typename W::State> milestones, const PointGrid& index,
+                          const ConnectionRule& rule, const Execution& execution, Counters& counters) {
+  counters.neighbour_queries += milestones.size();
+  return detail::edges_that(world, milestones, index, rule, execution,
+                            [](std::size_t, VertexId, VertexId, typename W::Query&) { return true; });
+}
+
+/// The free edges among the milestones.
+template <World W>
+EdgeParts connect_milestones(const W& world, std::span<const typename W::State> milestones, const PointGrid& index,
+                             const ConnectionRule& rule, const Execution& execution, Counters& counters) {
+  std::vector<std::uint64_t> checked(chunk_count(milestones.size(), detail::connection_grain), 0);
+  EdgeParts parts = detail::edges_that(world, milestones, index, rule, execution,
+                                       [&](std::size_t chunk, VertexId i, VertexId j, typename W::Query& query) {
+                                         ++checked[chunk];
+                                         return world.is_free_motion(milestones[i], milestones[j], query);
+                                       });
+  for (const std::uint64_t count : checked) counters.edges_checked += count;
+  counters.neighbour_queries += milestones.size();
+  return parts;
+}
+
+/// The free edges from `vertex` (start or goal, which stands at `state` and is no milestone) to milestones: those
+/// within the rule; where none of them is free, to the nearest free one of the 256 nearest.
 template <World W>
 RawVector<Edge> attach(const W& world, std::span<const typename W::State> milestones, const PointGrid& index,
                        const ConnectionRule& rule, const typename W::State& state, VertexId vertex,
@@ -152,6 +175,24 @@ RawVector<Edge> attach(const W& world, std::span<const typename W::State> milest
   if (!edges.empty()) return edges;
   index.nearest(at, farthest, no_vertex, near);
   try_all(true);
+  return edges;
+}
+
+/// The free edges of start (vertex n, for n milestones) and goal (n + 1), the one between them included.
+template <World W>
+RawVector<Edge> attach_start_and_goal(const W& world, std::span<const typename W::State> milestones,
+                                      const PointGrid& index, const ConnectionRule& rule,
+                                      const typename W::State& start, const typename W::State& goal,
+                                      Counters& counters) {
+  const auto start_vertex = static_cast<VertexId>(milestones.size());
+  const VertexId goal_vertex = start_vertex + 1;
+  RawVector<Edge> edges = attach(world, milestones, index, rule, start, start_vertex, counters);
+  const RawVector<Edge> at_goal = attach(world, milestones, index, rule, goal, goal_vertex, counters);
+  edges.insert(edges.end(), at_goal.begin(), at_goal.end());
+  if (W::distance(start, goal) > direct_reach(rule)) return edges;
+  auto query = world.make_query();
+  ++counters.edges_checked;
+  if (world.is_free_motion(start, goal, query)) edges.push_back({start_vertex, goal_vertex});
   return edges;
 }
 

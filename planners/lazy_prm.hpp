@@ -1,20 +1,176 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// placeholder
+// Lazy PRM (Bohlin, Kavraki, ICRA 2000): milestones as in prm, but a motion is checked only where a search needs it.
+//
+// LazyCheck::expansion, the default: the graph is implicit (lazy_graph.hpp); an edge is checked when expanding one end
+// would improve the other. LazyCheck::path: the candidate graph is built and a motion is checked only when it lies on
+// the best path so far (lazy_path_search.hpp). Both find the shortest path of the same roadmap as prm. In mazes the
+// first wins: most candidate edges lead through walls, and each of them costs the second one a repair.
 #pragma once
 
-#include "core/solution.hpp"
-#include "core/world.hpp"
-#include "parallel/execution.hpp"
-#include "planners/roadmap.hpp"
-#include "planners/roadmap_options.hpp"
+#include <utility>
+
+#include "planners/lazy_graph.hpp"
+#include "planners/lazy_path_search.hpp"
+#include "planners/prm.hpp"
 
 namespace warren {
 
-/// Lazy PRM (Bohlin, Kavraki 2000): edges are checked only where a search reaches them. Never throws Stopped:
-/// a deadline gives Outcome::stopped. `keep`, where given, receives the roadmap of the last round.
+namespace detail {
+
+template <World W>
+class LazyPlan {
+ public:
+  using State = typename W::State;
+  LazyPlan(const W& world, const State& start, const State& goal, const RoadmapOptions& options,
+           const Execution& execution, bool keep)
+      : world_(world), start_(start), goal_(goal), options_(options), execution_(execution), keep_(keep) {}
+
+  bool round(std::uint64_t samples) {
+    ++solution_.counters.rounds;
+    solution_.counters.samples += samples;
+    draw(samples);
+    attach_ends();
+    const std::vector<VertexId> path = options_.lazy == LazyCheck::path ? search_paths() : search_expanding();
+    if (path.empty()) return false;
+    solution_.outcome = Outcome::solved;
+    for (const VertexId v : path) solution_.path.push_back(states_[v]);
+    return true;
+  }
+  void finish(Roadmap<State>* keep);
+  Solution<State>& solution() { return solution_; }
+
+ private:
+  void draw(std::uint64_t samples);
+  void attach_ends();
+  std::vector<VertexId> search_expanding();
+  std::vector<VertexId> search_paths();
+  SearchResult expand_from(VertexId from, VertexId to, SearchState& state, std::vector<Edge>* record);
+  Separation separation();
+  VertexId start_vertex() const { return static_cast<VertexId>(states_.size() - 2); }
+  VertexId goal_vertex() const { return static_cast<VertexId>(states_.size() - 1); }
+  std::span<const State> milestones() const { return {states_.data(), states_.size() - 2}; }
+
+  const W& world_;
+  const State start_;
+  const State goal_;
+  const RoadmapOptions& options_;
+  const Execution& execution_;
+  bool keep_;
+  ConnectionRule rule_;
+  RawVector<State> states_;
+  PointGrid index_;
+  RawVector<Edge> end_edges_;
+  std::vector<Edge> free_edges_;
+  std::vector<Edge> tree_;
+  Solution<State> solution_;
+};
+
+template <World W>
+void LazyPlan<W>::draw(std::uint64_t samples) {
+  {
+    const StageTimer timer(execution_, "sample", solution_.seconds.sample, samples);
+    states_ = draw_milestones(world_, options_, samples, execution_);
+    states_.push_back(start_);
+    states_.push_back(goal_);
+  }
+  const StageTimer timer(execution_, "neighbours", solution_.seconds.neighbours, states_.size());
+  index_ = index_of_milestones(world_, milestones(), execution_);
+  rule_ = connection_rule(options_, samples, sampled_area(world_));
+  solution_.roadmap = {states_.size(), 0, 0};
+}
+
+template <World W>
+void LazyPlan<W>::attach_ends() {
+  const StageTimer timer(execution_, "connect", solution_.seconds.connect);
+  end_edges_ = attach_start_and_goal(world_, milestones(), index_, rule_, start_, goal_, solution_.counters);
+  solution_.roadmap.edges = end_edges_.size();
+}
+
+template <World W>
+SearchResult LazyPlan<W>::expand_from(VertexId from, VertexId to, SearchState& state, std::vector<Edge>* record) {
+  state.resize(states_.size());
+  LazyGraph<W> graph(world_, states_, index_, rule_, end_edges_, state, solution_.counters);
+  graph.record(record);
+  const auto should_stop = [&] { return execution_.should_stop(); };
+  const bool informed = options_.search == SearchKind::astar && to != no_vertex;
+  const auto remaining = [&](VertexId v) { return informed ? W::distance(states_[v], states_[to]) : 0.0; };
+  const auto neighbours = [&](VertexId v, const auto& visit) { graph(v, visit); };
+  const SearchResult found = with_queue(options_.queue, states_.size(), [&](auto& queue) {
+    return best_first(from, to, neighbours, remaining, queue, state, should_stop);
+  });
+  if (found.status == SearchStatus::stopped) execution_.check();
+  solution_.counters.expanded += found.expanded;
+  solution_.roadmap.edges += graph.free_edges();
+  return found;
+}
+
+template <World W>
+std::vector<VertexId> LazyPlan<W>::search_expanding() {
+  const StageTimer timer(execution_, "search", solution_.seconds.search);
+  execution_.reserve(states_.size() * 24);
+  SearchState state;
+  free_edges_.assign(end_edges_.begin(), end_edges_.end());
+  const SearchResult found = expand_from(start_vertex(), goal_vertex(), state, keep_ ? &free_edges_ : nullptr);
+  if (keep_) tree_ = search_tree(state);
+  return found.path;
+}
+
+template <World W>
+std::vector<VertexId> LazyPlan<W>::search_paths() {
+  const StageTimer timer(execution_, "search", solution_.seconds.search);
+  EdgeParts candidates = candidate_edges(world_, milestones(), index_, rule_, execution_, solution_.counters);
+  candidates.push_back(end_edges_);
+  const Graph graph = assemble_graph(states_.size(), candidates, execution_);
+  LazyPathSearch<W> search(world_, graph, states_, start_vertex(), goal_vertex(), execution_);
+  std::vector<VertexId> path = search.run();
+  solution_.counters.expanded += search.expanded();
+  solution_.counters.edges_checked += search.checked();
+  solution_.roadmap.edges += search.free_edges().size();
+  free_edges_.assign(end_edges_.begin(), end_edges_.end());
+  free_edges_.insert(free_edges_.end(), search.free_edges().begin(), search.free_edges().end());
+  tree_.clear();
+  for (VertexId v = 0; keep_ && v < states_.size(); ++v) {
+    if (search.reached(v) && search.parent(v) != no_vertex) tree_.push_back({v, search.parent(v)});
+  }
+  return path;
+}
+
+/// Explores all that start and goal can reach, to tell how far they are apart.
+template <World W>
+Separation LazyPlan<W>::separation() {
+  SearchState from_start;
+  SearchState from_goal;
+  expand_from(start_vertex(), no_vertex, from_start, nullptr);
+  expand_from(goal_vertex(), no_vertex, from_goal, nullptr);
+  Components reached;
+  reached.label.assign(states_.size(), no_vertex);
+  for (VertexId v = 0; v < states_.size(); ++v) {
+    if (from_start.reached(v)) reached.label[v] = start_vertex();
+    if (from_goal.reached(v)) reached.label[v] = goal_vertex();
+  }
+  return separation_of(world_, std::span<const State>(states_), reached, start_vertex(), goal_vertex(), execution_);
+}
+
+template <World W>
+void LazyPlan<W>::finish(Roadmap<State>* keep) {
+  if (solution_.outcome == Outcome::not_connected && !states_.empty()) solution_.separation = separation();
+  if (keep == nullptr) return;
+  std::sort(free_edges_.begin(), free_edges_.end());
+  free_edges_.erase(std::unique(free_edges_.begin(), free_edges_.end()), free_edges_.end());
+  *keep = {std::move(states_), Graph(), std::move(tree_)};
+  keep->graph = Graph::from_edges(keep->states.size(), free_edges_);
+}
+
+}  // namespace detail
+
+/// Plans from start to goal. Never throws Stopped: a deadline or a memory limit gives Outcome::stopped. InputError for
+/// options out of range. `keep`, where given, receives milestones, free edges and search tree of the last round.
 template <World W>
 Solution<typename W::State> lazy_prm(const W& world, const typename W::State& start, const typename W::State& goal,
                                      const RoadmapOptions& options, const Execution& execution,
-                                     Roadmap<typename W::State>* keep = nullptr);
+                                     Roadmap<typename W::State>* keep = nullptr) {
+  detail::LazyPlan<W> plan(world, start, goal, options, execution, keep != nullptr);
+  return detail::plan_in_rounds(world, start, goal, options, execution, keep, plan);
+}
 
 }  // namespace warren

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Draws the milestones of a roadmap: samples are pure functions of (seed, index), the free ones are kept and numbered
-// tile by tile, which is worth 3 to 6 times in neighbour queries and 5 to 8 in search. O(samples); in the plane 16 bytes
-// a milestone, and 40 a sample while sorting.
+// tile by tile, which is worth 3 to 6 times in neighbour queries and 5 to 8 in search. O(samples); in the plane 16
+// bytes a milestone, and 40 a sample while sorting.
 #pragma once
 
 #include <array>

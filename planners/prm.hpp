@@ -88,15 +88,7 @@ EdgeParts PrmPlan<W>::connect(std::uint64_t samples) {
   const StageTimer timer(execution_, "connect", solution_.seconds.connect, milestones().size());
   const ConnectionRule rule = connection_rule(options_, samples, sampled_area(world_));
   EdgeParts edges = connect_milestones(world_, milestones(), index, rule, execution_, solution_.counters);
-  RawVector<Edge> ends = attach(world_, milestones(), index, rule, start_, start_vertex(), solution_.counters);
-  const RawVector<Edge> at_goal = attach(world_, milestones(), index, rule, goal_, goal_vertex(), solution_.counters);
-  ends.insert(ends.end(), at_goal.begin(), at_goal.end());
-  auto query = world_.make_query();
-  ++solution_.counters.edges_checked;
-  if (W::distance(start_, goal_) <= direct_reach(rule) && world_.is_free_motion(start_, goal_, query)) {
-    ends.push_back({start_vertex(), goal_vertex()});
-  }
-  edges.push_back(std::move(ends));
+  edges.push_back(attach_start_and_goal(world_, milestones(), index, rule, start_, goal_, solution_.counters));
   return edges;
 }
 
@@ -148,6 +140,32 @@ std::optional<Outcome> blocked_end(const W& world, const typename W::State& star
   return std::nullopt;
 }
 
+/// Runs rounds of growing size until one gives the final answer, the samples end, or the deadline comes.
+template <World W, class Plan>
+Solution<typename W::State> plan_in_rounds(const W& world, const typename W::State& start,
+                                           const typename W::State& goal, const RoadmapOptions& options,
+                                           const Execution& execution, Roadmap<typename W::State>* keep, Plan& plan) {
+  options.validate();
+  Solution<typename W::State>& solution = plan.solution();
+  if (const auto blocked = blocked_end(world, start, goal)) {
+    solution.outcome = *blocked;
+    return std::move(solution);
+  }
+  try {
+    execution.check();
+    const std::uint64_t first = first_samples(world, options);
+    for (std::uint64_t samples = first; samples != 0; samples = next_samples(options, first, samples)) {
+      if (plan.round(samples)) break;
+    }
+    plan.finish(keep);
+  } catch (const Stopped& stopped) {
+    solution.outcome = Outcome::stopped;
+    solution.stop_reason = stopped.reason;
+    solution.path.clear();
+  }
+  return std::move(solution);
+}
+
 }  // namespace detail
 
 /// Plans from start to goal. Never throws Stopped: a deadline or a memory limit gives Outcome::stopped. InputError for
@@ -156,23 +174,8 @@ template <World W>
 Solution<typename W::State> prm(const W& world, const typename W::State& start, const typename W::State& goal,
                                 const RoadmapOptions& options, const Execution& execution,
                                 Roadmap<typename W::State>* keep = nullptr) {
-  options.validate();
   detail::PrmPlan<W> plan(world, start, goal, options, execution);
-  if (const auto blocked = detail::blocked_end(world, start, goal)) {
-    plan.solution().outcome = *blocked;
-    return std::move(plan.solution());
-  }
-  try {
-    const std::uint64_t first = first_samples(world, options);
-    for (std::uint64_t samples = first; samples != 0; samples = next_samples(options, first, samples)) {
-      if (plan.round(samples)) break;
-    }
-    plan.finish(keep);
-  } catch (const Stopped& stopped) {
-    plan.solution().outcome = Outcome::stopped;
-    plan.solution().stop_reason = stopped.reason;
-  }
-  return std::move(plan.solution());
+  return detail::plan_in_rounds(world, start, goal, options, execution, keep, plan);
 }
 
 }  // namespace warren

@@ -36,7 +36,9 @@ concept SuggestsSamples = requires(const W& w) {
 /// Area that the world's samples are drawn from, where it is plane; else 0.
 template <World W>
 double sampled_area(const W& world) {
-  if constexpr (requires { { world.sampled_area() } -> std::convertible_to<double>; }) {
+  if constexpr (requires {
+                  { world.sampled_area() } -> std::convertible_to<double>;
+                }) {
     return world.sampled_area();
   } else {
     return 0.0;
@@ -60,7 +62,8 @@ inline std::uint64_t next_samples(const RoadmapOptions& options, std::uint64_t f
   return std::min(most_samples, static_cast<std::uint64_t>(growth * static_cast<double>(samples)));
 }
 
-/// volume: of the space that the samples were drawn from, in the world's metric; only for the plane, else the rule is by k.
+/// volume: of the space that the samples were drawn from, in the world's metric; only for the plane, else the rule is
+/// by k.
 inline ConnectionRule connection_rule(const RoadmapOptions& options, std::uint64_t samples, double volume) {
   if (options.radius) return {*options.radius, 0};
   if (options.neighbours) return {0.0, *options.neighbours};

@@ -24,10 +24,14 @@ auto with_queue(QueueKind kind, std::size_t vertex_count, const F& f) {
     return f(queue);
   };
   switch (kind) {
-    case QueueKind::lazy_heap: return call(LazyHeap());
-    case QueueKind::sorted_array: return call(SortedArray());
-    case QueueKind::resorted_array: return call(ResortedArray());
-    case QueueKind::heap: break;
+    case QueueKind::lazy_heap:
+      return call(LazyHeap());
+    case QueueKind::sorted_array:
+      return call(SortedArray());
+    case QueueKind::resorted_array:
+      return call(ResortedArray());
+    case QueueKind::heap:
+      break;
   }
   return call(IndexedHeap<4>());
 }
@@ -35,10 +39,12 @@ auto with_queue(QueueKind kind, std::size_t vertex_count, const F& f) {
 /// (vertex, parent) of every vertex that a search reached.
 std::vector<Edge> search_tree(const SearchState& state);
 
-/// Searches from `start` to `goal` over the graph; edge lengths are the world's distances. Throws Stopped at the deadline.
+/// Searches from `start` to `goal` over the graph; edge lengths are the world's distances. Throws Stopped at the
+/// deadline.
 template <World W>
-SearchResult search_roadmap(const Graph& graph, std::span<const typename W::State> states, VertexId start, VertexId goal,
-                            const RoadmapOptions& options, const Execution& execution, SearchState& state) {
+SearchResult search_roadmap(const Graph& graph, std::span<const typename W::State> states, VertexId start,
+                            VertexId goal, const RoadmapOptions& options, const Execution& execution,
+                            SearchState& state) {
   const auto should_stop = [&] { return execution.should_stop(); };
   const auto neighbours = [&](VertexId v, const auto& visit) {
     for (const VertexId w : graph.neighbours(v)) visit(w, W::distance(states[v], states[w]));
@@ -48,8 +54,12 @@ SearchResult search_roadmap(const Graph& graph, std::span<const typename W::Stat
   state.resize(graph.vertex_count());
   SearchResult result;
   switch (options.search) {
-    case SearchKind::bfs: result = breadth_first(graph, start, goal, state, should_stop); break;
-    case SearchKind::dfs: result = depth_first(graph, start, goal, state, should_stop); break;
+    case SearchKind::bfs:
+      result = breadth_first(graph, start, goal, state);
+      break;
+    case SearchKind::dfs:
+      result = depth_first(graph, start, goal, state);
+      break;
     case SearchKind::dijkstra:
       result = with_queue(options.queue, graph.vertex_count(), [&](auto& queue) {
         return best_first(start, goal, neighbours, nothing, queue, state, should_stop);

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A roadmap whose edges are not built: the neighbours of a milestone are asked of the index when the search expands it,
+// and a motion is checked when it would improve a vertex. The same graph as the eager one's (radius rule: exactly; k
+// rule: a milestone's own k nearest), so the radius rule finds the path that prm finds. One to six checks an expansion
+// instead of one a candidate, and no memory for edges.
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "core/counters.hpp"
+#include "core/graph.hpp"
+#include "core/search.hpp"
+#include "core/world.hpp"
+#include "planners/connection.hpp"
+#include "planners/roadmap_rule.hpp"
+
+namespace warren {
+
+/// Belongs to one thread. Vertices: milestones, then start, then goal (whose edges were checked by attach()).
+template <World W>
+class LazyGraph {
+ public:
+  using State = typename W::State;
+  LazyGraph(const W& world, std::span<const State> states, const PointGrid& index, const ConnectionRule& rule,
+            std::span<const Edge> end_edges, const SearchState& search, Counters& counters)
+      : world_(world),
+        states_(states),
+        index_(index),
+        rule_(rule),
+        radius_(rule.radius),
+        end_edges_(end_edges),
+        search_(search),
+        counters_(counters),
+        query_(world.make_query()) {}
+
+  /// Keeps the free edges that were used, for pictures.
+  void record(std::vector<Edge>* edges) { recorded_ = edges; }
+  std::uint64_t free_edges() const { return free_edges_; }
+
+  template <class Visit>
+  void operator()(VertexId v, const Visit& visit) {
+    if (v < index_.size()) visit_milestones(v, visit);
+    for (const Edge& e : end_edges_) {
+      if (e.from == v) visit(e.to, W::distance(states_[v], states_[e.to]));
+      if (e.to == v) visit(e.from, W::distance(states_[v], states_[e.from]));
+    }
+  }
+
+ private:
+  template <class Visit>
+  void visit_milestones(VertexId v, const Visit& visit) {
+    ++counters_.neighbour_queries;
+    const auto point = world_.embed(states_[v]);
+    const Vec2 at{point[0], point[1]};
+    const auto try_edge = [&](VertexId w) {
+      const double length = W::distance(states_[v], states_[w]);
+      if (w == v || search_.closed(w) || search_.g(v) + length >= search_.g(w)) return;
+      ++counters_.edges_checked;
+      if (!world_.is_free_motion(states_[std::min(v, w)], states_[std::max(v, w)], query_)) return;
+      ++free_edges_;
+      if (recorded_ != nullptr) recorded_->push_back({std::min(v, w), std::max(v, w)});
+      visit(w, length);
+    };
+    if (rule_.neighbours == 0) {
+      index_.for_each_within(at, radius_, [&](VertexId w, double) { try_edge(w); });
+      return;
+    }
+    index_.nearest(at, rule_.neighbours, v, near_);
+    for (const Neighbour& n : near_) try_edge(n.id);
+  }
+
+  const W& world_;
+  std::span<const State> states_;
+  const PointGrid& index_;
+  ConnectionRule rule_;
+  SearchRadius radius_;
+  std::span<const Edge> end_edges_;
+  const SearchState& search_;
+  Counters& counters_;
+  typename W::Query query_;
+  std::vector<Neighbour> near_;
+  std::vector<Edge>* recorded_ = nullptr;
+  std::uint64_t free_edges_ = 0;
+};
+
+}  // namespace warren
