@@ -14,7 +14,7 @@
 #include "core/world.hpp"
 #include "parallel/chunks.hpp"
 #include "planners/roadmap_rule.hpp"
-#include "spatial/point_grid.hpp"
+#include "planners/state_index.hpp"
 
 namespace warren {
 
@@ -40,15 +40,14 @@ struct NearestLists {
 };
 
 template <World W>
-NearestLists nearest_lists(const W& world, std::span<const typename W::State> milestones, const PointGrid& index,
-                           std::uint32_t k, const Execution& execution) {
+NearestLists nearest_lists(std::span<const typename W::State> milestones, const StateIndex<W>& index, std::uint32_t k,
+                           const Execution& execution) {
   execution.reserve(milestones.size() * (std::size_t{k} + 1) * sizeof(VertexId));
   NearestLists lists{k, RawVector<VertexId>(milestones.size() * k), RawVector<std::uint32_t>(milestones.size())};
   for_chunks(milestones.size(), connection_grain, execution, [&](Range r) {
     std::vector<Neighbour> near;
     for (std::size_t i = r.first; i < r.last; ++i) {
-      const auto point = world.embed(milestones[i]);
-      index.nearest({point[0], point[1]}, k, static_cast<VertexId>(i), near);
+      index.nearest(index.point(static_cast<VertexId>(i)), k, static_cast<VertexId>(i), near);
       lists.counts[i] = static_cast<std::uint32_t>(near.size());
       std::transform(near.begin(), near.end(), lists.ids.begin() + static_cast<std::ptrdiff_t>(i * k),
                      [](const Neighbour& n) { return n.id; });
@@ -59,30 +58,14 @@ NearestLists nearest_lists(const W& world, std::span<const typename W::State> mi
 
 }  // namespace detail
 
-/// An index over the embedded milestones.
-template <World W>
-PointGrid index_of_milestones(const W& world, std::span<const typename W::State> milestones,
-                              const Execution& execution) {
-  if constexpr (std::same_as<typename W::State, Vec2>) {
-    return PointGrid(milestones, execution);
-  } else {
-    RawVector<Vec2> points(milestones.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const auto point = world.embed(milestones[i]);
-      points[i] = {point[0], point[1]};
-    }
-    return PointGrid(points, execution);
-  }
-}
-
 /// Start and goal are joined directly when they are no farther apart than this.
 inline double direct_reach(const ConnectionRule& rule) {
   return rule.neighbours > 0 ? std::numeric_limits<double>::infinity() : rule.radius;
 }
 
 /// Calls candidate(j) for each candidate edge (i, j) that milestone i is to check; over all i each pair comes once.
-template <class Candidate>
-void for_each_candidate(const PointGrid& index, const detail::NearestLists& lists, const SearchRadius& radius,
+template <World W, class Candidate>
+void for_each_candidate(const StateIndex<W>& index, const detail::NearestLists& lists, const SearchRadius& radius,
                         VertexId i, const Candidate& candidate) {
   if (lists.k == 0) {
     index.for_each_later_within(i, radius, [&](VertexId j, double) { candidate(j); });
@@ -98,11 +81,11 @@ namespace detail {
 
 /// The candidate edges for which keep(i, j, query) holds.
 template <World W, class Keep>
-EdgeParts edges_that(const W& world, std::span<const typename W::State> milestones, const PointGrid& index,
+EdgeParts edges_that(const W& world, std::span<const typename W::State> milestones, const StateIndex<W>& index,
                      const ConnectionRule& rule, const Execution& execution, const Keep& keep) {
   const std::size_t n = milestones.size();
   NearestLists lists;
-  if (rule.neighbours > 0) lists = nearest_lists(world, milestones, index, rule.neighbours, execution);
+  if (rule.neighbours > 0) lists = nearest_lists<W>(milestones, index, rule.neighbours, execution);
   const SearchRadius radius(rule.radius);
   EdgeParts parts(chunk_count(n, connection_grain));
   for_chunks(n, connection_grain, execution, [&](Range r) {
@@ -110,7 +93,7 @@ EdgeParts edges_that(const W& world, std::span<const typename W::State> mileston
     RawVector<Edge> edges;
     for (std::size_t i = r.first; i < r.last; ++i) {
       const auto from = static_cast<VertexId>(i);
-      for_each_candidate(index, lists, radius, from, [&](VertexId to) {
+      for_each_candidate<W>(index, lists, radius, from, [&](VertexId to) {
         if (keep(r.first / connection_grain, from, to, query)) edges.push_back({from, to});
       });
     }
@@ -123,7 +106,7 @@ EdgeParts edges_that(const W& world, std::span<const typename W::State> mileston
 
 /// All candidate edges among the milestones, unchecked.
 template <World W>
-EdgeParts candidate_edges(const W& world, std::span<const typename W::State> milestones, const PointGrid& index,
+EdgeParts candidate_edges(const W& world, std::span<const typename W::State> milestones, const StateIndex<W>& index,
                           const ConnectionRule& rule, const Execution& execution, Counters& counters) {
   counters.neighbour_queries += milestones.size();
   return detail::edges_that(world, milestones, index, rule, execution,
@@ -132,7 +115,7 @@ EdgeParts candidate_edges(const W& world, std::span<const typename W::State> mil
 
 /// The free edges among the milestones.
 template <World W>
-EdgeParts connect_milestones(const W& world, std::span<const typename W::State> milestones, const PointGrid& index,
+EdgeParts connect_milestones(const W& world, std::span<const typename W::State> milestones, const StateIndex<W>& index,
                              const ConnectionRule& rule, const Execution& execution, Counters& counters) {
   std::vector<std::uint64_t> checked(chunk_count(milestones.size(), detail::connection_grain), 0);
   EdgeParts parts = detail::edges_that(world, milestones, index, rule, execution,
@@ -148,13 +131,12 @@ EdgeParts connect_milestones(const W& world, std::span<const typename W::State> 
 /// The free edges from `vertex` (start or goal, which stands at `state` and is no milestone) to milestones: those
 /// within the rule; where none of them is free, to the nearest free one of the 256 nearest.
 template <World W>
-RawVector<Edge> attach(const W& world, std::span<const typename W::State> milestones, const PointGrid& index,
+RawVector<Edge> attach(const W& world, std::span<const typename W::State> milestones, const StateIndex<W>& index,
                        const ConnectionRule& rule, const typename W::State& state, VertexId vertex,
                        Counters& counters) {
   constexpr std::size_t farthest = 256;
   auto query = world.make_query();
-  const auto point = world.embed(state);
-  const Vec2 at{point[0], point[1]};
+  const auto at = embedded(world, state);
   RawVector<Edge> edges;
   std::vector<Neighbour> near;
   const auto try_all = [&](bool first_only) {
@@ -181,7 +163,7 @@ RawVector<Edge> attach(const W& world, std::span<const typename W::State> milest
 /// The free edges of start (vertex n, for n milestones) and goal (n + 1), the one between them included.
 template <World W>
 RawVector<Edge> attach_start_and_goal(const W& world, std::span<const typename W::State> milestones,
-                                      const PointGrid& index, const ConnectionRule& rule,
+                                      const StateIndex<W>& index, const ConnectionRule& rule,
                                       const typename W::State& start, const typename W::State& goal,
                                       Counters& counters) {
   const auto start_vertex = static_cast<VertexId>(milestones.size());

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A roadmap whose edges are not built: the neighbours of a milestone are asked of the index when the search expands it,
-// and a motion is checked when it would improve a vertex. The same graph as the eager one's (radius rule: exactly; k
-// rule: a milestone's own k nearest), so the radius rule finds the path that prm finds. One to six checks an expansion
-// instead of one a candidate, and no memory for edges.
+// A roadmap whose edges are not checked before the search needs them: a motion is checked when it would improve a
+// vertex. Radius rule: the graph isn't built either, the neighbours of a milestone are asked of the index when the
+// search expands it. k rule: the candidates are a graph, since a milestone's k nearest alone would miss those that
+// count it among theirs. Either way it is the graph that prm checks as a whole, so the path is the same; one to six
+// checks an expansion instead of one a candidate.
 #pragma once
 
 #include <algorithm>
@@ -23,13 +24,14 @@ template <World W>
 class LazyGraph {
  public:
   using State = typename W::State;
-  LazyGraph(const W& world, std::span<const State> states, const PointGrid& index, const ConnectionRule& rule,
-            std::span<const Edge> end_edges, const SearchState& search, Counters& counters)
+  LazyGraph(const W& world, std::span<const State> states, const StateIndex<W>& index, const ConnectionRule& rule,
+            const Graph& candidates, std::span<const Edge> end_edges, const SearchState& search, Counters& counters)
       : world_(world),
         states_(states),
         index_(index),
         rule_(rule),
         radius_(rule.radius),
+        candidates_(candidates),
         end_edges_(end_edges),
         search_(search),
         counters_(counters),
@@ -52,8 +54,6 @@ class LazyGraph {
   template <class Visit>
   void visit_milestones(VertexId v, const Visit& visit) {
     ++counters_.neighbour_queries;
-    const auto point = world_.embed(states_[v]);
-    const Vec2 at{point[0], point[1]};
     const auto try_edge = [&](VertexId w) {
       const double length = W::distance(states_[v], states_[w]);
       if (w == v || search_.closed(w) || search_.g(v) + length >= search_.g(w)) return;
@@ -64,23 +64,22 @@ class LazyGraph {
       visit(w, length);
     };
     if (rule_.neighbours == 0) {
-      index_.for_each_within(at, radius_, [&](VertexId w, double) { try_edge(w); });
+      index_.for_each_within(index_.point(v), radius_, [&](VertexId w, double) { try_edge(w); });
       return;
     }
-    index_.nearest(at, rule_.neighbours, v, near_);
-    for (const Neighbour& n : near_) try_edge(n.id);
+    for (const VertexId w : candidates_.neighbours(v)) try_edge(w);
   }
 
   const W& world_;
   std::span<const State> states_;
-  const PointGrid& index_;
+  const StateIndex<W>& index_;
   ConnectionRule rule_;
   SearchRadius radius_;
+  const Graph& candidates_;  // k rule only
   std::span<const Edge> end_edges_;
   const SearchState& search_;
   Counters& counters_;
   typename W::Query query_;
-  std::vector<Neighbour> near_;
   std::vector<Edge>* recorded_ = nullptr;
   std::uint64_t free_edges_ = 0;
 };

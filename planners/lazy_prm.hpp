@@ -58,8 +58,9 @@ class LazyPlan {
   bool keep_;
   ConnectionRule rule_;
   RawVector<State> states_;
-  PointGrid index_;
+  StateIndex<W> index_;
   RawVector<Edge> end_edges_;
+  Graph candidates_;  ///< unchecked; only where the strategy or the rule needs them
   std::vector<Edge> free_edges_;
   std::vector<Edge> tree_;
   Solution<State> solution_;
@@ -74,7 +75,7 @@ void LazyPlan<W>::draw(std::uint64_t samples) {
     states_.push_back(goal_);
   }
   const StageTimer timer(execution_, "neighbours", solution_.seconds.neighbours, states_.size());
-  index_ = index_of_milestones(world_, milestones(), execution_);
+  index_ = index_of_states(world_, milestones(), execution_);
   rule_ = connection_rule(options_, samples, sampled_area(world_));
   solution_.roadmap = {states_.size(), 0, 0};
 }
@@ -84,12 +85,17 @@ void LazyPlan<W>::attach_ends() {
   const StageTimer timer(execution_, "connect", solution_.seconds.connect);
   end_edges_ = attach_start_and_goal(world_, milestones(), index_, rule_, start_, goal_, solution_.counters);
   solution_.roadmap.edges = end_edges_.size();
+  candidates_ = Graph();
+  if (options_.lazy == LazyCheck::expansion && rule_.neighbours == 0) return;
+  EdgeParts parts = candidate_edges(world_, milestones(), index_, rule_, execution_, solution_.counters);
+  if (options_.lazy == LazyCheck::path) parts.push_back(end_edges_);
+  candidates_ = assemble_graph(states_.size(), parts, execution_);
 }
 
 template <World W>
 SearchResult LazyPlan<W>::expand_from(VertexId from, VertexId to, SearchState& state, std::vector<Edge>* record) {
   state.resize(states_.size());
-  LazyGraph<W> graph(world_, states_, index_, rule_, end_edges_, state, solution_.counters);
+  LazyGraph<W> graph(world_, states_, index_, rule_, candidates_, end_edges_, state, solution_.counters);
   graph.record(record);
   const auto should_stop = [&] { return execution_.should_stop(); };
   const bool informed = options_.search == SearchKind::astar && to != no_vertex;
@@ -118,10 +124,7 @@ std::vector<VertexId> LazyPlan<W>::search_expanding() {
 template <World W>
 std::vector<VertexId> LazyPlan<W>::search_paths() {
   const StageTimer timer(execution_, "search", solution_.seconds.search);
-  EdgeParts candidates = candidate_edges(world_, milestones(), index_, rule_, execution_, solution_.counters);
-  candidates.push_back(end_edges_);
-  const Graph graph = assemble_graph(states_.size(), candidates, execution_);
-  LazyPathSearch<W> search(world_, graph, states_, start_vertex(), goal_vertex(), execution_);
+  LazyPathSearch<W> search(world_, candidates_, states_, start_vertex(), goal_vertex(), execution_);
   std::vector<VertexId> path = search.run();
   solution_.counters.expanded += search.expanded();
   solution_.counters.edges_checked += search.checked();

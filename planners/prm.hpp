@@ -80,10 +80,10 @@ void PrmPlan<W>::draw(std::uint64_t samples) {
 
 template <World W>
 EdgeParts PrmPlan<W>::connect(std::uint64_t samples) {
-  PointGrid index;
+  StateIndex<W> index;
   {
     const StageTimer timer(execution_, "neighbours", solution_.seconds.neighbours, milestones().size());
-    index = index_of_milestones(world_, milestones(), execution_);
+    index = index_of_states(world_, milestones(), execution_);
   }
   const StageTimer timer(execution_, "connect", solution_.seconds.connect, milestones().size());
   const ConnectionRule rule = connection_rule(options_, samples, sampled_area(world_));

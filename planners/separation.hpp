@@ -11,7 +11,7 @@
 #include "core/solution.hpp"
 #include "core/world.hpp"
 #include "parallel/chunks.hpp"
-#include "spatial/point_grid.hpp"
+#include "planners/state_index.hpp"
 
 namespace warren {
 
@@ -19,19 +19,18 @@ template <World W>
 Separation separation_of(const W& world, std::span<const typename W::State> states, const Components& components,
                          VertexId start, VertexId goal, const Execution& execution) {
   const auto points_of = [&](VertexId v) {
-    std::vector<Vec2> points;
+    std::vector<PointOf<embedding_dimension<W>>> points;
     for (std::size_t i = 0; i < states.size(); ++i) {
       if (components.label[i] != components.label[v]) continue;
-      const auto point = world.embed(states[i]);
-      points.push_back({point[0], point[1]});
+      points.push_back(embedded(world, states[i]));
     }
     return points;
   };
-  std::vector<Vec2> small = points_of(start);
-  std::vector<Vec2> large = points_of(goal);
+  auto small = points_of(start);
+  auto large = points_of(goal);
   Separation result{small.size(), large.size(), 0.0};
   if (small.size() > large.size()) small.swap(large);
-  const PointGrid index(large, execution);
+  const KdTree<embedding_dimension<W>> index(large, execution);  // a grid would search long where points are far
   constexpr std::size_t grain = 1024;
   std::vector<double> gaps(chunk_count(small.size(), grain), std::numeric_limits<double>::infinity());
   for_chunks(small.size(), grain, execution, [&](Range r) {

@@ -53,6 +53,11 @@ class Neighbours {
   void within(const Point& p, const SearchRadius& radius, VertexId except, std::vector<Neighbour>& out) const {
     with([&](const auto& index) { index.within(p, radius, except, out); });
   }
+  /// Calls visit(id, distance) for all points at a distance <= radius from p, in an order that depends on the points.
+  template <class Visit>
+  void for_each_within(const Point& p, const SearchRadius& radius, const Visit& visit) const {
+    with([&](const auto& index) { index.for_each_within(p, radius, visit); });
+  }
   /// Calls visit(j, distance) for all points j > i at a distance <= radius from point i: over all i, each pair once.
   template <class Visit>
   void for_each_later_within(VertexId i, const SearchRadius& radius, const Visit& visit) const {

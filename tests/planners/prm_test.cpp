@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planners/prm.hpp"
+
+#include <gtest/gtest.h>
+
+#include <queue>
+#include <set>
+#include <string>
+#include <tuple>
+
+#include "core/error.hpp"
+#include "core/geometry.hpp"
+#include "planners/lazy_prm.hpp"
+#include "worlds/maze_generator.hpp"
+#include "worlds/maze_world.hpp"
+
+namespace warren {
+namespace {
+
+constexpr double clearance = 0.1;
+
+Scene maze(std::uint32_t rows, std::uint32_t cols, std::uint64_t seed, double loops = 0.0) {
+  return maze_scene({rows, cols, seed, MazeAlgorithm::backtracker, loops}, false, {});
+}
+
+Vec2 start_of(const Scene& scene) { return {scene.start[0], scene.start[1]}; }
+Vec2 goal_of(const Scene& scene) { return {scene.goal[0], scene.goal[1]}; }
+
+RoadmapOptions lattice_options(const Scene& scene) {
+  RoadmapOptions options;
+  options.sampler = SamplerKind::lattice;
+  options.lattice = {scene.maze->rows, scene.maze->cols};
+  return options;
+}
+
+/// Steps between cell centres on the shortest walk through the cells: an oracle that knows no roadmap.
+double shortest_walk(const Scene& scene) {
+  const MazeCells cells = cells_of_walls(scene.walls, *scene.maze, {});
+  const std::uint32_t cols = cells.cols();
+  std::vector<int> steps(std::size_t{cols} * cells.rows(), -1);
+  std::queue<std::uint32_t> queue({0U});
+  steps[0] = 0;
+  const auto go = [&](std::uint32_t from, std::uint32_t to) {
+    if (steps[to] >= 0) return;
+    steps[to] = steps[from] + 1;
+    queue.push(to);
+  };
+  for (; !queue.empty(); queue.pop()) {
+    const std::uint32_t cell = queue.front();
+    const std::uint32_t col = cell % cols;
+    const std::uint32_t row = cell / cols;
+    if (col + 1 < cols && !cells.wall_right(col, row)) go(cell, cell + 1);
+    if (col > 0 && !cells.wall_right(col - 1, row)) go(cell, cell - 1);
+    if (row + 1 < cells.rows() && !cells.wall_above(col, row)) go(cell, cell + cols);
+    if (row > 0 && !cells.wall_above(col, row - 1)) go(cell, cell - cols);
+  }
+  return steps.back() + 1.0;  // half a step from the start, half a step to the goal
+}
+
+double length_of(const Solution<Vec2>& solution) { return path_length(solution.path, MazeWorld::distance); }
+
+/// Every leg against every wall, by plain distances.
+void expect_clear(const Scene& scene, const std::vector<Vec2>& path) {
+  ASSERT_GE(path.size(), 2U);
+  EXPECT_EQ(path.front(), start_of(scene));
+  EXPECT_EQ(path.back(), goal_of(scene));
+  for (std::size_t leg = 0; leg + 1 < path.size(); ++leg) {
+    for (std::size_t i = 0; i < scene.walls.size(); ++i) {
+      ASSERT_GE(distance(Segment{path[leg], path[leg + 1]}, scene.walls.segment(i)), clearance) << leg << " " << i;
+    }
+  }
+}
+
+using Planner = Solution<Vec2> (*)(const MazeWorld&, const Vec2&, const Vec2&, const RoadmapOptions&, const Execution&,
+                                   Roadmap<Vec2>*);
+struct NamedPlanner {
+  const char* name;
+  Planner plan;
+  LazyCheck lazy = LazyCheck::expansion;
+};
+const std::vector<NamedPlanner> planners = {{"prm", prm<MazeWorld>},
+                                            {"lazy-prm", lazy_prm<MazeWorld>},
+                                            {"lazy-prm by path", lazy_prm<MazeWorld>, LazyCheck::path}};
+
+TEST(Prm, LatticePathIsTheShortestWalkOverCellCentres) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    for (const double loops : {0.0, 0.2}) {
+      const Scene scene = maze(13, 17, seed, loops);
+      const MazeWorld world(scene, clearance, {});
+      for (const NamedPlanner& planner : planners) {
+        SCOPED_TRACE(std::string(planner.name) + " seed " + std::to_string(seed));
+        RoadmapOptions options = lattice_options(scene);
+        options.lazy = planner.lazy;
+        const auto solution = planner.plan(world, start_of(scene), goal_of(scene), options, {}, nullptr);
+        ASSERT_EQ(solution.outcome, Outcome::solved);
+        EXPECT_DOUBLE_EQ(length_of(solution), shortest_walk(scene));
+        expect_clear(scene, solution.path);
+      }
+    }
+  }
+}
+
+TEST(Prm, UniformSamplingSolvesEveryMazeWithoutKnobs) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Scene scene = maze(5, 7, seed);
+    const MazeWorld world(scene, clearance, {});
+    for (const SamplerKind sampler : {SamplerKind::uniform, SamplerKind::halton}) {
+      for (const NamedPlanner& planner : planners) {
+        SCOPED_TRACE(std::string(planner.name) + " seed " + std::to_string(seed));
+        RoadmapOptions options;
+        options.sampler = sampler;
+        options.lazy = planner.lazy;
+        options.seed = seed;
+        const auto solution = planner.plan(world, start_of(scene), goal_of(scene), options, {}, nullptr);
+        ASSERT_EQ(solution.outcome, Outcome::solved);
+        expect_clear(scene, solution.path);
+      }
+    }
+  }
+}
+
+TEST(Prm, LazyPlannersFindThePathOfTheEagerOne) {
+  const Scene scene = maze(9, 9, 4, 0.1);
+  const MazeWorld world(scene, clearance, {});
+  for (const bool by_nearest : {false, true}) {
+    RoadmapOptions options;
+    options.samples = 2500;
+    if (by_nearest) options.neighbours = 20;
+    const auto eager = prm(world, start_of(scene), goal_of(scene), options, {});
+    ASSERT_EQ(eager.outcome, Outcome::solved);
+    for (const LazyCheck lazy : {LazyCheck::expansion, LazyCheck::path}) {
+      options.lazy = lazy;
+      const auto found = lazy_prm(world, start_of(scene), goal_of(scene), options, {});
+      ASSERT_EQ(found.outcome, Outcome::solved);
+      EXPECT_NEAR(length_of(found), length_of(eager), 1e-12 * length_of(eager));
+      EXPECT_LT(found.counters.edges_checked, eager.counters.edges_checked);
+    }
+  }
+}
+
+TEST(Prm, ResultAndCountersAreTheSameForAnyNumberOfThreads) {
+  const Scene scene = maze(25, 25, 3);
+  for (const NamedPlanner& planner : planners) {
+    SCOPED_TRACE(planner.name);
+    RoadmapOptions options;
+    options.lazy = planner.lazy;
+    if (planner.lazy == LazyCheck::path) options = lattice_options(scene);
+    const auto plan = [&](unsigned threads) {
+      const Execution execution{threads};
+      const MazeWorld world(scene, clearance, execution);
+      return planner.plan(world, start_of(scene), goal_of(scene), options, execution, nullptr);
+    };
+    const auto one = plan(1);
+    ASSERT_EQ(one.outcome, Outcome::solved);
+    for (const unsigned threads : {2U, 3U, 8U}) {
+      const auto many = plan(threads);
+      EXPECT_EQ(many.path, one.path);
+      EXPECT_EQ(many.counters, one.counters);
+      EXPECT_EQ(many.roadmap.edges, one.roadmap.edges);
+    }
+  }
+}
+
+TEST(Prm, EverySearchAndQueueFindsAPathAndTheOptimalOnesAgree) {
+  const Scene scene = maze(11, 11, 6, 0.3);
+  const MazeWorld world(scene, clearance, {});
+  RoadmapOptions options = lattice_options(scene);
+  const double shortest = shortest_walk(scene);
+  for (const QueueKind queue :
+       {QueueKind::heap, QueueKind::lazy_heap, QueueKind::sorted_array, QueueKind::resorted_array}) {
+    for (const SearchKind search : {SearchKind::astar, SearchKind::dijkstra, SearchKind::bfs, SearchKind::dfs}) {
+      options.queue = queue;
+      options.search = search;
+      const auto solution = prm(world, start_of(scene), goal_of(scene), options, {});
+      ASSERT_EQ(solution.outcome, Outcome::solved);
+      expect_clear(scene, solution.path);
+      if (search == SearchKind::dfs) {
+        EXPECT_GE(length_of(solution), shortest);
+      } else {
+        EXPECT_DOUBLE_EQ(length_of(solution), shortest);
+      }
+    }
+  }
+}
+
+/// A closed box around the goal.
+Scene walled_off() {
+  Scene scene = maze(6, 6, 2);
+  std::vector<Segment> walls;
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) walls.push_back(scene.walls.segment(i));
+  for (const Segment& s : {Segment{{5.5, 5.5}, {6.5, 5.5}}, Segment{{5.5, 5.5}, {5.5, 6.5}}}) walls.push_back(s);
+  scene.walls = WallSet::narrowest(walls);
+  return scene;
+}
+
+TEST(Prm, TellsHowFarStartAndGoalAreApart) {
+  const Scene scene = walled_off();
+  const MazeWorld world(scene, clearance, {});
+  for (const NamedPlanner& planner : planners) {
+    SCOPED_TRACE(planner.name);
+    RoadmapOptions options = lattice_options(scene);
+    options.lazy = planner.lazy;
+    const auto solution = planner.plan(world, start_of(scene), goal_of(scene), options, {}, nullptr);
+    EXPECT_EQ(solution.outcome, Outcome::not_connected);
+    EXPECT_TRUE(solution.path.empty());
+    EXPECT_EQ(solution.separation.start_size, 36U) << "35 cells and the start";
+    EXPECT_EQ(solution.separation.goal_size, 2U);
+    EXPECT_DOUBLE_EQ(solution.separation.nearest_gap, 1.0);
+  }
+}
+
+TEST(Prm, BlockedEndsAreNamed) {
+  const Scene scene = maze(5, 5, 1);
+  const MazeWorld world(scene, clearance, {});
+  EXPECT_EQ(prm(world, {1.0, 0.55}, goal_of(scene), {}, {}).outcome, Outcome::start_blocked);
+  EXPECT_EQ(prm(world, start_of(scene), {99.0, 1.0}, {}, {}).outcome, Outcome::goal_blocked);
+  EXPECT_EQ(lazy_prm(world, {1.0, 0.5}, goal_of(scene), {}, {}).outcome, Outcome::start_blocked);
+}
+
+TEST(Prm, StartEqualToGoalIsAPathOfLengthZero) {
+  const Scene scene = maze(5, 5, 1);
+  const MazeWorld world(scene, clearance, {});
+  const auto solution = prm(world, {2, 2}, {2, 2}, lattice_options(scene), {});
+  ASSERT_EQ(solution.outcome, Outcome::solved);
+  EXPECT_EQ(length_of(solution), 0.0);
+}
+
+TEST(Prm, ADeadlineInThePastStopsThePlan) {
+  const Scene scene = maze(30, 30, 1);
+  const Deadline deadline(0.0);
+  const Execution execution{1, &deadline};
+  const MazeWorld world(scene, clearance, {});
+  for (const NamedPlanner& planner : planners) {
+    const auto solution = planner.plan(world, start_of(scene), goal_of(scene), {}, execution, nullptr);
+    EXPECT_EQ(solution.outcome, Outcome::stopped) << planner.name;
+    EXPECT_EQ(solution.stop_reason, StopReason::time);
+  }
+}
+
+TEST(Prm, KeepsTheRoadmapWhereAsked) {
+  const Scene scene = maze(7, 7, 5);
+  const MazeWorld world(scene, clearance, {});
+  for (const NamedPlanner& planner : planners) {
+    SCOPED_TRACE(planner.name);
+    RoadmapOptions options = lattice_options(scene);
+    options.lazy = planner.lazy;
+    Roadmap<Vec2> roadmap;
+    const auto solution = planner.plan(world, start_of(scene), goal_of(scene), options, {}, &roadmap);
+    ASSERT_EQ(roadmap.states.size(), 51U);
+    EXPECT_EQ(roadmap.graph.vertex_count(), 51U);
+    EXPECT_EQ(solution.roadmap.milestones, 51U);
+    EXPECT_EQ(roadmap.states[49], start_of(scene));
+    EXPECT_EQ(roadmap.states[50], goal_of(scene));
+    EXPECT_FALSE(roadmap.search_tree.empty());
+    auto query = world.make_query();
+    for (VertexId v = 0; v < 51; ++v) {
+      for (const VertexId w : roadmap.graph.neighbours(v)) {
+        EXPECT_TRUE(world.is_free_motion(roadmap.states[v], roadmap.states[w], query));
+      }
+    }
+  }
+}
+
+TEST(Prm, SamplesArePureFunctionsInsideTheWorld) {
+  const Scene scene = maze(6, 9, 1);
+  const MazeWorld world(scene, clearance, {});
+  RoadmapOptions options = lattice_options(scene);
+  std::set<std::pair<double, double>> cells;
+  for (std::uint64_t i = 0; i < 54; ++i) {
+    const Vec2 p = sample_state(world, options, i);
+    cells.insert({p.x, p.y});
+    EXPECT_TRUE(p.x >= 1 && p.x <= 9 && p.y >= 1 && p.y <= 6);
+  }
+  EXPECT_EQ(cells.size(), 54U);
+  for (const SamplerKind sampler : {SamplerKind::uniform, SamplerKind::halton}) {
+    options.sampler = sampler;
+    for (std::uint64_t i = 0; i < 1000; ++i) {
+      EXPECT_TRUE(world.box().contains(sample_state(world, options, i)));
+      EXPECT_EQ(sample_state(world, options, i), sample_state(world, options, i));
+    }
+  }
+}
+
+TEST(RoadmapOptions, RefusesValuesOutOfRange) {
+  const auto message = [](const RoadmapOptions& options) -> std::string {
+    try {
+      options.validate();
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  RoadmapOptions options;
+  options.samples = 0;
+  EXPECT_EQ(message(options), "samples: must be from 1 to 2^31 (found: 0)");
+  options = {};
+  options.neighbours = 5000;
+  EXPECT_EQ(message(options), "neighbours: must be from 1 to 4096 (found: 5000)");
+  options = {};
+  options.radius = std::nan("");
+  EXPECT_EQ(message(options).substr(0, 33), "radius: must be a positive number");
+  options = {};
+  options.sampler = SamplerKind::lattice;
+  EXPECT_EQ(message(options), "lattice: needs the rows and columns of the maze");
+  EXPECT_EQ(message({}), "accepted");
+}
+
+}  // namespace
+}  // namespace warren
