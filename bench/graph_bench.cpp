@@ -8,6 +8,7 @@
 #include "bench/test_graphs.hpp"
 #include "parallel/assemble_graph.hpp"
 #include "parallel/components.hpp"
+#include "parallel/reduce_graph.hpp"
 
 namespace warren::bench {
 namespace {
@@ -70,6 +71,21 @@ void bm_components(benchmark::State& state) {
   count(state, graph.at.size(), graph.at.size() * sizeof(VertexId));
 }
 
+/// Items are vertices; start and goal are opposite corners.
+void bm_reduce(benchmark::State& state) {
+  const auto side = static_cast<std::uint32_t>(state.range(1));
+  const PlaneGraph maze = lattice(side, true, static_cast<double>(state.range(2)) / 100.0, state.range(0) == shuffled);
+  const Graph rows = Graph::from_edges(maze.at.size(), maze.edges);
+  Execution execution;
+  execution.threads = static_cast<unsigned>(state.range(3));
+  const std::vector<VertexId> keep{maze.start, maze.goal};
+  const auto length = [&](VertexId v, VertexId w) { return distance(maze.at[v], maze.at[w]); };
+  std::size_t keys = 0;
+  for (auto _ : state) keys = reduce_graph(rows, keep, length, execution).graph().vertex_count();
+  state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * maze.at.size()));
+  state.counters["keys/item"] = static_cast<double>(keys) / static_cast<double>(maze.at.size());
+}
+
 void serial_cases(benchmark::internal::Benchmark* b) {
   b->ArgNames({"kind", "side"})->Unit(benchmark::kMillisecond);
   for (const int kind : {tiled, shuffled, geometric}) b->Args({kind, kind == geometric ? 500 : 1000});
@@ -88,7 +104,13 @@ BENCHMARK(bm_assemble)->Apply(parallel_cases);
 BENCHMARK(bm_components_serial)->Apply(serial_cases);
 BENCHMARK(bm_components)->Apply(parallel_cases);
 
+BENCHMARK(bm_reduce)
+    ->ArgNames({"kind", "side", "loops_%", "threads"})
+    ->ArgsProduct({{tiled}, {1000, 3000}, {0, 10}, {1, 2}})
+    ->Args({shuffled, 1000, 10, 1})
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+
 }  // namespace
 }  // namespace warren::bench
-
-BENCHMARK_MAIN();

@@ -63,7 +63,7 @@ inline PlaneGraph lattice(std::uint32_t side, bool as_maze, double loops, bool r
   graph.at.resize(n);
   std::vector<std::pair<std::uint64_t, Edge>> doors;
   for (VertexId c = 0; c < n; ++c) {
-    graph.at[c] = {static_cast<double>(c % side), static_cast<double>(c) / side - static_cast<double>(c % side) / side};
+    graph.at[c] = {static_cast<double>(c % side), static_cast<double>(c / side)};
     if (c % side + 1 < side) doors.push_back({random_bits(seed, c, 0), {c, c + 1}});
     if (c + side < n) doors.push_back({random_bits(seed, c, 1), {c, c + side}});
   }

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The four searches on a perfect maze, a maze with loops and a random geometric graph, with vertices in spatial order
+// and with random numbers; A* on what peeling and chains leave, the reduction included. Items are vertices settled (of
+// the graph, for the reduction). Every length is compared with Dijkstra's once.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "bench/test_graphs.hpp"
+#include "core/search.hpp"
+#include "parallel/reduce_graph.hpp"
+
+namespace warren::bench {
+namespace {
+
+enum Kind : int { maze, maze_with_loops, geometric };
+
+/// A graph of about `size` vertices, kept until another one is asked for.
+struct Case {
+  PlaneGraph plane;
+  Graph graph;
+};
+const Case& case_of(std::int64_t kind, std::int64_t size, bool random_numbers) {
+  static Case built;
+  static std::tuple<std::int64_t, std::int64_t, bool> key{-1, 0, false};
+  if (key != std::tuple{kind, size, random_numbers}) {
+    const auto side = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(size)));
+    built.plane = kind == geometric ? random_geometric(static_cast<std::size_t>(size), 20.0, random_numbers)
+                                    : lattice(side, true, kind == maze ? 0.0 : 0.1, random_numbers);
+    built.graph = Graph::from_edges(built.plane.at.size(), built.plane.edges);
+    key = {kind, size, random_numbers};
+  }
+  return built;
+}
+
+SearchResult best_first_on(const Case& c, bool use_heuristic, IndexedHeap<4>& heap, SearchState& state) {
+  const std::vector<Vec2>& at = c.plane.at;
+  const auto neighbours = [&](VertexId v, const auto& visit) {
+    for (const VertexId w : c.graph.neighbours(v)) visit(w, distance(at[v], at[w]));
+  };
+  const auto to_goal = [&](VertexId v) { return use_heuristic ? distance(at[v], at[c.plane.goal]) : 0.0; };
+  state.resize(at.size());
+  heap.clear();
+  return best_first(c.plane.start, c.plane.goal, neighbours, to_goal, heap, state, NeverStop());
+}
+
+void check(const Case& c, const SearchResult& result) {
+  IndexedHeap<4> heap;
+  SearchState state;
+  heap.resize(c.plane.at.size());
+  const double length = best_first_on(c, false, heap, state).length;
+  if (std::abs(result.length - length) > 1e-9 * length) std::abort();
+}
+
+void report(benchmark::State& state, const SearchResult& result, std::size_t bytes, std::size_t vertices) {
+  state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * result.expanded));
+  state.counters["bytes/vertex"] = static_cast<double>(bytes) / static_cast<double>(vertices);
+  state.counters["settled"] = static_cast<double>(result.expanded) / static_cast<double>(vertices);
+}
+
+void bm_best_first(benchmark::State& state) {
+  const Case& c = case_of(state.range(1), state.range(2), state.range(3) != 0);
+  IndexedHeap<4> heap;
+  SearchState search_state;
+  heap.resize(c.plane.at.size());
+  SearchResult result = best_first_on(c, state.range(0) == 0, heap, search_state);
+  check(c, result);
+  for (auto _ : state) benchmark::DoNotOptimize(result = best_first_on(c, state.range(0) == 0, heap, search_state));
+  report(state, result, search_state.bytes() + c.plane.at.size() * sizeof(VertexId), c.plane.at.size());
+}
+
+void bm_blind(benchmark::State& state) {
+  const Case& c = case_of(state.range(1), state.range(2), state.range(3) != 0);
+  SearchState search_state;
+  SearchResult result;
+  for (auto _ : state) {
+    search_state.resize(c.plane.at.size());
+    result = state.range(0) == 2 ? breadth_first(c.graph, c.plane.start, c.plane.goal, search_state)
+                                 : depth_first(c.graph, c.plane.start, c.plane.goal, search_state);
+    benchmark::DoNotOptimize(result);
+  }
+  report(state, result, search_state.bytes(), c.plane.at.size());
+}
+
+void bm_reduced_astar(benchmark::State& state) {
+  const Case& c = case_of(state.range(0), state.range(1), false);
+  const std::vector<VertexId> keep{c.plane.start, c.plane.goal};
+  const std::vector<Vec2>& at = c.plane.at;
+  Execution execution;
+  execution.threads = static_cast<unsigned>(state.range(2));
+  SearchResult result;
+  for (auto _ : state) {
+    const auto reduced = reduce_graph(
+        c.graph, keep, [&](VertexId v, VertexId w) { return distance(at[v], at[w]); }, execution);
+    const Graph& graph = reduced.graph();
+    IndexedHeap<4> heap;
+    SearchState search_state;
+    heap.resize(graph.vertex_count());
+    search_state.resize(graph.vertex_count());
+    const auto neighbours = [&](VertexId v, const auto& visit) {
+      const auto row = graph.neighbours(v);
+      const auto lengths = graph.lengths(v);
+      for (std::size_t i = 0; i < row.size(); ++i) visit(row[i], lengths[i]);
+    };
+    const auto to_goal = [&](VertexId v) { return distance(at[reduced.vertex_of(v)], at[c.plane.goal]); };
+    result = best_first(reduced.key_of(c.plane.start), reduced.key_of(c.plane.goal), neighbours, to_goal, heap,
+                        search_state, NeverStop());
+    benchmark::DoNotOptimize(reduced.expand(result.path, execution));
+  }
+  check(c, result);
+  state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * at.size()));
+  state.counters["settled"] = static_cast<double>(result.expanded) / static_cast<double>(at.size());
+}
+
+constexpr std::int64_t million = 1'000'000;
+
+BENCHMARK(bm_best_first)
+    ->ArgNames({"astar0_dijkstra1", "graph", "vertices", "random_ids"})
+    ->ArgsProduct({{0, 1}, {maze, maze_with_loops}, {million}, {0, 1}})
+    ->ArgsProduct({{0, 1}, {geometric}, {million / 4}, {0, 1}})
+    ->Args({0, maze, 9 * million, 0})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(bm_blind)
+    ->ArgNames({"bfs2_dfs3", "graph", "vertices", "random_ids"})
+    ->ArgsProduct({{2, 3}, {maze}, {million}, {0, 1}})
+    ->ArgsProduct({{2, 3}, {geometric}, {million / 4}, {0, 1}})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(bm_reduced_astar)
+    ->ArgNames({"graph", "vertices", "threads"})
+    ->ArgsProduct({{maze, maze_with_loops}, {million, 9 * million}, {1, 2}})
+    ->Args({geometric, million / 4, 2})
+    ->MeasureProcessCPUTime()
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace warren::bench

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "parallel/reduce_graph.hpp"
+
+#include <atomic>
+#include <string>
+#include <utility>
+
+#include "core/error.hpp"
+#include "parallel/scan.hpp"
+
+namespace warren {
+namespace {
+
+constexpr std::size_t grain = detail::reduce_grain;
+
+/// Neighbours that are left, as far as it matters: `count` is exact up to 2, `last` is one of them.
+struct Left {
+  unsigned count = 0;
+  VertexId last = no_vertex;
+};
+
+template <class IsLeft>
+Left left_of(std::span<const VertexId> row, const IsLeft& is_left) {
+  Left left;
+  if (row.size() <= 8) {  // without branches: whether a neighbour is left is as good as random
+    for (const VertexId w : row) {
+      const bool is = is_left(w);
+      left.count += is ? 1U : 0U;
+      left.last = is ? w : left.last;
+    }
+    return left;
+  }
+  for (const VertexId w : row) {
+    if (!is_left(w)) continue;
+    left.last = w;
+    if (++left.count == 3) break;
+  }
+  return left;
+}
+
+Execution without_progress(Execution execution) {
+  execution.progress = nullptr;
+  return execution;
+}
+
+}  // namespace
+
+KeyCoverView::KeyCoverView(const Graph& graph, std::span<const VertexId> keep, const Execution& execution)
+    : graph_(&graph) {
+  const std::size_t n = graph.vertex_count();
+  execution.reserve(n + n / 5);
+  left_.resize(n);
+  keys_.resize(chunk_count(n, 64));
+  rank_.resize(chunk_count(n, 64) + 1);
+  const Execution quiet = without_progress(execution);
+  for_chunks(n, grain, quiet,
+             [&](Range r) { std::fill(left_.data() + r.first, left_.data() + r.last, std::uint8_t{1}); });
+  for (const VertexId v : keep) {
+    if (v >= n) throw InputError("reduce_graph", "a vertex to keep is not in the graph", std::to_string(v));
+    left_[v] = 2;
+  }
+  for_chunks(n, grain, quiet, [&](Range r) { peel_block(r); });
+  for_chunks(n, grain, quiet, [&](Range r) { peel_across(r, execution); });
+  for_chunks(n, grain, quiet, [&](Range r) { mark_keys(r); });
+  rank_.back() = 0;
+  exclusive_scan(rank_, quiet);
+}
+
+/// Only vertices with all their neighbours in the block: no other thread reads or writes what decides about them.
+void KeyCoverView::peel_block(Range block) {
+  const auto first = static_cast<VertexId>(block.first);
+  const auto size = static_cast<VertexId>(block.size());
+  const auto is_inside = [&](std::span<const VertexId> row) {
+    return row.empty() || (row.front() >= first && row.back() - first < size);
+  };
+  for (VertexId scan = first; scan - first < size; ++scan) {
+    for (VertexId v = scan; v <= scan && left_[v] == 1;) {  // a larger vertex comes later in the scan
+      const std::span<const VertexId> row = graph_->neighbours(v);
+      if (!is_inside(row)) break;
+      const Left left = left_of(row, [&](VertexId w) { return left_[w] != 0; });
+      if (left.count > 1) break;
+      left_[v] = 0;
+      if (left.count == 0) break;
+      v = left.last;
+    }
+  }
+}
+
+/// Follows dead ends wherever they lead. Whoever peels a vertex looks at its last neighbour afterwards; sequentially
+/// consistent order makes the last of several peelers see all the others' work, so no vertex is forgotten.
+void KeyCoverView::peel_across(Range block, const Execution& execution) {
+  std::size_t steps = 0;
+  for (auto scan = static_cast<VertexId>(block.first); scan < block.last; ++scan) {
+    VertexId v = scan;
+    while (v != no_vertex && std::atomic_ref(left_[v]).load() == 1) {
+      const Left left =
+          left_of(graph_->neighbours(v), [&](VertexId w) { return std::atomic_ref(left_[w]).load() != 0; });
+      if (left.count > 1 || std::atomic_ref(left_[v]).exchange(0) == 0) break;
+      v = left.last;
+      if (++steps % detail::steps_per_poll == 0) execution.check();
+    }
+  }
+}
+
+void KeyCoverView::mark_keys(Range block) {
+  for (std::size_t word = block.first / 64; word * 64 < block.last; ++word) {
+    std::uint64_t bits = 0;
+    const auto end = static_cast<VertexId>(std::min(block.last, word * 64 + 64));
+    for (auto v = static_cast<VertexId>(word * 64); v < end; ++v) {
+      if (left_[v] == 0) continue;
+      const bool is_key =
+          left_[v] == 2 || left_of(graph_->neighbours(v), [&](VertexId w) { return left_[w] != 0; }).count != 2;
+      bits |= std::uint64_t{is_key} << v % 64;
+    }
+    keys_[word] = bits;
+    rank_[word] = static_cast<VertexId>(std::popcount(bits));
+  }
+}
+
+ReducedGraphView::ReducedGraphView(KeyCoverView cover, const std::vector<std::vector<Chain>>& parts,
+                                   RawVector<EdgeEnd> degrees, const Execution& execution)
+    : cover_(std::move(cover)) {
+  std::vector<std::size_t> begins(parts.size() + 1, 0);
+  for (std::size_t p = 0; p < parts.size(); ++p) begins[p + 1] = begins[p] + parts[p].size();
+  const Execution quiet = without_progress(execution);
+  execution.reserve(begins.back() * (2 * sizeof(VertexId) + sizeof(double)));
+  exclusive_scan(degrees, quiet);
+  RawVector<VertexId> targets(begins.back());
+  RawVector<double> lengths(begins.back());
+  via_.resize(begins.back());
+  vertices_.resize(cover_.key_count());
+  for_chunks(parts.size(), 16, quiet, [&](Range r) {
+    for (std::size_t p = r.first; p < r.last; ++p) {
+      std::size_t at = begins[p];
+      for (const Chain& chain : parts[p]) {
+        targets[at] = chain.target;
+        lengths[at] = chain.length;
+        via_[at++] = chain.via;
+      }
+    }
+  });
+  for_chunks(cover_.graph().vertex_count(), grain, quiet, [&](Range r) {
+    for (auto v = static_cast<VertexId>(r.first); v < r.last; ++v) {
+      if (cover_.is_key(v)) vertices_[cover_.rank(v)] = v;
+    }
+  });
+  reduced_ = Graph(std::move(degrees), std::move(targets), std::move(lengths));
+}
+
+std::vector<VertexId> ReducedGraphView::expand(std::span<const VertexId> keys, const Execution& execution) const {
+  std::vector<VertexId> path;
+  if (keys.empty()) return path;
+  path.push_back(vertex_of(keys.front()));
+  for (std::size_t i = 1; i < keys.size(); ++i) {
+    const std::span<const VertexId> row = reduced_.neighbours(keys[i - 1]);
+    const auto at = std::lower_bound(row.begin(), row.end(), keys[i]) - row.begin();
+    const std::size_t row_begin = static_cast<std::size_t>(row.data() - reduced_.neighbours(0).data());
+    VertexId before = path.back();
+    VertexId v = via_[row_begin + static_cast<std::size_t>(at)];
+    while (!cover_.is_key(v)) {
+      if (path.size() % detail::steps_per_poll == 0) execution.check();
+      path.push_back(v);
+      v = cover_.next_on_chain(std::exchange(before, v), v);
+    }
+    path.push_back(v);
+  }
+  return path;
+}
+
+}  // namespace warren

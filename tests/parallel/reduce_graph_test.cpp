@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "parallel/reduce_graph.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+#include <string>
+
+#include "core/error.hpp"
+#include "core/rng.hpp"
+#include "core/search.hpp"
+
+namespace warren {
+namespace {
+
+Execution on(unsigned threads) {
+  Execution execution;
+  execution.threads = threads;
+  return execution;
+}
+
+/// A spanning tree of a lattice by random choice, plus a share of the other doors; numbers shuffled or in row order.
+Graph random_maze(std::uint64_t seed, std::uint32_t side, double loops, bool shuffled) {
+  SequentialRng rng(seed);
+  std::vector<VertexId> number(std::size_t{side} * side);
+  std::iota(number.begin(), number.end(), 0U);
+  for (std::size_t i = number.size(); shuffled && i > 1; --i) std::swap(number[i - 1], number[rng.below(i)]);
+  std::vector<VertexId> group = number;
+  std::sort(group.begin(), group.end());
+  const auto root = [&](VertexId v) {
+    while (group[v] != v) v = group[v] = group[group[v]];
+    return v;
+  };
+  std::vector<Edge> doors;
+  for (VertexId c = 0; c < number.size(); ++c) {
+    if (c % side + 1 < side) doors.push_back({c, c + 1});
+    if (c + side < number.size()) doors.push_back({c, c + side});
+  }
+  for (std::size_t i = doors.size(); i > 1; --i) std::swap(doors[i - 1], doors[rng.below(i)]);
+  std::vector<Edge> edges;
+  for (const Edge& door : doors) {
+    const bool joins = root(door.from) != root(door.to);
+    group[root(door.from)] = root(door.to);
+    if (joins || uniform(seed, edges.size(), 5) < loops) edges.push_back({number[door.from], number[door.to]});
+  }
+  return Graph::from_edges(number.size(), edges);
+}
+
+Graph random_graph(std::uint64_t seed, std::size_t vertices, std::size_t edges) {
+  SequentialRng rng(seed);
+  std::set<Edge> unique;
+  for (std::size_t i = 0; i < edges; ++i) {
+    const auto a = static_cast<VertexId>(rng.below(vertices));
+    const auto b = static_cast<VertexId>(rng.below(vertices));
+    if (a != b) unique.insert({std::min(a, b), std::max(a, b)});
+  }
+  return Graph::from_edges(vertices, std::vector<Edge>(unique.begin(), unique.end()));
+}
+
+double edge_length(VertexId v, VertexId w) {
+  return 1.0 + uniform(9, std::min(v, w), std::max(v, w)) * ((v + w) % 2);  // half of them tie
+}
+
+SearchResult shortest(const Graph& graph, VertexId start, VertexId goal) {
+  SearchState state;
+  state.resize(graph.vertex_count());
+  IndexedHeap<4> heap;
+  heap.resize(graph.vertex_count());
+  const auto neighbours = [&](VertexId v, const auto& visit) {
+    const auto row = graph.neighbours(v);
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      visit(row[i], graph.has_lengths() ? graph.lengths(v)[i] : edge_length(v, row[i]));
+    }
+  };
+  return best_first(
+      start, goal, neighbours, [](VertexId) { return 0.0; }, heap, state, NeverStop());
+}
+
+/// Peels one vertex at a time until nothing changes.
+std::vector<bool> peeled_naively(const Graph& graph, const std::vector<VertexId>& keep) {
+  std::vector<bool> left(graph.vertex_count(), true);
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (VertexId v = 0; v < left.size(); ++v) {
+      const auto row = graph.neighbours(v);
+      const auto degree = std::count_if(row.begin(), row.end(), [&](VertexId w) { return left[w]; });
+      if (!left[v] || degree > 1 || std::count(keep.begin(), keep.end(), v) != 0) continue;
+      left[v] = false;
+      changed = true;
+    }
+  }
+  return left;
+}
+
+void expect_exact(const Graph& graph, VertexId start, VertexId goal) {
+  const std::vector<VertexId> keep{start, goal};
+  const auto left = peeled_naively(graph, keep);
+  const SearchResult oracle = shortest(graph, start, goal);
+  std::vector<VertexId> path_of_one_thread;
+  for (const unsigned threads : {1U, 2U, 3U, 8U}) {
+    SCOPED_TRACE("threads " + std::to_string(threads));
+    const KeyCoverView cover(graph, keep, on(threads));
+    for (VertexId v = 0; v < graph.vertex_count(); ++v) ASSERT_EQ(cover.is_left(v), left[v]) << v;
+    const ReducedGraphView reduced = reduce_graph(graph, keep, edge_length, on(threads));
+    for (VertexId key = 0; key < reduced.graph().vertex_count(); ++key) {
+      ASSERT_EQ(reduced.key_of(reduced.vertex_of(key)), key);
+      const auto row = reduced.graph().neighbours(key);
+      ASSERT_TRUE(std::adjacent_find(row.begin(), row.end(), std::greater_equal<>()) == row.end());
+    }
+    const SearchResult result = shortest(reduced.graph(), reduced.key_of(start), reduced.key_of(goal));
+    ASSERT_EQ(result.status, oracle.status);
+    ASSERT_LE(result.expanded, oracle.expanded);
+    if (oracle.status != SearchStatus::found) continue;
+    const auto path = reduced.expand(result.path, on(threads));
+    ASSERT_EQ(path.front(), start);
+    ASSERT_EQ(path.back(), goal);
+    double length = 0.0;
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      const auto row = graph.neighbours(path[i - 1]);
+      ASSERT_TRUE(std::binary_search(row.begin(), row.end(), path[i]));
+      length += edge_length(path[i - 1], path[i]);
+    }
+    ASSERT_NEAR(length, oracle.length, 1e-9 * oracle.length);
+    if (threads == 1) path_of_one_thread = path;
+    ASSERT_EQ(path, path_of_one_thread);
+  }
+}
+
+TEST(ReduceGraph, KeepsShortestPathsOfMazes) {
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+    SCOPED_TRACE(seed);
+    const std::uint32_t side = 5 + static_cast<std::uint32_t>(seed);
+    const Graph graph = random_maze(seed, side, static_cast<double>(seed % 4) / 10.0, seed % 2 == 0);
+    expect_exact(graph, 0, side * side - 1);
+    expect_exact(graph, side * side / 2, static_cast<VertexId>(seed));
+  }
+}
+
+TEST(ReduceGraph, KeepsShortestPathsOfRandomGraphs) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    SCOPED_TRACE(seed);
+    expect_exact(random_graph(seed, 30 + 5 * seed, 36 + 5 * seed + seed * seed / 8), 1, 17);
+  }
+}
+
+TEST(ReduceGraph, FollowsDeadEndsThroughManyBlocks) {
+  // A comb in bad order: the next vertex of each tooth lies in another block.
+  constexpr std::size_t n = 90'000;
+  std::vector<VertexId> number(n);
+  for (std::size_t i = 0; i < n; ++i) number[i] = static_cast<VertexId>(i * 30'011 % n);
+  std::vector<Edge> edges;
+  for (std::size_t i = 1; i < n; ++i) edges.push_back({number[i - 1], number[i]});
+  edges.push_back({number[10'000], number[20'000]});  // one ring, with a dead end at either side
+  const Graph graph = Graph::from_edges(n, edges);
+  for (const unsigned threads : {1U, 2U, 8U}) {
+    const std::vector<VertexId> keep{number[12'000], number[15'000]};
+    const ReducedGraphView reduced = reduce_graph(graph, keep, edge_length, on(threads));
+    ASSERT_EQ(reduced.graph().vertex_count(), 2U);  // the junctions have lost their dead ends
+    EXPECT_EQ(reduced.graph().edge_count(), 1U);    // the shorter of the ring's two sides
+    const auto path =
+        reduced.expand(std::vector<VertexId>{reduced.key_of(keep[0]), reduced.key_of(keep[1])}, on(threads));
+    ASSERT_EQ(path.size(), 3001U);
+    for (std::size_t i = 0; i < path.size(); ++i) ASSERT_EQ(path[i], number[12'000 + i]);
+  }
+}
+
+TEST(ReduceGraph, OfATreeWithoutKeptVerticesNothingIsLeft) {
+  const Graph graph = random_maze(3, 40, 0.0, true);
+  EXPECT_EQ(KeyCoverView(graph, {}, on(2)).key_count(), 0U);
+  EXPECT_EQ(reduce_graph(graph, {}, edge_length, on(2)).graph().vertex_count(), 0U);
+}
+
+TEST(ReduceGraph, OfAPerfectMazeOnlyThePathIsLeft) {
+  const Graph graph = random_maze(5, 60, 0.0, false);
+  const std::vector<VertexId> keep{0, 3599};
+  const ReducedGraphView reduced = reduce_graph(graph, keep, edge_length, on(2));
+  ASSERT_EQ(reduced.graph().vertex_count(), 2U);
+  EXPECT_EQ(reduced.expand(std::vector<VertexId>{0, 1}, on(1)), shortest(graph, 0, 3599).path);
+}
+
+TEST(ReduceGraph, RefusesAKeptVertexThatIsNotThere) {
+  const Graph graph = random_maze(5, 3, 0.0, false);
+  EXPECT_THROW(KeyCoverView(graph, std::vector<VertexId>{9}, on(1)), InputError);
+}
+
+}  // namespace
+}  // namespace warren
