@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <vector>
 
 #include "core/error.hpp"
@@ -21,8 +20,9 @@ constexpr std::size_t grain = std::size_t{1} << 16;
 /// Grid lines are numbered from 0: line k is the coordinate k + 0.5. Not one: -1.
 std::int64_t grid_line(double x, std::uint32_t last) {
   const double k = x - 0.5;  // exact wherever it may be one of a maze's lines
-  if (!(k >= 0.0 && k <= last) || k != std::floor(k)) return -1;
-  return static_cast<std::int64_t>(k);
+  if (!(k >= 0.0 && k <= last)) return -1;
+  const auto line = static_cast<std::int64_t>(k);
+  return static_cast<double>(line) == k ? line : -1;
 }
 
 /// A wall in grid lines, lower ends first.

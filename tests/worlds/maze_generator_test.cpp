@@ -311,8 +311,13 @@ TEST(MazeWalls, AreTheSameForAnyThreadCount) {
 }
 
 TEST(MazeWalls, TurnToDoublesWhereFloatsWouldRound) {
-  EXPECT_TRUE(maze_walls(maze(1, 8388607, 1, MazeAlgorithm::backtracker), false, {}).holds_floats());
-  const WallSet wide = maze_walls(maze(1, 8388608, 1, MazeAlgorithm::backtracker), false, {});
+  const auto corridor = [](std::uint32_t cols) {
+    MazeCells cells(1, cols);
+    std::fill(cells.bytes().begin(), cells.bytes().end(), MazeCells::upper_wall);
+    return maze_walls(cells, false, {});
+  };
+  EXPECT_TRUE(corridor(8388607).holds_floats());
+  const WallSet wide = corridor(8388608);
   EXPECT_FALSE(wide.holds_floats());
   EXPECT_EQ(wide.segment(0).b.x, 8388608.5);
 }

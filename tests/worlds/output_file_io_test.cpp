@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "worlds/output_file_io.hpp"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <string>
+
+#include "core/error.hpp"
+#include "tests/worlds/temporary_directory.hpp"
+
+namespace warren {
+namespace {
+
+TEST(OutputFile, AppearsWholeUnderItsNameAndNothingElseStays) {
+  const TemporaryDirectory directory;
+  const std::string large(3'000'000, 'x');
+  OutputFile file(directory.file("a.txt"), {});
+  file.write("one ");
+  file.write(large);
+  file.write(" two");
+  EXPECT_FALSE(std::filesystem::exists(directory.file("a.txt")));
+  file.commit();
+  EXPECT_EQ(directory.read("a.txt"), "one " + large + " two");
+  EXPECT_EQ(directory.entries(), 1U);
+}
+
+TEST(OutputFile, LeavesTheOldFileUntilCommit) {
+  const TemporaryDirectory directory;
+  directory.write("a.txt", "old");
+  {
+    OutputFile file(directory.file("a.txt"), {});
+    file.write(std::string(2'000'000, 'x'));
+  }
+  EXPECT_EQ(directory.read("a.txt"), "old");
+  EXPECT_EQ(directory.entries(), 1U);
+  write_file(directory.file("a.txt"), "new", {});
+  EXPECT_EQ(directory.read("a.txt"), "new");
+  EXPECT_EQ(directory.entries(), 1U);
+}
+
+TEST(OutputFile, FollowsLinksAndKeepsPermissions) {
+  const TemporaryDirectory directory;
+  directory.write("real.txt", "old");
+  ::chmod(directory.file("real.txt").c_str(), 0600);
+  std::filesystem::create_symlink("real.txt", directory.file("link.txt"));
+  write_file(directory.file("link.txt"), "new", {});
+  EXPECT_TRUE(std::filesystem::is_symlink(directory.file("link.txt")));
+  EXPECT_EQ(directory.read("real.txt"), "new");
+  EXPECT_EQ(std::filesystem::status(directory.file("real.txt")).permissions(), std::filesystem::perms(0600));
+}
+
+TEST(OutputFile, RefusesWhatCannotBeWrittenAndNamesIt) {
+  const TemporaryDirectory directory;
+  directory.write("plain", "");
+  for (const std::string& path : {directory.path(), directory.file("no/such/place.txt"), directory.file("plain/a.txt"),
+                                  std::string(), std::string("/dev/full"), std::string("/proc/nothing.txt")}) {
+    try {
+      write_file(path, "x", {});
+      ADD_FAILURE() << path;
+    } catch (const WriteError& error) {
+      EXPECT_EQ(std::string(error.what()).find(path + ": can't be written: "), 0U) << error.what();
+    }
+  }
+  EXPECT_EQ(directory.entries(), 1U);
+}
+
+TEST(OutputFile, WritesDevicesStraight) {
+  write_file("/dev/null", std::string(3'000'000, 'x'), {});
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
+TEST(OutputFile, AClosedPipeIsAnErrorAndNotASignal) {
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  OutputFile file("/dev/fd/" + std::to_string(ends[1]), {});
+  ::close(ends[0]);
+  file.write("nobody reads this");
+  EXPECT_THROW(file.commit(), WriteError);
+  ::close(ends[1]);
+}
+
+TEST(OutputFile, WaitingForASlowReaderPollsTheDeadline) {
+  const TemporaryDirectory directory;
+  const Deadline soon(0.02);
+  const Execution execution{.deadline = &soon};
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  const auto fill = [&] {
+    OutputFile file("/dev/fd/" + std::to_string(ends[1]), execution);
+    file.write(std::string(3'000'000, 'x'));
+    file.commit();
+  };
+  EXPECT_THROW(fill(), Stopped);
+  ::close(ends[0]);
+  ::close(ends[1]);
+  ASSERT_EQ(::mkfifo(directory.file("pipe").c_str(), 0600), 0);
+  EXPECT_THROW(write_file(directory.file("pipe"), "x", execution), Stopped);  // no reader at all
+}
+
+}  // namespace
+}  // namespace warren

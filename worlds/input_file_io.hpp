@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The bytes of an input: a regular file mapped into memory (nothing is read before it is looked at, pages can be given
+// back), a pipe, device or standard input read to its end. Waiting for a pipe polls the deadline every 50 ms.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "core/raw_vector.hpp"
+#include "parallel/execution.hpp"
+
+namespace warren {
+
+class InputFile {
+ public:
+  /// Opens and maps or reads; "-" is standard input. Throws ReadError (also for directories), Stopped.
+  InputFile(const std::string& path, const Execution& execution);
+  ~InputFile();
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
+
+  /// The path as given, or "standard input".
+  const std::string& name() const { return name_; }
+  std::string_view bytes() const { return bytes_; }
+  /// Gives the pages around bytes first .. last - 1 back: they no longer count as held, and are read again when looked
+  /// at again. Nothing happens to what was read from a pipe. Any threads may call it.
+  void forget(std::size_t first, std::size_t last) const noexcept;
+
+ private:
+  void map(int file, std::size_t size);
+  void read_all(int file, const Execution& execution);
+
+  std::string name_;
+  std::string_view bytes_;
+  void* map_ = nullptr;
+  RawVector<char> read_;
+};
+
+}  // namespace warren

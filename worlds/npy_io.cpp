@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The header is a Python literal, {'descr': '<f4', 'fortran_order': False, 'shape': (28, 4), }, padded so that the
+// numbers begin on a multiple of 64.
+#include "worlds/npy_io.hpp"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+#include "parallel/chunks.hpp"
+#include "worlds/maze_generator.hpp"
+#include "worlds/output_file_io.hpp"
+#include "worlds/scene_text.hpp"
+
+namespace warren {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "numbers are copied as they lie in the file");
+
+constexpr std::string_view magic = "\x93NUMPY";
+constexpr std::size_t grain = std::size_t{1} << 16;
+
+struct Header {
+  bool is_float = false;  ///< else double
+  std::size_t walls = 0;
+  std::size_t data = 0;  ///< where the numbers begin
+};
+
+/// Reads the header's dictionary.
+class HeaderParser {
+ public:
+  explicit HeaderParser(const InputFile& file) : name_(file.name()), bytes_(file.bytes()) {}
+
+  Header parse() {
+    if (!is_npy(bytes_)) fail("expected a .npy file, which begins with \\x93NUMPY", bytes_.substr(0, 8));
+    Header header;
+    rest_ = dictionary(header.data);
+    parse_entries(header);
+    if (!has_type_ || !has_order_ || !has_shape_) fail("the header must have descr, fortran_order and shape", rest_);
+    return header;
+  }
+
+ private:
+  [[noreturn]] void fail(std::string_view what, std::string_view found) const {
+    throw InputError(name_, what, scene_text::printable(found));
+  }
+  std::size_t little_endian(std::size_t at, std::size_t count) const {
+    std::size_t value = 0;
+    for (std::size_t i = count; i > 0; --i) value = value << 8U | static_cast<unsigned char>(bytes_[at + i - 1]);
+    return value;
+  }
+  std::string_view dictionary(std::size_t& data) const {
+    const std::size_t version = bytes_.size() > magic.size() ? static_cast<unsigned char>(bytes_[magic.size()]) : 0;
+    if (version < 1 || version > 3) fail("expected .npy version 1, 2 or 3", fmt::format("version {}", version));
+    const std::size_t length_bytes = version == 1 ? 2 : 4;
+    const std::size_t begin = magic.size() + 2 + length_bytes;
+    const std::size_t length =
+        bytes_.size() < begin ? bytes_.size() : little_endian(begin - length_bytes, length_bytes);
+    if (bytes_.size() < begin || bytes_.size() - begin < length) {
+      fail("the file ends within its header", fmt::format("{} bytes", bytes_.size()));
+    }
+    data = begin + length;
+    return bytes_.substr(begin, length);
+  }
+
+  void parse_entries(Header& header) {
+    expect('{');
+    while (!accept('}')) {
+      const std::string_view key = quoted();
+      expect(':');
+      if (key == "descr") {
+        parse_type(header);
+      } else if (key == "fortran_order") {
+        parse_order();
+      } else if (key == "shape") {
+        parse_shape(header);
+      } else {
+        fail("unknown entry in the header", key);
+      }
+      if (!accept(',') && !rest_.starts_with('}')) fail("expected `,` or `}` in the header", rest_);
+    }
+  }
+  void parse_type(Header& header) {
+    skip_blanks();
+    if (!rest_.starts_with('\'') && !rest_.starts_with('"')) fail("expected numbers of type <f4 or <f8", rest_);
+    const std::string_view type = quoted();
+    if (type != "<f4" && type != "<f8") fail("expected numbers of type <f4 or <f8", type);
+    header.is_float = type == "<f4";
+    has_type_ = true;
+  }
+  void parse_order() {
+    skip_blanks();
+    if (rest_.starts_with("True"))
+      fail("expected C order, not Fortran order: save numpy.ascontiguousarray(walls)", rest_);
+    if (!rest_.starts_with("False")) fail("expected fortran_order False", rest_);
+    rest_.remove_prefix(5);
+    has_order_ = true;
+  }
+  void parse_shape(Header& header) {
+    const std::string_view shown = rest_.substr(0, rest_.find(')') + 1);
+    std::vector<std::size_t> shape;
+    expect('(');
+    while (!accept(')')) {
+      shape.push_back(whole_number());
+      if (!accept(',') && !rest_.starts_with(')')) fail("expected a shape like (28, 4)", shown);
+    }
+    if (shape.size() != 2 || shape[1] != 4) fail("expected shape (n, 4), a wall x1 y1 x2 y2 a row", shown);
+    header.walls = shape[0];
+    has_shape_ = true;
+  }
+
+  void skip_blanks() {
+    while (!rest_.empty() && (rest_.front() == ' ' || rest_.front() == '\n')) rest_.remove_prefix(1);
+  }
+  bool accept(char c) {
+    skip_blanks();
+    if (!rest_.starts_with(c)) return false;
+    rest_.remove_prefix(1);
+    skip_blanks();
+    return true;
+  }
+  void expect(char c) {
+    if (!accept(c)) fail(fmt::format("expected `{}` in the header", c), rest_);
+  }
+  std::string_view quoted() {
+    skip_blanks();
+    const char quote = rest_.empty() ? '\0' : rest_.front();
+    const std::size_t end = quote == '\'' || quote == '"' ? rest_.find(quote, 1) : std::string_view::npos;
+    if (end == std::string_view::npos) fail("expected a quoted word in the header", rest_);
+    const std::string_view word = rest_.substr(1, end - 1);
+    rest_.remove_prefix(end + 1);
+    return word;
+  }
+  std::size_t whole_number() {
+    std::size_t value = 0;
+    const auto [last, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
+    if (error != std::errc()) fail("expected a whole number in the shape", rest_);
+    rest_.remove_prefix(static_cast<std::size_t>(last - rest_.data()));
+    return value;
+  }
+
+  const std::string& name_;
+  std::string_view bytes_;
+  std::string_view rest_;
+  bool has_type_ = false;
+  bool has_order_ = false;
+  bool has_shape_ = false;
+};
+
+Header checked_header(const InputFile& file) {
+  const Header header = HeaderParser(file).parse();
+  const std::size_t wall_bytes = header.is_float ? sizeof(FloatWall) : sizeof(DoubleWall);
+  const std::size_t held = file.bytes().size() - header.data;
+  if (header.walls == 0) throw InputError(file.name(), "the array has no rows; expected at least one wall");
+  if (held / wall_bytes != header.walls || held % wall_bytes != 0) {
+    throw InputError(file.name(),
+                     fmt::format("expected {} bytes for each of {} rows behind the header", wall_bytes, header.walls),
+                     fmt::format("{} bytes", held));
+  }
+  return header;
+}
+
+/// Copies rows out of the file; In is what the file holds.
+template <class In>
+class Rows {
+ public:
+  Rows(const InputFile& file, const Header& header, const Execution& execution)
+      : file_(file), header_(header), execution_(execution), bad_(chunk_count(header.walls, grain), header.walls) {}
+
+  template <class Out>
+  WallSet copy() {
+    execution_.reserve(header_.walls * sizeof(WallOf<Out>));
+    RawVector<WallOf<Out>> walls(header_.walls);
+    for_chunks(header_.walls, grain, execution_, [&](Range r) {
+      bool good = true;
+      for (std::size_t i = r.first; i < r.last; ++i) {
+        const WallOf<In> w = row(i);
+        good &= is_sane(w.x1) & is_sane(w.y1) & is_sane(w.x2) & is_sane(w.y2);
+        walls[i] = {as<Out>(w.x1), as<Out>(w.y1), as<Out>(w.x2), as<Out>(w.y2)};
+      }
+      if (!good) bad_[r.first / grain] = first_bad(r);
+      forget(r);
+    });
+    for (const std::size_t bad : bad_) {
+      if (bad < header_.walls) refuse(bad);
+    }
+    return WallSet(std::move(walls));
+  }
+  bool fit_floats() const {
+    std::vector<std::uint8_t> fit(bad_.size(), 0);
+    for_chunks(header_.walls, grain, {execution_.threads, execution_.deadline}, [&](Range r) {
+      bool all = true;
+      for (std::size_t i = r.first; i < r.last && all; ++i) {
+        const WallOf<In> w = row(i);
+        all = fits_float(w.x1) && fits_float(w.y1) && fits_float(w.x2) && fits_float(w.y2);
+      }
+      fit[r.first / grain] = all ? 1 : 0;
+      forget(r);
+    });
+    return std::all_of(fit.begin(), fit.end(), [](std::uint8_t all) { return all == 1; });
+  }
+
+ private:
+  WallOf<In> row(std::size_t i) const {
+    WallOf<In> wall;
+    std::memcpy(&wall, file_.bytes().data() + header_.data + i * sizeof wall, sizeof wall);
+    return wall;
+  }
+  static bool is_sane(In x) {
+    return std::abs(x) <= static_cast<In>(std::min<double>(largest_coordinate, std::numeric_limits<In>::max()));
+  }
+  static bool is_sane(const WallOf<In>& w) { return is_sane(w.x1) && is_sane(w.y1) && is_sane(w.x2) && is_sane(w.y2); }
+  static bool fits_float(In x) {
+    return !(std::abs(x) > std::numeric_limits<float>::max()) && static_cast<In>(static_cast<float>(x)) == x;
+  }
+  template <class Out>
+  static Out as(In x) {
+    return std::abs(static_cast<double>(x)) < smallest_coordinate ? Out{0} : static_cast<Out>(x);
+  }
+  std::size_t first_bad(Range r) const {
+    std::size_t i = r.first;
+    while (is_sane(row(i))) ++i;
+    return i;
+  }
+  [[noreturn]] void refuse(std::size_t i) const {
+    const Segment s = row(i).segment();
+    throw InputError(fmt::format("{}: row {}", file_.name(), i), "numbers must be finite and at most 1e60 in magnitude",
+                     fmt::format("{} {} {} {}", s.a.x, s.a.y, s.b.x, s.b.y));
+  }
+  void forget(Range r) const {
+    file_.forget(header_.data + r.first * sizeof(WallOf<In>), header_.data + r.last * sizeof(WallOf<In>));
+  }
+
+  const InputFile& file_;
+  const Header& header_;
+  const Execution& execution_;
+  std::vector<std::size_t> bad_;  ///< a slot a chunk: its first row that is refused
+};
+
+WallSet walls_of(const InputFile& file, const Header& header, const Execution& execution) {
+  if (header.is_float) return Rows<float>(file, header, execution).copy<float>();
+  Rows<double> rows(file, header, execution);
+  return rows.fit_floats() ? rows.copy<float>() : rows.copy<double>();
+}
+
+/// The size that the first four walls say, if they are a maze's outline.
+std::optional<MazeHint> outline_size(const WallSet& walls) {
+  if (walls.size() < 4) return std::nullopt;
+  const Vec2 corner = walls.segment(1).b;
+  const double cols = corner.x - 0.5;
+  const double rows = corner.y - 0.5;
+  constexpr double most = std::numeric_limits<std::uint32_t>::max();
+  if (!(rows >= 1.0 && cols >= 1.0 && rows * cols <= most) || rows != std::floor(rows) || cols != std::floor(cols)) {
+    return std::nullopt;
+  }
+  const Segment outline[4] = {{{0.5, 0.5}, {corner.x, 0.5}},
+                              {{0.5, corner.y}, corner},
+                              {{0.5, 1.5}, {0.5, corner.y}},
+                              {{corner.x, 0.5}, {corner.x, corner.y - 1.0}}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (walls.segment(i) != outline[i]) return std::nullopt;
+  }
+  return MazeHint{static_cast<std::uint32_t>(rows), static_cast<std::uint32_t>(cols)};
+}
+
+template <class T>
+std::string header_of(std::size_t walls) {
+  constexpr std::size_t alignment = 64;
+  std::string dictionary =
+      fmt::format("{{'descr': '<f{}', 'fortran_order': False, 'shape': ({}, 4), }}", sizeof(T), walls);
+  const std::size_t unpadded = magic.size() + 4 + dictionary.size() + 1;
+  dictionary.append((alignment - unpadded % alignment) % alignment, ' ').push_back('\n');
+  std::string header{magic};
+  header.append({'\1', '\0', static_cast<char>(dictionary.size() & 0xffU), static_cast<char>(dictionary.size() >> 8U)});
+  return header + dictionary;
+}
+
+}  // namespace
+
+bool is_npy(std::string_view bytes) { return bytes.starts_with(magic); }
+
+Scene read_npy(const InputFile& file, const Execution& execution) {
+  const Header header = checked_header(file);
+  if (execution.progress != nullptr) execution.progress->begin("read", header.walls);
+  Scene scene;
+  scene.walls = walls_of(file, header, execution);
+  scene.source = file.name();
+  const std::optional<MazeHint> hint = outline_size(scene.walls);
+  if (hint && !first_wall_off_grid(scene.walls, *hint, {execution.threads, execution.deadline})) {
+    scene.maze = hint;
+    scene.start = {0.5, 1.0};
+    scene.goal = {hint->cols + 0.5, static_cast<double>(hint->rows)};
+  }
+  return scene;
+}
+
+void write_npy(const Scene& scene, const std::string& path, const Execution& execution) {
+  if (!scene.polygons.empty() || !scene.spheres.empty() || scene.bounds) {
+    throw InputError(path, "a .npy file holds walls alone; write polygons, spheres and bounds to a .scene file");
+  }
+  constexpr std::size_t block = std::size_t{4} << 20;
+  if (execution.progress != nullptr) execution.progress->begin("write", scene.walls.bytes());
+  OutputFile file(path, execution);
+  scene.walls.visit([&](auto walls) {
+    file.write(header_of<decltype(walls.front().x1)>(walls.size()));
+    std::string_view bytes(reinterpret_cast<const char*>(walls.data()), walls.size_bytes());
+    while (!bytes.empty()) {
+      const std::string_view some = bytes.substr(0, block);
+      file.write(some);
+      execution.advance(some.size());
+      bytes.remove_prefix(some.size());
+    }
+  });
+  file.commit();
+}
+
+}  // namespace warren

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Walls as a NumPy array of shape (n, 4), `<f4` or `<f8`, C order: the fast way in and out. Format versions 1 to 3 are
+// read. The file is mapped and copied chunk by chunk in parallel, pages that are copied are given back, so reading n
+// walls holds 16 n bytes (32 n where floats don't do) and runs at memory or disk speed.
+#pragma once
+
+#include <string>
+
+#include "parallel/execution.hpp"
+#include "worlds/input_file_io.hpp"
+#include "worlds/scene.hpp"
+
+namespace warren {
+
+/// True for the first bytes of every .npy file.
+bool is_npy(std::string_view bytes);
+
+/// Walls, and for a maze as `generate` writes it (its outline in the first four rows, all walls on the unit grid) also
+/// hint, start and goal. Throws InputError for anything but such an array of finite numbers, Stopped at the deadline.
+Scene read_npy(const InputFile& file, const Execution& execution);
+
+/// Writes the walls, `<f4` where they are held as floats. Throws InputError if the scene holds obstacles of another
+/// kind, and as OutputFile does.
+void write_npy(const Scene& scene, const std::string& path, const Execution& execution);
+
+}  // namespace warren

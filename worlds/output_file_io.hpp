@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where results are written. A regular file is written beside its place under another name and renamed by commit(), so
+// nothing half-written ever stands under the name asked for; devices, pipes and "-" (standard output) are written
+// straight. A reader that closes its pipe is a WriteError, not a signal. Waiting for a slow reader polls the deadline.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "parallel/execution.hpp"
+
+namespace warren {
+
+class OutputFile {
+ public:
+  /// Throws WriteError if the place can't be written, Stopped while waiting for a pipe's reader.
+  OutputFile(const std::string& path, const Execution& execution);
+  /// Without commit(), a regular file is left as it was.
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  /// Appends bytes; small pieces are collected. Throws WriteError (full disk, closed pipe), Stopped.
+  void write(std::string_view bytes);
+  /// Writes what is left, closes and puts the file in its place. Throws WriteError, Stopped. Nothing may follow.
+  void commit();
+
+ private:
+  void open_straight(const std::string& path);
+  void open_beside(const std::string& path);
+  void flush();
+  void write_now(std::string_view bytes);
+  void close_file();
+  [[noreturn]] void fail(int error) const;
+
+  Execution execution_;
+  std::string name_;
+  std::string target_;     ///< where the file goes; empty: written straight
+  std::string temporary_;  ///< what is written until then
+  std::string pending_;
+  int file_ = -1;
+};
+
+/// Writes a whole file at once.
+void write_file(const std::string& path, std::string_view bytes, const Execution& execution);
+
+}  // namespace warren

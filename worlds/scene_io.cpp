@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The reader: a table of items, each with its usage line and the member that reads it. Contradictions between items are
+// looked for at the end, when all lines are known.
+#include "worlds/scene_io.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+#include "worlds/maze_generator.hpp"
+#include "worlds/scene_text.hpp"
+#include "worlds/wall_collector.hpp"
+
+namespace warren {
+namespace {
+
+using scene_text::Fields;
+using scene_text::Place;
+
+/// Calls f(line, number) for each line, without its end; f returns false to stop. Looks at the deadline now and then
+/// and gives back the pages that are behind.
+template <class F>
+void for_lines(const InputFile& file, const Execution& execution, F&& f) {
+  constexpr std::size_t lines_per_look = 4096;
+  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+  const std::string_view all = file.bytes();
+  std::size_t forgotten = 0;
+  std::size_t at = all.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+  for (std::size_t number = 1; at < all.size(); ++number) {
+    if (number % lines_per_look == 0) {
+      execution.check();
+      execution.advance(at - forgotten);
+      file.forget(forgotten, at);
+      forgotten = at;
+    }
+    const std::size_t end = std::min(all.find('\n', at), all.size());
+    if (!f(all.substr(at, end - at), number)) return;
+    at = end + 1;
+  }
+}
+
+class SceneReader {
+ public:
+  SceneReader(const InputFile& file, const Execution& execution)
+      : file_(file), execution_(execution), walls_(execution) {}
+
+  Scene read() {
+    if (execution_.progress != nullptr) execution_.progress->begin("read", file_.bytes().size());
+    refuse_other_encodings();
+    for_lines(file_, execution_, [&](std::string_view line, std::size_t number) {
+      read_line({line, {file_.name(), number}}, line);
+      last_line_ = number;
+      return true;
+    });
+    scene_.walls = walls_.take();
+    scene_.source = file_.name();
+    check_whole();
+    return std::move(scene_);
+  }
+
+ private:
+  struct Item {
+    std::string_view name;
+    std::string_view usage;
+    bool once;
+    void (SceneReader::*read)(Fields&);
+  };
+  static constexpr std::size_t item_count = 10;
+  static constexpr std::size_t numbers_per_look = 4096;
+  static const std::array<Item, item_count> items;
+  enum ItemNumber : std::size_t { maze_item = 5, robot_item = 6, start_item = 7, goal_item = 8 };
+
+  void refuse_other_encodings() const {
+    const std::string_view all = file_.bytes();
+    if (all.starts_with("\xff\xfe") || all.starts_with("\xfe\xff")) {
+      Place{file_.name(), 1}.fail("expected UTF-8 text, not UTF-16", all.substr(0, 2));
+    }
+    if (all.empty()) Place{file_.name(), 1}.fail("the file is empty; expected walls, polygons or spheres");
+  }
+
+  void read_line(Fields fields, std::string_view line) {
+    if (fields.done()) return;
+    if (fields.number_follows()) {
+      item_ = &items[0];
+      return read_wall(fields);
+    }
+    const std::string_view name = fields.word();
+    item_ = std::find_if(items.begin(), items.end(), [&](const Item& item) { return item.name == name; });
+    if (item_ == items.end()) refuse_word(fields.place(), name, line);
+    std::size_t& first = first_lines_[static_cast<std::size_t>(item_ - items.begin())];
+    if (item_->once && first != 0) {
+      fields.place().fail(fmt::format("a second `{}` line; the first is line {}", name, first), line);
+    }
+    first = fields.place().line;
+    (this->*item_->read)(fields);
+  }
+
+  [[noreturn]] static void refuse_word(const Place& place, std::string_view name, std::string_view line) {
+    const auto is_control = [](unsigned char c) { return c < 0x20 && !scene_text::is_blank(static_cast<char>(c)); };
+    if (std::any_of(name.begin(), name.end(), is_control)) place.fail("this is not a text file", line);
+    std::array<std::string_view, item_count> names;
+    std::transform(items.begin(), items.end(), names.begin(), [](const Item& item) { return item.name; });
+    const std::string_view nearest = scene_text::nearest_word(name, names);
+    if (!nearest.empty()) place.fail(fmt::format("unknown item; did you mean `{}`?", nearest), name);
+    place.fail(fmt::format("unknown item; expected four numbers or one of {}", fmt::join(names, ", ")), name);
+  }
+
+  /// The numbers that are left in the line; their count is checked against the item's usage.
+  const std::vector<double>& numbers(Fields& fields, std::size_t least, std::size_t most) {
+    numbers_.clear();
+    while (!fields.done()) {
+      numbers_.push_back(fields.number());
+      if (numbers_.size() % numbers_per_look == 0) execution_.check();
+    }
+    if (numbers_.size() < least || numbers_.size() > most) refuse_count(fields.place(), numbers_.size());
+    return numbers_;
+  }
+  [[noreturn]] void refuse_count(const Place& place, std::size_t count) const {
+    place.fail(fmt::format("expected `{}`", item_->usage), fmt::format("{} number{}", count, count == 1 ? "" : "s"));
+  }
+  [[noreturn]] void refuse(const Place& place, std::string_view what, double value) const {
+    place.fail(fmt::format("`{}`: {}", item_->name, what), fmt::format("{}", value));
+  }
+
+  void read_wall(Fields& fields) {
+    const std::vector<double>& n = numbers(fields, 4, 4);
+    walls_.add(n[0], n[1], n[2], n[3]);
+  }
+  std::vector<Vec2> corners(Fields& fields) {
+    const std::vector<double>& n = numbers(fields, 6, std::numeric_limits<std::size_t>::max());
+    if (n.size() % 2 != 0) refuse_count(fields.place(), n.size());
+    std::vector<Vec2> points;
+    for (std::size_t i = 0; i < n.size(); i += 2) points.push_back({n[i], n[i + 1]});
+    return points;
+  }
+  void read_polygon(Fields& fields) { scene_.polygons.push_back({corners(fields), fields.place().line}); }
+  void read_sphere(Fields& fields) {
+    const std::vector<double>& n = numbers(fields, 4, 4);
+    if (n[3] < 0.0) refuse(fields.place(), "the radius must be at least 0", n[3]);
+    scene_.spheres.push_back({n[0], n[1], n[2], n[3]});
+  }
+  void read_bounds(Fields& fields) {
+    const std::vector<double>& n = numbers(fields, 4, 4);
+    if (!(n[0] < n[2])) refuse(fields.place(), fmt::format("XMIN must be less than XMAX = {}", n[2]), n[0]);
+    if (!(n[1] < n[3])) refuse(fields.place(), fmt::format("YMIN must be less than YMAX = {}", n[3]), n[1]);
+    scene_.bounds = Box{{n[0], n[1]}, {n[2], n[3]}};
+  }
+  void read_clearance(Fields& fields) {
+    scene_.clearance = not_negative(fields.place(), "R", numbers(fields, 1, 1)[0]);
+  }
+  void read_maze(Fields& fields) {
+    const std::vector<double>& n = numbers(fields, 2, 2);
+    scene_.maze = MazeHint{count(fields.place(), "ROWS", n[0]), count(fields.place(), "COLS", n[1])};
+    if (std::uint64_t{scene_.maze->rows} * scene_.maze->cols > std::numeric_limits<std::uint32_t>::max()) {
+      fields.place().fail("`maze`: ROWS x COLS must be below 2^32", fmt::format("{}x{}", n[0], n[1]));
+    }
+  }
+  void read_start(Fields& fields) { scene_.start = state(fields); }
+  void read_goal(Fields& fields) { scene_.goal = state(fields); }
+  std::vector<double> state(Fields& fields) {
+    const std::vector<double>& n = numbers(fields, 2, 6);
+    if (n.size() != 2 && n.size() != 3 && n.size() != 6) refuse_count(fields.place(), n.size());
+    return n;
+  }
+  void read_grid(Fields& fields) {
+    const std::vector<double>& n = numbers(fields, 2, 2);
+    scene_.grid = GridSpec{positive(fields.place(), "CELL", n[0]), count(fields.place(), "ANGLES", n[1])};
+  }
+
+  double positive(const Place& place, std::string_view name, double value) const {
+    if (!(value > 0.0)) refuse(place, fmt::format("{} must be greater than 0", name), value);
+    return value;
+  }
+  double not_negative(const Place& place, std::string_view name, double value) const {
+    if (!(value >= 0.0)) refuse(place, fmt::format("{} must be at least 0", name), value);
+    return value;
+  }
+  std::uint32_t count(const Place& place, std::string_view name, double value) const {
+    if (!(value >= 1.0 && value <= std::numeric_limits<std::uint32_t>::max()) || value != std::floor(value)) {
+      refuse(place, fmt::format("{} must be a whole number, at least 1 and below 2^32", name), value);
+    }
+    return static_cast<std::uint32_t>(value);
+  }
+
+  void read_robot(Fields& fields);
+  /// A body's named numbers: `radius R` and the like, each once, in any order.
+  void read_robot_sizes(Fields& fields, RobotSpec& robot);
+
+  void check_whole() const;
+  void check_state(const std::vector<double>& given, ItemNumber item) const;
+  void check_maze() const;
+  Place place_of(ItemNumber item) const { return {file_.name(), first_lines_[item]}; }
+
+  const InputFile& file_;
+  const Execution& execution_;
+  Scene scene_;
+  WallCollector walls_;
+  std::vector<double> numbers_;
+  std::array<std::size_t, item_count> first_lines_{};  ///< 0: no such line
+  std::size_t last_line_ = 1;
+  const Item* item_ = nullptr;  ///< of the line that is being read
+};
+
+const std::array<SceneReader::Item, SceneReader::item_count> SceneReader::items = {{
+    {"wall", "wall X1 Y1 X2 Y2", false, &SceneReader::read_wall},
+    {"polygon", "polygon X Y X Y X Y ...", false, &SceneReader::read_polygon},
+    {"sphere", "sphere X Y Z R", false, &SceneReader::read_sphere},
+    {"bounds", "bounds XMIN YMIN XMAX YMAX", true, &SceneReader::read_bounds},
+    {"clearance", "clearance R", true, &SceneReader::read_clearance},
+    {"maze", "maze ROWS COLS", true, &SceneReader::read_maze},
+    {"robot", "robot point|disc R|polygon X Y X Y X Y ...|car radius R turning RHO|puma560 radius R [tool T]", true,
+     &SceneReader::read_robot},
+    {"start", "start X Y [THETA] or six joint angles", true, &SceneReader::read_start},
+    {"goal", "goal X Y [THETA] or six joint angles", true, &SceneReader::read_goal},
+    {"grid", "grid CELL ANGLES", true, &SceneReader::read_grid},
+}};
+
+void SceneReader::read_robot(Fields& fields) {
+  RobotSpec robot;
+  const std::string_view kind = fields.word();
+  if (kind == "point") {
+    numbers(fields, 0, 0);
+  } else if (kind == "disc") {
+    robot.kind = RobotKind::disc;
+    robot.radius = not_negative(fields.place(), "R", numbers(fields, 1, 1)[0]);
+  } else if (kind == "polygon") {
+    robot.kind = RobotKind::polygon;
+    robot.outline = corners(fields);
+  } else if (kind == "car" || kind == "puma560") {
+    robot.kind = kind == "car" ? RobotKind::car : RobotKind::puma560;
+    read_robot_sizes(fields, robot);
+  } else {
+    fields.place().fail(fmt::format("expected `{}`", item_->usage), kind.empty() ? "nothing" : kind);
+  }
+  scene_.robot = std::move(robot);
+}
+
+void SceneReader::read_robot_sizes(Fields& fields, RobotSpec& robot) {
+  const bool is_car = robot.kind == RobotKind::car;
+  const std::string_view second = is_car ? "turning" : "tool";
+  bool has_radius = false;
+  bool has_second = false;
+  while (!fields.done()) {
+    const std::string_view name = fields.word();
+    bool& seen = name == "radius" ? has_radius : has_second;
+    if ((name != "radius" && name != second) || seen)
+      fields.place().fail(fmt::format("expected `{}`", item_->usage), name);
+    seen = true;
+    const double value = fields.number();
+    if (name == "radius") robot.radius = not_negative(fields.place(), "radius", value);
+    if (name == "turning") robot.turning_radius = positive(fields.place(), "turning", value);
+    if (name == "tool") robot.tool = not_negative(fields.place(), "tool", value);
+  }
+  if (!has_radius) fields.place().fail(fmt::format("expected `{}`", item_->usage), "no radius");
+  if (is_car && !has_second) fields.place().fail(fmt::format("expected `{}`", item_->usage), "no turning radius");
+}
+
+void SceneReader::check_whole() const {
+  if (scene_.walls.size() == 0 && scene_.polygons.empty() && scene_.spheres.empty() && !scene_.bounds) {
+    Place{file_.name(), last_line_}.fail("the file ends without any wall, polygon, sphere or bounds");
+  }
+  if (scene_.robot) {
+    check_state(scene_.start, start_item);
+    check_state(scene_.goal, goal_item);
+  }
+  if (scene_.maze) check_maze();
+}
+
+void SceneReader::check_state(const std::vector<double>& given, ItemNumber item) const {
+  if (given.empty()) return;
+  const std::size_t wanted = state_size(*scene_.robot);
+  const bool any_heading = item == goal_item && wanted == 3 && given.size() == 2;
+  if (given.size() == wanted || any_heading) return;
+  place_of(item).fail(fmt::format("`{}` must be {} numbers for the robot of line {}", items[item].name, wanted,
+                                  first_lines_[robot_item]),
+                      fmt::format("{} numbers", given.size()));
+}
+
+void SceneReader::check_maze() const {
+  const auto off = first_wall_off_grid(scene_.walls, *scene_.maze, execution_);
+  if (!off) return;
+  std::size_t walls = 0;
+  for_lines(file_, execution_, [&](std::string_view line, std::size_t number) {
+    Fields fields(line, {file_.name(), number});
+    if (!fields.number_follows() && fields.word() != "wall") return true;
+    if (walls++ < *off) return true;
+    fields.place().fail(fmt::format("this wall is not on the unit grid of the {}x{} maze of line {}", scene_.maze->rows,
+                                    scene_.maze->cols, first_lines_[maze_item]),
+                        line);
+  });
+}
+
+}  // namespace
+
+Scene read_scene_text(const InputFile& file, const Execution& execution) { return SceneReader(file, execution).read(); }
+
+}  // namespace warren

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "worlds/scene_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+
+#include "core/error.hpp"
+#include "core/types.hpp"
+
+namespace warren::scene_text {
+namespace {
+
+/// Bytes of the UTF-8 character at the front; 0 if it is broken or a control character.
+std::size_t character_bytes(std::string_view text) {
+  const auto lead = static_cast<unsigned char>(text.front());
+  if (lead < 0x80) return lead >= 0x20 && lead != 0x7f ? 1 : 0;
+  const std::size_t bytes = lead >= 0xf0 && lead < 0xf5 ? 4 : lead >= 0xe0 ? 3 : lead >= 0xc2 ? 2 : 0;
+  if (lead >= 0xf5 || bytes > text.size()) return 0;
+  const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) == 0x80; };
+  return std::all_of(text.begin() + 1, text.begin() + static_cast<std::ptrdiff_t>(bytes), continues) ? bytes : 0;
+}
+
+constexpr std::size_t longest_word = 32;
+
+/// b has at most longest_word characters.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::array<std::size_t, longest_word + 1> row;
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0]++;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({row[j] + 1, row[j + 1] + 1, replaced});
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+std::string Place::text() const { return fmt::format("{}:{}", file, line); }
+
+void Place::fail(std::string_view what, std::string_view found) const {
+  throw InputError(text(), what, printable(found));
+}
+
+std::string printable(std::string_view text) {
+  constexpr std::size_t longest = 40;
+  std::string shown;
+  while (!text.empty()) {
+    if (shown.size() >= longest) return shown + "...";
+    const std::size_t bytes = character_bytes(text);
+    if (bytes == 0) {
+      shown += fmt::format("\\x{:02x}", static_cast<unsigned char>(text.front()));
+    } else {
+      shown.append(text.substr(0, bytes));
+    }
+    text.remove_prefix(std::max<std::size_t>(1, bytes));
+  }
+  return shown;
+}
+
+std::string_view Fields::word() {
+  const char* begin = at_;
+  while (at_ != end_ && !is_blank(*at_) && *at_ != '#') ++at_;
+  const std::string_view field(begin, static_cast<std::size_t>(at_ - begin));
+  skip_blanks();
+  return field;
+}
+
+double Fields::number() {
+  const char* begin = at_;
+  double value = 0.0;
+  const bool plus = at_ != end_ && *at_ == '+' && at_ + 1 != end_ && at_[1] != '-';
+  const auto [last, error] = std::from_chars(plus ? at_ + 1 : at_, end_, value);
+  if (error == std::errc() && std::abs(value) <= largest_coordinate &&
+      (last == end_ || is_blank(*last) || *last == '#')) {
+    at_ = last;
+    skip_blanks();
+    return std::abs(value) < smallest_coordinate ? 0.0 : value;
+  }
+  const std::string_view field = word();
+  if (field.empty()) place_.fail("a number is missing");
+  if (last != begin + field.size() || error == std::errc::invalid_argument) place_.fail("expected a number", field);
+  if (error == std::errc::result_out_of_range) return out_of_range(field);
+  if (!std::isfinite(value)) place_.fail("numbers must be finite", field);
+  place_.fail("numbers must not exceed 1e60 in magnitude", field);
+}
+
+/// A number that no double holds: too near to zero, which is read as zero, or too large.
+double Fields::out_of_range(std::string_view field) const {
+  const std::size_t exponent = field.find_first_of("eE");
+  const bool tiny = exponent != std::string_view::npos ? field.substr(exponent + 1).starts_with('-')
+                                                       : field.find_first_of("123456789") > field.find('.');
+  if (tiny) return 0.0;
+  place_.fail("numbers must not exceed 1e60 in magnitude", field);
+}
+
+std::string_view nearest_word(std::string_view written, std::span<const std::string_view> known) {
+  if (written.size() > longest_word) return {};
+  std::string_view best;
+  std::size_t best_distance = std::max<std::size_t>(2, written.size() / 2) + 1;
+  for (const std::string_view word : known) {
+    const std::size_t distance = edit_distance(written, word);
+    if (distance < best_distance) {
+      best_distance = distance;
+      best = word;
+    }
+  }
+  return best;
+}
+
+}  // namespace warren::scene_text

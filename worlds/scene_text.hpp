@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The words of one line of a scene file: fields between blanks or commas up to a `#`, numbers as the C locale writes
+// them, and errors that name file and line. Numbers that are not finite or beyond largest_coordinate are refused,
+// numbers nearer to zero than smallest_coordinate are zero.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace warren::scene_text {
+
+/// Where an error is: "file:line".
+struct Place {
+  const std::string& file;
+  std::size_t line;
+  std::string text() const;
+  /// Throws InputError; `found` is shortened and made printable.
+  [[noreturn]] void fail(std::string_view what, std::string_view found = {}) const;
+};
+
+/// At most 40 characters, control characters and broken UTF-8 as \xHH.
+std::string printable(std::string_view text);
+
+inline bool is_blank(char c) { return c == ' ' || c == ',' || c == '\t' || c == '\r' || c == '\f' || c == '\v'; }
+
+/// Walks over the fields of one line.
+class Fields {
+ public:
+  Fields(std::string_view line, Place place) : at_(line.data()), end_(line.data() + line.size()), place_(place) {
+    skip_blanks();
+  }
+  bool done() const { return at_ == end_; }
+  /// Does a number come next, by its first character?
+  bool number_follows() const {
+    return !done() && ((*at_ >= '0' && *at_ <= '9') || *at_ == '-' || *at_ == '+' || *at_ == '.');
+  }
+  /// The next field as it stands; empty at the end.
+  std::string_view word();
+  /// The next field as a number. Throws InputError if it is none.
+  double number();
+  const Place& place() const { return place_; }
+
+ private:
+  void skip_blanks() {
+    while (at_ != end_ && is_blank(*at_)) ++at_;
+    if (at_ != end_ && *at_ == '#') at_ = end_;
+  }
+  double out_of_range(std::string_view field) const;
+
+  const char* at_;
+  const char* end_;
+  Place place_;
+};
+
+/// The known word that is nearest to what was written, by edit distance; empty if none is near.
+std::string_view nearest_word(std::string_view written, std::span<const std::string_view> known);
+
+}  // namespace warren::scene_text

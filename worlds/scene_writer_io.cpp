@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The writer of scene text: shortest decimal numbers that read back the same, half-integers (mazes) by integer digits.
+// Walls are formatted in parallel, a batch of chunks at a time, and written in their order.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "parallel/chunks.hpp"
+#include "worlds/output_file_io.hpp"
+#include "worlds/scene_io.hpp"
+
+namespace warren {
+namespace {
+
+constexpr std::size_t grain = 8192;
+constexpr std::size_t batch = 64 * grain;
+
+void append_number(std::string& text, double x) {
+  constexpr double largest_quick = 1e9;
+  const double doubled = 2.0 * x;
+  if (std::abs(x) < largest_quick && doubled == static_cast<double>(static_cast<std::int64_t>(doubled)) &&
+      doubled > 0.0) {
+    const auto halves = static_cast<std::int64_t>(doubled);
+    const fmt::format_int digits(halves / 2);
+    text.append(digits.data(), digits.size());
+    if (halves % 2 != 0) text.append(".5");
+    return;
+  }
+  fmt::format_to(std::back_inserter(text), "{}", x + 0.0);  // no negative zeros
+}
+
+/// An item and its numbers, one line.
+template <class... Numbers>
+void append_line(std::string& text, std::string_view item, Numbers... numbers) {
+  text.append(item);
+  const auto append = [&](double x) {
+    text.push_back(' ');
+    append_number(text, x);
+  };
+  (append(numbers), ...);
+  text.push_back('\n');
+}
+
+void append_points(std::string& text, std::string_view item, const std::vector<Vec2>& points) {
+  text.append(item);
+  for (const Vec2 p : points) {
+    for (const double x : {p.x, p.y}) {
+      text.push_back(' ');
+      append_number(text, x);
+    }
+  }
+  text.push_back('\n');
+}
+
+void append_state(std::string& text, std::string_view item, const std::vector<double>& state) {
+  if (state.empty()) return;
+  text.append(item);
+  for (const double x : state) {
+    text.push_back(' ');
+    append_number(text, x);
+  }
+  text.push_back('\n');
+}
+
+void append_robot(std::string& text, const RobotSpec& robot) {
+  const auto number = [](double x) {
+    std::string digits;
+    append_number(digits, x);
+    return digits;
+  };
+  switch (robot.kind) {
+    case RobotKind::point:
+      text.append("robot point\n");
+      break;
+    case RobotKind::disc:
+      append_line(text, "robot disc", robot.radius);
+      break;
+    case RobotKind::polygon:
+      append_points(text, "robot polygon", robot.outline);
+      break;
+    case RobotKind::car:
+      text += fmt::format("robot car radius {} turning {}\n", number(robot.radius), number(robot.turning_radius));
+      break;
+    case RobotKind::puma560:
+      text += fmt::format("robot puma560 radius {} tool {}\n", number(robot.radius), number(robot.tool));
+      break;
+  }
+}
+
+std::string head_of(const Scene& scene) {
+  std::string text;
+  if (scene.maze) append_line(text, "maze", scene.maze->rows, scene.maze->cols);
+  if (scene.bounds) {
+    const Box& b = *scene.bounds;
+    append_line(text, "bounds", b.min.x, b.min.y, b.max.x, b.max.y);
+  }
+  if (scene.clearance) append_line(text, "clearance", *scene.clearance);
+  if (scene.robot) append_robot(text, *scene.robot);
+  append_state(text, "start", scene.start);
+  append_state(text, "goal", scene.goal);
+  if (scene.grid) append_line(text, "grid", scene.grid->cell, scene.grid->angles);
+  for (const ScenePolygon& polygon : scene.polygons) append_points(text, "polygon", polygon.corners);
+  for (const Sphere& s : scene.spheres) append_line(text, "sphere", s.x, s.y, s.z, s.radius);
+  return text;
+}
+
+void append_wall(std::string& text, const Segment& s) {
+  for (const double x : {s.a.x, s.a.y, s.b.x}) {
+    append_number(text, x);
+    text.push_back(' ');
+  }
+  append_number(text, s.b.y);
+  text.push_back('\n');
+}
+
+template <class Walls>
+void write_walls(Walls walls, OutputFile& file, const Execution& execution) {
+  std::vector<std::string> parts(batch / grain);
+  for (std::size_t first = 0; first < walls.size(); first += batch) {
+    const Walls some = walls.subspan(first, std::min(batch, walls.size() - first));
+    for_chunks(some.size(), grain, execution, [&](Range r) {
+      std::string& text = parts[r.first / grain];
+      text.clear();
+      for (const auto& wall : some.subspan(r.first, r.size())) append_wall(text, wall.segment());
+    });
+    for (std::size_t c = 0; c < chunk_count(some.size(), grain); ++c) file.write(parts[c]);
+  }
+}
+
+}  // namespace
+
+void write_scene_text(const Scene& scene, const std::string& path, const Execution& execution) {
+  if (execution.progress != nullptr) execution.progress->begin("write", scene.walls.size());
+  OutputFile file(path, execution);
+  file.write(head_of(scene));
+  scene.walls.visit([&](auto walls) { write_walls(walls, file, execution); });
+  file.commit();
+}
+
+}  // namespace warren

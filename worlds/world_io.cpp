@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "worlds/world_io.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <limits>
+#include <set>
+
+#include "core/error.hpp"
+#include "worlds/npy_io.hpp"
+#include "worlds/scene_io.hpp"
+
+namespace warren {
+namespace {
+
+constexpr std::string_view maze_prefix = "maze:";
+constexpr std::string_view maze_usage = "maze:ROWSxCOLS[,seed=N][,algorithm=NAME][,loops=F]";
+
+/// A line that begins with this word among the first bytes?
+bool has_line(std::string_view bytes, std::string_view word) {
+  const std::string_view head = bytes.substr(0, 4096);
+  if (head.starts_with(word)) return true;
+  return head.find("\n" + std::string(word)) != std::string_view::npos;
+}
+
+bool is_pgm(std::string_view bytes) {
+  return bytes.size() > 2 && (bytes.starts_with("P5") || bytes.starts_with("P2")) &&
+         std::string_view(" \t\r\n#").find(bytes[2]) != std::string_view::npos;
+}
+
+/// Cuts `text` at the first `mark`; the rest is empty if there is none.
+std::string_view cut(std::string_view& text, char mark) {
+  const std::size_t at = text.find(mark);
+  const std::string_view front = text.substr(0, at);
+  text = at == std::string_view::npos ? std::string_view{} : text.substr(at + 1);
+  return front;
+}
+
+/// Reads the parts of a maze source.
+class MazeSource {
+ public:
+  explicit MazeSource(std::string_view source) : source_(source) {}
+
+  MazeOptions parse() const {
+    std::string_view rest = source_.substr(maze_prefix.size());
+    MazeOptions options;
+    parse_size(cut(rest, ','), options);
+    std::set<std::string_view> seen;
+    while (!rest.empty()) {
+      std::string_view value = cut(rest, ',');
+      const std::string_view key = cut(value, '=');
+      if (!seen.insert(key).second) fail(fmt::format("`{}` stands twice", key));
+      parse_option(key, value, options);
+    }
+    if (source_.ends_with(',')) fail("nothing follows the last comma");
+    return options;
+  }
+
+ private:
+  [[noreturn]] void fail(std::string_view what) const {
+    throw UsageError(fmt::format("{}: {}; expected {}", source_, what, maze_usage));
+  }
+  template <class T>
+  T number(std::string_view text, std::string_view name) const {
+    T value{};
+    const auto [last, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || last != text.data() + text.size()) {
+      fail(fmt::format("{} must be {} (found: {})", name,
+                       std::is_integral_v<T> ? "a whole number that is not negative" : "a number", text));
+    }
+    return value;
+  }
+  void parse_size(std::string_view size, MazeOptions& options) const {
+    if (size.find('x') == std::string_view::npos) fail("the size is missing");
+    const std::string_view rows = cut(size, 'x');
+    options.rows = side(rows, "ROWS");
+    options.cols = side(size, "COLS");
+    if (std::uint64_t{options.rows} * options.cols > std::numeric_limits<std::uint32_t>::max()) {
+      fail("ROWS x COLS must be below 2^32");
+    }
+  }
+  std::uint32_t side(std::string_view text, std::string_view name) const {
+    const auto value = number<std::uint64_t>(text, name);
+    if (value < 1 || value > std::numeric_limits<std::uint32_t>::max()) {
+      fail(fmt::format("{} must be at least 1 and below 2^32", name));
+    }
+    return static_cast<std::uint32_t>(value);
+  }
+  void parse_option(std::string_view key, std::string_view value, MazeOptions& options) const {
+    if (key == "seed") {
+      options.seed = number<std::uint64_t>(value, "seed");
+    } else if (key == "loops") {
+      options.loops = number<double>(value, "loops");
+      if (!(options.loops >= 0.0 && options.loops <= 1.0)) fail("loops must be from 0 to 1");
+    } else if (key == "algorithm") {
+      try {
+        options.algorithm = maze_algorithm_named(value);
+      } catch (const InputError& error) {
+        throw UsageError(fmt::format("{}: {}", source_, error.what()));
+      }
+    } else {
+      fail(fmt::format("unknown key `{}`", key));
+    }
+  }
+
+  std::string_view source_;
+};
+
+}  // namespace
+
+WorldFormat format_of(const InputFile& file) {
+  const std::string_view bytes = file.bytes();
+  if (is_npy(bytes)) return WorldFormat::npy;
+  if (bytes.starts_with("\x89PNG") || is_pgm(bytes)) return WorldFormat::image;
+  if (bytes.starts_with("type ")) return WorldFormat::moving_ai;
+  if (has_line(bytes, "image:")) return WorldFormat::ros_map;
+  const std::string_view name = file.name();
+  if (name.ends_with(".npy")) return WorldFormat::npy;
+  if (name.ends_with(".png") || name.ends_with(".pgm")) return WorldFormat::image;
+  if (name.ends_with(".map")) return WorldFormat::moving_ai;
+  if (name.ends_with(".yaml") || name.ends_with(".yml")) return WorldFormat::ros_map;
+  return WorldFormat::scene;
+}
+
+bool is_maze_source(std::string_view source) { return source.starts_with(maze_prefix); }
+
+MazeOptions parse_maze_source(std::string_view source) { return MazeSource(source).parse(); }
+
+Scene read_scene(const InputFile& file, const Execution& execution) {
+  switch (format_of(file)) {
+    case WorldFormat::scene:
+      return read_scene_text(file, execution);
+    case WorldFormat::npy:
+      return read_npy(file, execution);
+    case WorldFormat::moving_ai:
+    case WorldFormat::ros_map:
+    case WorldFormat::image:
+      break;
+  }
+  throw InputError(file.name(), "this is an occupancy map; expected walls, polygons or spheres");
+}
+
+Scene read_world(const std::string& source, const Execution& execution) {
+  if (!is_maze_source(source)) return read_scene(InputFile(source, execution), execution);
+  Scene scene = maze_scene(parse_maze_source(source), false, execution);
+  scene.source = source;
+  return scene;
+}
+
+void write_scene(const Scene& scene, const std::string& path, const Execution& execution) {
+  const std::string_view name = path;
+  if (name.ends_with(".npy")) return write_npy(scene, path, execution);
+  if (name != "-" && !name.starts_with("/dev/") && !name.ends_with(".walls") && !name.ends_with(".scene") &&
+      !name.ends_with(".txt")) {
+    throw UsageError(path + ": the ending must be .walls, .scene, .txt or .npy");
+  }
+  write_scene_text(scene, path, execution);
+}
+
+}  // namespace warren

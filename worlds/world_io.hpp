@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The WORLD of a command line: a file (what it is, its content says first, its ending second), "-" for standard input,
+// or maze:ROWSxCOLS[,seed=N][,algorithm=NAME][,loops=F]. And scenes out, by the ending of the file.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "parallel/execution.hpp"
+#include "worlds/input_file_io.hpp"
+#include "worlds/maze_generator.hpp"
+#include "worlds/scene.hpp"
+
+namespace warren {
+
+enum class WorldFormat : std::uint8_t { scene, npy, moving_ai, ros_map, image };
+
+/// What the content says, or where it says nothing the name's ending; text of no known kind is a scene.
+WorldFormat format_of(const InputFile& file);
+
+/// Does this name a maze to be generated rather than a file?
+bool is_maze_source(std::string_view source);
+/// Throws UsageError for whatever is not maze:ROWSxCOLS[,seed=N][,algorithm=NAME][,loops=F].
+MazeOptions parse_maze_source(std::string_view source);
+
+/// Reads or generates a world of walls, polygons and spheres; a maze has unit walls in the course's order. Throws
+/// UsageError, ReadError, InputError (also for occupancy maps, which are no scenes), Stopped.
+Scene read_world(const std::string& source, const Execution& execution);
+/// The same for a file that is open already.
+Scene read_scene(const InputFile& file, const Execution& execution);
+
+/// Writes .npy, or for .walls, .scene, .txt and "-" scene text. Throws UsageError for other endings, InputError for
+/// what the format can't hold, WriteError, Stopped.
+void write_scene(const Scene& scene, const std::string& path, const Execution& execution);
+
+}  // namespace warren
