@@ -2,9 +2,11 @@
 #include "spatial/point_grid.hpp"
 
 #include <algorithm>
+#include <numbers>
 #include <numeric>
 
 #include "parallel/sort.hpp"
+#include "spatial/disc_points.hpp"
 
 namespace warren {
 namespace {
@@ -19,6 +21,7 @@ PointGrid::PointGrid(std::span<const Vec2> points, const Execution& execution) {
   y_.resize(points.size());
   if (!take_points(points, execution)) sort_points(points, execution);
   count_crowding(execution);
+  for (std::size_t k = 0; k < first_reach_.size(); ++k) first_reach_[k] = first_reach(k);
 }
 
 void PointGrid::count_crowding(const Execution& execution) {
@@ -85,11 +88,16 @@ void PointGrid::within(Vec2 p, const SearchRadius& radius, VertexId except, std:
   std::sort(out.begin(), out.end());
 }
 
-/// The k nearest points of the window among those with squared distance <= square, unsorted.
-void PointGrid::collect(Vec2 p, const Window& w, std::size_t k, VertexId except, double square,
-                        std::vector<Neighbour>& out) const {
+/// The k nearest points of the window among those with squared distance <= square (fewer if there are not so many). For
+/// any k and any crowding; O(points of the window).
+void PointGrid::nearest_in_window(Vec2 p, const Window& w, double square, std::size_t k, VertexId except,
+                                  std::vector<Neighbour>& out) const {
   out.clear();
-  const std::size_t most = 4 * k + 64;
+  const auto keep_best = [&] {
+    std::nth_element(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(k) - 1, out.end());
+    out.resize(k);
+    square = SearchRadius(out.back().distance).square();
+  };
   for_each_run(w, [&](std::uint32_t first, std::uint32_t last) {
     for (std::uint32_t place = first; place < last; ++place) {
       const double dx = x_[place] - p.x;
@@ -97,30 +105,64 @@ void PointGrid::collect(Vec2 p, const Window& w, std::size_t k, VertexId except,
       const double sum = dx * dx + dy * dy;
       if (sum > square || id_at(place) == except) continue;
       out.push_back({id_at(place), std::sqrt(sum)});
-      if (out.size() < most) continue;
-      std::nth_element(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(k) - 1, out.end());
-      out.resize(k);
-      square = SearchRadius(out.back().distance).square();
+      if (out.size() == 4 * k + 64) keep_best();
     }
   });
+  if (out.size() > k) keep_best();
+  std::sort(out.begin(), out.end());
+}
+
+/// The fast way for small k: how many points the disc holds if they are fewer than k, no_vertex if they are too many
+/// for it (`out` is anything then), and k if it holds the k nearest, which `out` then is.
+std::size_t PointGrid::nearest_in_disc(Vec2 p, const Window& w, double square, std::size_t k, VertexId except,
+                                       std::vector<Neighbour>& out) const {
+  detail::DiscPoints disc;
+  const std::uint32_t skip = except < size() ? (place_of_.empty() ? except : place_of_[except]) : no_vertex;
+  bool fits = true;
+  for_each_run(w, [&](std::uint32_t first, std::uint32_t last) {
+    fits = fits && disc.count + (last - first) <= detail::DiscPoints::capacity;
+    if (fits) disc.add_run(p, square, x_.data(), y_.data(), first, last, skip);
+  });
+  if (!fits) return no_vertex;
+  if (disc.count < k) return disc.count;
+  const std::size_t candidates = disc.sort_roughly(k, 1.0 / square);
+  out.resize(candidates);
+  bool sorted = true;  // nearly always: the loop above it has no branch to mispredict
+  for (std::size_t i = 0; i < candidates; ++i) {
+    const std::uint32_t from = disc.by_rank[i];
+    out[i] = {id_at(disc.place[from]), std::sqrt(disc.square[from])};
+    sorted &= i == 0 || !(out[i] < out[i - 1]);
+  }
+  if (!sorted) std::sort(out.begin(), out.end());
+  out.resize(k);
+  return k;
+}
+
+/// Radius of a disc that holds k points, its own and a margin where points are spread evenly: 19 of 20 suffice.
+double PointGrid::first_reach(std::size_t k) const {
+  const double expected = static_cast<double>(k) + 1.0 + 1.7 * std::sqrt(static_cast<double>(k) + 1.0);
+  return frame_.cell_size() * std::sqrt(expected / (std::numbers::pi * CellFrame::usual_load));
 }
 
 void PointGrid::nearest(Vec2 p, std::size_t k, VertexId except, std::vector<Neighbour>& out) const {
   out.clear();
   k = std::min(k, size());
   if (k == 0) return;
-  // A disc that holds about 1.5 k + 1 points where the points are spread evenly; doubled until it holds k.
-  double reach = frame_.cell_size() * std::sqrt((1.5 * static_cast<double>(k) + 1.0) / 6.28);
+  bool small = k < first_reach_.size();
+  double reach = small ? first_reach_[k] : first_reach(k);
   for (;;) {
-    const SearchRadius radius(reach);
-    const Window w = window(p, radius.reach());
+    const double square = reach * reach;  // of points in the window, whatever the rounding: it reaches a little further
+    const Window w = window(p, reach * (1.0 + 1e-15));
     const bool all = w == whole();
-    collect(p, w, k, except, all ? std::numeric_limits<double>::infinity() : radius.square(), out);
-    if (all || out.size() >= k) break;
-    reach *= out.size() * 4 < k ? 2.0 : 1.4;
+    std::size_t found = small ? nearest_in_disc(p, w, square, k, except, out) : no_vertex;
+    if (found == no_vertex || (all && found < k)) {
+      small = false;
+      nearest_in_window(p, w, all ? std::numeric_limits<double>::infinity() : square, k, except, out);
+      found = out.size();
+    }
+    if (all || found == k) return;
+    reach *= found * 4 < k ? 2.0 : 1.3;
   }
-  std::sort(out.begin(), out.end());
-  if (out.size() > k) out.resize(k);
 }
 
 }  // namespace warren

@@ -7,6 +7,7 @@
 // points that crowd in few cells make that O(n): use KdTree there (neighbours.hpp chooses).
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -73,17 +74,21 @@ class PointGrid {
   void visit_run(Vec2 p, double square, std::uint32_t first, std::uint32_t last, const Visit& visit) const;
   void sort_points(std::span<const Vec2> points, const Execution& execution);
   bool take_points(std::span<const Vec2> points, const Execution& execution);
-  void collect(Vec2 p, const Window& w, std::size_t k, VertexId except, double square,
-               std::vector<Neighbour>& out) const;
+  std::size_t nearest_in_disc(Vec2 p, const Window& w, double square, std::size_t k, VertexId except,
+                              std::vector<Neighbour>& out) const;
+  void nearest_in_window(Vec2 p, const Window& w, double square, std::size_t k, VertexId except,
+                         std::vector<Neighbour>& out) const;
 
+  double first_reach(std::size_t k) const;
   void count_crowding(const Execution& execution);
 
   CellFrame frame_;
   double crowding_ = 0.0;
-  RawVector<double> x_, y_;            // in cell order
-  RawVector<std::uint32_t> begin_;     // place of the first point of each cell, and the number of points
-  RawVector<VertexId> id_;             // of each place; empty: the place
-  RawVector<std::uint32_t> place_of_;  // of each id; empty: the id
+  std::array<double, 49> first_reach_{};  // by k: two roots saved in each query
+  RawVector<double> x_, y_;               // in cell order
+  RawVector<std::uint32_t> begin_;        // place of the first point of each cell, and the number of points
+  RawVector<VertexId> id_;                // of each place; empty: the place
+  RawVector<std::uint32_t> place_of_;     // of each id; empty: the id
 };
 
 template <class Run>

@@ -46,9 +46,11 @@ class CellFrame {
  public:
   static constexpr std::uint32_t strip_width = 32;
 
+  static constexpr double usual_load = 2.0;
+
   CellFrame() = default;  ///< one cell
   /// About `load` points a cell if they were spread evenly; at most 3 count / load + 1 cells whatever the box's shape.
-  CellFrame(const Box& box, std::size_t count, double load = 2.0);
+  CellFrame(const Box& box, std::size_t count, double load = usual_load);
 
   std::uint32_t columns() const { return columns_; }
   std::uint32_t rows() const { return rows_; }

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Neighbour indices: build, k nearest and radius queries of the grid and of the k-d forest, nanoflann as packaged
+// beside them; points in tile order and in random order, on a lattice, uniform and clustered. Each index answers some
+// queries as the plain search does before it is timed. Queries come in the order of the points, one thread; builds on
+// one thread.
+#pragma GCC diagnostic ignored "-Wnull-dereference"  // g++ 12 at -O3 sees one inside nanoflann's vector::resize
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <nanoflann.hpp>
+
+#include "core/rng.hpp"
+#include "parallel/sort.hpp"
+#include "spatial/neighbours.hpp"
+
+namespace warren::bench {
+namespace {
+
+enum Kind : int { uniform_random, uniform_sorted, lattice_sorted, clustered };
+const Execution one_thread{.threads = 1};
+
+Vec2 point_of(Kind kind, std::size_t side, std::size_t i) {
+  const double width = static_cast<double>(side);
+  const Vec2 u{uniform(1, i, 0), uniform(1, i, 1)};
+  if (kind == lattice_sorted) return {static_cast<double>(i % side), static_cast<double>(i / side)};
+  if (kind != clustered) return width * u;
+  const double spread = std::pow(10.0, -5.0 * uniform(1, i, 2));  // even on a logarithmic scale around 16 centres
+  return {width * (std::floor(4.0 * uniform(1, i % 16, 3)) / 4.0 + spread * (u.x - 0.5)),
+          width * (std::floor(4.0 * uniform(1, i % 16, 4)) / 4.0 + spread * (u.y - 0.5))};
+}
+
+/// side x side points at a mean density of one.
+const std::vector<Vec2>& points_of(std::int64_t kind_number, std::int64_t side_number) {
+  static std::vector<Vec2> points;
+  static std::pair<std::int64_t, std::int64_t> built{-1, -1};
+  if (built == std::pair{kind_number, side_number}) return points;
+  built = {kind_number, side_number};
+  const auto kind = static_cast<Kind>(kind_number);
+  const auto side = static_cast<std::size_t>(side_number);
+  points.resize(side * side);
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] = point_of(kind, side, i);
+  if (kind == uniform_random) return points;
+  const TileOrder order = tile_order(points, {});
+  std::vector<Vec2> sorted;
+  for (const std::uint32_t i : order.sample_of) sorted.push_back(points[i]);
+  points.swap(sorted);
+  return points;
+}
+
+/// nanoflann 1.4.3 as a user would call it: leaf 10, squares made plain again.
+class PlainFlann {
+ public:
+  explicit PlainFlann(const std::vector<Vec2>& points) : view_{points}, tree_(2, view_) {}
+  void nearest(Vec2 p, std::size_t k, VertexId except, std::vector<Neighbour>& out) const {
+    places_.resize(k + 1);
+    squares_.resize(k + 1);
+    const std::size_t count = tree_.knnSearch(&p.x, k + 1, places_.data(), squares_.data());
+    out.clear();
+    for (std::size_t i = 0; i < count && out.size() < k; ++i) {
+      if (places_[i] != except) out.push_back({places_[i], std::sqrt(squares_[i])});
+    }
+  }
+  void within(Vec2 p, const SearchRadius& radius, VertexId except, std::vector<Neighbour>& out) const {
+    pairs_.clear();
+    tree_.radiusSearch(&p.x, radius.square() * (1.0 + 1e-12), pairs_, {});
+    out.clear();
+    for (const auto& [id, square] : pairs_) {
+      if (id != except && square <= radius.square()) out.push_back({id, std::sqrt(square)});
+    }
+  }
+  std::size_t bytes() { return tree_.usedMemory(tree_); }
+
+ private:
+  struct View {
+    const std::vector<Vec2>& points;
+    std::size_t kdtree_get_point_count() const { return points.size(); }
+    double kdtree_get_pt(std::size_t i, std::size_t axis) const { return axis == 0 ? points[i].x : points[i].y; }
+    template <class BoundingBox>
+    bool kdtree_get_bbox(BoundingBox&) const {
+      return false;
+    }
+  };
+  View view_;
+  nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, View>, View, 2, std::uint32_t> tree_;
+  mutable std::vector<std::uint32_t> places_;
+  mutable std::vector<double> squares_;
+  mutable std::vector<std::pair<std::uint32_t, double>> pairs_;
+};
+
+template <class Index>
+Index make_index(const std::vector<Vec2>& points) {
+  if constexpr (std::is_same_v<Index, PlainFlann>) {
+    return PlainFlann(points);
+  } else {
+    return Index(points, one_thread);
+  }
+}
+
+/// Ends the program unless the neighbours are the plain ones; nanoflann may break ties as it likes.
+void check(const std::vector<Vec2>& points, VertexId i, std::vector<Neighbour> found, std::size_t k, double radius,
+           bool by_id) {
+  std::vector<Neighbour> plain;
+  for (VertexId j = 0; j < points.size(); ++j) {
+    const double d = distance(points[j], points[i]);
+    if (j != i && d <= radius) plain.push_back({j, d});
+  }
+  k = std::min(k, plain.size());
+  std::partial_sort(plain.begin(), plain.begin() + static_cast<std::ptrdiff_t>(k), plain.end());
+  plain.resize(k);
+  if (!by_id) std::sort(found.begin(), found.end());
+  const bool same =
+      std::equal(plain.begin(), plain.end(), found.begin(), found.end(),
+                 [&](const auto& a, const auto& b) { return a.distance == b.distance && (!by_id || a.id == b.id); });
+  if (same) return;
+  std::fprintf(stderr, "wrong neighbours of point %u\n", i);
+  std::abort();
+}
+
+void count(benchmark::State& state, std::size_t items, std::size_t bytes, std::size_t points) {
+  state.SetItemsProcessed(static_cast<std::int64_t>(items));
+  state.counters["bytes/item"] = static_cast<double>(bytes) / static_cast<double>(points);
+  state.counters["s/item"] =
+      benchmark::Counter(static_cast<double>(items), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+template <class Index>
+void bm_build(benchmark::State& state) {
+  const auto& points = points_of(state.range(0), state.range(1));
+  std::size_t bytes = 0;
+  for (auto _ : state) {
+    Index index = make_index<Index>(points);
+    bytes = index.bytes();
+    benchmark::DoNotOptimize(&index);
+  }
+  count(state, static_cast<std::size_t>(state.iterations()) * points.size(), bytes, points.size());
+}
+
+template <class Index>
+void bm_nearest(benchmark::State& state) {
+  const auto& points = points_of(state.range(0), state.range(1));
+  const auto k = static_cast<std::size_t>(state.range(2));
+  Index index = make_index<Index>(points);
+  std::vector<Neighbour> found;
+  for (VertexId i = 0; i < points.size(); i += static_cast<VertexId>(points.size() / 5)) {
+    index.nearest(points[i], k, i, found);
+    check(points, i, found, k, INFINITY, !std::is_same_v<Index, PlainFlann>);
+  }
+  constexpr std::size_t batch = 65'536;
+  std::size_t next = 0;
+  for (auto _ : state) {
+    for (std::size_t end = std::min(next + batch, points.size()); next < end; ++next) {
+      index.nearest(points[next], k, static_cast<VertexId>(next), found);
+      benchmark::DoNotOptimize(found.data());
+    }
+    if (next == points.size()) next = 0;
+  }
+  count(state, static_cast<std::size_t>(state.iterations()) * std::min(batch, points.size()), index.bytes(),
+        points.size());
+}
+
+template <class Index>
+void bm_within(benchmark::State& state) {
+  const auto& points = points_of(state.range(0), state.range(1));
+  const SearchRadius radius(0.01 * static_cast<double>(state.range(2)));
+  Index index = make_index<Index>(points);
+  std::vector<Neighbour> found;
+  for (VertexId i = 0; i < points.size(); i += static_cast<VertexId>(points.size() / 5)) {
+    index.within(points[i], radius, i, found);
+    check(points, i, found, points.size(), radius.length(), !std::is_same_v<Index, PlainFlann>);
+  }
+  constexpr std::size_t batch = 65'536;
+  std::size_t next = 0;
+  for (auto _ : state) {
+    for (std::size_t end = std::min(next + batch, points.size()); next < end; ++next) {
+      index.within(points[next], radius, static_cast<VertexId>(next), found);
+      benchmark::DoNotOptimize(found.data());
+    }
+    if (next == points.size()) next = 0;
+  }
+  count(state, static_cast<std::size_t>(state.iterations()) * std::min(batch, points.size()), index.bytes(),
+        points.size());
+}
+
+/// Each pair of points within the radius once: what a radius roadmap asks.
+void bm_later_within(benchmark::State& state) {
+  const auto& points = points_of(state.range(0), state.range(1));
+  const SearchRadius radius(0.01 * static_cast<double>(state.range(2)));
+  const PointGrid index(points, one_thread);
+  std::vector<Neighbour> found;
+  std::size_t next = 0;
+  for (auto _ : state) {
+    for (std::size_t end = std::min(next + 65'536, points.size()); next < end; ++next) {
+      found.clear();
+      index.for_each_later_within(static_cast<VertexId>(next), radius, [&](VertexId j, double d) {
+        found.push_back({j, d});
+      });
+      benchmark::DoNotOptimize(found.data());
+    }
+    if (next == points.size()) next = 0;
+  }
+  count(state, static_cast<std::size_t>(state.iterations()) * std::min<std::size_t>(65'536, points.size()),
+        index.bytes(), points.size());
+}
+
+void bm_tile_order(benchmark::State& state) {
+  const auto& points = points_of(state.range(0), state.range(1));
+  const Execution execution{.threads = static_cast<unsigned>(state.range(2))};
+  for (auto _ : state) benchmark::DoNotOptimize(tile_order(points, execution));
+  count(state, static_cast<std::size_t>(state.iterations()) * points.size(), points.size() * 4, points.size());
+}
+
+void bm_counting_sort(benchmark::State& state) {
+  const auto n = static_cast<std::size_t>(state.range(0));
+  const auto keys = static_cast<std::size_t>(state.range(1));
+  std::vector<std::uint32_t> key(n);
+  for (std::size_t i = 0; i < n; ++i) key[i] = static_cast<std::uint32_t>(random_bits(1, i) % keys);
+  const Execution execution{.threads = static_cast<unsigned>(state.range(2))};
+  for (auto _ : state)
+    benchmark::DoNotOptimize(counting_sort(n, keys, execution, [&](std::size_t i) { return key[i]; }));
+  count(state, static_cast<std::size_t>(state.iterations()) * n, n * 16 + keys * 4, n);
+}
+
+BENCHMARK(bm_counting_sort)
+    ->ArgNames({"n", "keys", "threads"})
+    ->ArgsProduct({{1 << 20, 1 << 24}, {1 << 9, 1 << 20}, {1, 2}});
+BENCHMARK(bm_tile_order)->ArgNames({"kind", "side", "threads"})->ArgsProduct({{uniform_random}, {1000, 4000}, {1, 2}});
+
+void build_cases(benchmark::internal::Benchmark* bench) {
+  bench->ArgNames({"kind", "side"})->ArgsProduct({{uniform_random, uniform_sorted}, {1000}});
+}
+BENCHMARK(bm_build<PointGrid>)
+    ->ArgNames({"kind", "side"})
+    ->ArgsProduct({{uniform_random, uniform_sorted}, {1000, 4000}});
+BENCHMARK(bm_build<KdTree<2>>)->Apply(build_cases);
+BENCHMARK(bm_build<PlainFlann>)->Apply(build_cases);
+
+void nearest_cases(benchmark::internal::Benchmark* bench) {
+  bench->ArgNames({"kind", "side", "k"});
+  bench->ArgsProduct({{uniform_sorted}, {1000}, {8, 16, 24, 32}});
+  bench->Args({lattice_sorted, 1000, 4})->Args({uniform_random, 1000, 8})->Args({clustered, 300, 8});
+}
+BENCHMARK(bm_nearest<PointGrid>)->Apply(nearest_cases)->Args({uniform_sorted, 4000, 8});
+BENCHMARK(bm_nearest<KdTree<2>>)->Apply(nearest_cases);
+BENCHMARK(bm_nearest<PlainFlann>)->Apply(nearest_cases);
+
+void within_cases(benchmark::internal::Benchmark* bench) {
+  bench->ArgNames({"kind", "side", "percent"});
+  bench->Args({lattice_sorted, 1000, 100})->Args({uniform_sorted, 1000, 160});
+}
+BENCHMARK(bm_later_within)->Apply(within_cases)->Args({lattice_sorted, 4000, 100});
+BENCHMARK(bm_within<PointGrid>)->Apply(within_cases);
+BENCHMARK(bm_within<KdTree<2>>)->Apply(within_cases);
+BENCHMARK(bm_within<PlainFlann>)->Apply(within_cases);
+
+}  // namespace
+}  // namespace warren::bench
+
+BENCHMARK_MAIN();
