@@ -21,7 +21,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t tree_size = 16'384;  // points of a subtree: aimed at
 constexpr std::size_t most_trees = 4096;
 constexpr std::size_t samples_per_tree = 32;
-constexpr std::size_t leaf_size = 12;
+constexpr std::size_t leaf_size = 16;
 constexpr std::size_t grain = std::size_t{1} << 14;
 
 /// A square that is larger than the squares of all distances <= `distance`, as nanoflann computes them.
@@ -117,7 +117,7 @@ struct TopTree {
   }
 };
 
-/// The k best so far, a heap with the worst on top once it is full.
+/// The k best so far: sorted if k is small, else a heap with the worst on top.
 class NearestSet {
  public:
   using DistanceType = double;
@@ -126,23 +126,43 @@ class NearestSet {
   double worstDist() const { return worst_; }  // NOLINT(readability-identifier-naming): nanoflann's names
   bool full() const { return true; }
   bool addPoint(double square, std::uint32_t place) {  // NOLINT(readability-identifier-naming)
+    if (square > worst_ || ids[place] == except_) return true;
     const Neighbour found{ids[place], std::sqrt(square)};
-    if (found.id == except_) return true;
-    if (out_.size() == k_) {
-      if (!(found < out_.front())) return true;
-      std::pop_heap(out_.begin(), out_.end());
-      out_.back() = found;
-    } else {
-      out_.push_back(found);
-    }
-    std::push_heap(out_.begin(), out_.end());
-    if (out_.size() == k_) worst_ = loose_square(out_.front().distance);
+    k_ <= most_sorted ? insert(found) : push(found);
     return true;
+  }
+  /// Puts the answer in order.
+  void finish() {
+    if (k_ > most_sorted) std::sort_heap(out_.begin(), out_.end());
   }
 
   const VertexId* ids = nullptr;  ///< of the places of the tree that is searched
 
  private:
+  static constexpr std::size_t most_sorted = 48;
+
+  void insert(const Neighbour& found) {
+    if (out_.size() < k_) {
+      out_.push_back(found);
+    } else if (!(found < out_.back())) {
+      return;
+    }
+    std::size_t to = out_.size() - 1;
+    for (; to > 0 && found < out_[to - 1]; --to) out_[to] = out_[to - 1];
+    out_[to] = found;
+    if (out_.size() == k_) worst_ = loose_square(out_.back().distance);
+  }
+  void push(const Neighbour& found) {
+    if (out_.size() == k_) {
+      if (!(found < out_.front())) return;
+      std::pop_heap(out_.begin(), out_.end());
+      out_.pop_back();
+    }
+    out_.push_back(found);
+    std::push_heap(out_.begin(), out_.end());
+    if (out_.size() == k_) worst_ = loose_square(out_.front().distance);
+  }
+
   std::size_t k_;
   VertexId except_;
   std::vector<Neighbour>& out_;
@@ -282,7 +302,7 @@ void KdTree<D>::nearest(const Point& p, std::size_t k, VertexId except, std::vec
   if (k == 0 || forest_ == nullptr) return;
   NearestSet results(k, except, out);
   forest_->search(p, results);
-  std::sort_heap(out.begin(), out.end());
+  results.finish();
 }
 
 template <int D>
