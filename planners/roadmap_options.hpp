@@ -25,11 +25,11 @@ struct LatticeSize {
 /// validate() refuses values outside the stated ranges with InputError.
 struct RoadmapOptions {
   SamplerKind sampler = SamplerKind::uniform;
-  LatticeSize lattice;                      ///< only for SamplerKind::lattice; both >= 1
-  std::optional<std::uint64_t> samples;     ///< states drawn, 1 .. 2^31; none: grow until start and goal connect
-  std::optional<std::uint32_t> neighbours;  ///< k of the k nearest, 1 .. 4096; none: by the sampler's rule
-  std::optional<double> radius;             ///< longest edge, world units, > 0 (replaces neighbours); none: by rule
-  std::uint64_t seed = 1;                   ///< any value
+  LatticeSize lattice = {};                      ///< only for SamplerKind::lattice; both >= 1
+  std::optional<std::uint64_t> samples = {};     ///< states drawn, 1 .. 2^31; none: grow until start and goal connect
+  std::optional<std::uint32_t> neighbours = {};  ///< k of the k nearest, 1 .. 4096; none: by the sampler's rule
+  std::optional<double> radius = {};  ///< longest edge, world units, > 0 (replaces neighbours); none: by rule
+  std::uint64_t seed = 1;             ///< any value
   SearchKind search = SearchKind::astar;
   QueueKind queue = QueueKind::heap;
   LazyCheck lazy = LazyCheck::expansion;  ///< only for lazy_prm

@@ -6,7 +6,9 @@
 
 int main() {
   const warren::Scene maze = warren::maze_scene({.rows = 21, .cols = 31, .seed = 7}, true, {});
+  const warren::Vec2 start{0.5, 1.0}, goal{31.5, 21.0};
   const warren::MazeWorld world(maze, 0.1, {});  // a disc of radius 0.1 among the maze's walls
-  const auto answer = warren::prm(world, {0.5, 1.0}, {31.5, 21.0}, {}, {});
-  return warren::verify_path(maze, answer.path, {.clearance = 0.1}, {}).verified ? 0 : 1;
+  const auto answer = warren::prm(world, start, goal, {}, {});
+  const auto judged = warren::verify_path(maze, answer.path, {.clearance = 0.1, .start = start, .goal = goal}, {});
+  return judged.verified ? 0 : 1;
 }

@@ -23,8 +23,8 @@ enum class Contact : std::uint8_t { blocked, allowed };
 struct VerifyOptions {
   double clearance = 0.0;              ///< every point of the path stays at least so far from every wall; >= 0, finite
   Contact contact = Contact::blocked;  ///< with clearance 0: touching counts as blocked, or only crossing
-  std::optional<Vec2> start;           ///< where the path must begin; nullopt: anywhere
-  std::optional<Vec2> goal;            ///< where it must end
+  std::optional<Vec2> start = {};      ///< where the path must begin; nullopt: anywhere
+  std::optional<Vec2> goal = {};       ///< where it must end
   double start_tolerance = 0.0;        ///< distance from start and goal that still counts as there; >= 0
 };
 
