@@ -41,7 +41,7 @@ template <class State>
 struct Solution {
   Outcome outcome = Outcome::not_connected;
   StopReason stop_reason = StopReason::time;  ///< only for stopped
-  std::vector<State> path;  ///< start to goal; empty unless solved
+  std::vector<State> path;                    ///< start to goal; empty unless solved
   RoadmapSize roadmap;
   Separation separation;  ///< only for not_connected
   Counters counters;      ///< exact, the same for any thread count
