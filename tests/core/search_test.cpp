@@ -9,41 +9,13 @@
 
 #include "core/rng.hpp"
 #include "core/search_queues.hpp"
+#include "tests/core/search_graphs.hpp"
 
 namespace warren {
 namespace {
 
-/// A random graph in the unit square; edges are at least as long as the distance, some exactly as long.
-struct Problem {
-  std::vector<Vec2> at;
-  Graph graph;
-  double stretch;  ///< of every third edge
-  double length(VertexId v, VertexId w) const { return distance(at[v], at[w]) * ((v + w) % 3 == 0 ? stretch : 1.0); }
-  auto neighbours() const {
-    return [this](VertexId v, const auto& visit) {
-      for (const VertexId w : graph.neighbours(v)) visit(w, length(v, w));
-    };
-  }
-};
-
-Problem random_problem(std::uint64_t seed, std::size_t vertices, std::size_t edges) {
-  SequentialRng rng(seed);
-  Problem problem;
-  problem.stretch = seed % 2 == 0 ? 1.0 : 1.7;
-  const bool on_grid = seed % 3 == 0;  // many ties
-  for (std::size_t i = 0; i < vertices; ++i) {
-    const auto draw = [&](std::uint64_t axis) { return uniform(seed, i, axis); };
-    problem.at.push_back(on_grid ? Vec2{std::floor(6 * draw(0)), std::floor(6 * draw(1))} : Vec2{draw(0), draw(1)});
-  }
-  std::set<Edge> unique;
-  for (std::size_t i = 0; i < edges; ++i) {
-    const auto a = static_cast<VertexId>(rng.below(vertices));
-    const auto b = static_cast<VertexId>(rng.below(vertices));
-    if (a != b) unique.insert({std::min(a, b), std::max(a, b)});
-  }
-  problem.graph = Graph::from_edges(vertices, std::vector<Edge>(unique.begin(), unique.end()));
-  return problem;
-}
+using Problem = test::PlaneGraph;
+using test::random_graph;
 
 /// Floyd-Warshall; weight(v, w) of an edge.
 template <class Weight>
@@ -81,14 +53,17 @@ SearchResult astar(const Problem& problem, VertexId start, VertexId goal, Queue 
   const auto heuristic = [&](VertexId v) {
     return use_heuristic ? (1.0 - 1e-12) * distance(problem.at[v], problem.at[goal]) : 0.0;
   };
-  return best_first(start, goal, problem.neighbours(), heuristic, queue, state, NeverStop());
+  const auto neighbours = [&](VertexId v, const auto& visit) {
+    for (const VertexId w : problem.graph.neighbours(v)) visit(w, problem.length(v, w));
+  };
+  return best_first(start, goal, neighbours, heuristic, queue, state, NeverStop());
 }
 
 TEST(BestFirst, FindsTheLengthsOfFloydWarshallFromOneStateUsedAgain) {
   SearchState state;
   for (std::uint64_t seed = 1; seed <= 24; ++seed) {
     SCOPED_TRACE(seed);
-    const Problem problem = random_problem(seed, 20 + 3 * seed, 45 + 3 * seed);
+    const Problem problem = random_graph(seed, 20 + 3 * seed, 45 + 3 * seed);
     const auto d = all_distances(problem.graph, [&](VertexId v, VertexId w) { return problem.length(v, w); });
     for (VertexId goal = 0; goal < problem.at.size(); ++goal) {
       for (const bool use_heuristic : {true, false}) {
@@ -110,7 +85,7 @@ TEST(BestFirst, FindsTheLengthsOfFloydWarshallFromOneStateUsedAgain) {
 TEST(BestFirst, TakesTheSameStepsWithEveryQueue) {
   for (std::uint64_t seed = 1; seed <= 24; ++seed) {
     SCOPED_TRACE(seed);
-    const Problem problem = random_problem(seed, 300, 700);
+    const Problem problem = random_graph(seed, 300, 700);
     SearchState state;
     const SearchResult expected = astar(problem, 0, 299, IndexedHeap<4>(), state);
     const auto expect_equal = [&](const char* name, const auto& queue) {
@@ -134,7 +109,7 @@ TEST(BestFirst, TakesTheSameStepsWithEveryQueue) {
 TEST(BestFirst, ExpandsNoMoreWithAConsistentHeuristicThanWithout) {
   for (std::uint64_t seed = 2; seed <= 24; seed += 2) {
     SCOPED_TRACE(seed);
-    const Problem problem = random_problem(seed, 300, 900);
+    const Problem problem = random_graph(seed, 300, 900);
     SearchState state;
     const SearchResult with = astar(problem, 0, 299, IndexedHeap<4>(), state, true);
     const SearchResult without = astar(problem, 0, 299, IndexedHeap<4>(), state, false);
@@ -149,7 +124,7 @@ TEST(BreadthFirst, HopsAreMinimalAndDepthFirstPathsAreValid) {
   SearchState state;
   for (std::uint64_t seed = 1; seed <= 24; ++seed) {
     SCOPED_TRACE(seed);
-    const Problem problem = random_problem(seed, 40 + seed, 60 + seed);
+    const Problem problem = random_graph(seed, 40 + seed, 60 + seed);
     const auto hops = all_distances(problem.graph, [](VertexId, VertexId) { return 1.0; });
     for (VertexId goal = 0; goal < problem.at.size(); ++goal) {
       const bool reachable = hops[0][goal] != std::numeric_limits<double>::infinity();
@@ -209,7 +184,7 @@ TEST(Searches, StopWithin1024ExpansionsWhenAsked) {
 }
 
 TEST(Searches, OfAStartThatIsTheGoalGiveOneVertex) {
-  const Problem problem = random_problem(1, 10, 12);
+  const Problem problem = random_graph(1, 10, 12);
   SearchState state;
   EXPECT_EQ(astar(problem, 4, 4, IndexedHeap<4>(), state).path, (std::vector<VertexId>{4}));
   state.resize(10);

@@ -4,15 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
-#include <map>
-#include <numeric>
-#include <set>
+#include <functional>
 #include <string>
 
 #include "core/error.hpp"
 #include "core/rng.hpp"
 #include "core/search.hpp"
+#include "tests/core/search_graphs.hpp"
 
 namespace warren {
 namespace {
@@ -21,44 +19,6 @@ Execution on(unsigned threads) {
   Execution execution;
   execution.threads = threads;
   return execution;
-}
-
-/// A spanning tree of a lattice by random choice, plus a share of the other doors; numbers shuffled or in row order.
-Graph random_maze(std::uint64_t seed, std::uint32_t side, double loops, bool shuffled) {
-  SequentialRng rng(seed);
-  std::vector<VertexId> number(std::size_t{side} * side);
-  std::iota(number.begin(), number.end(), 0U);
-  for (std::size_t i = number.size(); shuffled && i > 1; --i) std::swap(number[i - 1], number[rng.below(i)]);
-  std::vector<VertexId> group = number;
-  std::sort(group.begin(), group.end());
-  const auto root = [&](VertexId v) {
-    while (group[v] != v) v = group[v] = group[group[v]];
-    return v;
-  };
-  std::vector<Edge> doors;
-  for (VertexId c = 0; c < number.size(); ++c) {
-    if (c % side + 1 < side) doors.push_back({c, c + 1});
-    if (c + side < number.size()) doors.push_back({c, c + side});
-  }
-  for (std::size_t i = doors.size(); i > 1; --i) std::swap(doors[i - 1], doors[rng.below(i)]);
-  std::vector<Edge> edges;
-  for (const Edge& door : doors) {
-    const bool joins = root(door.from) != root(door.to);
-    group[root(door.from)] = root(door.to);
-    if (joins || uniform(seed, edges.size(), 5) < loops) edges.push_back({number[door.from], number[door.to]});
-  }
-  return Graph::from_edges(number.size(), edges);
-}
-
-Graph random_graph(std::uint64_t seed, std::size_t vertices, std::size_t edges) {
-  SequentialRng rng(seed);
-  std::set<Edge> unique;
-  for (std::size_t i = 0; i < edges; ++i) {
-    const auto a = static_cast<VertexId>(rng.below(vertices));
-    const auto b = static_cast<VertexId>(rng.below(vertices));
-    if (a != b) unique.insert({std::min(a, b), std::max(a, b)});
-  }
-  return Graph::from_edges(vertices, std::vector<Edge>(unique.begin(), unique.end()));
 }
 
 double edge_length(VertexId v, VertexId w) {
@@ -134,7 +94,7 @@ TEST(ReduceGraph, KeepsShortestPathsOfMazes) {
   for (std::uint64_t seed = 1; seed <= 24; ++seed) {
     SCOPED_TRACE(seed);
     const std::uint32_t side = 5 + static_cast<std::uint32_t>(seed);
-    const Graph graph = random_maze(seed, side, static_cast<double>(seed % 4) / 10.0, seed % 2 == 0);
+    const Graph graph = test::random_maze(seed, side, static_cast<double>(seed % 4) / 10.0, seed % 2 == 0).graph;
     expect_exact(graph, 0, side * side - 1);
     expect_exact(graph, side * side / 2, static_cast<VertexId>(seed));
   }
@@ -143,7 +103,7 @@ TEST(ReduceGraph, KeepsShortestPathsOfMazes) {
 TEST(ReduceGraph, KeepsShortestPathsOfRandomGraphs) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     SCOPED_TRACE(seed);
-    expect_exact(random_graph(seed, 30 + 5 * seed, 36 + 5 * seed + seed * seed / 8), 1, 17);
+    expect_exact(test::random_graph(seed, 30 + 5 * seed, 36 + 5 * seed + seed * seed / 8).graph, 1, 17);
   }
 }
 
@@ -169,13 +129,13 @@ TEST(ReduceGraph, FollowsDeadEndsThroughManyBlocks) {
 }
 
 TEST(ReduceGraph, OfATreeWithoutKeptVerticesNothingIsLeft) {
-  const Graph graph = random_maze(3, 40, 0.0, true);
+  const Graph graph = test::random_maze(3, 40, 0.0, true).graph;
   EXPECT_EQ(KeyCoverView(graph, {}, on(2)).key_count(), 0U);
   EXPECT_EQ(reduce_graph(graph, {}, edge_length, on(2)).graph().vertex_count(), 0U);
 }
 
 TEST(ReduceGraph, OfAPerfectMazeOnlyThePathIsLeft) {
-  const Graph graph = random_maze(5, 60, 0.0, false);
+  const Graph graph = test::random_maze(5, 60, 0.0, false).graph;
   const std::vector<VertexId> keep{0, 3599};
   const ReducedGraphView reduced = reduce_graph(graph, keep, edge_length, on(2));
   ASSERT_EQ(reduced.graph().vertex_count(), 2U);
@@ -183,7 +143,7 @@ TEST(ReduceGraph, OfAPerfectMazeOnlyThePathIsLeft) {
 }
 
 TEST(ReduceGraph, RefusesAKeptVertexThatIsNotThere) {
-  const Graph graph = random_maze(5, 3, 0.0, false);
+  const Graph graph = test::random_maze(5, 3, 0.0, false).graph;
   EXPECT_THROW(KeyCoverView(graph, std::vector<VertexId>{9}, on(1)), InputError);
 }
 
