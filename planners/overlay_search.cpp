@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planners/overlay_search.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+#include "parallel/chunks.hpp"
+
+namespace warren {
+namespace {
+
+/// Where overlay vertices stand.
+class Places {
+ public:
+  Places(const Overlay& overlay, const TileGrid& grid, std::span<const TileSummary> tiles, const OverlayEnds& ends)
+      : overlay_(overlay), grid_(grid), tiles_(tiles), ends_(ends) {}
+
+  Vec2 of(VertexId v) const {
+    if (v == overlay_.start()) return ends_.start.at;
+    if (v == overlay_.goal()) return ends_.goal.at;
+    const std::size_t tile = overlay_.tile_of(v);
+    const std::uint32_t local = tiles_[tile].keys[v - overlay_.first_key(tile)];
+    const std::uint32_t side = grid_.side();
+    return TileGrid::point(grid_.first_col(tile) + local % side, grid_.first_row(tile) + local / side);
+  }
+
+ private:
+  const Overlay& overlay_;
+  const TileGrid& grid_;
+  std::span<const TileSummary> tiles_;
+  const OverlayEnds& ends_;
+};
+
+/// The shortest of the edges from v to w, the first of equals; there must be one.
+const OverlayEnd& edge_between(const Overlay& overlay, VertexId v, VertexId w) {
+  const std::span<const OverlayEnd> row = overlay.ends(v);
+  std::size_t best = row.size();
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    if (row[i].target == w && (best == row.size() || row[i].length < row[best].length)) best = i;
+  }
+  assert(best < row.size());
+  return row[best];
+}
+
+std::size_t steps_of(const OverlayEnd& edge) {
+  return edge.chain == no_chain ? 1 : static_cast<std::size_t>(edge.length);
+}
+
+constexpr Vec2 directions[4] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+
+/// Writes the vertices after v along a chain of v's tile, up to its other end.
+void walk_chain(const TileSummary& tile, const Chain& chain, bool forward, Vec2 at, Vec2* out) {
+  const std::uint8_t* steps = tile.steps.data() + chain.first_step;
+  for (std::uint32_t i = 0; i < chain.length; ++i) {
+    const unsigned direction = forward ? steps[i] : steps[chain.length - 1 - i] ^ 2U;
+    at = at + directions[direction];
+    *out++ = at;
+  }
+}
+
+bool heuristic_pays(const Overlay& overlay) {
+  std::uint64_t edge_ends = 0;
+  for (const VertexId v : overlay.core()) {
+    for (const OverlayEnd& end : overlay.ends(v)) edge_ends += overlay.is_peeled(end.target) ? 0 : 1;
+  }
+  return edge_ends >= 3 * overlay.core().size();
+}
+
+}  // namespace
+
+CoreComponents core_components(const Overlay& overlay, const Execution& execution) {
+  execution.reserve(overlay.vertex_count() * sizeof(VertexId));
+  RawVector<VertexId> parent(overlay.vertex_count());
+  for (const VertexId v : overlay.core()) parent[v] = v;
+  const auto root = [&](VertexId v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  CoreComponents result{overlay.core().size(), false};
+  std::uint64_t seen = 0;
+  for (const VertexId v : overlay.core()) {
+    if (++seen % 65536 == 0) execution.check();
+    for (const OverlayEnd& end : overlay.ends(v)) {
+      if (end.target > v || overlay.is_peeled(end.target)) continue;  // each edge once
+      const VertexId a = root(v);
+      const VertexId b = root(end.target);
+      if (a == b) continue;
+      parent[std::max(a, b)] = std::min(a, b);
+      --result.count;
+    }
+  }
+  result.joined = root(overlay.start()) == root(overlay.goal());
+  return result;
+}
+
+SearchResult search_overlay(const Overlay& overlay, const TileGrid& grid, std::span<const TileSummary> tiles,
+                            const OverlayEnds& ends, const Execution& execution) {
+  execution.reserve(overlay.vertex_count() * (sizeof(double) + 2 * sizeof(VertexId)));
+  SearchState state;
+  state.resize(overlay.vertex_count());
+  IndexedHeap<> queue;
+  queue.resize(overlay.vertex_count());
+  const auto neighbours = [&](VertexId v, const auto& visit) {
+    for (const OverlayEnd& end : overlay.ends(v)) {
+      if (!overlay.is_peeled(end.target)) visit(end.target, end.length);
+    }
+  };
+  const auto should_stop = [&] { return execution.should_stop(); };
+  const auto search = [&](const auto& heuristic) {
+    return best_first(overlay.start(), overlay.goal(), neighbours, heuristic, queue, state, should_stop);
+  };
+  const Places places(overlay, grid, tiles, ends);
+  SearchResult result = heuristic_pays(overlay)
+                            ? search([&](VertexId v) { return distance(places.of(v), ends.goal.at); })
+                            : search([](VertexId) { return 0.0; });
+  if (result.status == SearchStatus::stopped) execution.check();
+  return result;
+}
+
+std::vector<Vec2> expand_path(const Overlay& overlay, const TileGrid& grid, std::span<const TileSummary> tiles,
+                              const OverlayEnds& ends, std::span<const VertexId> path, const Execution& execution) {
+  const Places places(overlay, grid, tiles, ends);
+  constexpr std::size_t grain = 1024;
+  const std::size_t legs = path.size() - 1;
+  std::vector<std::size_t> first(legs + 1, 1);  // where the vertices of a leg go, its own beginning not counted
+  for (std::size_t i = 0; i < legs; ++i)
+    first[i + 1] = first[i] + steps_of(edge_between(overlay, path[i], path[i + 1]));
+  execution.reserve(first.back() * sizeof(Vec2));
+  std::vector<Vec2> points(first.back(), ends.start.at);
+  for_chunks(legs, grain, execution, [&](Range r) {
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      const OverlayEnd& edge = edge_between(overlay, path[i], path[i + 1]);
+      Vec2* const out = points.data() + first[i];
+      if (edge.chain == no_chain) {
+        *out = places.of(path[i + 1]);
+        continue;
+      }
+      const std::size_t tile = overlay.tile_of(path[i]);
+      const Chain& chain = tiles[tile].chains[edge.chain];
+      const bool forward = overlay.first_key(tile) + chain.from == path[i];
+      walk_chain(tiles[tile], chain, forward, places.of(path[i]), out);
+    }
+  });
+  return points;
+}
+
+}  // namespace warren

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planners/tile_reduction.hpp"
+
+#include <bit>
+#include <cassert>
+#include <cstring>
+
+namespace warren {
+namespace {
+
+using plane_bit::edges;
+using plane_bit::kept;
+using plane_bit::key;
+using plane_bit::milestone;
+
+/// One edge and not kept. A table of 64 answers in a word.
+constexpr std::uint64_t dead_end_set = [] {
+  std::uint64_t set = 0;
+  for (unsigned bits = 0; bits < 64; ++bits) {
+    if (is_single_bit(bits & edges) && (bits & kept) == 0) set |= std::uint64_t{1} << bits;
+  }
+  return set;
+}();
+constexpr bool is_dead_end(unsigned bits) { return ((dead_end_set >> (bits & 63)) & 1) != 0; }
+
+/// Calls visit(byte) for each byte of the row that has a bit of `mask`, eight bytes skipped at once where none has.
+template <class Visit>
+void for_each_with(std::uint8_t* row, int width, std::uint8_t mask, const Visit& visit) {
+  const std::uint64_t masks = 0x0101010101010101U * mask;
+  int col = 0;
+  for (; col + 8 <= width; col += 8) {
+    std::uint64_t word;
+    std::memcpy(&word, row + col, 8);
+    if ((word & masks) == 0) continue;
+    for (int i = 0; i < 8; ++i) {
+      if ((row[col + i] & mask) != 0) visit(row + col + i);
+    }
+  }
+  for (; col < width; ++col) {
+    if ((row[col] & mask) != 0) visit(row + col);
+  }
+}
+
+}  // namespace
+
+std::size_t TileSummary::bytes() const {
+  std::size_t total = sizeof(*this) + keys.size() * 2 + chains.size() * sizeof(Chain) + steps.size();
+  for (const auto& side : crossings) total += side.size() * 2;
+  return total;
+}
+
+TileReduction::TileReduction(const TilePlane& plane)
+    : offset_(plane.offsets()),
+      number_(static_cast<std::size_t>(plane.stride()) * static_cast<std::size_t>(plane.stride())) {}
+
+TileSummary TileReduction::reduce(TilePlane& plane) {
+  TileSummary summary;
+  count(plane, summary);
+  keep_crossings(plane);
+  peel(plane);
+  number_keys(plane, summary);
+  cut_crossings(plane, summary);
+  chain_keys(plane);
+  close_rings(plane, summary);
+  summary.keys = keys_;
+  summary.chains = chains_;
+  summary.steps = steps_;
+  return summary;
+}
+
+/// Sums of single bits fit a byte for 255 points at a time, so that compilers add 16 or more points at once.
+void TileReduction::count(const TilePlane& plane, TileSummary& summary) const {
+  constexpr int batch = 64;
+  for (int row = 0; row < plane.height(); ++row) {
+    for (int first = 0; first < plane.width(); first += batch) {
+      const std::uint8_t* at = plane.at(first, row);
+      const std::uint8_t* above = plane.at(first, row + 1);
+      const int n = std::min(batch, plane.width() - first);
+      std::uint8_t stand = 0;
+      std::uint8_t pairs = 0;
+      std::uint8_t open = 0;
+      for (int i = 0; i < n; ++i) {
+        stand = static_cast<std::uint8_t>(stand + ((at[i] >> 4) & 1));
+        pairs = static_cast<std::uint8_t>(pairs + (((at[i] & at[i + 1]) >> 4) & 1) + (((at[i] & above[i]) >> 4) & 1));
+        open = static_cast<std::uint8_t>(open + (at[i] & 1) + ((at[i] >> 1) & 1));
+      }
+      summary.milestones += stand;
+      summary.candidate_edges += pairs;
+      summary.free_edges += open;
+    }
+  }
+}
+
+void TileReduction::keep_crossings(TilePlane& plane) const {
+  const auto keep = [](std::uint8_t* at, unsigned edge) {
+    if ((*at & edge) != 0) *at |= kept;
+  };
+  for (int row = 0; row < plane.height(); ++row) {
+    keep(plane.at(0, row), plane_bit::left);
+    keep(plane.at(plane.width() - 1, row), plane_bit::right);
+  }
+  for (int col = 0; col < plane.width(); ++col) {
+    keep(plane.at(col, 0), plane_bit::down);
+    keep(plane.at(col, plane.height() - 1), plane_bit::up);
+  }
+}
+
+/// A vertex that is peeled becomes 0; the last one of a tree keeps its milestone bit.
+void TileReduction::peel(TilePlane& plane) const {
+  for (int row = 0; row < plane.height(); ++row) {
+    std::uint8_t* const line = plane.at(0, row);
+    for (int col = 0; col < plane.width(); ++col) {
+      std::uint8_t* at = line + col;
+      while (is_dead_end(*at)) {
+        const unsigned direction = first_direction(*at & edges);
+        *at = 0;
+        at += offset_[direction];
+        *at &= static_cast<std::uint8_t>(~opposite_bit(direction));
+      }
+    }
+  }
+}
+
+void TileReduction::number_keys(TilePlane& plane, TileSummary& summary) {
+  keys_.clear();
+  places_.clear();
+  between_ = 0;
+  const std::uint8_t* const origin = plane.at(0, 0);
+  for (int row = 0; row < plane.height(); ++row) {
+    std::uint8_t* const line = plane.at(0, row);
+    for_each_with(line, plane.width(), edges | milestone | kept, [&](std::uint8_t* at) {
+      const int degree = std::popcount(static_cast<unsigned>(*at & edges));
+      if (degree == 0 && (*at & kept) == 0) {
+        ++summary.closed_components;
+      } else if (degree == 2 && (*at & kept) == 0) {
+        ++between_;
+      } else {
+        number_[static_cast<std::size_t>(at - plane.at(-plane.margin(), -plane.margin()))] =
+            static_cast<std::uint16_t>(keys_.size());
+        const auto local =
+            static_cast<std::uint32_t>(row) * plane.grid().side() + static_cast<std::uint32_t>(at - line);
+        keys_.push_back(static_cast<std::uint16_t>(local));
+        places_.push_back(static_cast<std::int32_t>(at - origin));
+        *at |= key;
+      }
+    });
+  }
+}
+
+/// Edges over the border are the neighbours' as well: they leave the plane and are listed side by side.
+void TileReduction::cut_crossings(TilePlane& plane, TileSummary& summary) {
+  const std::uint8_t* const base = plane.at(-plane.margin(), -plane.margin());
+  const auto cut = [&](std::uint8_t* at, unsigned direction) {
+    if ((*at & (1U << direction)) == 0) return;
+    *at &= static_cast<std::uint8_t>(~(1U << direction));
+    summary.crossings[direction].push_back(number_[static_cast<std::size_t>(at - base)]);
+  };
+  for (int row = 0; row < plane.height(); ++row) {
+    cut(plane.at(plane.width() - 1, row), 0);
+    cut(plane.at(0, row), 2);
+  }
+  for (int col = 0; col < plane.width(); ++col) {
+    cut(plane.at(col, plane.height() - 1), 1);
+    cut(plane.at(col, 0), 3);
+  }
+}
+
+void TileReduction::chain_keys(TilePlane& plane) {
+  chains_.clear();
+  steps_.clear();
+  std::uint8_t* const origin = plane.at(0, 0);
+  for (const std::int32_t place : places_) {
+    std::uint8_t* const at = origin + place;
+    for (unsigned left = *at & edges; left != 0; left = *at & edges) follow(at, first_direction(left), plane);
+  }
+}
+
+/// Walks from a key to the next, wiping out the way. A way back to the same key is on no shortest path.
+void TileReduction::follow(std::uint8_t* from, unsigned direction, const TilePlane& plane) {
+  const std::uint8_t* const base = plane.at(-plane.margin(), -plane.margin());
+  const std::size_t first_step = steps_.size();
+  std::uint8_t* at = from;
+  *at &= static_cast<std::uint8_t>(~(1U << direction));
+  for (;;) {
+    steps_.push_back(static_cast<std::uint8_t>(direction));
+    at += offset_[direction];
+    *at &= static_cast<std::uint8_t>(~opposite_bit(direction));
+    if ((*at & key) != 0) break;
+    direction = first_direction(*at & edges);
+    *at = 0;
+    --between_;
+  }
+  if (at == from) {
+    steps_.resize(first_step);
+    return;
+  }
+  chains_.push_back({number_[static_cast<std::size_t>(from - base)], number_[static_cast<std::size_t>(at - base)],
+                     static_cast<std::uint32_t>(first_step), static_cast<std::uint32_t>(steps_.size() - first_step)});
+}
+
+/// What is left now are rings without a key: each is a component of its own.
+void TileReduction::close_rings(TilePlane& plane, TileSummary& summary) const {
+  if (between_ == 0) return;
+  for (int row = 0; row < plane.height(); ++row) {
+    for_each_with(plane.at(0, row), plane.width(), edges, [&](std::uint8_t* at) {
+      while ((*at & edges) != 0) {
+        const unsigned direction = first_direction(*at & edges);
+        *at &= static_cast<std::uint8_t>(~(1U << direction));
+        at += offset_[direction];
+        *at &= static_cast<std::uint8_t>(~opposite_bit(direction));
+      }
+      ++summary.closed_components;
+    });
+  }
+}
+
+}  // namespace warren

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planners/tiled_prm.hpp"
+
+#include <optional>
+#include <utility>
+
+#include "core/error.hpp"
+#include "parallel/chunks.hpp"
+#include "planners/end_links.hpp"
+#include "planners/overlay.hpp"
+#include "planners/overlay_search.hpp"
+#include "planners/tile_grid.hpp"
+#include "planners/tile_plane.hpp"
+#include "planners/tile_reduction.hpp"
+#include "planners/tile_separation.hpp"
+#include "planners/wall_marking.hpp"
+#include "planners/wall_partition.hpp"
+
+namespace warren {
+namespace {
+
+/// One plan: what its stages share.
+class TiledPlan {
+ public:
+  TiledPlan(const TiledProblem& problem, const RoadmapOptions& options, const Execution& execution)
+      : problem_(problem),
+        execution_(execution),
+        grid_(TileGrid::of(options.lattice)),
+        clearance_(problem.clearance * (1 + 1e-9)) {}
+
+  void run() {
+    partition();
+    if (!join_ends()) return;
+    solution_.counters.rounds = 1;
+    solution_.counters.samples = std::uint64_t{grid_.rows} * grid_.cols;
+    reduce_tiles();
+    build_overlay();
+    if (joined()) {
+      search();
+    } else {
+      measure_gap();
+    }
+  }
+  Solution<Vec2>& solution() { return solution_; }
+
+ private:
+  void partition();
+  bool join_ends();
+  void reduce_tiles();
+  void keep_linked(TilePlane& plane) const;
+  void build_overlay();
+  bool joined();
+  void search();
+  void measure_gap();
+
+  const TiledProblem& problem_;
+  const Execution& execution_;
+  const TileGrid grid_;
+  const double clearance_;
+  std::optional<WallPartition> partition_;
+  OverlayEnds ends_;
+  std::vector<TileSummary> tiles_;
+  std::optional<Overlay> overlay_;
+  Solution<Vec2> solution_;
+};
+
+void TiledPlan::partition() {
+  const StageTimer timer(execution_, "index", solution_.seconds.index, 2 * problem_.walls.size());
+  const double halo = 1.0 + clearance_ * (1 + 1e-9) + 0.01;  // an edge's length, its clearance, and rounding
+  partition_.emplace(problem_.walls, problem_.more_walls, grid_, halo, execution_);
+}
+
+/// Start and goal: false if one of them is blocked.
+bool TiledPlan::join_ends() {
+  const LatticeWorld world{grid_, problem_.walls, problem_.more_walls, *partition_, problem_.box, clearance_};
+  ends_.start = end_links(world, problem_.start);
+  ends_.goal = end_links(world, problem_.goal);
+  ends_.direct =
+      is_direct_candidate(problem_.start, problem_.goal) && is_direct_edge_free(world, problem_.start, problem_.goal);
+  if (!ends_.start.free) solution_.outcome = Outcome::start_blocked;
+  if (ends_.start.free && !ends_.goal.free) solution_.outcome = Outcome::goal_blocked;
+  return ends_.start.free && ends_.goal.free;
+}
+
+void TiledPlan::keep_linked(TilePlane& plane) const {
+  for (const EndLinks* end : {&ends_.start, &ends_.goal}) {
+    for (const EndLink& link : end->links) {
+      if (grid_.tile_at(link.col, link.row) != plane.tile()) continue;
+      *plane.at(static_cast<int>(link.col - grid_.first_col(plane.tile())),
+                static_cast<int>(link.row - grid_.first_row(plane.tile()))) |= plane_bit::kept;
+    }
+  }
+}
+
+void TiledPlan::reduce_tiles() {
+  const StageTimer timer(execution_, "connect", solution_.seconds.connect, grid_.count());
+  tiles_.resize(grid_.count());
+  for_chunks(grid_.count(), 1, execution_, [&](Range r) {
+    WallMarker marker(clearance_);
+    TilePlane plane(grid_, marker.margin());
+    TileReduction reduction(plane);
+    for (std::size_t tile = r.first; tile < r.last; ++tile) {
+      plane.reset(tile, problem_.box);
+      marker.mark(partition_->of(tile), plane);
+      keep_linked(plane);
+      tiles_[tile] = reduction.reduce(plane);
+    }
+  });
+  partition_.reset();
+  for (const TileSummary& tile : tiles_) {
+    solution_.roadmap.milestones += tile.milestones;
+    solution_.roadmap.edges += tile.free_edges;
+    solution_.roadmap.components += tile.closed_components;
+    solution_.counters.edges_checked += tile.candidate_edges;
+  }
+  const std::uint64_t links = ends_.start.links.size() + ends_.goal.links.size() + (ends_.direct ? 1 : 0);
+  solution_.counters.neighbour_queries = solution_.roadmap.milestones + ends_.start.queries + ends_.goal.queries;
+  solution_.counters.edges_checked +=
+      ends_.start.checked + ends_.goal.checked + (is_direct_candidate(problem_.start, problem_.goal) ? 1 : 0);
+  solution_.roadmap.milestones += 2;
+  solution_.roadmap.edges += links;
+}
+
+void TiledPlan::build_overlay() {
+  {
+    const StageTimer timer(execution_, "graph", solution_.seconds.graph, grid_.count());
+    overlay_.emplace(grid_, tiles_, ends_, execution_);
+  }
+  const StageTimer timer(execution_, "reduce", solution_.seconds.reduce, grid_.count());
+  solution_.roadmap.components += overlay_->peel(execution_);
+}
+
+bool TiledPlan::joined() {
+  const StageTimer timer(execution_, "reduce", solution_.seconds.reduce, overlay_->core().size());
+  const CoreComponents components = core_components(*overlay_, execution_);
+  solution_.roadmap.components += components.count;
+  if (!components.joined) solution_.outcome = Outcome::not_connected;
+  return components.joined;
+}
+
+/// The tiles have been let go of, so they are made again: an answer without a path is not hurried.
+void TiledPlan::measure_gap() {
+  partition();
+  const int margin = WallMarker(clearance_).margin();
+  const auto remake = [&](std::size_t tile, TilePlane& plane) {
+    plane.reset(tile, problem_.box);
+    WallMarker(clearance_).mark(partition_->of(tile), plane);
+  };
+  solution_.separation = tile_separation(*overlay_, grid_, tiles_, ends_, {margin, remake}, execution_);
+}
+
+void TiledPlan::search() {
+  const StageTimer timer(execution_, "search", solution_.seconds.search, overlay_->core().size());
+  const SearchResult found = search_overlay(*overlay_, grid_, tiles_, ends_, execution_);
+  solution_.counters.expanded = found.expanded;
+  solution_.path = expand_path(*overlay_, grid_, tiles_, ends_, found.path, execution_);
+  solution_.outcome = Outcome::solved;
+}
+
+}  // namespace
+
+bool tiled_prm_applies(const RoadmapOptions& options, double clearance) {
+  const bool own_rule = !options.neighbours && (!options.radius || *options.radius == 1.0);
+  const bool shortest = options.search == SearchKind::astar || options.search == SearchKind::dijkstra;
+  return options.sampler == SamplerKind::lattice && own_rule && shortest && clearance <= WallMarker::largest_clearance;
+}
+
+Solution<Vec2> tiled_prm(const TiledProblem& problem, const RoadmapOptions& options, const Execution& execution) {
+  options.validate();
+  if (!(problem.clearance >= 0.0)) throw InputError("clearance", "must be a number, at least 0");
+  if (!tiled_prm_applies(options, problem.clearance)) {
+    throw InputError("pipeline", "tiles take only the lattice at radius 1 with a clearance of at most 8");
+  }
+  TiledPlan plan(problem, options, execution);
+  try {
+    plan.run();
+  } catch (const Stopped& stopped) {
+    plan.solution().outcome = Outcome::stopped;
+    plan.solution().stop_reason = stopped.reason;
+  }
+  return std::move(plan.solution());
+}
+
+}  // namespace warren

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The lattice roadmap of planners/prm.hpp, every edge checked, fused tile by tile: the way for mazes of hundreds of
+// millions of cells.
+//
+//   partition   walls are filed by tile, in streaming passes                              (wall_partition)
+//   tiles       one thread a tile, all in its cache: milestones and edges stand until a    (tile_plane, wall_marking)
+//               wall clears them; dead ends are peeled, chains contracted                   (tile_reduction)
+//   overlay     what is left of all tiles, peeled again across borders                      (overlay)
+//   search      Dijkstra or A* on the overlay's core; the path's chains are expanded again  (overlay_search)
+//
+// The answer is the plain pipeline's: the same milestones and edges, a path of the same length (shortest paths that tie
+// may differ in their vertices). Peeling and contraction are exact for any set of walls: mazes with loops, open space,
+// crossing and slanted segments; only the gain differs. Borders of tiles and all switches between two ways of working
+// follow from counts, so path and counters are the same for any thread count. Cost in a maze, ns of CPU a cell: see
+// bench/tiled_phases.cpp; memory beside the walls: 8 bytes a wall until the tiles are done, then a fraction of a byte a
+// cell. In open space every milestone is a vertex of the overlay: about 80 bytes each. A tile is a function of its
+// number, its walls and the vertices that start and goal join; tiles share nothing, and what they hand back is plain
+// values.
+#pragma once
+
+#include <span>
+
+#include "core/solution.hpp"
+#include "core/types.hpp"
+#include "core/wall_set.hpp"
+#include "parallel/execution.hpp"
+#include "planners/roadmap_options.hpp"
+
+namespace warren {
+
+/// A world of walls, a lattice and a question. Refers to the walls, which must outlive the call.
+struct TiledProblem {
+  const WallSet& walls;
+  std::span<const Segment> more_walls;  ///< a few beside the set: the bounds
+  Box box;                              ///< the reference point stays in it
+  double clearance = 0.0;               ///< >= 0; planned with r (1 + 1e-9), as MazeWorld does
+  Vec2 start;
+  Vec2 goal;
+};
+
+/// Can tiled_prm give the plain pipeline's answer under these options? The lattice with its own rule of joining (radius
+/// 1), a shortest-path search, and a clearance of at most 8 steps of the lattice.
+bool tiled_prm_applies(const RoadmapOptions& options, double clearance);
+
+/// Plans as prm() does. Never throws Stopped: a budget's end gives Outcome::stopped. InputError where
+/// tiled_prm_applies() is false, or for options out of range.
+Solution<Vec2> tiled_prm(const TiledProblem& problem, const RoadmapOptions& options, const Execution& execution);
+
+}  // namespace warren

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planners/wall_partition.hpp"
+
+#include <emmintrin.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "parallel/chunks.hpp"
+#include "planners/wall_band.hpp"
+
+namespace warren {
+namespace {
+
+/// A wall's coordinates in steps of 1/128; exact says whether they are whole and below 2^30.
+struct Units {
+  __m128i steps;  // x1 y1 x2 y2
+  bool exact;
+};
+
+Units units_of(const FloatWall& w) {
+  const __m128 limit = _mm_set1_ps(0x1p30F);
+  const __m128 scaled = _mm_mul_ps(_mm_loadu_ps(&w.x1), _mm_set1_ps(narrow_unit));
+  const __m128 clamped = _mm_max_ps(_mm_min_ps(scaled, limit), _mm_sub_ps(_mm_setzero_ps(), limit));
+  const __m128i steps = _mm_cvtps_epi32(clamped);
+  return {steps, _mm_movemask_ps(_mm_cmpeq_ps(_mm_cvtepi32_ps(steps), scaled)) == 15};
+}
+
+Units units_of(const DoubleWall& w) {
+  const __m128d limit = _mm_set1_pd(0x1p30);
+  const auto half = [&](const double* at, int& whole) {
+    const __m128d scaled = _mm_mul_pd(_mm_loadu_pd(at), _mm_set1_pd(narrow_unit));
+    const __m128d clamped = _mm_max_pd(_mm_min_pd(scaled, limit), _mm_sub_pd(_mm_setzero_pd(), limit));
+    const __m128i steps = _mm_cvtpd_epi32(clamped);
+    whole += _mm_movemask_pd(_mm_cmpeq_pd(_mm_cvtepi32_pd(steps), scaled));
+    return steps;
+  };
+  int whole = 0;
+  const __m128i low = half(&w.x1, whole);
+  const __m128i high = half(&w.x2, whole);
+  return {_mm_unpacklo_epi64(low, high), whole == 6};
+}
+
+/// Into which tiles a wall goes, and in which form.
+class Filer {
+ public:
+  Filer(const TileGrid& grid, double halo)
+      : grid_(grid),
+        halo_(halo),
+        shift_(_mm_cvtsi32_si128(static_cast<int>(narrow_bits + grid.side_log2))),
+        halo_steps_(_mm_set1_epi32(static_cast<int>(std::ceil(halo * narrow_unit)))),
+        narrow_fits_(std::max(grid.cols, grid.rows) <= (1U << 22)) {}
+
+  /// Calls narrow(tile, steps) or wide(tile) for each tile that w goes to, ascending.
+  template <class T, class Narrow, class Wide>
+  void file(const WallOf<T>& w, const Narrow& narrow, const Wide& wide) const {
+    const Units units = units_of(w);
+    const __m128i swapped = _mm_shuffle_epi32(units.steps, 0x4E);
+    const __m128i greater = _mm_cmpgt_epi32(units.steps, swapped);
+    const __m128i low = _mm_or_si128(_mm_and_si128(greater, swapped), _mm_andnot_si128(greater, units.steps));
+    const __m128i high = _mm_or_si128(_mm_and_si128(greater, units.steps), _mm_andnot_si128(greater, swapped));
+    const __m128i longest = _mm_set1_epi32(64 * narrow_unit);
+    const bool is_short = _mm_movemask_epi8(_mm_cmpgt_epi32(_mm_sub_epi32(high, low), longest)) == 0;
+    if (!units.exact || !is_short || !narrow_fits_) return file_wide(w.segment(), wide);
+    const __m128i origin = _mm_set1_epi32(narrow_unit / 2);
+    const Corner first = corner(_mm_sub_epi32(low, _mm_add_epi32(origin, halo_steps_)));
+    const Corner last = corner(_mm_add_epi32(_mm_sub_epi32(high, origin), halo_steps_));
+    if (first.col == last.col && first.row == last.row) {
+      if (inside(first.col, grid_.tile_cols) && inside(first.row, grid_.tile_rows)) {
+        narrow(tile(first.col, first.row), units.steps);
+      }
+      return;
+    }
+    const std::int32_t end_col = std::min(last.col + 1, static_cast<std::int32_t>(grid_.tile_cols));
+    const std::int32_t end_row = std::min(last.row + 1, static_cast<std::int32_t>(grid_.tile_rows));
+    for (std::int32_t row = std::max(first.row, 0); row < end_row; ++row) {
+      for (std::int32_t col = std::max(first.col, 0); col < end_col; ++col) narrow(tile(col, row), units.steps);
+    }
+  }
+
+ private:
+  struct Corner {
+    std::int32_t col;
+    std::int32_t row;
+  };
+  static bool inside(std::int32_t i, std::uint32_t count) { return static_cast<std::uint32_t>(i) < count; }
+  std::size_t tile(std::int32_t col, std::int32_t row) const {
+    return static_cast<std::size_t>(row) * grid_.tile_cols + static_cast<std::size_t>(col);
+  }
+  Corner corner(__m128i steps) const {
+    const auto both = static_cast<std::uint64_t>(_mm_cvtsi128_si64(_mm_sra_epi32(steps, shift_)));
+    return {static_cast<std::int32_t>(both), static_cast<std::int32_t>(both >> 32)};
+  }
+
+  template <class Wide>
+  void file_wide(const Segment& w, const Wide& wide) const {
+    const Box box = box_of(w).grown(halo_);
+    if (!box.meets(grid_.area())) return;
+    const auto index = [&](double x, std::uint32_t count) {
+      const double place = std::floor((x - 0.5) / grid_.side());
+      return static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(count - 1)));
+    };
+    const std::size_t last_row = index(box.max.y, grid_.tile_rows);
+    for (std::size_t row = index(box.min.y, grid_.tile_rows); row <= last_row; ++row) {
+      const double low = 0.5 + static_cast<double>(row * grid_.side());
+      const Interval x = x_range_in_band(w, low - halo_, low + grid_.side() + halo_);
+      if (x.high + halo_ < 0.5 || x.low - halo_ > grid_.area().max.x) continue;
+      const std::size_t last_col = index(x.high + halo_, grid_.tile_cols);
+      for (std::size_t col = index(x.low - halo_, grid_.tile_cols); col <= last_col; ++col) {
+        wide(row * grid_.tile_cols + col);
+      }
+    }
+  }
+
+  const TileGrid& grid_;
+  const double halo_;
+  const __m128i shift_;
+  const __m128i halo_steps_;
+  const bool narrow_fits_;
+};
+
+/// What one chunk of walls puts where: entry t of the narrow (or wide) half is first a count, then the next place.
+class Places {
+ public:
+  Places(std::size_t chunks, std::size_t tiles) : tiles_(tiles), entries_(chunks * 2 * tiles) {}
+  std::uint32_t* narrow(std::size_t chunk) { return entries_.data() + chunk * 2 * tiles_; }
+  std::uint32_t* wide(std::size_t chunk) { return narrow(chunk) + tiles_; }
+
+  /// Turns counts into places: by tile, in a tile by chunk. Returns where each tile begins, and the end.
+  RawVector<std::uint32_t> narrow_places() { return places(0); }
+  RawVector<std::uint32_t> wide_places() { return places(tiles_); }
+
+ private:
+  RawVector<std::uint32_t> places(std::size_t half) {
+    const std::size_t chunks = entries_.size() / (2 * tiles_);
+    std::vector<std::uint64_t> next(tiles_ + 1, 0);
+    for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
+      const std::uint32_t* counts = narrow(chunk) + half;
+      for (std::size_t t = 0; t < tiles_; ++t) next[t + 1] += counts[t];
+    }
+    for (std::size_t t = 0; t < tiles_; ++t) next[t + 1] += next[t];
+    if (next.back() > 0xffffffffU)
+      throw InputError("walls", "make more than 2^32 - 1 entries in the tiles that they pass");
+    RawVector<std::uint32_t> first(tiles_ + 1);
+    std::copy(next.begin(), next.end(), first.begin());
+    for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
+      std::uint32_t* counts = narrow(chunk) + half;
+      for (std::size_t t = 0; t < tiles_; ++t) {
+        const std::uint32_t count = counts[t];
+        counts[t] = static_cast<std::uint32_t>(next[t]);
+        next[t] += count;
+      }
+    }
+    return first;
+  }
+
+  std::size_t tiles_;
+  RawVector<std::uint32_t> entries_;
+};
+
+/// Chunks of at least 65536 walls, at most 256 of them: so that their counts stay small beside the walls.
+std::size_t grain_of(std::size_t walls) { return std::max<std::size_t>(65536, (walls + 255) / 256); }
+
+template <class T>
+void count(std::span<const WallOf<T>> walls, const Filer& filer, std::size_t tiles, Places& places,
+           const Execution& execution) {
+  const std::size_t grain = grain_of(walls.size());
+  for_chunks(walls.size(), grain, execution, [&](Range r) {
+    std::uint32_t* narrow = places.narrow(r.first / grain);
+    std::uint32_t* wide = places.wide(r.first / grain);
+    std::fill(narrow, narrow + 2 * tiles, 0U);
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      filer.file(
+          walls[i], [&](std::size_t tile, __m128i) { ++narrow[tile]; }, [&](std::size_t tile) { ++wide[tile]; });
+    }
+  });
+}
+
+/// Middle of each column (or row) of tiles, in steps.
+std::int32_t middle_steps(std::uint32_t first, const TileGrid& grid) {
+  return static_cast<std::int32_t>((first + grid.side() / 2 + 1) * narrow_unit);
+}
+
+template <class T>
+void scatter(std::span<const WallOf<T>> walls, const Filer& filer, const TileGrid& grid, Places& places,
+             NarrowWall* narrow_walls, WallOf<T>* wide_walls, const Execution& execution) {
+  const std::size_t grain = grain_of(walls.size());
+  std::vector<std::uint64_t> middle(grid.count());
+  for (std::size_t t = 0; t < middle.size(); ++t) {
+    const auto x = static_cast<std::uint32_t>(middle_steps(grid.first_col(t), grid));
+    const auto y = static_cast<std::uint32_t>(middle_steps(grid.first_row(t), grid));
+    middle[t] = x | (std::uint64_t{y} << 32);
+  }
+  for_chunks(walls.size(), grain, execution, [&](Range r) {
+    std::uint32_t* narrow = places.narrow(r.first / grain);
+    std::uint32_t* wide = places.wide(r.first / grain);
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      filer.file(
+          walls[i],
+          [&](std::size_t tile, __m128i steps) {
+            const __m128i local = _mm_sub_epi32(steps, _mm_set1_epi64x(static_cast<long long>(middle[tile])));
+            auto* to = reinterpret_cast<__m128i*>(narrow_walls + narrow[tile]++);
+            _mm_storel_epi64(to, _mm_packs_epi32(local, local));
+          },
+          [&](std::size_t tile) { wide_walls[wide[tile]++] = walls[i]; });
+    }
+  });
+}
+
+}  // namespace
+
+WallPartition::WallPartition(const WallSet& walls, std::span<const Segment> more, const TileGrid& grid, double halo,
+                             const Execution& execution)
+    : more_(more) {
+  const Filer filer(grid, halo);
+  walls.visit([&]<class T>(std::span<const WallOf<T>> given) {
+    const std::size_t chunks = chunk_count(given.size(), grain_of(given.size()));
+    execution.reserve(2 * chunks * grid.count() * sizeof(std::uint32_t));
+    Places places(chunks, grid.count());
+    count(given, filer, grid.count(), places, execution);
+    first_narrow_ = places.narrow_places();
+    first_wide_ = places.wide_places();
+    execution.reserve(first_narrow_.back() * sizeof(NarrowWall) + first_wide_.back() * sizeof(WallOf<T>));
+    narrow_.resize(first_narrow_.back());
+    RawVector<WallOf<T>> wide(first_wide_.back());
+    scatter(given, filer, grid, places, narrow_.data(), wide.data(), execution);
+    if constexpr (std::is_same_v<T, float>) {
+      floats_ = std::move(wide);
+    } else {
+      doubles_ = std::move(wide);
+    }
+  });
+}
+
+TileWalls WallPartition::of(std::size_t tile) const {
+  const auto part = [tile](const auto& walls, const auto& first) {
+    using Wall = typename std::decay_t<decltype(walls)>::value_type;
+    if (walls.empty()) return std::span<const Wall>();
+    return std::span<const Wall>(walls.data() + first[tile], walls.data() + first[tile + 1]);
+  };
+  return {part(narrow_, first_narrow_), part(floats_, first_wide_), part(doubles_, first_wide_), more_};
+}
+
+}  // namespace warren
