@@ -4,7 +4,9 @@
 // bytes a milestone, and 40 a sample while sorting.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -43,11 +45,30 @@ std::array<double, D> halton_point(std::uint64_t seed, std::uint64_t index) {
   return point;
 }
 
-/// The index-th sample.
+/// The index-th of `count` strata of the unit square, and a random point in it: rows of equal height, as many as make
+/// the strata of a box of this height over width about square; each row cut evenly, so that there are exactly `count`.
+inline std::array<double, 2> stratified_point(std::uint64_t seed, std::uint64_t index, std::uint64_t count,
+                                              double height_over_width) {
+  const auto n = static_cast<double>(count);
+  const auto rows = static_cast<std::uint64_t>(std::clamp(std::round(std::sqrt(n * height_over_width)), 1.0, n));
+  const std::uint64_t row = std::min(index * rows / count, rows - 1);
+  const std::uint64_t first = (row * count + rows - 1) / rows;
+  const std::uint64_t next = ((row + 1) * count + rows - 1) / rows;
+  return {(static_cast<double>(index - first) + uniform(seed, index, 0)) / static_cast<double>(next - first),
+          (static_cast<double>(row) + uniform(seed, index, 1)) / static_cast<double>(rows)};
+}
+
+/// The index-th of `count` samples: a pure function of the arguments.
 template <World W>
-typename W::State sample_state(const W& world, const RoadmapOptions& options, std::uint64_t index) {
+typename W::State sample_state(const W& world, const RoadmapOptions& options, std::uint64_t index,
+                               std::uint64_t count) {
   if constexpr (std::same_as<typename W::State, Vec2>) {
     if (options.sampler == SamplerKind::lattice) return lattice_point(options.lattice, index);
+    if (options.sampler == SamplerKind::uniform) {
+      const Box& box = world.box();
+      const double height_over_width = box.width() > 0.0 ? box.height() / box.width() : 1.0;
+      return world.at_unit(stratified_point(options.seed, index, count, height_over_width));
+    }
   }
   if (options.sampler == SamplerKind::halton) return world.at_unit(halton_point<W::dimension>(options.seed, index));
   return uniform_state(world, options.seed, index);
@@ -70,19 +91,30 @@ RawVector<T> joined(const std::vector<RawVector<T>>& parts, const Execution& exe
   return all;
 }
 
+/// The first two coordinates of the embeddings; the states themselves where they are points of the plane.
+template <World W>
+auto plane_positions(const W& world, const RawVector<typename W::State>& states, const Execution& execution) {
+  if constexpr (std::same_as<typename W::State, Vec2>) {
+    return std::span<const Vec2>(states);
+  } else {
+    constexpr std::size_t grain = std::size_t{1} << 14;
+    RawVector<Vec2> positions(states.size());
+    for_chunks(states.size(), grain, execution, [&](Range r) {
+      for (std::size_t i = r.first; i < r.last; ++i) {
+        const auto point = world.embed(states[i]);
+        positions[i] = {point[0], point[1]};
+      }
+    });
+    return positions;
+  }
+}
+
 template <World W>
 RawVector<typename W::State> in_tile_order(const W& world, const RawVector<typename W::State>& states,
                                            const Execution& execution) {
   constexpr std::size_t grain = std::size_t{1} << 14;
   execution.reserve(states.size() * (sizeof(Vec2) + 16 + sizeof(typename W::State)));
-  RawVector<Vec2> positions(states.size());
-  for_chunks(states.size(), grain, execution, [&](Range r) {
-    for (std::size_t i = r.first; i < r.last; ++i) {
-      const auto point = world.embed(states[i]);
-      positions[i] = {point[0], point[1]};
-    }
-  });
-  const TileOrder order = tile_order(positions, execution);
+  const TileOrder order = tile_order(plane_positions(world, states, execution), execution);
   RawVector<typename W::State> sorted;
   sorted.reserve(states.size() + 2);  // start and goal will follow
   sorted.resize(states.size());
@@ -106,7 +138,7 @@ RawVector<typename W::State> draw_milestones(const W& world, const RoadmapOption
     RawVector<typename W::State>& part = parts[r.first / grain];
     part.reserve(r.size());
     for (std::size_t i = r.first; i < r.last; ++i) {
-      const typename W::State state = sample_state(world, options, i);
+      const typename W::State state = sample_state(world, options, i, count);
       if (world.is_free(state, query)) part.push_back(state);
     }
   });

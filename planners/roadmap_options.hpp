@@ -9,7 +9,11 @@
 
 namespace warren {
 
-enum class SamplerKind : std::uint8_t { uniform, lattice, halton };
+/// uniform: in the plane stratified, one sample drawn uniformly in each of as many equal boxes as there are samples,
+/// which joins mazes with a quarter of the milestones that independent draws need (docs/performance.md); else
+/// independent. lattice: the cell centres of a maze. halton: the Halton sequence, shifted by the seed. random:
+/// independent uniform.
+enum class SamplerKind : std::uint8_t { uniform, lattice, halton, random };
 enum class SearchKind : std::uint8_t { astar, dijkstra, bfs, dfs };
 enum class QueueKind : std::uint8_t { heap, lazy_heap, sorted_array, resorted_array };
 /// path: Bohlin and Kavraki 2000, check the edges of the path found, drop the bad ones, repair, repeat.

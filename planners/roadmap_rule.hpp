@@ -19,8 +19,8 @@ struct ConnectionRule {
   std::uint32_t neighbours = 0;
 };
 
-/// Neighbours that the radius rule expects around a milestone in the open: enough for roadmaps in corridors five radii
-/// wide to percolate; see the table "uniform sampling that connects" in docs/performance.md.
+/// Neighbours that the radius rule expects around a milestone in the open; see the table "uniform sampling that
+/// connects" in docs/performance.md.
 inline constexpr double expected_neighbours = 20.0;
 /// A round that leaves start and goal apart is followed by one with so many times the samples,
 inline constexpr double growth = 1.6;

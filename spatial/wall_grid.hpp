@@ -53,6 +53,9 @@ class WallGrid {
   }
 
   double cell() const { return cell_; }
+  /// Walls in cell order, long ones once a piece.
+  std::size_t filed_count() const { return walls_.size(); }
+  Segment filed(std::size_t i) const { return walls_[i].segment(); }
   std::size_t bytes() const;
 
  private:

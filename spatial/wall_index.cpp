@@ -62,7 +62,6 @@ WallIndex::WallIndex(const WallSet& walls, std::span<const Segment> more, const 
       };
       const WallStatistics statistics = statistics_of<U>(wall_count_, filed, execution);
       box_ = statistics.box;
-      if (statistics.total_length > 0.0) mean_gap_ = box_.width() * box_.height() / statistics.total_length;
       grid_ = WallGridBuilder<U>(statistics, 65536, 0, execution).build(wall_count_, filed);
     };
     if (std::is_same_v<T, float> && fits_float(more)) {
@@ -75,6 +74,17 @@ WallIndex::WallIndex(const WallSet& walls, std::span<const Segment> more, const 
 
 std::size_t WallIndex::bytes() const {
   return std::visit([](const auto& grid) { return grid.bytes(); }, grid_);
+}
+
+std::vector<Segment> WallIndex::some_walls(std::size_t most) const {
+  return std::visit(
+      [most](const auto& grid) {
+        const std::size_t n = std::min(most, grid.filed_count());
+        std::vector<Segment> walls(n);
+        for (std::size_t i = 0; i < n; ++i) walls[i] = grid.filed(i * grid.filed_count() / n);
+        return walls;
+      },
+      grid_);
 }
 
 bool WallIndex::blocks(Vec2 a, Vec2 b) const noexcept {

@@ -18,7 +18,9 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <span>
 #include <variant>
+#include <vector>
 
 #include "core/types.hpp"
 #include "core/wall_set.hpp"
@@ -38,9 +40,9 @@ class WallIndex {
   std::size_t wall_count() const { return wall_count_; }
   /// Box of all walls; empty if there are none.
   const Box& box() const { return box_; }
-  /// Mean distance between neighbouring walls, area / total length; 0 if there is none.
-  double mean_gap() const { return mean_gap_; }
   std::size_t bytes() const;
+  /// At most `most` walls, spread evenly over the index; long ones come more often.
+  std::vector<Segment> some_walls(std::size_t most) const;
 
   /// Does the closed segment a-b touch a wall? Exact.
   bool blocks(Vec2 a, Vec2 b) const noexcept;
@@ -59,7 +61,6 @@ class WallIndex {
  private:
   std::size_t wall_count_ = 0;
   Box box_;
-  double mean_gap_ = 0.0;
   std::variant<WallGrid<float>, WallGrid<double>> grid_;
 };
 

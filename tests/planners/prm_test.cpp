@@ -270,16 +270,32 @@ TEST(Prm, SamplesArePureFunctionsInsideTheWorld) {
   RoadmapOptions options = lattice_options(scene);
   std::set<std::pair<double, double>> cells;
   for (std::uint64_t i = 0; i < 54; ++i) {
-    const Vec2 p = sample_state(world, options, i);
+    const Vec2 p = sample_state(world, options, i, 1000);
     cells.insert({p.x, p.y});
     EXPECT_TRUE(p.x >= 1 && p.x <= 9 && p.y >= 1 && p.y <= 6);
   }
   EXPECT_EQ(cells.size(), 54U);
-  for (const SamplerKind sampler : {SamplerKind::uniform, SamplerKind::halton}) {
+  for (const SamplerKind sampler : {SamplerKind::uniform, SamplerKind::halton, SamplerKind::random}) {
     options.sampler = sampler;
     for (std::uint64_t i = 0; i < 1000; ++i) {
-      EXPECT_TRUE(world.box().contains(sample_state(world, options, i)));
-      EXPECT_EQ(sample_state(world, options, i), sample_state(world, options, i));
+      EXPECT_TRUE(world.box().contains(sample_state(world, options, i, 1000)));
+      EXPECT_EQ(sample_state(world, options, i, 1000), sample_state(world, options, i, 1000));
+    }
+  }
+}
+
+TEST(Prm, StrataHoldOneSampleEach) {
+  for (const std::uint64_t count : {1U, 2U, 7U, 100U, 500U, 1001U}) {
+    for (const double shape : {0.001, 0.7, 1.0, 1.4, 1000.0}) {
+      const auto n = static_cast<double>(count);
+      const double rows = std::clamp(std::round(std::sqrt(n * shape)), 1.0, n);
+      std::vector<int> in_row(static_cast<std::size_t>(rows), 0);
+      for (std::uint64_t i = 0; i < count; ++i) {
+        const auto [x, y] = stratified_point(3, i, count, shape);
+        ASSERT_TRUE(x >= 0.0 && x < 1.0 && y >= 0.0 && y < 1.0) << x << " " << y;
+        ++in_row[static_cast<std::size_t>(y * rows)];
+      }
+      for (const int samples : in_row) ASSERT_NEAR(samples, n / rows, 1.0) << count << " " << shape;
     }
   }
 }
