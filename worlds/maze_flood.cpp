@@ -4,8 +4,12 @@
 // cell, and a byte a cell whatever the maze looks like (the frontier of a breadth-first flood has no such bound).
 #include <fmt/format.h>
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <limits>
+#include <span>
 #include <vector>
 
 #include "core/error.hpp"
@@ -17,40 +21,69 @@ namespace {
 
 constexpr std::size_t grain = std::size_t{1} << 16;
 
-/// Grid lines are numbered from 0: line k is the coordinate k + 0.5. Not one: -1.
-std::int64_t grid_line(double x, std::uint32_t last) {
-  const double k = x - 0.5;  // exact wherever it may be one of a maze's lines
-  if (!(k >= 0.0 && k <= last)) return -1;
-  const auto line = static_cast<std::int64_t>(k);
-  return static_cast<double>(line) == k ? line : -1;
+/// Do all walls lie on the grid? Grid lines are numbered from 0: line k is the coordinate k + 0.5. Branch-free, four
+/// lanes at once: adding and taking away 2^23 (2^52) rounds k to a whole number. Differences from that, and products of
+/// a wall's two extents, are summed and stay zero; a NaN stays in the sums. k itself is exact wherever it passes, for a
+/// float too as long as there are less than 2^23 lines.
+template <class T>
+bool all_on_grid(std::span<const WallOf<T>> walls, MazeHint hint) {
+  using Lanes = Eigen::Array<T, 4, 1>;
+  constexpr T whole = static_cast<T>(std::uint64_t{1} << (std::numeric_limits<T>::digits - 1));
+  const Lanes last(static_cast<T>(hint.cols), static_cast<T>(hint.rows), static_cast<T>(hint.cols),
+                   static_cast<T>(hint.rows));
+  Lanes off = Lanes::Zero();
+  Lanes excess = Lanes::Zero();
+  T oblique = 0;
+  for (const WallOf<T>& w : walls) {
+    const Lanes k = Lanes(w.x1, w.y1, w.x2, w.y2) - T{0.5};
+    off += (((k + whole) - whole) - k).abs();
+    excess = excess.max((k - last).max(-k));
+    oblique += std::abs((w.x2 - w.x1) * (w.y2 - w.y1));
+  }
+  return off.sum() == 0 && oblique == 0 && excess.maxCoeff() <= 0;
 }
+
+/// Floats count grid lines exactly below this.
+bool fits_float_lines(MazeHint hint) {
+  return std::max(hint.rows, hint.cols) < (std::uint32_t{1} << (std::numeric_limits<float>::digits - 1));
+}
+
+bool all_on_grid_exactly(std::span<const FloatWall> walls, MazeHint hint) {
+  if (fits_float_lines(hint)) return all_on_grid(walls, hint);
+  return std::all_of(walls.begin(), walls.end(), [&](const FloatWall& w) {
+    const DoubleWall wide{w.x1, w.y1, w.x2, w.y2};
+    return all_on_grid(std::span<const DoubleWall>(&wide, 1), hint);
+  });
+}
+bool all_on_grid_exactly(std::span<const DoubleWall> walls, MazeHint hint) { return all_on_grid(walls, hint); }
 
 /// A wall in grid lines, lower ends first.
 struct GridWall {
   std::int64_t x1, y1, x2, y2;
-  bool valid() const { return std::min({x1, y1, x2, y2}) >= 0 && (x1 == x2 || y1 == y2); }
 };
 
-GridWall grid_wall(const Segment& s, MazeHint hint) {
-  GridWall w{grid_line(s.a.x, hint.cols), grid_line(s.a.y, hint.rows), grid_line(s.b.x, hint.cols),
-             grid_line(s.b.y, hint.rows)};
-  if (w.x2 < w.x1) std::swap(w.x1, w.x2);
-  if (w.y2 < w.y1) std::swap(w.y1, w.y2);
-  return w;
+/// Of a wall that lies on the grid.
+template <class T>
+GridWall grid_wall(const WallOf<T>& w) {
+  const auto line = [](T x) { return static_cast<std::int64_t>(x - T{0.5}); };
+  const auto [x1, x2] = std::minmax({line(w.x1), line(w.x2)});
+  const auto [y1, y2] = std::minmax({line(w.y1), line(w.y2)});
+  return {x1, y1, x2, y2};
 }
 
 /// Sets the bits of the cells along a wall; walls on the outline are no cells' business.
 void raise(const GridWall& w, MazeHint hint, MazeCells& cells) {
-  const std::span<std::uint8_t> bytes = cells.bytes();
-  if (w.x1 == w.x2 && w.x1 > 0 && w.x1 < hint.cols) {
-    const std::size_t column = cells.index(static_cast<std::uint32_t>(w.x1 - 1), 0);
-    for (std::int64_t y = w.y1; y < w.y2; ++y) bytes[column + static_cast<std::size_t>(y)] |= MazeCells::right_wall;
-  }
-  if (w.y1 == w.y2 && w.y1 > 0 && w.y1 < hint.rows) {
-    for (std::int64_t x = w.x1; x < w.x2; ++x) {
-      bytes[cells.index(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(w.y1 - 1))] |= MazeCells::upper_wall;
-    }
-  }
+  const bool upright = w.x1 == w.x2;
+  const std::int64_t length = (w.x2 - w.x1) + (w.y2 - w.y1);
+  const bool inside = upright ? w.x1 > 0 && w.x1 < hint.cols : w.y1 > 0 && w.y1 < hint.rows;
+  if (!inside || length == 0) return;
+  const auto col = static_cast<std::uint32_t>(w.x1 - (upright ? 1 : 0));
+  const auto row = static_cast<std::uint32_t>(w.y1 - (upright ? 0 : 1));
+  const std::uint8_t bit = upright ? MazeCells::right_wall : MazeCells::upper_wall;
+  std::uint8_t* const first = cells.bytes().data() + cells.index(col, row);
+  *first |= bit;  // most walls are a unit long, and their direction is a coin toss: no branch decides on it
+  const std::size_t step = upright ? 1 : cells.stride();
+  for (std::int64_t i = 1; i < length; ++i) first[static_cast<std::size_t>(i) * step] |= bit;
 }
 
 /// Takes out all interior walls; the outline and the gaps keep theirs.
@@ -92,10 +125,11 @@ std::optional<std::size_t> first_wall_off_grid(const WallSet& walls, MazeHint hi
   return walls.visit([&](auto span) -> std::optional<std::size_t> {
     std::vector<std::size_t> firsts(chunk_count(span.size(), grain), span.size());
     for_chunks(span.size(), grain, execution, [&](Range r) {
-      const auto off = [&](const auto& wall) { return !grid_wall(wall.segment(), hint).valid(); };
       const auto part = span.subspan(r.first, r.size());
-      const auto found = std::find_if(part.begin(), part.end(), off);
-      if (found != part.end()) firsts[r.first / grain] = r.first + static_cast<std::size_t>(found - part.begin());
+      if (all_on_grid_exactly(part, hint)) return;
+      std::size_t i = 0;
+      while (all_on_grid_exactly(part.subspan(i, 1), hint)) ++i;
+      firsts[r.first / grain] = r.first + i;
     });
     const auto first = std::find_if(firsts.begin(), firsts.end(), [&](std::size_t i) { return i < span.size(); });
     if (first == firsts.end()) return std::nullopt;
@@ -115,7 +149,7 @@ MazeCells cells_of_walls(const WallSet& walls, MazeHint hint, const Execution& e
     for (std::size_t first = 0; first < span.size(); first += grain) {
       execution.check();
       for (const auto& wall : span.subspan(first, std::min(grain, span.size() - first))) {
-        raise(grid_wall(wall.segment(), hint), hint, cells);
+        raise(grid_wall(wall), hint, cells);
       }
     }
   });

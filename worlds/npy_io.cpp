@@ -183,7 +183,7 @@ class Rows {
       bool good = true;
       for (std::size_t i = r.first; i < r.last; ++i) {
         const WallOf<In> w = row(i);
-        good &= is_sane(w.x1) & is_sane(w.y1) & is_sane(w.x2) & is_sane(w.y2);
+        good = good && is_sane(w);
         walls[i] = {as<Out>(w.x1), as<Out>(w.y1), as<Out>(w.x2), as<Out>(w.y2)};
       }
       if (!good) bad_[r.first / grain] = first_bad(r);

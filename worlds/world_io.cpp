@@ -17,11 +17,10 @@ namespace {
 constexpr std::string_view maze_prefix = "maze:";
 constexpr std::string_view maze_usage = "maze:ROWSxCOLS[,seed=N][,algorithm=NAME][,loops=F]";
 
-/// A line that begins with this word among the first bytes?
-bool has_line(std::string_view bytes, std::string_view word) {
+/// Does one of the first lines name an image, as the map server's YAML does?
+bool names_image(std::string_view bytes) {
   const std::string_view head = bytes.substr(0, 4096);
-  if (head.starts_with(word)) return true;
-  return head.find("\n" + std::string(word)) != std::string_view::npos;
+  return head.starts_with("image:") || head.find("\nimage:") != std::string_view::npos;
 }
 
 bool is_pgm(std::string_view bytes) {
@@ -114,7 +113,7 @@ WorldFormat format_of(const InputFile& file) {
   if (is_npy(bytes)) return WorldFormat::npy;
   if (bytes.starts_with("\x89PNG") || is_pgm(bytes)) return WorldFormat::image;
   if (bytes.starts_with("type ")) return WorldFormat::moving_ai;
-  if (has_line(bytes, "image:")) return WorldFormat::ros_map;
+  if (names_image(bytes)) return WorldFormat::ros_map;
   const std::string_view name = file.name();
   if (name.ends_with(".npy")) return WorldFormat::npy;
   if (name.ends_with(".png") || name.ends_with(".pgm")) return WorldFormat::image;
