@@ -21,17 +21,18 @@
 namespace warren::bench {
 namespace {
 
-enum Kind : int { uniform_random, uniform_sorted, lattice_sorted, clustered };
+enum Kind : int { uniform_random, uniform_sorted, lattice_sorted, clustered, crowded };  // crowding 3, 3, 2, 18, 100
 const Execution one_thread{.threads = 1};
 
 Vec2 point_of(Kind kind, std::size_t side, std::size_t i) {
   const double width = static_cast<double>(side);
   const Vec2 u{uniform(1, i, 0), uniform(1, i, 1)};
   if (kind == lattice_sorted) return {static_cast<double>(i % side), static_cast<double>(i / side)};
-  if (kind != clustered) return width * u;
-  const double spread = std::pow(10.0, -5.0 * uniform(1, i, 2));  // even on a logarithmic scale around 16 centres
-  return {width * (std::floor(4.0 * uniform(1, i % 16, 3)) / 4.0 + spread * (u.x - 0.5)),
-          width * (std::floor(4.0 * uniform(1, i % 16, 4)) / 4.0 + spread * (u.y - 0.5))};
+  if (kind == uniform_random || kind == uniform_sorted) return width * u;
+  // Distances from 200 of 256 centres spread evenly over the logarithms of two or three decades.
+  const double spread = std::pow(10.0, (kind == clustered ? -2.0 : -3.0) * uniform(1, i, 2));
+  const Vec2 centre{std::floor(16.0 * uniform(1, i % 200, 3)) / 16.0, std::floor(16.0 * uniform(1, i % 200, 4)) / 16.0};
+  return width * (centre + spread * (u - Vec2{0.5, 0.5}));
 }
 
 /// side x side points at a mean density of one.
@@ -242,7 +243,8 @@ BENCHMARK(bm_build<PlainFlann>)->Apply(build_cases);
 void nearest_cases(benchmark::internal::Benchmark* bench) {
   bench->ArgNames({"kind", "side", "k"});
   bench->ArgsProduct({{uniform_sorted}, {1000}, {8, 16, 24, 32}});
-  bench->Args({lattice_sorted, 1000, 4})->Args({uniform_random, 1000, 8})->Args({clustered, 300, 8});
+  bench->Args({lattice_sorted, 1000, 4})->Args({uniform_random, 1000, 8})->Args({clustered, 316, 8});
+  bench->Args({clustered, 316, 24})->Args({crowded, 316, 8})->Args({crowded, 316, 24});
 }
 BENCHMARK(bm_nearest<PointGrid>)->Apply(nearest_cases)->Args({uniform_sorted, 4000, 8});
 BENCHMARK(bm_nearest<KdTree<2>>)->Apply(nearest_cases);
@@ -259,5 +261,3 @@ BENCHMARK(bm_within<PlainFlann>)->Apply(within_cases);
 
 }  // namespace
 }  // namespace warren::bench
-
-BENCHMARK_MAIN();

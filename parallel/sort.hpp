@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Stable counting sort by an integer key, in parallel, deterministic: the order of n items whose keys are below `keys`,
 // and where each key begins. Few keys: one histogram a chunk, prefix sums over (key, chunk), scatter. Many keys: the
-// same over at most 2048 buckets of neighbouring keys, then each bucket is counted and scattered by one thread inside
+// same over at most 512 buckets of neighbouring keys, then each bucket is counted and scattered by one thread inside
 // its cache; that replaces one cache miss an item by two passes over streams. Chunk borders depend on n alone and the
 // sort is stable, so the result is a function of the keys.
-// Cost O(n + keys); 8 bytes an item of scratch where there are more than 2048 keys.
+// 2048 buckets took 10 ns an item at 10^6 items where 512 take 4, and were no faster at 7 10^7.
+// Cost O(n + keys); 8 bytes an item of scratch where there are more than 512 keys.
 #pragma once
 
 #include <cassert>
@@ -25,7 +26,7 @@ struct KeyOrder {
 
 namespace detail {
 
-inline constexpr std::size_t sort_buckets = 2048;
+inline constexpr std::size_t sort_buckets = 512;
 
 /// Chunks of at least 16384 items, at most 64 of them: so that the histograms stay small beside the items.
 constexpr std::size_t sort_grain(std::size_t n) { return std::max<std::size_t>(std::size_t{1} << 14, (n + 63) / 64); }

@@ -149,12 +149,17 @@ void PointGrid::nearest(Vec2 p, std::size_t k, VertexId except, std::vector<Neig
   k = std::min(k, size());
   if (k == 0) return;
   bool small = k < first_reach_.size();
+  bool grown = false;
   double reach = small ? first_reach_[k] : first_reach(k);
   for (;;) {
     const double square = reach * reach;  // of points in the window, whatever the rounding: it reaches a little further
     const Window w = window(p, reach * (1.0 + 1e-15));
     const bool all = w == whole();
     std::size_t found = small ? nearest_in_disc(p, w, square, k, except, out) : no_vertex;
+    if (found == no_vertex && small && !grown && reach > 0.5 * frame_.cell_size()) {
+      reach *= 0.6;  // points crowd here: a smaller disc is quicker than the slow way
+      continue;
+    }
     if (found == no_vertex || (all && found < k)) {
       small = false;
       nearest_in_window(p, w, all ? std::numeric_limits<double>::infinity() : square, k, except, out);
@@ -162,6 +167,7 @@ void PointGrid::nearest(Vec2 p, std::size_t k, VertexId except, std::vector<Neig
     }
     if (all || found == k) return;
     reach *= found * 4 < k ? 2.0 : 1.3;
+    grown = true;
   }
 }
 
