@@ -9,6 +9,7 @@
 
 #include "bench/test_graphs.hpp"
 #include "core/search.hpp"
+#include "parallel/bidirectional_search.hpp"
 #include "parallel/reduce_graph.hpp"
 
 namespace warren::bench {
@@ -113,6 +114,29 @@ void bm_reduced_astar(benchmark::State& state) {
   state.counters["settled"] = static_cast<double>(result.expanded) / static_cast<double>(at.size());
 }
 
+/// Items are the vertices that both sides settle.
+void bm_bidirectional(benchmark::State& state) {
+  const Case& c = case_of(state.range(0), state.range(1), false);
+  const std::vector<Vec2>& at = c.plane.at;
+  const auto neighbours = [&](VertexId v, const auto& visit) {
+    for (const VertexId w : c.graph.neighbours(v)) visit(w, distance(at[v], at[w]));
+  };
+  const auto to_goal = [&](VertexId v) { return distance(at[v], at[c.plane.goal]); };
+  const auto to_start = [&](VertexId v) { return distance(at[v], at[c.plane.start]); };
+  IndexedHeap<4> heaps[2];
+  SearchState states[2];
+  Execution execution;
+  execution.threads = static_cast<unsigned>(state.range(2));
+  SearchResult result;
+  for (auto _ : state) {
+    SearchSide forward(c.plane.start, at.size(), neighbours, to_goal, to_start, heaps[0], states[0]);
+    SearchSide backward(c.plane.goal, at.size(), neighbours, to_start, to_goal, heaps[1], states[1]);
+    benchmark::DoNotOptimize(result = bidirectional(forward, backward, execution));
+  }
+  check(c, result);
+  report(state, result, 2 * (states[0].bytes() + at.size() * (sizeof(VertexId) + 1)), at.size());
+}
+
 constexpr std::int64_t million = 1'000'000;
 
 BENCHMARK(bm_best_first)
@@ -130,6 +154,14 @@ BENCHMARK(bm_reduced_astar)
     ->ArgNames({"graph", "vertices", "threads"})
     ->ArgsProduct({{maze, maze_with_loops}, {million, 9 * million}, {1, 2}})
     ->Args({geometric, million / 4, 2})
+    ->MeasureProcessCPUTime()
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+
+BENCHMARK(bm_bidirectional)
+    ->ArgNames({"graph", "vertices", "threads"})
+    ->ArgsProduct({{maze, maze_with_loops}, {million, 9 * million}, {1, 2}})
+    ->ArgsProduct({{geometric}, {million / 4}, {1, 2}})
     ->MeasureProcessCPUTime()
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);

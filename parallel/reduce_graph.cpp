@@ -59,46 +59,51 @@ KeyCoverView::KeyCoverView(const Graph& graph, std::span<const VertexId> keep, c
     if (v >= n) throw InputError("reduce_graph", "a vertex to keep is not in the graph", std::to_string(v));
     left_[v] = 2;
   }
-  for_chunks(n, grain, quiet, [&](Range r) { peel_block(r); });
-  for_chunks(n, grain, quiet, [&](Range r) { peel_across(r, execution); });
+  std::vector<std::vector<VertexId>> seeds(chunk_count(n, grain));
+  for_chunks(n, grain, quiet, [&](Range r) { seeds[r.first / grain] = peel_block(r); });
+  for_chunks(seeds.size(), 1, quiet, [&](Range r) {
+    for (const VertexId v : seeds[r.first]) peel_across(v, execution);
+  });
   for_chunks(n, grain, quiet, [&](Range r) { mark_keys(r); });
   rank_.back() = 0;
   exclusive_scan(rank_, quiet);
 }
 
-/// Only vertices with all their neighbours in the block: no other thread reads or writes what decides about them.
-void KeyCoverView::peel_block(Range block) {
+/// Neighbours outside the block count as left, so a vertex that is peeled here has none of them, and no other thread
+/// reads or writes what decides. Returns the vertices whose last neighbour lies outside: where peel_across has to
+/// begin.
+std::vector<VertexId> KeyCoverView::peel_block(Range block) {
   const auto first = static_cast<VertexId>(block.first);
   const auto size = static_cast<VertexId>(block.size());
-  const auto is_inside = [&](std::span<const VertexId> row) {
-    return row.empty() || (row.front() >= first && row.back() - first < size);
-  };
-  for (VertexId scan = first; scan - first < size; ++scan) {
-    for (VertexId v = scan; v <= scan && left_[v] == 1;) {  // a larger vertex comes later in the scan
-      const std::span<const VertexId> row = graph_->neighbours(v);
-      if (!is_inside(row)) break;
-      const Left left = left_of(row, [&](VertexId w) { return left_[w] != 0; });
-      if (left.count > 1) break;
-      left_[v] = 0;
-      if (left.count == 0) break;
-      v = left.last;
+  std::vector<std::uint32_t> degree(size);
+  for (VertexId i = 0; i < size; ++i) degree[i] = static_cast<std::uint32_t>(graph_->degree(first + i));
+  std::vector<VertexId> seeds;
+  for (VertexId scan = 0; scan < size; ++scan) {
+    for (VertexId i = scan; i <= scan && degree[i] <= 1 && left_[first + i] == 1;) {  // a larger one comes later
+      VertexId last = no_vertex;
+      for (const VertexId w : graph_->neighbours(first + i)) last = w - first >= size || left_[w] != 0 ? w : last;
+      if (last != no_vertex && last - first >= size) {
+        seeds.push_back(first + i);
+        break;
+      }
+      left_[first + i] = 0;
+      if (last == no_vertex) break;
+      i = last - first;
+      --degree[i];
     }
   }
+  return seeds;
 }
 
 /// Follows dead ends wherever they lead. Whoever peels a vertex looks at its last neighbour afterwards; sequentially
 /// consistent order makes the last of several peelers see all the others' work, so no vertex is forgotten.
-void KeyCoverView::peel_across(Range block, const Execution& execution) {
+void KeyCoverView::peel_across(VertexId seed, const Execution& execution) {
   std::size_t steps = 0;
-  for (auto scan = static_cast<VertexId>(block.first); scan < block.last; ++scan) {
-    VertexId v = scan;
-    while (v != no_vertex && std::atomic_ref(left_[v]).load() == 1) {
-      const Left left =
-          left_of(graph_->neighbours(v), [&](VertexId w) { return std::atomic_ref(left_[w]).load() != 0; });
-      if (left.count > 1 || std::atomic_ref(left_[v]).exchange(0) == 0) break;
-      v = left.last;
-      if (++steps % detail::steps_per_poll == 0) execution.check();
-    }
+  for (VertexId v = seed; v != no_vertex && std::atomic_ref(left_[v]).load() == 1;) {
+    const Left left = left_of(graph_->neighbours(v), [&](VertexId w) { return std::atomic_ref(left_[w]).load() != 0; });
+    if (left.count > 1 || std::atomic_ref(left_[v]).exchange(0) == 0) break;
+    v = left.last;
+    if (++steps % detail::steps_per_poll == 0) execution.check();
   }
 }
 

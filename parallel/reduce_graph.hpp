@@ -49,8 +49,8 @@ class KeyCoverView {
   const Graph& graph() const { return *graph_; }
 
  private:
-  void peel_block(Range block);
-  void peel_across(Range block, const Execution& execution);
+  std::vector<VertexId> peel_block(Range block);
+  void peel_across(VertexId seed, const Execution& execution);
   void mark_keys(Range block);
 
   const Graph* graph_;
