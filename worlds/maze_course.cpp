@@ -36,8 +36,12 @@ class Blocks {
 
 class CourseCarver {
  public:
-  CourseCarver(MazeCells& cells, std::uint64_t seed)
-      : cells_(cells), at_(cells), regions_(cells.cell_count()), blocks_(cells.rows(), cells.cols()), rng_(seed) {}
+  CourseCarver(MazeCells& cells, std::uint64_t seed, const Execution& execution)
+      : cells_(cells),
+        at_(cells),
+        regions_(cells.cell_count(), execution),
+        blocks_(cells.rows(), cells.cols()),
+        rng_(seed) {}
 
   /// Draws a cell and one of its walls; true if that wall was taken out.
   bool try_wall() {
@@ -108,7 +112,7 @@ class CourseCarver {
 
 void carve_course(MazeCells& cells, std::uint64_t seed, const Execution& execution) {
   execution.reserve(cells.cell_count() * sizeof(std::uint32_t));
-  CourseCarver carver(cells, seed);
+  CourseCarver carver(cells, seed, execution);
   StepPoll poll(execution);
   for (std::uint64_t carved = 1; carved < cells.cell_count();) {
     poll.step(carved);

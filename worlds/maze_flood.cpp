@@ -20,6 +20,7 @@ namespace warren {
 namespace {
 
 constexpr std::size_t grain = std::size_t{1} << 16;
+constexpr std::int64_t units_per_look = std::int64_t{1} << 16;
 
 /// Do all walls lie on the grid? Grid lines are numbered from 0: line k is the coordinate k + 0.5. Branch-free, four
 /// lanes at once: adding and taking away 2^23 (2^52) rounds k to a whole number. Differences from that, and products of
@@ -71,12 +72,12 @@ GridWall grid_wall(const WallOf<T>& w) {
   return {x1, y1, x2, y2};
 }
 
-/// Sets the bits of the cells along a wall; walls on the outline are no cells' business.
-void raise(const GridWall& w, MazeHint hint, MazeCells& cells) {
+/// Sets the bits of the cells along a wall; walls on the outline are no cells' business. Returns how many.
+std::int64_t raise(const GridWall& w, MazeHint hint, MazeCells& cells) {
   const bool upright = w.x1 == w.x2;
   const std::int64_t length = (w.x2 - w.x1) + (w.y2 - w.y1);
   const bool inside = upright ? w.x1 > 0 && w.x1 < hint.cols : w.y1 > 0 && w.y1 < hint.rows;
-  if (!inside || length == 0) return;
+  if (!inside || length == 0) return 0;
   const auto col = static_cast<std::uint32_t>(w.x1 - (upright ? 1 : 0));
   const auto row = static_cast<std::uint32_t>(w.y1 - (upright ? 0 : 1));
   const std::uint8_t bit = upright ? MazeCells::right_wall : MazeCells::upper_wall;
@@ -84,6 +85,7 @@ void raise(const GridWall& w, MazeHint hint, MazeCells& cells) {
   *first |= bit;  // most walls are a unit long, and their direction is a coin toss: no branch decides on it
   const std::size_t step = upright ? 1 : cells.stride();
   for (std::int64_t i = 1; i < length; ++i) first[static_cast<std::size_t>(i) * step] |= bit;
+  return length;
 }
 
 /// Takes out all interior walls; the outline and the gaps keep theirs.
@@ -146,11 +148,12 @@ MazeCells cells_of_walls(const WallSet& walls, MazeHint hint, const Execution& e
   MazeCells cells(hint.rows, hint.cols, execution);
   open_all(cells, execution);
   walls.visit([&](auto span) {  // serial: neighbours share bytes, and the bytes are what takes the time
-    for (std::size_t first = 0; first < span.size(); first += grain) {
+    std::int64_t since_look = 0;
+    for (const auto& wall : span) {
+      since_look += 1 + raise(grid_wall(wall), hint, cells);
+      if (since_look < units_per_look) continue;
       execution.check();
-      for (const auto& wall : span.subspan(first, std::min(grain, span.size() - first))) {
-        raise(grid_wall(wall), hint, cells);
-      }
+      since_look = 0;
     }
   });
   return cells;

@@ -38,7 +38,7 @@ template <class Id>
 void carve(MazeCells& cells, std::uint64_t seed, const Execution& execution) {
   execution.reserve((2 * cells.cell_count() + cells.bytes().size()) * sizeof(Id));
   RawVector<Id> walls = wall_numbers<Id>(cells, execution);
-  Regions<Id> regions(cells.bytes().size());
+  Regions<Id> regions(cells.bytes().size(), execution);
   const Steps at(cells);
   SequentialRng rng(seed);
   StepPoll poll(execution);

@@ -7,14 +7,18 @@
 #include <utility>
 
 #include "core/raw_vector.hpp"
+#include "parallel/chunks.hpp"
 
 namespace warren::maze {
 
 template <class Id>
 class Regions {
  public:
-  explicit Regions(std::size_t count) : parents_(count) {
-    for (std::size_t i = 0; i < count; ++i) parents_[i] = static_cast<Id>(i);
+  /// Elements 0 .. count - 1, each a region of its own. Throws Stopped.
+  Regions(std::size_t count, const Execution& execution) : parents_(count) {
+    for_chunks(count, std::size_t{1} << 16, {execution.threads, execution.deadline}, [&](Range r) {
+      for (std::size_t i = r.first; i < r.last; ++i) parents_[i] = static_cast<Id>(i);
+    });
   }
   Id root(Id i) {
     while (parents_[i] != i) {

@@ -29,13 +29,13 @@ using scene_text::Place;
 /// and gives back the pages that are behind.
 template <class F>
 void for_lines(const InputFile& file, const Execution& execution, F&& f) {
-  constexpr std::size_t lines_per_look = 4096;
+  constexpr std::size_t bytes_per_look = std::size_t{1} << 18;
   constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
   const std::string_view all = file.bytes();
   std::size_t forgotten = 0;
   std::size_t at = all.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
   for (std::size_t number = 1; at < all.size(); ++number) {
-    if (number % lines_per_look == 0) {
+    if (at - forgotten >= bytes_per_look) {
       execution.check();
       execution.advance(at - forgotten);
       file.forget(forgotten, at);

@@ -183,6 +183,43 @@ TEST(ReadWorld, ReadsPipesToTheirEnd) {
   EXPECT_EQ(scene.walls.segment(19'999).a.x, 19'999.0);
 }
 
+/// Puts a file in the place of a standard stream while it lives.
+class Redirection {
+ public:
+  Redirection(int stream, const std::string& path, int flags) : stream_(stream), kept_(::dup(stream)) {
+    const int file = ::open(path.c_str(), flags, 0600);
+    ::dup2(file, stream_);
+    ::close(file);
+  }
+  ~Redirection() {
+    ::dup2(kept_, stream_);
+    ::close(kept_);
+  }
+  Redirection(const Redirection&) = delete;
+  Redirection& operator=(const Redirection&) = delete;
+
+ private:
+  int stream_;
+  int kept_;
+};
+
+TEST(ReadWorld, DashIsStandardInputAndForWritingStandardOutput) {
+  const TemporaryDirectory directory;
+  const Scene maze = read_world("maze:40x30", {});
+  {
+    const Redirection output(STDOUT_FILENO, directory.file("out.walls"), O_WRONLY | O_CREAT);
+    write_scene(maze, "-", {});
+  }
+  const Redirection input(STDIN_FILENO, directory.file("out.walls"), O_RDONLY);
+  const Scene back = read_world("-", {});
+  EXPECT_EQ(back.source, "standard input");
+  EXPECT_EQ(scene_hash(back), scene_hash(maze));
+  std::string line(10, ' ');
+  ASSERT_EQ(::read(STDIN_FILENO, line.data(), line.size()), 10);  // not at its beginning: the rest is read
+  EXPECT_EQ(line, "maze 40 30");
+  EXPECT_EQ(read_world("-", {}).walls.size(), maze.walls.size());
+}
+
 TEST(ReadWorld, WaitingForAPipePollsTheDeadline) {
   const TemporaryDirectory directory;
   ASSERT_EQ(::mkfifo(directory.file("pipe").c_str(), 0600), 0);
