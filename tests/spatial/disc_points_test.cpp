@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <vector>
 
 #include "core/rng.hpp"
@@ -62,6 +64,22 @@ TEST(DiscPoints, CandidatesHoldTheNearestAndTheirTiesForEveryInstructionSet) {
       }
     }
   }
+}
+
+TEST(DiscPoints, DistancesThatTieAcrossABorderOfTheKeysAreBothCandidates) {
+  int ties = 0;
+  for (std::uint32_t step = 0; step < 100; ++step) {
+    const auto border = static_cast<double>(std::bit_cast<float>(0x3f000000U + 128 * step));
+    const double rounds_up = border - (step == 0 ? 0x1p-26 : 0x1p-25);  // halfway between two floats, ties to even
+    DiscPoints disc;
+    disc.count = 2;
+    disc.square[0] = rounds_up;
+    disc.square[1] = std::nextafter(rounds_up, 0.0);
+    if (std::sqrt(disc.square[0]) != std::sqrt(disc.square[1])) continue;
+    ++ties;
+    for (const InstructionSet set : instruction_sets()) EXPECT_EQ(disc.sort_roughly(1, 1.0, set), 2U) << step;
+  }
+  EXPECT_GT(ties, 10);
 }
 
 TEST(DiscPoints, OrderIsTheSameForEveryInstructionSet) {
