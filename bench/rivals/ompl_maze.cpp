@@ -21,6 +21,7 @@
 #include "bench/rivals/ompl_prm.hpp"
 #include "planners/lazy_prm.hpp"
 #include "planners/prm.hpp"
+#include "planners/taut_path.hpp"
 #include "worlds/maze_generator.hpp"
 #include "worlds/verify.hpp"
 
@@ -44,13 +45,15 @@ struct Maze {
   Vec2 start;
   Vec2 goal;
   LatticeSize size;
+  double optimum = 0.0;  ///< shortest length with the clearance, at most 0.22 % too long (planners/taut_path.hpp)
 };
 
 struct Contestant {
   std::string name;
   std::function<RivalRun(const Maze&, std::uint64_t seed)> run;
   std::vector<RivalRun> runs = {};
-  std::vector<double> lengths = {};  ///< of the solved runs
+  std::vector<double> lengths = {};       ///< of the solved runs
+  std::vector<double> over_optimum = {};  ///< the same over the maze's optimum
 };
 
 using Planner = Solution<Vec2> (*)(const MazeWorld&, const Vec2&, const Vec2&, const RoadmapOptions&, const Execution&,
@@ -62,12 +65,26 @@ Execution one_thread() {
   return execution;
 }
 
+/// A perfect maze has one corridor, so any path pulled taut is the optimum.
+double optimum_of(const Maze& maze) {
+  const MazeWorld world(maze.scene, clearance, one_thread());
+  RoadmapOptions options;
+  options.sampler = SamplerKind::lattice;
+  options.lattice = maze.size;
+  const Solution<Vec2> walk = lazy_prm(world, maze.start, maze.goal, options, one_thread(), nullptr);
+  const std::vector<Vec2> taut = taut_path(world.walls(), walk.path, clearance, one_thread());
+  return path_length(taut, [](Vec2 a, Vec2 b) { return distance(a, b); });
+}
+
 Maze make_maze(std::uint32_t side, std::uint64_t seed, const std::string& algorithm) {
   const MazeOptions options{side, side, seed, maze_algorithm_named(algorithm), 0.0};
-  Scene scene = maze_scene(options, false, one_thread());
-  const Vec2 start{scene.start[0], scene.start[1]};
-  const Vec2 goal{scene.goal[0], scene.goal[1]};
-  return {std::move(scene), start, goal, {side, side}};
+  Maze maze;
+  maze.scene = maze_scene(options, false, one_thread());
+  maze.start = {maze.scene.start[0], maze.scene.start[1]};
+  maze.goal = {maze.scene.goal[0], maze.scene.goal[1]};
+  maze.size = {side, side};
+  maze.optimum = optimum_of(maze);
+  return maze;
 }
 
 RivalRun run_warren(Planner plan, SamplerKind sampler, const Maze& maze, std::uint64_t seed) {
@@ -130,7 +147,10 @@ void run_in_turns(std::vector<Contestant>& contestants, const Maze& maze, std::u
   for (std::uint64_t repeat = 0; repeat < repeats; ++repeat) {
     for (Contestant& contestant : contestants) {
       RivalRun run = contestant.run(maze, seed * 1000 + repeat);
-      if (!run.path.empty()) contestant.lengths.push_back(verified_length(maze, run, contestant.name));
+      if (!run.path.empty()) {
+        contestant.lengths.push_back(verified_length(maze, run, contestant.name));
+        contestant.over_optimum.push_back(contestant.lengths.back() / maze.optimum);
+      }
       run.path.clear();
       contestant.runs.push_back(std::move(run));
     }
@@ -164,6 +184,7 @@ nlohmann::ordered_json row_of(const Contestant& contestant) {
           {"cpu_s", {{"min", *std::min_element(cpu.begin(), cpu.end())}, {"median", median(cpu)}}},
           {"wall_s", median(each(contestant.runs, [](const RivalRun& run) { return run.seconds.wall_s; }))},
           {"mean_length", mean(contestant.lengths)},
+          {"mean_length_over_optimum", mean(contestant.over_optimum)},
           {"milestones", median(each(contestant.runs, [](const RivalRun& run) { return 1.0 * run.milestones; }))},
           {"edges", median(each(contestant.runs, [](const RivalRun& run) { return 1.0 * run.edges; }))}};
 }
@@ -176,10 +197,11 @@ nlohmann::ordered_json report(const std::string& pair, std::uint32_t side, const
   for (auto& row : rows) {
     const double median_s = row["cpu_s"]["median"];
     row["times_faster"] = rival_s / median_s;
-    fmt::print("{:<8} {:>4}x{:<4} {:<26} {:>3}/{:<3} {:>11.3f} {:>11.3f} {:>8.1f} {:>10.1f} {:>9}\n", pair, side, side,
-               row["name"].get<std::string>(), row["solved"].get<int>(), row["runs"].get<int>(),
+    fmt::print("{:<8} {:>4}x{:<4} {:<26} {:>3}/{:<3} {:>11.3f} {:>11.3f} {:>8.1f} {:>10.1f} {:>7.3f} {:>9}\n", pair,
+               side, side, row["name"].get<std::string>(), row["solved"].get<int>(), row["runs"].get<int>(),
                1e3 * row["cpu_s"]["min"].get<double>(), 1e3 * median_s, row["times_faster"].get<double>(),
-               row["mean_length"].get<double>(), row["milestones"].get<double>());
+               row["mean_length"].get<double>(), row["mean_length_over_optimum"].get<double>(),
+               row["milestones"].get<double>());
   }
   std::fflush(stdout);
   return {{"pair", pair}, {"rows", side}, {"cols", side}, {"contestants", rows}};
@@ -196,8 +218,8 @@ nlohmann::ordered_json compare(const std::string& pair, std::uint32_t side, std:
 }
 
 nlohmann::ordered_json compare_all(const BenchOptions& options) {
-  fmt::print("{:<8} {:^9} {:<26} {:>7} {:>11} {:>11} {:>8} {:>10} {:>9}\n", "pair", "maze", "planner", "solved",
-             "min cpu ms", "med cpu ms", "faster", "length", "milestones");
+  fmt::print("{:<8} {:^9} {:<26} {:>7} {:>11} {:>11} {:>8} {:>10} {:>7} {:>9}\n", "pair", "maze", "planner", "solved",
+             "min cpu ms", "med cpu ms", "faster", "length", "/opt", "milestones");
   nlohmann::ordered_json pairs = nlohmann::ordered_json::array();
   for (const std::uint32_t side : options.uniform_sizes) {
     pairs.push_back(compare("uniform", side,
