@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/answer_json.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace warren {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json point(Vec2 p) { return std::vector<double>{p.x, p.y}; }
+
+Json world_json(const WorldAccount& world) {
+  return {{"source", world.source}, {"kind", world.kind}, {"walls", world.walls}, {"hash", world.hash}};
+}
+
+Json options_json(const Answer& answer) {
+  Json options = Json::object();
+  for (const auto& [name, value] : answer.options) options[name] = Json::parse(value);
+  return options;
+}
+
+Json counters_json(const Counters& counters) {
+  return {{"samples", counters.samples},
+          {"neighbour_queries", counters.neighbour_queries},
+          {"edges_checked", counters.edges_checked},
+          {"expanded", counters.expanded},
+          {"rounds", counters.rounds}};
+}
+
+Json stages_json(const StageTimes& seconds) {
+  Json stages = Json::object();
+  for (const auto& [name, value] : named_stages(seconds)) stages[name] = value;
+  return stages;
+}
+
+std::string_view stop_name(StopReason reason) {
+  constexpr std::string_view names[] = {"budget", "memory", "SIGINT", "SIGTERM"};
+  return names[static_cast<std::size_t>(reason)];
+}
+
+void add_outcome(Json& json, const Answer& answer) {
+  json["schema"] = "warren.answer/1";
+  json["warren_version"] = WARREN_VERSION;
+  json["status"] = name_of(answer.outcome);
+  if (answer.stop_reason) json["stopped_by"] = stop_name(*answer.stop_reason);
+  json["verified"] = answer.verified;
+  json["length"] = answer.verified ? finite(answer.length) : Json(nullptr);
+  json["min_clearance"] = answer.verified ? finite(answer.min_clearance) : Json(nullptr);
+  json["raw_length"] = answer.raw_length ? finite(*answer.raw_length) : Json(nullptr);
+}
+
+/// A world that was never read leaves the problem open.
+void add_open_problem(Json& json, const Answer& answer) {
+  for (const char* key : {"start", "goal", "clearance", "contact", "sampler"}) json[key] = nullptr;
+  json["world"]["source"] = answer.world.source;
+}
+
+void add_problem(Json& json, const Answer& answer) {
+  if (answer.world.kind.empty()) return add_open_problem(json, answer);
+  json["start"] = point(answer.problem.start);
+  json["goal"] = point(answer.problem.goal);
+  json["robot"] = robot_text(answer.problem.robot);
+  json["clearance"] = answer.problem.clearance;
+  json["contact"] = name_of(answer.problem.contact);
+  json["sampler"] = answer.sampler;
+  json["world"] = world_json(answer.world);
+}
+
+void add_work(Json& json, const Answer& answer) {
+  const bool planned = !answer.planner.empty();
+  json["planner"] = planned ? Json(answer.planner) : Json(nullptr);
+  json["search"] = planned ? Json(answer.search) : Json(nullptr);
+  json["seed"] = answer.seed;
+  json["threads"] = answer.threads;
+  json["options"] = options_json(answer);
+  json["roadmap"] = {{"milestones", answer.roadmap.milestones},
+                     {"edges", answer.roadmap.edges},
+                     {"components", answer.roadmap.components}};
+  if (answer.outcome == Outcome::not_connected) {
+    json["components"] = {{"start_size", answer.separation.start_size},
+                          {"goal_size", answer.separation.goal_size},
+                          {"nearest_gap", finite(answer.separation.nearest_gap)}};
+  }
+  json["counters"] = counters_json(answer.counters);
+  json["stages_s"] = stages_json(answer.seconds);
+  json["solve_s"] = answer.solve_s;
+  json["peak_memory_bytes"] = answer.peak_memory_bytes;
+}
+
+void write_path(const std::vector<Vec2>& path, const Execution& execution,
+                const std::function<void(std::string_view)>& write) {
+  constexpr std::size_t piece = 1 << 14;
+  write("\"path\": [");
+  std::string text;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    text.append(i == 0 ? "[" : ", [").append(json_number(path[i].x)).append(", ");
+    text.append(json_number(path[i].y)).append("]");
+    if (i % piece == piece - 1) {
+      execution.check();
+      write(text);
+      text.clear();
+    }
+  }
+  write(text + "]");
+}
+
+}  // namespace
+
+std::vector<std::pair<const char*, double>> named_stages(const StageTimes& s) {
+  constexpr double always = -1.0;  // shown even if nothing was done there
+  struct Stage {
+    const char* name;
+    double seconds;
+    double only_above;
+  };
+  std::vector<std::pair<const char*, double>> named;
+  for (const Stage& stage :
+       {Stage{"read", s.read, 0.0}, Stage{"generate", s.generate, 0.0}, Stage{"index", s.index, always},
+        Stage{"sample", s.sample, always}, Stage{"neighbours", s.neighbours, always},
+        Stage{"connect", s.connect, always}, Stage{"graph", s.graph, always}, Stage{"reduce", s.reduce, 0.0},
+        Stage{"search", s.search, always}, Stage{"optimise", s.optimise, 0.0}, Stage{"verify", s.verify, always}}) {
+    if (stage.seconds > stage.only_above) named.emplace_back(stage.name, stage.seconds);
+  }
+  return named;
+}
+
+std::string json_string(std::string_view text) {
+  return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string json_number(double value) {
+  if (!std::isfinite(value)) return "null";
+  std::string text = fmt::format("{}", value);
+  if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  return text;
+}
+
+void write_answer_json(const Answer& answer, const Execution& execution,
+                       const std::function<void(std::string_view)>& write) {
+  Json json;
+  add_outcome(json, answer);
+  add_problem(json, answer);
+  add_work(json, answer);
+  std::string head = "{";
+  for (const auto& [key, value] : json.items()) {
+    head += json_string(key) + ": " + value.dump(-1, ' ', false, Json::error_handler_t::replace) + ",\n ";
+  }
+  write(head);
+  write_path(answer.path, execution, write);
+  write("}\n");
+}
+
+}  // namespace warren

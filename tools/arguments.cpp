@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/arguments.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "tools/closest_match.hpp"
+#include "tools/command.hpp"
+
+namespace warren {
+namespace {
+
+const OptionSpec* find_option(const Command& command, std::string_view name) {
+  const auto found = std::find_if(command.options.begin(), command.options.end(), [&](const OptionSpec& option) {
+    return name == option.name || (!option.short_name.empty() && name == option.short_name);
+  });
+  return found == command.options.end() ? nullptr : &*found;
+}
+
+[[noreturn]] void refuse_unknown(const Command& command, std::string_view name) {
+  std::vector<std::string_view> known{"--help"};
+  for (const OptionSpec& option : command.options) known.push_back(option.name);
+  throw UsageError("unknown option " + std::string{name} + suggestion(name, known));
+}
+
+std::vector<std::string> words_of(std::string_view text) {
+  std::vector<std::string> words;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    words.emplace_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  return words;
+}
+
+}  // namespace
+
+Arguments::Arguments(const Command& command, std::span<const std::string> words) {
+  command_line_ = "warren " + std::string{command.name};
+  for (const std::string& word : words) command_line_ += ' ' + word;
+  bool options_ended = false;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    if (options_ended || word.size() < 2 || word[0] != '-') {
+      operands_.push_back(word);
+    } else if (word == "--") {
+      options_ended = true;
+    } else {
+      take_option(command, words, i);
+    }
+  }
+  if (!wants_help_) check_operands(command);
+}
+
+void Arguments::take_option(const Command& command, std::span<const std::string> words, std::size_t& i) {
+  const std::string& word = words[i];
+  const std::size_t equals = word.starts_with("--") ? word.find('=') : std::string::npos;
+  const std::string name = word.substr(0, equals);
+  if (name == "--help" || name == "-h") {
+    wants_help_ = true;
+    return;
+  }
+  const OptionSpec* option = find_option(command, name);
+  if (option == nullptr) refuse_unknown(command, name);
+  if (has(option->name)) throw UsageError(std::string{option->name} + ": given twice");
+  std::string value;
+  if (option->value.empty()) {
+    if (equals != std::string::npos) throw UsageError(std::string{option->name} + ": takes no value");
+  } else if (equals != std::string::npos) {
+    value = word.substr(equals + 1);
+  } else if (i + 1 < words.size()) {
+    value = words[++i];
+  } else {
+    throw UsageError(std::string{option->name} + ": " + std::string{option->value} + " is missing");
+  }
+  options_.emplace_back(option->name, std::move(value));
+}
+
+void Arguments::check_operands(const Command& command) const {
+  const std::vector<std::string> needed = words_of(command.operands);
+  if (operands_.size() < needed.size()) throw UsageError(needed[operands_.size()] + " is missing");
+  if (operands_.size() > needed.size()) throw UsageError("unexpected argument '" + operands_[needed.size()] + "'");
+}
+
+bool Arguments::has(std::string_view option) const {
+  return std::any_of(options_.begin(), options_.end(), [&](const auto& given) { return given.first == option; });
+}
+
+std::optional<std::string> Arguments::value(std::string_view option) const {
+  for (const auto& [name, text] : options_) {
+    if (name == option) return text;
+  }
+  return std::nullopt;
+}
+
+}  // namespace warren

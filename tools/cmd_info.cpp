@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// warren info: what is in this file.
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "tools/answer_json.hpp"
+#include "tools/command.hpp"
+#include "tools/exit_code.hpp"
+#include "tools/human_units.hpp"
+#include "tools/output_files.hpp"
+#include "tools/problem.hpp"
+#include "tools/run_options.hpp"
+#include "tools/world_files.hpp"
+#include "worlds/output_file_io.hpp"
+
+namespace warren {
+namespace {
+
+constexpr OptionSpec specs[] = {
+    {"--json", "FILE", "write it as JSON; - is standard output"},
+};
+
+/// Name, text for people, JSON.
+struct Fact {
+  std::string name;
+  std::string text;
+  std::string json;
+};
+
+std::string state_text(const std::vector<double>& state) { return fmt::format("{}", fmt::join(state, ", ")); }
+
+std::string state_json(const std::vector<double>& state) {
+  std::string text = "[";
+  for (const double value : state) text += (text.size() > 1 ? ", " : "") + json_number(value);
+  return text + "]";
+}
+
+Fact box_fact(const char* name, const Box& box) {
+  const std::vector<double> corners{box.min.x, box.min.y, box.max.x, box.max.y};
+  return {name, fmt::format("{} to {}, {} to {}", box.min.x, box.max.x, box.min.y, box.max.y), state_json(corners)};
+}
+
+Fact count_fact(const char* name, std::size_t count) { return {name, grouped(count), std::to_string(count)}; }
+
+std::vector<Fact> obstacle_facts(const Scene& scene, const WorldAccount& world, const Execution& execution) {
+  std::vector<Fact> facts{{"source", world.source, json_string(world.source)},
+                          {"kind", world.kind, json_string(world.kind)},
+                          count_fact("walls", scene.walls.size())};
+  if (scene.walls.size() > 0) {
+    const bool floats = scene.walls.holds_floats();
+    facts.push_back({"held as", floats ? "float" : "double", floats ? "\"float\"" : "\"double\""});
+  }
+  if (!scene.polygons.empty()) facts.push_back(count_fact("polygons", scene.polygons.size()));
+  if (!scene.spheres.empty()) facts.push_back(count_fact("spheres", scene.spheres.size()));
+  if (const Box box = obstacle_box(scene, execution); !box.empty()) facts.push_back(box_fact("box", box));
+  if (scene.bounds) facts.push_back(box_fact("bounds", *scene.bounds));
+  facts.push_back({"hash", world.hash, json_string(world.hash)});
+  return facts;
+}
+
+void add_problem_facts(const Scene& scene, std::vector<Fact>& facts) {
+  if (scene.maze) {
+    facts.push_back({"maze", fmt::format("{} rows, {} columns", scene.maze->rows, scene.maze->cols),
+                     fmt::format("[{}, {}]", scene.maze->rows, scene.maze->cols)});
+  }
+  if (scene.clearance)
+    facts.push_back({"clearance", fmt::format("{}", *scene.clearance), json_number(*scene.clearance)});
+  if (scene.robot) facts.push_back({"robot", robot_text(*scene.robot), json_string(robot_text(*scene.robot))});
+  if (!scene.start.empty()) facts.push_back({"start", state_text(scene.start), state_json(scene.start)});
+  if (!scene.goal.empty()) facts.push_back({"goal", state_text(scene.goal), state_json(scene.goal)});
+  if (scene.grid) {
+    facts.push_back({"grid", fmt::format("cell {}, {} angles", scene.grid->cell, scene.grid->angles),
+                     fmt::format("[{}, {}]", json_number(scene.grid->cell), scene.grid->angles)});
+  }
+}
+
+std::string json_of(const std::vector<Fact>& facts) {
+  std::string text = R"({"schema": "warren.info/1")";
+  for (const Fact& fact : facts) text += ",\n " + json_string(fact.name) + ": " + fact.json;
+  return text + "}\n";
+}
+
+int info(const Arguments& arguments) {
+  const std::string json = arguments.value("--json").value_or("");
+  if (!json.empty()) check_writable(json);
+  Run run(arguments);
+  StageTimes seconds;
+  const Scene scene = load_world(arguments.operand(0), run.execution(), seconds);
+  std::vector<Fact> facts = obstacle_facts(scene, account_of(scene, run.execution()), run.execution());
+  add_problem_facts(scene, facts);
+  run.end();
+  if (!json.empty()) write_file(json, json_of(facts), run.execution());
+  if (run.quiet() || json == "-") return exit_code::success;
+  for (const Fact& fact : facts) fmt::print("{}{}\n", run.palette().faint(fmt::format("{:<11}", fact.name)), fact.text);
+  return exit_code::success;
+}
+
+}  // namespace
+
+Command info_command() {
+  Command command{"info", "WORLD", "say what is in a world", {}, info};
+  add_options(command.options, specs);
+  add_options(command.options, run_option_specs());
+  return command;
+}
+
+}  // namespace warren

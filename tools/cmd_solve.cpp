@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// warren solve: finds a path, verifies it, prints what it took. A stop at any stage still gives an answer.
+#include <fmt/format.h>
+
+#include <new>
+
+#include "core/error.hpp"
+#include "tools/answer_json.hpp"
+#include "tools/command.hpp"
+#include "tools/exit_code.hpp"
+#include "tools/output_files.hpp"
+#include "tools/picture.hpp"
+#include "tools/planner_options.hpp"
+#include "tools/problem.hpp"
+#include "tools/run_options.hpp"
+#include "tools/solve_walls.hpp"
+#include "tools/summary.hpp"
+#include "tools/world_files.hpp"
+#include "worlds/output_file_io.hpp"
+
+namespace warren {
+namespace {
+
+constexpr OptionSpec output_specs[] = {
+    {"--json", "FILE", "write the answer as JSON; - is standard output"},
+    {"--svg", "FILE", "draw walls, roadmap, search and path; .png and .html work too"},
+};
+
+/// One `warren solve`.
+class SolveCommand {
+ public:
+  explicit SolveCommand(const Arguments& arguments)
+      : arguments_(arguments),
+        json_(arguments.value("--json").value_or("")),
+        svg_(arguments.value("--svg").value_or("")),
+        problem_(problem_options(arguments)) {
+    check_planner_options(arguments);
+    check_outputs();
+  }
+
+  int run() {
+    Run run(arguments_);
+    answer(run);
+    run.end();
+    write_outputs(run);
+    if (!run.quiet() && json_ != "-" && svg_ != "-") {
+      fmt::print("{}", summary_of(answer_, run.palette(), written_));
+    }
+    return exit_code();
+  }
+
+ private:
+  void check_outputs() const;
+  void answer(const Run& run);
+  void solve(const Run& run);
+  void write_outputs(const Run& run);
+  void draw(const Execution& execution) const;
+  int exit_code() const;
+
+  const Arguments& arguments_;
+  std::string json_;
+  std::string svg_;
+  ProblemOptions problem_;
+  Scene scene_;
+  Roadmap<Vec2> roadmap_;
+  Answer answer_;
+  std::vector<std::string> written_;
+};
+
+void SolveCommand::check_outputs() const {
+  for (const char* option : {"--json", "--svg"}) {
+    if (const auto file = arguments_.value(option)) check_writable(*file);
+  }
+  const bool trace_out = arguments_.value("--trace").value_or("") == "-";
+  if ((json_ == "-") + (svg_ == "-") + trace_out > 1) {
+    throw UsageError("standard output takes one of --json, --svg and --trace");
+  }
+}
+
+void SolveCommand::answer(const Run& run) {
+  StageTimes before;
+  try {
+    scene_ = load_world(arguments_.operand(0), run.execution(), before);
+    solve(run);
+  } catch (const Stopped& stopped) {
+    answer_.stop_reason = stopped.reason;
+  } catch (const std::bad_alloc&) {
+    answer_.stop_reason = StopReason::memory;
+  }
+  answer_.world.source = arguments_.operand(0);
+  answer_.seconds.read = before.read;
+  answer_.seconds.generate = before.generate;
+  answer_.threads = run.threads();
+  answer_.peak_memory_bytes = peak_resident_bytes();
+}
+
+void SolveCommand::solve(const Run& run) {
+  const WallProblem problem = wall_problem(scene_, problem_);
+  const PlannerOptions planner = planner_options(arguments_, scene_);
+  WorldAccount world = account_of(scene_, run.execution());
+  answer_ = solve_walls(scene_, problem, planner, run.execution(), svg_.empty() ? nullptr : &roadmap_);
+  answer_.world = std::move(world);
+}
+
+void SolveCommand::write_outputs(const Run& run) {
+  const bool stopped = answer_.outcome == Outcome::stopped;
+  Execution execution = run.execution();
+  if (stopped) execution.deadline = nullptr;  // what is left to say is short, and must be said
+  if (!json_.empty()) {
+    OutputFile file(json_, execution);
+    write_answer_json(answer_, execution, [&](std::string_view text) { file.write(text); });
+    file.commit();
+    written_.push_back(json_);
+  }
+  if (!svg_.empty() && !stopped) {
+    draw(execution);
+    written_.push_back(svg_);
+  }
+}
+
+void SolveCommand::draw(const Execution& execution) const {
+  const Picture picture{.scene = scene_,
+                        .roadmap = &roadmap_,
+                        .path = answer_.path,
+                        .start = answer_.problem.start,
+                        .goal = answer_.problem.goal,
+                        .title = fmt::format("{}: {}", scene_.source, name_of(answer_.outcome)),
+                        .description = fmt::format("{}. {}, seed {}: {}", description_of(scene_), answer_.planner,
+                                                   answer_.seed, arguments_.command_line())};
+  write_picture(svg_, "--svg", picture, execution);
+}
+
+int SolveCommand::exit_code() const {
+  if (answer_.outcome == Outcome::stopped) return exit_code_of(answer_.stop_reason.value_or(StopReason::time));
+  return answer_.verified ? exit_code::success : exit_code::no_path;
+}
+
+}  // namespace
+
+Command solve_command() {
+  Command command{"solve", "WORLD", "find a path, verify it, print a summary", {}, {}};
+  add_options(command.options, planner_option_specs());
+  add_options(command.options, problem_option_specs());
+  add_options(command.options, output_specs);
+  add_options(command.options, run_option_specs());
+  command.run = [](const Arguments& arguments) { return SolveCommand(arguments).run(); };
+  return command;
+}
+
+}  // namespace warren

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// warren verify: is the path of an answer free, all along and with all its clearance? Decided by worlds/verify alone.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/error.hpp"
+#include "tools/answer_json.hpp"
+#include "tools/command.hpp"
+#include "tools/exit_code.hpp"
+#include "tools/human_units.hpp"
+#include "tools/output_files.hpp"
+#include "tools/problem.hpp"
+#include "tools/recorded_answer.hpp"
+#include "tools/run_options.hpp"
+#include "tools/world_files.hpp"
+#include "worlds/output_file_io.hpp"
+#include "worlds/verify.hpp"
+
+namespace warren {
+namespace {
+
+constexpr OptionSpec specs[] = {
+    {"--json", "FILE", "write the verdict as JSON; - is standard output"},
+};
+
+/// Options first, then the answer's word; the world's and the defaults come after both.
+ProblemOptions merged(ProblemOptions options, const ProblemOptions& answer) {
+  if (!options.robot) options.robot = answer.robot;
+  if (options.start.empty()) options.start = answer.start;
+  if (options.goal.empty()) options.goal = answer.goal;
+  if (!options.clearance) options.clearance = answer.clearance;
+  if (!options.contact) options.contact = answer.contact;
+  return options;
+}
+
+Verification verdict(const Scene& scene, const RecordedAnswer& answer, const WallProblem& problem,
+                     const Execution& execution) {
+  const VerifyOptions options{
+      .clearance = problem.reach(), .contact = problem.contact, .start = problem.start, .goal = problem.goal};
+  Verification verification = verify_path(scene, answer.path, options, execution);
+  verification.min_clearance -= problem.robot.radius;
+  constexpr double rounding = 1e-9;
+  if (verification.verified && answer.length &&
+      std::abs(*answer.length - verification.length) > rounding * verification.length) {
+    verification.verified = false;
+    verification.first_violation =
+        Violation{.leg = 0, .distance = 0.0, .obstacle = fmt::format("length: the answer says {}", *answer.length)};
+  }
+  return verification;
+}
+
+std::string verdict_json(const Verification& v) {
+  std::string violation = "null";
+  if (v.first_violation) {
+    violation = fmt::format(R"({{"leg": {}, "distance": {}, "obstacle": {}}})", v.first_violation->leg,
+                            json_number(v.first_violation->distance), json_string(v.first_violation->obstacle));
+  }
+  return fmt::format(
+      "{{\"schema\": \"warren.verify/1\",\n \"verified\": {},\n \"length\": {},\n \"min_clearance\": {},\n "
+      "\"first_violation\": {}}}\n",
+      v.verified, json_number(v.length), json_number(v.min_clearance), violation);
+}
+
+void print_verdict(const Verification& v, const WallProblem& problem, const Palette& palette) {
+  if (v.verified) {
+    fmt::print("{}: length {}, clearance {} at least, {} asked for\n", palette.good("verified"), human_number(v.length),
+               human_number(v.min_clearance), human_number(problem.clearance));
+  } else {
+    const Violation violation = v.first_violation.value_or(Violation{});
+    fmt::print("{} at leg {}: {}, distance {}, {} asked for\n", palette.bad("refuted"), violation.leg,
+               violation.obstacle, human_number(violation.distance), human_number(problem.reach()));
+  }
+}
+
+int verify(const Arguments& arguments) {
+  const std::string json = arguments.value("--json").value_or("");
+  const ProblemOptions options = problem_options(arguments);
+  if (!json.empty()) check_writable(json);
+  if (arguments.operand(0) == "-" && arguments.operand(1) == "-") {
+    throw UsageError("WORLD and ANSWER.json can't both come from standard input");
+  }
+  Run run(arguments);
+  StageTimes seconds;
+  const RecordedAnswer answer = read_answer(arguments.operand(1), run.execution());
+  const Scene scene = load_world(arguments.operand(0), run.execution(), seconds);
+  check_same_world(answer, arguments.operand(1), scene, run.execution());
+  const WallProblem problem = wall_problem(scene, merged(options, answer.problem));
+  Verification verification;
+  {
+    const StageTimer timer(run.execution(), "verify", seconds.verify, scene.walls.size());
+    verification = verdict(scene, answer, problem, run.execution());
+  }
+  run.end();
+  if (!json.empty()) write_file(json, verdict_json(verification), run.execution());
+  if (!run.quiet() && json != "-") print_verdict(verification, problem, run.palette());
+  return verification.verified ? exit_code::success : exit_code::no_path;
+}
+
+}  // namespace
+
+Command verify_command() {
+  Command command{"verify", "WORLD ANSWER.json", "re-check an answer independently", {}, verify};
+  add_options(command.options, problem_option_specs());
+  add_options(command.options, specs);
+  add_options(command.options, run_option_specs());
+  return command;
+}
+
+}  // namespace warren

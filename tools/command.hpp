@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One verb of the program, as data: --help, the parser, the suggestions for misspelt words, the shell completions and
+// the manual page are all made from the same table.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "tools/arguments.hpp"
+
+namespace warren {
+
+/// One long option. `value` names what follows it; empty for a flag. `choices` lists the words it takes,
+/// blank-separated.
+struct OptionSpec {
+  std::string_view name;
+  std::string_view value;
+  std::string_view help;
+  std::string_view choices = {};
+  std::string_view short_name = {};  ///< e.g. "-o"
+};
+
+struct Command {
+  std::string_view name;
+  std::string_view operands;  ///< e.g. "WORLD ANSWER.json": one word an operand, all of them needed
+  std::string_view summary;   ///< one line
+  std::vector<OptionSpec> options;
+  std::function<int(const Arguments&)> run;  ///< returns the exit code
+};
+
+/// Appends options that several verbs share.
+void add_options(std::vector<OptionSpec>& to, std::span<const OptionSpec> more);
+
+// The verbs, one a file cmd_NAME.cpp.
+Command completion_command();
+Command convert_command();
+Command generate_command();
+Command info_command();
+Command man_command();
+Command render_command();
+Command solve_command();
+Command verify_command();
+
+/// All verbs, in the order of --help.
+const std::vector<Command>& command_table();
+
+}  // namespace warren

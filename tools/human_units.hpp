@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Numbers as people read them: "12.3 M", "4.1 ms", "8.6 MiB", "1 683".
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace warren {
+
+std::string human_count(double count);      ///< 950, 12.3 k, 4.5 M, 1.2 G
+std::string human_seconds(double seconds);  ///< 3.2 ms, 0.41 s, 12.3 s, 2 min 05 s
+std::string human_bytes(double bytes);      ///< 8.6 MiB
+std::string grouped(std::uint64_t count);   ///< 1 683 000, by no-break thin groups of three
+std::string human_number(double value);     ///< up to six significant digits
+
+}  // namespace warren

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/image.hpp"
+
+#include <png.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csetjmp>
+#include <stdexcept>
+
+#include "core/geometry.hpp"
+
+namespace warren {
+
+Image::Image(std::size_t width, std::size_t height, Rgb paper)
+    : width_(width), height_(height), pixels_(3 * width * height) {
+  for (std::size_t i = 0; i < width * height; ++i) {
+    pixels_[3 * i] = paper.red;
+    pixels_[3 * i + 1] = paper.green;
+    pixels_[3 * i + 2] = paper.blue;
+  }
+}
+
+void Image::blend(std::size_t x, std::size_t y, double alpha, Rgb color) {
+  std::uint8_t* pixel = pixels_.data() + 3 * (width_ * y + x);
+  const auto weight = static_cast<int>(std::lround(alpha * 256.0));
+  const int ink[] = {color.red, color.green, color.blue};
+  for (int c = 0; c < 3; ++c) pixel[c] = static_cast<std::uint8_t>((pixel[c] * (256 - weight) + ink[c] * weight) >> 8);
+}
+
+void Image::draw_line(Vec2 a, Vec2 b, double width, Rgb color) {
+  const double strength = std::min(1.0, width);
+  const double radius = 0.5 * std::max(1.0, width);
+  const Box reach = box_of({a, b}).grown(radius + 0.5);
+  const auto clamped = [](double v, std::size_t size) {
+    return static_cast<std::size_t>(std::clamp(v, 0.0, static_cast<double>(size)));
+  };
+  const std::size_t right = clamped(std::ceil(reach.max.x), width_);
+  const std::size_t bottom = clamped(std::ceil(reach.max.y), height_);
+  for (std::size_t y = clamped(std::floor(reach.min.y), height_); y < bottom; ++y) {
+    for (std::size_t x = clamped(std::floor(reach.min.x), width_); x < right; ++x) {
+      const Vec2 centre{static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5};
+      const double cover = radius + 0.5 - distance(centre, Segment{a, b});
+      if (cover > 0.0) blend(x, y, strength * std::min(1.0, cover), color);
+    }
+  }
+}
+
+namespace {
+
+/// libpng reports by longjmp, so nothing that needs a destructor may live between setjmp and the calls; an exception of
+/// `write` is kept and rethrown after.
+struct PngSink {
+  const Write& write;
+  std::exception_ptr error;
+};
+
+void png_write(png_structp png, png_bytep bytes, png_size_t size) {
+  auto* sink = static_cast<PngSink*>(png_get_io_ptr(png));
+  try {
+    sink->write({reinterpret_cast<const char*>(bytes), size});
+    return;
+  } catch (...) {
+    sink->error = std::current_exception();
+  }
+  png_error(png, "stopped");
+}
+
+void png_flush(png_structp) {}
+void png_fail(png_structp png, png_const_charp) { png_longjmp(png, 1); }
+void png_warn(png_structp, png_const_charp) {}
+
+/// False when libpng gave up; rows are written while `sink` takes them.
+bool encode(png_structp png, png_infop info, const Image& image, PngSink& sink, const Execution& execution) {
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
+  constexpr int fast_compression = 4;
+  png_set_write_fn(png, &sink, png_write, png_flush);
+  png_set_compression_level(png, fast_compression);
+  png_set_IHDR(png, info, static_cast<png_uint_32>(image.width()), static_cast<png_uint_32>(image.height()), 8,
+               PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_write_info(png, info);
+  for (std::size_t y = 0; y < image.height(); ++y) {
+    if (execution.should_stop()) return true;
+    png_write_row(png, image.row(y));
+  }
+  png_write_end(png, info);
+  return true;
+}
+
+}  // namespace
+
+void write_png_image(const Image& image, const Execution& execution, const Write& write) {
+  PngSink sink{write, nullptr};
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, png_fail, png_warn);
+  png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
+  if (info == nullptr) throw std::bad_alloc();
+  const bool done = encode(png, info, image, sink, execution);
+  png_destroy_write_struct(&png, &info);
+  if (sink.error) std::rethrow_exception(sink.error);
+  execution.check();
+  if (!done) throw std::runtime_error("libpng refuses the picture");
+}
+
+}  // namespace warren

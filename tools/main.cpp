@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The program `warren`: a table of verbs. Each verb parses its words, calls the library and prints; what goes wrong
+// becomes one line on standard error and an exit code here.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "parallel/deadline.hpp"
+#include "tools/closest_match.hpp"
+#include "tools/command.hpp"
+#include "tools/exit_code.hpp"
+#include "tools/help.hpp"
+#include "tools/run_options.hpp"
+#include "tools/signals.hpp"
+
+namespace warren {
+
+const std::vector<Command>& command_table() {
+  static const std::vector<Command> table{generate_command(), solve_command(),   verify_command(),     info_command(),
+                                          render_command(),   convert_command(), completion_command(), man_command()};
+  return table;
+}
+
+namespace {
+
+const Command& command_named(std::string_view name) {
+  std::vector<std::string_view> names;
+  for (const Command& command : command_table()) {
+    if (command.name == name) return command;
+    names.push_back(command.name);
+  }
+  const std::string_view what = name.starts_with('-') ? "unknown option " : "unknown command ";
+  throw UsageError(std::string{what} + std::string{name} + suggestion(name, names));
+}
+
+int run_command(const Command& command, std::span<const std::string> words) {
+  const Arguments arguments(command, words);
+  if (!arguments.wants_help()) return command.run(arguments);
+  fmt::print("{}", command_help(command));
+  return exit_code::success;
+}
+
+int dispatch(std::span<const std::string> words) {
+  if (words.empty()) {
+    fmt::print(stderr, "{}", program_help());
+    return exit_code::usage;
+  }
+  if (words[0] == "--help" || words[0] == "-h" || words[0] == "help") {
+    fmt::print("{}", program_help());
+    return exit_code::success;
+  }
+  if (words[0] == "--version" || words[0] == "-V") {
+    fmt::print("{}", version_text());
+    return exit_code::success;
+  }
+  return run_command(command_named(words[0]), words.subspan(1));
+}
+
+int complain(int code, std::string_view text) {
+  fmt::print(stderr, "warren: {}\n", text);
+  return code;
+}
+
+std::string usage_hint(std::span<const std::string> words) {
+  for (const Command& command : command_table()) {
+    if (!words.empty() && words[0] == command.name) return fmt::format(" (see 'warren {} --help')", command.name);
+  }
+  return " (see 'warren --help')";
+}
+
+int report_bug(std::string_view what) {
+  return complain(
+      exit_code::internal,
+      fmt::format("internal error: {}\nwarren: this is a bug. Please report it with the whole command line, "
+                  "the input file and the output of 'warren --version'.",
+                  what));
+}
+
+int run_program(std::span<const std::string> words) {
+  try {
+    const int code = dispatch(words);
+    if (std::fflush(stdout) != 0) throw WriteError("standard output", "no space left, or closed");
+    return code;
+  } catch (const UsageError& error) {
+    return complain(exit_code::usage, error.what() + usage_hint(words));
+  } catch (const InputError& error) {
+    return complain(exit_code::bad_data, error.what());
+  } catch (const ReadError& error) {
+    return complain(exit_code::unreadable, error.what());
+  } catch (const WriteError& error) {
+    return complain(exit_code::unwritable, error.what());
+  } catch (const Stopped& stopped) {
+    return complain(exit_code_of(stopped.reason), fmt::format("stopped: {}", text_of(stopped.reason)));
+  } catch (const std::bad_alloc&) {
+    return complain(exit_code::budget, fmt::format("stopped: {}", text_of(StopReason::memory)));
+  } catch (const std::exception& error) {
+    return report_bug(error.what());
+  }
+}
+
+}  // namespace
+}  // namespace warren
+
+int main(int argc, char** argv) {
+  warren::install_signal_handlers();
+  const std::vector<std::string> words(argv + (argc > 0 ? 1 : 0), argv + argc);
+  return warren::run_program(words);
+}

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/option_values.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "tools/closest_match.hpp"
+
+namespace warren {
+namespace {
+
+[[noreturn]] void refuse(std::string_view option, std::string_view expected, std::string_view found) {
+  throw UsageError(fmt::format("{}: expected {} (found: '{}')", option, expected, found));
+}
+
+struct Unit {
+  std::string_view name;
+  double factor;
+};
+
+/// NUMBER UNIT, the number finite and > 0.
+std::optional<double> quantity_in(std::string_view text, std::span<const Unit> units) {
+  for (const Unit& unit : units) {
+    if (!text.ends_with(unit.name)) continue;
+    const auto number = number_in(text.substr(0, text.size() - unit.name.size()));
+    if (number && *number > 0.0 && std::isfinite(*number * unit.factor)) return *number * unit.factor;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<double> number_in(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc::result_out_of_range && end == text.data() + text.size()) return std::nullopt;
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+double number_value(std::string_view option, std::string_view text, double low, double high) {
+  const auto number = number_in(text);
+  if (!number || *number < low || *number > high) {
+    refuse(option, fmt::format("a number from {} to {}", low, high), text);
+  }
+  return *number;
+}
+
+double positive_value(std::string_view option, std::string_view text) {
+  const auto number = number_in(text);
+  if (!number || !(*number > 0.0) || *number > largest_coordinate) {
+    refuse(option, fmt::format("a number above 0, at most {}", largest_coordinate), text);
+  }
+  return *number;
+}
+
+std::uint64_t count_value(std::string_view option, std::string_view text, std::uint64_t low, std::uint64_t high) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || value < low || value > high) {
+    refuse(option, fmt::format("a whole number from {} to {}", low, high), text);
+  }
+  return value;
+}
+
+std::optional<std::uint64_t> auto_or_count_value(std::string_view option, std::string_view text, std::uint64_t low,
+                                                 std::uint64_t high) {
+  if (text == "auto") return std::nullopt;
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || value < low || value > high) {
+    refuse(option, fmt::format("auto, or a whole number from {} to {}", low, high), text);
+  }
+  return value;
+}
+
+double duration_value(std::string_view option, std::string_view text) {
+  constexpr Unit units[] = {{"ms", 1e-3}, {"us", 1e-6}, {"min", 60.0}, {"s", 1.0}, {"h", 3600.0}};
+  const auto seconds = quantity_in(text, units);
+  if (!seconds) refuse(option, "a time above 0 such as 20s or 500ms", text);
+  return *seconds;
+}
+
+std::size_t memory_value(std::string_view option, std::string_view text) {
+  constexpr Unit units[] = {{"KiB", 0x1p10}, {"MiB", 0x1p20}, {"GiB", 0x1p30}, {"TiB", 0x1p40}, {"kB", 1e3},
+                            {"MB", 1e6},     {"GB", 1e9},     {"TB", 1e12},    {"B", 1.0}};
+  const auto bytes = quantity_in(text, units);
+  if (!bytes || *bytes < 1.0 || *bytes >= 0x1p63) refuse(option, "an amount of memory such as 20GiB or 512MiB", text);
+  return static_cast<std::size_t>(*bytes);
+}
+
+std::vector<double> state_value(std::string_view option, std::string_view text) {
+  constexpr std::string_view expected = "X,Y (or three or six numbers), each finite and at most 1e60";
+  constexpr std::string_view separators = ", \t";
+  std::vector<double> state;
+  for (std::size_t at = text.find_first_not_of(separators); at < text.size();) {
+    const std::size_t end = std::min(text.find_first_of(separators, at), text.size());
+    const auto number = number_in(text.substr(at, end - at));
+    if (!number || std::abs(*number) > largest_coordinate) refuse(option, expected, text);
+    state.push_back(*number);
+    at = text.find_first_not_of(separators, end);
+  }
+  if (state.size() != 2 && state.size() != 3 && state.size() != 6) refuse(option, expected, text);
+  return state;
+}
+
+std::size_t choice_value(std::string_view option, std::string_view text, std::span<const std::string_view> words) {
+  std::string list;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] == text) return i;
+    list.append(i == 0 ? "" : ", ").append(words[i]);
+  }
+  throw UsageError(fmt::format("{}: '{}' is none of {}{}", option, text, list, suggestion(text, words)));
+}
+
+}  // namespace warren

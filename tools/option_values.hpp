@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Values of options, read strictly: the whole text must be one value inside its range, or a UsageError names the
+// option, the range and what was found. NaN and infinities are never values.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/types.hpp"
+
+namespace warren {
+
+/// One finite number, read as C reads it but independent of the locale.
+std::optional<double> number_in(std::string_view text);
+
+/// A number in [low, high].
+double number_value(std::string_view option, std::string_view text, double low, double high);
+/// A number > 0.
+double positive_value(std::string_view option, std::string_view text);
+/// A whole number in [low, high].
+std::uint64_t count_value(std::string_view option, std::string_view text, std::uint64_t low, std::uint64_t high);
+/// "auto" gives none.
+std::optional<std::uint64_t> auto_or_count_value(std::string_view option, std::string_view text, std::uint64_t low,
+                                                 std::uint64_t high);
+/// Seconds, > 0: "20s", "500ms", "2min", "1.5h".
+double duration_value(std::string_view option, std::string_view text);
+/// Bytes, >= 1: "20GiB", "512MiB", "1e9B"; also KiB, TiB, kB, MB, GB, TB.
+std::size_t memory_value(std::string_view option, std::string_view text);
+/// Numbers apart by commas or blanks, at most largest_coordinate each; 2, 3 or 6 of them.
+std::vector<double> state_value(std::string_view option, std::string_view text);
+/// One of the words; a misspelt one is told the closest.
+std::size_t choice_value(std::string_view option, std::string_view text, std::span<const std::string_view> words);
+
+}  // namespace warren

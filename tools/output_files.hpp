@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Names of output files: what their endings say, and whether they can be written, asked before a long computation.
+#pragma once
+
+#include <string>
+
+namespace warren {
+
+/// Throws WriteError if `path` can't be written as things stand. Creates and changes nothing.
+void check_writable(const std::string& path);
+
+/// ".svg" of "a.SVG", in lower case; "" where there is none.
+std::string ending_of(const std::string& path);
+
+}  // namespace warren

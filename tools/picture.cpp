@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/picture.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/error.hpp"
+#include "tools/output_files.hpp"
+#include "worlds/output_file_io.hpp"
+
+namespace warren {
+
+Canvas canvas_of(const Picture& picture, const Execution& execution) {
+  Canvas canvas;
+  canvas.box = obstacle_box(picture.scene, execution);
+  if (picture.scene.bounds) canvas.box.include(*picture.scene.bounds);
+  for (const Vec2 p : picture.path) canvas.box.include(p);
+  if (picture.start) canvas.box.include(*picture.start);
+  if (picture.goal) canvas.box.include(*picture.goal);
+  if (canvas.box.empty()) canvas.box = {{0, 0}, {1, 1}};
+  const double extent = std::max(canvas.box.width(), canvas.box.height());
+  canvas.unit = picture.scene.maze ? 1.0 : (extent > 0.0 ? extent / 40.0 : 1.0);
+  canvas.box = canvas.box.grown(0.9 * canvas.unit);
+  return canvas;
+}
+
+std::vector<std::uint8_t> component_colors(const Graph& graph) {
+  const Components parts = components(graph);
+  std::vector<std::uint32_t> size(graph.vertex_count(), 0);
+  for (const VertexId label : parts.label) ++size[label];
+  std::vector<VertexId> largest;
+  for (VertexId v = 0; v < graph.vertex_count(); ++v) {
+    if (size[v] > 1) largest.push_back(v);
+  }
+  constexpr std::size_t own = colors::components.size() - 1;
+  const std::size_t ranked = std::min(own, largest.size());
+  std::partial_sort(largest.begin(), largest.begin() + static_cast<std::ptrdiff_t>(ranked), largest.end(),
+                    [&](VertexId a, VertexId b) { return size[a] != size[b] ? size[a] > size[b] : a < b; });
+  std::vector<std::uint8_t> color_of_label(graph.vertex_count(), static_cast<std::uint8_t>(own));
+  for (std::size_t rank = 0; rank < ranked; ++rank) color_of_label[largest[rank]] = static_cast<std::uint8_t>(rank);
+  std::vector<std::uint8_t> color(graph.vertex_count());
+  std::transform(parts.label.begin(), parts.label.end(), color.begin(),
+                 [&](VertexId label) { return color_of_label[label]; });
+  return color;
+}
+
+void write_picture(const std::string& file, std::string_view option, const Picture& picture,
+                   const Execution& execution) {
+  const std::string ending = ending_of(file);
+  const auto writer = ending == ".png" ? write_png : ending == ".html" ? write_html : write_svg;
+  if (ending != ".svg" && ending != ".png" && ending != ".html") {
+    throw UsageError(std::string{option} + ": a picture ends in .svg, .png or .html (found: '" + file + "')");
+  }
+  OutputFile output(file, execution);
+  writer(picture, execution, [&](std::string_view bytes) { output.write(bytes); });
+  output.commit();
+}
+
+}  // namespace warren

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a picture shows, and the colours and widths that SVG and PNG share.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/types.hpp"
+#include "parallel/execution.hpp"
+#include "planners/roadmap.hpp"
+#include "worlds/scene.hpp"
+
+namespace warren {
+
+/// Refers to what it shows; all of it must outlive the picture.
+struct Picture {
+  const Scene& scene;
+  const Roadmap<Vec2>* roadmap = nullptr;  ///< nullptr: none
+  std::span<const Vec2> path = {};
+  std::optional<Vec2> start = {};
+  std::optional<Vec2> goal = {};
+  std::string title = {};
+  std::string description = {};
+};
+
+struct Rgb {
+  std::uint8_t red, green, blue;
+};
+
+/// Colours by role; a roadmap component takes the colour of its rank.
+namespace colors {
+inline constexpr Rgb paper{255, 255, 255};
+inline constexpr Rgb wall{30, 41, 59};
+inline constexpr Rgb polygon{203, 213, 225};
+inline constexpr Rgb search_tree{251, 176, 64};
+inline constexpr Rgb path{225, 29, 72};
+inline constexpr Rgb start{22, 163, 74};
+inline constexpr Rgb goal{124, 58, 237};
+/// The last is for all components that have no colour of their own.
+inline constexpr std::array<Rgb, 9> components{{{147, 187, 241},
+                                                {244, 178, 148},
+                                                {150, 211, 168},
+                                                {205, 176, 235},
+                                                {240, 208, 126},
+                                                {142, 208, 214},
+                                                {240, 170, 200},
+                                                {190, 200, 140},
+                                                {200, 206, 214}}};
+}  // namespace colors
+
+/// Widths in multiples of Canvas::unit.
+namespace widths {
+inline constexpr double wall = 0.11;
+inline constexpr double milestone = 0.13;
+inline constexpr double edge = 0.05;
+inline constexpr double search_tree = 0.07;
+inline constexpr double path = 0.2;
+inline constexpr double halo = 0.34;
+inline constexpr double mark = 0.34;  ///< radius
+}  // namespace widths
+
+/// The part of the world that is shown, and what counts as one unit there: a maze's cell, else a fortieth of the
+/// extent.
+struct Canvas {
+  Box box;  ///< margin included
+  double unit = 1.0;
+};
+Canvas canvas_of(const Picture& picture, const Execution& execution);
+
+/// For each vertex the index of its colour in colors::components: the largest components have colours of their own.
+std::vector<std::uint8_t> component_colors(const Graph& graph);
+
+using Write = std::function<void(std::string_view)>;
+
+/// One SVG 1.1 document: layers walls, edges, milestones, search_tree, path, start and goal as groups of these ids, y
+/// up.
+void write_svg(const Picture& picture, const Execution& execution, const Write& write);
+/// A page of its own with the SVG inline; drag moves, the wheel zooms.
+void write_html(const Picture& picture, const Execution& execution, const Write& write);
+/// The same picture in pixels, at most 4096 a side: what is smaller than a pixel becomes a shade, the path stays
+/// strong.
+void write_png(const Picture& picture, const Execution& execution, const Write& write);
+
+/// By the file's ending: .svg, .png or .html; UsageError for others, naming `option`.
+void write_picture(const std::string& file, std::string_view option, const Picture& picture,
+                   const Execution& execution);
+
+}  // namespace warren

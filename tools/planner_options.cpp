@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/planner_options.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <limits>
+#include <optional>
+
+#include "core/error.hpp"
+#include "tools/answer_json.hpp"
+#include "tools/option_values.hpp"
+
+namespace warren {
+namespace {
+
+constexpr std::array<std::string_view, 2> planner_words{"prm", "lazy-prm"};
+constexpr std::array<std::string_view, 4> sampler_words{"uniform", "lattice", "halton", "random"};
+constexpr std::array<std::string_view, 4> search_words{"astar", "dijkstra", "bfs", "dfs"};
+constexpr std::array<std::string_view, 4> queue_words{"heap", "lazy-heap", "sorted-array", "resorted-array"};
+constexpr std::array<std::string_view, 2> lazy_words{"expansion", "path"};
+constexpr std::uint64_t most_samples = std::uint64_t{1} << 31;
+constexpr std::uint64_t most_neighbours = 4096;
+
+constexpr OptionSpec specs[] = {
+    {"--planner", "NAME",
+     "prm checks every edge, lazy-prm only those that a search reaches (default: prm with lattice)", "prm lazy-prm"},
+    {"--sampler", "NAME", "where milestones come from (default: lattice in mazes, else uniform)",
+     "uniform lattice halton random"},
+    {"--samples", "N|auto", "states drawn; auto grows until start and goal connect (default: auto)"},
+    {"--neighbours", "K|auto", "join each milestone to its K nearest (default: auto)"},
+    {"--radius", "R|auto", "join milestones at most so far apart, instead of the K nearest (default: auto)"},
+    {"--search", "NAME", "how the roadmap is searched (default: astar)", "astar dijkstra bfs dfs"},
+    {"--queue", "NAME", "the queue of astar and dijkstra (default: heap)",
+     "heap lazy-heap sorted-array resorted-array"},
+    {"--lazy", "WHEN",
+     "lazy-prm checks an edge when the search expands it, or when it lies on the path found "
+     "(default: expansion)",
+     "expansion path"},
+    {"--optimise", "", "pull the path taut after the search"},
+    {"--seed", "N", "seed of the sampling; never alters the world (default: 1)"},
+};
+
+template <class Enum, std::size_t N>
+std::optional<Enum> choice(const Arguments& arguments, std::string_view option,
+                           const std::array<std::string_view, N>& words) {
+  const auto text = arguments.value(option);
+  if (!text) return std::nullopt;
+  return static_cast<Enum>(choice_value(option, *text, words));
+}
+
+std::optional<double> auto_or_radius(const Arguments& arguments) {
+  const auto text = arguments.value("--radius");
+  if (!text || *text == "auto") return std::nullopt;
+  return positive_value("--radius", *text);
+}
+
+std::optional<std::uint64_t> auto_or_count(const Arguments& arguments, std::string_view option, std::uint64_t most) {
+  const auto text = arguments.value(option);
+  return text ? auto_or_count_value(option, *text, 1, most) : std::nullopt;
+}
+
+RoadmapOptions roadmap_options(const Arguments& arguments) {
+  RoadmapOptions options;
+  options.samples = auto_or_count(arguments, "--samples", most_samples);
+  if (const auto count = auto_or_count(arguments, "--neighbours", most_neighbours)) {
+    options.neighbours = static_cast<std::uint32_t>(*count);
+  }
+  options.radius = auto_or_radius(arguments);
+  options.search = choice<SearchKind>(arguments, "--search", search_words).value_or(SearchKind::astar);
+  options.queue = choice<QueueKind>(arguments, "--queue", queue_words).value_or(QueueKind::heap);
+  options.lazy = choice<LazyCheck>(arguments, "--lazy", lazy_words).value_or(LazyCheck::expansion);
+  if (const auto text = arguments.value("--seed")) {
+    options.seed = count_value("--seed", *text, 0, std::numeric_limits<std::uint64_t>::max());
+  }
+  return options;
+}
+
+void check_queue(const Arguments& arguments, SearchKind search) {
+  if (!arguments.has("--queue") || search == SearchKind::astar || search == SearchKind::dijkstra) return;
+  throw UsageError(fmt::format("--queue: {} has no priority queue; astar and dijkstra take one", name_of(search)));
+}
+
+void check_planner(const Arguments& arguments, PlannerKind planner, SearchKind search) {
+  if (planner == PlannerKind::prm && arguments.has("--lazy")) {
+    throw UsageError("--lazy: prm checks every edge; the planner lazy-prm takes this option");
+  }
+  const bool best_first = search == SearchKind::astar || search == SearchKind::dijkstra;
+  if (planner == PlannerKind::lazy_prm && !best_first) {
+    throw UsageError(
+        fmt::format("--search: lazy-prm takes astar and dijkstra; the planner prm takes {} too", name_of(search)));
+  }
+}
+
+/// The lattice has a point a cell: no number of samples to choose.
+void check_samples(SamplerKind sampler, const RoadmapOptions& options) {
+  if (sampler != SamplerKind::lattice || !options.samples) return;
+  throw UsageError("--samples: lattice takes every cell centre; the other samplers take a number");
+}
+
+void check_lattice(SamplerKind sampler, const Scene& scene) {
+  if (sampler != SamplerKind::lattice || scene.maze) return;
+  throw UsageError(fmt::format(
+      "--sampler: lattice needs a maze, and {} has no 'maze ROWS COLS' line; the others take any world", scene.source));
+}
+
+/// Options that answer and description repeat, with their values as JSON.
+std::vector<std::pair<std::string, std::string>> given_options(const Arguments& arguments, const PlannerOptions& o) {
+  std::vector<std::pair<std::string, std::string>> given;
+  if (o.roadmap.samples) given.emplace_back("samples", std::to_string(*o.roadmap.samples));
+  if (o.roadmap.neighbours) given.emplace_back("neighbours", std::to_string(*o.roadmap.neighbours));
+  if (o.roadmap.radius) given.emplace_back("radius", json_number(*o.roadmap.radius));
+  if (const auto queue = arguments.value("--queue")) given.emplace_back("queue", json_string(*queue));
+  if (const auto lazy = arguments.value("--lazy")) given.emplace_back("lazy", json_string(*lazy));
+  if (o.optimise) given.emplace_back("optimise", "true");
+  return given;
+}
+
+}  // namespace
+
+std::string_view name_of(PlannerKind planner) { return planner_words[static_cast<std::size_t>(planner)]; }
+std::string_view name_of(SamplerKind sampler) { return sampler_words[static_cast<std::size_t>(sampler)]; }
+std::string_view name_of(SearchKind search) { return search_words[static_cast<std::size_t>(search)]; }
+
+std::span<const OptionSpec> planner_option_specs() { return specs; }
+
+void check_planner_options(const Arguments& arguments) {
+  const RoadmapOptions options = roadmap_options(arguments);
+  const auto planner = choice<PlannerKind>(arguments, "--planner", planner_words);
+  const auto sampler = choice<SamplerKind>(arguments, "--sampler", sampler_words);
+  check_queue(arguments, options.search);
+  if (planner) check_planner(arguments, *planner, options.search);
+  if (options.neighbours && options.radius) {
+    throw UsageError("--radius: replaces the number of neighbours; give --neighbours or --radius, not both");
+  }
+  if (sampler) check_samples(*sampler, options);
+}
+
+PlannerOptions planner_options(const Arguments& arguments, const Scene& scene) {
+  PlannerOptions options;
+  options.roadmap = roadmap_options(arguments);
+  const SamplerKind usual = scene.maze && !options.roadmap.samples ? SamplerKind::lattice : SamplerKind::uniform;
+  options.roadmap.sampler = choice<SamplerKind>(arguments, "--sampler", sampler_words).value_or(usual);
+  if (scene.maze) options.roadmap.lattice = {scene.maze->rows, scene.maze->cols};
+  check_lattice(options.roadmap.sampler, scene);
+  const bool lattice = options.roadmap.sampler == SamplerKind::lattice;
+  options.planner = choice<PlannerKind>(arguments, "--planner", planner_words)
+                        .value_or(lattice ? PlannerKind::prm : PlannerKind::lazy_prm);
+  check_planner(arguments, options.planner, options.roadmap.search);
+  options.optimise = arguments.has("--optimise");
+  options.given = given_options(arguments, options);
+  return options;
+}
+
+}  // namespace warren

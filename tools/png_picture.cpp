@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The picture in pixels: the layers and colours of the SVG, drawn by our own rasteriser. Small worlds get 24 pixels a
+// unit; larger ones are scaled so that the longer side has at most 4096 pixels. Where a unit is less than a few pixels
+// the roadmap is left out, walls add up to shades, and path and marks keep a least width in pixels.
+#include <algorithm>
+#include <cmath>
+
+#include "tools/image.hpp"
+#include "tools/picture.hpp"
+
+namespace warren {
+namespace {
+
+constexpr double most_pixels = 4096.0;
+constexpr double pixels_a_unit = 24.0;
+
+class PngPainter {
+ public:
+  PngPainter(const Picture& picture, const Execution& execution)
+      : picture_(picture),
+        execution_(execution),
+        canvas_(canvas_of(picture, execution)),
+        scale_(
+            std::min(pixels_a_unit / canvas_.unit, most_pixels / std::max(canvas_.box.width(), canvas_.box.height()))),
+        image_(pixels(canvas_.box.width()), pixels(canvas_.box.height()), colors::paper) {}
+
+  const Image& paint() {
+    constexpr double readable_roadmap = 6.0;  // pixels a unit
+    if (picture_.roadmap != nullptr && unit() >= readable_roadmap) roadmap();
+    walls();
+    path();
+    mark(picture_.start, colors::start);
+    mark(picture_.goal, colors::goal);
+    return image_;
+  }
+
+ private:
+  void roadmap();
+  void walls();
+  void path();
+  void mark(std::optional<Vec2> at, Rgb color);
+
+  std::size_t pixels(double length) const {
+    return static_cast<std::size_t>(std::clamp(std::ceil(length * scale_), 1.0, most_pixels));
+  }
+  double unit() const { return scale_ * canvas_.unit; }
+  Vec2 at(Vec2 p) const { return {scale_ * (p.x - canvas_.box.min.x), scale_ * (canvas_.box.max.y - p.y)}; }
+  void line(Vec2 a, Vec2 b, double width, Rgb color) {
+    constexpr std::uint64_t batch = 1 << 16;
+    if (++drawn_ % batch == 0) execution_.check();
+    image_.draw_line(at(a), at(b), width, color);
+  }
+
+  const Picture& picture_;
+  const Execution& execution_;
+  Canvas canvas_;
+  double scale_;  // pixels a world unit
+  Image image_;
+  std::uint64_t drawn_ = 0;
+};
+
+void PngPainter::walls() {
+  // Thin walls are drawn stronger than their width, or a large maze would fade.
+  constexpr double least_width = 0.35;
+  const double width = std::max(widths::wall * unit(), least_width);
+  picture_.scene.walls.visit([&](auto all) {
+    for (const auto& wall : all) {
+      const Segment s = wall.segment();
+      line(s.a, s.b, width, colors::wall);
+    }
+  });
+  if (!picture_.scene.bounds) return;
+  const auto [low, high] = *picture_.scene.bounds;
+  const Vec2 corners[] = {low, {high.x, low.y}, high, {low.x, high.y}, low};
+  for (int i = 0; i < 4; ++i) line(corners[i], corners[i + 1], width, colors::wall);
+}
+
+void PngPainter::roadmap() {
+  const Roadmap<Vec2>& roadmap = *picture_.roadmap;
+  const std::vector<std::uint8_t> color = component_colors(roadmap.graph);
+  if (color.size() != roadmap.states.size()) return;  // stopped before the graph was made
+  for (VertexId v = 0; v < color.size(); ++v) {
+    for (const VertexId w : roadmap.graph.neighbours(v)) {
+      if (v < w) line(roadmap.states[v], roadmap.states[w], widths::edge * unit(), colors::components[color[v]]);
+    }
+  }
+  for (const Edge& edge : roadmap.search_tree) {
+    if (edge.to == no_vertex) continue;
+    line(roadmap.states[edge.from], roadmap.states[edge.to], widths::search_tree * unit(), colors::search_tree);
+  }
+  for (VertexId v = 0; v < color.size(); ++v) {
+    line(roadmap.states[v], roadmap.states[v], widths::milestone * unit(), colors::components[color[v]]);
+  }
+}
+
+void PngPainter::path() {
+  if (picture_.path.empty()) return;
+  const double width = std::max(widths::path * unit(), 3.0);
+  const double halo = std::max(widths::halo * unit(), width + 2.0);
+  const auto polyline = [&](double w, Rgb color) {
+    line(picture_.path[0], picture_.path[0], w, color);
+    for (std::size_t i = 1; i < picture_.path.size(); ++i) line(picture_.path[i - 1], picture_.path[i], w, color);
+  };
+  polyline(halo, colors::paper);
+  polyline(width, colors::path);
+}
+
+void PngPainter::mark(std::optional<Vec2> at, Rgb color) {
+  if (!at) return;
+  const double width = std::max(2.0 * widths::mark * unit(), 9.0);
+  line(*at, *at, width * 1.3, colors::paper);
+  line(*at, *at, width, color);
+}
+
+}  // namespace
+
+void write_png(const Picture& picture, const Execution& execution, const Write& write) {
+  PngPainter painter(picture, execution);
+  write_png_image(painter.paint(), execution, write);
+}
+
+}  // namespace warren

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/progress_bar.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "tools/human_units.hpp"
+
+namespace warren {
+namespace {
+
+using namespace std::chrono_literals;
+
+std::string bar(double fraction, std::size_t width) {
+  const auto filled = static_cast<std::size_t>(fraction * static_cast<double>(width));
+  std::string text(width, ' ');
+  std::fill_n(text.begin(), filled, '=');
+  if (filled < width) text[filled] = '>';
+  return "[" + text + "]";
+}
+
+}  // namespace
+
+std::string progress_line(const char* stage, std::uint64_t done, std::uint64_t total, double items_per_s,
+                          std::size_t width) {
+  std::string line = fmt::format("{:<10}", stage);
+  std::string figures;
+  if (total > 0) {
+    const double fraction = std::min(1.0, static_cast<double>(done) / static_cast<double>(total));
+    figures += fmt::format(" {:3.0f} %", 100.0 * fraction);
+    if (items_per_s > 0.0) {
+      const auto left = static_cast<double>(total - std::min(done, total));
+      figures += fmt::format("  {}/s  {} left", human_count(items_per_s), human_seconds(left / items_per_s));
+    }
+    constexpr std::size_t widest_bar = 40;
+    const std::size_t used = line.size() + figures.size() + 3;
+    if (used + 8 < width) line += bar(fraction, std::min(widest_bar, width - used));
+  } else if (items_per_s > 0.0) {
+    figures = fmt::format(" {}  {}/s", human_count(static_cast<double>(done)), human_count(items_per_s));
+  }
+  line += figures;
+  if (line.size() >= width) line.resize(width - 1);
+  return line;
+}
+
+ProgressBar::ProgressBar(const Progress& progress, ProgressMode mode)
+    : progress_(progress), mode_(resolved(mode)), stage_begin_(std::chrono::steady_clock::now()) {
+  if (mode_ == ProgressMode::none) return;
+  const auto period = mode_ == ProgressMode::bar ? 100ms : 2000ms;
+  ticker_ = std::make_unique<Ticker>(1000ms, period, [this] { draw(); });
+}
+
+ProgressBar::~ProgressBar() {
+  ticker_.reset();
+  if (drawn_ && mode_ == ProgressMode::bar) std::fputs("\r\x1b[K", stderr);
+}
+
+void ProgressBar::draw() {
+  const char* stage = progress_.stage();
+  if (stage == nullptr) return;
+  const auto now = std::chrono::steady_clock::now();
+  const std::uint64_t done = progress_.done();
+  if (stage != stage_ || done < done_at_begin_) {
+    stage_ = stage;
+    stage_begin_ = now;
+    done_at_begin_ = done;
+  }
+  const double seconds = std::chrono::duration<double>(now - stage_begin_).count();
+  const double rate = seconds > 0.0 ? static_cast<double>(done - done_at_begin_) / seconds : 0.0;
+  const std::string line = progress_line(stage, done, progress_.total(), rate, terminal_width());
+  std::fputs((mode_ == ProgressMode::bar ? "\r\x1b[K" + line : line + "\n").c_str(), stderr);
+  std::fflush(stderr);
+  drawn_ = true;
+}
+
+}  // namespace warren

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/recorded_answer.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "tools/answer_json.hpp"
+#include "worlds/input_file_io.hpp"
+
+namespace warren {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Takes the events of the parser. Keys that matter stand at depth 1 (the answer itself) and in "world"; all others are
+/// passed over at any depth.
+class AnswerReader {
+ public:
+  AnswerReader(const std::string& file, const Execution& execution) : file_(file), execution_(execution) {}
+
+  bool null() { return other("null"); }
+  bool boolean(bool) { return other("true or false"); }
+  bool number_integer(Json::number_integer_t value) { return number(static_cast<double>(value)); }
+  bool number_unsigned(Json::number_unsigned_t value) { return number(static_cast<double>(value)); }
+  bool number_float(Json::number_float_t value, const std::string&) { return number(value); }
+  bool string(std::string& text);
+  bool binary(Json::binary_t&) { return false; }
+  bool start_object(std::size_t);
+  bool end_object();
+  bool key(std::string& name);
+  bool start_array(std::size_t);
+  bool end_array();
+  bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception& error);
+
+  RecordedAnswer finish();
+
+ private:
+  bool number(double value);
+  bool other(const char* found);
+  [[noreturn]] void refuse(std::string_view expected, std::string_view found = {}) const {
+    throw InputError(fmt::format("{}: key \"{}\"", file_, key_), fmt::format("expected {}", expected), found);
+  }
+  bool in(std::string_view name) const { return objects_ == 1 && key_ == name; }
+  void end_point();
+
+  const std::string& file_;
+  const Execution& execution_;
+  RecordedAnswer answer_;
+  std::string key_;        // of the answer itself
+  std::string inner_key_;  // of an object in it
+  int objects_ = 0;
+  int arrays_ = 0;
+  std::vector<double> numbers_;  // of the array that is being read
+  bool has_path_ = false;
+  bool began_ = false;
+};
+
+constexpr std::string_view point_expected = "[X, Y], two finite numbers";
+constexpr std::string_view path_expected = "a list of points [X, Y]";
+
+bool AnswerReader::start_object(std::size_t) {
+  if (objects_ == 0 && arrays_ > 0) throw InputError(file_, "expected one JSON object: an answer");
+  if (in("path")) refuse(path_expected, "an object");
+  if (in("start") || in("goal")) refuse(point_expected, "an object");
+  ++objects_;
+  began_ = true;
+  return true;
+}
+
+bool AnswerReader::end_object() {
+  --objects_;
+  return true;
+}
+
+bool AnswerReader::key(std::string& name) {
+  if (objects_ == 1) {
+    key_ = name;
+    if (name == "path") {
+      if (has_path_) refuse("it once", "twice");
+      has_path_ = true;
+    }
+  } else if (objects_ == 2) {
+    inner_key_ = name;
+  }
+  return true;
+}
+
+bool AnswerReader::start_array(std::size_t) {
+  if (objects_ == 0) throw InputError(file_, "expected one JSON object: an answer");
+  if (in("path") && arrays_ >= 2) refuse(path_expected, "a deeper list");
+  if (in("clearance") || in("length")) refuse("a number", "a list");
+  ++arrays_;
+  numbers_.clear();
+  return true;
+}
+
+bool AnswerReader::end_array() {
+  --arrays_;
+  if (in("path") && arrays_ == 1) end_point();
+  if (in("start") && arrays_ == 0) answer_.problem.start = numbers_;
+  if (in("goal") && arrays_ == 0) answer_.problem.goal = numbers_;
+  if ((in("start") || in("goal")) && numbers_.size() != 2) refuse(point_expected);
+  return true;
+}
+
+void AnswerReader::end_point() {
+  constexpr std::size_t batch = 1 << 14;
+  if (numbers_.size() != 2) {
+    refuse(path_expected, fmt::format("{} numbers in point {}", numbers_.size(), answer_.path.size()));
+  }
+  if (answer_.path.size() % batch == 0) execution_.check();
+  answer_.path.push_back({numbers_[0], numbers_[1]});
+}
+
+bool AnswerReader::number(double value) {
+  const bool wanted = in("path") || in("start") || in("goal") || in("clearance") || in("length");
+  if (wanted && !(std::abs(value) <= largest_coordinate)) refuse("finite numbers of at most 1e60");
+  if (in("path") && arrays_ != 2) refuse(path_expected, "a number");
+  if ((in("start") || in("goal")) && arrays_ != 1) refuse(point_expected, "a number");
+  if (in("clearance")) {
+    if (value < 0.0) refuse("a number of at least 0", fmt::format("{}", value));
+    answer_.problem.clearance = value;
+  }
+  if (in("length")) answer_.length = value;
+  if (arrays_ > 0) numbers_.push_back(value);
+  return true;
+}
+
+bool AnswerReader::string(std::string& text) {
+  if (in("contact")) {
+    if (text != "allowed" && text != "blocked") refuse("\"allowed\" or \"blocked\"", text);
+    answer_.problem.contact = text == "allowed" ? Contact::allowed : Contact::blocked;
+  } else if (in("robot")) {
+    answer_.problem.robot = robot_value(fmt::format("{}: key \"robot\"", file_), text);
+  } else if (objects_ == 2 && key_ == "world" && inner_key_ == "hash") {
+    answer_.world_hash = text;
+  } else {
+    return other("a text");
+  }
+  return true;
+}
+
+/// null is as good as a key that isn't there.
+bool AnswerReader::other(const char* found) {
+  if (in("path")) refuse(path_expected, found);
+  const bool missing = std::string_view(found) == "null" && arrays_ == 0;
+  if ((in("start") || in("goal")) && !missing) refuse(point_expected, found);
+  if ((in("clearance") || in("length")) && !missing) refuse("a number", found);
+  if (in("contact") && !missing) refuse("\"allowed\" or \"blocked\"", found);
+  if (!began_) throw InputError(file_, "expected one JSON object: an answer");
+  return true;
+}
+
+bool AnswerReader::parse_error(std::size_t position, const std::string& token, const nlohmann::detail::exception&) {
+  constexpr std::size_t longest = 40;
+  throw InputError(file_, fmt::format("this is not JSON from byte {} on", position), token.substr(0, longest));
+}
+
+RecordedAnswer AnswerReader::finish() {
+  if (!has_path_) throw InputError(file_, "the answer has no key \"path\"");
+  if (answer_.path.empty()) throw InputError(file_, "key \"path\" has no points: there is nothing to check");
+  return std::move(answer_);
+}
+
+}  // namespace
+
+RecordedAnswer read_answer(const std::string& file, const Execution& execution) {
+  const InputFile input(file, execution);
+  std::string_view text = input.bytes();
+  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+  AnswerReader reader(input.name(), execution);
+  Json::sax_parse(text.begin(), text.end(), &reader);
+  return reader.finish();
+}
+
+void check_same_world(const RecordedAnswer& answer, const std::string& file, const Scene& scene,
+                      const Execution& execution) {
+  if (!answer.world_hash) return;
+  const std::string hash = scene_hash(scene, execution);
+  if (hash == *answer.world_hash) return;
+  throw InputError(file, fmt::format("this answer is about another world: {} has the hash {}", scene.source, hash),
+                   answer.world_hash->substr(0, 16));
+}
+
+}  // namespace warren

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How a verb runs: threads, budget, memory, progress, trace. The options that every working verb shares, and the
+// Execution that they make.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "parallel/execution.hpp"
+#include "parallel/trace.hpp"
+#include "tools/arguments.hpp"
+#include "tools/command.hpp"
+#include "tools/progress_bar.hpp"
+#include "tools/terminal.hpp"
+
+namespace warren {
+
+/// --threads --budget --memory --quiet --progress --color --trace
+std::span<const OptionSpec> run_option_specs();
+
+/// One run of a verb: the clock starts with it. Not movable: Execution points into it.
+class Run {
+ public:
+  explicit Run(const Arguments& arguments);
+  Run(const Run&) = delete;
+  Run& operator=(const Run&) = delete;
+
+  const Execution& execution() const { return execution_; }
+  bool quiet() const { return quiet_; }
+  const Palette& palette() const { return palette_; }
+  unsigned threads() const { return thread_count(execution_.threads); }
+  /// Ends the progress bar and writes the trace, if one was asked for; further calls do nothing.
+  void end();
+
+ private:
+  Deadline deadline_;
+  Progress progress_;
+  std::optional<Trace> trace_;
+  std::string trace_file_;
+  bool quiet_ = false;
+  Palette palette_{false};
+  Execution execution_;
+  std::unique_ptr<ProgressBar> bar_;
+};
+
+/// 124 for a budget, 130 and 143 for signals.
+int exit_code_of(StopReason reason);
+/// "the time budget ended", …
+std::string_view text_of(StopReason reason);
+
+}  // namespace warren

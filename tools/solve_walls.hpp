@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Joins the worlds of walls with the roadmap planners: scene and options in, verified answer out.
+#pragma once
+
+#include "core/types.hpp"
+#include "parallel/execution.hpp"
+#include "planners/roadmap.hpp"
+#include "tools/answer.hpp"
+#include "tools/planner_options.hpp"
+#include "tools/problem.hpp"
+#include "worlds/scene.hpp"
+
+namespace warren {
+
+/// Solves from walls in memory to path verified; the seconds are solve_s. Never throws Stopped. A path that fails its
+/// verification is a bug and throws std::logic_error. `keep` receives the roadmap for pictures; nullptr: not wanted.
+/// Fills in what belongs to the work; world and threads are the caller's.
+Answer solve_walls(const Scene& scene, const WallProblem& problem, const PlannerOptions& options,
+                   const Execution& execution, Roadmap<Vec2>* keep);
+
+}  // namespace warren

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "tools/human_units.hpp"
+#include "tools/run_options.hpp"
+
+namespace warren {
+namespace {
+
+std::string plural(std::uint64_t count, std::string_view one, std::string_view many) {
+  return fmt::format("{} {}", grouped(count), count == 1 ? one : many);
+}
+
+std::string headline(const Answer& answer, const Palette& palette) {
+  switch (answer.outcome) {
+    case Outcome::solved:
+      return palette.good("solved") + " and verified";
+    case Outcome::infeasible:
+      return palette.bad("infeasible") + ": proved, no path exists";
+    case Outcome::start_blocked:
+      return palette.bad("start blocked") + ": the body does not fit at the start";
+    case Outcome::goal_blocked:
+      return palette.bad("goal blocked") + ": the body does not fit at the goal";
+    case Outcome::not_connected:
+      return palette.doubtful("not connected") + ": this roadmap does not join start and goal; another might";
+    default:
+      return palette.doubtful("stopped") + ": " +
+             std::string{answer.stop_reason ? text_of(*answer.stop_reason) : "before the end"};
+  }
+}
+
+void line(std::string& text, const Palette& palette, std::string_view name, std::string_view what) {
+  text += fmt::format("  {}{}\n", palette.faint(fmt::format("{:<14}", name)), what);
+}
+
+void add_path(std::string& text, const Answer& answer, const Palette& palette) {
+  std::string length = palette.strong(human_number(answer.length));
+  if (answer.raw_length) length += fmt::format(" (before --optimise: {})", human_number(*answer.raw_length));
+  line(text, palette, "length", length + fmt::format(", {}", plural(answer.path.size(), "point", "points")));
+  line(text, palette, "clearance",
+       fmt::format("{} at least; {} asked for", human_number(answer.min_clearance),
+                   human_number(answer.problem.clearance)));
+}
+
+void add_roadmap(std::string& text, const Answer& answer, const Palette& palette) {
+  if (answer.roadmap.milestones == 0) return;
+  std::string what = fmt::format("{}, {}", plural(answer.roadmap.milestones, "milestone", "milestones"),
+                                 plural(answer.roadmap.edges, "edge", "edges"));
+  if (answer.roadmap.components > 0) what += ", " + plural(answer.roadmap.components, "component", "components");
+  line(text, palette, "roadmap", what);
+  line(text, palette, "work",
+       fmt::format("{} checked, {} expanded, {}", plural(answer.counters.edges_checked, "edge", "edges"),
+                   grouped(answer.counters.expanded), plural(answer.counters.rounds, "round", "rounds")));
+  if (answer.outcome != Outcome::not_connected) return;
+  line(text, palette, "start, goal",
+       fmt::format("components of {} and {}, {} apart", plural(answer.separation.start_size, "milestone", "milestones"),
+                   plural(answer.separation.goal_size, "milestone", "milestones"),
+                   human_number(answer.separation.nearest_gap)));
+}
+
+void add_times(std::string& text, const Answer& answer, const Palette& palette) {
+  std::string stages;
+  for (const auto& [name, seconds] : named_stages(answer.seconds)) {
+    if (seconds >= 5e-6) stages += fmt::format("{}{} {}", stages.empty() ? "" : ", ", name, human_seconds(seconds));
+  }
+  line(text, palette, "stages", stages);
+  line(text, palette, "solve",
+       fmt::format("{} on {}, {} at the peak", palette.strong(human_seconds(answer.solve_s)),
+                   plural(answer.threads, "thread", "threads"),
+                   human_bytes(static_cast<double>(answer.peak_memory_bytes))));
+}
+
+}  // namespace
+
+std::string summary_of(const Answer& answer, const Palette& palette, std::span<const std::string> files_written) {
+  std::string text = fmt::format("{}  {}\n", palette.strong(answer.world.source), headline(answer, palette));
+  std::string problem =
+      fmt::format("{}, {} sampler, {}, seed {}", answer.planner, answer.sampler, answer.search, answer.seed);
+  if (!answer.world.kind.empty()) {
+    line(text, palette, "world", fmt::format("{}, {}", answer.world.kind, plural(answer.world.walls, "wall", "walls")));
+    line(text, palette, "planner", problem);
+  }
+  if (answer.verified) add_path(text, answer, palette);
+  add_roadmap(text, answer, palette);
+  add_times(text, answer, palette);
+  for (const std::string& file : files_written) line(text, palette, "wrote", file);
+  return text;
+}
+
+}  // namespace warren

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/terminal.hpp"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <cstdlib>
+
+namespace warren {
+namespace {
+
+std::string_view environment(const char* name) {
+  const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): nothing here sets variables
+  return value == nullptr ? std::string_view{} : std::string_view{value};
+}
+
+bool forces(std::string_view value) { return !value.empty() && value != "0"; }
+
+}  // namespace
+
+bool wants_color(int descriptor, ColorMode mode) {
+  if (mode != ColorMode::automatic) return mode == ColorMode::always;
+  if (!environment("NO_COLOR").empty()) return false;
+  if (forces(environment("CLICOLOR_FORCE")) || forces(environment("FORCE_COLOR"))) return true;
+  return environment("TERM") != "dumb" && ::isatty(descriptor) == 1;
+}
+
+ProgressMode resolved(ProgressMode mode) {
+  if (mode != ProgressMode::automatic) return mode;
+  const bool can_erase = ::isatty(STDERR_FILENO) == 1 && environment("TERM") != "dumb";
+  return can_erase ? ProgressMode::bar : ProgressMode::none;
+}
+
+std::size_t terminal_width() {
+  constexpr std::size_t usual = 80;
+  const int columns = std::atoi(std::string{environment("COLUMNS")}.c_str());
+  if (columns > 0) return static_cast<std::size_t>(columns);
+  winsize size{};
+  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
+  return usual;
+}
+
+std::string Palette::painted(std::string_view code, std::string_view text) const {
+  if (!on_) return std::string{text};
+  return "\x1b[" + std::string{code} + "m" + std::string{text} + "\x1b[0m";
+}
+
+}  // namespace warren

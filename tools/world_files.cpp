@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/world_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "core/error.hpp"
+#include "tools/human_units.hpp"
+#include "tools/output_files.hpp"
+#include "tools/picture.hpp"
+#include "worlds/world_io.hpp"
+
+namespace warren {
+namespace {
+
+bool is_picture(std::string_view ending) { return ending == ".svg" || ending == ".png" || ending == ".html"; }
+
+std::optional<Vec2> plane_point(const std::vector<double>& state) {
+  if (state.size() < 2) return std::nullopt;
+  return Vec2{state[0], state[1]};
+}
+
+}  // namespace
+
+Scene load_world(const std::string& source, const Execution& execution, StageTimes& seconds) {
+  const bool generates = is_maze_source(source);
+  const StageTimer timer(execution, generates ? "generate" : "read", generates ? seconds.generate : seconds.read);
+  return read_world(source, execution);
+}
+
+void check_world_file(const std::string& file) {
+  constexpr std::array<std::string_view, 7> endings{".walls", ".scene", ".txt", ".npy", ".svg", ".png", ".html"};
+  const std::string ending = ending_of(file);
+  const bool device = file == "-" || file.starts_with("/dev/");
+  if (!device && std::find(endings.begin(), endings.end(), ending) == endings.end()) {
+    throw UsageError("--output: a world ends in .walls, .scene, .txt, .npy, .svg, .png or .html (found: '" + file +
+                     "')");
+  }
+  check_writable(file);
+}
+
+void write_world(const Scene& scene, const std::string& file, const std::string& command_line,
+                 const Execution& execution) {
+  if (!is_picture(ending_of(file))) return write_scene(scene, file, execution);
+  Picture picture{.scene = scene, .start = plane_point(scene.start), .goal = plane_point(scene.goal)};
+  picture.title = description_of(scene);
+  picture.description = command_line;
+  write_picture(file, "--output", picture, execution);
+}
+
+WorldAccount account_of(const Scene& scene, const Execution& execution) {
+  return {scene.source, scene.maze ? "maze" : "walls", scene.walls.size(), scene_hash(scene, execution)};
+}
+
+std::string description_of(const Scene& scene) {
+  std::string text = scene.maze ? fmt::format("{} x {} maze, ", scene.maze->rows, scene.maze->cols) : "";
+  text += fmt::format("{} {}", grouped(scene.walls.size()), scene.walls.size() == 1 ? "wall" : "walls");
+  if (!scene.polygons.empty()) text += fmt::format(", {} polygons", grouped(scene.polygons.size()));
+  if (!scene.spheres.empty()) text += fmt::format(", {} spheres", grouped(scene.spheres.size()));
+  return text;
+}
+
+}  // namespace warren

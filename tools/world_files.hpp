@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Worlds in and out as the verbs need them: read or generated with its time taken, written in any format by ending.
+#pragma once
+
+#include <string>
+
+#include "core/counters.hpp"
+#include "parallel/execution.hpp"
+#include "tools/answer.hpp"
+#include "worlds/scene.hpp"
+
+namespace warren {
+
+/// Reads or generates WORLD; adds the time to seconds.read or seconds.generate. Throws as read_world does.
+Scene load_world(const std::string& source, const Execution& execution, StageTimes& seconds);
+
+/// Scene text, .npy, or a picture (.svg .png .html), by the file's ending; "-" is scene text.
+void write_world(const Scene& scene, const std::string& file, const std::string& command_line,
+                 const Execution& execution);
+
+/// Throws UsageError unless `file` has an ending that write_world knows, WriteError unless it can be written.
+void check_world_file(const std::string& file);
+
+WorldAccount account_of(const Scene& scene, const Execution& execution);
+
+/// "41 x 41 maze, 1604 walls": what a person wants to know first.
+std::string description_of(const Scene& scene);
+
+}  // namespace warren
