@@ -52,13 +52,17 @@ LegIndex::LegIndex(std::span<const Vec2> path, const Plan& plan, const Execution
   if (leg_count() > most_legs) throw InputError("path", "more than 500 million legs can't be verified");
   for (const Vec2 p : path_) box_.include(p);
   choose_cell(plan);
-  origin_ = box_.min - Vec2{static_cast<double>(margin) * cell_, static_cast<double>(margin) * cell_};
-  const auto count = [this](double extent) { return static_cast<std::size_t>(extent * per_cell_) + 1 + 2 * margin; };
+  // Half a cell more, because paths like to run on a lattice, and better through the middle of cells than between two.
+  const double before = (static_cast<double>(margin) + 0.5) * cell_;
+  origin_ = box_.min - Vec2{before, before};
+  const auto count = [this](double extent) { return static_cast<std::size_t>(extent * per_cell_) + 2 + 2 * margin; };
   levels_.push_back(empty_level(count(box_.width()), count(box_.height()), execution));
   mark_cells(execution);
   gather_runs(execution);
   gather_boxes(execution);
-  while (levels_.back().columns > 1 || levels_.back().rows > 1) levels_.push_back(halved(levels_.back(), execution));
+  for (std::size_t rows = count(box_.height()); levels_.back().columns > 1 || rows > 1; rows = (rows + 1) / 2) {
+    levels_.push_back(halved(levels_.back(), execution));
+  }
   for (std::size_t k = 0; k < levels_.size(); ++k) scale_.push_back(std::ldexp(1.0, -static_cast<int>(k)));
 }
 
@@ -71,16 +75,16 @@ void LegIndex::choose_cell(const Plan& plan) {
   const double pieces = std::max(std::min(free_pieces, 0.25 * walls), pieces_per_leg * legs);
   cell_ = std::max(length / pieces, 1.02 * plan.clearance);
   cell_ = std::max(cell_, std::sqrt(box_.width()) * std::sqrt(box_.height()) / std::sqrt(cells));
-  const double wall_cell = 1.0001 * plan.typical_wall;  // half a wall just fits: the common wall takes one lookup
+  const double wall_cell = 1.00001 * plan.typical_wall;  // half a wall just fits: the common wall takes one lookup
   if (cell_ < wall_cell && (wall_cell < 4.0 * cell_ || cell_ == 0.0)) cell_ = wall_cell;
   if (cell_ == 0.0) cell_ = 1.0;
   per_cell_ = 1.0 / cell_;
 }
 
 LegIndex::Level LegIndex::empty_level(std::size_t columns, std::size_t rows, const Execution& execution) {
-  Level level{columns, rows, (columns + 63) / 64, {}};
-  execution.reserve(level.words * rows * sizeof(std::uint64_t));
-  level.bits.assign(level.words * rows, 0);
+  Level level{columns, (rows + 7) / 8 * 8, (columns + 63) / 64, {}};
+  execution.reserve(level.words * level.rows * sizeof(std::uint64_t));
+  level.bits.assign(level.words * level.rows, 0);
   return level;
 }
 
@@ -98,7 +102,7 @@ void LegIndex::for_each_cell_of_leg(std::size_t leg, const Visit& visit) const {
     const std::size_t row_last = clamped(std::max(p.v, q.v) + slack, cells.rows);
     for (std::size_t row = clamped(std::min(p.v, q.v) - slack, cells.rows); row <= row_last; ++row) {
       for (std::size_t c = clamped(std::min(p.u, q.u) - slack, cells.columns); c <= column_last; ++c) {
-        visit(row * cells.words + c / 64, static_cast<int>(c % 64));
+        visit(c, row);
       }
     }
     p = q;
@@ -106,11 +110,15 @@ void LegIndex::for_each_cell_of_leg(std::size_t leg, const Visit& visit) const {
 }
 
 void LegIndex::mark_cells(const Execution& execution) {
-  RawVector<std::uint64_t>& bits = levels_[0].bits;
+  Level& cells = levels_[0];
   for (std::size_t leg = 0; leg < leg_count(); ++leg) {
     if (leg % 4096 == 0) execution.check();
-    for_each_cell_of_leg(leg, [&](std::size_t word, int bit) { bits[word] |= std::uint64_t{1} << bit; });
+    for_each_cell_of_leg(leg, [&](std::size_t column, std::size_t row) {
+      cells.bits[row * cells.words + column / 64] |= std::uint64_t{1} << (column % 64);
+    });
   }
+  marked_ = tiled(cells, execution);
+  const RawVector<std::uint64_t>& bits = marked_.bits;
   execution.reserve(bits.size() * sizeof(std::uint32_t));
   rank_.resize(bits.size() + 1);
   std::uint32_t marked = 0;
@@ -130,8 +138,8 @@ void LegIndex::gather_runs(const Execution& execution) {
     latest.assign(marked, 0);
     for (std::uint32_t leg = 0; leg < leg_count(); ++leg) {
       if (leg % 4096 == 0) execution.check();
-      for_each_cell_of_leg(leg, [&](std::size_t word, int bit) {
-        const std::uint32_t slot = slot_of(word, bit);
+      for_each_cell_of_leg(leg, [&](std::size_t column, std::size_t row) {
+        const std::uint32_t slot = slot_of(marked_.word(column, row), Tiles::bit(column, row));
         if (latest[slot] == leg + 1) return;
         if (leg > 0 && latest[slot] == leg) {
           same_run(slot, leg);
@@ -176,11 +184,11 @@ void LegIndex::gather_boxes(const Execution& execution) {
 }
 
 LegIndex::Level LegIndex::halved(const Level& fine, const Execution& execution) {
-  Level coarse = empty_level((fine.columns + 1) / 2, (fine.rows + 1) / 2, execution);
-  for_chunks(coarse.rows, row_grain, execution, [&](Range r) {
+  Level coarse = empty_level((fine.columns + 1) / 2, fine.rows / 2, execution);
+  for_chunks(fine.rows / 2, row_grain, execution, [&](Range r) {
     for (std::size_t row = r.first; row < r.last; ++row) {
       const std::uint64_t* lower = &fine.bits[2 * row * fine.words];
-      const std::uint64_t* upper = 2 * row + 1 < fine.rows ? lower + fine.words : lower;
+      const std::uint64_t* upper = lower + fine.words;
       for (std::size_t w = 0; w < fine.words; ++w) {
         coarse.bits[row * coarse.words + w / 2] |= pairs(lower[w] | upper[w]) << (32 * (w % 2));
       }
@@ -202,13 +210,32 @@ LegIndex::Level LegIndex::widened(const Level& level, std::size_t cells, const E
   return wide;
 }
 
+LegIndex::Tiles LegIndex::tiled(const Level& level, const Execution& execution) {
+  Tiles tiles{level.columns, level.rows, 8 * level.words, {}};
+  execution.reserve(level.bits.size() * sizeof(std::uint64_t));
+  tiles.bits.resize(level.bits.size());
+  for_chunks(level.rows / 8, row_grain / 8, execution, [&](Range r) {
+    for (std::size_t tile_row = r.first; tile_row < r.last; ++tile_row) {
+      for (std::size_t tile = 0; tile < tiles.words; ++tile) {
+        std::uint64_t cells = 0;
+        for (std::size_t row = 0; row < 8; ++row) {
+          const std::uint64_t word = level.bits[(8 * tile_row + row) * level.words + tile / 8];
+          cells |= ((word >> (8 * (tile % 8))) & 0xffU) << (8 * row);
+        }
+        tiles.bits[tile_row * tiles.words + tile] = cells;
+      }
+    }
+  });
+  return tiles;
+}
+
 void LegIndex::set_reach(double reach, const Execution& execution) {
   reach_cells_ = std::min(reach * per_cell_, 4.0);
   near_.clear();
   for (std::size_t k = 0; k < levels_.size(); ++k) {
     // A wall's half fits one cell of its level, so its legs pass within 1 + reach of its middle.
     const auto cells = static_cast<std::size_t>(std::ceil(1.0 + reach_cells_ * scale_[k] + 4.0 * slack));
-    near_.push_back(widened(levels_[k], cells, execution));
+    near_.push_back(tiled(widened(levels_[k], cells, execution), execution));
   }
 }
 

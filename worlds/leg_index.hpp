@@ -72,10 +72,17 @@ class LegIndex {
   struct Run {
     std::uint32_t first, last;
   };
-  /// Bits of one level, row by row.
+  /// Bits of one level. rows is a multiple of 8.
   struct Level {
     std::size_t columns = 0, rows = 0, words = 0;  ///< words: a row's
     RawVector<std::uint64_t> bits;
+  };
+  /// The same in tiles: a word holds 8 x 8 cells, row by row, so what is near in the plane is near in memory.
+  struct Tiles {
+    std::size_t columns = 0, rows = 0, words = 0;  ///< columns and rows of cells; words: of a row of tiles
+    RawVector<std::uint64_t> bits;
+    std::size_t word(std::size_t column, std::size_t row) const { return row / 8 * words + column / 8; }
+    static int bit(std::size_t column, std::size_t row) { return static_cast<int>(row % 8 * 8 + column % 8); }
   };
 
   static constexpr std::size_t margin = 7;  ///< empty cells around the path's box: walls outside fall on these
@@ -85,14 +92,15 @@ class LegIndex {
   static Point middle(Point a, Point b) { return {0.5 * (a.u + b.u), 0.5 * (a.v + b.v)}; }
   Point cells_of(Vec2 p) const { return {(p.x - origin_.x) * per_cell_, (p.y - origin_.y) * per_cell_}; }
   static std::size_t clamped(double u, std::size_t count) {
-    return static_cast<std::size_t>(std::min(std::max(u, 0.0), static_cast<double>(count - 1)));
+    const auto cell = static_cast<std::int64_t>(std::min(std::max(u, 0.0), static_cast<double>(count - 1)));
+    return static_cast<std::size_t>(cell);  // by way of int64: one instruction
   }
   bool passes(std::size_t level, Point p) const {
-    const Level& near = near_[level];
+    const Tiles& near = near_[level];
     const double scale = scale_[level];
     const std::size_t column = clamped(p.u * scale, near.columns);
     const std::size_t row = clamped(p.v * scale, near.rows);
-    return ((near.bits[row * near.words + column / 64] >> (column % 64)) & 1U) != 0;
+    return ((near.bits[near.word(column, row)] >> Tiles::bit(column, row)) & 1U) != 0;
   }
 
   void choose_cell(const Plan& plan);
@@ -100,13 +108,14 @@ class LegIndex {
   template <class Visit>
   void for_each_cell_of_leg(std::size_t leg, const Visit& visit) const;
   std::uint32_t slot_of(std::size_t word, int bit) const {
-    const std::uint64_t below = levels_[0].bits[word] & ((std::uint64_t{1} << bit) - 1);
+    const std::uint64_t below = marked_.bits[word] & ((std::uint64_t{1} << bit) - 1);
     return rank_[word] + static_cast<std::uint32_t>(std::popcount(below));
   }
   void mark_cells(const Execution& execution);
   void gather_runs(const Execution& execution);
   void gather_boxes(const Execution& execution);
   static Level halved(const Level& fine, const Execution& execution);
+  static Tiles tiled(const Level& level, const Execution& execution);
   static Level widened(const Level& level, std::size_t cells, const Execution& execution);
   bool clip(Point& a, Point& b) const;
 
@@ -127,9 +136,10 @@ class LegIndex {
   double reach_cells_ = 0.0;
   Vec2 origin_;
   std::vector<Level> levels_;           ///< which cells a leg passes; levels_[k] has cells of 2^k
-  std::vector<Level> near_;             ///< the same, widened by the reach and half a wall
+  std::vector<Tiles> near_;             ///< the same, widened by the reach and half a wall
+  Tiles marked_;                        ///< levels_[0]
   std::vector<double> scale_;           ///< 2^-k
-  RawVector<std::uint32_t> rank_;       ///< a word of levels_[0]: marked cells before it
+  RawVector<std::uint32_t> rank_;       ///< a word of marked_: marked cells before it
   RawVector<std::uint32_t> first_run_;  ///< a marked cell: its runs begin here; one more at the end
   RawVector<Run> runs_;
   std::vector<std::vector<Box>> boxes_;  ///< boxes_[k][i]: of legs i * 8^(k+1) and the 8^(k+1) - 1 after it
@@ -137,25 +147,25 @@ class LegIndex {
 
 template <class Visit>
 void LegIndex::visit_cells(Point a, Point b, const Visit& visit) const {
-  const Level& cells = levels_[0];
   const double grow = reach_cells_ + slack;
-  const std::size_t column_first = clamped(std::min(a.u, b.u) - grow, cells.columns);
-  const std::size_t column_last = clamped(std::max(a.u, b.u) + grow, cells.columns);
-  const std::size_t row_first = clamped(std::min(a.v, b.v) - grow, cells.rows);
-  const std::size_t row_last = clamped(std::max(a.v, b.v) + grow, cells.rows);
-  const std::size_t word_first = column_first / 64;
-  const std::size_t word_last = column_last / 64;
-  for (std::size_t row = row_first; row <= row_last; ++row) {
-    for (std::size_t w = word_first; w <= word_last; ++w) {
-      const std::size_t word = row * cells.words + w;
-      std::uint64_t mask = cells.bits[word];
-      if (w == word_first) mask &= ~std::uint64_t{0} << (column_first % 64);
-      if (w == word_last) mask &= ~std::uint64_t{0} >> (63 - column_last % 64);
-      if (mask == 0) continue;
-      // Marked cells of one word have neighbouring runs, so a stretch of them is one range.
-      const std::uint32_t run_first = first_run_[slot_of(word, std::countr_zero(mask))];
-      const std::uint32_t run_end = first_run_[slot_of(word, 63 - std::countl_zero(mask)) + 1];
-      for (std::uint32_t r = run_first; r < run_end; ++r) visit(runs_[r].first, runs_[r].last);
+  const std::size_t column_first = clamped(std::min(a.u, b.u) - grow, marked_.columns);
+  const std::size_t column_last = clamped(std::max(a.u, b.u) + grow, marked_.columns);
+  const std::size_t row_first = clamped(std::min(a.v, b.v) - grow, marked_.rows);
+  const std::size_t row_last = clamped(std::max(a.v, b.v) + grow, marked_.rows);
+  for (std::size_t tile_row = row_first / 8; tile_row <= row_last / 8; ++tile_row) {
+    std::uint64_t rows = ~std::uint64_t{0};
+    if (tile_row == row_first / 8) rows &= ~std::uint64_t{0} << (8 * (row_first % 8));
+    if (tile_row == row_last / 8) rows &= ~std::uint64_t{0} >> (56 - 8 * (row_last % 8));
+    for (std::size_t tile = column_first / 8; tile <= column_last / 8; ++tile) {
+      std::uint64_t columns = 0xff;
+      if (tile == column_first / 8) columns &= 0xffU << (column_first % 8);
+      if (tile == column_last / 8) columns &= 0xffU >> (7 - column_last % 8);
+      const std::size_t word = tile_row * marked_.words + tile;
+      std::uint64_t mask = marked_.bits[word] & rows & (columns * 0x0101010101010101U);
+      for (; mask != 0; mask &= mask - 1) {
+        const std::uint32_t slot = slot_of(word, std::countr_zero(mask));
+        for (std::uint32_t r = first_run_[slot]; r < first_run_[slot + 1]; ++r) visit(runs_[r].first, runs_[r].last);
+      }
     }
   }
 }

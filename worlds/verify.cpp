@@ -54,8 +54,14 @@ class Comparison {
   void with_near_legs(const Segment& obstacle, std::size_t number) {
     const Box box = box_of(obstacle);
     tally_.box.include(box);
-    legs_.for_each_near(obstacle,
-                        [&](std::size_t first, std::size_t last) { compare(obstacle, box, number, first, last); });
+    std::size_t seen_first = 1;  // neighbouring cells hold the same legs: these have just been compared
+    std::size_t seen_last = 0;
+    legs_.for_each_near(obstacle, [&](std::size_t first, std::size_t last) {
+      if (first >= seen_first && last <= seen_last) return;
+      seen_first = first;
+      seen_last = last;
+      compare(obstacle, box, number, first, last);
+    });
   }
   void with_all_legs(const Segment& obstacle, std::size_t number) {
     compare(obstacle, box_of(obstacle), number, 0, legs_.leg_count() - 1);
