@@ -57,10 +57,19 @@ class Comparison {
     std::size_t seen_first = 1;  // neighbouring cells hold the same legs: these have just been compared
     std::size_t seen_last = 0;
     legs_.for_each_near(obstacle, [&](std::size_t first, std::size_t last) {
-      if (first >= seen_first && last <= seen_last) return;
-      seen_first = first;
-      seen_last = last;
-      compare(obstacle, box, number, first, last);
+      if (seen_first > seen_last || first > seen_last + 1 || last + 1 < seen_first) {
+        seen_first = first;
+        seen_last = last;
+        return compare(obstacle, box, number, first, last);
+      }
+      if (first < seen_first) {
+        compare(obstacle, box, number, first, seen_first - 1);
+        seen_first = first;
+      }
+      if (last > seen_last) {
+        compare(obstacle, box, number, seen_last + 1, last);
+        seen_last = last;
+      }
     });
   }
   void with_all_legs(const Segment& obstacle, std::size_t number) {
