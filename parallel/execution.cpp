@@ -43,14 +43,14 @@ unsigned thread_count(unsigned threads) {
 }
 
 StageTimer::StageTimer(const Execution& execution, const char* stage, double& seconds, std::uint64_t items)
-    : execution_(execution), stage_(stage), seconds_(seconds), begin_(std::chrono::steady_clock::now()) {
-  if (execution_.progress != nullptr) execution_.progress->begin(stage, items);
+    : trace_(execution.trace), stage_(stage), seconds_(seconds), begin_(std::chrono::steady_clock::now()) {
+  if (execution.progress != nullptr) execution.progress->begin(stage, items);
 }
 
 StageTimer::~StageTimer() {
   const auto end = std::chrono::steady_clock::now();
   seconds_ += std::chrono::duration<double>(end - begin_).count();
-  if (execution_.trace != nullptr) execution_.trace->record(stage_, begin_, end, true);
+  if (trace_ != nullptr) trace_->record(stage_, begin_, end, true);
 }
 
 }  // namespace warren

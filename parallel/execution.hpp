@@ -65,7 +65,7 @@ class StageTimer {
   StageTimer& operator=(const StageTimer&) = delete;
 
  private:
-  const Execution& execution_;
+  Trace* trace_;
   const char* stage_;
   double& seconds_;
   std::chrono::steady_clock::time_point begin_;
