@@ -14,6 +14,7 @@ namespace {
 using Stop = TautString::Stop;
 
 constexpr double widest_step = 0.16;         // radians of an arc for one tangent
+constexpr double widest_tiny_step = 1.2;     // the same with clearance 0, where an arc's length is next to nothing
 constexpr std::size_t most_tangents = 1024;  // times as many as that, where room is scarce
 constexpr std::size_t grain = 1024;
 
@@ -113,7 +114,8 @@ class Pulling {
   /// Corners of the tangents at the arc that begins at `spoke` from the disc's center.
   void append_arc(const Stop& stop, Vec2 spoke, std::size_t finer, std::vector<Vec2>& points) const {
     const double arc = std::max(stop.arc, 0.0);
-    const double count = static_cast<double>(finer) * std::max(1.0, std::ceil(arc / widest_step));
+    const double count = static_cast<double>(finer) *
+                         std::max(1.0, std::ceil(arc / (clearance_ > 0.0 ? widest_step : widest_tiny_step)));
     const double half = 0.5 * arc / count;
     for (double i = 0.0; i < count; i += 1.0) {
       const double angle = stop.turn * (2.0 * i + 1.0) * half;
