@@ -32,6 +32,7 @@ struct Answer {
   WallProblem problem;
   WorldAccount world;
   std::string planner;
+  std::string pipeline;  ///< plain or tiled; only for prm
   std::string sampler;
   std::string search;
   std::uint64_t seed = 1;

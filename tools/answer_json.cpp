@@ -75,6 +75,7 @@ void add_problem(Json& json, const Answer& answer) {
 void add_work(Json& json, const Answer& answer) {
   const bool planned = !answer.planner.empty();
   json["planner"] = planned ? Json(answer.planner) : Json(nullptr);
+  if (!answer.pipeline.empty()) json["pipeline"] = answer.pipeline;
   json["search"] = planned ? Json(answer.search) : Json(nullptr);
   json["seed"] = answer.seed;
   json["threads"] = answer.threads;

@@ -96,10 +96,14 @@ void SolveCommand::answer(const Run& run) {
 
 void SolveCommand::solve(const Run& run) {
   const WallProblem problem = wall_problem(scene_, problem_);
-  const PlannerOptions planner = planner_options(arguments_, scene_);
+  const PlannerOptions planner = planner_options(arguments_, scene_, problem);
   WorldAccount world = account_of(scene_, run.execution());
   answer_ = solve_walls(scene_, problem, planner, run.execution(), svg_.empty() ? nullptr : &roadmap_);
   answer_.world = std::move(world);
+  const bool tiled = planner.planner == PlannerKind::prm && planner.pipeline == PipelineKind::tiled;
+  if (tiled && !svg_.empty() && answer_.outcome != Outcome::stopped) {
+    draw_roadmap(scene_, problem, planner, run.execution(), roadmap_);
+  }
 }
 
 void SolveCommand::write_outputs(const Run& run) {

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "planners/tiled_prm.hpp"
 #include "tools/answer_json.hpp"
 #include "tools/option_values.hpp"
 
@@ -18,6 +19,7 @@ constexpr std::array<std::string_view, 2> planner_words{"prm", "lazy-prm"};
 constexpr std::array<std::string_view, 4> sampler_words{"uniform", "lattice", "halton", "random"};
 constexpr std::array<std::string_view, 4> search_words{"astar", "dijkstra", "bfs", "dfs"};
 constexpr std::array<std::string_view, 4> queue_words{"heap", "lazy-heap", "sorted-array", "resorted-array"};
+constexpr std::array<std::string_view, 2> pipeline_words{"plain", "tiled"};
 constexpr std::array<std::string_view, 2> lazy_words{"expansion", "path"};
 constexpr std::uint64_t most_samples = std::uint64_t{1} << 31;
 constexpr std::uint64_t most_neighbours = 4096;
@@ -37,6 +39,10 @@ constexpr OptionSpec specs[] = {
      "lazy-prm checks an edge when the search expands it, or when it lies on the path found "
      "(default: expansion)",
      "expansion path"},
+    {"--pipeline", "NAME",
+     "how prm works on a lattice: stage by stage, or tile by tile in cache "
+     "(default: tiled where the rules of joining and searching are the usual ones)",
+     "plain tiled"},
     {"--optimise", "", "pull the path taut after the search"},
     {"--seed", "N", "seed of the sampling; never alters the world (default: 1)"},
 };
@@ -104,6 +110,24 @@ void check_lattice(SamplerKind sampler, const Scene& scene) {
       "--sampler: lattice needs a maze, and {} has no 'maze ROWS COLS' line; the others take any world", scene.source));
 }
 
+/// Tiles take the lattice with its own rule of joining and their own search; what else is asked for, the plain stages
+/// do.
+PipelineKind pipeline_for(const Arguments& arguments, const PlannerOptions& options, double clearance) {
+  const bool usual_search = !arguments.has("--search") && !arguments.has("--queue");
+  const bool tiles =
+      options.planner == PlannerKind::prm && usual_search && tiled_prm_applies(options.roadmap, clearance);
+  const auto asked = choice<PipelineKind>(arguments, "--pipeline", pipeline_words);
+  if (asked && options.planner != PlannerKind::prm) {
+    throw UsageError("--pipeline: lazy-prm has one way of working; the planner prm takes this option");
+  }
+  if (asked == PipelineKind::tiled && !tiles) {
+    throw UsageError(
+        "--pipeline: tiled takes the lattice sampler with radius 1, a clearance of at most 8, and no --search or "
+        "--queue; plain takes the rest");
+  }
+  return asked.value_or(tiles ? PipelineKind::tiled : PipelineKind::plain);
+}
+
 /// Options that answer and description repeat, with their values as JSON.
 std::vector<std::pair<std::string, std::string>> given_options(const Arguments& arguments, const PlannerOptions& o) {
   std::vector<std::pair<std::string, std::string>> given;
@@ -112,6 +136,7 @@ std::vector<std::pair<std::string, std::string>> given_options(const Arguments& 
   if (o.roadmap.radius) given.emplace_back("radius", json_number(*o.roadmap.radius));
   if (const auto queue = arguments.value("--queue")) given.emplace_back("queue", json_string(*queue));
   if (const auto lazy = arguments.value("--lazy")) given.emplace_back("lazy", json_string(*lazy));
+  if (const auto pipeline = arguments.value("--pipeline")) given.emplace_back("pipeline", json_string(*pipeline));
   if (o.optimise) given.emplace_back("optimise", "true");
   return given;
 }
@@ -119,6 +144,7 @@ std::vector<std::pair<std::string, std::string>> given_options(const Arguments& 
 }  // namespace
 
 std::string_view name_of(PlannerKind planner) { return planner_words[static_cast<std::size_t>(planner)]; }
+std::string_view name_of(PipelineKind pipeline) { return pipeline_words[static_cast<std::size_t>(pipeline)]; }
 std::string_view name_of(SamplerKind sampler) { return sampler_words[static_cast<std::size_t>(sampler)]; }
 std::string_view name_of(SearchKind search) { return search_words[static_cast<std::size_t>(search)]; }
 
@@ -136,7 +162,7 @@ void check_planner_options(const Arguments& arguments) {
   if (sampler) check_samples(*sampler, options);
 }
 
-PlannerOptions planner_options(const Arguments& arguments, const Scene& scene) {
+PlannerOptions planner_options(const Arguments& arguments, const Scene& scene, const WallProblem& problem) {
   PlannerOptions options;
   options.roadmap = roadmap_options(arguments);
   const SamplerKind usual = scene.maze && !options.roadmap.samples ? SamplerKind::lattice : SamplerKind::uniform;
@@ -147,6 +173,7 @@ PlannerOptions planner_options(const Arguments& arguments, const Scene& scene) {
   options.planner = choice<PlannerKind>(arguments, "--planner", planner_words)
                         .value_or(lattice ? PlannerKind::prm : PlannerKind::lazy_prm);
   check_planner(arguments, options.planner, options.roadmap.search);
+  options.pipeline = pipeline_for(arguments, options, problem.reach());
   options.optimise = arguments.has("--optimise");
   options.given = given_options(arguments, options);
   return options;

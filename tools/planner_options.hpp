@@ -12,23 +12,29 @@
 #include "planners/roadmap_options.hpp"
 #include "tools/arguments.hpp"
 #include "tools/command.hpp"
+#include "tools/problem.hpp"
 #include "worlds/scene.hpp"
 
 namespace warren {
 
 enum class PlannerKind : std::uint8_t { prm, lazy_prm };
 
+/// How prm works: stage by stage over the whole world, or tile by tile with all stages of a tile in cache.
+enum class PipelineKind : std::uint8_t { plain, tiled };
+
 std::string_view name_of(PlannerKind planner);
+std::string_view name_of(PipelineKind pipeline);
 std::string_view name_of(SamplerKind sampler);
 std::string_view name_of(SearchKind search);
 
-/// --planner --sampler --samples --neighbours --radius --search --queue --lazy --optimise --seed
+/// --planner --sampler --samples --neighbours --radius --search --queue --lazy --pipeline --optimise --seed
 std::span<const OptionSpec> planner_option_specs();
 
 struct PlannerOptions {
   PlannerKind planner = PlannerKind::prm;
   RoadmapOptions roadmap;
-  bool optimise = false;  ///< pull the path taut after the search
+  PipelineKind pipeline = PipelineKind::plain;  ///< only for prm
+  bool optimise = false;                        ///< pull the path taut after the search
   /// What the command line said beyond planner, sampler, search and seed: name and value as JSON.
   std::vector<std::pair<std::string, std::string>> given;
 };
@@ -36,6 +42,6 @@ struct PlannerOptions {
 /// Checks values and contradictions that need no world; throws UsageError. Called before the world is read.
 void check_planner_options(const Arguments& arguments);
 /// Fills in the defaults that depend on the world; throws UsageError.
-PlannerOptions planner_options(const Arguments& arguments, const Scene& scene);
+PlannerOptions planner_options(const Arguments& arguments, const Scene& scene, const WallProblem& problem);
 
 }  // namespace warren

@@ -9,6 +9,7 @@
 
 #include "planners/lazy_prm.hpp"
 #include "planners/prm.hpp"
+#include "planners/tiled_prm.hpp"
 #include "tools/maze_proof.hpp"
 #include "worlds/maze_world.hpp"
 #include "worlds/verify.hpp"
@@ -23,6 +24,7 @@ class WallSolve {
       : scene_(scene), problem_(problem), options_(options), execution_(execution) {
     answer_.problem = problem;
     answer_.planner = name_of(options.planner);
+    if (options.planner == PlannerKind::prm) answer_.pipeline = name_of(options.pipeline);
     answer_.sampler = name_of(options.roadmap.sampler);
     answer_.search = name_of(options.roadmap.search);
     answer_.seed = options.roadmap.seed;
@@ -45,6 +47,8 @@ class WallSolve {
 
  private:
   void plan(Roadmap<Vec2>* keep);
+  Solution<Vec2> plan_tiles();
+  void take(Solution<Vec2> solution);
   void settle_blocked_ends();
   bool grows() const;
   bool ends_are_free(const MazeWorld& world) const;
@@ -66,6 +70,7 @@ MazeWorld indexed(const Scene& scene, double clearance, const Execution& executi
 }
 
 void add(StageTimes& to, const StageTimes& more) {
+  to.index += more.index;
   to.sample += more.sample;
   to.neighbours += more.neighbours;
   to.connect += more.connect;
@@ -75,10 +80,29 @@ void add(StageTimes& to, const StageTimes& more) {
 }
 
 void WallSolve::plan(Roadmap<Vec2>* keep) {
+  if (options_.planner == PlannerKind::prm && options_.pipeline == PipelineKind::tiled) {
+    take(plan_tiles());
+    return;
+  }
   const MazeWorld world = indexed(scene_, problem_.reach(), execution_, answer_.seconds.index);
   if (grows() && ends_are_free(world) && proved_infeasible()) return;
   const auto planner = options_.planner == PlannerKind::prm ? prm<MazeWorld> : lazy_prm<MazeWorld>;
-  Solution<Vec2> solution = planner(world, problem_.start, problem_.goal, options_.roadmap, execution_, keep);
+  take(planner(world, problem_.start, problem_.goal, options_.roadmap, execution_, keep));
+}
+
+Solution<Vec2> WallSolve::plan_tiles() {
+  Box box;
+  std::vector<Segment> bounds;
+  {
+    const StageTimer timer(execution_, "index", answer_.seconds.index, scene_.walls.size());
+    box = scene_.bounds ? *scene_.bounds : obstacle_box(scene_, execution_);
+    bounds = bounds_walls(scene_);
+  }
+  const TiledProblem problem{scene_.walls, bounds, box, problem_.reach(), problem_.start, problem_.goal};
+  return tiled_prm(problem, options_.roadmap, execution_);
+}
+
+void WallSolve::take(Solution<Vec2> solution) {
   answer_.outcome = solution.outcome;
   answer_.path = std::move(solution.path);
   answer_.roadmap = solution.roadmap;
@@ -149,6 +173,15 @@ Answer solve_walls(const Scene& scene, const WallProblem& problem, const Planner
   }
   solve.answer().solve_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return std::move(solve.answer());
+}
+
+void draw_roadmap(const Scene& scene, const WallProblem& problem, const PlannerOptions& options,
+                  const Execution& execution, Roadmap<Vec2>& roadmap) {
+  constexpr std::uint64_t most_cells = 40'000;  // beyond, a picture's edges would merge
+  const LatticeSize size = options.roadmap.lattice;
+  if (std::uint64_t{size.rows} * size.cols > most_cells) return;
+  const MazeWorld world(scene, problem.reach(), execution);
+  prm(world, problem.start, problem.goal, options.roadmap, execution, &roadmap);
 }
 
 }  // namespace warren

@@ -18,4 +18,9 @@ namespace warren {
 Answer solve_walls(const Scene& scene, const WallProblem& problem, const PlannerOptions& options,
                    const Execution& execution, Roadmap<Vec2>* keep);
 
+/// The roadmap of the tiled pipeline, for a picture: tiles keep none, so the plain stages build it again, for mazes
+/// whose edges can be told apart in a picture.
+void draw_roadmap(const Scene& scene, const WallProblem& problem, const PlannerOptions& options,
+                  const Execution& execution, Roadmap<Vec2>& roadmap);
+
 }  // namespace warren

@@ -11,13 +11,6 @@
 namespace warren {
 namespace {
 
-std::vector<Segment> bounds_walls(const Scene& scene) {
-  if (!scene.bounds) return {};
-  const auto [low, high] = *scene.bounds;
-  const Vec2 corners[] = {low, {high.x, low.y}, high, {low.x, high.y}};
-  return {{corners[0], corners[1]}, {corners[1], corners[2]}, {corners[2], corners[3]}, {corners[3], corners[0]}};
-}
-
 double checked_clearance(double clearance) {
   if (!(clearance >= 0.0) || clearance > largest_coordinate) {
     throw InputError("clearance", "must be a number from 0 to 1e60", std::to_string(clearance));

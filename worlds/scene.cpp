@@ -129,4 +129,11 @@ Box obstacle_box(const Scene& scene, const Execution& execution) {
   return box;
 }
 
+std::vector<Segment> bounds_walls(const Scene& scene) {
+  if (!scene.bounds) return {};
+  const auto [low, high] = *scene.bounds;
+  const Vec2 corners[] = {low, {high.x, low.y}, high, {low.x, high.y}};
+  return {{corners[0], corners[1]}, {corners[1], corners[2]}, {corners[2], corners[3]}, {corners[3], corners[0]}};
+}
+
 }  // namespace warren

@@ -73,4 +73,7 @@ std::string scene_hash(const Scene& scene, const Execution& execution = {});
 /// The box of all walls and polygons (not of the bounds, nor of spheres); empty if there are none.
 Box obstacle_box(const Scene& scene, const Execution& execution = {});
 
+/// The four sides of the bounds as walls; none without bounds.
+std::vector<Segment> bounds_walls(const Scene& scene);
+
 }  // namespace warren
