@@ -3,6 +3,7 @@
 // memory to a verified path.
 //   tiled_phases [SIZE] [THREADS] [ALGORITHM] [LOOPS] [REPEATS] [natural|shuffled|merged]
 #include <sys/resource.h>
+#include <time.h>
 
 #include <algorithm>
 #include <chrono>
@@ -11,7 +12,9 @@
 #include <string>
 
 #include "core/rng.hpp"
+#include "planners/overlay_search.hpp"
 #include "planners/tiled_prm.hpp"
+#include "planners/wall_marking.hpp"
 #include "worlds/maze_generator.hpp"
 #include "worlds/verify.hpp"
 
@@ -46,6 +49,51 @@ WallSet shuffled(const WallSet& walls) {
   return WallSet(std::move(mixed));
 }
 
+/// The parts of a tile, one thread, by process CPU time.
+void print_tile_parts(const Scene& scene, LatticeSize lattice) {
+  constexpr double clearance = 0.1 * (1 + 1e-9);
+  const double cells = static_cast<double>(lattice.rows) * lattice.cols;
+  Execution one;
+  one.threads = 1;
+  const TileGrid grid = TileGrid::of(lattice);
+  const double begin = cpu_seconds();
+  const WallPartition partition(scene.walls, {}, grid, 1.11, one);
+  const double filed = cpu_seconds();
+  WallMarker marker(clearance);
+  TilePlane plane(grid, marker.margin());
+  TileReduction reduction(plane);
+  const Box box = obstacle_box(scene);
+  double reset_s = 0, mark_s = 0, reduce_s = 0;
+  std::size_t keys = 0, chains = 0, steps = 0, bytes = 0;
+  const auto now = [] {
+    timespec t{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+  };
+  for (std::size_t tile = 0; tile < grid.count(); ++tile) {
+    const auto t0 = now();
+    plane.reset(tile, box);
+    const auto t1 = now();
+    marker.mark(partition.of(tile), plane);
+    const auto t2 = now();
+    const TileSummary summary = reduction.reduce(plane);
+    const auto t3 = now();
+    reset_s += t1 - t0;
+    mark_s += t2 - t1;
+    reduce_s += t3 - t2;
+    keys += summary.keys.size();
+    chains += summary.chains.size();
+    steps += summary.steps.size();
+    bytes += summary.bytes();
+  }
+  const double scale = 1e9 / cells;
+  std::printf(
+      "one thread, CPU ns/cell: partition %.2f, reset %.2f, mark %.2f, reduce %.2f; per 1000 cells %.1f keys %.1f "
+      "chains %.1f steps %.1f bytes\n",
+      (filed - begin) * 1e9 / cells, reset_s * scale, mark_s * scale, reduce_s * scale, 1e3 * keys / cells,
+      1e3 * chains / cells, 1e3 * steps / cells, 1e3 * bytes / cells);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -64,6 +112,7 @@ int main(int argc, char** argv) {
   options.sampler = SamplerKind::lattice;
   options.lattice = {maze.rows, maze.cols};
   const double cells = static_cast<double>(maze.rows) * maze.cols;
+  print_tile_parts(scene, options.lattice);
   for (int repeat = 0; repeat < repeats; ++repeat) {
     const double cpu = cpu_seconds();
     const double begin = wall_seconds();

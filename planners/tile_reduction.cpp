@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planners/tile_reduction.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cassert>
 #include <cstring>
+
+#include "planners/plane_rows.hpp"
 
 namespace warren {
 namespace {
@@ -23,22 +26,27 @@ constexpr std::uint64_t dead_end_set = [] {
 }();
 constexpr bool is_dead_end(unsigned bits) { return ((dead_end_set >> (bits & 63)) & 1) != 0; }
 
-/// Calls visit(byte) for each byte of the row that has a bit of `mask`, eight bytes skipped at once where none has.
+/// Calls visit(i) for each of the bytes that has a bit of `mask`; eight bytes are skipped at once where none has.
 template <class Visit>
-void for_each_with(std::uint8_t* row, int width, std::uint8_t mask, const Visit& visit) {
+void for_each_with(const std::uint8_t* bytes, int count, std::uint8_t mask, const Visit& visit) {
   const std::uint64_t masks = 0x0101010101010101U * mask;
-  int col = 0;
-  for (; col + 8 <= width; col += 8) {
+  int i = 0;
+  for (; i + 8 <= count; i += 8) {
     std::uint64_t word;
-    std::memcpy(&word, row + col, 8);
-    if ((word & masks) == 0) continue;
-    for (int i = 0; i < 8; ++i) {
-      if ((row[col + i] & mask) != 0) visit(row + col + i);
+    std::memcpy(&word, bytes + i, 8);
+    for (word &= masks; word != 0;) {
+      const int byte = std::countr_zero(word) / 8;
+      visit(i + byte);
+      word &= ~(std::uint64_t{0xff} << (8 * byte));
     }
   }
-  for (; col < width; ++col) {
-    if ((row[col] & mask) != 0) visit(row + col);
+  for (; i < count; ++i) {
+    if ((bytes[i] & mask) != 0) visit(i);
   }
+}
+
+PlaneRow row_of(TilePlane& plane, int row, std::vector<std::uint8_t>& found) {
+  return {plane.at(0, row), plane.at(0, row + 1), plane.at(0, row - 1), found.data() + 1, plane.width()};
 }
 
 }  // namespace
@@ -51,6 +59,7 @@ std::size_t TileSummary::bytes() const {
 
 TileReduction::TileReduction(const TilePlane& plane)
     : offset_(plane.offsets()),
+      found_(static_cast<std::size_t>(plane.stride()) + 2),
       number_(static_cast<std::size_t>(plane.stride()) * static_cast<std::size_t>(plane.stride())) {}
 
 TileSummary TileReduction::reduce(TilePlane& plane) {
@@ -105,44 +114,49 @@ void TileReduction::keep_crossings(TilePlane& plane) const {
   }
 }
 
-/// A vertex that is peeled becomes 0; the last one of a tree keeps its milestone bit.
-void TileReduction::peel(TilePlane& plane) const {
-  for (int row = 0; row < plane.height(); ++row) {
-    std::uint8_t* const line = plane.at(0, row);
-    for (int col = 0; col < plane.width(); ++col) {
-      std::uint8_t* at = line + col;
-      while (is_dead_end(*at)) {
-        const unsigned direction = first_direction(*at & edges);
-        *at = 0;
-        at += offset_[direction];
-        *at &= static_cast<std::uint8_t>(~opposite_bit(direction));
-      }
-    }
+/// Passes over all rows, upwards and downwards in turn: most dead ends are short, and many points are looked at per
+/// instruction. What is left is followed one by one. A vertex that is peeled becomes 0; the last one of a tree keeps
+/// its milestone bit.
+void TileReduction::peel(TilePlane& plane) {
+  const PlaneRowWork& work = plane_row_work();
+  const int height = plane.height();
+  for (int pass = 0; pass < bulk_passes; ++pass) {
+    for (int i = 0; i < height; ++i) work.peel(row_of(plane, pass % 2 == 0 ? i : height - 1 - i, found_));
+  }
+  for (int row = 0; row < height; ++row) {
+    const PlaneRow line = row_of(plane, row, found_);
+    work.find_dead_ends(line);
+    for_each_with(line.found, line.width, edges, [&](int col) { follow_dead_end(line.row + col); });
+  }
+}
+
+void TileReduction::follow_dead_end(std::uint8_t* at) const {
+  while (is_dead_end(*at)) {
+    const unsigned direction = first_direction(*at & edges);
+    *at = 0;
+    at += offset_[direction];
+    *at &= static_cast<std::uint8_t>(~opposite_bit(direction));
   }
 }
 
 void TileReduction::number_keys(TilePlane& plane, TileSummary& summary) {
   keys_.clear();
   places_.clear();
-  between_ = 0;
-  const std::uint8_t* const origin = plane.at(0, 0);
+  const std::uint8_t* const base = plane.at(-plane.margin(), -plane.margin());
   for (int row = 0; row < plane.height(); ++row) {
-    std::uint8_t* const line = plane.at(0, row);
-    for_each_with(line, plane.width(), edges | milestone | kept, [&](std::uint8_t* at) {
-      const int degree = std::popcount(static_cast<unsigned>(*at & edges));
-      if (degree == 0 && (*at & kept) == 0) {
+    const PlaneRow line = row_of(plane, row, found_);
+    plane_row_work().find_keys(line);
+    for_each_with(line.found, line.width, 255, [&](int col) {
+      std::uint8_t& bits = line.row[col];
+      if ((bits & (edges | kept)) == 0) {
         ++summary.closed_components;
-      } else if (degree == 2 && (*at & kept) == 0) {
-        ++between_;
-      } else {
-        number_[static_cast<std::size_t>(at - plane.at(-plane.margin(), -plane.margin()))] =
-            static_cast<std::uint16_t>(keys_.size());
-        const auto local =
-            static_cast<std::uint32_t>(row) * plane.grid().side() + static_cast<std::uint32_t>(at - line);
-        keys_.push_back(static_cast<std::uint16_t>(local));
-        places_.push_back(static_cast<std::int32_t>(at - origin));
-        *at |= key;
+        return;
       }
+      const auto place = static_cast<std::int32_t>(line.row + col - base);
+      number_[static_cast<std::size_t>(place)] = static_cast<std::uint16_t>(keys_.size());
+      keys_.push_back(static_cast<std::uint16_t>(row * static_cast<int>(plane.grid().side()) + col));
+      places_.push_back(place);
+      bits |= key;
     });
   }
 }
@@ -168,9 +182,9 @@ void TileReduction::cut_crossings(TilePlane& plane, TileSummary& summary) {
 void TileReduction::chain_keys(TilePlane& plane) {
   chains_.clear();
   steps_.clear();
-  std::uint8_t* const origin = plane.at(0, 0);
+  std::uint8_t* const base = plane.at(-plane.margin(), -plane.margin());
   for (const std::int32_t place : places_) {
-    std::uint8_t* const at = origin + place;
+    std::uint8_t* const at = base + place;
     for (unsigned left = *at & edges; left != 0; left = *at & edges) follow(at, first_direction(left), plane);
   }
 }
@@ -188,7 +202,6 @@ void TileReduction::follow(std::uint8_t* from, unsigned direction, const TilePla
     if ((*at & key) != 0) break;
     direction = first_direction(*at & edges);
     *at = 0;
-    --between_;
   }
   if (at == from) {
     steps_.resize(first_step);
@@ -200,9 +213,11 @@ void TileReduction::follow(std::uint8_t* from, unsigned direction, const TilePla
 
 /// What is left now are rings without a key: each is a component of its own.
 void TileReduction::close_rings(TilePlane& plane, TileSummary& summary) const {
-  if (between_ == 0) return;
   for (int row = 0; row < plane.height(); ++row) {
-    for_each_with(plane.at(0, row), plane.width(), edges, [&](std::uint8_t* at) {
+    std::uint8_t* const line = plane.at(0, row);
+    for_each_with(line, plane.width(), edges, [&](int col) {
+      std::uint8_t* at = line + col;
+      if ((*at & edges) == 0) return;  // of the ring before
       while ((*at & edges) != 0) {
         const unsigned direction = first_direction(*at & edges);
         *at &= static_cast<std::uint8_t>(~(1U << direction));

@@ -53,15 +53,18 @@ class TileReduction {
  private:
   void count(const TilePlane& plane, TileSummary& summary) const;
   void keep_crossings(TilePlane& plane) const;
-  void peel(TilePlane& plane) const;
+  void peel(TilePlane& plane);
+  void follow_dead_end(std::uint8_t* at) const;
   void number_keys(TilePlane& plane, TileSummary& summary);
   void cut_crossings(TilePlane& plane, TileSummary& summary);
   void chain_keys(TilePlane& plane);
   void follow(std::uint8_t* from, unsigned direction, const TilePlane& plane);
   void close_rings(TilePlane& plane, TileSummary& summary) const;
 
+  static constexpr int bulk_passes = 4;
+
   std::array<int, 4> offset_;
-  std::size_t between_ = 0;            // vertices left that are no keys
+  std::vector<std::uint8_t> found_;    // scratch for a row
   std::vector<std::uint16_t> number_;  // of a key, by place in the plane
   std::vector<std::uint16_t> keys_;
   std::vector<std::int32_t> places_;  // of the keys, in the plane

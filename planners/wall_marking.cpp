@@ -7,6 +7,7 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "core/geometry.hpp"
 #include "planners/wall_band.hpp"
@@ -84,42 +85,40 @@ void WallMarker::mark_narrow(std::span<const NarrowWall> walls, TilePlane& plane
 inline void WallMarker::mark_shape(std::uint64_t key, const NarrowWall& wall, std::uint8_t* cell, TilePlane& plane) {
   const std::size_t slot = slot_of(key);
   if (known_[slot] != key) {
-    if (seen_[slot] != key || !learn(key, shapes_[slot], plane.stride())) {
-      seen_[slot] = key;
-      mark_one(plane.grid().segment(plane.tile(), wall), plane);
-      return;
-    }
+    const bool came_before = std::exchange(seen_[slot], key) == key;
+    if (!came_before) return mark_one(plane.grid().segment(plane.tile(), wall), plane);
+    learn(key, shapes_[slot], plane.stride());
     known_[slot] = key;
   }
   const Shape& shape = shapes_[slot];
+  if (shape.count > most_clears) return mark_one(plane.grid().segment(plane.tile(), wall), plane);
   for (unsigned c = 0; c < shape.count; ++c) cell[shape.offset[c]] &= shape.keep_bits[c];
 }
 
-/// Finds out what walls of this shape clear; false if that is too much to remember. The wall stands where its lower
-/// left corner's cell is the lattice point (0, 0): coordinates differ from the world's, their differences don't.
-bool WallMarker::learn(std::uint64_t key, Shape& shape, int stride) const {
+/// Finds out what walls of this shape clear; a count above most_clears says that it is too much to remember. The wall
+/// stands where its lower left corner's cell is the lattice point (0, 0): coordinates differ from the world's, their
+/// differences don't.
+void WallMarker::learn(std::uint64_t key, Shape& shape, int stride) const {
   constexpr double unit = 1.0 / narrow_unit;
   const auto coordinate = [&](unsigned i) { return static_cast<double>((key >> (16 * i)) & 0xffff) * unit; };
   const Segment wall{{coordinate(0), coordinate(1)}, {coordinate(2), coordinate(3)}};
   const Vec2 corner = box_of(wall).max;
-  if (corner.x > longest_shape || corner.y > longest_shape) return false;
-  shape.count = 0;
-  bool fits = true;
+  shape.count = corner.x > longest_shape || corner.y > longest_shape ? most_clears + 1 : 0;
   const auto clear = [&](int col, int row, unsigned bits) {
     const auto offset = static_cast<std::int16_t>(row * stride + col);
+    if (shape.count > most_clears) return;
     const auto* end = shape.offset.cbegin() + shape.count;
     const auto* found = std::find(shape.offset.cbegin(), end, offset);
     const auto at = static_cast<std::size_t>(found - shape.offset.cbegin());
     if (found == end) {
-      fits = fits && shape.count < most_clears;
-      if (!fits) return;
+      if (++shape.count > most_clears) return;
       shape.offset[at] = offset;
       shape.keep_bits[at] = 0xff;
-      ++shape.count;
     }
     clear_bits(shape.keep_bits[at], bits);
   };
-  for (int row = -1 - reach_; row <= static_cast<int>(corner.y) + 1 + reach_; ++row) {
+  const int last_row = static_cast<int>(corner.y) + 1 + reach_;
+  for (int row = -1 - reach_; row <= last_row && shape.count <= most_clears; ++row) {
     for (int col = -1 - reach_; col <= static_cast<int>(corner.x) + 1 + reach_; ++col) {
       constexpr unsigned all = plane_bit::milestone | plane_bit::right | plane_bit::up;
       const Vec2 point{static_cast<double>(col), static_cast<double>(row)};
@@ -129,7 +128,6 @@ bool WallMarker::learn(std::uint64_t key, Shape& shape, int stride) const {
       if ((blocked & plane_bit::up) != 0) clear(col, row + 1, plane_bit::down);
     }
   }
-  return fits;
 }
 
 void WallMarker::mark_one(const Segment& wall, TilePlane& plane) const {

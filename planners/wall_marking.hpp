@@ -48,14 +48,14 @@ class WallMarker {
 
   /// What walls of one shape clear, as places relative to the cell of their lower left corner.
   struct Shape {
-    unsigned count;
+    unsigned count;  // above most_clears: too many
     std::array<std::int16_t, most_clears> offset;
     std::array<std::uint8_t, most_clears> keep_bits;
   };
 
   void mark_narrow(std::span<const NarrowWall> walls, TilePlane& plane);
   void mark_shape(std::uint64_t key, const NarrowWall& wall, std::uint8_t* cell, TilePlane& plane);
-  bool learn(std::uint64_t key, Shape& shape, int stride) const;
+  void learn(std::uint64_t key, Shape& shape, int stride) const;
   void mark_one(const Segment& wall, TilePlane& plane) const;
 
   double clearance_;
