@@ -47,6 +47,9 @@ struct SearchBorder {
   bool stop = false;                                      ///< it was asked to stop, or failed
 };
 
+/// What a side writes all the time may not share a cache line with what the other reads all the time.
+inline constexpr std::size_t apart = 128;
+
 /// One side of the search. Neighbours: neighbours(v, visit) calls visit(w, length) for each neighbour in ascending
 /// order; an implicit graph may ask visit.wants(w, length) first, whether an edge of at least this length could help,
 /// before it tests it. to_target: consistent estimate to the other side's root; to_root: to this side's root.
@@ -133,9 +136,9 @@ class SearchSide {
   const ToRoot& to_root_;
   Queue& queue_;
   SearchState& state_;
-  std::vector<std::uint8_t> closed_;    // as published
-  std::vector<VertexId> labelled_;      // in this round, perhaps more than once
-  std::vector<VertexId> newly_closed_;  // in this round
+  std::vector<std::uint8_t> closed_;               // as published
+  alignas(apart) std::vector<VertexId> labelled_;  // in this round, perhaps more than once
+  std::vector<VertexId> newly_closed_;             // in this round
   SearchBorder border_;
   std::uint64_t settled_ = 0;
 };

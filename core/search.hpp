@@ -3,8 +3,8 @@
 // and breadth- and depth-first search.
 //
 // A graph is any callable neighbours(v, visit) that calls visit(w, length) for each neighbour in ascending order; a
-// lazily checked roadmap tests an edge there, and SearchState::improves tells it before the test whether the edge could
-// help.
+// lazily checked roadmap tests an edge there, and asks visit.wants(w, length) first, whether an edge of at least this
+// length could help.
 // Heuristics must be consistent and lengths non-negative, so that each vertex is settled once. Ties break by vertex
 // number, therefore the path and the counts don't depend on the queue. Time O((V + E) log V); memory 12 bytes a vertex
 // and the queue.
@@ -93,6 +93,23 @@ struct NeverStop {
   bool operator()() const { return false; }
 };
 
+namespace detail {
+template <class Queue, class Heuristic>
+struct BestFirstVisit {
+  SearchState& state;
+  Queue& queue;
+  const Heuristic& heuristic;
+  VertexId from;
+  double g;
+  bool wants(VertexId w, double length) const { return state.improves(w, g + length); }
+  void operator()(VertexId w, double length) const {
+    if (!wants(w, length)) return;
+    state.reach(w, g + length, from);
+    queue.push(w, g + length + heuristic(w));
+  }
+};
+}  // namespace detail
+
 /// A* from start to goal. state and queue must be cleared and sized for all vertices; should_stop() is asked every
 /// 1024 expansions. The heuristic is called once a vertex push.
 template <class Queue, class Neighbours, class Heuristic, class ShouldStop>
@@ -116,13 +133,7 @@ SearchResult best_first(VertexId start, VertexId goal, const Neighbours& neighbo
       result.status = SearchStatus::stopped;
       return result;
     }
-    const double g = state.g(v);
-    neighbours(v, [&](VertexId w, double length) {
-      const double through = g + length;
-      if (!state.improves(w, through)) return;
-      state.reach(w, through, v);
-      queue.push(w, through + heuristic(w));
-    });
+    neighbours(v, detail::BestFirstVisit<Queue, Heuristic>{state, queue, heuristic, v, state.g(v)});
   }
   return result;
 }

@@ -53,6 +53,7 @@ class SortedArray {
     const QueueEntry e{key, v};
     entries_.insert(std::upper_bound(entries_.begin(), entries_.end(), e, later), e);
   }
+  const QueueEntry& top() const { return entries_.back(); }
   QueueEntry pop() {
     const QueueEntry last = entries_.back();
     entries_.pop_back();
@@ -72,6 +73,7 @@ class ResortedArray {
     entries_.push_back({key, v});
     std::sort(entries_.begin(), entries_.end(), later);
   }
+  const QueueEntry& top() const { return entries_.back(); }
   QueueEntry pop() {
     const QueueEntry last = entries_.back();
     entries_.pop_back();

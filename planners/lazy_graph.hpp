@@ -12,20 +12,20 @@
 
 #include "core/counters.hpp"
 #include "core/graph.hpp"
-#include "core/search.hpp"
 #include "core/world.hpp"
 #include "planners/connection.hpp"
 #include "planners/roadmap_rule.hpp"
 
 namespace warren {
 
-/// Belongs to one thread. Vertices: milestones, then start, then goal (whose edges were checked by attach()).
+/// Belongs to one thread; each side of a search has its own. Vertices: milestones, then start, then goal (whose edges
+/// were checked by attach()).
 template <World W>
 class LazyGraph {
  public:
   using State = typename W::State;
   LazyGraph(const W& world, std::span<const State> states, const StateIndex<W>& index, const ConnectionRule& rule,
-            const Graph& candidates, std::span<const Edge> end_edges, const SearchState& search, Counters& counters)
+            const Graph& candidates, std::span<const Edge> end_edges)
       : world_(world),
         states_(states),
         index_(index),
@@ -33,14 +33,15 @@ class LazyGraph {
         radius_(rule.radius),
         candidates_(candidates),
         end_edges_(end_edges),
-        search_(search),
-        counters_(counters),
         query_(world.make_query()) {}
 
   /// Keeps the free edges that were used, for pictures.
   void record(std::vector<Edge>* edges) { recorded_ = edges; }
   std::uint64_t free_edges() const { return free_edges_; }
+  /// Queries and checks so far.
+  const Counters& counters() const { return counters_; }
 
+  /// The free edges of v of which visit.wants(w, length) says that they help.
   template <class Visit>
   void operator()(VertexId v, const Visit& visit) {
     if (v < index_.size()) visit_milestones(v, visit);
@@ -54,9 +55,10 @@ class LazyGraph {
   template <class Visit>
   void visit_milestones(VertexId v, const Visit& visit) {
     ++counters_.neighbour_queries;
-    const auto try_edge = [&](VertexId w) {
+    const auto try_edge = [&](VertexId w, double at_least) {
+      if (!visit.wants(w, at_least) || w == v) return;  // most are settled already
       const double length = W::distance(states_[v], states_[w]);
-      if (w == v || search_.closed(w) || search_.g(v) + length >= search_.g(w)) return;
+      if (!visit.wants(w, length)) return;
       ++counters_.edges_checked;
       if (!world_.is_free_motion(states_[std::min(v, w)], states_[std::max(v, w)], query_)) return;
       ++free_edges_;
@@ -64,10 +66,10 @@ class LazyGraph {
       visit(w, length);
     };
     if (rule_.neighbours == 0) {
-      index_.for_each_within(index_.point(v), radius_, [&](VertexId w, double) { try_edge(w); });
+      index_.for_each_within(index_.point(v), radius_, try_edge);
       return;
     }
-    for (const VertexId w : candidates_.neighbours(v)) try_edge(w);
+    for (const VertexId w : candidates_.neighbours(v)) try_edge(w, 0.0);
   }
 
   const W& world_;
@@ -77,8 +79,7 @@ class LazyGraph {
   SearchRadius radius_;
   const Graph& candidates_;  // k rule only
   std::span<const Edge> end_edges_;
-  const SearchState& search_;
-  Counters& counters_;
+  Counters counters_;
   typename W::Query query_;
   std::vector<Edge>* recorded_ = nullptr;
   std::uint64_t free_edges_ = 0;

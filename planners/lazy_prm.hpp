@@ -5,10 +5,15 @@
 // would improve the other. LazyCheck::path: the candidate graph is built and a motion is checked only when it lies on
 // the best path so far (lazy_path_search.hpp). Both find the shortest path of the same roadmap as prm. In mazes the
 // first wins: most candidate edges lead through walls, and each of them costs the second one a repair.
+// From 50,000 milestones on the first one searches from both ends (NBA*), each end with a graph and a thread of its
+// own; below that, two threads do not repay their start. The number of threads changes neither path nor counters.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <utility>
 
+#include "parallel/bidirectional_search.hpp"
 #include "planners/lazy_graph.hpp"
 #include "planners/lazy_path_search.hpp"
 #include "planners/prm.hpp"
@@ -16,6 +21,17 @@
 namespace warren {
 
 namespace detail {
+
+/// Milestones from which on the search runs from both ends.
+inline constexpr std::size_t fewest_for_both_ends = 50'000;
+
+/// What one end of a search has for itself.
+template <World W>
+struct alignas(apart) LazyEnd {
+  LazyGraph<W> graph;
+  SearchState state;
+  std::vector<Edge> edges;
+};
 
 template <World W>
 class LazyPlan {
@@ -43,8 +59,18 @@ class LazyPlan {
   void draw(std::uint64_t samples);
   void attach_ends();
   std::vector<VertexId> search_expanding();
+  std::vector<VertexId> search_from_both_ends();
+  template <class Queue>
+  SearchResult meet(std::array<LazyEnd<W>, 2>& ends, const Queue& empty_queue);
   std::vector<VertexId> search_paths();
   SearchResult expand_from(VertexId from, VertexId to, SearchState& state, std::vector<Edge>* record);
+  LazyGraph<W> lazy_graph() const { return {world_, states_, index_, rule_, candidates_, end_edges_}; }
+  void count(const LazyGraph<W>& graph);
+  /// Estimate of the way to `to`: consistent; zero for Dijkstra and where there is no target.
+  auto estimate_to(VertexId to) const {
+    const bool informed = options_.search == SearchKind::astar && to != no_vertex;
+    return [this, informed, to](VertexId v) { return informed ? W::distance(states_[v], states_[to]) : 0.0; };
+  }
   Separation separation();
   VertexId start_vertex() const { return static_cast<VertexId>(states_.size() - 2); }
   VertexId goal_vertex() const { return static_cast<VertexId>(states_.size() - 1); }
@@ -95,30 +121,81 @@ void LazyPlan<W>::attach_ends() {
 template <World W>
 SearchResult LazyPlan<W>::expand_from(VertexId from, VertexId to, SearchState& state, std::vector<Edge>* record) {
   state.resize(states_.size());
-  LazyGraph<W> graph(world_, states_, index_, rule_, candidates_, end_edges_, state, solution_.counters);
+  LazyGraph<W> graph = lazy_graph();
   graph.record(record);
   const auto should_stop = [&] { return execution_.should_stop(); };
-  const bool informed = options_.search == SearchKind::astar && to != no_vertex;
-  const auto remaining = [&](VertexId v) { return informed ? W::distance(states_[v], states_[to]) : 0.0; };
+  const auto remaining = estimate_to(to);
   const auto neighbours = [&](VertexId v, const auto& visit) { graph(v, visit); };
   const SearchResult found = with_queue(options_.queue, states_.size(), [&](auto& queue) {
     return best_first(from, to, neighbours, remaining, queue, state, should_stop);
   });
   if (found.status == SearchStatus::stopped) execution_.check();
   solution_.counters.expanded += found.expanded;
-  solution_.roadmap.edges += graph.free_edges();
+  count(graph);
   return found;
+}
+
+template <World W>
+void LazyPlan<W>::count(const LazyGraph<W>& graph) {
+  solution_.counters += graph.counters();
+  solution_.roadmap.edges += graph.free_edges();
 }
 
 template <World W>
 std::vector<VertexId> LazyPlan<W>::search_expanding() {
   const StageTimer timer(execution_, "search", solution_.seconds.search);
+  free_edges_.assign(end_edges_.begin(), end_edges_.end());
+  if (states_.size() >= fewest_for_both_ends) return search_from_both_ends();
   execution_.reserve(states_.size() * 24);
   SearchState state;
-  free_edges_.assign(end_edges_.begin(), end_edges_.end());
   const SearchResult found = expand_from(start_vertex(), goal_vertex(), state, keep_ ? &free_edges_ : nullptr);
   if (keep_) tree_ = search_tree(state);
   return found.path;
+}
+
+template <World W>
+std::vector<VertexId> LazyPlan<W>::search_from_both_ends() {
+  execution_.reserve(states_.size() * 36);
+  std::array<LazyEnd<W>, 2> ends{LazyEnd<W>{lazy_graph(), {}, {}}, LazyEnd<W>{lazy_graph(), {}, {}}};
+  if (keep_) {
+    for (LazyEnd<W>& end : ends) end.graph.record(&end.edges);
+  }
+  const SearchResult found =
+      with_queue(options_.queue, 0, [&](const auto& empty_queue) { return meet(ends, empty_queue); });
+  if (found.status == SearchStatus::stopped) execution_.check();
+  solution_.counters.expanded += found.expanded;
+  for (const LazyEnd<W>& end : ends) {
+    count(end.graph);
+    free_edges_.insert(free_edges_.end(), end.edges.begin(), end.edges.end());
+  }
+  if (keep_) tree_ = search_trees(ends[0].state, ends[1].state);
+  return found.path;
+}
+
+/// Searches from start and goal at once. Both sides are made by the thread that will use them, or another: the first
+/// touch of their memory is shared out.
+template <World W>
+template <class Queue>
+SearchResult LazyPlan<W>::meet(std::array<LazyEnd<W>, 2>& ends, const Queue& empty_queue) {
+  const auto neighbours_in = [](LazyGraph<W>& graph) {
+    return [&graph](VertexId v, const auto& visit) { graph(v, visit); };
+  };
+  using InGraph = decltype(neighbours_in(ends[0].graph));
+  using Estimate = decltype(estimate_to(no_vertex));
+  const std::array<VertexId, 2> roots{start_vertex(), goal_vertex()};
+  const std::array<InGraph, 2> neighbours{neighbours_in(ends[0].graph), neighbours_in(ends[1].graph)};
+  const std::array<Estimate, 2> to_root{estimate_to(roots[0]), estimate_to(roots[1])};
+  struct alignas(apart) Side {
+    Queue queue;
+    std::optional<SearchSide<Queue, InGraph, Estimate, Estimate>> search;
+  };
+  std::array<Side, 2> sides{Side{empty_queue, {}}, Side{empty_queue, {}}};
+  for_chunks(2, 1, execution_, [&](Range r) {
+    const std::size_t i = r.first;
+    sides[i].search.emplace(roots[i], states_.size(), neighbours[i], to_root[1 - i], to_root[i], sides[i].queue,
+                            ends[i].state);
+  });
+  return bidirectional(*sides[0].search, *sides[1].search, execution_);
 }
 
 template <World W>

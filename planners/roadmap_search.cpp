@@ -11,4 +11,12 @@ std::vector<Edge> search_tree(const SearchState& state) {
   return tree;
 }
 
+std::vector<Edge> search_trees(const SearchState& forward, const SearchState& backward) {
+  std::vector<Edge> tree = search_tree(forward);
+  for (const Edge& e : search_tree(backward)) {
+    if (!forward.reached(e.from)) tree.push_back(e);
+  }
+  return tree;
+}
+
 }  // namespace warren

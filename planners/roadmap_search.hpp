@@ -38,6 +38,8 @@ auto with_queue(QueueKind kind, std::size_t vertex_count, const F& f) {
 
 /// (vertex, parent) of every vertex that a search reached.
 std::vector<Edge> search_tree(const SearchState& state);
+/// The same of a search from both ends; what both have reached has the first one's parent.
+std::vector<Edge> search_trees(const SearchState& forward, const SearchState& backward);
 
 /// Searches from `start` to `goal` over the graph; edge lengths are the world's distances. Throws Stopped at the
 /// deadline.

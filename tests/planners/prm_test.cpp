@@ -161,6 +161,45 @@ TEST(Prm, ResultAndCountersAreTheSameForAnyNumberOfThreads) {
   }
 }
 
+/// So many milestones that lazy_prm searches from both ends.
+TEST(Prm, LazySearchFromBothEndsFindsThePathOfTheEagerOneOnAnyNumberOfThreads) {
+  const Scene scene = maze(90, 90, 5, 0.05);
+  const MazeWorld world(scene, clearance, {});
+  const auto plan = [&](Planner planner, const RoadmapOptions& options, unsigned threads, Roadmap<Vec2>* keep) {
+    return planner(world, start_of(scene), goal_of(scene), options, Execution{threads}, keep);
+  };
+  for (const bool by_nearest : {false, true}) {
+    for (const SearchKind search : {SearchKind::astar, SearchKind::dijkstra}) {
+      SCOPED_TRACE(std::to_string(by_nearest) + " " + std::to_string(static_cast<int>(search)));
+      RoadmapOptions options;
+      options.search = search;
+      if (by_nearest) options.neighbours = 16;
+      const auto eager = plan(prm<MazeWorld>, options, 1, nullptr);
+      ASSERT_EQ(eager.outcome, Outcome::solved);
+      Roadmap<Vec2> roadmap;
+      const auto one = plan(lazy_prm<MazeWorld>, options, 1, &roadmap);
+      ASSERT_EQ(one.outcome, Outcome::solved);
+      ASSERT_GE(one.roadmap.milestones, detail::fewest_for_both_ends);
+      EXPECT_NEAR(length_of(one), length_of(eager), 1e-12 * length_of(eager));
+      EXPECT_LT(one.counters.edges_checked, eager.counters.edges_checked);
+      const auto two = plan(lazy_prm<MazeWorld>, options, 2, nullptr);
+      EXPECT_EQ(two.path, one.path);
+      EXPECT_EQ(two.counters, one.counters);
+      EXPECT_EQ(two.roadmap.edges, one.roadmap.edges);
+      std::vector<int> parents(roadmap.states.size(), 0);
+      for (const Edge& e : roadmap.search_tree) {
+        ASSERT_TRUE(std::ranges::binary_search(roadmap.graph.neighbours(e.from), e.to));
+        ASSERT_EQ(++parents[e.from], 1);
+      }
+      for (std::size_t leg = 1; leg + 1 < one.path.size(); ++leg) {
+        const auto at = std::ranges::find(roadmap.states, one.path[leg]) - roadmap.states.begin();
+        ASSERT_LT(static_cast<std::size_t>(at), roadmap.states.size());
+        ASSERT_EQ(parents[static_cast<std::size_t>(at)], 1);
+      }
+    }
+  }
+}
+
 TEST(Prm, EverySearchAndQueueFindsAPathAndTheOptimalOnesAgree) {
   const Scene scene = maze(11, 11, 6, 0.3);
   const MazeWorld world(scene, clearance, {});
