@@ -126,7 +126,7 @@ SearchResult LazyPlan<W>::expand_from(VertexId from, VertexId to, SearchState& s
   const auto should_stop = [&] { return execution_.should_stop(); };
   const auto remaining = estimate_to(to);
   const auto neighbours = [&](VertexId v, const auto& visit) { graph(v, visit); };
-  const SearchResult found = with_queue(options_.queue, states_.size(), [&](auto& queue) {
+  SearchResult found = with_queue(options_.queue, states_.size(), [&](auto& queue) {
     return best_first(from, to, neighbours, remaining, queue, state, should_stop);
   });
   if (found.status == SearchStatus::stopped) execution_.check();

@@ -89,7 +89,7 @@ struct BadInput {
 };
 
 TEST(SceneText, RefusesBadInputInOneLineThatNamesFileAndLine) {
-  const std::string nul("0 0 1 1\n\0\0\1 binary\n", 20);
+  const std::string nul("0 0 1 1\n\0\0\1 binary\n", 19);
   const BadInput cases[] = {
       {"empty", "", ":1: the file is empty"},
       {"comments only", "# nothing\n\n", ":2: the file ends without any wall, polygon, sphere or bounds"},
