@@ -2,8 +2,9 @@
 // warren beside OMPL's PRM on the same mazes, one thread each, 0.1 clearance all along the edges, the same collision
 // check behind both (bench/rivals/ompl_prm.hpp). Two pairs:
 //   uniform   random milestones until start and goal connect: prm and lazy_prm with auto options, og::PRM with defaults
-//   lattice   one milestone a cell: prm on cell centres, og::PRM with cells handed over in random order (its neighbour
-//             tree is 2 to 5 times slower in row order), exact centres and jittered ones
+//   lattice   one milestone a cell: prm on cell centres, tile by tile as `warren solve` does and in plain stages;
+//             og::PRM with cells handed over in random order (its neighbour tree is 2 to 5 times slower in row order),
+//             exact centres and jittered ones
 // The contestants take turns, maze by maze and repeat by repeat. Each is timed from walls in memory to path found, the
 // wall index included; every path is verified outside of the clock. CPU seconds of the process; ratios are of medians.
 #include <fmt/core.h>
@@ -22,6 +23,7 @@
 #include "planners/lazy_prm.hpp"
 #include "planners/prm.hpp"
 #include "planners/taut_path.hpp"
+#include "planners/tiled_prm.hpp"
 #include "worlds/maze_generator.hpp"
 #include "worlds/verify.hpp"
 
@@ -105,6 +107,23 @@ RivalRun run_warren(Planner plan, SamplerKind sampler, const Maze& maze, std::ui
 
 Contestant warren_contestant(std::string name, Planner plan, SamplerKind sampler) {
   return {std::move(name), [=](const Maze& maze, std::uint64_t seed) { return run_warren(plan, sampler, maze, seed); }};
+}
+
+/// What `warren solve` does with a maze: the same roadmap, tile by tile.
+RivalRun run_tiles(const Maze& maze) {
+  const Stopwatch stopwatch;
+  RoadmapOptions options;
+  options.sampler = SamplerKind::lattice;
+  options.lattice = maze.size;
+  const TiledProblem problem{maze.scene.walls, {},         obstacle_box(maze.scene, one_thread()),
+                             clearance,        maze.start, maze.goal};
+  Solution<Vec2> solution = tiled_prm(problem, options, one_thread());
+  RivalRun run;
+  run.seconds = stopwatch.read();
+  run.path = std::move(solution.path);
+  run.milestones = solution.roadmap.milestones;
+  run.edges = solution.roadmap.edges;
+  return run;
 }
 
 /// Adds the time of the wall index, which OMPL's side needs as much as ours.
@@ -229,12 +248,13 @@ nlohmann::ordered_json compare_all(const BenchOptions& options) {
                             options));
   }
   for (const std::uint32_t side : options.lattice_sizes) {
-    pairs.push_back(compare(
-        "lattice", side,
-        {warren_contestant("warren prm", prm<MazeWorld>, SamplerKind::lattice),
-         warren_contestant("warren lazy-prm", lazy_prm<MazeWorld>, SamplerKind::lattice),
-         ompl_cell_contestant("OMPL PRM, cell centres", 0.0), ompl_cell_contestant("OMPL PRM, jittered cells", 0.2)},
-        options));
+    pairs.push_back(compare("lattice", side,
+                            {{"warren prm", [](const Maze& maze, std::uint64_t) { return run_tiles(maze); }},
+                             warren_contestant("warren prm, plain stages", prm<MazeWorld>, SamplerKind::lattice),
+                             warren_contestant("warren lazy-prm", lazy_prm<MazeWorld>, SamplerKind::lattice),
+                             ompl_cell_contestant("OMPL PRM, cell centres", 0.0),
+                             ompl_cell_contestant("OMPL PRM, jittered cells", 0.2)},
+                            options));
   }
   return {{"schema", "warren.rival/1"}, {"rival", "OMPL PRM"}, {"algorithm", options.algorithm},
           {"clearance", clearance},     {"verified", true},    {"pairs", pairs}};
