@@ -63,8 +63,8 @@ class Program:
         child = subprocess.Popen(self.command(*arguments), stdin=stdin, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
         self.runs += 1
         try:
-            child.wait(after_s)
-            return child.returncode, None, child.stdout.read().decode("utf-8")
+            output, _ = child.communicate(timeout=after_s)
+            return child.returncode, None, output.decode("utf-8")
         except subprocess.TimeoutExpired:
             pass
         begin = time.monotonic()
