@@ -42,11 +42,15 @@ int open_input(const std::string& path) {
   return path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
 }
 
+/// Returns when there is something to read. A signal ends the poll early: then the deadline is asked first, since a
+/// read would wait on.
 void wait_for_input(int file, const Execution& execution) {
   pollfd waiting{file, POLLIN, 0};
+  int ready = 0;
   do {
     execution.check();
-  } while (::poll(&waiting, 1, poll_ms) == 0);
+    ready = ::poll(&waiting, 1, poll_ms);
+  } while (ready == 0 || (ready < 0 && errno == EINTR));
 }
 
 }  // namespace
