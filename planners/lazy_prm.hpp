@@ -10,20 +10,16 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <utility>
 
-#include "parallel/bidirectional_search.hpp"
 #include "planners/lazy_graph.hpp"
 #include "planners/lazy_path_search.hpp"
+#include "planners/meeting_search.hpp"
 #include "planners/prm.hpp"
 
 namespace warren {
 
 namespace detail {
-
-/// Milestones from which on the search runs from both ends.
-inline constexpr std::size_t fewest_for_both_ends = 50'000;
 
 /// What one end of a search has for itself.
 template <World W>
@@ -60,8 +56,6 @@ class LazyPlan {
   void attach_ends();
   std::vector<VertexId> search_expanding();
   std::vector<VertexId> search_from_both_ends();
-  template <class Queue>
-  SearchResult meet(std::array<LazyEnd<W>, 2>& ends, const Queue& empty_queue);
   std::vector<VertexId> search_paths();
   SearchResult expand_from(VertexId from, VertexId to, SearchState& state, std::vector<Edge>* record);
   LazyGraph<W> lazy_graph() const { return {world_, states_, index_, rule_, candidates_, end_edges_}; }
@@ -160,9 +154,13 @@ std::vector<VertexId> LazyPlan<W>::search_from_both_ends() {
   if (keep_) {
     for (LazyEnd<W>& end : ends) end.graph.record(&end.edges);
   }
-  const SearchResult found =
-      with_queue(options_.queue, 0, [&](const auto& empty_queue) { return meet(ends, empty_queue); });
-  if (found.status == SearchStatus::stopped) execution_.check();
+  const auto neighbours_in = [](LazyGraph<W>& graph) {
+    return [&graph](VertexId v, const auto& visit) { graph(v, visit); };
+  };
+  const SearchResult found = warren::search_from_both_ends<decltype(neighbours_in(ends[0].graph))>(
+      options_.queue, states_.size(), {start_vertex(), goal_vertex()},
+      {neighbours_in(ends[0].graph), neighbours_in(ends[1].graph)}, [this](VertexId to) { return estimate_to(to); },
+      {&ends[0].state, &ends[1].state}, execution_);
   solution_.counters.expanded += found.expanded;
   for (const LazyEnd<W>& end : ends) {
     count(end.graph);
@@ -170,32 +168,6 @@ std::vector<VertexId> LazyPlan<W>::search_from_both_ends() {
   }
   if (keep_) tree_ = search_trees(ends[0].state, ends[1].state);
   return found.path;
-}
-
-/// Searches from start and goal at once. Both sides are made by the thread that will use them, or another: the first
-/// touch of their memory is shared out.
-template <World W>
-template <class Queue>
-SearchResult LazyPlan<W>::meet(std::array<LazyEnd<W>, 2>& ends, const Queue& empty_queue) {
-  const auto neighbours_in = [](LazyGraph<W>& graph) {
-    return [&graph](VertexId v, const auto& visit) { graph(v, visit); };
-  };
-  using InGraph = decltype(neighbours_in(ends[0].graph));
-  using Estimate = decltype(estimate_to(no_vertex));
-  const std::array<VertexId, 2> roots{start_vertex(), goal_vertex()};
-  const std::array<InGraph, 2> neighbours{neighbours_in(ends[0].graph), neighbours_in(ends[1].graph)};
-  const std::array<Estimate, 2> to_root{estimate_to(roots[0]), estimate_to(roots[1])};
-  struct alignas(apart) Side {
-    Queue queue;
-    std::optional<SearchSide<Queue, InGraph, Estimate, Estimate>> search;
-  };
-  std::array<Side, 2> sides{Side{empty_queue, {}}, Side{empty_queue, {}}};
-  for_chunks(2, 1, execution_, [&](Range r) {
-    const std::size_t i = r.first;
-    sides[i].search.emplace(roots[i], states_.size(), neighbours[i], to_root[1 - i], to_root[i], sides[i].queue,
-                            ends[i].state);
-  });
-  return bidirectional(*sides[0].search, *sides[1].search, execution_);
 }
 
 template <World W>

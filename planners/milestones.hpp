@@ -45,18 +45,44 @@ std::array<double, D> halton_point(std::uint64_t seed, std::uint64_t index) {
   return point;
 }
 
-/// The index-th of `count` strata of the unit square, and a random point in it: rows of equal height, as many as make
-/// the strata of a box of this height over width about square; each row cut evenly, so that there are exactly `count`.
+/// The unit square cut into `count` strata: rows of equal height, as many as make the strata of a box of this height
+/// over width about square; each row cut evenly, so that there are exactly `count`.
+class Strata {
+ public:
+  /// The strata first .. next - 1 are a row.
+  struct Row {
+    std::uint64_t number = 0;
+    std::uint64_t first = 0;
+    std::uint64_t next = 0;
+  };
+  Strata(std::uint64_t count, double height_over_width) : count_(count) {
+    const auto n = static_cast<double>(count);
+    rows_ = static_cast<std::uint64_t>(std::clamp(std::round(std::sqrt(n * height_over_width)), 1.0, n));
+  }
+  Row row_of(std::uint64_t index) const {
+    const std::uint64_t row = std::min(index * rows_ / count_, rows_ - 1);
+    return {row, (row * count_ + rows_ - 1) / rows_, ((row + 1) * count_ + rows_ - 1) / rows_};
+  }
+  /// A random point in a stratum of this row.
+  std::array<double, 2> point(std::uint64_t seed, std::uint64_t index, const Row& row) const {
+    return {
+        (static_cast<double>(index - row.first) + uniform(seed, index, 0)) / static_cast<double>(row.next - row.first),
+        (static_cast<double>(row.number) + uniform(seed, index, 1)) / static_cast<double>(rows_)};
+  }
+
+ private:
+  std::uint64_t count_;
+  std::uint64_t rows_;
+};
+
+/// The index-th of `count` strata of the unit square, and a random point in it.
 inline std::array<double, 2> stratified_point(std::uint64_t seed, std::uint64_t index, std::uint64_t count,
                                               double height_over_width) {
-  const auto n = static_cast<double>(count);
-  const auto rows = static_cast<std::uint64_t>(std::clamp(std::round(std::sqrt(n * height_over_width)), 1.0, n));
-  const std::uint64_t row = std::min(index * rows / count, rows - 1);
-  const std::uint64_t first = (row * count + rows - 1) / rows;
-  const std::uint64_t next = ((row + 1) * count + rows - 1) / rows;
-  return {(static_cast<double>(index - first) + uniform(seed, index, 0)) / static_cast<double>(next - first),
-          (static_cast<double>(row) + uniform(seed, index, 1)) / static_cast<double>(rows)};
+  const Strata strata(count, height_over_width);
+  return strata.point(seed, index, strata.row_of(index));
 }
+
+inline double height_over_width(const Box& box) { return box.width() > 0.0 ? box.height() / box.width() : 1.0; }
 
 /// The index-th of `count` samples: a pure function of the arguments.
 template <World W>
@@ -65,9 +91,7 @@ typename W::State sample_state(const W& world, const RoadmapOptions& options, st
   if constexpr (std::same_as<typename W::State, Vec2>) {
     if (options.sampler == SamplerKind::lattice) return lattice_point(options.lattice, index);
     if (options.sampler == SamplerKind::uniform) {
-      const Box& box = world.box();
-      const double height_over_width = box.width() > 0.0 ? box.height() / box.width() : 1.0;
-      return world.at_unit(stratified_point(options.seed, index, count, height_over_width));
+      return world.at_unit(stratified_point(options.seed, index, count, height_over_width(world.box())));
     }
   }
   if (options.sampler == SamplerKind::halton) return world.at_unit(halton_point<W::dimension>(options.seed, index));
@@ -75,6 +99,24 @@ typename W::State sample_state(const W& world, const RoadmapOptions& options, st
 }
 
 namespace detail {
+
+/// Calls visit(sample) for the samples of a range: the same as sample_state, but a row of strata is found once.
+template <World W, class Visit>
+void for_each_sample(const W& world, const RoadmapOptions& options, Range range, std::uint64_t count,
+                     const Visit& visit) {
+  if constexpr (std::same_as<typename W::State, Vec2>) {
+    if (options.sampler == SamplerKind::uniform) {
+      const Strata strata(count, height_over_width(world.box()));
+      Strata::Row row;
+      for (std::size_t i = range.first; i < range.last; ++i) {
+        if (i >= row.next) row = strata.row_of(i);
+        visit(world.at_unit(strata.point(options.seed, i, row)));
+      }
+      return;
+    }
+  }
+  for (std::size_t i = range.first; i < range.last; ++i) visit(sample_state(world, options, i, count));
+}
 
 /// Joins parts in their order.
 template <class T>
@@ -137,10 +179,9 @@ RawVector<typename W::State> draw_milestones(const W& world, const RoadmapOption
     auto query = world.make_query();
     RawVector<typename W::State>& part = parts[r.first / grain];
     part.reserve(r.size());
-    for (std::size_t i = r.first; i < r.last; ++i) {
-      const typename W::State state = sample_state(world, options, i, count);
+    detail::for_each_sample(world, options, r, count, [&](const typename W::State& state) {
       if (world.is_free(state, query)) part.push_back(state);
-    }
+    });
   });
   RawVector<typename W::State> states = detail::joined(parts, execution, 2);
   parts.clear();

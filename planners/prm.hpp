@@ -32,8 +32,8 @@ class PrmPlan {
  public:
   using State = typename W::State;
   PrmPlan(const W& world, const State& start, const State& goal, const RoadmapOptions& options,
-          const Execution& execution)
-      : world_(world), start_(start), goal_(goal), options_(options), execution_(execution) {}
+          const Execution& execution, bool keep)
+      : world_(world), start_(start), goal_(goal), options_(options), execution_(execution), keep_(keep) {}
 
   /// Builds and searches a roadmap with so many samples; true when the answer is final.
   bool round(std::uint64_t samples) {
@@ -62,9 +62,9 @@ class PrmPlan {
   const State goal_;
   const RoadmapOptions& options_;
   const Execution& execution_;
+  bool keep_;
   Roadmap<State> roadmap_;
   Components components_;
-  SearchState search_state_;
   Solution<State> solution_;
 };
 
@@ -112,7 +112,7 @@ template <World W>
 bool PrmPlan<W>::search() {
   const StageTimer timer(execution_, "search", solution_.seconds.search);
   const SearchResult found = search_roadmap<W>(roadmap_.graph, roadmap_.states, start_vertex(), goal_vertex(), options_,
-                                               execution_, search_state_);
+                                               execution_, keep_ ? &roadmap_.search_tree : nullptr);
   solution_.counters.expanded += found.expanded;
   if (found.status != SearchStatus::found) return false;
   solution_.outcome = Outcome::solved;
@@ -127,7 +127,6 @@ void PrmPlan<W>::finish(Roadmap<State>* keep) {
         separation_of(world_, roadmap_.states, components_, start_vertex(), goal_vertex(), execution_);
   }
   if (keep == nullptr) return;
-  roadmap_.search_tree = search_tree(search_state_);
   *keep = std::move(roadmap_);
 }
 
@@ -174,7 +173,7 @@ template <World W>
 Solution<typename W::State> prm(const W& world, const typename W::State& start, const typename W::State& goal,
                                 const RoadmapOptions& options, const Execution& execution,
                                 Roadmap<typename W::State>* keep = nullptr) {
-  detail::PrmPlan<W> plan(world, start, goal, options, execution);
+  detail::PrmPlan<W> plan(world, start, goal, options, execution, keep != nullptr);
   return detail::plan_in_rounds(world, start, goal, options, execution, keep, plan);
 }
 

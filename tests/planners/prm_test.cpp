@@ -161,9 +161,21 @@ TEST(Prm, ResultAndCountersAreTheSameForAnyNumberOfThreads) {
   }
 }
 
+/// Each parent joined to its vertex, and one a vertex; all of the path in the tree.
+void expect_tree(const Roadmap<Vec2>& roadmap, const std::vector<Vec2>& path) {
+  std::vector<int> parents(roadmap.states.size(), 0);
+  std::set<std::pair<double, double>> in_tree;
+  for (const Edge& e : roadmap.search_tree) {
+    ASSERT_TRUE(std::ranges::binary_search(roadmap.graph.neighbours(e.from), e.to));
+    ASSERT_EQ(++parents[e.from], 1);
+    in_tree.insert({roadmap.states[e.from].x, roadmap.states[e.from].y});
+  }
+  for (std::size_t leg = 1; leg + 1 < path.size(); ++leg) ASSERT_TRUE(in_tree.contains({path[leg].x, path[leg].y}));
+}
+
 /// So many milestones that lazy_prm searches from both ends.
 TEST(Prm, LazySearchFromBothEndsFindsThePathOfTheEagerOneOnAnyNumberOfThreads) {
-  const Scene scene = maze(90, 90, 5, 0.05);
+  const Scene scene = maze(100, 100, 5, 0.05);
   const MazeWorld world(scene, clearance, {});
   const auto plan = [&](Planner planner, const RoadmapOptions& options, unsigned threads, Roadmap<Vec2>* keep) {
     return planner(world, start_of(scene), goal_of(scene), options, Execution{threads}, keep);
@@ -179,23 +191,41 @@ TEST(Prm, LazySearchFromBothEndsFindsThePathOfTheEagerOneOnAnyNumberOfThreads) {
       Roadmap<Vec2> roadmap;
       const auto one = plan(lazy_prm<MazeWorld>, options, 1, &roadmap);
       ASSERT_EQ(one.outcome, Outcome::solved);
-      ASSERT_GE(one.roadmap.milestones, detail::fewest_for_both_ends);
+      ASSERT_GE(one.roadmap.milestones, fewest_for_both_ends);
       EXPECT_NEAR(length_of(one), length_of(eager), 1e-12 * length_of(eager));
       EXPECT_LT(one.counters.edges_checked, eager.counters.edges_checked);
       const auto two = plan(lazy_prm<MazeWorld>, options, 2, nullptr);
       EXPECT_EQ(two.path, one.path);
       EXPECT_EQ(two.counters, one.counters);
       EXPECT_EQ(two.roadmap.edges, one.roadmap.edges);
-      std::vector<int> parents(roadmap.states.size(), 0);
-      for (const Edge& e : roadmap.search_tree) {
-        ASSERT_TRUE(std::ranges::binary_search(roadmap.graph.neighbours(e.from), e.to));
-        ASSERT_EQ(++parents[e.from], 1);
-      }
-      for (std::size_t leg = 1; leg + 1 < one.path.size(); ++leg) {
-        const auto at = std::ranges::find(roadmap.states, one.path[leg]) - roadmap.states.begin();
-        ASSERT_LT(static_cast<std::size_t>(at), roadmap.states.size());
-        ASSERT_EQ(parents[static_cast<std::size_t>(at)], 1);
-      }
+      expect_tree(roadmap, one.path);
+    }
+  }
+}
+
+/// So many vertices, and most of them on chains, that prm reduces the roadmap before it searches it.
+TEST(Prm, LargeLatticesAreReducedWithoutChangingTheAnswer) {
+  for (const double loops : {0.0, 0.1}) {
+    for (const SearchKind search : {SearchKind::astar, SearchKind::dijkstra}) {
+      SCOPED_TRACE(std::to_string(loops) + " " + std::to_string(static_cast<int>(search)));
+      const Scene scene = maze(230, 250, 3, loops);
+      RoadmapOptions options = lattice_options(scene);
+      options.search = search;
+      Roadmap<Vec2> roadmap;
+      const auto plan = [&](unsigned threads) {
+        const Execution execution{threads};
+        const MazeWorld world(scene, clearance, execution);
+        return prm(world, start_of(scene), goal_of(scene), options, execution, &roadmap);
+      };
+      const auto one = plan(1);
+      ASSERT_EQ(one.outcome, Outcome::solved);
+      ASSERT_GE(one.roadmap.milestones, fewest_for_both_ends);
+      EXPECT_LT(one.counters.expanded, one.roadmap.milestones / 4);
+      EXPECT_DOUBLE_EQ(length_of(one), shortest_walk(scene));
+      expect_tree(roadmap, one.path);
+      const auto two = plan(2);
+      EXPECT_EQ(two.path, one.path);
+      EXPECT_EQ(two.counters, one.counters);
     }
   }
 }
@@ -319,6 +349,22 @@ TEST(Prm, SamplesArePureFunctionsInsideTheWorld) {
     for (std::uint64_t i = 0; i < 1000; ++i) {
       EXPECT_TRUE(world.box().contains(sample_state(world, options, i, 1000)));
       EXPECT_EQ(sample_state(world, options, i, 1000), sample_state(world, options, i, 1000));
+    }
+  }
+}
+
+TEST(Prm, SamplesOfARangeAreThoseOfTheirIndices) {
+  const Scene scene = maze(6, 9, 1);
+  const MazeWorld world(scene, clearance, {});
+  for (const SamplerKind sampler : {SamplerKind::uniform, SamplerKind::halton, SamplerKind::random}) {
+    RoadmapOptions options;
+    options.sampler = sampler;
+    for (const Range range : {Range{0, 1}, Range{0, 777}, Range{5, 5}, Range{63, 400}, Range{776, 777}}) {
+      std::size_t index = range.first;
+      detail::for_each_sample(world, options, range, 777, [&](const Vec2& sample) {
+        ASSERT_EQ(sample, sample_state(world, options, index++, 777));
+      });
+      EXPECT_EQ(index, range.last);
     }
   }
 }
