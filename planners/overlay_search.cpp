@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "core/indexed_heap.hpp"
+#include "parallel/bidirectional_search.hpp"
 #include "parallel/chunks.hpp"
 
 namespace warren {
@@ -58,12 +60,22 @@ void walk_chain(const TileSummary& tile, const Chain& chain, bool forward, Vec2 
   }
 }
 
-bool heuristic_pays(const Overlay& overlay) {
-  std::uint64_t edge_ends = 0;
-  for (const VertexId v : overlay.core()) {
-    for (const OverlayEnd& end : overlay.ends(v)) edge_ends += overlay.is_peeled(end.target) ? 0 : 1;
-  }
-  return edge_ends >= 3 * overlay.core().size();
+/// The points of all vertices, for the heuristic.
+RawVector<Vec2> points_of(const Overlay& overlay, const TileGrid& grid, std::span<const TileSummary> tiles,
+                          const OverlayEnds& ends, const Execution& execution) {
+  RawVector<Vec2> points(overlay.vertex_count());
+  for_chunks(tiles.size(), 16, execution, [&](Range r) {
+    for (std::size_t tile = r.first; tile < r.last; ++tile) {
+      const std::uint32_t side = grid.side();
+      Vec2* out = points.data() + overlay.first_key(tile);
+      for (const std::uint32_t local : tiles[tile].keys) {
+        *out++ = TileGrid::point(grid.first_col(tile) + local % side, grid.first_row(tile) + local / side);
+      }
+    }
+  });
+  points[overlay.start()] = ends.start.at;
+  points[overlay.goal()] = ends.goal.at;
+  return points;
 }
 
 }  // namespace
@@ -95,24 +107,22 @@ CoreComponents core_components(const Overlay& overlay, const Execution& executio
 
 SearchResult search_overlay(const Overlay& overlay, const TileGrid& grid, std::span<const TileSummary> tiles,
                             const OverlayEnds& ends, const Execution& execution) {
-  execution.reserve(overlay.vertex_count() * (sizeof(double) + 2 * sizeof(VertexId)));
-  SearchState state;
-  state.resize(overlay.vertex_count());
-  IndexedHeap<> queue;
-  queue.resize(overlay.vertex_count());
+  execution.reserve(overlay.vertex_count() * (sizeof(Vec2) + 2 * (sizeof(double) + 2 * sizeof(VertexId) + 1)));
+  const RawVector<Vec2> points = points_of(overlay, grid, tiles, ends, execution);
   const auto neighbours = [&](VertexId v, const auto& visit) {
     for (const OverlayEnd& end : overlay.ends(v)) {
       if (!overlay.is_peeled(end.target)) visit(end.target, end.length);
     }
   };
-  const auto should_stop = [&] { return execution.should_stop(); };
-  const auto search = [&](const auto& heuristic) {
-    return best_first(overlay.start(), overlay.goal(), neighbours, heuristic, queue, state, should_stop);
-  };
-  const Places places(overlay, grid, tiles, ends);
-  SearchResult result = heuristic_pays(overlay)
-                            ? search([&](VertexId v) { return distance(places.of(v), ends.goal.at); })
-                            : search([](VertexId) { return 0.0; });
+  const auto to_goal = [&](VertexId v) { return distance(points[v], ends.goal.at); };
+  const auto to_start = [&](VertexId v) { return distance(points[v], ends.start.at); };
+  struct Scratch {
+    SearchState state;
+    IndexedHeap<> queue;
+  } front, back;
+  SearchSide forward(overlay.start(), overlay.vertex_count(), neighbours, to_goal, to_start, front.queue, front.state);
+  SearchSide backward(overlay.goal(), overlay.vertex_count(), neighbours, to_start, to_goal, back.queue, back.state);
+  SearchResult result = bidirectional(forward, backward, execution);
   if (result.status == SearchStatus::stopped) execution.check();
   return result;
 }
