@@ -35,6 +35,9 @@ class SolveCommand {
         svg_(arguments.value("--svg").value_or("")),
         problem_(problem_options(arguments)) {
     check_planner_options(arguments);
+    if (problem_.contact == Contact::allowed) {
+      throw UsageError("--contact: prm and lazy-prm keep off the walls, so 'allowed' would change nothing");
+    }
     check_outputs();
   }
 

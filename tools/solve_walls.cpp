@@ -5,10 +5,12 @@
 
 #include <chrono>
 #include <new>
+#include <optional>
 #include <stdexcept>
 
 #include "planners/lazy_prm.hpp"
 #include "planners/prm.hpp"
+#include "planners/taut_path.hpp"
 #include "planners/tiled_prm.hpp"
 #include "tools/maze_proof.hpp"
 #include "worlds/maze_world.hpp"
@@ -35,7 +37,7 @@ class WallSolve {
     plan(keep);
     settle_blocked_ends();
     if (answer_.outcome == Outcome::not_connected) proved_infeasible();
-    if (options_.optimise) optimise();
+    if (options_.optimise && answer_.outcome == Outcome::solved) optimise();
     verify();
   }
   void stop(StopReason reason) {
@@ -46,6 +48,7 @@ class WallSolve {
   Answer& answer() { return answer_; }
 
  private:
+  const MazeWorld& indexed_world();
   void plan(Roadmap<Vec2>* keep);
   Solution<Vec2> plan_tiles();
   void take(Solution<Vec2> solution);
@@ -61,12 +64,16 @@ class WallSolve {
   const WallProblem& problem_;
   const PlannerOptions& options_;
   const Execution& execution_;
+  std::optional<MazeWorld> world_;  // tiles need none; made where it is first asked for
   Answer answer_;
 };
 
-MazeWorld indexed(const Scene& scene, double clearance, const Execution& execution, double& seconds) {
-  const StageTimer timer(execution, "index", seconds, scene.walls.size());
-  return MazeWorld(scene, clearance, execution);
+const MazeWorld& WallSolve::indexed_world() {
+  if (!world_) {
+    const StageTimer timer(execution_, "index", answer_.seconds.index, scene_.walls.size());
+    world_.emplace(scene_, problem_.reach(), execution_);
+  }
+  return *world_;
 }
 
 void add(StageTimes& to, const StageTimes& more) {
@@ -84,7 +91,7 @@ void WallSolve::plan(Roadmap<Vec2>* keep) {
     take(plan_tiles());
     return;
   }
-  const MazeWorld world = indexed(scene_, problem_.reach(), execution_, answer_.seconds.index);
+  const MazeWorld& world = indexed_world();
   if (grows() && ends_are_free(world) && proved_infeasible()) return;
   const auto planner = options_.planner == PlannerKind::prm ? prm<MazeWorld> : lazy_prm<MazeWorld>;
   take(planner(world, problem_.start, problem_.goal, options_.roadmap, execution_, keep));
@@ -140,7 +147,12 @@ bool WallSolve::proved_infeasible() {
   return true;
 }
 
-void WallSolve::optimise() {}
+void WallSolve::optimise() {
+  const MazeWorld& world = indexed_world();
+  const StageTimer timer(execution_, "optimise", answer_.seconds.optimise, answer_.path.size());
+  answer_.raw_length = path_length(answer_.path, MazeWorld::distance);
+  answer_.path = taut_path(world.walls(), answer_.path, world.planning_clearance(), execution_);
+}
 
 void WallSolve::verify() {
   if (answer_.outcome != Outcome::solved) return;

@@ -46,6 +46,7 @@ class MazeWorld {
 
   const Box& box() const { return box_; }
   double clearance() const { return clearance_; }
+  double planning_clearance() const { return planning_clearance_; }  ///< what motions keep: clearance (1 + 1e-9)
   const WallIndex& walls() const { return index_; }
 
  private:

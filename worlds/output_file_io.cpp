@@ -134,7 +134,7 @@ void OutputFile::write_now(std::string_view bytes) {
     std::size_t size = std::min(bytes.size(), block_bytes);
     if (straight) {  // a pipe that is ready takes PIPE_BUF bytes without blocking
       pollfd ready{file_, POLLOUT, 0};
-      if (::poll(&ready, 1, poll_ms) == 0) continue;
+      if (::poll(&ready, 1, poll_ms) <= 0) continue;  // nobody reads yet, or a signal came
       size = std::min<std::size_t>(size, PIPE_BUF);
     }
     const WithoutSigpipe guard;
