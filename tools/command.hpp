@@ -38,8 +38,10 @@ Command completion_command();
 Command convert_command();
 Command generate_command();
 Command info_command();
+Command largest_command();
 Command man_command();
 Command render_command();
+Command scale_command();
 Command solve_command();
 Command verify_command();
 

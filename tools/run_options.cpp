@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/run_options.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <array>
+#include <cstdio>
 #include <limits>
 
 #include "tools/exit_code.hpp"
@@ -29,8 +31,8 @@ constexpr OptionSpec specs[] = {
     {"--trace", "FILE", "write when each stage and chunk ran, as a Chrome trace"},
 };
 
-Deadline deadline_of(const Arguments& arguments) {
-  const auto budget = arguments.value("--budget");
+Deadline deadline_of(const Arguments& arguments, RunScope scope) {
+  const auto budget = scope == RunScope::each_run ? std::nullopt : arguments.value("--budget");
   const auto memory = arguments.value("--memory");
   const double seconds = budget ? duration_value("--budget", *budget) : std::numeric_limits<double>::infinity();
   const std::size_t bytes = memory ? memory_value("--memory", *memory) : available_bytes();
@@ -52,14 +54,18 @@ ColorMode color_mode(const Arguments& arguments) {
 
 std::span<const OptionSpec> run_option_specs() { return specs; }
 
-Run::Run(const Arguments& arguments)
-    : deadline_(deadline_of(arguments)),
-      quiet_(arguments.has("--quiet")),
-      palette_(wants_color(STDOUT_FILENO, color_mode(arguments))) {
+unsigned threads_value(std::string_view text) {
   constexpr std::uint64_t most_threads = 1024;
-  if (const auto threads = arguments.value("--threads")) {
-    execution_.threads = static_cast<unsigned>(count_value("--threads", *threads, 1, most_threads));
-  }
+  return static_cast<unsigned>(count_value("--threads", text, 1, most_threads));
+}
+
+Run::Run(const Arguments& arguments, RunScope scope)
+    : deadline_(deadline_of(arguments, scope)),
+      quiet_(arguments.has("--quiet")),
+      mode_(progress_mode(arguments, quiet_)),
+      palette_(wants_color(STDOUT_FILENO, color_mode(arguments))) {
+  const auto threads = arguments.value("--threads");
+  if (threads && scope == RunScope::whole_command) execution_.threads = threads_value(*threads);
   if (const auto file = arguments.value("--trace")) {
     check_writable(*file);
     trace_file_ = *file;
@@ -68,7 +74,12 @@ Run::Run(const Arguments& arguments)
   }
   execution_.deadline = &deadline_;
   execution_.progress = &progress_;
-  bar_ = std::make_unique<ProgressBar>(progress_, progress_mode(arguments, quiet_));
+  bar_ = std::make_unique<ProgressBar>(progress_, mode_);
+}
+
+void Run::note(std::string_view line) const {
+  if (mode_ == ProgressMode::none) return;
+  fmt::print(stderr, "{}{}\n", resolved(mode_) == ProgressMode::bar ? "\r\x1b[K" : "", line);
 }
 
 void Run::end() {

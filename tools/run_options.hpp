@@ -4,10 +4,12 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "parallel/execution.hpp"
 #include "parallel/trace.hpp"
@@ -21,10 +23,17 @@ namespace warren {
 /// --threads --budget --memory --quiet --progress --color --trace
 std::span<const OptionSpec> run_option_specs();
 
+/// How many threads one word of --threads asks for; throws UsageError.
+unsigned threads_value(std::string_view text);
+
+/// What --budget and --threads are about: the whole command, or each of the runs that the verb makes (which then deals
+/// them out itself).
+enum class RunScope : std::uint8_t { whole_command, each_run };
+
 /// One run of a verb: the clock starts with it. Not movable: Execution points into it.
 class Run {
  public:
-  explicit Run(const Arguments& arguments);
+  explicit Run(const Arguments& arguments, RunScope scope = RunScope::whole_command);
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;
 
@@ -32,6 +41,8 @@ class Run {
   bool quiet() const { return quiet_; }
   const Palette& palette() const { return palette_; }
   unsigned threads() const { return thread_count(execution_.threads); }
+  /// Says one line on standard error, above the bar; nothing with --quiet or --progress none.
+  void note(std::string_view line) const;
   /// Ends the progress bar and writes the trace, if one was asked for; further calls do nothing.
   void end();
 
@@ -41,6 +52,7 @@ class Run {
   std::optional<Trace> trace_;
   std::string trace_file_;
   bool quiet_ = false;
+  ProgressMode mode_;
   Palette palette_{false};
   Execution execution_;
   std::unique_ptr<ProgressBar> bar_;

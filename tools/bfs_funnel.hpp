@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The honest bar beside any record: what somebody does who knows that the walls are a maze. Reads the cells back from
+// the walls, walks them breadth first, and pulls the string through the corridor's open sides (the funnel of Lee and
+// Preparata 1984, in Mononen's form). Gives the shortest path of a point that may touch wall ends; in a maze with loops
+// the shortest within the corridor that the breadth-first search took. O(walls + cells) time, 1 byte a cell beside the
+// walls.
+#pragma once
+
+#include <vector>
+
+#include "core/types.hpp"
+#include "parallel/execution.hpp"
+#include "worlds/scene.hpp"
+
+namespace warren {
+
+/// From the maze's start (0.5, 1) to its goal (cols + 0.5, rows); empty if cells don't connect them. The scene has the
+/// maze hint. Throws InputError if a wall is off the unit grid, Stopped at the deadline.
+std::vector<Vec2> bfs_funnel(const Scene& scene, const Execution& execution);
+
+}  // namespace warren

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The search behind `warren largest`: which mazes are tried, what came out, and what stands when it ends or is broken
+// off. largest_report.hpp writes it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/arguments.hpp"
+#include "tools/machine.hpp"
+#include "tools/maze_trial.hpp"
+#include "tools/run_options.hpp"
+#include "tools/size_search.hpp"
+
+namespace warren {
+
+/// A side n stands for n * n cells in the shape rows : cols.
+struct LargestOptions {
+  double budget_s = 20.0;  ///< of each run's solve_s
+  SizeSearch sizes;
+  double shape_rows = 1.0;  ///< > 0
+  double shape_cols = 1.0;  ///< > 0
+  MazeOptions maze;         ///< algorithm, loops, and the first seed
+  std::uint64_t seeds = 3;  ///< mazes at the last size; >= 1
+};
+
+struct UnbegunSize {
+  std::uint32_t rows, cols;
+  std::size_t expected_bytes;
+};
+
+/// BFS and funnel on the last maze.
+struct HonestBar {
+  double seconds = 0.0;
+  double length = 0.0;
+};
+
+struct LargestResult {
+  std::vector<MazeTrial> trials;     ///< in the order in which they ran
+  std::vector<UnbegunSize> unbegun;  ///< would not have fitted in memory
+  std::vector<MazeTrial> best;       ///< the runs at the largest size, a seed each; empty: none fitted
+  bool confirmed = false;            ///< all seeds of `best` ran and fitted
+  std::optional<HonestBar> bar;
+  MemoryTouch touch;
+  std::optional<StopReason> signal;  ///< the search was broken off
+};
+
+/// The run of median solve_s (the upper one of two). best is not empty.
+const MazeTrial& median_trial(const LargestResult& result);
+
+/// Searches and says each trial on standard error. Signals end it with what there is; never throws Stopped.
+LargestResult find_largest(const LargestOptions& options, const Arguments& how, const Run& run,
+                           const Execution& execution);
+
+}  // namespace warren

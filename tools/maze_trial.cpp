@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/maze_trial.hpp"
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "tools/answer_json.hpp"
+#include "tools/machine.hpp"
+#include "tools/option_values.hpp"
+#include "tools/planner_options.hpp"
+#include "tools/problem.hpp"
+#include "tools/signals.hpp"
+#include "tools/solve_walls.hpp"
+
+namespace warren {
+namespace {
+
+constexpr OptionSpec maze_specs[] = {
+    {"--algorithm", "NAME", "how the mazes are made (default: backtracker)", "backtracker kruskal prim wilson course"},
+    {"--loops", "F", "fraction of the remaining walls taken out, 0 to 1 (default: 0)"},
+};
+
+template <std::size_t N>
+bool is_one_of(std::string_view name, const std::array<std::string_view, N>& names) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
+std::span<const OptionSpec> trial_maze_specs() { return maze_specs; }
+
+MazeOptions trial_maze(const Arguments& arguments) {
+  MazeOptions options;
+  if (const auto loops = arguments.value("--loops")) options.loops = number_value("--loops", *loops, 0.0, 1.0);
+  if (const auto name = arguments.value("--algorithm")) {
+    constexpr std::string_view words[] = {"backtracker", "kruskal", "prim", "wilson", "course"};
+    options.algorithm = static_cast<MazeAlgorithm>(choice_value("--algorithm", *name, words));
+  }
+  return options;
+}
+
+std::vector<OptionSpec> trial_solve_specs(std::span<const std::string_view> without) {
+  constexpr std::array<std::string_view, 2> places{"--start", "--goal"};
+  std::vector<OptionSpec> specs;
+  add_options(specs, planner_option_specs());
+  add_options(specs, problem_option_specs());
+  std::erase_if(specs, [&](const OptionSpec& option) {
+    return is_one_of(option.name, places) || std::find(without.begin(), without.end(), option.name) != without.end();
+  });
+  return specs;
+}
+
+Scene generate_trial(const MazeOptions& maze, const Execution& execution, double& seconds) {
+  const StageTimer timer(execution, "generate", seconds);
+  return maze_scene(maze, false, execution);
+}
+
+MazeTrial solve_trial(const Scene& scene, const MazeOptions& maze, const Arguments& how, double budget_s,
+                      const Execution& execution) {
+  const WallProblem problem = wall_problem(scene, problem_options(how));
+  PlannerOptions planner = planner_options(how, scene);
+  planner.roadmap.seed = maze.seed;
+  restart_peak_memory();
+  const Deadline deadline(budget_s, execution.deadline->memory_bytes(), &signal_flag());
+  Execution within = execution;
+  within.deadline = &deadline;
+  const Answer answer = solve_walls(scene, problem, planner, within, nullptr);
+  const auto reason = answer.outcome == Outcome::stopped ? answer.stop_reason : std::nullopt;
+  if (reason == StopReason::interrupt || reason == StopReason::terminate) throw Stopped{*reason};
+  return {.rows = maze.rows,
+          .cols = maze.cols,
+          .seed = maze.seed,
+          .threads = thread_count(execution.threads),
+          .planner = answer.planner,
+          .sampler = answer.sampler,
+          .outcome = answer.outcome,
+          .stop_reason = reason,
+          .verified = answer.verified,
+          .length = answer.length,
+          .clearance = problem.clearance,
+          .generate_s = 0.0,
+          .solve_s = answer.solve_s,
+          .seconds = answer.seconds,
+          .peak_memory_bytes = peak_resident_bytes()};
+}
+
+std::string_view verdict_of(const MazeTrial& trial) {
+  if (trial.outcome != Outcome::stopped) return name_of(trial.outcome);
+  return trial.stop_reason == StopReason::memory ? "too little memory" : "cut by the budget";
+}
+
+nlohmann::ordered_json trial_json(const MazeTrial& trial) {
+  nlohmann::ordered_json stages = nlohmann::ordered_json::object();
+  for (const auto& [name, seconds] : named_stages(trial.seconds)) stages[name] = seconds;
+  nlohmann::ordered_json json{{"rows", trial.rows},         {"cols", trial.cols},
+                              {"threads", trial.threads},   {"planner", trial.planner},
+                              {"sampler", trial.sampler},   {"seed", trial.seed},
+                              {"solve_s", trial.solve_s},   {"stages_s", std::move(stages)},
+                              {"verified", trial.verified}, {"status", name_of(trial.outcome)}};
+  if (trial.stop_reason) json["stopped_by"] = trial.stop_reason == StopReason::memory ? "memory" : "budget";
+  json["length"] = trial.verified ? nlohmann::ordered_json(trial.length) : nlohmann::ordered_json(nullptr);
+  json["generate_s"] = trial.generate_s;
+  json["peak_memory_bytes"] = trial.peak_memory_bytes;
+  return json;
+}
+
+}  // namespace warren

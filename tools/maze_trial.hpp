@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One measured run of the same code as `warren solve`: a maze of this size and seed, solved under its own budget. What
+// `largest` and `scale` are made of.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/counters.hpp"
+#include "core/solution.hpp"
+#include "parallel/execution.hpp"
+#include "tools/arguments.hpp"
+#include "tools/command.hpp"
+#include "worlds/maze_generator.hpp"
+#include "worlds/scene.hpp"
+
+namespace warren {
+
+/// --algorithm --loops
+std::span<const OptionSpec> trial_maze_specs();
+/// Algorithm and loops from the options, all else as it is by default.
+MazeOptions trial_maze(const Arguments& arguments);
+/// The options of `solve` that a trial takes, but for those named: planner's, and of the problem what is not a place.
+std::vector<OptionSpec> trial_solve_specs(std::span<const std::string_view> without);
+
+/// An outcome with its figures.
+struct MazeTrial {
+  std::uint32_t rows = 0;
+  std::uint32_t cols = 0;
+  std::uint64_t seed = 1;
+  unsigned threads = 1;
+  std::string planner;
+  std::string sampler;
+  Outcome outcome = Outcome::stopped;
+  std::optional<StopReason> stop_reason;  ///< time or memory; only for stopped
+  bool verified = false;
+  double length = 0.0;
+  double clearance = 0.0;
+  double generate_s = 0.0;
+  double solve_s = 0.0;
+  StageTimes seconds;
+  std::size_t peak_memory_bytes = 0;  ///< from walls in memory on, walls included
+
+  double cells() const { return static_cast<double>(rows) * static_cast<double>(cols); }
+};
+
+/// Makes the maze; `seconds` receives the time. Throws Stopped.
+Scene generate_trial(const MazeOptions& maze, const Execution& execution, double& seconds);
+
+/// Solves it with the planner of `how` (options of `solve`), the maze's seed, and at most budget_s of solve_s; the
+/// memory limit is the execution's. Throws Stopped only for signals; other stops are outcomes.
+MazeTrial solve_trial(const Scene& scene, const MazeOptions& maze, const Arguments& how, double budget_s,
+                      const Execution& execution);
+
+/// "solved", or why not: "cut by the budget", "too little memory", "not_connected", …
+std::string_view verdict_of(const MazeTrial& trial);
+/// The keys that largest and scale share: rows cols seed threads planner sampler status verified solve_s stages_s …
+nlohmann::ordered_json trial_json(const MazeTrial& trial);
+
+}  // namespace warren

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A plot of a few series as one <svg> element: axes with round ticks, linear or logarithmic, legend at the right. Needs
+// nothing but what is in it, so it stands alone in a file and inside an HTML page.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/types.hpp"
+
+namespace warren {
+
+struct PlotSeries {
+  std::string name;          ///< in the legend
+  std::vector<Vec2> points;  ///< in the order in which the line joins them; on a logarithmic axis only those > 0 show
+  bool joined = true;        ///< by a line
+  bool dashed = false;       ///< the line alone, without markers: what is expected, not measured
+};
+
+struct Plot {
+  std::string title;
+  std::string x_label;
+  std::string y_label;
+  bool log_x = false;
+  bool log_y = false;
+  bool from_zero = false;  ///< a linear y axis starts at 0
+  std::vector<PlotSeries> series;
+  std::optional<double> level = {};  ///< a horizontal line
+  std::string level_name = {};
+};
+
+/// The element with its namespace, 760 x 420 units.
+std::string plot_svg(const Plot& plot);
+
+/// Text for XML and HTML: & < > " escaped, control characters and bytes that are not ASCII replaced.
+std::string xml_text(std::string_view text);
+
+}  // namespace warren
