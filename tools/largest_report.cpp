@@ -43,8 +43,8 @@ void add_size(std::string& text, const LargestOptions& options, const LargestRes
        fmt::format("{} cells, {} mazes, {} of the walls taken out", grouped(static_cast<std::uint64_t>(median.cells())),
                    name_of(options.maze.algorithm), human_number(options.maze.loops)));
   line(text, palette, "planner",
-       fmt::format("{}, {} sampler, clearance {}, {} {}", median.planner, median.sampler,
-                   human_number(median.clearance), median.threads, median.threads == 1 ? "thread" : "threads"));
+       fmt::format("{}, clearance {}, {} {}", planner_text(median), human_number(median.clearance), median.threads,
+                   median.threads == 1 ? "thread" : "threads"));
   line(text, palette, "solve",
        fmt::format("{}, the median of {} {} ({} to {})", palette.strong(human_seconds(median.solve_s)),
                    result.best.size(), result.best.size() == 1 ? "seed" : "seeds", human_seconds(fastest->solve_s),
@@ -198,8 +198,8 @@ std::string largest_plot(const LargestOptions& options, const LargestResult& res
             .level_name = fmt::format("budget {}", human_seconds(options.budget_s))};
   if (!result.best.empty()) {
     const MazeTrial& best = median_trial(result);
-    plot.title = fmt::format("{} x {} in {}: {}, {} sampler", best.rows, best.cols, human_seconds(best.solve_s),
-                             best.planner, best.sampler);
+    plot.title =
+        fmt::format("{} x {} in {}: {}", best.rows, best.cols, human_seconds(best.solve_s), planner_text(best));
   }
   for (const PlotSeries& series : {tried, cut, largest}) {
     if (!series.points.empty()) plot.series.push_back(series);

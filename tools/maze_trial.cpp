@@ -59,7 +59,7 @@ Scene generate_trial(const MazeOptions& maze, const Execution& execution, double
 MazeTrial solve_trial(const Scene& scene, const MazeOptions& maze, const Arguments& how, double budget_s,
                       const Execution& execution) {
   const WallProblem problem = wall_problem(scene, problem_options(how));
-  PlannerOptions planner = planner_options(how, scene);
+  PlannerOptions planner = planner_options(how, scene, problem);
   planner.roadmap.seed = maze.seed;
   restart_peak_memory();
   const Deadline deadline(budget_s, execution.deadline->memory_bytes(), &signal_flag());
@@ -74,6 +74,7 @@ MazeTrial solve_trial(const Scene& scene, const MazeOptions& maze, const Argumen
           .threads = thread_count(execution.threads),
           .planner = answer.planner,
           .sampler = answer.sampler,
+          .pipeline = answer.pipeline,
           .outcome = answer.outcome,
           .stop_reason = reason,
           .verified = answer.verified,
@@ -83,6 +84,10 @@ MazeTrial solve_trial(const Scene& scene, const MazeOptions& maze, const Argumen
           .solve_s = answer.solve_s,
           .seconds = answer.seconds,
           .peak_memory_bytes = peak_resident_bytes()};
+}
+
+std::string planner_text(const MazeTrial& trial) {
+  return trial.planner + (trial.pipeline.empty() ? "" : ", " + trial.pipeline) + ", " + trial.sampler + " sampler";
 }
 
 std::string_view verdict_of(const MazeTrial& trial) {
@@ -98,6 +103,7 @@ nlohmann::ordered_json trial_json(const MazeTrial& trial) {
                               {"sampler", trial.sampler},   {"seed", trial.seed},
                               {"solve_s", trial.solve_s},   {"stages_s", std::move(stages)},
                               {"verified", trial.verified}, {"status", name_of(trial.outcome)}};
+  if (!trial.pipeline.empty()) json["pipeline"] = trial.pipeline;
   if (trial.stop_reason) json["stopped_by"] = trial.stop_reason == StopReason::memory ? "memory" : "budget";
   json["length"] = trial.verified ? nlohmann::ordered_json(trial.length) : nlohmann::ordered_json(nullptr);
   json["generate_s"] = trial.generate_s;

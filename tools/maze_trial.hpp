@@ -35,6 +35,7 @@ struct MazeTrial {
   unsigned threads = 1;
   std::string planner;
   std::string sampler;
+  std::string pipeline;  ///< plain or tiled; only for prm
   Outcome outcome = Outcome::stopped;
   std::optional<StopReason> stop_reason;  ///< time or memory; only for stopped
   bool verified = false;
@@ -56,6 +57,8 @@ Scene generate_trial(const MazeOptions& maze, const Execution& execution, double
 MazeTrial solve_trial(const Scene& scene, const MazeOptions& maze, const Arguments& how, double budget_s,
                       const Execution& execution);
 
+/// "prm, tiled, lattice sampler"
+std::string planner_text(const MazeTrial& trial);
 /// "solved", or why not: "cut by the budget", "too little memory", "not_connected", …
 std::string_view verdict_of(const MazeTrial& trial);
 /// The keys that largest and scale share: rows cols seed threads planner sampler status verified solve_s stages_s …

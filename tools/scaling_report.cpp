@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/scaling_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "tools/human_units.hpp"
+#include "tools/machine.hpp"
+
+namespace warren {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json exponents_json(std::span<const ScalingRow> rows) {
+  Json json = Json::object();
+  for (const auto& [stage, exponent] : stage_exponents(rows)) json[stage] = exponent;
+  return json;
+}
+
+std::string size_text(const MazeTrial& t) { return fmt::format("{} x {}", t.rows, t.cols); }
+
+std::string table_line(const ScalingRow& row) {
+  const MazeTrial& t = row.fastest;
+  const auto bytes = static_cast<double>(row.peak_memory_bytes);
+  return fmt::format("{:>15}  {:<30} {:>7}  {:>9}  {:>9}  {:>5.1f} %  {:>8.1f}  {:>8.2f}  {:>9}  {:>8.1f}\n",
+                     size_text(t), planner_text(t), t.threads, human_seconds(t.solve_s), human_seconds(row.median_s),
+                     100.0 * row.spread, t.solve_s * 1e9 / t.cells(), row.speed_up, human_bytes(bytes),
+                     bytes / t.cells());
+}
+
+std::string unsolved_text(const ScalingResult& result) {
+  std::string text;
+  std::set<std::string> said;
+  for (const ScalingRun& run : result.runs) {
+    if (run.trial.verified) continue;
+    const std::string what = fmt::format("  {}, {}, {} threads: {}\n", size_text(run.trial), planner_text(run.trial),
+                                         run.trial.threads, verdict_of(run.trial));
+    if (said.insert(what).second) text += what;
+  }
+  for (const auto& [rows, cols] : result.ungenerated) {
+    text += fmt::format("  {} x {}: too little memory to generate it\n", rows, cols);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string noise_text(std::span<const ScalingRow> rows) {
+  std::vector<double> spreads;
+  for (const ScalingRow& row : rows) {
+    if (row.runs > 1) spreads.push_back(100.0 * row.spread);
+  }
+  if (spreads.empty()) return "not known: nothing was repeated";
+  std::sort(spreads.begin(), spreads.end());
+  return fmt::format("repeats of one maze differ by {:.1f} % in the median, by {:.1f} % at most",
+                     spreads[spreads.size() / 2], spreads.back());
+}
+
+std::string scaling_summary(const ScalingResult& result, const Palette& palette) {
+  const std::vector<ScalingRow> rows = scaling_rows(result);
+  std::string text = palette.strong(fmt::format("{:>15}  {:<30} {:>7}  {:>9}  {:>9}  {:>7}  {:>8}  {:>8}  {:>9}  {:>8}",
+                                                "size", "planner", "threads", "minimum", "median", "spread", "ns/cell",
+                                                "speed-up", "memory", "B/cell"));
+  text += '\n';
+  for (const ScalingRow& row : rows) text += table_line(row);
+  text += unsolved_text(result);
+  std::string exponents;
+  for (const auto& [stage, exponent] : stage_exponents(rows)) {
+    exponents += fmt::format("{}{} {:.2f}", exponents.empty() ? "" : ", ", stage, exponent);
+  }
+  const auto line = [&](std::string_view name, const std::string& what) {
+    text += fmt::format("{}{}\n", palette.faint(fmt::format("{:<11}", name)), what);
+  };
+  if (!exponents.empty()) line("exponents", exponents + " (of least times against cells)");
+  line("noise", noise_text(rows));
+  line("machine", text_of(this_machine()));
+  if (result.signal) text += palette.doubtful("interrupted") + ": these are the runs so far\n";
+  return text;
+}
+
+std::string scaling_json(const ScalingOptions& options, const ScalingResult& result) {
+  const std::vector<ScalingRow> rows = scaling_rows(result);
+  Json json{{"schema", "warren.scale/1"}, {"warren_version", WARREN_VERSION}, {"repeats", options.repeats}};
+  json["algorithm"] = name_of(options.maze.algorithm);
+  json["loops"] = options.maze.loops;
+  const Machine machine = this_machine();
+  json["machine"] = {{"cpu", machine.cpu}, {"cores", machine.cores}, {"memory_bytes", machine.memory_bytes}};
+  if (result.signal) json["stopped_by"] = *result.signal == StopReason::terminate ? "SIGTERM" : "SIGINT";
+  json["runs"] = Json::array();
+  for (const ScalingRun& run : result.runs) {
+    Json entry = trial_json(run.trial);
+    entry["repeat"] = run.repeat;
+    json["runs"].push_back(std::move(entry));
+  }
+  json["rows"] = Json::array();
+  for (const ScalingRow& row : rows) {
+    const MazeTrial& t = row.fastest;
+    json["rows"].push_back({{"rows", t.rows},
+                            {"cols", t.cols},
+                            {"threads", t.threads},
+                            {"planner", t.planner},
+                            {"sampler", t.sampler},
+                            {"runs", row.runs},
+                            {"min_s", t.solve_s},
+                            {"median_s", row.median_s},
+                            {"spread", row.spread},
+                            {"ns_per_cell", t.solve_s * 1e9 / t.cells()},
+                            {"speed_up", row.speed_up},
+                            {"efficiency", row.speed_up / t.threads},
+                            {"bytes_per_cell", static_cast<double>(row.peak_memory_bytes) / t.cells()}});
+  }
+  json["exponents"] = exponents_json(rows);
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string scaling_csv(const ScalingResult& result) {
+  const std::vector<std::string> stages = stage_names();
+  std::string text = "rows,cols,cells,planner,sampler,pipeline,threads,seed,repeat,status,verified,solve_s";
+  for (const std::string& stage : stages) text += "," + stage + "_s";
+  text += ",generate_s,length,peak_memory_bytes\n";
+  for (const ScalingRun& run : result.runs) {
+    const MazeTrial& t = run.trial;
+    text += fmt::format("{},{},{:.0f},{},{},{},{},{},{},{},{},{}", t.rows, t.cols, t.cells(), t.planner, t.sampler,
+                        t.pipeline, t.threads, t.seed, run.repeat, name_of(t.outcome), t.verified, t.solve_s);
+    for (const std::string& stage : stages) text += fmt::format(",{}", seconds_of(t, stage));
+    text +=
+        fmt::format(",{},{},{}\n", t.generate_s, t.verified ? fmt::format("{}", t.length) : "", t.peak_memory_bytes);
+  }
+  return text;
+}
+
+}  // namespace warren

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/scaling_study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <new>
+#include <tuple>
+
+#include "tools/answer.hpp"
+#include "tools/human_units.hpp"
+
+namespace warren {
+namespace {
+
+/// One study: mazes outside, runs inside.
+class ScalingStudy {
+ public:
+  ScalingStudy(const ScalingOptions& options, const Run& run) : options_(options), run_(run) {}
+
+  void run_all() {
+    for (const auto& [rows, cols] : options_.sizes) {
+      for (const std::uint64_t seed : options_.seeds) run_maze(rows, cols, seed);
+    }
+  }
+  ScalingResult& result() { return result_; }
+
+ private:
+  void run_maze(std::uint32_t rows, std::uint32_t cols, std::uint64_t seed);
+  std::optional<Scene> generated(const MazeOptions& maze, double& seconds);
+  void run_once(const Scene& scene, const MazeOptions& maze, double generate_s, unsigned repeat);
+  void say(const MazeOptions& maze, std::size_t first_run) const;
+
+  const ScalingOptions& options_;
+  const Run& run_;
+  ScalingResult result_;
+};
+
+void ScalingStudy::run_maze(std::uint32_t rows, std::uint32_t cols, std::uint64_t seed) {
+  MazeOptions maze = options_.maze;
+  maze.rows = rows;
+  maze.cols = cols;
+  maze.seed = seed;
+  double generate_s = 0.0;
+  const std::optional<Scene> scene = generated(maze, generate_s);
+  if (!scene) return;
+  const std::size_t first_run = result_.runs.size();
+  for (unsigned repeat = 0; repeat < options_.repeats; ++repeat) run_once(*scene, maze, generate_s, repeat);
+  say(maze, first_run);
+}
+
+std::optional<Scene> ScalingStudy::generated(const MazeOptions& maze, double& seconds) {
+  try {
+    return generate_trial(maze, run_.execution(), seconds);
+  } catch (const Stopped& stopped) {
+    if (stopped.reason != StopReason::memory) throw;
+  } catch (const std::bad_alloc&) {
+  }
+  result_.ungenerated.emplace_back(maze.rows, maze.cols);
+  run_.note(fmt::format("{:>6} x {:<6} too little memory to generate it", maze.rows, maze.cols));
+  return std::nullopt;
+}
+
+void ScalingStudy::run_once(const Scene& scene, const MazeOptions& maze, double generate_s, unsigned repeat) {
+  for (const Arguments& planner : options_.planners) {
+    for (const unsigned threads : options_.threads) {
+      Execution execution = run_.execution();
+      execution.threads = threads;
+      MazeTrial trial = solve_trial(scene, maze, planner, options_.budget_s, execution);
+      trial.generate_s = generate_s;
+      result_.runs.push_back({std::move(trial), repeat});
+    }
+  }
+}
+
+void ScalingStudy::say(const MazeOptions& maze, std::size_t first_run) const {
+  const MazeTrial* fastest = nullptr;
+  for (std::size_t i = first_run; i < result_.runs.size(); ++i) {
+    const MazeTrial& t = result_.runs[i].trial;
+    if (t.verified && (fastest == nullptr || t.solve_s < fastest->solve_s)) fastest = &t;
+  }
+  run_.note(fmt::format("{:>6} x {:<6} seed {}: {} runs, {}", maze.rows, maze.cols, maze.seed,
+                        result_.runs.size() - first_run,
+                        fastest == nullptr ? "none solved" : "fastest " + human_seconds(fastest->solve_s)));
+}
+
+/// What a row has in common.
+using RowKey = std::tuple<std::string, std::string, std::uint32_t, std::uint32_t, unsigned>;
+RowKey key_of(const MazeTrial& t) { return {t.planner, t.sampler, t.rows, t.cols, t.threads}; }
+
+/// Each stage's least.
+void take_least(StageTimes& least, const StageTimes& other) {
+  for (double StageTimes::*stage :
+       {&StageTimes::index, &StageTimes::sample, &StageTimes::neighbours, &StageTimes::connect, &StageTimes::graph,
+        &StageTimes::reduce, &StageTimes::search, &StageTimes::optimise, &StageTimes::verify}) {
+    least.*stage = std::min(least.*stage, other.*stage);
+  }
+}
+
+double median_of(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
+}
+
+ScalingRow row_of(const std::vector<const MazeTrial*>& runs) {
+  ScalingRow row;
+  row.runs = runs.size();
+  std::vector<double> seconds;
+  std::map<std::uint64_t, std::pair<double, double>> extremes;  // by seed
+  StageTimes least = runs.front()->seconds;
+  for (const MazeTrial* t : runs) {
+    seconds.push_back(t->solve_s);
+    take_least(least, t->seconds);
+    row.peak_memory_bytes = std::max(row.peak_memory_bytes, t->peak_memory_bytes);
+    auto& [low, high] = extremes.try_emplace(t->seed, t->solve_s, t->solve_s).first->second;
+    low = std::min(low, t->solve_s);
+    high = std::max(high, t->solve_s);
+  }
+  for (const auto& [seed, extreme] : extremes) row.spread = std::max(row.spread, extreme.second / extreme.first - 1.0);
+  row.median_s = median_of(seconds);
+  row.fastest = **std::min_element(runs.begin(), runs.end(),
+                                   [](const auto* a, const auto* b) { return a->solve_s < b->solve_s; });
+  row.fastest.seconds = least;
+  return row;
+}
+
+void add_speed_ups(std::vector<ScalingRow>& rows) {
+  for (ScalingRow& row : rows) {
+    const ScalingRow* base = &row;
+    for (const ScalingRow& other : rows) {
+      const MazeTrial& a = other.fastest;
+      const MazeTrial& b = row.fastest;
+      const bool same_problem =
+          a.planner == b.planner && a.sampler == b.sampler && a.rows == b.rows && a.cols == b.cols;
+      if (same_problem && a.threads < base->fastest.threads) base = &other;
+    }
+    row.speed_up = base->fastest.threads * base->fastest.solve_s / row.fastest.solve_s;
+  }
+}
+
+}  // namespace
+
+ScalingResult run_scaling_study(const ScalingOptions& options, const Run& run) {
+  ScalingStudy study(options, run);
+  try {
+    study.run_all();
+  } catch (const Stopped& stopped) {
+    study.result().signal = stopped.reason;
+  }
+  return std::move(study.result());
+}
+
+std::vector<ScalingRow> scaling_rows(const ScalingResult& result) {
+  std::map<RowKey, std::size_t> place;
+  std::vector<std::vector<const MazeTrial*>> runs;
+  for (const ScalingRun& run : result.runs) {
+    if (!run.trial.verified) continue;
+    const auto [at, is_new] = place.try_emplace(key_of(run.trial), runs.size());
+    if (is_new) runs.emplace_back();
+    runs[at->second].push_back(&run.trial);
+  }
+  std::vector<ScalingRow> rows;
+  for (const auto& group : runs) rows.push_back(row_of(group));
+  std::stable_sort(rows.begin(), rows.end(), [](const ScalingRow& a, const ScalingRow& b) {
+    return std::tie(a.fastest.planner, a.fastest.sampler) < std::tie(b.fastest.planner, b.fastest.sampler);
+  });
+  add_speed_ups(rows);
+  return rows;
+}
+
+std::optional<double> common_exponent(std::span<const std::vector<Vec2>> groups) {
+  double xx = 0.0;
+  double xy = 0.0;
+  for (const std::vector<Vec2>& group : groups) {
+    Vec2 mean;
+    for (const Vec2 p : group) mean = mean + Vec2{std::log(p.x), std::log(p.y)};
+    if (!group.empty()) mean = 1.0 / static_cast<double>(group.size()) * mean;
+    for (const Vec2 p : group) {
+      const Vec2 d = Vec2{std::log(p.x), std::log(p.y)} - mean;
+      xx += d.x * d.x;
+      xy += d.x * d.y;
+    }
+  }
+  constexpr double least = 1e-9;  // below it all x are the same but for rounding
+  return xx > least ? std::optional(xy / xx) : std::nullopt;
+}
+
+std::vector<std::pair<std::string, double>> stage_exponents(std::span<const ScalingRow> rows) {
+  constexpr double least_s = 20e-6;
+  std::vector<std::string> stages = stage_names();
+  stages.emplace_back("solve");
+  std::vector<std::pair<std::string, double>> exponents;
+  for (const std::string& stage : stages) {
+    std::map<std::tuple<std::string, std::string, unsigned>, std::vector<Vec2>> by_way;
+    for (const ScalingRow& row : rows) {
+      const MazeTrial& t = row.fastest;
+      const double seconds = seconds_of(t, stage);
+      if (seconds >= least_s) by_way[{t.planner, t.sampler, t.threads}].push_back({t.cells(), seconds});
+    }
+    std::vector<std::vector<Vec2>> groups;
+    for (auto& [way, points] : by_way) groups.push_back(std::move(points));
+    if (const auto exponent = common_exponent(groups)) exponents.emplace_back(stage, *exponent);
+  }
+  return exponents;
+}
+
+std::vector<std::string> stage_names() {
+  StageTimes all{0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1};  // what is zero may go unnamed: reading and generating do
+  std::vector<std::string> names;
+  for (const auto& [name, seconds] : named_stages(all)) names.emplace_back(name);
+  return names;
+}
+
+double seconds_of(const MazeTrial& trial, std::string_view stage) {
+  if (stage == "solve") return trial.solve_s;
+  for (const auto& [name, seconds] : named_stages(trial.seconds)) {
+    if (stage == name) return seconds;
+  }
+  return 0.0;
+}
+
+}  // namespace warren

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sizes x seeds x planners x threads, each solved several times: the runs behind `warren scale`, and what they say.
+//
+// A maze is generated once; its runs are interleaved (all planners and thread counts, then all of them again), so that
+// whatever else the machine does meanwhile meets every one of them alike. The first round of a size is also the one
+// that finds memory cold: the minimum leaves it out, the spread shows it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/types.hpp"
+#include "tools/arguments.hpp"
+#include "tools/maze_trial.hpp"
+#include "tools/run_options.hpp"
+
+namespace warren {
+
+struct ScalingOptions {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> sizes;  ///< rows, cols; ascending cells
+  std::vector<unsigned> threads;                               ///< ascending
+  std::vector<Arguments> planners;                             ///< options of `solve`
+  std::vector<std::uint64_t> seeds;                            ///< of maze and sampling
+  unsigned repeats = 3;                                        ///< >= 1
+  double budget_s = 0.0;                                       ///< of each run's solve_s; infinity: none
+  MazeOptions maze;                                            ///< algorithm and loops
+};
+
+struct ScalingRun {
+  MazeTrial trial;
+  unsigned repeat = 0;  ///< 0 is the first
+};
+
+struct ScalingResult {
+  std::vector<ScalingRun> runs;                                      ///< in the order in which they ran
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> ungenerated;  ///< too large for the memory
+  std::optional<StopReason> signal;                                  ///< the study was broken off
+};
+
+/// Runs the study and says each maze on standard error. Signals end it with what there is; never throws Stopped.
+ScalingResult run_scaling_study(const ScalingOptions& options, const Run& run);
+
+/// All runs of one size, planner and thread count that were solved.
+struct ScalingRow {
+  MazeTrial fastest;  ///< the run of least solve_s; its `seconds` are each stage's least of all runs
+  std::size_t runs = 0;
+  double median_s = 0.0;
+  double spread = 0.0;                ///< slowest over fastest repeat of one maze, minus 1; the largest of the seeds
+  double speed_up = 0.0;              ///< against the row of fewest threads, times its threads
+  std::size_t peak_memory_bytes = 0;  ///< the most of all runs
+};
+
+/// Rows by planner, then size, then threads, as they first ran.
+std::vector<ScalingRow> scaling_rows(const ScalingResult& result);
+
+/// The least-squares slope of log y over log x that the groups have in common, each with a level of its own; none
+/// where no group has two different x. All coordinates > 0.
+std::optional<double> common_exponent(std::span<const std::vector<Vec2>> groups);
+
+/// Exponents of time against cells, by stage, "solve" last: of each stage's least times in these rows, one level a
+/// planner and thread count. Stages below 20 us are left out: there the clock and the start of threads are measured.
+std::vector<std::pair<std::string, double>> stage_exponents(std::span<const ScalingRow> rows);
+
+/// Names of all stages, in the order of the work.
+std::vector<std::string> stage_names();
+/// The seconds of one stage, or of "solve".
+double seconds_of(const MazeTrial& trial, std::string_view stage);
+
+}  // namespace warren
