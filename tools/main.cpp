@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The program `warren`: a table of verbs. Each verb parses its words, calls the library and prints; what goes wrong
-// becomes one line on standard error and an exit code here.
+// The program `warren`: a table of verbs (command_table.cpp). Each verb parses its words, calls the library and prints;
+// what goes wrong becomes one line on standard error and an exit code here.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -18,13 +18,6 @@
 #include "tools/signals.hpp"
 
 namespace warren {
-
-const std::vector<Command>& command_table() {
-  static const std::vector<Command> table{generate_command(),   solve_command(), largest_command(), scale_command(),
-                                          verify_command(),     info_command(),  render_command(),  convert_command(),
-                                          completion_command(), man_command()};
-  return table;
-}
 
 namespace {
 

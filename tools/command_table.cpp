@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The verbs of the program; main.cpp dispatches to them.
+#include "tools/command.hpp"
+
+namespace warren {
+
+const std::vector<Command>& command_table() {
+  static const std::vector<Command> table{generate_command(),   solve_command(), largest_command(), scale_command(),
+                                          verify_command(),     info_command(),  render_command(),  convert_command(),
+                                          completion_command(), man_command()};
+  return table;
+}
+
+}  // namespace warren
