@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "program.hpp"
+#include "tests/tools/program.hpp"
 
 namespace warren {
 namespace {
