@@ -270,7 +270,7 @@ def budgets_are_kept(program, full):
 
 
 def signals_stop_it_in_every_stage(program, full):
-    side, moments = (3000, 24) if full else (300, 3)
+    side, moments = (3000, 8) if full else (300, 3)
     cases = [[f"maze:{side}x{side}", "--planner", "prm"], [f"maze:{side}x{side}", "--planner", "lazy-prm", "--optimise"]]
     if full:
         cases += [["maze:400x400", "--sampler", "uniform", "--planner", planner] for planner in PLANNERS]
