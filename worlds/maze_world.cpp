@@ -55,7 +55,7 @@ bool MazeWorld::is_free(const State& a, Query&) const noexcept {
 }
 
 double MazeWorld::suggested_samples() const {
-  constexpr double samples_a_square = 5.1;
+  constexpr double samples_a_square = 4.5;
   constexpr std::size_t probes = 64;
   std::vector<double> widths;
   for (const Segment& wall : index_.some_walls(probes)) {

@@ -39,7 +39,7 @@ class MazeWorld {
 
   /// Area of the box that uniform samples are drawn from.
   double sampled_area() const { return box_.width() * box_.height(); }
-  /// Uniform samples that a first roadmap needs: five for each square as wide as the corridors are free. The corridors'
+  /// Uniform samples that a first roadmap needs: 4.5 for each square as wide as the corridors are free. The corridors'
   /// width is the lower quartile of what rays from some walls' middles see on either side. A pure function of the
   /// walls.
   double suggested_samples() const;
