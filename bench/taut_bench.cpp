@@ -77,7 +77,7 @@ void report(benchmark::State& state, const Case& c, const std::vector<Vec2>& pat
       static_cast<double>(c.raw.size()), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-void TautPath(benchmark::State& state) {
+void bm_taut_path(benchmark::State& state) {
   const Case c(static_cast<std::uint32_t>(state.range(0)));
   const WallIndex index(c.scene.walls, {});
   Execution execution;
@@ -86,7 +86,7 @@ void TautPath(benchmark::State& state) {
   for (auto _ : state) path = taut_path(index, c.raw, planning_clearance, execution);
   report(state, c, path);
 }
-BENCHMARK(TautPath)->Arg(300)->Arg(1000)->Unit(benchmark::kMillisecond);
+BENCHMARK(bm_taut_path)->Arg(300)->Arg(1000)->Unit(benchmark::kMillisecond);
 
 /// One sweep: as many tries as the path has points; places at most 30 points apart, since farther ones never see
 /// each other in a maze.
@@ -109,7 +109,7 @@ void shortcut_sweep(const WallIndex& index, std::vector<Vec2>& path, SequentialR
   }
 }
 
-void RandomShortcuts(benchmark::State& state) {
+void bm_random_shortcuts(benchmark::State& state) {
   const Case c(static_cast<std::uint32_t>(state.range(0)));
   const WallIndex index(c.scene.walls, {});
   std::vector<Vec2> path;
@@ -120,6 +120,6 @@ void RandomShortcuts(benchmark::State& state) {
   }
   report(state, c, path);
 }
-BENCHMARK(RandomShortcuts)->Arg(300)->Unit(benchmark::kMillisecond);
+BENCHMARK(bm_random_shortcuts)->Arg(300)->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -14,7 +14,6 @@ namespace {
 using plane_bit::edges;
 using plane_bit::kept;
 using plane_bit::key;
-using plane_bit::milestone;
 
 /// One edge and not kept. A table of 64 answers in a word.
 constexpr std::uint64_t dead_end_set = [] {
