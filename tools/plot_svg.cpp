@@ -58,7 +58,8 @@ std::vector<double> Axis::round_ticks() const {
   const double digit = wish / power < 1.5 ? 1.0 : wish / power < 3.5 ? 2.0 : wish / power < 7.5 ? 5.0 : 10.0;
   const double step = digit * power;
   std::vector<double> ticks;
-  for (double i = std::ceil(low_ / step - 1e-9) + 0.0; i * step <= high_ + 1e-9 * step; i += 1.0) ticks.push_back(i * step);
+  for (double i = std::ceil(low_ / step - 1e-9) + 0.0; i * step <= high_ + 1e-9 * step; i += 1.0)
+    ticks.push_back(i * step);
   return ticks;
 }
 
