@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/arguments.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "core/error.hpp"
@@ -18,6 +20,11 @@ const OptionSpec* find_option(const Command& command, std::string_view name) {
 }
 
 [[noreturn]] void refuse_unknown(const Command& command, std::string_view name) {
+  for (const auto& [option, owner] : command.foreign) {
+    if (name == option) {
+      throw UsageError(fmt::format("{}: an option of {}, which this version does not have", name, owner));
+    }
+  }
   std::vector<std::string_view> known{"--help"};
   for (const OptionSpec& option : command.options) known.push_back(option.name);
   throw UsageError("unknown option " + std::string{name} + suggestion(name, known));

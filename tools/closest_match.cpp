@@ -22,7 +22,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return cost[a.size()][b.size()];
 }
 
-std::string suggestion(std::string_view word, std::span<const std::string_view> known) {
+std::string suggestion(std::string_view word, std::span<const std::string_view> known, std::size_t farthest) {
   constexpr std::size_t longest = 64;  // nobody misspells an option at greater length
   std::string_view best;
   std::size_t best_distance = std::numeric_limits<std::size_t>::max();
@@ -33,7 +33,7 @@ std::string suggestion(std::string_view word, std::span<const std::string_view> 
       best_distance = distance;
     }
   }
-  return best.empty() ? "" : "; did you mean " + std::string{best} + "?";
+  return best.empty() || best_distance > farthest ? "" : "; did you mean " + std::string{best} + "?";
 }
 
 }  // namespace warren

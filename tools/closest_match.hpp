@@ -11,7 +11,9 @@ namespace warren {
 /// Optimal string alignment distance. O(length a × length b).
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// "; did you mean KNOWN?" for the closest of the known words, which is the earliest of equals.
-std::string suggestion(std::string_view word, std::span<const std::string_view> known);
+/// "; did you mean KNOWN?" for the closest of the known words, which is the earliest of equals; "" if all are farther
+/// than `farthest`.
+std::string suggestion(std::string_view word, std::span<const std::string_view> known,
+                       std::size_t farthest = std::string_view::npos);
 
 }  // namespace warren

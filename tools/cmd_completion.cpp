@@ -6,6 +6,7 @@
 #include "tools/command.hpp"
 #include "tools/exit_code.hpp"
 #include "tools/option_values.hpp"
+#include "tools/terminal.hpp"
 
 namespace warren {
 namespace {
@@ -111,13 +112,13 @@ int completion(const Arguments& arguments) {
   constexpr std::string_view shells[] = {"bash", "zsh", "fish"};
   switch (choice_value("SHELL", arguments.operand(0), shells)) {
     case 0:
-      fmt::print("{}", bash_completion());
+      print_text(bash_completion());
       break;
     case 1:
-      fmt::print("{}", zsh_completion());
+      print_text(zsh_completion());
       break;
     default:
-      fmt::print("{}", fish_completion());
+      print_text(fish_completion());
   }
   return exit_code::success;
 }

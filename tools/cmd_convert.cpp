@@ -6,6 +6,7 @@
 #include "tools/command.hpp"
 #include "tools/exit_code.hpp"
 #include "tools/run_options.hpp"
+#include "tools/terminal.hpp"
 #include "tools/world_files.hpp"
 
 namespace warren {
@@ -28,7 +29,8 @@ int convert(const Arguments& arguments) {
     write_world(scene, *file, arguments.command_line(), run.execution());
   }
   run.end();
-  if (!run.quiet() && *file != "-") fmt::print("{}: {}\n", run.palette().strong(*file), description_of(scene));
+  if (!run.quiet() && *file != "-")
+    print_text(fmt::format("{}: {}\n", run.palette().strong(*file), description_of(scene)));
   return exit_code::success;
 }
 

@@ -10,6 +10,7 @@
 #include "tools/human_units.hpp"
 #include "tools/option_values.hpp"
 #include "tools/run_options.hpp"
+#include "tools/terminal.hpp"
 #include "tools/world_files.hpp"
 #include "worlds/maze_generator.hpp"
 #include "worlds/world_io.hpp"
@@ -64,8 +65,8 @@ int generate(const Arguments& arguments) {
   }
   run.end();
   if (!run.quiet() && *file != "-") {
-    fmt::print("{}: {}, generated in {}, written in {}\n", run.palette().strong(*file), description_of(scene),
-               human_seconds(seconds), human_seconds(write_seconds));
+    print_text(fmt::format("{}: {}, generated in {}, written in {}\n", run.palette().strong(*file),
+                           description_of(scene), human_seconds(seconds), human_seconds(write_seconds)));
   }
   return exit_code::success;
 }

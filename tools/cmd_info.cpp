@@ -11,6 +11,7 @@
 #include "tools/output_files.hpp"
 #include "tools/problem.hpp"
 #include "tools/run_options.hpp"
+#include "tools/terminal.hpp"
 #include "tools/world_files.hpp"
 #include "worlds/output_file_io.hpp"
 
@@ -82,17 +83,17 @@ std::string json_of(const std::vector<Fact>& facts) {
 }
 
 int info(const Arguments& arguments) {
-  const std::string json = arguments.value("--json").value_or("");
-  if (!json.empty()) check_writable(json);
+  const auto json = output_file(arguments, "--json");
   Run run(arguments);
   StageTimes seconds;
   const Scene scene = load_world(arguments.operand(0), run.execution(), seconds);
   std::vector<Fact> facts = obstacle_facts(scene, account_of(scene, run.execution()), run.execution());
   add_problem_facts(scene, facts);
   run.end();
-  if (!json.empty()) write_file(json, json_of(facts), run.execution());
+  if (json) write_file(*json, json_of(facts), run.execution());
   if (run.quiet() || json == "-") return exit_code::success;
-  for (const Fact& fact : facts) fmt::print("{}{}\n", run.palette().faint(fmt::format("{:<11}", fact.name)), fact.text);
+  for (const Fact& fact : facts)
+    print_text(fmt::format("{}{}\n", run.palette().faint(fmt::format("{:<11}", fact.name)), fact.text));
   return exit_code::success;
 }
 

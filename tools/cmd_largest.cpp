@@ -17,6 +17,7 @@
 #include "tools/planner_options.hpp"
 #include "tools/problem.hpp"
 #include "tools/run_options.hpp"
+#include "tools/terminal.hpp"
 #include "worlds/output_file_io.hpp"
 
 namespace warren {
@@ -127,7 +128,7 @@ int largest(const Arguments& arguments) {
   if (!json.empty()) write_file(json, largest_json(options, result), Execution{});
   if (!svg.empty()) write_file(svg, largest_plot(options, result), Execution{});
   if (!run.quiet() && json != "-" && svg != "-") {
-    fmt::print("{}", largest_summary(options, result, run.palette()));
+    print_text(largest_summary(options, result, run.palette()));
   }
   return exit_code(result);
 }

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "tools/command.hpp"
 #include "tools/exit_code.hpp"
+#include "tools/terminal.hpp"
 
 namespace warren {
 namespace {
@@ -105,7 +106,7 @@ int man(const Arguments&) {
   page += ".SH OPTIONS\n";
   for (const Command& command : command_table()) add_command(page, command);
   page += tail;
-  fmt::print("{}", page);
+  print_text(page);
   return exit_code::success;
 }
 

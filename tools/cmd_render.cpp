@@ -9,6 +9,7 @@
 #include "tools/picture.hpp"
 #include "tools/recorded_answer.hpp"
 #include "tools/run_options.hpp"
+#include "tools/terminal.hpp"
 #include "tools/world_files.hpp"
 
 namespace warren {
@@ -57,10 +58,11 @@ int render(const Arguments& arguments) {
   double draw_seconds = 0.0;
   {
     const StageTimer timer(run.execution(), "draw", draw_seconds);
-    write_picture(file, "--output", picture, run.execution());
+    write_picture(file, picture, run.execution());
   }
   run.end();
-  if (!run.quiet() && file != "-") fmt::print("{}: {}\n", run.palette().strong(file), description_of(scene));
+  if (!run.quiet() && file != "-")
+    print_text(fmt::format("{}: {}\n", run.palette().strong(file), description_of(scene)));
   return exit_code::success;
 }
 

@@ -16,6 +16,7 @@
 #include "tools/run_options.hpp"
 #include "tools/scaling_report.hpp"
 #include "tools/scaling_study.hpp"
+#include "tools/terminal.hpp"
 #include "worlds/output_file_io.hpp"
 
 namespace warren {
@@ -171,7 +172,7 @@ int scale(const Arguments& arguments) {
   write("--json", [&] { return scaling_json(options, result); });
   write("--csv", [&] { return scaling_csv(result); });
   write("--html", [&] { return scaling_page(result, arguments.command_line()); });
-  if (!run.quiet() && !standard_output_taken) fmt::print("{}", scaling_summary(result, run.palette()));
+  if (!run.quiet() && !standard_output_taken) print_text(scaling_summary(result, run.palette()));
   return exit_code(result);
 }
 

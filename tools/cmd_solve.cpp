@@ -15,6 +15,7 @@
 #include "tools/run_options.hpp"
 #include "tools/solve_walls.hpp"
 #include "tools/summary.hpp"
+#include "tools/terminal.hpp"
 #include "tools/world_files.hpp"
 #include "worlds/output_file_io.hpp"
 
@@ -31,8 +32,8 @@ class SolveCommand {
  public:
   explicit SolveCommand(const Arguments& arguments)
       : arguments_(arguments),
-        json_(arguments.value("--json").value_or("")),
-        svg_(arguments.value("--svg").value_or("")),
+        json_(output_file(arguments, "--json").value_or("")),
+        svg_(output_file(arguments, "--svg").value_or("")),
         problem_(problem_options(arguments)) {
     check_planner_options(arguments);
     if (problem_.contact == Contact::allowed) {
@@ -46,38 +47,39 @@ class SolveCommand {
     answer(run);
     run.end();
     write_outputs(run);
-    if (!run.quiet() && json_ != "-" && svg_ != "-") {
-      fmt::print("{}", summary_of(answer_, run.palette(), written_));
+    if (!run.quiet() && writes_to_standard_output() == 0) {
+      print_text(fmt::format("{}", summary_of(answer_, run.palette(), written_)));
     }
     return exit_code();
   }
 
  private:
+  int writes_to_standard_output() const;
   void check_outputs() const;
   void answer(const Run& run);
   void solve(const Run& run);
   void write_outputs(const Run& run);
-  void draw(const Execution& execution) const;
+  void draw(const Execution& execution);
   int exit_code() const;
 
   const Arguments& arguments_;
   std::string json_;
   std::string svg_;
   ProblemOptions problem_;
+  PlannerOptions planner_;
   Scene scene_;
   Roadmap<Vec2> roadmap_;
   Answer answer_;
   std::vector<std::string> written_;
 };
 
+/// How many of --json, --svg and --trace go to standard output.
+int SolveCommand::writes_to_standard_output() const {
+  return (json_ == "-") + (svg_ == "-") + (arguments_.value("--trace") == "-");
+}
+
 void SolveCommand::check_outputs() const {
-  for (const char* option : {"--json", "--svg"}) {
-    if (const auto file = arguments_.value(option)) check_writable(*file);
-  }
-  const bool trace_out = arguments_.value("--trace").value_or("") == "-";
-  if ((json_ == "-") + (svg_ == "-") + trace_out > 1) {
-    throw UsageError("standard output takes one of --json, --svg and --trace");
-  }
+  if (writes_to_standard_output() > 1) throw UsageError("standard output takes one of --json, --svg and --trace");
 }
 
 void SolveCommand::answer(const Run& run) {
@@ -99,14 +101,10 @@ void SolveCommand::answer(const Run& run) {
 
 void SolveCommand::solve(const Run& run) {
   const WallProblem problem = wall_problem(scene_, problem_);
-  const PlannerOptions planner = planner_options(arguments_, scene_, problem);
+  planner_ = planner_options(arguments_, scene_, problem);
   WorldAccount world = account_of(scene_, run.execution());
-  answer_ = solve_walls(scene_, problem, planner, run.execution(), svg_.empty() ? nullptr : &roadmap_);
+  answer_ = solve_walls(scene_, problem, planner_, run.execution(), svg_.empty() ? nullptr : &roadmap_);
   answer_.world = std::move(world);
-  const bool tiled = planner.planner == PlannerKind::prm && planner.pipeline == PipelineKind::tiled;
-  if (tiled && !svg_.empty() && answer_.outcome != Outcome::stopped) {
-    draw_roadmap(scene_, problem, planner, run.execution(), roadmap_);
-  }
 }
 
 void SolveCommand::write_outputs(const Run& run) {
@@ -125,7 +123,10 @@ void SolveCommand::write_outputs(const Run& run) {
   }
 }
 
-void SolveCommand::draw(const Execution& execution) const {
+void SolveCommand::draw(const Execution& execution) {
+  if (planner_.planner == PlannerKind::prm && planner_.pipeline == PipelineKind::tiled) {
+    draw_roadmap(scene_, answer_.problem, planner_, execution, roadmap_);
+  }
   const Picture picture{.scene = scene_,
                         .roadmap = &roadmap_,
                         .path = answer_.path,
@@ -134,7 +135,7 @@ void SolveCommand::draw(const Execution& execution) const {
                         .title = fmt::format("{}: {}", scene_.source, name_of(answer_.outcome)),
                         .description = fmt::format("{}. {}, seed {}: {}", description_of(scene_), answer_.planner,
                                                    answer_.seed, arguments_.command_line())};
-  write_picture(svg_, "--svg", picture, execution);
+  write_picture(svg_, picture, execution);
 }
 
 int SolveCommand::exit_code() const {
@@ -151,6 +152,9 @@ Command solve_command() {
   add_options(command.options, output_specs);
   add_options(command.options, run_option_specs());
   command.run = [](const Arguments& arguments) { return SolveCommand(arguments).run(); };
+  for (const char* option : {"--cell", "--angles", "--face-motion", "--diagonal", "--layers"}) {
+    command.foreign.emplace_back(option, "the planner grid");
+  }
   return command;
 }
 

@@ -13,6 +13,7 @@
 #include "tools/problem.hpp"
 #include "tools/recorded_answer.hpp"
 #include "tools/run_options.hpp"
+#include "tools/terminal.hpp"
 #include "tools/world_files.hpp"
 #include "worlds/output_file_io.hpp"
 #include "worlds/verify.hpp"
@@ -64,19 +65,18 @@ std::string verdict_json(const Verification& v) {
 
 void print_verdict(const Verification& v, const WallProblem& problem, const Palette& palette) {
   if (v.verified) {
-    fmt::print("{}: length {}, clearance {} at least, {} asked for\n", palette.good("verified"), human_number(v.length),
-               human_number(v.min_clearance), human_number(problem.clearance));
+    print_text(fmt::format("{}: length {}, clearance {} at least, {} asked for\n", palette.good("verified"),
+                           human_number(v.length), human_number(v.min_clearance), human_number(problem.clearance)));
   } else {
     const Violation violation = v.first_violation.value_or(Violation{});
-    fmt::print("{} at leg {}: {}, distance {}, {} asked for\n", palette.bad("refuted"), violation.leg,
-               violation.obstacle, human_number(violation.distance), human_number(problem.reach()));
+    print_text(fmt::format("{} at leg {}: {}, distance {}, {} asked for\n", palette.bad("refuted"), violation.leg,
+                           violation.obstacle, human_number(violation.distance), human_number(problem.reach())));
   }
 }
 
 int verify(const Arguments& arguments) {
-  const std::string json = arguments.value("--json").value_or("");
+  const auto json = output_file(arguments, "--json");
   const ProblemOptions options = problem_options(arguments);
-  if (!json.empty()) check_writable(json);
   if (arguments.operand(0) == "-" && arguments.operand(1) == "-") {
     throw UsageError("WORLD and ANSWER.json can't both come from standard input");
   }
@@ -92,7 +92,7 @@ int verify(const Arguments& arguments) {
     verification = verdict(scene, answer, problem, run.execution());
   }
   run.end();
-  if (!json.empty()) write_file(json, verdict_json(verification), run.execution());
+  if (json) write_file(*json, verdict_json(verification), run.execution());
   if (!run.quiet() && json != "-") print_verdict(verification, problem, run.palette());
   return verification.verified ? exit_code::success : exit_code::no_path;
 }

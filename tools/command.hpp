@@ -6,6 +6,7 @@
 #include <functional>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "tools/arguments.hpp"
@@ -28,6 +29,8 @@ struct Command {
   std::string_view summary;   ///< one line
   std::vector<OptionSpec> options;
   std::function<int(const Arguments&)> run;  ///< returns the exit code
+  /// Documented options that this version does not take yet, and what takes them.
+  std::vector<std::pair<std::string_view, std::string_view>> foreign = {};
 };
 
 /// Appends options that several verbs share.

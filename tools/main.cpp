@@ -2,7 +2,10 @@
 // The program `warren`: a table of verbs (command_table.cpp). Each verb parses its words, calls the library and prints;
 // what goes wrong becomes one line on standard error and an exit code here.
 #include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
 
+#include <csignal>
 #include <cstdio>
 #include <new>
 #include <string>
@@ -16,6 +19,7 @@
 #include "tools/help.hpp"
 #include "tools/run_options.hpp"
 #include "tools/signals.hpp"
+#include "tools/terminal.hpp"
 
 namespace warren {
 
@@ -34,7 +38,7 @@ const Command& command_named(std::string_view name) {
 int run_command(const Command& command, std::span<const std::string> words) {
   const Arguments arguments(command, words);
   if (!arguments.wants_help()) return command.run(arguments);
-  fmt::print("{}", command_help(command));
+  print_text(command_help(command));
   return exit_code::success;
 }
 
@@ -44,11 +48,11 @@ int dispatch(std::span<const std::string> words) {
     return exit_code::usage;
   }
   if (words[0] == "--help" || words[0] == "-h" || words[0] == "help") {
-    fmt::print("{}", program_help());
+    print_text(program_help());
     return exit_code::success;
   }
   if (words[0] == "--version" || words[0] == "-V") {
-    fmt::print("{}", version_text());
+    print_text(version_text());
     return exit_code::success;
   }
   return run_command(command_named(words[0]), words.subspan(1));
@@ -74,10 +78,16 @@ int report_bug(std::string_view what) {
                   what));
 }
 
+/// Where the reader of our standard output has gone, say nothing and end as other programs do.
+void die_if_unheard() {
+  pollfd out{STDOUT_FILENO, POLLOUT, 0};
+  if (::poll(&out, 1, 0) == 1 && (out.revents & POLLERR) != 0) std::raise(SIGPIPE);
+}
+
 int run_program(std::span<const std::string> words) {
   try {
     const int code = dispatch(words);
-    if (std::fflush(stdout) != 0) throw WriteError("standard output", "no space left, or closed");
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) throw WriteError("standard output", "no space left");
     return code;
   } catch (const UsageError& error) {
     return complain(exit_code::usage, error.what() + usage_hint(words));
@@ -86,6 +96,7 @@ int run_program(std::span<const std::string> words) {
   } catch (const ReadError& error) {
     return complain(exit_code::unreadable, error.what());
   } catch (const WriteError& error) {
+    die_if_unheard();
     return complain(exit_code::unwritable, error.what());
   } catch (const Stopped& stopped) {
     return complain(exit_code_of(stopped.reason), fmt::format("stopped: {}", text_of(stopped.reason)));

@@ -39,6 +39,12 @@ void check_writable(const std::string& path) {
   if (::access(folder_of(path).c_str(), W_OK | X_OK) != 0) fail(path, errno);
 }
 
+std::optional<std::string> output_file(const Arguments& arguments, std::string_view option) {
+  std::optional<std::string> file = arguments.value(option);
+  if (file) check_writable(*file);
+  return file;
+}
+
 std::string ending_of(const std::string& path) {
   const std::size_t dot = path.rfind('.');
   if (dot == std::string::npos || path.find('/', dot) != std::string::npos) return {};

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "core/error.hpp"
 #include "tools/output_files.hpp"
 #include "worlds/output_file_io.hpp"
 
@@ -44,13 +43,9 @@ std::vector<std::uint8_t> component_colors(const Graph& graph) {
   return color;
 }
 
-void write_picture(const std::string& file, std::string_view option, const Picture& picture,
-                   const Execution& execution) {
+void write_picture(const std::string& file, const Picture& picture, const Execution& execution) {
   const std::string ending = ending_of(file);
   const auto writer = ending == ".png" ? write_png : ending == ".html" ? write_html : write_svg;
-  if (ending != ".svg" && ending != ".png" && ending != ".html") {
-    throw UsageError(std::string{option} + ": a picture ends in .svg, .png or .html (found: '" + file + "')");
-  }
   OutputFile output(file, execution);
   writer(picture, execution, [&](std::string_view bytes) { output.write(bytes); });
   output.commit();

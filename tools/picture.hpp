@@ -38,7 +38,7 @@ namespace colors {
 inline constexpr Rgb paper{255, 255, 255};
 inline constexpr Rgb wall{30, 41, 59};
 inline constexpr Rgb polygon{203, 213, 225};
-inline constexpr Rgb search_tree{251, 176, 64};
+inline constexpr Rgb search_tree{250, 190, 96};
 inline constexpr Rgb path{225, 29, 72};
 inline constexpr Rgb start{22, 163, 74};
 inline constexpr Rgb goal{124, 58, 237};
@@ -57,12 +57,12 @@ inline constexpr std::array<Rgb, 9> components{{{147, 187, 241},
 /// Widths in multiples of Canvas::unit.
 namespace widths {
 inline constexpr double wall = 0.11;
-inline constexpr double milestone = 0.13;
+inline constexpr double milestone = 0.16;
 inline constexpr double edge = 0.05;
 inline constexpr double search_tree = 0.07;
 inline constexpr double path = 0.2;
 inline constexpr double halo = 0.34;
-inline constexpr double mark = 0.34;  ///< radius
+inline constexpr double mark = 0.38;  ///< radius
 }  // namespace widths
 
 /// The part of the world that is shown, and what counts as one unit there: a maze's cell, else a fortieth of the
@@ -87,8 +87,7 @@ void write_html(const Picture& picture, const Execution& execution, const Write&
 /// strong.
 void write_png(const Picture& picture, const Execution& execution, const Write& write);
 
-/// By the file's ending: .svg, .png or .html; UsageError for others, naming `option`.
-void write_picture(const std::string& file, std::string_view option, const Picture& picture,
-                   const Execution& execution);
+/// By the file's ending: .png, .html, and SVG for all others. Throws WriteError, Stopped.
+void write_picture(const std::string& file, const Picture& picture, const Execution& execution);
 
 }  // namespace warren

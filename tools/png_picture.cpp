@@ -60,9 +60,8 @@ class PngPainter {
 };
 
 void PngPainter::walls() {
-  // Thin walls are drawn stronger than their width, or a large maze would fade.
-  constexpr double least_width = 0.35;
-  const double width = std::max(widths::wall * unit(), least_width);
+  // Thin walls are drawn stronger than their width, or a large maze would fade; tiny cells stay a light texture.
+  const double width = std::max(widths::wall * unit(), std::clamp(0.3 * unit(), 0.2, 1.0));
   picture_.scene.walls.visit([&](auto all) {
     for (const auto& wall : all) {
       const Segment s = wall.segment();
@@ -95,8 +94,8 @@ void PngPainter::roadmap() {
 
 void PngPainter::path() {
   if (picture_.path.empty()) return;
-  const double width = std::max(widths::path * unit(), 3.0);
-  const double halo = std::max(widths::halo * unit(), width + 2.0);
+  const double width = std::max(widths::path * unit(), unit() < 2.0 ? 3.0 : 2.0);
+  const double halo = std::max(widths::halo * unit(), width + 1.5);
   const auto polyline = [&](double w, Rgb color) {
     line(picture_.path[0], picture_.path[0], w, color);
     for (std::size_t i = 1; i < picture_.path.size(); ++i) line(picture_.path[i - 1], picture_.path[i], w, color);
@@ -107,7 +106,9 @@ void PngPainter::path() {
 
 void PngPainter::mark(std::optional<Vec2> at, Rgb color) {
   if (!at) return;
-  const double width = std::max(2.0 * widths::mark * unit(), 9.0);
+  constexpr double least_part = 1.0 / 120.0;  // of the picture's longer side
+  const double side = static_cast<double>(std::max(image_.width(), image_.height()));
+  const double width = std::max(2.0 * widths::mark * unit(), least_part * side);
   line(*at, *at, width * 1.3, colors::paper);
   line(*at, *at, width, color);
 }

@@ -43,6 +43,7 @@ class AnswerReader {
   [[noreturn]] void refuse(std::string_view expected, std::string_view found = {}) const {
     throw InputError(fmt::format("{}: key \"{}\"", file_, key_), fmt::format("expected {}", expected), found);
   }
+  [[noreturn]] void refuse_kind() const { throw InputError(file_, "expected one JSON object: an answer"); }
   bool in(std::string_view name) const { return objects_ == 1 && key_ == name; }
   void end_point();
 
@@ -62,7 +63,6 @@ constexpr std::string_view point_expected = "[X, Y], two finite numbers";
 constexpr std::string_view path_expected = "a list of points [X, Y]";
 
 bool AnswerReader::start_object(std::size_t) {
-  if (objects_ == 0 && arrays_ > 0) throw InputError(file_, "expected one JSON object: an answer");
   if (in("path")) refuse(path_expected, "an object");
   if (in("start") || in("goal")) refuse(point_expected, "an object");
   ++objects_;
@@ -89,7 +89,7 @@ bool AnswerReader::key(std::string& name) {
 }
 
 bool AnswerReader::start_array(std::size_t) {
-  if (objects_ == 0) throw InputError(file_, "expected one JSON object: an answer");
+  if (objects_ == 0) refuse_kind();
   if (in("path") && arrays_ >= 2) refuse(path_expected, "a deeper list");
   if (in("clearance") || in("length")) refuse("a number", "a list");
   ++arrays_;
@@ -116,6 +116,7 @@ void AnswerReader::end_point() {
 }
 
 bool AnswerReader::number(double value) {
+  if (!began_) refuse_kind();
   const bool wanted = in("path") || in("start") || in("goal") || in("clearance") || in("length");
   if (wanted && !(std::abs(value) <= largest_coordinate)) refuse("finite numbers of at most 1e60");
   if (in("path") && arrays_ != 2) refuse(path_expected, "a number");
@@ -150,7 +151,7 @@ bool AnswerReader::other(const char* found) {
   if ((in("start") || in("goal")) && !missing) refuse(point_expected, found);
   if ((in("clearance") || in("length")) && !missing) refuse("a number", found);
   if (in("contact") && !missing) refuse("\"allowed\" or \"blocked\"", found);
-  if (!began_) throw InputError(file_, "expected one JSON object: an answer");
+  if (!began_) refuse_kind();
   return true;
 }
 

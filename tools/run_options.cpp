@@ -66,8 +66,7 @@ Run::Run(const Arguments& arguments, RunScope scope)
       palette_(wants_color(STDOUT_FILENO, color_mode(arguments))) {
   const auto threads = arguments.value("--threads");
   if (threads && scope == RunScope::whole_command) execution_.threads = threads_value(*threads);
-  if (const auto file = arguments.value("--trace")) {
-    check_writable(*file);
+  if (const auto file = output_file(arguments, "--trace")) {
     trace_file_ = *file;
     trace_.emplace();
     execution_.trace = &*trace_;

@@ -4,6 +4,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <cstdlib>
 
 namespace warren {
@@ -39,6 +40,8 @@ std::size_t terminal_width() {
   if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
   return usual;
 }
+
+void print_text(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); }
 
 std::string Palette::painted(std::string_view code, std::string_view text) const {
   if (!on_) return std::string{text};

@@ -21,6 +21,9 @@ ProgressMode resolved(ProgressMode mode);
 /// Columns of the terminal behind standard error: COLUMNS, else what the terminal says, else 80.
 std::size_t terminal_width();
 
+/// Appends to standard output; main tells at the end whether it was all written.
+void print_text(std::string_view text);
+
 /// Wraps text in colour where it is on.
 class Palette {
  public:

@@ -48,7 +48,7 @@ void write_world(const Scene& scene, const std::string& file, const std::string&
   Picture picture{.scene = scene, .start = plane_point(scene.start), .goal = plane_point(scene.goal)};
   picture.title = description_of(scene);
   picture.description = command_line;
-  write_picture(file, "--output", picture, execution);
+  write_picture(file, picture, execution);
 }
 
 WorldAccount account_of(const Scene& scene, const Execution& execution) {

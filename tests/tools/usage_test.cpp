@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Command lines that nobody should get away with: each ends with its exit code and one line that says what is wrong.
+#include "process.hpp"
+
+namespace warren::testing {
+namespace {
+
+TEST(Usage, WrongWordsAreRefusedWithTheClosestMatch) {
+  const std::vector<Case> cases{
+      {{}, 2, "Usage"},
+      {{"slove", "maze:5x7"}, 2, "did you mean solve?"},
+      {{"--verison"}, 2, "--verison"},
+      {{"solve"}, 2, "WORLD is missing"},
+      {{"solve", "maze:5x7", "maze:5x7"}, 2, "unexpected argument"},
+      {{"solve", "maze:5x7", "--sampels", "5"}, 2, "did you mean --samples?"},
+      {{"solve", "maze:5x7", "--samples=5=6"}, 2, "--samples"},
+      {{"solve", "maze:5x7", "--seed", "1", "--seed", "2"}, 2, "--seed: given twice"},
+      {{"solve", "maze:5x7", "--seed"}, 2, "--seed: N is missing"},
+      {{"solve", "maze:5x7", "--quiet=1"}, 2, "--quiet: takes no value"},
+      {{"solve", "maze:5x7", "--planner", "prmm"}, 2, "did you mean prm?"},
+      {{"solve", "maze:5x7", "--planner", "visibility"}, 2, "is none of prm, lazy-prm"},
+      {{"solve", "maze:5x7", "--cell", "1"}, 2, "the planner grid"},
+      {{"solve", "maze:5x7", "--sampler", "latice"}, 2, "did you mean lattice?"},
+      {{"solve", "maze:5x7", "--search", "a*"}, 2, "--search"},
+      {{"solve", "maze:5x7", "--queue", "stack"}, 2, "--queue"},
+      {{"solve", "maze:5x7", "--contact", "maybe"}, 2, "--contact"},
+      {{"solve", "maze:5x7", "--progress", "loud"}, 2, "--progress"},
+      {{"solve", "maze:5x7", "--color", "red"}, 2, "--color"},
+      {{"generate", "garden", "5x7", "-o", "x.walls"}, 2, "maze"},
+      {{"generate", "maze", "5x7"}, 2, "-o FILE is missing"},
+      {{"generate", "maze", "5x7", "-o", "x.docx"}, 2, "ends in"},
+      {{"generate", "maze", "5x7", "--algorithm", "wilsn", "-o", "x.npy"}, 2, "did you mean wilson?"},
+      {{"generate", "maze", "5x7", "--loops", "1.5", "-o", "x.npy"}, 2, "from 0 to 1"},
+      {{"render", "maze:5x7", "-o", "x.npy"}, 2, "a picture ends in"},
+      {{"render", "maze:5x7"}, 2, "-o FILE is missing"},
+      {{"convert", "maze:5x7", "-o", "picture"}, 2, "ends in"},
+      {{"verify", "maze:5x7"}, 2, "ANSWER.json is missing"},
+      {{"verify", "-", "-"}, 2, "can't both come from standard input"},
+      {{"completion", "tcsh"}, 2, "bash, zsh, fish"},
+  };
+  for (const Case& c : cases) check(c);
+}
+
+TEST(Usage, ValuesOutsideTheirRangeAreRefused) {
+  const std::vector<Case> cases{
+      {{"solve", "maze:5x7", "--samples", "0"}, 2, "--samples: expected auto, or a whole number from 1"},
+      {{"solve", "maze:5x7", "--samples", "-5"}, 2, "--samples"},
+      {{"solve", "maze:5x7", "--samples", "1e3"}, 2, "--samples"},
+      {{"solve", "maze:5x7", "--samples", "99999999999999999999"}, 2, "--samples"},
+      {{"solve", "maze:5x7", "--neighbours", "0"}, 2, "--neighbours"},
+      {{"solve", "maze:5x7", "--neighbours", "5000"}, 2, "4096"},
+      {{"solve", "maze:5x7", "--radius", "0"}, 2, "--radius: expected a number above 0"},
+      {{"solve", "maze:5x7", "--radius", "nan"}, 2, "--radius"},
+      {{"solve", "maze:5x7", "--radius", "1e308"}, 2, "--radius"},
+      {{"solve", "maze:5x7", "--clearance", "-0.1"}, 2, "--clearance"},
+      {{"solve", "maze:5x7", "--clearance", "nan"}, 2, "--clearance"},
+      {{"solve", "maze:5x7", "--clearance", "inf"}, 2, "--clearance"},
+      {{"solve", "maze:5x7", "--clearance", "0.1m"}, 2, "--clearance"},
+      {{"solve", "maze:5x7", "--clearance", ""}, 2, "--clearance"},
+      {{"solve", "maze:5x7", "--seed", "-1"}, 2, "--seed"},
+      {{"solve", "maze:5x7", "--seed", "18446744073709551616"}, 2, "--seed"},
+      {{"solve", "maze:5x7", "--threads", "0"}, 2, "--threads: expected a whole number from 1"},
+      {{"solve", "maze:5x7", "--threads", "two"}, 2, "--threads"},
+      {{"solve", "maze:5x7", "--budget", "0s"}, 2, "--budget: expected a time above 0"},
+      {{"solve", "maze:5x7", "--budget", "-1s"}, 2, "--budget"},
+      {{"solve", "maze:5x7", "--budget", "20"}, 2, "--budget"},
+      {{"solve", "maze:5x7", "--budget", "infs"}, 2, "--budget"},
+      {{"solve", "maze:5x7", "--memory", "0B"}, 2, "--memory"},
+      {{"solve", "maze:5x7", "--memory", "20"}, 2, "--memory"},
+      {{"solve", "maze:5x7", "--memory", "-1GiB"}, 2, "--memory"},
+      {{"solve", "maze:5x7", "--start", "1"}, 2, "--start: expected X,Y"},
+      {{"solve", "maze:5x7", "--start", "1,nan"}, 2, "--start"},
+      {{"solve", "maze:5x7", "--start", "1,inf"}, 2, "--start"},
+      {{"solve", "maze:5x7", "--start", "1e308,1"}, 2, "--start"},
+      {{"solve", "maze:5x7", "--start", "1,1,0"}, 2, "a point or disc takes X,Y"},
+      {{"solve", "maze:5x7", "--goal", "x,y"}, 2, "--goal"},
+      {{"solve", "maze:5x7", "--robot", "disc"}, 2, "--robot"},
+      {{"solve", "maze:5x7", "--robot", "disc -1"}, 2, "--robot"},
+      {{"solve", "maze:5x7", "--robot", "disc nan"}, 2, "--robot"},
+      {{"solve", "maze:5x7", "--robot", "blob 1"}, 2, "--robot"},
+      {{"solve", "maze:5x7", "--robot", "car radius 1 turning 2"}, 2, "this version does not have"},
+  };
+  for (const Case& c : cases) check(c);
+}
+
+TEST(Usage, MazesOfImpossibleSizeAreRefused) {
+  const std::vector<Case> cases{
+      {{"solve", "maze:"}, 2, "maze:"},
+      {{"solve", "maze:5"}, 2, "ROWSxCOLS"},
+      {{"solve", "maze:0x7"}, 2, "ROWS"},
+      {{"solve", "maze:-5x7"}, 2, "ROWS"},
+      {{"solve", "maze:5x7x9"}, 2, "maze:"},
+      {{"solve", "maze:5.5x7"}, 2, "ROWS"},
+      {{"solve", "maze:5x7,seed=x"}, 2, "seed"},
+      {{"solve", "maze:5x7,loops=2"}, 2, "loops"},
+      {{"solve", "maze:5x7,loops=nan"}, 2, "loops"},
+      {{"solve", "maze:5x7,algorithm=magic"}, 2, "magic"},
+      {{"solve", "maze:5x7,colour=red"}, 2, "colour"},
+      {{"solve", "maze:4000000000x4000000000"}, 2, "2^32"},
+      {{"generate", "maze", "0x0", "-o", "x.npy"}, 2, "ROWS"},
+      {{"generate", "maze", "5x7,seed=3", "-o", "x.npy"}, 2, "expected ROWSxCOLS"},
+  };
+  for (const Case& c : cases) check(c);
+}
+
+TEST(Usage, ContradictionsAreRefusedAndSayWhoTakesTheOption) {
+  const std::vector<Case> cases{
+      {{"solve", "maze:5x7", "--planner", "prm", "--lazy", "path"}, 2, "lazy-prm takes this option"},
+      {{"solve", "maze:5x7", "--planner", "lazy-prm", "--search", "bfs"}, 2, "the planner prm takes bfs"},
+      {{"solve", "maze:5x7", "--search", "dfs", "--queue", "heap"}, 2, "dfs has no priority queue"},
+      {{"solve", "maze:5x7", "--neighbours", "8", "--radius", "1"}, 2, "not both"},
+      {{"solve", "maze:5x7", "--sampler", "lattice", "--samples", "9"}, 2, "lattice takes every cell centre"},
+      {{"solve", "maze:5x7", "--contact", "allowed"}, 2, "--contact"},
+      {{"solve", "maze:5x7", "--planner", "lazy-prm", "--pipeline", "tiled"}, 2, "the planner prm takes"},
+      {{"solve", "maze:5x7", "--json", "-", "--svg", "-"}, 2, "standard output takes one"},
+  };
+  for (const Case& c : cases) check(c);
+}
+
+TEST(Usage, LatticeWithoutAMazeIsRefused) {
+  const Folder folder;
+  const std::string world = folder.write("a.walls", "0 0 4 0\n0 4 4 4\nstart 1 1\ngoal 3 3\n");
+  check({{"solve", world, "--sampler", "lattice"}, 2, "lattice needs a maze"});
+}
+
+TEST(Usage, MissingEndsAreAskedFor) {
+  const Folder folder;
+  const std::string world = folder.write("a.walls", "0 0 4 0\n0 4 4 4\n");
+  check({{"solve", world}, 2, "--start: the world has none"});
+  check({{"solve", world, "--start", "1,1"}, 2, "--goal: the world has none"});
+}
+
+TEST(Usage, HelpVersionCompletionsAndManualComeOnStandardOutput) {
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{{"--help"},
+                                                                                     {"solve", "--help"},
+                                                                                     {"generate", "-h"},
+                                                                                     {"completion", "bash"},
+                                                                                     {"completion", "zsh"},
+                                                                                     {"completion", "fish"},
+                                                                                     {"man"}}) {
+    SCOPED_TRACE(shown(words));
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_EQ(outcome.err, "");
+    EXPECT_GT(outcome.out.size(), 500U) << outcome.out;
+  }
+  const Outcome version = run({"--version"});
+  EXPECT_EQ(version.code, 0);
+  EXPECT_EQ(version.out.rfind("warren ", 0), 0U) << version.out;
+}
+
+TEST(Usage, EveryOptionOfSolveIsInHelpManualAndCompletions) {
+  const std::string help = run({"solve", "--help"}).out;
+  const std::string bash = run({"completion", "bash"}).out;
+  const std::string fish = run({"completion", "fish"}).out;
+  const std::string zsh = run({"completion", "zsh"}).out;
+  const std::string page = run({"man"}).out;
+  for (const std::string option :
+       {"planner",    "robot",  "start",  "goal",  "clearance", "contact",  "sampler", "samples",
+        "neighbours", "radius", "search", "queue", "seed",      "threads",  "budget",  "memory",
+        "optimise",   "json",   "svg",    "trace", "quiet",     "progress", "color"}) {
+    SCOPED_TRACE(option);
+    EXPECT_NE(help.find("--" + option), std::string::npos);
+    EXPECT_NE(bash.find("--" + option), std::string::npos);
+    EXPECT_NE(zsh.find("--" + option), std::string::npos);
+    EXPECT_NE(fish.find("-l " + option), std::string::npos);
+    EXPECT_NE(page.find("\\-\\-" + option), std::string::npos);
+  }
+}
+
+TEST(Usage, DoubleDashEndsTheOptions) { check({{"info", "--", "--no-such-file"}, 66, "--no-such-file"}); }
+
+}  // namespace
+}  // namespace warren::testing
