@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "process.hpp"
+#include "tests/tools/process.hpp"
 
 namespace warren::testing {
 namespace {

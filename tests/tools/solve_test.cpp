@@ -3,7 +3,7 @@
 // output, files that appear whole, signals that are heard.
 #include <nlohmann/json.hpp>
 
-#include "process.hpp"
+#include "tests/tools/process.hpp"
 
 namespace warren::testing {
 namespace {

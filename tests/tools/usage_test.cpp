@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Command lines that nobody should get away with: each ends with its exit code and one line that says what is wrong.
-#include "process.hpp"
+#include "tests/tools/process.hpp"
 
 namespace warren::testing {
 namespace {
