@@ -59,18 +59,33 @@ Results are the same for any number of threads.
 )";
 
 constexpr std::string_view tail = R"(.SH EXIT STATUS
-.TS
-l l.
-0	success; for solve, a path that was verified
-1	no path (the status says which kind), or verify refutes the answer
-2	usage
-65	bad data in an input file
-66	an input can't be read
-70	internal error: please report it
-73	an output can't be written
-124	the time or memory budget ran out
-130, 143	SIGINT, SIGTERM
-.TE
+.TP
+\fB0\fR
+success; for solve, a path that was verified.
+.TP
+\fB1\fR
+no path (the status says which kind), or verify refutes the answer.
+.TP
+\fB2\fR
+usage.
+.TP
+\fB65\fR
+bad data in an input file.
+.TP
+\fB66\fR
+an input can't be read.
+.TP
+\fB70\fR
+internal error: please report it.
+.TP
+\fB73\fR
+an output can't be written.
+.TP
+\fB124\fR
+the time or memory budget ran out.
+.TP
+\fB130, 143\fR
+SIGINT, SIGTERM.
 .SH ENVIRONMENT
 .TP
 \fBNO_COLOR\fR, \fBCLICOLOR_FORCE\fR, \fBFORCE_COLOR\fR, \fBTERM\fR
@@ -96,8 +111,7 @@ warren verify maze:41x41 maze.json
 )";
 
 int man(const Arguments&) {
-  std::string page =
-      fmt::format("'\\\" t\n.TH WARREN 1 {} \"warren {}\" \"User Commands\"\n", page_date(), WARREN_VERSION);
+  std::string page = fmt::format(".TH WARREN 1 {} \"warren {}\" \"User Commands\"\n", page_date(), WARREN_VERSION);
   page += ".SH NAME\nwarren \\- motion planning by roadmaps\n.SH SYNOPSIS\n";
   for (const Command& command : command_table()) {
     page += fmt::format(".B warren {}\n.I {}\n[options]\n.br\n", command.name, escaped(command.operands));

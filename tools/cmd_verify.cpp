@@ -88,7 +88,7 @@ int verify(const Arguments& arguments) {
   const WallProblem problem = wall_problem(scene, merged(options, answer.problem));
   Verification verification;
   {
-    const StageTimer timer(run.execution(), "verify", seconds.verify, scene.walls.size());
+    const StageTimer timer(run.execution(), "verify", seconds.verify, answer.path.size() + scene.walls.size());
     verification = verdict(scene, answer, problem, run.execution());
   }
   run.end();

@@ -18,7 +18,8 @@ Canvas canvas_of(const Picture& picture, const Execution& execution) {
   if (picture.goal) canvas.box.include(*picture.goal);
   if (canvas.box.empty()) canvas.box = {{0, 0}, {1, 1}};
   const double extent = std::max(canvas.box.width(), canvas.box.height());
-  canvas.unit = picture.scene.maze ? 1.0 : (extent > 0.0 ? extent / 40.0 : 1.0);
+  constexpr double few_cells = 16.0;  // in a maze of fewer, lines as wide as usual would look clumsy
+  canvas.unit = picture.scene.maze ? std::min(1.0, extent / few_cells) : (extent > 0.0 ? extent / 40.0 : 1.0);
   canvas.box = canvas.box.grown(0.9 * canvas.unit);
   return canvas;
 }

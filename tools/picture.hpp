@@ -61,12 +61,12 @@ inline constexpr double milestone = 0.16;
 inline constexpr double edge = 0.05;
 inline constexpr double search_tree = 0.07;
 inline constexpr double path = 0.2;
-inline constexpr double halo = 0.34;
+inline constexpr double halo = 0.32;
 inline constexpr double mark = 0.38;  ///< radius
 }  // namespace widths
 
-/// The part of the world that is shown, and what counts as one unit there: a maze's cell, else a fortieth of the
-/// extent.
+/// The part of the world that is shown, and what counts as one unit there: a maze's cell (less in small ones), else a
+/// fortieth of the extent.
 struct Canvas {
   Box box;  ///< margin included
   double unit = 1.0;

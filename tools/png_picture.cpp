@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The picture in pixels: the layers and colours of the SVG, drawn by our own rasteriser. Small worlds get 24 pixels a
-// unit; larger ones are scaled so that the longer side has at most 4096 pixels. Where a unit is less than a few pixels
+// The picture in pixels: the layers and colours of the SVG, drawn by our own rasteriser. A unit has 24 pixels; the
+// longer side has 1000 to 4096. Where a unit is less than a few pixels
 // the roadmap is left out, walls add up to shades, and path and marks keep a least width in pixels.
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,14 @@ namespace warren {
 namespace {
 
 constexpr double most_pixels = 4096.0;
+constexpr double least_pixels = 1000.0;
 constexpr double pixels_a_unit = 24.0;
+
+/// Pixels a world unit.
+double scale_of(const Canvas& canvas) {
+  const double side = std::max(canvas.box.width(), canvas.box.height());
+  return std::clamp(pixels_a_unit / canvas.unit, least_pixels / side, most_pixels / side);
+}
 
 class PngPainter {
  public:

@@ -30,8 +30,8 @@ std::string progress_line(const char* stage, std::uint64_t done, std::uint64_t t
   if (total > 0) {
     const double fraction = std::min(1.0, static_cast<double>(done) / static_cast<double>(total));
     figures += fmt::format(" {:3.0f} %", 100.0 * fraction);
-    if (items_per_s > 0.0) {
-      const auto left = static_cast<double>(total - std::min(done, total));
+    if (items_per_s > 0.0 && done < total) {
+      const auto left = static_cast<double>(total - done);
       figures += fmt::format("  {}/s  {} left", human_count(items_per_s), human_seconds(left / items_per_s));
     }
     constexpr std::size_t widest_bar = 40;

@@ -156,7 +156,7 @@ void WallSolve::optimise() {
 
 void WallSolve::verify() {
   if (answer_.outcome != Outcome::solved) return;
-  const StageTimer timer(execution_, "verify", answer_.seconds.verify, answer_.path.size());
+  const StageTimer timer(execution_, "verify", answer_.seconds.verify, answer_.path.size() + scene_.walls.size());
   const VerifyOptions options{
       .clearance = problem_.reach(), .contact = problem_.contact, .start = problem_.start, .goal = problem_.goal};
   const Verification verification = verify_path(scene_, answer_.path, options, execution_);

@@ -40,7 +40,7 @@ class Frame {
  public:
   explicit Frame(const Box& box) {
     const double extent = std::max(box.width(), box.height());
-    if (extent > 0.0 && (extent < 10.0 || extent > 1e5)) scale_ = std::pow(10.0, 2.0 - std::floor(std::log10(extent)));
+    if (extent > 0.0 && (extent < 5.0 || extent > 1e5)) scale_ = std::pow(10.0, 2.0 - std::floor(std::log10(extent)));
     const double far = std::max({std::abs(box.min.x), std::abs(box.min.y), std::abs(box.max.x), std::abs(box.max.y)});
     if (scale_ != 1.0 || far > 1e5) origin_ = box.min;
   }

@@ -259,7 +259,7 @@ def auto_gives_up_by_itself(program, full):
 
 
 def budgets_are_kept(program, full):
-    cases = [["maze:3000x3000"], ["maze:1000x1000", "--sampler", "uniform", "--planner", "prm"]]
+    cases = [["maze:6000x6000"], ["maze:1000x1000", "--sampler", "uniform", "--planner", "prm"]]
     late = [interruptions.check_budget(program, case, budget_s, full)
             for case in (cases if full else cases[:1]) for budget_s in ((0.2, 0.6, 1.5) if full else (0.2,))]
     if full:
