@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The picture in pixels: the layers and colours of the SVG, drawn by our own rasteriser. A unit has 24 pixels; the
-// longer side has 1000 to 4096. Where a unit is less than a few pixels
-// the roadmap is left out, walls add up to shades, and path and marks keep a least width in pixels.
+// longer side has 1000 to 4096. Where a unit is less than a few pixels the roadmap is left out, walls add up to shades,
+// and path and marks keep a least width in pixels.
 #include <algorithm>
 #include <cmath>
 
@@ -27,8 +27,7 @@ class PngPainter {
       : picture_(picture),
         execution_(execution),
         canvas_(canvas_of(picture, execution)),
-        scale_(
-            std::min(pixels_a_unit / canvas_.unit, most_pixels / std::max(canvas_.box.width(), canvas_.box.height()))),
+        scale_(scale_of(canvas_)),
         image_(pixels(canvas_.box.width()), pixels(canvas_.box.height()), colors::paper) {}
 
   const Image& paint() {
