@@ -43,23 +43,35 @@ std::size_t PointGrid::bytes() const {
   return (x_.size() + y_.size()) * sizeof(double) + (begin_.size() + id_.size() + place_of_.size()) * sizeof(VertexId);
 }
 
+/// Are the points in tile order? A pass of its own: filed out of order, two chunks would write the same cell.
+bool PointGrid::in_order(std::span<const Vec2> points, const Execution& execution) const {
+  std::vector<std::uint8_t> sorted(chunk_count(points.size(), grain), 0);
+  for_chunks(points.size(), grain, detail::quiet(execution), [&](Range range) {
+    std::size_t before = frame_.cell_of(points[range.first == 0 ? 0 : range.first - 1]);
+    for (std::size_t i = range.first; i < range.last; ++i) {
+      const std::size_t cell = frame_.cell_of(points[i]);
+      if (cell < before) return;
+      before = cell;
+    }
+    sorted[range.first / grain] = 1;
+  });
+  return std::find(sorted.begin(), sorted.end(), 0) == sorted.end();
+}
+
 /// Copies points that are in tile order, and files them; false if they turn out not to be.
 bool PointGrid::take_points(std::span<const Vec2> points, const Execution& execution) {
+  if (!in_order(points, execution)) return false;
   const std::size_t n = points.size();
   begin_.resize(frame_.cell_count() + 1);
-  std::vector<std::uint8_t> sorted(chunk_count(n, grain), 0);
   for_chunks(n, grain, detail::quiet(execution), [&](Range range) {
     std::size_t next = range.first == 0 ? 0 : std::size_t{frame_.cell_of(points[range.first - 1])} + 1;  // unfiled cell
     for (std::size_t i = range.first; i < range.last; ++i) {
       const std::size_t cell = frame_.cell_of(points[i]);
-      if (cell + 1 < next) return;
       for (; next <= cell; ++next) begin_[next] = static_cast<std::uint32_t>(i);
       x_[i] = points[i].x;
       y_[i] = points[i].y;
     }
-    sorted[range.first / grain] = 1;
   });
-  if (std::find(sorted.begin(), sorted.end(), 0) != sorted.end()) return false;
   const std::size_t last = frame_.cell_of(points.back());
   std::fill(begin_.begin() + static_cast<std::ptrdiff_t>(last) + 1, begin_.end(), static_cast<std::uint32_t>(n));
   return true;

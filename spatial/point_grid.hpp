@@ -73,6 +73,7 @@ class PointGrid {
   template <class Visit>
   void visit_run(Vec2 p, double square, std::uint32_t first, std::uint32_t last, const Visit& visit) const;
   void sort_points(std::span<const Vec2> points, const Execution& execution);
+  bool in_order(std::span<const Vec2> points, const Execution& execution) const;
   bool take_points(std::span<const Vec2> points, const Execution& execution);
   std::size_t nearest_in_disc(Vec2 p, const Window& w, double square, std::size_t k, VertexId except,
                               std::vector<Neighbour>& out) const;
