@@ -11,15 +11,23 @@
 #include "core/solution.hpp"
 #include "parallel/deadline.hpp"
 #include "tools/problem.hpp"
+#include "tools/state_list.hpp"
 
 namespace warren {
 
 /// Which world was solved.
 struct WorldAccount {
   std::string source;  ///< as the command line gave it
-  std::string kind;    ///< "maze" where the scene has the hint, else "walls"
+  std::string kind;    ///< "maze" where the scene has the hint, else "walls", or "polygons" where there are any
   std::uint64_t walls = 0;
+  std::uint64_t polygons = 0;
   std::string hash;
+};
+
+/// Size of a decomposition.
+struct CellCount {
+  std::uint64_t cells = 0;
+  std::uint64_t adjacencies = 0;
 };
 
 struct Answer {
@@ -29,22 +37,28 @@ struct Answer {
   double length = 0.0;         ///< only where verified
   double min_clearance = 0.0;  ///< room around the body along the path; only where verified
   std::optional<double> raw_length;
-  WallProblem problem;
+  bool optimal = false;            ///< proved: no shorter path exists
+  std::optional<double> cost;      ///< in the planner's own units, where that is not the length
+  std::optional<double> turn_rad;  ///< all turning along the path, of bodies that turn
+  Problem problem;
   WorldAccount world;
   std::string planner;
   std::string pipeline;  ///< plain or tiled; only for prm
-  std::string sampler;
-  std::string search;
+  std::string sampler;   ///< empty: the planner has none
+  std::string search;    ///< empty: the planner has none
   std::uint64_t seed = 1;
   unsigned threads = 1;
   std::vector<std::pair<std::string, std::string>> options;  ///< name, value as JSON
   RoadmapSize roadmap;
-  Separation separation;  ///< only for not_connected
+  std::optional<CellCount> cells;
+  std::vector<std::pair<std::string, std::string>> figures;  ///< the planner's own keys: name, value as JSON
+  Separation separation;                                     ///< only for not_connected
   Counters counters;
   StageTimes seconds;
   double solve_s = 0.0;
   std::size_t peak_memory_bytes = 0;
-  std::vector<Vec2> path;
+  std::vector<Vec2> path;  ///< of the reference point in the plane, as pictures show it; a point's or disc's states
+  StateList states;        ///< start to goal, where a state is more than a point of the plane; else empty
 };
 
 /// Stages with the names that JSON and summary give them, in the order of the work.

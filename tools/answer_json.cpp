@@ -13,10 +13,15 @@ using Json = nlohmann::ordered_json;
 
 Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-Json point(Vec2 p) { return std::vector<double>{p.x, p.y}; }
+Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
+
+Json state_or_null(const std::vector<double>& state) { return state.empty() ? Json(nullptr) : Json(state); }
 
 Json world_json(const WorldAccount& world) {
-  return {{"source", world.source}, {"kind", world.kind}, {"walls", world.walls}, {"hash", world.hash}};
+  Json json{{"source", world.source}, {"kind", world.kind}, {"walls", world.walls}};
+  if (world.polygons > 0) json["polygons"] = world.polygons;
+  json["hash"] = world.hash;
+  return json;
 }
 
 Json options_json(const Answer& answer) {
@@ -53,6 +58,9 @@ void add_outcome(Json& json, const Answer& answer) {
   json["length"] = answer.verified ? finite(answer.length) : Json(nullptr);
   json["min_clearance"] = answer.verified ? finite(answer.min_clearance) : Json(nullptr);
   json["raw_length"] = answer.raw_length ? finite(*answer.raw_length) : Json(nullptr);
+  if (answer.optimal) json["optimal"] = true;
+  if (answer.cost) json["cost"] = finite(*answer.cost);
+  if (answer.turn_rad) json["turn_rad"] = finite(*answer.turn_rad);
 }
 
 /// A world that was never read leaves the problem open.
@@ -63,26 +71,30 @@ void add_open_problem(Json& json, const Answer& answer) {
 
 void add_problem(Json& json, const Answer& answer) {
   if (answer.world.kind.empty()) return add_open_problem(json, answer);
-  json["start"] = point(answer.problem.start);
-  json["goal"] = point(answer.problem.goal);
+  json["start"] = state_or_null(answer.problem.start);
+  json["goal"] = state_or_null(answer.problem.goal);
   json["robot"] = robot_text(answer.problem.robot);
   json["clearance"] = answer.problem.clearance;
   json["contact"] = name_of(answer.problem.contact);
-  json["sampler"] = answer.sampler;
+  json["sampler"] = text_or_null(answer.sampler);
   json["world"] = world_json(answer.world);
 }
 
 void add_work(Json& json, const Answer& answer) {
-  const bool planned = !answer.planner.empty();
-  json["planner"] = planned ? Json(answer.planner) : Json(nullptr);
+  json["planner"] = text_or_null(answer.planner);
   if (!answer.pipeline.empty()) json["pipeline"] = answer.pipeline;
-  json["search"] = planned ? Json(answer.search) : Json(nullptr);
+  json["search"] = text_or_null(answer.search);
   json["seed"] = answer.seed;
   json["threads"] = answer.threads;
   json["options"] = options_json(answer);
   json["roadmap"] = {{"milestones", answer.roadmap.milestones},
                      {"edges", answer.roadmap.edges},
                      {"components", answer.roadmap.components}};
+  if (answer.cells) {
+    json["roadmap"]["cells"] = answer.cells->cells;
+    json["roadmap"]["adjacencies"] = answer.cells->adjacencies;
+  }
+  for (const auto& [name, value] : answer.figures) json[name] = Json::parse(value);
   if (answer.outcome == Outcome::not_connected) {
     json["components"] = {{"start_size", answer.separation.start_size},
                           {"goal_size", answer.separation.goal_size},
@@ -94,14 +106,17 @@ void add_work(Json& json, const Answer& answer) {
   json["peak_memory_bytes"] = answer.peak_memory_bytes;
 }
 
-void write_path(const std::vector<Vec2>& path, const Execution& execution,
+/// state(i, text) appends the numbers of the i-th of `count` states.
+template <class State>
+void write_path(std::size_t count, const State& state, const Execution& execution,
                 const std::function<void(std::string_view)>& write) {
   constexpr std::size_t piece = 1 << 14;
   write("\"path\": [");
   std::string text;
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    text.append(i == 0 ? "[" : ", [").append(json_number(path[i].x)).append(", ");
-    text.append(json_number(path[i].y)).append("]");
+  for (std::size_t i = 0; i < count; ++i) {
+    text.append(i == 0 ? "[" : ", [");
+    state(i, text);
+    text.append("]");
     if (i % piece == piece - 1) {
       execution.check();
       write(text);
@@ -153,7 +168,19 @@ void write_answer_json(const Answer& answer, const Execution& execution,
     head += json_string(key) + ": " + value.dump(-1, ' ', false, Json::error_handler_t::replace) + ",\n ";
   }
   write(head);
-  write_path(answer.path, execution, write);
+  const auto append_point = [&](std::size_t i, std::string& text) {
+    text.append(json_number(answer.path[i].x)).append(", ").append(json_number(answer.path[i].y));
+  };
+  const auto append_state = [&](std::size_t i, std::string& text) {
+    for (std::size_t k = 0; k < answer.states.width; ++k) {
+      text.append(k == 0 ? "" : ", ").append(json_number(answer.states[i][k]));
+    }
+  };
+  if (answer.states.empty()) {
+    write_path(answer.path.size(), append_point, execution, write);
+  } else {
+    write_path(answer.states.size(), append_state, execution, write);
+  }
   write("}\n");
 }
 

@@ -40,6 +40,11 @@ std::vector<std::string> words_of(std::string_view text) {
   return words;
 }
 
+bool is_choice(const OptionSpec& option, std::string_view word) {
+  const std::vector<std::string> choices = words_of(option.choices);
+  return std::find(choices.begin(), choices.end(), word) != choices.end();
+}
+
 }  // namespace
 
 Arguments::Arguments(const Command& command, std::span<const std::string> words) {
@@ -75,6 +80,8 @@ void Arguments::take_option(const Command& command, std::span<const std::string>
     if (equals != std::string::npos) throw UsageError(std::string{option->name} + ": takes no value");
   } else if (equals != std::string::npos) {
     value = word.substr(equals + 1);
+  } else if (option->value_optional) {
+    if (i + 1 < words.size() && is_choice(*option, words[i + 1])) value = words[++i];
   } else if (i + 1 < words.size()) {
     value = words[++i];
   } else {

@@ -22,6 +22,7 @@ class Arguments {
   Arguments(const Command& command, std::span<const std::string> words);
 
   bool has(std::string_view option) const;
+  /// What was given with the option: empty for a flag, and where a value that may be missing is.
   std::optional<std::string> value(std::string_view option) const;
   const std::string& operand(std::size_t i) const { return operands_[i]; }
   /// The command line as it was given, for the pictures' descriptions.

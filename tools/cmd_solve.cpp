@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <new>
+#include <optional>
 
 #include "core/error.hpp"
 #include "tools/answer_json.hpp"
@@ -10,10 +11,9 @@
 #include "tools/exit_code.hpp"
 #include "tools/output_files.hpp"
 #include "tools/picture.hpp"
-#include "tools/planner_options.hpp"
 #include "tools/problem.hpp"
 #include "tools/run_options.hpp"
-#include "tools/solve_walls.hpp"
+#include "tools/solve_kind.hpp"
 #include "tools/summary.hpp"
 #include "tools/terminal.hpp"
 #include "tools/world_files.hpp"
@@ -35,10 +35,7 @@ class SolveCommand {
         json_(output_file(arguments, "--json").value_or("")),
         svg_(output_file(arguments, "--svg").value_or("")),
         problem_(problem_options(arguments)) {
-    check_planner_options(arguments);
-    if (problem_.contact == Contact::allowed) {
-      throw UsageError("--contact: prm and lazy-prm keep off the walls, so 'allowed' would change nothing");
-    }
+    check_solver_options(arguments);
     check_outputs();
   }
 
@@ -58,6 +55,9 @@ class SolveCommand {
   void check_outputs() const;
   void answer(const Run& run);
   void solve(const Run& run);
+  SolveRequest request(const Execution& execution) {
+    return {arguments_, scene_, problem_, solver_->planner, execution, svg_.empty() ? nullptr : &drawing_};
+  }
   void write_outputs(const Run& run);
   void draw(const Execution& execution);
   int exit_code() const;
@@ -66,9 +66,9 @@ class SolveCommand {
   std::string json_;
   std::string svg_;
   ProblemOptions problem_;
-  PlannerOptions planner_;
   Scene scene_;
-  Roadmap<Vec2> roadmap_;
+  std::optional<ChosenSolver> solver_;
+  Drawing drawing_;
   Answer answer_;
   std::vector<std::string> written_;
 };
@@ -100,10 +100,9 @@ void SolveCommand::answer(const Run& run) {
 }
 
 void SolveCommand::solve(const Run& run) {
-  const WallProblem problem = wall_problem(scene_, problem_);
-  planner_ = planner_options(arguments_, scene_, problem);
+  solver_ = choose_solver(arguments_, scene_, problem_);
   WorldAccount world = account_of(scene_, run.execution());
-  answer_ = solve_walls(scene_, problem, planner_, run.execution(), svg_.empty() ? nullptr : &roadmap_);
+  answer_ = solver_->kind->solve(request(run.execution()));
   answer_.world = std::move(world);
 }
 
@@ -124,14 +123,13 @@ void SolveCommand::write_outputs(const Run& run) {
 }
 
 void SolveCommand::draw(const Execution& execution) {
-  if (planner_.planner == PlannerKind::prm && planner_.pipeline == PipelineKind::tiled) {
-    draw_roadmap(scene_, answer_.problem, planner_, execution, roadmap_);
-  }
+  if (solver_->kind->draw != nullptr) solver_->kind->draw(request(execution));
   const Picture picture{.scene = scene_,
-                        .roadmap = &roadmap_,
+                        .roadmap = is_roadmap_planner(solver_->planner) ? &drawing_.roadmap : nullptr,
+                        .layers = drawing_.layers,
                         .path = answer_.path,
-                        .start = answer_.problem.start,
-                        .goal = answer_.problem.goal,
+                        .start = plane_point(answer_.problem.start),
+                        .goal = plane_point(answer_.problem.goal),
                         .title = fmt::format("{}: {}", scene_.source, name_of(answer_.outcome)),
                         .description = fmt::format("{}. {}, seed {}: {}", description_of(scene_), answer_.planner,
                                                    answer_.seed, arguments_.command_line())};
@@ -147,7 +145,7 @@ int SolveCommand::exit_code() const {
 
 Command solve_command() {
   Command command{"solve", "WORLD", "find a path, verify it, print a summary", {}, {}};
-  add_options(command.options, planner_option_specs());
+  add_options(command.options, solver_option_specs());
   add_options(command.options, problem_option_specs());
   add_options(command.options, output_specs);
   add_options(command.options, run_option_specs());

@@ -13,6 +13,7 @@
 #include "tools/problem.hpp"
 #include "tools/recorded_answer.hpp"
 #include "tools/run_options.hpp"
+#include "tools/solve_kind.hpp"
 #include "tools/terminal.hpp"
 #include "tools/world_files.hpp"
 #include "worlds/output_file_io.hpp"
@@ -35,12 +36,8 @@ ProblemOptions merged(ProblemOptions options, const ProblemOptions& answer) {
   return options;
 }
 
-Verification verdict(const Scene& scene, const RecordedAnswer& answer, const WallProblem& problem,
-                     const Execution& execution) {
-  const VerifyOptions options{
-      .clearance = problem.reach(), .contact = problem.contact, .start = problem.start, .goal = problem.goal};
-  Verification verification = verify_path(scene, answer.path, options, execution);
-  verification.min_clearance -= problem.robot.radius;
+/// The length that an answer claims is a part of what is verified.
+void check_length(Verification& verification, const RecordedAnswer& answer) {
   constexpr double rounding = 1e-9;
   if (verification.verified && answer.length &&
       std::abs(*answer.length - verification.length) > rounding * verification.length) {
@@ -48,7 +45,6 @@ Verification verdict(const Scene& scene, const RecordedAnswer& answer, const Wal
     verification.first_violation =
         Violation{.leg = 0, .distance = 0.0, .obstacle = fmt::format("length: the answer says {}", *answer.length)};
   }
-  return verification;
 }
 
 std::string verdict_json(const Verification& v) {
@@ -63,14 +59,15 @@ std::string verdict_json(const Verification& v) {
       v.verified, json_number(v.length), json_number(v.min_clearance), violation);
 }
 
-void print_verdict(const Verification& v, const WallProblem& problem, const Palette& palette) {
+void print_verdict(const Verification& v, const Problem& problem, const Palette& palette) {
   if (v.verified) {
     print_text(fmt::format("{}: length {}, clearance {} at least, {} asked for\n", palette.good("verified"),
                            human_number(v.length), human_number(v.min_clearance), human_number(problem.clearance)));
   } else {
     const Violation violation = v.first_violation.value_or(Violation{});
     print_text(fmt::format("{} at leg {}: {}, distance {}, {} asked for\n", palette.bad("refuted"), violation.leg,
-                           violation.obstacle, human_number(violation.distance), human_number(problem.reach())));
+                           violation.obstacle, human_number(violation.distance),
+                           human_number(problem.clearance + problem.robot.radius)));
   }
 }
 
@@ -85,12 +82,15 @@ int verify(const Arguments& arguments) {
   const RecordedAnswer answer = read_answer(arguments.operand(1), run.execution());
   const Scene scene = load_world(arguments.operand(0), run.execution(), seconds);
   check_same_world(answer, arguments.operand(1), scene, run.execution());
-  const WallProblem problem = wall_problem(scene, merged(options, answer.problem));
-  Verification verification;
+  const ProblemOptions asked = merged(options, answer.problem);
+  const SolveKind& kind = verifying_kind(scene, asked);
+  Verdict verdict;
   {
     const StageTimer timer(run.execution(), "verify", seconds.verify, answer.path.size() + scene.walls.size());
-    verification = verdict(scene, answer, problem, run.execution());
+    verdict = kind.verify(scene, asked, answer, run.execution());
+    check_length(verdict.verification, answer);
   }
+  const auto& [verification, problem] = verdict;
   run.end();
   if (json) write_file(*json, verdict_json(verification), run.execution());
   if (!run.quiet() && json != "-") print_verdict(verification, problem, run.palette());

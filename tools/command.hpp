@@ -21,6 +21,7 @@ struct OptionSpec {
   std::string_view help;
   std::string_view choices = {};
   std::string_view short_name = {};  ///< e.g. "-o"
+  bool value_optional = false;       ///< the next word is its value only if it is one of the choices
 };
 
 struct Command {

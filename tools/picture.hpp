@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/polygon.hpp"
 #include "core/types.hpp"
 #include "parallel/execution.hpp"
 #include "planners/roadmap.hpp"
@@ -18,19 +19,35 @@
 
 namespace warren {
 
+struct Rgb {
+  std::uint8_t red, green, blue;
+};
+
+/// Lines that a planner adds to a picture: cells, a visibility graph, a medial axis, bodies along a path.
+struct PictureLayer {
+  std::string id;  ///< the SVG group's
+  Rgb color;
+  double width;         ///< multiples of Canvas::unit
+  PolygonSet lines;     ///< each a chain of points
+  bool closed = false;  ///< the chains are outlines
+};
+
+/// What a planner leaves for a picture.
+struct Drawing {
+  Roadmap<Vec2> roadmap;
+  std::vector<PictureLayer> layers;  ///< drawn in their order, under walls and path
+};
+
 /// Refers to what it shows; all of it must outlive the picture.
 struct Picture {
   const Scene& scene;
   const Roadmap<Vec2>* roadmap = nullptr;  ///< nullptr: none
+  std::span<const PictureLayer> layers = {};
   std::span<const Vec2> path = {};
   std::optional<Vec2> start = {};
   std::optional<Vec2> goal = {};
   std::string title = {};
   std::string description = {};
-};
-
-struct Rgb {
-  std::uint8_t red, green, blue;
 };
 
 /// Colours by role; a roadmap component takes the colour of its rank.
@@ -42,6 +59,8 @@ inline constexpr Rgb search_tree{250, 190, 96};
 inline constexpr Rgb path{225, 29, 72};
 inline constexpr Rgb start{22, 163, 74};
 inline constexpr Rgb goal{124, 58, 237};
+inline constexpr Rgb layer{147, 187, 241};         ///< a planner's lines
+inline constexpr Rgb second_layer{150, 211, 168};  ///< and others
 /// The last is for all components that have no colour of their own.
 inline constexpr std::array<Rgb, 9> components{{{147, 187, 241},
                                                 {244, 178, 148},

@@ -15,7 +15,8 @@
 namespace warren {
 namespace {
 
-constexpr std::array<std::string_view, 2> planner_words{"prm", "lazy-prm"};
+constexpr std::array<std::string_view, 8> planner_words{"prm",     "lazy-prm", "visibility",  "cells",
+                                                        "voronoi", "rrt",      "rrt-connect", "grid"};
 constexpr std::array<std::string_view, 4> sampler_words{"uniform", "lattice", "halton", "random"};
 constexpr std::array<std::string_view, 4> search_words{"astar", "dijkstra", "bfs", "dfs"};
 constexpr std::array<std::string_view, 4> queue_words{"heap", "lazy-heap", "sorted-array", "resorted-array"};
@@ -35,10 +36,13 @@ constexpr OptionSpec specs[] = {
     {"--search", "NAME", "how the roadmap is searched (default: astar)", "astar dijkstra bfs dfs"},
     {"--queue", "NAME", "the queue of astar and dijkstra (default: heap)",
      "heap lazy-heap sorted-array resorted-array"},
-    {"--lazy", "WHEN",
+    {"--lazy",
+     "[WHEN]",
      "lazy-prm checks an edge when the search expands it, or when it lies on the path found "
      "(default: expansion)",
-     "expansion path"},
+     "expansion path",
+     {},
+     true},
     {"--pipeline", "NAME",
      "how prm works on a lattice: stage by stage, or tile by tile in cache "
      "(default: tiled where the rules of joining and searching are the usual ones)",
@@ -66,6 +70,12 @@ std::optional<std::uint64_t> auto_or_count(const Arguments& arguments, std::stri
   return text ? auto_or_count_value(option, *text, 1, most) : std::nullopt;
 }
 
+/// A planner without stages of checking takes --lazy alone; whether this one does is asked where it is known.
+LazyCheck lazy_check(const Arguments& arguments) {
+  if (arguments.value("--lazy") == "") return LazyCheck::expansion;
+  return choice<LazyCheck>(arguments, "--lazy", lazy_words).value_or(LazyCheck::expansion);
+}
+
 RoadmapOptions roadmap_options(const Arguments& arguments) {
   RoadmapOptions options;
   options.samples = auto_or_count(arguments, "--samples", most_samples);
@@ -75,7 +85,7 @@ RoadmapOptions roadmap_options(const Arguments& arguments) {
   options.radius = auto_or_radius(arguments);
   options.search = choice<SearchKind>(arguments, "--search", search_words).value_or(SearchKind::astar);
   options.queue = choice<QueueKind>(arguments, "--queue", queue_words).value_or(QueueKind::heap);
-  options.lazy = choice<LazyCheck>(arguments, "--lazy", lazy_words).value_or(LazyCheck::expansion);
+  options.lazy = lazy_check(arguments);
   if (const auto text = arguments.value("--seed")) {
     options.seed = count_value("--seed", *text, 0, std::numeric_limits<std::uint64_t>::max());
   }
@@ -90,6 +100,9 @@ void check_queue(const Arguments& arguments, SearchKind search) {
 void check_planner(const Arguments& arguments, PlannerKind planner, SearchKind search) {
   if (planner == PlannerKind::prm && arguments.has("--lazy")) {
     throw UsageError("--lazy: prm checks every edge; the planner lazy-prm takes this option");
+  }
+  if (planner == PlannerKind::lazy_prm && arguments.value("--lazy") == "") {
+    throw UsageError("--lazy: WHEN is missing");
   }
   const bool best_first = search == SearchKind::astar || search == SearchKind::dijkstra;
   if (planner == PlannerKind::lazy_prm && !best_first) {
@@ -128,6 +141,12 @@ PipelineKind pipeline_for(const Arguments& arguments, const PlannerOptions& opti
   return asked.value_or(tiles ? PipelineKind::tiled : PipelineKind::plain);
 }
 
+SamplerKind sampler_for(const Arguments& arguments, const Scene& scene) {
+  const bool lattice = scene.maze && !auto_or_count(arguments, "--samples", most_samples);
+  const SamplerKind usual = lattice ? SamplerKind::lattice : SamplerKind::uniform;
+  return choice<SamplerKind>(arguments, "--sampler", sampler_words).value_or(usual);
+}
+
 /// Options that answer and description repeat, with their values as JSON.
 std::vector<std::pair<std::string, std::string>> given_options(const Arguments& arguments, const PlannerOptions& o) {
   std::vector<std::pair<std::string, std::string>> given;
@@ -150,9 +169,16 @@ std::string_view name_of(SearchKind search) { return search_words[static_cast<st
 
 std::span<const OptionSpec> planner_option_specs() { return specs; }
 
+std::optional<PlannerKind> planner_asked(const Arguments& arguments) {
+  return choice<PlannerKind>(arguments, "--planner", planner_words);
+}
+
 void check_planner_options(const Arguments& arguments) {
   const RoadmapOptions options = roadmap_options(arguments);
-  const auto planner = choice<PlannerKind>(arguments, "--planner", planner_words);
+  const auto planner = planner_asked(arguments);
+  if (planner && !is_roadmap_planner(*planner)) {
+    throw UsageError(fmt::format("--planner: {} builds no roadmap of samples; prm and lazy-prm do", name_of(*planner)));
+  }
   const auto sampler = choice<SamplerKind>(arguments, "--sampler", sampler_words);
   check_queue(arguments, options.search);
   if (planner) check_planner(arguments, *planner, options.search);
@@ -162,16 +188,17 @@ void check_planner_options(const Arguments& arguments) {
   if (sampler) check_samples(*sampler, options);
 }
 
+PlannerKind usual_roadmap_planner(const Arguments& arguments, const Scene& scene) {
+  return sampler_for(arguments, scene) == SamplerKind::lattice ? PlannerKind::prm : PlannerKind::lazy_prm;
+}
+
 PlannerOptions planner_options(const Arguments& arguments, const Scene& scene, const WallProblem& problem) {
   PlannerOptions options;
   options.roadmap = roadmap_options(arguments);
-  const SamplerKind usual = scene.maze && !options.roadmap.samples ? SamplerKind::lattice : SamplerKind::uniform;
-  options.roadmap.sampler = choice<SamplerKind>(arguments, "--sampler", sampler_words).value_or(usual);
+  options.roadmap.sampler = sampler_for(arguments, scene);
   if (scene.maze) options.roadmap.lattice = {scene.maze->rows, scene.maze->cols};
   check_lattice(options.roadmap.sampler, scene);
-  const bool lattice = options.roadmap.sampler == SamplerKind::lattice;
-  options.planner = choice<PlannerKind>(arguments, "--planner", planner_words)
-                        .value_or(lattice ? PlannerKind::prm : PlannerKind::lazy_prm);
+  options.planner = planner_asked(arguments).value_or(usual_roadmap_planner(arguments, scene));
   check_planner(arguments, options.planner, options.roadmap.search);
   options.pipeline = pipeline_for(arguments, options, problem.reach());
   options.optimise = arguments.has("--optimise");

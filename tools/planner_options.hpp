@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which planner solves a world of walls, and with what: the options of `solve` resolved against the world. A planner
-// refuses options that it would ignore.
+// The names of all planners, and how those that build roadmaps of samples are told what to do: the options of prm and
+// lazy-prm resolved against the world. A planner refuses options that it would ignore.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -17,7 +18,14 @@
 
 namespace warren {
 
-enum class PlannerKind : std::uint8_t { prm, lazy_prm };
+/// All that the formats name; which of them this version has, and for what, solve_kind.hpp tells.
+enum class PlannerKind : std::uint8_t { prm, lazy_prm, visibility, cells, voronoi, rrt, rrt_connect, grid };
+inline constexpr PlannerKind all_planners[] = {PlannerKind::prm,         PlannerKind::lazy_prm, PlannerKind::visibility,
+                                               PlannerKind::cells,       PlannerKind::voronoi,  PlannerKind::rrt,
+                                               PlannerKind::rrt_connect, PlannerKind::grid};
+constexpr bool is_roadmap_planner(PlannerKind planner) {
+  return planner == PlannerKind::prm || planner == PlannerKind::lazy_prm;
+}
 
 /// How prm works: stage by stage over the whole world, or tile by tile with all stages of a tile in cache.
 enum class PipelineKind : std::uint8_t { plain, tiled };
@@ -26,6 +34,9 @@ std::string_view name_of(PlannerKind planner);
 std::string_view name_of(PipelineKind pipeline);
 std::string_view name_of(SamplerKind sampler);
 std::string_view name_of(SearchKind search);
+
+/// The planner that --planner names; throws UsageError for a word that is none.
+std::optional<PlannerKind> planner_asked(const Arguments& arguments);
 
 /// --planner --sampler --samples --neighbours --radius --search --queue --lazy --pipeline --optimise --seed
 std::span<const OptionSpec> planner_option_specs();
@@ -39,8 +50,11 @@ struct PlannerOptions {
   std::vector<std::pair<std::string, std::string>> given;
 };
 
-/// Checks values and contradictions that need no world; throws UsageError. Called before the world is read.
+/// Checks values and contradictions that need no world; throws UsageError, also for planners that build no roadmap of
+/// samples. Called before the world is read.
 void check_planner_options(const Arguments& arguments);
+/// prm where the sampler is the lattice, else lazy-prm.
+PlannerKind usual_roadmap_planner(const Arguments& arguments, const Scene& scene);
 /// Fills in the defaults that depend on the world; throws UsageError.
 PlannerOptions planner_options(const Arguments& arguments, const Scene& scene, const WallProblem& problem);
 

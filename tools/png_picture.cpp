@@ -32,6 +32,7 @@ class PngPainter {
 
   const Image& paint() {
     constexpr double readable_roadmap = 6.0;  // pixels a unit
+    for (const PictureLayer& layer : picture_.layers) lines(layer);
     if (picture_.roadmap != nullptr && unit() >= readable_roadmap) roadmap();
     walls();
     path();
@@ -41,6 +42,7 @@ class PngPainter {
   }
 
  private:
+  void lines(const PictureLayer& layer);
   void roadmap();
   void walls();
   void path();
@@ -64,6 +66,14 @@ class PngPainter {
   Image image_;
   std::uint64_t drawn_ = 0;
 };
+
+void PngPainter::lines(const PictureLayer& layer) {
+  for (std::size_t i = 0; i < layer.lines.size(); ++i) {
+    const std::span<const Vec2> chain = layer.lines[i];
+    for (std::size_t k = 1; k < chain.size(); ++k) line(chain[k - 1], chain[k], layer.width * unit(), layer.color);
+    if (layer.closed && chain.size() > 2) line(chain.back(), chain.front(), layer.width * unit(), layer.color);
+  }
+}
 
 void PngPainter::walls() {
   // Thin walls are drawn stronger than their width, or a large maze would fade; tiny cells stay a light texture.

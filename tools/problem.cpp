@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "tools/option_values.hpp"
+#include "worlds/robot_text.hpp"
 
 namespace warren {
 namespace {
@@ -23,63 +24,64 @@ constexpr OptionSpec specs[] = {
     {"--contact", "WORD", "with clearance 0: may the path touch a wall? (default: blocked)", "blocked allowed"},
 };
 
-[[noreturn]] void refuse_body(std::string_view where, std::string_view kind) {
-  throw UsageError(fmt::format(
-      "{}: a body of kind '{}' needs a planner that this version does not have; it takes point and disc", where, kind));
-}
-
-std::string_view kind_name(RobotKind kind) {
-  constexpr std::string_view names[] = {"point", "disc", "polygon", "car", "puma560"};
-  return names[static_cast<std::size_t>(kind)];
-}
-
 Vec2 plane_state(std::string_view option, const std::vector<double>& given, const std::vector<double>& in_file) {
   const std::vector<double>& state = given.empty() ? in_file : given;
   if (state.empty()) throw UsageError(fmt::format("{0}: the world has none; say {0} X,Y", option));
-  if (state.size() != 2) {
+  const bool heading_too = given.empty() && state.size() == 3;
+  if (state.size() != 2 && !heading_too) {
     throw UsageError(fmt::format("{}: a point or disc takes X,Y (found: {} numbers)", option, state.size()));
   }
   return {state[0], state[1]};
 }
 
-void check_scene(const Scene& scene) {
-  constexpr std::string_view text = "{}: {} need a planner that this version does not have; it takes walls";
-  if (!scene.polygons.empty()) throw UsageError(fmt::format(text, scene.source, "polygons"));
-  if (!scene.spheres.empty()) throw UsageError(fmt::format(text, scene.source, "spheres"));
-}
-
-double resolved_clearance(const Scene& scene, const ProblemOptions& options) {
-  if (options.clearance) return *options.clearance;
-  if (scene.clearance) return *scene.clearance;
-  return scene.maze ? clearance_in_mazes : 0.0;
+RobotSpec robot_option(std::string_view text) {
+  try {
+    return robot_value("--robot", text);
+  } catch (const InputError& error) {
+    throw UsageError(error.what());
+  }
 }
 
 }  // namespace
 
 std::span<const OptionSpec> problem_option_specs() { return specs; }
 
-RobotSpec robot_value(std::string_view where, std::string_view text) {
-  if (text == "point") return {};
-  const std::string_view kind = text.substr(0, text.find(' '));
-  for (const RobotKind other : {RobotKind::polygon, RobotKind::car, RobotKind::puma560}) {
-    if (kind == kind_name(other)) refuse_body(where, kind);
-  }
-  if (kind != "disc" || kind.size() == text.size()) {
-    throw UsageError(fmt::format("{}: expected point, or disc RADIUS (found: '{}')", where, text));
-  }
-  RobotSpec robot;
-  robot.kind = RobotKind::disc;
-  robot.radius = number_value(where, text.substr(kind.size() + 1), 0.0, largest_coordinate);
-  return robot;
+RobotSpec robot_value(const std::string& where, std::string_view text) {
+  scene_text::Fields fields(text, {where, 0});
+  return read_robot(fields, {});
 }
 
 std::string robot_text(const RobotSpec& robot) {
-  return robot.kind == RobotKind::disc ? fmt::format("disc {}", robot.radius) : std::string{kind_name(robot.kind)};
+  switch (robot.kind) {
+    case RobotKind::point:
+      return "point";
+    case RobotKind::disc:
+      return fmt::format("disc {}", robot.radius);
+    case RobotKind::car:
+      return fmt::format("car radius {} turning {}", robot.radius, robot.turning_radius);
+    case RobotKind::puma560:
+      return fmt::format("puma560 radius {} tool {}", robot.radius, robot.tool);
+    case RobotKind::polygon:
+      break;
+  }
+  std::string text = "polygon";
+  for (const Vec2 corner : robot.outline) text += fmt::format(" {} {}", corner.x, corner.y);
+  return text;
+}
+
+RobotSpec robot_of(const Scene& scene, const ProblemOptions& options) {
+  return options.robot ? *options.robot : scene.robot.value_or(RobotSpec{});
+}
+
+double clearance_of(const Scene& scene, const ProblemOptions& options) {
+  if (options.clearance) return *options.clearance;
+  if (scene.clearance) return *scene.clearance;
+  return scene.maze ? clearance_in_mazes : 0.0;
 }
 
 ProblemOptions problem_options(const Arguments& arguments) {
   ProblemOptions options;
-  if (const auto text = arguments.value("--robot")) options.robot = robot_value("--robot", *text);
+  if (const auto text = arguments.value("--robot")) options.robot = robot_option(*text);
   if (const auto text = arguments.value("--start")) options.start = state_value("--start", *text);
   if (const auto text = arguments.value("--goal")) options.goal = state_value("--goal", *text);
   if (const auto text = arguments.value("--clearance")) {
@@ -91,21 +93,16 @@ ProblemOptions problem_options(const Arguments& arguments) {
   return options;
 }
 
-WallProblem wall_problem(const Scene& scene, const ProblemOptions& options) {
-  check_scene(scene);
+WallProblem wall_problem(const Scene& scene, const ProblemOptions& options, Contact usual) {
   WallProblem problem;
-  if (options.robot) {
-    problem.robot = *options.robot;
-  } else if (scene.robot) {
-    problem.robot = *scene.robot;
-  }
+  problem.robot = robot_of(scene, options);
   if (problem.robot.kind != RobotKind::point && problem.robot.kind != RobotKind::disc) {
-    refuse_body(scene.source, kind_name(problem.robot.kind));
+    throw UsageError(fmt::format("{}: expected a point or disc", options.robot ? "--robot" : scene.source));
   }
   problem.start = plane_state("--start", options.start, scene.start);
   problem.goal = plane_state("--goal", options.goal, scene.goal);
-  problem.clearance = resolved_clearance(scene, options);
-  problem.contact = options.contact.value_or(Contact::blocked);
+  problem.clearance = clearance_of(scene, options);
+  problem.contact = options.contact.value_or(problem.reach() > 0.0 ? Contact::blocked : usual);
   if (problem.contact == Contact::allowed && problem.reach() > 0.0) {
     throw UsageError(
         fmt::format("--contact: a body that keeps {} from every wall never touches one; 'allowed' needs "

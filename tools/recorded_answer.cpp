@@ -59,8 +59,10 @@ class AnswerReader {
   bool began_ = false;
 };
 
-constexpr std::string_view point_expected = "[X, Y], two finite numbers";
+constexpr std::string_view point_expected = "[X, Y], two finite numbers (three or six for other bodies)";
 constexpr std::string_view path_expected = "a list of points [X, Y]";
+
+constexpr bool is_state_size(std::size_t n) { return n == 2 || n == 3 || n == 6; }
 
 bool AnswerReader::start_object(std::size_t) {
   if (in("path")) refuse(path_expected, "an object");
@@ -102,17 +104,21 @@ bool AnswerReader::end_array() {
   if (in("path") && arrays_ == 1) end_point();
   if (in("start") && arrays_ == 0) answer_.problem.start = numbers_;
   if (in("goal") && arrays_ == 0) answer_.problem.goal = numbers_;
-  if ((in("start") || in("goal")) && numbers_.size() != 2) refuse(point_expected);
+  if ((in("start") || in("goal")) && !is_state_size(numbers_.size())) refuse(point_expected);
   return true;
 }
 
 void AnswerReader::end_point() {
   constexpr std::size_t batch = 1 << 14;
-  if (numbers_.size() != 2) {
+  const std::size_t width = answer_.path.empty() ? numbers_.size() : answer_.state_width();
+  if (!is_state_size(numbers_.size()) || numbers_.size() != width) {
     refuse(path_expected, fmt::format("{} numbers in point {}", numbers_.size(), answer_.path.size()));
   }
   if (answer_.path.size() % batch == 0) execution_.check();
   answer_.path.push_back({numbers_[0], numbers_[1]});
+  if (width == 2) return;
+  answer_.states.width = width;
+  answer_.states.add(numbers_);
 }
 
 bool AnswerReader::number(double value) {
@@ -174,7 +180,16 @@ RecordedAnswer read_answer(const std::string& file, const Execution& execution) 
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
   AnswerReader reader(input.name(), execution);
   Json::sax_parse(text.begin(), text.end(), &reader);
-  return reader.finish();
+  RecordedAnswer answer = reader.finish();
+  answer.file = input.name();
+  return answer;
+}
+
+void check_state_width(const RecordedAnswer& answer, std::size_t width, std::string_view body) {
+  if (answer.state_width() == width) return;
+  throw InputError(fmt::format("{}: key \"path\"", answer.file),
+                   fmt::format("expected {} numbers a state for {}", width, body),
+                   fmt::format("{} numbers in point 0", answer.state_width()));
 }
 
 void check_same_world(const RecordedAnswer& answer, const std::string& file, const Scene& scene,

@@ -5,11 +5,13 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/types.hpp"
 #include "parallel/execution.hpp"
 #include "tools/problem.hpp"
+#include "tools/state_list.hpp"
 #include "worlds/scene.hpp"
 
 namespace warren {
@@ -18,11 +20,18 @@ struct RecordedAnswer {
   ProblemOptions problem;  ///< what the answer says of the problem
   std::optional<std::string> world_hash;
   std::optional<double> length;
-  std::vector<Vec2> path;  ///< may be empty only where the answer says that there is none
+  std::string file;        ///< where it stands, for messages
+  std::vector<Vec2> path;  ///< where a state has two numbers
+  StateList states;        ///< where a state has three or six; then `path` is their first two
+
+  std::size_t state_width() const { return states.empty() ? 2 : states.width; }
 };
 
 /// "-" is standard input. Throws ReadError, InputError naming file and key, Stopped.
 RecordedAnswer read_answer(const std::string& file, const Execution& execution);
+
+/// Throws InputError unless each state of the path has so many numbers; `body` is whose they are.
+void check_state_width(const RecordedAnswer& answer, std::size_t width, std::string_view body);
 
 /// Throws InputError if the answer names the hash of another world.
 void check_same_world(const RecordedAnswer& answer, const std::string& file, const Scene& scene,

@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/solve_walls.hpp"
 
-#include <fmt/format.h>
-
-#include <chrono>
-#include <new>
 #include <optional>
-#include <stdexcept>
 
+#include "core/error.hpp"
 #include "planners/lazy_prm.hpp"
 #include "planners/prm.hpp"
 #include "planners/taut_path.hpp"
 #include "planners/tiled_prm.hpp"
 #include "tools/maze_proof.hpp"
+#include "tools/solve_kind.hpp"
+#include "tools/verified_answer.hpp"
 #include "worlds/maze_world.hpp"
-#include "worlds/verify.hpp"
 
 namespace warren {
 namespace {
@@ -24,26 +21,15 @@ class WallSolve {
  public:
   WallSolve(const Scene& scene, const WallProblem& problem, const PlannerOptions& options, const Execution& execution)
       : scene_(scene), problem_(problem), options_(options), execution_(execution) {
-    answer_.problem = problem;
-    answer_.planner = name_of(options.planner);
-    if (options.planner == PlannerKind::prm) answer_.pipeline = name_of(options.pipeline);
-    answer_.sampler = name_of(options.roadmap.sampler);
-    answer_.search = name_of(options.roadmap.search);
-    answer_.seed = options.roadmap.seed;
-    answer_.options = options.given;
+    describe_roadmap_planner(answer_, problem, options);
   }
 
   void run(Roadmap<Vec2>* keep) {
     plan(keep);
-    settle_blocked_ends();
+    settle_blocked_ends(answer_, scene_, problem_, execution_);
     if (answer_.outcome == Outcome::not_connected) proved_infeasible();
     if (options_.optimise && answer_.outcome == Outcome::solved) optimise();
-    verify();
-  }
-  void stop(StopReason reason) {
-    answer_.outcome = Outcome::stopped;
-    answer_.stop_reason = reason;
-    answer_.path.clear();
+    verify_solved(answer_, scene_, problem_, execution_);
   }
   Answer& answer() { return answer_; }
 
@@ -51,14 +37,10 @@ class WallSolve {
   const MazeWorld& indexed_world();
   void plan(Roadmap<Vec2>* keep);
   Solution<Vec2> plan_tiles();
-  void take(Solution<Vec2> solution);
-  void settle_blocked_ends();
   bool grows() const;
   bool ends_are_free(const MazeWorld& world) const;
   bool proved_infeasible();
   void optimise();
-  void verify();
-  bool stands_free(Vec2 p) const;
 
   const Scene& scene_;
   const WallProblem& problem_;
@@ -76,25 +58,15 @@ const MazeWorld& WallSolve::indexed_world() {
   return *world_;
 }
 
-void add(StageTimes& to, const StageTimes& more) {
-  to.index += more.index;
-  to.sample += more.sample;
-  to.neighbours += more.neighbours;
-  to.connect += more.connect;
-  to.graph += more.graph;
-  to.reduce += more.reduce;
-  to.search += more.search;
-}
-
 void WallSolve::plan(Roadmap<Vec2>* keep) {
   if (options_.planner == PlannerKind::prm && options_.pipeline == PipelineKind::tiled) {
-    take(plan_tiles());
+    take_solution(answer_, plan_tiles());
     return;
   }
   const MazeWorld& world = indexed_world();
   if (grows() && ends_are_free(world) && proved_infeasible()) return;
   const auto planner = options_.planner == PlannerKind::prm ? prm<MazeWorld> : lazy_prm<MazeWorld>;
-  take(planner(world, problem_.start, problem_.goal, options_.roadmap, execution_, keep));
+  take_solution(answer_, planner(world, problem_.start, problem_.goal, options_.roadmap, execution_, keep));
 }
 
 Solution<Vec2> WallSolve::plan_tiles() {
@@ -107,28 +79,6 @@ Solution<Vec2> WallSolve::plan_tiles() {
   }
   const TiledProblem problem{scene_.walls, bounds, box, problem_.reach(), problem_.start, problem_.goal};
   return tiled_prm(problem, options_.roadmap, execution_);
-}
-
-void WallSolve::take(Solution<Vec2> solution) {
-  answer_.outcome = solution.outcome;
-  answer_.path = std::move(solution.path);
-  answer_.roadmap = solution.roadmap;
-  answer_.separation = solution.separation;
-  answer_.counters = solution.counters;
-  if (solution.outcome == Outcome::stopped) answer_.stop_reason = solution.stop_reason;
-  add(answer_.seconds, solution.seconds);
-}
-
-/// Planning keeps 1e-9 more room than it must, so a body that fits exactly is no blocked one: nobody proved that.
-void WallSolve::settle_blocked_ends() {
-  const bool start = answer_.outcome == Outcome::start_blocked && stands_free(problem_.start);
-  const bool goal = answer_.outcome == Outcome::goal_blocked && stands_free(problem_.goal);
-  if (start || goal) answer_.outcome = Outcome::not_connected;
-}
-
-bool WallSolve::stands_free(Vec2 p) const {
-  const VerifyOptions options{.clearance = problem_.reach(), .contact = problem_.contact};
-  return verify_path(scene_, std::span(&p, 1), options, execution_).verified;
 }
 
 /// Does the roadmap grow until start and goal connect? Then one asks first whether they ever can.
@@ -154,36 +104,52 @@ void WallSolve::optimise() {
   answer_.path = taut_path(world.walls(), answer_.path, world.planning_clearance(), execution_);
 }
 
-void WallSolve::verify() {
-  if (answer_.outcome != Outcome::solved) return;
-  const StageTimer timer(execution_, "verify", answer_.seconds.verify, answer_.path.size() + scene_.walls.size());
-  const VerifyOptions options{
-      .clearance = problem_.reach(), .contact = problem_.contact, .start = problem_.start, .goal = problem_.goal};
-  const Verification verification = verify_path(scene_, answer_.path, options, execution_);
-  if (!verification.verified) {
-    const Violation violation = verification.first_violation.value_or(Violation{});
-    throw std::logic_error(fmt::format("the path of {} fails its verification at leg {}: {} is {} away",
-                                       answer_.planner, violation.leg, violation.obstacle, violation.distance));
+constexpr std::string_view shared_options =
+    "--sampler --samples --neighbours --radius --search --queue --lazy --pipeline --optimise";
+constexpr PlannerChoice planners[] = {{PlannerKind::prm, shared_options}, {PlannerKind::lazy_prm, shared_options}};
+
+bool fits_walls(const Scene& scene, const RobotSpec& robot) {
+  const bool plain = robot.kind == RobotKind::point || robot.kind == RobotKind::disc;
+  return plain && scene.polygons.empty() && scene.spheres.empty();
+}
+
+PlannerKind usual_planner(const Arguments& arguments, const Scene& scene, const ProblemOptions&) {
+  return usual_roadmap_planner(arguments, scene);
+}
+
+WallProblem problem_of(const Scene& scene, const ProblemOptions& options) {
+  if (options.contact == Contact::allowed) {
+    throw UsageError("--contact: prm and lazy-prm keep off the walls, so 'allowed' would change nothing");
   }
-  answer_.verified = true;
-  answer_.length = verification.length;
-  answer_.min_clearance = verification.min_clearance - problem_.robot.radius;
+  return wall_problem(scene, options);
+}
+
+Answer solve(const SolveRequest& request) {
+  const WallProblem problem = problem_of(request.scene, request.problem);
+  const PlannerOptions options = planner_options(request.arguments, request.scene, problem);
+  Roadmap<Vec2>* keep = request.drawing != nullptr ? &request.drawing->roadmap : nullptr;
+  return solve_walls(request.scene, problem, options, request.execution, keep);
+}
+
+/// Tiles keep no roadmap.
+void draw(const SolveRequest& request) {
+  const WallProblem problem = problem_of(request.scene, request.problem);
+  const PlannerOptions options = planner_options(request.arguments, request.scene, problem);
+  if (options.planner != PlannerKind::prm || options.pipeline != PipelineKind::tiled) return;
+  draw_roadmap(request.scene, problem, options, request.execution, request.drawing->roadmap);
+}
+
+Verdict verify(const Scene& scene, const ProblemOptions& options, const RecordedAnswer& answer,
+               const Execution& execution) {
+  return verify_plane_answer(scene, wall_problem(scene, options), answer, execution);
 }
 
 }  // namespace
 
 Answer solve_walls(const Scene& scene, const WallProblem& problem, const PlannerOptions& options,
                    const Execution& execution, Roadmap<Vec2>* keep) {
-  const auto begin = std::chrono::steady_clock::now();
   WallSolve solve(scene, problem, options, execution);
-  try {
-    solve.run(keep);
-  } catch (const Stopped& stopped) {
-    solve.stop(stopped.reason);
-  } catch (const std::bad_alloc&) {
-    solve.stop(StopReason::memory);
-  }
-  solve.answer().solve_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  answer_within_limits(solve.answer(), [&] { solve.run(keep); });
   return std::move(solve.answer());
 }
 
@@ -194,6 +160,10 @@ void draw_roadmap(const Scene& scene, const WallProblem& problem, const PlannerO
   if (std::uint64_t{size.rows} * size.cols > most_cells) return;
   const MazeWorld world(scene, problem.reach(), execution);
   prm(world, problem.start, problem.goal, options.roadmap, execution, &roadmap);
+}
+
+SolveKind walls_kind() {
+  return {"a point or disc among walls", fits_walls, planners, {}, usual_planner, solve, draw, verify};
 }
 
 }  // namespace warren

@@ -37,16 +37,40 @@ void line(std::string& text, const Palette& palette, std::string_view name, std:
   text += fmt::format("  {}{}\n", palette.faint(fmt::format("{:<14}", name)), what);
 }
 
+std::string world_text(const WorldAccount& world) {
+  std::string text = world.kind;
+  if (world.polygons > 0) text += ", " + plural(world.polygons, "polygon", "polygons");
+  if (world.walls > 0 || world.polygons == 0) text += ", " + plural(world.walls, "wall", "walls");
+  return text;
+}
+
+std::string planner_text(const Answer& answer) {
+  std::string text = answer.planner;
+  if (!answer.sampler.empty()) text += ", " + answer.sampler + " sampler";
+  if (!answer.search.empty()) text += ", " + answer.search;
+  if (!answer.sampler.empty()) text += fmt::format(", seed {}", answer.seed);
+  return text;
+}
+
 void add_path(std::string& text, const Answer& answer, const Palette& palette) {
   std::string length = palette.strong(human_number(answer.length));
   if (answer.raw_length) length += fmt::format(" (before --optimise: {})", human_number(*answer.raw_length));
-  line(text, palette, "length", length + fmt::format(", {}", plural(answer.path.size(), "point", "points")));
+  if (answer.optimal) length += " (the shortest there is)";
+  const std::size_t points = answer.states.empty() ? answer.path.size() : answer.states.size();
+  line(text, palette, "length", length + fmt::format(", {}", plural(points, "point", "points")));
+  if (answer.cost) line(text, palette, "cost", human_number(*answer.cost));
+  if (answer.turn_rad) line(text, palette, "turning", human_number(*answer.turn_rad) + " rad");
   line(text, palette, "clearance",
        fmt::format("{} at least; {} asked for", human_number(answer.min_clearance),
                    human_number(answer.problem.clearance)));
 }
 
 void add_roadmap(std::string& text, const Answer& answer, const Palette& palette) {
+  if (answer.cells) {
+    line(text, palette, "cells",
+         fmt::format("{}, {}", plural(answer.cells->cells, "cell", "cells"),
+                     plural(answer.cells->adjacencies, "adjacency", "adjacencies")));
+  }
   if (answer.roadmap.milestones == 0) return;
   std::string what = fmt::format("{}, {}", plural(answer.roadmap.milestones, "milestone", "milestones"),
                                  plural(answer.roadmap.edges, "edge", "edges"));
@@ -78,11 +102,9 @@ void add_times(std::string& text, const Answer& answer, const Palette& palette) 
 
 std::string summary_of(const Answer& answer, const Palette& palette, std::span<const std::string> files_written) {
   std::string text = fmt::format("{}  {}\n", palette.strong(answer.world.source), headline(answer, palette));
-  std::string problem =
-      fmt::format("{}, {} sampler, {}, seed {}", answer.planner, answer.sampler, answer.search, answer.seed);
   if (!answer.world.kind.empty()) {
-    line(text, palette, "world", fmt::format("{}, {}", answer.world.kind, plural(answer.world.walls, "wall", "walls")));
-    line(text, palette, "planner", problem);
+    line(text, palette, "world", world_text(answer.world));
+    line(text, palette, "planner", planner_text(answer));
   }
   if (answer.verified) add_path(text, answer, palette);
   add_roadmap(text, answer, palette);

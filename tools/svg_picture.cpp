@@ -79,6 +79,7 @@ class SvgWriter {
   void document() {
     open();
     polygons();
+    for (const PictureLayer& layer : picture_.layers) lines(layer);
     if (picture_.roadmap != nullptr) roadmap();
     walls();
     path();
@@ -91,6 +92,7 @@ class SvgWriter {
  private:
   void open();
   void polygons();
+  void lines(const PictureLayer& layer);
   void walls();
   void roadmap();
   void edges(const std::vector<std::uint8_t>& color);
@@ -183,6 +185,18 @@ void SvgWriter::polygons() {
     piece_ended();
   }
   text_ += "\"/>\n";
+}
+
+void SvgWriter::lines(const PictureLayer& layer) {
+  open_layer(layer.id.c_str(), layer.color, layer.width);
+  text_ += "<path d=\"";
+  for (std::size_t i = 0; i < layer.lines.size(); ++i) {
+    const std::span<const Vec2> line = layer.lines[i];
+    for (std::size_t k = 0; k < line.size(); ++k) command(k == 0 ? 'M' : 'L', frame_.at(line[k]));
+    if (layer.closed) text_ += 'Z';
+    piece_ended();
+  }
+  text_ += "\"/></g>\n";
 }
 
 void SvgWriter::walls() {

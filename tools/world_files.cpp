@@ -18,12 +18,12 @@ namespace {
 
 bool is_picture(std::string_view ending) { return ending == ".svg" || ending == ".png" || ending == ".html"; }
 
+}  // namespace
+
 std::optional<Vec2> plane_point(const std::vector<double>& state) {
   if (state.size() < 2) return std::nullopt;
   return Vec2{state[0], state[1]};
 }
-
-}  // namespace
 
 Scene load_world(const std::string& source, const Execution& execution, StageTimes& seconds) {
   const bool generates = is_maze_source(source);
@@ -52,13 +52,18 @@ void write_world(const Scene& scene, const std::string& file, const std::string&
 }
 
 WorldAccount account_of(const Scene& scene, const Execution& execution) {
-  return {scene.source, scene.maze ? "maze" : "walls", scene.walls.size(), scene_hash(scene, execution)};
+  const char* kind = scene.maze ? "maze" : scene.polygons.empty() ? "walls" : "polygons";
+  return {scene.source, kind, scene.walls.size(), scene.polygons.size(), scene_hash(scene, execution)};
 }
 
 std::string description_of(const Scene& scene) {
   std::string text = scene.maze ? fmt::format("{} x {} maze, ", scene.maze->rows, scene.maze->cols) : "";
-  text += fmt::format("{} {}", grouped(scene.walls.size()), scene.walls.size() == 1 ? "wall" : "walls");
-  if (!scene.polygons.empty()) text += fmt::format(", {} polygons", grouped(scene.polygons.size()));
+  const auto counted = [](std::size_t count, const char* one, const char* many) {
+    return fmt::format("{} {}", grouped(count), count == 1 ? one : many);
+  };
+  if (!scene.polygons.empty()) text += counted(scene.polygons.size(), "polygon", "polygons");
+  if (!scene.polygons.empty() && scene.walls.size() > 0) text += ", ";
+  if (scene.polygons.empty() || scene.walls.size() > 0) text += counted(scene.walls.size(), "wall", "walls");
   if (!scene.spheres.empty()) text += fmt::format(", {} spheres", grouped(scene.spheres.size()));
   return text;
 }

@@ -2,7 +2,9 @@
 // Worlds in and out as the verbs need them: read or generated with its time taken, written in any format by ending.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "core/counters.hpp"
 #include "parallel/execution.hpp"
@@ -22,6 +24,9 @@ void write_world(const Scene& scene, const std::string& file, const std::string&
 void check_world_file(const std::string& file);
 
 WorldAccount account_of(const Scene& scene, const Execution& execution);
+
+/// Where a state stands in the plane; none where there is no state.
+std::optional<Vec2> plane_point(const std::vector<double>& state);
 
 /// "41 x 41 maze, 1604 walls": what a person wants to know first.
 std::string description_of(const Scene& scene);

@@ -16,6 +16,7 @@
 
 #include "core/error.hpp"
 #include "worlds/maze_generator.hpp"
+#include "worlds/robot_text.hpp"
 #include "worlds/scene_text.hpp"
 #include "worlds/wall_collector.hpp"
 
@@ -190,9 +191,7 @@ class SceneReader {
     return static_cast<std::uint32_t>(value);
   }
 
-  void read_robot(Fields& fields);
-  /// A body's named numbers: `radius R` and the like, each once, in any order.
-  void read_robot_sizes(Fields& fields, RobotSpec& robot);
+  void read_robot(Fields& fields) { scene_.robot = warren::read_robot(fields, execution_); }
 
   void check_whole() const;
   void check_state(const std::vector<double>& given, ItemNumber item) const;
@@ -216,52 +215,11 @@ const std::array<SceneReader::Item, SceneReader::item_count> SceneReader::items 
     {"bounds", "bounds XMIN YMIN XMAX YMAX", true, &SceneReader::read_bounds},
     {"clearance", "clearance R", true, &SceneReader::read_clearance},
     {"maze", "maze ROWS COLS", true, &SceneReader::read_maze},
-    {"robot", "robot point|disc R|polygon X Y X Y X Y ...|car radius R turning RHO|puma560 radius R [tool T]", true,
-     &SceneReader::read_robot},
+    {"robot", robot_usage, true, &SceneReader::read_robot},
     {"start", "start X Y [THETA] or six joint angles", true, &SceneReader::read_start},
     {"goal", "goal X Y [THETA] or six joint angles", true, &SceneReader::read_goal},
     {"grid", "grid CELL ANGLES", true, &SceneReader::read_grid},
 }};
-
-void SceneReader::read_robot(Fields& fields) {
-  RobotSpec robot;
-  const std::string_view kind = fields.word();
-  if (kind == "point") {
-    numbers(fields, 0, 0);
-  } else if (kind == "disc") {
-    robot.kind = RobotKind::disc;
-    robot.radius = not_negative(fields.place(), "R", numbers(fields, 1, 1)[0]);
-  } else if (kind == "polygon") {
-    robot.kind = RobotKind::polygon;
-    robot.outline = corners(fields);
-  } else if (kind == "car" || kind == "puma560") {
-    robot.kind = kind == "car" ? RobotKind::car : RobotKind::puma560;
-    read_robot_sizes(fields, robot);
-  } else {
-    fields.place().fail(fmt::format("expected `{}`", item_->usage), kind.empty() ? "nothing" : kind);
-  }
-  scene_.robot = std::move(robot);
-}
-
-void SceneReader::read_robot_sizes(Fields& fields, RobotSpec& robot) {
-  const bool is_car = robot.kind == RobotKind::car;
-  const std::string_view second = is_car ? "turning" : "tool";
-  bool has_radius = false;
-  bool has_second = false;
-  while (!fields.done()) {
-    const std::string_view name = fields.word();
-    bool& seen = name == "radius" ? has_radius : has_second;
-    if ((name != "radius" && name != second) || seen)
-      fields.place().fail(fmt::format("expected `{}`", item_->usage), name);
-    seen = true;
-    const double value = fields.number();
-    if (name == "radius") robot.radius = not_negative(fields.place(), "radius", value);
-    if (name == "turning") robot.turning_radius = positive(fields.place(), "turning", value);
-    if (name == "tool") robot.tool = not_negative(fields.place(), "tool", value);
-  }
-  if (!has_radius) fields.place().fail(fmt::format("expected `{}`", item_->usage), "no radius");
-  if (is_car && !has_second) fields.place().fail(fmt::format("expected `{}`", item_->usage), "no turning radius");
-}
 
 void SceneReader::check_whole() const {
   if (scene_.walls.size() == 0 && scene_.polygons.empty() && scene_.spheres.empty() && !scene_.bounds) {

@@ -44,7 +44,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-std::string Place::text() const { return fmt::format("{}:{}", file, line); }
+std::string Place::text() const { return line == 0 ? file : fmt::format("{}:{}", file, line); }
 
 void Place::fail(std::string_view what, std::string_view found) const {
   throw InputError(text(), what, printable(found));

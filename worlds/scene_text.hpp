@@ -11,7 +11,7 @@
 
 namespace warren::scene_text {
 
-/// Where an error is: "file:line".
+/// Where an error is: "file:line"; line 0 is no line: an option, a key.
 struct Place {
   const std::string& file;
   std::size_t line;

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/solve_kind.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "core/error.hpp"
+
+namespace warren {
+namespace {
+
+constexpr std::string_view no_planner = "{}: {} needs a planner that this version does not have; it has those for {}";
+
+bool lists(std::string_view words, std::string_view word) {
+  for (std::size_t at = words.find(word); at != std::string_view::npos; at = words.find(word, at + 1)) {
+    const std::size_t end = at + word.size();
+    if ((at == 0 || words[at - 1] == ' ') && (end == words.size() || words[end] == ' ')) return true;
+  }
+  return false;
+}
+
+const PlannerChoice* choice_in(const SolveKind& kind, PlannerKind planner) {
+  const auto found = std::find_if(kind.planners.begin(), kind.planners.end(),
+                                  [&](const PlannerChoice& choice) { return choice.planner == planner; });
+  return found == kind.planners.end() ? nullptr : &*found;
+}
+
+/// "a", "a and b", "a, b and c".
+std::string listed(const std::vector<std::string_view>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    text += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ");
+    text += words[i];
+  }
+  return text;
+}
+
+/// The planners of all kinds for which `holds` is true of some choice, in their order.
+template <class Holds>
+std::vector<std::string_view> planners_where(const Holds& holds) {
+  std::vector<std::string_view> names;
+  for (const PlannerKind planner : all_planners) {
+    const bool any = std::any_of(solve_kinds().begin(), solve_kinds().end(), [&](const SolveKind& kind) {
+      const PlannerChoice* choice = choice_in(kind, planner);
+      return choice != nullptr && holds(kind, *choice);
+    });
+    if (any) names.push_back(name_of(planner));
+  }
+  return names;
+}
+
+std::vector<std::string_view> planners_of(const SolveKind& kind) {
+  std::vector<std::string_view> names;
+  for (const PlannerChoice& choice : kind.planners) names.push_back(name_of(choice.planner));
+  return names;
+}
+
+/// Every option that some planner takes, but for those that all take.
+std::vector<OptionSpec> refusable_options() {
+  std::vector<OptionSpec> options = solver_option_specs();
+  std::erase_if(options, [](const OptionSpec& o) { return o.name == "--planner" || o.name == "--seed"; });
+  return options;
+}
+
+/// Refuses the options that none of `choices` takes.
+void refuse_ignored(const Arguments& arguments, PlannerKind planner, const std::vector<PlannerChoice>& choices) {
+  for (const OptionSpec& option : refusable_options()) {
+    if (!arguments.has(option.name)) continue;
+    const auto takes = [&](const PlannerChoice& choice) { return lists(choice.options, option.name); };
+    if (std::any_of(choices.begin(), choices.end(), takes)) continue;
+    const auto takers = planners_where([&](const SolveKind&, const PlannerChoice& choice) { return takes(choice); });
+    throw UsageError(fmt::format("{}: {} would ignore it; {} {} it", option.name, name_of(planner), listed(takers),
+                                 takers.size() == 1 ? "takes" : "take"));
+  }
+}
+
+std::vector<const SolveKind*> fitting_kinds(const Scene& scene, const RobotSpec& robot) {
+  std::vector<const SolveKind*> fitting;
+  for (const SolveKind& kind : solve_kinds()) {
+    if (kind.fits(scene, robot)) fitting.push_back(&kind);
+  }
+  return fitting;
+}
+
+std::string solved_problems() {
+  std::vector<std::string_view> problems;
+  for (const SolveKind& kind : solve_kinds()) {
+    if (!kind.planners.empty()) problems.push_back(kind.problem);
+  }
+  return listed(problems);
+}
+
+/// The first that fits and has planners.
+const SolveKind& first_kind(const std::vector<const SolveKind*>& fitting, const Scene& scene,
+                            const ProblemOptions& problem) {
+  const auto found =
+      std::find_if(fitting.begin(), fitting.end(), [](const SolveKind* kind) { return !kind->planners.empty(); });
+  if (found != fitting.end()) return **found;
+  const std::string where = problem.robot ? "--robot" : scene.source;
+  const std::string what = fitting.empty()
+                               ? fmt::format("a {} in such a world", kind_name(robot_of(scene, problem).kind))
+                               : std::string{fitting.front()->problem};
+  throw UsageError(fmt::format(no_planner, where, what, solved_problems()));
+}
+
+[[noreturn]] void refuse_planner(PlannerKind planner, const SolveKind& kind) {
+  throw UsageError(fmt::format("--planner: {} does not solve {}; {} {}", name_of(planner), kind.problem,
+                               listed(planners_of(kind)), kind.planners.size() == 1 ? "does" : "do"));
+}
+
+}  // namespace
+
+const std::vector<SolveKind>& solve_kinds() {
+  static const std::vector<SolveKind> kinds{walls_kind(), plane_kind(), turning_kind(), arm_kind(), occupancy_kind()};
+  return kinds;
+}
+
+void check_solver_options(const Arguments& arguments) {
+  const std::optional<PlannerKind> asked = planner_asked(arguments);
+  if (asked) {
+    std::vector<PlannerChoice> choices;
+    for (const SolveKind& kind : solve_kinds()) {
+      if (const PlannerChoice* choice = choice_in(kind, *asked)) choices.push_back(*choice);
+    }
+    if (choices.empty()) {
+      const auto all = planners_where([](const SolveKind&, const PlannerChoice&) { return true; });
+      throw UsageError(
+          fmt::format("--planner: {} is none that this version has; it has {}", name_of(*asked), listed(all)));
+    }
+    refuse_ignored(arguments, *asked, choices);
+  }
+  if (!asked || is_roadmap_planner(*asked)) check_planner_options(arguments);
+}
+
+ChosenSolver choose_solver(const Arguments& arguments, const Scene& scene, const ProblemOptions& problem) {
+  const std::vector<const SolveKind*> fitting = fitting_kinds(scene, robot_of(scene, problem));
+  const SolveKind& first = first_kind(fitting, scene, problem);
+  const std::optional<PlannerKind> asked = planner_asked(arguments);
+  ChosenSolver chosen{&first, asked ? *asked : first.usual_planner(arguments, scene, problem)};
+  const auto has_it = [&](const SolveKind* kind) { return choice_in(*kind, chosen.planner) != nullptr; };
+  const auto found = std::find_if(fitting.begin(), fitting.end(), has_it);
+  if (found == fitting.end()) refuse_planner(chosen.planner, first);
+  chosen.kind = *found;
+  refuse_ignored(arguments, chosen.planner, {*choice_in(*chosen.kind, chosen.planner)});
+  return chosen;
+}
+
+const SolveKind& verifying_kind(const Scene& scene, const ProblemOptions& problem) {
+  const std::vector<const SolveKind*> fitting = fitting_kinds(scene, robot_of(scene, problem));
+  const auto found =
+      std::find_if(fitting.begin(), fitting.end(), [](const SolveKind* kind) { return kind->verify != nullptr; });
+  return found != fitting.end() ? **found : first_kind(fitting, scene, problem);
+}
+
+std::vector<OptionSpec> solver_option_specs() {
+  static const std::string planners = [] {
+    std::string words;
+    for (const std::string_view name : planners_where([](const SolveKind&, const PlannerChoice&) { return true; })) {
+      words.append(words.empty() ? "" : " ").append(name);
+    }
+    return words;
+  }();
+  std::vector<OptionSpec> options;
+  const auto add = [&](std::span<const OptionSpec> more) {
+    for (const OptionSpec& option : more) {
+      const auto same = [&](const OptionSpec& o) { return o.name == option.name; };
+      if (std::none_of(options.begin(), options.end(), same)) options.push_back(option);
+    }
+  };
+  add(planner_option_specs());
+  for (const SolveKind& kind : solve_kinds()) add(kind.options);
+  options.front().choices = planners;
+  return options;
+}
+
+}  // namespace warren

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/verified_answer.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "worlds/verify.hpp"
+
+namespace warren {
+namespace {
+
+void add(StageTimes& to, const StageTimes& more) {
+  to.index += more.index;
+  to.sample += more.sample;
+  to.neighbours += more.neighbours;
+  to.connect += more.connect;
+  to.graph += more.graph;
+  to.reduce += more.reduce;
+  to.search += more.search;
+}
+
+bool stands_free(const Scene& scene, const WallProblem& problem, Vec2 p, const Execution& execution) {
+  const VerifyOptions options{.clearance = problem.reach(), .contact = problem.contact};
+  return verify_path(scene, std::span(&p, 1), options, execution).verified;
+}
+
+VerifyOptions verify_options(const WallProblem& problem) {
+  return {.clearance = problem.reach(), .contact = problem.contact, .start = problem.start, .goal = problem.goal};
+}
+
+}  // namespace
+
+void describe_roadmap_planner(Answer& answer, const WallProblem& problem, const PlannerOptions& options) {
+  answer.problem = problem.general();
+  answer.planner = name_of(options.planner);
+  if (options.planner == PlannerKind::prm) answer.pipeline = name_of(options.pipeline);
+  answer.sampler = name_of(options.roadmap.sampler);
+  answer.search = name_of(options.roadmap.search);
+  answer.seed = options.roadmap.seed;
+  answer.options = options.given;
+}
+
+void take_solution(Answer& answer, Solution<Vec2> solution) {
+  answer.outcome = solution.outcome;
+  answer.path = std::move(solution.path);
+  answer.roadmap = solution.roadmap;
+  answer.separation = solution.separation;
+  answer.counters = solution.counters;
+  if (solution.outcome == Outcome::stopped) answer.stop_reason = solution.stop_reason;
+  add(answer.seconds, solution.seconds);
+}
+
+void settle_blocked_ends(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution) {
+  const bool start = answer.outcome == Outcome::start_blocked && stands_free(scene, problem, problem.start, execution);
+  const bool goal = answer.outcome == Outcome::goal_blocked && stands_free(scene, problem, problem.goal, execution);
+  if (start || goal) answer.outcome = Outcome::not_connected;
+}
+
+void verify_solved(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution) {
+  if (answer.outcome != Outcome::solved) return;
+  const StageTimer timer(execution, "verify", answer.seconds.verify, answer.path.size() + scene.walls.size());
+  const Verification verification = verify_path(scene, answer.path, verify_options(problem), execution);
+  if (!verification.verified) {
+    const Violation violation = verification.first_violation.value_or(Violation{});
+    throw std::logic_error(fmt::format("the path of {} fails its verification at leg {}: {} is {} away", answer.planner,
+                                       violation.leg, violation.obstacle, violation.distance));
+  }
+  answer.verified = true;
+  answer.length = verification.length;
+  answer.min_clearance = verification.min_clearance - problem.robot.radius;
+}
+
+Verdict verify_plane_answer(const Scene& scene, const WallProblem& problem, const RecordedAnswer& answer,
+                            const Execution& execution) {
+  check_state_width(answer, 2, "a point or disc");
+  Verdict verdict{verify_path(scene, answer.path, verify_options(problem), execution), problem.general()};
+  verdict.verification.min_clearance -= problem.robot.radius;
+  return verdict;
+}
+
+}  // namespace warren

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From what a planner found to what the program answers, for points and discs of the plane: the solution is taken over,
+// its path verified, and a stop is made an answer.
+#pragma once
+
+#include <chrono>
+#include <new>
+
+#include "core/solution.hpp"
+#include "parallel/execution.hpp"
+#include "tools/answer.hpp"
+#include "tools/planner_options.hpp"
+#include "tools/problem.hpp"
+#include "tools/solve_kind.hpp"
+#include "worlds/scene.hpp"
+
+namespace warren {
+
+/// Problem, planner and options, as the answer repeats them; for planners that build roadmaps of samples.
+void describe_roadmap_planner(Answer& answer, const WallProblem& problem, const PlannerOptions& options);
+
+/// Outcome, path, sizes, counters and times of a solution.
+void take_solution(Answer& answer, Solution<Vec2> solution);
+
+/// Planning keeps 1e-9 more room than it must, so a body that fits exactly is no blocked one: nobody proved that.
+void settle_blocked_ends(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution);
+
+/// Verifies the path of a solved answer and fills in length and clearance. A path that fails is a bug: throws
+/// std::logic_error.
+void verify_solved(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution);
+
+/// verify_path for the problem: all of it, or of one point only.
+Verdict verify_plane_answer(const Scene& scene, const WallProblem& problem, const RecordedAnswer& answer,
+                            const Execution& execution);
+
+/// Runs `solve`, which fills in `answer`; its seconds are solve_s, and whatever stops it is an answer.
+template <class Solve>
+void answer_within_limits(Answer& answer, const Solve& solve) {
+  const auto begin = std::chrono::steady_clock::now();
+  const auto stop = [&](StopReason reason) {
+    answer.outcome = Outcome::stopped;
+    answer.stop_reason = reason;
+    answer.path.clear();
+    answer.states = {};
+  };
+  try {
+    solve();
+  } catch (const Stopped& stopped) {
+    stop(stopped.reason);
+  } catch (const std::bad_alloc&) {
+    stop(StopReason::memory);
+  }
+  answer.solve_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+}  // namespace warren

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The body of a `robot` line, read: the same words in a scene, on a command line and in an answer.
+#pragma once
+
+#include <string_view>
+
+#include "parallel/execution.hpp"
+#include "worlds/scene.hpp"
+#include "worlds/scene_text.hpp"
+
+namespace warren {
+
+inline constexpr std::string_view robot_usage =
+    "robot point|disc R|polygon X Y X Y X Y ...|car radius R turning RHO|puma560 radius R [tool T]";
+
+/// Reads what follows the word `robot`, to the line's end. Throws InputError naming the fields' place, Stopped.
+RobotSpec read_robot(scene_text::Fields& fields, const Execution& execution);
+
+}  // namespace warren
