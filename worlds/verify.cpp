@@ -13,6 +13,7 @@
 #include "worlds/exact_segments.hpp"
 #include "worlds/leg_index.hpp"
 #include "worlds/obstacles.hpp"
+#include "worlds/path_screen.hpp"
 
 namespace warren {
 namespace {
@@ -167,12 +168,7 @@ Tally tally_of(std::size_t count, std::size_t size, const LegIndex& legs, const 
 class Verifier {
  public:
   Verifier(const Scene& scene, std::span<const Vec2> path, const VerifyOptions& options, const Execution& execution)
-      : scene_(scene),
-        path_(path),
-        options_(options),
-        execution_(execution),
-        obstacles_(scene),
-        legs_(path, {options.clearance, obstacles_.size(), typical_wall()}, execution) {}
+      : scene_(scene), path_(path), options_(options), execution_(execution), obstacles_(scene) {}
 
   Verification run() {
     Tally tally = compare_all();
@@ -181,7 +177,7 @@ class Verifier {
     check_box(tally);
     check_goal(tally);
     Verification result;
-    for (std::size_t i = 0; i < legs_.leg_count(); ++i) result.length += norm(path_[i + 1] - path_[i]);
+    for (std::size_t i = 0; i < leg_count(); ++i) result.length += norm(path_[i + 1] - path_[i]);
     result.min_clearance = tally.least;
     result.first_violation = start_violation();
     if (!result.first_violation && tally.violation != no_violation) result.first_violation = describe(tally);
@@ -205,15 +201,108 @@ class Verifier {
     return *middle;
   }
 
+  std::size_t leg_count() const { return path_.size() - 1; }
+
   Tally compare_all() {
-    const double widest = 4.0 * legs_.cell();
+    const double half_wall = typical_wall();
+    PathScreen screen(path_, 2.0 * half_wall, execution_);
+    const double bound = least_of_some(screen);
+    const double reach = std::max(bound, options_.clearance);
+    if (!(reach <= 4.0 * screen.cell())) {
+      legs_.emplace(path_, LegIndex::Plan{options_.clearance, obstacles_.size(), half_wall}, execution_);
+      return compare_unscreened();
+    }
+    screen.set_reach(bound, options_.clearance);
+    Screened screened = screened_obstacles(screen);
+    Tally tally;
+    if (!screened.doubtful.empty()) {
+      legs_.emplace(path_, LegIndex::Plan{reach, screened.doubtful.size(), half_wall}, execution_);
+      legs_->set_reach(reach, execution_);
+      const auto compare = [&](Comparison& comparison, std::size_t i) {
+        comparison.with_near_legs(obstacles_.segment(screened.doubtful[i]), screened.doubtful[i]);
+      };
+      tally = tally_of(screened.doubtful.size(), grain, *legs_, options_, reach, execution_, compare);
+    }
+    tally.box = screened.box;
+    tally.least = std::min(tally.least, bound);
+    return tally;
+  }
+
+  /// A distance from the path that some wall has: nothing beyond it matters for the least one.
+  double least_of_some(const PathScreen& screen) const {
+    constexpr std::size_t most_blocks = 256;
+    constexpr std::size_t block = 64;  // walls in a row
+    const std::size_t count = obstacles_.size();
+    const std::size_t blocks = std::min(most_blocks, chunk_count(count, 8 * block));
+    double least = infinity;
+    for (std::size_t b = 0; b < blocks; ++b) {
+      const std::size_t first = count / blocks * b;
+      for (std::size_t i = first; i < std::min(first + block, count); ++i) {
+        least = std::min(least, screen.distance_of_some(obstacles_.segment(i)));
+      }
+    }
+    return least;
+  }
+
+  /// What the screen says about obstacles.
+  struct Screened {
+    std::vector<std::size_t> doubtful;  ///< these may be near the path
+    Box box;                            ///< of all
+
+    void join(const Screened& other) {
+      doubtful.insert(doubtful.end(), other.doubtful.begin(), other.doubtful.end());
+      box.include(other.box);
+    }
+  };
+
+  Screened screened_obstacles(const PathScreen& screen) const {
+    Screened all = scene_.walls.visit([&](auto walls) {
+      return screened(screen, walls.size(), 0, [walls](std::size_t i) { return box_of(walls[i].segment()); });
+    });
+    const Box walls_box = all.box;
+    const auto side = [&](std::size_t i) { return box_of(obstacles_.side_segment(i)); };
+    all.join(screened(screen, obstacles_.sides().size(), obstacles_.wall_count(), side));
+    all.box = walls_box;
+    for (const Ring& ring : obstacles_.rings()) include_corners(ring, all.box);
+    return all;
+  }
+
+  /// Numbers count from `first_number`.
+  template <class BoxAt>
+  Screened screened(const PathScreen& screen, std::size_t count, std::size_t first_number, const BoxAt& box_at) const {
+    const std::size_t most_words = 64 + 1048576 / std::max<std::size_t>(count, 1);  // for each of a few: long ones
+    std::vector<Screened> parts(chunk_count(count, grain));
+    for_chunks(count, grain, execution_, [&](Range r) {
+      Screened part;
+      for (std::size_t i = r.first; i < r.last; ++i) {
+        const Box box = box_at(i);
+        part.box.min = {std::min(part.box.min.x, box.min.x), std::min(part.box.min.y, box.min.y)};
+        part.box.max = {std::max(part.box.max.x, box.max.x), std::max(part.box.max.y, box.max.y)};
+        if (!screen.is_clear(box, most_words)) part.doubtful.push_back(first_number + i);
+      }
+      parts[r.first / grain] = std::move(part);
+    });
+    Screened all;
+    for (const Screened& part : parts) all.join(part);
+    return all;
+  }
+
+  /// The bounds are no obstacle in this sense.
+  static void include_corners(const Ring& ring, Box& box) {
+    if (ring.polygon == Ring::none) return;
+    for (const Vec2 p : ring.corners) box.include(p);
+  }
+
+  Tally compare_unscreened() {
+    LegIndex& legs = *legs_;
+    const double widest = 4.0 * legs.cell();
     double bound = infinity;  // a distance that some wall has: nothing beyond it matters for the least one
     if (scene_.walls.size() > 8 * sample_stride) {
-      legs_.set_reach(widest, execution_);
+      legs.set_reach(widest, execution_);
       bound = sampled_least(widest);
     }
     const double reach = std::max(options_.clearance, std::min(bound, widest));
-    legs_.set_reach(reach, execution_);
+    legs.set_reach(reach, execution_);
     Tally tally = walls_against_path(reach);
     tally.join(sides_against_path(reach));
     tally.least = std::min(tally.least, bound);
@@ -228,7 +317,7 @@ class Verifier {
         const std::size_t first = block * sample_stride;
         for (std::size_t i = first; i < first + sample_block; ++i) comparison.with_near_legs(walls[i].segment(), i);
       };
-      return tally_of(blocks, 64, legs_, options_, reach, execution_, compare).least;
+      return tally_of(blocks, 64, *legs_, options_, reach, execution_, compare).least;
     });
   }
 
@@ -237,7 +326,7 @@ class Verifier {
       const auto compare = [walls](Comparison& comparison, std::size_t i) {
         comparison.with_near_legs(walls[i].segment(), i);
       };
-      return tally_of(walls.size(), grain, legs_, options_, reach, execution_, compare);
+      return tally_of(walls.size(), grain, *legs_, options_, reach, execution_, compare);
     });
   }
 
@@ -245,13 +334,9 @@ class Verifier {
     const auto compare = [&](Comparison& comparison, std::size_t i) {
       comparison.with_near_legs(obstacles_.side_segment(i), obstacles_.wall_count() + i);
     };
-    Tally tally = tally_of(obstacles_.sides().size(), grain, legs_, options_, reach, execution_, compare);
+    Tally tally = tally_of(obstacles_.sides().size(), grain, *legs_, options_, reach, execution_, compare);
     tally.box = {};  // the bounds are no obstacle in this sense
-    for (const Ring& ring : obstacles_.rings()) {
-      for (const Vec2 p : ring.corners) {
-        if (ring.polygon != Ring::none) tally.box.include(p);
-      }
-    }
+    for (const Ring& ring : obstacles_.rings()) include_corners(ring, tally.box);
     return tally;
   }
 
@@ -264,8 +349,8 @@ class Verifier {
     const std::size_t step = std::max<std::size_t>(1, obstacles_.size() / 512);
     const auto compare_some = [&](Comparison& comparison, std::size_t i) { compare(comparison, i * step); };
     const std::size_t some = obstacles_.size() / step;
-    const double bound = tally_of(some, grain, legs_, options_, infinity, execution_, compare_some).least;
-    return std::min(bound, tally_of(obstacles_.size(), grain, legs_, options_, bound, execution_, compare).least);
+    const double bound = tally_of(some, grain, *legs_, options_, infinity, execution_, compare_some).least;
+    return std::min(bound, tally_of(obstacles_.size(), grain, *legs_, options_, bound, execution_, compare).least);
   }
 
   Box frame(const Tally& tally) const { return scene_.bounds ? *scene_.bounds : tally.box; }
@@ -274,7 +359,7 @@ class Verifier {
     if (tally.contacts.empty()) return;
     std::sort(tally.contacts.begin(), tally.contacts.end());
     tally.contacts.erase(std::unique(tally.contacts.begin(), tally.contacts.end()), tally.contacts.end());
-    const std::size_t leg_end = std::min(tally.violation.leg, legs_.leg_count());
+    const std::size_t leg_end = std::min(tally.violation.leg, leg_count());
     const auto forbidden =
         first_forbidden_contact(path_, leg_end, frame(tally), obstacles_, tally.contacts, execution_);
     if (forbidden) tally.violation = *forbidden;
@@ -304,7 +389,7 @@ class Verifier {
 
   void check_goal(Tally& tally) const {
     if (!options_.goal || norm(path_.back() - *options_.goal) <= options_.start_tolerance) return;
-    tally.violation = std::min(tally.violation, LegContact{legs_.leg_count() - 1, goal_number});
+    tally.violation = std::min(tally.violation, LegContact{leg_count() - 1, goal_number});
   }
 
   std::optional<Violation> start_violation() const {
@@ -322,7 +407,7 @@ class Verifier {
     if (number == goal_number) return {leg, norm(path_.back() - *options_.goal), place("goal", *options_.goal)};
     const double d = tally.least == 0.0 && leg == 0 && is_inside(number)
                          ? 0.0
-                         : exact::distance(legs_.leg(leg), obstacles_.segment(number));
+                         : exact::distance({path_[leg], path_[leg + 1]}, obstacles_.segment(number));
     return {leg, d, obstacles_.name(number)};
   }
 
@@ -338,7 +423,7 @@ class Verifier {
   const VerifyOptions& options_;
   const Execution& execution_;
   Obstacles obstacles_;
-  LegIndex legs_;
+  std::optional<LegIndex> legs_;  ///< made only where the screen leaves something open
   Box box_;
 };
 

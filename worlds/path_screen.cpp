@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "worlds/path_screen.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace warren {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double cells_per_leg = 64;
+constexpr double pieces_per_leg = 4;
+constexpr double free_cells = 1024;  // for a path of few legs
+constexpr std::size_t legs_between_checks = 4096;
+
+float rounded_down(double x) {
+  const auto f = static_cast<float>(std::clamp(x, -3e38, 3e38));
+  if (x < -3e38) return -std::numeric_limits<float>::infinity();
+  return static_cast<double>(f) > x ? std::nextafter(f, -std::numeric_limits<float>::infinity()) : f;
+}
+float rounded_up(double x) { return -rounded_down(-x); }
+
+}  // namespace
+
+void PathScreen::FloatBox::include(const Box& box) {
+  min_x = std::min(min_x, rounded_down(box.min.x));
+  min_y = std::min(min_y, rounded_down(box.min.y));
+  max_x = std::max(max_x, rounded_up(box.max.x));
+  max_y = std::max(max_y, rounded_up(box.max.y));
+}
+
+PathScreen::PathScreen(std::span<const Vec2> path, double typical_wall, const Execution& execution) : path_(path) {
+  choose_cell(typical_wall);
+  // Paths like to run on a lattice, and better through the middle of cells than between two: the middle of the path does.
+  const Vec2 inside = path_[path_.size() / 2];
+  const auto before = [this](double extent) { return (std::ceil(extent * per_cell_) + 0.5) * cell_; };
+  origin_ = inside - Vec2{before(inside.x - box_.min.x), before(inside.y - box_.min.y)};
+  columns_ = std::floor((box_.max.x - origin_.x) * per_cell_) + 2.0;
+  rows_ = std::floor((box_.max.y - origin_.y) * per_cell_) + 2.0;
+  stride_ = cell_number(columns_) / 8 + 1;
+  mark_cells(execution);
+  gather_boxes(execution);
+}
+
+void PathScreen::choose_cell(double typical_wall) {
+  double length = 0.0;
+  for (std::size_t i = 0; i + 1 < path_.size(); ++i) {
+    length += norm(path_[i + 1] - path_[i]);
+    box_.include(path_[i]);
+  }
+  box_.include(path_.back());
+  const auto legs = static_cast<double>(path_.size() - 1);
+  cell_ = std::max(typical_wall, length / (pieces_per_leg * legs + free_cells));
+  cell_ = std::max(cell_,
+                   std::sqrt(box_.width()) * std::sqrt(box_.height()) / std::sqrt(cells_per_leg * legs + free_cells));
+  if (cell_ == 0.0) cell_ = 1.0;
+  per_cell_ = 1.0 / cell_;
+}
+
+template <class Visit>
+void PathScreen::cells_between(Vec2 a, Vec2 b, const Visit& visit) const {
+  const auto number = [](double u, double count) { return cell_number(std::clamp(u, 0.0, count - 1.0)); };
+  const double ua = (a.x - origin_.x) * per_cell_;
+  const double ub = (b.x - origin_.x) * per_cell_;
+  const double va = (a.y - origin_.y) * per_cell_;
+  const double vb = (b.y - origin_.y) * per_cell_;
+  const std::size_t column_last = number(std::max(ua, ub) + slack, columns_);
+  const std::size_t row_last = number(std::max(va, vb) + slack, rows_);
+  const std::size_t column_first = number(std::min(ua, ub) - slack, columns_);
+  for (std::size_t row = number(std::min(va, vb) - slack, rows_); row <= row_last; ++row) {
+    for (std::size_t column = column_first; column <= column_last; ++column) visit(column, row);
+  }
+}
+
+template <class Visit>
+void PathScreen::for_each_piece(const Execution& execution, const Visit& visit) const {
+  for (std::size_t leg = 0; leg + 1 < path_.size(); ++leg) {
+    if (leg % legs_between_checks == 0) execution.check();
+    const Vec2 a = path_[leg];
+    const Vec2 b = path_[leg + 1];
+    if (a.x == b.x || a.y == b.y) {  // its box is the leg itself, so it need not be cut
+      cells_between(a, b, [&](std::size_t column, std::size_t row) { visit(column, row, box_of({a, b}), leg); });
+      continue;
+    }
+    const double extent = std::max(std::abs(b.x - a.x), std::abs(b.y - a.y)) * per_cell_;
+    const double pieces = std::max(1.0, std::ceil(extent));
+    // Rounding of the cuts: three roundings of a difference and one of the sum, generously.
+    const Vec2 error{4e-15 * std::max(std::abs(a.x), std::abs(b.x)), 4e-15 * std::max(std::abs(a.y), std::abs(b.y))};
+    Vec2 p = a;
+    for (double piece = 1.0; piece <= pieces; piece += 1.0) {
+      const Vec2 q = piece == pieces ? b : a + (piece / pieces) * (b - a);
+      Box box = box_of({p, q});
+      box.min = box.min - error;
+      box.max = box.max + error;
+      cells_between(p, q, [&](std::size_t column, std::size_t row) { visit(column, row, box, leg); });
+      p = q;
+    }
+  }
+}
+
+void PathScreen::mark_cells(const Execution& execution) {
+  const std::size_t bytes = cell_number(rows_) * stride_ + sizeof(std::uint64_t);
+  execution.reserve(bytes * (1 + sizeof(std::uint32_t)));
+  bits_.assign(bytes, 0);
+  for_each_piece(execution, [&](std::size_t column, std::size_t row, const Box&, std::size_t) {
+    std::uint8_t& byte = bits_[row * stride_ + column / 8];
+    byte = static_cast<std::uint8_t>(byte | (1U << (column % 8)));
+  });
+  rank_.resize(bytes + 1);
+  std::uint32_t marked = 0;
+  for (std::size_t i = 0; i < bytes; ++i) {
+    rank_[i] = marked;
+    marked += ones_below(bits_[i], 8);
+  }
+  rank_[bytes] = marked;
+}
+
+void PathScreen::gather_boxes(const Execution& execution) {
+  const std::size_t marked = rank_.back();
+  execution.reserve(marked * (sizeof(Passage) + sizeof(std::uint32_t)));
+  constexpr float far = std::numeric_limits<float>::infinity();
+  constexpr FloatBox nothing{far, far, -far, -far};
+  boxes_.assign(marked, {nothing, nothing});
+  some_leg_.assign(marked, 0);
+  for_each_piece(execution, [&](std::size_t column, std::size_t row, const Box& box, std::size_t leg) {
+    const std::size_t slot = slot_of(column, row);
+    (box.width() >= box.height() ? boxes_[slot].level : boxes_[slot].steep).include(box);
+    some_leg_[slot] = static_cast<std::uint32_t>(leg);
+  });
+}
+
+double PathScreen::distance_of_some(const Segment& wall) const {
+  constexpr double around = 1.0;
+  const Box box = box_of(wall);
+  const double u_first = (box.min.x - origin_.x) * per_cell_ - around;
+  const double u_last = (box.max.x - origin_.x) * per_cell_ + around;
+  const double v_first = (box.min.y - origin_.y) * per_cell_ - around;
+  const double v_last = (box.max.y - origin_.y) * per_cell_ + around;
+  if (u_last < 0.0 || v_last < 0.0 || u_first >= columns_ || v_first >= rows_) return infinity;
+  const Window window{cell_number(std::max(u_first, 0.0)), cell_number(std::min(u_last, columns_ - 1.0)),
+                      cell_number(std::max(v_first, 0.0)), cell_number(std::min(v_last, rows_ - 1.0))};
+  constexpr std::size_t most = 16;
+  if (window.words() > most) return infinity;
+  double least = infinity;
+  all_slots(window, [&](std::size_t slot) {
+    const std::uint32_t leg = some_leg_[slot];
+    least = std::min(least, exact::distance({path_[leg], path_[leg + 1]}, wall));
+    return true;
+  });
+  return least;
+}
+
+void PathScreen::set_reach(double least, double r) {
+  near_sq_ = std::max(least * least, r * r * (1.0 + 1e-12));
+  grow_ = std::max(least, r) * (1.0 + 1e-9) * per_cell_ + slack;
+}
+
+}  // namespace warren
