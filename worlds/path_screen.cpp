@@ -15,24 +15,31 @@ constexpr double free_cells = 1024;  // for a path of few legs
 constexpr std::size_t legs_between_checks = 4096;
 
 float rounded_down(double x) {
-  const auto f = static_cast<float>(std::clamp(x, -3e38, 3e38));
-  if (x < -3e38) return -std::numeric_limits<float>::infinity();
+  constexpr double largest = std::numeric_limits<float>::max();
+  if (!(std::abs(x) < largest))
+    return x > 0.0 ? std::numeric_limits<float>::max() : -std::numeric_limits<float>::infinity();
+  const auto f = static_cast<float>(x);
   return static_cast<double>(f) > x ? std::nextafter(f, -std::numeric_limits<float>::infinity()) : f;
 }
 float rounded_up(double x) { return -rounded_down(-x); }
 
 }  // namespace
 
-void PathScreen::FloatBox::include(const Box& box) {
-  min_x = std::min(min_x, rounded_down(box.min.x));
-  min_y = std::min(min_y, rounded_down(box.min.y));
-  max_x = std::max(max_x, rounded_up(box.max.x));
-  max_y = std::max(max_y, rounded_up(box.max.y));
+void PathScreen::FloatBox::include(const FloatBox& box) {
+  min_x = std::min(min_x, box.min_x);
+  min_y = std::min(min_y, box.min_y);
+  max_x = std::max(max_x, box.max_x);
+  max_y = std::max(max_y, box.max_y);
+}
+
+PathScreen::FloatBox PathScreen::rounded(const Box& box) {
+  return {rounded_down(box.min.x), rounded_down(box.min.y), rounded_up(box.max.x), rounded_up(box.max.y)};
 }
 
 PathScreen::PathScreen(std::span<const Vec2> path, double typical_wall, const Execution& execution) : path_(path) {
   choose_cell(typical_wall);
-  // Paths like to run on a lattice, and better through the middle of cells than between two: the middle of the path does.
+  // Paths like to run on a lattice, and better through the middle of cells than between two: the middle of the path
+  // does.
   const Vec2 inside = path_[path_.size() / 2];
   const auto before = [this](double extent) { return (std::ceil(extent * per_cell_) + 0.5) * cell_; };
   origin_ = inside - Vec2{before(inside.x - box_.min.x), before(inside.y - box_.min.y)};
@@ -59,7 +66,8 @@ void PathScreen::choose_cell(double typical_wall) {
 }
 
 template <class Visit>
-void PathScreen::cells_between(Vec2 a, Vec2 b, const Visit& visit) const {
+void PathScreen::for_each_cell(const Segment& piece, const Visit& visit) const {
+  const auto& [a, b] = piece;
   const auto number = [](double u, double count) { return cell_number(std::clamp(u, 0.0, count - 1.0)); };
   const double ua = (a.x - origin_.x) * per_cell_;
   const double ub = (b.x - origin_.x) * per_cell_;
@@ -80,7 +88,7 @@ void PathScreen::for_each_piece(const Execution& execution, const Visit& visit) 
     const Vec2 a = path_[leg];
     const Vec2 b = path_[leg + 1];
     if (a.x == b.x || a.y == b.y) {  // its box is the leg itself, so it need not be cut
-      cells_between(a, b, [&](std::size_t column, std::size_t row) { visit(column, row, box_of({a, b}), leg); });
+      visit(Segment{a, b}, box_of({a, b}), leg);
       continue;
     }
     const double extent = std::max(std::abs(b.x - a.x), std::abs(b.y - a.y)) * per_cell_;
@@ -93,7 +101,7 @@ void PathScreen::for_each_piece(const Execution& execution, const Visit& visit) 
       Box box = box_of({p, q});
       box.min = box.min - error;
       box.max = box.max + error;
-      cells_between(p, q, [&](std::size_t column, std::size_t row) { visit(column, row, box, leg); });
+      visit(Segment{p, q}, box, leg);
       p = q;
     }
   }
@@ -103,9 +111,11 @@ void PathScreen::mark_cells(const Execution& execution) {
   const std::size_t bytes = cell_number(rows_) * stride_ + sizeof(std::uint64_t);
   execution.reserve(bytes * (1 + sizeof(std::uint32_t)));
   bits_.assign(bytes, 0);
-  for_each_piece(execution, [&](std::size_t column, std::size_t row, const Box&, std::size_t) {
-    std::uint8_t& byte = bits_[row * stride_ + column / 8];
-    byte = static_cast<std::uint8_t>(byte | (1U << (column % 8)));
+  for_each_piece(execution, [&](const Segment& piece, const Box&, std::size_t) {
+    for_each_cell(piece, [&](std::size_t column, std::size_t row) {
+      std::uint8_t& byte = bits_[row * stride_ + column / 8];
+      byte = static_cast<std::uint8_t>(byte | (1U << (column % 8)));
+    });
   });
   rank_.resize(bytes + 1);
   std::uint32_t marked = 0;
@@ -123,10 +133,14 @@ void PathScreen::gather_boxes(const Execution& execution) {
   constexpr FloatBox nothing{far, far, -far, -far};
   boxes_.assign(marked, {nothing, nothing});
   some_leg_.assign(marked, 0);
-  for_each_piece(execution, [&](std::size_t column, std::size_t row, const Box& box, std::size_t leg) {
-    const std::size_t slot = slot_of(column, row);
-    (box.width() >= box.height() ? boxes_[slot].level : boxes_[slot].steep).include(box);
-    some_leg_[slot] = static_cast<std::uint32_t>(leg);
+  for_each_piece(execution, [&](const Segment& piece, const Box& box, std::size_t leg) {
+    const FloatBox outer = rounded(box);
+    FloatBox Passage::*const kind = box.width() >= box.height() ? &Passage::level : &Passage::steep;
+    for_each_cell(piece, [&](std::size_t column, std::size_t row) {
+      const std::size_t slot = slot_of(column, row);
+      (boxes_[slot].*kind).include(outer);
+      some_leg_[slot] = static_cast<std::uint32_t>(leg);
+    });
   });
 }
 

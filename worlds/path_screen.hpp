@@ -9,8 +9,9 @@
 //
 // Memory: a bit and half a byte a cell (at most 64 cells a leg), 36 bytes a cell that the path passes. A leg costs its
 // length in cells, twice; a wall the rows of cells around it and the boxes in them. Conservative: a wall that comes
-// nearer is never called clear. Tried and lost: the legs of each cell instead of boxes (bench/verify_bench: 5 times
-// slower, for walls at the same distance on both sides of the path are the rule).
+// nearer is never called clear.
+// Walls at the same distance on both sides of the path are the rule in a maze; comparing each with the legs of each
+// cell takes twice as long (bench/verify_bench).
 #pragma once
 
 #include <cstdint>
@@ -39,9 +40,9 @@ class PathScreen {
   /// From now on walls at `least` and at r (1 + 1e-12) are far enough. At most some cells, or the screen is slow.
   void set_reach(double least, double r);
 
-  /// Is the wall in this box surely at the reach or farther, and not touched? Looks at no more than `most` words of
-  /// cells: false where that doesn't do.
-  bool is_clear(const Box& wall, std::size_t most) const {
+  /// Is the wall in this box surely at the reach or farther, and not touched? Takes what it looks at, in words of
+  /// cells, from the budget; false where that doesn't do.
+  bool is_clear(const Box& wall, std::size_t& budget) const {
     const double u_first = (wall.min.x - origin_.x) * per_cell_ - grow_;
     const double u_last = (wall.max.x - origin_.x) * per_cell_ + grow_;
     const double v_first = (wall.min.y - origin_.y) * per_cell_ - grow_;
@@ -49,7 +50,9 @@ class PathScreen {
     if (u_last < 0.0 || v_last < 0.0 || u_first >= columns_ || v_first >= rows_) return true;
     const Window window{cell_number(std::max(u_first, 0.0)), cell_number(std::min(u_last, columns_ - 1.0)),
                         cell_number(std::max(v_first, 0.0)), cell_number(std::min(v_last, rows_ - 1.0))};
-    if (window.words() > most) return false;
+    const std::size_t words = window.words();
+    if (words > budget) return false;
+    budget -= words;
     return all_slots(
         window, [&](std::size_t slot) { return is_far(boxes_[slot].level, wall) && is_far(boxes_[slot].steep, wall); });
   }
@@ -58,8 +61,9 @@ class PathScreen {
   /// Rounded outwards.
   struct FloatBox {
     float min_x, min_y, max_x, max_y;
-    void include(const Box& box);
+    void include(const FloatBox& box);
   };
+  static FloatBox rounded(const Box& box);
   struct Passage {
     FloatBox level, steep;
   };
@@ -109,11 +113,11 @@ class PathScreen {
   }
 
   void choose_cell(double typical_wall);
-  /// visit(column, row, box, leg) for boxes that cover all legs, in the cells that they meet.
+  /// visit(piece, box, leg) for pieces that make up all legs; box: exactly around the piece, or wider.
   template <class Visit>
   void for_each_piece(const Execution& execution, const Visit& visit) const;
   template <class Visit>
-  void cells_between(Vec2 a, Vec2 b, const Visit& visit) const;
+  void for_each_cell(const Segment& piece, const Visit& visit) const;
   void mark_cells(const Execution& execution);
   void gather_boxes(const Execution& execution);
 

@@ -270,15 +270,15 @@ class Verifier {
   /// Numbers count from `first_number`.
   template <class BoxAt>
   Screened screened(const PathScreen& screen, std::size_t count, std::size_t first_number, const BoxAt& box_at) const {
-    const std::size_t most_words = 64 + 1048576 / std::max<std::size_t>(count, 1);  // for each of a few: long ones
     std::vector<Screened> parts(chunk_count(count, grain));
     for_chunks(count, grain, execution_, [&](Range r) {
       Screened part;
+      std::size_t budget = 65536 + 64 * r.size();  // words of cells: for many short obstacles and a few long ones
       for (std::size_t i = r.first; i < r.last; ++i) {
         const Box box = box_at(i);
         part.box.min = {std::min(part.box.min.x, box.min.x), std::min(part.box.min.y, box.min.y)};
         part.box.max = {std::max(part.box.max.x, box.max.x), std::max(part.box.max.y, box.max.y)};
-        if (!screen.is_clear(box, most_words)) part.doubtful.push_back(first_number + i);
+        if (!screen.is_clear(box, budget)) part.doubtful.push_back(first_number + i);
       }
       parts[r.first / grain] = std::move(part);
     });
