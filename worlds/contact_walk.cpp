@@ -49,18 +49,26 @@ class Surroundings {
     for (std::size_t i = 0; i < 4; ++i) add_side(corners[(i + 3) % 4], corners[i], corners[(i + 1) % 4]);
   }
 
-  /// The sides of the stretch at_ -> `to` that can be reached from `sides` of the stretch `from` -> at_. Without
-  /// `from` the path begins here: all sides that are not blocked.
-  unsigned passable(const std::optional<Vec2>& from, unsigned sides, Vec2 to) {
+  /// The sides of the stretch at_ -> `to` that are not blocked.
+  unsigned open_sides(Vec2 to) {
     sort();
     unsigned result = 0;
     for (const unsigned out : {left_side, right_side}) {
+      if (!blocked(sector(to, out == left_side))) result |= out;
+    }
+    return result;
+  }
+
+  /// Those of them that can be reached from `sides` of the stretch `from` -> at_.
+  unsigned passable(Vec2 from, unsigned sides, Vec2 to) {
+    const unsigned open = open_sides(to);
+    unsigned result = 0;
+    for (const unsigned out : {left_side, right_side}) {
+      if ((open & out) == 0) continue;
       const std::size_t target = sector(to, out == left_side);
-      if (blocked(target)) continue;
-      if (!from) result |= out;
       // Looking back along the stretch that came in, its left side is clockwise of it.
-      if (from && (sides & left_side) != 0 && sector(*from, false) == target) result |= out;
-      if (from && (sides & right_side) != 0 && sector(*from, true) == target) result |= out;
+      if ((sides & left_side) != 0 && sector(from, false) == target) result |= out;
+      if ((sides & right_side) != 0 && sector(from, true) == target) result |= out;
     }
     return result;
   }
@@ -234,10 +242,11 @@ class Walk {
       Surroundings around(at_);
       for (const std::size_t obstacle : touching_) around.add(obstacles_, obstacle);
       around.add_frame(frame_);
-      sides_ = around.passable(from_, sides_, to);
+      sides_ = begun_ ? around.passable(from_, sides_, to) : around.open_sides(to);
       if (sides_ == 0) return touching_.front();
     }
     from_ = at_;
+    begun_ = true;
     at_ = to;
     return std::nullopt;
   }
@@ -245,7 +254,8 @@ class Walk {
   const Box& frame_;
   const Obstacles& obstacles_;
   Vec2 at_;
-  std::optional<Vec2> from_;
+  Vec2 from_;           // where the stretch that led to at_ began
+  bool begun_ = false;  // is there such a stretch?
   unsigned sides_ = both_sides;
   std::vector<std::size_t> touching_;  // obstacles at at_
 };

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
 #include "parallel/chunks.hpp"
 
 namespace warren {
@@ -48,8 +47,6 @@ void widen_row(const std::uint64_t* from, std::uint64_t* to, std::size_t words, 
 }  // namespace
 
 LegIndex::LegIndex(std::span<const Vec2> path, const Plan& plan, const Execution& execution) : path_(path) {
-  constexpr std::size_t most_legs = 500'000'000;  // so that runs can be counted in 32 bits
-  if (leg_count() > most_legs) throw InputError("path", "more than 500 million legs can't be verified");
   for (const Vec2 p : path_) box_.include(p);
   choose_cell(plan);
   // Half a cell more, because paths like to run on a lattice, and better through the middle of cells than between two.

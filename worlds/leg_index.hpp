@@ -36,7 +36,7 @@ class LegIndex {
     double typical_wall = 0.0;  ///< half their extent, 0 if not known
   };
 
-  /// path: at least two points.
+  /// path: at least two points, at most 500 million (verify_path sees to it).
   LegIndex(std::span<const Vec2> path, const Plan& plan, const Execution& execution);
 
   double cell() const { return cell_; }

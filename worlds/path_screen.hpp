@@ -14,6 +14,7 @@
 // cell takes twice as long (bench/verify_bench).
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <cstring>
 #include <span>
@@ -28,7 +29,8 @@ namespace warren {
 /// Refers to the path, which must outlive it. After set_reach any number of threads may ask.
 class PathScreen {
  public:
-  /// path: at least two points; typical_wall: the extent of most walls, 0 if not known; it only decides on the cells.
+  /// path: at least two points, at most 500 million; typical_wall: the extent of most walls, 0 if not known; it only
+  /// decides on the cells.
   PathScreen(std::span<const Vec2> path, double typical_wall, const Execution& execution);
 
   double cell() const { return cell_; }
@@ -105,7 +107,7 @@ class PathScreen {
         const std::size_t count = std::min(window.column_last - column + 1, word_columns);
         cells = (cells >> (column % 8)) & ((std::uint64_t{1} << count) - 1);
         for (; cells != 0; cells &= cells - 1) {
-          if (!test(slot_of(column + static_cast<std::size_t>(__builtin_ctzll(cells)), row))) return false;
+          if (!test(slot_of(column + static_cast<std::size_t>(std::countr_zero(cells)), row))) return false;
         }
       }
     }

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What obstacles say about a path, one pair of leg and obstacle after the other: the least distance, the first
+// violation, the contacts. Pairs that are too far apart to matter are left out by their boxes; the others go to
+// worlds/exact_segments. Parts of the obstacles may be compared by different threads, each with a Comparison of its
+// own, and their tallies joined in any order.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "core/types.hpp"
+#include "worlds/contact_walk.hpp"
+#include "worlds/leg_index.hpp"
+#include "worlds/verify.hpp"
+
+namespace warren {
+
+/// Later than every violation.
+inline constexpr LegContact no_violation{std::numeric_limits<std::size_t>::max(), 0};
+
+/// What a part of the obstacles says about the path.
+struct Tally {
+  double least = std::numeric_limits<double>::infinity();  ///< least distance met
+  LegContact violation = no_violation;                     ///< the first
+  std::vector<LegContact> contacts;                        ///< only where contact is allowed
+  Box box;                                                 ///< of the obstacles
+
+  void join(Tally&& other);
+};
+
+/// Refers to legs and options, which must outlive it.
+class Comparison {
+ public:
+  /// Distances at or above `at_most` are of no interest.
+  Comparison(const LegIndex& legs, const VerifyOptions& options, double at_most);
+
+  /// With the legs within the reach of the index.
+  void with_near_legs(const Segment& obstacle, std::size_t number);
+  /// O(legs) at worst; by the boxes of legs.
+  void with_all_legs(const Segment& obstacle, std::size_t number);
+  Tally take() { return std::move(tally_); }
+
+ private:
+  bool too_far(const Box& a, const Box& b) const;
+  bool beside(const Segment& obstacle, const Box& box) const;
+  void compare(const Segment& obstacle, const Box& box, std::size_t number, std::size_t first, std::size_t last);
+  void compare(const Segment& s, std::size_t leg, const Segment& obstacle, std::size_t number);
+  bool is_doubtful(double d, const Segment& s, const Segment& obstacle) const;
+  void touch(const Segment& s, std::size_t leg, const Segment& obstacle, std::size_t number);
+  void forbid(std::size_t leg, std::size_t number);
+  void narrow();
+
+  const LegIndex& legs_;
+  const VerifyOptions& options_;
+  double at_most_;
+  double near_sq_ = 0.0;  ///< legs at this distance (squared) and above are left out
+  Tally tally_;
+};
+
+}  // namespace warren

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// All obstacles of a scene against all legs of a path. The obstacles are streamed past a screen (worlds/path_screen)
+// that drops those surely too far away to matter; what it leaves is compared with the legs near it (worlds/leg_index,
+// worlds/verify_comparison). Where no obstacle comes within some leg lengths of the path the screen is of no use: then
+// the legs are searched by their boxes.
+#pragma once
+
+#include <span>
+
+#include "core/types.hpp"
+#include "parallel/execution.hpp"
+#include "worlds/obstacles.hpp"
+#include "worlds/scene.hpp"
+#include "worlds/verify.hpp"
+#include "worlds/verify_comparison.hpp"
+
+namespace warren {
+
+/// The tally of all walls and of the sides of polygons and bounds; its box is that of walls and polygons. path: at
+/// least two points. The same for any number of threads.
+Tally compare_obstacles(const Scene& scene, const Obstacles& obstacles, std::span<const Vec2> path,
+                        const VerifyOptions& options, const Execution& execution);
+
+}  // namespace warren
