@@ -17,7 +17,7 @@ namespace warren {
 /// w.at_unit(u)      the state at u in [0, 1)^dimension: samplers (uniform, Halton) are made of it
 /// w.is_free(a, q)   may the robot stand at a, clearance included?
 /// w.is_free_motion  may it move from a to b, clearance included, if both ends are free?
-/// W::distance       the metric that path length sums up
+/// w.distance(a, b)  the metric that path length sums up; static where the world has no say in it
 /// w.embed(a)        a point whose plain Euclidean distance is at most the metric: so one k-d tree serves every world
 template <class W>
 concept World = std::copyable<typename W::State> &&
@@ -27,9 +27,23 @@ concept World = std::copyable<typename W::State> &&
   { w.at_unit(u) } -> std::same_as<typename W::State>;
   { w.is_free(a, q) } -> std::same_as<bool>;
   { w.is_free_motion(a, b, q) } -> std::same_as<bool>;
-  { W::distance(a, b) } -> std::same_as<double>;
+  { w.distance(a, b) } -> std::same_as<double>;
   { w.embed(a)[0] } -> std::convertible_to<double>;
 };
+
+/// A world whose motions can be cut: what planners need that grow trees or shorten paths.
+/// w.interpolate(a, b, t)  the state at the share t in [0, 1] of the motion from a to b; a and b themselves at the ends
+template <class W>
+concept SteerableWorld = World<W> && requires(const W& w, const typename W::State& a) {
+  { w.interpolate(a, a, 0.5) } -> std::same_as<typename W::State>;
+};
+
+/// Motions that this query saw refused: neither proved free nor blocked. 0 for worlds whose checks are exact.
+template <class Query>
+std::uint64_t refused_motions(const Query& query) {
+  if constexpr (requires { query.refused; }) return query.refused;
+  return 0;
+}
 
 /// The index-th uniform sample of a seed: a pure function.
 template <class W>

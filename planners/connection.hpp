@@ -171,7 +171,7 @@ RawVector<Edge> attach_start_and_goal(const W& world, std::span<const typename W
   RawVector<Edge> edges = attach(world, milestones, index, rule, start, start_vertex, counters);
   const RawVector<Edge> at_goal = attach(world, milestones, index, rule, goal, goal_vertex, counters);
   edges.insert(edges.end(), at_goal.begin(), at_goal.end());
-  if (W::distance(start, goal) > direct_reach(rule)) return edges;
+  if (world.distance(start, goal) > direct_reach(rule)) return edges;
   auto query = world.make_query();
   ++counters.edges_checked;
   if (world.is_free_motion(start, goal, query)) edges.push_back({start_vertex, goal_vertex});

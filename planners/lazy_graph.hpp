@@ -46,8 +46,8 @@ class LazyGraph {
   void operator()(VertexId v, const Visit& visit) {
     if (v < index_.size()) visit_milestones(v, visit);
     for (const Edge& e : end_edges_) {
-      if (e.from == v) visit(e.to, W::distance(states_[v], states_[e.to]));
-      if (e.to == v) visit(e.from, W::distance(states_[v], states_[e.from]));
+      if (e.from == v) visit(e.to, world_.distance(states_[v], states_[e.to]));
+      if (e.to == v) visit(e.from, world_.distance(states_[v], states_[e.from]));
     }
   }
 
@@ -57,7 +57,7 @@ class LazyGraph {
     ++counters_.neighbour_queries;
     const auto try_edge = [&](VertexId w, double at_least) {
       if (!visit.wants(w, at_least) || w == v) return;  // most are settled already
-      const double length = W::distance(states_[v], states_[w]);
+      const double length = world_.distance(states_[v], states_[w]);
       if (!visit.wants(w, length)) return;
       ++counters_.edges_checked;
       if (!world_.is_free_motion(states_[std::min(v, w)], states_[std::max(v, w)], query_)) return;

@@ -68,8 +68,8 @@ class LazyPathSearch {
   enum Status : std::uint8_t { unknown, free, blocked };
   static constexpr double unreached = std::numeric_limits<double>::infinity();
 
-  double key(VertexId v) const { return g_[v] + W::distance(states_[v], states_[goal_]); }
-  double length(VertexId v, VertexId w) const { return W::distance(states_[v], states_[w]); }
+  double key(VertexId v) const { return g_[v] + world_.distance(states_[v], states_[goal_]); }
+  double length(VertexId v, VertexId w) const { return world_.distance(states_[v], states_[w]); }
 
   bool settle_goal();
   bool check(const std::vector<VertexId>& path);

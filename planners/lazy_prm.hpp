@@ -63,7 +63,7 @@ class LazyPlan {
   /// Estimate of the way to `to`: consistent; zero for Dijkstra and where there is no target.
   auto estimate_to(VertexId to) const {
     const bool informed = options_.search == SearchKind::astar && to != no_vertex;
-    return [this, informed, to](VertexId v) { return informed ? W::distance(states_[v], states_[to]) : 0.0; };
+    return [this, informed, to](VertexId v) { return informed ? world_.distance(states_[v], states_[to]) : 0.0; };
   }
   Separation separation();
   VertexId start_vertex() const { return static_cast<VertexId>(states_.size() - 2); }

@@ -111,8 +111,8 @@ bool PrmPlan<W>::joined() {
 template <World W>
 bool PrmPlan<W>::search() {
   const StageTimer timer(execution_, "search", solution_.seconds.search);
-  const SearchResult found = search_roadmap<W>(roadmap_.graph, roadmap_.states, start_vertex(), goal_vertex(), options_,
-                                               execution_, keep_ ? &roadmap_.search_tree : nullptr);
+  const SearchResult found = search_roadmap(world_, roadmap_.graph, roadmap_.states, start_vertex(), goal_vertex(),
+                                            options_, execution_, keep_ ? &roadmap_.search_tree : nullptr);
   solution_.counters.expanded += found.expanded;
   if (found.status != SearchStatus::found) return false;
   solution_.outcome = Outcome::solved;

@@ -87,17 +87,19 @@ SearchResult search_reduced(const Graph& graph, VertexId start, VertexId goal, c
 /// Searches from `start` to `goal` over the graph; edge lengths are the world's distances. `tree`, where given,
 /// receives (vertex, parent) of what the search reached. Throws Stopped at the deadline.
 template <World W>
-SearchResult search_roadmap(const Graph& graph, std::span<const typename W::State> states, VertexId start,
-                            VertexId goal, const RoadmapOptions& options, const Execution& execution,
+SearchResult search_roadmap(const W& world, const Graph& graph, std::span<const typename W::State> states,
+                            VertexId start, VertexId goal, const RoadmapOptions& options, const Execution& execution,
                             std::vector<Edge>* tree) {
   const auto should_stop = [&] { return execution.should_stop(); };
-  const auto length = [&](VertexId v, VertexId w) { return W::distance(states[v], states[w]); };
+  const auto length = [&](VertexId v, VertexId w) { return world.distance(states[v], states[w]); };
   const auto neighbours = [&](VertexId v, const auto& visit) {
     for (const VertexId w : graph.neighbours(v)) visit(w, length(v, w));
   };
   const bool informed = options.search == SearchKind::astar;
   const auto estimate_to = [&](VertexId root) {
-    return [states, informed, root](VertexId v) { return informed ? W::distance(states[v], states[root]) : 0.0; };
+    return [&world, states, informed, root](VertexId v) {
+      return informed ? world.distance(states[v], states[root]) : 0.0;
+    };
   };
   const std::size_t n = graph.vertex_count();
   SearchResult found;

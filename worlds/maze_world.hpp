@@ -35,6 +35,9 @@ class MazeWorld {
     return index_.keeps_clearance(a, b, planning_clearance_);
   }
   static double distance(const State& a, const State& b) { return warren::distance(a, b); }
+  State interpolate(const State& a, const State& b, double t) const {
+    return t <= 0.0 ? a : t >= 1.0 ? b : a + t * (b - a);
+  }
   std::array<double, 2> embed(const State& a) const { return {a.x, a.y}; }
 
   /// Area of the box that uniform samples are drawn from.
@@ -56,6 +59,6 @@ class MazeWorld {
   WallIndex index_;
 };
 
-static_assert(World<MazeWorld>);
+static_assert(SteerableWorld<MazeWorld>);
 
 }  // namespace warren

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "spatial/box_tree.hpp"
+
+#include <numeric>
+
+namespace warren {
+namespace {
+
+constexpr std::uint32_t leaf_size = 4;
+
+template <int D>
+BoxOf<D> joined(const BoxOf<D>& a, const BoxOf<D>& b) {
+  BoxOf<D> box;
+  for (std::size_t axis = 0; axis < D; ++axis) {
+    box.low[axis] = std::min(a.low[axis], b.low[axis]);
+    box.high[axis] = std::max(a.high[axis], b.high[axis]);
+  }
+  return box;
+}
+
+template <int D>
+double doubled_centre(const BoxOf<D>& box, std::size_t axis) {
+  return box.low[axis] + box.high[axis];
+}
+
+/// The axis on which the centres of the boxes spread most.
+template <int D>
+std::size_t widest_axis(std::span<const BoxOf<D>> boxes, std::span<const std::uint32_t> ids) {
+  std::size_t best = 0;
+  double widest = -1.0;
+  for (std::size_t axis = 0; axis < D; ++axis) {
+    const auto less = [&](std::uint32_t a, std::uint32_t b) {
+      return doubled_centre(boxes[a], axis) < doubled_centre(boxes[b], axis);
+    };
+    const auto [low, high] = std::minmax_element(ids.begin(), ids.end(), less);
+    const double width = doubled_centre(boxes[*high], axis) - doubled_centre(boxes[*low], axis);
+    if (width > widest) {
+      widest = width;
+      best = axis;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+template <int D>
+BoxTree<D>::BoxTree(std::span<const BoxOf<D>> boxes) : order_(boxes.size()) {
+  if (boxes.empty()) return;
+  std::iota(order_.begin(), order_.end(), 0U);
+  nodes_.reserve(boxes.size());
+  build(0, static_cast<std::uint32_t>(boxes.size()), boxes);
+  for (const std::uint32_t id : order_) boxes_.push_back(boxes[id]);
+}
+
+/// Depth of the tree: the halves differ by one, so at most 31 for 2^31 boxes.
+template <int D>
+void BoxTree<D>::build(std::uint32_t first, std::uint32_t last, std::span<const BoxOf<D>> boxes) {
+  const std::span<std::uint32_t> ids(order_.data() + first, last - first);
+  BoxOf<D> box = boxes[ids.front()];
+  for (const std::uint32_t id : ids) box = joined(box, boxes[id]);
+  const auto node = static_cast<std::uint32_t>(nodes_.size());
+  nodes_.push_back({box, first, last - first});
+  if (ids.size() <= leaf_size) return;
+  const std::size_t axis = widest_axis<D>(boxes, ids);
+  const auto less = [&](std::uint32_t a, std::uint32_t b) {
+    const double left = doubled_centre(boxes[a], axis);
+    const double right = doubled_centre(boxes[b], axis);
+    return left != right ? left < right : a < b;
+  };
+  const std::uint32_t middle = first + (last - first) / 2;
+  std::nth_element(ids.begin(), ids.begin() + (middle - first), ids.end(), less);
+  std::sort(ids.begin(), ids.begin() + (middle - first));  // nth_element leaves an order that libraries differ in
+  std::sort(ids.begin() + (middle - first), ids.end());
+  build(first, middle, boxes);
+  nodes_[node].first = static_cast<std::uint32_t>(nodes_.size());
+  nodes_[node].count = 0;
+  build(middle, last, boxes);
+}
+
+template class BoxTree<2>;
+template class BoxTree<3>;
+
+}  // namespace warren

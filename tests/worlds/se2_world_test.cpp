@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "worlds/se2_world.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "core/error.hpp"
+#include "core/polygon_distance.hpp"
+#include "tests/worlds/body_scenes.hpp"
+
+namespace warren {
+namespace {
+
+using body_scenes::corners_at;
+using body_scenes::hook;
+using body_scenes::kite;
+using body_scenes::random_pose;
+using body_scenes::scattered;
+
+/// Distance of the body to everything, pair by pair with the exact predicates; negative outside the bounds.
+double plain_clearance(const Scene& scene, const std::vector<Vec2>& outline, const Se2& pose) {
+  const std::vector<Vec2> body = corners_at(outline, pose);
+  double least = std::numeric_limits<double>::infinity();
+  for (const ScenePolygon& polygon : scene.polygons) least = std::min(least, distance(body, polygon.corners));
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) least = std::min(least, distance(body, scene.walls.segment(i)));
+  if (!scene.bounds) return least;
+  for (const Vec2 p : body) {
+    least = std::min({least, p.x - scene.bounds->min.x, scene.bounds->max.x - p.x, p.y - scene.bounds->min.y,
+                      scene.bounds->max.y - p.y});
+  }
+  return least;
+}
+
+TEST(Se2World, ClearanceIsTheDistanceToTheNearestObstacle) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(seed);
+    const Scene scene = scattered(seed, seed % 5 == 0 ? 60 : 12);
+    for (const auto& outline : {kite, hook}) {
+      const Se2World world(scene, outline, {});
+      auto query = world.make_query();
+      for (std::uint64_t i = 0; i < 300; ++i) {
+        const Se2 pose = random_pose(seed, i);
+        const double plain = plain_clearance(scene, outline, pose);
+        const double fast = world.clearance(pose, 1e9, query);
+        if (plain <= 0.0) {
+          EXPECT_LE(fast, 0.0) << i;
+        } else {
+          EXPECT_LE(fast, plain + 1e-14) << i;  // a lower bound, and a tight one
+          EXPECT_GE(fast, plain - 2e-12) << i;
+        }
+        const double enough = 0.3 * uniform(seed, i, 9);
+        if (plain > enough + 1e-12) {
+          EXPECT_GT(world.clearance(pose, enough, query), enough) << i;
+        }
+        EXPECT_EQ(world.is_free(pose, query), plain > 1e-12) << i;
+      }
+    }
+  }
+}
+
+TEST(Se2World, BodyInAPolygonAndAWallInTheBodyAreBlocked) {
+  Scene scene;
+  scene.bounds = Box{{-10, -10}, {10, 10}};
+  scene.polygons.push_back({{{-5, -5}, {5, -5}, {5, 5}, {-5, 5}}});
+  auto is_free = [&](const Scene& s, const Se2& pose) {
+    const Se2World world(s, hook, {});
+    auto query = world.make_query();
+    return world.is_free(pose, query);
+  };
+  EXPECT_FALSE(is_free(scene, {0, 0, 0}));
+  EXPECT_TRUE(is_free(scene, {-8, 0, 0}));
+  Scene wall;
+  wall.bounds = scene.bounds;
+  wall.walls = WallSet::narrowest(std::vector<Segment>{{{0.35, 0.0}, {0.45, 0.1}}});
+  EXPECT_FALSE(is_free(wall, {0, 0, 0}));          // wholly in the hook's arm
+  EXPECT_TRUE(is_free(wall, {0.35, 0.0, 0}));      // in its bay
+  EXPECT_FALSE(is_free(wall, {0.05, 0.0, 0.05}));  // across its boundary
+}
+
+TEST(Se2World, TouchingIsBlockedAndClearanceIsKept) {
+  const std::vector<Vec2> square = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+  Scene scene;
+  scene.bounds = Box{{-10, -10}, {10, 10}};
+  scene.polygons.push_back({{{2, -3}, {4, -3}, {4, 3}, {2, 3}}});
+  const Se2World plain(scene, square, {});
+  const Se2World wide(scene, square, {.clearance = 0.5});
+  auto query = plain.make_query();
+  EXPECT_FALSE(plain.is_free({1, 0, 0}, query));
+  EXPECT_TRUE(plain.is_free({1 - 1e-9, 0, 0}, query));
+  EXPECT_FALSE(plain.is_free({-9, 0, 0}, query));  // touches the bounds
+  EXPECT_TRUE(plain.is_free({-9 + 1e-9, 0, 0}, query));
+  EXPECT_FALSE(wide.is_free({0.5, 0, 0}, query));
+  EXPECT_TRUE(wide.is_free({0.5 - 1e-6, 0, 0}, query));
+}
+
+/// 1000 accepted motions, 100 places each against everything: none collides.
+TEST(Se2World, AcceptedMotionsAreFreeEverywhere) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(seed);
+    const Scene scene = scattered(seed);
+    const auto& outline = seed % 2 == 0 ? kite : hook;
+    const Se2World world(scene, outline, {.clearance = seed % 3 == 0 ? 0.05 : 0.0});
+    const double room = seed % 3 == 0 ? 0.05 : 0.0;
+    auto query = world.make_query();
+    int accepted = 0;
+    for (std::uint64_t i = 0; i < 2000 && accepted < 50; ++i) {
+      const Se2 a = random_pose(seed, 2 * i);
+      const Se2 far = random_pose(seed, 2 * i + 1);
+      const Se2 b = world.interpolate(a, far, 0.3);
+      if (!world.is_free_motion(a, b, query)) continue;
+      ++accepted;
+      for (int step = 0; step <= 100; ++step) {
+        const double t = step / 100.0;
+        const double turn = std::remainder(b.theta - a.theta, 2.0 * std::numbers::pi);
+        const Se2 pose{a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.theta + t * turn};
+        ASSERT_GE(plain_clearance(scene, outline, pose), room) << i << " at " << t;
+      }
+    }
+    EXPECT_EQ(accepted, 50);
+  }
+}
+
+/// What keeps a hundredth of the body's radius is accepted, always; what collides at a sampled place never.
+TEST(Se2World, RefusesNothingThatHasAHundredthOfTheRadiusToSpare) {
+  int spared = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(seed);
+    const Scene scene = scattered(seed);
+    const Se2World world(scene, kite, {});
+    auto query = world.make_query();
+    for (std::uint64_t i = 0; i < 400; ++i) {
+      const Se2 a = random_pose(seed, 2 * i);
+      const Se2 b = world.interpolate(a, random_pose(seed, 2 * i + 1), 0.3);
+      double least = std::numeric_limits<double>::infinity();
+      for (int step = 0; step <= 64 && least > 0.0; ++step) {
+        least = std::min(least, plain_clearance(scene, kite, world.interpolate(a, b, step / 64.0)));
+      }
+      const double between_samples = world.travel(a, b) / 128.0;
+      const bool accepted = world.is_free_motion(a, b, query);
+      if (least <= 0.0) {
+        EXPECT_FALSE(accepted) << i;
+      }
+      if (least - between_samples > 0.01 * world.radius()) {
+        EXPECT_TRUE(accepted) << i;
+        ++spared;
+      }
+    }
+  }
+  EXPECT_GT(spared, 1000);
+}
+
+TEST(Se2World, TurnsTheShorterWayThroughTheWrap) {
+  Scene scene;
+  scene.bounds = Box{{-10, -10}, {10, 10}};
+  const Se2World world(scene, kite, {.angle_weight = 2.0});
+  const Se2 a{0, 0, 3.0};
+  const Se2 b{0, 0, -3.0};
+  const double turn = 2.0 * std::numbers::pi - 6.0;
+  EXPECT_NEAR(world.distance(a, b), 2.0 * turn, 1e-14);
+  EXPECT_NEAR(std::abs(world.interpolate(a, b, 0.5).theta), std::numbers::pi, 1e-14);
+  EXPECT_NEAR(world.distance(a, world.interpolate(a, b, 0.25)), 0.5 * turn, 1e-14);
+  EXPECT_EQ(world.interpolate(a, b, 1.0), b);
+  EXPECT_NEAR(world.distance({0, 0, 0.1}, {0, 0, 0.1 + 8.0 * std::numbers::pi}), 0.0, 1e-13);
+  for (std::uint64_t i = 0; i < 1000; ++i) {
+    const Se2 p = random_pose(1, 2 * i);
+    const Se2 q = random_pose(1, 2 * i + 1);
+    const auto u = world.embed(p);
+    const auto v = world.embed(q);
+    double chord = 0.0;
+    for (std::size_t axis = 0; axis < 4; ++axis) chord += (u[axis] - v[axis]) * (u[axis] - v[axis]);
+    EXPECT_LE(std::sqrt(chord), world.distance(p, q) * (1.0 + 1e-12));
+    EXPECT_NEAR(world.distance(p, q), world.distance(q, p), 1e-12);
+  }
+}
+
+TEST(Se2World, SamplesKeepTheBodyInTheBounds) {
+  Scene scene;
+  scene.bounds = Box{{-2, -2}, {2, 3}};
+  const Se2World world(scene, kite, {});
+  auto query = world.make_query();
+  for (std::uint64_t i = 0; i < 1000; ++i) EXPECT_TRUE(world.is_free(uniform_state(world, 1, i), query)) << i;
+}
+
+TEST(Se2World, WithoutBoundsTheBoxOfTheObstaclesConfinesTheReferencePoint) {
+  Scene scene;
+  scene.polygons.push_back({{{0, 0}, {1, 0}, {0, 1}}});
+  scene.polygons.push_back({{{9, 9}, {10, 9}, {10, 10}}});
+  const Se2World world(scene, kite, {});
+  auto query = world.make_query();
+  EXPECT_TRUE(world.is_free({0.1, 9.9, 0}, query));  // the body sticks out
+  EXPECT_FALSE(world.is_free({-0.1, 5, 0}, query));
+}
+
+TEST(Se2World, RefusesOptionsThatMakeNoSense) {
+  Scene scene;
+  scene.bounds = Box{{-2, -2}, {2, 3}};
+  const auto message = [&](const Scene& s, const std::vector<Vec2>& outline, const Se2Options& options) {
+    try {
+      const Se2World world(s, outline, options);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("nothing");
+  };
+  EXPECT_NE(message(scene, {{0, 0}, {1, 0}}, {}).find("three corners"), std::string::npos);
+  EXPECT_NE(message(scene, kite, {.clearance = -1.0}).find("clearance"), std::string::npos);
+  EXPECT_NE(message(scene, kite, {.angle_weight = 0.0}).find("angle weight"), std::string::npos);
+  EXPECT_NE(message(scene, kite, {.resolution = -0.5}).find("resolution"), std::string::npos);
+  EXPECT_NE(message({}, kite, {}).find("confines"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace warren

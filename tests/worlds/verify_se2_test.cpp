@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "worlds/verify_se2.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "core/polygon_distance.hpp"
+#include "tests/worlds/body_scenes.hpp"
+#include "worlds/se2_world.hpp"
+
+namespace warren {
+namespace {
+
+using body_scenes::corners_at;
+using body_scenes::hook;
+using body_scenes::kite;
+
+constexpr double pi = std::numbers::pi;
+const std::vector<Vec2> bar = {{-1, -0.1}, {1, -0.1}, {1, 0.1}, {-1, 0.1}};
+
+/// A corridor along y = 0, 1 wide, from x = -5 to 5, with a wide room at each end.
+Scene corridor() {
+  Scene scene;
+  scene.bounds = Box{{-10, -5}, {10, 5}};
+  scene.polygons.push_back({{{-5, 0.5}, {5, 0.5}, {5, 4}, {-5, 4}}});
+  scene.polygons.push_back({{{-5, -0.5}, {-5, -4}, {5, -4}, {5, -0.5}}});
+  return scene;
+}
+
+TEST(VerifySe2, AcceptsAFreePathAndMeasuresIt) {
+  const std::vector<Se2> path = {{-7, 0, pi / 2}, {-7, 0, 0}, {7, 0, 0}, {7, 0, -pi / 2}};
+  const auto v = verify_se2(corridor(), bar, path, {.start = path.front(), .goal = path.back()}, {});
+  EXPECT_TRUE(v.verified);
+  EXPECT_DOUBLE_EQ(v.length, 14.0);
+  EXPECT_NEAR(v.turn_rad, pi, 1e-14);
+  EXPECT_LE(v.min_clearance, 0.4);
+  EXPECT_GE(v.min_clearance, 0.4 - 1.01e-3);
+}
+
+TEST(VerifySe2, RefutesATurnThatTheCorridorHasNoRoomFor) {
+  const std::vector<Se2> path = {{-7, 0, 0}, {0, 0, 0}, {0, 0, pi}, {7, 0, pi}};  // both ends of the leg are free
+  const auto v = verify_se2(corridor(), bar, path, {}, {});
+  EXPECT_FALSE(v.verified);
+  ASSERT_TRUE(v.first_violation);
+  EXPECT_EQ(v.first_violation->leg, 1U);
+  EXPECT_NE(v.first_violation->obstacle.find("polygon"), std::string::npos);
+}
+
+TEST(VerifySe2, GoesTheShorterWayThroughTheWrap) {
+  // From 3 to -3 radians: a short turn through pi, not a long one through 0, in a corridor where the latter would hit.
+  const std::vector<Se2> path = {{0, 0, 3.0}, {0, 0, -3.0}};
+  EXPECT_TRUE(verify_se2(corridor(), bar, path, {}, {}).verified);
+  const std::vector<Se2> tilted = {{0, 0, 0.3}, {0, 0, -0.3 + 2.0 * pi}};
+  EXPECT_TRUE(verify_se2(corridor(), bar, tilted, {}, {}).verified);
+}
+
+TEST(VerifySe2, ComparesStartAndGoal) {
+  const std::vector<Se2> path = {{-7, 0, 0}, {7, 0, 0}};
+  const auto verified = [&](const Se2& start, const Se2& goal, bool any_heading) {
+    return verify_se2(corridor(), bar, path, {.start = start, .goal = goal, .any_heading = any_heading}, {}).verified;
+  };
+  EXPECT_TRUE(verified({-7, 0, 2 * pi}, {7, 0, 0}, false));
+  EXPECT_FALSE(verified({-7, 0, 1}, {7, 0, 0}, false));
+  EXPECT_FALSE(verified({-7, 0, 0}, {7, 0, 1}, false));
+  EXPECT_TRUE(verified({-7, 0, 0}, {7, 0, 1}, true));
+  EXPECT_FALSE(verified({-7, 0.1, 0}, {7, 0, 0}, false));
+}
+
+TEST(VerifySe2, SeesBodiesInPolygonsOutsideTheBoundsAndWallsInTheBody) {
+  const auto violation = [](const Scene& scene, const Se2& pose) {
+    const auto v = verify_se2(scene, hook, std::vector<Se2>{pose}, {}, {});
+    return v.first_violation ? v.first_violation->obstacle : std::string("none");
+  };
+  EXPECT_EQ(violation(corridor(), {0, 0, 0}).substr(0, 9), "polygon 0");  // 0.5 high: touches
+  EXPECT_EQ(violation(corridor(), {0, -0.1, 0}), "none");
+  EXPECT_EQ(violation(corridor(), {0, 2, 0}).substr(0, 9), "polygon 0");
+  EXPECT_EQ(violation(corridor(), {20, 0, 0}).substr(0, 6), "bounds");
+  EXPECT_EQ(violation(corridor(), {9.5, 0, 0}).substr(0, 6), "bounds");
+  Scene wall;
+  wall.bounds = Box{{-10, -10}, {10, 10}};
+  wall.walls = WallSet::narrowest(std::vector<Segment>{{{0.35, 0.0}, {0.45, 0.1}}});
+  EXPECT_EQ(violation(wall, {0, 0, 0}).substr(0, 6), "wall 0");
+  EXPECT_EQ(violation(wall, {0.35, 0, 0}), "none");
+}
+
+/// Verdicts against the fast world on random motions: whatever that accepts is verified, and what is verified with room
+/// to spare is accepted. Least distances against sampled ones.
+TEST(VerifySe2, AgreesWithTheFastWorldAndWithSampledDistances) {
+  int free = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(seed);
+    const Scene scene = body_scenes::scattered(seed);
+    const auto& outline = seed % 2 == 0 ? kite : hook;
+    const double clearance = seed % 3 == 0 ? 0.05 : 0.0;
+    const Se2World world(scene, outline, {.clearance = clearance});
+    auto query = world.make_query();
+    for (std::uint64_t i = 0; i < 60; ++i) {
+      const Se2 a = body_scenes::random_pose(seed, 2 * i);
+      const Se2 b = world.interpolate(a, body_scenes::random_pose(seed, 2 * i + 1), 0.2);
+      const std::vector<Se2> leg = {a, b};
+      const auto v = verify_se2(scene, outline, leg, {.clearance = clearance}, {});
+      const bool accepted = world.is_free_motion(a, b, query);
+      if (accepted) {
+        EXPECT_TRUE(v.verified) << i;
+      }
+      if (!v.verified) continue;
+      ++free;
+      if (v.min_clearance > clearance + 1e-3 * world.radius()) {
+        EXPECT_TRUE(accepted) << i;
+      }
+      double sampled = 1e9;
+      for (int step = 0; step <= 200; ++step) {
+        const std::vector<Vec2> body = corners_at(outline, world.interpolate(a, b, step / 200.0));
+        for (const ScenePolygon& p : scene.polygons) sampled = std::min(sampled, distance(body, p.corners));
+        for (std::size_t w = 0; w < scene.walls.size(); ++w) {
+          sampled = std::min(sampled, distance(body, scene.walls.segment(w)));
+        }
+        for (const Vec2 p : body) sampled = std::min({sampled, p.x, p.y, 10.0 - p.x, 10.0 - p.y});
+      }
+      EXPECT_LE(v.min_clearance, sampled);
+      EXPECT_GE(v.min_clearance, sampled - world.travel(a, b) / 400.0 - 1e-3 * world.radius());
+    }
+  }
+  EXPECT_GT(free, 100);
+}
+
+TEST(VerifySe2, IsTheSameForAnyNumberOfThreads) {
+  std::vector<Se2> path;
+  for (int i = 0; i <= 40; ++i) path.push_back({-7 + 0.35 * i, 0.02 * (i % 5), 0.1 * (i % 3)});
+  std::vector<Se2Verification> all;
+  for (const unsigned threads : {1U, 2U, 3U, 8U}) {
+    all.push_back(verify_se2(corridor(), bar, path, {}, {.threads = threads}));
+  }
+  for (const auto& v : all) {
+    EXPECT_TRUE(v.verified);
+    EXPECT_EQ(v.min_clearance, all.front().min_clearance);
+    EXPECT_EQ(v.length, all.front().length);
+  }
+}
+
+TEST(VerifySe2, RefusesPathsWithoutPosesAndNumbersThatAreNone) {
+  EXPECT_THROW(verify_se2(corridor(), bar, {}, {}, {}), InputError);
+  const std::vector<Se2> nan = {{0, std::nan(""), 0}};
+  EXPECT_THROW(verify_se2(corridor(), bar, nan, {}, {}), InputError);
+}
+
+}  // namespace
+}  // namespace warren

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A polygon that moves and turns among polygons, walls and bounds: SE(2), the poses (x, y, theta). The body may be
+// convex or not and need not hold its reference point. Between two poses the reference point goes straight while the
+// body turns evenly the shorter way; the whole motion is certified free (worlds/certified_motion.hpp).
+//
+// Metric: sqrt(dx^2 + dy^2 + (w dtheta)^2) with the turn the shorter way; w is a length, by default the body's radius
+// (its farthest corner from the reference point), so that a unit of either moves no point further than a unit. It is
+// the geodesic metric of a cylinder of radius w, so the chord in (x, y, w cos theta, w sin theta) never exceeds it.
+// Planning widens the clearance by the factor 1 + 1e-9 plus rounding, so that a verification can't fail by rounding.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/se2.hpp"
+#include "core/world.hpp"
+#include "worlds/certified_motion.hpp"
+#include "worlds/obstacle_tree.hpp"
+#include "worlds/scene.hpp"
+
+namespace warren {
+
+struct Se2Options {
+  double clearance = 0.0;                   ///< room around the body; finite, >= 0; 0: touching is blocked
+  std::optional<double> angle_weight = {};  ///< world units a radian, > 0; none: the body's radius
+  std::optional<double> resolution = {};    ///< motions that come so near may be refused; > 0; none: radius / 10,000
+};
+
+/// Immutable after construction; one Query a thread.
+class Se2World {
+ public:
+  static constexpr std::size_t dimension = 3;
+  using State = Se2;
+  struct Query {
+    Footprint footprint;
+    std::uint64_t refused = 0;  ///< motions that were neither proved free nor blocked
+  };
+
+  /// Throws InputError for options out of range, an outline of fewer than three corners, and a scene without anything
+  /// that confines the body. Without bounds the box of the obstacles confines the reference point.
+  Se2World(const Scene& scene, std::span<const Vec2> outline, const Se2Options& options);
+
+  Query make_query() const { return {Footprint(outline_.size())}; }
+  /// Poses at which the body is in the bounds, if it can be there at that angle.
+  State at_unit(const std::array<double, 3>& u) const;
+  bool is_free(const State& a, Query& query) const;
+  bool is_free_motion(const State& a, const State& b, Query& query) const;
+  double distance(const State& a, const State& b) const {
+    const double turn = angle_weight_ * turn_between(a.theta, b.theta);
+    const Vec2 way = b.position() - a.position();
+    return std::sqrt(dot(way, way) + turn * turn);
+  }
+  State interpolate(const State& a, const State& b, double t) const { return warren::interpolate(a, b, t); }
+  std::array<double, 4> embed(const State& a) const {
+    return {a.x, a.y, angle_weight_ * std::cos(a.theta), angle_weight_ * std::sin(a.theta)};
+  }
+
+  /// Lower bound of the distance to the nearest obstacle less the clearance; <= 0: not free. More than `enough` counts
+  /// as any number above it.
+  double clearance(const State& a, double enough, Query& query) const;
+  /// Upper bound of the way of any point of the body.
+  double travel(const State& a, const State& b) const {
+    return norm(b.position() - a.position()) + radius_ * std::abs(turn_between(a.theta, b.theta));
+  }
+  MotionVerdict judge_motion(const State& a, const State& b, Query& query) const;
+
+  double suggested_samples() const { return 400.0; }
+  std::span<const Vec2> outline() const { return outline_; }
+  double radius() const { return radius_; }  ///< of the body: its farthest corner from the reference point
+  double angle_weight() const { return angle_weight_; }
+  double resolution() const { return resolution_; }
+  const Box& box() const { return box_; }  ///< the bounds, else the box of the obstacles
+  const ObstacleTree& obstacles() const { return tree_; }
+
+ private:
+  std::vector<Vec2> outline_;
+  double radius_;
+  double angle_weight_;
+  double resolution_;
+  double planning_clearance_;
+  ObstacleTree tree_;
+  Box box_;
+};
+
+static_assert(SteerableWorld<Se2World>);
+
+}  // namespace warren

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "worlds/verify_se2.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/error.hpp"
+#include "parallel/chunks.hpp"
+#include "worlds/exact_segments.hpp"
+#include "worlds/obstacles.hpp"
+
+namespace warren {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double full_turn = 6.283185307179586476925;
+
+struct LegReport {
+  double least = infinity;  // proved
+  double met = infinity;    // where it was looked: never less than the truth
+  std::optional<Violation> violation;
+};
+
+/// From pose a, `way` and `turn` further.
+struct Leg {
+  Se2 a;
+  Vec2 way;
+  double turn;
+};
+
+/// The turn from a to b by which the body turns least; half turns may come out either way.
+double shorter_turn(double a, double b) {
+  double turn = b - a;
+  turn -= full_turn * std::floor(turn / full_turn + 0.5);
+  return turn;
+}
+
+class BodyVerifier {
+ public:
+  BodyVerifier(const Scene& scene, std::span<const Vec2> outline, double clearance, const Execution& execution)
+      : obstacles_(scene), outline_(outline), clearance_(clearance), execution_(execution), confines_(scene.bounds) {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < obstacles_.size(); ++i) {
+      const Segment s = obstacles_.segment(i);
+      segments_.push_back(s);
+      if (i < obstacles_.wall_count() || is_polygon_side(i)) box_.include(box_of(s));
+      for (const double c : {s.a.x, s.a.y, s.b.x, s.b.y}) largest = std::max(largest, std::abs(c));
+    }
+    for (const Vec2 p : outline_) radius_ = std::max(radius_, std::hypot(p.x, p.y));
+    rounding_ = 2e-14 * (largest + 2.0 * radius_ + clearance);
+    finest_ = 1e-6 * radius_;
+    close_ = 1e-3 * radius_;
+  }
+
+  LegReport check(const Leg& leg, std::size_t number) const;
+  LegReport check_pose(const Se2& pose, std::size_t number) const;
+
+ private:
+  struct Near {
+    std::size_t obstacle;
+    double distance;
+  };
+  bool is_polygon_side(std::size_t i) const {
+    return obstacles_.rings()[obstacles_.sides()[i - obstacles_.wall_count()].ring].polygon != Ring::none;
+  }
+  std::vector<Vec2> corners_at(const Leg& leg, double t) const;
+  bool body_holds(const std::vector<Vec2>& corners, Vec2 p) const;
+  double distance_to(const std::vector<Vec2>& corners, const Segment& s) const;
+  /// The obstacles of `among` that may be the nearest to the body within `way` of the place t.
+  std::vector<Near> nearest_at(const Leg& leg, double t, double way, const std::vector<Near>& among) const;
+  /// Checks the part of the leg that is `half` to both sides of `middle`.
+  void check_piece(const Leg& leg, double middle, double half, const std::vector<Near>& among, std::size_t number,
+                   LegReport& report) const;
+
+  Obstacles obstacles_;
+  std::span<const Vec2> outline_;
+  double clearance_;
+  const Execution& execution_;
+  std::optional<Box> confines_;
+  std::vector<Segment> segments_;
+  Box box_;  // of walls and polygons
+  double radius_ = 0.0;
+  double rounding_ = 0.0;  // bounds the error of every distance computed here
+  double finest_ = 0.0;    // pieces on which the body goes less are not halved
+  double close_ = 0.0;     // how sharp the least clearance shall be
+};
+
+std::vector<Vec2> BodyVerifier::corners_at(const Leg& leg, double t) const {
+  const double theta = leg.a.theta + t * leg.turn;
+  const double c = std::cos(theta);
+  const double s = std::sin(theta);
+  std::vector<Vec2> corners;
+  corners.reserve(outline_.size());
+  for (const Vec2 p : outline_) {
+    corners.push_back({leg.a.x + t * leg.way.x + (c * p.x - s * p.y), leg.a.y + t * leg.way.y + (s * p.x + c * p.y)});
+  }
+  return corners;
+}
+
+/// Is p in the closed body? By exact signs, but the corners are rounded.
+bool BodyVerifier::body_holds(const std::vector<Vec2>& corners, Vec2 p) const {
+  bool inside = false;
+  Vec2 a = corners.back();
+  for (const Vec2 b : corners) {
+    if (exact::contains({a, b}, p)) return true;
+    if ((a.y <= p.y) != (b.y <= p.y)) {
+      const int side = exact::side_of(a, b, p);
+      if (b.y > a.y ? side > 0 : side < 0) inside = !inside;
+    }
+    a = b;
+  }
+  return inside;
+}
+
+double BodyVerifier::distance_to(const std::vector<Vec2>& corners, const Segment& s) const {
+  if (body_holds(corners, s.a)) return 0.0;
+  double least = infinity;
+  Vec2 a = corners.back();
+  for (const Vec2 b : corners) {
+    least = std::min(least, exact::distance({a, b}, s));
+    a = b;
+  }
+  return least;
+}
+
+std::vector<BodyVerifier::Near> BodyVerifier::nearest_at(const Leg& leg, double t, double way,
+                                                         const std::vector<Near>& among) const {
+  const std::vector<Vec2> corners = corners_at(leg, t);
+  Box body;
+  for (const Vec2 p : corners) body.include(p);
+  double least = infinity;
+  const double spread = 2.0 * (way + rounding_);
+  std::vector<Near> near;
+  for (const Near& n : among) {
+    const Segment& s = segments_[n.obstacle];
+    if (std::sqrt(exact::gap_sq(body, box_of(s))) > least + spread) continue;
+    const double distance = distance_to(corners, s);
+    least = std::min(least, distance);
+    near.push_back({n.obstacle, distance});
+  }
+  std::erase_if(near, [&](const Near& n) { return n.distance > least + spread; });
+  return near;
+}
+
+void BodyVerifier::check_piece(const Leg& leg, double middle, double half, const std::vector<Near>& among,
+                               std::size_t number, LegReport& report) const {
+  execution_.check();
+  const double whole = std::hypot(leg.way.x, leg.way.y) + radius_ * std::abs(leg.turn);
+  const double way = half * whole * (1.0 + 1e-12);
+  const std::vector<Near> near = nearest_at(leg, middle, way, among);
+  if (near.empty() || report.violation) return;
+  const auto less = [](const Near& a, const Near& b) { return a.distance < b.distance; };
+  const Near nearest = *std::min_element(near.begin(), near.end(), less);
+  const double proved = nearest.distance - way - rounding_;
+  report.met = std::min(report.met, nearest.distance);
+  const bool settled = proved >= report.met - close_ || way < finest_;
+  if (proved > clearance_ && settled) {
+    report.least = std::min(report.least, proved);
+    return;
+  }
+  if (nearest.distance <= rounding_ || nearest.distance + rounding_ < clearance_ || way < finest_) {
+    report.least = std::min(report.least, nearest.distance);
+    report.violation = Violation{number, nearest.distance, obstacles_.name(nearest.obstacle)};
+    return;
+  }
+  check_piece(leg, middle - 0.5 * half, 0.5 * half, near, number, report);
+  check_piece(leg, middle + 0.5 * half, 0.5 * half, near, number, report);
+}
+
+LegReport BodyVerifier::check(const Leg& leg, std::size_t number) const {
+  std::vector<Near> all;
+  all.reserve(segments_.size());
+  for (std::size_t i = 0; i < segments_.size(); ++i) all.push_back({i, 0.0});
+  LegReport report;
+  check_piece(leg, 0.5, 0.5, all, number, report);
+  return report;
+}
+
+/// Is the pose inside a polygon, outside the bounds or off the box? Boundaries are check()'s.
+LegReport BodyVerifier::check_pose(const Se2& pose, std::size_t number) const {
+  const std::vector<Vec2> corners = corners_at({pose, {}, 0.0}, 0.0);
+  const auto bad = [&](std::string what) { return LegReport{0.0, 0.0, Violation{number, 0.0, std::move(what)}}; };
+  if (confines_) {
+    for (const Vec2 p : corners) {
+      if (!confines_->contains(p)) return bad(fmt::format("bounds: the corner {} {} is outside", p.x, p.y));
+    }
+  } else if (!box_.contains({pose.x, pose.y})) {
+    return bad(fmt::format("box: {} {} is outside the box of the obstacles", pose.x, pose.y));
+  }
+  for (const Ring& ring : obstacles_.rings()) {
+    if (ring.polygon == Ring::none || !strictly_inside(ring, corners.front())) continue;
+    return bad(fmt::format("polygon {}: holds {} {}", ring.polygon, corners.front().x, corners.front().y));
+  }
+  return {};
+}
+
+bool is_there(const Se2& pose, const Se2& wanted, bool any_heading, double tolerance) {
+  if (std::hypot(pose.x - wanted.x, pose.y - wanted.y) > tolerance) return false;
+  return any_heading || std::abs(shorter_turn(pose.theta, wanted.theta)) <= tolerance;
+}
+
+void check_input(std::span<const Vec2> outline, std::span<const Se2> path, const Se2VerifyOptions& options) {
+  if (outline.size() < 3) throw InputError("robot", "a polygon needs three corners or more");
+  if (path.empty()) throw InputError("path", "has no poses");
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const Se2& p = path[i];
+    const bool fits = std::abs(p.x) <= largest_coordinate && std::abs(p.y) <= largest_coordinate &&
+                      std::abs(p.theta) <= largest_coordinate;
+    if (!fits) throw InputError(fmt::format("path: pose {}", i), "must be numbers of at most 1e60");
+  }
+  if (!(options.clearance >= 0.0 && options.clearance <= largest_coordinate)) {
+    throw InputError("clearance", "must be a number from 0 to 1e60", fmt::format("{}", options.clearance));
+  }
+}
+
+/// The leg from pose i to the next one, turning the shorter way, or the other way where it is as short.
+std::vector<LegReport> leg_reports(const BodyVerifier& body, std::span<const Se2> path, std::size_t i) {
+  const Se2& a = path[i];
+  const Se2& b = path[std::min(i + 1, path.size() - 1)];
+  const Vec2 way{b.x - a.x, b.y - a.y};
+  const double turn = shorter_turn(a.theta, b.theta);
+  std::vector<LegReport> reports{body.check_pose(a, i), body.check_pose(b, i), body.check({a, way, turn}, i)};
+  constexpr double nearly_half = 0.5 * full_turn * (1.0 - 1e-12);
+  if (std::abs(turn) >= nearly_half) reports.push_back(body.check({a, way, turn - std::copysign(full_turn, turn)}, i));
+  return reports;
+}
+
+}  // namespace
+
+Se2Verification verify_se2(const Scene& scene, std::span<const Vec2> outline, std::span<const Se2> path,
+                           const Se2VerifyOptions& options, const Execution& execution) {
+  check_input(outline, path, options);
+  const BodyVerifier body(scene, outline, options.clearance, execution);
+  const std::size_t legs = std::max<std::size_t>(path.size() - 1, 1);
+  std::vector<std::vector<LegReport>> reports(legs);
+  for_chunks(legs, 1, execution, [&](Range r) { reports[r.first] = leg_reports(body, path, r.first); });
+
+  Se2Verification result;
+  const auto note = [&](const Violation& v) {
+    if (!result.first_violation || v.leg < result.first_violation->leg) result.first_violation = v;
+  };
+  if (options.start && !is_there(path.front(), *options.start, false, options.tolerance)) {
+    note({0, 0.0, "start: the path begins elsewhere"});
+  }
+  for (const auto& leg : reports) {
+    for (const LegReport& report : leg) {
+      result.min_clearance = std::min(result.min_clearance, report.least);
+      if (report.violation) note(*report.violation);
+    }
+  }
+  if (options.goal && !is_there(path.back(), *options.goal, options.any_heading, options.tolerance)) {
+    if (!result.first_violation) note({legs - 1, 0.0, "goal: the path ends elsewhere"});
+  }
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    result.length += std::hypot(path[i].x - path[i - 1].x, path[i].y - path[i - 1].y);
+    result.turn_rad += std::abs(shorter_turn(path[i - 1].theta, path[i].theta));
+  }
+  result.verified = !result.first_violation;
+  return result;
+}
+
+}  // namespace warren

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Is this path of a turning polygon free? Independent of everything that found it: nothing from spatial/, nothing of
+// the fast world's distances, motions or angles. Each leg is compared with every side of every obstacle at its middle;
+// obstacles that can't be the nearest anywhere on a piece are dropped from its halves, and pieces are halved until the
+// least distance, less the way that any point of the body goes and less all rounding, is proved to exceed the
+// clearance. O(legs * sides * corners) and what the halves near obstacles cost.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <span>
+
+#include "core/se2.hpp"
+#include "parallel/execution.hpp"
+#include "worlds/scene.hpp"
+#include "worlds/verify.hpp"
+
+namespace warren {
+
+struct Se2VerifyOptions {
+  double clearance = 0.0;         ///< room around the body all along the path; >= 0; 0: touching is blocked
+  std::optional<Se2> start = {};  ///< where the path must begin; nullopt: anywhere
+  std::optional<Se2> goal = {};   ///< where it must end
+  bool any_heading = false;       ///< the goal's angle doesn't matter
+  double tolerance = 1e-9;        ///< of start and goal: distance and angle that still count as there
+};
+
+struct Se2Verification {
+  bool verified = false;
+  double length = 0.0;    ///< of the reference point's curve
+  double turn_rad = 0.0;  ///< sum of the turns
+  /// Of the body along the path: a lower bound, within a thousandth of the body's radius; where the path is not free,
+  /// the least distance met.
+  double min_clearance = std::numeric_limits<double>::infinity();
+  std::optional<Violation> first_violation;  ///< on the smallest leg
+};
+
+/// The body among the scene's walls, polygons and bounds (spheres are not looked at). On a leg the reference point goes
+/// straight while the body turns evenly the shorter way; a leg of half a turn must be free both ways. The path has at
+/// least one pose, all finite (InputError otherwise); a single pose is a leg of length zero. A leg that comes nearer
+/// than a millionth of the body's radius to the clearance may count as not free. The same for any number of threads.
+Se2Verification verify_se2(const Scene& scene, std::span<const Vec2> outline, std::span<const Se2> path,
+                           const Se2VerifyOptions& options, const Execution& execution);
+
+}  // namespace warren
