@@ -8,7 +8,12 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "worlds/image_io.hpp"
+#include "worlds/maze_image_io.hpp"
+#include "worlds/micromouse_io.hpp"
+#include "worlds/moving_ai_io.hpp"
 #include "worlds/npy_io.hpp"
+#include "worlds/ros_map_io.hpp"
 #include "worlds/scene_io.hpp"
 
 namespace warren {
@@ -21,11 +26,6 @@ constexpr std::string_view maze_usage = "maze:ROWSxCOLS[,seed=N][,algorithm=NAME
 bool names_image(std::string_view bytes) {
   const std::string_view head = bytes.substr(0, 4096);
   return head.starts_with("image:") || head.find("\nimage:") != std::string_view::npos;
-}
-
-bool is_pgm(std::string_view bytes) {
-  return bytes.size() > 2 && (bytes.starts_with("P5") || bytes.starts_with("P2")) &&
-         std::string_view(" \t\r\n#").find(bytes[2]) != std::string_view::npos;
 }
 
 /// Cuts `text` at the first `mark`; the rest is empty if there is none.
@@ -111,9 +111,10 @@ class MazeSource {
 WorldFormat format_of(const InputFile& file) {
   const std::string_view bytes = file.bytes();
   if (is_npy(bytes)) return WorldFormat::npy;
-  if (bytes.starts_with("\x89PNG") || is_pgm(bytes)) return WorldFormat::image;
+  if (is_png(bytes) || is_pgm(bytes)) return WorldFormat::image;
   if (bytes.starts_with("type ")) return WorldFormat::moving_ai;
   if (names_image(bytes)) return WorldFormat::ros_map;
+  if (is_micromouse(bytes)) return WorldFormat::micromouse;
   const std::string_view name = file.name();
   if (name.ends_with(".npy")) return WorldFormat::npy;
   if (name.ends_with(".png") || name.ends_with(".pgm")) return WorldFormat::image;
@@ -132,12 +133,30 @@ Scene read_scene(const InputFile& file, const Execution& execution) {
       return read_scene_text(file, execution);
     case WorldFormat::npy:
       return read_npy(file, execution);
+    case WorldFormat::micromouse:
+      return read_micromouse(file, execution);
     case WorldFormat::moving_ai:
     case WorldFormat::ros_map:
     case WorldFormat::image:
       break;
   }
   throw InputError(file.name(), "this is an occupancy map; expected walls, polygons or spheres");
+}
+
+OccupancyMap read_map(const InputFile& file, const Execution& execution) {
+  switch (format_of(file)) {
+    case WorldFormat::moving_ai:
+      return read_moving_ai_map(file, execution);
+    case WorldFormat::ros_map:
+      return read_ros_map(file, execution);
+    case WorldFormat::image:
+      return read_maze_image(file, execution);
+    case WorldFormat::scene:
+    case WorldFormat::npy:
+    case WorldFormat::micromouse:
+      break;
+  }
+  throw InputError(file.name(), "this is no occupancy map; expected Moving AI, map server YAML, PNG or PGM");
 }
 
 Scene read_world(const std::string& source, const Execution& execution) {

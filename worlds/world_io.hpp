@@ -10,14 +10,20 @@
 #include "parallel/execution.hpp"
 #include "worlds/input_file_io.hpp"
 #include "worlds/maze_generator.hpp"
+#include "worlds/occupancy_map.hpp"
 #include "worlds/scene.hpp"
 
 namespace warren {
 
-enum class WorldFormat : std::uint8_t { scene, npy, moving_ai, ros_map, image };
+enum class WorldFormat : std::uint8_t { scene, npy, moving_ai, ros_map, image, micromouse };
 
 /// What the content says, or where it says nothing the name's ending; text of no known kind is a scene.
 WorldFormat format_of(const InputFile& file);
+
+/// Is it a map of blocked and free cells (read_map) rather than a scene of walls (read_scene)?
+constexpr bool is_map(WorldFormat format) {
+  return format == WorldFormat::moving_ai || format == WorldFormat::ros_map || format == WorldFormat::image;
+}
 
 /// Does this name a maze to be generated rather than a file?
 bool is_maze_source(std::string_view source);
@@ -29,6 +35,9 @@ MazeOptions parse_maze_source(std::string_view source);
 Scene read_world(const std::string& source, const Execution& execution);
 /// The same for a file that is open already.
 Scene read_scene(const InputFile& file, const Execution& execution);
+
+/// Reads an occupancy map. Throws ReadError, InputError (also for scenes, which are no maps), Stopped.
+OccupancyMap read_map(const InputFile& file, const Execution& execution);
 
 /// Writes .npy, or for .walls, .scene, .txt and "-" scene text. Throws UsageError for other endings, InputError for
 /// what the format can't hold, WriteError, Stopped.

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One bit a cell, rows of 64-bit words: plain data that worlds and planners share. Bits beyond the width are 0, so that
+// words can be compared, counted and scanned whole. What a set bit means is said by who holds the bitmap.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/raw_vector.hpp"
+
+namespace warren {
+
+/// width x height bits; x runs along a row. Owns its words; any number of threads may read, and write different rows.
+class Bitmap {
+ public:
+  static constexpr std::uint32_t word_bits = 64;
+
+  Bitmap() = default;
+  /// All bits `value`. Fewer than 2^32 bits in all.
+  Bitmap(std::uint32_t width, std::uint32_t height, bool value = false)
+      : width_(width), height_(height), stride_((width + word_bits - 1) / word_bits) {
+    words_.assign(stride_ * height, value ? ~std::uint64_t{0} : 0);
+    if (value) clear_beyond_width();
+  }
+
+  std::uint32_t width() const { return width_; }
+  std::uint32_t height() const { return height_; }
+  bool empty() const { return words_.empty(); }
+  std::uint64_t size() const { return std::uint64_t{width_} * height_; }
+  std::size_t bytes() const { return words_.size() * sizeof(std::uint64_t); }
+
+  bool test(std::uint32_t x, std::uint32_t y) const {
+    return (words_[y * stride_ + x / word_bits] >> (x % word_bits) & 1U) != 0;
+  }
+  void set(std::uint32_t x, std::uint32_t y) { words_[y * stride_ + x / word_bits] |= bit(x); }
+  void clear(std::uint32_t x, std::uint32_t y) { words_[y * stride_ + x / word_bits] &= ~bit(x); }
+  /// Sets bits first .. last - 1 of a row; first <= last <= width.
+  void set_run(std::uint32_t y, std::uint32_t first, std::uint32_t last) {
+    const std::span<std::uint64_t> words = row(y);
+    while (first < last) {
+      const std::uint32_t word = first / word_bits;
+      const std::uint32_t end = last < (word + 1) * word_bits ? last : (word + 1) * word_bits;
+      const std::uint32_t count = end - first;
+      const std::uint64_t ones = count == word_bits ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1;
+      words[word] |= ones << (first % word_bits);
+      first = end;
+    }
+  }
+  /// Is the cell inside the bitmap and set? Any coordinates.
+  bool holds(std::int64_t x, std::int64_t y) const {
+    return x >= 0 && y >= 0 && x < width_ && y < height_ &&
+           test(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
+  }
+
+  std::span<std::uint64_t> row(std::uint32_t y) { return std::span(words_).subspan(y * stride_, stride_); }
+  std::span<const std::uint64_t> row(std::uint32_t y) const { return std::span(words_).subspan(y * stride_, stride_); }
+  std::span<const std::uint64_t> words() const { return words_; }
+
+  /// How many bits are set.
+  std::uint64_t count() const {
+    std::uint64_t sum = 0;
+    for (const std::uint64_t word : words_) sum += static_cast<std::uint64_t>(std::popcount(word));
+    return sum;
+  }
+  friend bool operator==(const Bitmap&, const Bitmap&) = default;
+
+ private:
+  static constexpr std::uint64_t bit(std::uint32_t x) { return std::uint64_t{1} << (x % word_bits); }
+  void clear_beyond_width() {
+    if (width_ % word_bits == 0) return;
+    for (std::uint32_t y = 0; y < height_; ++y) row(y).back() &= bit(width_) - 1;
+  }
+
+  std::uint32_t width_ = 0;
+  std::uint32_t height_ = 0;
+  std::size_t stride_ = 0;  // words a row
+  RawVector<std::uint64_t> words_;
+};
+
+}  // namespace warren

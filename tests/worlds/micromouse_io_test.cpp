@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "worlds/micromouse_io.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "core/error.hpp"
+#include "tests/worlds/temporary_directory.hpp"
+#include "worlds/world_io.hpp"
+
+namespace warren {
+namespace {
+
+constexpr const char* small =
+    "o---o---o---o\n"
+    "|     G |   |\n"
+    "o   o---o   o\n"
+    "| S         |\n"
+    "o---o---o---o\n";
+
+TEST(Micromouse, WallsLieOnTheUnitGridNorthUp) {
+  const TemporaryDirectory directory;
+  const std::string crlf = [] {
+    std::string text = small;
+    for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.insert(at, "\r");
+    return text;
+  }();
+  for (const std::string& text : {std::string(small), crlf}) {
+    const Scene scene = read_world(directory.write("m.txt", text), {});
+    std::vector<Segment> walls;
+    for (std::size_t i = 0; i < scene.walls.size(); ++i) walls.push_back(scene.walls.segment(i));
+    const std::vector<Segment> expected{{{0.5, 2.5}, {3.5, 2.5}}, {{1.5, 1.5}, {2.5, 1.5}}, {{0.5, 0.5}, {3.5, 0.5}},
+                                        {{0.5, 0.5}, {0.5, 2.5}}, {{2.5, 1.5}, {2.5, 2.5}}, {{3.5, 0.5}, {3.5, 2.5}}};
+    EXPECT_EQ(walls.size(), expected.size());
+    EXPECT_TRUE(std::is_permutation(walls.begin(), walls.end(), expected.begin(), expected.end()));
+    EXPECT_EQ(scene.maze, (MazeHint{2, 3}));
+    EXPECT_EQ(scene.start, (std::vector<double>{1, 1}));
+    EXPECT_EQ(scene.goal, (std::vector<double>{2, 2}));
+  }
+}
+
+TEST(Micromouse, TrailingBlanksMayBeMissing) {
+  const TemporaryDirectory directory;
+  const Scene scene = read_world(directory.write("m.txt", "o---o---o\n|\no---o   o\n|\no---o---o\n"), {});
+  EXPECT_EQ(scene.walls.size(), 4U);  // top, middle, bottom, left; the right side is open
+  EXPECT_TRUE(scene.start.empty());
+}
+
+TEST(Micromouse, RefusesWithFileAndLine) {
+  const TemporaryDirectory directory;
+  const std::pair<const char*, const char*> cases[] = {
+      {"o---o\n|   |\n", "expected 2 H + 1 lines"},
+      {"o---o\n|   |\n|   |\n", ":3: expected a row of posts"},
+      {"o---o\n|   |\no-- o\n", ":3: expected `---` or three blanks at column 2"},
+      {"o---o\nx   |\no---o\n", ":2: expected `|` or a blank at column 1 (found: x)"},
+      {"o---o\n|   | |\no---o\n", ":2: expected at most 5 characters"},
+      {"o---o\n|   |\no---x\n", ":3: expected a post `o` at column 5 (found: x)"},
+  };
+  for (const auto& [text, expected] : cases) {
+    SCOPED_TRACE(expected);
+    try {
+      read_world(directory.write("bad.txt", text), {});
+      ADD_FAILURE() << "accepted";
+    } catch (const InputError& error) {
+      EXPECT_EQ(std::string(error.what()).find(directory.file("bad.txt")), 0U) << error.what();
+      EXPECT_NE(std::string(error.what()).find(expected), std::string::npos) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace warren

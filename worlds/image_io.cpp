@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "worlds/image_io.hpp"
+
+#include "core/error.hpp"
+#include "worlds/pgm_io.hpp"
+#include "worlds/png_io.hpp"
+
+namespace warren {
+
+bool is_png(std::string_view bytes) { return bytes.starts_with("\x89PNG"); }
+
+bool is_pgm(std::string_view bytes) {
+  return bytes.size() > 2 && (bytes.starts_with("P5") || bytes.starts_with("P2")) &&
+         std::string_view(" \t\r\n#").find(bytes[2]) != std::string_view::npos;
+}
+
+void read_image(const InputFile& file, const ImageSink& sink, const Execution& execution) {
+  if (is_png(file.bytes())) return read_png(file, sink, execution);
+  if (is_pgm(file.bytes())) return read_pgm(file, sink, execution);
+  throw InputError(file.name(), "expected a PNG or PGM image (magic P5 or P2)");
+}
+
+}  // namespace warren

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Images as occupancy maps need them: PNG (all colour types and depths, interlaced or not) and PGM (binary and ASCII, 8
+// and 16 bits), handed over a run of pixels at a time, so that nothing but a row is ever held.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+
+#include "parallel/execution.hpp"
+#include "worlds/input_file_io.hpp"
+
+namespace warren {
+
+/// What is known before the first pixel.
+struct ImageHeader {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  unsigned channels = 1;   ///< 1 grey, 2 grey and alpha, 3 colours, 4 colours and alpha
+  unsigned maximum = 255;  ///< samples run from 0 to this: 255, 65535, or what a PGM says
+
+  bool has_alpha() const { return channels % 2 == 0; }
+};
+
+/// Pixels first_x, first_x + step_x, … of row y, counted from the top. Palettes are expanded, fewer bits than 8 are
+/// stretched to 8, transparent colours have become alpha.
+struct PixelRun {
+  std::uint32_t y = 0;
+  std::uint32_t first_x = 0;
+  std::uint32_t step_x = 1;
+  std::span<const std::uint16_t> samples;  ///< channels a pixel
+};
+
+struct ImageSink {
+  std::function<void(const ImageHeader&)> begin;
+  std::function<void(const PixelRun&)> row;
+};
+
+/// Reads a PNG or PGM, by its first bytes. Every pixel is given once. Throws InputError naming the file (for ASCII PGM
+/// also the line), Stopped, and what the sink throws.
+void read_image(const InputFile& file, const ImageSink& sink, const Execution& execution);
+
+bool is_png(std::string_view bytes);
+bool is_pgm(std::string_view bytes);
+
+}  // namespace warren

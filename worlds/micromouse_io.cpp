@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "worlds/micromouse_io.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "worlds/scene_text.hpp"
+
+namespace warren {
+namespace {
+
+bool is_post(char c) { return c == 'o' || c == '+'; }
+
+std::string_view first_line(std::string_view bytes) {
+  std::string_view line = bytes.substr(0, std::min(bytes.find('\n'), bytes.size()));
+  while (line.ends_with('\r') || line.ends_with(' ')) line.remove_suffix(1);
+  return line;
+}
+
+/// The picture, and the walls that it shows.
+class Picture {
+ public:
+  explicit Picture(const InputFile& file) : name_(file.name()) {
+    std::string_view rest = file.bytes();
+    while (!rest.empty()) {
+      const std::size_t end = std::min(rest.find('\n'), rest.size());
+      std::string_view line = rest.substr(0, end);
+      while (line.ends_with('\r') || line.ends_with(' ')) line.remove_suffix(1);
+      lines_.push_back(line);
+      rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+    while (!lines_.empty() && lines_.back().empty()) lines_.pop_back();
+    cols_ = (lines_.front().size() - 1) / 4;
+    rows_ = (lines_.size() - 1) / 2;
+  }
+
+  void check(const Execution& execution) const {
+    if (lines_.size() % 2 == 0 || lines_.size() < 3) {
+      throw InputError(name_, "expected 2 H + 1 lines for H rows of cells", fmt::format("{} lines", lines_.size()));
+    }
+    if (!is_post(lines_.back().empty() ? ' ' : lines_.back().front()))
+      fail(lines_.size() - 1, "expected a row of posts");
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      execution.check();
+      if (lines_[i].size() > 4 * cols_ + 1) {
+        fail(i, fmt::format("expected at most {} characters, as many as the first line has", 4 * cols_ + 1));
+      }
+      for (std::size_t c = 0; c <= cols_; ++c) (i % 2 == 0 ? check_posts(i, c) : check_cells(i, c));
+    }
+  }
+
+  Scene scene() const {
+    std::vector<Segment> walls;
+    for (std::size_t i = 0; i < lines_.size(); i += 2) {
+      add_runs(
+          cols_, [&](std::size_t c) { return at(i, 4 * c + 2) == '-'; },
+          [&](double from, double to) {
+            walls.push_back({{from, line_y(i)}, {to, line_y(i)}});
+          });
+    }
+    for (std::size_t c = 0; c <= cols_; ++c) {
+      const double x = static_cast<double>(c) + 0.5;
+      add_runs(
+          rows_, [&](std::size_t r) { return at(lines_.size() - 2 - 2 * r, 4 * c) == '|'; },
+          [&](double from, double to) {
+            walls.push_back({{x, from}, {x, to}});
+          });
+    }
+    Scene scene;
+    scene.walls = WallSet::narrowest(walls);
+    scene.maze = MazeHint{static_cast<std::uint32_t>(rows_), static_cast<std::uint32_t>(cols_)};
+    scene.start = find('S');
+    scene.goal = find('G');
+    scene.source = name_;
+    return scene;
+  }
+
+ private:
+  [[noreturn]] void fail(std::size_t line, std::string_view what, std::string_view found = {}) const {
+    scene_text::Place{name_, line + 1}.fail(what, found);
+  }
+  char at(std::size_t line, std::size_t column) const {
+    return column < lines_[line].size() ? lines_[line][column] : ' ';
+  }
+  double line_y(std::size_t line) const { return static_cast<double>(lines_.size() - 1 - line) / 2 + 0.5; }
+
+  void check_posts(std::size_t line, std::size_t c) const {
+    const char post = at(line, 4 * c);
+    if (!is_post(post)) fail(line, fmt::format("expected a post `o` at column {}", 4 * c + 1), std::string(1, post));
+    if (c == cols_) return;
+    const std::string wall{at(line, 4 * c + 1), at(line, 4 * c + 2), at(line, 4 * c + 3)};
+    if (wall != "---" && wall != "   ") {
+      fail(line, fmt::format("expected `---` or three blanks at column {}", 4 * c + 2), wall);
+    }
+  }
+  void check_cells(std::size_t line, std::size_t c) const {
+    const char wall = at(line, 4 * c);
+    if (wall != '|' && wall != ' ') {
+      fail(line, fmt::format("expected `|` or a blank at column {}", 4 * c + 1), std::string(1, wall));
+    }
+  }
+
+  /// Calls add(first - 0.5, last + 0.5) in cell coordinates for each run of walls.
+  template <class IsWall, class Add>
+  static void add_runs(std::size_t count, const IsWall& is_wall, const Add& add) {
+    for (std::size_t first = 0; first < count; ++first) {
+      if (!is_wall(first)) continue;
+      std::size_t last = first + 1;
+      while (last < count && is_wall(last)) ++last;
+      add(static_cast<double>(first) + 0.5, static_cast<double>(last) + 0.5);
+      first = last;
+    }
+  }
+
+  std::vector<double> find(char mark) const {
+    for (std::size_t i = 1; i < lines_.size(); i += 2) {
+      for (std::size_t c = 0; c < cols_; ++c) {
+        if (at(i, 4 * c + 2) == mark) return {static_cast<double>(c + 1), line_y(i)};
+      }
+    }
+    return {};
+  }
+
+  const std::string& name_;
+  std::vector<std::string_view> lines_;
+  std::size_t cols_ = 0;
+  std::size_t rows_ = 0;
+};
+
+}  // namespace
+
+bool is_micromouse(std::string_view bytes) {
+  const std::string_view line = first_line(bytes);
+  if (line.size() < 5 || line.size() % 4 != 1) return false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const bool fits = i % 4 == 0 ? is_post(line[i]) : line[i] == '-' || line[i] == ' ';
+    if (!fits) return false;
+  }
+  return true;
+}
+
+Scene read_micromouse(const InputFile& file, const Execution& execution) {
+  const Picture picture(file);
+  picture.check(execution);
+  return picture.scene();
+}
+
+}  // namespace warren

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Micromouse mazes as text: posts `o`, walls `---` and `|`, S and G in the middle of cells, the top line is the north.
+// 2 H + 1 lines of 4 W + 1 characters; blanks at the ends of lines may be missing. Read as a maze of unit walls.
+#pragma once
+
+#include <string_view>
+
+#include "parallel/execution.hpp"
+#include "worlds/input_file_io.hpp"
+#include "worlds/scene.hpp"
+
+namespace warren {
+
+/// Is the first line a row of posts?
+bool is_micromouse(std::string_view bytes);
+
+/// Walls on the unit grid, cell centres at 1..W x 1..H, the maze hint; walls in a row are joined. The goal is the first
+/// G in reading order. Throws InputError naming file, line and what was expected; Stopped.
+Scene read_micromouse(const InputFile& file, const Execution& execution);
+
+}  // namespace warren

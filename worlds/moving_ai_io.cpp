@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "worlds/moving_ai_io.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+#include "core/error.hpp"
+#include "worlds/scene_text.hpp"
+
+namespace warren {
+namespace {
+
+/// Lines without their ends, numbered from 1.
+class Lines {
+ public:
+  explicit Lines(const InputFile& file) : name_(file.name()), rest_(file.bytes()) {}
+  bool done() const { return rest_.empty(); }
+  std::string_view next() {
+    ++number_;
+    const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+    std::string_view line = rest_.substr(0, end);
+    rest_.remove_prefix(std::min(end + 1, rest_.size()));
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    return line;
+  }
+  scene_text::Place place() const { return {name_, number_}; }
+  std::size_t number() const { return number_; }
+
+ private:
+  const std::string& name_;
+  std::string_view rest_;
+  std::size_t number_ = 0;
+};
+
+bool is_blank(std::string_view line) { return line.find_first_not_of(" \t\r") == std::string_view::npos; }
+
+/// Fields between tabs; between blanks where the line has no tab.
+std::vector<std::string_view> fields_of(std::string_view line) {
+  const std::string_view marks = line.find('\t') != std::string_view::npos ? "\t" : " ";
+  std::vector<std::string_view> fields;
+  while (!line.empty()) {
+    const std::size_t end = std::min(line.find_first_of(marks), line.size());
+    std::string_view field = line.substr(0, end);
+    while (field.ends_with(' ')) field.remove_suffix(1);
+    while (field.starts_with(' ')) field.remove_prefix(1);
+    if (!field.empty()) fields.push_back(field);
+    line.remove_prefix(std::min(end + 1, line.size()));
+  }
+  return fields;
+}
+
+template <class T>
+T number(std::string_view field, const scene_text::Place& place, std::string_view what) {
+  T value{};
+  const auto [last, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+  if (error != std::errc() || last != field.data() + field.size()) place.fail(fmt::format("expected {}", what), field);
+  return value;
+}
+
+std::uint32_t size_line(Lines& lines, std::string_view word) {
+  const auto expected = fmt::format("`{} N`, N from 1 to 2147483647", word);
+  const std::vector<std::string_view> fields = lines.done() ? std::vector<std::string_view>{} : fields_of(lines.next());
+  if (fields.size() != 2 || fields[0] != word) {
+    lines.place().fail("expected " + expected, fields.empty() ? "" : fields[0]);
+  }
+  const auto value = number<std::uint32_t>(fields[1], lines.place(), expected);
+  if (value < 1 || value > 0x7fffffffU) lines.place().fail("expected " + expected, fields[1]);
+  return value;
+}
+
+/// Fills one row; returns how many cells are free.
+std::uint64_t fill_row(std::string_view line, std::uint32_t y, const scene_text::Place& place, OccupancyMap& map) {
+  std::uint64_t free = 0;
+  for (std::uint32_t x = 0; x < map.width(); ++x) {
+    switch (line[x]) {
+      case '.':
+      case 'G':
+      case 'S':
+        ++free;
+        break;
+      case 'W':
+        if (map.water.empty()) map.water = Bitmap(map.width(), map.height());
+        map.water.set(x, y);
+        [[fallthrough]];
+      case '@':
+      case 'O':
+      case 'T':
+        map.blocked.set(x, y);
+        break;
+      default:
+        place.fail(fmt::format("expected one of . G S W @ O T at column {}", x + 1), line.substr(x, 1));
+    }
+  }
+  return free;
+}
+
+}  // namespace
+
+OccupancyMap read_moving_ai_map(const InputFile& file, const Execution& execution) {
+  Lines lines(file);
+  const std::vector<std::string_view> type = fields_of(lines.next());
+  if (type.size() != 2 || type[0] != "type" || type[1] != "octile") {
+    lines.place().fail("expected `type octile`", type.empty() ? "" : type.back());
+  }
+  const std::uint32_t height = size_line(lines, "height");
+  const std::uint32_t width = size_line(lines, "width");
+  check_map_size(file.name(), width, height);
+  if (lines.done() || fields_of(lines.next()) != std::vector<std::string_view>{"map"}) {
+    lines.place().fail("expected `map`");
+  }
+  execution.reserve(std::size_t{width} * height / 4);
+  OccupancyMap map;
+  map.format = MapFormat::moving_ai;
+  map.source = file.name();
+  if (file.bytes().size() / width < height) {
+    throw InputError(file.name(), fmt::format("expected {} rows of {} cells; the file is too short", height, width));
+  }
+  map.blocked = Bitmap(width, height);
+  for (std::uint32_t row = 0; row < height; ++row) {
+    execution.check();
+    if (lines.done()) {
+      throw InputError(file.name(), fmt::format("expected {} rows after `map`", height), fmt::format("{}", row));
+    }
+    const std::string_view line = lines.next();
+    if (line.size() != width) {
+      lines.place().fail(fmt::format("expected a row of {} cells", width), fmt::format("{} characters", line.size()));
+    }
+    map.free += fill_row(line, height - 1 - row, lines.place(), map);
+  }
+  while (!lines.done()) {
+    if (!is_blank(lines.next())) lines.place().fail(fmt::format("expected nothing after {} rows", height));
+  }
+  map.occupied = map.blocked.size() - map.free;
+  return map;
+}
+
+namespace {
+
+Scenario scenario_of(std::string_view line, bool has_sizes, const scene_text::Place& place) {
+  const std::vector<std::string_view> fields = fields_of(line);
+  const std::size_t expected = has_sizes ? 9 : 7;
+  if (fields.size() != expected) {
+    place.fail(has_sizes ? "expected bucket, map, its width and height, start x y, goal x y, optimal length"
+                         : "expected bucket, map, start x y, goal x y, optimal length (version 0)",
+               fmt::format("{} fields", fields.size()));
+  }
+  std::size_t next = 0;
+  const auto whole = [&](std::string_view what) {
+    return number<std::uint32_t>(fields[next++], place, fmt::format("{}, a whole number that is not negative", what));
+  };
+  Scenario scenario;
+  scenario.line = place.line;
+  scenario.bucket = whole("the bucket");
+  scenario.map = fields[next++];
+  if (has_sizes) {
+    scenario.map_width = whole("the map's width");
+    scenario.map_height = whole("the map's height");
+  }
+  for (std::uint32_t* coordinate : {&scenario.start.x, &scenario.start.y, &scenario.goal.x, &scenario.goal.y}) {
+    *coordinate = whole("a coordinate");
+  }
+  scenario.length = number<double>(fields[next], place, "the optimal length");
+  if (!(scenario.length >= 0.0 && std::isfinite(scenario.length))) {
+    place.fail("expected the optimal length, not negative", fields[next]);
+  }
+  return scenario;
+}
+
+std::uint32_t scaled(std::uint32_t coordinate, std::uint32_t map_size, std::uint32_t scenario_size) {
+  if (scenario_size == 0 || scenario_size == map_size) return coordinate;
+  return static_cast<std::uint32_t>(std::uint64_t{coordinate} * map_size / scenario_size);
+}
+
+}  // namespace
+
+std::vector<Scenario> read_scenarios(const InputFile& file, const Execution& execution) {
+  Lines lines(file);
+  std::vector<Scenario> scenarios;
+  bool has_sizes = false;
+  bool first = true;
+  while (!lines.done()) {
+    const std::string_view line = lines.next();
+    if (lines.number() % 1024 == 0) execution.check();
+    if (is_blank(line)) continue;
+    if (first && line.starts_with("version")) {
+      const std::vector<std::string_view> fields = fields_of(line);
+      const double version = fields.size() == 2 ? number<double>(fields[1], lines.place(), "`version 1`") : -1.0;
+      if (version != 0.0 && version != 1.0) lines.place().fail("expected `version 1` or `version 0`", line);
+      has_sizes = version == 1.0;
+    } else {
+      scenarios.push_back(scenario_of(line, has_sizes, lines.place()));
+    }
+    first = false;
+  }
+  if (scenarios.empty()) throw InputError(file.name(), "expected scenarios: a line each, fields between tabs");
+  return scenarios;
+}
+
+Cell cell_of(const OccupancyMap& map, const Scenario& scenario, Cell from, const std::string& file) {
+  const std::uint32_t x = scaled(from.x, map.width(), scenario.map_width);
+  const std::uint32_t y = scaled(from.y, map.height(), scenario.map_height);
+  if (x >= map.width() || y >= map.height()) {
+    throw InputError(fmt::format("{}:{}", file, scenario.line),
+                     fmt::format("expected a cell of the {} x {} map", map.width(), map.height()),
+                     fmt::format("{}, {}", from.x, from.y));
+  }
+  return {x, map.height() - 1 - y};
+}
+
+Bitmap blocked_from(const OccupancyMap& map, Cell start) {
+  if (map.water.empty() || !map.water.test(start.x, start.y)) return map.blocked;
+  Bitmap blocked(map.width(), map.height(), true);
+  for (std::uint32_t y = 0; y < map.height(); ++y) {
+    for (std::uint32_t x = 0; x < map.width(); ++x) {
+      if (map.water.test(x, y)) blocked.clear(x, y);
+    }
+  }
+  return blocked;
+}
+
+}  // namespace warren

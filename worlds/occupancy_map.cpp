@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "worlds/occupancy_map.hpp"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/rng.hpp"
+
+namespace warren {
+namespace {
+
+Vec2 turned(Vec2 p, double angle_rad) {
+  if (angle_rad == 0.0) return p;
+  const double c = std::cos(angle_rad);
+  const double s = std::sin(angle_rad);
+  return {c * p.x - s * p.y, s * p.x + c * p.y};
+}
+
+}  // namespace
+
+Vec2 world_point(const OccupancyMap& map, Vec2 in_cells) {
+  return map.origin + turned(map.cell * in_cells, map.yaw_rad);
+}
+
+Vec2 map_point(const OccupancyMap& map, Vec2 in_world) {
+  const Vec2 p = turned(in_world - map.origin, -map.yaw_rad);
+  return {p.x / map.cell, p.y / map.cell};
+}
+
+Vec2 cell_centre(const OccupancyMap& map, Cell cell) { return world_point(map, {cell.x + 0.5, cell.y + 0.5}); }
+
+std::optional<Cell> cell_at(const OccupancyMap& map, Vec2 in_world) {
+  const Vec2 p = map_point(map, in_world);
+  if (!(p.x >= 0.0 && p.y >= 0.0 && p.x < map.width() && p.y < map.height())) return std::nullopt;
+  return Cell{static_cast<std::uint32_t>(p.x), static_cast<std::uint32_t>(p.y)};
+}
+
+std::string map_hash(const OccupancyMap& map) {
+  std::uint64_t hash = mix64(map.blocked.size() ^ (std::uint64_t{map.width()} << 32));
+  const auto add = [&](std::uint64_t word) { hash = mix64(hash * 0x9e3779b97f4a7c15U + word); };
+  for (const std::uint64_t word : map.blocked.words()) add(word);
+  for (const std::uint64_t word : map.water.words()) add(word);
+  for (const double number : {map.cell, map.origin.x, map.origin.y, map.yaw_rad}) {
+    add(std::bit_cast<std::uint64_t>(number + 0.0));
+  }
+  return fmt::format("{:016x}", hash);
+}
+
+void check_map_size(const std::string& where, std::uint64_t width, std::uint64_t height) {
+  constexpr std::uint64_t side_end = std::uint64_t{1} << 31;
+  constexpr std::uint64_t cells_end = std::uint64_t{1} << 32;
+  if (width < 1 || height < 1 || width >= side_end || height >= side_end || width * height >= cells_end) {
+    throw InputError(where, "a map has 1 to 2^32 - 1 cells", fmt::format("{} x {}", width, height));
+  }
+}
+
+}  // namespace warren

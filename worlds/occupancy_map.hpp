@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A map of cells, each a closed square that is blocked or free: what the readers of Moving AI, map server and maze
+// image files give. Row 0 is the bottom row, whatever the file's order; outside of the map everything is blocked.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/bitmap.hpp"
+#include "core/types.hpp"
+#include "parallel/execution.hpp"
+
+namespace warren {
+
+enum class MapFormat : std::uint8_t { moving_ai, ros, image };
+
+/// Number of a column and a row, row 0 at the bottom.
+struct Cell {
+  std::uint32_t x = 0;
+  std::uint32_t y = 0;
+  friend constexpr bool operator==(Cell, Cell) = default;
+};
+
+struct OccupancyMap {
+  MapFormat format = MapFormat::image;
+  Bitmap blocked;          ///< all cells that a robot may not touch: occupied, unknown, between the thresholds, water
+  Bitmap unknown;          ///< blocked because nothing is known; empty where there are none
+  Bitmap water;            ///< Moving AI: passable, but only from water; empty where there is none
+  std::uint64_t free = 0;  ///< cells; the four counts add up to all cells, water counts as occupied
+  std::uint64_t occupied = 0;
+  std::uint64_t unknown_count = 0;
+  std::uint64_t between = 0;  ///< map server, modes scale and raw: neither free nor occupied nor unknown
+  double cell = 1.0;          ///< side of a cell, in world units; > 0
+  Vec2 origin;                ///< lower left corner of cell (0, 0)
+  double yaw_rad = 0.0;       ///< the map is turned about its origin, counter-clockwise
+  std::optional<Vec2> start;  ///< world coordinates; maze images: the entrance in the first row
+  std::optional<Vec2> goal;
+  std::string source;
+
+  std::uint32_t width() const { return blocked.width(); }
+  std::uint32_t height() const { return blocked.height(); }
+};
+
+/// The world's point at map coordinates (cells; (0.5, 0.5) is the middle of the first cell), and back.
+Vec2 world_point(const OccupancyMap& map, Vec2 in_cells);
+Vec2 map_point(const OccupancyMap& map, Vec2 in_world);
+/// The middle of a cell, in world coordinates.
+Vec2 cell_centre(const OccupancyMap& map, Cell cell);
+/// The cell that holds a point (on a border: the upper or right one); nothing outside of the map.
+std::optional<Cell> cell_at(const OccupancyMap& map, Vec2 in_world);
+
+/// A 64-bit hash of blocked and water cells and of the map's place, as 16 hex digits.
+std::string map_hash(const OccupancyMap& map);
+
+/// Throws InputError unless 1 <= width, height < 2^31 and width x height < 2^32; `where` names the place.
+void check_map_size(const std::string& where, std::uint64_t width, std::uint64_t height);
+
+}  // namespace warren

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "worlds/pgm_io.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+#include "worlds/occupancy_map.hpp"
+#include "worlds/scene_text.hpp"
+
+namespace warren {
+namespace {
+
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\v' || c == '\f'; }
+
+/// Tokens between white space; `#` starts a comment to the end of the line.
+class Tokens {
+ public:
+  explicit Tokens(const InputFile& file) : name_(file.name()), rest_(file.bytes()) {}
+
+  std::uint32_t number(std::string_view what, std::uint32_t least, std::uint32_t most) {
+    skip();
+    const std::string_view word = rest_.substr(0, word_length());
+    std::uint32_t value = 0;
+    const auto [last, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (word.empty() || error != std::errc() || last != word.data() + word.size() || value < least || value > most) {
+      scene_text::Place{name_, line_}.fail(fmt::format("expected {}, {} to {}", what, least, most),
+                                           word.empty() ? "the end of the file" : word);
+    }
+    rest_.remove_prefix(word.size());
+    return value;
+  }
+  void magic() { rest_.remove_prefix(2); }
+  /// Exactly one byte stands between header and binary pixels.
+  std::string_view pixels() const { return rest_.substr(std::min<std::size_t>(1, rest_.size())); }
+
+ private:
+  void skip() {
+    while (!rest_.empty()) {
+      if (rest_.front() == '#') {
+        rest_.remove_prefix(std::min(rest_.find('\n'), rest_.size()));
+      } else if (is_space(rest_.front())) {
+        line_ += rest_.front() == '\n' ? 1 : 0;
+        rest_.remove_prefix(1);
+      } else {
+        return;
+      }
+    }
+  }
+  std::size_t word_length() const {
+    std::size_t n = 0;
+    while (n < rest_.size() && !is_space(rest_[n]) && rest_[n] != '#') ++n;
+    return n;
+  }
+
+  const std::string& name_;
+  std::string_view rest_;
+  std::size_t line_ = 1;
+};
+
+/// One sample of a binary row; two bytes, the high one first, where maxval is beyond 255.
+std::uint16_t sample(std::string_view bytes, std::size_t i, bool wide) {
+  const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(bytes[at]); };
+  return static_cast<std::uint16_t>(wide ? byte(2 * i) << 8 | byte(2 * i + 1) : byte(i));
+}
+
+void read_binary(const InputFile& file, const ImageHeader& header, std::string_view pixels, const ImageSink& sink,
+                 const Execution& execution) {
+  const bool wide = header.maximum > 255;
+  const std::size_t row_bytes = std::size_t{header.width} * (wide ? 2 : 1);
+  if (pixels.size() / row_bytes < header.height) {
+    throw InputError(file.name(),
+                     fmt::format("expected {} x {} pixels, {} bytes after the header", header.width, header.height,
+                                 row_bytes * header.height),
+                     fmt::format("{} bytes", pixels.size()));
+  }
+  std::vector<std::uint16_t> samples(header.width);
+  for (std::uint32_t y = 0; y < header.height; ++y) {
+    execution.check();
+    const std::string_view row = pixels.substr(y * row_bytes, row_bytes);
+    unsigned highest = 0;
+    for (std::uint32_t x = 0; x < header.width; ++x) {
+      samples[x] = sample(row, x, wide);
+      highest = std::max<unsigned>(highest, samples[x]);
+    }
+    if (highest > header.maximum) {
+      throw InputError(file.name(),
+                       fmt::format("expected pixels of at most {}, the maxval, in row {}", header.maximum, y),
+                       fmt::format("{}", highest));
+    }
+    sink.row({y, 0, 1, samples});
+  }
+}
+
+}  // namespace
+
+void read_pgm(const InputFile& file, const ImageSink& sink, const Execution& execution) {
+  constexpr std::uint32_t most_side = 0x7fffffff;
+  Tokens tokens(file);
+  tokens.magic();
+  ImageHeader header;
+  header.width = tokens.number("the width of a PGM image", 1, most_side);
+  header.height = tokens.number("the height of a PGM image", 1, most_side);
+  header.maximum = tokens.number("the maxval of a PGM image", 1, 65535);
+  check_map_size(file.name(), header.width, header.height);
+  sink.begin(header);
+  if (file.bytes()[1] == '5') return read_binary(file, header, tokens.pixels(), sink, execution);
+  std::vector<std::uint16_t> samples(header.width);
+  for (std::uint32_t y = 0; y < header.height; ++y) {
+    execution.check();
+    for (std::uint16_t& s : samples) s = static_cast<std::uint16_t>(tokens.number("a pixel", 0, header.maximum));
+    sink.row({y, 0, 1, samples});
+  }
+}
+
+}  // namespace warren

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// PGM in and out: P5 (binary) and P2 (ASCII) in, maxval up to 65535, comments anywhere in the header; P5 out.
+#pragma once
+
+#include <string>
+
+#include "worlds/image_io.hpp"
+
+namespace warren {
+
+/// As read_image, for a PGM. What follows the pixels is ignored.
+void read_pgm(const InputFile& file, const ImageSink& sink, const Execution& execution);
+
+}  // namespace warren
