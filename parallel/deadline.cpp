@@ -13,6 +13,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "core/page_pool.hpp"
+
 namespace warren {
 namespace {
 
@@ -70,13 +72,15 @@ std::size_t resident_bytes() {
   unsigned long long total = 0;
   unsigned long long resident = 0;
   if (!file || std::fscanf(file.get(), "%llu %llu", &total, &resident) != 2) return 0;
-  return static_cast<std::size_t>(resident) * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+  const auto bytes = static_cast<std::size_t>(resident) * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+  return bytes - std::min(bytes, PagePool::idle_bytes());
 }
 
 std::size_t peak_resident_bytes() {
   rusage usage{};
   if (::getrusage(RUSAGE_SELF, &usage) != 0) return 0;
-  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+  const std::size_t bytes = static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+  return bytes - std::min(bytes, PagePool::least_idle_bytes());
 }
 
 std::size_t available_bytes() {

@@ -49,7 +49,8 @@ class Deadline {
   const SignalFlag* signal_ = nullptr;
 };
 
-/// Bytes that this process holds now (resident set), and the most it has held; 0 where the system doesn't tell.
+/// Bytes that this process holds now (resident set), and the most it has held, without the pages that the calling
+/// thread keeps and has no use for (core/page_pool.hpp); 0 where the system doesn't tell.
 std::size_t resident_bytes();
 std::size_t peak_resident_bytes();
 /// Bytes that this process may hold: the smaller of the machine's memory that is available and the cgroup's limit.

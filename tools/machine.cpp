@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <fstream>
 
+#include "core/page_pool.hpp"
 #include "core/raw_vector.hpp"
 #include "parallel/chunks.hpp"
 #include "tools/human_units.hpp"
@@ -53,7 +54,10 @@ std::string text_of(const Machine& machine) {
                      human_bytes(static_cast<double>(machine.memory_bytes)));
 }
 
-void restart_peak_memory() { std::ofstream("/proc/self/clear_refs") << "5"; }
+void restart_peak_memory() {
+  std::ofstream("/proc/self/clear_refs") << "5";
+  PagePool::watch_idle_bytes();
+}
 
 void WarmMemory::prepare(std::size_t bytes, const Execution& execution) {
   constexpr std::size_t least = std::size_t{64} << 20;

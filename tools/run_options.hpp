@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/page_pool.hpp"
 #include "parallel/execution.hpp"
 #include "parallel/trace.hpp"
 #include "tools/arguments.hpp"
@@ -47,6 +48,7 @@ class Run {
   void end();
 
  private:
+  PagePool pages_;  // what one stage leaves is warm for the next
   Deadline deadline_;
   Progress progress_;
   std::optional<Trace> trace_;

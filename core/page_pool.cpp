@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/page_pool.hpp"
+
+#include <sys/mman.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <new>
+#include <vector>
+
+namespace warren {
+namespace {
+
+constexpr std::size_t huge_page = std::size_t{2} << 20;
+
+std::size_t whole_pages(std::size_t bytes) { return (bytes + huge_page - 1) / huge_page * huge_page; }
+
+/// A new range of addresses that begins at a huge page; nullptr if there is none.
+char* map_range(std::size_t bytes) noexcept {
+  constexpr int protection = PROT_READ | PROT_WRITE;
+  constexpr int flags = MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE;
+  if (bytes + huge_page < bytes) return nullptr;
+  void* const range = ::mmap(nullptr, bytes + huge_page, protection, flags, -1, 0);
+  if (range == MAP_FAILED) return nullptr;
+  char* const begin = static_cast<char*>(range);
+  const std::size_t skipped = (huge_page - reinterpret_cast<std::uintptr_t>(begin) % huge_page) % huge_page;
+  if (skipped > 0) ::munmap(begin, skipped);
+  if (skipped < huge_page) ::munmap(begin + skipped + bytes, huge_page - skipped);
+  ::madvise(begin + skipped, bytes, MADV_HUGEPAGE);  // a hint: nothing is lost where it is refused
+  return begin + skipped;
+}
+
+/// Pages that were mapped together: what one mremap can move.
+struct Piece {
+  char* at;
+  std::size_t bytes;
+};
+
+/// What one thread keeps. Invariants: pieces are whole huge pages, disjoint, mapped, and in nobody's use; idle is the
+/// sum of their sizes.
+class IdlePages {
+ public:
+  ~IdlePages() { give_back(); }
+
+  void enter() { ++scopes_; }
+  void leave() {
+    if (--scopes_ == 0) give_back();
+  }
+  bool open() const { return scopes_ > 0; }
+
+  void fill(char* block, std::size_t bytes);
+  void keep(char* block, std::size_t bytes);  ///< throws std::bad_alloc before it has changed anything that matters
+
+  std::size_t idle = 0;
+  std::size_t least_idle = 0;
+
+ private:
+  bool move_last_piece(char* to, std::size_t bytes);
+  void give_back() noexcept;
+
+  int scopes_ = 0;
+  std::vector<Piece> pieces_;
+  std::map<const char*, std::vector<std::size_t>> made_of_;  // the sizes of the pieces of a block, in their order
+};
+
+/// Backs a block with idle pages as far as they go; the rest stays as it is.
+void IdlePages::fill(char* block, std::size_t bytes) {
+  std::vector<std::size_t> sizes;
+  std::size_t filled = 0;
+  while (filled < bytes && !pieces_.empty()) {
+    const std::size_t part = std::min(bytes - filled, pieces_.back().bytes);
+    if (!move_last_piece(block + filled, part)) continue;
+    sizes.push_back(part);
+    filled += part;
+  }
+  if (filled < bytes) sizes.push_back(bytes - filled);
+  made_of_[block] = std::move(sizes);
+  least_idle = std::min(least_idle, idle);
+}
+
+/// Moves the end of the last piece. Where the system refuses, the piece is given up: pages are a hint, not a promise.
+bool IdlePages::move_last_piece(char* to, std::size_t bytes) {
+  Piece& piece = pieces_.back();
+  char* const from = piece.at + (piece.bytes - bytes);
+  if (::mremap(from, bytes, bytes, MREMAP_MAYMOVE | MREMAP_FIXED, to) == MAP_FAILED) {
+    constexpr int flags = MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_FIXED;
+    if (::mmap(to, bytes, PROT_READ | PROT_WRITE, flags, -1, 0) == MAP_FAILED) throw std::bad_alloc();
+    ::munmap(piece.at, piece.bytes);
+    idle -= piece.bytes;
+    pieces_.pop_back();
+    return false;
+  }
+  idle -= bytes;
+  piece.bytes -= bytes;
+  if (piece.bytes == 0) pieces_.pop_back();
+  return true;
+}
+
+void IdlePages::keep(char* block, std::size_t bytes) {
+  std::vector<std::size_t> sizes;
+  if (const auto known = made_of_.find(block); known != made_of_.end()) {
+    sizes = std::move(known->second);
+    made_of_.erase(known);
+  }
+  std::size_t sum = 0;
+  for (const std::size_t size : sizes) sum += size;
+  if (sum != bytes) sizes.assign(1, bytes);  // another thread's block, mapped at once
+  pieces_.reserve(pieces_.size() + sizes.size());
+  for (const std::size_t size : sizes) {
+    pieces_.push_back({block, size});
+    block += size;
+  }
+  idle += bytes;
+}
+
+void IdlePages::give_back() noexcept {
+  for (const Piece& piece : pieces_) ::munmap(piece.at, piece.bytes);
+  pieces_.clear();
+  idle = 0;
+  least_idle = 0;
+}
+
+IdlePages& idle_pages() {
+  thread_local IdlePages pages;
+  return pages;
+}
+
+}  // namespace
+
+PagePool::PagePool() { idle_pages().enter(); }
+PagePool::~PagePool() { idle_pages().leave(); }
+std::size_t PagePool::idle_bytes() noexcept { return idle_pages().idle; }
+std::size_t PagePool::least_idle_bytes() noexcept { return idle_pages().least_idle; }
+void PagePool::watch_idle_bytes() noexcept { idle_pages().least_idle = idle_pages().idle; }
+
+namespace detail {
+
+void* take_pages(std::size_t bytes) {
+  const std::size_t whole = whole_pages(bytes);
+  char* const block = whole < bytes ? nullptr : map_range(whole);
+  if (block == nullptr) throw std::bad_alloc();
+  if (IdlePages& pages = idle_pages(); pages.open()) pages.fill(block, whole);
+  return block;
+}
+
+void return_pages(void* block, std::size_t bytes) noexcept {
+  const std::size_t whole = whole_pages(bytes);
+  try {
+    if (IdlePages& pages = idle_pages(); pages.open()) return pages.keep(static_cast<char*>(block), whole);
+  } catch (const std::bad_alloc&) {  // no room for the note that says where the pages are: they go back
+  }
+  ::munmap(block, whole);
+}
+
+}  // namespace detail
+}  // namespace warren
