@@ -11,13 +11,15 @@ struct Counters {
   std::uint64_t neighbour_queries = 0;  ///< k-nearest or radius queries
   std::uint64_t edges_checked = 0;      ///< motions tested for collision
   std::uint64_t expanded = 0;           ///< vertices settled by the search
-  std::uint64_t rounds = 0;             ///< roadmaps built, or lazy repairs made
+  std::uint64_t rounds = 0;             ///< roadmaps built, lazy repairs or batches of trees made
+  std::uint64_t refused = 0;            ///< motions that were neither proved free nor blocked, of edges_checked
   Counters& operator+=(const Counters& o) {
     samples += o.samples;
     neighbour_queries += o.neighbour_queries;
     edges_checked += o.edges_checked;
     expanded += o.expanded;
     rounds += o.rounds;
+    refused += o.refused;
     return *this;
   }
   friend bool operator==(const Counters&, const Counters&) = default;

@@ -117,13 +117,15 @@ EdgeParts candidate_edges(const W& world, std::span<const typename W::State> mil
 template <World W>
 EdgeParts connect_milestones(const W& world, std::span<const typename W::State> milestones, const StateIndex<W>& index,
                              const ConnectionRule& rule, const Execution& execution, Counters& counters) {
-  std::vector<std::uint64_t> checked(chunk_count(milestones.size(), detail::connection_grain), 0);
+  std::vector<Counters> done(chunk_count(milestones.size(), detail::connection_grain));
   EdgeParts parts = detail::edges_that(world, milestones, index, rule, execution,
                                        [&](std::size_t chunk, VertexId i, VertexId j, typename W::Query& query) {
-                                         ++checked[chunk];
-                                         return world.is_free_motion(milestones[i], milestones[j], query);
+                                         const bool is_free = world.is_free_motion(milestones[i], milestones[j], query);
+                                         ++done[chunk].edges_checked;
+                                         done[chunk].refused = refused_motions(query);  // one query a chunk
+                                         return is_free;
                                        });
-  for (const std::uint64_t count : checked) counters.edges_checked += count;
+  for (const Counters& part : done) counters += part;
   counters.neighbour_queries += milestones.size();
   return parts;
 }
@@ -154,9 +156,11 @@ RawVector<Edge> attach(const W& world, std::span<const typename W::State> milest
     index.within(at, rule.radius, no_vertex, near);
   }
   try_all(false);
-  if (!edges.empty()) return edges;
-  index.nearest(at, farthest, no_vertex, near);
-  try_all(true);
+  if (edges.empty()) {
+    index.nearest(at, farthest, no_vertex, near);
+    try_all(true);
+  }
+  counters.refused += refused_motions(query);
   return edges;
 }
 
@@ -175,6 +179,7 @@ RawVector<Edge> attach_start_and_goal(const W& world, std::span<const typename W
   auto query = world.make_query();
   ++counters.edges_checked;
   if (world.is_free_motion(start, goal, query)) edges.push_back({start_vertex, goal_vertex});
+  counters.refused += refused_motions(query);
   return edges;
 }
 

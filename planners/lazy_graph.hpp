@@ -39,7 +39,11 @@ class LazyGraph {
   void record(std::vector<Edge>* edges) { recorded_ = edges; }
   std::uint64_t free_edges() const { return free_edges_; }
   /// Queries and checks so far.
-  const Counters& counters() const { return counters_; }
+  Counters counters() const {
+    Counters all = counters_;
+    all.refused = refused_motions(query_);
+    return all;
+  }
 
   /// The free edges of v of which visit.wants(w, length) says that they help.
   template <class Visit>

@@ -96,7 +96,7 @@ void LazyPlan<W>::draw(std::uint64_t samples) {
   }
   const StageTimer timer(execution_, "neighbours", solution_.seconds.neighbours, states_.size());
   index_ = index_of_states(world_, milestones(), execution_);
-  rule_ = connection_rule(options_, samples, sampled_area(world_));
+  rule_ = connection_rule_for(world_, options_, samples);
   solution_.roadmap = {states_.size(), 0, 0};
 }
 

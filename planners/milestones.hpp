@@ -16,6 +16,7 @@
 #include "core/world.hpp"
 #include "parallel/chunks.hpp"
 #include "planners/roadmap_options.hpp"
+#include "planners/sampler.hpp"
 #include "spatial/tile_order.hpp"
 
 namespace warren {
@@ -23,26 +24,6 @@ namespace warren {
 /// The index-th point of the lattice (1..cols) x (1..rows), row by row.
 constexpr Vec2 lattice_point(LatticeSize size, std::uint64_t index) {
   return {static_cast<double>(index % size.cols + 1), static_cast<double>(index / size.cols + 1)};
-}
-
-/// The index-th point of the Halton sequence in bases 2, 3, 5, 7, 11, 13, shifted by a random vector of the seed
-/// (Cranley-Patterson), so that seeds differ.
-template <std::size_t D>
-std::array<double, D> halton_point(std::uint64_t seed, std::uint64_t index) {
-  static_assert(D <= 6);
-  constexpr std::uint64_t bases[] = {2, 3, 5, 7, 11, 13};
-  std::array<double, D> point;
-  for (std::size_t axis = 0; axis < D; ++axis) {
-    double digit = 1.0;
-    double value = 0.0;
-    for (std::uint64_t i = index + 1; i > 0; i /= bases[axis]) {
-      digit /= static_cast<double>(bases[axis]);
-      value += digit * static_cast<double>(i % bases[axis]);
-    }
-    value += uniform(seed, 0, axis);
-    point[axis] = value < 1.0 ? value : value - 1.0;
-  }
-  return point;
 }
 
 /// The unit square cut into `count` strata: rows of equal height, as many as make the strata of a box of this height
@@ -179,6 +160,12 @@ RawVector<typename W::State> draw_milestones(const W& world, const RoadmapOption
     auto query = world.make_query();
     RawVector<typename W::State>& part = parts[r.first / grain];
     part.reserve(r.size());
+    if (looks_at_obstacles(options.sampler)) {
+      for (std::size_t i = r.first; i < r.last; ++i) {
+        if (const auto state = obstacle_sample(world, options.sampler, options.seed, i, query)) part.push_back(*state);
+      }
+      return;
+    }
     detail::for_each_sample(world, options, r, count, [&](const typename W::State& state) {
       if (world.is_free(state, query)) part.push_back(state);
     });

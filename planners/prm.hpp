@@ -86,7 +86,7 @@ EdgeParts PrmPlan<W>::connect(std::uint64_t samples) {
     index = index_of_states(world_, milestones(), execution_);
   }
   const StageTimer timer(execution_, "connect", solution_.seconds.connect, milestones().size());
-  const ConnectionRule rule = connection_rule(options_, samples, sampled_area(world_));
+  const ConnectionRule rule = connection_rule_for(world_, options_, samples);
   EdgeParts edges = connect_milestones(world_, milestones(), index, rule, execution_, solution_.counters);
   edges.push_back(attach_start_and_goal(world_, milestones(), index, rule, start_, goal_, solution_.counters));
   return edges;

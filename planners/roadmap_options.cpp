@@ -20,6 +20,9 @@ void RoadmapOptions::validate() const {
     throw InputError("radius", "must be a positive number", std::to_string(*radius));
   }
   if (neighbours && radius) throw InputError("radius", "replaces the number of neighbours: give one of the two");
+  if (star != StarRule::none && (neighbours || radius)) {
+    throw InputError("neighbours", "follow from the samples by the rules of PRM*: give a number or the rule");
+  }
   if (sampler == SamplerKind::lattice) {
     if (lattice.rows < 1 || lattice.cols < 1) throw InputError("lattice", "needs the rows and columns of the maze");
     if (std::uint64_t{lattice.rows} * lattice.cols > most_samples) {

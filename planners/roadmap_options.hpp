@@ -12,8 +12,11 @@ namespace warren {
 /// uniform: in the plane stratified, one sample drawn uniformly in each of as many equal boxes as there are samples,
 /// which joins mazes with a quarter of the milestones that independent draws need (docs/performance.md); else
 /// independent. lattice: the cell centres of a maze. halton: the Halton sequence, shifted by the seed. random:
-/// independent uniform.
-enum class SamplerKind : std::uint8_t { uniform, lattice, halton, random };
+/// independent uniform. gaussian, bridge, mixture: planners/sampler.hpp.
+enum class SamplerKind : std::uint8_t { uniform, lattice, halton, random, gaussian, bridge, mixture };
+/// The rules of PRM* (Karaman, Frazzoli, Int. J. Robotics Research 30(7), 2011), by which the number of neighbours or
+/// the radius follows the number of samples so that paths approach the shortest ones.
+enum class StarRule : std::uint8_t { none, neighbours, radius };
 enum class SearchKind : std::uint8_t { astar, dijkstra, bfs, dfs };
 enum class QueueKind : std::uint8_t { heap, lazy_heap, sorted_array, resorted_array };
 /// path: Bohlin and Kavraki 2000, check the edges of the path found, drop the bad ones, repair, repeat.
@@ -33,6 +36,7 @@ struct RoadmapOptions {
   std::optional<std::uint64_t> samples = {};     ///< states drawn, 1 .. 2^31; none: grow until start and goal connect
   std::optional<std::uint32_t> neighbours = {};  ///< k of the k nearest, 1 .. 4096; none: by the sampler's rule
   std::optional<double> radius = {};  ///< longest edge, world units, > 0 (replaces neighbours); none: by rule
+  StarRule star = StarRule::none;     ///< instead of neighbours and radius
   std::uint64_t seed = 1;             ///< any value
   SearchKind search = SearchKind::astar;
   QueueKind queue = QueueKind::heap;

@@ -72,4 +72,26 @@ inline ConnectionRule connection_rule(const RoadmapOptions& options, std::uint64
   return {std::sqrt(expected_neighbours * volume / (std::numbers::pi * static_cast<double>(samples))), 0};
 }
 
+/// Volume of the space that samples are drawn from, in the world's metric; 0 where the world doesn't tell.
+template <World W>
+double sampled_volume(const W& world) {
+  if constexpr (requires {
+                  { world.sampled_volume() } -> std::convertible_to<double>;
+                }) {
+    return world.sampled_volume();
+  } else {
+    return sampled_area(world);
+  }
+}
+
+/// k = e (1 + 1/d) ln n, or radius = 2 ((1 + 1/d) V / B ln n / n)^(1/d), with B the volume of the unit ball and V that
+/// of the sampled space, which is not less than the free one's. InputError where the world doesn't tell V.
+ConnectionRule star_rule(StarRule rule, std::uint64_t samples, std::size_t dimension, double volume);
+
+template <World W>
+ConnectionRule connection_rule_for(const W& world, const RoadmapOptions& options, std::uint64_t samples) {
+  if (options.star == StarRule::none) return connection_rule(options, samples, sampled_area(world));
+  return star_rule(options.star, samples, W::dimension, sampled_volume(world));
+}
+
 }  // namespace warren

@@ -68,6 +68,8 @@ class Se2World {
   MotionVerdict judge_motion(const State& a, const State& b, Query& query) const;
 
   double suggested_samples() const { return 400.0; }
+  /// Of the box times a full turn, in the metric.
+  double sampled_volume() const { return box_.width() * box_.height() * 2.0 * std::numbers::pi * angle_weight_; }
   std::span<const Vec2> outline() const { return outline_; }
   double radius() const { return radius_; }  ///< of the body: its farthest corner from the reference point
   double angle_weight() const { return angle_weight_; }

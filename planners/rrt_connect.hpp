@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// RRT-Connect (Kuffner, LaValle, ICRA 2000): a tree from the start and one from the goals. In turns, one grows a step
+// towards a sample, the other as far as it gets towards the new state; where it arrives, the trees are joined.
+// There may be many goals (a heading that doesn't matter, several inverse-kinematics branches): each is a root.
+// Cost a step: a neighbour query, O(log^2 n), and a few motion checks, which dominate. Not asymptotically optimal:
+// pull the path taut with planners/shortcut.hpp. Probabilistically complete; that there is no path is never proved.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "planners/motion_tree.hpp"
+#include "planners/separation.hpp"
+#include "planners/tree_race.hpp"
+
+namespace warren {
+
+namespace detail {
+
+/// One pair of trees.
+template <SteerableWorld W>
+class RrtConnectSearch {
+ public:
+  using State = typename W::State;
+
+  RrtConnectSearch(const W& world, const State& start, std::span<const State> goals, const RrtOptions& options,
+                   double step, std::uint64_t index)
+      : world_(&world),
+        options_(&options),
+        step_(step),
+        seed_(tree_seed(options.seed, index)),
+        query_(world.make_query()),
+        trees_{MotionTree<W>(world, GrowthDirection::forward), MotionTree<W>(world, GrowthDirection::backward)} {
+    trees_[0].add_root(start);
+    for (const State& goal : goals) trees_[1].add_root(goal);
+  }
+
+  void advance(std::uint64_t steps, const Execution& execution) {
+    for (std::uint64_t i = 0; i < steps && !arrived() && !gave_up(); ++i) {
+      execution.check();
+      take_step();
+    }
+    counters_.refused = refused_motions(query_);
+  }
+  bool arrived() const { return arrived_; }
+  bool gave_up() const { return node_count() >= options_->nodes || counters_.samples >= most_steps(); }
+  const Counters& counters() const { return counters_; }
+  void finish(Solution<State>& solution, Roadmap<State>* keep) const;
+
+ private:
+  /// Trees that are shut in on all sides never get their nodes.
+  std::uint64_t most_steps() const { return 64 * options_->nodes; }
+  std::size_t node_count() const { return trees_[0].size() + trees_[1].size(); }
+  void take_step();
+
+  const W* world_;
+  const RrtOptions* options_;
+  double step_;
+  std::uint64_t seed_;
+  typename W::Query query_;
+  std::array<MotionTree<W>, 2> trees_;  // from the start, from the goals
+  std::array<VertexId, 2> meeting_{};   // where they meet, in each tree
+  std::size_t turn_ = 0;                // whose turn it is
+  bool arrived_ = false;
+  Counters counters_;
+};
+
+template <SteerableWorld W>
+void RrtConnectSearch<W>::take_step() {
+  MotionTree<W>& mine = trees_[turn_];
+  MotionTree<W>& other = trees_[1 - turn_];
+  // The first targets are the other tree's roots: in the open that is all.
+  const bool straight = counters_.samples < 2;
+  const State target =
+      straight ? other.state(0) : target_state(*world_, options_->sampler, seed_, counters_.samples, query_);
+  ++counters_.samples;
+  const auto grown = mine.extend(mine.nearest(target, counters_), target, step_, query_, counters_);
+  if (grown) {
+    const VertexId reached =
+        other.connect(other.nearest(mine.state(*grown), counters_), mine.state(*grown), step_, query_, counters_);
+    arrived_ = other.state(reached) == mine.state(*grown);
+    meeting_[turn_] = *grown;
+    meeting_[1 - turn_] = reached;
+  }
+  turn_ = 1 - turn_;
+}
+
+template <SteerableWorld W>
+void RrtConnectSearch<W>::finish(Solution<State>& solution, Roadmap<State>* keep) const {
+  solution.roadmap = {node_count(), node_count() - 1, arrived_ ? 1U : 2U};
+  if (arrived_) {
+    solution.path = trees_[0].way_to_root(meeting_[0]);
+    std::reverse(solution.path.begin(), solution.path.end());
+    const std::vector<State> rest = trees_[1].way_to_root(meeting_[1]);
+    solution.path.insert(solution.path.end(), rest.begin() + 1, rest.end());
+  } else {
+    const auto points = [&](const MotionTree<W>& tree) {
+      std::vector<PointOf<embedding_dimension<W>>> embeddings;
+      for (const State& state : tree.states()) embeddings.push_back(embedded(*world_, state));
+      return embeddings;
+    };
+    solution.separation = separation_between<embedding_dimension<W>>(points(trees_[0]), points(trees_[1]), {});
+  }
+  if (keep != nullptr) keep_trees<W>(trees_, *keep);
+}
+
+}  // namespace detail
+
+/// Plans from start to one of the goals (at least one). Never throws Stopped: a deadline gives Outcome::stopped;
+/// InputError for options out of range. goal_blocked: none of the goals is free. not_connected: every pair of trees
+/// reached its number of nodes; the separation is the first one's. `keep`, where given, receives the trees that
+/// answered. The same for any number of threads.
+template <SteerableWorld W>
+Solution<typename W::State> rrt_connect(const W& world, const typename W::State& start,
+                                        std::span<const typename W::State> goals, const RrtOptions& options,
+                                        const Execution& execution, Roadmap<typename W::State>* keep = nullptr) {
+  return detail::race_trees<detail::RrtConnectSearch<W>>(world, start, goals, options, execution, keep);
+}
+
+}  // namespace warren

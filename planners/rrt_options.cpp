@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planners/rrt_options.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "core/error.hpp"
+
+namespace warren {
+
+void RrtOptions::validate() const {
+  if (sampler == SamplerKind::lattice) throw InputError("sampler", "lattice is for roadmaps of mazes, not for trees");
+  if (step && !(*step > 0.0 && std::isfinite(*step))) {
+    throw InputError("step", "must be a positive number", std::to_string(*step));
+  }
+  if (!(goal_bias >= 0.0 && goal_bias <= 1.0)) {
+    throw InputError("goal bias", "must be from 0 to 1", std::to_string(goal_bias));
+  }
+  if (nodes < 2 || nodes > std::uint64_t{1} << 31) {
+    throw InputError("nodes", "must be from 2 to 2^31", std::to_string(nodes));
+  }
+  if (trees < 1 || trees > 4096) throw InputError("trees", "must be from 1 to 4096", std::to_string(trees));
+}
+
+}  // namespace warren

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How trees are grown: the options that rrt and rrt_connect share, as plain aggregates.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "planners/roadmap_options.hpp"
+
+namespace warren {
+
+/// validate() refuses values outside the stated ranges with InputError.
+struct RrtOptions {
+  SamplerKind sampler = SamplerKind::uniform;  ///< not lattice
+  std::optional<double> step = {};             ///< longest motion of a tree, in the world's metric, > 0; none: by world
+  double goal_bias = 0.05;                     ///< share of the samples that are the goal, 0 .. 1; only for rrt
+  /// A tree of so many gives up (rrt_connect: start's and goal's together), and after 64 times as many samples.
+  std::uint64_t nodes = 100'000;  ///< 2 .. 2^31
+  std::uint32_t trees = 1;        ///< grown independently at once, 1 .. 4096; the first to arrive answers
+  std::uint64_t seed = 1;         ///< any value
+
+  void validate() const;
+};
+
+}  // namespace warren

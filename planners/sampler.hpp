@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where states come from, for any world: the index-th sample of a seed, a pure function of the arguments.
+//
+// uniform, random: independent and uniform. halton: the Halton sequence shifted by the seed. gaussian (Boor, Overmars,
+// van der Stappen, ICRA 1999): a free state with a blocked one nearby, so samples crowd along the obstacles. bridge
+// (Hsu, Jiang, Reif, Sun, ICRA 2003): a free state halfway between two blocked ones, so samples crowd in narrow
+// passages. mixture: of four samples two are uniform, one gaussian and one bridge. "Nearby" is a normal deviate in each
+// coordinate of the unit cube that states are made from, mirrored at its faces.
+// gaussian and bridge try up to 32 pairs a sample and cost as many collision tests; where none will do there is no
+// sample, and in trees, which need one, a uniform one.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <optional>
+
+#include "core/rng.hpp"
+#include "core/world.hpp"
+#include "planners/roadmap_options.hpp"
+
+namespace warren {
+
+/// The index-th point of the Halton sequence in bases 2, 3, 5, 7, 11, 13, shifted by a random vector of the seed
+/// (Cranley-Patterson), so that seeds differ.
+template <std::size_t D>
+std::array<double, D> halton_point(std::uint64_t seed, std::uint64_t index) {
+  static_assert(D <= 6);
+  constexpr std::uint64_t bases[] = {2, 3, 5, 7, 11, 13};
+  std::array<double, D> point;
+  for (std::size_t axis = 0; axis < D; ++axis) {
+    double digit = 1.0;
+    double value = 0.0;
+    for (std::uint64_t i = index + 1; i > 0; i /= bases[axis]) {
+      digit /= static_cast<double>(bases[axis]);
+      value += digit * static_cast<double>(i % bases[axis]);
+    }
+    value += uniform(seed, 0, axis);
+    point[axis] = value < 1.0 ? value : value - 1.0;
+  }
+  return point;
+}
+
+/// Do samples of this kind depend on what is free?
+constexpr bool looks_at_obstacles(SamplerKind kind) {
+  return kind == SamplerKind::gaussian || kind == SamplerKind::bridge || kind == SamplerKind::mixture;
+}
+
+namespace detail {
+
+inline constexpr std::uint64_t sample_tries = 32;
+inline constexpr double gaussian_spread = 0.05;  ///< standard deviation in unit coordinates
+inline constexpr double bridge_spread = 0.1;
+
+/// A standard normal deviate: Box, Muller, Ann. Math. Statist. 29 (1958).
+inline double normal(std::uint64_t seed, std::uint64_t index, std::uint64_t axis) {
+  const double radius = std::sqrt(-2.0 * std::log1p(-uniform(seed, index, 2 * axis)));
+  return radius * std::cos(2.0 * std::numbers::pi * uniform(seed, index, 2 * axis + 1));
+}
+
+/// Into [0, 1), mirrored at the ends; x within a few units of it.
+inline double mirrored(double x) {
+  x = std::abs(std::remainder(x, 2.0));
+  return x < 1.0 ? x : std::nextafter(1.0, 0.0);
+}
+
+/// A pair of points of the unit cube, `spread` apart in each coordinate on average.
+template <std::size_t D>
+struct UnitPair {
+  std::array<double, D> a;
+  std::array<double, D> b;
+  UnitPair(std::uint64_t seed, std::uint64_t index, std::uint64_t attempt, double spread) {
+    const std::uint64_t base = 16 + attempt * 4 * D;  // axes below 16 are the uniform sample's
+    for (std::size_t axis = 0; axis < D; ++axis) {
+      a[axis] = uniform(seed, index, base + axis);
+      b[axis] = mirrored(a[axis] + spread * normal(seed, index, base / 2 + D + axis));
+    }
+  }
+};
+
+template <World W>
+std::optional<typename W::State> gaussian_state(const W& world, std::uint64_t seed, std::uint64_t index,
+                                                typename W::Query& query) {
+  for (std::uint64_t attempt = 0; attempt < sample_tries; ++attempt) {
+    const UnitPair<W::dimension> pair(seed, index, attempt, gaussian_spread);
+    const auto a = world.at_unit(pair.a);
+    const auto b = world.at_unit(pair.b);
+    const bool a_is_free = world.is_free(a, query);
+    if (a_is_free != world.is_free(b, query)) return a_is_free ? a : b;
+  }
+  return std::nullopt;
+}
+
+template <World W>
+std::optional<typename W::State> bridge_state(const W& world, std::uint64_t seed, std::uint64_t index,
+                                              typename W::Query& query) {
+  for (std::uint64_t attempt = 0; attempt < sample_tries; ++attempt) {
+    const UnitPair<W::dimension> pair(seed, index, attempt, bridge_spread);
+    if (world.is_free(world.at_unit(pair.a), query) || world.is_free(world.at_unit(pair.b), query)) continue;
+    std::array<double, W::dimension> middle;
+    for (std::size_t axis = 0; axis < W::dimension; ++axis) middle[axis] = 0.5 * (pair.a[axis] + pair.b[axis]);
+    const auto state = world.at_unit(middle);
+    if (world.is_free(state, query)) return state;
+  }
+  return std::nullopt;
+}
+
+}  // namespace detail
+
+/// A free state, for the kinds that look at obstacles; nothing where none was found.
+template <World W>
+std::optional<typename W::State> obstacle_sample(const W& world, SamplerKind kind, std::uint64_t seed,
+                                                 std::uint64_t index, typename W::Query& query) {
+  const std::uint64_t turn = kind == SamplerKind::mixture ? index % 4 : 0;
+  if (kind == SamplerKind::gaussian || turn == 1) return detail::gaussian_state(world, seed, index, query);
+  if (kind == SamplerKind::bridge || turn == 3) return detail::bridge_state(world, seed, index, query);
+  const auto state = uniform_state(world, seed, index);
+  if (!world.is_free(state, query)) return std::nullopt;
+  return state;
+}
+
+/// A state to grow towards: free or not.
+template <World W>
+typename W::State target_state(const W& world, SamplerKind kind, std::uint64_t seed, std::uint64_t index,
+                               typename W::Query& query) {
+  if (looks_at_obstacles(kind)) {
+    if (const auto state = obstacle_sample(world, kind, seed, index, query)) return *state;
+  }
+  if (kind == SamplerKind::halton) return world.at_unit(halton_point<W::dimension>(seed, index));
+  return uniform_state(world, seed, index);
+}
+
+}  // namespace warren

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "spatial/growing_tree.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/rng.hpp"
+
+namespace warren {
+namespace {
+
+template <int D>
+PointOf<D> random_point(std::uint64_t seed, std::uint64_t index) {
+  // On a coarse grid for some seeds, so that points and distances tie.
+  const auto coordinate = [&](std::uint64_t axis) {
+    const double u = uniform(seed, index, axis);
+    return seed % 3 == 0 ? std::floor(8.0 * u) : u;
+  };
+  if constexpr (D == 2) {
+    return {coordinate(0), coordinate(1)};
+  } else {
+    PointOf<D> point;
+    for (std::size_t axis = 0; axis < D; ++axis) point[axis] = coordinate(axis);
+    return point;
+  }
+}
+
+template <int D>
+double distance_between(const PointOf<D>& a, const PointOf<D>& b) {
+  if constexpr (D == 2) {
+    return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y));
+  } else {
+    double sum = 0.0;
+    for (std::size_t axis = 0; axis < D; ++axis) sum += (a[axis] - b[axis]) * (a[axis] - b[axis]);
+    return std::sqrt(sum);
+  }
+}
+
+/// After every insertion one query, against a plain loop.
+template <int D>
+void expect_as_brute_force(std::uint64_t seed, std::size_t count) {
+  SCOPED_TRACE(testing::Message() << "D " << D << " seed " << seed);
+  GrowingTree<D> tree;
+  std::vector<PointOf<D>> points;
+  for (std::size_t i = 0; i < count; ++i) {
+    points.push_back(random_point<D>(seed, i));
+    tree.insert(points.back());
+    ASSERT_EQ(tree.size(), points.size());
+    const PointOf<D> query = random_point<D>(seed + 100, i);
+    Neighbour best{0, std::numeric_limits<double>::infinity()};
+    for (std::size_t j = 0; j < points.size(); ++j) {
+      const double d = distance_between<D>(points[j], query);
+      if (d < best.distance) best = {static_cast<VertexId>(j), d};
+    }
+    ASSERT_EQ(tree.nearest(query), best) << i;
+  }
+}
+
+TEST(GrowingTree, FindsTheNearestAtEverySizeAsBruteForceDoes) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    expect_as_brute_force<2>(seed, 700);
+    expect_as_brute_force<4>(seed, 700);
+  }
+  expect_as_brute_force<3>(1, 1500);
+  expect_as_brute_force<6>(1, 1500);
+}
+
+}  // namespace
+}  // namespace warren
