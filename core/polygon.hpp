@@ -29,7 +29,7 @@ struct PolygonSet {
   }
 };
 
-/// What blocks the plane: polygons that run counter-clockwise, each simple, with three or more corners, no two in a
+/// What blocks the plane: polygons that run anticlockwise, each simple, with three or more corners, no two in a
 /// row equal (checked where they are read, not here); walls; and the bounds, whose four sides are walls.
 struct PlaneObstacles {
   PolygonSet polygons;

@@ -1,19 +1,90 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Joins polygons and walls of the plane with the planners that take them: a point or disc among polygons. This version
-// has no planner for it yet.
+// A point or disc among polygons and walls: joins worlds/polygon_world with the planners that sample it.
+#include <optional>
+
+#include "core/error.hpp"
+#include "planners/lazy_prm.hpp"
+#include "planners/prm.hpp"
+#include "planners/taut_path.hpp"
 #include "tools/solve_kind.hpp"
+#include "tools/verified_answer.hpp"
+#include "worlds/plane_obstacles.hpp"
+#include "worlds/polygon_world.hpp"
 
 namespace warren {
 namespace {
 
+constexpr std::string_view roadmap_options =
+    "--sampler --samples --neighbours --radius --search --queue --lazy --pipeline --optimise";
+constexpr PlannerChoice planners[] = {{PlannerKind::prm, roadmap_options}, {PlannerKind::lazy_prm, roadmap_options}};
+
 bool fits_plane(const Scene& scene, const RobotSpec& robot) {
-  return (robot.kind == RobotKind::point || robot.kind == RobotKind::disc) && scene.spheres.empty();
+  const bool plain = robot.kind == RobotKind::point || robot.kind == RobotKind::disc;
+  return plain && scene.spheres.empty();
+}
+
+PlannerKind usual_planner(const Arguments&, const Scene&, const ProblemOptions&) { return PlannerKind::lazy_prm; }
+
+/// prm and lazy-prm in a polygon world.
+class SampledSolve {
+ public:
+  SampledSolve(const SolveRequest& request, const WallProblem& problem, const PlannerOptions& options)
+      : request_(request), problem_(problem), options_(options) {
+    describe_roadmap_planner(answer_, problem, options);
+  }
+  void run() {
+    const Execution& execution = request_.execution;
+    index();
+    const auto planner = options_.planner == PlannerKind::prm ? prm<PolygonWorld> : lazy_prm<PolygonWorld>;
+    take_solution(answer_, planner(*world_, problem_.start, problem_.goal, options_.roadmap, execution,
+                                   request_.drawing != nullptr ? &request_.drawing->roadmap : nullptr));
+    settle_blocked_ends(answer_, request_.scene, problem_, execution);
+    if (options_.optimise && answer_.outcome == Outcome::solved) optimise();
+    verify_solved(answer_, request_.scene, problem_, execution);
+  }
+  Answer& answer() { return answer_; }
+
+ private:
+  void index() {
+    const StageTimer timer(request_.execution, "index", answer_.seconds.index, request_.scene.polygons.size());
+    world_.emplace(request_.scene, problem_.reach(), request_.execution);
+  }
+  void optimise() {
+    const StageTimer timer(request_.execution, "optimise", answer_.seconds.optimise, answer_.path.size());
+    answer_.raw_length = path_length(answer_.path, PolygonWorld::distance);
+    answer_.path = taut_path(world_->sides(), answer_.path, world_->planning_clearance(), request_.execution);
+  }
+
+  const SolveRequest& request_;
+  const WallProblem& problem_;
+  const PlannerOptions& options_;
+  std::optional<PolygonWorld> world_;
+  Answer answer_;
+};
+
+Answer solve_sampled(const SolveRequest& request) {
+  if (request.problem.contact == Contact::allowed) {
+    throw UsageError("--contact: prm and lazy-prm keep off the walls, so 'allowed' would change nothing");
+  }
+  const WallProblem problem = wall_problem(request.scene, request.problem);
+  const PlannerOptions options = planner_options(request.arguments, request.scene, problem);
+  SampledSolve solve(request, problem, options);
+  answer_within_limits(solve.answer(), [&] { solve.run(); });
+  return std::move(solve.answer());
+}
+
+Answer solve(const SolveRequest& request) { return solve_sampled(request); }
+
+Verdict verify(const Scene& scene, const ProblemOptions& options, const RecordedAnswer& answer,
+               const Execution& execution) {
+  check_polygons(scene, execution);
+  return verify_plane_answer(scene, wall_problem(scene, options), answer, execution);
 }
 
 }  // namespace
 
 SolveKind plane_kind() {
-  return {"a point or disc among polygons", fits_plane, {}, {}, nullptr, nullptr, nullptr, nullptr};
+  return {"a point or disc among polygons", fits_plane, planners, {}, usual_planner, solve, nullptr, verify};
 }
 
 }  // namespace warren

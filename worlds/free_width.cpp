@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "worlds/free_width.hpp"
+
+namespace warren {
+
+double free_width(const WallIndex& index, const Box& box, const Segment& wall, double side) {
+  const Vec2 along = wall.b - wall.a;
+  const double length = norm(along);
+  if (length == 0.0) return 0.0;
+  const Vec2 middle = 0.5 * (wall.a + wall.b);
+  const Vec2 normal = (side / length) * Vec2{-along.y, along.x};
+  const double farthest = box.width() + box.height();
+  const double step = 1e-3 * std::min(length, farthest);
+  const auto blocked = [&](double t) { return index.blocks(middle + step * normal, middle + t * normal); };
+  double far = 2.0 * step;
+  while (far < farthest && !blocked(far)) far *= 2.0;
+  if (far >= farthest) return 0.0;
+  double near = 0.5 * far;
+  while (far - near > 0.01 * far) {
+    const double t = 0.5 * (near + far);
+    (blocked(t) ? far : near) = t;
+  }
+  return far;
+}
+
+double samples_for_width(double width, double area, double clearance) {
+  constexpr double samples_a_square = 4.5;
+  const double free = std::max(width - 2.0 * clearance, 0.1 * width);
+  return samples_a_square * area / (free * free);
+}
+
+}  // namespace warren

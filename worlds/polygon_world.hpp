@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A point or disc among simple polygons, walls and bounds: polygons convex or not, apart, touching, sharing corners and
+// sides, overlapping (their union is blocked). Every point of a motion keeps the clearance from every wall and outline;
+// with clearance 0 it keeps off them (positive distance, decided exactly). The reference point stays in the box of the
+// obstacles, or strictly inside the bounds. Planning widens the clearance by the factor 1 + 1e-9, so that rounding
+// can't fail the verification. A state costs the walls and outlines near it (spatial/wall_index) and a descent to the
+// polygon around it (spatial/polygon_index), whatever the number of polygons; a motion only the former, since who
+// starts outside and crosses no outline stays outside.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/types.hpp"
+#include "core/world.hpp"
+#include "parallel/execution.hpp"
+#include "spatial/polygon_index.hpp"
+#include "spatial/wall_index.hpp"
+#include "worlds/scene.hpp"
+
+namespace warren {
+
+/// Immutable after construction; one Query a thread.
+class PolygonWorld {
+ public:
+  static constexpr std::size_t dimension = 2;
+  using State = Vec2;
+  struct Query {};
+
+  /// clearance >= 0 and finite (InputError otherwise). Throws InputError for polygons that are not simple, naming their
+  /// line, and for a scene without any obstacle.
+  PolygonWorld(const Scene& scene, double clearance, const Execution& execution);
+
+  Query make_query() const { return {}; }
+  State at_unit(const std::array<double, 2>& u) const {
+    return {box_.min.x + u[0] * box_.width(), box_.min.y + u[1] * box_.height()};
+  }
+  bool is_free(const State& a, Query&) const noexcept {
+    return box_.contains(a) && sides_.keeps_clearance(a, a, planning_clearance_) && !polygons_.polygon_around(a);
+  }
+  /// If both ends are free.
+  bool is_free_motion(const State& a, const State& b, Query&) const noexcept {
+    return sides_.keeps_clearance(a, b, planning_clearance_);
+  }
+  static double distance(const State& a, const State& b) { return warren::distance(a, b); }
+  std::array<double, 2> embed(const State& a) const { return {a.x, a.y}; }
+
+  /// Area of the box that uniform samples are drawn from.
+  double sampled_area() const { return box_.width() * box_.height(); }
+  /// Uniform samples that a first roadmap needs: 4.5 for each square as wide as a typical gap, at least 500 and at most
+  /// 8 a corner beyond that. A pure function of the obstacles.
+  double suggested_samples() const;
+
+  const Box& box() const { return box_; }
+  double clearance() const { return clearance_; }
+  double planning_clearance() const { return planning_clearance_; }  ///< what motions keep: clearance (1 + 1e-9)
+  const WallIndex& sides() const { return sides_; }                  ///< walls, outlines and bounds
+  const PolygonIndex& polygons() const { return polygons_; }
+
+ private:
+  Box box_;
+  double clearance_;
+  double planning_clearance_;
+  PolygonIndex polygons_;
+  WallIndex sides_;
+};
+
+static_assert(World<PolygonWorld>);
+
+}  // namespace warren

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Is a closed outline simple: does it neither cross nor touch itself? Small ones by comparing all sides, others by
+// sweeping a line over them (Shamos, Hoey 1976), which stops at the first contact: O(n log n), exact, whatever the
+// shape: neighbours on the line are compared, and where the outline meets itself first, two neighbours meet. Corners
+// are ordered by x, then y, as if the line leaned a little, so vertical sides and equal x need no rule of their own.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include "core/types.hpp"
+#include "parallel/execution.hpp"
+
+namespace warren {
+
+/// Two sides that meet where they must not; side i begins in corner i.
+struct SideContact {
+  std::size_t first;
+  std::size_t second;
+};
+
+/// At least three corners, no two in a row equal. Sides that follow each other may meet in their corner alone. Throws
+/// Stopped.
+std::optional<SideContact> self_contact(std::span<const Vec2> corners, const Execution& execution);
+
+}  // namespace warren
