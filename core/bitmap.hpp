@@ -12,6 +12,13 @@
 
 namespace warren {
 
+/// Number of a column and a row; row 0 is the bottom row where a map is meant.
+struct Cell {
+  std::uint32_t x = 0;
+  std::uint32_t y = 0;
+  friend constexpr bool operator==(Cell, Cell) = default;
+};
+
 /// width x height bits; x runs along a row. Owns its words; any number of threads may read, and write different rows.
 class Bitmap {
  public:

@@ -16,13 +16,6 @@ namespace warren {
 
 enum class MapFormat : std::uint8_t { moving_ai, ros, image };
 
-/// Number of a column and a row, row 0 at the bottom.
-struct Cell {
-  std::uint32_t x = 0;
-  std::uint32_t y = 0;
-  friend constexpr bool operator==(Cell, Cell) = default;
-};
-
 struct OccupancyMap {
   MapFormat format = MapFormat::image;
   Bitmap blocked;          ///< all cells that a robot may not touch: occupied, unknown, between the thresholds, water

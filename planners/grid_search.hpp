@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Shortest paths over the cells of an occupancy map, without an explicit graph: the steps of a cell are looked up by
+// the nine bits around it. A* and Dijkstra with exact octile, unit or Manhattan costs, breadth-first search, and jump
+// point search (planners/jump_point_search). Moving AI's rule: a diagonal step needs both cells beside it free, so a
+// point never touches the closed square of a blocked cell.
+//
+// One bit a cell for the map; 12 bytes a cell for A* and Dijkstra, allocated at the first such search and cleared by
+// blocks of what the last one touched, so that thousands of searches on one map cost what they expand; 1 byte a cell
+// for breadth-first search.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/bitmap.hpp"
+#include "core/search.hpp"
+#include "parallel/execution.hpp"
+
+namespace warren {
+
+/// What a diagonal step costs; none: sides only. A step to the side costs 1.
+enum class Diagonal : std::uint8_t { sqrt2, unit, none };
+
+/// bfs minimises steps. jump_points: the same lengths as astar, only with Diagonal::sqrt2.
+enum class GridMethod : std::uint8_t { astar, dijkstra, bfs, jump_points };
+
+struct GridSearchOptions {
+  Diagonal diagonal = Diagonal::sqrt2;
+  GridMethod method = GridMethod::astar;
+};
+
+struct GridPath {
+  SearchStatus status = SearchStatus::exhausted;  ///< exhausted: no path over cells; also where an end is blocked
+  std::vector<Cell> cells;     ///< start to goal, each a step from the one before; empty unless found
+  double cost = 0.0;           ///< sideways steps + diagonal steps times their cost
+  std::uint64_t expanded = 0;  ///< cells settled
+};
+
+/// A map made ready for searches. Owns its scratch: one at a time, one object a thread.
+class GridSearch {
+ public:
+  /// blocked: set bits are blocked; what lies outside is blocked. Throws InputError for maps of about 2^32 cells.
+  explicit GridSearch(const Bitmap& blocked);
+  ~GridSearch();
+  GridSearch(GridSearch&&) noexcept;
+  GridSearch& operator=(GridSearch&&) noexcept;
+
+  /// Throws InputError for cells outside the map and for jump points with other diagonals than sqrt2, Stopped.
+  GridPath find(Cell start, Cell goal, const GridSearchOptions& options, const Execution& execution);
+
+ private:
+  struct Scratch;
+  std::unique_ptr<Scratch> scratch_;
+};
+
+/// Sideways steps + diagonal steps times their cost: exact to one rounding.
+double cost_of(const std::vector<Cell>& cells, Diagonal diagonal);
+
+}  // namespace warren

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which cells of a bitmap are free, with a margin of blocked ones, so that a search needs no test for the border: a
+// cell's number is its bit's position, a neighbour is a constant away, and 64 cells of a row are one load. One bit a
+// cell, rows rounded up to 64 with at least one blocked cell between them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/bitmap.hpp"
+#include "core/raw_vector.hpp"
+#include "core/types.hpp"
+
+namespace warren {
+
+/// Immutable; any number of threads may read. Cells are numbered by VertexId: number(x, y) = (y + 1) stride + x + 64.
+class FreeCells {
+ public:
+  FreeCells() = default;
+  /// Throws InputError where the padded map would have 2^32 cells or more.
+  explicit FreeCells(const Bitmap& blocked);
+
+  std::uint32_t width() const { return width_; }
+  std::uint32_t height() const { return height_; }
+  std::uint32_t stride() const { return stride_; }
+  /// One more than the largest number of a cell.
+  std::size_t number_end() const { return number_end_; }
+  std::size_t bytes() const { return words_.size() * sizeof(std::uint64_t); }
+
+  VertexId number(Cell c) const { return (c.y + 1) * stride_ + c.x + margin; }
+  Cell cell(VertexId v) const {
+    const VertexId from_margin = v - margin;
+    auto row = static_cast<VertexId>(from_margin * per_stride_);
+    if (from_margin - row * stride_ >= stride_) from_margin < row* stride_ ? --row : ++row;  // the product was rounded
+    return {from_margin - row * stride_, row - 1};
+  }
+  bool is_free(VertexId v) const { return (words_[v / 64] >> v % 64 & 1U) != 0; }
+  /// Bit i: is cell first + i free? `first` may be any number of a cell, less at most a row, 64 and one.
+  std::uint64_t from(VertexId first) const {
+    const std::uint32_t shift = first % 64;
+    return words_[first / 64] >> shift | words_[first / 64 + 1] << 1 << (63 - shift);
+  }
+  /// Bits 0-2: the three cells below v, from the left; 3-5: v's row; 6-8: the row above.
+  unsigned around(VertexId v) const {
+    return static_cast<unsigned>((from(v - stride_ - 1) & 7U) | (from(v - 1) & 7U) << 3 |
+                                 (from(v + stride_ - 1) & 7U) << 6);
+  }
+
+ private:
+  static constexpr VertexId margin = 64;
+  std::uint32_t width_ = 0;
+  std::uint32_t height_ = 0;
+  std::uint32_t stride_ = 64;
+  double per_stride_ = 1.0 / 64;
+  std::size_t number_end_ = 0;
+  RawVector<std::uint64_t> words_;
+};
+
+/// The bitmap with rows and columns exchanged.
+Bitmap transposed(const Bitmap& bitmap);
+
+/// The eight steps from a cell, by ascending number of the cell that they lead to.
+inline constexpr std::array<std::array<int, 2>, 8> cell_steps{
+    {{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
+constexpr bool is_diagonal(unsigned step) { return step == 0 || step == 2 || step == 5 || step == 7; }
+
+/// Which steps are allowed: sides only; or diagonals too, where both cells beside them are free (Moving AI's rule); or
+/// diagonals wherever the cell that they lead to is free.
+enum class StepRule : std::uint8_t { four, eight, eight_squeezing };
+
+/// For each of the 512 neighbourhoods (FreeCells::around) a bit for each allowed step of cell_steps.
+const std::array<std::uint8_t, 512>& allowed_steps(StepRule rule);
+
+}  // namespace warren
