@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The queues of the search: the hold model (pop the least, push it back a little later) at a constant size, and A* on a
-// maze with loops and on a random geometric graph. Items are pops, or vertices settled. All queues pop in the same
-// order, which is checked by the path.
+// maze with loops and on a random geometric graph. Items are pops, or vertices settled; bytes are those of an entry.
+// All queues pop in the same order, which is checked against the unordered array, and by the path.
 #include <benchmark/benchmark.h>
 
-#include <cstdlib>
-
+#include "bench/report.hpp"
 #include "bench/test_graphs.hpp"
 #include "core/search.hpp"
 #include "core/search_queues.hpp"
@@ -22,18 +21,46 @@ BucketQueue make_queue<BucketQueue>() {
   return BucketQueue(0.25);
 }
 
+/// Bytes an entry: key and vertex, and its place where the queue can find it again.
+template <class Queue>
+constexpr std::size_t entry_bytes = sizeof(QueueEntry);
+template <unsigned Arity>
+constexpr std::size_t entry_bytes<IndexedHeap<Arity>> = sizeof(QueueEntry) + sizeof(VertexId);
+
+/// A queue of constant size; each step pops the least entry and pushes it back a little later.
+template <class Queue>
+class Hold {
+ public:
+  explicit Hold(VertexId n) : queue_(make_queue<Queue>()) {
+    queue_.resize(n);
+    for (VertexId v = 0; v < n; ++v) queue_.push(v, uniform(1, v, 0));
+  }
+  VertexId step() {
+    const QueueEntry top = queue_.pop();
+    queue_.push(top.vertex, top.key + uniform(1, draws_++, 1));
+    return top.vertex;
+  }
+
+ private:
+  Queue queue_;
+  std::uint64_t draws_ = 0;
+};
+
+template <class Queue>
+void check_order(VertexId n) {
+  constexpr int steps = 500;
+  Hold<Queue> hold(n);
+  Hold<LinearScan> plain(n);
+  for (int i = 0; i < steps; ++i) check(hold.step() == plain.step(), "order of a queue");
+}
+
 template <class Queue>
 void bm_hold(benchmark::State& state) {
   const auto n = static_cast<VertexId>(state.range(0));
-  auto queue = make_queue<Queue>();
-  queue.resize(n);
-  for (VertexId v = 0; v < n; ++v) queue.push(v, uniform(1, v, 0));
-  std::uint64_t draws = 0;
-  for (auto _ : state) {
-    const QueueEntry top = queue.pop();
-    queue.push(top.vertex, top.key + uniform(1, draws++, 1));
-  }
-  state.SetItemsProcessed(state.iterations());
+  if (should_check(state)) check_order<Queue>(n);
+  Hold<Queue> hold(n);
+  for (auto _ : state) benchmark::DoNotOptimize(hold.step());
+  report(state, 1, entry_bytes<Queue>);
 }
 
 const PlaneGraph& graph_of(bool is_geometric) {
@@ -62,10 +89,12 @@ void bm_astar(benchmark::State& state) {
   queue.resize(plane.at.size());
   plain.resize(plane.at.size());
   search_state.resize(plane.at.size());
-  if (astar(plane, graph, plain, search_state).path != astar(plane, graph, queue, search_state).path) std::abort();
+  if (should_check(state))
+    check(astar(plane, graph, plain, search_state).path == astar(plane, graph, queue, search_state).path,
+          "path of a queue");
   SearchResult result;
   for (auto _ : state) benchmark::DoNotOptimize(result = astar(plane, graph, queue, search_state));
-  state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * result.expanded));
+  report(state, result.expanded, result.expanded * entry_bytes<Queue>);
 }
 
 void sizes(benchmark::internal::Benchmark* b) { b->ArgName("entries")->Arg(64)->Arg(4096)->Arg(1 << 18); }

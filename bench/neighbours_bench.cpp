@@ -9,11 +9,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <nanoflann.hpp>
+#include <numeric>
 
+#include "bench/report.hpp"
 #include "core/rng.hpp"
 #include "parallel/sort.hpp"
 #include "spatial/neighbours.hpp"
@@ -103,8 +103,8 @@ Index make_index(const std::vector<Vec2>& points) {
 }
 
 /// Ends the program unless the neighbours are the plain ones; nanoflann may break ties as it likes.
-void check(const std::vector<Vec2>& points, VertexId i, std::vector<Neighbour> found, std::size_t k, double radius,
-           bool by_id) {
+void check_neighbours(const std::vector<Vec2>& points, VertexId i, std::vector<Neighbour> found, std::size_t k,
+                      double radius, bool by_id) {
   std::vector<Neighbour> plain;
   for (VertexId j = 0; j < points.size(); ++j) {
     const double d = distance(points[j], points[i]);
@@ -117,11 +117,23 @@ void check(const std::vector<Vec2>& points, VertexId i, std::vector<Neighbour> f
   const bool same =
       std::equal(plain.begin(), plain.end(), found.begin(), found.end(),
                  [&](const auto& a, const auto& b) { return a.distance == b.distance && (!by_id || a.id == b.id); });
-  if (same) return;
-  std::fprintf(stderr, "wrong neighbours of point %u\n", i);
-  std::abort();
+  check(same, "neighbours of a point");
 }
 
+/// The index of the points asked for last.
+template <class Index>
+Index& index_of(std::int64_t kind, std::int64_t side) {
+  static std::unique_ptr<Index> index;
+  static std::pair<std::int64_t, std::int64_t> built{-1, -1};
+  if (built != std::pair{kind, side}) {
+    index.reset();
+    index.reset(new Index(make_index<Index>(points_of(kind, side))));  // nanoflann's tree can't be moved
+    built = {kind, side};
+  }
+  return *index;
+}
+
+/// Items in all iterations together; bytes a point.
 void count(benchmark::State& state, std::size_t items, std::size_t bytes, std::size_t points) {
   state.SetItemsProcessed(static_cast<std::int64_t>(items));
   state.counters["bytes/item"] = static_cast<double>(bytes) / static_cast<double>(points);
@@ -145,11 +157,11 @@ template <class Index>
 void bm_nearest(benchmark::State& state) {
   const auto& points = points_of(state.range(0), state.range(1));
   const auto k = static_cast<std::size_t>(state.range(2));
-  Index index = make_index<Index>(points);
+  Index& index = index_of<Index>(state.range(0), state.range(1));
   std::vector<Neighbour> found;
-  for (VertexId i = 0; i < points.size(); i += static_cast<VertexId>(points.size() / 5)) {
+  for (VertexId i = 0; should_check(state) && i < points.size(); i += static_cast<VertexId>(points.size() / 5)) {
     index.nearest(points[i], k, i, found);
-    check(points, i, found, k, INFINITY, !std::is_same_v<Index, PlainFlann>);
+    check_neighbours(points, i, found, k, INFINITY, !std::is_same_v<Index, PlainFlann>);
   }
   constexpr std::size_t batch = 65'536;
   std::size_t next = 0;
@@ -168,11 +180,11 @@ template <class Index>
 void bm_within(benchmark::State& state) {
   const auto& points = points_of(state.range(0), state.range(1));
   const SearchRadius radius(0.01 * static_cast<double>(state.range(2)));
-  Index index = make_index<Index>(points);
+  Index& index = index_of<Index>(state.range(0), state.range(1));
   std::vector<Neighbour> found;
-  for (VertexId i = 0; i < points.size(); i += static_cast<VertexId>(points.size() / 5)) {
+  for (VertexId i = 0; should_check(state) && i < points.size(); i += static_cast<VertexId>(points.size() / 5)) {
     index.within(points[i], radius, i, found);
-    check(points, i, found, points.size(), radius.length(), !std::is_same_v<Index, PlainFlann>);
+    check_neighbours(points, i, found, points.size(), radius.length(), !std::is_same_v<Index, PlainFlann>);
   }
   constexpr std::size_t batch = 65'536;
   std::size_t next = 0;
@@ -187,12 +199,26 @@ void bm_within(benchmark::State& state) {
         points.size());
 }
 
+/// What a point has within the radius and with a larger number.
+void check_later(const std::vector<Vec2>& points, const PointGrid& index, const SearchRadius& radius) {
+  std::vector<Neighbour> near;
+  for (VertexId i = 0; i < points.size(); i += static_cast<VertexId>(points.size() / 1000)) {
+    std::vector<Neighbour> found;
+    index.for_each_later_within(i, radius, [&](VertexId j, double d) { found.push_back({j, d}); });
+    std::sort(found.begin(), found.end());
+    index.within(points[i], radius, i, near);
+    std::erase_if(near, [i](const Neighbour& n) { return n.id < i; });
+    check(found == near, "for_each_later_within");
+  }
+}
+
 /// Each pair of points within the radius once: what a radius roadmap asks.
 void bm_later_within(benchmark::State& state) {
   const auto& points = points_of(state.range(0), state.range(1));
   const SearchRadius radius(0.01 * static_cast<double>(state.range(2)));
-  const PointGrid index(points, one_thread);
+  const PointGrid& index = index_of<PointGrid>(state.range(0), state.range(1));
   std::vector<Neighbour> found;
+  if (should_check(state)) check_later(points, index, radius);
   std::size_t next = 0;
   for (auto _ : state) {
     for (std::size_t end = std::min(next + 65'536, points.size()); next < end; ++next) {
@@ -208,11 +234,34 @@ void bm_later_within(benchmark::State& state) {
         index.bytes(), points.size());
 }
 
+/// A permutation that a stable sort by the numbers of the cells gives.
+void check_tile_order(const std::vector<Vec2>& points, const Execution& execution) {
+  const PlanarView view{&points.front().x, 2, points.size()};
+  const CellFrame frame(bounding_box(view, execution), points.size());
+  std::vector<std::uint32_t> plain(points.size());
+  std::iota(plain.begin(), plain.end(), 0U);
+  std::stable_sort(plain.begin(), plain.end(), [&](std::uint32_t i, std::uint32_t j) {
+    return frame.cell_of(points[i]) < frame.cell_of(points[j]);
+  });
+  const TileOrder order = tile_order(points, execution);
+  check(std::equal(plain.begin(), plain.end(), order.sample_of.begin(), order.sample_of.end()), "tile_order");
+}
+
 void bm_tile_order(benchmark::State& state) {
   const auto& points = points_of(state.range(0), state.range(1));
   const Execution execution{.threads = static_cast<unsigned>(state.range(2))};
+  if (should_check(state)) check_tile_order(points, execution);
   for (auto _ : state) benchmark::DoNotOptimize(tile_order(points, execution));
   count(state, static_cast<std::size_t>(state.iterations()) * points.size(), points.size() * 4, points.size());
+}
+
+/// A stable sort by key gives the same order.
+void check_counting_sort(const std::vector<std::uint32_t>& key, std::size_t keys, const Execution& execution) {
+  std::vector<std::uint32_t> plain(key.size());
+  std::iota(plain.begin(), plain.end(), 0U);
+  std::stable_sort(plain.begin(), plain.end(), [&](std::uint32_t i, std::uint32_t j) { return key[i] < key[j]; });
+  const KeyOrder order = counting_sort(key.size(), keys, execution, [&](std::size_t i) { return key[i]; });
+  check(std::equal(plain.begin(), plain.end(), order.item.begin(), order.item.end()), "counting_sort");
 }
 
 void bm_counting_sort(benchmark::State& state) {
@@ -221,6 +270,7 @@ void bm_counting_sort(benchmark::State& state) {
   std::vector<std::uint32_t> key(n);
   for (std::size_t i = 0; i < n; ++i) key[i] = static_cast<std::uint32_t>(random_bits(1, i) % keys);
   const Execution execution{.threads = static_cast<unsigned>(state.range(2))};
+  if (should_check(state)) check_counting_sort(key, keys, execution);
   for (auto _ : state)
     benchmark::DoNotOptimize(counting_sort(n, keys, execution, [&](std::size_t i) { return key[i]; }));
   count(state, static_cast<std::size_t>(state.iterations()) * n, n * 16 + keys * 4, n);
@@ -228,15 +278,15 @@ void bm_counting_sort(benchmark::State& state) {
 
 BENCHMARK(bm_counting_sort)
     ->ArgNames({"n", "keys", "threads"})
-    ->ArgsProduct({{1 << 20, 1 << 24}, {1 << 9, 1 << 20}, {1, 2}});
-BENCHMARK(bm_tile_order)->ArgNames({"kind", "side", "threads"})->ArgsProduct({{uniform_random}, {1000, 4000}, {1, 2}});
+    ->ArgsProduct({{1 << 20, 1 << 22}, {1 << 9, 1 << 20}, {1, 2}});
+BENCHMARK(bm_tile_order)->ArgNames({"kind", "side", "threads"})->ArgsProduct({{uniform_random}, {1000, 2000}, {1, 2}});
 
 void build_cases(benchmark::internal::Benchmark* bench) {
   bench->ArgNames({"kind", "side"})->ArgsProduct({{uniform_random, uniform_sorted}, {1000}});
 }
 BENCHMARK(bm_build<PointGrid>)
     ->ArgNames({"kind", "side"})
-    ->ArgsProduct({{uniform_random, uniform_sorted}, {1000, 4000}});
+    ->ArgsProduct({{uniform_random, uniform_sorted}, {1000, 2000}});
 BENCHMARK(bm_build<KdTree<2>>)->Apply(build_cases);
 BENCHMARK(bm_build<PlainFlann>)->Apply(build_cases);
 
@@ -246,7 +296,7 @@ void nearest_cases(benchmark::internal::Benchmark* bench) {
   bench->Args({lattice_sorted, 1000, 4})->Args({uniform_random, 1000, 8})->Args({clustered, 316, 8});
   bench->Args({clustered, 316, 24})->Args({crowded, 316, 8})->Args({crowded, 316, 24});
 }
-BENCHMARK(bm_nearest<PointGrid>)->Apply(nearest_cases)->Args({uniform_sorted, 4000, 8});
+BENCHMARK(bm_nearest<PointGrid>)->Apply(nearest_cases)->Args({uniform_sorted, 2000, 8});
 BENCHMARK(bm_nearest<KdTree<2>>)->Apply(nearest_cases);
 BENCHMARK(bm_nearest<PlainFlann>)->Apply(nearest_cases);
 
@@ -254,7 +304,7 @@ void within_cases(benchmark::internal::Benchmark* bench) {
   bench->ArgNames({"kind", "side", "percent"});
   bench->Args({lattice_sorted, 1000, 100})->Args({uniform_sorted, 1000, 160});
 }
-BENCHMARK(bm_later_within)->Apply(within_cases)->Args({lattice_sorted, 4000, 100});
+BENCHMARK(bm_later_within)->Apply(within_cases)->Args({lattice_sorted, 2000, 100});
 BENCHMARK(bm_within<PointGrid>)->Apply(within_cases);
 BENCHMARK(bm_within<KdTree<2>>)->Apply(within_cases);
 BENCHMARK(bm_within<PlainFlann>)->Apply(within_cases);

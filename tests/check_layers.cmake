@@ -10,7 +10,7 @@ set(includes_spatial core parallel spatial)
 set(includes_worlds core parallel spatial worlds)
 set(includes_planners core parallel spatial planners)
 set(includes_tools core parallel spatial worlds planners tools)
-set(includes_bench core parallel spatial worlds planners bench)
+set(includes_bench core parallel spatial worlds planners tools bench)
 set(includes_tests core parallel spatial worlds planners tools bench tests)
 set(libraries core parallel spatial worlds planners)
 

@@ -1,0 +1,140 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs benchmark programs in rounds and writes what they measured, one file a program.
+
+A round runs every benchmark of every program once, in a process of its own: so the repetitions of a benchmark lie far
+apart in time and find different places in memory, and two programs meet the same moods of the machine. Results are
+checked in the first round. Each file has
+Google Benchmark's own shape, with the repetitions numbered, and in its context how and where it was made.
+"""
+
+import argparse
+import hashlib
+import json
+import os
+import platform
+import subprocess
+import sys
+import tempfile
+import time
+
+MACHINE = "bm_machine_"  # always run: bench/comparison.py needs them
+
+
+def first_line(path, start):
+    try:
+        with open(path, encoding="utf-8") as file:
+            return next((line.split(":", 1)[1].strip() for line in file if line.startswith(start)), None)
+    except OSError:
+        return None
+
+
+def commit():
+    """The checkout's commit, with -dirty where it isn't what was committed; none outside of one."""
+    here = os.path.dirname(os.path.abspath(__file__))
+    words = ["git", "-C", here, "describe", "--always", "--dirty", "--abbrev=12"]
+    try:
+        return subprocess.run(words, capture_output=True, text=True, check=True).stdout.strip()
+    except (OSError, subprocess.CalledProcessError):
+        return None
+
+
+def context_of(program, arguments):
+    with open(program, "rb") as file:
+        digest = hashlib.sha256(file.read()).hexdigest()
+    return {
+        "warren_commit": commit(),
+        "program_sha256": digest,
+        "filter": arguments.filter,
+        "rounds": arguments.repetitions,
+        "min_time_s": arguments.min_time,
+        "cpu": first_line("/proc/cpuinfo", "model name"),
+        "usable_cores": len(os.sched_getaffinity(0)),
+        "memory": first_line("/proc/meminfo", "MemTotal"),
+        "kernel": platform.release(),
+    }
+
+
+def filter_text(filter_regex):
+    if not filter_regex or filter_regex.startswith("-"):
+        return filter_regex
+    return f"{filter_regex}|{MACHINE}"
+
+
+def run_once(program, arguments, checks):
+    """One round of one program, as Google Benchmark reports it; checks: results are compared with the plain ones."""
+    with tempfile.TemporaryDirectory(prefix="warren-bench-") as directory:
+        out = os.path.join(directory, "out.json")
+        words = [program, f"--benchmark_out={out}", "--benchmark_out_format=json"]
+        words.append(f"--benchmark_min_time={arguments.min_time}")
+        if arguments.filter:
+            words.append(f"--benchmark_filter={filter_text(arguments.filter)}")
+        environment = dict(os.environ)
+        if not checks:
+            environment["WARREN_BENCH_CHECKED"] = "1"
+        done = subprocess.run(
+            words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False, env=environment
+        )
+        if done.returncode != 0:
+            sys.exit(f"bench: {program} ended with {done.returncode}\n{done.stderr.strip()}")
+        with open(out, encoding="utf-8") as file:
+            return json.load(file)
+
+
+def merged(rounds, context):
+    """The rounds of one program as one file: benchmark by benchmark, repetitions in their order."""
+    entries = {}
+    loads = [one["context"].get("load_avg") for one in rounds]
+    for number, one in enumerate(rounds):
+        for entry in one["benchmarks"]:
+            entry.update(repetitions=len(rounds), repetition_index=number)
+            entries.setdefault(entry["name"], []).append(entry)
+    whole = dict(rounds[0]["context"], **context, load_avg_by_round=loads)
+    return {"context": whole, "benchmarks": [entry for group in entries.values() for entry in group]}
+
+
+def write_json(path, value):
+    beside = f"{path}.{os.getpid()}.part"
+    try:
+        with open(beside, "w", encoding="utf-8") as file:
+            json.dump(value, file, indent=1)
+            file.write("\n")
+        os.replace(beside, path)
+    except OSError as error:
+        sys.exit(f"bench: {path}: can't be written: {error.strerror}")
+
+
+def run_rounds(programs, arguments):
+    results = [[] for _ in programs]
+    for number in range(arguments.repetitions):
+        begin = time.monotonic()
+        order = list(range(len(programs)))
+        for i in order if number % 2 == 0 else reversed(order):  # so that neither always comes first
+            results[i].append(run_once(programs[i], arguments, number == 0))
+        if not results[0][-1].get("benchmarks"):
+            sys.exit("bench: no benchmark of that name")
+        seconds = time.monotonic() - begin
+        print(f"round {number + 1} of {arguments.repetitions}: {seconds:.0f} s", file=sys.stderr, flush=True)
+    return results
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("runs", nargs="+", metavar="PROGRAM=FILE", help="program and the file for its results")
+    parser.add_argument("--filter", default="", help="benchmarks to run, as --benchmark_filter takes them")
+    parser.add_argument("--repetitions", type=int, default=5, help="rounds (default: 5)")
+    parser.add_argument("--min-time", type=float, default=0.05, help="seconds of a benchmark in a round, at least")
+    arguments = parser.parse_args()
+    if arguments.repetitions < 1 or not arguments.min_time > 0:
+        parser.error("--repetitions and --min-time are more than zero")
+    runs = [run.rpartition("=") for run in arguments.runs]
+    if not all(program and file for program, _, file in runs):
+        parser.error("expected PROGRAM=FILE")
+    results = run_rounds([program for program, _, _ in runs], arguments)
+    for (program, _, file), rounds in zip(runs, results):
+        write_json(file, merged(rounds, context_of(program, arguments)))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
