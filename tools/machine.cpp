@@ -2,6 +2,7 @@
 #include "tools/machine.hpp"
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -55,6 +56,9 @@ std::string text_of(const Machine& machine) {
 }
 
 void restart_peak_memory() {
+#ifdef __GLIBC__
+  ::malloc_trim(0);  // what earlier runs have freed is no part of this one's peak
+#endif
   std::ofstream("/proc/self/clear_refs") << "5";
   PagePool::watch_idle_bytes();
 }

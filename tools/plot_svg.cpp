@@ -14,7 +14,9 @@ namespace {
 
 constexpr double width = 760.0;
 constexpr double height = 420.0;
-constexpr Box frame{{76.0, 40.0}, {540.0, 362.0}};  // of the data, y down
+constexpr Box widest_frame{{76.0, 40.0}, {540.0, 362.0}};  // of the data, y down
+constexpr double narrowest = 300.0;
+constexpr double legend_indent = 52.0;  // from the frame to the end of a name, letters apart
 /// Okabe and Ito's colours: told apart by most eyes, and on paper.
 constexpr std::array<std::string_view, 8> palette{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                   "#b58900", "#56b4e9", "#555555", "#7a5195"};
@@ -22,7 +24,8 @@ constexpr std::array<std::string_view, 8> palette{"#0072b2", "#d55e00", "#009e73
 /// One axis: values to 0 … 1.
 class Axis {
  public:
-  Axis(double low, double high, bool logarithmic) : logarithmic_(logarithmic), low_(scaled(low)), high_(scaled(high)) {}
+  Axis(double low, double high, bool logarithmic, bool whole)
+      : logarithmic_(logarithmic), whole_(whole), low_(scaled(low)), high_(scaled(high)) {}
   double at(double value) const { return (scaled(value) - low_) / (high_ - low_); }
   bool shows(double value) const { return std::isfinite(value) && (!logarithmic_ || value > 0.0); }
   std::vector<double> ticks() const;
@@ -32,6 +35,7 @@ class Axis {
   std::vector<double> round_ticks() const;
 
   bool logarithmic_;
+  bool whole_;
   double low_;
   double high_;
 };
@@ -56,7 +60,7 @@ std::vector<double> Axis::round_ticks() const {
   const double wish = (high_ - low_) / 5.0;
   const double power = std::pow(10.0, std::floor(std::log10(wish)));
   const double digit = wish / power < 1.5 ? 1.0 : wish / power < 3.5 ? 2.0 : wish / power < 7.5 ? 5.0 : 10.0;
-  const double step = digit * power;
+  const double step = whole_ ? std::max(1.0, digit * power) : digit * power;
   std::vector<double> ticks;
   for (double i = std::ceil(low_ / step - 1e-9) + 0.0; i * step <= high_ + 1e-9 * step; i += 1.0)
     ticks.push_back(i * step);
@@ -67,13 +71,15 @@ std::string tick_text(double value) {
   constexpr std::array<std::string_view, 4> units{"", "k", "M", "G"};
   std::size_t unit = 0;
   for (; std::abs(value) >= 1000.0 && unit + 1 < units.size(); ++unit) value /= 1000.0;
-  return fmt::format("{:.4g}{}", value, units[unit]);
+  std::string text = fmt::format("{:.4g}{}", value, units[unit]);
+  if (const std::size_t at = text.find("e-0"); at != std::string::npos) text.erase(at + 2, 1);
+  return text;
 }
 
 /// Draws one plot from back to front.
 class Drawing {
  public:
-  explicit Drawing(const Plot& plot) : plot_(plot), x_(axis(true)), y_(axis(false)) {}
+  explicit Drawing(const Plot& plot) : plot_(plot), frame_(frame_beside_legend()), x_(axis(true)), y_(axis(false)) {}
 
   std::string text() {
     begin();
@@ -85,6 +91,7 @@ class Drawing {
   }
 
  private:
+  Box frame_beside_legend() const;
   Axis axis(bool of_x) const;
   void begin();
   void grid();
@@ -99,15 +106,27 @@ class Drawing {
     fmt::format_to(std::back_inserter(text_), "<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" {}/>\n", x1, y1, x2, y2, style);
   }
   bool shows(Vec2 p) const { return x_.shows(p.x) && y_.shows(p.y); }
-  double place_x(double value) const { return frame.min.x + x_.at(value) * frame.width(); }
-  double place_y(double value) const { return frame.max.y - y_.at(value) * frame.height(); }
+  double place_x(double value) const { return frame_.min.x + x_.at(value) * frame_.width(); }
+  double place_y(double value) const { return frame_.max.y - y_.at(value) * frame_.height(); }
   static std::string_view color(std::size_t i) { return palette[i % palette.size()]; }
 
   const Plot& plot_;
+  Box frame_;  // of the data
   Axis x_;
   Axis y_;
   std::string text_;
 };
+
+/// As wide as the names of the series leave it.
+Box Drawing::frame_beside_legend() const {
+  constexpr double width_of_letter = 6.7;
+  std::size_t longest = 0;
+  for (const PlotSeries& s : plot_.series) longest = std::max(longest, s.name.size());
+  const double right = width - legend_indent - width_of_letter * static_cast<double>(longest);
+  Box frame = widest_frame;
+  frame.max.x = std::clamp(right, frame.min.x + narrowest, frame.max.x);
+  return frame;
+}
 
 /// Wide enough for all that is shown and some room; never empty.
 Axis Drawing::axis(bool of_x) const {
@@ -126,11 +145,11 @@ Axis Drawing::axis(bool of_x) const {
   if (low > high) low = high = 1.0;
   if (logarithmic) {
     const double room = std::max(1.15, std::pow(high / low, 0.05));
-    return {low / room, high * room, true};
+    return {low / room, high * room, true, false};
   }
   if (!of_x && plot_.from_zero) low = std::min(low, 0.0);
   const double room = high > low ? 0.06 * (high - low) : std::max(1.0, 0.5 * std::abs(high));
-  return {!of_x && plot_.from_zero && low >= 0.0 ? 0.0 : low - room, high + room, false};
+  return {!of_x && plot_.from_zero && low >= 0.0 ? 0.0 : low - room, high + room, false, of_x && plot_.whole_x};
 }
 
 void Drawing::begin() {
@@ -139,32 +158,32 @@ void Drawing::begin() {
       "font-family=\"sans-serif\" font-size=\"12\" fill=\"#222222\">\n<title>{2}</title>\n"
       "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n",
       width, height, xml_text(plot_.title));
-  label(frame.min.x, 24.0, "start", plot_.title, " font-size=\"15\" font-weight=\"bold\"");
-  label((frame.min.x + frame.max.x) / 2.0, height - 18.0, "middle", plot_.x_label);
-  const double middle = (frame.min.y + frame.max.y) / 2.0;
+  label(frame_.min.x, 24.0, "start", plot_.title, " font-size=\"15\" font-weight=\"bold\"");
+  label((frame_.min.x + frame_.max.x) / 2.0, height - 18.0, "middle", plot_.x_label);
+  const double middle = (frame_.min.y + frame_.max.y) / 2.0;
   label(18.0, middle, "middle", plot_.y_label, fmt::format(" transform=\"rotate(-90 18 {:.1f})\"", middle));
 }
 
 void Drawing::grid() {
   constexpr std::string_view faint = "stroke=\"#e2e2e2\"";
   for (const double tick : x_.ticks()) {
-    line(place_x(tick), frame.min.y, place_x(tick), frame.max.y, faint);
-    label(place_x(tick), frame.max.y + 17.0, "middle", tick_text(tick));
+    line(place_x(tick), frame_.min.y, place_x(tick), frame_.max.y, faint);
+    label(place_x(tick), frame_.max.y + 17.0, "middle", tick_text(tick));
   }
   for (const double tick : y_.ticks()) {
-    line(frame.min.x, place_y(tick), frame.max.x, place_y(tick), faint);
-    label(frame.min.x - 7.0, place_y(tick) + 4.0, "end", tick_text(tick));
+    line(frame_.min.x, place_y(tick), frame_.max.x, place_y(tick), faint);
+    label(frame_.min.x - 7.0, place_y(tick) + 4.0, "end", tick_text(tick));
   }
   fmt::format_to(std::back_inserter(text_),
-                 "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#888888\"/>\n", frame.min.x,
-                 frame.min.y, frame.width(), frame.height());
+                 "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#888888\"/>\n",
+                 frame_.min.x, frame_.min.y, frame_.width(), frame_.height());
 }
 
 void Drawing::level() {
   if (!plot_.level || !y_.shows(*plot_.level)) return;
   const double y = place_y(*plot_.level);
-  line(frame.min.x, y, frame.max.x, y, "stroke=\"#c1121f\" stroke-width=\"1.5\" stroke-dasharray=\"7 4\"");
-  label(frame.min.x + 6.0, y - 6.0, "start", plot_.level_name, " style=\"fill:#c1121f\"");
+  line(frame_.min.x, y, frame_.max.x, y, "stroke=\"#c1121f\" stroke-width=\"1.5\" stroke-dasharray=\"7 4\"");
+  label(frame_.min.x + 6.0, y - 6.0, "start", plot_.level_name, " style=\"fill:#c1121f\"");
 }
 
 void Drawing::series(std::size_t i) {
@@ -187,8 +206,8 @@ void Drawing::series(std::size_t i) {
 }
 
 void Drawing::legend() {
-  constexpr double left = frame.max.x + 16.0;
-  double y = frame.min.y + 10.0;
+  const double left = frame_.max.x + 16.0;
+  double y = frame_.min.y + 10.0;
   for (std::size_t i = 0; i < plot_.series.size(); ++i, y += 20.0) {
     const PlotSeries& series = plot_.series[i];
     const std::string dash = series.dashed ? " stroke-dasharray=\"3 4\"" : "";

@@ -26,6 +26,7 @@ struct Plot {
   bool log_x = false;
   bool log_y = false;
   bool from_zero = false;  ///< a linear y axis starts at 0
+  bool whole_x = false;    ///< a linear x axis counts something: ticks at whole numbers alone
   std::vector<PlotSeries> series;
   std::optional<double> level = {};  ///< a horizontal line
   std::string level_name = {};

@@ -2,7 +2,9 @@
 // The page of `warren scale`: what was measured as a table, and plots of it.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "tools/human_units.hpp"
@@ -38,6 +40,8 @@ code { background: #f3f3f3; padding: 0.1em 0.3em; overflow-wrap: anywhere; }
 using Way = std::pair<std::string, std::string>;
 Way way_of(const ScalingRow& row) { return {row.fastest.planner, row.fastest.sampler}; }
 std::string text_of(const Way& way) { return way.first + " " + way.second; }
+/// The words before a series' own name: the way, where there is more than one.
+std::string prefix_of(const Way& way, const std::set<Way>& ways) { return ways.size() > 1 ? text_of(way) + ", " : ""; }
 std::string threads_text(unsigned threads) { return fmt::format("{} thread{}", threads, threads == 1 ? "" : "s"); }
 
 std::set<Way> ways_of(std::span<const ScalingRow> rows) {
@@ -90,10 +94,11 @@ Plot stage_plot(std::span<const ScalingRow> rows, const Way& way) {
 /// One series a way and thread count, of any figure of a row.
 template <class Figure>
 std::vector<PlotSeries> series_by_cells(std::span<const ScalingRow> rows, const Figure& figure) {
+  const std::set<Way> ways = ways_of(rows);
   std::map<std::pair<Way, unsigned>, PlotSeries> by_way;
   for (const ScalingRow& row : rows) {
     PlotSeries& series = by_way[{way_of(row), row.fastest.threads}];
-    series.name = text_of(way_of(row)) + ", " + threads_text(row.fastest.threads);
+    series.name = prefix_of(way_of(row), ways) + threads_text(row.fastest.threads);
     series.points.push_back({row.fastest.cells(), figure(row)});
   }
   std::vector<PlotSeries> all;
@@ -104,11 +109,12 @@ std::vector<PlotSeries> series_by_cells(std::span<const ScalingRow> rows, const 
 /// One series a way and size, over threads.
 template <class Figure>
 std::vector<PlotSeries> series_by_threads(std::span<const ScalingRow> rows, const Figure& figure) {
+  const std::set<Way> ways = ways_of(rows);
   std::map<std::tuple<Way, double, std::uint32_t>, PlotSeries> by_size;
   for (const ScalingRow& row : rows) {
     const MazeTrial& t = row.fastest;
     PlotSeries& series = by_size[{way_of(row), t.cells(), t.rows}];
-    series.name = fmt::format("{}, {} x {}", text_of(way_of(row)), t.rows, t.cols);
+    series.name = fmt::format("{}{} x {}", prefix_of(way_of(row), ways), t.rows, t.cols);
     series.points.push_back({static_cast<double>(t.threads), figure(row)});
   }
   std::vector<PlotSeries> all;
@@ -120,7 +126,12 @@ std::vector<Plot> thread_plots(std::span<const ScalingRow> rows) {
   std::set<unsigned> threads;
   for (const ScalingRow& row : rows) threads.insert(row.fastest.threads);
   if (threads.size() < 2) return {};
-  Plot speed_up{.title = "Speed-up", .x_label = "threads", .y_label = "times as fast", .from_zero = true, .series = {}};
+  Plot speed_up{.title = "Speed-up",
+                .x_label = "threads",
+                .y_label = "times as fast",
+                .from_zero = true,
+                .whole_x = true,
+                .series = {}};
   speed_up.series = series_by_threads(rows, [](const ScalingRow& row) { return row.speed_up; });
   PlotSeries ideal{.name = "ideal", .points = {}, .dashed = true};
   for (const unsigned n : threads) ideal.points.push_back({static_cast<double>(n), static_cast<double>(n)});
@@ -129,6 +140,7 @@ std::vector<Plot> thread_plots(std::span<const ScalingRow> rows) {
                   .x_label = "threads",
                   .y_label = "speed-up a thread",
                   .from_zero = true,
+                  .whole_x = true,
                   .series = {},
                   .level = 1.0,
                   .level_name = "ideal"};
@@ -164,6 +176,22 @@ std::vector<Plot> plots_of(std::span<const ScalingRow> rows) {
   return plots;
 }
 
+/// Five cells: cycles and instructions a cell of the maze, instructions a cycle, misses a cell.
+std::string hardware_cells(const RunCounts& counts, double cells) {
+  const auto cell = [](std::optional<double> value) {
+    return value && std::isfinite(*value) ? fmt::format("<td>{:.3g}</td>", *value) : std::string("<td>-</td>");
+  };
+  const auto per_cell = [&](std::string_view name) {
+    const auto count = counts.hardware_count(name);
+    return count ? std::optional(*count / cells) : std::nullopt;
+  };
+  const auto cycles = counts.hardware_count("cycles");
+  const auto instructions = counts.hardware_count("instructions");
+  const auto a_cycle = cycles && instructions ? std::optional(*instructions / *cycles) : std::nullopt;
+  return cell(per_cell("cycles")) + cell(per_cell("instructions")) + cell(a_cycle) + cell(per_cell("cache_misses")) +
+         cell(per_cell("branch_misses"));
+}
+
 std::string table_of(std::span<const ScalingRow> rows) {
   std::string text =
       "<table>\n<tr><th>size</th><th class=\"word\">planner</th><th>threads</th><th>runs</th><th>minimum</th>"
@@ -182,6 +210,35 @@ std::string table_of(std::span<const ScalingRow> rows) {
   return text + "</table>\n";
 }
 
+/// What the fastest run of each row cost beside its time.
+std::string counts_of(const ScalingResult& result, std::span<const ScalingRow> rows) {
+  std::string text =
+      "<h2>Counts of the fastest runs</h2>\n<table>\n<tr><th>size</th><th class=\"word\">planner</th><th>threads</th>"
+      "<th>CPU</th><th>page faults</th><th>switched away</th>";
+  const bool counted = result.no_hardware_counts.empty();
+  if (counted) {
+    text +=
+        "<th>cycles a cell</th><th>instructions a cell</th><th>a cycle</th><th>cache misses a cell</th>"
+        "<th>branch misses a cell</th>";
+  }
+  text += "</tr>\n";
+  for (const ScalingRow& row : rows) {
+    const MazeTrial& t = row.fastest;
+    text +=
+        fmt::format("<tr><td>{} &times; {}</td><td class=\"word\">{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>",
+                    t.rows, t.cols, xml_text(planner_text(t)), t.threads, human_seconds(row.counts.cpu_s),
+                    row.counts.page_faults, row.counts.involuntary_switches);
+    if (counted) text += hardware_cells(row.counts, t.cells());
+    text += "</tr>\n";
+  }
+  text += "</table>\n";
+  if (!counted) {
+    text += fmt::format("<p>The processor's own counters are not to be had here: {}.</p>\n",
+                        xml_text(result.no_hardware_counts));
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string scaling_page(const ScalingResult& result, const std::string& command_line) {
@@ -196,7 +253,7 @@ std::string scaling_page(const ScalingResult& result, const std::string& command
   if (rows.empty()) return page + "<p>No run was solved.</p>\n</body>\n</html>\n";
   page += "<div class=\"plots\">\n";
   for (const Plot& plot : plots_of(rows)) page += plot_svg(plot);
-  return page + "</div>\n<h2>Runs</h2>\n" + table_of(rows) + "</body>\n</html>\n";
+  return page + "</div>\n<h2>Runs</h2>\n" + table_of(rows) + counts_of(result, rows) + "</body>\n</html>\n";
 }
 
 }  // namespace warren

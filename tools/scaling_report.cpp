@@ -89,11 +89,15 @@ std::string scaling_json(const ScalingOptions& options, const ScalingResult& res
   json["loops"] = options.maze.loops;
   const Machine machine = this_machine();
   json["machine"] = {{"cpu", machine.cpu}, {"cores", machine.cores}, {"memory_bytes", machine.memory_bytes}};
+  const bool counted = result.no_hardware_counts.empty();
+  json["hardware_counts"] = counted ? Json(RunCounts::hardware_names) : Json(nullptr);
+  if (!counted) json["no_hardware_counts"] = result.no_hardware_counts;
   if (result.signal) json["stopped_by"] = *result.signal == StopReason::terminate ? "SIGTERM" : "SIGINT";
   json["runs"] = Json::array();
   for (const ScalingRun& run : result.runs) {
     Json entry = trial_json(run.trial);
     entry["repeat"] = run.repeat;
+    entry.update(counts_json(run.counts));
     json["runs"].push_back(std::move(entry));
   }
   json["rows"] = Json::array();
@@ -121,14 +125,21 @@ std::string scaling_csv(const ScalingResult& result) {
   const std::vector<std::string> stages = stage_names();
   std::string text = "rows,cols,cells,planner,sampler,pipeline,threads,seed,repeat,status,verified,solve_s";
   for (const std::string& stage : stages) text += "," + stage + "_s";
-  text += ",generate_s,length,peak_memory_bytes\n";
+  text += ",generate_s,length,peak_memory_bytes,cpu_s,page_faults,involuntary_switches";
+  for (const std::string_view name : RunCounts::hardware_names) text += fmt::format(",{}", name);
+  text += '\n';
   for (const ScalingRun& run : result.runs) {
     const MazeTrial& t = run.trial;
     text += fmt::format("{},{},{:.0f},{},{},{},{},{},{},{},{},{}", t.rows, t.cols, t.cells(), t.planner, t.sampler,
                         t.pipeline, t.threads, t.seed, run.repeat, name_of(t.outcome), t.verified, t.solve_s);
     for (const std::string& stage : stages) text += fmt::format(",{}", seconds_of(t, stage));
-    text +=
-        fmt::format(",{},{},{}\n", t.generate_s, t.verified ? fmt::format("{}", t.length) : "", t.peak_memory_bytes);
+    text += fmt::format(",{},{},{},{},{},{}", t.generate_s, t.verified ? fmt::format("{}", t.length) : "",
+                        t.peak_memory_bytes, run.counts.cpu_s, run.counts.page_faults, run.counts.involuntary_switches);
+    for (const std::string_view name : RunCounts::hardware_names) {
+      const auto count = run.counts.hardware_count(name);
+      text += count ? fmt::format(",{:.0f}", *count) : ",";
+    }
+    text += '\n';
   }
   return text;
 }

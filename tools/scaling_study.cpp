@@ -18,7 +18,9 @@ namespace {
 /// One study: mazes outside, runs inside.
 class ScalingStudy {
  public:
-  ScalingStudy(const ScalingOptions& options, const Run& run) : options_(options), run_(run) {}
+  ScalingStudy(const ScalingOptions& options, const Run& run) : options_(options), run_(run) {
+    result_.no_hardware_counts = counters_.refusal();
+  }
 
   void run_all() {
     for (const auto& [rows, cols] : options_.sizes) {
@@ -35,6 +37,7 @@ class ScalingStudy {
 
   const ScalingOptions& options_;
   const Run& run_;
+  const RunCounters counters_;  // made before any thread that works
   ScalingResult result_;
 };
 
@@ -68,9 +71,10 @@ void ScalingStudy::run_once(const Scene& scene, const MazeOptions& maze, double 
     for (const unsigned threads : options_.threads) {
       Execution execution = run_.execution();
       execution.threads = threads;
+      const RunCounts before = counters_.read();
       MazeTrial trial = solve_trial(scene, maze, planner, options_.budget_s, execution);
       trial.generate_s = generate_s;
-      result_.runs.push_back({std::move(trial), repeat});
+      result_.runs.push_back({std::move(trial), repeat, counters_.read() - before});
     }
   }
 }
@@ -105,13 +109,14 @@ double median_of(std::vector<double> values) {
   return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
 
-ScalingRow row_of(const std::vector<const MazeTrial*>& runs) {
+ScalingRow row_of(const std::vector<const ScalingRun*>& runs) {
   ScalingRow row;
   row.runs = runs.size();
   std::vector<double> seconds;
   std::map<std::uint64_t, std::pair<double, double>> extremes;  // by seed
-  StageTimes least = runs.front()->seconds;
-  for (const MazeTrial* t : runs) {
+  StageTimes least = runs.front()->trial.seconds;
+  for (const ScalingRun* run : runs) {
+    const MazeTrial* t = &run->trial;
     seconds.push_back(t->solve_s);
     take_least(least, t->seconds);
     row.peak_memory_bytes = std::max(row.peak_memory_bytes, t->peak_memory_bytes);
@@ -121,9 +126,11 @@ ScalingRow row_of(const std::vector<const MazeTrial*>& runs) {
   }
   for (const auto& [seed, extreme] : extremes) row.spread = std::max(row.spread, extreme.second / extreme.first - 1.0);
   row.median_s = median_of(seconds);
-  row.fastest = **std::min_element(runs.begin(), runs.end(),
-                                   [](const auto* a, const auto* b) { return a->solve_s < b->solve_s; });
+  const ScalingRun& fastest = **std::min_element(
+      runs.begin(), runs.end(), [](const auto* a, const auto* b) { return a->trial.solve_s < b->trial.solve_s; });
+  row.fastest = fastest.trial;
   row.fastest.seconds = least;
+  row.counts = fastest.counts;
   return row;
 }
 
@@ -155,12 +162,12 @@ ScalingResult run_scaling_study(const ScalingOptions& options, const Run& run) {
 
 std::vector<ScalingRow> scaling_rows(const ScalingResult& result) {
   std::map<RowKey, std::size_t> place;
-  std::vector<std::vector<const MazeTrial*>> runs;
+  std::vector<std::vector<const ScalingRun*>> runs;
   for (const ScalingRun& run : result.runs) {
     if (!run.trial.verified) continue;
     const auto [at, is_new] = place.try_emplace(key_of(run.trial), runs.size());
     if (is_new) runs.emplace_back();
-    runs[at->second].push_back(&run.trial);
+    runs[at->second].push_back(&run);
   }
   std::vector<ScalingRow> rows;
   for (const auto& group : runs) rows.push_back(row_of(group));

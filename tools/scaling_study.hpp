@@ -16,6 +16,7 @@
 #include "core/types.hpp"
 #include "tools/arguments.hpp"
 #include "tools/maze_trial.hpp"
+#include "tools/run_counters.hpp"
 #include "tools/run_options.hpp"
 
 namespace warren {
@@ -33,12 +34,14 @@ struct ScalingOptions {
 struct ScalingRun {
   MazeTrial trial;
   unsigned repeat = 0;  ///< 0 is the first
+  RunCounts counts = {};
 };
 
 struct ScalingResult {
   std::vector<ScalingRun> runs;                                      ///< in the order in which they ran
   std::vector<std::pair<std::uint32_t, std::uint32_t>> ungenerated;  ///< too large for the memory
   std::optional<StopReason> signal;                                  ///< the study was broken off
+  std::string no_hardware_counts;  ///< why the processor's counts are absent; empty: they are there
 };
 
 /// Runs the study and says each maze on standard error. Signals end it with what there is; never throws Stopped.
@@ -52,6 +55,7 @@ struct ScalingRow {
   double spread = 0.0;                ///< slowest over fastest repeat of one maze, minus 1; the largest of the seeds
   double speed_up = 0.0;              ///< against the row of fewest threads, times its threads
   std::size_t peak_memory_bytes = 0;  ///< the most of all runs
+  RunCounts counts = {};              ///< of the fastest run
 };
 
 /// Rows by planner, then size, then threads, as they first ran.

@@ -52,6 +52,39 @@ TEST(PlotSvg, TheLevelIsInsideTheFrameAndNamed) {
   EXPECT_EQ(text.find("=\"-"), std::string::npos) << "a place outside the picture";
 }
 
+/// The x of the right end of the frame, which is drawn as the last <rect>.
+double frame_end(const std::string& text) {
+  const std::size_t at = text.rfind("<rect x=\"");
+  const double left = std::stod(text.substr(at + 9));
+  return left + std::stod(text.substr(text.find("width=\"", at) + 7));
+}
+
+TEST(PlotSvg, LongNamesHaveRoomBesideTheFrame) {
+  Plot plot = plot_of({{1, 1}, {2, 2}}, false);
+  const double usual = frame_end(plot_svg(plot));
+  plot.series[0].name = std::string(40, 'w');
+  EXPECT_LT(frame_end(plot_svg(plot)), usual);
+  EXPECT_LE(frame_end(plot_svg(plot)) + 40 * 6.5, 760.0);
+  plot.series[0].name = std::string(4000, 'w');
+  EXPECT_GT(frame_end(plot_svg(plot)), 300.0) << "some of the plot is left";
+}
+
+TEST(PlotSvg, WhatIsCountedHasNoTicksBetweenWholeNumbers) {
+  Plot plot = plot_of({{1, 1}, {2, 2}}, false);
+  EXPECT_NE(plot_svg(plot).find(">1.2<"), std::string::npos);
+  plot.whole_x = true;
+  plot.series[0].points = {{1, 3}, {2, 3}};
+  EXPECT_EQ(plot_svg(plot).find(">1.2<"), std::string::npos);
+  EXPECT_NE(plot_svg(plot).find(">1<"), std::string::npos);
+  EXPECT_NE(plot_svg(plot).find(">2<"), std::string::npos);
+}
+
+TEST(PlotSvg, SmallPowersOfTenAreShort) {
+  const std::string text = plot_svg(plot_of({{1e-6, 1e-7}, {1e3, 1e-2}}, true));
+  EXPECT_NE(text.find(">1e-6<"), std::string::npos);
+  EXPECT_EQ(text.find("e-0"), std::string::npos);
+}
+
 TEST(PlotSvg, TextIsEscaped) {
   const std::string text = plot_svg(plot_of({{1, 1}}, false));
   EXPECT_NE(text.find("times &amp; &lt;sizes&gt;"), std::string::npos);
