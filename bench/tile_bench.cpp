@@ -16,7 +16,6 @@
 #include "planners/wall_marking.hpp"
 #include "worlds/maze_generator.hpp"
 #include "worlds/maze_world.hpp"
-#include "worlds/verify.hpp"
 
 namespace warren::bench {
 namespace {
@@ -209,17 +208,6 @@ void bm_plain_plan(benchmark::State& state) {
   time_plan(state, scene, [&] { return plan_plainly(scene, execution); });
 }
 
-void bm_verify_path(benchmark::State& state) {
-  const Scene& scene = scene_of(state.range(0), 1000);
-  const Execution execution{.threads = static_cast<unsigned>(state.range(1))};
-  const Solution<Vec2> solution = plan_in_tiles(scene, {});
-  const VerifyOptions options{.clearance = clearance};
-  const Verification found = verify_path(scene, solution.path, options, execution);
-  if (should_check(state)) check(found.verified && found.length == length_of(solution.path), "verify_path");
-  for (auto _ : state) benchmark::DoNotOptimize(verify_path(scene, solution.path, options, execution).verified);
-  report(state, cells_of(scene), scene.walls.bytes() + solution.path.size() * sizeof(Vec2));
-}
-
 BENCHMARK(bm_partition)
     ->ArgNames({"walls", "threads"})
     ->ArgsProduct({{backtracker, merged, shuffled}, {1}})
@@ -238,10 +226,5 @@ BENCHMARK(bm_plain_plan)
     ->Args({backtracker, 41, 2})
     ->ArgsProduct({{backtracker}, {1000}, {1, 2}})
     ->Apply(over_threads);
-BENCHMARK(bm_verify_path)
-    ->ArgNames({"walls", "threads"})
-    ->ArgsProduct({{backtracker, kruskal}, {1, 2}})
-    ->Apply(over_threads);
-
 }  // namespace
 }  // namespace warren::bench

@@ -1,38 +1,69 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Verification of a shortest path through a lattice maze of unit walls: nanoseconds of CPU a wall, on one thread.
+// Verification of a shortest path through a lattice maze of unit walls, on one thread and on two. Items are walls; the
+// path is verified first, and one that touches a wall must be refused.
 #include "worlds/verify.hpp"
 
 #include <benchmark/benchmark.h>
 
+#include "bench/report.hpp"
 #include "planners/tiled_prm.hpp"
 #include "worlds/maze_generator.hpp"
 
+namespace warren::bench {
 namespace {
 
-using namespace warren;
+struct Case {
+  Scene scene;
+  std::vector<Vec2> path;
+  VerifyOptions options;
+};
 
-void verify_maze(benchmark::State& state) {
-  Execution execution;
-  execution.threads = 1;
-  MazeOptions maze;
-  maze.rows = maze.cols = static_cast<std::uint32_t>(state.range(0));
-  const Scene scene = maze_scene(maze, false, execution);
+/// The maze that was asked for last, with its path.
+const Case& case_of(std::int64_t algorithm, std::int64_t side) {
+  static Case kept;
+  static std::pair<std::int64_t, std::int64_t> built{-1, -1};
+  if (built == std::pair{algorithm, side}) return kept;
+  built = {algorithm, side};
+  const auto extent = static_cast<std::uint32_t>(side);
+  kept.scene = maze_scene({extent, extent, 1, static_cast<MazeAlgorithm>(algorithm), 0.0}, false, {});
   RoadmapOptions options;
   options.sampler = SamplerKind::lattice;
-  options.lattice = {maze.rows, maze.cols};
-  const Vec2 start{scene.start[0], scene.start[1]};
-  const Vec2 goal{scene.goal[0], scene.goal[1]};
-  const TiledProblem problem{scene.walls, {}, obstacle_box(scene), 0.1, start, goal};
-  const Solution<Vec2> solution = tiled_prm(problem, options, execution);
-  const VerifyOptions checks{.clearance = 0.1, .start = start, .goal = goal};
-  for (auto _ : state) {
-    const Verification verification = verify_path(scene, solution.path, checks, execution);
-    if (!verification.verified) state.SkipWithError("the path is not free");
-  }
-  const auto walls = static_cast<double>(scene.walls.size());
-  state.counters["s_a_wall"] = benchmark::Counter(
-      walls, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);  // shown as 39n: 39 ns
+  options.lattice = {extent, extent};
+  const Vec2 start{kept.scene.start[0], kept.scene.start[1]};
+  const Vec2 goal{kept.scene.goal[0], kept.scene.goal[1]};
+  const TiledProblem problem{kept.scene.walls, {}, obstacle_box(kept.scene), 0.1, start, goal};
+  kept.path = tiled_prm(problem, options, {}).path;
+  kept.options = {.clearance = 0.1, .start = start, .goal = goal};
+  return kept;
 }
-BENCHMARK(verify_maze)->Arg(41)->Arg(1000)->Arg(3000)->Unit(benchmark::kMillisecond);
+
+/// The path is free; with a point moved to the end of a wall it isn't, and that leg is the first bad one.
+void check_verdicts(const Case& c, const Execution& execution) {
+  check(verify_path(c.scene, c.path, c.options, execution).verified, "verify_path");
+  std::vector<Vec2> bent = c.path;
+  const std::size_t moved = bent.size() / 2;
+  bent[moved] = bent[moved] + Vec2{0.5, 0.5};
+  const Verification refused = verify_path(c.scene, bent, c.options, execution);
+  check(refused.first_violation && refused.first_violation->leg == moved - 1,
+        "verify_path: a path that touches a wall");
+}
+
+void bm_verify_path(benchmark::State& state) {
+  const Case& c = case_of(state.range(0), state.range(1));
+  const Execution execution{.threads = static_cast<unsigned>(state.range(2))};
+  if (should_check(state)) check_verdicts(c, execution);
+  for (auto _ : state) benchmark::DoNotOptimize(verify_path(c.scene, c.path, c.options, execution).verified);
+  report(state, c.scene.walls.size(), c.scene.walls.bytes() + c.path.size() * sizeof(Vec2));
+}
+
+constexpr auto backtracker = static_cast<std::int64_t>(MazeAlgorithm::backtracker);
+constexpr auto kruskal = static_cast<std::int64_t>(MazeAlgorithm::kruskal);
+BENCHMARK(bm_verify_path)
+    ->ArgNames({"algorithm", "side", "threads"})
+    ->Args({backtracker, 41, 1})
+    ->ArgsProduct({{backtracker}, {1000, 2000}, {1, 2}})
+    ->Args({kruskal, 1000, 1})
+    ->Apply(over_threads);
 
 }  // namespace
+}  // namespace warren::bench
