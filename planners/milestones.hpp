@@ -15,6 +15,7 @@
 #include "core/types.hpp"
 #include "core/world.hpp"
 #include "parallel/chunks.hpp"
+#include "planners/lattice_milestones.hpp"
 #include "planners/roadmap_options.hpp"
 #include "planners/sampler.hpp"
 #include "spatial/tile_order.hpp"
@@ -154,6 +155,12 @@ template <World W>
 RawVector<typename W::State> draw_milestones(const W& world, const RoadmapOptions& options, std::uint64_t count,
                                              const Execution& execution) {
   constexpr std::size_t grain = std::size_t{1} << 12;
+  constexpr std::size_t spare = 2;  // start and goal will follow
+  if constexpr (std::same_as<typename W::State, Vec2>) {
+    if (options.sampler == SamplerKind::lattice) {
+      return lattice_milestones(world, options.lattice, count, execution, spare);
+    }
+  }
   execution.reserve(count * sizeof(typename W::State));
   std::vector<RawVector<typename W::State>> parts(chunk_count(count, grain));
   for_chunks(count, grain, execution, [&](Range r) {
@@ -170,7 +177,7 @@ RawVector<typename W::State> draw_milestones(const W& world, const RoadmapOption
       if (world.is_free(state, query)) part.push_back(state);
     });
   });
-  RawVector<typename W::State> states = detail::joined(parts, execution, 2);
+  RawVector<typename W::State> states = detail::joined(parts, execution, spare);
   parts.clear();
   return detail::in_tile_order(world, states, execution);
 }

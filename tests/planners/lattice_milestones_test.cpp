@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planners/lattice_milestones.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/rng.hpp"
+#include "planners/milestones.hpp"
+
+namespace warren {
+namespace {
+
+/// Free at random points: a share of them, or those in a box.
+struct SpottedWorld {
+  static constexpr std::size_t dimension = 2;
+  using State = Vec2;
+  struct Query {};
+  double share;
+  Box free_box;
+  Query make_query() const { return {}; }
+  State at_unit(const std::array<double, 2>& u) const { return {u[0], u[1]}; }
+  bool is_free(const State& a, Query&) const {
+    return free_box.contains(a) && uniform(5, static_cast<std::uint64_t>(a.y * 100'000 + a.x), 0) < share;
+  }
+  bool is_free_motion(const State&, const State&, Query&) const { return true; }
+  static double distance(const State& a, const State& b) { return warren::distance(a, b); }
+  std::array<double, 2> embed(const State& a) const { return {a.x, a.y}; }
+  Box box() const { return free_box; }
+};
+static_assert(World<SpottedWorld>);
+
+constexpr Box everywhere{{0, 0}, {1e6, 1e6}};
+
+/// Filtered one by one, then sorted.
+std::vector<Vec2> by_sorting(const SpottedWorld& world, LatticeSize size, std::uint64_t count) {
+  SpottedWorld::Query query;
+  RawVector<Vec2> free;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    if (world.is_free(lattice_point(size, i), query)) free.push_back(lattice_point(size, i));
+  }
+  const RawVector<Vec2> sorted = detail::in_tile_order(world, free, {});
+  return {sorted.begin(), sorted.end()};
+}
+
+TEST(LatticeMilestones, AreTheFreePointsInTileOrder) {
+  const LatticeSize sizes[] = {{1, 1}, {1, 900}, {900, 1}, {7, 300}, {300, 7}, {64, 64}, {65, 129}, {200, 131}};
+  const SpottedWorld worlds[] = {
+      {1.0, everywhere}, {0.9, everywhere}, {0.5, everywhere}, {0.02, everywhere}, {0.8, {{20, 3}, {90, 60}}}};
+  for (const LatticeSize size : sizes) {
+    for (const SpottedWorld& world : worlds) {
+      const std::uint64_t all = std::uint64_t{size.rows} * size.cols;
+      for (const std::uint64_t count : {all, all / 2 + 1}) {
+        SCOPED_TRACE(testing::Message() << size.rows << " x " << size.cols << ", " << count << " points, share "
+                                        << world.share);
+        const RawVector<Vec2> points = lattice_milestones(world, size, count, {}, 2);
+        EXPECT_EQ(std::vector<Vec2>(points.begin(), points.end()), by_sorting(world, size, count));
+        EXPECT_GE(points.capacity(), points.size() + 2);
+      }
+    }
+  }
+}
+
+TEST(LatticeMilestones, AreTheSameForAnyThreadCount) {
+  const SpottedWorld world{0.7, everywhere};
+  const LatticeSize size{500, 400};
+  const RawVector<Vec2> one = lattice_milestones(world, size, 200'000, {.threads = 1}, 0);
+  for (const unsigned threads : {2U, 3U, 8U}) {
+    EXPECT_EQ(lattice_milestones(world, size, 200'000, {.threads = threads}, 0), one) << threads << " threads";
+  }
+}
+
+TEST(LatticeMilestones, NoneAreThereWhereNothingIsFree) {
+  EXPECT_TRUE(lattice_milestones(SpottedWorld{0.0, everywhere}, {20, 30}, 600, {}, 2).empty());
+}
+
+}  // namespace
+}  // namespace warren
