@@ -12,22 +12,24 @@
 #include "core/raw_vector.hpp"
 #include "core/types.hpp"
 #include "core/wall_set.hpp"
+#include "spatial/box_screen.hpp"
 
 namespace warren {
 
 template <class T>
 class WallGrid {
  public:
-  /// Calls visit(const Segment&) for every wall whose box meets `box` (and some others, some twice), rows upwards,
-  /// until it returns false. Returns false if it was stopped.
+  /// Calls visit(const Segment&) for every wall whose box meets `box` (walls in float: the box rounded outward), some
+  /// twice, rows upwards, until it returns false. Returns false if it was stopped.
   template <class Visit>
   bool for_each_near(const Box& box, const Visit& visit) const {
+    const BoxScreen<T> screen(box);
     const auto first_row = row_of(box.min.y - reach_.y);
     const auto last_row = row_of(box.max.y + reach_.y);
     const auto first_col = col_of(box.min.x - reach_.x);
     const auto last_col = col_of(box.max.x + reach_.x);
     for (std::uint32_t row = first_row; row <= last_row; ++row) {
-      if (!visit_run(row, first_col, last_col, box, visit)) return false;
+      if (!visit_run(row, first_col, last_col, box, screen, visit)) return false;
     }
     return true;
   }
@@ -37,6 +39,7 @@ class WallGrid {
   bool for_each_along(const Segment& s, double r, const Visit& visit) const {
     const Box box = box_of(s).grown(r);
     if (box.height() <= 4 * cell_ || box.width() <= 4 * cell_) return for_each_near(box, visit);
+    const BoxScreen<T> screen(box);
     const std::uint32_t last_row = row_of(box.max.y + reach_.y);
     const double slope = (s.b.x - s.a.x) / (s.b.y - s.a.y);
     for (std::uint32_t row = row_of(box.min.y - reach_.y); row <= last_row; ++row) {
@@ -47,7 +50,7 @@ class WallGrid {
       const double margin = reach_.x + r + 1e-9 * (cell_ + std::abs(x1) + std::abs(x2));
       const std::uint32_t first_col = col_of(std::max(box.min.x - reach_.x, std::min(x1, x2) - margin));
       const std::uint32_t last_col = col_of(std::min(box.max.x + reach_.x, std::max(x1, x2) + margin));
-      if (!visit_run(row, first_col, last_col, box, visit)) return false;
+      if (!visit_run(row, first_col, last_col, box, screen, visit)) return false;
     }
     return true;
   }
@@ -72,22 +75,23 @@ class WallGrid {
 
   template <class Visit>
   bool visit_run(std::uint32_t row, std::uint32_t first_col, std::uint32_t last_col, const Box& box,
-                 const Visit& visit) const {
+                 const BoxScreen<T>& screen, const Visit& visit) const {
     const std::size_t base = std::size_t{row} * cols_;
-    if (child_of_.empty()) return visit_walls(base + first_col, base + last_col, visit);
+    if (child_of_.empty()) return visit_walls(base + first_col, base + last_col, screen, visit);
     for (std::size_t cell = base + first_col; cell <= base + last_col; ++cell) {
       const std::uint32_t child = child_of_[cell];
       const bool goes_on =
-          child == no_child ? visit_walls(cell, cell, visit) : children_[child].for_each_near(box, visit);
+          child == no_child ? visit_walls(cell, cell, screen, visit) : children_[child].for_each_near(box, visit);
       if (!goes_on) return false;
     }
     return true;
   }
 
   template <class Visit>
-  bool visit_walls(std::size_t first_cell, std::size_t last_cell, const Visit& visit) const {
+  bool visit_walls(std::size_t first_cell, std::size_t last_cell, const BoxScreen<T>& screen,
+                   const Visit& visit) const {
     for (std::uint32_t i = offsets_[first_cell], end = offsets_[last_cell + 1]; i < end; ++i) {
-      if (!visit(walls_[i].segment())) return false;
+      if (screen.meets(walls_[i]) && !visit(walls_[i].segment())) return false;
     }
     return true;
   }

@@ -89,18 +89,14 @@ std::vector<Segment> WallIndex::some_walls(std::size_t most) const {
 
 bool WallIndex::blocks(Vec2 a, Vec2 b) const noexcept {
   const Segment motion{a, b};
-  const Box box = box_of(motion);
-  const auto passes = [&](const Segment& wall) { return !box.meets(box_of(wall)) || !segments_touch(motion, wall); };
+  const auto passes = [&](const Segment& wall) { return !segments_touch(motion, wall); };
   return !std::visit([&](const auto& grid) { return grid.for_each_along(motion, 0.0, passes); }, grid_);
 }
 
 bool WallIndex::keeps_clearance(Vec2 a, Vec2 b, double r) const noexcept {
   if (r <= 0.0) return !blocks(a, b);
   const Segment motion{a, b};
-  const Box box = box_of(motion).grown(r);
-  const auto keeps_off = [&](const Segment& wall) {
-    return !box.meets(box_of(wall)) || segments_keep_distance(motion, wall, r);
-  };
+  const auto keeps_off = [&](const Segment& wall) { return segments_keep_distance(motion, wall, r); };
   return std::visit([&](const auto& grid) { return grid.for_each_along(motion, r, keeps_off); }, grid_);
 }
 

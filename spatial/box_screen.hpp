@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Does a wall's box meet a query's box? The question that nine of ten walls near a motion fail, asked of all four
+// coordinates in one instruction: 2 ns a wall against 6 for the same in doubles one by one
+// (bench/wall_index_bench.cpp). Exact for walls in double; for walls in float the query's box is rounded outward once,
+// so that no wall is missed.
+#pragma once
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+
+#include "core/types.hpp"
+#include "core/wall_set.hpp"
+
+namespace warren {
+
+namespace detail {
+/// Four coordinates as one vector of the compiler's own kind (g++ and clang++ have them for every machine), what its
+/// comparisons give, and the same bits as words of 64.
+template <class T>
+struct FourOf;
+template <>
+struct FourOf<float> {
+  using Ends = float __attribute__((vector_size(16)));
+  using Flags = int __attribute__((vector_size(16)));
+  using Words = long long __attribute__((vector_size(16)));
+};
+template <>
+struct FourOf<double> {
+  using Ends = double __attribute__((vector_size(32)));
+  using Flags = long long __attribute__((vector_size(32)));
+  using Words = Flags;
+};
+}  // namespace detail
+
+template <class T>
+class BoxScreen {
+ public:
+  explicit BoxScreen(const Box& box)
+      : low_{below(box.min.x), below(box.min.y), below(box.min.x), below(box.min.y)},
+        high_{above(box.max.x), above(box.max.y), above(box.max.x), above(box.max.y)} {}
+
+  bool meets(const WallOf<T>& wall) const noexcept {
+    Four ends;
+    std::memcpy(&ends, &wall, sizeof ends);
+    const Flags left = ends < low_;  // -1 where it holds: both ends left of, or both below, the box
+    const Flags right = ends > high_;
+    return (both(left) | both(right)) == 0;
+  }
+
+ private:
+  using Four = typename detail::FourOf<T>::Ends;
+  using Flags = typename detail::FourOf<T>::Flags;
+  using Words = typename detail::FourOf<T>::Words;
+
+  /// Nonzero where the flags of x, or those of y, are set for both ends.
+  static long long both(const Flags& flags) noexcept {
+    const auto words = reinterpret_cast<Words>(flags);
+    if constexpr (std::is_same_v<T, float>) {
+      return words[0] & words[1];
+    } else {
+      return (words[0] & words[2]) | (words[1] & words[3]);
+    }
+  }
+  /// At most x, and at least x; nearer than two units in the last place, and half a one of the smallest numbers.
+  static T below(double x) noexcept { return rounded(x, -1); }
+  static T above(double x) noexcept { return rounded(x, 1); }
+  static T rounded(double x, T outward) noexcept {
+    if constexpr (std::is_same_v<T, double>) return x;
+    constexpr auto largest = static_cast<double>(std::numeric_limits<T>::max());
+    const T t = static_cast<T>(x < -largest ? -largest : (x > largest ? largest : x));
+    return t + outward * (std::abs(t) * std::numeric_limits<T>::epsilon() + std::numeric_limits<T>::min());
+  }
+
+  Four low_;
+  Four high_;
+};
+
+}  // namespace warren
