@@ -46,8 +46,8 @@ void widen_row(const std::uint64_t* from, std::uint64_t* to, std::size_t words, 
 
 }  // namespace
 
-LegIndex::LegIndex(std::span<const Vec2> path, const Plan& plan, const Execution& execution) : path_(path) {
-  for (const Vec2 p : path_) box_.include(p);
+LegIndex::LegIndex(const LegBoxes& legs, const Plan& plan, const Execution& execution)
+    : legs_(legs), path_(legs.path()), box_(legs.box()) {
   choose_cell(plan);
   // Half a cell more, because paths like to run on a lattice, and better through the middle of cells than between two.
   const double before = (static_cast<double>(margin) + 0.5) * cell_;
@@ -56,7 +56,6 @@ LegIndex::LegIndex(std::span<const Vec2> path, const Plan& plan, const Execution
   levels_.push_back(empty_level(count(box_.width()), count(box_.height()), execution));
   mark_cells(execution);
   gather_runs(execution);
-  gather_boxes(execution);
   for (std::size_t rows = count(box_.height()); levels_.back().columns > 1 || rows > 1; rows = (rows + 1) / 2) {
     levels_.push_back(halved(levels_.back(), execution));
   }
@@ -64,13 +63,11 @@ LegIndex::LegIndex(std::span<const Vec2> path, const Plan& plan, const Execution
 }
 
 void LegIndex::choose_cell(const Plan& plan) {
-  const auto legs = static_cast<double>(leg_count());
-  double length = 0.0;
-  for (std::size_t i = 0; i < leg_count(); ++i) length += norm(path_[i + 1] - path_[i]);
+  const auto legs = static_cast<double>(legs_.leg_count());
   const auto walls = static_cast<double>(plan.walls);
   const double cells = std::max(std::min(free_cells, walls), cells_per_leg * legs);
   const double pieces = std::max(std::min(free_pieces, 0.25 * walls), pieces_per_leg * legs);
-  cell_ = std::max(length / pieces, 1.02 * plan.clearance);
+  cell_ = std::max(legs_.length() / pieces, 1.02 * plan.clearance);
   cell_ = std::max(cell_, std::sqrt(box_.width()) * std::sqrt(box_.height()) / std::sqrt(cells));
   const double wall_cell = 1.00001 * plan.typical_wall;  // half a wall just fits: the common wall takes one lookup
   if (cell_ < wall_cell && (wall_cell < 4.0 * cell_ || cell_ == 0.0)) cell_ = wall_cell;
@@ -108,7 +105,7 @@ void LegIndex::for_each_cell_of_leg(std::size_t leg, const Visit& visit) const {
 
 void LegIndex::mark_cells(const Execution& execution) {
   Level& cells = levels_[0];
-  for (std::size_t leg = 0; leg < leg_count(); ++leg) {
+  for (std::size_t leg = 0; leg < legs_.leg_count(); ++leg) {
     if (leg % 4096 == 0) execution.check();
     for_each_cell_of_leg(leg, [&](std::size_t column, std::size_t row) {
       cells.bits[row * cells.words + column / 64] |= std::uint64_t{1} << (column % 64);
@@ -133,7 +130,7 @@ void LegIndex::gather_runs(const Execution& execution) {
   // The same walk twice: first it counts the runs of each cell, then it writes them.
   const auto walk = [&](const auto& new_run, const auto& same_run) {
     latest.assign(marked, 0);
-    for (std::uint32_t leg = 0; leg < leg_count(); ++leg) {
+    for (std::uint32_t leg = 0; leg < legs_.leg_count(); ++leg) {
       if (leg % 4096 == 0) execution.check();
       for_each_cell_of_leg(leg, [&](std::size_t column, std::size_t row) {
         const std::uint32_t slot = slot_of(marked_.word(column, row), Tiles::bit(column, row));
@@ -161,23 +158,6 @@ void LegIndex::gather_runs(const Execution& execution) {
         runs_[--first_run_[slot]] = {leg, leg};
       },
       [&](std::uint32_t slot, std::uint32_t leg) { runs_[first_run_[slot]].last = leg; });
-}
-
-void LegIndex::gather_boxes(const Execution& execution) {
-  constexpr std::size_t block_grain = 8192;
-  std::vector<Box> blocks((leg_count() + 7) / 8);
-  for_chunks(blocks.size(), block_grain, execution, [&](Range r) {
-    for (std::size_t block = r.first; block < r.last; ++block) {
-      for (std::size_t i = 8 * block; i <= std::min(8 * block + 8, leg_count()); ++i) blocks[block].include(path_[i]);
-    }
-  });
-  boxes_.push_back(std::move(blocks));
-  while (boxes_.back().size() > 1) {
-    const std::vector<Box>& parts = boxes_.back();
-    std::vector<Box> wholes((parts.size() + 7) / 8);
-    for (std::size_t i = 0; i < parts.size(); ++i) wholes[i / 8].include(parts[i]);
-    boxes_.push_back(std::move(wholes));
-  }
 }
 
 LegIndex::Level LegIndex::halved(const Level& fine, const Execution& execution) {

@@ -4,10 +4,10 @@
 // A grid over the path's box (cells about as large as a leg): one bit a cell says whether a leg passes, a rank over the
 // bits leads to runs of consecutive legs. A pyramid of coarser copies, widened by the reach, answers "nothing near"
 // with one lookup for a wall of any length: the level is chosen so that half the wall fits a cell, and where the bit is
-// set the wall is halved and asked again one level below. Long runs are searched by boxes over 8, 64, 512, ... legs.
+// set the wall is halved and asked again one level below. Long runs are searched by worlds/leg_boxes.
 //
-// Memory: at most 128 bits a leg four times over, 12 to 80 bytes a leg for the runs, 4 for the boxes (a path of few
-// legs among many walls: 2^18 bits). A leg costs about its length in cells; the cell is chosen so that this is some 5 a
+// Memory: at most 128 bits a leg four times over, 12 to 80 bytes a leg for the runs (a path of few legs among
+// many walls: 2^18 bits). A leg costs about its length in cells; the cell is chosen so that this is some 5 a
 // leg on average (65536 in all for a path of few legs). A wall costs one lookup, plus the legs that are near.
 // Conservative throughout: walls nearer than the reach always find their legs (cell numbers are exact to 2^-20 cells,
 // and every test is wider than that).
@@ -22,11 +22,11 @@
 #include "core/raw_vector.hpp"
 #include "core/types.hpp"
 #include "parallel/execution.hpp"
-#include "worlds/exact_segments.hpp"
+#include "worlds/leg_boxes.hpp"
 
 namespace warren {
 
-/// Refers to the path, which must outlive it. After set_reach any number of threads may ask.
+/// Refers to the legs, which must outlive it. After set_reach any number of threads may ask.
 class LegIndex {
  public:
   /// What is to come; it only decides on the cells.
@@ -36,12 +36,10 @@ class LegIndex {
     double typical_wall = 0.0;  ///< half their extent, 0 if not known
   };
 
-  /// path: at least two points, at most 500 million (verify_path sees to it).
-  LegIndex(std::span<const Vec2> path, const Plan& plan, const Execution& execution);
+  /// At most 500 million legs (verify_path sees to it).
+  LegIndex(const LegBoxes& legs, const Plan& plan, const Execution& execution);
 
   double cell() const { return cell_; }
-  std::size_t leg_count() const { return path_.size() - 1; }
-  Segment leg(std::size_t i) const { return {path_[i], path_[i + 1]}; }
 
   /// for_each_near will find every leg nearer than this to a wall. At most 4 cells.
   void set_reach(double reach, const Execution& execution);
@@ -59,10 +57,6 @@ class LegIndex {
       visit_long(a, b, visit);
     }
   }
-
-  /// Calls visit(leg) for legs first .. last, leaving out blocks of them where skip(box of the block) is true.
-  template <class Skip, class Visit>
-  void for_each_in(std::size_t first, std::size_t last, const Skip& skip, const Visit& visit) const;
 
  private:
   /// A place in cells, from the grid's lower corner.
@@ -113,7 +107,6 @@ class LegIndex {
   }
   void mark_cells(const Execution& execution);
   void gather_runs(const Execution& execution);
-  void gather_boxes(const Execution& execution);
   static Level halved(const Level& fine, const Execution& execution);
   static Tiles tiled(const Level& level, const Execution& execution);
   static Level widened(const Level& level, std::size_t cells, const Execution& execution);
@@ -125,10 +118,8 @@ class LegIndex {
   void visit_long(Point a, Point b, const Visit& visit) const;
   template <class Visit>
   void visit_halves(std::size_t level, Point a, Point b, const Visit& visit) const;
-  template <class Skip, class Visit>
-  void visit_block(std::size_t level, std::size_t block, std::size_t first, std::size_t last, const Skip& skip,
-                   const Visit& visit) const;
 
+  const LegBoxes& legs_;
   std::span<const Vec2> path_;
   Box box_;
   double cell_ = 1.0;
@@ -142,7 +133,6 @@ class LegIndex {
   RawVector<std::uint32_t> rank_;       ///< a word of marked_: marked cells before it
   RawVector<std::uint32_t> first_run_;  ///< a marked cell: its runs begin here; one more at the end
   RawVector<Run> runs_;
-  std::vector<std::vector<Box>> boxes_;  ///< boxes_[k][i]: of legs i * 8^(k+1) and the 8^(k+1) - 1 after it
 };
 
 template <class Visit>
@@ -173,7 +163,7 @@ void LegIndex::visit_cells(Point a, Point b, const Visit& visit) const {
 template <class Visit>
 void LegIndex::visit_long(Point a, Point b, const Visit& visit) const {
   const double largest = std::max({std::abs(a.u), std::abs(a.v), std::abs(b.u), std::abs(b.v)});
-  if (!(largest < far_away)) return visit(std::uint32_t{0}, static_cast<std::uint32_t>(leg_count() - 1));
+  if (!(largest < far_away)) return visit(std::uint32_t{0}, static_cast<std::uint32_t>(legs_.leg_count() - 1));
   if (!clip(a, b)) return;
   const double half = 0.5 * std::max(std::abs(b.u - a.u), std::abs(b.v - a.v));
   std::size_t level = 0;
@@ -188,35 +178,6 @@ void LegIndex::visit_halves(std::size_t level, Point a, Point b, const Visit& vi
   if (level == 0) return visit_cells(a, b, visit);
   visit_halves(level - 1, a, m, visit);
   visit_halves(level - 1, m, b, visit);
-}
-
-template <class Skip, class Visit>
-void LegIndex::for_each_in(std::size_t first, std::size_t last, const Skip& skip, const Visit& visit) const {
-  if (last - first < 16) {
-    for (std::size_t i = first; i <= last; ++i) visit(i);
-    return;
-  }
-  const std::size_t top = boxes_.size() - 1;
-  const std::size_t shift = 3 * (top + 1);
-  for (std::size_t block = first >> shift; block <= last >> shift; ++block) {
-    visit_block(top, block, first, last, skip, visit);
-  }
-}
-
-template <class Skip, class Visit>
-void LegIndex::visit_block(std::size_t level, std::size_t block, std::size_t first, std::size_t last, const Skip& skip,
-                           const Visit& visit) const {
-  if (skip(boxes_[level][block])) return;
-  const std::size_t shift = 3 * level;  // of this block's eight parts
-  const std::size_t from = std::max(first >> shift, 8 * block);
-  const std::size_t to = std::min(last >> shift, 8 * block + 7);
-  for (std::size_t part = from; part <= to; ++part) {
-    if (level == 0) {
-      visit(part);
-    } else {
-      visit_block(level - 1, part, first, last, skip, visit);
-    }
-  }
 }
 
 }  // namespace warren

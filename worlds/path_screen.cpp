@@ -2,172 +2,339 @@
 #include "worlds/path_screen.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
+#include <cstring>
+
+#include "parallel/chunks.hpp"
 
 namespace warren {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double cells_per_leg = 64;
 constexpr double pieces_per_leg = 4;
-constexpr double free_cells = 1024;  // for a path of few legs
-constexpr std::size_t legs_between_checks = 4096;
+constexpr double most_free_cells = 1 << 20;  // for a path of few legs among many walls
+constexpr unsigned up = 0;
+constexpr unsigned right = 1;
+constexpr std::size_t block_size = 128;
 
-float rounded_down(double x) {
-  constexpr double largest = std::numeric_limits<float>::max();
-  if (!(std::abs(x) < largest))
-    return x > 0.0 ? std::numeric_limits<float>::max() : -std::numeric_limits<float>::infinity();
-  const auto f = static_cast<float>(x);
-  return static_cast<double>(f) > x ? std::nextafter(f, -std::numeric_limits<float>::infinity()) : f;
+constexpr double magic = 6755399441055744.0;  // 1.5 * 2^52: adding it leaves no room for fractions
+[[gnu::always_inline]] inline double whole_below(double u) {
+  const double near = (u + magic) - magic;
+  return near - (near > u ? 1.0 : 0.0);
 }
-float rounded_up(double x) { return -rounded_down(-x); }
+[[gnu::always_inline]] inline double whole_above(double u) {
+  const double near = (u + magic) - magic;
+  return near + (near < u ? 1.0 : 0.0);
+}
+
+/// The largest power of two that is at most x > 0.
+double power_of_two_below(double x) { return std::ldexp(1.0, std::ilogb(x)); }
+double power_of_two_above(double x) {
+  const double below = power_of_two_below(x);
+  return below < x ? 2.0 * below : below;
+}
 
 }  // namespace
 
-void PathScreen::FloatBox::include(const FloatBox& box) {
-  min_x = std::min(min_x, box.min_x);
-  min_y = std::min(min_y, box.min_y);
-  max_x = std::max(max_x, box.max_x);
-  max_y = std::max(max_y, box.max_y);
+PathScreen::PathScreen(const LegBoxes& legs, const Plan& plan, const Execution& execution) {
+  choose_cell(legs, plan);
+  const Box box = legs.box();
+  const double largest =
+      std::max({std::abs(box.min.x), std::abs(box.min.y), std::abs(box.max.x), std::abs(box.max.y)}) * per_cell_;
+  constexpr double most_units = 1125899906842624.0;  // 2^50
+  usable_ = largest * (1 << quantum_bits) < most_units;
+  if (!usable_) return;
+  first_column_ = whole_below(box.min.x * per_cell_) - margin;
+  first_row_ = whole_below(box.min.y * per_cell_) - margin;
+  columns_ = place(box.max.x, first_column_).cell + 1 + margin;
+  rows_ = place(box.max.y, first_row_).cell + 1 + margin;
+  stride_ = static_cast<std::size_t>(rows_) / 4 + 1;
+  const std::size_t bytes = static_cast<std::size_t>(columns_) * stride_ + sizeof(std::uint64_t);
+  execution.reserve(bytes);
+  bits_.resize(bytes);
+  const std::size_t stripe = std::max<std::size_t>(64, chunk_count(static_cast<std::size_t>(columns_), 16));
+  for_chunks(static_cast<std::size_t>(columns_), stripe, execution, [&](Range r) {
+    const bool is_last = r.last == static_cast<std::size_t>(columns_);
+    std::fill(&bits_[r.first * stride_], &bits_[0] + (is_last ? bytes : r.last * stride_), std::uint8_t{0});
+    mark(legs, {static_cast<std::int32_t>(r.first), static_cast<std::int32_t>(r.last)}, execution);
+  });
 }
 
-PathScreen::FloatBox PathScreen::rounded(const Box& box) {
-  return {rounded_down(box.min.x), rounded_down(box.min.y), rounded_up(box.max.x), rounded_up(box.max.y)};
-}
-
-PathScreen::PathScreen(std::span<const Vec2> path, double typical_wall, const Execution& execution) : path_(path) {
-  choose_cell(typical_wall);
-  // Paths like to run on a lattice, and better through the middle of cells than between two: the middle of the path
-  // does.
-  const Vec2 inside = path_[path_.size() / 2];
-  const auto before = [this](double extent) { return (std::ceil(extent * per_cell_) + 0.5) * cell_; };
-  origin_ = inside - Vec2{before(inside.x - box_.min.x), before(inside.y - box_.min.y)};
-  columns_ = std::floor((box_.max.x - origin_.x) * per_cell_) + 2.0;
-  rows_ = std::floor((box_.max.y - origin_.y) * per_cell_) + 2.0;
-  stride_ = cell_number(columns_) / 8 + 1;
-  mark_cells(execution);
-  gather_boxes(execution);
-}
-
-void PathScreen::choose_cell(double typical_wall) {
-  double length = 0.0;
-  for (std::size_t i = 0; i + 1 < path_.size(); ++i) {
-    length += norm(path_[i + 1] - path_[i]);
-    box_.include(path_[i]);
-  }
-  box_.include(path_.back());
-  const auto legs = static_cast<double>(path_.size() - 1);
-  cell_ = std::max(typical_wall, length / (pieces_per_leg * legs + free_cells));
-  cell_ = std::max(cell_,
-                   std::sqrt(box_.width()) * std::sqrt(box_.height()) / std::sqrt(cells_per_leg * legs + free_cells));
+void PathScreen::choose_cell(const LegBoxes& legs, const Plan& plan) {
+  const Box box = legs.box();
+  const auto count = static_cast<double>(legs.leg_count());
+  const double free = std::min(static_cast<double>(plan.walls), most_free_cells) + 1024.0;
+  const double by_length = legs.length() / (pieces_per_leg * count + 0.25 * free);
+  const double by_area = std::sqrt(box.width()) * std::sqrt(box.height()) / std::sqrt(cells_per_leg * count + free);
+  const double least = std::max({by_length, by_area, std::max(box.width(), box.height()) / most_side});
+  cell_ = plan.typical_wall > 0.0 ? power_of_two_below(plan.typical_wall) : 0.0;
+  if (cell_ < least) cell_ = power_of_two_above(least);
   if (cell_ == 0.0) cell_ = 1.0;
+  const bool halves = !on_lattice(legs.path(), cell_) && on_lattice(legs.path(), 0.5 * cell_);
+  if (halves && cell_ >= least) cell_ = 0.5 * cell_;
   per_cell_ = 1.0 / cell_;
 }
 
-template <class Visit>
-void PathScreen::for_each_cell(const Segment& piece, const Visit& visit) const {
-  const auto& [a, b] = piece;
-  const auto number = [](double u, double count) { return cell_number(std::clamp(u, 0.0, count - 1.0)); };
-  const double ua = (a.x - origin_.x) * per_cell_;
-  const double ub = (b.x - origin_.x) * per_cell_;
-  const double va = (a.y - origin_.y) * per_cell_;
-  const double vb = (b.y - origin_.y) * per_cell_;
-  const std::size_t column_last = number(std::max(ua, ub) + slack, columns_);
-  const std::size_t row_last = number(std::max(va, vb) + slack, rows_);
-  const std::size_t column_first = number(std::min(ua, ub) - slack, columns_);
-  for (std::size_t row = number(std::min(va, vb) - slack, rows_); row <= row_last; ++row) {
-    for (std::size_t column = column_first; column <= column_last; ++column) visit(column, row);
+/// Do most of the path's points lie on the corners of the cells?
+bool PathScreen::on_lattice(std::span<const Vec2> path, double cell) {
+  const std::size_t step = path.size() / 64 + 1;
+  std::size_t asked = 0;
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < path.size(); i += step) {
+    ++asked;
+    if (std::fmod(path[i].x, cell) == 0.0 && std::fmod(path[i].y, cell) == 0.0) ++found;
+  }
+  return 4 * found >= 3 * asked;
+}
+
+PathScreen::Place PathScreen::place(double x, double first_cell) const {
+  const double u = x * per_cell_;
+  const double whole = whole_below(u);
+  return {static_cast<std::int32_t>(whole - first_cell), whole == u};
+}
+
+void PathScreen::mark(const LegBoxes& legs, const Stripe& stripe, const Execution& execution) {
+  execution.check();
+  const double left = (first_column_ + stripe.first - 2) * cell_;
+  const double right_end = (first_column_ + stripe.last + 2) * cell_;
+  legs.for_each_in(
+      0, legs.leg_count() - 1, [&](const Box& box) { return box.max.x < left || box.min.x > right_end; },
+      [&](std::size_t leg) { mark_leg(legs.leg(leg), stripe); });
+}
+
+void PathScreen::mark_leg(const Segment& leg, const Stripe& stripe) {
+  const auto& [a, b] = leg;
+  if (a.x == b.x || a.y == b.y) return mark_box(box_of(leg), stripe);
+  const double extent = std::max(std::abs(b.x - a.x), std::abs(b.y - a.y)) * per_cell_;
+  const double pieces = std::max(1.0, std::ceil(extent));
+  // Rounding of the cuts: three roundings of a difference and one of the sum, generously.
+  const Vec2 error{4e-15 * std::max(std::abs(a.x), std::abs(b.x)), 4e-15 * std::max(std::abs(a.y), std::abs(b.y))};
+  const Box whole = box_of(leg);
+  Vec2 p = a;
+  for (double piece = 1.0; piece <= pieces; piece += 1.0) {
+    const Vec2 q = piece == pieces ? b : a + (piece / pieces) * (b - a);
+    const Box box = box_of({p, q});
+    mark_box({{std::max(box.min.x - error.x, whole.min.x), std::max(box.min.y - error.y, whole.min.y)},
+              {std::min(box.max.x + error.x, whole.max.x), std::min(box.max.y + error.y, whole.max.y)}},
+             stripe);
+    p = q;
   }
 }
 
-template <class Visit>
-void PathScreen::for_each_piece(const Execution& execution, const Visit& visit) const {
-  for (std::size_t leg = 0; leg + 1 < path_.size(); ++leg) {
-    if (leg % legs_between_checks == 0) execution.check();
-    const Vec2 a = path_[leg];
-    const Vec2 b = path_[leg + 1];
-    if (a.x == b.x || a.y == b.y) {  // its box is the leg itself, so it need not be cut
-      visit(Segment{a, b}, box_of({a, b}), leg);
-      continue;
+/// Marks what meets the box, which lies within the path's.
+void PathScreen::mark_box(const Box& box, const Stripe& stripe) {
+  const Place left = place(box.min.x, first_column_);
+  const Place end = place(box.max.x, first_column_);
+  const Place low = place(box.min.y, first_row_);
+  const Place high = place(box.max.y, first_row_);
+  // The last open cell that it meets; where it ends on a line and is no line itself, that is the one before.
+  const std::int32_t column_last = std::max(left.cell, end.cell - (end.on_line ? 1 : 0));
+  const std::int32_t row_last = std::max(low.cell, high.cell - (high.on_line ? 1 : 0));
+  const bool along_row = low.on_line && box.min.y == box.max.y && box.min.x < box.max.x;
+  const bool along_column = left.on_line && box.min.x == box.max.x && box.min.y < box.max.y;
+  const std::int32_t column_end = std::min(column_last + 1, stripe.last + 1);
+  for (std::int32_t column = std::max(left.cell, stripe.first); column < column_end; ++column) {
+    for (std::int32_t row = low.cell; row <= row_last; ++row) {
+      if (along_row) {
+        set(column, row - 1, up, stripe);
+      } else if (along_column) {
+        set(column - 1, row, right, stripe);
+      } else {
+        mark_cell(column, row, stripe);
+      }
     }
-    const double extent = std::max(std::abs(b.x - a.x), std::abs(b.y - a.y)) * per_cell_;
-    const double pieces = std::max(1.0, std::ceil(extent));
-    // Rounding of the cuts: three roundings of a difference and one of the sum, generously.
-    const Vec2 error{4e-15 * std::max(std::abs(a.x), std::abs(b.x)), 4e-15 * std::max(std::abs(a.y), std::abs(b.y))};
-    Vec2 p = a;
-    for (double piece = 1.0; piece <= pieces; piece += 1.0) {
-      const Vec2 q = piece == pieces ? b : a + (piece / pieces) * (b - a);
-      Box box = box_of({p, q});
-      box.min = box.min - error;
-      box.max = box.max + error;
-      visit(Segment{p, q}, box, leg);
-      p = q;
-    }
   }
 }
 
-void PathScreen::mark_cells(const Execution& execution) {
-  const std::size_t bytes = cell_number(rows_) * stride_ + sizeof(std::uint64_t);
-  execution.reserve(bytes * (1 + sizeof(std::uint32_t)));
-  bits_.assign(bytes, 0);
-  for_each_piece(execution, [&](const Segment& piece, const Box&, std::size_t) {
-    for_each_cell(piece, [&](std::size_t column, std::size_t row) {
-      std::uint8_t& byte = bits_[row * stride_ + column / 8];
-      byte = static_cast<std::uint8_t>(byte | (1U << (column % 8)));
-    });
-  });
-  rank_.resize(bytes + 1);
-  std::uint32_t marked = 0;
-  for (std::size_t i = 0; i < bytes; ++i) {
-    rank_[i] = marked;
-    marked += ones_below(bits_[i], 8);
-  }
-  rank_[bytes] = marked;
+void PathScreen::mark_cell(std::int32_t column, std::int32_t row, const Stripe& stripe) {
+  set(column, row, up, stripe);
+  set(column, row - 1, up, stripe);
+  set(column, row, right, stripe);
+  set(column - 1, row, right, stripe);
 }
 
-void PathScreen::gather_boxes(const Execution& execution) {
-  const std::size_t marked = rank_.back();
-  execution.reserve(marked * (sizeof(Passage) + sizeof(std::uint32_t)));
-  constexpr float far = std::numeric_limits<float>::infinity();
-  constexpr FloatBox nothing{far, far, -far, -far};
-  boxes_.assign(marked, {nothing, nothing});
-  some_leg_.assign(marked, 0);
-  for_each_piece(execution, [&](const Segment& piece, const Box& box, std::size_t leg) {
-    const FloatBox outer = rounded(box);
-    FloatBox Passage::*const kind = box.width() >= box.height() ? &Passage::level : &Passage::steep;
-    for_each_cell(piece, [&](std::size_t column, std::size_t row) {
-      const std::size_t slot = slot_of(column, row);
-      (boxes_[slot].*kind).include(outer);
-      some_leg_[slot] = static_cast<std::uint32_t>(leg);
-    });
-  });
-}
-
-double PathScreen::distance_of_some(const Segment& wall) const {
-  constexpr double around = 1.0;
-  const Box box = box_of(wall);
-  const double u_first = (box.min.x - origin_.x) * per_cell_ - around;
-  const double u_last = (box.max.x - origin_.x) * per_cell_ + around;
-  const double v_first = (box.min.y - origin_.y) * per_cell_ - around;
-  const double v_last = (box.max.y - origin_.y) * per_cell_ + around;
-  if (u_last < 0.0 || v_last < 0.0 || u_first >= columns_ || v_first >= rows_) return infinity;
-  const Window window{cell_number(std::max(u_first, 0.0)), cell_number(std::min(u_last, columns_ - 1.0)),
-                      cell_number(std::max(v_first, 0.0)), cell_number(std::min(v_last, rows_ - 1.0))};
-  constexpr std::size_t most = 16;
-  if (window.words() > most) return infinity;
-  double least = infinity;
-  all_slots(window, [&](std::size_t slot) {
-    const std::uint32_t leg = some_leg_[slot];
-    least = std::min(least, exact::distance({path_[leg], path_[leg + 1]}, wall));
-    return true;
-  });
-  return least;
+void PathScreen::set(std::int32_t column, std::int32_t row, unsigned which, const Stripe& stripe) {
+  if (column < stripe.first || column >= stripe.last) return;
+  const auto bit = 2 * static_cast<std::size_t>(row) + which;
+  std::uint8_t& byte = bits_[static_cast<std::size_t>(column) * stride_ + bit / 8];
+  byte = static_cast<std::uint8_t>(byte | (1U << (bit % 8)));
 }
 
 void PathScreen::set_reach(double least, double r) {
-  near_sq_ = std::max(least * least, r * r * (1.0 + 1e-12));
-  grow_ = std::max(least, r) * (1.0 + 1e-9) * per_cell_ + slack;
+  const double units = std::ceil(std::max(least, r * (1.0 + 1e-12)) * per_cell_ * (1 << quantum_bits));
+  constexpr double most = 1 << 20;        // beyond the slow
+  reach_ = std::clamp(units, 1.0, most);  // at least 1, because touching is never clear
+  if (!(units <= most)) usable_ = false;
+}
+
+/// Takes the words that it looks at from the budget; false where that doesn't do.
+bool PathScreen::is_clear(const Window& w, std::size_t& budget) const {
+  constexpr std::int32_t word_rows = 28;  // two bits each, from any bit of a word's first byte
+  const std::size_t words = static_cast<std::size_t>(w.column_last - w.column_first + 1) *
+                            (static_cast<std::size_t>(w.row_last - w.row_first) / word_rows + 1);
+  if (words > budget) return false;
+  budget -= words;
+  const bool one_row = w.row_first == w.row_last;
+  for (std::int32_t column = w.column_first; column <= w.column_last; ++column) {
+    const bool last_column = column == w.column_last;
+    if (one_row && last_column && w.column_first < w.column_last) break;  // it was right of the one before
+    for (std::int32_t row = w.row_first; row <= w.row_last; row += word_rows) {
+      const auto bit = 2 * static_cast<std::size_t>(row);
+      std::uint64_t bits = 0;
+      std::memcpy(&bits, &bits_[static_cast<std::size_t>(column) * stride_ + bit / 8], sizeof(bits));
+      bits >>= bit % 8;
+      const std::int32_t rows = std::min(w.row_last - row + 1, word_rows);
+      const bool to_the_end = row + rows > w.row_last;
+      constexpr std::uint64_t ups = 0x5555555555555555;
+      std::uint64_t mask = last_column ? 0 : (ups << right) & ((std::uint64_t{1} << (2 * rows)) - 1);
+      const std::int32_t ups_asked = to_the_end && !(one_row && last_column) ? rows - 1 : rows;
+      mask |= ups & ((std::uint64_t{1} << (2 * ups_asked)) - 1);
+      if ((bits & mask) != 0) return false;
+    }
+  }
+  return true;
+}
+
+/// Walls as columns of numbers, and the cells that they cover once grown.
+struct PathScreen::Block {
+  template <class T>
+  struct Boxes {
+    alignas(64) std::array<T, block_size> x_min, y_min, x_max, y_max;
+  };
+  struct Cells {
+    alignas(64) std::array<std::int32_t, block_size> column_first, column_last, row_first, row_last;
+  };
+  /// From coordinate to cell.
+  struct Axis {
+    double per_unit, before_first, before_last, end;
+  };
+  template <class T>
+  struct Lanes {
+    static constexpr std::size_t count = 8;
+    std::array<T, count> x_min, y_min, x_max, y_max;
+  };
+
+  template <class T>
+  [[gnu::always_inline]] static inline void find_boxes(const WallOf<T>* walls, Boxes<T>& boxes) {
+    for (std::size_t i = 0; i < block_size; ++i) {
+      const WallOf<T> w = walls[i];
+      boxes.x_min[i] = w.x1 < w.x2 ? w.x1 : w.x2;
+      boxes.x_max[i] = w.x1 < w.x2 ? w.x2 : w.x1;
+      boxes.y_min[i] = w.y1 < w.y2 ? w.y1 : w.y2;
+      boxes.y_max[i] = w.y1 < w.y2 ? w.y2 : w.y1;
+    }
+  }
+
+  template <class T>
+  [[gnu::always_inline]] static inline void widen(const Boxes<T>& boxes, Lanes<T>& lanes) {
+    for (std::size_t i = 0; i < block_size; i += Lanes<T>::count) {
+      for (std::size_t k = 0; k < Lanes<T>::count; ++k) {
+        lanes.x_min[k] = boxes.x_min[i + k] < lanes.x_min[k] ? boxes.x_min[i + k] : lanes.x_min[k];
+        lanes.y_min[k] = boxes.y_min[i + k] < lanes.y_min[k] ? boxes.y_min[i + k] : lanes.y_min[k];
+        lanes.x_max[k] = boxes.x_max[i + k] > lanes.x_max[k] ? boxes.x_max[i + k] : lanes.x_max[k];
+        lanes.y_max[k] = boxes.y_max[i + k] > lanes.y_max[k] ? boxes.y_max[i + k] : lanes.y_max[k];
+      }
+    }
+  }
+
+  [[gnu::always_inline]] static inline std::int32_t cell(double units, double before, double end) {
+    const double at = units - before;
+    const double above = at > 0.0 ? at : 0.0;
+    return static_cast<std::int32_t>(above < end ? above : end) >> quantum_bits;
+  }
+
+  template <class T>
+  [[gnu::always_inline]] static inline void find_cells(const std::array<T, block_size>& low,
+                                                       const std::array<T, block_size>& high, const Axis& axis,
+                                                       std::array<std::int32_t, block_size>& first,
+                                                       std::array<std::int32_t, block_size>& last) {
+    for (std::size_t i = 0; i < block_size; ++i) {
+      first[i] = cell(whole_below(static_cast<double>(low[i]) * axis.per_unit), axis.before_first, axis.end);
+    }
+    for (std::size_t i = 0; i < block_size; ++i) {
+      last[i] = cell(whole_above(static_cast<double>(high[i]) * axis.per_unit), axis.before_last, axis.end);
+    }
+  }
+
+  template <class T>
+  [[gnu::always_inline]] static inline void work(const WallOf<T>* walls, const Axis& x, const Axis& y, Cells& cells,
+                                                 Lanes<T>& lanes) {
+    Boxes<T> boxes;
+    find_boxes(walls, boxes);
+    widen(boxes, lanes);
+    find_cells(boxes.x_min, boxes.x_max, x, cells.column_first, cells.column_last);
+    find_cells(boxes.y_min, boxes.y_max, y, cells.row_first, cells.row_last);
+  }
+};
+
+template <class Wall>
+void PathScreen::keep_all(std::span<const Wall> walls, std::size_t first_number, Rest& rest) {
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    rest.doubtful.push_back(first_number + i);
+    rest.box.include(box_of(walls[i].segment()));
+  }
+}
+
+template <class Wall>
+void PathScreen::sift_all(std::span<const Wall> walls, std::size_t first_number, Rest& rest) const {
+  using T = decltype(Wall::x1);
+  constexpr double units = 1 << quantum_bits;
+  const auto axis = [&](double first_cell, std::int32_t count) {
+    return Block::Axis{per_cell_ * units, first_cell * units + reach_, first_cell * units - reach_ + 1.0,
+                       static_cast<double>(count) * units - 1.0};
+  };
+  const typename Block::Axis x = axis(first_column_, columns_);
+  const typename Block::Axis y = axis(first_row_, rows_);
+  typename Block::Cells cells;
+  typename Block::template Lanes<T> lanes;
+  lanes.x_min.fill(std::numeric_limits<T>::infinity());
+  lanes.y_min = lanes.x_min;
+  lanes.x_max.fill(-std::numeric_limits<T>::infinity());
+  lanes.y_max = lanes.x_max;
+  if (!usable_) return keep_all(walls, first_number, rest);
+  std::size_t budget = 65536 + 64 * walls.size();  // words of cells: for many short walls and a few long ones
+  std::array<Wall, block_size> tail;
+  for (std::size_t begin = 0; begin < walls.size(); begin += block_size) {
+    const std::size_t count = std::min(block_size, walls.size() - begin);
+    const Wall* block = &walls[begin];
+    if (count < block_size) {
+      tail.fill(walls.back());
+      std::copy(walls.end() - static_cast<std::ptrdiff_t>(count), walls.end(), tail.begin());
+      block = tail.data();
+    }
+    Block::work(block, x, y, cells, lanes);
+    std::array<std::uint32_t, block_size> doubtful;
+    std::size_t found = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const auto column = static_cast<std::uint32_t>(cells.column_first[i]);
+      const auto row = static_cast<std::uint32_t>(cells.row_first[i]);
+      const std::uint32_t wide = static_cast<std::uint32_t>(cells.column_last[i]) - column;
+      const std::uint32_t high = static_cast<std::uint32_t>(cells.row_last[i]) - row;
+      const std::uint32_t byte = bits_[column * stride_ + row / 4];
+      const std::uint32_t hit = (byte >> (2 * (row % 4) + (wide & 1))) & 1U;
+      doubtful[found] = i;
+      found += static_cast<std::size_t>((wide + high > 1) | (hit != 0));
+    }
+    for (std::size_t k = 0; k < found; ++k) {
+      const std::uint32_t i = doubtful[k];
+      const Window window{cells.column_first[i], cells.column_last[i], cells.row_first[i], cells.row_last[i]};
+      const bool small = window.column_last - window.column_first + window.row_last - window.row_first <= 1;
+      if (small || !is_clear(window, budget)) rest.doubtful.push_back(first_number + begin + i);
+    }
+  }
+  for (std::size_t k = 0; k < lanes.count && !walls.empty(); ++k) {
+    rest.box.include(Vec2{static_cast<double>(lanes.x_min[k]), static_cast<double>(lanes.y_min[k])});
+    rest.box.include(Vec2{static_cast<double>(lanes.x_max[k]), static_cast<double>(lanes.y_max[k])});
+  }
+}
+
+void PathScreen::sift(std::span<const FloatWall> walls, std::size_t first_number, Rest& rest) const {
+  sift_all(walls, first_number, rest);
+}
+
+void PathScreen::sift(std::span<const DoubleWall> walls, std::size_t first_number, Rest& rest) const {
+  sift_all(walls, first_number, rest);
 }
 
 }  // namespace warren

@@ -1,142 +1,107 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which walls are surely not near this path? A screen before worlds/leg_index: it lets almost every wall of a maze pass
-// for a few nanoseconds, and calls the others doubtful.
+// Which walls are surely not near this path? A first screen: it drops almost every wall of a maze for a few
+// nanoseconds, and calls the others doubtful.
 //
-// A grid over the path's box, cells about as large as a wall: one bit a cell says whether the path passes, a rank over
-// the bits leads to two boxes, of what runs rather level there and of what runs rather steep. For a path along the axes
-// (most lattice paths turn in every other cell) the two boxes are the path itself, so walls whose distance ties with
-// the least one need no second look. A wall is clear where all boxes of the cells around it are as far as asked for.
+// A lattice cuts the plane into open cells, the open edges between them, and corners. All lines are multiples of a
+// power of two, so where a number lies is known without rounding. Two bits a cell say whether the path meets
+//   up:     the cell, the edge above it, or the cell above that;
+//   right:  the cell, the edge right of it, or the cell right of that.
+// A wall is grown by the reach, rounded outwards to 1/256 of a cell; the path is as far as asked for if it meets
+// nothing within that open box. A wall as long as a cell side grown by half a side covers just two cells and their
+// edge: one bit decides. A path along the lattice's lines leaves cells empty on both its sides, so in a lattice maze
+// the walls half a cell off on both sides, which tie with the least distance, are dropped all the same. (A path that
+// touches a corner meets an edge or a cell there too, so corners need no bit.)
 //
-// Memory: a bit and half a byte a cell (at most 64 cells a leg), 36 bytes a cell that the path passes. A leg costs its
-// length in cells, twice; a wall the rows of cells around it and the boxes in them. Conservative: a wall that comes
-// nearer is never called clear.
-// Walls at the same distance on both sides of the path are the rule in a maze; comparing each with the legs of each
-// cell takes twice as long (bench/verify_bench).
+// Memory: 2 bits a cell, at most some 64 cells a leg. A leg costs its length in cells; a wall some vector instructions
+// and one lookup, or one for every 28 cells of the columns that it covers. Cells lie column by column, as the walls of
+// the maze generator do. Conservative: a wall that comes nearer is never dropped. Rounding: a coordinate is multiplied
+// by a power of two, which is exact, rounded down (or up) to a whole number by the magic number 1.5 * 2^52, which is
+// exact below 2^51 and monotone above, and whole numbers below 2^53 are subtracted. Where the path itself lies beyond
+// 2^50 of these units, every wall is doubtful.
 #pragma once
 
-#include <bit>
+#include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <span>
+#include <vector>
 
 #include "core/raw_vector.hpp"
 #include "core/types.hpp"
+#include "core/wall_set.hpp"
 #include "parallel/execution.hpp"
-#include "worlds/exact_segments.hpp"
+#include "worlds/leg_boxes.hpp"
 
 namespace warren {
 
-/// Refers to the path, which must outlive it. After set_reach any number of threads may ask.
+/// Holds nothing of the path. After set_reach any number of threads may ask.
 class PathScreen {
  public:
-  /// path: at least two points, at most 500 million; typical_wall: the extent of most walls, 0 if not known; it only
-  /// decides on the cells.
-  PathScreen(std::span<const Vec2> path, double typical_wall, const Execution& execution);
+  /// What is to come; it only decides on the cells.
+  struct Plan {
+    std::size_t walls = 0;
+    double typical_wall = 0.0;  ///< the extent of most, 0 if not known
+  };
+  PathScreen(const LegBoxes& legs, const Plan& plan, const Execution& execution);
 
   double cell() const { return cell_; }
-
-  /// The distance of the wall from some legs within about a cell; infinity where there are none. At least the distance
-  /// from the path.
-  double distance_of_some(const Segment& wall) const;
 
   /// From now on walls at `least` and at r (1 + 1e-12) are far enough. At most some cells, or the screen is slow.
   void set_reach(double least, double r);
 
-  /// Is the wall in this box surely at the reach or farther, and not touched? Takes what it looks at, in words of
-  /// cells, from the budget; false where that doesn't do.
-  bool is_clear(const Box& wall, std::size_t& budget) const {
-    const double u_first = (wall.min.x - origin_.x) * per_cell_ - grow_;
-    const double u_last = (wall.max.x - origin_.x) * per_cell_ + grow_;
-    const double v_first = (wall.min.y - origin_.y) * per_cell_ - grow_;
-    const double v_last = (wall.max.y - origin_.y) * per_cell_ + grow_;
-    if (u_last < 0.0 || v_last < 0.0 || u_first >= columns_ || v_first >= rows_) return true;
-    const Window window{cell_number(std::max(u_first, 0.0)), cell_number(std::min(u_last, columns_ - 1.0)),
-                        cell_number(std::max(v_first, 0.0)), cell_number(std::min(v_last, rows_ - 1.0))};
-    const std::size_t words = window.words();
-    if (words > budget) return false;
-    budget -= words;
-    return all_slots(
-        window, [&](std::size_t slot) { return is_far(boxes_[slot].level, wall) && is_far(boxes_[slot].steep, wall); });
-  }
+  /// What sift() leaves.
+  struct Rest {
+    std::vector<std::size_t> doubtful;  ///< the walls that may be near
+    Box box;                            ///< of all walls
+  };
+  /// Walls are numbered from `first_number`; what they say is added to `rest`.
+  void sift(std::span<const FloatWall> walls, std::size_t first_number, Rest& rest) const;
+  void sift(std::span<const DoubleWall> walls, std::size_t first_number, Rest& rest) const;
 
  private:
-  /// Rounded outwards.
-  struct FloatBox {
-    float min_x, min_y, max_x, max_y;
-    void include(const FloatBox& box);
-  };
-  static FloatBox rounded(const Box& box);
-  struct Passage {
-    FloatBox level, steep;
+  struct Block;
+
+  static constexpr int quantum_bits = 8;              ///< a cell has 2^8 units
+  static constexpr std::int32_t margin = 2;           ///< empty cells around the path: what is outside falls on these
+  static constexpr std::int32_t most_side = 1 << 21;  ///< cells
+
+  /// Where a coordinate lies: in the open cell, or on the line where that begins.
+  struct Place {
+    std::int32_t cell;
+    bool on_line;
   };
   /// Cells first .. last.
   struct Window {
-    std::size_t column_first, column_last, row_first, row_last;
-    std::size_t words() const { return (row_last - row_first + 1) * ((column_last - column_first) / word_columns + 1); }
+    std::int32_t column_first, column_last, row_first, row_last;
+  };
+  /// Columns first .. last - 1.
+  struct Stripe {
+    std::int32_t first, last;
   };
 
-  static constexpr std::size_t word_columns = 57;  ///< what 64 bits hold from any bit of their first byte
-  static constexpr double slack = 1e-6;            ///< cells; far above the rounding of cell numbers
+  void choose_cell(const LegBoxes& legs, const Plan& plan);
+  static bool on_lattice(std::span<const Vec2> path, double cell);
+  Place place(double x, double first_cell) const;
+  void mark(const LegBoxes& legs, const Stripe& stripe, const Execution& execution);
+  void mark_leg(const Segment& leg, const Stripe& stripe);
+  void mark_box(const Box& box, const Stripe& stripe);
+  void mark_cell(std::int32_t column, std::int32_t row, const Stripe& stripe);
+  void set(std::int32_t column, std::int32_t row, unsigned which, const Stripe& stripe);
+  bool is_clear(const Window& window, std::size_t& budget) const;
+  template <class Wall>
+  static void keep_all(std::span<const Wall> walls, std::size_t first_number, Rest& rest);
+  template <class Wall>
+  void sift_all(std::span<const Wall> walls, std::size_t first_number, Rest& rest) const;
 
-  static std::size_t cell_number(double u) { return static_cast<std::size_t>(static_cast<std::int64_t>(u)); }
-  std::size_t slot_of(std::size_t column, std::size_t row) const {
-    const std::size_t byte = row * stride_ + column / 8;
-    return rank_[byte] + ones_below(bits_[byte], column % 8);
-  }
-  /// Ones among the lowest `count` bits.
-  static std::uint32_t ones_below(std::uint32_t bits, std::size_t count) {
-    bits &= (1U << count) - 1;
-    bits -= (bits >> 1) & 0x55U;
-    bits = (bits & 0x33U) + ((bits >> 2) & 0x33U);
-    return (bits + (bits >> 4)) & 0xfU;
-  }
-  bool is_far(const FloatBox& b, const Box& wall) const {
-    const double dx = std::max(std::max(b.min_x - wall.max.x, wall.min.x - b.max_x), 0.0);
-    const double dy = std::max(std::max(b.min_y - wall.max.y, wall.min.y - b.max_y), 0.0);
-    const double gap_sq = dx * dx + dy * dy;
-    return gap_sq >= near_sq_ && gap_sq > 0.0;
-  }
-
-  /// Does test(slot) hold for all marked cells of the window? Ends with the first for which it doesn't.
-  template <class Test>
-  bool all_slots(const Window& window, const Test& test) const {
-    for (std::size_t row = window.row_first; row <= window.row_last; ++row) {
-      for (std::size_t column = window.column_first; column <= window.column_last; column += word_columns) {
-        std::uint64_t cells = 0;
-        std::memcpy(&cells, &bits_[row * stride_ + column / 8], sizeof(cells));
-        const std::size_t count = std::min(window.column_last - column + 1, word_columns);
-        cells = (cells >> (column % 8)) & ((std::uint64_t{1} << count) - 1);
-        for (; cells != 0; cells &= cells - 1) {
-          if (!test(slot_of(column + static_cast<std::size_t>(std::countr_zero(cells)), row))) return false;
-        }
-      }
-    }
-    return true;
-  }
-
-  void choose_cell(double typical_wall);
-  /// visit(piece, box, leg) for pieces that make up all legs; box: exactly around the piece, or wider.
-  template <class Visit>
-  void for_each_piece(const Execution& execution, const Visit& visit) const;
-  template <class Visit>
-  void for_each_cell(const Segment& piece, const Visit& visit) const;
-  void mark_cells(const Execution& execution);
-  void gather_boxes(const Execution& execution);
-
-  std::span<const Vec2> path_;
-  Box box_;
-  Vec2 origin_;
   double cell_ = 1.0;
   double per_cell_ = 1.0;
-  double grow_ = 0.0;     ///< cells
-  double near_sq_ = 0.0;  ///< what is at this distance, squared, is far enough
-  double columns_ = 0.0;
-  double rows_ = 0.0;
-  std::size_t stride_ = 0;             ///< bytes of a row
-  RawVector<std::uint8_t> bits_;       ///< which cells the path passes
-  RawVector<std::uint32_t> rank_;      ///< marked cells before a byte's
-  RawVector<Passage> boxes_;           ///< one a marked cell
-  RawVector<std::uint32_t> some_leg_;  ///< of each marked cell
+  bool usable_ = true;
+  double first_column_ = 0.0;  ///< the lattice's number of our column 0
+  double first_row_ = 0.0;
+  std::int32_t columns_ = 0;
+  std::int32_t rows_ = 0;
+  double reach_ = 1.0;            ///< units, whole
+  std::size_t stride_ = 0;        ///< bytes of a column
+  RawVector<std::uint8_t> bits_;  ///< bit 2 * row of a column: up; the one after it: right
 };
 
 }  // namespace warren

@@ -15,17 +15,17 @@ void Tally::join(Tally&& other) {
   box.include(other.box);
 }
 
-Comparison::Comparison(const LegIndex& legs, const VerifyOptions& options, double at_most)
+Comparison::Comparison(const LegBoxes& legs, const VerifyOptions& options, double at_most)
     : legs_(legs), options_(options), at_most_(at_most) {
   narrow();
 }
 
-void Comparison::with_near_legs(const Segment& obstacle, std::size_t number) {
+void Comparison::with_near_legs(const LegIndex& index, const Segment& obstacle, std::size_t number) {
   const Box box = box_of(obstacle);
   tally_.box.include(box);
   std::size_t seen_first = 1;  // neighbouring cells hold the same legs: these have just been compared
   std::size_t seen_last = 0;
-  legs_.for_each_near(obstacle, [&](std::size_t first, std::size_t last) {
+  index.for_each_near(obstacle, [&](std::size_t first, std::size_t last) {
     if (seen_first > seen_last || first > seen_last + 1 || last + 1 < seen_first) {
       seen_first = first;
       seen_last = last;

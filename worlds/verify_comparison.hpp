@@ -11,6 +11,7 @@
 
 #include "core/types.hpp"
 #include "worlds/contact_walk.hpp"
+#include "worlds/leg_boxes.hpp"
 #include "worlds/leg_index.hpp"
 #include "worlds/verify.hpp"
 
@@ -33,11 +34,11 @@ struct Tally {
 class Comparison {
  public:
   /// Distances at or above `at_most` are of no interest.
-  Comparison(const LegIndex& legs, const VerifyOptions& options, double at_most);
+  Comparison(const LegBoxes& legs, const VerifyOptions& options, double at_most);
 
-  /// With the legs within the reach of the index.
-  void with_near_legs(const Segment& obstacle, std::size_t number);
-  /// O(legs) at worst; by the boxes of legs.
+  /// With the legs within the reach of the index, which is one of these legs.
+  void with_near_legs(const LegIndex& index, const Segment& obstacle, std::size_t number);
+  /// By the boxes of legs: about log(legs), plus what is near; O(legs) at worst.
   void with_all_legs(const Segment& obstacle, std::size_t number);
   Tally take() { return std::move(tally_); }
 
@@ -51,7 +52,7 @@ class Comparison {
   void forbid(std::size_t leg, std::size_t number);
   void narrow();
 
-  const LegIndex& legs_;
+  const LegBoxes& legs_;
   const VerifyOptions& options_;
   double at_most_;
   double near_sq_ = 0.0;  ///< legs at this distance (squared) and above are left out

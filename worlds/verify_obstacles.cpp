@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "parallel/chunks.hpp"
+#include "worlds/leg_boxes.hpp"
 #include "worlds/leg_index.hpp"
+#include "worlds/path_boxes.hpp"
 #include "worlds/path_screen.hpp"
 
 namespace warren {
@@ -15,57 +17,50 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t grain = std::size_t{1} << 15;
+constexpr std::size_t small_grain = 1024;  // where one obstacle takes microseconds
 constexpr std::size_t sample_block = 512;  // walls in a row: as many as make one visit to memory worth it
 constexpr std::size_t sample_stride = 32 * sample_block;
-
-/// Runs `compare(comparison, i)` for i = 0 .. count - 1 in chunks of `size`, each with a comparison of its own.
-template <class Compare>
-Tally tally_of(std::size_t count, std::size_t size, const LegIndex& legs, const VerifyOptions& options, double at_most,
-               const Execution& execution, const Compare& compare) {
-  std::vector<Tally> parts(chunk_count(count, size));
-  for_chunks(count, size, execution, [&](Range r) {
-    Comparison comparison(legs, options, at_most);
-    for (std::size_t i = r.first; i < r.last; ++i) compare(comparison, i);
-    parts[r.first / size] = comparison.take();
-  });
-  Tally all;
-  for (Tally& part : parts) all.join(std::move(part));
-  return all;
-}
 
 /// One such comparison in progress.
 class ObstaclePass {
  public:
   ObstaclePass(const Scene& scene, const Obstacles& obstacles, std::span<const Vec2> path, const VerifyOptions& options,
                const Execution& execution)
-      : scene_(scene), path_(path), options_(options), execution_(execution), obstacles_(obstacles) {}
+      : scene_(scene),
+        options_(options),
+        execution_(execution),
+        obstacles_(obstacles),
+        legs_(path, execution),
+        half_wall_(typical_wall()) {}
 
   Tally run() {
-    const double half_wall = typical_wall();
-    PathScreen screen(path_, 2.0 * half_wall, execution_);
-    const double bound = least_of_some(screen);
+    const double bound = least_of_some();
     const double reach = std::max(bound, options_.clearance);
-    if (!(reach <= 4.0 * screen.cell())) {
-      legs_.emplace(path_, LegIndex::Plan{options_.clearance, obstacles_.size(), half_wall}, execution_);
-      return compare_unscreened();
-    }
+    PathScreen screen(legs_, {obstacles_.size(), 2.0 * half_wall_}, execution_);
+    if (!(reach <= 4.0 * screen.cell())) return compare_unscreened();
     screen.set_reach(bound, options_.clearance);
-    Screened screened = screened_obstacles(screen);
-    Tally tally;
-    if (!screened.doubtful.empty()) {
-      legs_.emplace(path_, LegIndex::Plan{reach, screened.doubtful.size(), half_wall}, execution_);
-      legs_->set_reach(reach, execution_);
-      const auto compare = [&](Comparison& comparison, std::size_t i) {
-        comparison.with_near_legs(obstacles_.segment(screened.doubtful[i]), screened.doubtful[i]);
-      };
-      tally = tally_of(screened.doubtful.size(), grain, *legs_, options_, reach, execution_, compare);
-    }
-    tally.box = screened.box;
+    const PathScreen::Rest rest = screened(screen, bound);
+    Tally tally = compare(rest.doubtful, reach);
+    tally.box = rest.box;
     tally.least = std::min(tally.least, bound);
     return tally;
   }
 
  private:
+  /// Runs `compare(comparison, i)` for i = 0 .. count - 1 in chunks of `size`, each with a comparison of its own.
+  template <class Compare>
+  Tally tally_of(std::size_t count, std::size_t size, double at_most, const Compare& compare) const {
+    std::vector<Tally> parts(chunk_count(count, size));
+    for_chunks(count, size, execution_, [&](Range r) {
+      Comparison comparison(legs_, options_, at_most);
+      for (std::size_t i = r.first; i < r.last; ++i) compare(comparison, i);
+      parts[r.first / size] = comparison.take();
+    });
+    Tally all;
+    for (Tally& part : parts) all.join(std::move(part));
+    return all;
+  }
+
   /// Half the extent of the middle one of some walls.
   double typical_wall() const {
     constexpr std::size_t most = 1023;
@@ -81,63 +76,99 @@ class ObstaclePass {
     return *middle;
   }
 
-  /// A distance from the path that some wall has: nothing beyond it matters for the least one.
-  double least_of_some(const PathScreen& screen) const {
-    constexpr std::size_t most_blocks = 256;
-    constexpr std::size_t block = 64;  // walls in a row
+  /// Calls visit(first, last) for some runs of obstacles, a 64th of all.
+  template <class Visit>
+  void for_some(const Visit& visit) const {
+    constexpr std::size_t most_runs = 64;
+    constexpr std::size_t run = 64;  // obstacles in a row
     const std::size_t count = obstacles_.size();
-    const std::size_t blocks = std::min(most_blocks, chunk_count(count, 8 * block));
-    double least = infinity;
-    for (std::size_t b = 0; b < blocks; ++b) {
-      const std::size_t first = count / blocks * b;
-      for (std::size_t i = first; i < std::min(first + block, count); ++i) {
-        least = std::min(least, screen.distance_of_some(obstacles_.segment(i)));
-      }
-    }
-    return least;
+    const std::size_t runs = std::clamp<std::size_t>(count / (64 * run), 1, most_runs);
+    const std::size_t length = std::min(run, count / 64 + 1);
+    for (std::size_t i = 0; i < runs && count > 0; ++i) visit(count / runs * i, count / runs * i + length);
   }
 
-  /// What the screen says about obstacles.
-  struct Screened {
-    std::vector<std::size_t> doubtful;  ///< these may be near the path
-    Box box;                            ///< of all
-
-    void join(const Screened& other) {
-      doubtful.insert(doubtful.end(), other.doubtful.begin(), other.doubtful.end());
-      box.include(other.box);
-    }
-  };
-
-  Screened screened_obstacles(const PathScreen& screen) const {
-    Screened all = scene_.walls.visit([&](auto walls) {
-      return screened(screen, walls.size(), 0, [walls](std::size_t i) { return box_of(walls[i].segment()); });
+  /// A distance from the path that some obstacle has: nothing beyond it matters for the least one.
+  double least_of_some() const {
+    Comparison comparison(legs_, options_, infinity);
+    for_some([&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) comparison.with_all_legs(obstacles_.segment(i), i);
     });
-    const Box walls_box = all.box;
-    const auto side = [&](std::size_t i) { return box_of(obstacles_.side_segment(i)); };
-    all.join(screened(screen, obstacles_.sides().size(), obstacles_.wall_count(), side));
-    all.box = walls_box;
+    return comparison.take().least;
+  }
+
+  /// About so many obstacles the screen will leave.
+  std::size_t expected_rest(const PathScreen& screen) const {
+    PathScreen::Rest rest;
+    std::size_t asked = 0;
+    for_some([&](std::size_t first, std::size_t last) {
+      std::vector<DoubleWall> some;
+      for (std::size_t i = first; i < last; ++i) some.push_back(wall_of(obstacles_.segment(i)));
+      screen.sift(some, first, rest);
+      asked += some.size();
+    });
+    return asked == 0 ? 0 : rest.doubtful.size() * (obstacles_.size() / asked);
+  }
+
+  static DoubleWall wall_of(const Segment& s) { return {s.a.x, s.a.y, s.b.x, s.b.y}; }
+
+  /// What the screens leave; the box is that of walls and polygons.
+  PathScreen::Rest screened(const PathScreen& screen, double bound) const {
+    std::optional<PathBoxes> boxes;  // pays where the path doesn't keep to the cells' lines
+    if (expected_rest(screen) > legs_.leg_count() / 2 + grain) {
+      boxes.emplace(legs_, 2.0 * half_wall_, execution_);
+      boxes->set_reach(bound, options_.clearance);
+    }
+    PathScreen::Rest all = scene_.walls.visit([&](auto walls) {
+      return screened(screen, boxes, walls.size(), 0, [walls](Range r) { return walls.subspan(r.first, r.size()); });
+    });
+    const auto sides_in = [&](Range r) {
+      std::vector<DoubleWall> sides;
+      for (std::size_t i = r.first; i < r.last; ++i) sides.push_back(wall_of(obstacles_.side_segment(i)));
+      return sides;
+    };
+    const PathScreen::Rest sides =
+        screened(screen, boxes, obstacles_.sides().size(), obstacles_.wall_count(), sides_in);
+    all.doubtful.insert(all.doubtful.end(), sides.doubtful.begin(), sides.doubtful.end());
     for (const Ring& ring : obstacles_.rings()) include_corners(ring, all.box);
     return all;
   }
 
   /// Numbers count from `first_number`.
-  template <class BoxAt>
-  Screened screened(const PathScreen& screen, std::size_t count, std::size_t first_number, const BoxAt& box_at) const {
-    std::vector<Screened> parts(chunk_count(count, grain));
+  template <class WallsIn>
+  PathScreen::Rest screened(const PathScreen& screen, const std::optional<PathBoxes>& boxes, std::size_t count,
+                            std::size_t first_number, const WallsIn& walls_in) const {
+    std::vector<PathScreen::Rest> parts(chunk_count(count, grain));
     for_chunks(count, grain, execution_, [&](Range r) {
-      Screened part;
+      PathScreen::Rest part;
+      const auto& walls = walls_in(r);
+      screen.sift(std::span(walls), first_number + r.first, part);
       std::size_t budget = 65536 + 64 * r.size();  // words of cells: for many short obstacles and a few long ones
-      for (std::size_t i = r.first; i < r.last; ++i) {
-        const Box box = box_at(i);
-        part.box.min = {std::min(part.box.min.x, box.min.x), std::min(part.box.min.y, box.min.y)};
-        part.box.max = {std::max(part.box.max.x, box.max.x), std::max(part.box.max.y, box.max.y)};
-        if (!screen.is_clear(box, budget)) part.doubtful.push_back(first_number + i);
-      }
+      const auto is_clear = [&](std::size_t number) {
+        return boxes->is_clear(box_of(walls[number - first_number - r.first].segment()), budget);
+      };
+      if (boxes) std::erase_if(part.doubtful, is_clear);
       parts[r.first / grain] = std::move(part);
     });
-    Screened all;
-    for (const Screened& part : parts) all.join(part);
+    PathScreen::Rest all;
+    for (const PathScreen::Rest& part : parts) {
+      all.doubtful.insert(all.doubtful.end(), part.doubtful.begin(), part.doubtful.end());
+      all.box.include(part.box);
+    }
     return all;
+  }
+
+  /// The obstacles of these numbers with the legs nearer than the reach.
+  Tally compare(const std::vector<std::size_t>& numbers, double reach) const {
+    if (numbers.size() <= legs_.leg_count() / 16 + 64) {
+      return tally_of(numbers.size(), small_grain, reach, [&](Comparison& comparison, std::size_t i) {
+        comparison.with_all_legs(obstacles_.segment(numbers[i]), numbers[i]);
+      });
+    }
+    LegIndex index(legs_, {reach, numbers.size(), half_wall_}, execution_);
+    index.set_reach(reach, execution_);
+    return tally_of(numbers.size(), small_grain, reach, [&](Comparison& comparison, std::size_t i) {
+      comparison.with_near_legs(index, obstacles_.segment(numbers[i]), numbers[i]);
+    });
   }
 
   /// The bounds are no obstacle in this sense.
@@ -146,49 +177,50 @@ class ObstaclePass {
     for (const Vec2 p : ring.corners) box.include(p);
   }
 
-  Tally compare_unscreened() {
-    LegIndex& legs = *legs_;
-    const double widest = 4.0 * legs.cell();
+  Tally compare_unscreened() const {
+    LegIndex index(legs_, {options_.clearance, obstacles_.size(), half_wall_}, execution_);
+    const double widest = 4.0 * index.cell();
     double bound = infinity;  // a distance that some wall has: nothing beyond it matters for the least one
     if (scene_.walls.size() > 8 * sample_stride) {
-      legs.set_reach(widest, execution_);
-      bound = sampled_least(widest);
+      index.set_reach(widest, execution_);
+      bound = sampled_least(index, widest);
     }
     const double reach = std::max(options_.clearance, std::min(bound, widest));
-    legs.set_reach(reach, execution_);
-    Tally tally = walls_against_path(reach);
-    tally.join(sides_against_path(reach));
+    index.set_reach(reach, execution_);
+    Tally tally = walls_against_path(index, reach);
+    tally.join(sides_against_path(index, reach));
     tally.least = std::min(tally.least, bound);
     if (tally.least > reach) tally.least = least_of_far();
     return tally;
   }
 
-  double sampled_least(double reach) const {
+  double sampled_least(const LegIndex& index, double reach) const {
     return scene_.walls.visit([&](auto walls) {
       const std::size_t blocks = walls.size() / sample_stride;
       const auto compare = [&, walls](Comparison& comparison, std::size_t block) {
         const std::size_t first = block * sample_stride;
-        for (std::size_t i = first; i < first + sample_block; ++i) comparison.with_near_legs(walls[i].segment(), i);
+        for (std::size_t i = first; i < first + sample_block; ++i)
+          comparison.with_near_legs(index, walls[i].segment(), i);
       };
-      return tally_of(blocks, 64, *legs_, options_, reach, execution_, compare).least;
+      return tally_of(blocks, 64, reach, compare).least;
     });
   }
 
-  Tally walls_against_path(double reach) const {
+  Tally walls_against_path(const LegIndex& index, double reach) const {
     return scene_.walls.visit([&](auto walls) {
-      const auto compare = [walls](Comparison& comparison, std::size_t i) {
-        comparison.with_near_legs(walls[i].segment(), i);
+      const auto compare = [&, walls](Comparison& comparison, std::size_t i) {
+        comparison.with_near_legs(index, walls[i].segment(), i);
       };
-      return tally_of(walls.size(), grain, *legs_, options_, reach, execution_, compare);
+      return tally_of(walls.size(), grain, reach, compare);
     });
   }
 
-  Tally sides_against_path(double reach) const {
+  Tally sides_against_path(const LegIndex& index, double reach) const {
     const auto compare = [&](Comparison& comparison, std::size_t i) {
-      comparison.with_near_legs(obstacles_.side_segment(i), obstacles_.wall_count() + i);
+      comparison.with_near_legs(index, obstacles_.side_segment(i), obstacles_.wall_count() + i);
     };
-    Tally tally = tally_of(obstacles_.sides().size(), grain, *legs_, options_, reach, execution_, compare);
-    tally.box = {};  // the bounds are no obstacle in this sense
+    Tally tally = tally_of(obstacles_.sides().size(), grain, reach, compare);
+    tally.box = {};
     for (const Ring& ring : obstacles_.rings()) include_corners(ring, tally.box);
     return tally;
   }
@@ -202,16 +234,16 @@ class ObstaclePass {
     const std::size_t step = std::max<std::size_t>(1, obstacles_.size() / 512);
     const auto compare_some = [&](Comparison& comparison, std::size_t i) { compare(comparison, i * step); };
     const std::size_t some = obstacles_.size() / step;
-    const double bound = tally_of(some, grain, *legs_, options_, infinity, execution_, compare_some).least;
-    return std::min(bound, tally_of(obstacles_.size(), grain, *legs_, options_, bound, execution_, compare).least);
+    const double bound = tally_of(some, grain, infinity, compare_some).least;
+    return std::min(bound, tally_of(obstacles_.size(), grain, bound, compare).least);
   }
 
   const Scene& scene_;
-  std::span<const Vec2> path_;
   const VerifyOptions& options_;
   const Execution& execution_;
   const Obstacles& obstacles_;
-  std::optional<LegIndex> legs_;  ///< made only where the screen leaves something open
+  LegBoxes legs_;
+  double half_wall_;
 };
 
 }  // namespace

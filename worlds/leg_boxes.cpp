@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "worlds/leg_boxes.hpp"
+
+#include <algorithm>
+
+#include "parallel/chunks.hpp"
+
+namespace warren {
+
+LegBoxes::LegBoxes(std::span<const Vec2> path, const Execution& execution) : path_(path) {
+  constexpr std::size_t grain = 8192;
+  std::vector<Box> blocks((leg_count() + 7) / 8);
+  execution.reserve(blocks.size() * sizeof(Box));
+  std::vector<double> lengths(chunk_count(blocks.size(), grain));
+  for_chunks(blocks.size(), grain, execution, [&](Range r) {
+    double length = 0.0;
+    for (std::size_t block = r.first; block < r.last; ++block) {
+      const std::size_t last = std::min(8 * block + 8, leg_count());
+      Box box = box_of(leg(8 * block));
+      for (std::size_t i = 8 * block; i < last; ++i) {
+        const Vec2 to = path_[i + 1];
+        box.min = {std::min(box.min.x, to.x), std::min(box.min.y, to.y)};
+        box.max = {std::max(box.max.x, to.x), std::max(box.max.y, to.y)};
+        length += norm(to - path_[i]);
+      }
+      blocks[block] = box;
+    }
+    lengths[r.first / grain] = length;
+  });
+  for (const double length : lengths) length_ += length;
+  levels_.push_back(std::move(blocks));
+  while (levels_.back().size() > 1) {
+    const std::vector<Box>& parts = levels_.back();
+    std::vector<Box> wholes((parts.size() + 7) / 8);
+    for (std::size_t i = 0; i < parts.size(); ++i) wholes[i / 8].include(parts[i]);
+    levels_.push_back(std::move(wholes));
+  }
+}
+
+}  // namespace warren
