@@ -133,15 +133,16 @@ void PointGrid::for_each_later_within(VertexId i, const SearchRadius& radius, co
     });
     return;
   }
-  const auto later = [&](std::uint32_t first, std::uint32_t last) {
+  const auto visit_later = [&](std::uint32_t first, std::uint32_t last) {
     visit_run(p, radius.square(), std::max(first, i + 1), last, visit);
   };
   // Of the point's own strip only the rows from its own one on hold later points; strips to the left hold none.
   const Window all = window(p, radius.reach());
   const std::uint32_t strip_left = frame_.column(p.x) / CellFrame::strip_width * CellFrame::strip_width;
   const std::uint32_t next_strip = strip_left + CellFrame::strip_width;
-  for_each_run({std::max(all.left, strip_left), std::min(all.right, next_strip - 1), frame_.row(p.y), all.top}, later);
-  if (all.right >= next_strip) for_each_run({next_strip, all.right, all.bottom, all.top}, later);
+  for_each_run({std::max(all.left, strip_left), std::min(all.right, next_strip - 1), frame_.row(p.y), all.top},
+               visit_later);
+  if (all.right >= next_strip) for_each_run({next_strip, all.right, all.bottom, all.top}, visit_later);
 }
 
 }  // namespace warren

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planners/near_pieces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace warren {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double margin = 1e-9;          // of places: far above their rounding, far below a range's width
+constexpr double shallow = 1e-6;         // sines below this: a distance along the ray is not to be trusted
+constexpr double outwards = 1.0 + 1e-9;  // distances are rounded up by this
+
+Vec2 direction_at(double place) {
+  if (place < 1.0) return {1.0 - place, place};
+  if (place < 2.0) return {1.0 - place, 2.0 - place};
+  if (place < 3.0) return {place - 3.0, 2.0 - place};
+  return {place - 3.0, place - 4.0};
+}
+
+/// The first and the last direction, anticlockwise, in which the box lies; the origin is not in it.
+struct BoxView {
+  Vec2 first;
+  Vec2 last;
+};
+BoxView view_of(const Box& b) {
+  if (b.min.x > 0.0) {
+    if (b.min.y > 0.0) return {{b.max.x, b.min.y}, {b.min.x, b.max.y}};
+    if (b.max.y < 0.0) return {b.min, b.max};
+    return {b.min, {b.min.x, b.max.y}};
+  }
+  if (b.max.x < 0.0) {
+    if (b.min.y > 0.0) return {b.max, b.min};
+    if (b.max.y < 0.0) return {{b.min.x, b.max.y}, {b.max.x, b.min.y}};
+    return {b.max, {b.max.x, b.min.y}};
+  }
+  if (b.min.y > 0.0) return {{b.max.x, b.min.y}, b.min};
+  return {{b.min.x, b.max.y}, b.max};
+}
+
+}  // namespace
+
+double direction_place(Vec2 d) {
+  const double sum = std::abs(d.x) + std::abs(d.y);
+  if (d.y >= 0.0) return d.x >= 0.0 ? d.y / sum : 1.0 - d.x / sum;
+  return d.x < 0.0 ? 2.0 - d.y / sum : 3.0 + d.x / sum;
+}
+
+NearPieces::NearPieces(const PlanePieces& pieces)
+    : pieces_(pieces), cell_epoch_(pieces.grid().cell_count(), 0), piece_epoch_(pieces.pieces().size(), 0) {
+  for (std::size_t i = 0; i < directions; ++i) {
+    const Vec2 d = direction_at(4.0 * static_cast<double>(i) / static_cast<double>(directions));
+    unit_[i] = (1.0 / norm(d)) * d;
+  }
+}
+
+void NearPieces::open(std::span<const PlaceRange> ranges) {
+  constexpr double scale = static_cast<double>(directions) / 4.0;
+  sight_.fill(0.0);
+  for (const PlaceRange& r : ranges) {
+    const double end = r.last >= r.first ? r.last : r.last + 4.0;
+    if (end - r.first >= 4.0 - 2.0 / scale) return sight_.fill(infinity);
+    const auto first = static_cast<std::size_t>((r.first + 4.0 - margin) * scale);
+    const auto last = static_cast<std::size_t>((end + 4.0 + margin) * scale);
+    for (std::size_t i = first; i <= last; ++i) sight_[i % directions] = infinity;
+  }
+}
+
+void NearPieces::next_epoch() {
+  if (++epoch_ != 0) return;
+  std::fill(cell_epoch_.begin(), cell_epoch_.end(), 0);
+  std::fill(piece_epoch_.begin(), piece_epoch_.end(), 0);
+  epoch_ = 1;
+}
+
+void NearPieces::hide_behind(Vec2 a, Vec2 b, double first, double last) {
+  constexpr double scale = static_cast<double>(directions) / 4.0;
+  if (last < first) last += 4.0;
+  const auto begin = static_cast<std::size_t>(std::ceil((first + margin) * scale));
+  const auto end = static_cast<std::size_t>(std::floor((last - margin) * scale));
+  if (begin >= end) return;
+  const Vec2 along = b - a;
+  const double to_line = cross(a, along);
+  const double length = norm(along);
+  const double farthest = std::max(norm(a), norm(b));
+  const bool steep = std::abs(to_line) > shallow * norm(a) * length;
+  const auto distance_at = [&](std::size_t i) {
+    const double sine = cross(unit_[i % directions], along);
+    return steep && std::abs(sine) > shallow * length ? std::min(to_line / sine, farthest) : farthest;
+  };
+  double here = distance_at(begin);
+  for (std::size_t i = begin; i < end; ++i) {
+    const double next = distance_at(i + 1);
+    double& sight = sight_[i % directions];
+    sight = std::min(sight, std::max(here, next) * outwards);
+    here = next;
+  }
+}
+
+void NearPieces::see(std::uint32_t piece) {
+  if (piece_epoch_[piece] == epoch_) return;
+  piece_epoch_[piece] = epoch_;
+  seen_.push_back(piece);
+  const Segment s = pieces_.segment(piece);
+  const Vec2 a = s.a - eye_;
+  const Vec2 b = s.b - eye_;
+  const double area = cross(a, b);
+  if (!(std::abs(area) > 1e-12 * norm(a) * norm(b))) return;  // seen end on, or the eye is its end
+  const double place_a = direction_place(a);
+  const double place_b = direction_place(b);
+  if (area > 0.0) {
+    hide_behind(a, b, place_a, place_b);
+  } else {
+    hide_behind(a, b, place_b, place_a);
+  }
+}
+
+bool NearPieces::is_hidden(SegmentGrid::Cell cell) const {
+  constexpr double scale = static_cast<double>(directions) / 4.0;
+  const Box at = pieces_.grid().box_of_cell(cell);
+  const Box box{at.min - eye_, at.max - eye_};
+  const Vec2 nearest{std::max({box.min.x, -box.max.x, 0.0}), std::max({box.min.y, -box.max.y, 0.0})};
+  const double distance = norm(nearest);
+  if (!(distance > 0.0)) return false;
+  const BoxView view = view_of(box);
+  const double first = direction_place(view.first) + 4.0 - margin;
+  double last = direction_place(view.last) + 4.0 + margin;
+  if (last < first) last += 4.0;
+  const auto end = static_cast<std::size_t>(last * scale);
+  for (auto i = static_cast<std::size_t>(first * scale); i <= end; ++i) {
+    if (sight_[i % directions] >= distance) return false;
+  }
+  return true;
+}
+
+void NearPieces::propose(SegmentGrid::Cell cell) {
+  if (cell.col >= pieces_.grid().cols() || cell.row >= pieces_.grid().rows()) return;  // below 0 wraps
+  std::uint32_t& epoch = cell_epoch_[pieces_.grid().index(cell)];
+  if (epoch == epoch_) return;
+  epoch = epoch_;
+  next_.push_back(cell);
+}
+
+void NearPieces::propose_beyond(SegmentGrid::Cell from) {
+  if (from.col >= home_.col) propose({from.col + 1, from.row});
+  if (from.col <= home_.col) propose({from.col - 1, from.row});
+  if (from.row >= home_.row) propose({from.col, from.row + 1});
+  if (from.row <= home_.row) propose({from.col, from.row - 1});
+}
+
+void NearPieces::enter(SegmentGrid::Cell cell) {
+  if (is_hidden(cell)) return;
+  for (const std::uint32_t piece : pieces_.grid().in_cell(cell)) see(piece);
+  propose_beyond(cell);
+}
+
+std::span<const std::uint32_t> NearPieces::look(Vec2 p, std::span<const PlaceRange> ranges) {
+  const SegmentGrid& grid = pieces_.grid();
+  seen_.clear();
+  if (!grid.box().contains(p)) {
+    seen_.resize(pieces_.pieces().size());
+    std::iota(seen_.begin(), seen_.end(), 0U);
+    return seen_;
+  }
+  next_epoch();
+  open(ranges);
+  eye_ = p;
+  home_ = grid.cell_of(p);
+  next_.clear();
+  propose(home_);
+  while (!next_.empty()) {
+    now_.swap(next_);
+    next_.clear();
+    for (const SegmentGrid::Cell cell : now_) enter(cell);
+  }
+  return seen_;
+}
+
+}  // namespace warren

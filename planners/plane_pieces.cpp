@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planners/plane_pieces.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/error.hpp"
+#include "core/geometry.hpp"
+
+namespace warren {
+namespace {
+
+constexpr std::size_t items_per_poll = 1 << 14;
+
+/// All sides and walls as segments between numbered points, as they are given.
+struct Sides {
+  std::vector<Vec2> ends;          // two a side
+  std::vector<std::int32_t> rise;  // one a side
+  std::size_t corner_ends = 0;     // the first ends, without those of the bounds
+
+  void add(Vec2 a, Vec2 b, std::int32_t change) {
+    if (a == b) return;
+    ends.push_back(a);
+    ends.push_back(b);
+    rise.push_back(change);
+  }
+};
+
+bool has_area(const Box& box) { return box.width() > 0.0 && box.height() > 0.0; }
+
+Sides sides_of(const PlaneObstacles& obstacles) {
+  Sides sides;
+  for (std::size_t p = 0; p < obstacles.polygons.size(); ++p) {
+    const std::span<const Vec2> corners = obstacles.polygons[p];
+    for (std::size_t i = 0; i < corners.size(); ++i) sides.add(corners[i], corners[(i + 1) % corners.size()], 1);
+  }
+  for (const Segment& wall : obstacles.walls) sides.add(wall.a, wall.b, 0);
+  sides.corner_ends = sides.ends.size();
+  if (obstacles.bounds) {
+    const Box& box = *obstacles.bounds;
+    const Vec2 corners[] = {box.min, {box.max.x, box.min.y}, box.max, {box.min.x, box.max.y}};
+    const int change = has_area(box) ? -1 : 0;  // outside, on the right, counts as a polygon
+    for (std::size_t i = 0; i < 4; ++i) sides.add(corners[i], corners[(i + 1) % 4], change);
+  }
+  if (sides.ends.size() >= (std::size_t{1} << 32)) throw InputError("obstacles", "more than 2^31 sides and walls");
+  return sides;
+}
+
+/// Numbers equal ends alike, in the order in which they first appear; `points` receives the different ones.
+std::vector<PointId> number_points(std::span<const Vec2> ends, std::vector<Vec2>& points) {
+  std::vector<std::uint32_t> order(ends.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
+    if (ends[i].x != ends[j].x) return ends[i].x < ends[j].x;
+    if (ends[i].y != ends[j].y) return ends[i].y < ends[j].y;
+    return i < j;
+  });
+  std::vector<PointId> number(ends.size());  // first of all the first end at the same place
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const bool again = k > 0 && ends[order[k]] == ends[order[k - 1]];
+    number[order[k]] = again ? number[order[k - 1]] : order[k];
+  }
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    if (number[i] == i) {
+      number[i] = static_cast<PointId>(points.size());
+      points.push_back(ends[i]);
+    } else {
+      number[i] = number[number[i]];
+    }
+  }
+  return number;
+}
+
+/// Is the point (at.x + d, at.y + d^2), for all small d > 0, left of a -> b?
+bool is_left(const Segment& s, Vec2 at) {
+  const int side = orient2d(s.a, s.b, at);
+  if (side != 0) return side > 0;
+  if (s.a.y != s.b.y) return s.b.y < s.a.y;
+  return s.b.x > s.a.x;
+}
+
+}  // namespace
+
+PlanePieces::PlanePieces(const PlaneObstacles& obstacles, const Execution& execution) {
+  const Sides sides = sides_of(obstacles);
+  outside_depth_ = obstacles.bounds && has_area(*obstacles.bounds) ? 1 : 0;
+  execution.reserve(sides.rise.size() * 150);
+  const std::vector<PointId> number = number_points(sides.ends, points_);
+  corner_count_ = 0;
+  for (std::size_t i = 0; i < sides.corner_ends; ++i)
+    corner_count_ = std::max<std::size_t>(corner_count_, number[i] + 1);
+  cut(number, sides.rise, execution);
+  list_at_points();
+  std::vector<Segment> segments(pieces_.size());
+  for (std::size_t i = 0; i < segments.size(); ++i) segments[i] = segment(static_cast<std::uint32_t>(i));
+  grid_ = SegmentGrid(segments, execution);
+  find_crossings(execution);
+  sound_depths(execution);
+}
+
+void PlanePieces::cut(std::span<const PointId> ends, std::span<const std::int32_t> rises, const Execution& execution) {
+  std::vector<Segment> segments(rises.size());
+  for (std::size_t i = 0; i < segments.size(); ++i) segments[i] = {points_[ends[2 * i]], points_[ends[2 * i + 1]]};
+  const SegmentGrid grid(segments, execution);
+  std::vector<std::pair<std::uint32_t, PointId>> cuts;  // (segment, point inside it)
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    if (p % items_per_poll == 0) execution.check();
+    const Vec2 at = points_[p];
+    for (const std::uint32_t i : grid.in_cell(grid.cell_of(at))) {
+      if (segments[i].a == at || segments[i].b == at || !on_segment(at, segments[i])) continue;
+      cuts.emplace_back(i, static_cast<PointId>(p));
+    }
+  }
+  std::sort(cuts.begin(), cuts.end());
+  std::vector<Piece> pieces;
+  pieces.reserve(segments.size() + cuts.size());
+  auto cut = cuts.begin();
+  for (std::uint32_t i = 0; i < segments.size(); ++i) {
+    const Segment& s = segments[i];
+    const auto first = cut;
+    while (cut != cuts.end() && cut->first == i) ++cut;
+    std::sort(first, cut, [&](const auto& c, const auto& d) {
+      const Vec2 p = points_[c.second];
+      const Vec2 q = points_[d.second];
+      if (p.x != q.x) return (p.x < q.x) == (s.a.x < s.b.x);
+      return p.y != q.y && (p.y < q.y) == (s.a.y < s.b.y);
+    });
+    PointId last = ends[2 * i];
+    for (auto c = first; c != cut; ++c) {
+      pieces.push_back({last, c->second, rises[i]});
+      last = c->second;
+    }
+    pieces.push_back({last, ends[2 * i + 1], rises[i]});
+  }
+  merge(pieces);
+}
+
+void PlanePieces::merge(std::vector<Piece>& pieces) {
+  for (Piece& p : pieces) {
+    if (p.a > p.b) p = {p.b, p.a, -p.rise};
+  }
+  std::sort(pieces.begin(), pieces.end(),
+            [](const Piece& p, const Piece& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
+  for (const Piece& p : pieces) {
+    if (!pieces_.empty() && pieces_.back().a == p.a && pieces_.back().b == p.b) {
+      pieces_.back().rise += p.rise;
+    } else {
+      pieces_.push_back(p);
+    }
+  }
+}
+
+void PlanePieces::list_at_points() {
+  first_at_point_.assign(points_.size() + 1, 0);
+  for (const Piece& p : pieces_) {
+    ++first_at_point_[p.a];
+    ++first_at_point_[p.b];
+  }
+  std::uint32_t sum = 0;
+  for (std::uint32_t& first : first_at_point_) sum += first, first = sum;
+  at_point_.resize(sum);
+  for (std::size_t i = pieces_.size(); i-- > 0;) {
+    at_point_[--first_at_point_[pieces_[i].a]] = static_cast<std::uint32_t>(i);
+    at_point_[--first_at_point_[pieces_[i].b]] = static_cast<std::uint32_t>(i);
+  }
+}
+
+void PlanePieces::find_crossings(const Execution& execution) {
+  for (std::uint32_t row = 0; row < grid_.rows(); ++row) {
+    execution.check();
+    for (std::uint32_t col = 0; col < grid_.cols(); ++col) {
+      const std::span<const std::uint32_t> here = grid_.in_cell({col, row});
+      for (std::size_t i = 0; i < here.size(); ++i) {
+        const Segment s = segment(here[i]);
+        const Box box = box_of(s);
+        if (i % items_per_poll == 0) execution.check();
+        for (std::size_t j = i + 1; j < here.size(); ++j) {
+          const Segment t = segment(here[j]);
+          if (!box.meets(box_of(t)) || !segments_cross(s, t)) continue;
+          crosses_ = true;
+          return;
+        }
+      }
+    }
+  }
+}
+
+int PlanePieces::rise_across(std::uint32_t piece, Vec2 from, Vec2 to) const {
+  const Segment s = segment(piece);
+  const bool meets = from.x == to.x ? (s.a.x <= from.x) != (s.b.x <= from.x) : (s.a.y <= from.y) != (s.b.y <= from.y);
+  if (!meets) return 0;
+  const bool was_left = is_left(s, from);
+  if (was_left == is_left(s, to)) return 0;
+  return was_left ? -pieces_[piece].rise : pieces_[piece].rise;
+}
+
+int PlanePieces::rise_in_cell(SegmentGrid::Cell cell, Vec2 from, Vec2 to) const {
+  if (from == to) return 0;
+  int rise = 0;
+  for (const std::uint32_t piece : grid_.in_cell(cell)) {
+    if (pieces_[piece].rise != 0) rise += rise_across(piece, from, to);
+  }
+  return rise;
+}
+
+void PlanePieces::sound_depths(const Execution& execution) {
+  depth_.resize(grid_.cell_count());
+  for (std::uint32_t row = 0; row < grid_.rows(); ++row) {
+    execution.check();
+    std::int32_t depth = outside_depth_;
+    for (std::uint32_t col = 0; col < grid_.cols(); ++col) {
+      depth_[grid_.index({col, row})] = depth;
+      const double y = grid_.y_line(row);
+      depth += rise_in_cell({col, row}, {grid_.x_line(col), y}, {grid_.x_line(col + 1), y});
+    }
+  }
+}
+
+int PlanePieces::depth_beside(Vec2 p) const {
+  if (!grid_.box().contains(p)) return outside_depth_;
+  const SegmentGrid::Cell cell = grid_.cell_of(p);
+  const Vec2 corner{grid_.x_line(cell.col), grid_.y_line(cell.row)};
+  const Vec2 below{corner.x, p.y};
+  return depth_[grid_.index(cell)] + rise_in_cell(cell, corner, below) + rise_in_cell(cell, below, p);
+}
+
+}  // namespace warren

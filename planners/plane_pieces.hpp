@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The sides of polygons, the walls and the bounds as pieces that share no points but their ends: wherever a corner or
+// a wall's end lies on another side or wall, that one is cut there (exactly: no new point is made), and what lies twice
+// on the same place becomes one piece. Only pieces that cross inside both are left as they are; crosses() tells whether
+// there are any. Walls of length zero block nothing and are left out.
+//
+// A piece knows by how much the number of polygons changes across it, and a grid of pieces (spatial/segment_grid) knows
+// that number at one point of each cell; so a walk inside one cell tells how deep inside of polygons a point lies.
+// Without bounds the plane has no end. Build O(n log n + pairs that share a cell); 100 bytes a corner.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/polygon.hpp"
+#include "core/raw_vector.hpp"
+#include "parallel/execution.hpp"
+#include "spatial/segment_grid.hpp"
+
+namespace warren {
+
+/// Number of a point where pieces end.
+using PointId = std::uint32_t;
+
+struct Piece {
+  PointId a;
+  PointId b;
+  std::int32_t
+      rise;  ///< polygons on the left of a -> b minus polygons on its right; outside of the bounds counts as one
+};
+
+/// Immutable; any number of threads may read.
+class PlanePieces {
+ public:
+  /// Throws Stopped at the deadline, InputError for 2^31 corners and more.
+  PlanePieces(const PlaneObstacles& obstacles, const Execution& execution);
+
+  /// Different points in the order in which they first appear: corners of the polygons, ends of the walls, and then
+  /// corners of the bounds that are nothing else.
+  std::span<const Vec2> points() const { return points_; }
+  /// How many of them are corners of polygons or ends of walls: the first ones.
+  std::size_t corner_count() const { return corner_count_; }
+  std::span<const Piece> pieces() const { return pieces_; }
+  Segment segment(std::uint32_t piece) const { return {points_[pieces_[piece].a], points_[pieces_[piece].b]}; }
+  std::span<const std::uint32_t> pieces_at(PointId p) const {
+    return {at_point_.data() + first_at_point_[p], at_point_.data() + first_at_point_[p + 1]};
+  }
+  const SegmentGrid& grid() const { return grid_; }
+  /// Do pieces cross inside both?
+  bool crosses() const { return crosses_; }
+  /// In how many polygons does the point lie that is moved from p by (d, d^2) for all small d > 0?
+  int depth_beside(Vec2 p) const;
+
+ private:
+  void cut(std::span<const PointId> ends, std::span<const std::int32_t> rises, const Execution& execution);
+  void merge(std::vector<Piece>& pieces);
+  void list_at_points();
+  void find_crossings(const Execution& execution);
+  void sound_depths(const Execution& execution);
+  int rise_across(std::uint32_t piece, Vec2 from, Vec2 to) const;
+  int rise_in_cell(SegmentGrid::Cell cell, Vec2 from, Vec2 to) const;
+
+  std::vector<Vec2> points_;
+  std::size_t corner_count_ = 0;
+  RawVector<Piece> pieces_;
+  RawVector<std::uint32_t> first_at_point_;
+  RawVector<std::uint32_t> at_point_;
+  SegmentGrid grid_;
+  RawVector<std::int32_t> depth_;  // beside the lower left corner of each cell
+  std::int32_t outside_depth_ = 0;
+  bool crosses_ = false;
+};
+
+}  // namespace warren

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planners/rotational_sweep.hpp"
+
+#include "planners/near_pieces.hpp"
+
+namespace warren {
+namespace {
+
+constexpr double place_doubt = 1e-12;  // places that differ by more are in the directions' order for certain
+
+}  // namespace
+
+RotationalSweep::RotationalSweep(const PlanePieces& pieces) : pieces_(pieces), event_of_(pieces.points().size(), 0) {}
+
+bool RotationalSweep::nearer_on_ray(Vec2 p, Vec2 q) const {
+  if (p.x != q.x) return (p.x < q.x) == (eye_.x < q.x);
+  return p.y != q.y && (p.y < q.y) == (eye_.y < q.y);
+}
+
+bool RotationalSweep::same_ray(const Event& e, const Event& f) const {
+  return std::abs(e.place - f.place) < place_doubt && DirectionOrder(eye_).same(e.at, f.at);
+}
+
+bool RotationalSweep::comes_before(const Event& e, const Event& f) const {
+  const DirectionOrder before(eye_);
+  if (!before.same(e.at, f.at)) return before(e.at, f.at);
+  if (e.at == f.at) return e.id == target && f.id != target;
+  return nearer_on_ray(e.at, f.at);
+}
+
+std::uint32_t RotationalSweep::event_of(PointId p) {
+  const std::uint32_t known = event_of_[p];
+  if (known < events_.size() && events_[known].id == p) return known;
+  const auto number = static_cast<std::uint32_t>(events_.size());
+  const Vec2 at = pieces_.points()[p];
+  events_.push_back({at, direction_place(at - eye_), p, none, none, false});
+  event_of_[p] = number;
+  return number;
+}
+
+void RotationalSweep::add_radial_piece(PointId a, PointId b) {
+  const Vec2 at_a = pieces_.points()[a];
+  const Vec2 at_b = pieces_.points()[b];
+  if (at_a == eye_ || at_b == eye_) {
+    events_[event_of(at_a == eye_ ? b : a)].comes_along_a_piece = true;
+    return;
+  }
+  const std::uint32_t event_a = event_of(a);
+  const std::uint32_t event_b = event_of(b);
+  const bool around_eye = !DirectionOrder(eye_).same(at_a, at_b);
+  const bool a_is_nearer = nearer_on_ray(at_a, at_b);
+  if (around_eye || !a_is_nearer) events_[event_a].comes_along_a_piece = true;
+  if (around_eye || a_is_nearer) events_[event_b].comes_along_a_piece = true;
+}
+
+void RotationalSweep::add_piece(PointId a, PointId b) {
+  const int turn = orient2d(eye_, pieces_.points()[a], pieces_.points()[b]);
+  if (turn == 0) return add_radial_piece(a, b);
+  if (turn < 0) std::swap(a, b);
+  const std::uint32_t first = event_of(a);
+  const std::uint32_t last = event_of(b);
+  const auto number = static_cast<std::uint32_t>(seen_.size());
+  seen_.push_back({events_[first].at, events_[last].at});
+  next_start_.push_back(std::exchange(events_[first].starts, number));
+  next_end_.push_back(std::exchange(events_[last].ends, number));
+  const DirectionOrder order(eye_);
+  if (order.is_low(events_[first].at) && !order.is_low(events_[last].at)) crossed_at_first_.push_back(number);
+}
+
+void RotationalSweep::sort_events() {
+  order_.resize(events_.size());
+  for (std::uint32_t i = 0; i < order_.size(); ++i) order_[i] = i;
+  std::sort(order_.begin(), order_.end(),
+            [&](std::uint32_t i, std::uint32_t j) { return events_[i].place < events_[j].place; });
+  for (std::size_t i = 1; i < order_.size(); ++i) {
+    const std::uint32_t moved = order_[i];
+    const Event& e = events_[moved];
+    std::size_t at = i;
+    for (; at > 0 && events_[order_[at - 1]].place > e.place - place_doubt; --at) {
+      if (!comes_before(e, events_[order_[at - 1]])) break;
+      order_[at] = order_[at - 1];
+    }
+    order_[at] = moved;
+  }
+}
+
+void RotationalSweep::prepare(Vec2 eye, std::span<const std::uint32_t> near, std::optional<Vec2> extra) {
+  eye_ = eye;
+  events_.clear();
+  seen_.clear();
+  next_start_.clear();
+  next_end_.clear();
+  crossed_at_first_.clear();
+  for (const std::uint32_t piece : near) add_piece(pieces_.pieces()[piece].a, pieces_.pieces()[piece].b);
+  if (extra && !(*extra == eye)) events_.push_back({*extra, direction_place(*extra - eye), target, none, none, false});
+  sort_events();
+}
+
+}  // namespace warren

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planners/visibility_graph.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/error.hpp"
+#include "parallel/chunks.hpp"
+
+namespace warren {
+namespace {
+
+/// The rows of some vertices in a row.
+struct Rows {
+  RawVector<VertexId> targets;
+  RawVector<EdgeEnd> degrees;
+};
+
+/// Vertices a chunk: few enough to share the work, enough to pay for a chunk's scratch, which is O(n).
+std::size_t grain_for(std::size_t vertices) { return std::clamp<std::size_t>(vertices / 256, 16, 1024); }
+
+std::vector<Rows> all_rows(const VisibleCorners& corners, SightLines which, const Execution& execution) {
+  const std::size_t n = corners.size();
+  const std::size_t grain = grain_for(n);
+  std::vector<Rows> parts(chunk_count(n, grain));
+  for_chunks(n, grain, execution, [&](Range r) {
+    CornerSight sight(corners);
+    std::vector<VertexId> seen;
+    Rows& part = parts[r.first / grain];
+    for (std::size_t v = r.first; v < r.last; ++v) {
+      if (v % 16 == 0) execution.check();
+      sight.from_vertex(static_cast<VertexId>(v), which, std::nullopt, seen);
+      part.targets.insert(part.targets.end(), seen.begin(), seen.end());
+      part.degrees.push_back(static_cast<EdgeEnd>(seen.size()));
+    }
+    execution.reserve(part.targets.size() * sizeof(VertexId));
+  });
+  return parts;
+}
+
+Graph graph_of_rows(std::size_t n, std::vector<Rows>& parts, const Execution& execution) {
+  RawVector<EdgeEnd> offsets;
+  offsets.reserve(n + 1);
+  std::uint64_t ends = 0;
+  for (const Rows& part : parts) {
+    for (const EdgeEnd degree : part.degrees) {
+      offsets.push_back(static_cast<EdgeEnd>(ends));
+      ends += degree;
+    }
+    if (ends > std::numeric_limits<EdgeEnd>::max())
+      throw InputError("visibility graph", "more than 2^32 - 1 edge ends");
+  }
+  offsets.push_back(static_cast<EdgeEnd>(ends));
+  execution.reserve(ends * sizeof(VertexId));
+  RawVector<VertexId> targets(ends);
+  auto at = targets.begin();
+  for (Rows& part : parts) {
+    at = std::copy(part.targets.begin(), part.targets.end(), at);
+    part = {};
+  }
+  return Graph(std::move(offsets), std::move(targets));
+}
+
+}  // namespace
+
+VisibilityGraph::VisibilityGraph(const VisibleCorners& corners, VisibilityEdges edges, const Execution& execution)
+    : corners_(corners),
+      which_(edges == VisibilityEdges::full ? SightLines::all : SightLines::tangent),
+      positions_(corners.size()) {
+  for (VertexId v = 0; v < positions_.size(); ++v) positions_[v] = corners.position(v);
+  std::vector<Rows> parts = all_rows(corners, which_, execution);
+  graph_ = graph_of_rows(positions_.size(), parts, execution);
+}
+
+VisibilityLinks VisibilityGraph::link(Vec2 start, Vec2 goal) const {
+  VisibilityLinks links{start, goal, {}, {}, std::vector<std::uint8_t>(size(), 0), false};
+  CornerSight sight(corners_);
+  sight.from_point(start, which_, goal, links.from_start);
+  if (!links.from_start.empty() && links.from_start.back() == CornerSight::target) {
+    links.direct = true;
+    links.from_start.pop_back();
+  }
+  sight.from_point(goal, which_, std::nullopt, links.from_goal);
+  for (const VertexId v : links.from_goal) links.sees_goal[v] = 1;
+  return links;
+}
+
+Graph VisibilityGraph::joined(const VisibilityLinks& links) const {
+  const std::size_t n = size();
+  std::vector<std::uint8_t> sees_start(n, 0);
+  for (const VertexId v : links.from_start) sees_start[v] = 1;
+  RawVector<EdgeEnd> offsets;
+  RawVector<VertexId> targets;
+  offsets.reserve(n + 3);
+  targets.reserve(2 * (graph_.edge_count() + links.count()));
+  for (VertexId v = 0; v < n; ++v) {
+    offsets.push_back(static_cast<EdgeEnd>(targets.size()));
+    targets.insert(targets.end(), graph_.neighbours(v).begin(), graph_.neighbours(v).end());
+    if (sees_start[v] != 0) targets.push_back(start_vertex());
+    if (links.sees_goal[v] != 0) targets.push_back(goal_vertex());
+  }
+  offsets.push_back(static_cast<EdgeEnd>(targets.size()));
+  targets.insert(targets.end(), links.from_start.begin(), links.from_start.end());
+  if (links.direct) targets.push_back(goal_vertex());
+  offsets.push_back(static_cast<EdgeEnd>(targets.size()));
+  targets.insert(targets.end(), links.from_goal.begin(), links.from_goal.end());
+  if (links.direct) targets.push_back(start_vertex());
+  offsets.push_back(static_cast<EdgeEnd>(targets.size()));
+  return Graph(std::move(offsets), std::move(targets));
+}
+
+}  // namespace warren

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planners/visibility_path.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "parallel/components.hpp"
+#include "planners/lazy_visibility.hpp"
+#include "planners/queue_choice.hpp"
+#include "planners/roadmap_search.hpp"
+#include "planners/separation.hpp"
+
+namespace warren {
+namespace {
+
+/// One plan.
+class VisibilityPlan {
+ public:
+  VisibilityPlan(Vec2 start, Vec2 goal, const VisibilityOptions& options, const Execution& execution,
+                 Roadmap<Vec2>* keep)
+      : start_(start), goal_(goal), options_(options), execution_(execution), keep_(keep) {}
+
+  void run(const PlaneObstacles& obstacles) {
+    const VisibleCorners corners = index(obstacles);
+    if (corners.is_blocked(start_)) return end(Outcome::start_blocked);
+    if (corners.is_blocked(goal_)) return end(Outcome::goal_blocked);
+    solution_.roadmap.milestones = corners.size() + 2;
+    if (start_ == goal_) {
+      solution_.path = {start_, goal_};
+      return end(Outcome::solved);
+    }
+    if (options_.lazy) return search_lazily(corners);
+    search(connect(corners));
+  }
+  void stop(StopReason reason) {
+    solution_.stop_reason = reason;
+    solution_.path.clear();
+    end(Outcome::stopped);
+  }
+  Solution<Vec2> take() { return std::move(solution_); }
+
+ private:
+  void end(Outcome outcome) { solution_.outcome = outcome; }
+
+  VisibleCorners index(const PlaneObstacles& obstacles) {
+    const StageTimer timer(execution_, "index", solution_.seconds.index);
+    return VisibleCorners(obstacles, execution_);
+  }
+
+  VisibilityGraph connect(const VisibleCorners& corners) {
+    const StageTimer timer(execution_, "connect", solution_.seconds.connect, corners.size());
+    return VisibilityGraph(corners, options_.edges, execution_);
+  }
+
+  void search(const VisibilityGraph& visibility) {
+    const StageTimer timer(execution_, "search", solution_.seconds.search);
+    const VisibilityLinks links = visibility.link(start_, goal_);
+    solution_.roadmap.edges = visibility.graph().edge_count() + links.count();
+    const bool plain = options_.search == SearchKind::bfs || options_.search == SearchKind::dfs;
+    SearchState state;
+    state.resize(visibility.size() + 2);
+    if (plain || keep_ != nullptr) roadmap_.graph = visibility.joined(links);
+    const SearchResult found = plain ? search_plainly(state) : search_best(visibility, links, state);
+    if (found.status == SearchStatus::exhausted) separate(visibility, visibility.joined(links));
+    if (keep_ != nullptr) roadmap_.search_tree = search_tree(state);
+    finish(visibility.positions(), found);
+  }
+
+  SearchResult search_plainly(SearchState& state) const {
+    const auto start = static_cast<VertexId>(roadmap_.graph.vertex_count() - 2);
+    const auto should_stop = [&] { return execution_.should_stop(); };
+    return options_.search == SearchKind::bfs ? breadth_first(roadmap_.graph, start, start + 1, state, should_stop)
+                                              : depth_first(roadmap_.graph, start, start + 1, state, should_stop);
+  }
+
+  SearchResult search_best(const VisibilityGraph& visibility, const VisibilityLinks& links, SearchState& state) const {
+    return with_queue(options_.queue, visibility.size() + 2, [&](auto& queue) {
+      return visibility.search(links, options_.search == SearchKind::astar, queue, state,
+                               [&] { return execution_.should_stop(); });
+    });
+  }
+
+  void search_lazily(const VisibleCorners& corners) {
+    const StageTimer timer(execution_, "search", solution_.seconds.search);
+    std::vector<Edge> edges;
+    const SearchResult found = lazy_visibility_search(corners, start_, goal_, execution_, solution_.counters, &edges);
+    std::vector<Vec2> positions(corners.size());
+    for (VertexId v = 0; v < positions.size(); ++v) positions[v] = corners.position(v);
+    for (Edge& e : edges) e = {std::min(e.from, e.to), std::max(e.from, e.to)};
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    solution_.roadmap.edges = edges.size();
+    if (keep_ != nullptr) roadmap_.graph = Graph::from_edges(corners.size() + 2, edges);
+    finish(positions, found);
+  }
+
+  void finish(std::span<const Vec2> positions, const SearchResult& found) {
+    if (found.status == SearchStatus::stopped) execution_.check();
+    solution_.counters.expanded += found.expanded;
+    roadmap_.states.assign(positions.begin(), positions.end());
+    roadmap_.states.push_back(start_);
+    roadmap_.states.push_back(goal_);
+    for (const VertexId v : found.path) solution_.path.push_back(roadmap_.states[v]);
+    end(found.status == SearchStatus::found ? Outcome::solved : Outcome::not_connected);
+    if (keep_ != nullptr) *keep_ = std::move(roadmap_);
+  }
+
+  /// What keeps start and goal apart.
+  void separate(const VisibilityGraph& visibility, const Graph& graph) {
+    const Components parts = components(graph, execution_);
+    std::vector<Vec2> with_start{start_};
+    std::vector<Vec2> with_goal{goal_};
+    for (VertexId v = 0; v < visibility.size(); ++v) {
+      if (parts.connected(v, visibility.start_vertex())) with_start.push_back(visibility.positions()[v]);
+      if (parts.connected(v, visibility.goal_vertex())) with_goal.push_back(visibility.positions()[v]);
+    }
+    solution_.separation = separation_between<2>(std::move(with_start), std::move(with_goal), execution_);
+  }
+
+  const Vec2 start_;
+  const Vec2 goal_;
+  const VisibilityOptions& options_;
+  const Execution& execution_;
+  Roadmap<Vec2>* keep_;
+  Roadmap<Vec2> roadmap_;
+  Solution<Vec2> solution_;
+};
+
+}  // namespace
+
+void VisibilityOptions::validate() const {
+  if (!lazy) return;
+  if (edges != VisibilityEdges::reduced) throw InputError("lazy", "is for the reduced graph");
+  if (search != SearchKind::astar || queue != QueueKind::heap) throw InputError("lazy", "is for A* with the heap");
+}
+
+Solution<Vec2> visibility_path(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal, const VisibilityOptions& options,
+                               const Execution& execution, Roadmap<Vec2>* keep) {
+  options.validate();
+  VisibilityPlan plan(start, goal, options, execution, keep);
+  try {
+    plan.run(obstacles);
+  } catch (const Stopped& stopped) {
+    plan.stop(stopped.reason);
+  }
+  return plan.take();
+}
+
+}  // namespace warren

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The planner `visibility`: the shortest path for a point among polygons and walls, contact allowed, by the visibility
+// graph (planners/visibility_graph) or lazily (planners/lazy_visibility).
+#pragma once
+
+#include "core/polygon.hpp"
+#include "core/solution.hpp"
+#include "core/types.hpp"
+#include "parallel/execution.hpp"
+#include "planners/roadmap.hpp"
+#include "planners/roadmap_options.hpp"
+#include "planners/visibility_graph.hpp"
+
+namespace warren {
+
+struct VisibilityOptions {
+  VisibilityEdges edges = VisibilityEdges::reduced;
+  bool lazy = false;                      ///< needs reduced edges and A* with the heap; InputError otherwise
+  SearchKind search = SearchKind::astar;  ///< bfs: fewest edges, neighbours ascending; dfs: some path
+  QueueKind queue = QueueKind::heap;
+
+  void validate() const;
+};
+
+/// Plans from start to goal among the obstacles. start_blocked, goal_blocked: strictly inside of a polygon or outside
+/// of the bounds (on a boundary is allowed). solved: with A* and Dijkstra the path is the shortest there is.
+/// not_connected: no path exists. Never throws Stopped: a deadline or a memory limit gives Outcome::stopped.
+/// `keep`, where given, receives the graph with start and goal (lazy: the edges that were found).
+Solution<Vec2> visibility_path(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal, const VisibilityOptions& options,
+                               const Execution& execution, Roadmap<Vec2>* keep = nullptr);
+
+}  // namespace warren

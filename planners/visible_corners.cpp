@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planners/visible_corners.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "parallel/chunks.hpp"
+
+namespace warren {
+namespace {
+
+/// Is p strictly inside the polygon, which runs counter-clockwise? Exact.
+bool strictly_inside(std::span<const Vec2> corners, Vec2 p) {
+  int winding = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec2 a = corners[i];
+    const Vec2 b = corners[i + 1 == corners.size() ? 0 : i + 1];
+    if (on_segment(p, {a, b})) return false;
+    if ((a.y <= p.y) == (b.y <= p.y)) continue;
+    const int side = orient2d(a, b, p);
+    if (a.y <= p.y && side > 0) ++winding;
+    if (a.y > p.y && side < 0) --winding;
+  }
+  return winding != 0;
+}
+
+/// Half a turn round from a place.
+double opposite(double place) { return place < 2.0 ? place + 2.0 : place - 2.0; }
+
+}  // namespace
+
+VisibleCorners::VisibleCorners(const PlaneObstacles& obstacles, const Execution& execution)
+    : polygons_(obstacles.polygons), bounds_(obstacles.bounds), pieces_(obstacles, execution) {
+  constexpr std::size_t grain = 4096;
+  const std::size_t corners = pieces_.corner_count();
+  std::vector<std::vector<SectorEnds>> parts(chunk_count(corners, grain));
+  first_vertex_.assign(pieces_.points().size() + 1, 0);
+  for_chunks(corners, grain, execution, [&](Range r) {
+    std::vector<SectorEnds>& part = parts[r.first / grain];
+    for (std::size_t p = r.first; p < r.last; ++p) {
+      const auto at = static_cast<PointId>(p);
+      const std::vector<SectorOfPoints> sectors = free_sectors_at(pieces_, at);
+      first_vertex_[p + 1] = static_cast<VertexId>(sectors.size());
+      for (const SectorOfPoints& s : sectors) {
+        const Vec2 first = pieces_.points()[s.first];
+        const Vec2 last = pieces_.points()[s.last];
+        part.push_back({s.first, s.last, warren::is_reflex(pieces_.points()[p], {first, last, false})});
+      }
+    }
+  });
+  for (std::size_t p = 0; p < pieces_.points().size(); ++p) first_vertex_[p + 1] += first_vertex_[p];
+  for (const auto& part : parts) ends_.insert(ends_.end(), part.begin(), part.end());
+  point_.resize(ends_.size());
+  any_.assign(pieces_.points().size(), 0);
+  reflex_.assign(pieces_.points().size(), 0);
+  for (PointId p = 0; p < pieces_.points().size(); ++p) {
+    for (VertexId v = first_vertex_[p]; v < first_vertex_[p + 1]; ++v) {
+      point_[v] = p;
+      any_[p] = 1;
+      if (ends_[v].reflex) reflex_[p] = 1;
+    }
+  }
+}
+
+bool VisibleCorners::is_blocked(Vec2 at) const {
+  if (bounds_ && !bounds_->contains(at)) return true;
+  if (!free_sectors(pieces_, at).empty()) return false;
+  for (std::size_t p = 0; p < polygons_.size(); ++p) {
+    if (strictly_inside(polygons_[p], at)) return true;
+  }
+  return false;
+}
+
+CornerSight::CornerSight(const VisibleCorners& corners)
+    : corners_(corners), near_(corners.pieces()), sweep_(corners.pieces()) {}
+
+void CornerSight::arrive(Vec2 eye, PointId p, Lanes lanes, SightLines which, std::vector<VertexId>& seen) const {
+  const Vec2 at = corners_.pieces().points()[p];
+  const VertexId first = corners_.vertices_first(p);
+  const VertexId end = corners_.vertices_first(p + 1);
+  for (VertexId v = first; v < end; ++v) {
+    const Sector sector = corners_.sector(v);
+    if (end - first > 1) {  // looking back, the right lane lies anticlockwise
+      const Lanes back = lanes_in_sector(at, sector, eye);
+      const bool left = (lanes & left_lane) != 0 && (back & right_lane) != 0;
+      const bool right = (lanes & right_lane) != 0 && (back & left_lane) != 0;
+      if (!left && !right) continue;
+    }
+    if (which == SightLines::tangent && !(corners_.is_reflex(v) && is_tangent(at, sector, eye))) continue;
+    seen.push_back(v);
+  }
+}
+
+template <class Departure>
+void CornerSight::look(Vec2 eye, std::span<const PlaceRange> ranges, SightLines which, std::optional<Vec2> extra,
+                       const Departure& departure, std::vector<VertexId>& seen) {
+  const std::vector<std::uint8_t>& wanted = which == SightLines::all ? corners_.any_ : corners_.reflex_;
+  sweep_.run(eye, near_.look(eye, ranges), wanted, extra, departure, [&](PointId p, Lanes lanes) {
+    if (p == RotationalSweep::target) {
+      seen.push_back(target);
+    } else {
+      arrive(eye, p, lanes, which, seen);
+    }
+  });
+}
+
+void CornerSight::from_vertex(VertexId v, SightLines which, std::optional<Vec2> extra, std::vector<VertexId>& seen) {
+  seen.clear();
+  const bool tangent = which == SightLines::tangent;
+  if (tangent && !corners_.is_reflex(v)) return;
+  const Vec2 eye = corners_.position(v);
+  const Sector sector = corners_.sector(v);
+  const double first = direction_place(sector.first - eye);
+  const double last = direction_place(sector.last - eye);
+  std::array<PlaceRange, 2> ranges{{{first, last}, {first, last}}};
+  if (sector.first == sector.last) {
+    ranges.fill(all_round);
+  } else if (tangent) {
+    ranges = {{{first, opposite(last)}, {opposite(first), last}}};
+  }
+  const auto departure = [&](Vec2 q) {
+    const Lanes lanes = lanes_in_sector(eye, sector, q);
+    return tangent && lanes != no_lane && !is_tangent(eye, sector, q) ? no_lane : lanes;
+  };
+  look(eye, ranges, which, extra, departure, seen);
+  std::sort(seen.begin(), seen.end());
+}
+
+void CornerSight::taut_from_vertex(VertexId v, Vec2 from, std::optional<Vec2> extra, std::vector<VertexId>& seen) {
+  seen.clear();
+  const Vec2 eye = corners_.position(v);
+  const Sector sector = corners_.sector(v);
+  const int first_side = orient2d(from, eye, sector.first);
+  const int last_side = orient2d(from, eye, sector.last);
+  const bool left = first_side >= 0 && last_side >= 0;  // obstacles on the left: the way may bend to the left
+  const bool right = first_side <= 0 && last_side <= 0;
+  const double straight = direction_place(eye - from);
+  std::array<PlaceRange, 2> ranges{{{straight, straight}, {straight, straight}}};
+  if (left) ranges[0].last = direction_place(sector.last - eye);
+  if (right) ranges[1].first = direction_place(sector.first - eye);
+  const auto departure = [&](Vec2 q) {
+    const int side = orient2d(from, eye, q);
+    if ((side > 0 && !left) || (side < 0 && !right)) return no_lane;
+    const Lanes lanes = lanes_in_sector(eye, sector, q);
+    return lanes != no_lane && !is_tangent(eye, sector, q) ? no_lane : lanes;
+  };
+  look(eye, ranges, SightLines::tangent, extra, departure, seen);
+  std::sort(seen.begin(), seen.end());
+}
+
+void CornerSight::from_point(Vec2 p, SightLines which, std::optional<Vec2> extra, std::vector<VertexId>& seen) {
+  seen.clear();
+  for (const Sector& sector : free_sectors(corners_.pieces(), p)) {
+    const bool all = sector.whole || sector.first == sector.last;
+    const PlaceRange range =
+        all ? all_round : PlaceRange{direction_place(sector.first - p), direction_place(sector.last - p)};
+    look(
+        p, {&range, 1}, which, extra, [&](Vec2 q) { return lanes_in_sector(p, sector, q); }, seen);
+  }
+  std::sort(seen.begin(), seen.end());
+  seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
+}
+
+}  // namespace warren

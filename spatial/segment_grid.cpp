@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "spatial/segment_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace warren {
+namespace {
+
+constexpr std::size_t segments_per_poll = 1 << 16;
+constexpr std::uint32_t most_lines = 8192;     // an axis
+constexpr std::size_t most_listings_each = 8;  // a segment on average, else the cells grow
+
+}  // namespace
+
+void SegmentGrid::lay_out(const Box& box, std::size_t segments, double scale) {
+  const double w = box.empty() ? 0.0 : box.width();
+  const double h = box.empty() ? 0.0 : box.height();
+  const double longer = std::max(w, h);
+  const Vec2 corner = box.empty() ? Vec2{} : box.min;
+  const double magnitude =
+      box.empty() ? 0.0
+                  : std::max({std::abs(box.min.x), std::abs(box.min.y), std::abs(box.max.x), std::abs(box.max.y)});
+  const double n = static_cast<double>(std::max<std::size_t>(segments, 1));
+  cell_ =
+      scale * std::max({std::sqrt(w / n) * std::sqrt(h), longer / std::min(n, double{most_lines}), magnitude * 1e-14});
+  if (!(cell_ > 0.0)) cell_ = 1.0;
+  slack_ = 1e-6 * cell_ + 1e-15 * magnitude;
+  origin_ = {corner.x - 0.5 * cell_, corner.y - 0.5 * cell_};
+  cols_ = static_cast<std::uint32_t>(w / cell_) + 2;
+  rows_ = static_cast<std::uint32_t>(h / cell_) + 2;
+}
+
+SegmentGrid::Cell SegmentGrid::cell_of(Vec2 p) const {
+  const auto settle = [](std::uint32_t i, std::uint32_t count, double c, const auto& line) {
+    while (i > 0 && line(i) > c) --i;
+    while (i + 1 < count && line(i + 1) <= c) ++i;
+    return i;
+  };
+  return {settle(clamped((p.x - origin_.x) / cell_, cols_), cols_, p.x, [&](std::uint32_t i) { return x_line(i); }),
+          settle(clamped((p.y - origin_.y) / cell_, rows_), rows_, p.y, [&](std::uint32_t i) { return y_line(i); })};
+}
+
+template <class Visit>
+void SegmentGrid::for_each_cell_of(const Segment& s, const Visit& visit) const {
+  const Box box = box_of(s);
+  const std::uint32_t last_row = clamped((box.max.y + slack_ - origin_.y) / cell_, rows_);
+  const double dy = s.b.y - s.a.y;
+  for (std::uint32_t row = clamped((box.min.y - slack_ - origin_.y) / cell_, rows_); row <= last_row; ++row) {
+    double low = box.min.x;
+    double high = box.max.x;
+    if (dy != 0.0) {  // the part of the segment in this row, a slack wider
+      const double at_bottom = (std::clamp(y_line(row) - slack_, box.min.y, box.max.y) - s.a.y) / dy;
+      const double at_top = (std::clamp(y_line(row + 1) + slack_, box.min.y, box.max.y) - s.a.y) / dy;
+      const double x1 = s.a.x + at_bottom * (s.b.x - s.a.x);
+      const double x2 = s.a.x + at_top * (s.b.x - s.a.x);
+      low = std::max(low, std::min(x1, x2));
+      high = std::min(high, std::max(x1, x2));
+    }
+    const std::uint32_t last_col = clamped((high + slack_ - origin_.x) / cell_, cols_);
+    for (std::uint32_t col = clamped((low - slack_ - origin_.x) / cell_, cols_); col <= last_col; ++col) {
+      visit(index({col, row}));
+    }
+  }
+}
+
+SegmentGrid::SegmentGrid(std::span<const Segment> segments, const Execution& execution) {
+  Box box;
+  for (const Segment& s : segments) box.include(box_of(s));
+  for (double scale = 1.0;; scale *= 2.0) {
+    lay_out(box, segments.size(), scale);
+    offsets_.assign(cell_count() + 1, 0);
+    const std::uint64_t most_listings = most_listings_each * segments.size() + 4 * std::uint64_t{most_lines};
+    std::uint64_t listings = 0;
+    for (std::size_t i = 0; i < segments.size() && (listings <= most_listings || cell_count() <= 64); ++i) {
+      if (i % segments_per_poll == 0) execution.check();
+      for_each_cell_of(segments[i], [&](std::size_t cell) {
+        ++offsets_[cell];
+        ++listings;
+      });
+    }
+    if (listings <= most_listings || cell_count() <= 64) break;
+  }
+  std::uint64_t sum = 0;
+  for (std::uint64_t& offset : offsets_) sum += offset, offset = sum;
+  execution.reserve(sum * sizeof(std::uint32_t));
+  segments_.resize(sum);
+  for (std::size_t i = segments.size(); i-- > 0;) {  // from the last, so that each cell's list ascends
+    if (i % segments_per_poll == 0) execution.check();
+    for_each_cell_of(segments[i],
+                     [&](std::size_t cell) { segments_[--offsets_[cell]] = static_cast<std::uint32_t>(i); });
+  }
+}
+
+}  // namespace warren
