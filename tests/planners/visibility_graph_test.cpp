@@ -73,7 +73,9 @@ TEST(VisibilityGraph, FullEdgesAreThoseByDefinitionInDegenerateWorlds) {
     EXPECT_TRUE(vertices == plane.vertices());
     const VertexPairs mine = edges_of(corners, visibility.graph());
     const VertexPairs theirs = edges_by_definition(plane);
-    ASSERT_TRUE(mine == theirs) << "missing:\n" << text(minus(theirs, mine)) << "too many:\n" << text(minus(mine, theirs));
+    ASSERT_TRUE(mine == theirs) << "missing:\n"
+                                << text(minus(theirs, mine)) << "too many:\n"
+                                << text(minus(mine, theirs));
     crossing_worlds += corners.pieces().crosses() ? 1 : 0;
   }
   EXPECT_GT(crossing_worlds, 40);

@@ -103,7 +103,8 @@ class Plane {
     const std::vector<Place> places = places_on(p, q);
     for (const int first : {1, -1}) {
       std::set<int> sides{first};
-      for (std::size_t i = 0; i + 1 < places.size() && !sides.empty(); ++i) sides = go_on(p, d, places[i], i == 0, sides);
+      for (std::size_t i = 0; i + 1 < places.size() && !sides.empty(); ++i)
+        sides = go_on(p, d, places[i], i == 0, sides);
       for (const int last : sides) {
         const int from = sector_of(p, d, first);
         const int to = sector_of(q, {-d.x, -d.y}, -last);
@@ -150,9 +151,12 @@ class Plane {
   static std::int64_t cross(Point d, Point e) { return d.x * e.y - d.y * e.x; }
 
   bool crosses_something(Point p, Point q) const {
-    const auto side = [](Point a, Point b, Point c) { return sign(cross({b.x - a.x, b.y - a.y}, {c.x - a.x, c.y - a.y})); };
+    const auto side = [](Point a, Point b, Point c) {
+      return sign(cross({b.x - a.x, b.y - a.y}, {c.x - a.x, c.y - a.y}));
+    };
     return std::any_of(segments_.begin(), segments_.end(), [&](const auto& s) {
-      return side(p, q, s.first) * side(p, q, s.second) < 0 && side(s.first, s.second, p) * side(s.first, s.second, q) < 0;
+      return side(p, q, s.first) * side(p, q, s.second) < 0 &&
+             side(s.first, s.second, p) * side(s.first, s.second, q) < 0;
     });
   }
 
@@ -216,7 +220,8 @@ class Plane {
     const auto n = static_cast<int>(spokes.size());
     int sector = n - 1;
     for (int i = 0; i < n; ++i) {
-      const bool passed = side > 0 ? !before(d, spokes[static_cast<std::size_t>(i)]) : before(spokes[static_cast<std::size_t>(i)], d);
+      const bool passed =
+          side > 0 ? !before(d, spokes[static_cast<std::size_t>(i)]) : before(spokes[static_cast<std::size_t>(i)], d);
       if (passed) sector = i;
     }
     return sector_numbers_.at(p)[static_cast<std::size_t>(sector)];
