@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/comparison.hpp"
+
+#include <numeric>
+
+#include "core/rng.hpp"
+
+namespace warren {
+namespace {
+
+/// The distribution of what `figure` gives for the runs that it gives anything for.
+template <class Figure>
+std::optional<Distribution> distribution(const Contender& contender, const Figure& figure) {
+  std::vector<double> values;
+  values.reserve(contender.runs.size());
+  for (const ComparedRun& run : contender.runs) {
+    if (const std::optional<double> value = figure(run)) values.push_back(*value);
+  }
+  return distribution_of(values);
+}
+
+template <class Number>
+std::optional<double> if_solved(const ComparedRun& run, Number value) {
+  return run.solved() ? std::optional(static_cast<double>(value)) : std::nullopt;
+}
+
+}  // namespace
+
+ComparisonRow row_of(const Contender& contender) {
+  ComparisonRow row;
+  row.runs = contender.runs.size();
+  for (const ComparedRun& run : contender.runs) row.solved += run.solved() ? 1 : 0;
+  row.success = row.runs == 0 ? Interval{0.0, 1.0} : wilson_interval(row.solved, row.runs);
+  row.length = distribution(contender, [](const ComparedRun& r) { return if_solved(r, r.length); });
+  row.hops = distribution(contender, [](const ComparedRun& r) { return if_solved(r, r.hops); });
+  row.min_clearance = distribution(
+      contender, [](const ComparedRun& r) { return r.solved() ? r.min_clearance : std::optional<double>(); });
+  row.search_s =
+      distribution(contender, [](const ComparedRun& r) { return r.solved() ? r.search_s : std::optional<double>(); });
+  row.expanded =
+      distribution(contender, [](const ComparedRun& r) { return std::optional(static_cast<double>(r.expanded)); });
+  row.time_s = distribution(contender, [](const ComparedRun& r) { return std::optional(r.time_s); });
+  return row;
+}
+
+std::string name_of(const Contender& contender, bool with_planner) {
+  std::string name = with_planner ? contender.planner : "";
+  for (const std::string& part : {contender.search, contender.queue}) {
+    if (!part.empty()) name += (name.empty() ? "" : ", ") + part;
+  }
+  return name;
+}
+
+std::vector<std::size_t> turns(std::size_t count, std::uint64_t round) {
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  SequentialRng rng(round);
+  for (std::size_t i = count; i > 1; --i) std::swap(order[i - 1], order[rng.below(i)]);
+  return order;
+}
+
+}  // namespace warren

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Contenders, searches or planners, that took turns at the same problem: every run of each, and what the runs say
+// together. Plain data; comparison_report.hpp, comparison_plots.hpp and ompl_log.hpp write it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/solution.hpp"
+#include "tools/statistics.hpp"
+
+namespace warren {
+
+/// One run of one contender. Figures of a path only where it was solved.
+struct ComparedRun {
+  std::uint64_t seed = 0;  ///< of a planner; of a search, the number of the trial
+  Outcome outcome = Outcome::stopped;
+  double time_s = 0.0;
+  double length = 0.0;  ///< world units
+  std::uint64_t hops = 0;
+  std::uint64_t expanded = 0;               ///< vertices or states settled; known where nothing was found, too
+  std::optional<double> min_clearance = {};  ///< planners only
+  std::optional<double> search_s = {};       ///< planners only: the search's part of time_s
+  bool solved() const { return outcome == Outcome::solved; }
+};
+
+/// What the contenders of a group have in common.
+struct ComparedProblem {
+  std::string source;  ///< the world, or "geometric:300"
+  std::string kind;    ///< whose graph was searched; "" for planners
+  std::uint64_t vertices = 0;
+  std::uint64_t edges = 0;
+};
+
+struct Contender {
+  std::size_t problem = 0;  ///< index into Comparison::problems
+  std::string planner;      ///< of a search: whose graph it is
+  std::string search;
+  std::string queue;    ///< "" where the search has none
+  std::string library;  ///< "warren", or the peer's name
+  /// Name, value as JSON.
+  std::vector<std::pair<std::string, std::string>> options;
+  std::vector<ComparedRun> runs;  ///< in the order in which they ran
+};
+
+struct Comparison {
+  std::vector<ComparedProblem> problems;
+  std::vector<Contender> contenders;
+  double clock_s = 0.0;                   ///< what reading the clock costs, taken off each time of a search
+  std::vector<std::string> notes;         ///< what was left out, and why: a line each
+  std::optional<StopReason> stopped = {};  ///< a signal ended it early
+};
+
+/// A contender's runs, together.
+struct ComparisonRow {
+  std::size_t runs = 0;
+  std::size_t solved = 0;
+  Interval success;                          ///< Wilson's, 95 %; of one that never ran, 0 to 1
+  std::optional<Distribution> length;        ///< of the solved runs
+  std::optional<Distribution> hops;          ///< of the solved runs
+  std::optional<Distribution> min_clearance;  ///< of the solved runs
+  std::optional<Distribution> expanded;      ///< of all runs
+  std::optional<Distribution> time_s;        ///< of all runs: what did not succeed has cost its time, too
+  std::optional<Distribution> search_s;      ///< of the solved runs
+};
+ComparisonRow row_of(const Contender& contender);
+
+/// "astar, sorted-array", "prm, bfs"; `with_planner` where searches of one graph are not all there is.
+std::string name_of(const Contender& contender, bool with_planner);
+
+/// The order in which `count` contenders take their turn in one round: shuffled by (seed, round), so that none always
+/// follows the same one and whatever else the machine does meets all alike.
+std::vector<std::size_t> turns(std::size_t count, std::uint64_t round);
+
+}  // namespace warren

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/search_graph.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "core/rng.hpp"
+#include "parallel/assemble_graph.hpp"
+#include "parallel/components.hpp"
+#include "spatial/point_grid.hpp"
+#include "spatial/tile_order.hpp"
+
+namespace warren {
+namespace {
+
+std::vector<Vec2> drawn_points(std::uint32_t size, std::uint64_t seed, const Execution& execution) {
+  const double side = std::sqrt(static_cast<double>(size));
+  std::vector<Vec2> drawn(size);
+  for (std::uint32_t i = 0; i < size; ++i) drawn[i] = {side * uniform(seed, i, 0), side * uniform(seed, i, 1)};
+  const TileOrder order = tile_order(drawn, execution);
+  std::vector<Vec2> at(size);
+  for (std::uint32_t i = 0; i < size; ++i) at[i] = drawn[order.sample_of[i]];
+  return at;
+}
+
+RawVector<Edge> edges_within(const std::vector<Vec2>& at, const SearchRadius& radius, const Execution& execution) {
+  constexpr VertexId vertices_per_poll = 1 << 12;
+  const PointGrid grid(at, execution);
+  RawVector<Edge> edges;
+  for (VertexId v = 0; v < at.size(); ++v) {
+    if (v % vertices_per_poll == 0) execution.check();
+    grid.for_each_later_within(v, radius, [&](VertexId w, double) { edges.push_back({v, w}); });
+  }
+  return edges;
+}
+
+/// Label of the component with the most vertices; of equal ones the least.
+VertexId largest_component(const Components& components) {
+  std::vector<std::uint32_t> sizes(components.label.size(), 0);
+  for (const VertexId label : components.label) ++sizes[label];
+  VertexId largest = 0;
+  for (VertexId v = 0; v < sizes.size(); ++v) {
+    if (sizes[v] > sizes[largest]) largest = v;
+  }
+  return largest;
+}
+
+VertexId nearest_in(const std::vector<Vec2>& at, const Components& components, VertexId label, Vec2 place) {
+  VertexId nearest = label;
+  for (VertexId v = 0; v < at.size(); ++v) {
+    if (components.label[v] == label && distance(at[v], place) < distance(at[nearest], place)) nearest = v;
+  }
+  return nearest;
+}
+
+}  // namespace
+
+Graph with_plane_lengths(const Graph& graph, const std::vector<Vec2>& at) {
+  RawVector<EdgeEnd> offsets(1, 0);
+  RawVector<VertexId> targets;
+  RawVector<double> lengths;
+  targets.reserve(2 * graph.edge_count());
+  lengths.reserve(2 * graph.edge_count());
+  for (VertexId v = 0; v < graph.vertex_count(); ++v) {
+    for (const VertexId w : graph.neighbours(v)) {
+      targets.push_back(w);
+      lengths.push_back(distance(at[v], at[w]));
+    }
+    offsets.push_back(static_cast<EdgeEnd>(targets.size()));
+  }
+  return {std::move(offsets), std::move(targets), std::move(lengths)};
+}
+
+SearchGraph geometric_graph(std::uint32_t size, double degree, std::uint64_t seed, const Execution& execution) {
+  SearchGraph made{.source = fmt::format("geometric:{}", size), .kind = "geometric", .graph = {}, .at = {}};
+  made.at = drawn_points(size, seed, execution);
+  const double radius = std::sqrt(degree / std::numbers::pi);
+  const std::array<RawVector<Edge>, 1> edges{edges_within(made.at, radius, execution)};
+  const auto length = [&](VertexId v, VertexId w) { return distance(made.at[v], made.at[w]); };
+  made.graph = assemble_graph(size, edges, execution, length);
+  const Components parts = components(made.graph, execution);
+  const VertexId largest = largest_component(parts);
+  const double side = std::sqrt(static_cast<double>(size));
+  made.start = nearest_in(made.at, parts, largest, {0.0, 0.0});
+  made.goal = nearest_in(made.at, parts, largest, {side, side});
+  return made;
+}
+
+}  // namespace warren

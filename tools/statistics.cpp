@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/statistics.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace warren {
+namespace {
+
+constexpr double normal_95 = 1.959963984540054;  // the 97.5 % point of the normal distribution
+
+/// Sum of the values in ascending order, small ones first.
+double mean_of_sorted(std::span<const double> sorted) {
+  double sum = 0.0;
+  for (const double value : sorted) sum += value;
+  return sum / static_cast<double>(sorted.size());
+}
+
+Interval mean_interval(std::span<const double> values, double mean) {
+  double squares = 0.0;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  const auto n = static_cast<double>(values.size());
+  const double half_width = student_t(values.size() - 1) * std::sqrt(squares / (n - 1.0) / n);
+  return {mean - half_width, mean + half_width};
+}
+
+/// The largest r such that at most 2.5 % of binomial(count, 1/2) lie below r.
+std::size_t exact_rank(std::size_t count) {
+  constexpr double tail = 0.025;
+  double chance = std::pow(0.5, static_cast<double>(count));
+  double below = 0.0;
+  std::size_t rank = 0;
+  while (below + chance <= tail) {
+    below += chance;
+    chance *= static_cast<double>(count - rank) / static_cast<double>(rank + 1);
+    ++rank;
+  }
+  return rank;
+}
+
+}  // namespace
+
+double sorted_quantile(std::span<const double> sorted, double share) {
+  const double at = share * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(at);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  return sorted[below] + (at - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+}
+
+double median_of(std::span<const double> values) {
+  std::vector<double> sorted(values.begin(), values.end());
+  std::sort(sorted.begin(), sorted.end());
+  return sorted_quantile(sorted, 0.5);
+}
+
+double student_t(std::uint64_t degrees) {
+  constexpr std::array<double, 4> first{12.7062, 4.30265, 3.18245, 2.77645};
+  if (degrees <= first.size()) return first[degrees - 1];
+  const auto n = static_cast<double>(degrees);
+  const double z = normal_95;
+  const double z3 = z * z * z;
+  const double z5 = z3 * z * z;
+  const double z7 = z5 * z * z;
+  return z + (z3 + z) / (4.0 * n) + (5.0 * z5 + 16.0 * z3 + 3.0 * z) / (96.0 * n * n) +
+         (3.0 * z7 + 19.0 * z5 + 17.0 * z3 - 15.0 * z) / (384.0 * n * n * n);
+}
+
+std::optional<std::pair<std::size_t, std::size_t>> median_ranks(std::size_t count) {
+  constexpr std::size_t fewest = 6;
+  constexpr std::size_t most_exact = 1000;
+  if (count < fewest) return std::nullopt;
+  const auto n = static_cast<double>(count);
+  const std::size_t rank =
+      count <= most_exact ? exact_rank(count) - 1
+                          : static_cast<std::size_t>(std::floor(0.5 * (n - 1.0 - normal_95 * std::sqrt(n)))) - 1;
+  return std::pair{rank, count - 1 - rank};
+}
+
+std::optional<Distribution> distribution_of(std::span<const double> values) {
+  if (values.empty()) return std::nullopt;
+  std::vector<double> sorted(values.begin(), values.end());
+  std::sort(sorted.begin(), sorted.end());
+  Distribution d{.count = sorted.size(),
+                 .least = sorted.front(),
+                 .q1 = sorted_quantile(sorted, 0.25),
+                 .median = sorted_quantile(sorted, 0.5),
+                 .q3 = sorted_quantile(sorted, 0.75),
+                 .most = sorted.back(),
+                 .mean = mean_of_sorted(sorted),
+                 .mean_ci95 = {},
+                 .median_ci95 = {}};
+  if (sorted.size() > 1) d.mean_ci95 = mean_interval(sorted, d.mean);
+  if (const auto ranks = median_ranks(sorted.size())) {
+    d.median_ci95 = Interval{sorted[ranks->first], sorted[ranks->second]};
+  }
+  return d;
+}
+
+Interval wilson_interval(std::uint64_t successes, std::uint64_t trials) {
+  const auto n = static_cast<double>(trials);
+  const double share = static_cast<double>(successes) / n;
+  const double z2 = normal_95 * normal_95;
+  const double centre = share + z2 / (2.0 * n);
+  const double half_width = normal_95 * std::sqrt(share * (1.0 - share) / n + z2 / (4.0 * n * n));
+  const double scale = 1.0 + z2 / n;
+  return {std::max(0.0, (centre - half_width) / scale), std::min(1.0, (centre + half_width) / scale)};
+}
+
+}  // namespace warren

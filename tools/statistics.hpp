@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a sample says about what it was drawn from: quantiles, mean, and 95 % intervals. Every function takes the values
+// in any order. Quantiles interpolate linearly between order statistics (R's type 7, numpy's default).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace warren {
+
+/// Both ends included.
+struct Interval {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+/// A sample in short.
+struct Distribution {
+  std::size_t count = 0;
+  double least = 0.0;
+  double q1 = 0.0;
+  double median = 0.0;
+  double q3 = 0.0;
+  double most = 0.0;
+  double mean = 0.0;
+  std::optional<Interval> mean_ci95;    ///< Student's t; none of fewer than two values
+  std::optional<Interval> median_ci95;  ///< free of any assumption; none of fewer than six values
+};
+
+/// Nothing of no values. All values finite. O(n log n).
+std::optional<Distribution> distribution_of(std::span<const double> values);
+
+/// The quantile at `share` (0 to 1) of sorted values, at least one.
+double sorted_quantile(std::span<const double> sorted, double share);
+
+/// The middle of the values, at least one.
+double median_of(std::span<const double> values);
+
+/// Where the chance of success lies: Wilson's score interval (1927), 95 %, within [0, 1]. trials >= 1.
+Interval wilson_interval(std::uint64_t successes, std::uint64_t trials);
+
+/// The 97.5 % point of Student's t with so many degrees of freedom, >= 1; to 1e-3.
+double student_t(std::uint64_t degrees);
+
+/// Ranks (from 0) of the two sorted values that enclose the median of any distribution with at least 95 %; none of
+/// fewer than six values. Exact to 1000 values, from the normal approximation (one rank wider at most) beyond. O(√n).
+std::optional<std::pair<std::size_t, std::size_t>> median_ranks(std::size_t count);
+
+}  // namespace warren
