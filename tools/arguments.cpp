@@ -92,7 +92,8 @@ void Arguments::take_option(const Command& command, std::span<const std::string>
 
 void Arguments::check_operands(const Command& command) const {
   const std::vector<std::string> needed = words_of(command.operands);
-  if (operands_.size() < needed.size()) throw UsageError(needed[operands_.size()] + " is missing");
+  const bool complete = operands_.size() >= needed.size() || needed[operands_.size()].starts_with('[');
+  if (!complete) throw UsageError(needed[operands_.size()] + " is missing");
   if (operands_.size() > needed.size()) throw UsageError("unexpected argument '" + operands_[needed.size()] + "'");
 }
 

@@ -25,6 +25,7 @@ class Arguments {
   /// What was given with the option: empty for a flag, and where a value that may be missing is.
   std::optional<std::string> value(std::string_view option) const;
   const std::string& operand(std::size_t i) const { return operands_[i]; }
+  std::size_t operand_count() const { return operands_.size(); }  ///< fewer than the command's where some are optional
   /// The command line as it was given, for the pictures' descriptions.
   const std::string& command_line() const { return command_line_; }
   bool wants_help() const { return wants_help_; }

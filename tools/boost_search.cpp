@@ -136,8 +136,8 @@ class BoostSearch : public GraphSearch {
     const auto lengths = get(&Weight::length, graph_);
     switch (search_) {
       case SearchKind::bfs:
-        return boost::breadth_first_search(
-            graph_, from_.start, boost::visitor(BreadthVisitor(watch, parent_)).color_map(map(color_)));
+        return boost::breadth_first_search(graph_, from_.start,
+                                           boost::visitor(BreadthVisitor(watch, parent_)).color_map(map(color_)));
       case SearchKind::dfs:
         std::fill(color_.begin(), color_.end(), boost::white_color);
         return boost::depth_first_visit(graph_, from_.start, DepthVisitor(watch, parent_), map(color_));

@@ -38,21 +38,10 @@ constexpr OptionSpec study_specs[] = {
 constexpr std::array<std::string_view, 3> dealt_out{"--planner", "--sampler", "--seed"};
 constexpr std::array<std::string_view, 1> own_seed{"--seed"};
 
-/// The words of a list; no list is an empty one, none of its words is empty or there twice.
-std::vector<std::string> list_value(const Arguments& arguments, std::string_view option) {
-  std::vector<std::string> words;
+/// The words of a list; no list is an empty one.
+std::vector<std::string> words_of(const Arguments& arguments, std::string_view option) {
   const auto text = arguments.value(option);
-  for (std::size_t at = 0; text && at <= text->size();) {
-    const std::size_t end = std::min(text->find(',', at), text->size());
-    std::string word = text->substr(at, end - at);
-    if (word.empty()) throw UsageError(fmt::format("{}: expected words apart by commas (found: '{}')", option, *text));
-    if (std::find(words.begin(), words.end(), word) != words.end()) {
-      throw UsageError(fmt::format("{}: {} is there twice", option, word));
-    }
-    words.push_back(std::move(word));
-    at = end + 1;
-  }
-  return words;
+  return text ? list_value(option, *text) : std::vector<std::string>{};
 }
 
 std::pair<std::uint32_t, std::uint32_t> size_value(const std::string& word) {
@@ -66,7 +55,7 @@ std::pair<std::uint32_t, std::uint32_t> size_value(const std::string& word) {
 
 std::vector<std::pair<std::uint32_t, std::uint32_t>> sizes_of(const Arguments& arguments) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> sizes;
-  for (const std::string& word : list_value(arguments, "--sizes")) sizes.push_back(size_value(word));
+  for (const std::string& word : words_of(arguments, "--sizes")) sizes.push_back(size_value(word));
   if (sizes.empty()) sizes = {{100, 100}, {316, 316}, {1000, 1000}};
   std::stable_sort(sizes.begin(), sizes.end(), [](const auto& a, const auto& b) {
     return std::uint64_t{a.first} * a.second < std::uint64_t{b.first} * b.second;
@@ -76,7 +65,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> sizes_of(const Arguments& a
 
 std::vector<unsigned> threads_of(const Arguments& arguments) {
   std::vector<unsigned> threads;
-  for (const std::string& word : list_value(arguments, "--threads")) threads.push_back(threads_value(word));
+  for (const std::string& word : words_of(arguments, "--threads")) threads.push_back(threads_value(word));
   if (threads.empty()) threads = thread_count(0) > 1 ? std::vector{1U, thread_count(0)} : std::vector{1U};
   std::sort(threads.begin(), threads.end());
   return threads;
@@ -99,8 +88,8 @@ Arguments solve_arguments(const Arguments& given, const std::string& planner, co
 }
 
 std::vector<Arguments> planners_of(const Arguments& arguments) {
-  std::vector<std::string> planners = list_value(arguments, "--planners");
-  std::vector<std::string> samplers = list_value(arguments, "--samplers");
+  std::vector<std::string> planners = words_of(arguments, "--planners");
+  std::vector<std::string> samplers = words_of(arguments, "--samplers");
   if (planners.empty()) planners.emplace_back();
   if (samplers.empty()) samplers.emplace_back();
   std::vector<Arguments> all;
@@ -116,7 +105,7 @@ ScalingOptions scaling_options(const Arguments& arguments) {
   options.sizes = sizes_of(arguments);
   options.threads = threads_of(arguments);
   options.planners = planners_of(arguments);
-  for (const std::string& word : list_value(arguments, "--seeds")) {
+  for (const std::string& word : words_of(arguments, "--seeds")) {
     options.seeds.push_back(count_value("--seeds", word, 0, std::numeric_limits<std::uint64_t>::max()));
   }
   if (options.seeds.empty()) options.seeds = {1};

@@ -26,8 +26,9 @@ struct OptionSpec {
 
 struct Command {
   std::string_view name;
-  std::string_view operands;  ///< e.g. "WORLD ANSWER.json": one word an operand, all of them needed
-  std::string_view summary;   ///< one line
+  std::string_view
+      operands;              ///< e.g. "WORLD ANSWER.json": one word an operand; those in brackets, last, may be missing
+  std::string_view summary;  ///< one line
   std::vector<OptionSpec> options;
   std::function<int(const Arguments&)> run;  ///< returns the exit code
   /// Documented options that this version does not take yet, and what takes them.
@@ -38,6 +39,7 @@ struct Command {
 void add_options(std::vector<OptionSpec>& to, std::span<const OptionSpec> more);
 
 // The verbs, one a file cmd_NAME.cpp.
+Command compare_command();
 Command completion_command();
 Command convert_command();
 Command generate_command();

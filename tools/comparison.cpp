@@ -51,6 +51,16 @@ std::string name_of(const Contender& contender, bool with_planner) {
   return name;
 }
 
+std::string options_text(const Contender& contender) {
+  std::string text;
+  for (const auto& [name, value] : contender.options) {
+    text += (text.empty() ? "" : ", ") + name;
+    const bool is_word = value.size() >= 2 && value.front() == '"';
+    if (value != "true") text += " " + (is_word ? value.substr(1, value.size() - 2) : value);
+  }
+  return text;
+}
+
 std::vector<std::size_t> turns(std::size_t count, std::uint64_t round) {
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -22,7 +22,7 @@ struct ComparedRun {
   double time_s = 0.0;
   double length = 0.0;  ///< world units
   std::uint64_t hops = 0;
-  std::uint64_t expanded = 0;               ///< vertices or states settled; known where nothing was found, too
+  std::uint64_t expanded = 0;                ///< vertices or states settled; known where nothing was found, too
   std::optional<double> min_clearance = {};  ///< planners only
   std::optional<double> search_s = {};       ///< planners only: the search's part of time_s
   bool solved() const { return outcome == Outcome::solved; }
@@ -50,8 +50,8 @@ struct Contender {
 struct Comparison {
   std::vector<ComparedProblem> problems;
   std::vector<Contender> contenders;
-  double clock_s = 0.0;                   ///< what reading the clock costs, taken off each time of a search
-  std::vector<std::string> notes;         ///< what was left out, and why: a line each
+  double clock_s = 0.0;                    ///< what reading the clock costs, taken off each time of a search
+  std::vector<std::string> notes;          ///< what was left out, and why: a line each
   std::optional<StopReason> stopped = {};  ///< a signal ended it early
 };
 
@@ -59,18 +59,21 @@ struct Comparison {
 struct ComparisonRow {
   std::size_t runs = 0;
   std::size_t solved = 0;
-  Interval success;                          ///< Wilson's, 95 %; of one that never ran, 0 to 1
-  std::optional<Distribution> length;        ///< of the solved runs
-  std::optional<Distribution> hops;          ///< of the solved runs
+  Interval success;                           ///< Wilson's, 95 %; of one that never ran, 0 to 1
+  std::optional<Distribution> length;         ///< of the solved runs
+  std::optional<Distribution> hops;           ///< of the solved runs
   std::optional<Distribution> min_clearance;  ///< of the solved runs
-  std::optional<Distribution> expanded;      ///< of all runs
-  std::optional<Distribution> time_s;        ///< of all runs: what did not succeed has cost its time, too
-  std::optional<Distribution> search_s;      ///< of the solved runs
+  std::optional<Distribution> expanded;       ///< of all runs
+  std::optional<Distribution> time_s;         ///< of all runs: what did not succeed has cost its time, too
+  std::optional<Distribution> search_s;       ///< of the solved runs
 };
 ComparisonRow row_of(const Contender& contender);
 
 /// "astar, sorted-array", "prm, bfs"; `with_planner` where searches of one graph are not all there is.
 std::string name_of(const Contender& contender, bool with_planner);
+
+/// "samples 50, radius 2"
+std::string options_text(const Contender& contender);
 
 /// The order in which `count` contenders take their turn in one round: shuffled by (seed, round), so that none always
 /// follows the same one and whatever else the machine does meets all alike.

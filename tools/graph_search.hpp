@@ -38,8 +38,8 @@ class GraphSearch {
   GraphSearch() = default;
   GraphSearch(const GraphSearch&) = delete;
   GraphSearch& operator=(const GraphSearch&) = delete;
-  /// Searches from the graph's start to its goal. length is that of the path for A* and Dijkstra; path_length() knows it
-  /// for the others. Polls the deadline where the library can.
+  /// Searches from the graph's start to its goal. length is that of the path for A* and Dijkstra; path_length() knows
+  /// it for the others. Polls the deadline where the library can.
   virtual SearchResult run(const Execution& execution) = 0;
 };
 

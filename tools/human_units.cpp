@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <string_view>
 
 namespace warren {
@@ -21,6 +22,15 @@ std::string human_seconds(double seconds) {
   const auto whole = static_cast<std::uint64_t>(seconds < 1e15 ? seconds : 1e15);
   if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
   return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
+}
+
+std::string precise_seconds(double seconds) {
+  constexpr std::array<std::string_view, 4> units{"ns", "us", "ms", "s"};
+  double value = seconds * 1e9;
+  std::size_t unit = 0;
+  for (; std::abs(value) >= 999.5 && unit + 1 < units.size(); ++unit) value /= 1000.0;
+  const double size = std::abs(value);
+  return fmt::format("{:.{}f} {}", value, size >= 99.95 || unit == 0 ? 0 : size >= 9.995 ? 1 : 2, units[unit]);
 }
 
 std::string human_bytes(double bytes) {

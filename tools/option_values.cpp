@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -106,6 +107,21 @@ std::vector<double> state_value(std::string_view option, std::string_view text) 
   }
   if (state.size() != 2 && state.size() != 3 && state.size() != 6) refuse(option, expected, text);
   return state;
+}
+
+std::vector<std::string> list_value(std::string_view option, std::string_view text) {
+  std::vector<std::string> words;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t end = std::min(text.find(',', at), text.size());
+    std::string word{text.substr(at, end - at)};
+    if (word.empty()) refuse(option, "words apart by commas", text);
+    if (std::find(words.begin(), words.end(), word) != words.end()) {
+      throw UsageError(fmt::format("{}: {} is there twice", option, word));
+    }
+    words.push_back(std::move(word));
+    at = end + 1;
+  }
+  return words;
 }
 
 std::size_t choice_value(std::string_view option, std::string_view text, std::span<const std::string_view> words) {

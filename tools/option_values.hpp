@@ -32,6 +32,8 @@ double duration_value(std::string_view option, std::string_view text);
 std::size_t memory_value(std::string_view option, std::string_view text);
 /// Numbers apart by commas or blanks, at most largest_coordinate each; 2, 3 or 6 of them.
 std::vector<double> state_value(std::string_view option, std::string_view text);
+/// Words apart by commas; none is empty or there twice.
+std::vector<std::string> list_value(std::string_view option, std::string_view text);
 /// One of the words; a misspelt one is told the closest.
 std::size_t choice_value(std::string_view option, std::string_view text, std::span<const std::string_view> words);
 

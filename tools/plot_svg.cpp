@@ -225,6 +225,19 @@ void Drawing::legend() {
 
 std::string plot_svg(const Plot& plot) { return Drawing(plot).text(); }
 
+std::string plots_svg(std::span<const Plot> plots, std::size_t columns) {
+  const std::size_t rows = (plots.size() + columns - 1) / columns;
+  std::string text =
+      fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\">\n",
+                  width * static_cast<double>(std::min(columns, plots.size())), height * static_cast<double>(rows));
+  for (std::size_t i = 0; i < plots.size(); ++i) {
+    text += fmt::format("<g transform=\"translate({} {})\">\n", width * static_cast<double>(i % columns),
+                        height * static_cast<double>(i / columns));
+    text += plot_svg(plots[i]) + "</g>\n";
+  }
+  return text + "</svg>\n";
+}
+
 std::string xml_text(std::string_view text) {
   std::string out;
   for (const char c : text) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,6 +35,9 @@ struct Plot {
 
 /// The element with its namespace, 760 x 420 units.
 std::string plot_svg(const Plot& plot);
+
+/// Several, row by row, as one element.
+std::string plots_svg(std::span<const Plot> plots, std::size_t columns);
 
 /// Text for XML and HTML: & < > " escaped, control characters and bytes that are not ASCII replaced.
 std::string xml_text(std::string_view text);

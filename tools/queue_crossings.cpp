@@ -61,8 +61,7 @@ QueueCrossing crossing_of(const SweepCurve& array, const SweepCurve& heap) {
   c.array = array.queue;
   c.heap = heap.queue;
   c.ratios = ratios_of(array, heap);
-  const auto last_not_slower =
-      std::find_if(c.ratios.rbegin(), c.ratios.rend(), [](Vec2 r) { return r.y <= 1.0; });
+  const auto last_not_slower = std::find_if(c.ratios.rbegin(), c.ratios.rend(), [](Vec2 r) { return r.y <= 1.0; });
   if (last_not_slower != c.ratios.rend()) c.not_slower_at = last_not_slower->x;
   if (last_not_slower != c.ratios.rbegin()) c.slower_from = std::prev(last_not_slower)->x;
   if (c.not_slower_at && c.slower_from) c.crossing = rise_through_one({*last_not_slower, *std::prev(last_not_slower)});

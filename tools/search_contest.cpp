@@ -82,8 +82,7 @@ class SearchContest {
 };
 
 void SearchContest::enter() {
-  comparison_.problems.push_back(
-      {graph_.source, graph_.kind, graph_.graph.vertex_count(), graph_.graph.edge_count()});
+  comparison_.problems.push_back({graph_.source, graph_.kind, graph_.graph.vertex_count(), graph_.graph.edge_count()});
   first_contender_ = comparison_.contenders.size();
   for (const SearchVariant& v : options_.variants) {
     entrants_.push_back({v, graph_search(graph_, v), {}, 0});
@@ -137,8 +136,8 @@ void SearchContest::check_all() {
       continue;
     }
     entrant.trials = trials_for(entrant.first);
-    claims.push_back({entrant.variant, entrant.first.solved(), entrant.first.length, entrant.first.hops,
-                      entrant.first.expanded});
+    claims.push_back(
+        {entrant.variant, entrant.first.solved(), entrant.first.length, entrant.first.hops, entrant.first.expanded});
   }
   if (const auto contradiction = contradiction_in(claims)) {
     throw std::logic_error(fmt::format("searches of {} contradict each other: {}", graph_.source, *contradiction));
@@ -166,8 +165,8 @@ void SearchContest::measure_round(std::uint64_t round, std::uint64_t rounds) {
     const bool same = run.solved() == entrant.first.solved() && run.expanded == entrant.first.expanded &&
                       run.length == entrant.first.length;
     if (!same && run.outcome != Outcome::stopped) {
-      throw std::logic_error(fmt::format("{} of {} gives another answer the second time", text_of(entrant.variant),
-                                         graph_.source));
+      throw std::logic_error(
+          fmt::format("{} of {} gives another answer the second time", text_of(entrant.variant), graph_.source));
     }
     contender(i).runs.push_back(run);
   }

@@ -154,6 +154,14 @@ const SolveKind& verifying_kind(const Scene& scene, const ProblemOptions& proble
   return found != fitting.end() ? **found : first_kind(fitting, scene, problem);
 }
 
+bool planner_takes(PlannerKind planner, std::string_view option) {
+  if (option == "--planner" || option == "--seed") return true;
+  return std::any_of(solve_kinds().begin(), solve_kinds().end(), [&](const SolveKind& kind) {
+    const PlannerChoice* choice = choice_in(kind, planner);
+    return choice != nullptr && lists(choice->options, option);
+  });
+}
+
 std::vector<OptionSpec> solver_option_specs() {
   static const std::string planners = [] {
     std::string words;

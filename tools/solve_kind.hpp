@@ -91,6 +91,9 @@ ChosenSolver choose_solver(const Arguments& arguments, const Scene& scene, const
 /// The kind that verifies answers for this world and body; throws UsageError where this version has none.
 const SolveKind& verifying_kind(const Scene& scene, const ProblemOptions& problem);
 
+/// Does the planner take the option, a long name, for some kind of problem? All take --planner and --seed.
+bool planner_takes(PlannerKind planner, std::string_view option);
+
 /// All options of all planners, each once: --planner lists the planners of this version.
 std::vector<OptionSpec> solver_option_specs();
 

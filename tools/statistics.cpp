@@ -71,9 +71,9 @@ std::optional<std::pair<std::size_t, std::size_t>> median_ranks(std::size_t coun
   constexpr std::size_t most_exact = 1000;
   if (count < fewest) return std::nullopt;
   const auto n = static_cast<double>(count);
-  const std::size_t rank =
-      count <= most_exact ? exact_rank(count) - 1
-                          : static_cast<std::size_t>(std::floor(0.5 * (n - 1.0 - normal_95 * std::sqrt(n)))) - 1;
+  const std::size_t rank = count <= most_exact
+                               ? exact_rank(count) - 1
+                               : static_cast<std::size_t>(std::floor(0.5 * (n - 1.0 - normal_95 * std::sqrt(n)))) - 1;
   return std::pair{rank, count - 1 - rank};
 }
 

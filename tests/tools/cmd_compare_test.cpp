@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `warren compare` as users and scripts meet it. No claim about time.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "tests/tools/process.hpp"
+#include "tests/tools/program.hpp"
+#include "tools/graph_search.hpp"
+
+namespace warren {
+namespace {
+
+using Json = nlohmann::json;
+using testing::check;
+using testing::Folder;
+
+Json compared(const std::string& words) {
+  const ProgramRun run = run_program("compare " + words + " --quiet --json -");
+  EXPECT_EQ(run.exit_code, 0) << words;
+  return Json::parse(run.out);
+}
+
+std::string name_of_row(const Json& row) {
+  return row["search"].get<std::string>() + (row["queue"].is_null() ? "" : " " + row["queue"].get<std::string>());
+}
+
+TEST(Compare, SearchesTakeEveryQueueAndAgreeOnLengths) {
+  const Json json = compared(
+      "maze:21x21,loops=0.2 --searches bfs,dfs,dijkstra,astar --queues "
+      "heap,lazy-heap,sorted-array,resorted-array,linear-scan --trials 3");
+  EXPECT_EQ(json["schema"], "warren.compare/1");
+  ASSERT_EQ(json["rows"].size(), 12U);
+  std::map<std::string, Json> rows;
+  for (const Json& row : json["rows"]) {
+    rows[name_of_row(row)] = row;
+    EXPECT_EQ(row["planner"], "prm");
+    EXPECT_EQ(row["runs"], 3);
+    EXPECT_EQ(row["solved"], 3);
+    EXPECT_EQ(row["length"]["q1"], row["length"]["q3"]);
+    EXPECT_TRUE(row["time_s"]["ci95"].is_array());
+    EXPECT_EQ(row["problem"]["vertices"], 21 * 21 + 2);
+  }
+  const Json& best = rows["dijkstra heap"];
+  for (const char* queue : {"heap", "lazy-heap", "sorted-array", "resorted-array", "linear-scan"}) {
+    for (const char* search : {"dijkstra ", "astar "}) {
+      const Json& row = rows[search + std::string{queue}];
+      EXPECT_NEAR(row["length"]["median"].get<double>(), best["length"]["median"].get<double>(), 1e-9) << queue;
+    }
+    EXPECT_EQ(rows["dijkstra " + std::string{queue}]["expanded"], best["expanded"]) << queue;
+  }
+  EXPECT_LE(rows["astar heap"]["expanded"], best["expanded"]);
+  EXPECT_LE(rows["bfs"]["hops"], best["hops"]);
+  EXPECT_GE(rows["dfs"]["length"]["median"], best["length"]["median"]);
+}
+
+TEST(Compare, SearchesGiveTheLengthThatSolveGives) {
+  const Json json = compared("maze:15x15,loops=0.3 --searches astar --queues heap --trials 2");
+  const Json solved = Json::parse(run_program("solve maze:15x15,loops=0.3 --quiet --json -").out);
+  EXPECT_NEAR(json["rows"][0]["length"]["median"].get<double>(), solved["length"].get<double>(), 1e-9);
+}
+
+TEST(Compare, OptionsOfTheGraphReachIt) {
+  const Json json =
+      compared("maze:8x8 --sampler uniform --samples 2000 --neighbours 9 --seed 4 --searches bfs --trials 1");
+  EXPECT_GT(json["rows"][0]["problem"]["vertices"], 1000);
+  EXPECT_LE(json["rows"][0]["problem"]["vertices"], 2002);
+}
+
+TEST(Compare, OfTheSummaryEverySearchHasALine) {
+  const ProgramRun run = run_program("compare maze:9x9 --trials 2 --color never");
+  EXPECT_EQ(run.exit_code, 0);
+  for (const char* word : {"bfs", "dfs", "dijkstra", "astar", "linear-scan", "median", "settled", "95 %"}) {
+    EXPECT_NE(run.out.find(word), std::string::npos) << word;
+  }
+}
+
+TEST(Compare, ThePeerIsComparedOrSaidToBeMissing) {
+  const ProgramRun run = run_program("compare maze:15x15,loops=0.2 --peer boost --trials 2 --quiet --json - 2>&1");
+  if (!has_boost_graph()) {
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_NE(run.out.find("--peer"), std::string::npos);
+    EXPECT_EQ(run.out.find('\n'), run.out.size() - 1);
+    return;
+  }
+  ASSERT_EQ(run.exit_code, 0) << run.out;
+  std::map<std::string, double> lengths;
+  std::set<std::string> peers;
+  for (const Json& row : Json::parse(run.out)["rows"]) {
+    const double length = row["length"]["median"];
+    const std::string search = row["search"];
+    if (row["library"] == "boost") peers.insert(search);
+    EXPECT_NEAR(lengths.try_emplace(search, length).first->second, length, 1e-9) << search;
+  }
+  EXPECT_EQ(peers, (std::set<std::string>{"astar", "bfs", "dfs", "dijkstra"}));
+}
+
+TEST(Compare, SizesNeedNoWorldAndTellWhereQueuesCross) {
+  const Folder folder;
+  const Json json = compared(
+      "--sizes 30,10,20 --seeds 2 --degree 6 --searches dijkstra,astar --queues heap,sorted-array --trials 4 --svg " +
+      folder.path("sweep.svg"));
+  EXPECT_EQ(json["rows"].size(), 3U * 2 * 2 * 2);
+  std::set<int> sizes;
+  for (const Json& row : json["rows"]) {
+    sizes.insert(row["problem"]["vertices"].get<int>());
+    EXPECT_EQ(row["planner"], "geometric");
+    EXPECT_EQ(row["options"]["degree"], 6);
+  }
+  EXPECT_EQ(sizes, (std::set<int>{10, 20, 30}));
+  ASSERT_EQ(json["crossings"].size(), 2U);
+  for (const Json& crossing : json["crossings"]) {
+    EXPECT_EQ(crossing["array"], "sorted-array");
+    EXPECT_EQ(crossing["ratios"].size(), 3U);
+    EXPECT_EQ(crossing["ratios"][0][0], 10.0) << "sizes ascend, however they were given";
+  }
+  const std::string svg = folder.read("sweep.svg");
+  EXPECT_TRUE(svg.starts_with("<svg xmlns="));
+  EXPECT_NE(svg.find("where array and heap cross"), std::string::npos);
+  EXPECT_TRUE(svg.ends_with("</svg>\n"));
+}
+
+TEST(Compare, AWorldAndSizesAreComparedTogether) {
+  const Json json = compared("maze:6x6 --sizes 10,20 --seeds 1 --searches dijkstra --queues heap --trials 1");
+  std::set<std::string> graphs;
+  for (const Json& row : json["rows"]) graphs.insert(row["problem"]["source"].get<std::string>());
+  EXPECT_EQ(graphs, (std::set<std::string>{"geometric:10", "geometric:20", "maze:6x6"}));
+}
+
+TEST(Compare, PlannersRunOverSeedsAndPathsDependOnThemAlone) {
+  const std::string words = "maze:8x8 --planners prm,lazy-prm --sampler uniform --seeds 4 --seed 11";
+  const ProgramRun refused = run_program("compare " + words + " 2>&1");
+  EXPECT_EQ(refused.exit_code, 2) << "the list is called --samplers";
+  const std::string right = "maze:8x8 --planners prm,lazy-prm --samplers uniform --seeds 4 --seed 11";
+  const Json json = compared(right);
+  ASSERT_EQ(json["rows"].size(), 2U);
+  for (const Json& row : json["rows"]) {
+    EXPECT_EQ(row["runs"], 4);
+    EXPECT_EQ(row["solved"], 4);
+    EXPECT_EQ(row["options"]["sampler"], "uniform");
+    EXPECT_TRUE(row["success_ci95"][0].get<double>() > 0.4);
+  }
+  const Json again = compared(right + " --threads 1");
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(json["rows"][i]["length"], again["rows"][i]["length"]);
+    EXPECT_EQ(json["rows"][i]["expanded"], again["rows"][i]["expanded"]);
+  }
+  const Json solved = Json::parse(run_program("solve maze:8x8 --planner prm --sampler uniform --seed 11 --quiet "
+                                              "--json -")
+                                      .out);
+  EXPECT_GE(solved["length"], json["rows"][0]["length"]["min"]);
+  EXPECT_LE(solved["length"], json["rows"][0]["length"]["max"]);
+}
+
+TEST(Compare, ListsAreDealtToThePlannersThatTakeThem) {
+  const Json json = compared(
+      "maze:5x5 --planners prm,lazy-prm --samples 200,400 --searches astar,dijkstra --neighbours 9 --trials 2");
+  std::set<std::string> rows;
+  for (const Json& row : json["rows"]) {
+    rows.insert(row["planner"].get<std::string>() + " " + row["search"].get<std::string>() + " " +
+                row["options"]["samples"].dump());
+    EXPECT_EQ(row["options"]["neighbours"], 9);
+  }
+  EXPECT_EQ(rows.size(), 8U);
+  EXPECT_TRUE(rows.contains("lazy-prm dijkstra 400"));
+  const Json optional = compared("maze:5x5 --planners prm,lazy-prm --lazy path --trials 1");
+  EXPECT_FALSE(optional["rows"][0]["options"].contains("lazy")) << "prm does not take it";
+  EXPECT_EQ(optional["rows"][1]["options"]["lazy"], "path");
+}
+
+TEST(Compare, AQueueGoesOnlyToSearchesThatHaveOne) {
+  const Json json = compared("maze:5x5 --planners prm --searches bfs,dijkstra --queues heap,sorted-array --trials 1");
+  std::vector<std::string> rows;
+  for (const Json& row : json["rows"]) rows.push_back(name_of_row(row));
+  EXPECT_EQ(rows, (std::vector<std::string>{"bfs", "dijkstra heap", "dijkstra sorted-array"}));
+}
+
+TEST(Compare, LowSuccessIsAResultAndNoneIsAnExitCode) {
+  const Json some = compared("maze:5x5 --planners prm,lazy-prm --samples 3,600 --seeds 3");
+  std::map<int, int> solved;
+  for (const Json& row : some["rows"]) solved[row["options"]["samples"].get<int>()] += row["solved"].get<int>();
+  EXPECT_EQ(solved[3], 0);
+  EXPECT_EQ(solved[600], 6);
+  EXPECT_EQ(run_program("compare maze:5x5 --planners prm --samples 3 --seeds 2 --quiet").exit_code, 1);
+  EXPECT_EQ(run_program("compare maze:5x5 --sampler uniform --samples 3 --trials 1 --quiet").exit_code, 1);
+  EXPECT_EQ(run_program("compare maze:5x5 --start 0.5,0.5 --quiet").exit_code, 1) << "blocked";
+}
+
+TEST(Compare, OutputsAreWrittenSideBySide) {
+  const Folder folder;
+  const ProgramRun run = run_program("compare maze:6x6 --planners prm,lazy-prm --seeds 3 --quiet --json " +
+                                     folder.path("a.json") + " --csv " + folder.path("a.csv") + " --log " +
+                                     folder.path("a.log") + " --svg " + folder.path("a.svg"));
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_EQ(run.out, "");
+  EXPECT_EQ(Json::parse(folder.read("a.json"))["rows"].size(), 2U);
+  const std::string csv = folder.read("a.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);
+  const std::string log = folder.read("a.log");
+  EXPECT_NE(log.find("2 planners\nwarren_prm"), std::string::npos) << log;
+  EXPECT_NE(log.find("3 runs\n6; "), std::string::npos) << log;
+  EXPECT_NE(folder.read("a.svg").find("per cent of the runs solved within"), std::string::npos);
+}
+
+TEST(Compare, ARunCutByItsBudgetIs124WithTheRunsSoFar) {
+  const ProgramRun planners =
+      run_program("compare maze:50x50 --planners prm --seeds 2 --budget 0.001us --quiet --json -");
+  EXPECT_EQ(planners.exit_code, 124);
+  EXPECT_EQ(Json::parse(planners.out)["rows"][0]["solved"], 0);
+  EXPECT_EQ(run_program("compare --sizes 3000 --seeds 1 --searches bfs --budget 0.001us --quiet").exit_code, 124);
+}
+
+TEST(Compare, AnInterruptPrintsWhatThereIs) {
+  for (const char* words : {"compare maze:9x9 --planners prm --seeds 1000000 --quiet --json -",
+                            "compare maze:9x9 --trials 1000000 --quiet --json -"}) {
+    SCOPED_TRACE(words);
+    const ProgramRun run = run_program(std::string{words} + " & p=$!; sleep 1; kill -INT $p; wait $p");
+    EXPECT_EQ(run.exit_code, 130);
+    const Json json = Json::parse(run.out);
+    EXPECT_EQ(json["stopped_by"], "SIGINT");
+    EXPECT_GT(json["rows"][0]["runs"], 0);
+  }
+}
+
+TEST(Compare, BadOptionsAreUsageErrorsOfOneLineThatNameTheOption) {
+  const std::vector<std::pair<const char*, const char*>> cases{
+      {"", "WORLD is missing"},
+      {"--planners prm", "WORLD is missing"},
+      {"maze:5x5 --searches astar,bsf", "did you mean bfs?"},
+      {"maze:5x5 --searches astar,astar", "there twice"},
+      {"maze:5x5 --searches ,", "--searches"},
+      {"maze:5x5 --queues stack", "--queues"},
+      {"maze:5x5 --searches bfs --queues heap", "no priority queue"},
+      {"maze:5x5 --trials 0", "--trials"},
+      {"maze:5x5 --trials 1e4", "--trials"},
+      {"maze:5x5 --peer pgraph", "--peer"},
+      {"maze:5x5 --graph cube", "--graph"},
+      {"maze:5x5 --seeds 3", "--seeds"},
+      {"maze:5x5 --degree 3", "--degree"},
+      {"maze:5x5 --samples 100,200", "--samples"},
+      {"maze:5x5 --samples 0", "--samples"},
+      {"maze:5x5 --optimise", "--optimise"},
+      {"maze:5x5 --search astar", "--search"},
+      {"maze:5x5 --planner prm", "--planner"},
+      {"maze:5x5 --clearance -1", "--clearance"},
+      {"maze:5x5 --budget 0s", "--budget"},
+      {"maze:5x5 --threads 0", "--threads"},
+      {"maze:5x5 --json - --csv -", "--csv"},
+      {"maze:5x5 --svg plot.png", "--svg"},
+      {"maze:5x5 --planners prm,nobody", "nobody"},
+      {"maze:5x5 --planners prm --peer boost", "--peer"},
+      {"maze:5x5 --planners prm --sizes 10", "--sizes"},
+      {"maze:5x5 --planners prm --graph prm", "--graph"},
+      {"maze:5x5 --planners prm --seeds 0", "--seeds"},
+      {"maze:5x5 --planners prm --seeds 2 --trials 2", "--trials"},
+      {"maze:5x5 --planners prm --samples 0", "--samples"},
+      {"maze:5x5 --planners prm --queues linear-scan", "linear-scan"},
+      {"maze:5x5 --planners prm --lazy path", "--lazy"},
+      {"maze:5x5 --planners lazy-prm --searches bfs", "bfs"},
+      {"--sizes 1", "--sizes"},
+      {"--sizes 10,x", "--sizes"},
+      {"--sizes 10 --degree 0", "--degree"},
+      {"--sizes 10 --clearance 1", "--clearance"},
+      {"--sizes 10 --samples 5", "--samples"},
+      {"--sizes 10 --log x.log", "--log"},
+      {"maze:5x5 maze:5x5", "unexpected argument"},
+  };
+  for (const auto& [words, named] : cases) {
+    SCOPED_TRACE(words);
+    const ProgramRun run = run_program(std::string{"compare "} + words + " 2>&1");
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_NE(run.out.find(named), std::string::npos) << run.out;
+    EXPECT_EQ(run.out.find('\n'), run.out.size() - 1) << "one line: " << run.out;
+  }
+}
+
+TEST(Compare, FilesThatCannotBeReadOrWrittenHaveTheirCodes) {
+  check({{"compare", "/nowhere.scene"}, 66, "/nowhere.scene"});
+  check({{"compare", "maze:5x5", "--json", "/nowhere/a.json"}, 73, "/nowhere"});
+}
+
+}  // namespace
+}  // namespace warren

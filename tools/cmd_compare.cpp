@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// warren compare: planners side by side on a world over many seeds, or searches and queues side by side on a world's
+// graph and on random graphs of many sizes.
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "tools/command.hpp"
+#include "tools/compare_options.hpp"
+#include "tools/comparison_report.hpp"
+#include "tools/exit_code.hpp"
+#include "tools/human_units.hpp"
+#include "tools/output_files.hpp"
+#include "tools/run_options.hpp"
+#include "tools/signals.hpp"
+#include "tools/terminal.hpp"
+#include "tools/world_files.hpp"
+#include "tools/world_graph.hpp"
+#include "worlds/output_file_io.hpp"
+
+namespace warren {
+namespace {
+
+constexpr OptionSpec output_specs[] = {
+    {"--budget", "TIME", "each run, of a planner or a search, may take so long (default: none)"},
+    {"--json", "FILE", "write warren.compare/1; - is standard output"},
+    {"--csv", "FILE", "write a line a planner or search; - is standard output"},
+    {"--svg", "FILE", "plot times against size, or the share solved against time; - is standard output"},
+    {"--log", "FILE", "write every run as OMPL's benchmarks do; - is standard output"},
+};
+constexpr std::array<const char*, 4> output_options{"--json", "--csv", "--svg", "--log"};
+
+/// Throws unless every output can be written; says whether one of them takes standard output.
+bool check_outputs(const Arguments& arguments) {
+  int to_standard_output = arguments.value("--trace").value_or("") == "-" ? 1 : 0;
+  bool taken = false;
+  for (const char* option : output_options) {
+    const auto file = output_file(arguments, option);
+    taken = taken || file == "-";
+    to_standard_output += file == "-" ? 1 : 0;
+  }
+  if (to_standard_output > 1) throw UsageError("standard output takes one of --json, --csv, --svg, --log and --trace");
+  const std::string plot = ending_of(arguments.value("--svg").value_or(""));
+  if (plot == ".png" || plot == ".html") throw UsageError("--svg: plots are written as SVG only");
+  if (arguments.has("--log") && arguments.has("--sizes")) {
+    throw UsageError("--log: holds the runs on one world; --sizes has many graphs");
+  }
+  return taken;
+}
+
+/// One `warren compare`.
+class CompareCommand {
+ public:
+  explicit CompareCommand(const Arguments& arguments)
+      : arguments_(arguments),
+        options_(compare_options(arguments)),
+        standard_output_taken_(check_outputs(arguments)),
+        begin_(std::chrono::system_clock::now()) {}
+
+  int run() {
+    Run run(arguments_, RunScope::each_run);
+    execution_ = run.execution();
+    if (const auto threads = arguments_.value("--threads")) execution_.threads = threads_value(*threads);
+    compare(run);
+    run.end();
+    write_outputs();
+    if (!run.quiet() && !standard_output_taken_) print_text(comparison_summary(comparison_, run.palette()));
+    return exit_code();
+  }
+
+ private:
+  void compare(const Run& run);
+  void compare_on_world(const Run& run);
+  void compare_searches(const Scene& scene, const Run& run);
+  void write_outputs() const;
+  OmplExperiment experiment() const;
+  int exit_code() const;
+
+  const Arguments& arguments_;
+  CompareOptions options_;
+  bool standard_output_taken_;
+  std::chrono::system_clock::time_point begin_;
+  Execution execution_;
+  Comparison comparison_;
+  std::optional<Outcome> no_graph_;  // why the world gave none
+};
+
+void CompareCommand::compare(const Run& run) {
+  try {
+    if (options_.world) compare_on_world(run);
+    if (options_.sweep) {
+      run_size_sweep(*options_.sweep, execution_, comparison_, [&](std::string_view line) { run.note(line); });
+    }
+  } catch (const Stopped& stopped) {
+    comparison_.stopped = stopped.reason;
+  }
+}
+
+void CompareCommand::compare_on_world(const Run& run) {
+  StageTimes before;
+  const Scene scene = load_world(*options_.world, execution_, before);
+  if (options_.planners) return run_planner_contest(scene, *options_.planners, execution_, comparison_);
+  compare_searches(scene, run);
+}
+
+void CompareCommand::compare_searches(const Scene& scene, const Run& run) {
+  PlannerDeal deal = options_.graph_deal;
+  deal.planners = {options_.graph.empty() ? usual_graph_planner(scene) : options_.graph};
+  const Deadline deadline(options_.budget_s, execution_.deadline->memory_bytes(), &signal_flag());
+  Execution within = execution_;
+  within.deadline = &deadline;
+  const WorldGraph made = world_graph(scene, solve_arguments(deal_planners(deal).front()), within);
+  if (made.graph.at.empty()) {
+    no_graph_ = made.outcome;
+    comparison_.notes.push_back(fmt::format("{}: {}", scene.source, name_of(made.outcome)));
+    return;
+  }
+  run.note(fmt::format("{}: {} vertices, {} edges, {} searches", scene.source, made.graph.graph.vertex_count(),
+                       made.graph.graph.edge_count(), options_.searches.variants.size()));
+  run_search_contest(made.graph, options_.searches, execution_, comparison_);
+}
+
+void CompareCommand::write_outputs() const {
+  const auto write = [&](std::string_view option, const auto& text) {
+    if (const auto file = arguments_.value(option)) write_file(*file, text(), Execution{});
+  };
+  write("--json", [&] { return comparison_json(comparison_); });
+  write("--csv", [&] { return comparison_csv(comparison_); });
+  write("--svg", [&] { return comparison_svg(comparison_); });
+  write("--log", [&] { return ompl_log(comparison_, experiment()); });
+}
+
+OmplExperiment CompareCommand::experiment() const {
+  std::array<char, 256> host{};
+  if (::gethostname(host.data(), host.size() - 1) != 0) host.fill('\0');
+  OmplExperiment e;
+  e.name = "compare_" + options_.world.value_or("");
+  for (char& c : e.name) c = c == ' ' || c == '\t' ? '_' : c;
+  e.hostname = host[0] == '\0' ? "unknown" : std::string(host.data());
+  e.date = fmt::format("{:%Y-%b-%d %H:%M:%S}", fmt::localtime(std::chrono::system_clock::to_time_t(begin_)));
+  e.setup = arguments_.command_line();
+  e.seed = options_.planners ? options_.planners->first_seed : 1;
+  e.budget_s = std::isfinite(options_.budget_s) ? options_.budget_s : 0.0;
+  e.memory_mb = execution_.deadline->memory_bytes() >> 20;
+  e.total_s = std::chrono::duration<double>(std::chrono::system_clock::now() - begin_).count();
+  return e;
+}
+
+/// A comparison in which nobody found a path has no answer; one whose planners succeed now and then is what was asked.
+int CompareCommand::exit_code() const {
+  if (comparison_.stopped) return exit_code_of(*comparison_.stopped);
+  bool any_solved = false;
+  for (const Contender& contender : comparison_.contenders) {
+    for (const ComparedRun& run : contender.runs) {
+      if (run.outcome == Outcome::stopped) return exit_code::budget;
+      any_solved = any_solved || run.solved();
+    }
+  }
+  return any_solved && !no_graph_ ? exit_code::success : exit_code::no_path;
+}
+
+}  // namespace
+
+Command compare_command() {
+  Command command{"compare", "[WORLD]", "measure planners, or searches and their queues, side by side", {}, {}};
+  add_options(command.options, compare_option_specs());
+  add_options(command.options, output_specs);
+  for (const OptionSpec& option : run_option_specs()) {
+    if (option.name != "--budget") command.options.push_back(option);
+  }
+  command.run = [](const Arguments& arguments) { return CompareCommand(arguments).run(); };
+  return command;
+}
+
+}  // namespace warren

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What `warren compare` is asked for: planners side by side on a world, or searches side by side on a world's graph, on
+// random graphs of many sizes, or on both. Options that the comparison asked for would ignore are refused.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/arguments.hpp"
+#include "tools/command.hpp"
+#include "tools/planner_contest.hpp"
+#include "tools/search_contest.hpp"
+#include "tools/size_sweep.hpp"
+
+namespace warren {
+
+struct CompareOptions {
+  std::optional<std::string> world;
+  std::optional<PlannerContestOptions> planners;  ///< planners are compared; else searches
+  SearchContestOptions searches;
+  std::optional<SizeSweepOptions> sweep;
+  std::string graph;       ///< the planner whose graph is searched; "": the world's usual one
+  PlannerDeal graph_deal;  ///< options of that planner; its planners are those that --graph leaves
+  double budget_s = std::numeric_limits<double>::infinity();  ///< of each run
+};
+
+/// All options of the verb but those of run_option_specs() and of the outputs.
+std::vector<OptionSpec> compare_option_specs();
+
+/// Throws UsageError.
+CompareOptions compare_options(const Arguments& arguments);
+
+}  // namespace warren

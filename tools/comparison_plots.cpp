@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Plots of a comparison. Random graphs: for each search that takes a queue, times against size, and beside them the
+// ratios to the heap, whose crossing of 1 is where array and heap cross. Else: for each contender the share of its runs
+// that had found a path, against time.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "tools/comparison_report.hpp"
+#include "tools/plot_svg.hpp"
+#include "tools/queue_crossings.hpp"
+
+namespace warren {
+namespace {
+
+std::string curve_name(const SweepCurve& curve) {
+  if (curve.library != "warren") return curve.library;
+  return curve.queue.empty() ? curve.search : curve.queue;
+}
+
+Plot time_plot(const std::vector<SweepCurve>& curves, const std::string& search) {
+  Plot plot{.title = search + " on random geometric graphs",
+            .x_label = "vertices",
+            .y_label = "seconds a search (median)",
+            .log_x = true,
+            .log_y = true,
+            .series = {}};
+  for (const SweepCurve& curve : curves) {
+    if (curve.search == search) plot.series.push_back({.name = curve_name(curve), .points = curve.points});
+  }
+  return plot;
+}
+
+/// Against the first heap of the search.
+Plot ratio_plot(const std::vector<SweepCurve>& curves, const std::string& search) {
+  Plot plot{.title = search + ": where array and heap cross",
+            .x_label = "vertices",
+            .y_label = "time of the array over the heap's",
+            .log_x = true,
+            .log_y = true,
+            .series = {},
+            .level = 1.0};
+  std::string heap;
+  for (const QueueCrossing& c : queue_crossings(curves)) {
+    if (c.search != search || (!heap.empty() && c.heap != heap)) continue;
+    heap = c.heap;
+    plot.series.push_back({.name = c.array, .points = c.ratios});
+    if (c.crossing) plot.series.back().name += fmt::format(": {:.0f}", *c.crossing);
+  }
+  plot.level_name = "as fast as the " + heap;
+  return plot;
+}
+
+std::vector<Plot> sweep_plots(const std::vector<SweepCurve>& curves) {
+  std::vector<Plot> plots;
+  for (const std::string search : {"dijkstra", "astar", "bfs", "dfs"}) {
+    Plot times = time_plot(curves, search);
+    if (times.series.empty()) continue;
+    plots.push_back(std::move(times));
+    Plot ratios = ratio_plot(curves, search);
+    if (!ratios.series.empty()) plots.push_back(std::move(ratios));
+  }
+  return plots;
+}
+
+/// The share of the runs that were solved within each of their times, thinned to what a plot can show.
+std::vector<Vec2> solved_shares(const Contender& contender) {
+  constexpr std::size_t most_points = 40;
+  std::vector<double> times;
+  for (const ComparedRun& run : contender.runs) {
+    if (run.solved()) times.push_back(run.time_s);
+  }
+  std::sort(times.begin(), times.end());
+  const std::size_t step = times.size() / most_points + 1;
+  std::vector<Vec2> points;
+  for (std::size_t i = 0; i < times.size(); i += step) {
+    points.push_back({times[i], 100.0 * static_cast<double>(i + 1) / static_cast<double>(contender.runs.size())});
+  }
+  return points;
+}
+
+std::string contender_name(const Contender& c, bool with_planner) {
+  std::string name = name_of(c, with_planner);
+  if (c.library != "warren") name = c.search + ", " + c.library;
+  if (with_planner && !c.options.empty()) name += ", " + options_text(c);
+  return name;
+}
+
+std::vector<Plot> share_plots(const Comparison& comparison) {
+  std::vector<Plot> plots;
+  for (std::size_t problem = 0; problem < comparison.problems.size(); ++problem) {
+    const bool planners = comparison.problems[problem].kind.empty();
+    Plot plot{.title = comparison.problems[problem].source,
+              .x_label = "seconds",
+              .y_label = "per cent of the runs solved within",
+              .log_x = true,
+              .from_zero = true,
+              .series = {}};
+    for (const Contender& c : comparison.contenders) {
+      if (c.problem == problem) plot.series.push_back({contender_name(c, planners), solved_shares(c)});
+    }
+    plots.push_back(std::move(plot));
+  }
+  return plots;
+}
+
+}  // namespace
+
+std::string comparison_svg(const Comparison& comparison) {
+  const std::vector<SweepCurve> curves = sweep_curves(comparison);
+  constexpr std::size_t side_by_side = 2;
+  return curves.empty() ? plots_svg(share_plots(comparison), 1) : plots_svg(sweep_plots(curves), side_by_side);
+}
+
+}  // namespace warren

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/comparison_report.hpp"
+
+#include <fmt/format.h>
+
+#include "tools/human_units.hpp"
+#include "tools/machine.hpp"
+#include "tools/run_options.hpp"
+#include "tools/text_table.hpp"
+
+namespace warren {
+namespace {
+
+bool is_sweep(const Comparison& comparison, std::size_t problem) {
+  return comparison.problems[problem].kind == "geometric";
+}
+
+bool has_peer(const Comparison& comparison) {
+  for (const Contender& c : comparison.contenders) {
+    if (c.library != "warren") return true;
+  }
+  return false;
+}
+
+template <class Text>
+std::string if_known(const std::optional<Distribution>& d, const Text& text) {
+  return d ? text(*d) : "-";
+}
+
+std::string median_number(const std::optional<Distribution>& d) {
+  return if_known(d, [](const Distribution& k) { return human_number(k.median); });
+}
+
+std::string mean_interval(const Distribution& d) {
+  if (!d.mean_ci95) return "-";
+  return precise_seconds(d.mean_ci95->low) + " to " + precise_seconds(d.mean_ci95->high);
+}
+
+/// Searches of one graph: the figures of a path are the same in every run.
+std::string search_table(const Comparison& comparison, std::size_t problem, const Palette& palette) {
+  TextTable table{
+      {"search", "queue", "library", "length", "hops", "settled", "trials", "median", "mean", "95 % for the mean"},
+      3,
+      {}};
+  const bool with_library = has_peer(comparison);
+  for (const Contender& c : comparison.contenders) {
+    if (c.problem != problem) continue;
+    const ComparisonRow row = row_of(c);
+    const auto seconds = [&](double Distribution::*figure) {
+      return if_known(row.time_s, [&](const Distribution& d) { return precise_seconds(d.*figure); });
+    };
+    const auto length = [](const Distribution& d) { return fmt::format("{:.10g}", d.median); };
+    table.rows.push_back({c.search, c.queue.empty() ? "-" : c.queue, with_library ? c.library : "",
+                          if_known(row.length, length), median_number(row.hops), median_number(row.expanded),
+                          std::to_string(row.runs), seconds(&Distribution::median), seconds(&Distribution::mean),
+                          if_known(row.time_s, mean_interval)});
+  }
+  return table.text(palette);
+}
+
+std::string planner_cell(const Contender& c) {
+  std::string name = name_of(c, true);
+  const std::string options = options_text(c);
+  return options.empty() ? name : name + ", " + options;
+}
+
+std::string planner_table(const Comparison& comparison, std::size_t problem, const Palette& palette) {
+  TextTable table{{"planner", "solved", "95 %", "length q1", "median", "q3", "hops", "expanded", "clearance", "time q1",
+                   "median", "q3"},
+                  1,
+                  {}};
+  for (const Contender& c : comparison.contenders) {
+    if (c.problem != problem) continue;
+    const ComparisonRow row = row_of(c);
+    const auto number = [&](double Distribution::*figure) {
+      return if_known(row.length, [&](const Distribution& d) { return human_number(d.*figure); });
+    };
+    const auto seconds = [&](double Distribution::*figure) {
+      return if_known(row.time_s, [&](const Distribution& d) { return precise_seconds(d.*figure); });
+    };
+    table.rows.push_back({planner_cell(c), fmt::format("{} of {}", row.solved, row.runs),
+                          fmt::format("{:.0f} to {:.0f} %", 100.0 * row.success.low, 100.0 * row.success.high),
+                          number(&Distribution::q1), number(&Distribution::median), number(&Distribution::q3),
+                          median_number(row.hops), median_number(row.expanded), median_number(row.min_clearance),
+                          seconds(&Distribution::q1), seconds(&Distribution::median), seconds(&Distribution::q3)});
+  }
+  return table.text(palette);
+}
+
+std::string problem_text(const Comparison& comparison, std::size_t problem, const Palette& palette) {
+  const ComparedProblem& p = comparison.problems[problem];
+  if (p.kind.empty()) return planner_table(comparison, problem, palette);
+  return fmt::format("{}: graph of {}, {} vertices, {} edges\n", p.source, p.kind, p.vertices, p.edges) +
+         search_table(comparison, problem, palette);
+}
+
+}  // namespace
+
+std::string comparison_summary(const Comparison& comparison, const Palette& palette) {
+  std::string text;
+  for (std::size_t problem = 0; problem < comparison.problems.size(); ++problem) {
+    if (!is_sweep(comparison, problem)) text += problem_text(comparison, problem, palette);
+  }
+  text += sweep_text(comparison, palette);
+  const auto line = [&](std::string_view name, const std::string& what) {
+    text += fmt::format("{}{}\n", palette.faint(fmt::format("{:<11}", name)), what);
+  };
+  for (const std::string& note : comparison.notes) line("note", note);
+  if (comparison.clock_s > 0.0) line("clock", precise_seconds(comparison.clock_s) + " a reading, taken off each time");
+  line("machine", text_of(this_machine()));
+  if (comparison.stopped) text += palette.doubtful(text_of(*comparison.stopped)) + ": these are the runs so far\n";
+  return text;
+}
+
+}  // namespace warren

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What `warren compare` says: tables, warren.compare/1, CSV with a contender a line, plots, and a log as OMPL writes
+// it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "tools/comparison.hpp"
+#include "tools/terminal.hpp"
+
+namespace warren {
+
+/// A table a problem (random graphs: one for all sizes, comparison_sweep.cpp), the crossings, notes, the machine.
+std::string comparison_summary(const Comparison& comparison, const Palette& palette);
+std::string comparison_json(const Comparison& comparison);
+std::string comparison_csv(const Comparison& comparison);
+
+/// Median times against size, a line a size, and where arrays and heaps cross; empty without random graphs.
+std::string sweep_text(const Comparison& comparison, const Palette& palette);
+
+/// A plot as SVG (comparison_plots.cpp): of random graphs times and ratios against size; else the share of runs that
+/// had found a path, against time.
+std::string comparison_svg(const Comparison& comparison);
+
+/// How planners are called in the log of OMPL's benchmarks, and what all runs had in common.
+struct OmplExperiment {
+  std::string name;      ///< no blanks
+  std::string hostname;  ///< of the machine
+  std::string date;      ///< when it began
+  std::string setup;     ///< any text
+  std::uint64_t seed = 1;
+  double budget_s = 0.0;        ///< of a run; 0: none
+  std::uint64_t memory_mb = 0;  ///< of a run
+  double total_s = 0.0;         ///< all of it
+};
+
+/// The text format of OMPL's benchmarks (ompl_benchmark_statistics.py and Planner Arena read it), with OMPL's names of
+/// properties (ompl_log.cpp).
+std::string ompl_log(const Comparison& comparison, const OmplExperiment& experiment);
+
+}  // namespace warren

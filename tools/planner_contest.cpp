@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/planner_contest.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "tools/answer.hpp"
+#include "tools/answer_json.hpp"
+#include "tools/problem.hpp"
+#include "tools/signals.hpp"
+#include "tools/solve_kind.hpp"
+
+namespace warren {
+namespace {
+
+/// `solve` as far as a contender goes: its planner and its problem.
+const Command& solve_options() {
+  static const Command command = [] {
+    Command made{"compare", "", "", solver_option_specs(), {}};
+    add_options(made.options, problem_option_specs());
+    return made;
+  }();
+  return command;
+}
+
+void add_option(PlannerWords& words, std::string_view option, const std::string& value) {
+  words.push_back(value.empty() ? std::string{option} : fmt::format("{}={}", option, value));
+}
+
+/// Is it about the world's question, so that every planner is asked it?
+bool is_of_the_problem(std::string_view option) {
+  const auto specs = problem_option_specs();
+  return std::any_of(specs.begin(), specs.end(), [&](const OptionSpec& spec) { return spec.name == option; });
+}
+
+bool takes(const std::string& planner, std::string_view option) {
+  if (is_of_the_problem(option)) return true;
+  const Arguments asked = solve_arguments({"--planner=" + planner});
+  return planner_takes(*planner_asked(asked), option);
+}
+
+void check_taken(const PlannerDeal& deal, std::string_view option) {
+  for (const std::string& planner : deal.planners) {
+    if (takes(planner, option)) return;
+  }
+  throw UsageError(fmt::format("{}: none of the planners that are compared takes it", option));
+}
+
+/// Would this queue go unused?
+bool idle_queue(const PlannerWords& words, std::string_view option) {
+  const auto has = [&](const char* word) { return std::find(words.begin(), words.end(), word) != words.end(); };
+  return option == "--queue" && (has("--search=bfs") || has("--search=dfs"));
+}
+
+/// Every way to give the contenders of `words` one of the values each.
+std::vector<PlannerWords> dealt(const std::vector<PlannerWords>& contenders, std::string_view option,
+                                const std::vector<std::string>& values) {
+  std::vector<PlannerWords> all;
+  for (const PlannerWords& words : contenders) {
+    if (values.empty() || idle_queue(words, option)) {
+      all.push_back(words);
+      continue;
+    }
+    for (const std::string& value : values) {
+      all.push_back(words);
+      add_option(all.back(), option, value);
+    }
+  }
+  return all;
+}
+
+std::vector<PlannerWords> contenders_of(const PlannerDeal& deal, const std::string& planner) {
+  PlannerWords words{"--planner=" + planner};
+  for (const auto& [option, value] : deal.common) {
+    if (takes(planner, option)) add_option(words, option, value);
+  }
+  std::vector<PlannerWords> all{words};
+  for (const auto& [option, values] : deal.lists) {
+    if (takes(planner, option)) all = dealt(all, option, values);
+  }
+  return all;
+}
+
+class PlannerContest {
+ public:
+  PlannerContest(const Scene& scene, const PlannerContestOptions& options, const Execution& execution,
+                 Comparison& comparison)
+      : scene_(scene), options_(options), execution_(execution), comparison_(comparison) {}
+
+  void run() {
+    enter();
+    double seconds = 0.0;
+    const StageTimer timer(execution_, "compare", seconds, options_.runs * options_.contenders.size());
+    for (std::uint64_t round = 0; round < options_.runs; ++round) {
+      for (const std::size_t i : turns(options_.contenders.size(), round)) run_once(i, options_.first_seed + round);
+    }
+  }
+
+ private:
+  void enter();
+  void run_once(std::size_t i, std::uint64_t seed);
+  Answer solve(const Arguments& arguments) const;
+
+  const Scene& scene_;
+  const PlannerContestOptions& options_;
+  const Execution& execution_;
+  Comparison& comparison_;
+  std::size_t first_contender_ = 0;
+};
+
+/// Asks every planner, before the first run, whether it can solve this world with these options.
+void PlannerContest::enter() {
+  comparison_.problems.push_back({.source = scene_.source, .kind = ""});
+  first_contender_ = comparison_.contenders.size();
+  for (const PlannerWords& words : options_.contenders) {
+    const Arguments arguments = solve_arguments(words);
+    const ChosenSolver solver = choose_solver(arguments, scene_, problem_options(arguments));
+    Contender contender;
+    contender.problem = comparison_.problems.size() - 1;
+    contender.planner = name_of(solver.planner);
+    contender.search = arguments.value("--search").value_or("");
+    contender.queue = arguments.value("--queue").value_or("");
+    contender.library = "warren";
+    comparison_.contenders.push_back(std::move(contender));
+  }
+}
+
+Answer PlannerContest::solve(const Arguments& arguments) const {
+  execution_.check();
+  const std::size_t memory =
+      execution_.deadline != nullptr ? execution_.deadline->memory_bytes() : std::numeric_limits<std::size_t>::max();
+  const Deadline deadline(options_.budget_s, memory, &signal_flag());
+  Execution within = execution_;
+  within.deadline = &deadline;
+  within.progress = nullptr;  // the bar shows the runs, not the stages of each
+  const ProblemOptions problem = problem_options(arguments);
+  const ChosenSolver solver = choose_solver(arguments, scene_, problem);
+  Answer answer = solver.kind->solve({arguments, scene_, problem, solver.planner, within});
+  if (answer.outcome == Outcome::stopped) execution_.check();
+  return answer;
+}
+
+std::size_t state_count(const Answer& answer) {
+  return answer.states.empty() ? answer.path.size() : answer.states.size();
+}
+
+void PlannerContest::run_once(std::size_t i, std::uint64_t seed) {
+  PlannerWords words = options_.contenders[i];
+  words.push_back(fmt::format("--seed={}", seed));
+  const Answer answer = solve(solve_arguments(words));
+  Contender& contender = comparison_.contenders[first_contender_ + i];
+  ComparedRun run{.seed = seed,
+                  .outcome = answer.outcome,
+                  .time_s = answer.solve_s,
+                  .length = answer.length,
+                  .hops = state_count(answer) > 0 ? state_count(answer) - 1 : 0,
+                  .expanded = answer.counters.expanded};
+  if (answer.verified) run.min_clearance = answer.min_clearance;
+  if (answer.seconds.search > 0.0) run.search_s = answer.seconds.search;
+  contender.search = answer.search;
+  contender.options = answer.options;
+  std::erase_if(contender.options, [](const auto& option) { return option.first == "queue"; });  // has a column
+  if (!answer.sampler.empty()) {
+    contender.options.insert(contender.options.begin(), {"sampler", json_string(answer.sampler)});
+  }
+  contender.runs.push_back(run);
+  execution_.advance(1);
+}
+
+}  // namespace
+
+Arguments solve_arguments(const PlannerWords& words) { return {solve_options(), words}; }
+
+std::vector<PlannerWords> deal_planners(const PlannerDeal& deal) {
+  for (const auto& [option, value] : deal.common) check_taken(deal, option);
+  for (const auto& [option, values] : deal.lists) {
+    if (!values.empty()) check_taken(deal, option);
+  }
+  std::vector<PlannerWords> all;
+  for (const std::string& planner : deal.planners) {
+    for (PlannerWords& words : contenders_of(deal, planner)) {
+      const Arguments arguments = solve_arguments(words);
+      check_solver_options(arguments);
+      problem_options(arguments);
+      all.push_back(std::move(words));
+    }
+  }
+  return all;
+}
+
+void run_planner_contest(const Scene& scene, const PlannerContestOptions& options, const Execution& execution,
+                         Comparison& comparison) {
+  PlannerContest(scene, options, execution, comparison).run();
+}
+
+}  // namespace warren

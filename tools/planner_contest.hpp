@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Planners side by side on one world: every planner of `solve`, each with each of the options that are dealt out to it,
+// over a row of seeds. With each seed all take their turn, in an order that changes from seed to seed.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "parallel/execution.hpp"
+#include "tools/arguments.hpp"
+#include "tools/command.hpp"
+#include "tools/comparison.hpp"
+#include "worlds/scene.hpp"
+
+namespace warren {
+
+/// One planner and its options: the words of a `solve`, but for world and seed.
+using PlannerWords = std::vector<std::string>;
+/// The same as `solve` reads them.
+Arguments solve_arguments(const PlannerWords& words);
+
+/// What each planner is given: words that are the same for all, and options of which each value makes a contender.
+struct PlannerDeal {
+  std::vector<std::string> planners;
+  std::vector<std::pair<std::string_view, std::string>> common;              ///< "--clearance", "0.2"; "" for a flag
+  std::vector<std::pair<std::string_view, std::vector<std::string>>> lists;  ///< "--samples", {"50", "100"}
+};
+
+/// All contenders, planner by planner. Each takes of the options what it takes; one that none of the planners takes,
+/// and a value that is wrong, are refused with UsageError. A queue goes only to searches that have one.
+std::vector<PlannerWords> deal_planners(const PlannerDeal& deal);
+
+struct PlannerContestOptions {
+  std::vector<PlannerWords> contenders;
+  std::uint64_t first_seed = 1;
+  std::uint64_t runs = 1;                                     ///< of each, with consecutive seeds
+  double budget_s = std::numeric_limits<double>::infinity();  ///< of each run's solve_s
+};
+
+/// Adds the world as a problem and the contenders to `comparison`. Every path counted as solved was verified. Throws
+/// Stopped at a signal (the runs until then are there), UsageError for what a planner can't be asked in this world.
+void run_planner_contest(const Scene& scene, const PlannerContestOptions& options, const Execution& execution,
+                         Comparison& comparison);
+
+}  // namespace warren

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/text_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace warren {
+namespace {
+
+/// Of each column the width of its widest cell, the head included; 0 where no row says anything.
+std::vector<std::size_t> widths_of(const TextTable& table) {
+  std::vector<std::size_t> widths(table.head.size(), 0);
+  for (const auto& row : table.rows) {
+    for (std::size_t i = 0; i < widths.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  }
+  for (std::size_t i = 0; i < widths.size(); ++i) {
+    if (widths[i] > 0) widths[i] = std::max(widths[i], table.head[i].size());
+  }
+  return widths;
+}
+
+std::string line_of(const std::vector<std::string>& cells, const std::vector<std::size_t>& widths, std::size_t words) {
+  std::string line;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (widths[i] == 0) continue;
+    line += line.empty() ? "" : "  ";
+    line += i < words ? fmt::format("{:<{}}", cells[i], widths[i]) : fmt::format("{:>{}}", cells[i], widths[i]);
+  }
+  line.erase(line.find_last_not_of(' ') + 1);
+  return line;
+}
+
+}  // namespace
+
+std::string TextTable::text(const Palette& palette) const {
+  const std::vector<std::size_t> widths = widths_of(*this);
+  std::string text = palette.strong(line_of(head, widths, words)) + '\n';
+  for (const auto& row : rows) text += line_of(row, widths, words) + '\n';
+  return text;
+}
+
+}  // namespace warren

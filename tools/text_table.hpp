@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A table for the terminal: columns as wide as their widest cell.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "tools/terminal.hpp"
+
+namespace warren {
+
+struct TextTable {
+  std::vector<std::string> head;
+  std::size_t words = 0;  ///< so many columns from the left stand to the left, the others to the right
+  std::vector<std::vector<std::string>> rows;
+
+  /// The head strong, each line with an end; columns that are empty in all rows are left out.
+  std::string text(const Palette& palette) const;
+};
+
+}  // namespace warren
