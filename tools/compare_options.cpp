@@ -62,7 +62,7 @@ std::vector<OptionSpec> passed_specs() {
   std::vector<OptionSpec> specs = solver_option_specs();
   add_options(specs, problem_option_specs());
   std::erase_if(specs, [](const OptionSpec& spec) {
-    const auto is_list = [&](const auto& list) { return spec.name == list.first; };
+    const auto is_list = [&](const auto& list) { return spec.name == list.second; };
     return spec.name == "--planner" || spec.name == "--seed" || std::any_of(lists.begin(), lists.end(), is_list);
   });
   return specs;
@@ -93,6 +93,9 @@ void refuse(const Arguments& arguments, std::initializer_list<std::string_view> 
 /// What is passed on to a `solve`; lists[i] becomes its singular, --searches and --queues only where `with_searches`.
 PlannerDeal deal_of(const Arguments& arguments, bool with_searches) {
   PlannerDeal deal;
+  for (const auto& [singular, list] : lists) {
+    if (singular != list && arguments.has(list)) refuse(arguments, {singular}, fmt::format("{} gives it, too", list));
+  }
   for (const OptionSpec& spec : passed_specs()) {
     if (const auto value = arguments.value(spec.name)) deal.common.emplace_back(spec.name, *value);
   }
@@ -198,6 +201,8 @@ void take_graph_options(const Arguments& arguments, CompareOptions& options) {
   for (const std::string_view option : not_of_graphs) {
     refuse(arguments, {option}, "changes no graph; --planners compares planners with it");
   }
+  refuse(arguments, {"--search"}, "searches are compared; say --searches");
+  refuse(arguments, {"--queue"}, "queues are compared; say --queues");
   std::vector<std::string_view> words = blank_separated(graph_planners);
   if (const auto graph = arguments.value("--graph")) {
     options.graph = words[choice_value("--graph", *graph, words)];
@@ -208,6 +213,7 @@ void take_graph_options(const Arguments& arguments, CompareOptions& options) {
     if (values.size() > 1) throw UsageError(fmt::format("{}: searches run on one graph; give one value", option));
   }
   options.graph_deal.planners.assign(words.begin(), words.end());
+  options.graph_deal.common.emplace_back("--pipeline", "plain");  // tiles leave no roadmap
   if (const auto seed = arguments.value("--seed")) options.graph_deal.common.emplace_back("--seed", *seed);
   deal_planners(options.graph_deal);
 }

@@ -35,17 +35,31 @@ bool is_of_the_problem(std::string_view option) {
   return std::any_of(specs.begin(), specs.end(), [&](const OptionSpec& spec) { return spec.name == option; });
 }
 
-bool takes(const std::string& planner, std::string_view option) {
-  if (is_of_the_problem(option)) return true;
-  const Arguments asked = solve_arguments({"--planner=" + planner});
-  return planner_takes(*planner_asked(asked), option);
+/// Why the planner does not take this option with this value; nothing where it does.
+std::optional<std::string> refusal(const std::string& planner, std::string_view option, const std::string& value) {
+  PlannerWords words{"--planner=" + planner};
+  add_option(words, option, value);
+  try {
+    const Arguments arguments = solve_arguments(words);
+    check_solver_options(arguments);
+    problem_options(arguments);
+    if (is_of_the_problem(option) || planner_takes(*planner_asked(arguments), option)) return std::nullopt;
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return fmt::format("{}: {} would ignore it", option, planner);
 }
 
-void check_taken(const PlannerDeal& deal, std::string_view option) {
+/// The first that would know the option tells best what is wrong with its value.
+void check_taken(const PlannerDeal& deal, std::string_view option, const std::string& value) {
+  std::string refused;
   for (const std::string& planner : deal.planners) {
-    if (takes(planner, option)) return;
+    const std::optional<std::string> why = refusal(planner, option, value);
+    if (!why) return;
+    const bool knows_it = why->find("would ignore it") == std::string::npos;
+    if (refused.empty() || knows_it) refused = *why;
   }
-  throw UsageError(fmt::format("{}: none of the planners that are compared takes it", option));
+  throw UsageError(refused);
 }
 
 /// Would this queue go unused?
@@ -74,11 +88,13 @@ std::vector<PlannerWords> dealt(const std::vector<PlannerWords>& contenders, std
 std::vector<PlannerWords> contenders_of(const PlannerDeal& deal, const std::string& planner) {
   PlannerWords words{"--planner=" + planner};
   for (const auto& [option, value] : deal.common) {
-    if (takes(planner, option)) add_option(words, option, value);
+    if (!refusal(planner, option, value)) add_option(words, option, value);
   }
   std::vector<PlannerWords> all{words};
   for (const auto& [option, values] : deal.lists) {
-    if (takes(planner, option)) all = dealt(all, option, values);
+    std::vector<std::string> taken = values;
+    std::erase_if(taken, [&](const std::string& value) { return refusal(planner, option, value).has_value(); });
+    all = dealt(all, option, taken);
   }
   return all;
 }
@@ -174,9 +190,9 @@ void PlannerContest::run_once(std::size_t i, std::uint64_t seed) {
 Arguments solve_arguments(const PlannerWords& words) { return {solve_options(), words}; }
 
 std::vector<PlannerWords> deal_planners(const PlannerDeal& deal) {
-  for (const auto& [option, value] : deal.common) check_taken(deal, option);
+  for (const auto& [option, value] : deal.common) check_taken(deal, option, value);
   for (const auto& [option, values] : deal.lists) {
-    if (!values.empty()) check_taken(deal, option);
+    for (const std::string& value : values) check_taken(deal, option, value);
   }
   std::vector<PlannerWords> all;
   for (const std::string& planner : deal.planners) {

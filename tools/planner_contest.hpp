@@ -29,8 +29,8 @@ struct PlannerDeal {
   std::vector<std::pair<std::string_view, std::vector<std::string>>> lists;  ///< "--samples", {"50", "100"}
 };
 
-/// All contenders, planner by planner. Each takes of the options what it takes; one that none of the planners takes,
-/// and a value that is wrong, are refused with UsageError. A queue goes only to searches that have one.
+/// All contenders, planner by planner. Each gets of the options and of the lists' values those that it takes; what none
+/// of the planners takes is refused with UsageError. A queue goes only to searches that have one.
 std::vector<PlannerWords> deal_planners(const PlannerDeal& deal);
 
 struct PlannerContestOptions {

@@ -55,7 +55,7 @@ double median_of(std::span<const double> values) {
 }
 
 double student_t(std::uint64_t degrees) {
-  constexpr std::array<double, 4> first{12.7062, 4.30265, 3.18245, 2.77645};
+  constexpr std::array<double, 8> first{12.70620, 4.302653, 3.182446, 2.776445, 2.570582, 2.446912, 2.364624, 2.306004};
   if (degrees <= first.size()) return first[degrees - 1];
   const auto n = static_cast<double>(degrees);
   const double z = normal_95;
@@ -73,7 +73,7 @@ std::optional<std::pair<std::size_t, std::size_t>> median_ranks(std::size_t coun
   const auto n = static_cast<double>(count);
   const std::size_t rank = count <= most_exact
                                ? exact_rank(count) - 1
-                               : static_cast<std::size_t>(std::floor(0.5 * (n - 1.0 - normal_95 * std::sqrt(n)))) - 1;
+                               : static_cast<std::size_t>(std::floor(0.5 * (n - normal_95 * std::sqrt(n)))) - 1;
   return std::pair{rank, count - 1 - rank};
 }
 
@@ -104,7 +104,8 @@ Interval wilson_interval(std::uint64_t successes, std::uint64_t trials) {
   const double centre = share + z2 / (2.0 * n);
   const double half_width = normal_95 * std::sqrt(share * (1.0 - share) / n + z2 / (4.0 * n * n));
   const double scale = 1.0 + z2 / n;
-  return {std::max(0.0, (centre - half_width) / scale), std::min(1.0, (centre + half_width) / scale)};
+  return {successes == 0 ? 0.0 : (centre - half_width) / scale,
+          successes == trials ? 1.0 : (centre + half_width) / scale};
 }
 
 }  // namespace warren
