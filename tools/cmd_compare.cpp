@@ -77,6 +77,7 @@ class CompareCommand {
   void compare(const Run& run);
   void compare_on_world(const Run& run);
   void compare_searches(const Scene& scene, const Run& run);
+  std::string graph_planner(const Scene& scene) const;
   void write_outputs() const;
   OmplExperiment experiment() const;
   int exit_code() const;
@@ -108,9 +109,16 @@ void CompareCommand::compare_on_world(const Run& run) {
   compare_searches(scene, run);
 }
 
+/// Chosen as `solve` chooses, by the world and the options.
+std::string CompareCommand::graph_planner(const Scene& scene) const {
+  if (!options_.graph.empty()) return options_.graph;
+  return usual_graph_planner(scene, solve_arguments(words_without_planner(options_.graph_deal)));
+}
+
 void CompareCommand::compare_searches(const Scene& scene, const Run& run) {
   PlannerDeal deal = options_.graph_deal;
-  deal.planners = {options_.graph.empty() ? usual_graph_planner(scene) : options_.graph};
+  deal.planners = {graph_planner(scene)};
+  if (deal.planners.front() == "prm") deal.common.emplace_back("--pipeline", "plain");  // tiles leave no roadmap
   const Deadline deadline(options_.budget_s, execution_.deadline->memory_bytes(), &signal_flag());
   Execution within = execution_;
   within.deadline = &deadline;

@@ -11,7 +11,6 @@
 #include "tools/option_values.hpp"
 #include "tools/problem.hpp"
 #include "tools/solve_kind.hpp"
-#include "tools/world_graph.hpp"
 
 namespace warren {
 namespace {
@@ -35,7 +34,7 @@ constexpr OptionSpec own_specs[] = {
      "how often each search is timed (default: auto, 5 to 10000 times, about 0.25 s each); with --planners the same "
      "as --seeds"},
     {"--peer", "NAME", "the searches of another library on the same graph, too", "boost"},
-    {"--graph", "NAME", "the planner whose graph is searched (default: by the world)", graph_planners},
+    {"--graph", "NAME", "the planner of 'solve' whose graph is searched (default: prm; among polygons visibility)"},
     {"--sizes", "LIST", "search random geometric graphs of so many vertices, apart by commas; needs no WORLD"},
     {"--degree", "D", "neighbours of a vertex of those graphs, on average (default: 20)"},
     {"--seeds", "N",
@@ -45,6 +44,9 @@ constexpr OptionSpec own_specs[] = {
     {"--samples", "LIST", "numbers of samples, or auto, apart by commas; with --planners each takes each"},
     {"--seed", "N", "the first seed (default: 1)"},
 };
+
+/// Of all planners of this version, blank-separated.
+std::string_view planner_names() { return solver_option_specs().front().choices; }
 
 /// Options of `solve` that are dealt out by lists, and the lists' names.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 4> lists{
@@ -203,7 +205,7 @@ void take_graph_options(const Arguments& arguments, CompareOptions& options) {
   }
   refuse(arguments, {"--search"}, "searches are compared; say --searches");
   refuse(arguments, {"--queue"}, "queues are compared; say --queues");
-  std::vector<std::string_view> words = blank_separated(graph_planners);
+  std::vector<std::string_view> words = blank_separated(planner_names());
   if (const auto graph = arguments.value("--graph")) {
     options.graph = words[choice_value("--graph", *graph, words)];
     words = {options.graph};
@@ -213,7 +215,6 @@ void take_graph_options(const Arguments& arguments, CompareOptions& options) {
     if (values.size() > 1) throw UsageError(fmt::format("{}: searches run on one graph; give one value", option));
   }
   options.graph_deal.planners.assign(words.begin(), words.end());
-  options.graph_deal.common.emplace_back("--pipeline", "plain");  // tiles leave no roadmap
   if (const auto seed = arguments.value("--seed")) options.graph_deal.common.emplace_back("--seed", *seed);
   deal_planners(options.graph_deal);
 }
@@ -222,6 +223,9 @@ void take_graph_options(const Arguments& arguments, CompareOptions& options) {
 
 std::vector<OptionSpec> compare_option_specs() {
   std::vector<OptionSpec> specs(std::begin(own_specs), std::end(own_specs));
+  for (OptionSpec& spec : specs) {
+    if (spec.name == "--graph") spec.choices = planner_names();
+  }
   add_options(specs, passed_specs());
   return specs;
 }

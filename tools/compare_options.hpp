@@ -21,7 +21,7 @@ struct CompareOptions {
   SearchContestOptions searches;
   std::optional<SizeSweepOptions> sweep;
   std::string graph;       ///< the planner whose graph is searched; "": the world's usual one
-  PlannerDeal graph_deal;  ///< options of that planner; its planners are those that --graph leaves
+  PlannerDeal graph_deal;  ///< options of that planner; its planners are all that may make the graph
   double budget_s = std::numeric_limits<double>::infinity();  ///< of each run
 };
 

@@ -189,6 +189,15 @@ void PlannerContest::run_once(std::size_t i, std::uint64_t seed) {
 
 Arguments solve_arguments(const PlannerWords& words) { return {solve_options(), words}; }
 
+PlannerWords words_without_planner(const PlannerDeal& deal) {
+  PlannerWords words;
+  for (const auto& [option, value] : deal.common) add_option(words, option, value);
+  for (const auto& [option, values] : deal.lists) {
+    for (const std::string& value : values) add_option(words, option, value);
+  }
+  return words;
+}
+
 std::vector<PlannerWords> deal_planners(const PlannerDeal& deal) {
   for (const auto& [option, value] : deal.common) check_taken(deal, option, value);
   for (const auto& [option, values] : deal.lists) {

@@ -29,6 +29,9 @@ struct PlannerDeal {
   std::vector<std::pair<std::string_view, std::vector<std::string>>> lists;  ///< "--samples", {"50", "100"}
 };
 
+/// All of the deal as one `solve` without --planner would be given it; lists of one value at most.
+PlannerWords words_without_planner(const PlannerDeal& deal);
+
 /// All contenders, planner by planner. Each gets of the options and of the lists' values those that it takes; what none
 /// of the planners takes is refused with UsageError. A queue goes only to searches that have one.
 std::vector<PlannerWords> deal_planners(const PlannerDeal& deal);

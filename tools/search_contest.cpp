@@ -91,7 +91,7 @@ void SearchContest::enter() {
                                       .search = std::string{name_of(v.search)},
                                       .queue = v.queue ? std::string{name_of(*v.queue)} : std::string{},
                                       .library = std::string{name_of(v.library)},
-                                      .options = {},
+                                      .options = graph_.options,
                                       .runs = {}});
   }
 }

@@ -75,7 +75,10 @@ Graph with_plane_lengths(const Graph& graph, const std::vector<Vec2>& at) {
 }
 
 SearchGraph geometric_graph(std::uint32_t size, double degree, std::uint64_t seed, const Execution& execution) {
-  SearchGraph made{.source = fmt::format("geometric:{}", size), .kind = "geometric", .graph = {}, .at = {}};
+  SearchGraph made;
+  made.source = fmt::format("geometric:{}", size);
+  made.kind = "geometric";
+  made.options = {{"degree", fmt::format("{}", degree)}, {"seed", std::to_string(seed)}};
   made.at = drawn_points(size, seed, execution);
   const double radius = std::sqrt(degree / std::numbers::pi);
   const std::array<RawVector<Edge>, 1> edges{edges_within(made.at, radius, execution)};

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/graph.hpp"
@@ -14,9 +15,10 @@
 namespace warren {
 
 struct SearchGraph {
-  std::string source;  ///< "maze:41x41", "geometric:300"
-  std::string kind;    ///< whose graph it is: a planner's name, or "geometric"
-  Graph graph;         ///< with lengths, world units
+  std::string source;                                        ///< "maze:41x41", "geometric:300"
+  std::string kind;                                          ///< whose graph it is: a planner's name, or "geometric"
+  std::vector<std::pair<std::string, std::string>> options;  ///< how it was made: name, value as JSON
+  Graph graph;                                               ///< with lengths, world units
   std::vector<Vec2> at;
   VertexId start = 0;
   VertexId goal = 0;

@@ -35,10 +35,6 @@ void run_size_sweep(const SizeSweepOptions& options, const Execution& execution,
       const SearchGraph graph = geometric_graph(size, options.degree, seed, execution);
       const std::size_t first = comparison.contenders.size();
       run_search_contest(graph, contest, execution, comparison);
-      for (std::size_t i = first; i < comparison.contenders.size(); ++i) {
-        comparison.contenders[i].options = {{"degree", fmt::format("{}", options.degree)},
-                                            {"seed", std::to_string(seed)}};
-      }
       say(fmt::format("{} vertices, seed {}: {} edges, {} searches", size, seed, graph.graph.edge_count(),
                       contest.variants.size()));
       if (!contest.trials) drop_slow_variants(contest.variants, first, size, comparison);

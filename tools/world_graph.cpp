@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/world_graph.hpp"
 
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "tools/planner_options.hpp"
 #include "tools/problem.hpp"
 #include "tools/solve_kind.hpp"
 
@@ -16,7 +20,12 @@ WorldGraph roadmap_graph(const SolveRequest& request, const ChosenSolver& solver
   if (answer.outcome == Outcome::stopped) throw Stopped{answer.stop_reason.value_or(StopReason::time)};
   WorldGraph made;
   made.outcome = answer.outcome;
-  if (drawing.roadmap.states.empty()) return made;
+  if (drawing.roadmap.states.empty()) {
+    if (answer.outcome != Outcome::solved) return made;
+    throw UsageError(fmt::format("--graph: {} leaves no graph to search", name_of(solver.planner)));
+  }
+  made.graph.options = answer.options;
+  std::erase_if(made.graph.options, [](const auto& option) { return option.first == "pipeline"; });
   made.graph.at.assign(drawing.roadmap.states.begin(), drawing.roadmap.states.end());
   made.graph.graph = with_plane_lengths(drawing.roadmap.graph, made.graph.at);
   made.graph.start = static_cast<VertexId>(made.graph.at.size() - 2);
@@ -26,7 +35,10 @@ WorldGraph roadmap_graph(const SolveRequest& request, const ChosenSolver& solver
 
 }  // namespace
 
-std::string usual_graph_planner(const Scene&) { return "prm"; }
+std::string usual_graph_planner(const Scene& scene, const Arguments& arguments) {
+  const ChosenSolver solver = choose_solver(arguments, scene, problem_options(arguments));
+  return std::string{name_of(solver.planner == PlannerKind::lazy_prm ? PlannerKind::prm : solver.planner)};
+}
 
 WorldGraph world_graph(const Scene& scene, const Arguments& arguments, const Execution& execution) {
   const ProblemOptions problem = problem_options(arguments);

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 #include "core/solution.hpp"
 #include "parallel/execution.hpp"
@@ -13,18 +12,17 @@
 
 namespace warren {
 
-/// Names of the planners whose graphs can be searched, blank-separated; the first that fits a world is the usual one.
-inline constexpr std::string_view graph_planners = "prm";
-
-/// The one that is taken for this world where none is asked for.
-std::string usual_graph_planner(const Scene& scene);
+/// The planner whose graph is searched where none is asked for: the one that `solve` would take, prm for lazy-prm.
+/// `arguments`: those of a `solve`. Throws UsageError where no planner solves this world.
+std::string usual_graph_planner(const Scene& scene, const Arguments& arguments);
 
 struct WorldGraph {
   SearchGraph graph;                  ///< empty unless built
   Outcome outcome = Outcome::solved;  ///< start_blocked, goal_blocked: there is no graph to search
 };
 
-/// Builds it. `arguments`: those of a `solve` with --planner. Throws UsageError as `solve` does, Stopped.
+/// Solves with the planner and takes the graph that it leaves for a picture. `arguments`: those of a `solve` with
+/// --planner. Throws UsageError as `solve` does and for planners that leave none, Stopped.
 WorldGraph world_graph(const Scene& scene, const Arguments& arguments, const Execution& execution);
 
 }  // namespace warren

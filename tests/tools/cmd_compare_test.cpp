@@ -70,6 +70,19 @@ TEST(Compare, OptionsOfTheGraphReachIt) {
   EXPECT_LE(json["rows"][0]["problem"]["vertices"], 2002);
 }
 
+TEST(Compare, ARoadmapAmongPolygonsIsSearchedToo) {
+  const Folder folder;
+  const std::string world = folder.write("a.scene",
+                                         "polygon 3 1 5 1 5 6 3 6\npolygon 6 3 8 3 8 9 6 9\nbounds 0 0 10 10\n"
+                                         "start 1 5\ngoal 9 5\n");
+  const Json json =
+      compared(world + " --graph prm --samples 400 --clearance 0.1 --searches bfs,astar --queues heap --trials 2");
+  ASSERT_EQ(json["rows"].size(), 2U);
+  EXPECT_EQ(json["rows"][1]["planner"], "prm");
+  EXPECT_EQ(json["rows"][1]["options"]["samples"], 400);
+  EXPECT_GT(json["rows"][1]["length"]["median"], 8.5) << "straight ahead stand two polygons";
+}
+
 TEST(Compare, OfTheSummaryEverySearchHasALine) {
   const ProgramRun run = run_program("compare maze:9x9 --trials 2 --color never --progress none");
   EXPECT_EQ(run.exit_code, 0);
