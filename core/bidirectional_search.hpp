@@ -56,14 +56,16 @@ inline constexpr std::size_t apart = 128;
 template <class Queue, class Neighbours, class ToTarget, class ToRoot>
 class SearchSide {
  public:
-  /// state and queue are cleared and sized here; all of it is used until the search ends.
+  /// state and queue are cleared and sized here, and poll() is called meanwhile; all of it is used until the search
+  /// ends.
+  template <class Poll = NoPoll>
   SearchSide(VertexId root, std::size_t vertex_count, const Neighbours& neighbours, const ToTarget& to_target,
-             const ToRoot& to_root, Queue& queue, SearchState& state)
+             const ToRoot& to_root, Queue& queue, SearchState& state, const Poll& poll = {})
       : neighbours_(neighbours), to_target_(to_target), to_root_(to_root), queue_(queue), state_(state) {
     queue_.clear();
-    queue_.resize(vertex_count);
-    state_.resize(vertex_count);
-    closed_.assign(vertex_count, 0);
+    queue_.resize(vertex_count, poll);
+    state_.resize(vertex_count, poll);
+    assign_polled(closed_, vertex_count, std::uint8_t{0}, poll);
     state_.reach(root, 0.0, no_vertex);
     queue_.push(root, to_target_(root));
     labelled_.push_back(root);
@@ -136,7 +138,7 @@ class SearchSide {
   const ToRoot& to_root_;
   Queue& queue_;
   SearchState& state_;
-  std::vector<std::uint8_t> closed_;               // as published
+  RawVector<std::uint8_t> closed_;                 // as published
   alignas(apart) std::vector<VertexId> labelled_;  // in this round, perhaps more than once
   std::vector<VertexId> newly_closed_;             // in this round
   SearchBorder border_;

@@ -27,9 +27,10 @@ template <unsigned Arity = 4>
 class IndexedHeap {
  public:
   /// Ready for vertices 0 .. vertex_count - 1. The heap must be empty. O(vertex_count) only where it grows.
-  void resize(std::size_t vertex_count) {
+  template <class Poll = NoPoll>
+  void resize(std::size_t vertex_count, const Poll& poll = {}) {
     assert(empty());
-    if (vertex_count > place_.size()) place_.assign(vertex_count, 0);
+    if (vertex_count > place_.size()) assign_polled(place_, vertex_count, VertexId{0}, poll);
   }
   bool empty() const { return entries_.empty(); }
   std::size_t size() const { return entries_.size(); }

@@ -3,6 +3,7 @@
 // writes every element anyway saves one pass over memory and, on a fresh machine, most of the page faults.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <new>
 #include <type_traits>
@@ -45,5 +46,22 @@ class RawAllocator {
 /// structs without them.
 template <class T>
 using RawVector = std::vector<T, RawAllocator<T>>;
+
+/// Asks nothing.
+struct NoPoll {
+  void operator()() const {}
+};
+
+/// Makes `block` n times `value`, and calls poll() between pieces of it: the first touch of memory can take seconds.
+template <class T, class Poll>
+void assign_polled(RawVector<T>& block, std::size_t n, T value, const Poll& poll) {
+  constexpr std::size_t piece = std::size_t{1} << 16;
+  block.clear();
+  block.resize(n);
+  for (std::size_t first = 0; first < n; first += piece) {
+    poll();
+    std::fill_n(block.begin() + static_cast<std::ptrdiff_t>(first), std::min(piece, n - first), value);
+  }
+}
 
 }  // namespace warren

@@ -36,11 +36,14 @@ struct SearchResult {
 /// clearing costs only the blocks that the last search touched.
 class SearchState {
  public:
-  /// Clears, and makes room for vertices 0 .. vertex_count - 1; costs O(vertex_count) only where it grows.
-  void resize(std::size_t vertex_count) {
+  /// Clears, and makes room for vertices 0 .. vertex_count - 1; costs O(vertex_count) only where it grows, and then
+  /// calls poll() in between, which may throw.
+  template <class Poll = NoPoll>
+  void resize(std::size_t vertex_count, const Poll& poll = {}) {
     clear();
     if (vertex_count > g_.size()) {
-      g_.assign(vertex_count, unreached);
+      vertex_count_ = 0;
+      assign_polled(g_, vertex_count, unreached, poll);
       parent_.resize(vertex_count);
       is_touched_.assign((vertex_count + block_size - 1) / block_size, 0);
     }

@@ -25,7 +25,8 @@ inline constexpr auto later = [](const QueueEntry& a, const QueueEntry& b) { ret
 
 class LazyHeap {
  public:
-  void resize(std::size_t) {}
+  template <class Poll = NoPoll>
+  void resize(std::size_t, const Poll& = {}) {}
   bool empty() const { return entries_.empty(); }
   void clear() { entries_.clear(); }
   void push(VertexId v, double key) {
@@ -46,7 +47,8 @@ class LazyHeap {
 
 class SortedArray {
  public:
-  void resize(std::size_t) {}
+  template <class Poll = NoPoll>
+  void resize(std::size_t, const Poll& = {}) {}
   bool empty() const { return entries_.empty(); }
   void clear() { entries_.clear(); }
   void push(VertexId v, double key) {
@@ -66,7 +68,8 @@ class SortedArray {
 
 class ResortedArray {
  public:
-  void resize(std::size_t) {}
+  template <class Poll = NoPoll>
+  void resize(std::size_t, const Poll& = {}) {}
   bool empty() const { return entries_.empty(); }
   void clear() { entries_.clear(); }
   void push(VertexId v, double key) {
@@ -86,7 +89,8 @@ class ResortedArray {
 
 class LinearScan {
  public:
-  void resize(std::size_t) {}
+  template <class Poll = NoPoll>
+  void resize(std::size_t, const Poll& = {}) {}
   bool empty() const { return entries_.empty(); }
   void clear() { entries_.clear(); }
   void push(VertexId v, double key) { entries_.push_back({key, v}); }
@@ -110,7 +114,8 @@ class BucketQueue {
  public:
   /// width: units of the keys, > 0.
   explicit BucketQueue(double width = 1.0) : per_width_(1.0 / width) { assert(width > 0.0); }
-  void resize(std::size_t) {}
+  template <class Poll = NoPoll>
+  void resize(std::size_t, const Poll& = {}) {}
   bool empty() const { return size_ == 0; }
   void clear() {
     for (auto& bucket : buckets_) bucket.clear();

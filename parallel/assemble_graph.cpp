@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "parallel/first_touch.hpp"
 
 namespace warren {
 namespace {
@@ -206,6 +207,7 @@ class Assembly {
     }
     execution_.reserve(routed_begin_.back() * sizeof(RoutedHalf));
     routed_.resize(routed_begin_.back());
+    touch_first(routed_, execution_);
     for_chunks(source_count(), 1, quiet(), [&](Range r) {
       const std::span<std::uint32_t> place = counts_of(r.first);
       for_routed_halves(r.first, [&](VertexId row, VertexId target) {

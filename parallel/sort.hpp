@@ -15,6 +15,7 @@
 
 #include "core/raw_vector.hpp"
 #include "parallel/chunks.hpp"
+#include "parallel/first_touch.hpp"
 
 namespace warren {
 
@@ -106,6 +107,7 @@ KeyOrder counting_sort(std::size_t n, std::size_t keys, const Execution& executi
   KeyOrder order;
   order.first.resize(keys + 1);
   order.item.resize(n);
+  touch_first(order.item, quiet);
   order.first[keys] = static_cast<std::uint32_t>(n);
   if (shift == 0) {
     const auto begin = detail::scatter_to_buckets(n, buckets, quiet, key_of, [&](std::size_t place, std::size_t i) {
@@ -115,6 +117,7 @@ KeyOrder counting_sort(std::size_t n, std::size_t keys, const Execution& executi
     return order;
   }
   RawVector<std::uint64_t> pairs(n);
+  touch_first(pairs, quiet);
   const auto begin = detail::scatter_to_buckets(
       n, buckets, quiet, [&](std::size_t i) { return std::size_t{key_of(i)} >> shift; },
       [&](std::size_t place, std::size_t i) { pairs[place] = std::uint64_t{key_of(i)} << 32 | i; });

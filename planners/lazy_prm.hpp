@@ -114,7 +114,7 @@ void LazyPlan<W>::attach_ends() {
 
 template <World W>
 SearchResult LazyPlan<W>::expand_from(VertexId from, VertexId to, SearchState& state, std::vector<Edge>* record) {
-  state.resize(states_.size());
+  state.resize(states_.size(), [&] { execution_.check(); });
   LazyGraph<W> graph = lazy_graph();
   graph.record(record);
   const auto should_stop = [&] { return execution_.should_stop(); };

@@ -37,7 +37,7 @@ SearchResult search_from_both_ends(QueueKind kind, std::size_t vertex_count, con
     for_chunks(2, 1, execution, [&](Range r) {  // both at once: the first touch of their memory is half of the cost
       const std::size_t i = r.first;
       sides[i].search.emplace(roots[i], vertex_count, neighbours[i], to_root[1 - i], to_root[i], sides[i].queue,
-                              *states[i]);
+                              *states[i], [&] { execution.check(); });
     });
     return bidirectional(*sides[0].search, *sides[1].search, execution);
   });

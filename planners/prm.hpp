@@ -116,6 +116,8 @@ bool PrmPlan<W>::search() {
   solution_.counters.expanded += found.expanded;
   if (found.status != SearchStatus::found) return false;
   solution_.outcome = Outcome::solved;
+  execution_.reserve(found.path.size() * sizeof(State));
+  solution_.path.reserve(found.path.size());
   for (const VertexId v : found.path) solution_.path.push_back(roadmap_.states[v]);
   return true;
 }

@@ -48,7 +48,7 @@ SearchResult search_best(std::size_t vertex_count, VertexId start, VertexId goal
     found = search_from_both_ends<Neighbours>(kind, vertex_count, {start, goal}, {neighbours, neighbours}, estimate_to,
                                               {&states[0], &states[1]}, execution);
   } else {
-    states[0].resize(vertex_count);
+    states[0].resize(vertex_count, [&] { execution.check(); });
     found = with_queue(kind, vertex_count, [&](auto& queue) {
       return best_first(start, goal, neighbours, estimate_to(goal), queue, states[0],
                         [&] { return execution.should_stop(); });
@@ -105,7 +105,7 @@ SearchResult search_roadmap(const W& world, const Graph& graph, std::span<const 
   SearchResult found;
   if (options.search == SearchKind::bfs || options.search == SearchKind::dfs) {
     SearchState state;
-    state.resize(n);
+    state.resize(n, [&] { execution.check(); });
     found = options.search == SearchKind::bfs ? breadth_first(graph, start, goal, state, should_stop)
                                               : depth_first(graph, start, goal, state, should_stop);
     if (tree != nullptr) *tree = search_tree(state);

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "parallel/chunks.hpp"
+#include "parallel/first_touch.hpp"
 #include "planners/wall_band.hpp"
 
 namespace warren {
@@ -224,7 +225,9 @@ WallPartition::WallPartition(const WallSet& walls, std::span<const Segment> more
     first_wide_ = places.wide_places();
     execution.reserve(first_narrow_.back() * sizeof(NarrowWall) + first_wide_.back() * sizeof(WallOf<T>));
     narrow_.resize(first_narrow_.back());
+    touch_first(narrow_, execution);
     RawVector<WallOf<T>> wide(first_wide_.back());
+    touch_first(wide, execution);
     scatter(given, filer, grid, places, narrow_.data(), wide.data(), execution);
     if constexpr (std::is_same_v<T, float>) {
       floats_ = std::move(wide);

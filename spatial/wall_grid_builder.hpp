@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "parallel/chunks.hpp"
+#include "parallel/first_touch.hpp"
 #include "spatial/wall_grid.hpp"
 
 namespace warren {
@@ -195,6 +196,7 @@ WallGrid<T> WallGridBuilder<T>::build(std::size_t n, const Filed& filed) {
   for (std::uint32_t& count : counts) total += std::exchange(count, total);
   execution_.reserve(std::size_t{total} * (sizeof(Staged) + sizeof(WallOf<T>)) + std::size_t{bands_} * band_cells_ * 4);
   RawVector<Staged> staged(total);
+  touch_first(staged, execution_);
   std::vector<std::uint32_t> next(counts);
   for_chunks(n, grain, execution_, [&](Range r) {
     for (std::size_t i = r.first; i < r.last; ++i) {
