@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Does a wall's box meet a query's box? The question that nine of ten walls near a motion fail, asked of all four
-// coordinates in one instruction: 2 ns a wall against 6 for the same in doubles one by one
-// (bench/wall_index_bench.cpp). Exact for walls in double; for walls in float the query's box is rounded outward once,
-// so that no wall is missed.
+// coordinates at once and with one branch (keeps_clearance in bench/wall_index_bench.cpp). Exact for walls in double;
+// for walls in float the query's box is rounded outward once, so that no wall is missed.
 #pragma once
 
 #include <cmath>
