@@ -111,20 +111,39 @@ def run_rounds(programs, arguments):
         order = list(range(len(programs)))
         for i in order if number % 2 == 0 else reversed(order):  # so that neither always comes first
             results[i].append(run_once(programs[i], arguments, number == 0))
-        if not results[0][-1].get("benchmarks"):
-            sys.exit("bench: no benchmark of that name")
+        names = [entry["name"] for entry in results[0][-1].get("benchmarks", [])]
+        if all(name.startswith(MACHINE) for name in names) and MACHINE not in arguments.filter:
+            sys.exit(f"bench: no benchmark of that name: {arguments.filter}")
         seconds = time.monotonic() - begin
         print(f"round {number + 1} of {arguments.repetitions}: {seconds:.0f} s", file=sys.stderr, flush=True)
     return results
 
 
+def usual_options(path):
+    """Filter, rounds and least time: those of the run that wrote the file, where there is one that says them."""
+    usual = {"filter": "", "repetitions": 5, "min_time": 0.05}
+    if path:
+        try:
+            with open(path, encoding="utf-8") as file:
+                context = json.load(file)["context"]
+            usual = {"filter": context["filter"], "repetitions": context["rounds"], "min_time": context["min_time_s"]}
+        except (OSError, ValueError, KeyError, TypeError):
+            pass  # another program's file: bench/comparison.py will say whether it can read it
+    return usual
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("runs", nargs="+", metavar="PROGRAM=FILE", help="program and the file for its results")
-    parser.add_argument("--filter", default="", help="benchmarks to run, as --benchmark_filter takes them")
-    parser.add_argument("--repetitions", type=int, default=5, help="rounds (default: 5)")
-    parser.add_argument("--min-time", type=float, default=0.05, help="seconds of a benchmark in a round, at least")
+    parser.add_argument("--filter", help="benchmarks to run, as --benchmark_filter takes them")
+    parser.add_argument("--repetitions", type=int, help="rounds (default: 5)")
+    parser.add_argument("--min-time", type=float, help="seconds of a benchmark in a round, at least (default: 0.05)")
+    parser.add_argument("--like", metavar="FILE", help="what is not given is as in the run that wrote FILE")
     arguments = parser.parse_args()
+    usual = usual_options(arguments.like)
+    for option, value in usual.items():
+        if getattr(arguments, option) is None:
+            setattr(arguments, option, value)
     if arguments.repetitions < 1 or not arguments.min_time > 0:
         parser.error("--repetitions and --min-time are more than zero")
     runs = [run.rpartition("=") for run in arguments.runs]

@@ -36,12 +36,16 @@ std::string headline(const LargestOptions& options, const LargestResult& result,
                      human_seconds(options.budget_s));
 }
 
+std::string loops_text(double loops) {
+  return loops > 0.0 ? human_number(loops) + " of the remaining walls taken out" : "perfect";
+}
+
 void add_size(std::string& text, const LargestOptions& options, const LargestResult& result, const Palette& palette) {
   const MazeTrial& median = median_trial(result);
   const auto [fastest, slowest] = std::minmax_element(result.best.begin(), result.best.end(), by_seconds);
   line(text, palette, "size",
-       fmt::format("{} cells, {} mazes, {} of the walls taken out", grouped(static_cast<std::uint64_t>(median.cells())),
-                   name_of(options.maze.algorithm), human_number(options.maze.loops)));
+       fmt::format("{} cells, {} mazes, {}", grouped(static_cast<std::uint64_t>(median.cells())),
+                   name_of(options.maze.algorithm), loops_text(options.maze.loops)));
   line(text, palette, "planner",
        fmt::format("{}, clearance {}, {} {}", planner_text(median), human_number(median.clearance), median.threads,
                    median.threads == 1 ? "thread" : "threads"));
@@ -57,6 +61,7 @@ void add_size(std::string& text, const LargestOptions& options, const LargestRes
 void add_stages(std::string& text, const LargestResult& result, const Palette& palette) {
   const MazeTrial& median = median_trial(result);
   for (const auto& [name, seconds] : named_stages(median.seconds)) {
+    if (seconds == 0.0) continue;  // no stage of this planner: tiles do several in one
     line(text, palette, fmt::format("  {}", name),
          fmt::format("{:>9}  {:>5.1f} %  {:>7.2f} ns a cell", human_seconds(seconds), 100.0 * seconds / median.solve_s,
                      seconds * 1e9 / median.cells()));

@@ -233,7 +233,7 @@ std::string counts_of(const ScalingResult& result, std::span<const ScalingRow> r
   }
   text += "</table>\n";
   if (!counted) {
-    text += fmt::format("<p>The processor's own counters are not to be had here: {}.</p>\n",
+    text += fmt::format("<p>The processor's own counters are not to be had here (perf_event_open: {}).</p>\n",
                         xml_text(result.no_hardware_counts));
   }
   return text;
