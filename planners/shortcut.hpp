@@ -127,7 +127,10 @@ auto Shortener<W, Length>::shortcut(std::uint64_t round, std::uint64_t index, co
   const State from = at(change.from);
   const State to = at(change.to);
   const double gain = length_between(change.from, change.to) - length_(from, to);
-  if (gain > 0.0 && is_free(from, to, query, counters)) {
+  // What is left of the two motions is checked too: a part of a certified motion is free, but may be so near to an
+  // obstacle that only the whole could be certified.
+  if (gain > 0.0 && is_free(from, to, query, counters) && is_free(path_[change.from.leg], from, query, counters) &&
+      is_free(to, path_[change.to.leg + 1], query, counters)) {
     change.states = {from, to};
     change.gain = gain;
   }
@@ -227,9 +230,9 @@ auto Shortener<W, Length>::with(const std::vector<Change>& chosen) const -> std:
 
 }  // namespace detail
 
-/// path: free, start to goal. The result has the same ends, its motions are free by the world's check (or parts of the
-/// path's own motions), and it is never longer in the sum of length(a, b) over its motions, which obeys the triangle
-/// inequality along motions. Adds the work to counters. Throws Stopped at the deadline.
+/// path: free, start to goal. The result has the same ends, its motions are free by the world's check, and it is never
+/// longer in the sum of length(a, b) over its motions, which obeys the triangle inequality along motions. Adds the work
+/// to counters. Throws Stopped at the deadline.
 template <SteerableWorld W, class Length>
 std::vector<typename W::State> shortcut_path(const W& world, std::vector<typename W::State> path, const Length& length,
                                              const ShortcutOptions& options, const Execution& execution,

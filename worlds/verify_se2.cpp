@@ -21,6 +21,7 @@ constexpr double full_turn = 6.283185307179586476925;
 struct LegReport {
   double least = infinity;  // proved
   double met = infinity;    // where it was looked: never less than the truth
+  std::size_t looks = 0;
   std::optional<Violation> violation;
 };
 
@@ -51,11 +52,13 @@ class BodyVerifier {
     }
     for (const Vec2 p : outline_) radius_ = std::max(radius_, std::hypot(p.x, p.y));
     rounding_ = 2e-14 * (largest + 2.0 * radius_ + clearance);
-    finest_ = 1e-6 * radius_;
+    finest_ = 1e-9 * radius_;
     close_ = 1e-3 * radius_;
   }
 
-  LegReport check(const Leg& leg, std::size_t number) const;
+  LegReport check(const Leg& leg, std::size_t number) const {
+    return leg.turn == 0.0 ? check_straight(leg, number) : check_turning(leg, number);
+  }
   LegReport check_pose(const Se2& pose, std::size_t number) const;
 
  private:
@@ -66,6 +69,9 @@ class BodyVerifier {
   bool is_polygon_side(std::size_t i) const {
     return obstacles_.rings()[obstacles_.sides()[i - obstacles_.wall_count()].ring].polygon != Ring::none;
   }
+  LegReport check_straight(const Leg& leg, std::size_t number) const;
+  LegReport check_turning(const Leg& leg, std::size_t number) const;
+  double distance_to_sweep(const std::vector<Vec2>& corners, Vec2 way, const Segment& s) const;
   std::vector<Vec2> corners_at(const Leg& leg, double t) const;
   bool body_holds(const std::vector<Vec2>& corners, Vec2 p) const;
   double distance_to(const std::vector<Vec2>& corners, const Segment& s) const;
@@ -126,6 +132,40 @@ double BodyVerifier::distance_to(const std::vector<Vec2>& corners, const Segment
   return least;
 }
 
+/// Where the body does not turn, it sweeps the bodies at both ends and a parallelogram a side.
+double BodyVerifier::distance_to_sweep(const std::vector<Vec2>& corners, Vec2 way, const Segment& s) const {
+  double least = distance_to(corners, s);
+  Vec2 a = corners.back();
+  for (const Vec2 b : corners) {
+    const std::vector<Vec2> swept{a, b, b + way, a + way};
+    least = std::min(least, distance_to(swept, s));
+    a = b;
+  }
+  return least;
+}
+
+/// No halving: exact but for the rounding of corners.
+LegReport BodyVerifier::check_straight(const Leg& leg, std::size_t number) const {
+  const std::vector<Vec2> corners = corners_at(leg, 0.0);
+  Box swept;
+  for (const Vec2 p : corners) {
+    swept.include(p);
+    swept.include(p + leg.way);
+  }
+  LegReport report;
+  for (std::size_t i = 0; i < segments_.size(); ++i) {
+    execution_.check();
+    if (std::sqrt(exact::gap_sq(swept, box_of(segments_[i]))) > report.met) continue;
+    const double distance = distance_to_sweep(corners, leg.way, segments_[i]);
+    if (distance >= report.met) continue;
+    report.met = distance;
+    report.least = distance - rounding_;
+    if (report.least > clearance_ || (clearance_ > 0.0 && report.least >= clearance_)) continue;
+    report.violation = Violation{number, distance, obstacles_.name(i)};
+  }
+  return report;
+}
+
 std::vector<BodyVerifier::Near> BodyVerifier::nearest_at(const Leg& leg, double t, double way,
                                                          const std::vector<Near>& among) const {
   const std::vector<Vec2> corners = corners_at(leg, t);
@@ -147,7 +187,9 @@ std::vector<BodyVerifier::Near> BodyVerifier::nearest_at(const Leg& leg, double 
 
 void BodyVerifier::check_piece(const Leg& leg, double middle, double half, const std::vector<Near>& among,
                                std::size_t number, LegReport& report) const {
+  constexpr std::size_t most_looks = 2'000'000;  // some seconds
   execution_.check();
+  const bool weary = ++report.looks > most_looks;
   const double whole = std::hypot(leg.way.x, leg.way.y) + radius_ * std::abs(leg.turn);
   const double way = half * whole * (1.0 + 1e-12);
   const std::vector<Near> near = nearest_at(leg, middle, way, among);
@@ -161,7 +203,7 @@ void BodyVerifier::check_piece(const Leg& leg, double middle, double half, const
     report.least = std::min(report.least, proved);
     return;
   }
-  if (nearest.distance <= rounding_ || nearest.distance + rounding_ < clearance_ || way < finest_) {
+  if (nearest.distance <= rounding_ || nearest.distance + rounding_ < clearance_ || way < finest_ || weary) {
     report.least = std::min(report.least, nearest.distance);
     report.violation = Violation{number, nearest.distance, obstacles_.name(nearest.obstacle)};
     return;
@@ -170,7 +212,7 @@ void BodyVerifier::check_piece(const Leg& leg, double middle, double half, const
   check_piece(leg, middle + 0.5 * half, 0.5 * half, near, number, report);
 }
 
-LegReport BodyVerifier::check(const Leg& leg, std::size_t number) const {
+LegReport BodyVerifier::check_turning(const Leg& leg, std::size_t number) const {
   std::vector<Near> all;
   all.reserve(segments_.size());
   for (std::size_t i = 0; i < segments_.size(); ++i) all.push_back({i, 0.0});
@@ -182,7 +224,7 @@ LegReport BodyVerifier::check(const Leg& leg, std::size_t number) const {
 /// Is the pose inside a polygon, outside the bounds or off the box? Boundaries are check()'s.
 LegReport BodyVerifier::check_pose(const Se2& pose, std::size_t number) const {
   const std::vector<Vec2> corners = corners_at({pose, {}, 0.0}, 0.0);
-  const auto bad = [&](std::string what) { return LegReport{0.0, 0.0, Violation{number, 0.0, std::move(what)}}; };
+  const auto bad = [&](std::string what) { return LegReport{0.0, 0.0, 0, Violation{number, 0.0, std::move(what)}}; };
   if (confines_) {
     for (const Vec2 p : corners) {
       if (!confines_->contains(p)) return bad(fmt::format("bounds: the corner {} {} is outside", p.x, p.y));

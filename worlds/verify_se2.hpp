@@ -4,6 +4,7 @@
 // obstacles that can't be the nearest anywhere on a piece are dropped from its halves, and pieces are halved until the
 // least distance, less the way that any point of the body goes and less all rounding, is proved to exceed the
 // clearance. O(legs * sides * corners) and what the halves near obstacles cost.
+// Legs without a turn need no halving: what the body sweeps there is a polygon.
 #pragma once
 
 #include <limits>
@@ -37,8 +38,9 @@ struct Se2Verification {
 
 /// The body among the scene's walls, polygons and bounds (spheres are not looked at). On a leg the reference point goes
 /// straight while the body turns evenly the shorter way; a leg of half a turn must be free both ways. The path has at
-/// least one pose, all finite (InputError otherwise); a single pose is a leg of length zero. A leg that comes nearer
-/// than a millionth of the body's radius to the clearance may count as not free. The same for any number of threads.
+/// least one pose, all finite (InputError otherwise); a single pose is a leg of length zero. A turning leg that
+/// runs within some millionths of the body's radius of an obstacle, beyond the clearance, may count as not free. The
+/// same for any number of threads.
 Se2Verification verify_se2(const Scene& scene, std::span<const Vec2> outline, std::span<const Se2> path,
                            const Se2VerifyOptions& options, const Execution& execution);
 

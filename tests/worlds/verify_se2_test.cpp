@@ -37,6 +37,8 @@ TEST(VerifySe2, AcceptsAFreePathAndMeasuresIt) {
   EXPECT_NEAR(v.turn_rad, pi, 1e-14);
   EXPECT_LE(v.min_clearance, 0.4);
   EXPECT_GE(v.min_clearance, 0.4 - 1.01e-3);
+  const auto straight = verify_se2(corridor(), bar, std::vector<Se2>{{-7, 0.1, 0}, {7, 0.1, 0}}, {}, {});
+  EXPECT_NEAR(straight.min_clearance, 0.3, 1e-12);  // exact where nothing turns
 }
 
 TEST(VerifySe2, RefutesATurnThatTheCorridorHasNoRoomFor) {
@@ -54,6 +56,21 @@ TEST(VerifySe2, GoesTheShorterWayThroughTheWrap) {
   EXPECT_TRUE(verify_se2(corridor(), bar, path, {}, {}).verified);
   const std::vector<Se2> tilted = {{0, 0, 0.3}, {0, 0, -0.3 + 2.0 * pi}};
   EXPECT_TRUE(verify_se2(corridor(), bar, tilted, {}, {}).verified);
+}
+
+TEST(VerifySe2, SeesWhatAStraightLegSweepsOver) {
+  Scene scene;
+  scene.bounds = Box{{-10, -10}, {10, 10}};
+  scene.walls = WallSet::narrowest(std::vector<Segment>{{{0, 0}, {0.01, 0.01}}});
+  const auto verified = [&](const Se2& a, const Se2& b) {
+    return verify_se2(scene, bar, std::vector<Se2>{a, b}, {}, {}).verified;
+  };
+  EXPECT_FALSE(verified({-5, 0, 0.3}, {5, 0, 0.3}));  // neither end is near
+  EXPECT_FALSE(verified({0, -5, 0.3}, {0, 5, 0.3}));
+  EXPECT_TRUE(verified({-5, 1, 0.3}, {5, 1, 0.3}));
+  // Sliding along at a billionth: too near for halving, no matter for a leg that does not turn.
+  EXPECT_TRUE(verified({-5, -0.1 - 1e-9, 0}, {5, -0.1 - 1e-9, 0}));
+  EXPECT_FALSE(verified({-5, -0.1 + 1e-9, 0}, {5, -0.1 + 1e-9, 0}));
 }
 
 TEST(VerifySe2, ComparesStartAndGoal) {
