@@ -160,7 +160,8 @@ void TiledPlan::search() {
 }  // namespace
 
 bool tiled_prm_applies(const RoadmapOptions& options, double clearance) {
-  const bool own_rule = !options.neighbours && (!options.radius || *options.radius == 1.0);
+  const bool own_rule =
+      options.star == StarRule::none && !options.neighbours && (!options.radius || *options.radius == 1.0);
   const bool shortest = options.search == SearchKind::astar || options.search == SearchKind::dijkstra;
   return options.sampler == SamplerKind::lattice && own_rule && shortest && clearance <= WallMarker::largest_clearance;
 }

@@ -35,7 +35,8 @@ Json counters_json(const Counters& counters) {
           {"neighbour_queries", counters.neighbour_queries},
           {"edges_checked", counters.edges_checked},
           {"expanded", counters.expanded},
-          {"rounds", counters.rounds}};
+          {"rounds", counters.rounds},
+          {"refused", counters.refused}};
 }
 
 Json stages_json(const StageTimes& seconds) {

@@ -124,8 +124,9 @@ void SolveCommand::write_outputs(const Run& run) {
 
 void SolveCommand::draw(const Execution& execution) {
   if (solver_->kind->draw != nullptr) solver_->kind->draw(request(execution));
+  const bool has_roadmap = is_roadmap_planner(solver_->planner) || !drawing_.roadmap.states.empty();
   const Picture picture{.scene = scene_,
-                        .roadmap = is_roadmap_planner(solver_->planner) ? &drawing_.roadmap : nullptr,
+                        .roadmap = has_roadmap ? &drawing_.roadmap : nullptr,
                         .layers = drawing_.layers,
                         .path = answer_.path,
                         .start = plane_point(answer_.problem.start),

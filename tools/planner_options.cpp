@@ -17,7 +17,8 @@ namespace {
 
 constexpr std::array<std::string_view, 8> planner_words{"prm",     "lazy-prm", "visibility",  "cells",
                                                         "voronoi", "rrt",      "rrt-connect", "grid"};
-constexpr std::array<std::string_view, 4> sampler_words{"uniform", "lattice", "halton", "random"};
+constexpr std::array<std::string_view, 7> sampler_words{"uniform",  "lattice", "halton", "random",
+                                                        "gaussian", "bridge",  "mixture"};
 constexpr std::array<std::string_view, 4> search_words{"astar", "dijkstra", "bfs", "dfs"};
 constexpr std::array<std::string_view, 4> queue_words{"heap", "lazy-heap", "sorted-array", "resorted-array"};
 constexpr std::array<std::string_view, 2> pipeline_words{"plain", "tiled"};
@@ -29,10 +30,11 @@ constexpr OptionSpec specs[] = {
     {"--planner", "NAME",
      "prm checks every edge, lazy-prm only those that a search reaches (default: prm with lattice)", "prm lazy-prm"},
     {"--sampler", "NAME", "where milestones come from (default: lattice in mazes, else uniform)",
-     "uniform lattice halton random"},
+     "uniform lattice halton random gaussian bridge mixture"},
     {"--samples", "N|auto", "states drawn; auto grows until start and goal connect (default: auto)"},
-    {"--neighbours", "K|auto", "join each milestone to its K nearest (default: auto)"},
-    {"--radius", "R|auto", "join milestones at most so far apart, instead of the K nearest (default: auto)"},
+    {"--neighbours", "K|auto|star", "join each milestone to its K nearest; star: by the rule of PRM* (default: auto)"},
+    {"--radius", "R|auto|star",
+     "join milestones at most so far apart, instead of the K nearest; star: by the rule of PRM* (default: auto)"},
     {"--search", "NAME", "how the roadmap is searched (default: astar)", "astar dijkstra bfs dfs"},
     {"--queue", "NAME", "the queue of astar and dijkstra (default: heap)",
      "heap lazy-heap sorted-array resorted-array"},
@@ -61,7 +63,7 @@ std::optional<Enum> choice(const Arguments& arguments, std::string_view option,
 
 std::optional<double> auto_or_radius(const Arguments& arguments) {
   const auto text = arguments.value("--radius");
-  if (!text || *text == "auto") return std::nullopt;
+  if (!text || *text == "auto" || *text == "star") return std::nullopt;
   return positive_value("--radius", *text);
 }
 
@@ -76,11 +78,21 @@ LazyCheck lazy_check(const Arguments& arguments) {
   return choice<LazyCheck>(arguments, "--lazy", lazy_words).value_or(LazyCheck::expansion);
 }
 
+StarRule star_rule_asked(const Arguments& arguments) {
+  const bool neighbours = arguments.value("--neighbours") == "star";
+  const bool radius = arguments.value("--radius") == "star";
+  if (neighbours && radius) throw UsageError("--radius: one rule of PRM* joins milestones, by neighbours or by radius");
+  return neighbours ? StarRule::neighbours : radius ? StarRule::radius : StarRule::none;
+}
+
 RoadmapOptions roadmap_options(const Arguments& arguments) {
   RoadmapOptions options;
   options.samples = auto_or_count(arguments, "--samples", most_samples);
-  if (const auto count = auto_or_count(arguments, "--neighbours", most_neighbours)) {
-    options.neighbours = static_cast<std::uint32_t>(*count);
+  options.star = star_rule_asked(arguments);
+  if (options.star != StarRule::neighbours) {
+    if (const auto count = auto_or_count(arguments, "--neighbours", most_neighbours)) {
+      options.neighbours = static_cast<std::uint32_t>(*count);
+    }
   }
   options.radius = auto_or_radius(arguments);
   options.search = choice<SearchKind>(arguments, "--search", search_words).value_or(SearchKind::astar);
@@ -153,6 +165,8 @@ std::vector<std::pair<std::string, std::string>> given_options(const Arguments& 
   if (o.roadmap.samples) given.emplace_back("samples", std::to_string(*o.roadmap.samples));
   if (o.roadmap.neighbours) given.emplace_back("neighbours", std::to_string(*o.roadmap.neighbours));
   if (o.roadmap.radius) given.emplace_back("radius", json_number(*o.roadmap.radius));
+  if (o.roadmap.star == StarRule::neighbours) given.emplace_back("neighbours", json_string("star"));
+  if (o.roadmap.star == StarRule::radius) given.emplace_back("radius", json_string("star"));
   if (const auto queue = arguments.value("--queue")) given.emplace_back("queue", json_string(*queue));
   if (const auto lazy = arguments.value("--lazy")) given.emplace_back("lazy", json_string(*lazy));
   if (const auto pipeline = arguments.value("--pipeline")) given.emplace_back("pipeline", json_string(*pipeline));
@@ -173,15 +187,22 @@ std::optional<PlannerKind> planner_asked(const Arguments& arguments) {
   return choice<PlannerKind>(arguments, "--planner", planner_words);
 }
 
+std::optional<SamplerKind> sampler_asked(const Arguments& arguments) {
+  return choice<SamplerKind>(arguments, "--sampler", sampler_words);
+}
+
 void check_planner_options(const Arguments& arguments) {
   const RoadmapOptions options = roadmap_options(arguments);
   const auto planner = planner_asked(arguments);
   if (planner && !is_roadmap_planner(*planner)) {
     throw UsageError(fmt::format("--planner: {} builds no roadmap of samples; prm and lazy-prm do", name_of(*planner)));
   }
-  const auto sampler = choice<SamplerKind>(arguments, "--sampler", sampler_words);
+  const auto sampler = sampler_asked(arguments);
   check_queue(arguments, options.search);
   if (planner) check_planner(arguments, *planner, options.search);
+  if ((options.neighbours || options.radius) && options.star != StarRule::none) {
+    throw UsageError("--radius: a number and a rule of PRM* contradict each other; give one of the two");
+  }
   if (options.neighbours && options.radius) {
     throw UsageError("--radius: replaces the number of neighbours; give --neighbours or --radius, not both");
   }

@@ -38,6 +38,9 @@ std::string_view name_of(SearchKind search);
 /// The planner that --planner names; throws UsageError for a word that is none.
 std::optional<PlannerKind> planner_asked(const Arguments& arguments);
 
+/// The sampler that --sampler names; throws UsageError for a word that is none.
+std::optional<SamplerKind> sampler_asked(const Arguments& arguments);
+
 /// --planner --sampler --samples --neighbours --radius --search --queue --lazy --pipeline --optimise --seed
 std::span<const OptionSpec> planner_option_specs();
 

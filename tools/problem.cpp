@@ -16,9 +16,10 @@ constexpr std::array<std::string_view, 2> contact_words{"blocked", "allowed"};
 constexpr double clearance_in_mazes = 0.1;
 
 constexpr OptionSpec specs[] = {
-    {"--robot", "\"BODY\"", "the moving body: \"point\" or \"disc RADIUS\" (default: the file's, else point)"},
-    {"--start", "X,Y", "where the path begins (default: the file's)"},
-    {"--goal", "X,Y", "where the path ends (default: the file's)"},
+    {"--robot", "\"BODY\"",
+     "the moving body: \"point\", \"disc RADIUS\" or \"polygon X Y X Y ...\" (default: the file's, else point)"},
+    {"--start", "X,Y[,THETA]", "where the path begins (default: the file's)"},
+    {"--goal", "X,Y[,THETA]", "where the path ends (default: the file's)"},
     {"--clearance", "R",
      "room kept around the body all along the path (default: the file's, else 0.1 in mazes, else 0)"},
     {"--contact", "WORD", "with clearance 0: may the path touch a wall? (default: blocked)", "blocked allowed"},

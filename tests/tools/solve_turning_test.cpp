@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `warren solve` and `warren verify` for polygons that turn.
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/process.hpp"
+
+namespace warren::testing {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A bar that must turn to pass a bend.
+constexpr const char* bend = R"(bounds -6 -6 6 6
+robot polygon -1 -0.2 1 -0.2 1 0.2 -1 0.2
+polygon -6 1 3.5 1 3.5 6 -6 6
+polygon -6 -6 5 -6 5 -3 1 -3 1 -1 -6 -1
+start -4.5 0 0
+goal 4.7 4 1.5707963267948966
+)";
+
+class SolveTurning : public ::testing::Test {
+ protected:
+  Json solved(std::vector<std::string> more, int code = 0) const {
+    std::vector<std::string> arguments{"solve", file_, "--json", "-"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    SCOPED_TRACE(shown(arguments));
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, code) << outcome.err;
+    return Json::parse(outcome.out);
+  }
+  Folder folder_;
+  std::string file_ = folder_.write("bend.scene", bend);
+};
+
+TEST_F(SolveTurning, EveryPlannerSolvesAndVerifies) {
+  for (const char* planner : {"rrt-connect", "rrt", "prm", "lazy-prm"}) {
+    const Json answer = solved({"--planner", planner, "--seed", "3"});
+    EXPECT_EQ(answer["status"], "solved") << planner;
+    EXPECT_EQ(answer["verified"], true);
+    EXPECT_EQ(answer["planner"], planner);
+    EXPECT_GT(answer["length"], 10.0);  // round the bend
+    EXPECT_GE(answer["turn_rad"], 1.57);
+    EXPECT_EQ(answer["path"].front(), Json::parse("[-4.5, 0.0, 0.0]"));
+    EXPECT_EQ(answer["path"].back()[1], 4.0);
+  }
+}
+
+/// Two obstacles leave a gap that the bar fits through lengthways; known lengths by hand.
+TEST_F(SolveTurning, AtAFixedAngleThePathIsTheShortest) {
+  const std::string straight = folder_.write("gap.scene", R"(bounds -6 -6 6 6
+robot polygon -1 -0.2 1 -0.2 1 0.2 -1 0.2
+polygon -1 -4 1 -4 1 2 -1 2
+start -4 0 0
+goal 4 0 0
+)");
+  // Round the box grown by the body: from (-4, 0) over (-2, 2.2) and (2, 2.2) to (4, 0).
+  const double shortest = 4.0 + 2.0 * std::sqrt(4.0 + 2.2 * 2.2);
+  const Outcome outcome = run({"solve", straight, "--planner", "visibility", "--json", "-"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json answer = Json::parse(outcome.out);
+  EXPECT_EQ(answer["verified"], true);
+  EXPECT_NEAR(answer["length"], shortest, 1e-7);
+  EXPECT_EQ(answer["turn_rad"], 0.0);
+  EXPECT_EQ(run({"solve", file_, "--planner", "visibility"}).code, 2);  // start and goal turn
+}
+
+TEST_F(SolveTurning, AnswersAreTheSameForAnyNumberOfThreads) {
+  std::string first;
+  for (const char* threads : {"1", "2", "3", "8"}) {
+    Json answer = solved({"--trees", "3", "--optimise", "--threads", threads});
+    for (const char* key : {"stages_s", "solve_s", "threads", "peak_memory_bytes"}) answer.erase(key);
+    if (first.empty()) first = answer.dump();
+    EXPECT_EQ(answer.dump(), first);
+  }
+}
+
+TEST_F(SolveTurning, OptimiseNeverLengthensAndIsVerified) {
+  const Json answer = solved({"--optimise"});
+  EXPECT_LE(answer["length"], answer["raw_length"]);
+  EXPECT_EQ(answer["verified"], true);
+}
+
+TEST_F(SolveTurning, TakesGoalsWithoutHeadingAndWayPoints) {
+  const Json open = solved({"--goal", "4.7,4"});
+  EXPECT_EQ(open["goal"].size(), 2U);
+  EXPECT_EQ(open["path"].back()[0], 4.7);
+  const Json roadmap = solved({"--goal", "4.7,4", "--planner", "lazy-prm"});
+  EXPECT_EQ(roadmap["verified"], true);
+  const Json guided = solved({"--via", "2,0,0;4.5,0"});
+  bool passed = false;
+  for (const Json& state : guided["path"]) passed = passed || (state[0] == 4.5 && state[1] == 0.0);
+  EXPECT_TRUE(passed);
+}
+
+TEST_F(SolveTurning, VerifyAgreesAndRefutesABrokenPath) {
+  const std::string answer_file = folder_.path("answer.json");
+  ASSERT_EQ(run({"solve", file_, "--json", answer_file, "--quiet"}).code, 0);
+  const Outcome good = run({"verify", file_, answer_file});
+  EXPECT_EQ(good.code, 0) << good.err;
+  Json answer = Json::parse(folder_.read("answer.json"));
+  answer["path"] = Json::array({answer["path"].front(), answer["path"].back()});
+  folder_.write("answer.json", answer.dump());
+  EXPECT_EQ(run({"verify", file_, answer_file}).code, 1);
+}
+
+TEST_F(SolveTurning, SaysWhatIsWrongInOneLine) {
+  struct Case {
+    std::vector<std::string> arguments;
+    const char* says;
+  };
+  const std::vector<Case> cases = {{{"--start", "0,0"}, "X,Y,THETA"},
+                                   {{"--sampler", "lattice"}, "lattice"},
+                                   {{"--step", "0"}, "--step"},
+                                   {{"--goal-bias", "2", "--planner", "rrt"}, "--goal-bias"},
+                                   {{"--goal-bias", "0.1"}, "rrt"},
+                                   {{"--trees", "0"}, "--trees"},
+                                   {{"--contact", "allowed"}, "--contact"},
+                                   {{"--samples", "10"}, "--samples"},
+                                   {{"--via", "0,5"}, "way-point 1"},
+                                   {{"--via", "0,0,0,0"}, "--via"},
+                                   {{"--planner", "prm", "--neighbours", "star", "--radius", "2"}, "PRM*"}};
+  for (const Case& c : cases) {
+    std::vector<std::string> arguments{"solve", file_};
+    arguments.insert(arguments.end(), c.arguments.begin(), c.arguments.end());
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, 2) << shown(arguments) << outcome.err;
+    EXPECT_NE(outcome.err.find(c.says), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  }
+}
+
+TEST_F(SolveTurning, EndsWithoutAPathAreAnswers) {
+  EXPECT_EQ(solved({"--start", "0,3,0"}, 1)["status"], "start_blocked");
+  EXPECT_EQ(solved({"--goal", "0,3"}, 1)["status"], "goal_blocked");
+  const Json answer = solved({"--nodes", "2"}, 1);  // start and goal are two
+  EXPECT_EQ(answer["status"], "not_connected");
+  EXPECT_GT(answer["components"]["nearest_gap"], 0.0);
+}
+
+TEST_F(SolveTurning, DrawsTheSweepAndTheTree) {
+  const std::string svg = folder_.path("sweep.svg");
+  ASSERT_EQ(run({"solve", file_, "--svg", svg, "--quiet"}).code, 0);
+  const std::string text = folder_.read("sweep.svg");
+  EXPECT_NE(text.find("id=\"sweep\""), std::string::npos);
+  EXPECT_NE(text.find("id=\"edges\""), std::string::npos);
+}
+
+}  // namespace
+}  // namespace warren::testing

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/fixed_angle.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planners/visibility_path.hpp"
+#include "worlds/translation_obstacles.hpp"
+
+namespace warren {
+namespace {
+
+double size_of(const Scene& scene, std::span<const Vec2> outline) {
+  Box box = obstacle_box(scene);
+  if (scene.bounds) box.include(*scene.bounds);
+  double largest = 0.0;
+  for (const Vec2 p : outline) largest = std::max(largest, norm(p));
+  if (box.empty()) return largest;
+  for (const double c : {box.min.x, box.min.y, box.max.x, box.max.y}) largest = std::max(largest, std::abs(c));
+  return largest;
+}
+
+}  // namespace
+
+Solution<Se2> plan_at_fixed_angle(const Scene& scene, const FixedAngleProblem& problem, const Execution& execution,
+                                  PolygonSet* keep) {
+  const double hair = 1e-10 * size_of(scene, problem.outline);
+  const std::size_t disc_corners = problem.clearance > 0.0 ? 32 : 4;
+  Solution<Se2> solution;
+  PlaneObstacles obstacles;
+  {
+    const StageTimer timer(execution, "index", solution.seconds.index);
+    obstacles =
+        translation_obstacles(scene, problem.outline, problem.start.theta, problem.clearance + hair, disc_corners);
+  }
+  Solution<Vec2> plane = visibility_path(obstacles, problem.start.position(), problem.goal, {}, execution);
+  if (keep != nullptr) *keep = obstacles.polygons;
+  solution.outcome = plane.outcome;
+  solution.stop_reason = plane.stop_reason;
+  solution.roadmap = plane.roadmap;
+  solution.separation = plane.separation;
+  solution.counters = plane.counters;
+  plane.seconds.index += solution.seconds.index;
+  solution.seconds = plane.seconds;
+  for (const Vec2 p : plane.path) solution.path.push_back({p.x, p.y, problem.start.theta});
+  return solution;
+}
+
+}  // namespace warren

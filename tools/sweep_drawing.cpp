@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/sweep_drawing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace warren {
+namespace {
+
+double radius_of(std::span<const Vec2> outline) {
+  double radius = 0.0;
+  for (const Vec2 p : outline) radius = std::max(radius, norm(p));
+  return radius;
+}
+
+double travel(const Se2& a, const Se2& b, double radius) {
+  return distance(a.position(), b.position()) + radius * std::abs(turn_between(a.theta, b.theta));
+}
+
+void add_body(PolygonSet& lines, const Se2& pose, std::span<const Vec2> outline) {
+  const Rotation turned(pose.theta);
+  std::vector<Vec2> corners;
+  for (const Vec2 p : outline) corners.push_back(pose.position() + turned(p));
+  lines.add(corners);
+}
+
+}  // namespace
+
+PictureLayer sweep_of(std::span<const Se2> path, std::span<const Vec2> outline) {
+  constexpr double most = 400.0;
+  PictureLayer layer{"sweep", colors::second_layer, widths::edge, {}, true};
+  if (path.empty()) return layer;
+  const double radius = radius_of(outline);
+  double whole = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) whole += travel(path[i - 1], path[i], radius);
+  const double apart = std::max(radius / 3.0, whole / most);
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    const double pieces = std::max(1.0, std::ceil(travel(path[i], path[i + 1], radius) / apart));
+    for (double piece = 0.0; piece < pieces; piece += 1.0) {
+      add_body(layer.lines, interpolate(path[i], path[i + 1], piece / pieces), outline);
+    }
+  }
+  add_body(layer.lines, path.back(), outline);
+  return layer;
+}
+
+Roadmap<Vec2> in_the_plane(const std::vector<Roadmap<Se2>>& roadmaps) {
+  Roadmap<Vec2> plane;
+  std::vector<Edge> edges;
+  for (const Roadmap<Se2>& roadmap : roadmaps) {
+    const auto first = static_cast<VertexId>(plane.states.size());
+    for (const Se2& state : roadmap.states) plane.states.push_back(state.position());
+    for (VertexId v = 0; v < roadmap.graph.vertex_count(); ++v) {
+      for (const VertexId w : roadmap.graph.neighbours(v)) {
+        if (v < w) edges.push_back({first + v, first + w});
+      }
+    }
+    for (const Edge& edge : roadmap.search_tree) {
+      if (edge.to != no_vertex) plane.search_tree.push_back({first + edge.from, first + edge.to});
+    }
+  }
+  plane.graph = Graph::from_edges(plane.states.size(), edges);
+  return plane;
+}
+
+}  // namespace warren

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a picture of a turning body shows beyond the world: the body at intervals along its path, and the tree or
+// roadmap in the plane.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/se2.hpp"
+#include "core/types.hpp"
+#include "planners/roadmap.hpp"
+#include "tools/picture.hpp"
+
+namespace warren {
+
+/// The body's outlines along the path, about a third of its radius apart, at most 400 of them; ends and corners of the
+/// path included.
+PictureLayer sweep_of(std::span<const Se2> path, std::span<const Vec2> outline);
+
+/// The positions of the states of several roadmaps, one after the other, with their edges.
+Roadmap<Vec2> in_the_plane(const std::vector<Roadmap<Se2>>& roadmaps);
+
+}  // namespace warren

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/tree_options.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "core/error.hpp"
+#include "tools/answer_json.hpp"
+#include "tools/option_values.hpp"
+#include "tools/planner_options.hpp"
+
+namespace warren {
+namespace {
+
+constexpr std::uint64_t most_nodes = std::uint64_t{1} << 31;
+constexpr std::uint64_t most_trees = 4096;
+
+constexpr OptionSpec specs[] = {
+    {"--step", "D", "longest motion of a tree, in the body's metric (default: a quarter of the states' mean distance)"},
+    {"--goal-bias", "F", "share of rrt's samples that are the goal (default: 0.05)"},
+    {"--nodes", "N", "a tree of so many nodes gives up (default: 100000)"},
+    {"--trees", "N", "trees grown independently at once; the first to arrive answers (default: 1)"},
+    {"--via", "STATES", "way-points to be passed in this order: X,Y or X,Y,THETA each, apart by semicolons"},
+};
+
+}  // namespace
+
+std::span<const OptionSpec> tree_option_specs() { return specs; }
+
+RrtOptions tree_options(const Arguments& arguments) {
+  RrtOptions options;
+  const auto sampler = sampler_asked(arguments);
+  if (sampler == SamplerKind::lattice) {
+    throw UsageError("--sampler: lattice is for the roadmaps of mazes; trees take the others");
+  }
+  if (sampler) options.sampler = *sampler;
+  if (const auto text = arguments.value("--step")) options.step = positive_value("--step", *text);
+  if (const auto text = arguments.value("--goal-bias"))
+    options.goal_bias = number_value("--goal-bias", *text, 0.0, 1.0);
+  if (const auto text = arguments.value("--nodes")) options.nodes = count_value("--nodes", *text, 2, most_nodes);
+  if (const auto text = arguments.value("--trees")) {
+    options.trees = static_cast<std::uint32_t>(count_value("--trees", *text, 1, most_trees));
+  }
+  if (const auto text = arguments.value("--seed")) {
+    options.seed = count_value("--seed", *text, 0, std::numeric_limits<std::uint64_t>::max());
+  }
+  return options;
+}
+
+std::vector<std::vector<double>> way_points(const Arguments& arguments) {
+  std::vector<std::vector<double>> points;
+  const auto text = arguments.value("--via");
+  if (!text) return points;
+  std::string_view rest = *text;
+  for (;;) {
+    const std::size_t end = rest.find(';');
+    points.push_back(state_value("--via", rest.substr(0, end)));
+    if (end == std::string_view::npos) return points;
+    rest.remove_prefix(end + 1);
+  }
+}
+
+std::vector<std::pair<std::string, std::string>> given_tree_options(const Arguments& arguments) {
+  std::vector<std::pair<std::string, std::string>> given;
+  const RrtOptions options = tree_options(arguments);
+  if (options.step) given.emplace_back("step", json_number(*options.step));
+  if (arguments.has("--goal-bias")) given.emplace_back("goal_bias", json_number(options.goal_bias));
+  if (arguments.has("--nodes")) given.emplace_back("nodes", std::to_string(options.nodes));
+  if (arguments.has("--trees")) given.emplace_back("trees", std::to_string(options.trees));
+  if (const auto via = arguments.value("--via")) given.emplace_back("via", json_string(*via));
+  if (arguments.has("--optimise")) given.emplace_back("optimise", "true");
+  return given;
+}
+
+}  // namespace warren
