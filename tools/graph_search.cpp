@@ -3,13 +3,15 @@
 
 #include <algorithm>
 #include <array>
+#include <type_traits>
 
 #include "core/search_queues.hpp"
 
 namespace warren {
 namespace {
 
-/// A* (with the straight distance as heuristic) or Dijkstra.
+/// A* (with the straight distance as heuristic) or Dijkstra. An array that is sorted at each push can take a second for
+/// the expansions between two looks at the deadline, so there it is looked at more often.
 template <class Queue, bool Informed>
 class BestFirst : public GraphSearch {
  public:
@@ -21,8 +23,24 @@ class BestFirst : public GraphSearch {
   SearchResult run(const Execution& execution) override {
     queue_.clear();
     state_.clear();
+    try {
+      return search(execution);
+    } catch (const Stopped&) {
+      SearchResult stopped;
+      stopped.status = SearchStatus::stopped;
+      return stopped;
+    }
+  }
+
+ private:
+  SearchResult search(const Execution& execution) {
+    constexpr std::uint64_t expansions_per_look = 64;
+    [[maybe_unused]] std::uint64_t expansions = 0;
     const Graph& graph = graph_.graph;
     const auto neighbours = [&](VertexId v, const auto& visit) {
+      if constexpr (std::is_same_v<Queue, ResortedArray>) {
+        if (++expansions % expansions_per_look == 0) execution.check();
+      }
       const std::span<const VertexId> row = graph.neighbours(v);
       const std::span<const double> lengths = graph.lengths(v);
       for (std::size_t i = 0; i < row.size(); ++i) visit(row[i], lengths[i]);
@@ -33,7 +51,6 @@ class BestFirst : public GraphSearch {
                       [&] { return execution.should_stop(); });
   }
 
- private:
   const SearchGraph& graph_;
   Queue queue_;
   SearchState state_;

@@ -16,10 +16,15 @@
 namespace warren {
 namespace {
 
+constexpr VertexId vertices_per_poll = 1 << 12;
+
 std::vector<Vec2> drawn_points(std::uint32_t size, std::uint64_t seed, const Execution& execution) {
   const double side = std::sqrt(static_cast<double>(size));
   std::vector<Vec2> drawn(size);
-  for (std::uint32_t i = 0; i < size; ++i) drawn[i] = {side * uniform(seed, i, 0), side * uniform(seed, i, 1)};
+  for (std::uint32_t i = 0; i < size; ++i) {
+    if (i % vertices_per_poll == 0) execution.check();
+    drawn[i] = {side * uniform(seed, i, 0), side * uniform(seed, i, 1)};
+  }
   const TileOrder order = tile_order(drawn, execution);
   std::vector<Vec2> at(size);
   for (std::uint32_t i = 0; i < size; ++i) at[i] = drawn[order.sample_of[i]];
@@ -27,7 +32,6 @@ std::vector<Vec2> drawn_points(std::uint32_t size, std::uint64_t seed, const Exe
 }
 
 RawVector<Edge> edges_within(const std::vector<Vec2>& at, const SearchRadius& radius, const Execution& execution) {
-  constexpr VertexId vertices_per_poll = 1 << 12;
   const PointGrid grid(at, execution);
   RawVector<Edge> edges;
   for (VertexId v = 0; v < at.size(); ++v) {
@@ -75,6 +79,10 @@ Graph with_plane_lengths(const Graph& graph, const std::vector<Vec2>& at) {
 }
 
 SearchGraph geometric_graph(std::uint32_t size, double degree, std::uint64_t seed, const Execution& execution) {
+  constexpr double bytes_a_vertex = 80.0;
+  constexpr double bytes_an_end = 24.0;
+  const double ends = std::min(degree, static_cast<double>(size));
+  execution.reserve(static_cast<std::size_t>(size * (bytes_a_vertex + bytes_an_end * ends)));
   SearchGraph made;
   made.source = fmt::format("geometric:{}", size);
   made.kind = "geometric";
