@@ -65,8 +65,8 @@ std::string planner_cell(const Contender& c) {
 }
 
 std::string planner_table(const Comparison& comparison, std::size_t problem, const Palette& palette) {
-  TextTable table{{"planner", "solved", "95 %", "length q1", "median", "q3", "hops", "expanded", "clearance", "time q1",
-                   "median", "q3"},
+  TextTable table{{"planner", "solved", "95 %", "length q1", "median", "q3", "hops", "turn", "cost", "expanded",
+                   "clearance", "time q1", "median", "q3"},
                   1,
                   {}};
   for (const Contender& c : comparison.contenders) {

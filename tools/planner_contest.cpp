@@ -175,6 +175,8 @@ void PlannerContest::run_once(std::size_t i, std::uint64_t seed) {
                   .expanded = answer.counters.expanded};
   if (answer.verified) run.min_clearance = answer.min_clearance;
   if (answer.seconds.search > 0.0) run.search_s = answer.seconds.search;
+  run.turn_rad = answer.turn_rad;
+  run.cost = answer.cost;
   contender.search = answer.search;
   contender.options = answer.options;
   std::erase_if(contender.options, [](const auto& option) { return option.first == "queue"; });  // has a column
