@@ -92,8 +92,10 @@ std::vector<PlannerWords> contenders_of(const PlannerDeal& deal, const std::stri
   }
   std::vector<PlannerWords> all{words};
   for (const auto& [option, values] : deal.lists) {
-    std::vector<std::string> taken = values;
-    std::erase_if(taken, [&](const std::string& value) { return refusal(planner, option, value).has_value(); });
+    std::vector<std::string> taken;
+    for (const std::string& value : values) {
+      if (!refusal(planner, option, value)) taken.push_back(value);
+    }
     all = dealt(all, option, taken);
   }
   return all;
