@@ -79,6 +79,7 @@ void NearPieces::next_epoch() {
 void NearPieces::hide_behind(Vec2 a, Vec2 b, double first, double last) {
   constexpr double scale = static_cast<double>(directions) / 4.0;
   if (last < first) last += 4.0;
+  if (!(last - margin > first + margin)) return;  // hides no whole direction; and below 0 there are no numbers
   const auto begin = static_cast<std::size_t>(std::ceil((first + margin) * scale));
   const auto end = static_cast<std::size_t>(std::floor((last - margin) * scale));
   if (begin >= end) return;
