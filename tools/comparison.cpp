@@ -33,13 +33,10 @@ ComparisonRow row_of(const Contender& contender) {
   row.success = row.runs == 0 ? Interval{0.0, 1.0} : wilson_interval(row.solved, row.runs);
   row.length = distribution(contender, [](const ComparedRun& r) { return if_solved(r, r.length); });
   row.hops = distribution(contender, [](const ComparedRun& r) { return if_solved(r, r.hops); });
-  const auto of_solved = [&](std::optional<double> ComparedRun::*figure) {
-    return distribution(contender, [&](const ComparedRun& r) { return r.solved() ? r.*figure : std::nullopt; });
-  };
-  row.min_clearance = of_solved(&ComparedRun::min_clearance);
-  row.search_s = of_solved(&ComparedRun::search_s);
-  row.turn_rad = of_solved(&ComparedRun::turn_rad);
-  row.cost = of_solved(&ComparedRun::cost);
+  row.min_clearance = distribution(
+      contender, [](const ComparedRun& r) { return r.solved() ? r.min_clearance : std::optional<double>(); });
+  row.search_s =
+      distribution(contender, [](const ComparedRun& r) { return r.solved() ? r.search_s : std::optional<double>(); });
   row.expanded =
       distribution(contender, [](const ComparedRun& r) { return std::optional(static_cast<double>(r.expanded)); });
   row.time_s = distribution(contender, [](const ComparedRun& r) { return std::optional(r.time_s); });

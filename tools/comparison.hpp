@@ -25,8 +25,6 @@ struct ComparedRun {
   std::uint64_t expanded = 0;                ///< vertices or states settled; known where nothing was found, too
   std::optional<double> min_clearance = {};  ///< planners only
   std::optional<double> search_s = {};       ///< planners only: the search's part of time_s
-  std::optional<double> turn_rad = {};       ///< of bodies that turn
-  std::optional<double> cost = {};           ///< in the planner's own units, where that is not the length
   bool solved() const { return outcome == Outcome::solved; }
 };
 
@@ -68,8 +66,6 @@ struct ComparisonRow {
   std::optional<Distribution> expanded;       ///< of all runs
   std::optional<Distribution> time_s;         ///< of all runs: what did not succeed has cost its time, too
   std::optional<Distribution> search_s;       ///< of the solved runs
-  std::optional<Distribution> turn_rad;       ///< of the solved runs
-  std::optional<Distribution> cost;           ///< of the solved runs
 };
 ComparisonRow row_of(const Contender& contender);
 

@@ -72,8 +72,6 @@ Json row_json(const Comparison& comparison, const Contender& c) {
             {"expanded", count_json(row.expanded)},
             {"time_s", seconds_json(row.time_s)}};
   if (row.min_clearance) json["min_clearance"] = quartiles_json(row.min_clearance);
-  if (row.turn_rad) json["turn_rad"] = quartiles_json(row.turn_rad);
-  if (row.cost) json["cost"] = quartiles_json(row.cost);
   if (row.search_s) json["search_s"] = seconds_json(row.search_s);
   return json;
 }

@@ -65,8 +65,8 @@ std::string planner_cell(const Contender& c) {
 }
 
 std::string planner_table(const Comparison& comparison, std::size_t problem, const Palette& palette) {
-  TextTable table{{"planner", "solved", "95 %", "length q1", "median", "q3", "hops", "turn", "cost", "expanded",
-                   "clearance", "time q1", "median", "q3"},
+  TextTable table{{"planner", "solved", "95 %", "length q1", "median", "q3", "hops", "expanded", "clearance", "time q1",
+                   "median", "q3"},
                   1,
                   {}};
   for (const Contender& c : comparison.contenders) {
@@ -81,10 +81,8 @@ std::string planner_table(const Comparison& comparison, std::size_t problem, con
     table.rows.push_back({planner_cell(c), fmt::format("{} of {}", row.solved, row.runs),
                           fmt::format("{:.0f} to {:.0f} %", 100.0 * row.success.low, 100.0 * row.success.high),
                           number(&Distribution::q1), number(&Distribution::median), number(&Distribution::q3),
-                          median_number(row.hops), row.turn_rad ? median_number(row.turn_rad) : "",
-                          row.cost ? median_number(row.cost) : "", median_number(row.expanded),
-                          median_number(row.min_clearance), seconds(&Distribution::q1), seconds(&Distribution::median),
-                          seconds(&Distribution::q3)});
+                          median_number(row.hops), median_number(row.expanded), median_number(row.min_clearance),
+                          seconds(&Distribution::q1), seconds(&Distribution::median), seconds(&Distribution::q3)});
   }
   return table.text(palette);
 }

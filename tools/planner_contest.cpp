@@ -92,10 +92,8 @@ std::vector<PlannerWords> contenders_of(const PlannerDeal& deal, const std::stri
   }
   std::vector<PlannerWords> all{words};
   for (const auto& [option, values] : deal.lists) {
-    std::vector<std::string> taken;
-    for (const std::string& value : values) {
-      if (!refusal(planner, option, value)) taken.push_back(value);
-    }
+    std::vector<std::string> taken = values;
+    std::erase_if(taken, [&](const std::string& value) { return refusal(planner, option, value).has_value(); });
     all = dealt(all, option, taken);
   }
   return all;
@@ -177,8 +175,6 @@ void PlannerContest::run_once(std::size_t i, std::uint64_t seed) {
                   .expanded = answer.counters.expanded};
   if (answer.verified) run.min_clearance = answer.min_clearance;
   if (answer.seconds.search > 0.0) run.search_s = answer.seconds.search;
-  run.turn_rad = answer.turn_rad;
-  run.cost = answer.cost;
   contender.search = answer.search;
   contender.options = answer.options;
   std::erase_if(contender.options, [](const auto& option) { return option.first == "queue"; });  // has a column

@@ -7,7 +7,6 @@
 #include <cstring>
 
 #include "parallel/chunks.hpp"
-#include "worlds/wall_cells.hpp"
 
 namespace warren {
 namespace {
@@ -17,7 +16,17 @@ constexpr double pieces_per_leg = 4;
 constexpr double most_free_cells = 1 << 20;  // for a path of few legs among many walls
 constexpr unsigned up = 0;
 constexpr unsigned right = 1;
-constexpr double units = 1 << CellAxis::unit_bits;  // a cell
+constexpr std::size_t block_size = 128;
+
+constexpr double magic = 6755399441055744.0;  // 1.5 * 2^52: adding it leaves no room for fractions
+[[gnu::always_inline]] inline double whole_below(double u) {
+  const double near = (u + magic) - magic;
+  return near - (near > u ? 1.0 : 0.0);
+}
+[[gnu::always_inline]] inline double whole_above(double u) {
+  const double near = (u + magic) - magic;
+  return near + (near < u ? 1.0 : 0.0);
+}
 
 /// The largest power of two that is at most x > 0.
 double power_of_two_below(double x) { return std::ldexp(1.0, std::ilogb(x)); }
@@ -34,7 +43,7 @@ PathScreen::PathScreen(const LegBoxes& legs, const Plan& plan, const Execution& 
   const double largest =
       std::max({std::abs(box.min.x), std::abs(box.min.y), std::abs(box.max.x), std::abs(box.max.y)}) * per_cell_;
   constexpr double most_units = 1125899906842624.0;  // 2^50
-  usable_ = largest * units < most_units;
+  usable_ = largest * (1 << quantum_bits) < most_units;
   if (!usable_) return;
   first_column_ = whole_below(box.min.x * per_cell_) - margin;
   first_row_ = whole_below(box.min.y * per_cell_) - margin;
@@ -153,10 +162,10 @@ void PathScreen::set(std::int32_t column, std::int32_t row, unsigned which, cons
 }
 
 void PathScreen::set_reach(double least, double r) {
-  const double reach = std::ceil(std::max(least, r * (1.0 + 1e-12)) * per_cell_ * units);
+  const double units = std::ceil(std::max(least, r * (1.0 + 1e-12)) * per_cell_ * (1 << quantum_bits));
   constexpr double most = 1 << 20;        // beyond the slow
-  reach_ = std::clamp(reach, 1.0, most);  // at least 1, because touching is never clear
-  if (!(reach <= most)) usable_ = false;
+  reach_ = std::clamp(units, 1.0, most);  // at least 1, because touching is never clear
+  if (!(units <= most)) usable_ = false;
 }
 
 /// Takes the words that it looks at from the budget; false where that doesn't do.
@@ -187,6 +196,78 @@ bool PathScreen::is_clear(const Window& w, std::size_t& budget) const {
   return true;
 }
 
+/// Walls as columns of numbers, and the cells that they cover once grown.
+struct PathScreen::Block {
+  template <class T>
+  struct Boxes {
+    alignas(64) std::array<T, block_size> x_min, y_min, x_max, y_max;
+  };
+  struct Cells {
+    alignas(64) std::array<std::int32_t, block_size> column_first, column_last, row_first, row_last;
+  };
+  /// From coordinate to cell.
+  struct Axis {
+    double per_unit, before_first, before_last, end;
+  };
+  template <class T>
+  struct Lanes {
+    static constexpr std::size_t count = 8;
+    std::array<T, count> x_min, y_min, x_max, y_max;
+  };
+
+  template <class T>
+  [[gnu::always_inline]] static inline void find_boxes(const WallOf<T>* walls, Boxes<T>& boxes) {
+    for (std::size_t i = 0; i < block_size; ++i) {
+      const WallOf<T> w = walls[i];
+      boxes.x_min[i] = w.x1 < w.x2 ? w.x1 : w.x2;
+      boxes.x_max[i] = w.x1 < w.x2 ? w.x2 : w.x1;
+      boxes.y_min[i] = w.y1 < w.y2 ? w.y1 : w.y2;
+      boxes.y_max[i] = w.y1 < w.y2 ? w.y2 : w.y1;
+    }
+  }
+
+  template <class T>
+  [[gnu::always_inline]] static inline void widen(const Boxes<T>& boxes, Lanes<T>& lanes) {
+    for (std::size_t i = 0; i < block_size; i += Lanes<T>::count) {
+      for (std::size_t k = 0; k < Lanes<T>::count; ++k) {
+        lanes.x_min[k] = boxes.x_min[i + k] < lanes.x_min[k] ? boxes.x_min[i + k] : lanes.x_min[k];
+        lanes.y_min[k] = boxes.y_min[i + k] < lanes.y_min[k] ? boxes.y_min[i + k] : lanes.y_min[k];
+        lanes.x_max[k] = boxes.x_max[i + k] > lanes.x_max[k] ? boxes.x_max[i + k] : lanes.x_max[k];
+        lanes.y_max[k] = boxes.y_max[i + k] > lanes.y_max[k] ? boxes.y_max[i + k] : lanes.y_max[k];
+      }
+    }
+  }
+
+  [[gnu::always_inline]] static inline std::int32_t cell(double units, double before, double end) {
+    const double at = units - before;
+    const double above = at > 0.0 ? at : 0.0;
+    return static_cast<std::int32_t>(above < end ? above : end) >> quantum_bits;
+  }
+
+  template <class T>
+  [[gnu::always_inline]] static inline void find_cells(const std::array<T, block_size>& low,
+                                                       const std::array<T, block_size>& high, const Axis& axis,
+                                                       std::array<std::int32_t, block_size>& first,
+                                                       std::array<std::int32_t, block_size>& last) {
+    for (std::size_t i = 0; i < block_size; ++i) {
+      first[i] = cell(whole_below(static_cast<double>(low[i]) * axis.per_unit), axis.before_first, axis.end);
+    }
+    for (std::size_t i = 0; i < block_size; ++i) {
+      last[i] = cell(whole_above(static_cast<double>(high[i]) * axis.per_unit), axis.before_last, axis.end);
+    }
+  }
+
+  template <class T>
+  [[gnu::always_inline]] static inline void work(const WallOf<T>* walls, const Axis& x, const Axis& y, Cells& cells,
+                                                 Lanes<T>& lanes) {
+    Boxes<T> boxes;
+    find_boxes(walls, boxes);
+    widen(boxes, lanes);
+    find_cells(boxes.x_min, boxes.x_max, x, cells.column_first, cells.column_last);
+    find_cells(boxes.y_min, boxes.y_max, y, cells.row_first, cells.row_last);
+  }
+};
+
 template <class Wall>
 void PathScreen::keep_all(std::span<const Wall> walls, std::size_t first_number, Rest& rest) {
   for (std::size_t i = 0; i < walls.size(); ++i) {
@@ -195,55 +276,56 @@ void PathScreen::keep_all(std::span<const Wall> walls, std::size_t first_number,
   }
 }
 
-CellAxis PathScreen::axis(double first_cell, std::int32_t count) const {
-  return {per_cell_ * units, first_cell * units + reach_, first_cell * units - reach_ + 1.0,
-          static_cast<double>(count) * units - 1.0};
-}
-
 template <class Wall>
 void PathScreen::sift_all(std::span<const Wall> walls, std::size_t first_number, Rest& rest) const {
+  using T = decltype(Wall::x1);
+  constexpr double units = 1 << quantum_bits;
+  const auto axis = [&](double first_cell, std::int32_t count) {
+    return Block::Axis{per_cell_ * units, first_cell * units + reach_, first_cell * units - reach_ + 1.0,
+                       static_cast<double>(count) * units - 1.0};
+  };
+  const typename Block::Axis x = axis(first_column_, columns_);
+  const typename Block::Axis y = axis(first_row_, rows_);
+  typename Block::Cells cells;
+  typename Block::template Lanes<T> lanes;
+  lanes.x_min.fill(std::numeric_limits<T>::infinity());
+  lanes.y_min = lanes.x_min;
+  lanes.x_max.fill(-std::numeric_limits<T>::infinity());
+  lanes.y_max = lanes.x_max;
   if (!usable_) return keep_all(walls, first_number, rest);
-  const CellAxis x = axis(first_column_, columns_);
-  const CellAxis y = axis(first_row_, rows_);
-  const WallCellWork& work = wall_cell_work();
-  WallCells cells;
-  BoxLanes<decltype(Wall::x1)> lanes;
   std::size_t budget = 65536 + 64 * walls.size();  // words of cells: for many short walls and a few long ones
-  for (std::size_t begin = 0; begin < walls.size(); begin += WallCells::size) {
-    const std::size_t count = std::min(WallCells::size, walls.size() - begin);
-    if (count == WallCells::size) {
-      work.find(&walls[begin], x, y, cells, lanes);
-    } else {
-      std::array<Wall, WallCells::size> filled;
-      filled.fill(walls.back());
-      std::copy(walls.begin() + static_cast<std::ptrdiff_t>(begin), walls.end(), filled.begin());
-      work.find(filled.data(), x, y, cells, lanes);
+  std::array<Wall, block_size> tail;
+  for (std::size_t begin = 0; begin < walls.size(); begin += block_size) {
+    const std::size_t count = std::min(block_size, walls.size() - begin);
+    const Wall* block = &walls[begin];
+    if (count < block_size) {
+      tail.fill(walls.back());
+      std::copy(walls.end() - static_cast<std::ptrdiff_t>(count), walls.end(), tail.begin());
+      block = tail.data();
     }
-    look_up(cells, count, first_number + begin, budget, rest.doubtful);
+    Block::work(block, x, y, cells, lanes);
+    std::array<std::uint32_t, block_size> doubtful;
+    std::size_t found = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const auto column = static_cast<std::uint32_t>(cells.column_first[i]);
+      const auto row = static_cast<std::uint32_t>(cells.row_first[i]);
+      const std::uint32_t wide = static_cast<std::uint32_t>(cells.column_last[i]) - column;
+      const std::uint32_t high = static_cast<std::uint32_t>(cells.row_last[i]) - row;
+      const std::uint32_t byte = bits_[column * stride_ + row / 4];
+      const std::uint32_t hit = (byte >> (2 * (row % 4) + (wide & 1))) & 1U;
+      doubtful[found] = i;
+      found += static_cast<std::size_t>((wide + high > 1) | (hit != 0));
+    }
+    for (std::size_t k = 0; k < found; ++k) {
+      const std::uint32_t i = doubtful[k];
+      const Window window{cells.column_first[i], cells.column_last[i], cells.row_first[i], cells.row_last[i]};
+      const bool small = window.column_last - window.column_first + window.row_last - window.row_first <= 1;
+      if (small || !is_clear(window, budget)) rest.doubtful.push_back(first_number + begin + i);
+    }
   }
-  rest.box.include(lanes.box());
-}
-
-/// Adds the numbers of the doubtful ones of a block to the list.
-void PathScreen::look_up(const WallCells& cells, std::size_t count, std::size_t first_number, std::size_t& budget,
-                         std::vector<std::size_t>& doubtful) const {
-  std::array<std::uint32_t, WallCells::size> open;  // not dropped by one bit
-  std::size_t found = 0;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const auto column = static_cast<std::uint32_t>(cells.column_first[i]);
-    const auto row = static_cast<std::uint32_t>(cells.row_first[i]);
-    const std::uint32_t more_columns = static_cast<std::uint32_t>(cells.column_last[i]) - column;
-    const std::uint32_t more_rows = static_cast<std::uint32_t>(cells.row_last[i]) - row;
-    const unsigned which = more_columns == 0 ? up : right;
-    const unsigned bit = (bits_[column * stride_ + row / 4] >> (2 * (row % 4) + which)) & 1U;
-    open[found] = i;
-    found += static_cast<std::size_t>(more_columns + more_rows > 1) | bit;
-  }
-  for (std::size_t k = 0; k < found; ++k) {
-    const std::uint32_t i = open[k];
-    const Window window{cells.column_first[i], cells.column_last[i], cells.row_first[i], cells.row_last[i]};
-    const bool two_cells = window.column_last - window.column_first + window.row_last - window.row_first <= 1;
-    if (two_cells || !is_clear(window, budget)) doubtful.push_back(first_number + i);
+  for (std::size_t k = 0; k < lanes.count && !walls.empty(); ++k) {
+    rest.box.include(Vec2{static_cast<double>(lanes.x_min[k]), static_cast<double>(lanes.y_min[k])});
+    rest.box.include(Vec2{static_cast<double>(lanes.x_max[k]), static_cast<double>(lanes.y_max[k])});
   }
 }
 

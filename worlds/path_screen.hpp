@@ -14,9 +14,10 @@
 //
 // Memory: 2 bits a cell, at most some 64 cells a leg. A leg costs its length in cells; a wall some vector instructions
 // and one lookup, or one for every 28 cells of the columns that it covers. Cells lie column by column, as the walls of
-// the maze generator do. Conservative: a wall that comes nearer is never dropped. Nothing is rounded inwards: lines,
-// units and the numbers of cells are exact (worlds/wall_cells). Where the path itself lies beyond 2^50 units, or the
-// reach is large, every wall is doubtful.
+// the maze generator do. Conservative: a wall that comes nearer is never dropped. Rounding: a coordinate is multiplied
+// by a power of two, which is exact, rounded down (or up) to a whole number by the magic number 1.5 * 2^52, which is
+// exact below 2^51 and monotone above, and whole numbers below 2^53 are subtracted. Where the path itself lies beyond
+// 2^50 of these units, every wall is doubtful.
 #pragma once
 
 #include <cstddef>
@@ -29,7 +30,6 @@
 #include "core/wall_set.hpp"
 #include "parallel/execution.hpp"
 #include "worlds/leg_boxes.hpp"
-#include "worlds/wall_cells.hpp"
 
 namespace warren {
 
@@ -58,6 +58,9 @@ class PathScreen {
   void sift(std::span<const DoubleWall> walls, std::size_t first_number, Rest& rest) const;
 
  private:
+  struct Block;
+
+  static constexpr int quantum_bits = 8;              ///< a cell has 2^8 units
   static constexpr std::int32_t margin = 2;           ///< empty cells around the path: what is outside falls on these
   static constexpr std::int32_t most_side = 1 << 21;  ///< cells
 
@@ -83,9 +86,6 @@ class PathScreen {
   void mark_box(const Box& box, const Stripe& stripe);
   void mark_cell(std::int32_t column, std::int32_t row, const Stripe& stripe);
   void set(std::int32_t column, std::int32_t row, unsigned which, const Stripe& stripe);
-  CellAxis axis(double first_cell, std::int32_t count) const;
-  void look_up(const WallCells& cells, std::size_t count, std::size_t first_number, std::size_t& budget,
-               std::vector<std::size_t>& doubtful) const;
   bool is_clear(const Window& window, std::size_t& budget) const;
   template <class Wall>
   static void keep_all(std::span<const Wall> walls, std::size_t first_number, Rest& rest);

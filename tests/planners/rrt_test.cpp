@@ -82,7 +82,7 @@ TEST(RrtConnect, SolvesPolyEasyForEverySeed) {
     expect_verified(scene, kite, path, {.start = easy_start, .goal = easy_goal});
     const double length = path_length(path, plane_length);
     EXPECT_LE(length, path_length(solution.path, plane_length) + 1e-12);
-    EXPECT_GE(length, 7.084470 - 1e-6);  // the shortest way of a point
+    EXPECT_GE(length, 7.0);  // straight on; the reference point is outside of the body and may cross obstacles
     best = std::min(best, length);
   }
   EXPECT_LE(best, 7.6);

@@ -87,19 +87,6 @@ TEST(ComparisonJson, HasTheKeysOfItsSchema) {
   EXPECT_EQ(json["rows"][1]["solved"], 2);
 }
 
-TEST(ComparisonJson, TurnAndCostStandWhereAPlannerGivesThem) {
-  Comparison comparison = two_planners();
-  EXPECT_FALSE(Json::parse(comparison_json(comparison))["rows"][0].contains("turn_rad"));
-  for (ComparedRun& run : comparison.contenders[1].runs) {
-    run.turn_rad = 2.5;
-    run.cost = 735.0;
-  }
-  const Json json = Json::parse(comparison_json(comparison));
-  EXPECT_EQ(json["rows"][1]["turn_rad"]["median"], 2.5);
-  EXPECT_EQ(json["rows"][1]["cost"]["median"], 735.0);
-  EXPECT_NE(comparison_summary(comparison, Palette(false)).find("  turn  cost  "), std::string::npos);
-}
-
 TEST(ComparisonJson, WhatIsNotKnownIsNull) {
   Comparison comparison = two_planners();
   for (ComparedRun& run : comparison.contenders[0].runs) run = run_of(Outcome::not_connected, 0.5, 0.0);
