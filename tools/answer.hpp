@@ -34,8 +34,9 @@ struct Answer {
   Outcome outcome = Outcome::stopped;
   std::optional<StopReason> stop_reason;  ///< only for stopped
   bool verified = false;
-  double length = 0.0;         ///< only where verified
-  double min_clearance = 0.0;  ///< room around the body along the path; only where verified
+  std::optional<Violation> refuted_by;  ///< of a path that is answered although its verification refutes it
+  double length = 0.0;                  ///< only where verified or refuted
+  double min_clearance = 0.0;           ///< room around the body along the path; only where verified
   std::optional<double> raw_length;
   bool optimal = false;            ///< proved: no shorter path exists
   std::optional<double> cost;      ///< in the planner's own units, where that is not the length

@@ -56,10 +56,16 @@ void add_outcome(Json& json, const Answer& answer) {
   json["status"] = name_of(answer.outcome);
   if (answer.stop_reason) json["stopped_by"] = stop_name(*answer.stop_reason);
   json["verified"] = answer.verified;
-  json["length"] = answer.verified ? finite(answer.length) : Json(nullptr);
-  json["min_clearance"] = answer.verified ? finite(answer.min_clearance) : Json(nullptr);
+  const bool measured = answer.verified || answer.refuted_by;
+  json["length"] = measured ? finite(answer.length) : Json(nullptr);
+  json["min_clearance"] = measured ? finite(answer.min_clearance) : Json(nullptr);
   json["raw_length"] = answer.raw_length ? finite(*answer.raw_length) : Json(nullptr);
   if (answer.optimal) json["optimal"] = true;
+  if (answer.refuted_by) {
+    json["first_violation"] = {{"leg", answer.refuted_by->leg},
+                               {"distance", finite(answer.refuted_by->distance)},
+                               {"obstacle", answer.refuted_by->obstacle}};
+  }
   if (answer.cost) json["cost"] = finite(*answer.cost);
   if (answer.turn_rad) json["turn_rad"] = finite(*answer.turn_rad);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// warren convert: any world of walls into any format that can hold it.
+// warren convert: any world into any format that can hold it.
 #include <fmt/format.h>
 
 #include "core/error.hpp"
@@ -13,7 +13,11 @@ namespace warren {
 namespace {
 
 constexpr OptionSpec specs[] = {
-    {"--output", "FILE", "where to: .walls .scene .npy .svg .png .html by ending; - is standard output", {}, "-o"},
+    {"--output",
+     "FILE",
+     "where to: .walls .scene .npy .geojson .wkt .svg .png .html by ending; - is standard output",
+     {},
+     "-o"},
 };
 
 int convert(const Arguments& arguments) {

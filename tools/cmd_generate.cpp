@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// warren generate maze: writes a maze of any size, the same for the same seed on every machine.
+// warren generate: writes a maze of any size, or any number of polygons, the same for the same seed on every machine.
 #include <fmt/format.h>
 
+#include <functional>
 #include <limits>
+#include <span>
+#include <string>
+#include <string_view>
 
 #include "core/error.hpp"
 #include "tools/command.hpp"
@@ -13,31 +17,47 @@
 #include "tools/terminal.hpp"
 #include "tools/world_files.hpp"
 #include "worlds/maze_generator.hpp"
+#include "worlds/polygon_generator.hpp"
 #include "worlds/world_io.hpp"
 
 namespace warren {
 namespace {
 
 constexpr OptionSpec specs[] = {
-    {"--output", "FILE", "where to: .walls .scene .npy .svg .png .html by ending; - is standard output", {}, "-o"},
-    {"--seed", "N", "which maze (default: 1)"},
-    {"--algorithm", "NAME", "how it is made (default: backtracker)", "backtracker kruskal prim wilson course"},
-    {"--loops", "F", "fraction of the remaining walls taken out, 0 to 1 (default: 0)"},
-    {"--unit-walls", "", "walls one cell long instead of walls as long as they go"},
+    {"--output",
+     "FILE",
+     "where to: .walls .scene .npy .geojson .wkt .svg .png .html by ending; - is standard output",
+     {},
+     "-o"},
+    {"--seed", "N", "which world (default: 1)"},
+    {"--algorithm", "NAME", "how a maze is made (default: backtracker)", "backtracker kruskal prim wilson course"},
+    {"--loops", "F", "fraction of a maze's remaining walls taken out, 0 to 1 (default: 0)"},
+    {"--unit-walls", "", "a maze's walls one cell long instead of as long as they go"},
+    {"--corners", "N", "corners of each polygon (default: 3 to 12, at random)"},
 };
 
-MazeOptions maze_options(const Arguments& arguments) {
-  if (arguments.operand(0) != "maze") {
-    throw UsageError("'" + arguments.operand(0) + "' is nothing that can be generated; did you mean maze?");
+constexpr std::string_view maze_only[] = {"--algorithm", "--loops", "--unit-walls"};
+constexpr std::string_view polygons_only[] = {"--corners"};
+
+void refuse_options(const Arguments& arguments, std::span<const std::string_view> options, std::string_view of) {
+  for (const std::string_view option : options) {
+    if (arguments.has(option)) throw UsageError(fmt::format("{}: an option of {}", option, of));
   }
+}
+
+std::uint64_t seed_of(const Arguments& arguments) {
+  const auto seed = arguments.value("--seed");
+  return seed ? count_value("--seed", *seed, 0, std::numeric_limits<std::uint64_t>::max()) : 1;
+}
+
+MazeOptions maze_options(const Arguments& arguments) {
+  refuse_options(arguments, polygons_only, "generate polygons");
   MazeOptions options = parse_maze_source("maze:" + arguments.operand(1));
   if (arguments.operand(1).find(',') != std::string::npos) {
     throw UsageError("expected ROWSxCOLS (found: '" + arguments.operand(1) +
                      "'); seed, algorithm and loops are options");
   }
-  if (const auto seed = arguments.value("--seed")) {
-    options.seed = count_value("--seed", *seed, 0, std::numeric_limits<std::uint64_t>::max());
-  }
+  options.seed = seed_of(arguments);
   if (const auto loops = arguments.value("--loops")) options.loops = number_value("--loops", *loops, 0.0, 1.0);
   if (const auto name = arguments.value("--algorithm")) {
     constexpr std::string_view words[] = {"backtracker", "kruskal", "prim", "wilson", "course"};
@@ -46,8 +66,41 @@ MazeOptions maze_options(const Arguments& arguments) {
   return options;
 }
 
+PolygonOptions polygon_options(const Arguments& arguments) {
+  constexpr std::uint64_t most = std::uint64_t{1} << 30;
+  refuse_options(arguments, maze_only, "generate maze");
+  PolygonOptions options;
+  options.count = count_value("COUNT", arguments.operand(1), 1, most);
+  options.seed = seed_of(arguments);
+  if (const auto corners = arguments.value("--corners")) {
+    options.corners = static_cast<std::uint32_t>(count_value("--corners", *corners, 3, most));
+  }
+  try {
+    options.validate();
+  } catch (const InputError& error) {
+    throw UsageError(error.what());
+  }
+  return options;
+}
+
+/// Reads the command line at once, makes the world when it is called.
+std::function<Scene(const Execution&)> generator_of(const Arguments& arguments) {
+  const std::string& what = arguments.operand(0);
+  if (what == "maze") {
+    return [options = maze_options(arguments), merged = !arguments.has("--unit-walls")](const Execution& execution) {
+      return maze_scene(options, merged, execution);
+    };
+  }
+  if (what == "polygons") {
+    return [options = polygon_options(arguments)](const Execution& execution) {
+      return polygon_scene(options, execution);
+    };
+  }
+  throw UsageError("'" + what + "' is nothing that can be generated; did you mean maze or polygons?");
+}
+
 int generate(const Arguments& arguments) {
-  const MazeOptions options = maze_options(arguments);
+  const auto make = generator_of(arguments);
   const auto file = arguments.value("--output");
   if (!file) throw UsageError("-o FILE is missing");
   check_world_file(*file);
@@ -56,7 +109,7 @@ int generate(const Arguments& arguments) {
   Scene scene;
   {
     const StageTimer timer(run.execution(), "generate", seconds);
-    scene = maze_scene(options, !arguments.has("--unit-walls"), run.execution());
+    scene = make(run.execution());
   }
   double write_seconds = 0.0;
   {
@@ -74,7 +127,8 @@ int generate(const Arguments& arguments) {
 }  // namespace
 
 Command generate_command() {
-  Command command{"generate", "maze ROWSxCOLS", "write a maze of any size", {}, generate};
+  Command command{
+      "generate", "maze|polygons ROWSxCOLS|COUNT", "write a maze of any size, or any number of polygons", {}, generate};
   add_options(command.options, specs);
   add_options(command.options, run_option_specs());
   return command;

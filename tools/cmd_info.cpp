@@ -52,7 +52,12 @@ std::vector<Fact> obstacle_facts(const Scene& scene, const WorldAccount& world, 
     const bool floats = scene.walls.holds_floats();
     facts.push_back({"held as", floats ? "float" : "double", floats ? "\"float\"" : "\"double\""});
   }
-  if (!scene.polygons.empty()) facts.push_back(count_fact("polygons", scene.polygons.size()));
+  if (!scene.polygons.empty()) {
+    facts.push_back(count_fact("polygons", scene.polygons.size()));
+    std::size_t corners = 0;
+    for (const ScenePolygon& polygon : scene.polygons) corners += polygon.corners.size();
+    facts.push_back(count_fact("corners", corners));
+  }
   if (!scene.spheres.empty()) facts.push_back(count_fact("spheres", scene.spheres.size()));
   if (const Box box = obstacle_box(scene, execution); !box.empty()) facts.push_back(box_fact("box", box));
   if (scene.bounds) facts.push_back(box_fact("bounds", *scene.bounds));

@@ -6,7 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string_view>
+#include <vector>
 
 #include "core/raw_vector.hpp"
 #include "core/types.hpp"
@@ -24,10 +26,13 @@ class Image {
   std::size_t height() const { return height_; }
   const std::uint8_t* row(std::size_t y) const { return pixels_.data() + 3 * width_ * y; }
 
-  /// A line with round ends; coordinates in pixels from the upper left corner, y down. O(pixels covered).
+  /// A line with round ends; coordinates in pixels from the upper left corner, y down. O(pixels covered + rows).
   void draw_line(Vec2 a, Vec2 b, double width, Rgb color);
+  /// The inside of an outline, by the even-odd rule, with even edges. O(pixels covered + crossed rows).
+  void fill(std::span<const Vec2> outline, Rgb color);
 
  private:
+  void fill_row(std::size_t y, std::span<std::vector<double>> crossings, std::vector<double>& cover, Rgb color);
   void blend(std::size_t x, std::size_t y, double alpha, Rgb color);
 
   std::size_t width_;

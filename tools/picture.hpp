@@ -55,12 +55,14 @@ namespace colors {
 inline constexpr Rgb paper{255, 255, 255};
 inline constexpr Rgb wall{30, 41, 59};
 inline constexpr Rgb polygon{203, 213, 225};
+inline constexpr Rgb outline{100, 116, 139};  ///< of polygons
 inline constexpr Rgb search_tree{250, 190, 96};
 inline constexpr Rgb path{225, 29, 72};
 inline constexpr Rgb start{22, 163, 74};
 inline constexpr Rgb goal{124, 58, 237};
 inline constexpr Rgb layer{147, 187, 241};         ///< a planner's lines
 inline constexpr Rgb second_layer{150, 211, 168};  ///< and others
+inline constexpr Rgb wrong{249, 115, 22};          ///< what should not be there
 /// The last is for all components that have no colour of their own.
 inline constexpr std::array<Rgb, 9> components{{{147, 187, 241},
                                                 {244, 178, 148},
@@ -76,6 +78,7 @@ inline constexpr std::array<Rgb, 9> components{{{147, 187, 241},
 /// Widths in multiples of Canvas::unit.
 namespace widths {
 inline constexpr double wall = 0.11;
+inline constexpr double outline = 0.05;
 inline constexpr double milestone = 0.16;
 inline constexpr double edge = 0.05;
 inline constexpr double search_tree = 0.07;
@@ -97,8 +100,8 @@ std::vector<std::uint8_t> component_colors(const Graph& graph);
 
 using Write = std::function<void(std::string_view)>;
 
-/// One SVG 1.1 document: layers walls, edges, milestones, search_tree, path, start and goal as groups of these ids, y
-/// up.
+/// One SVG 1.1 document: layers polygons, walls, edges, milestones, search_tree, path, start and goal as groups of
+/// these ids, y up.
 void write_svg(const Picture& picture, const Execution& execution, const Write& write);
 /// A page of its own with the SVG inline; drag moves, the wheel zooms.
 void write_html(const Picture& picture, const Execution& execution, const Write& write);

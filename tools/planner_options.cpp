@@ -85,6 +85,16 @@ StarRule star_rule_asked(const Arguments& arguments) {
   return neighbours ? StarRule::neighbours : radius ? StarRule::radius : StarRule::none;
 }
 
+SearchChoice searched_how(const Arguments& arguments) {
+  SearchChoice choices;
+  choices.search = choice<SearchKind>(arguments, "--search", search_words).value_or(SearchKind::astar);
+  choices.queue = choice<QueueKind>(arguments, "--queue", queue_words).value_or(QueueKind::heap);
+  if (const auto text = arguments.value("--seed")) {
+    choices.seed = count_value("--seed", *text, 0, std::numeric_limits<std::uint64_t>::max());
+  }
+  return choices;
+}
+
 RoadmapOptions roadmap_options(const Arguments& arguments) {
   RoadmapOptions options;
   options.samples = auto_or_count(arguments, "--samples", most_samples);
@@ -95,12 +105,11 @@ RoadmapOptions roadmap_options(const Arguments& arguments) {
     }
   }
   options.radius = auto_or_radius(arguments);
-  options.search = choice<SearchKind>(arguments, "--search", search_words).value_or(SearchKind::astar);
-  options.queue = choice<QueueKind>(arguments, "--queue", queue_words).value_or(QueueKind::heap);
+  const SearchChoice searched = searched_how(arguments);
+  options.search = searched.search;
+  options.queue = searched.queue;
+  options.seed = searched.seed;
   options.lazy = lazy_check(arguments);
-  if (const auto text = arguments.value("--seed")) {
-    options.seed = count_value("--seed", *text, 0, std::numeric_limits<std::uint64_t>::max());
-  }
   return options;
 }
 
@@ -182,6 +191,12 @@ std::string_view name_of(SamplerKind sampler) { return sampler_words[static_cast
 std::string_view name_of(SearchKind search) { return search_words[static_cast<std::size_t>(search)]; }
 
 std::span<const OptionSpec> planner_option_specs() { return specs; }
+
+SearchChoice search_choice(const Arguments& arguments) {
+  const SearchChoice choices = searched_how(arguments);
+  check_queue(arguments, choices.search);
+  return choices;
+}
 
 std::optional<PlannerKind> planner_asked(const Arguments& arguments) {
   return choice<PlannerKind>(arguments, "--planner", planner_words);

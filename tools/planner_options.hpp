@@ -44,6 +44,15 @@ std::optional<SamplerKind> sampler_asked(const Arguments& arguments);
 /// --planner --sampler --samples --neighbours --radius --search --queue --lazy --pipeline --optimise --seed
 std::span<const OptionSpec> planner_option_specs();
 
+/// How any graph is searched.
+struct SearchChoice {
+  SearchKind search = SearchKind::astar;
+  QueueKind queue = QueueKind::heap;
+  std::uint64_t seed = 1;
+};
+/// --search --queue --seed; throws UsageError for words that are none, and a queue that the search has no use for.
+SearchChoice search_choice(const Arguments& arguments);
+
 struct PlannerOptions {
   PlannerKind planner = PlannerKind::prm;
   RoadmapOptions roadmap;

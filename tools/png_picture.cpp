@@ -32,6 +32,7 @@ class PngPainter {
 
   const Image& paint() {
     constexpr double readable_roadmap = 6.0;  // pixels a unit
+    polygons();
     for (const PictureLayer& layer : picture_.layers) lines(layer);
     if (picture_.roadmap != nullptr && unit() >= readable_roadmap) roadmap();
     walls();
@@ -42,6 +43,7 @@ class PngPainter {
   }
 
  private:
+  void polygons();
   void lines(const PictureLayer& layer);
   void roadmap();
   void walls();
@@ -66,6 +68,22 @@ class PngPainter {
   Image image_;
   std::uint64_t drawn_ = 0;
 };
+
+void PngPainter::polygons() {
+  constexpr std::size_t batch = 256;
+  std::vector<Vec2> outline;
+  std::size_t drawn = 0;
+  for (const ScenePolygon& polygon : picture_.scene.polygons) {
+    if (++drawn % batch == 0) execution_.check();
+    outline.clear();
+    for (const Vec2 p : polygon.corners) outline.push_back(at(p));
+    image_.fill(outline, colors::polygon);
+    const double width = widths::outline * unit();
+    for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
+      line(polygon.corners[i], polygon.corners[i + 1 < polygon.corners.size() ? i + 1 : 0], width, colors::outline);
+    }
+  }
+}
 
 void PngPainter::lines(const PictureLayer& layer) {
   for (std::size_t i = 0; i < layer.lines.size(); ++i) {

@@ -6,6 +6,7 @@
 #include "planners/lazy_prm.hpp"
 #include "planners/prm.hpp"
 #include "planners/taut_path.hpp"
+#include "tools/plane_planners.hpp"
 #include "tools/solve_kind.hpp"
 #include "tools/verified_answer.hpp"
 #include "worlds/plane_obstacles.hpp"
@@ -16,14 +17,20 @@ namespace {
 
 constexpr std::string_view roadmap_options =
     "--sampler --samples --neighbours --radius --search --queue --lazy --pipeline --optimise";
-constexpr PlannerChoice planners[] = {{PlannerKind::prm, roadmap_options}, {PlannerKind::lazy_prm, roadmap_options}};
+constexpr PlannerChoice planners[] = {{PlannerKind::prm, roadmap_options},
+                                      {PlannerKind::lazy_prm, roadmap_options},
+                                      {PlannerKind::visibility, "--full --lazy --sampled-edges --search --queue"}};
 
 bool fits_plane(const Scene& scene, const RobotSpec& robot) {
   const bool plain = robot.kind == RobotKind::point || robot.kind == RobotKind::disc;
   return plain && scene.spheres.empty();
 }
 
-PlannerKind usual_planner(const Arguments&, const Scene&, const ProblemOptions&) { return PlannerKind::lazy_prm; }
+/// A point may touch what it goes around, unless the contrary is asked for; who keeps a distance needs room.
+PlannerKind usual_planner(const Arguments&, const Scene& scene, const ProblemOptions& problem) {
+  const double reach = clearance_of(scene, problem) + robot_of(scene, problem).radius;
+  return reach > 0.0 || problem.contact == Contact::blocked ? PlannerKind::lazy_prm : PlannerKind::visibility;
+}
 
 /// prm and lazy-prm in a polygon world.
 class SampledSolve {
@@ -73,7 +80,14 @@ Answer solve_sampled(const SolveRequest& request) {
   return std::move(solve.answer());
 }
 
-Answer solve(const SolveRequest& request) { return solve_sampled(request); }
+Answer solve(const SolveRequest& request) {
+  switch (request.planner) {
+    case PlannerKind::visibility:
+      return solve_by_visibility(request);
+    default:
+      return solve_sampled(request);
+  }
+}
 
 Verdict verify(const Scene& scene, const ProblemOptions& options, const RecordedAnswer& answer,
                const Execution& execution) {
@@ -84,7 +98,14 @@ Verdict verify(const Scene& scene, const ProblemOptions& options, const Recorded
 }  // namespace
 
 SolveKind plane_kind() {
-  return {"a point or disc among polygons", fits_plane, planners, {}, usual_planner, solve, nullptr, verify};
+  return {"a point or disc among polygons",
+          fits_plane,
+          planners,
+          plane_option_specs(),
+          usual_planner,
+          solve,
+          nullptr,
+          verify};
 }
 
 }  // namespace warren

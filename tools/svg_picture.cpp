@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "tools/picture.hpp"
+#include "worlds/plane_obstacles.hpp"
 
 namespace warren {
 namespace {
@@ -178,9 +179,14 @@ void SvgWriter::segment(Vec2 a, Vec2 b) {
 
 void SvgWriter::polygons() {
   if (picture_.scene.polygons.empty()) return;
-  fmt::format_to(std::back_inserter(text_), "<path id=\"polygons\" fill=\"{}\" d=\"", hex(colors::polygon));
+  // One path, filled where any polygon is: so all have to run the same way round.
+  fmt::format_to(std::back_inserter(text_),
+                 "<path id=\"polygons\" fill=\"{}\" stroke=\"{}\" stroke-width=\"{:.3f}\" "
+                 "stroke-linejoin=\"round\" d=\"",
+                 hex(colors::polygon), hex(colors::outline), width(widths::outline));
   for (const ScenePolygon& polygon : picture_.scene.polygons) {
-    for (std::size_t i = 0; i < polygon.corners.size(); ++i) command(i == 0 ? 'M' : 'L', frame_.at(polygon.corners[i]));
+    const std::vector<Vec2> corners = anticlockwise(polygon.corners);
+    for (std::size_t i = 0; i < corners.size(); ++i) command(i == 0 ? 'M' : 'L', frame_.at(corners[i]));
     text_ += 'Z';
     piece_ended();
   }

@@ -32,12 +32,14 @@ Scene load_world(const std::string& source, const Execution& execution, StageTim
 }
 
 void check_world_file(const std::string& file) {
-  constexpr std::array<std::string_view, 7> endings{".walls", ".scene", ".txt", ".npy", ".svg", ".png", ".html"};
+  constexpr std::array<std::string_view, 9> endings{".walls", ".scene", ".txt", ".npy", ".geojson",
+                                                    ".wkt",   ".svg",   ".png", ".html"};
   const std::string ending = ending_of(file);
   const bool device = file == "-" || file.starts_with("/dev/");
   if (!device && std::find(endings.begin(), endings.end(), ending) == endings.end()) {
-    throw UsageError("--output: a world ends in .walls, .scene, .txt, .npy, .svg, .png or .html (found: '" + file +
-                     "')");
+    throw UsageError(
+        "--output: a world ends in .walls, .scene, .txt, .npy, .geojson, .wkt, .svg, .png or .html (found: '" + file +
+        "')");
   }
   check_writable(file);
 }

@@ -84,93 +84,15 @@ std::vector<PolygonSet> checked_parts(const Scene& scene, const Execution& execu
   return parts;
 }
 
-/// Is direction p in the angle that opens anticlockwise from direction `first` to direction `last`, first included?
-/// Directions are those of points seen from `at`.
-bool in_angle(Vec2 at, Vec2 first, Vec2 last, Vec2 p) {
-  const int turn = orient2d(at, first, last);
-  const bool left_of_first = orient2d(at, first, p) > 0;
-  const bool on_first = orient2d(at, first, p) == 0 && dot(first - at, p - at) > 0.0;
-  const bool right_of_last = orient2d(at, last, p) < 0;
-  if (on_first) return true;
-  if (turn > 0) return left_of_first && right_of_last;
-  return left_of_first || right_of_last;  // half a turn or more
-}
-
-/// The part of a polygon around a point of its outline: anticlockwise from `first` to `last` is its inside.
-struct Cone {
-  Vec2 first;
-  Vec2 last;
-};
-
-/// The cones of a side's polygon at p, a point of the side.
-Cone cone_at(const PolygonIndex& polygons, std::size_t side, Vec2 p) {
-  const std::size_t polygon = polygons.polygon_of(side);
-  const std::span<const Vec2> corners = polygons.polygons()[polygon];
-  const std::size_t n = corners.size();
-  const std::size_t i = side - polygons.polygons().first[polygon];
-  const Vec2 a = corners[i];
-  const Vec2 b = corners[(i + 1) % n];
-  if (p == a) return {b, corners[(i + n - 1) % n]};
-  if (p == b) return {corners[(i + 2) % n], a};
-  return {b, a};
-}
-
-/// Finds overlaps of one polygon with those of higher number.
-class OverlapSearch {
- public:
-  explicit OverlapSearch(const PolygonIndex& polygons) : polygons_(polygons) {}
-
-  std::optional<std::size_t> partner(std::size_t polygon) const {
-    std::optional<std::size_t> lowest;
-    Box box;
-    for (const Vec2 p : polygons_.polygons()[polygon]) box.include(p);
-    polygons_.for_each_polygon_near(box, [&](std::uint32_t other) {
-      const bool of_interest = other > polygon && (!lowest || other < *lowest);
-      if (of_interest && overlap(polygon, other)) lowest = other;
-      return true;
-    });
-    return lowest;
-  }
-
- private:
-  bool overlap(std::size_t a, std::size_t b) const {
-    bool touching = false;
-    Box box_b;
-    for (const Vec2 p : polygons_.polygons()[b]) box_b.include(p);
-    const bool apart = polygons_.for_each_side_near(a, box_b, [&](std::size_t side) {
-      return polygons_.for_each_side_near(b, box_of(polygons_.side(side)), [&](std::size_t other) {
-        if (!segments_touch(polygons_.side(side), polygons_.side(other))) return true;
-        touching = true;
-        return !overlap_where_they_touch(side, other);
-      });
-    });
-    if (!apart) return true;
-    return !touching && (polygons_.side_of(b, polygons_.polygons()[a][0]) == PolygonSide::inside ||
-                         polygons_.side_of(a, polygons_.polygons()[b][0]) == PolygonSide::inside);
-  }
-
-  bool overlap_where_they_touch(std::size_t side, std::size_t other) const {
-    const Segment s = polygons_.side(side);
-    const Segment t = polygons_.side(other);
-    if (segments_cross(s, t)) return true;
-    const auto overlap_at = [&](Vec2 p) {
-      const Cone c = cone_at(polygons_, side, p);
-      const Cone d = cone_at(polygons_, other, p);
-      return in_angle(p, d.first, d.last, c.first) || in_angle(p, c.first, c.last, d.first);
-    };
-    for (const Vec2 p : {s.a, s.b}) {
-      if (on_segment(p, t) && overlap_at(p)) return true;
-    }
-    for (const Vec2 p : {t.a, t.b}) {
-      if (on_segment(p, s) && overlap_at(p)) return true;
-    }
-    return false;
-  }
-
-  const PolygonIndex& polygons_;
-};
-
 }  // namespace
+
+std::vector<Vec2> anticlockwise(const std::vector<Vec2>& corners) {
+  std::vector<Vec2> outline;
+  append_distinct(outline, corners);
+  if (outline.size() < 3 || !has_area(outline)) return corners;
+  if (runs_clockwise(outline)) std::reverse(outline.begin(), outline.end());
+  return outline;
+}
 
 std::string place_of_polygon(const Scene& scene, std::size_t polygon) {
   const std::size_t line = scene.polygons[polygon].line;
@@ -198,25 +120,6 @@ PlaneObstacles plane_obstacles(const Scene& scene, const Execution& execution) {
   });
   obstacles.bounds = scene.bounds;
   return obstacles;
-}
-
-std::optional<std::pair<std::size_t, std::size_t>> first_overlap(const PolygonIndex& polygons,
-                                                                 const Execution& execution) {
-  const OverlapSearch search(polygons);
-  const std::size_t count = polygons.polygons().size();
-  std::vector<std::optional<std::pair<std::size_t, std::size_t>>> parts(chunk_count(count, grain));
-  for_chunks(count, grain, execution, [&](Range range) {
-    for (std::size_t i = range.first; i < range.last; ++i) {
-      const auto partner = search.partner(i);
-      if (!partner) continue;
-      parts[range.first / grain] = {i, *partner};
-      return;
-    }
-  });
-  for (const auto& part : parts) {
-    if (part) return part;
-  }
-  return std::nullopt;
 }
 
 }  // namespace warren

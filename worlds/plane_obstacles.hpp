@@ -6,12 +6,11 @@
 // O(n log n) for n corners, in parallel over the polygons.
 #pragma once
 
-#include <optional>
-#include <utility>
+#include <string>
+#include <vector>
 
 #include "core/polygon.hpp"
 #include "parallel/execution.hpp"
-#include "spatial/polygon_index.hpp"
 #include "worlds/scene.hpp"
 
 namespace warren {
@@ -22,10 +21,8 @@ void check_polygons(const Scene& scene, const Execution& execution);
 /// Polygons in the scene's order, walls, bounds. Throws as check_polygons does, and for 2^32 corners.
 PlaneObstacles plane_obstacles(const Scene& scene, const Execution& execution);
 
-/// Two polygons whose open insides share a point, the lowest numbers first; none if all are apart or only touch. Exact.
-/// The cost is that of the sides of different polygons whose boxes meet.
-std::optional<std::pair<std::size_t, std::size_t>> first_overlap(const PolygonIndex& polygons,
-                                                                 const Execution& execution);
+/// The same outline without repeated corners, anticlockwise; as it is where it has no area.
+std::vector<Vec2> anticlockwise(const std::vector<Vec2>& corners);
 
 /// Where a polygon is said to be wrong: "file:line", or "file: polygon 3" (from 0) where no line is known.
 std::string place_of_polygon(const Scene& scene, std::size_t polygon);

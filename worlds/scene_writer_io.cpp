@@ -16,7 +16,7 @@ namespace warren {
 namespace {
 
 constexpr std::size_t grain = 8192;
-constexpr std::size_t batch = 64 * grain;
+constexpr std::size_t chunks_a_batch = 64;
 
 void append_number(std::string& text, double x) {
   constexpr double largest_quick = 1e9;
@@ -102,10 +102,16 @@ std::string head_of(const Scene& scene) {
   append_state(text, "start", scene.start);
   append_state(text, "goal", scene.goal);
   if (scene.grid) append_line(text, "grid", scene.grid->cell, scene.grid->angles);
-  for (const ScenePolygon& polygon : scene.polygons) append_points(text, "polygon", polygon.corners);
+  return text;
+}
+
+std::string spheres_of(const Scene& scene) {
+  std::string text;
   for (const Sphere& s : scene.spheres) append_line(text, "sphere", s.x, s.y, s.z, s.radius);
   return text;
 }
+
+void append_polygon(std::string& text, const ScenePolygon& polygon) { append_points(text, "polygon", polygon.corners); }
 
 void append_wall(std::string& text, const Segment& s) {
   for (const double x : {s.a.x, s.a.y, s.b.x}) {
@@ -116,27 +122,35 @@ void append_wall(std::string& text, const Segment& s) {
   text.push_back('\n');
 }
 
-template <class Walls>
-void write_walls(Walls walls, OutputFile& file, const Execution& execution) {
-  std::vector<std::string> parts(batch / grain);
-  for (std::size_t first = 0; first < walls.size(); first += batch) {
-    const Walls some = walls.subspan(first, std::min(batch, walls.size() - first));
-    for_chunks(some.size(), grain, execution, [&](Range r) {
-      std::string& text = parts[r.first / grain];
+/// append(text, item) writes one of `count` items' lines; a batch of chunks at a time, in their order.
+template <class Append>
+void write_items(std::size_t count, std::size_t chunk, OutputFile& file, const Execution& execution,
+                 const Append& append) {
+  std::vector<std::string> parts(chunks_a_batch);
+  for (std::size_t first = 0; first < count; first += chunks_a_batch * chunk) {
+    const std::size_t some = std::min(chunks_a_batch * chunk, count - first);
+    for_chunks(some, chunk, execution, [&](Range r) {
+      std::string& text = parts[r.first / chunk];
       text.clear();
-      for (const auto& wall : some.subspan(r.first, r.size())) append_wall(text, wall.segment());
+      for (std::size_t i = r.first; i < r.last; ++i) append(text, first + i);
     });
-    for (std::size_t c = 0; c < chunk_count(some.size(), grain); ++c) file.write(parts[c]);
+    for (std::size_t c = 0; c < chunk_count(some, chunk); ++c) file.write(parts[c]);
   }
 }
 
 }  // namespace
 
 void write_scene_text(const Scene& scene, const std::string& path, const Execution& execution) {
-  if (execution.progress != nullptr) execution.progress->begin("write", scene.walls.size());
+  if (execution.progress != nullptr) execution.progress->begin("write", scene.polygons.size() + scene.walls.size());
   OutputFile file(path, execution);
   file.write(head_of(scene));
-  scene.walls.visit([&](auto walls) { write_walls(walls, file, execution); });
+  write_items(scene.polygons.size(), grain / 16, file, execution,
+              [&](std::string& text, std::size_t i) { append_polygon(text, scene.polygons[i]); });
+  file.write(spheres_of(scene));
+  scene.walls.visit([&](auto walls) {
+    write_items(walls.size(), grain, file, execution,
+                [&](std::string& text, std::size_t i) { append_wall(text, walls[i].segment()); });
+  });
   file.commit();
 }
 

@@ -8,13 +8,17 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "worlds/geojson_io.hpp"
 #include "worlds/image_io.hpp"
 #include "worlds/maze_image_io.hpp"
 #include "worlds/micromouse_io.hpp"
 #include "worlds/moving_ai_io.hpp"
 #include "worlds/npy_io.hpp"
+#include "worlds/plane_obstacles.hpp"
+#include "worlds/ring_list_io.hpp"
 #include "worlds/ros_map_io.hpp"
 #include "worlds/scene_io.hpp"
+#include "worlds/wkt_io.hpp"
 
 namespace warren {
 namespace {
@@ -115,9 +119,15 @@ WorldFormat format_of(const InputFile& file) {
   if (bytes.starts_with("type ")) return WorldFormat::moving_ai;
   if (names_image(bytes)) return WorldFormat::ros_map;
   if (is_micromouse(bytes)) return WorldFormat::micromouse;
+  if (is_geojson(bytes)) return WorldFormat::geojson;
+  if (is_wkt(bytes)) return WorldFormat::wkt;
+  if (is_ring_list(bytes)) return WorldFormat::ring_list;
   const std::string_view name = file.name();
   if (name.ends_with(".npy")) return WorldFormat::npy;
   if (name.ends_with(".png") || name.ends_with(".pgm")) return WorldFormat::image;
+  if (name.ends_with(".geojson") || name.ends_with(".json")) return WorldFormat::geojson;
+  if (name.ends_with(".wkt")) return WorldFormat::wkt;
+  if (name.ends_with(".poly") || name.ends_with(".environment")) return WorldFormat::ring_list;
   if (name.ends_with(".map")) return WorldFormat::moving_ai;
   if (name.ends_with(".yaml") || name.ends_with(".yml")) return WorldFormat::ros_map;
   return WorldFormat::scene;
@@ -127,7 +137,9 @@ bool is_maze_source(std::string_view source) { return source.starts_with(maze_pr
 
 MazeOptions parse_maze_source(std::string_view source) { return MazeSource(source).parse(); }
 
-Scene read_scene(const InputFile& file, const Execution& execution) {
+namespace {
+
+Scene read_unchecked(const InputFile& file, const Execution& execution) {
   switch (format_of(file)) {
     case WorldFormat::scene:
       return read_scene_text(file, execution);
@@ -135,12 +147,26 @@ Scene read_scene(const InputFile& file, const Execution& execution) {
       return read_npy(file, execution);
     case WorldFormat::micromouse:
       return read_micromouse(file, execution);
+    case WorldFormat::geojson:
+      return read_geojson(file, execution);
+    case WorldFormat::wkt:
+      return read_wkt(file, execution);
+    case WorldFormat::ring_list:
+      return read_ring_list(file, execution);
     case WorldFormat::moving_ai:
     case WorldFormat::ros_map:
     case WorldFormat::image:
       break;
   }
   throw InputError(file.name(), "this is an occupancy map; expected walls, polygons or spheres");
+}
+
+}  // namespace
+
+Scene read_scene(const InputFile& file, const Execution& execution) {
+  Scene scene = read_unchecked(file, execution);
+  check_polygons(scene, execution);
+  return scene;
 }
 
 OccupancyMap read_map(const InputFile& file, const Execution& execution) {
@@ -154,6 +180,9 @@ OccupancyMap read_map(const InputFile& file, const Execution& execution) {
     case WorldFormat::scene:
     case WorldFormat::npy:
     case WorldFormat::micromouse:
+    case WorldFormat::geojson:
+    case WorldFormat::wkt:
+    case WorldFormat::ring_list:
       break;
   }
   throw InputError(file.name(), "this is no occupancy map; expected Moving AI, map server YAML, PNG or PGM");
@@ -169,9 +198,11 @@ Scene read_world(const std::string& source, const Execution& execution) {
 void write_scene(const Scene& scene, const std::string& path, const Execution& execution) {
   const std::string_view name = path;
   if (name.ends_with(".npy")) return write_npy(scene, path, execution);
+  if (name.ends_with(".geojson")) return write_geojson(scene, path, execution);
+  if (name.ends_with(".wkt")) return write_wkt(scene, path, execution);
   if (name != "-" && !name.starts_with("/dev/") && !name.ends_with(".walls") && !name.ends_with(".scene") &&
       !name.ends_with(".txt")) {
-    throw UsageError(path + ": the ending must be .walls, .scene, .txt or .npy");
+    throw UsageError(path + ": the ending must be .walls, .scene, .txt, .npy, .geojson or .wkt");
   }
   write_scene_text(scene, path, execution);
 }

@@ -15,7 +15,7 @@
 
 namespace warren {
 
-enum class WorldFormat : std::uint8_t { scene, npy, moving_ai, ros_map, image, micromouse };
+enum class WorldFormat : std::uint8_t { scene, npy, moving_ai, ros_map, image, micromouse, geojson, wkt, ring_list };
 
 /// What the content says, or where it says nothing the name's ending; text of no known kind is a scene.
 WorldFormat format_of(const InputFile& file);
@@ -31,7 +31,8 @@ bool is_maze_source(std::string_view source);
 MazeOptions parse_maze_source(std::string_view source);
 
 /// Reads or generates a world of walls, polygons and spheres; a maze has unit walls in the course's order. Throws
-/// UsageError, ReadError, InputError (also for occupancy maps, which are no scenes), Stopped.
+/// UsageError, ReadError, InputError (also for occupancy maps, which are no scenes, and for polygons that are not
+/// simple), Stopped.
 Scene read_world(const std::string& source, const Execution& execution);
 /// The same for a file that is open already.
 Scene read_scene(const InputFile& file, const Execution& execution);
@@ -39,8 +40,8 @@ Scene read_scene(const InputFile& file, const Execution& execution);
 /// Reads an occupancy map. Throws ReadError, InputError (also for scenes, which are no maps), Stopped.
 OccupancyMap read_map(const InputFile& file, const Execution& execution);
 
-/// Writes .npy, or for .walls, .scene, .txt and "-" scene text. Throws UsageError for other endings, InputError for
-/// what the format can't hold, WriteError, Stopped.
+/// Writes .npy, .geojson, .wkt, or for .walls, .scene, .txt and "-" scene text. Throws UsageError for other
+/// endings, InputError for what the format can't hold, WriteError, Stopped.
 void write_scene(const Scene& scene, const std::string& path, const Execution& execution);
 
 }  // namespace warren

@@ -139,65 +139,6 @@ TEST(PlaneObstacles, RepeatedCornersAreMergedAndAllRunAnticlockwise) {
   EXPECT_EQ(merged, (std::vector<Vec2>{{2, 0}, {2, 1}, {2, 2}, {0, 2}, {0, 0}})) << "straight corners stay";
 }
 
-/// Outlines of unions of unit squares: two overlap exactly if they have a square in common.
-struct Shape {
-  std::vector<Vec2> outline;
-  std::vector<Vec2> squares;
-};
-
-Shape shape_at(std::uint64_t seed, std::uint64_t k) {
-  const double x = std::floor(6 * uniform(seed, k, 0));
-  const double y = std::floor(6 * uniform(seed, k, 1));
-  switch (static_cast<int>(4 * uniform(seed, k, 2))) {
-    case 0:
-      return {square(x, y, 1), {{x, y}}};
-    case 1:
-      return {square(x, y, 2), {{x, y}, {x + 1, y}, {x, y + 1}, {x + 1, y + 1}}};
-    case 2:  // an L
-      return {{{x, y}, {x + 2, y}, {x + 2, y + 1}, {x + 1, y + 1}, {x + 1, y + 2}, {x, y + 2}},
-              {{x, y}, {x + 1, y}, {x, y + 1}}};
-    default:  // a U
-      return {{{x, y},
-               {x + 3, y},
-               {x + 3, y + 2},
-               {x + 2, y + 2},
-               {x + 2, y + 1},
-               {x + 1, y + 1},
-               {x + 1, y + 2},
-               {x, y + 2}},
-              {{x, y}, {x + 1, y}, {x + 2, y}, {x, y + 1}, {x + 2, y + 1}}};
-  }
-}
-
-TEST(PlaneObstacles, OverlapIsWhatSquaresInCommonSay) {
-  std::size_t overlapping = 0;
-  for (std::uint64_t seed = 0; seed < 300; ++seed) {
-    SCOPED_TRACE(seed);
-    std::vector<Shape> shapes;
-    Scene scene = scene_of({});
-    for (std::uint64_t k = 0; k < 2 + seed % 4; ++k) {
-      shapes.push_back(shape_at(seed, k));
-      std::vector<Vec2> corners = shapes.back().outline;
-      for (Vec2& p : corners) p = {p.x + 0.25 * p.y, p.y - 2 * p.x};  // sheared: sides in other directions
-      scene.polygons.push_back({corners, 0});
-    }
-    std::optional<std::pair<std::size_t, std::size_t>> plain;
-    for (std::size_t i = 0; i < shapes.size() && !plain; ++i) {
-      for (std::size_t j = i + 1; j < shapes.size() && !plain; ++j) {
-        for (const Vec2 s : shapes[i].squares) {
-          for (const Vec2 t : shapes[j].squares) {
-            if (s == t) plain = {i, j};
-          }
-        }
-      }
-    }
-    overlapping += plain ? 1 : 0;
-    EXPECT_EQ(first_overlap(PolygonIndex(plane_obstacles(scene, {}).polygons, {}), {}), plain);
-  }
-  EXPECT_GT(overlapping, 50U);
-  EXPECT_LT(overlapping, 250U);
-}
-
 TEST(PolygonGenerator, PolygonsAreSimpleAndFarFromEachOther) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     SCOPED_TRACE(seed);

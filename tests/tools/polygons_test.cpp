@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Polygon worlds through the program: made, converted, drawn, solved, verified, refused. Worlds of other people's data
+// are read where they stand, and skipped where they don't.
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/process.hpp"
+
+namespace warren::testing {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(std::vector<std::string> arguments, int code = 0) {
+  SCOPED_TRACE(shown(arguments));
+  arguments.insert(arguments.end(), {"--json", "-"});
+  const Outcome outcome = run(arguments);
+  EXPECT_EQ(outcome.code, code) << outcome.err;
+  return Json::accept(outcome.out) ? Json::parse(outcome.out) : Json();
+}
+
+const std::string two_squares =
+    "bounds -5 -5 10 10\npolygon 0 0 2 0 2 2 0 2\npolygon 2 2 2 4 4 4 4 2\nstart 1 3\ngoal 3 1\n";
+
+TEST(Polygons, AreGeneratedConvertedAndToldApart) {
+  const Folder folder;
+  const std::string scene = folder.path("a.scene");
+  ASSERT_EQ(run({"generate", "polygons", "50", "--corners", "9", "--seed", "3", "-o", scene}).code, 0);
+  const Json info = json_of({"info", scene});
+  EXPECT_EQ(info["kind"], "polygons");
+  EXPECT_EQ(info["polygons"], 50);
+  EXPECT_EQ(info["corners"], 450);
+  ASSERT_EQ(run({"convert", scene, "-o", folder.path("b.geojson")}).code, 0);
+  ASSERT_EQ(run({"convert", folder.path("b.geojson"), "-o", folder.path("c.scene")}).code, 0);
+  const Json back = json_of({"info", folder.path("c.scene")});
+  for (const char* key : {"polygons", "corners", "box", "bounds", "start", "goal"})
+    EXPECT_EQ(back[key], info[key]) << key;
+  for (const char* name : {"a.svg", "a.png", "a.html"}) {
+    EXPECT_EQ(run({"render", scene, "-o", folder.path(name)}).code, 0) << name;
+  }
+  EXPECT_NE(folder.read("a.svg").find("id=\"polygons\""), std::string::npos);
+  check({{"convert", scene, "-o", folder.path("d.wkt")}, 65, "polygons and walls alone"});
+  check({{"convert", scene, "-o", folder.path("d.npy")}, 65, "walls alone"});
+}
+
+TEST(Polygons, RoadmapPlannersSolveAndVerifyThem) {
+  const Folder folder;
+  const std::string scene = folder.path("a.scene");
+  ASSERT_EQ(run({"generate", "polygons", "40", "-o", scene}).code, 0);
+  for (const std::vector<std::string>& how :
+       std::vector<std::vector<std::string>>{{"--planner", "prm"},
+                                             {"--planner", "lazy-prm"},
+                                             {"--planner", "prm", "--optimise"},
+                                             {"--planner", "lazy-prm", "--robot", "disc 0.2", "--clearance", "0.05"}}) {
+    std::vector<std::string> arguments{"solve", scene};
+    arguments.insert(arguments.end(), how.begin(), how.end());
+    const Json answer = json_of(arguments);
+    EXPECT_EQ(answer["status"], "solved");
+    EXPECT_EQ(answer["contact"], "blocked");
+    EXPECT_EQ(answer["world"]["polygons"], 40);
+    EXPECT_GT(answer["min_clearance"], 0.0);
+    const std::string file = folder.write("answer.json", answer.dump());
+    EXPECT_EQ(json_of({"verify", scene, file})["verified"], true);
+    EXPECT_EQ(json_of({"verify", scene, file, "--clearance", "3"}, 1)["verified"], false);
+  }
+}
+
+TEST(Polygons, VerifyKnowsBothKindsOfContact) {
+  const Folder folder;
+  const std::string scene = folder.write("a.scene", two_squares);
+  const auto verdict = [&](const std::string& path, const std::string& contact, int code) {
+    const std::string file = folder.write("p.json", "{\"path\": " + path + ", \"start\": null, \"goal\": null}");
+    return json_of({"verify", scene, file, "--contact", contact, "--start", "1,3", "--goal", "3,1"}, code)["verified"];
+  };
+  const std::string around = "[[1, 3], [0, 2], [0, 0], [2, 0], [3, 1]]";
+  EXPECT_EQ(verdict(around, "allowed", 0), true);
+  EXPECT_EQ(verdict(around, "blocked", 1), false);
+  EXPECT_EQ(verdict("[[1, 3], [3, 1]]", "allowed", 1), false) << "through the common corner";
+  EXPECT_EQ(verdict("[[1, 3], [-1, 3], [-1, -1], [3, -1], [3, 1]]", "blocked", 0), true);
+}
+
+TEST(Polygons, PlacesInsideThemAreBlockedAndTouchingOnesEnclose) {
+  const Folder folder;
+  const std::string scene = folder.write("a.scene", two_squares);
+  EXPECT_EQ(json_of({"solve", scene, "--planner", "prm", "--start", "1,1"}, 1)["status"], "start_blocked");
+  EXPECT_EQ(json_of({"solve", scene, "--planner", "prm", "--goal", "2,3"}, 1)["status"], "goal_blocked");
+  EXPECT_EQ(json_of({"solve", scene, "--planner", "prm", "--goal", "9,11"}, 1)["status"], "goal_blocked");
+}
+
+TEST(Polygons, ThatAreNoneAreRefusedByEveryVerbWithFileAndLine) {
+  const Folder folder;
+  const auto refused = [&](const std::string& name, const std::string& text, std::string_view said) {
+    const std::string file = folder.write(name, text);
+    check({{"solve", file, "--start", "9,9", "--goal", "8,8"}, 65, said});
+    check({{"info", file}, 65, said});
+    check({{"convert", file, "-o", folder.path("out.scene")}, 65, said});
+  };
+  refused("a.scene", "bounds -9 -9 9 9\npolygon 0 0 1 1\n", "a.scene:2: expected `polygon X Y");
+  refused("a.scene", "bounds -9 -9 9 9\npolygon 0 0 1 1 0 0 1 1\n", "a.scene:2: this polygon has no area");
+  refused("a.scene", "polygon 0 0 1 0 0 0\n", "a.scene:1: a polygon needs at least three different corners");
+  refused("a.scene", "polygon 0 0 2 2 2 0 0 2\n", "a.scene:1: a polygon's outline must not cross or touch itself");
+  refused("a.geojson", "{\"type\": \"Polygon\", \"coordinates\": [[[0, 0], [1, 0], [0, 1]]]}",
+          "a.geojson:1: a ring needs");
+  refused("a.geojson", "{\"type\": \"Polygon\", ", "a.geojson:1: this is not JSON");
+  refused("a.wkt", "POLYGON ((0 0, 1 0, 0 1))", "a.wkt:1: a ring needs");
+  refused("a.wkt", "POLYGON (0 0, 1 0, 0 1)", "a.wkt:1: expected `(`");
+  refused("a.poly", "0 0\n1 0\n\n", "a.poly:1: a polygon needs at least three");
+  refused("a.environment", "// hi\n0 0 0\n", "a.environment:2: expected two numbers");
+  EXPECT_FALSE(std::filesystem::exists(folder.path("out.scene")));
+}
+
+TEST(Polygons, ImpossibleWordsOfGenerateAreUsageErrors) {
+  check({{"generate", "polygons", "0", "-o", "/tmp/x.scene"}, 2, "COUNT"});
+  check({{"generate", "polygons", "-5", "-o", "/tmp/x.scene"}, 2, ""});
+  check({{"generate", "polygons", "5x5", "-o", "/tmp/x.scene"}, 2, "COUNT"});
+  check({{"generate", "polygons", "5", "--corners", "2", "-o", "/tmp/x.scene"}, 2, "--corners"});
+  check({{"generate", "polygons", "5", "--loops", "0.5", "-o", "/tmp/x.scene"}, 2, "generate maze"});
+  check({{"generate", "maze", "5x5", "--corners", "4", "-o", "/tmp/x.scene"}, 2, "generate polygons"});
+  check({{"generate", "polygons", "1000000000", "--corners", "9", "-o", "/tmp/x.scene"}, 2, "2^31"});
+  check({{"generate", "spheres", "5", "-o", "/tmp/x.scene"}, 2, "maze or polygons"});
+}
+
+/// A world of the shared folder; empty where it is absent.
+std::string shared_world(const std::string& name) {
+  const std::string path = std::string(WARREN_SHARED_DIR) + "/worlds/" + name;
+  return std::filesystem::exists(path) ? path : std::string();
+}
+
+TEST(Polygons, TheReportsWorldsHaveTheirShortestPaths) {
+  const std::string sparse = shared_world("vg-sparse.scene");
+  const std::string dense = shared_world("vg-dense.scene");
+  if (sparse.empty() || dense.empty()) GTEST_SKIP() << "the shared worlds are not here";
+  const Json answer = json_of({"solve", sparse});
+  EXPECT_EQ(answer["planner"], "visibility");
+  EXPECT_EQ(answer["contact"], "allowed");
+  EXPECT_EQ(answer["optimal"], true);
+  EXPECT_EQ(answer["verified"], true);
+  EXPECT_TRUE(answer["sampler"].is_null());
+  EXPECT_NEAR(answer["length"], 1.012888384, 1e-9);
+  EXPECT_EQ(answer["roadmap"]["edges"], 31);
+  EXPECT_EQ(json_of({"solve", sparse, "--full"})["roadmap"]["edges"], 43);
+  for (const char* how : {"--full", "--lazy", "--search=dijkstra", "--queue=sorted-array"}) {
+    EXPECT_NEAR(json_of({"solve", dense, how})["length"], 1.193397743, 1e-9) << how;
+  }
+  const Json bfs = json_of({"solve", dense, "--full", "--search", "bfs"});
+  EXPECT_NEAR(bfs["length"], 2.029231, 1e-6);
+  EXPECT_FALSE(bfs.contains("optimal"));
+}
+
+TEST(Polygons, SampledEdgesAreToldWhereTheyAreWrong) {
+  const std::string dense = shared_world("vg-dense.scene");
+  if (dense.empty()) GTEST_SKIP() << "the shared worlds are not here";
+  const Json answer = json_of({"solve", dense, "--sampled-edges", "0.01"}, 1);
+  EXPECT_NEAR(answer["length"], 1.187952, 1e-6);
+  EXPECT_EQ(answer["verified"], false);
+  EXPECT_EQ(answer["roadmap"]["edges"], 271);
+  Json edges = Json::array();
+  for (const Json& wrong : answer["wrong_edges"]) edges.push_back(wrong["edge"]);
+  EXPECT_EQ(edges, Json::parse("[[1, 35], [15, 28], [20, 52]]"));
+  EXPECT_FALSE(answer["first_violation"].is_null());
+}
+
+TEST(Polygons, VisibilityGoesAroundWallsAndSaysWhereThereIsNoWay) {
+  const Folder folder;
+  const std::string scene = folder.write("a.scene", two_squares);
+  const Json answer = json_of({"solve", scene});
+  EXPECT_NEAR(answer["length"], 4 + 2 * std::sqrt(2.0), 1e-12);
+  EXPECT_EQ(json_of({"verify", scene, folder.write("b.json", answer.dump())})["verified"], true);
+  const std::string closed =
+      folder.write("c.scene",
+                   "bounds 0 0 9 9\npolygon 3 3 6 3 6 4 3 4\npolygon 3 4 4 4 4 6 3 6\npolygon 4 6 4 5 6 5 6 6\n"
+                   "polygon 6 4 6 5 5 5 5 4\nstart 1 1\ngoal 4.5 4.5\n");
+  EXPECT_EQ(json_of({"solve", closed}, 1)["status"], "infeasible");
+  EXPECT_EQ(json_of({"solve", scene, "--start", "1,1"}, 1)["status"], "start_blocked");
+  EXPECT_EQ(json_of({"solve", scene, "--start", "0,0"})["status"], "solved") << "on the outline";
+  EXPECT_NEAR(json_of({"solve", folder.write("w.walls", "0 0 0 4\nstart -1 2\ngoal 1 2\n"), "--planner", "visibility",
+                       "--start=0,1", "--goal=0,3"})["length"],
+              2.0, 1e-12)
+      << "along a wall";
+}
+
+TEST(Polygons, PlannersRefuseWhatTheyWouldIgnore) {
+  const Folder folder;
+  const std::string scene = folder.write("a.scene", two_squares);
+  check({{"solve", scene, "--samples", "50"}, 2, "visibility would ignore it"});
+  check({{"solve", scene, "--planner", "prm", "--full"}, 2, "--full: prm would ignore it"});
+  check({{"solve", scene, "--planner", "visibility", "--clearance", "0.1"}, 2, "plans for a point"});
+  check({{"solve", scene, "--planner", "visibility", "--robot", "disc 1"}, 2, "plans for a point"});
+  check({{"solve", scene, "--planner", "visibility", "--contact", "blocked"}, 2, "--contact"});
+  check({{"solve", scene, "--planner", "prm", "--contact", "allowed"}, 2, "--contact"});
+  check({{"solve", scene, "--lazy", "--full"}, 2, "--lazy"});
+  check({{"solve", scene, "--lazy", "--search", "dijkstra"}, 2, "--lazy"});
+  check({{"solve", scene, "--lazy=path"}, 2, "--lazy"});
+  check({{"solve", scene, "--sampled-edges", "0"}, 2, "--sampled-edges"});
+  check({{"solve", scene, "--search", "bfs", "--queue", "heap"}, 2, "no priority queue"});
+  check({{"solve", "maze:5x5", "--planner", "lazy-prm", "--lazy"}, 2, "WHEN is missing"});
+  EXPECT_EQ(json_of({"solve", scene, "--clearance", "0.1"})["planner"], "lazy-prm") << "who keeps away plans so";
+}
+
+TEST(Polygons, BodiesAndWorldsWithoutAPlannerAreSaidToHaveNone) {
+  const Folder folder;
+  const std::string spheres = folder.write("s.scene", "sphere 0 0 0 1\nstart 1 1\ngoal 2 2\n");
+  check({{"solve", spheres}, 2, "needs a planner that this version does not have"});
+  check({{"solve", "maze:5x5", "--planner", "nonsense"}, 2, "is none of"});
+}
+
+}  // namespace
+}  // namespace warren::testing

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The planners for a point or disc among polygons and walls, one a file solve_NAME.cpp: each resolves its options, runs
+// its method, and verifies what comes out. All take a SolveRequest and answer as SolveKind::solve does.
+#pragma once
+
+#include <span>
+
+#include "core/polygon.hpp"
+#include "tools/solve_kind.hpp"
+
+namespace warren {
+
+Answer solve_by_visibility(const SolveRequest& request);
+
+/// --full --sampled-edges
+std::span<const OptionSpec> plane_option_specs();
+
+/// The problem of a planner that plans for a point which may touch obstacles. Throws UsageError for bodies and
+/// clearances that it can't keep, and where contact is to be blocked.
+WallProblem touching_problem(const SolveRequest& request);
+
+/// Problem, planner, search and seed, as the answer repeats them.
+void describe_plane_planner(Answer& answer, const SolveRequest& request, const WallProblem& problem,
+                            const SearchChoice& search);
+
+/// The scene's obstacles for planners; the time is that of the stage `index`.
+PlaneObstacles indexed_obstacles(const SolveRequest& request, Answer& answer);
+
+}  // namespace warren

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The planner visibility: the shortest path of a point, and that it is the shortest is said. Worlds with very many
+// corners are searched lazily, unless something is asked for that needs the whole graph. With --sampled-edges the graph
+// is made as the report made it, and the answer says which of its edges are wrong.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "core/error.hpp"
+#include "core/graph.hpp"
+#include "core/search.hpp"
+#include "planners/queue_choice.hpp"
+#include "planners/sampled_visibility.hpp"
+#include "planners/visibility_path.hpp"
+#include "tools/answer_json.hpp"
+#include "tools/option_values.hpp"
+#include "tools/plane_planners.hpp"
+#include "tools/verified_answer.hpp"
+
+namespace warren {
+namespace {
+
+constexpr std::size_t most_corners_at_once = 20'000;
+
+struct VisibilityRequest {
+  VisibilityOptions options;
+  std::optional<double> sample_step;
+};
+
+bool is_best_first(SearchKind search) { return search == SearchKind::astar || search == SearchKind::dijkstra; }
+
+std::size_t corner_count(const Scene& scene) {
+  std::size_t corners = 2 * scene.walls.size();
+  for (const ScenePolygon& polygon : scene.polygons) corners += polygon.corners.size();
+  return corners;
+}
+
+VisibilityRequest options_of(const SolveRequest& request, const SearchChoice& search) {
+  const Arguments& arguments = request.arguments;
+  VisibilityRequest asked;
+  asked.options.search = search.search;
+  asked.options.queue = search.queue;
+  if (arguments.has("--full")) asked.options.edges = VisibilityEdges::full;
+  if (const auto step = arguments.value("--sampled-edges")) {
+    asked.sample_step = positive_value("--sampled-edges", *step);
+    if (arguments.has("--full")) throw UsageError("--full: --sampled-edges makes a graph of its own, of all edges");
+  }
+  const bool plain = asked.options.edges == VisibilityEdges::reduced && search.search == SearchKind::astar &&
+                     search.queue == QueueKind::heap && !asked.sample_step;
+  if (arguments.has("--lazy")) {
+    if (!arguments.value("--lazy")->empty()) throw UsageError("--lazy: takes no value with visibility");
+    if (!plain)
+      throw UsageError(
+          "--lazy: finds edges as A* needs them; --full, --sampled-edges, --search and --queue need all of them");
+    asked.options.lazy = true;
+  } else {
+    asked.options.lazy = plain && corner_count(request.scene) > most_corners_at_once;
+  }
+  return asked;
+}
+
+/// The polygons as the file has them, for edges that are told by their corners' numbers there.
+PolygonSet polygons_of(const Scene& scene) {
+  PolygonSet set;
+  for (const ScenePolygon& polygon : scene.polygons) set.add(polygon.corners);
+  return set;
+}
+
+/// Solves on the graph of sampled edges and says what is wrong with them. The path is verified like any other; what is
+/// refuted is answered as such.
+class SampledVisibilitySolve {
+ public:
+  SampledVisibilitySolve(const SolveRequest& request, const WallProblem& problem, const VisibilityRequest& asked)
+      : request_(request), problem_(problem), asked_(asked) {}
+
+  void run(Answer& answer) {
+    const Execution& execution = request_.execution;
+    const PolygonIndex polygons(polygons_of(request_.scene), execution);
+    points_ = polygons.polygons().corners;
+    points_.push_back(problem_.start);
+    points_.push_back(problem_.goal);
+    {
+      const StageTimer timer(execution, "connect", answer.seconds.connect, points_.size());
+      edges_ = sampled_visibility(polygons, problem_.start, problem_.goal, *asked_.sample_step, execution);
+    }
+    answer.roadmap = {points_.size(), edges_.size(), 0};
+    search(answer);
+    tell_wrong_edges(polygons, answer);
+    if (request_.drawing != nullptr) draw(*request_.drawing);
+    judge(answer);
+  }
+
+ private:
+  SearchResult search(const Graph& graph, VertexId start, VertexId goal) const {
+    SearchState state;
+    state.resize(graph.vertex_count());
+    if (asked_.options.search == SearchKind::bfs) return breadth_first(graph, start, goal, state);
+    if (asked_.options.search == SearchKind::dfs) return depth_first(graph, start, goal, state);
+    const auto neighbours = [&](VertexId v, const auto& visit) {
+      for (const VertexId w : graph.neighbours(v)) visit(w, distance(points_[v], points_[w]));
+    };
+    const bool informed = asked_.options.search == SearchKind::astar;
+    const auto remaining = [&](VertexId v) { return informed ? distance(points_[v], points_[goal]) : 0.0; };
+    return with_queue(asked_.options.queue, graph.vertex_count(), [&](auto& queue) {
+      return best_first(start, goal, neighbours, remaining, queue, state, NeverStop{});
+    });
+  }
+
+  void search(Answer& answer) {
+    const StageTimer timer(request_.execution, "search", answer.seconds.search);
+    const Graph graph = Graph::from_edges(points_.size(), edges_);
+    const auto goal = static_cast<VertexId>(points_.size() - 1);
+    const SearchResult found = search(graph, goal - 1, goal);
+    answer.counters.expanded = found.expanded;
+    answer.outcome = found.status == SearchStatus::found ? Outcome::solved : Outcome::not_connected;
+    for (const VertexId v : found.path) answer.path.push_back(points_[v]);
+  }
+
+  void tell_wrong_edges(const PolygonIndex& polygons, Answer& answer) {
+    constexpr std::size_t places = 4096;
+    const Box& box = polygons.box();
+    const double rounding = 1e-12 * std::max(box.width(), box.height());
+    std::string text;
+    for (const Edge& edge : edges_) {
+      request_.execution.check();
+      const double depth = depth_inside(polygons, {points_[edge.from], points_[edge.to]}, places);
+      if (depth <= rounding) continue;
+      wrong_.push_back(edge);
+      text += fmt::format("{}{{\"edge\": [{}, {}], \"depth\": {}}}", text.empty() ? "" : ", ", edge.from, edge.to,
+                          json_number(depth));
+    }
+    answer.figures.emplace_back("wrong_edges", "[" + text + "]");
+  }
+
+  void draw(Drawing& drawing) const {
+    PictureLayer all{"visibility", colors::layer, widths::edge, {}};
+    for (const Edge& edge : edges_) all.lines.add(std::array{points_[edge.from], points_[edge.to]});
+    PictureLayer wrong{"wrong_edges", colors::wrong, widths::path, {}};
+    for (const Edge& edge : wrong_) wrong.lines.add(std::array{points_[edge.from], points_[edge.to]});
+    drawing.layers.push_back(std::move(all));
+    drawing.layers.push_back(std::move(wrong));
+  }
+
+  void judge(Answer& answer) const {
+    if (answer.outcome != Outcome::solved) return;
+    const StageTimer timer(request_.execution, "verify", answer.seconds.verify);
+    const RecordedAnswer found{
+        .problem = {}, .world_hash = {}, .length = {}, .file = {}, .path = answer.path, .states = {}};
+    const Verification judged = verify_plane_answer(request_.scene, problem_, found, request_.execution).verification;
+    answer.verified = judged.verified;
+    answer.length = judged.length;
+    answer.min_clearance = judged.min_clearance;
+    answer.refuted_by = judged.first_violation;
+  }
+
+  const SolveRequest& request_;
+  const WallProblem& problem_;
+  const VisibilityRequest& asked_;
+  std::vector<Vec2> points_;  // corners in the file's order, start, goal
+  std::vector<Edge> edges_;
+  std::vector<Edge> wrong_;
+};
+
+/// One solve.
+class VisibilitySolve {
+ public:
+  VisibilitySolve(const SolveRequest& request, const WallProblem& problem, const VisibilityRequest& asked)
+      : request_(request), problem_(problem), asked_(asked) {}
+
+  void run(Answer& answer) {
+    const PlaneObstacles obstacles = indexed_obstacles(request_, answer);
+    take_solution(answer, visibility_path(obstacles, problem_.start, problem_.goal, asked_.options, request_.execution,
+                                          request_.drawing != nullptr ? &request_.drawing->roadmap : nullptr));
+    if (answer.outcome == Outcome::not_connected) answer.outcome = Outcome::infeasible;  // the graph misses no path
+    verify_solved(answer, request_.scene, problem_, request_.execution);
+    answer.optimal = answer.verified && is_best_first(asked_.options.search);
+  }
+
+ private:
+  const SolveRequest& request_;
+  const WallProblem& problem_;
+  const VisibilityRequest& asked_;
+};
+
+}  // namespace
+
+Answer solve_by_visibility(const SolveRequest& request) {
+  const WallProblem problem = touching_problem(request);
+  const SearchChoice search = search_choice(request.arguments);
+  const VisibilityRequest asked = options_of(request, search);
+  Answer answer;
+  describe_plane_planner(answer, request, problem, search);
+  if (asked.options.edges == VisibilityEdges::full) answer.options.emplace_back("full", "true");
+  if (asked.options.lazy) answer.options.emplace_back("lazy", "true");
+  if (asked.sample_step) answer.options.emplace_back("sampled_edges", json_number(*asked.sample_step));
+  answer_within_limits(answer, [&] {
+    if (asked.sample_step) return SampledVisibilitySolve(request, problem, asked).run(answer);
+    VisibilitySolve(request, problem, asked).run(answer);
+  });
+  return answer;
+}
+
+}  // namespace warren

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Lists of rings, as three kinds of files have them. Rings may be open or closed, of either orientation.
+//  - VisiLibity's .environment: lines `X Y`, each ring introduced by a line that begins with `//`. The first ring is
+//  the
+//    outer boundary: its sides are walls. The others are holes in the free space: obstacles.
+//  - A polymap: `poly`, `1`, the number of rings, then for each the number of its corners and the corners. Free is what
+//    lies inside an odd number of rings: outermost rings are walls, rings inside one of them are obstacles; islands
+//    inside an obstacle can't be reached, and are blocked.
+//  - .poly: lines `X Y`; any other line (blank, `//`, `#`, END) ends a ring. Each ring is an obstacle.
+#pragma once
+
+#include <string_view>
+
+#include "parallel/execution.hpp"
+#include "worlds/input_file_io.hpp"
+#include "worlds/scene.hpp"
+
+namespace warren {
+
+/// Does it begin as an environment or a polymap does?
+bool is_ring_list(std::string_view bytes);
+
+/// Throws InputError naming file and line, Stopped.
+Scene read_ring_list(const InputFile& file, const Execution& execution);
+
+}  // namespace warren
