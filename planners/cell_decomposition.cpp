@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planners/cell_decomposition.hpp"
+
+#include <algorithm>
+
+#include "core/geometry.hpp"
+#include "planners/cell_sweep.hpp"
+
+namespace warren {
+namespace {
+
+std::string name_of(std::size_t obstacle, std::size_t polygon_count) {
+  if (obstacle == ObstacleClash::bounds) return "the bounds";
+  if (obstacle < polygon_count) return "polygon " + std::to_string(obstacle);
+  return "wall " + std::to_string(obstacle - polygon_count);
+}
+
+std::string complaint(std::size_t obstacle, std::size_t other, std::size_t polygon_count) {
+  const std::string rule = "; vertical cells need obstacles that touch at most";
+  if (obstacle == other) return "crosses itself" + rule;
+  if (other == ObstacleClash::bounds) return "reaches out of the bounds" + rule + " their sides";
+  const bool overlap = obstacle < polygon_count && other < polygon_count;
+  return (overlap ? "overlaps " : "crosses ") + name_of(other, polygon_count) + rule;
+}
+
+}  // namespace
+
+ObstacleClash::ObstacleClash(std::size_t obstacle, std::size_t other, std::size_t polygon_count)
+    : InputError(name_of(obstacle, polygon_count), complaint(obstacle, other, polygon_count)),
+      obstacle_(obstacle),
+      other_(other) {}
+
+Graph CellDecomposition::graph(std::size_t further_vertices, std::span<const Edge> further_edges) const {
+  std::vector<Edge> edges;
+  edges.reserve(doors.size() + further_edges.size());
+  for (const Door& door : doors) {
+    if (!door.shut) edges.push_back({door.left, door.right});
+  }
+  edges.insert(edges.end(), further_edges.begin(), further_edges.end());
+  return Graph::from_edges(cells.size() + further_vertices, edges);
+}
+
+int CellDecomposition::side(std::uint32_t segment, Vec2 p) const noexcept {
+  if (segment == floor_segment) return p.y > box.min.y ? 1 : p.y < box.min.y ? -1 : 0;
+  if (segment == ceiling_segment) return p.y > box.max.y ? 1 : p.y < box.max.y ? -1 : 0;
+  return orient2d(segments[segment].a, segments[segment].b, p);
+}
+
+double CellDecomposition::height(std::uint32_t segment, double x) const noexcept {
+  if (segment == floor_segment) return box.min.y;
+  if (segment == ceiling_segment) return box.max.y;
+  const Segment& s = segments[segment];
+  const double width = s.b.x - s.a.x;
+  if (!(width > 0.0)) return x > s.a.x ? s.b.y : s.a.y;
+  const double y = s.a.y + (x - s.a.x) / width * (s.b.y - s.a.y);
+  return std::clamp(y, std::min(s.a.y, s.b.y), std::max(s.a.y, s.b.y));
+}
+
+Segment CellDecomposition::door_line(std::uint32_t door) const {
+  const Vec2 corner = corners[doors[door].corner];
+  const Vec2 far{corner.x, height(far_segment(door), corner.x)};
+  return doors[door].above ? Segment{corner, far} : Segment{far, corner};
+}
+
+std::array<Vec2, 4> CellDecomposition::outline(std::uint32_t cell) const {
+  const VerticalCell& c = cells[cell];
+  const double left = c.left == no_number ? box.min.x : corners[c.left].x;
+  const double right = c.right == no_number ? box.max.x : corners[c.right].x;
+  return {{{left, height(c.lower, left)},
+           {right, height(c.lower, right)},
+           {right, height(c.upper, right)},
+           {left, height(c.upper, left)}}};
+}
+
+CellDecomposition decompose(const PlaneObstacles& obstacles, std::span<const Vec2> points, const Execution& execution) {
+  CellSweep sweep(obstacles, points, execution);
+  sweep.run();
+  return sweep.take();
+}
+
+}  // namespace warren

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planners/cell_planner.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "core/search.hpp"
+#include "parallel/components.hpp"
+#include "planners/cell_separation.hpp"
+#include "planners/queue_choice.hpp"
+
+namespace warren {
+namespace {
+
+/// One plan: the steps share the question and fill in the solution.
+class Planning {
+ public:
+  Planning(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal, const CellOptions& options,
+           const Execution& execution)
+      : obstacles_(obstacles), start_(start), goal_(goal), options_(options), execution_(execution) {}
+
+  void run() {
+    decompose_plane();
+    if (ends_are_blocked() || share_a_cell()) return;
+    connect_cells();
+    if (!ends_are_joined()) return;
+    find_route();
+    lay_path();
+  }
+  Solution<Vec2>& solution() { return solution_; }
+  CellPlan& plan() { return plan_; }
+
+ private:
+  const CellPlace& start_place() const { return plan_.cells.places[0]; }
+  const CellPlace& goal_place() const { return plan_.cells.places[1]; }
+  VertexId start_vertex() const { return static_cast<VertexId>(plan_.cells.cells.size()); }
+  VertexId goal_vertex() const { return start_vertex() + 1; }
+
+  void decompose_plane();
+  bool ends_are_blocked();
+  bool share_a_cell();
+  void connect_cells();
+  bool ends_are_joined();
+  void find_route();
+  std::vector<VertexId> search_cells();
+  std::vector<VertexId> search_doors();
+  void follow_cells(const std::vector<VertexId>& cells);
+  void follow_doors(const std::vector<VertexId>& doors);
+  void lay_path();
+  std::uint32_t door_between(std::uint32_t cell, std::uint32_t next) const;
+  template <class Visit>
+  void for_each_door(std::uint32_t cell, const Visit& visit) const;
+
+  const PlaneObstacles& obstacles_;
+  const Vec2 start_, goal_;
+  const CellOptions& options_;
+  const Execution& execution_;
+  CellPlan plan_;
+  std::vector<std::uint32_t> middles_;  // doors whose middles the searched path joins
+  Graph graph_;
+  std::optional<DoorPoints> points_;
+  Solution<Vec2> solution_;
+};
+
+void Planning::decompose_plane() {
+  const StageTimer timer(execution_, "cells", solution_.seconds.graph, obstacles_.polygons.corners.size());
+  const std::array<Vec2, 2> ends{start_, goal_};
+  plan_.cells = decompose(obstacles_, ends, execution_);
+  solution_.roadmap.milestones = plan_.cells.cells.size();
+  solution_.roadmap.edges = plan_.cells.doors.size();
+}
+
+bool Planning::ends_are_blocked() {
+  if (!start_place().blocked && !goal_place().blocked) return false;
+  solution_.outcome = start_place().blocked ? Outcome::start_blocked : Outcome::goal_blocked;
+  return true;
+}
+
+/// Both in one convex cell, or in one point: the straight way.
+bool Planning::share_a_cell() {
+  const std::vector<VertexId>& s = start_place().cells;
+  const auto shared = std::find_first_of(s.begin(), s.end(), goal_place().cells.begin(), goal_place().cells.end());
+  if (shared == s.end() && !(start_ == goal_)) return false;
+  plan_.route = {start_, goal_, {}, {}};
+  if (shared != s.end()) plan_.route.cells.push_back(*shared);
+  solution_.outcome = Outcome::solved;
+  solution_.path = {start_, goal_};
+  return true;
+}
+
+void Planning::connect_cells() {
+  const StageTimer timer(execution_, "connect", solution_.seconds.connect, plan_.cells.doors.size());
+  std::vector<Edge> edges;
+  for (const VertexId cell : start_place().cells) edges.push_back({start_vertex(), cell});
+  for (const VertexId cell : goal_place().cells) edges.push_back({goal_vertex(), cell});
+  graph_ = plan_.cells.graph(2, edges);
+}
+
+bool Planning::ends_are_joined() {
+  const StageTimer timer(execution_, "components", solution_.seconds.connect);
+  const Components parts = components(graph_, execution_);
+  solution_.roadmap.components = parts.count;
+  if (parts.connected(start_vertex(), goal_vertex())) return true;
+  solution_.outcome = Outcome::not_connected;
+  solution_.separation = cell_separation(plan_.cells, parts, start_, goal_, execution_);
+  return false;
+}
+
+void Planning::find_route() {
+  const StageTimer timer(execution_, "search", solution_.seconds.search);
+  const bool over_cells = options_.search == SearchKind::bfs || options_.search == SearchKind::dfs;
+  plan_.route = {start_, goal_, {}, {}};
+  if (!over_cells || options_.doors == DoorKind::midpoint) points_.emplace(plan_.cells, execution_);
+  if (over_cells) {
+    follow_cells(search_cells());
+  } else {
+    follow_doors(search_doors());
+  }
+}
+
+std::vector<VertexId> Planning::search_cells() {
+  const auto should_stop = [&] { return execution_.should_stop(); };
+  SearchState state;
+  state.resize(graph_.vertex_count());
+  SearchResult found = options_.search == SearchKind::bfs
+                           ? breadth_first(graph_, start_vertex(), goal_vertex(), state, should_stop)
+                           : depth_first(graph_, start_vertex(), goal_vertex(), state, should_stop);
+  solution_.counters.expanded = found.expanded;
+  if (found.status == SearchStatus::stopped) execution_.check();
+  return std::move(found.path);
+}
+
+template <class Visit>
+void Planning::for_each_door(std::uint32_t cell, const Visit& visit) const {
+  for (const std::uint32_t door : plan_.cells.cells[cell].doors) {
+    if (door != no_number && !plan_.cells.doors[door].shut) visit(door);
+  }
+}
+
+/// Best first over the doors, start and goal behind them.
+std::vector<VertexId> Planning::search_doors() {
+  const auto count = static_cast<VertexId>(plan_.cells.doors.size());
+  const VertexId start = count;
+  const VertexId goal = count + 1;
+  std::vector<char> holds_goal(plan_.cells.cells.size(), 0);
+  for (const VertexId cell : goal_place().cells) holds_goal[cell] = 1;
+  const auto neighbours = [&](VertexId v, const auto& visit) {
+    if (v == start) {
+      for (const VertexId cell : start_place().cells) {
+        for_each_door(cell, [&](std::uint32_t d) { visit(d, distance(start_, points_->middle(d))); });
+      }
+      return;
+    }
+    const Door& door = plan_.cells.doors[v];
+    for (const std::uint32_t cell : {door.left, door.right}) {
+      for_each_door(cell, [&](std::uint32_t d) {
+        if (d != v) visit(d, points_->leg_length(v, d));
+      });
+      if (holds_goal[cell] != 0) visit(goal, distance(points_->middle(v), goal_));
+    }
+  };
+  const bool informed = options_.search == SearchKind::astar;
+  const auto estimate = [&](VertexId v) {
+    if (!informed || v == goal) return 0.0;
+    return distance(v == start ? start_ : points_->middle(v), goal_);
+  };
+  SearchState state;
+  state.resize(count + 2);
+  SearchResult found = with_queue(options_.queue, count + 2, [&](auto& queue) {
+    return best_first(start, goal, neighbours, estimate, queue, state, [&] { return execution_.should_stop(); });
+  });
+  solution_.counters.expanded = found.expanded;
+  if (found.status == SearchStatus::stopped) execution_.check();
+  return std::move(found.path);
+}
+
+std::uint32_t Planning::door_between(std::uint32_t cell, std::uint32_t next) const {
+  std::uint32_t found = no_number;
+  for_each_door(cell, [&](std::uint32_t door) {
+    if (plan_.cells.beyond(door, cell) == next) found = door;
+  });
+  return found;
+}
+
+/// cells: start's vertex, cells, goal's vertex.
+void Planning::follow_cells(const std::vector<VertexId>& cells) {
+  CellRoute& route = plan_.route;
+  route.cells.assign(cells.begin() + 1, cells.end() - 1);
+  for (std::size_t i = 1; i < route.cells.size(); ++i) {
+    route.doors.push_back(door_between(route.cells[i - 1], route.cells[i]));
+  }
+  middles_ = route.doors;
+}
+
+/// doors: start's vertex, doors, goal's vertex. A door that is reached but not passed (all legs lie in one cell) is
+/// left out, at the ends too.
+void Planning::follow_doors(const std::vector<VertexId>& doors) {
+  CellRoute& route = plan_.route;
+  middles_.assign(doors.begin() + 1, doors.end() - 1);
+  const auto holds = [](const CellPlace& place, std::uint32_t cell) {
+    return std::binary_search(place.cells.begin(), place.cells.end(), cell);
+  };
+  const std::size_t last = doors.size() - 2;
+  for (std::size_t i = 1; i <= last; ++i) {
+    const std::uint32_t door = doors[i];
+    if (i == 1) {  // if start stands in the cell beyond as well, this door need not be passed
+      const Door& d = plan_.cells.doors[door];
+      const std::uint32_t next = i < last                      ? plan_.cells.shared_cell(door, doors[i + 1])
+                                 : holds(goal_place(), d.left) ? d.left
+                                                               : d.right;
+      const std::uint32_t other = plan_.cells.beyond(door, next);
+      route.cells.push_back(holds(start_place(), next) ? next : other);
+      if (route.cells.back() == next) continue;
+    }
+    const std::uint32_t beyond = plan_.cells.beyond(door, route.cells.back());
+    if (i < last && plan_.cells.shared_cell(door, doors[i + 1]) != beyond) continue;
+    if (i == last && holds(goal_place(), route.cells.back())) continue;
+    route.doors.push_back(door);
+    route.cells.push_back(beyond);
+  }
+}
+
+void Planning::lay_path() {
+  const StageTimer timer(execution_, "path", solution_.seconds.search);
+  std::vector<Vec2>& path = solution_.path;
+  path = options_.doors == DoorKind::midpoint ? path_through_middles(start_, goal_, middles_, *points_)
+                                              : shortest_path_through(plan_.route, plan_.cells);
+  path.erase(std::unique(path.begin(), path.end()), path.end());
+  if (path.size() == 1) path.push_back(path.front());
+  solution_.outcome = Outcome::solved;
+}
+
+}  // namespace
+
+Solution<Vec2> plan_through_cells(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal, const CellOptions& options,
+                                  const Execution& execution, CellPlan* keep) {
+  Planning planning(obstacles, start, goal, options, execution);
+  try {
+    planning.run();
+  } catch (const Stopped& stopped) {
+    planning.solution().outcome = Outcome::stopped;
+    planning.solution().stop_reason = stopped.reason;
+    planning.solution().path.clear();
+  }
+  if (keep != nullptr) *keep = std::move(planning.plan());
+  return std::move(planning.solution());
+}
+
+}  // namespace warren

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Plans a point's path through vertical cells (planners/cell_decomposition.hpp): decomposes, searches for a route, and
+// lays a path through its doors.
+//
+// Breadth- and depth-first search run over the cells: fewest cells, and some cells. Dijkstra and A* run over the doors'
+// middles: the shortest of all paths that pass doors in their middles, hence never longer than what the other two find
+// with DoorKind::midpoint. With DoorKind::funnel the route is chosen in the same way and the path is the shortest one
+// through that route's cells; another route may have a shorter one. Paths may touch obstacles.
+// Time: the decomposition's, and O(cells log cells) for the search.
+#pragma once
+
+#include "core/polygon.hpp"
+#include "core/solution.hpp"
+#include "parallel/execution.hpp"
+#include "planners/cell_decomposition.hpp"
+#include "planners/cell_route.hpp"
+#include "planners/roadmap_options.hpp"
+
+namespace warren {
+
+/// Where a path passes from cell to cell: in the middle of the door, or where the shortest one does.
+enum class DoorKind : std::uint8_t { midpoint, funnel };
+
+struct CellOptions {
+  DoorKind doors = DoorKind::midpoint;
+  SearchKind search = SearchKind::astar;
+  QueueKind queue = QueueKind::heap;
+};
+
+/// What a plan leaves to be drawn or counted.
+struct CellPlan {
+  CellDecomposition cells;
+  CellRoute route;  ///< empty unless solved
+};
+
+/// Plans from start to goal for a point that may touch obstacles. Outcomes: solved; start_blocked and goal_blocked
+/// (strictly inside a polygon, or outside the bounds; without bounds, the obstacles' box); not_connected, which here
+/// means that there is no path, since the decomposition is exact; stopped. In the solution `roadmap` counts cells,
+/// doors and components of cells, `separation` the cells that start and goal can reach. Throws ObstacleClash where
+/// obstacles cross or overlap. `keep`, where given, receives cells and route. The same for any number of threads.
+Solution<Vec2> plan_through_cells(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal, const CellOptions& options,
+                                  const Execution& execution, CellPlan* keep = nullptr);
+
+}  // namespace warren
