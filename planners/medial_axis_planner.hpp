@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Plans along the medial axis (planners/medial_axis.hpp): start and goal are joined to it straight away from their
+// nearest obstacles, and the path between follows the axis, as far from all obstacles as it can be. By length: the
+// shortest way over curves that are wide enough. By clearance: of the ways whose narrowest place on the axis is as wide
+// as possible the shortest. Arcs have their exact lengths in the search and become tangents in the path (1e-4 longer).
+// Without bounds the sides of the obstacles' box count as obstacles for the axis, though not for the answer's
+// clearance.
+#pragma once
+
+#include <optional>
+
+#include "core/polygon.hpp"
+#include "core/solution.hpp"
+#include "parallel/execution.hpp"
+#include "planners/medial_axis.hpp"
+#include "planners/roadmap_options.hpp"
+
+namespace warren {
+
+enum class AxisObjective : std::uint8_t { length, clearance };
+
+struct MedialAxisOptions {
+  double clearance = 0.0;  ///< a disc of this radius; world units, >= 0 and finite
+  AxisObjective objective = AxisObjective::length;
+  SearchKind search = SearchKind::astar;  ///< breadth- and depth-first count links; `objective` then only narrows
+  QueueKind queue = QueueKind::heap;
+};
+
+/// What a plan leaves to be drawn or told.
+struct MedialAxisPlan {
+  std::optional<MedialAxis> axis;
+  double axis_clearance = 0.0;  ///< of the way along the axis, at its narrowest; only if solved
+  double axis_length = 0.0;     ///< of that way, arcs as arcs
+};
+
+/// Plans from start to goal for a point that touches nothing, or a disc. Outcomes: solved; start_blocked and
+/// goal_blocked (inside a polygon, outside the frame, or nearer to an obstacle than the clearance; with clearance 0: on
+/// one); not_connected; stopped. `roadmap` counts vertices and links that are wide enough, and their components.
+/// InputError for a clearance out of range or a world without an inside, ObstacleClash for overlapping polygons. The
+/// same for any number of threads.
+Solution<Vec2> plan_on_medial_axis(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal,
+                                   const MedialAxisOptions& options, const Execution& execution,
+                                   MedialAxisPlan* keep = nullptr);
+
+}  // namespace warren
