@@ -5,6 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
+
+#include "core/geometry.hpp"
 
 namespace warren {
 namespace {
@@ -13,6 +16,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double margin = 1e-9;          // of places: far above their rounding, far below a range's width
 constexpr double shallow = 1e-6;         // sines below this: a distance along the ray is not to be trusted
 constexpr double outwards = 1.0 + 1e-9;  // distances are rounded up by this
+constexpr double bent = 0.999;           // a chord of a range of directions, at its middle, and rounding
 
 Vec2 direction_at(double place) {
   if (place < 1.0) return {1.0 - place, place};
@@ -76,24 +80,34 @@ void NearPieces::next_epoch() {
   epoch_ = 1;
 }
 
-void NearPieces::hide_behind(Vec2 a, Vec2 b, double first, double last) {
-  constexpr double scale = static_cast<double>(directions) / 4.0;
-  if (last < first) last += 4.0;
-  if (!(last - margin > first + margin)) return;  // hides no whole direction; and below 0 there are no numbers
-  const auto begin = static_cast<std::size_t>(std::ceil((first + margin) * scale));
-  const auto end = static_cast<std::size_t>(std::floor((last - margin) * scale));
-  if (begin >= end) return;
-  const Vec2 along = b - a;
-  const double to_line = cross(a, along);
-  const double length = norm(along);
-  const double farthest = std::max(norm(a), norm(b));
-  const bool steep = std::abs(to_line) > shallow * norm(a) * length;
-  const auto distance_at = [&](std::size_t i) {
-    const double sine = cross(unit_[i % directions], along);
-    return steep && std::abs(sine) > shallow * length ? std::min(to_line / sine, farthest) : farthest;
+bool NearPieces::is_hidden(const View& v) const {
+  if (!v.steep) return false;
+  // A piece is nowhere nearer in a range than at both its borders, but for what the range bends.
+  const double least = v.to_line * bent;
+  const auto behind = [&](std::size_t i, std::size_t border) { return sight_[i] * sine(v, border) < least; };
+  for (std::size_t i = v.begin; i < v.end; ++i) {
+    if (!behind(i % directions, i) || !behind(i % directions, i + 1)) return false;
+  }
+  // Ranges that the piece's ends lie in: by its least distance.
+  const double nearest = std::sqrt(distance_sq(Vec2{}, {v.first, v.last})) * bent;
+  for (std::size_t i = v.outer_begin; i < v.begin; ++i) {
+    if (sight_[i % directions] >= nearest) return false;
+  }
+  for (std::size_t i = v.end; i < v.outer_end; ++i) {
+    if (sight_[i % directions] >= nearest) return false;
+  }
+  return true;
+}
+
+void NearPieces::hide_behind(const View& v) {
+  const double length = norm(v.last - v.first);
+  const double farthest = std::max(norm(v.first), norm(v.last));
+  const auto distance_at = [&](std::size_t border) {
+    const double s = sine(v, border);
+    return v.steep && s > shallow * length ? std::min(v.to_line / s, farthest) : farthest;
   };
-  double here = distance_at(begin);
-  for (std::size_t i = begin; i < end; ++i) {
+  double here = distance_at(v.begin);
+  for (std::size_t i = v.begin; i < v.end; ++i) {
     const double next = distance_at(i + 1);
     double& sight = sight_[i % directions];
     sight = std::min(sight, std::max(here, next) * outwards);
@@ -102,21 +116,36 @@ void NearPieces::hide_behind(Vec2 a, Vec2 b, double first, double last) {
 }
 
 void NearPieces::see(std::uint32_t piece) {
+  constexpr double scale = static_cast<double>(directions) / 4.0;
   if (piece_epoch_[piece] == epoch_) return;
   piece_epoch_[piece] = epoch_;
-  seen_.push_back(piece);
   const Segment s = pieces_.segment(piece);
-  const Vec2 a = s.a - eye_;
-  const Vec2 b = s.b - eye_;
-  const double area = cross(a, b);
-  if (!(std::abs(area) > 1e-12 * norm(a) * norm(b))) return;  // seen end on, or the eye is its end
-  const double place_a = direction_place(a);
-  const double place_b = direction_place(b);
-  if (area > 0.0) {
-    hide_behind(a, b, place_a, place_b);
-  } else {
-    hide_behind(a, b, place_b, place_a);
+  View v{s.a - eye_, s.b - eye_, 0.0, true, 0, 0, 0, 0};
+  v.to_line = cross(v.first, v.last);
+  if (v.to_line < 0.0) {
+    std::swap(v.first, v.last);
+    v.to_line = -v.to_line;
   }
+  const double size = norm(v.first) * norm(v.last);
+  if (!(v.to_line > 1e-12 * size)) {  // seen end on, or the eye is its end
+    seen_.push_back(piece);
+    return;
+  }
+  v.steep = v.to_line > shallow * norm(v.first) * norm(v.last - v.first);
+  const double first = direction_place(v.first) + 4.0;  // so that a margin before place 0 stays positive
+  double last = direction_place(v.last) + 4.0;
+  if (last < first) last += 4.0;
+  v.outer_begin = static_cast<std::size_t>((first - margin) * scale);
+  v.outer_end = static_cast<std::size_t>((last + margin) * scale) + 1;
+  v.begin = static_cast<std::size_t>(std::ceil((first + margin) * scale));
+  v.end = static_cast<std::size_t>(std::floor((last - margin) * scale));
+  if (v.begin >= v.end) {  // too narrow to hide anything
+    seen_.push_back(piece);
+    return;
+  }
+  if (is_hidden(v)) return;
+  seen_.push_back(piece);
+  hide_behind(v);
 }
 
 bool NearPieces::is_hidden(SegmentGrid::Cell cell) const {

@@ -43,9 +43,20 @@ class NearPieces {
   void open(std::span<const PlaceRange> ranges);
   void next_epoch();
   void enter(SegmentGrid::Cell cell);
+  /// A piece as seen from the eye, anticlockwise from first to last.
+  struct View {
+    Vec2 first, last;
+    double to_line;                      ///< cross(first, last) > 0
+    bool steep;                          ///< can distances along it be trusted?
+    std::size_t begin, end;              ///< ranges that it spans
+    std::size_t outer_begin, outer_end;  ///< ranges that it meets
+  };
+
   void see(std::uint32_t piece);
-  void hide_behind(Vec2 a, Vec2 b, double first, double last);
+  void hide_behind(const View& v);
+  bool is_hidden(const View& v) const;
   bool is_hidden(SegmentGrid::Cell cell) const;
+  double sine(const View& v, std::size_t border) const { return cross(unit_[border % directions], v.last - v.first); }
   void propose(SegmentGrid::Cell cell);
   void propose_beyond(SegmentGrid::Cell from);
 

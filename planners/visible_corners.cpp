@@ -138,12 +138,14 @@ void CornerSight::taut_from_vertex(VertexId v, Vec2 from, std::optional<Vec2> ex
   std::array<PlaceRange, 2> ranges{{{straight, straight}, {straight, straight}}};
   if (left) ranges[0].last = direction_place(sector.last - eye);
   if (right) ranges[1].first = direction_place(sector.first - eye);
-  const auto departure = [&](Vec2 q) {
+  // Exactly the directions of the ranges: elsewhere nothing was looked at.
+  const auto is_taut = [&](Vec2 q) {
     const int side = orient2d(from, eye, q);
-    if ((side > 0 && !left) || (side < 0 && !right)) return no_lane;
-    const Lanes lanes = lanes_in_sector(eye, sector, q);
-    return lanes != no_lane && !is_tangent(eye, sector, q) ? no_lane : lanes;
+    if (side > 0) return left && orient2d(eye, sector.last, q) <= 0;
+    if (side < 0) return right && orient2d(eye, sector.first, q) >= 0;
+    return !DirectionOrder(eye).same(from, q);
   };
+  const auto departure = [&](Vec2 q) { return is_taut(q) ? lanes_in_sector(eye, sector, q) : no_lane; };
   look(eye, ranges, SightLines::tangent, extra, departure, seen);
   std::sort(seen.begin(), seen.end());
 }

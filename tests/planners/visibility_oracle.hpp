@@ -60,7 +60,8 @@ struct Vertex {
 
 class Plane {
  public:
-  explicit Plane(const PlaneObstacles& obstacles) {
+  /// extra: further points that ways may begin and end at.
+  explicit Plane(const PlaneObstacles& obstacles, std::initializer_list<Vec2> extra = {}) {
     for (std::size_t p = 0; p < obstacles.polygons.size(); ++p) {
       rings_.emplace_back();
       for (const Vec2 c : obstacles.polygons[p]) rings_.back().push_back(point(c));
@@ -70,6 +71,7 @@ class Plane {
       if (!(w.a == w.b)) segments_.push_back({point(w.a), point(w.b)});
     }
     for (const auto& [a, b] : segments_) corners_.insert({a, b});
+    for (const Vec2 p : extra) corners_.insert(point(p));
     if (obstacles.bounds) {
       const Box b = *obstacles.bounds;
       frame_ = {point(b.min), point({b.max.x, b.min.y}), point(b.max), point({b.min.x, b.max.y})};
@@ -78,10 +80,49 @@ class Plane {
     for (const Point p : corners_) {
       const std::vector<Point> spokes = spokes_at(p);
       int free = 0;
+      if (spokes.empty()) sector_numbers_[p].push_back(is_free(scaled(p, {0, 1}, {1, 0}, ahead, aside), 1) ? 0 : -1);
       for (const Point d : spokes) {
         sector_numbers_[p].push_back(is_free(scaled(p, {0, 1}, d, ahead, aside), 1) ? free++ : -1);
       }
     }
+  }
+
+  /// Length of the shortest path; infinite if there is none.
+  double shortest(Vec2 start, Vec2 goal) const {
+    std::map<Vertex, double> far;
+    std::set<std::pair<double, Vertex>> queue;
+    for (const Vertex& v : vertices()) {
+      if (v.at == point(start)) queue.insert({far[v] = 0.0, v});
+    }
+    while (!queue.empty()) {
+      const auto [length, v] = *queue.begin();
+      if (v.at == point(goal)) return length;
+      queue.erase(queue.begin());
+      for (const Point q : corners_) {
+        for (const auto& [from, to] : ways(v.at, q)) {
+          const Vertex w{q, to};
+          const double through = length + std::hypot(q.x - v.at.x, q.y - v.at.y);
+          const auto known = far.find(w);
+          if (from != v.sector || (known != far.end() && known->second <= through)) continue;
+          if (known != far.end()) queue.erase({known->second, w});
+          queue.insert({far[w] = through, w});
+        }
+      }
+    }
+    return std::numeric_limits<double>::infinity();
+  }
+  /// Strictly inside of a polygon, or outside of the bounds.
+  bool is_blocked(Vec2 at) const {
+    const Point p = point(at);
+    const auto on_ring = [&](const std::vector<Point>& ring) {
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        if (touch(scaled(p, 1), scaled(p, 1), scaled(ring[i], 1), scaled(ring[(i + 1) % ring.size()], 1))) return true;
+      }
+      return false;
+    };
+    if (!frame_.empty() && !on_ring(frame_) && !inside(frame_, scaled(p, 1), 1)) return true;
+    return std::any_of(rings_.begin(), rings_.end(),
+                       [&](const auto& ring) { return !on_ring(ring) && inside(ring, scaled(p, 1), 1); });
   }
 
   const std::set<Point>& corners() const { return corners_; }
@@ -218,7 +259,7 @@ class Plane {
   int sector_of(Point p, Point d, int side) const {
     const std::vector<Point> spokes = spokes_at(p);
     const auto n = static_cast<int>(spokes.size());
-    int sector = n - 1;
+    int sector = std::max(0, n - 1);
     for (int i = 0; i < n; ++i) {
       const bool passed =
           side > 0 ? !before(d, spokes[static_cast<std::size_t>(i)]) : before(spokes[static_cast<std::size_t>(i)], d);
