@@ -291,16 +291,17 @@ TEST(VisibilityPath, RefusesLazyWithAnythingButReducedAStar) {
   options = lazily();
   options.search = SearchKind::bfs;
   EXPECT_THROW(visibility_path({}, {0, 0}, {1, 1}, options, {}), InputError);
+}
 
-  /// A side so short, straight to the right, that it hides no whole direction.
-  TEST(VisibilityPath, TakesSidesThatAreHardlyWiderThanAPoint) {
-    PlaneObstacles plane;
-    plane.polygons.add(std::vector<Vec2>{{1, -0.5}, {2, 0}, {1, 0.5}, {1, 1e-10}, {1, 0}});
-    plane.bounds = Box{{-1, -2}, {4, 2}};
-    const auto solution = visibility_path(plane, {0, 0}, {3, 0}, {}, {});
-    ASSERT_EQ(solution.outcome, Outcome::solved);
-    EXPECT_EQ(solution.path.size(), 3U);
-  }
+/// A side so short, straight to the right, that it hides no whole direction.
+TEST(VisibilityPath, TakesSidesThatAreHardlyWiderThanAPoint) {
+  PlaneObstacles plane;
+  plane.polygons.add(std::vector<Vec2>{{1, -0.5}, {2, 0}, {1, 0.5}, {1, 1e-10}, {1, 0}});
+  plane.bounds = Box{{-1, -2}, {4, 2}};
+  const auto solution = visibility_path(plane, {0, 0}, {3, 0}, {}, {});
+  ASSERT_EQ(solution.outcome, Outcome::solved);
+  EXPECT_EQ(solution.path.size(), 3U);
+}
 
 }  // namespace
 }  // namespace warren
