@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "planners/cell_decomposition.hpp"
 #include "tools/answer_json.hpp"
 #include "worlds/plane_obstacles.hpp"
 
@@ -14,7 +15,19 @@ constexpr OptionSpec specs[] = {
     {"--full", "", "visibility: all visible edges instead of those that shortest paths take"},
     {"--sampled-edges", "D",
      "visibility: test edges at points D apart instead of exactly, and say which edges are wrong"},
+    {"--doors", "NAME",
+     "cells: pass from cell to cell in the door's middle, or where the shortest path does (default: midpoint)",
+     "midpoint funnel"},
+    {"--objective", "NAME", "voronoi: the shortest path, or the widest and then the shortest (default: length)",
+     "length clearance"},
 };
+
+std::string obstacle_text(const Scene& scene, std::size_t number) {
+  if (number == ObstacleClash::bounds) return "the bounds";
+  if (number >= scene.polygons.size()) return fmt::format("wall {}", number - scene.polygons.size());
+  const std::size_t line = scene.polygons[number].line;
+  return line > 0 ? fmt::format("the polygon of line {}", line) : fmt::format("polygon {}", number);
+}
 
 }  // namespace
 
@@ -48,6 +61,21 @@ void describe_plane_planner(Answer& answer, const SolveRequest& request, const W
 PlaneObstacles indexed_obstacles(const SolveRequest& request, Answer& answer) {
   const StageTimer timer(request.execution, "index", answer.seconds.index, request.scene.polygons.size());
   return plane_obstacles(request.scene, request.execution);
+}
+
+Solution<Vec2> plan_without_clashes(const SolveRequest& request, const std::function<Solution<Vec2>()>& plan) {
+  try {
+    return plan();
+  } catch (const ObstacleClash& clash) {
+    const Scene& scene = request.scene;
+    const bool polygon = clash.obstacle() < scene.polygons.size();
+    throw InputError(
+        polygon ? place_of_polygon(scene, clash.obstacle()) : scene.source,
+        fmt::format("{} takes obstacles that lie apart or touch, but {} and {} cross or overlap; prm and lazy-prm take "
+                    "them, and visibility for a point",
+                    name_of(request.planner), obstacle_text(scene, clash.obstacle()),
+                    obstacle_text(scene, clash.other())));
+  }
 }
 
 }  // namespace warren

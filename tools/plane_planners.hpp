@@ -3,16 +3,20 @@
 // its method, and verifies what comes out. All take a SolveRequest and answer as SolveKind::solve does.
 #pragma once
 
+#include <functional>
 #include <span>
 
 #include "core/polygon.hpp"
+#include "core/solution.hpp"
 #include "tools/solve_kind.hpp"
 
 namespace warren {
 
 Answer solve_by_visibility(const SolveRequest& request);
+Answer solve_by_cells(const SolveRequest& request);
+Answer solve_on_medial_axis(const SolveRequest& request);
 
-/// --full --sampled-edges
+/// --full --sampled-edges --doors --objective
 std::span<const OptionSpec> plane_option_specs();
 
 /// The problem of a planner that plans for a point which may touch obstacles. Throws UsageError for bodies and
@@ -25,5 +29,8 @@ void describe_plane_planner(Answer& answer, const SolveRequest& request, const W
 
 /// The scene's obstacles for planners; the time is that of the stage `index`.
 PlaneObstacles indexed_obstacles(const SolveRequest& request, Answer& answer);
+
+/// Runs `plan`, and says it with the file's lines where obstacles clash (planners/cell_decomposition.hpp).
+Solution<Vec2> plan_without_clashes(const SolveRequest& request, const std::function<Solution<Vec2>()>& plan);
 
 }  // namespace warren

@@ -19,7 +19,9 @@ constexpr std::string_view roadmap_options =
     "--sampler --samples --neighbours --radius --search --queue --lazy --pipeline --optimise";
 constexpr PlannerChoice planners[] = {{PlannerKind::prm, roadmap_options},
                                       {PlannerKind::lazy_prm, roadmap_options},
-                                      {PlannerKind::visibility, "--full --lazy --sampled-edges --search --queue"}};
+                                      {PlannerKind::visibility, "--full --lazy --sampled-edges --search --queue"},
+                                      {PlannerKind::cells, "--doors --search --queue"},
+                                      {PlannerKind::voronoi, "--objective --search --queue"}};
 
 bool fits_plane(const Scene& scene, const RobotSpec& robot) {
   const bool plain = robot.kind == RobotKind::point || robot.kind == RobotKind::disc;
@@ -84,6 +86,10 @@ Answer solve(const SolveRequest& request) {
   switch (request.planner) {
     case PlannerKind::visibility:
       return solve_by_visibility(request);
+    case PlannerKind::cells:
+      return solve_by_cells(request);
+    case PlannerKind::voronoi:
+      return solve_on_medial_axis(request);
     default:
       return solve_sampled(request);
   }

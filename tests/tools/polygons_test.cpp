@@ -179,6 +179,51 @@ TEST(Polygons, VisibilityGoesAroundWallsAndSaysWhereThereIsNoWay) {
       << "along a wall";
 }
 
+TEST(Polygons, CellsAndAdjacenciesAreAsManyAsTheFormulasSay) {
+  const Folder folder;
+  const std::string scene = folder.path("a.scene");
+  ASSERT_EQ(run({"generate", "polygons", "40", "--corners", "11", "-o", scene}).code, 0);
+  const Json best = json_of({"solve", scene, "--planner", "cells"});
+  EXPECT_EQ(best["roadmap"]["cells"], 440 + 40 + 1);
+  EXPECT_EQ(best["roadmap"]["adjacencies"], 440 + 2 * 40);
+  EXPECT_FALSE(best.contains("optimal"));
+  EXPECT_GE(json_of({"solve", scene, "--planner", "cells", "--search", "dfs"})["length"], best["length"]);
+  const Json shortest = json_of({"solve", scene});
+  const Json funnel = json_of({"solve", scene, "--planner", "cells", "--doors", "funnel"});
+  EXPECT_GE(funnel["length"].get<double>(), shortest["length"].get<double>() * (1 - 1e-12));
+  EXPECT_LE(funnel["length"].get<double>(), best["length"].get<double>() * (1 + 1e-12));
+  EXPECT_EQ(run({"solve", scene, "--planner", "cells", "--svg", folder.path("a.svg")}).code, 0);
+  EXPECT_NE(folder.read("a.svg").find("<g id=\"cells\""), std::string::npos);
+}
+
+TEST(Polygons, TheMedialAxisKeepsAsMuchRoomAsThereIs) {
+  const Folder folder;
+  const std::string scene = folder.write("walls.scene",
+                                         "bounds 0 0 800 300\nwall 200 0 200 200\nwall 100 200 300 200\n"
+                                         "wall 400 100 400 300\nwall 600 0 600 200\nwall 500 200 700 200\n"
+                                         "start 50 50\ngoal 750 50\n");
+  const Json answer = json_of({"solve", scene, "--planner", "voronoi", "--svg", folder.path("a.svg")});
+  EXPECT_NEAR(answer["length"], 1570.7, 15.7);
+  EXPECT_NEAR(answer["min_clearance"], 50.0, 1e-9);
+  EXPECT_EQ(answer["contact"], "blocked");
+  EXPECT_NE(folder.read("a.svg").find("<g id=\"medial_axis\""), std::string::npos);
+  EXPECT_EQ(json_of({"solve", scene, "--planner", "voronoi", "--clearance", "49.99"})["status"], "solved");
+  EXPECT_NE(json_of({"solve", scene, "--planner", "voronoi", "--clearance", "50.01"}, 1)["status"], "solved");
+  EXPECT_NEAR(json_of({"solve", scene, "--planner", "visibility"})["length"], 999.0705, 1e-4);
+}
+
+TEST(Polygons, ThatOverlapAreTakenByAllButCellsAndVoronoi) {
+  const Folder folder;
+  const std::string scene = folder.write(
+      "a.scene", "bounds -5 -5 10 10\npolygon 0 0 2 0 2 2 0 2\npolygon 1 1 3 1 3 3 1 3\nstart -1 3\ngoal 4 1\n");
+  for (const char* planner : {"prm", "lazy-prm", "visibility"}) {
+    EXPECT_EQ(json_of({"solve", scene, "--planner", planner})["status"], "solved") << planner;
+  }
+  for (const char* planner : {"cells", "voronoi"}) {
+    check({{"solve", scene, "--planner", planner}, 65, "the polygon of line 3"});
+  }
+}
+
 TEST(Polygons, PlannersRefuseWhatTheyWouldIgnore) {
   const Folder folder;
   const std::string scene = folder.write("a.scene", two_squares);

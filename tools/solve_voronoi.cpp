@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The planner voronoi: along the medial axis, as far from all obstacles as a path can be. min_clearance of the answer
+// is measured on the path by the verification.
+#include <array>
+
+#include "core/error.hpp"
+#include "planners/medial_axis_planner.hpp"
+#include "tools/answer_json.hpp"
+#include "tools/option_values.hpp"
+#include "tools/plane_planners.hpp"
+#include "tools/verified_answer.hpp"
+
+namespace warren {
+namespace {
+
+constexpr std::array<std::string_view, 2> objective_words{"length", "clearance"};
+
+MedialAxisOptions options_of(const SolveRequest& request, const WallProblem& problem, const SearchChoice& search) {
+  constexpr double planning_room = 1 + 1e-9;  // so that rounding can't fail the verification
+  MedialAxisOptions options;
+  options.clearance = problem.reach() * planning_room;
+  options.search = search.search;
+  options.queue = search.queue;
+  if (const auto objective = request.arguments.value("--objective")) {
+    options.objective = static_cast<AxisObjective>(choice_value("--objective", *objective, objective_words));
+  }
+  return options;
+}
+
+void draw(const MedialAxis& axis, Drawing& drawing) {
+  PictureLayer layer{"medial_axis", colors::layer, widths::search_tree, {}};
+  std::vector<Vec2> points;
+  for (const AxisEdge& edge : axis.edges()) {
+    points.assign(1, axis.vertices()[edge.from]);
+    axis.curve(edge).append_polyline(points);
+    layer.lines.add(points);
+  }
+  drawing.layers.push_back(std::move(layer));
+}
+
+}  // namespace
+
+Answer solve_on_medial_axis(const SolveRequest& request) {
+  if (request.problem.contact == Contact::allowed) {
+    throw UsageError("--contact: voronoi keeps off the obstacles, so 'allowed' would change nothing");
+  }
+  const WallProblem problem = wall_problem(request.scene, request.problem);
+  const SearchChoice search = search_choice(request.arguments);
+  const MedialAxisOptions options = options_of(request, problem, search);
+  Answer answer;
+  describe_plane_planner(answer, request, problem, search);
+  answer.options.emplace_back("objective", json_string(objective_words[static_cast<std::size_t>(options.objective)]));
+  answer_within_limits(answer, [&] {
+    const PlaneObstacles obstacles = indexed_obstacles(request, answer);
+    MedialAxisPlan plan;
+    take_solution(answer, plan_without_clashes(request, [&] {
+                    return plan_on_medial_axis(obstacles, problem.start, problem.goal, options, request.execution,
+                                               &plan);
+                  }));
+    settle_blocked_ends(answer, request.scene, problem, request.execution);
+    if (answer.outcome == Outcome::solved) {
+      answer.figures.emplace_back("axis_length", json_number(plan.axis_length));
+      answer.figures.emplace_back("axis_clearance", json_number(plan.axis_clearance));
+    }
+    if (request.drawing != nullptr && plan.axis) draw(*plan.axis, *request.drawing);
+    verify_solved(answer, request.scene, problem, request.execution);
+  });
+  return answer;
+}
+
+}  // namespace warren
