@@ -42,6 +42,13 @@ std::string usual_graph_planner(const Scene& scene, const Arguments& arguments) 
 
 WorldGraph world_graph(const Scene& scene, const Arguments& arguments, const Execution& execution) {
   const ProblemOptions problem = problem_options(arguments);
+  const RobotKind robot = robot_of(scene, problem).kind;
+  if (robot != RobotKind::point && robot != RobotKind::disc) {
+    throw UsageError(
+        fmt::format("{}: searches are compared on graphs in the plane, and a {} has states of its own; "
+                    "--planners compares its planners",
+                    scene.source, kind_name(robot)));
+  }
   const ChosenSolver solver = choose_solver(arguments, scene, problem);
   WorldGraph made = roadmap_graph({arguments, scene, problem, solver.planner, execution}, solver);
   made.graph.source = scene.source;

@@ -83,6 +83,18 @@ TEST(Compare, ARoadmapAmongPolygonsIsSearchedToo) {
   EXPECT_GT(json["rows"][1]["length"]["median"], 8.5) << "straight ahead stand two polygons";
 }
 
+TEST(Compare, BodiesThatTurnHavePlannersToCompareAndNoPlaneGraph) {
+  const Folder folder;
+  const std::string world =
+      folder.write("a.scene",
+                   "polygon 3 1 5 1 5 6 3 6\nbounds 0 0 10 10\n"
+                   "robot polygon -0.5 -0.2 0.5 -0.2 0.5 0.2 -0.5 0.2\nstart 1 5 0\ngoal 9 5 0\n");
+  check({{"compare", world, "--searches", "bfs"}, 2, "graphs in the plane"});
+  const Json json = compared(world + " --planners rrt-connect --seeds 3");
+  EXPECT_EQ(json["rows"][0]["solved"], 3);
+  EXPECT_TRUE(json["rows"][0].contains("turn_rad"));
+}
+
 TEST(Compare, OfTheSummaryEverySearchHasALine) {
   const ProgramRun run = run_program("compare maze:9x9 --trials 2 --color never --progress none");
   EXPECT_EQ(run.exit_code, 0);
