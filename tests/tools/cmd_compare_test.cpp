@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -81,6 +82,26 @@ TEST(Compare, ARoadmapAmongPolygonsIsSearchedToo) {
   EXPECT_EQ(json["rows"][1]["planner"], "prm");
   EXPECT_EQ(json["rows"][1]["options"]["samples"], 400);
   EXPECT_GT(json["rows"][1]["length"]["median"], 8.5) << "straight ahead stand two polygons";
+}
+
+TEST(Compare, TheVisibilityGraphOfTheReportHasItsFigures) {
+  const std::string world = std::string{WARREN_SHARED_DIR} + "/worlds/vg-dense.scene";
+  if (!std::filesystem::exists(world)) GTEST_SKIP() << world << " is not here";
+  const Json json = compared(world + " --full --trials 3");
+  ASSERT_EQ(json["rows"].size(), 12U);
+  for (const Json& row : json["rows"]) {
+    SCOPED_TRACE(name_of_row(row));
+    EXPECT_EQ(row["planner"], "visibility");
+    EXPECT_EQ(row["problem"]["vertices"], 54);
+    const double length = row["length"]["median"];
+    if (row["search"] == "bfs") {
+      EXPECT_NEAR(length, 2.029231, 1e-6);
+      EXPECT_EQ(row["hops"], 4);
+    } else if (row["search"] != "dfs") {
+      EXPECT_NEAR(length, 1.193397743, 1e-9);
+      EXPECT_EQ(row["expanded"], row["search"] == "astar" ? 20 : 51);
+    }
+  }
 }
 
 TEST(Compare, BodiesThatTurnHavePlannersToCompareAndNoPlaneGraph) {
