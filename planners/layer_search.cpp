@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// States are numbered (j width + i) angles + k, and one more number stands for "the goal at any heading": an edge of
+// length 0 leads to it from each state at the goal's position.
+#include "planners/layer_search.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "core/error.hpp"
+#include "core/search_queues.hpp"
+#include "spatial/free_cells.hpp"
+
+namespace warren {
+namespace {
+
+/// The layers as a search asks for them.
+class LayerSteps {
+ public:
+  LayerSteps(const HeadingLayers& layers, const LayerSearchOptions& options)
+      : layers_(layers), face_motion_(options.face_motion), turn_cost_(options.turn_cost) {
+    const double diagonal = options.step_cost * (options.diagonal == Diagonal::sqrt2 ? std::numbers::sqrt2 : 1.0);
+    for (unsigned s = 0; s < cell_steps.size(); ++s) {
+      costs_[s] = is_diagonal(s) ? diagonal : options.step_cost;
+      const bool allowed = !is_diagonal(s) || options.diagonal != Diagonal::none;
+      if (allowed) steps_.push_back(s);
+    }
+    list_headings();
+  }
+
+  double cost(unsigned step) const { return costs_[step]; }
+  const std::vector<unsigned>& steps() const { return steps_; }
+  const std::vector<unsigned>& steps_at(std::uint32_t k) const { return face_motion_ ? steps_facing_[k] : steps_; }
+
+  /// May the body go from s by this step?
+  bool may_step(const LayerState& s, unsigned step) const {
+    const auto [dx, dy] = cell_steps[step];
+    const auto i = static_cast<std::uint32_t>(static_cast<std::int64_t>(s.i) + dx);  // wraps below 0: beyond the width
+    const auto j = static_cast<std::uint32_t>(static_cast<std::int64_t>(s.j) + dy);
+    if (i >= layers_.width || j >= layers_.height || !layers_.is_free(i, j, s.k)) return false;
+    if (layers_.moving.empty()) return true;
+    const Forward forward = forward_of[step];
+    const std::uint32_t bitmap = layers_.moving[s.k][forward.step];
+    return forward.backwards ? !layers_.bitmaps[bitmap].test(i, j) : !layers_.bitmaps[bitmap].test(s.i, s.j);
+  }
+  bool may_turn(const LayerState& s, std::uint32_t to) const {
+    if (!layers_.is_free(s.i, s.j, to)) return false;
+    if (layers_.turning.empty()) return true;
+    const std::uint32_t lower = next(s.k) == to ? s.k : to;
+    return !layers_.bitmaps[layers_.turning[lower]].test(s.i, s.j);
+  }
+  std::uint32_t next(std::uint32_t k) const { return k + 1 == layers_.angles ? 0 : k + 1; }
+  std::uint32_t previous(std::uint32_t k) const { return k == 0 ? layers_.angles - 1 : k - 1; }
+  double turn_cost() const { return turn_cost_; }
+  const HeadingLayers& layers() const { return layers_; }
+
+ private:
+  struct Forward {
+    unsigned step;  // of HeadingLayers::steps
+    bool backwards;
+  };
+  static constexpr std::array<Forward, 8> forward_of{
+      {{2, true}, {1, true}, {3, true}, {0, true}, {0, false}, {3, false}, {1, false}, {2, false}}};
+
+  /// At which headings each step faces its direction: eighths of a full turn.
+  void list_headings() {
+    steps_facing_.resize(layers_.angles);
+    constexpr std::array<unsigned, 8> eighth{5, 6, 7, 4, 0, 3, 2, 1};
+    for (const unsigned s : steps_) {
+      if (std::uint64_t{eighth[s]} * layers_.angles % 8 == 0) {
+        steps_facing_[std::uint64_t{eighth[s]} * layers_.angles / 8].push_back(s);
+      }
+    }
+  }
+
+  const HeadingLayers& layers_;
+  bool face_motion_;
+  double turn_cost_;
+  std::array<double, 8> costs_{};
+  std::vector<unsigned> steps_;
+  std::vector<std::vector<unsigned>> steps_facing_;
+};
+
+/// What is left to pay at least from each position: a Dijkstra from the goal over positions free at some heading.
+std::vector<double> plane_costs(const LayerSteps& steps, Cell goal, const Execution& execution) {
+  const HeadingLayers& layers = steps.layers();
+  const std::size_t positions = std::size_t{layers.width} * layers.height;
+  execution.reserve(positions * sizeof(double));
+  Bitmap free(layers.width, layers.height);
+  for (std::uint32_t k = 0; k < layers.angles; ++k) {
+    const Bitmap& blocked = layers.bitmaps[layers.standing[k]];
+    for (std::uint32_t j = 0; j < layers.height; ++j) {
+      const auto to = free.row(j);
+      const auto from = blocked.row(j);
+      for (std::size_t w = 0; w < to.size(); ++w) to[w] |= ~from[w];
+    }
+  }
+  std::vector<double> costs(positions, std::numeric_limits<double>::infinity());
+  BucketQueue queue;
+  const auto reach = [&](std::uint32_t i, std::uint32_t j, double cost) {
+    const std::size_t v = std::size_t{j} * layers.width + i;
+    if (!free.test(i, j) || cost >= costs[v]) return;
+    costs[v] = cost;
+    queue.push(static_cast<VertexId>(v), cost);
+  };
+  reach(goal.x, goal.y, 0.0);
+  for (std::uint64_t expanded = 1; !queue.empty(); ++expanded) {
+    const QueueEntry top = queue.pop();
+    if (top.key > costs[top.vertex]) continue;
+    if (expanded % expansions_per_poll == 0) execution.check();
+    const std::int64_t i = top.vertex % layers.width;
+    const std::int64_t j = top.vertex / layers.width;
+    for (const unsigned s : steps.steps()) {
+      const std::int64_t to_i = i - cell_steps[s][0];
+      const std::int64_t to_j = j - cell_steps[s][1];
+      if (to_i < 0 || to_j < 0 || to_i >= layers.width || to_j >= layers.height) continue;
+      reach(static_cast<std::uint32_t>(to_i), static_cast<std::uint32_t>(to_j), top.key + steps.cost(s));
+    }
+  }
+  return costs;
+}
+
+/// One search: numbers of states, neighbours, heuristic.
+class LayerAStar {
+ public:
+  LayerAStar(const LayerSteps& steps, Cell goal, std::optional<std::uint32_t> goal_heading, const Execution& execution)
+      : steps_(steps),
+        layers_(steps.layers()),
+        goal_(goal),
+        goal_heading_(goal_heading),
+        execution_(execution),
+        plane_costs_(plane_costs(steps, goal, execution)) {}
+
+  SearchResult find(const LayerState& start) {
+    constexpr std::size_t bytes_a_state = 12;
+    execution_.reserve((layers_.states() + 1) * bytes_a_state);
+    SearchState state;
+    state.resize(layers_.states() + 1);
+    BucketQueue queue(steps_.turn_cost());
+    const auto neighbours = [&](VertexId v, const auto& visit) { visit_neighbours(v, visit); };
+    const auto heuristic = [&](VertexId v) { return at_least(v); };
+    return best_first(number(start), goal_number(), neighbours, heuristic, queue, state,
+                      [&] { return execution_.should_stop(); });
+  }
+
+  /// Is there no way to the goal's position even for a body that is free wherever some heading is?
+  bool is_hopeless(const LayerState& start) const { return std::isinf(at_least(number(start))); }
+
+  LayerState state_of(VertexId v) const {
+    const VertexId position = v / layers_.angles;
+    return {position % layers_.width, position / layers_.width, v % layers_.angles};
+  }
+  VertexId any_heading() const { return static_cast<VertexId>(layers_.states()); }
+
+ private:
+  VertexId number(const LayerState& s) const {
+    return static_cast<VertexId>((std::uint64_t{s.j} * layers_.width + s.i) * layers_.angles + s.k);
+  }
+  VertexId goal_number() const { return goal_heading_ ? number({goal_.x, goal_.y, *goal_heading_}) : any_heading(); }
+
+  template <class Visit>
+  void visit_neighbours(VertexId v, const Visit& visit) const {
+    const LayerState s = state_of(v);
+    if (!goal_heading_ && s.i == goal_.x && s.j == goal_.y) visit(any_heading(), 0.0);
+    for (const unsigned step : steps_.steps_at(s.k)) {
+      if (!steps_.may_step(s, step)) continue;
+      const auto position = static_cast<std::int64_t>(v / layers_.angles) +
+                            cell_steps[step][1] * static_cast<std::int64_t>(layers_.width) + cell_steps[step][0];
+      if (std::isinf(plane_costs_[static_cast<std::size_t>(position)])) continue;  // no way on from there
+      visit(static_cast<VertexId>(position * layers_.angles + s.k), steps_.cost(step));
+    }
+    if (layers_.angles < 2) return;
+    for (const std::uint32_t k : {steps_.previous(s.k), steps_.next(s.k)}) {
+      if (steps_.may_turn(s, k)) visit(v - s.k + k, steps_.turn_cost());
+    }
+  }
+
+  double at_least(VertexId v) const {
+    if (v == any_heading()) return 0.0;
+    const double way = plane_costs_[v / layers_.angles];
+    if (!goal_heading_) return way;
+    const std::uint32_t k = v % layers_.angles;
+    const std::uint32_t apart = k > *goal_heading_ ? k - *goal_heading_ : *goal_heading_ - k;
+    return way + steps_.turn_cost() * std::min(apart, layers_.angles - apart);
+  }
+
+  const LayerSteps& steps_;
+  const HeadingLayers& layers_;
+  Cell goal_;
+  std::optional<std::uint32_t> goal_heading_;
+  const Execution& execution_;
+  std::vector<double> plane_costs_;
+};
+
+void check(const HeadingLayers& layers, const LayerState& start, Cell goal, std::optional<std::uint32_t> goal_heading,
+           const LayerSearchOptions& options) {
+  const auto inside = [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
+    return i < layers.width && j < layers.height && k < layers.angles;
+  };
+  if (!inside(start.i, start.j, start.k)) throw InputError("start", "lies outside of the grid");
+  if (!inside(goal.x, goal.y, goal_heading.value_or(0))) throw InputError("goal", "lies outside of the grid");
+  for (const double cost : {options.step_cost, options.turn_cost}) {
+    if (!(cost > 0.0) || !std::isfinite(cost)) throw InputError("cost", "must be above 0", std::to_string(cost));
+  }
+  if (layers.states() >= no_vertex) throw InputError("grid", "has 2^32 states or more");
+}
+
+void count_moves(LayerPath& path, const LayerSearchOptions& options) {
+  for (std::size_t n = 1; n < path.states.size(); ++n) {
+    const LayerState& a = path.states[n - 1];
+    const LayerState& b = path.states[n];
+    const bool across = a.i != b.i;
+    const bool along = a.j != b.j;
+    path.steps += across || along ? 1 : 0;
+    path.diagonals += across && along ? 1 : 0;
+    path.turns += a.k != b.k ? 1 : 0;
+  }
+  const double diagonal = options.diagonal == Diagonal::sqrt2 ? std::numbers::sqrt2 : 1.0;
+  path.cost = options.step_cost *
+                  (static_cast<double>(path.steps - path.diagonals) + diagonal * static_cast<double>(path.diagonals)) +
+              options.turn_cost * static_cast<double>(path.turns);
+}
+
+}  // namespace
+
+LayerPath layer_search(const HeadingLayers& layers, const LayerState& start, Cell goal,
+                       std::optional<std::uint32_t> goal_heading, const LayerSearchOptions& options,
+                       const Execution& execution) {
+  check(layers, start, goal, goal_heading, options);
+  LayerPath path;
+  path.start_free = layers.is_free(start.i, start.j, start.k);
+  path.goal_free = false;
+  for (std::uint32_t k = 0; k < layers.angles; ++k) {
+    if (!goal_heading || k == *goal_heading) path.goal_free = path.goal_free || layers.is_free(goal.x, goal.y, k);
+  }
+  if (!path.start_free || !path.goal_free) return path;
+  const LayerSteps steps(layers, options);
+  LayerAStar search(steps, goal, goal_heading, execution);
+  if (search.is_hopeless(start)) return path;
+  SearchResult result = search.find(start);
+  if (result.status == SearchStatus::stopped) execution.check();
+  path.status = result.status;
+  path.expanded = result.expanded;
+  if (result.status != SearchStatus::found) return path;
+  if (result.path.back() == search.any_heading()) result.path.pop_back();
+  for (const VertexId v : result.path) path.states.push_back(search.state_of(v));
+  count_moves(path, options);
+  return path;
+}
+
+}  // namespace warren

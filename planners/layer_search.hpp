@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A* in (x, y, heading) over the layers of a turning body, without an explicit graph. From a state one steps to the
+// eight positions around it, or turns to the next heading either way; what may be stepped and turned is said by the
+// layers' bits. With face_motion a body steps only at the heading of its direction.
+//
+// Heuristic: the cheapest way over positions that are free at any heading (one Dijkstra from the goal in the plane),
+// plus the turns to the goal's heading if it has one. It never grows by more than an edge costs, so it is consistent,
+// whatever the costs: every edge either steps or turns. 12 bytes a state and the queue; the plane's search costs a
+// little, and states it rules out are never reached.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/heading_layers.hpp"
+#include "core/search.hpp"
+#include "parallel/execution.hpp"
+#include "planners/grid_search.hpp"
+
+namespace warren {
+
+struct LayerState {
+  std::uint32_t i = 0;
+  std::uint32_t j = 0;
+  std::uint32_t k = 0;  ///< heading
+  friend constexpr bool operator==(const LayerState&, const LayerState&) = default;
+};
+
+struct LayerSearchOptions {
+  Diagonal diagonal = Diagonal::sqrt2;
+  double step_cost = 1.0;  ///< a step to the side; > 0
+  double turn_cost = 1.0;  ///< a turn to the next heading; > 0
+  bool face_motion = false;
+};
+
+struct LayerPath {
+  SearchStatus status = SearchStatus::exhausted;  ///< exhausted: no path in these layers; also where an end is blocked
+  bool start_free = true;
+  bool goal_free = true;
+  std::vector<LayerState> states;  ///< start to goal; empty unless found
+  double cost = 0.0;
+  std::uint64_t steps = 0;      ///< to another position, diagonal ones included
+  std::uint64_t diagonals = 0;  ///< of these
+  std::uint64_t turns = 0;
+  std::uint64_t expanded = 0;
+};
+
+/// A cheapest path; goal_heading: nullopt for any. Throws InputError for states outside the layers, costs out of range
+/// and more than 2^32 states; Stopped.
+LayerPath layer_search(const HeadingLayers& layers, const LayerState& start, Cell goal,
+                       std::optional<std::uint32_t> goal_heading, const LayerSearchOptions& options,
+                       const Execution& execution);
+
+}  // namespace warren

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "worlds/convex_pieces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/geometry.hpp"
+
+namespace warren {
+namespace {
+
+bool before(Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
+
+double area(std::span<const Vec2> outline) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < outline.size(); ++i) sum += cross(outline[i], outline[(i + 1) % outline.size()]);
+  return sum;
+}
+
+bool is_convex(std::span<const Vec2> outline) {
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec2 b = outline[(i + 1) % outline.size()];
+    if (orient2d(outline[i], b, outline[(i + 2) % outline.size()]) < 0) return false;
+  }
+  return true;
+}
+
+/// Is corner i an ear: does it turn left, and holds its triangle no other corner?
+bool is_ear(const std::vector<Vec2>& ring, std::size_t i) {
+  const std::size_t n = ring.size();
+  const Vec2 a = ring[(i + n - 1) % n];
+  const Vec2 b = ring[i];
+  const Vec2 c = ring[(i + 1) % n];
+  if (orient2d(a, b, c) <= 0) return false;
+  return std::none_of(ring.begin(), ring.end(), [&](Vec2 p) {
+    return !(p == a) && !(p == b) && !(p == c) && orient2d(a, b, p) >= 0 && orient2d(b, c, p) >= 0 &&
+           orient2d(c, a, p) >= 0;
+  });
+}
+
+std::vector<ConvexPiece> triangles_of(std::vector<Vec2> ring) {
+  std::vector<ConvexPiece> triangles;
+  while (ring.size() > 3) {
+    const std::size_t n = ring.size();
+    std::size_t ear = 0;
+    while (ear < n && !is_ear(ring, ear)) ++ear;
+    if (ear == n) break;  // corners in a row only: what is left has no inside of its own
+    triangles.push_back(convex_hull({ring[(ear + n - 1) % n], ring[ear], ring[(ear + 1) % n]}));
+    ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(ear));
+  }
+  triangles.push_back(convex_hull(ring));
+  return triangles;
+}
+
+Vec2 rotated(Vec2 p, double c, double s) { return {c * p.x - s * p.y, s * p.x + c * p.y}; }
+Vec2 rotated(Vec2 p, double angle_rad) { return rotated(p, std::cos(angle_rad), std::sin(angle_rad)); }
+
+/// The arc that p runs through, within its tangents: both ends and the corners between, `parts` of them.
+void add_arc(Vec2 p, double angle_rad, int parts, std::vector<Vec2>& to) {
+  const double part = angle_rad / parts;
+  to.push_back(p);
+  for (int i = 0; i < parts; ++i) to.push_back((1.0 / std::cos(part / 2)) * rotated(p, (i + 0.5) * part));
+  to.push_back(rotated(p, angle_rad));
+}
+
+constexpr int arc_parts = 4;
+
+/// A triangle (origin, a, b), a to b counter-clockwise, whose side runs away from the origin all along or towards it.
+ConvexPiece swept_triangle(Vec2 a, Vec2 b, double angle_rad) {
+  std::vector<Vec2> corners{{0.0, 0.0}};
+  if (dot(b, b) >= dot(a, a)) {
+    corners.push_back(a);
+    add_arc(b, angle_rad, arc_parts, corners);
+  } else {
+    add_arc(a, angle_rad, arc_parts, corners);
+    corners.push_back(rotated(b, angle_rad));
+  }
+  return convex_hull(std::move(corners));
+}
+
+bool holds_origin(const ConvexPiece& piece) {
+  if (piece.size() < 3) return false;
+  for (std::size_t i = 0; i < piece.size(); ++i) {
+    if (orient2d(piece[i], piece[(i + 1) % piece.size()], {0.0, 0.0}) < 0) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+ConvexPiece convex_hull(std::vector<Vec2> points) {
+  std::sort(points.begin(), points.end(), before);
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  if (points.size() < 3) return points;
+  ConvexPiece hull(2 * points.size());
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    while (n >= 2 && orient2d(hull[n - 2], hull[n - 1], points[i]) <= 0) --n;
+    hull[n++] = points[i];
+  }
+  const std::size_t lower = n + 1;
+  for (std::size_t i = points.size() - 1; i-- > 0;) {
+    while (n >= lower && orient2d(hull[n - 2], hull[n - 1], points[i]) <= 0) --n;
+    hull[n++] = points[i];
+  }
+  hull.resize(n - 1);
+  return hull;
+}
+
+std::vector<ConvexPiece> convex_pieces(std::span<const Vec2> outline) {
+  std::vector<Vec2> ring(outline.begin(), outline.end());
+  if (area(ring) < 0.0) std::reverse(ring.begin(), ring.end());
+  if (ring.size() < 4 || is_convex(ring)) return {convex_hull(std::move(ring))};
+  return triangles_of(std::move(ring));
+}
+
+ConvexPiece swept_by_step(const ConvexPiece& piece, Vec2 step) {
+  std::vector<Vec2> corners = piece;
+  for (const Vec2 p : piece) corners.push_back(p + step);
+  return convex_hull(std::move(corners));
+}
+
+std::vector<ConvexPiece> swept_by_turn(const ConvexPiece& piece, double angle_rad) {
+  std::vector<ConvexPiece> swept;
+  if (!holds_origin(piece)) {
+    constexpr int eighths = 8;
+    for (int part = 0; part < eighths; ++part) {
+      std::vector<Vec2> corners;
+      for (const Vec2 p : piece) add_arc(rotated(p, angle_rad / eighths * part), angle_rad / eighths, 1, corners);
+      swept.push_back(convex_hull(std::move(corners)));
+    }
+    return swept;
+  }
+  for (std::size_t i = 0; i < piece.size(); ++i) {
+    const Vec2 a = piece[i];
+    const Vec2 b = piece[(i + 1) % piece.size()];
+    const double t = -dot(a, b - a) / dot(b - a, b - a);
+    if (t <= 0.0 || t >= 1.0) {
+      swept.push_back(swept_triangle(a, b, angle_rad));
+    } else {
+      const Vec2 foot = a + t * (b - a);
+      swept.push_back(swept_triangle(a, foot, angle_rad));
+      swept.push_back(swept_triangle(foot, b, angle_rad));
+    }
+  }
+  return swept;
+}
+
+ConvexPiece touching_positions(const ConvexPiece& piece, const Segment& wall) {
+  std::vector<Vec2> corners;
+  corners.reserve(2 * piece.size());
+  for (const Vec2 p : piece) {
+    corners.push_back(wall.a - p);
+    corners.push_back(wall.b - p);
+  }
+  return convex_hull(std::move(corners));
+}
+
+ConvexPiece turned(std::span<const Vec2> outline, std::uint32_t k, std::uint32_t n) {
+  const bool quarters = n % 4 == 0;
+  const std::uint32_t quarter = quarters ? k / (n / 4) : 0;
+  const std::uint32_t rest = quarters ? k % (n / 4) : k;
+  const double angle_rad = 2.0 * std::numbers::pi * rest / n;
+  const double c = rest == 0 ? 1.0 : std::cos(angle_rad);
+  const double s = rest == 0 ? 0.0 : std::sin(angle_rad);
+  ConvexPiece result;
+  result.reserve(outline.size());
+  for (Vec2 p : outline) {
+    p = rotated(p, c, s);
+    for (std::uint32_t q = 0; q < quarter; ++q) p = {-p.y, p.x};
+    result.push_back(p);
+  }
+  return result;
+}
+
+}  // namespace warren

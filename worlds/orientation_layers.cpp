@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "worlds/orientation_layers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "core/se2.hpp"
+#include "parallel/chunks.hpp"
+#include "spatial/distance_field.hpp"
+#include "worlds/convex_pieces.hpp"
+#include "worlds/lattice_marking.hpp"
+
+namespace warren {
+namespace {
+
+/// Where positions lie, without any layer.
+HeadingLayers empty_lattice(const Scene& scene, const RobotSpec& robot, const GridSpec& grid,
+                            const Execution& execution) {
+  const Box box = scene.bounds ? *scene.bounds : obstacle_box(scene, execution);
+  if (box.empty()) throw InputError("world", "has neither walls nor bounds: nothing confines the grid");
+  constexpr double rounding = 1e-9;
+  const double width = std::floor(box.width() / grid.cell + rounding);
+  const double height = std::floor(box.height() / grid.cell + rounding);
+  const std::uint32_t angles = robot.kind == RobotKind::polygon ? grid.angles : 1;
+  constexpr double most_states = 4294967295.0;
+  if (width < 1.0 || height < 1.0 || !(width * height * angles < most_states)) {
+    throw InputError("grid", "must have from 1 to 2^32 - 1 states: cells across the bounds, times headings",
+                     std::to_string(width) + " x " + std::to_string(height) + " x " + std::to_string(angles));
+  }
+  HeadingLayers layers;
+  layers.origin = box.min;
+  layers.cell = grid.cell;
+  layers.width = static_cast<std::uint32_t>(width);
+  layers.height = static_cast<std::uint32_t>(height);
+  layers.angles = angles;
+  return layers;
+}
+
+/// One bitmap to be made: positions at which the union of the pieces touches something.
+struct Job {
+  std::vector<ConvexPiece> pieces;
+  bool fills_polygons = false;  ///< a body may also stand inside a polygon without touching its sides
+};
+
+/// The exact layers: a list of jobs, then all of them at once.
+class ExactLayers {
+ public:
+  ExactLayers(const Scene& scene, const RobotSpec& robot, const LayerOptions& options, const Execution& execution)
+      : scene_(scene),
+        execution_(execution),
+        outline_(robot.kind == RobotKind::polygon ? robot.outline : std::vector<Vec2>{{0.0, 0.0}}),
+        radius_((robot.kind == RobotKind::disc ? robot.radius : 0.0) + options.clearance),
+        layers_(empty_lattice(scene, robot, options.grid, execution)) {
+    for (const ScenePolygon& polygon : scene.polygons) {
+      for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
+        sides_.push_back({polygon.corners[i], polygon.corners[(i + 1) % polygon.corners.size()]});
+      }
+    }
+  }
+
+  HeadingLayers make() {
+    list_jobs();
+    execution_.reserve(jobs_.size() * (layers_.width / 8 + 8) * std::size_t{layers_.height});
+    layers_.bitmaps.resize(jobs_.size());
+    for_chunks(jobs_.size(), 1, execution_, [&](Range r) { layers_.bitmaps[r.first] = made(jobs_[r.first]); });
+    return std::move(layers_);
+  }
+
+ private:
+  /// Corners in order from the least: the same for every heading that covers the same set.
+  static ConvexPiece key_of(ConvexPiece corners) {
+    const auto less = [](Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); };
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end(), less), corners.end());
+    return corners;
+  }
+
+  std::uint32_t add(Job job) {
+    jobs_.push_back(std::move(job));
+    return static_cast<std::uint32_t>(jobs_.size() - 1);
+  }
+
+  void list_jobs() {
+    std::vector<ConvexPiece> keys;
+    for (std::uint32_t k = 0; k < layers_.angles; ++k) {
+      keys.push_back(key_of(turned(outline_, k, layers_.angles)));
+      const auto same = static_cast<std::size_t>(std::find(keys.begin(), keys.end(), keys.back()) - keys.begin());
+      if (same < k) {
+        layers_.standing.push_back(layers_.standing[same]);
+        layers_.moving.push_back(layers_.moving[same]);
+        if (layers_.angles > 1) layers_.turning.push_back(layers_.turning[same]);
+      } else {
+        list_jobs_of(convex_pieces(turned(outline_, k, layers_.angles)));
+      }
+    }
+  }
+
+  void list_jobs_of(const std::vector<ConvexPiece>& pieces) {
+    layers_.standing.push_back(add({pieces, true}));
+    std::array<std::uint32_t, 4> moving{};
+    for (std::size_t s = 0; s < moving.size(); ++s) {
+      const auto [dx, dy] = HeadingLayers::steps[s];
+      Job job;
+      for (const ConvexPiece& piece : pieces) {
+        job.pieces.push_back(swept_by_step(piece, {dx * layers_.cell, dy * layers_.cell}));
+      }
+      moving[s] = add(std::move(job));
+    }
+    layers_.moving.push_back(moving);
+    if (layers_.angles > 1) layers_.turning.push_back(add(turn_job(pieces)));
+  }
+
+  Job turn_job(const std::vector<ConvexPiece>& pieces) const {
+    Job job;
+    const double angle_rad = 2.0 * std::numbers::pi / layers_.angles;
+    constexpr double widest = std::numbers::pi / 24;  // larger turns in parts, so that arcs stay near their tangents
+    const int parts = static_cast<int>(std::ceil(angle_rad / widest));
+    for (const ConvexPiece& piece : pieces) {
+      for (int part = 0; part < parts; ++part) {
+        ConvexPiece from;
+        for (const Vec2 p : piece) from.push_back(Rotation(part * angle_rad / parts)(p));
+        for (ConvexPiece& swept : swept_by_turn(from, angle_rad / parts)) job.pieces.push_back(std::move(swept));
+      }
+    }
+    return job;
+  }
+
+  Bitmap made(const Job& job) const {
+    LatticeMarking marking(layers_.origin, layers_.cell, layers_.width, layers_.height);
+    for (const ConvexPiece& piece : job.pieces) {
+      execution_.check();
+      if (scene_.bounds) marking.mark_outside(piece, radius_, *scene_.bounds);
+      for (std::size_t i = 0; i < scene_.walls.size(); ++i) mark(piece, scene_.walls.segment(i), marking);
+      for (const Segment& side : sides_) mark(piece, side, marking);
+    }
+    if (job.fills_polygons) {
+      for (const ScenePolygon& polygon : scene_.polygons) {
+        marking.mark_inside(polygon.corners, job.pieces.front().front());
+      }
+    }
+    return marking.take();
+  }
+  void mark(const ConvexPiece& piece, const Segment& wall, LatticeMarking& marking) const {
+    marking.mark_near(touching_positions(piece, wall), radius_);
+  }
+
+  const Scene& scene_;
+  const Execution& execution_;
+  std::vector<Vec2> outline_;
+  double radius_;
+  std::vector<Segment> sides_;  // of polygons
+  HeadingLayers layers_;
+  std::vector<Job> jobs_;
+};
+
+// ---- as in report 004 -----------------------------------------------------------------------------------------------
+
+/// The report's drawing, found from its figures: a wall covers the cells on both sides of it, a level one also the cell
+/// before its first; an upright one begins and ends with the cells of its ends.
+void draw_two_cells_thick(const Segment& wall, const HeadingLayers& lattice, Bitmap& drawn) {
+  const auto set = [&](double i, double j) {
+    if (i >= 0.0 && j >= 0.0 && i < lattice.width && j < lattice.height) {
+      drawn.set(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
+    }
+  };
+  const Vec2 a = (1.0 / lattice.cell) * (wall.a - lattice.origin);
+  const Vec2 b = (1.0 / lattice.cell) * (wall.b - lattice.origin);
+  const bool steep = std::abs(b.y - a.y) > std::abs(b.x - a.x);
+  const double from = std::floor(steep ? a.y : a.x);
+  const double to = std::floor(steep ? b.y : b.x);
+  const double length = std::abs(to - from);
+  for (double step = 0.0; step <= length; ++step) {
+    const double t = length == 0.0 ? 0.0 : step / length;
+    const double along = from + std::copysign(step, to - from);
+    const double across = std::floor(steep ? a.x + t * (b.x - a.x) : a.y + t * (b.y - a.y));
+    const double i = steep ? across : along;
+    const double j = steep ? along : across;
+    for (const double left : {i - 1.0, i}) {
+      set(left, j);
+      if (!steep) set(left, j - 1.0);
+    }
+  }
+}
+
+/// Half of the body's projection on the axes at one heading, in cells, rounded up.
+std::uint32_t disc_cells(const RobotSpec& robot, const HeadingLayers& lattice, std::uint32_t k) {
+  double reach = robot.radius;
+  for (const Vec2 p : turned(robot.outline, k, lattice.angles)) {
+    reach = std::max({reach, std::abs(p.x), std::abs(p.y)});
+  }
+  constexpr double rounding = 1e-9;
+  return static_cast<std::uint32_t>(std::ceil(reach / lattice.cell - rounding));
+}
+
+Bitmap drawn_walls(const Scene& scene, const HeadingLayers& lattice) {
+  Bitmap drawn(lattice.width, lattice.height);
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) draw_two_cells_thick(scene.walls.segment(i), lattice, drawn);
+  for (const ScenePolygon& polygon : scene.polygons) {
+    for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
+      draw_two_cells_thick({polygon.corners[i], polygon.corners[(i + 1) % polygon.corners.size()]}, lattice, drawn);
+    }
+  }
+  drawn.set_run(0, 0, lattice.width);
+  drawn.set_run(lattice.height - 1, 0, lattice.width);
+  for (std::uint32_t j = 0; j < lattice.height; ++j) {
+    drawn.set(0, j);
+    drawn.set(lattice.width - 1, j);
+  }
+  return drawn;
+}
+
+HeadingLayers report_layers(const Scene& scene, const RobotSpec& robot, const LayerOptions& options,
+                            const Execution& execution) {
+  HeadingLayers layers = empty_lattice(scene, robot, options.grid, execution);
+  const DistanceField field(drawn_walls(scene, layers), CellDistance::centres, false, execution);
+  std::map<std::uint32_t, std::uint32_t> bitmap_of;  // by the disc's radius
+  for (std::uint32_t k = 0; k < layers.angles; ++k) {
+    const std::uint32_t radius = disc_cells(robot, layers, k);
+    const auto [at, is_new] = bitmap_of.emplace(radius, static_cast<std::uint32_t>(layers.bitmaps.size()));
+    layers.standing.push_back(at->second);
+    if (!is_new) continue;
+    execution.check();
+    Bitmap blocked(layers.width, layers.height);
+    for (std::uint32_t j = 0; j < layers.height; ++j) {
+      for (std::uint32_t i = 0; i < layers.width; ++i) {
+        if (field.squared(i, j) <= std::uint64_t{radius} * radius) blocked.set(i, j);
+      }
+    }
+    layers.bitmaps.push_back(std::move(blocked));
+  }
+  return layers;
+}
+
+}  // namespace
+
+HeadingLayers orientation_layers(const Scene& scene, const RobotSpec& robot, const LayerOptions& options,
+                                 const Execution& execution) {
+  if (robot.kind != RobotKind::point && robot.kind != RobotKind::disc && robot.kind != RobotKind::polygon) {
+    throw InputError("robot", "must be a point, a disc or a polygon for a grid");
+  }
+  if (!(options.grid.cell > 0.0) || options.grid.angles < 1) {
+    throw InputError("grid", "needs a cell above 0 and at least one heading");
+  }
+  if (options.kind == LayerKind::report004) return report_layers(scene, robot, options, execution);
+  return ExactLayers(scene, robot, options, execution).make();
+}
+
+}  // namespace warren

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The layers of a turning body among walls and polygons: for each heading the lattice positions where it touches
+// something, made by marking the rows of Minkowski sums (each wall minus each convex piece of the body), and the same
+// for what the body sweeps on each step and each turn, so that a path over free bits is free all the way. Headings at
+// which the body covers the same set share their layers. O(layers * walls * (corners + rows)), layers in parallel.
+//
+// report004 is what a course report did: the walls drawn two cells thick, widened by a disc as wide as half the body's
+// projection, rounded up to cells; steps and turns between all free states. It is neither safe nor complete.
+#pragma once
+
+#include "core/heading_layers.hpp"
+#include "parallel/execution.hpp"
+#include "worlds/scene.hpp"
+
+namespace warren {
+
+enum class LayerKind : std::uint8_t { exact, report004 };
+
+struct LayerOptions {
+  GridSpec grid;
+  LayerKind kind = LayerKind::exact;
+  double clearance = 0.0;  ///< room around the body, exact layers only; >= 0; 0: touching is blocked
+};
+
+/// Point, disc or polygon robots (others: InputError). States lie at i * cell from the lower corner of the bounds, i =
+/// 0
+/// ... extent / cell - 1; without bounds the obstacles' box takes their place and confines the reference point only.
+/// Points and discs have one heading. Throws InputError where there is no extent, or more than 2^32 states; Stopped.
+HeadingLayers orientation_layers(const Scene& scene, const RobotSpec& robot, const LayerOptions& options,
+                                 const Execution& execution);
+
+}  // namespace warren
