@@ -43,7 +43,8 @@ class FreeDistance {
 /// The steps of a cell, as a search asks for them.
 class Steps {
  public:
-  Steps(const FreeCells& cells, Diagonal diagonal) : cells_(cells), allowed_(allowed_steps(rule_of(diagonal))) {
+  Steps(const FreeCells& cells, Diagonal diagonal) : Steps(cells, diagonal, rule_of(diagonal)) {}
+  Steps(const FreeCells& cells, Diagonal diagonal, StepRule rule) : cells_(cells), allowed_(allowed_steps(rule)) {
     const auto stride = static_cast<std::int64_t>(cells.stride());
     for (unsigned s = 0; s < cell_steps.size(); ++s) {
       offsets_[s] = static_cast<VertexId>(cell_steps[s][1] * stride + cell_steps[s][0]);  // wraps around for steps back
@@ -118,6 +119,30 @@ class BreadthFirst {
 };
 
 }  // namespace
+
+bool has_diagonal_steps(const Bitmap& blocked) {
+  const FreeCells cells(blocked);
+  for (std::uint32_t y = 0; y + 1 < cells.height(); ++y) {
+    for (std::uint32_t x = 0; x < cells.width(); x += Bitmap::word_bits) {
+      const VertexId v = cells.number({x, y});
+      const std::uint64_t both = cells.from(v) & cells.from(v + cells.stride());
+      const std::uint64_t shifted = cells.from(v + 1) & cells.from(v + 1 + cells.stride());
+      if ((both & shifted) != 0) return true;
+    }
+  }
+  return false;
+}
+
+bool cells_connect(const Bitmap& blocked, Cell start, Cell goal, bool squeezing, const Execution& execution) {
+  const FreeCells cells(blocked);
+  const Steps steps(cells, Diagonal::unit, squeezing ? StepRule::eight_squeezing : StepRule::four);
+  const VertexId from = cells.number(start);
+  const VertexId to = cells.number(goal);
+  if (!cells.is_free(from) || !cells.is_free(to)) return false;
+  const SearchResult result = BreadthFirst(cells, steps, execution).find(from, to);
+  if (result.status == SearchStatus::stopped) execution.check();
+  return result.status == SearchStatus::found;
+}
 
 double cost_of(const std::vector<Cell>& cells, Diagonal diagonal) {
   std::uint64_t sideways = 0;

@@ -54,6 +54,14 @@ class GridSearch {
   std::unique_ptr<Scratch> scratch_;
 };
 
+/// Is there a square of two by two free cells? Without one no diagonal step is allowed, and breadth-first search finds
+/// shortest paths whatever diagonals cost. O(cells / 64).
+bool has_diagonal_steps(const Bitmap& blocked);
+
+/// Does a way lead from cell to cell, over common sides, or (squeezing) over common corners too? O(cells). Throws
+/// Stopped.
+bool cells_connect(const Bitmap& blocked, Cell start, Cell goal, bool squeezing, const Execution& execution);
+
 /// Sideways steps + diagonal steps times their cost: exact to one rounding.
 double cost_of(const std::vector<Cell>& cells, Diagonal diagonal);
 

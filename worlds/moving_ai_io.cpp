@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/error.hpp"
+#include "worlds/output_file_io.hpp"
 #include "worlds/scene_text.hpp"
 
 namespace warren {
@@ -135,6 +136,22 @@ OccupancyMap read_moving_ai_map(const InputFile& file, const Execution& executio
   }
   map.occupied = map.blocked.size() - map.free;
   return map;
+}
+
+void write_moving_ai_map(const OccupancyMap& map, const std::string& path, const Execution& execution) {
+  OutputFile file(path, execution);
+  file.write(fmt::format("type octile\nheight {}\nwidth {}\nmap\n", map.height(), map.width()));
+  std::string line;
+  for (std::uint32_t row = 0; row < map.height(); ++row) {
+    const std::uint32_t y = map.height() - 1 - row;
+    line.clear();
+    for (std::uint32_t x = 0; x < map.width(); ++x) {
+      line.push_back(map.water.holds(x, y) ? 'W' : map.blocked.test(x, y) ? '@' : '.');
+    }
+    line.push_back('\n');
+    file.write(line);
+  }
+  file.commit();
 }
 
 namespace {

@@ -17,6 +17,9 @@ namespace warren {
 /// expected; Stopped.
 OccupancyMap read_moving_ai_map(const InputFile& file, const Execution& execution);
 
+/// Free cells `.`, water `W`, all others `@`. Throws as OutputFile does.
+void write_moving_ai_map(const OccupancyMap& map, const std::string& path, const Execution& execution);
+
 struct Scenario {
   std::uint32_t bucket = 0;
   std::string map;              ///< as the file names it

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "worlds/occupancy_map.hpp"
+#include "worlds/output_file_io.hpp"
 #include "worlds/scene_text.hpp"
 
 namespace warren {
@@ -114,6 +114,21 @@ void read_pgm(const InputFile& file, const ImageSink& sink, const Execution& exe
     for (std::uint16_t& s : samples) s = static_cast<std::uint16_t>(tokens.number("a pixel", 0, header.maximum));
     sink.row({y, 0, 1, samples});
   }
+}
+
+void write_map_pgm(const OccupancyMap& map, const std::string& path, const Execution& execution) {
+  constexpr char free = static_cast<char>(254);
+  constexpr char unknown = static_cast<char>(205);
+  OutputFile file(path, execution);
+  file.write(fmt::format("P5\n# CREATOR: warren {:.3f} m/pix\n{} {}\n255\n", map.cell, map.width(), map.height()));
+  std::string row(map.width(), free);
+  for (std::uint32_t y = map.height(); y-- > 0;) {
+    for (std::uint32_t x = 0; x < map.width(); ++x) {
+      row[x] = map.unknown.holds(x, y) ? unknown : map.blocked.test(x, y) ? '\0' : free;
+    }
+    file.write(row);
+  }
+  file.commit();
 }
 
 }  // namespace warren

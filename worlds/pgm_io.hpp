@@ -5,10 +5,14 @@
 #include <string>
 
 #include "worlds/image_io.hpp"
+#include "worlds/occupancy_map.hpp"
 
 namespace warren {
 
 /// As read_image, for a PGM. What follows the pixels is ignored.
 void read_pgm(const InputFile& file, const ImageSink& sink, const Execution& execution);
+
+/// A map as map servers write it: free 254, unknown 205, all else 0; binary. Throws as OutputFile does.
+void write_map_pgm(const OccupancyMap& map, const std::string& path, const Execution& execution);
 
 }  // namespace warren

@@ -17,6 +17,8 @@
 
 #include "core/error.hpp"
 #include "worlds/image_io.hpp"
+#include "worlds/output_file_io.hpp"
+#include "worlds/pgm_io.hpp"
 #include "worlds/scene_text.hpp"
 
 namespace warren {
@@ -255,6 +257,16 @@ OccupancyMap read_ros_map(const InputFile& yaml, const Execution& execution, Map
   map.yaw_rad = description.origin[2];
   read_pixels(yaml.name(), description, rules, map, execution);
   return map;
+}
+
+void write_ros_map(const OccupancyMap& map, const std::string& path, const Execution& execution) {
+  const std::string image = path.substr(0, path.rfind('.')) + ".pgm";
+  write_map_pgm(map, image, execution);
+  write_file(path,
+             fmt::format("image: {}\nresolution: {}\norigin: [{}, {}, {}]\nnegate: 0\noccupied_thresh: 0.65\n"
+                         "free_thresh: 0.196\n",
+                         image.substr(image.rfind('/') + 1), map.cell, map.origin.x, map.origin.y, map.yaw_rad),
+             execution);
 }
 
 }  // namespace warren

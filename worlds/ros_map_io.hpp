@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "parallel/execution.hpp"
 #include "worlds/input_file_io.hpp"
@@ -21,5 +22,8 @@ enum class MapServerRules : std::uint8_t { nav2, ros1 };
 /// ReadError naming the image and who asks for it, Stopped.
 OccupancyMap read_ros_map(const InputFile& yaml, const Execution& execution,
                           MapServerRules rules = MapServerRules::nav2);
+
+/// Writes NAME.yaml and, beside it, NAME.pgm. Throws as OutputFile does.
+void write_ros_map(const OccupancyMap& map, const std::string& path, const Execution& execution);
 
 }  // namespace warren

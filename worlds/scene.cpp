@@ -100,6 +100,7 @@ std::size_t state_size(const RobotSpec& robot) {
 }
 
 std::string scene_hash(const Scene& scene, const Execution& execution) {
+  if (scene.map) return map_hash(*scene.map);
   Hasher hasher(hash_of(scene.walls, execution));
   hasher.add(std::uint64_t{scene.polygons.size()});
   for (const ScenePolygon& polygon : scene.polygons) {
@@ -125,6 +126,13 @@ Box obstacle_box(const Scene& scene, const Execution& execution) {
   Box box = scene.walls.visit([&](auto walls) { return box_of_walls(walls, execution); });
   for (const ScenePolygon& polygon : scene.polygons) {
     for (const Vec2 corner : polygon.corners) box.include(corner);
+  }
+  if (scene.map) {
+    const double width = scene.map->width();
+    const double height = scene.map->height();
+    for (const Vec2 corner : {Vec2{0.0, 0.0}, {width, 0.0}, {width, height}, {0.0, height}}) {
+      box.include(world_point(*scene.map, corner));
+    }
   }
   return box;
 }

@@ -10,6 +10,7 @@
 #include "core/types.hpp"
 #include "core/wall_set.hpp"
 #include "parallel/execution.hpp"
+#include "worlds/occupancy_map.hpp"
 
 namespace warren {
 
@@ -59,6 +60,8 @@ struct Scene {
   std::vector<double> start;  ///< 2, 3 or 6 numbers; empty: none
   std::vector<double> goal;
   std::optional<GridSpec> grid;
+  /// Cells instead of walls and polygons. Walls beside a map are its own borders (add_map_walls) and no obstacles more.
+  std::optional<OccupancyMap> map;
   std::string source;  ///< file name or maze:... as given
 };
 

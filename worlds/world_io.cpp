@@ -14,6 +14,7 @@
 #include "worlds/micromouse_io.hpp"
 #include "worlds/moving_ai_io.hpp"
 #include "worlds/npy_io.hpp"
+#include "worlds/pgm_io.hpp"
 #include "worlds/plane_obstacles.hpp"
 #include "worlds/ring_list_io.hpp"
 #include "worlds/ros_map_io.hpp"
@@ -139,10 +140,20 @@ MazeOptions parse_maze_source(std::string_view source) { return MazeSource(sourc
 
 namespace {
 
+/// A scene that is a map, with the map's start and goal.
+Scene scene_of(OccupancyMap map) {
+  Scene scene;
+  scene.source = map.source;
+  if (map.start) scene.start = {map.start->x, map.start->y};
+  if (map.goal) scene.goal = {map.goal->x, map.goal->y};
+  scene.map = std::move(map);
+  return scene;
+}
+
 Scene read_unchecked(const InputFile& file, const Execution& execution) {
   switch (format_of(file)) {
     case WorldFormat::scene:
-      return read_scene_text(file, execution);
+      break;
     case WorldFormat::npy:
       return read_npy(file, execution);
     case WorldFormat::micromouse:
@@ -154,11 +165,13 @@ Scene read_unchecked(const InputFile& file, const Execution& execution) {
     case WorldFormat::ring_list:
       return read_ring_list(file, execution);
     case WorldFormat::moving_ai:
+      return scene_of(read_moving_ai_map(file, execution));
     case WorldFormat::ros_map:
+      return scene_of(read_ros_map(file, execution));
     case WorldFormat::image:
-      break;
+      return scene_of(read_maze_image(file, execution));
   }
-  throw InputError(file.name(), "this is an occupancy map; expected walls, polygons or spheres");
+  return read_scene_text(file, execution);
 }
 
 }  // namespace
@@ -167,25 +180,6 @@ Scene read_scene(const InputFile& file, const Execution& execution) {
   Scene scene = read_unchecked(file, execution);
   check_polygons(scene, execution);
   return scene;
-}
-
-OccupancyMap read_map(const InputFile& file, const Execution& execution) {
-  switch (format_of(file)) {
-    case WorldFormat::moving_ai:
-      return read_moving_ai_map(file, execution);
-    case WorldFormat::ros_map:
-      return read_ros_map(file, execution);
-    case WorldFormat::image:
-      return read_maze_image(file, execution);
-    case WorldFormat::scene:
-    case WorldFormat::npy:
-    case WorldFormat::micromouse:
-    case WorldFormat::geojson:
-    case WorldFormat::wkt:
-    case WorldFormat::ring_list:
-      break;
-  }
-  throw InputError(file.name(), "this is no occupancy map; expected Moving AI, map server YAML, PNG or PGM");
 }
 
 Scene read_world(const std::string& source, const Execution& execution) {
@@ -205,6 +199,18 @@ void write_scene(const Scene& scene, const std::string& path, const Execution& e
     throw UsageError(path + ": the ending must be .walls, .scene, .txt, .npy, .geojson or .wkt");
   }
   write_scene_text(scene, path, execution);
+}
+
+bool is_map_ending(std::string_view path) {
+  return path.ends_with(".map") || path.ends_with(".yaml") || path.ends_with(".pgm");
+}
+
+void write_map(const OccupancyMap& map, const std::string& path, const Execution& execution) {
+  const std::string_view name = path;
+  if (name.ends_with(".map")) return write_moving_ai_map(map, path, execution);
+  if (name.ends_with(".yaml")) return write_ros_map(map, path, execution);
+  if (name.ends_with(".pgm")) return write_map_pgm(map, path, execution);
+  throw UsageError(path + ": the ending must be .map, .yaml or .pgm");
 }
 
 }  // namespace warren

@@ -10,7 +10,6 @@
 #include "parallel/execution.hpp"
 #include "worlds/input_file_io.hpp"
 #include "worlds/maze_generator.hpp"
-#include "worlds/occupancy_map.hpp"
 #include "worlds/scene.hpp"
 
 namespace warren {
@@ -20,28 +19,24 @@ enum class WorldFormat : std::uint8_t { scene, npy, moving_ai, ros_map, image, m
 /// What the content says, or where it says nothing the name's ending; text of no known kind is a scene.
 WorldFormat format_of(const InputFile& file);
 
-/// Is it a map of blocked and free cells (read_map) rather than a scene of walls (read_scene)?
-constexpr bool is_map(WorldFormat format) {
-  return format == WorldFormat::moving_ai || format == WorldFormat::ros_map || format == WorldFormat::image;
-}
-
 /// Does this name a maze to be generated rather than a file?
 bool is_maze_source(std::string_view source);
 /// Throws UsageError for whatever is not maze:ROWSxCOLS[,seed=N][,algorithm=NAME][,loops=F].
 MazeOptions parse_maze_source(std::string_view source);
 
-/// Reads or generates a world of walls, polygons and spheres; a maze has unit walls in the course's order. Throws
-/// UsageError, ReadError, InputError (also for occupancy maps, which are no scenes, and for polygons that are not
-/// simple), Stopped.
+/// Reads or generates a world of walls, polygons and spheres, or a map (Scene::map); a maze has unit walls in the
+/// course's order. Throws UsageError, ReadError, InputError (also for polygons that are not simple), Stopped.
 Scene read_world(const std::string& source, const Execution& execution);
 /// The same for a file that is open already.
 Scene read_scene(const InputFile& file, const Execution& execution);
 
-/// Reads an occupancy map. Throws ReadError, InputError (also for scenes, which are no maps), Stopped.
-OccupancyMap read_map(const InputFile& file, const Execution& execution);
-
 /// Writes .npy, .geojson, .wkt, or for .walls, .scene, .txt and "-" scene text. Throws UsageError for other
 /// endings, InputError for what the format can't hold, WriteError, Stopped.
 void write_scene(const Scene& scene, const std::string& path, const Execution& execution);
+
+/// Is this the ending of a map: .map (Moving AI), .yaml (map server, with a .pgm beside it) or .pgm?
+bool is_map_ending(std::string_view path);
+/// Writes a map by its ending. Throws UsageError for other endings, WriteError, Stopped.
+void write_map(const OccupancyMap& map, const std::string& path, const Execution& execution);
 
 }  // namespace warren

@@ -63,6 +63,21 @@ TEST(GridSearch, BreadthFirstTakesTheFewestStepsWhateverDiagonalsCost) {
   }
 }
 
+TEST(GridSearch, DiagonalStepsNeedTwoByTwoFreeCells) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    Bitmap map(static_cast<std::uint32_t>(1 + seed * 3), 4, true);
+    const auto x = static_cast<std::uint32_t>(random_bits(seed, 1, 0) % map.width());
+    for (std::uint32_t y = 1; y < 3; ++y) map.clear(x, y);
+    EXPECT_FALSE(has_diagonal_steps(map));
+    if (x + 1 == map.width()) continue;
+    map.clear(x + 1, 1);
+    EXPECT_FALSE(has_diagonal_steps(map));
+    map.clear(x + 1, 2);
+    EXPECT_TRUE(has_diagonal_steps(map));
+  }
+}
+
 TEST(GridSearch, LongCorridorsAreCrossedByWordsOfSixtyFour) {
   for (const std::uint32_t length : {62U, 63U, 64U, 65U, 127U, 128U, 129U, 1000U}) {
     SCOPED_TRACE(length);
