@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// warren convert: any world into any format that can hold it.
+// warren convert: any world into any format that can hold it; maps become border walls, walls become cells.
 #include <fmt/format.h>
+
+#include <optional>
+#include <string>
 
 #include "core/error.hpp"
 #include "tools/command.hpp"
 #include "tools/exit_code.hpp"
+#include "tools/option_values.hpp"
 #include "tools/run_options.hpp"
 #include "tools/terminal.hpp"
 #include "tools/world_files.hpp"
+#include "worlds/map_walls.hpp"
+#include "worlds/world_io.hpp"
 
 namespace warren {
 namespace {
@@ -15,22 +21,44 @@ namespace {
 constexpr OptionSpec specs[] = {
     {"--output",
      "FILE",
-     "where to: .walls .scene .npy .geojson .wkt .svg .png .html by ending; - is standard output",
+     "where to: .walls .scene .npy .geojson .wkt .map .yaml .pgm .svg .png .html by ending; - is standard output",
      {},
      "-o"},
+    {"--cell", "C", "side of a cell where walls become a map"},
 };
+
+/// The map that the scene is, or that it becomes with cells of the side that --cell says.
+OccupancyMap map_for(const Scene& scene, const std::optional<double>& cell, const Execution& execution) {
+  if (scene.map && cell) throw UsageError("--cell: the world is a map, and its cells stay as they are");
+  if (scene.map) return *scene.map;
+  if (!cell) throw UsageError("--cell: is missing; it says how large a cell of the map shall be");
+  return map_of_scene(scene, *cell, execution);
+}
+
+void write_any(Scene& scene, const std::string& file, const Arguments& arguments, const Execution& execution) {
+  if (is_map_ending(file)) {
+    const auto text = arguments.value("--cell");
+    const auto cell = text ? std::optional(positive_value("--cell", *text)) : std::nullopt;
+    return write_map(map_for(scene, cell, execution), file, execution);
+  }
+  add_map_walls(scene);
+  write_world(scene, file, arguments.command_line(), execution);
+}
 
 int convert(const Arguments& arguments) {
   const auto file = arguments.value("--output");
   if (!file) throw UsageError("-o FILE is missing");
-  check_world_file(*file);
+  if (!is_map_ending(*file)) check_world_file(*file);
+  if (!is_map_ending(*file) && arguments.has("--cell")) {
+    throw UsageError("--cell: only maps have cells: .map, .yaml and .pgm");
+  }
   Run run(arguments);
   StageTimes seconds;
   double write_seconds = 0.0;
-  const Scene scene = load_world(arguments.operand(0), run.execution(), seconds);
+  Scene scene = load_world(arguments.operand(0), run.execution(), seconds);
   {
     const StageTimer timer(run.execution(), "write", write_seconds);
-    write_world(scene, *file, arguments.command_line(), run.execution());
+    write_any(scene, std::string{*file}, arguments, run.execution());
   }
   run.end();
   if (!run.quiet() && *file != "-")

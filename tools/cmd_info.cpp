@@ -44,7 +44,38 @@ Fact box_fact(const char* name, const Box& box) {
 
 Fact count_fact(const char* name, std::size_t count) { return {name, grouped(count), std::to_string(count)}; }
 
+std::string_view format_name(MapFormat format) {
+  constexpr std::string_view names[] = {"Moving AI map", "map server", "image"};
+  return names[static_cast<std::size_t>(format)];
+}
+
+Fact number_fact(const char* name, double number) { return {name, fmt::format("{}", number), json_number(number)}; }
+
+std::vector<Fact> map_facts(const Scene& scene, const WorldAccount& world, const Execution& execution) {
+  const OccupancyMap& map = *scene.map;
+  const std::string format{format_name(map.format)};
+  std::vector<Fact> facts{{"source", world.source, json_string(world.source)},
+                          {"kind", world.kind, json_string(world.kind)},
+                          {"format", format, json_string(format)},
+                          count_fact("width", map.width()),
+                          count_fact("height", map.height()),
+                          count_fact("free", map.free),
+                          count_fact("occupied", map.occupied)};
+  if (map.format == MapFormat::ros) {
+    facts.push_back(count_fact("unknown", map.unknown_count));
+    facts.push_back(count_fact("between", map.between));
+    facts.push_back({"origin", fmt::format("{}, {}, yaw {}", map.origin.x, map.origin.y, map.yaw_rad),
+                     state_json({map.origin.x, map.origin.y, map.yaw_rad})});
+  }
+  if (!map.water.empty()) facts.push_back(count_fact("water", map.water.count()));
+  facts.push_back(number_fact("resolution", map.cell));
+  facts.push_back(box_fact("box", obstacle_box(scene, execution)));
+  facts.push_back({"hash", world.hash, json_string(world.hash)});
+  return facts;
+}
+
 std::vector<Fact> obstacle_facts(const Scene& scene, const WorldAccount& world, const Execution& execution) {
+  if (scene.map) return map_facts(scene, world, execution);
   std::vector<Fact> facts{{"source", world.source, json_string(world.source)},
                           {"kind", world.kind, json_string(world.kind)},
                           count_fact("walls", scene.walls.size())};

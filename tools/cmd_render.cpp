@@ -11,6 +11,7 @@
 #include "tools/run_options.hpp"
 #include "tools/terminal.hpp"
 #include "tools/world_files.hpp"
+#include "worlds/map_walls.hpp"
 
 namespace warren {
 namespace {
@@ -47,7 +48,8 @@ int render(const Arguments& arguments) {
   StageTimes seconds;
   RecordedAnswer answer;
   if (answer_file) answer = read_answer(*answer_file, run.execution());
-  const Scene scene = load_world(arguments.operand(0), run.execution(), seconds);
+  Scene scene = load_world(arguments.operand(0), run.execution(), seconds);
+  add_map_walls(scene);
   if (answer_file) check_same_world(answer, *answer_file, scene, run.execution());
   const Picture picture{.scene = scene,
                         .path = answer.path,

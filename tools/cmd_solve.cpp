@@ -17,7 +17,9 @@
 #include "tools/summary.hpp"
 #include "tools/terminal.hpp"
 #include "tools/world_files.hpp"
+#include "worlds/map_walls.hpp"
 #include "worlds/output_file_io.hpp"
+#include "worlds/verify_map.hpp"
 
 namespace warren {
 namespace {
@@ -55,6 +57,7 @@ class SolveCommand {
   void check_outputs() const;
   void answer(const Run& run);
   void solve(const Run& run);
+  void confirm_on_map(const Execution& execution);
   SolveRequest request(const Execution& execution) {
     return {arguments_, scene_, problem_, solver_->planner, execution, svg_.empty() ? nullptr : &drawing_};
   }
@@ -102,8 +105,19 @@ void SolveCommand::answer(const Run& run) {
 void SolveCommand::solve(const Run& run) {
   solver_ = choose_solver(arguments_, scene_, problem_);
   WorldAccount world = account_of(scene_, run.execution());
+  if (scene_.map && solver_->planner != PlannerKind::grid) add_map_walls(scene_);  // what they plan among
   answer_ = solver_->kind->solve(request(run.execution()));
   answer_.world = std::move(world);
+  if (scene_.map && answer_.verified) confirm_on_map(run.execution());
+}
+
+/// Among the border walls of a map, blocked cells look as free inside as free ones: a path in there starts blocked.
+void SolveCommand::confirm_on_map(const Execution& execution) {
+  const double clearance = answer_.problem.clearance + answer_.problem.robot.radius;
+  if (verify_on_map(*scene_.map, answer_.path, {.clearance = clearance}, execution).verified) return;
+  answer_.outcome = Outcome::start_blocked;
+  answer_.verified = false;
+  answer_.path.clear();
 }
 
 void SolveCommand::write_outputs(const Run& run) {
@@ -123,6 +137,7 @@ void SolveCommand::write_outputs(const Run& run) {
 }
 
 void SolveCommand::draw(const Execution& execution) {
+  add_map_walls(scene_);
   if (solver_->kind->draw != nullptr) solver_->kind->draw(request(execution));
   const bool has_roadmap = is_roadmap_planner(solver_->planner) || !drawing_.roadmap.states.empty();
   const Picture picture{.scene = scene_,
@@ -151,9 +166,6 @@ Command solve_command() {
   add_options(command.options, output_specs);
   add_options(command.options, run_option_specs());
   command.run = [](const Arguments& arguments) { return SolveCommand(arguments).run(); };
-  for (const char* option : {"--cell", "--angles", "--face-motion", "--diagonal", "--layers"}) {
-    command.foreign.emplace_back(option, "the planner grid");
-  }
   return command;
 }
 

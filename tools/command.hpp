@@ -39,6 +39,7 @@ struct Command {
 void add_options(std::vector<OptionSpec>& to, std::span<const OptionSpec> more);
 
 // The verbs, one a file cmd_NAME.cpp.
+Command bench_scen_command();
 Command compare_command();
 Command completion_command();
 Command convert_command();

@@ -113,8 +113,8 @@ const SolveKind& first_kind(const std::vector<const SolveKind*>& fitting, const 
 }  // namespace
 
 const std::vector<SolveKind>& solve_kinds() {
-  static const std::vector<SolveKind> kinds{walls_kind(), plane_kind(), turning_kind(),
-                                            car_kind(),   arm_kind(),   occupancy_kind()};
+  static const std::vector<SolveKind> kinds{occupancy_kind(), walls_kind(), plane_kind(),  turning_kind(),
+                                            car_kind(),       arm_kind(),   lattice_kind()};
   return kinds;
 }
 

@@ -74,6 +74,7 @@ SolveKind turning_kind();
 SolveKind car_kind();
 SolveKind arm_kind();
 SolveKind occupancy_kind();
+SolveKind lattice_kind();
 
 const std::vector<SolveKind>& solve_kinds();
 

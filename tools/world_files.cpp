@@ -54,11 +54,16 @@ void write_world(const Scene& scene, const std::string& file, const std::string&
 }
 
 WorldAccount account_of(const Scene& scene, const Execution& execution) {
+  if (scene.map) return {scene.source, "map", 0, 0, scene_hash(scene, execution)};
   const char* kind = scene.maze ? "maze" : scene.polygons.empty() ? "walls" : "polygons";
   return {scene.source, kind, scene.walls.size(), scene.polygons.size(), scene_hash(scene, execution)};
 }
 
 std::string description_of(const Scene& scene) {
+  if (scene.map) {
+    return fmt::format("map of {} x {} cells, {} free", scene.map->width(), scene.map->height(),
+                       grouped(scene.map->free));
+  }
   std::string text = scene.maze ? fmt::format("{} x {} maze, ", scene.maze->rows, scene.maze->cols) : "";
   const auto counted = [](std::size_t count, const char* one, const char* many) {
     return fmt::format("{} {}", grouped(count), count == 1 ? one : many);

@@ -19,7 +19,7 @@ TEST(Usage, WrongWordsAreRefusedWithTheClosestMatch) {
       {{"solve", "maze:5x7", "--quiet=1"}, 2, "--quiet: takes no value"},
       {{"solve", "maze:5x7", "--planner", "prmm"}, 2, "did you mean prm?"},
       {{"solve", "maze:5x7", "--planner", "cellss"}, 2, "did you mean cells?"},
-      {{"solve", "maze:5x7", "--cell", "1"}, 2, "the planner grid"},
+      {{"solve", "maze:5x7", "--cell", "1"}, 2, "grid takes it"},
       {{"solve", "maze:5x7", "--sampler", "latice"}, 2, "did you mean lattice?"},
       {{"solve", "maze:5x7", "--search", "a*"}, 2, "--search"},
       {{"solve", "maze:5x7", "--queue", "stack"}, 2, "--queue"},

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the program promises for maps and grids: readers by content, grid paths verified against closed cells, the
+// figures of the course's scene, scenario files, conversions there and back.
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/process.hpp"
+
+namespace warren::testing {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* small_map =
+    "type octile\nheight 5\nwidth 7\nmap\n"
+    ".......\n"
+    ".@@@@@.\n"
+    ".......\n"
+    "@@@@@.@\n"
+    ".......\n";
+constexpr const char* sealed_map = "type octile\nheight 3\nwidth 5\nmap\n..@..\n.@@..\n..@..\n";
+constexpr const char* course_scene =
+    "bounds 0 0 800 300\nrobot polygon -25 -25 25 -25 25 25 -25 25\n"
+    "wall 200 0 200 200\nwall 100 200 300 200\nwall 400 100 400 300\nwall 600 0 600 200\nwall 500 200 700 200\n"
+    "start 50 50 0\ngoal 750 50\n";
+
+Json answered(std::vector<std::string> arguments, int code = 0) {
+  SCOPED_TRACE(shown(arguments));
+  arguments.insert(arguments.end(), {"--json", "-"});
+  const Outcome outcome = run(arguments);
+  EXPECT_EQ(outcome.code, code) << outcome.err << outcome.out;
+  return Json::parse(outcome.out, nullptr, false);
+}
+
+TEST(Maps, InfoCountsTheCells) {
+  const Folder folder;
+  const Json info = answered({"info", folder.write("a.map", small_map)});
+  EXPECT_EQ(info["kind"], "map");
+  EXPECT_EQ(info["width"], 7);
+  EXPECT_EQ(info["height"], 5);
+  EXPECT_EQ(info["free"], 24);
+  EXPECT_EQ(info["occupied"], 11);
+}
+
+TEST(Maps, GridPathsAreOptimalAndVerifiedAgainstClosedCells) {
+  const Folder folder;
+  const std::string map = folder.write("a.map", small_map);
+  // From the lower left to the upper right: 4 right, round the corner of the gap, and up the right side.
+  const Json answer = answered({"solve", map, "--start", "0.5,0.5", "--goal", "6.5,4.5"});
+  EXPECT_EQ(answer["planner"], "grid");
+  EXPECT_EQ(answer["status"], "solved");
+  EXPECT_EQ(answer["verified"], true);
+  EXPECT_NEAR(answer["length"].get<double>(), 10.0, 1e-12);
+  EXPECT_NEAR(answer["min_clearance"].get<double>(), 0.5, 1e-12);
+  for (const char* search : {"astar", "dijkstra", "bfs"}) {
+    const Json other = answered({"solve", map, "--start", "0.5,0.5", "--goal", "6.5,4.5", "--search", search});
+    EXPECT_NEAR(other["length"].get<double>(), 10.0, 1e-12) << search;
+  }
+  const std::string file = folder.write("answer.json", answer.dump());
+  EXPECT_EQ(answered({"verify", map, file})["verified"], true);
+  Json bent = answer;
+  bent["path"] = {{0.5, 0.5}, {6.5, 4.5}};
+  bent["length"] = nullptr;
+  EXPECT_EQ(answered({"verify", map, folder.write("bent.json", bent.dump())}, 1)["verified"], false);
+}
+
+TEST(Maps, OptimisedPathsLeaveTheGridAndStayVerified) {
+  const Folder folder;
+  const std::string map = folder.write("a.map", small_map);
+  for (const char* robot : {"point", "disc 0.3"}) {
+    const Json answer =
+        answered({"solve", map, "--start", "0.5,0.5", "--goal", "6.5,4.5", "--optimise", "--robot", robot});
+    EXPECT_EQ(answer["verified"], true);
+    EXPECT_NEAR(answer["raw_length"].get<double>(), 10.0, 1e-12);
+    EXPECT_LT(answer["length"].get<double>(), 9.9);
+    EXPECT_GE(answer["length"].get<double>(), std::sqrt(52.0));
+  }
+}
+
+TEST(Maps, WhatIsProvedIsInfeasibleAndBlockedEndsAreNamed) {
+  const Folder folder;
+  const std::string map = folder.write("a.map", sealed_map);
+  const auto status = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"solve", map};
+    words.insert(words.end(), more.begin(), more.end());
+    return answered(words, 1)["status"].get<std::string>();
+  };
+  EXPECT_EQ(status({"--start", "0.5,0.5", "--goal", "4.5,0.5"}), "infeasible");
+  EXPECT_EQ(status({"--start", "0.5,0.5", "--goal", "4.5,0.5", "--robot", "disc 0.3"}), "infeasible");
+  EXPECT_EQ(status({"--start", "2.5,0.5", "--goal", "4.5,0.5"}), "start_blocked");
+  EXPECT_EQ(status({"--start", "0.5,0.5", "--goal", "2.5,0.5"}), "goal_blocked");
+  EXPECT_EQ(status({"--start", "0.5,0.5", "--goal", "9,0.5"}), "goal_blocked");
+  EXPECT_EQ(status({"--start", "0.5,0.5", "--goal", "4.5,0.5", "--robot", "disc 0.6"}), "start_blocked");
+}
+
+TEST(Maps, RoadmapsPlanAmongTheBorders) {
+  const Folder folder;
+  const std::string map = folder.write("a.map", small_map);
+  for (const char* planner : {"prm", "lazy-prm"}) {
+    const Json answer =
+        answered({"solve", map, "--start", "0.5,0.5", "--goal", "6.5,4.5", "--planner", planner, "--clearance", "0.1"});
+    EXPECT_EQ(answer["status"], "solved") << planner;
+    EXPECT_EQ(answer["verified"], true) << planner;
+    EXPECT_GE(answer["min_clearance"].get<double>(), 0.1 * (1 - 1e-9));
+  }
+  const Json blocked = answered(
+      {"solve", folder.write("b.map", "type octile\nheight 3\nwidth 9\nmap\n.........\n.@@@@@@@.\n.........\n"),
+       "--start", "2.5,1.5", "--goal", "6.5,1.5", "--planner", "prm"},
+      1);
+  EXPECT_EQ(blocked["status"], "start_blocked");
+}
+
+TEST(Maps, MazeImagesBringTheirEnds) {
+  const Folder folder;
+  const std::string image =
+      folder.write("m.pgm", "P2\n5 5\n1\n0 1 0 0 0\n0 1 1 1 0\n0 0 0 1 0\n0 1 1 1 0\n0 1 0 0 0\n");
+  const Json answer = answered({"solve", image});
+  EXPECT_EQ(answer["status"], "solved");
+  EXPECT_NEAR(answer["length"].get<double>(), 8.0, 1e-12);
+  EXPECT_EQ(answer["start"], Json::parse("[1.5, 4.5]"));
+  EXPECT_EQ(answer["goal"], Json::parse("[1.5, 0.5]"));
+}
+
+TEST(Maps, ConvertGoesFromCellsToWallsAndBack) {
+  const Folder folder;
+  const std::string map = folder.write("a.map", small_map);
+  EXPECT_EQ(run({"convert", map, "-o", folder.path("a.scene"), "--quiet"}).code, 0);
+  EXPECT_EQ(answered({"info", folder.path("a.scene")})["kind"], "walls");
+  for (const char* name : {"b.map", "b.pgm", "b.yaml"}) {
+    EXPECT_EQ(run({"convert", map, "-o", folder.path(name), "--quiet"}).code, 0) << name;
+    EXPECT_EQ(answered({"info", folder.path(name)})["free"], 24) << name;
+  }
+  const std::string scene = folder.write("w.scene", "bounds 0 0 6 4\nwall 2.5 1 2.5 2.5\n");
+  EXPECT_EQ(run({"convert", scene, "-o", folder.path("w.map")}).code, 2);  // no --cell
+  EXPECT_EQ(run({"convert", scene, "-o", folder.path("w.map"), "--cell", "1", "--quiet"}).code, 0);
+  EXPECT_EQ(answered({"info", folder.path("w.map")})["occupied"], 3);
+}
+
+TEST(Maps, BadFilesAreDataErrorsAndMissingImagesReadErrors) {
+  const Folder folder;
+  EXPECT_EQ(run({"info", folder.write("a.map", "type octile\nheight 2\nwidth 2\nmap\n..\n.?\n")}).code, 65);
+  const std::string yaml = "resolution: 1\norigin: [0, 0, 0]\noccupied_thresh: 0.65\nfree_thresh: 0.2\nnegate: 0\n";
+  const Outcome gone = run({"info", folder.write("m.yaml", "image: gone.png\n" + yaml)});
+  EXPECT_EQ(gone.code, 66);
+  EXPECT_NE(gone.err.find("gone.png"), std::string::npos) << gone.err;
+  EXPECT_EQ(run({"info", folder.write("n.yaml", "image: [a]\n" + yaml)}).code, 65);
+}
+
+TEST(Lattice, TheCourseSceneHasItsFigures) {
+  const Folder folder;
+  const std::string scene = folder.write("walls.scene", course_scene);
+  const std::vector<std::string> common{"solve",    scene, "--planner",     "grid",       "--cell", "2",
+                                        "--angles", "72",  "--face-motion", "--diagonal", "unit"};
+  const Json exact = answered(common);
+  EXPECT_EQ(exact["cost"], 684.0);
+  EXPECT_EQ(exact["moves"], 558);
+  EXPECT_EQ(exact["free_states"], 2'049'072);
+  EXPECT_EQ(exact["verified"], true);
+  EXPECT_EQ(exact["path"][0].size(), 3U);
+  EXPECT_EQ(answered({"verify", scene, folder.write("exact.json", exact.dump())})["verified"], true);
+  std::vector<std::string> report = common;
+  report.insert(report.end(), {"--layers", "report004"});
+  const Outcome outcome = run([&] {
+    std::vector<std::string> words = report;
+    words.insert(words.end(), {"--json", "-"});
+    return words;
+  }());
+  const Json answer = Json::parse(outcome.out, nullptr, false);
+  EXPECT_EQ(answer["cost"], 735.0);
+  EXPECT_EQ(answer["moves"], 609);
+  EXPECT_EQ(answer["cells"], 610);
+  EXPECT_EQ(answer["turn_steps"], 126);
+  EXPECT_EQ(outcome.code, answer["verified"].get<bool>() ? 0 : 1);
+}
+
+TEST(Lattice, EndsOffTheGridAndMissingCellsAreUsageErrors) {
+  const Folder folder;
+  const std::string scene = folder.write("walls.scene", course_scene);
+  EXPECT_EQ(run({"solve", scene, "--planner", "grid"}).code, 2);
+  EXPECT_EQ(run({"solve", scene, "--planner", "grid", "--cell", "2", "--start", "51,50,0"}).code, 2);
+  EXPECT_EQ(run({"solve", scene, "--planner", "grid", "--cell", "2", "--start", "50,50,0.01"}).code, 2);
+  EXPECT_EQ(run({"solve", scene, "--planner", "grid", "--cell", "0"}).code, 2);
+}
+
+TEST(BenchScen, ExitsWithZeroOnlyWhereEveryLengthIsTheOptimum) {
+  const Folder folder;
+  folder.write("a.map", small_map);
+  const auto scenario = [&](const char* name, double length) {
+    return folder.write(name, "version 1\n0\ta.map\t7\t5\t0\t4\t6\t0\t" + std::to_string(length) +
+                                  "\r\n0\tmaps/a.map\t7\t5\t0\t0\t0\t0\t0\r\n");
+  };
+  EXPECT_EQ(run({"bench-scen", scenario("two.scen", 10.0)}).code, 65);  // two maps in one file
+  const std::string right = folder.write("a.scen", "version 1\n0\tmaps/x/a.map\t7\t5\t0\t4\t6\t0\t10.0\n");
+  const Json good = answered({"bench-scen", right});
+  EXPECT_EQ(good["scenarios"], 1);
+  EXPECT_EQ(good["differing"], 0);
+  const Json bad =
+      answered({"bench-scen", folder.write("b.scen", "version 1\n0\ta.map\t7\t5\t0\t4\t6\t0\t10.002\n")}, 1);
+  EXPECT_EQ(bad["differing"], 1);
+  EXPECT_EQ(bad["differences"][0]["line"], 2);
+  EXPECT_EQ(run({"bench-scen", folder.write("c.scen", "version 1\n0\tgone.map\t7\t5\t0\t4\t6\t0\t10\n")}).code, 66);
+  EXPECT_EQ(run({"bench-scen", folder.write("d.scen", "version 1\n0\ta.map\t7\t5\t0\t4\t7\t0\t10\n")}).code, 65);
+}
+
+}  // namespace
+}  // namespace warren::testing

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/grid_options.hpp"
+
+#include <array>
+
+#include "core/error.hpp"
+#include "tools/option_values.hpp"
+
+namespace warren {
+namespace {
+
+constexpr OptionSpec specs[] = {
+    {"--cell", "C", "grid in a scene: distance of its positions (default: the file's grid line)"},
+    {"--angles", "N", "grid in a scene: headings of a body that turns (default: the file's grid line, else 72)"},
+    {"--face-motion", "", "grid in a scene: a body moves only where it faces; a turn to the next heading costs 1"},
+    {"--diagonal", "NAME", "grid: what a diagonal step costs (default: sqrt2)", "sqrt2 unit none"},
+    {"--layers", "NAME",
+     "grid in a scene: exact footprints, or report 004's discs, rounded up, among walls two cells thick "
+     "(default: exact)",
+     "exact report004"},
+};
+
+constexpr std::array<std::string_view, 3> diagonal_words{"sqrt2", "unit", "none"};
+constexpr std::array<std::string_view, 4> method_words{"astar", "dijkstra", "bfs", "jump-points"};
+
+}  // namespace
+
+std::span<const OptionSpec> grid_option_specs() { return specs; }
+
+Diagonal diagonal_option(const Arguments& arguments) {
+  const auto text = arguments.value("--diagonal");
+  return text ? static_cast<Diagonal>(choice_value("--diagonal", *text, diagonal_words)) : Diagonal::sqrt2;
+}
+
+GridMethod method_option(const Arguments& arguments, GridMethod usual) {
+  const auto text = arguments.value("--search");
+  if (!text) return usual;
+  if (*text == "dfs") throw UsageError("--search: grid takes astar, dijkstra and bfs; the planner prm takes dfs");
+  return static_cast<GridMethod>(choice_value("--search", *text, method_words));
+}
+
+std::string_view name_of(Diagonal diagonal) { return diagonal_words[static_cast<std::size_t>(diagonal)]; }
+std::string_view name_of(GridMethod method) { return method_words[static_cast<std::size_t>(method)]; }
+
+}  // namespace warren
