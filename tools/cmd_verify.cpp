@@ -16,6 +16,7 @@
 #include "tools/solve_kind.hpp"
 #include "tools/terminal.hpp"
 #include "tools/world_files.hpp"
+#include "worlds/map_walls.hpp"
 #include "worlds/output_file_io.hpp"
 #include "worlds/verify.hpp"
 
@@ -80,9 +81,11 @@ int verify(const Arguments& arguments) {
   Run run(arguments);
   StageTimes seconds;
   const RecordedAnswer answer = read_answer(arguments.operand(1), run.execution());
-  const Scene scene = load_world(arguments.operand(0), run.execution(), seconds);
+  Scene scene = load_world(arguments.operand(0), run.execution(), seconds);
   check_same_world(answer, arguments.operand(1), scene, run.execution());
   const ProblemOptions asked = merged(options, answer.problem);
+  const RobotKind body = robot_of(scene, asked).kind;
+  if (body != RobotKind::point && body != RobotKind::disc) add_map_walls(scene);  // they are judged among walls
   const SolveKind& kind = verifying_kind(scene, asked);
   Verdict verdict;
   {
