@@ -72,7 +72,7 @@ class Steps {
 class BreadthFirst {
  public:
   BreadthFirst(const FreeCells& cells, const Steps& steps, const Execution& execution)
-      : cells_(cells), steps_(steps), execution_(execution) {
+      : steps_(steps), execution_(execution) {
     execution.reserve(cells.number_end());
     arrived_by_.assign(cells.number_end(), 0);
   }
@@ -112,7 +112,6 @@ class BreadthFirst {
     }
   }
 
-  const FreeCells& cells_;
   const Steps& steps_;
   const Execution& execution_;
   RawVector<std::uint8_t> arrived_by_;

@@ -118,9 +118,13 @@ void read_png(const InputFile& file, const ImageSink& sink, const Execution& exe
       const std::size_t count = std::size_t{cols} * header.channels;
       widen(header, count, input);
       const std::span<const std::uint16_t> samples(input.samples.data(), count);
-      sink.row(interlaced ? PixelRun{PNG_ROW_FROM_PASS_ROW(r, pass), PNG_PASS_START_COL(pass),
-                                     std::uint32_t{1} << PNG_PASS_COL_SHIFT(pass), samples}
-                          : PixelRun{r, 0, 1, samples});
+      if (!interlaced) {
+        sink.row({r, 0, 1, samples});
+        continue;
+      }
+      const auto y = static_cast<std::uint32_t>(PNG_ROW_FROM_PASS_ROW(r, pass));
+      const auto first_x = static_cast<std::uint32_t>(PNG_PASS_START_COL(pass));
+      sink.row({y, first_x, std::uint32_t{1} << PNG_PASS_COL_SHIFT(pass), samples});
     }
   }
   if (!end(reader.png())) fail();
