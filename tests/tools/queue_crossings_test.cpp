@@ -69,7 +69,7 @@ TEST(QueueCrossings, ArraysMeetEveryHeapOfTheirSearchAndNoOther) {
   EXPECT_EQ(queue_crossings(curves).size(), 4U);
 }
 
-Contender contender_of(std::size_t problem, const std::string& queue, std::vector<double> seconds) {
+Contender contender_of(std::size_t problem, const std::string& queue, const std::vector<double>& seconds) {
   Contender c;
   c.problem = problem;
   c.search = "dijkstra";
