@@ -35,6 +35,12 @@ std::span<const OptionSpec> plane_option_specs() { return specs; }
 
 WallProblem touching_problem(const SolveRequest& request) {
   const std::string_view planner = name_of(request.planner);
+  if (request.scene.map) {
+    throw UsageError(fmt::format(
+        "--planner: paths of {} may touch what is blocked, but a map's blocked cells are closed; take grid, prm or "
+        "lazy-prm",
+        planner));
+  }
   const WallProblem problem = wall_problem(request.scene, request.problem, Contact::allowed);
   if (problem.reach() > 0.0) {
     throw UsageError(fmt::format(

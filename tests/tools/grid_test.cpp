@@ -146,6 +146,16 @@ TEST(Maps, BadFilesAreDataErrorsAndMissingImagesReadErrors) {
   EXPECT_EQ(run({"info", folder.write("n.yaml", "image: [a]\n" + yaml)}).code, 65);
 }
 
+TEST(Maps, PlannersWhosePathsTouchAreRefused) {
+  const Folder folder;
+  const std::string map = folder.write("a.map", small_map);
+  for (const char* planner : {"visibility", "cells"}) {
+    const Outcome outcome = run({"solve", map, "--planner", planner, "--start", "0.5,0.5", "--goal", "6.5,4.5"});
+    EXPECT_EQ(outcome.code, 2) << planner;
+    EXPECT_NE(outcome.err.find("blocked cells are closed"), std::string::npos) << outcome.err;
+  }
+}
+
 TEST(Lattice, TheCourseSceneHasItsFigures) {
   const Folder folder;
   const std::string scene = folder.write("walls.scene", course_scene);
