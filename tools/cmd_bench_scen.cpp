@@ -185,7 +185,7 @@ void print_report(const std::string& file, const std::vector<Scenario>& scenario
 int bench_scen(const Arguments& arguments) {
   const auto json = output_file(arguments, "--json");
   Run run(arguments);
-  const std::string file = arguments.operand(0);
+  const std::string& file = arguments.operand(0);
   const std::vector<Scenario> scenarios = read_scenarios(InputFile(file, run.execution()), run.execution());
   for (const Scenario& s : scenarios) {
     if (s.map != scenarios.front().map) {

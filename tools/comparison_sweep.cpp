@@ -68,7 +68,7 @@ std::string crossing_text(const QueueCrossing& c) {
   }
   std::string text =
       fmt::format("no slower at {:.0f}, slower from {:.0f} on ({})", *c.not_slower_at, *c.slower_from, at_last);
-  if (c.crossing) text += fmt::format(": they cross near {}", grouped(static_cast<std::uint64_t>(*c.crossing + 0.5)));
+  if (c.crossing) text += fmt::format(": they cross near {}", grouped(std::llround(*c.crossing)));
   const bool within = c.fitted && *c.fitted > 0.1 * c.ratios.front().x && *c.fitted < 10.0 * last.x;
   if (within) text += fmt::format(", by a line through all sizes near {}", grouped(std::llround(*c.fitted)));
   return text;

@@ -91,8 +91,9 @@ std::vector<PlannerWords> contenders_of(const PlannerDeal& deal, const std::stri
     if (!refusal(planner, option, value)) add_option(words, option, value);
   }
   std::vector<PlannerWords> all{words};
-  for (const auto& [option, values] : deal.lists) {
-    std::vector<std::string> taken = values;
+  for (const auto& list : deal.lists) {
+    const std::string_view option = list.first;
+    std::vector<std::string> taken = list.second;
     std::erase_if(taken, [&](const std::string& value) { return refusal(planner, option, value).has_value(); });
     all = dealt(all, option, taken);
   }
