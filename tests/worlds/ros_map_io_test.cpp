@@ -147,7 +147,7 @@ TEST(RosMap, AMissingImageIsAReadErrorThatNamesBoth) {
 
 TEST(RosMap, RefusesBadKeysWithFileAndLine) {
   const Fixture fixture("P2 1 1 255\n254\n");
-  const auto with = [](std::string from, std::string to) {
+  const auto with = [](const std::string& from, const std::string& to) {
     std::string text = yaml_text();
     return text.replace(text.find(from), from.size(), to);
   };
