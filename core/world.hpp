@@ -38,6 +38,13 @@ concept SteerableWorld = World<W> && requires(const W& w, const typename W::Stat
   { w.interpolate(a, a, 0.5) } -> std::same_as<typename W::State>;
 };
 
+/// A world that knows the middles of its corridors.
+/// w.corridor_state(seed, index)  the index-th sample of a seed from there: a pure function
+template <class W>
+concept CorridorWorld = World<W> && requires(const W& w) {
+  { w.corridor_state(std::uint64_t{}, std::uint64_t{}) } -> std::same_as<typename W::State>;
+};
+
 /// Motions that this query saw refused: neither proved free nor blocked. 0 for worlds whose checks are exact.
 template <class Query>
 std::uint64_t refused_motions(const Query& query) {

@@ -77,6 +77,9 @@ typename W::State sample_state(const W& world, const RoadmapOptions& options, st
     }
   }
   if (options.sampler == SamplerKind::halton) return world.at_unit(halton_point<W::dimension>(options.seed, index));
+  if constexpr (CorridorWorld<W>) {
+    if (options.sampler == SamplerKind::corridor) return world.corridor_state(options.seed, index);
+  }
   return uniform_state(world, options.seed, index);
 }
 

@@ -12,8 +12,9 @@ namespace warren {
 /// uniform: in the plane stratified, one sample drawn uniformly in each of as many equal boxes as there are samples,
 /// which joins mazes with a quarter of the milestones that independent draws need (docs/performance.md); else
 /// independent. lattice: the cell centres of a maze. halton: the Halton sequence, shifted by the seed. random:
-/// independent uniform. gaussian, bridge, mixture: planners/sampler.hpp.
-enum class SamplerKind : std::uint8_t { uniform, lattice, halton, random, gaussian, bridge, mixture };
+/// independent uniform. gaussian, bridge, mixture: planners/sampler.hpp. corridor: the middles of a map's corridors, by
+/// the distance transform (worlds/corridor_points.hpp); where the world knows none, as random.
+enum class SamplerKind : std::uint8_t { uniform, lattice, halton, random, gaussian, bridge, mixture, corridor };
 /// The rules of PRM* (Karaman, Frazzoli, Int. J. Robotics Research 30(7), 2011), by which the number of neighbours or
 /// the radius follows the number of samples so that paths approach the shortest ones.
 enum class StarRule : std::uint8_t { none, neighbours, radius };

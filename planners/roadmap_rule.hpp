@@ -67,8 +67,9 @@ inline std::uint64_t next_samples(const RoadmapOptions& options, std::uint64_t f
 inline ConnectionRule connection_rule(const RoadmapOptions& options, std::uint64_t samples, double volume) {
   if (options.radius) return {*options.radius, 0};
   if (options.neighbours) return {0.0, *options.neighbours};
-  if (options.sampler == SamplerKind::lattice) return {1.0, 0};  // the four neighbours in the lattice
-  if (!(volume > 0.0)) return {0.0, static_cast<std::uint32_t>(expected_neighbours)};
+  if (options.sampler == SamplerKind::lattice) return {1.0, 0};     // the four neighbours in the lattice
+  const bool on_curves = options.sampler == SamplerKind::corridor;  // which fill no area evenly
+  if (on_curves || !(volume > 0.0)) return {0.0, static_cast<std::uint32_t>(expected_neighbours)};
   return {std::sqrt(expected_neighbours * volume / (std::numbers::pi * static_cast<double>(samples))), 0};
 }
 

@@ -108,7 +108,8 @@ void SolveCommand::solve(const Run& run) {
   if (scene_.map && solver_->planner != PlannerKind::grid) add_map_walls(scene_);  // what they plan among
   answer_ = solver_->kind->solve(request(run.execution()));
   answer_.world = std::move(world);
-  if (scene_.map && answer_.verified) confirm_on_map(run.execution());
+  const bool judged_by_cells = answer_.problem.robot.kind != RobotKind::car;
+  if (scene_.map && answer_.verified && !judged_by_cells) confirm_on_map(run.execution());
 }
 
 /// Among the border walls of a map, blocked cells look as free inside as free ones: a path in there starts blocked.

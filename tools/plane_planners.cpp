@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
 #include "core/error.hpp"
 #include "planners/cell_decomposition.hpp"
 #include "tools/answer_json.hpp"
+#include "tools/option_values.hpp"
 #include "worlds/plane_obstacles.hpp"
 
 namespace warren {
@@ -22,6 +25,8 @@ constexpr OptionSpec specs[] = {
      "length clearance"},
 };
 
+constexpr std::array<std::string_view, 2> objective_words{"length", "clearance"};
+
 std::string obstacle_text(const Scene& scene, std::size_t number) {
   if (number == ObstacleClash::bounds) return "the bounds";
   if (number >= scene.polygons.size()) return fmt::format("wall {}", number - scene.polygons.size());
@@ -32,6 +37,13 @@ std::string obstacle_text(const Scene& scene, std::size_t number) {
 }  // namespace
 
 std::span<const OptionSpec> plane_option_specs() { return specs; }
+
+AxisObjective axis_objective(const Arguments& arguments) {
+  const auto text = arguments.value("--objective");
+  return text ? static_cast<AxisObjective>(choice_value("--objective", *text, objective_words)) : AxisObjective::length;
+}
+
+std::string_view name_of(AxisObjective objective) { return objective_words[static_cast<std::size_t>(objective)]; }
 
 WallProblem touching_problem(const SolveRequest& request) {
   const std::string_view planner = name_of(request.planner);

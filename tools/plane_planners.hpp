@@ -8,6 +8,7 @@
 
 #include "core/polygon.hpp"
 #include "core/solution.hpp"
+#include "planners/medial_axis_planner.hpp"
 #include "tools/solve_kind.hpp"
 
 namespace warren {
@@ -18,6 +19,10 @@ Answer solve_on_medial_axis(const SolveRequest& request);
 
 /// --full --sampled-edges --doors --objective
 std::span<const OptionSpec> plane_option_specs();
+
+/// --objective: length where nothing is said. Throws UsageError.
+AxisObjective axis_objective(const Arguments& arguments);
+std::string_view name_of(AxisObjective objective);
 
 /// The problem of a planner that plans for a point which may touch obstacles. Throws UsageError for bodies and
 /// clearances that it can't keep, and where contact is to be blocked.

@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::array<std::string_view, 8> planner_words{"prm",     "lazy-prm", "visibility",  "cells",
                                                         "voronoi", "rrt",      "rrt-connect", "grid"};
-constexpr std::array<std::string_view, 7> sampler_words{"uniform",  "lattice", "halton", "random",
-                                                        "gaussian", "bridge",  "mixture"};
+constexpr std::array<std::string_view, 8> sampler_words{"uniform",  "lattice", "halton",  "random",
+                                                        "gaussian", "bridge",  "mixture", "corridor"};
 constexpr std::array<std::string_view, 4> search_words{"astar", "dijkstra", "bfs", "dfs"};
 constexpr std::array<std::string_view, 4> queue_words{"heap", "lazy-heap", "sorted-array", "resorted-array"};
 constexpr std::array<std::string_view, 2> pipeline_words{"plain", "tiled"};
@@ -30,7 +30,7 @@ constexpr OptionSpec specs[] = {
     {"--planner", "NAME",
      "prm checks every edge, lazy-prm only those that a search reaches (default: prm with lattice)", "prm lazy-prm"},
     {"--sampler", "NAME", "where milestones come from (default: lattice in mazes, else uniform)",
-     "uniform lattice halton random gaussian bridge mixture"},
+     "uniform lattice halton random gaussian bridge mixture corridor"},
     {"--samples", "N|auto", "states drawn; auto grows until start and goal connect (default: auto)"},
     {"--neighbours", "K|auto|star", "join each milestone to its K nearest; star: by the rule of PRM* (default: auto)"},
     {"--radius", "R|auto|star",

@@ -105,6 +105,13 @@ const SolveKind& first_kind(const std::vector<const SolveKind*>& fitting, const 
   throw UsageError(fmt::format(no_planner, where, what, solved_problems()));
 }
 
+/// Only maps have corridors that are known.
+void check_corridors(const Arguments& arguments, const Scene& scene) {
+  if (scene.map || sampler_asked(arguments) != SamplerKind::corridor) return;
+  throw UsageError(fmt::format("--sampler: corridor is for occupancy maps, and {} is none; the others take any world",
+                               scene.source));
+}
+
 [[noreturn]] void refuse_planner(PlannerKind planner, const SolveKind& kind) {
   throw UsageError(fmt::format("--planner: {} does not solve {}; {} {}", name_of(planner), kind.problem,
                                listed(planners_of(kind)), kind.planners.size() == 1 ? "does" : "do"));
@@ -113,8 +120,8 @@ const SolveKind& first_kind(const std::vector<const SolveKind*>& fitting, const 
 }  // namespace
 
 const std::vector<SolveKind>& solve_kinds() {
-  static const std::vector<SolveKind> kinds{occupancy_kind(), walls_kind(), plane_kind(),  turning_kind(),
-                                            car_kind(),       arm_kind(),   lattice_kind()};
+  static const std::vector<SolveKind> kinds{occupancy_kind(),    walls_kind(), plane_kind(), turning_kind(),
+                                            turning_axis_kind(), car_kind(),   arm_kind(),   lattice_kind()};
   return kinds;
 }
 
@@ -145,6 +152,7 @@ ChosenSolver choose_solver(const Arguments& arguments, const Scene& scene, const
   if (found == fitting.end()) refuse_planner(chosen.planner, first);
   chosen.kind = *found;
   refuse_ignored(arguments, chosen.planner, {*choice_in(*chosen.kind, chosen.planner)});
+  check_corridors(arguments, scene);
   return chosen;
 }
 

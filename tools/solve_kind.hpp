@@ -71,6 +71,7 @@ struct SolveKind {
 SolveKind walls_kind();
 SolveKind plane_kind();
 SolveKind turning_kind();
+SolveKind turning_axis_kind();
 SolveKind car_kind();
 SolveKind arm_kind();
 SolveKind occupancy_kind();

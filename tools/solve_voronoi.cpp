@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The planner voronoi: along the medial axis, as far from all obstacles as a path can be. min_clearance of the answer
 // is measured on the path by the verification.
-#include <array>
-
 #include "core/error.hpp"
 #include "planners/medial_axis_planner.hpp"
 #include "tools/answer_json.hpp"
-#include "tools/option_values.hpp"
 #include "tools/plane_planners.hpp"
 #include "tools/verified_answer.hpp"
 
 namespace warren {
 namespace {
-
-constexpr std::array<std::string_view, 2> objective_words{"length", "clearance"};
 
 MedialAxisOptions options_of(const SolveRequest& request, const WallProblem& problem, const SearchChoice& search) {
   constexpr double planning_room = 1 + 1e-9;  // so that rounding can't fail the verification
@@ -21,9 +16,7 @@ MedialAxisOptions options_of(const SolveRequest& request, const WallProblem& pro
   options.clearance = problem.reach() * planning_room;
   options.search = search.search;
   options.queue = search.queue;
-  if (const auto objective = request.arguments.value("--objective")) {
-    options.objective = static_cast<AxisObjective>(choice_value("--objective", *objective, objective_words));
-  }
+  options.objective = axis_objective(request.arguments);
   return options;
 }
 
@@ -49,7 +42,7 @@ Answer solve_on_medial_axis(const SolveRequest& request) {
   const MedialAxisOptions options = options_of(request, problem, search);
   Answer answer;
   describe_plane_planner(answer, request, problem, search);
-  answer.options.emplace_back("objective", json_string(objective_words[static_cast<std::size_t>(options.objective)]));
+  answer.options.emplace_back("objective", json_string(name_of(options.objective)));
   answer_within_limits(answer, [&] {
     const PlaneObstacles obstacles = indexed_obstacles(request, answer);
     MedialAxisPlan plan;

@@ -24,6 +24,29 @@ void add_body(PolygonSet& lines, const Se2& pose, std::span<const Vec2> outline)
   lines.add(corners);
 }
 
+Vec2 position_of(const Se2& state) { return state.position(); }
+Vec2 position_of(Vec2 state) { return state; }
+
+template <class State>
+Roadmap<Vec2> joined_in_the_plane(const std::vector<Roadmap<State>>& roadmaps) {
+  Roadmap<Vec2> plane;
+  std::vector<Edge> edges;
+  for (const Roadmap<State>& roadmap : roadmaps) {
+    const auto first = static_cast<VertexId>(plane.states.size());
+    for (const State& state : roadmap.states) plane.states.push_back(position_of(state));
+    for (VertexId v = 0; v < roadmap.graph.vertex_count(); ++v) {
+      for (const VertexId w : roadmap.graph.neighbours(v)) {
+        if (v < w) edges.push_back({first + v, first + w});
+      }
+    }
+    for (const Edge& edge : roadmap.search_tree) {
+      if (edge.to != no_vertex) plane.search_tree.push_back({first + edge.from, first + edge.to});
+    }
+  }
+  plane.graph = Graph::from_edges(plane.states.size(), edges);
+  return plane;
+}
+
 }  // namespace
 
 PictureLayer sweep_of(std::span<const Se2> path, std::span<const Vec2> outline) {
@@ -44,23 +67,7 @@ PictureLayer sweep_of(std::span<const Se2> path, std::span<const Vec2> outline) 
   return layer;
 }
 
-Roadmap<Vec2> in_the_plane(const std::vector<Roadmap<Se2>>& roadmaps) {
-  Roadmap<Vec2> plane;
-  std::vector<Edge> edges;
-  for (const Roadmap<Se2>& roadmap : roadmaps) {
-    const auto first = static_cast<VertexId>(plane.states.size());
-    for (const Se2& state : roadmap.states) plane.states.push_back(state.position());
-    for (VertexId v = 0; v < roadmap.graph.vertex_count(); ++v) {
-      for (const VertexId w : roadmap.graph.neighbours(v)) {
-        if (v < w) edges.push_back({first + v, first + w});
-      }
-    }
-    for (const Edge& edge : roadmap.search_tree) {
-      if (edge.to != no_vertex) plane.search_tree.push_back({first + edge.from, first + edge.to});
-    }
-  }
-  plane.graph = Graph::from_edges(plane.states.size(), edges);
-  return plane;
-}
+Roadmap<Vec2> in_the_plane(const std::vector<Roadmap<Se2>>& roadmaps) { return joined_in_the_plane(roadmaps); }
+Roadmap<Vec2> in_the_plane(const std::vector<Roadmap<Vec2>>& roadmaps) { return joined_in_the_plane(roadmaps); }
 
 }  // namespace warren

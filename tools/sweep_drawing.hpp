@@ -19,5 +19,6 @@ PictureLayer sweep_of(std::span<const Se2> path, std::span<const Vec2> outline);
 
 /// The positions of the states of several roadmaps, one after the other, with their edges.
 Roadmap<Vec2> in_the_plane(const std::vector<Roadmap<Se2>>& roadmaps);
+Roadmap<Vec2> in_the_plane(const std::vector<Roadmap<Vec2>>& roadmaps);
 
 }  // namespace warren

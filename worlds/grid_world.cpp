@@ -46,8 +46,10 @@ std::pair<double, double> range_between(const Segment& leg, double low, double h
 
 }  // namespace
 
-GridWorld::GridWorld(const OccupancyMap& map, double radius, const Execution& execution)
-    : map_(map), reach_(planning_reach(map, radius)), field_(map.blocked, CellDistance::squares, true, execution) {}
+GridWorld::GridWorld(const OccupancyMap& map, double radius, const Execution& execution, bool with_corridors)
+    : map_(map), reach_(planning_reach(map, radius)), field_(map.blocked, CellDistance::squares, true, execution) {
+  if (with_corridors) corridors_.emplace(map_, field_, reach_, execution);
+}
 
 bool GridWorld::is_free_motion(const State& a, const State& b, Query&) const {
   const Segment leg{map_point(map_, a), map_point(map_, b)};

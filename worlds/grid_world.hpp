@@ -6,11 +6,13 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "core/types.hpp"
 #include "core/world.hpp"
 #include "parallel/execution.hpp"
 #include "spatial/distance_field.hpp"
+#include "worlds/corridor_points.hpp"
 #include "worlds/occupancy_map.hpp"
 
 namespace warren {
@@ -23,8 +25,8 @@ class GridWorld {
   struct Query {};
 
   /// radius: distance that states keep from blocked squares, world units, >= 0 and finite (InputError otherwise); 0:
-  /// touching is blocked. Water is blocked. Copies the map.
-  GridWorld(const OccupancyMap& map, double radius, const Execution& execution);
+  /// touching is blocked. Water is blocked. Copies the map. with_corridors: corridor_state will be asked for.
+  GridWorld(const OccupancyMap& map, double radius, const Execution& execution, bool with_corridors = false);
 
   Query make_query() const { return {}; }
   State at_unit(const std::array<double, 2>& u) const {
@@ -38,6 +40,15 @@ class GridWorld {
     return t <= 0.0 ? a : t >= 1.0 ? b : a + t * (b - a);
   }
 
+  /// The index-th sample from the middles of the corridors, a pure function; the uniform one where there are no
+  /// corridors wide enough, or none were asked for.
+  State corridor_state(std::uint64_t seed, std::uint64_t index) const {
+    return corridors_ && !corridors_->empty() ? corridors_->at(seed, index) : uniform_state(*this, seed, index);
+  }
+
+  /// The map as if its origin were (0, 0) and it were not turned: what uniform samples are spread over.
+  Box box() const { return {{0.0, 0.0}, {map_.cell * map_.width(), map_.cell * map_.height()}}; }
+  double sampled_area() const { return box().width() * box().height(); }
   /// Uniform samples that a first roadmap needs: one for each 64 cells, but no fewer than 500.
   double suggested_samples() const;
   const OccupancyMap& map() const { return map_; }
@@ -48,8 +59,9 @@ class GridWorld {
   OccupancyMap map_;
   double reach_;  // cells
   DistanceField field_;
+  std::optional<CorridorPoints> corridors_;
 };
 
-static_assert(SteerableWorld<GridWorld>);
+static_assert(SteerableWorld<GridWorld> && CorridorWorld<GridWorld>);
 
 }  // namespace warren

@@ -32,7 +32,8 @@ double at_share(double low, double high, double share) {
 
 }  // namespace
 
-Se2World::Se2World(const Scene& scene, std::span<const Vec2> outline, const Se2Options& options)
+Se2World::Se2World(const Scene& scene, std::span<const Vec2> outline, const Se2Options& options,
+                   const Execution& execution)
     : outline_(outline.begin(), outline.end()),
       radius_(positive("robot: radius", radius_of(outline))),
       angle_weight_(positive("angle weight", options.angle_weight.value_or(radius_))),
@@ -41,6 +42,10 @@ Se2World::Se2World(const Scene& scene, std::span<const Vec2> outline, const Se2O
       tree_(scene, radius_ + planning_clearance_) {
   box_ = scene.bounds ? *scene.bounds : tree_.obstacle_box();
   if (box_.empty()) throw InputError("world", "has neither obstacles nor bounds: nothing confines the robot");
+  if (!scene.map) return;
+  map_ = *scene.map;
+  const DistanceField field(map_->blocked, CellDistance::squares, true, execution);
+  corridors_.emplace(*map_, field, planning_clearance_ / map_->cell, execution);
 }
 
 Se2 Se2World::at_unit(const std::array<double, 3>& u) const {
@@ -64,9 +69,21 @@ double Se2World::clearance(const State& a, double enough, Query& query) const {
   return tree_.clearance(query.footprint, enough + planning_clearance_) - planning_clearance_;
 }
 
-bool Se2World::is_free(const State& a, Query& query) const {
-  return (tree_.bounds() || box_.contains(a.position())) && clearance(a, 0.0, query) > 0.0;
+Se2 Se2World::corridor_state(std::uint64_t seed, std::uint64_t index) const {
+  Se2 state = uniform_state(*this, seed, index);
+  if (!corridors_ || corridors_->empty()) return state;
+  const Vec2 p = corridors_->at(seed, index);
+  return {p.x, p.y, state.theta};
 }
+
+/// Is the body where it may be, if it touches no obstacle?
+bool Se2World::is_confined(const State& a) const {
+  if (!map_) return tree_.bounds() || box_.contains(a.position());
+  const std::optional<Cell> cell = cell_at(*map_, placed(a, outline_.front()));
+  return cell && !map_->blocked.test(cell->x, cell->y);
+}
+
+bool Se2World::is_free(const State& a, Query& query) const { return is_confined(a) && clearance(a, 0.0, query) > 0.0; }
 
 MotionVerdict Se2World::judge_motion(const State& a, const State& b, Query& query) const {
   const double whole = travel(a, b);

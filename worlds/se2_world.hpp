@@ -7,6 +7,10 @@
 // (its farthest corner from the reference point), so that a unit of either moves no point further than a unit. It is
 // the geodesic metric of a cylinder of radius w, so the chord in (x, y, w cos theta, w sin theta) never exceeds it.
 // Planning widens the clearance by the factor 1 + 1e-9 plus rounding, so that a verification can't fail by rounding.
+//
+// On a map the body moves among the borders between free and blocked cells, which the scene has as walls
+// (worlds/map_walls.hpp). A body that touches none of them is wholly among free cells or wholly among blocked ones:
+// one of its corners tells which.
 #pragma once
 
 #include <array>
@@ -17,7 +21,9 @@
 
 #include "core/se2.hpp"
 #include "core/world.hpp"
+#include "parallel/execution.hpp"
 #include "worlds/certified_motion.hpp"
+#include "worlds/corridor_points.hpp"
 #include "worlds/obstacle_tree.hpp"
 #include "worlds/scene.hpp"
 
@@ -41,10 +47,12 @@ class Se2World {
 
   /// Throws InputError for options out of range, an outline of fewer than three corners, and a scene without anything
   /// that confines the body. Without bounds the box of the obstacles confines the reference point.
-  Se2World(const Scene& scene, std::span<const Vec2> outline, const Se2Options& options);
+  /// Copies a map. Throws Stopped only for maps.
+  Se2World(const Scene& scene, std::span<const Vec2> outline, const Se2Options& options,
+           const Execution& execution = {});
 
   Query make_query() const { return {Footprint(outline_.size())}; }
-  /// Poses at which the body is in the bounds, if it can be there at that angle.
+  /// Poses at which the body is in the bounds, if it can be there at that angle; on maps, poses of the map's box.
   State at_unit(const std::array<double, 3>& u) const;
   bool is_free(const State& a, Query& query) const;
   bool is_free_motion(const State& a, const State& b, Query& query) const;
@@ -54,6 +62,9 @@ class Se2World {
     return std::sqrt(dot(way, way) + turn * turn);
   }
   State interpolate(const State& a, const State& b, double t) const { return warren::interpolate(a, b, t); }
+  /// The index-th sample whose reference point is in the middle of a map's corridor, in any heading: a pure function;
+  /// the uniform one where the scene is no map.
+  State corridor_state(std::uint64_t seed, std::uint64_t index) const;
   std::array<double, 4> embed(const State& a) const {
     return {a.x, a.y, angle_weight_ * std::cos(a.theta), angle_weight_ * std::sin(a.theta)};
   }
@@ -78,6 +89,8 @@ class Se2World {
   const ObstacleTree& obstacles() const { return tree_; }
 
  private:
+  bool is_confined(const State& a) const;
+
   std::vector<Vec2> outline_;
   double radius_;
   double angle_weight_;
@@ -85,8 +98,10 @@ class Se2World {
   double planning_clearance_;
   ObstacleTree tree_;
   Box box_;
+  std::optional<OccupancyMap> map_;
+  std::optional<CorridorPoints> corridors_;  // only of maps
 };
 
-static_assert(SteerableWorld<Se2World>);
+static_assert(SteerableWorld<Se2World> && CorridorWorld<Se2World>);
 
 }  // namespace warren

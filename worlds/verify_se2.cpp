@@ -42,7 +42,12 @@ double shorter_turn(double a, double b) {
 class BodyVerifier {
  public:
   BodyVerifier(const Scene& scene, std::span<const Vec2> outline, double clearance, const Execution& execution)
-      : obstacles_(scene), outline_(outline), clearance_(clearance), execution_(execution), confines_(scene.bounds) {
+      : obstacles_(scene),
+        outline_(outline),
+        clearance_(clearance),
+        execution_(execution),
+        confines_(scene.bounds),
+        map_(scene.map ? &*scene.map : nullptr) {
     double largest = 0.0;
     for (std::size_t i = 0; i < obstacles_.size(); ++i) {
       const Segment s = obstacles_.segment(i);
@@ -86,6 +91,7 @@ class BodyVerifier {
   double clearance_;
   const Execution& execution_;
   std::optional<Box> confines_;
+  const OccupancyMap* map_;  // nullptr: the scene is none
   std::vector<Segment> segments_;
   Box box_;  // of walls and polygons
   double radius_ = 0.0;
@@ -221,7 +227,8 @@ LegReport BodyVerifier::check_turning(const Leg& leg, std::size_t number) const 
   return report;
 }
 
-/// Is the pose inside a polygon, outside the bounds or off the box? Boundaries are check()'s.
+/// Is the pose inside a polygon, outside the bounds, off the box or among a map's blocked cells? Boundaries are
+/// check()'s.
 LegReport BodyVerifier::check_pose(const Se2& pose, std::size_t number) const {
   const std::vector<Vec2> corners = corners_at({pose, {}, 0.0}, 0.0);
   const auto bad = [&](std::string what) { return LegReport{0.0, 0.0, 0, Violation{number, 0.0, std::move(what)}}; };
@@ -229,6 +236,10 @@ LegReport BodyVerifier::check_pose(const Se2& pose, std::size_t number) const {
     for (const Vec2 p : corners) {
       if (!confines_->contains(p)) return bad(fmt::format("bounds: the corner {} {} is outside", p.x, p.y));
     }
+  } else if (map_ != nullptr) {
+    const std::optional<Cell> cell = cell_at(*map_, corners.front());
+    if (!cell) return bad("map: the body is outside");
+    if (map_->blocked.test(cell->x, cell->y)) return bad(fmt::format("cell {}, {}", cell->x, cell->y));
   } else if (!box_.contains({pose.x, pose.y})) {
     return bad(fmt::format("box: {} {} is outside the box of the obstacles", pose.x, pose.y));
   }

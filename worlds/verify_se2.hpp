@@ -36,7 +36,8 @@ struct Se2Verification {
   std::optional<Violation> first_violation;  ///< on the smallest leg
 };
 
-/// The body among the scene's walls, polygons and bounds (spheres are not looked at). On a leg the reference point goes
+/// The body among the scene's walls, polygons and bounds (spheres are not looked at); on a map among its borders, which
+/// the scene must have as walls (worlds/map_walls.hpp), and over free cells. On a leg the reference point goes
 /// straight while the body turns evenly the shorter way; a leg of half a turn must be free both ways. The path has at
 /// least one pose, all finite (InputError otherwise); a single pose is a leg of length zero. A turning leg that
 /// runs within some millionths of the body's radius of an obstacle, beyond the clearance, may count as not free. The

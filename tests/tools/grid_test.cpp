@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the program promises for maps and grids: readers by content, grid paths verified against closed cells, the
 // figures of the course's scene, scenario files, conversions there and back.
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -93,21 +94,92 @@ TEST(Maps, WhatIsProvedIsInfeasibleAndBlockedEndsAreNamed) {
   EXPECT_EQ(status({"--start", "0.5,0.5", "--goal", "4.5,0.5", "--robot", "disc 0.6"}), "start_blocked");
 }
 
-TEST(Maps, RoadmapsPlanAmongTheBorders) {
+/// What a planner may be asked on a map, and with which bodies.
+struct MapPlanner {
+  const char* name;
+  std::vector<std::string> options;
+  bool is_sampled = true;
+};
+std::vector<MapPlanner> map_planners() {
+  return {{"prm", {}},
+          {"prm", {"--sampler", "corridor"}},
+          {"lazy-prm", {}},
+          {"lazy-prm", {"--sampler", "corridor", "--optimise"}},
+          {"rrt", {}},
+          {"rrt-connect", {}},
+          {"rrt-connect", {"--sampler", "corridor"}},
+          {"voronoi", {}, false},
+          {"voronoi", {"--objective", "clearance"}, false}};
+}
+
+TEST(Maps, AllPlannersSolveThemForPointsDiscsAndPolygonsVerified) {
   const Folder folder;
   const std::string map = folder.write("a.map", small_map);
-  for (const char* planner : {"prm", "lazy-prm"}) {
-    const Json answer =
-        answered({"solve", map, "--start", "0.5,0.5", "--goal", "6.5,4.5", "--planner", planner, "--clearance", "0.1"});
-    EXPECT_EQ(answer["status"], "solved") << planner;
-    EXPECT_EQ(answer["verified"], true) << planner;
-    EXPECT_GE(answer["min_clearance"].get<double>(), 0.1 * (1 - 1e-9));
+  for (const char* robot : {"point", "disc 0.3", "polygon -0.2 -0.2 0.3 -0.2 0.2 0.2"}) {
+    const bool turns = std::string_view(robot).starts_with("polygon");
+    for (const MapPlanner& planner : map_planners()) {
+      SCOPED_TRACE(std::string(robot) + ", " + planner.name);
+      std::vector<std::string> words{"solve",   map,      "--planner", planner.name,
+                                     "--robot", robot,    "--start",   turns ? "0.5,0.5,0" : "0.5,0.5",
+                                     "--goal",  "6.5,4.5"};
+      words.insert(words.end(), planner.options.begin(), planner.options.end());
+      const Json answer = answered(words);
+      EXPECT_EQ(answer["status"], "solved");
+      EXPECT_EQ(answer["verified"], true);
+      EXPECT_GT(answer["min_clearance"].get<double>(), 0.0);
+      EXPECT_EQ(answered({"verify", map, folder.write("answer.json", answer.dump())})["verified"], true);
+      std::vector<std::string> again = words;
+      again.insert(again.end(), {"--threads", "3"});
+      EXPECT_EQ(answered(again)["path"], answer["path"]);
+    }
   }
-  const Json blocked = answered(
-      {"solve", folder.write("b.map", "type octile\nheight 3\nwidth 9\nmap\n.........\n.@@@@@@@.\n.........\n"),
-       "--start", "2.5,1.5", "--goal", "6.5,1.5", "--planner", "prm"},
-      1);
-  EXPECT_EQ(blocked["status"], "start_blocked");
+}
+
+TEST(Maps, OnlyTheGridPlannerProvesThatAMapIsSealed) {
+  const Folder folder;
+  const std::string map = folder.write("a.map", sealed_map);
+  const std::vector<std::string> ends{"--start", "0.5,0.5", "--goal", "4.5,0.5"};
+  for (const MapPlanner& planner : map_planners()) {
+    SCOPED_TRACE(planner.name);
+    std::vector<std::string> words{"solve", map, "--planner", planner.name};
+    words.insert(words.end(), ends.begin(), ends.end());
+    words.insert(words.end(), planner.options.begin(), planner.options.end());
+    if (std::string_view(planner.name).starts_with("rrt")) words.insert(words.end(), {"--nodes", "500"});
+    EXPECT_EQ(answered(words, 1)["status"], "not_connected");
+    words.insert(words.end(), {"--robot", "disc 0.6"});
+    EXPECT_EQ(answered(words, 1)["status"], "start_blocked");
+  }
+}
+
+TEST(Maps, BodiesAmongBlockedCellsStartBlocked) {
+  const Folder folder;
+  const std::string map =
+      folder.write("b.map", "type octile\nheight 3\nwidth 9\nmap\n.........\n.@@@@@@@.\n.........\n");
+  for (const char* robot : {"point", "disc 0.1", "polygon -0.2 -0.2 0.3 -0.2 0.2 0.2"}) {
+    for (const MapPlanner& planner : map_planners()) {
+      SCOPED_TRACE(std::string(robot) + ", " + planner.name);
+      const Json blocked = answered(
+          {"solve", map, "--start", std::string_view(robot)[0] == 'p' && robot[2] == 'l' ? "2.5,1.5,0" : "2.5,1.5",
+           "--goal", "6.5,1.5", "--planner", planner.name, "--robot", robot},
+          1);
+      EXPECT_EQ(blocked["status"], "start_blocked");
+    }
+  }
+}
+
+TEST(Maps, CorridorsAreOfMapsAndWayPointsArePassed) {
+  const Folder folder;
+  const std::string map = folder.write("a.map", small_map);
+  const std::string scene = folder.write("w.scene", "bounds 0 0 6 4\nwall 2.5 1 2.5 2.5\nstart 1 1\ngoal 5 3\n");
+  const Outcome refused = run({"solve", scene, "--planner", "prm", "--sampler", "corridor"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("corridor is for occupancy maps"), std::string::npos) << refused.err;
+  const Json answer = answered({"solve", map, "--planner", "rrt-connect", "--start", "0.5,0.5", "--goal", "6.5,4.5",
+                                "--via", "3.5,0.5;0.5,4.5"});
+  const std::vector<Json> path = answer["path"];
+  EXPECT_NE(std::find(path.begin(), path.end(), Json::parse("[0.5, 4.5]")), path.end());
+  EXPECT_EQ(run({"solve", map, "--planner", "rrt", "--start", "0.5,0.5", "--goal", "6.5,4.5", "--via", "3.5,1.5"}).code,
+            2);
 }
 
 TEST(Maps, MazeImagesBringTheirEnds) {

@@ -69,5 +69,26 @@ TEST(GridWorld, OutsideIsBlockedAndBadRadiiAreRefused) {
   EXPECT_THROW(GridWorld(map, NAN, {}), InputError);
 }
 
+TEST(GridWorld, CorridorStatesAreMostlyFreeAndAPureFunctionOfSeedAndIndex) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    const OccupancyMap map = random_map(seed);
+    const double radius = map.cell * std::array{0.0, 0.3, 0.5, 1.7}[seed / 2 % 4];
+    const GridWorld world(map, radius, {.threads = 1}, true);
+    const GridWorld again(map, radius, {.threads = 3}, true);
+    auto query = world.make_query();
+    int free = 0;
+    for (std::uint64_t i = 0; i < 200; ++i) {
+      const Vec2 p = world.corridor_state(seed, i);
+      EXPECT_EQ(p, again.corridor_state(seed, i));
+      free += world.is_free(p, query) ? 1 : 0;
+      EXPECT_FALSE(p == world.corridor_state(seed + 1, i));
+    }
+    EXPECT_GT(free, 180);
+  }
+  const GridWorld plain(random_map(0), 0.0, {});
+  EXPECT_EQ(plain.corridor_state(3, 4), uniform_state(plain, 3, 4));  // none were asked for
+}
+
 }  // namespace
 }  // namespace warren

@@ -9,6 +9,8 @@
 #include "core/error.hpp"
 #include "core/polygon_distance.hpp"
 #include "tests/worlds/body_scenes.hpp"
+#include "worlds/map_walls.hpp"
+#include "worlds/verify_se2.hpp"
 
 namespace warren {
 namespace {
@@ -209,6 +211,49 @@ TEST(Se2World, RefusesOptionsThatMakeNoSense) {
   EXPECT_NE(message(scene, kite, {.angle_weight = 0.0}).find("angle weight"), std::string::npos);
   EXPECT_NE(message(scene, kite, {.resolution = -0.5}).find("resolution"), std::string::npos);
   EXPECT_NE(message({}, kite, {}).find("confines"), std::string::npos);
+}
+
+/// A map of 12 x 8 cells with a block of 4 x 4, turned and moved, and its borders as walls.
+Scene block_map() {
+  Scene scene;
+  OccupancyMap map;
+  map.blocked = Bitmap(12, 8);
+  for (std::uint32_t y = 2; y < 6; ++y) map.blocked.set_run(y, 4, 8);
+  map.cell = 0.5;
+  map.origin = {3.0, -2.0};
+  map.yaw_rad = 0.4;
+  scene.map = map;
+  add_map_walls(scene);
+  return scene;
+}
+
+TEST(Se2World, OnAMapABodyIsFreeOnlyAmongFreeCells) {
+  const Scene scene = block_map();
+  const std::vector<Vec2> body{{-0.1, -0.2}, {0.3, -0.2}, {0.1, 0.2}};
+  const Se2World world(scene, body, {});
+  auto query = world.make_query();
+  int free = 0;
+  for (std::uint64_t i = 0; i < 3000; ++i) {
+    const Se2 pose = i % 3 == 0 ? world.corridor_state(1, i) : uniform_state(world, 1, i);
+    // All of the body's corners, and many points of its sides, against the cells.
+    bool touches = false;
+    for (std::size_t side = 0; side < body.size(); ++side) {
+      for (int step = 0; step < 20; ++step) {
+        const Vec2 a = body[side];
+        const Vec2 b = body[(side + 1) % body.size()];
+        const auto cell = cell_at(*scene.map, placed(pose, a + (step / 20.0) * (b - a)));
+        touches = touches || !cell || scene.map->blocked.test(cell->x, cell->y);
+      }
+    }
+    const bool is_free = world.is_free(pose, query);
+    free += is_free ? 1 : 0;
+    ASSERT_FALSE(is_free && touches) << i;
+    ASSERT_TRUE(is_free || touches || world.clearance(pose, 0.0, query) < 0.05) << i;
+    const Se2Verification judged = verify_se2(scene, body, std::span(&pose, 1), {}, {});
+    ASSERT_FALSE(is_free && !judged.verified) << i;
+    ASSERT_FALSE(judged.verified && touches) << i;
+  }
+  EXPECT_GT(free, 500);
 }
 
 }  // namespace

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Plans along the skeleton of a map (planners/map_skeleton.hpp), which leads from the start's cell to the goal's as far
+// from what is blocked as it can. By length: the shortest way over the skeleton. By clearance: of the ways whose
+// narrowest cell is as far from what is blocked as possible the shortest. Steps are those of the grid planner: to the
+// side, and across a corner only where both cells beside it are free (Moving AI's rule), so that a body which fits at
+// the middles of cells fits all along the path. Clearances are exact: whole numbers of squared half cells.
+// The transform and the thinning are O(cells); the search is over the skeleton's cells alone.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "core/bitmap.hpp"
+#include "core/solution.hpp"
+#include "parallel/execution.hpp"
+#include "planners/medial_axis_planner.hpp"
+#include "planners/roadmap_options.hpp"
+
+namespace warren {
+
+struct SkeletonOptions {
+  double radius = 0.0;  ///< of a disc, in cells, >= 0
+  AxisObjective objective = AxisObjective::length;
+  SearchKind search = SearchKind::astar;  ///< breadth- and depth-first count steps
+  QueueKind queue = QueueKind::heap;
+};
+
+struct SkeletonPath {
+  Outcome outcome = Outcome::not_connected;  ///< or solved, start_blocked, goal_blocked
+  std::vector<Cell> cells;                   ///< start to goal, each a step from the one before
+  double clearance = 0.0;                    ///< least distance of their middles from what is blocked, in cells
+  RoadmapSize roadmap;                       ///< the skeleton: cells, steps, components
+  Separation separation;                     ///< only for not_connected; the gap in cells
+  std::uint64_t expanded = 0;
+  StageTimes seconds;
+};
+
+/// blocked: to a point; what lies outside is blocked. `steps`, where given, receives the skeleton's steps, for
+/// pictures. Throws Stopped.
+SkeletonPath plan_on_skeleton(const Bitmap& blocked, Cell start, Cell goal, const SkeletonOptions& options,
+                              const Execution& execution, std::vector<std::pair<Cell, Cell>>* steps = nullptr);
+
+}  // namespace warren

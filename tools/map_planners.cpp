@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/map_planners.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <stdexcept>
+
+#include "core/error.hpp"
+#include "tools/option_values.hpp"
+#include "worlds/moving_ai_io.hpp"
+#include "worlds/verify_map.hpp"
+
+namespace warren {
+
+WallProblem map_problem(const Scene& scene, const ProblemOptions& options) {
+  if (options.contact == Contact::allowed) {
+    throw UsageError("--contact: a blocked cell is a closed square, which no path on a map touches");
+  }
+  return wall_problem(scene, options);
+}
+
+std::uint64_t seed_of(const Arguments& arguments) {
+  const auto text = arguments.value("--seed");
+  return text ? count_value("--seed", *text, 0, std::numeric_limits<std::uint64_t>::max()) : 1;
+}
+
+Bitmap closed_cells(const OccupancyMap& map, Vec2 start) {
+  const auto cell = cell_at(map, start);
+  return cell ? blocked_from(map, *cell) : map.blocked;
+}
+
+bool stands_free_on_map(const OccupancyMap& map, const WallProblem& problem, Vec2 p, const Execution& execution) {
+  return verify_on_map(map, std::span(&p, 1), {.clearance = problem.reach()}, execution).verified;
+}
+
+std::vector<Vec2> path_over_cells(const OccupancyMap& map, Vec2 start, std::span<const Cell> cells, Vec2 goal) {
+  std::vector<Vec2> path{start};
+  const auto step = [&](std::size_t i) {
+    return std::pair{std::int64_t{cells[i].x} - cells[i - 1].x, std::int64_t{cells[i].y} - cells[i - 1].y};
+  };
+  const auto append = [&](Vec2 p) {
+    if (!(p == path.back())) path.push_back(p);
+  };
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const bool is_inside = i > 0 && i + 1 < cells.size();
+    if (!is_inside || step(i) != step(i + 1)) append(cell_centre(map, cells[i]));
+  }
+  append(goal);
+  return path;
+}
+
+Verification verify_map_path(const OccupancyMap& map, const WallProblem& problem, std::span<const Vec2> path,
+                             const Execution& execution) {
+  return verify_on_map(map, path, {.clearance = problem.reach(), .start = problem.start, .goal = problem.goal},
+                       execution);
+}
+
+void verify_solved_on_map(Answer& answer, const OccupancyMap& map, const WallProblem& problem, bool over_cells,
+                          const Execution& execution) {
+  if (answer.outcome != Outcome::solved) return;
+  const StageTimer timer(execution, "verify", answer.seconds.verify, answer.path.size());
+  const Verification verification = verify_map_path(map, problem, answer.path, execution);
+  if (!verification.verified) {
+    const Violation violation = verification.first_violation.value_or(Violation{});
+    const bool at_an_end = violation.leg == 0 || violation.leg + 2 == answer.path.size();
+    if (!over_cells || problem.reach() == 0.0 || !at_an_end) {
+      throw std::logic_error(fmt::format("the path of {} fails its verification at leg {}: {} is {} away",
+                                         answer.planner, violation.leg, violation.obstacle, violation.distance));
+    }
+    answer.outcome = Outcome::not_connected;
+    answer.path.clear();
+    return;
+  }
+  answer.verified = true;
+  answer.length = verification.length;
+  answer.min_clearance = verification.min_clearance - problem.robot.radius;
+}
+
+}  // namespace warren

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The planners for a point or disc on an occupancy map, one a file solve_map_NAME.cpp, and what they share: the
+// question, paths over cells, and the verification against closed cells.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/bitmap.hpp"
+#include "tools/solve_kind.hpp"
+#include "worlds/occupancy_map.hpp"
+#include "worlds/verify.hpp"
+
+namespace warren {
+
+Answer solve_by_cells_of_map(const SolveRequest& request);  ///< grid
+Answer solve_on_skeleton(const SolveRequest& request);      ///< voronoi
+Answer solve_sampled_on_map(const SolveRequest& request);   ///< prm, lazy-prm, rrt, rrt-connect
+
+/// Throws UsageError where contact is to be allowed, and as wall_problem does.
+WallProblem map_problem(const Scene& scene, const ProblemOptions& options);
+
+/// --seed, 1 where nothing is said. Throws UsageError.
+std::uint64_t seed_of(const Arguments& arguments);
+
+/// The cells that the robot may not enter, among them the water if it starts on land.
+Bitmap closed_cells(const OccupancyMap& map, Vec2 start);
+
+/// Does the robot fit there, as the verification sees it?
+bool stands_free_on_map(const OccupancyMap& map, const WallProblem& problem, Vec2 p, const Execution& execution);
+
+/// From the start over the middles of the cells where the path turns to the goal; each cell is a neighbour of the one
+/// before.
+std::vector<Vec2> path_over_cells(const OccupancyMap& map, Vec2 start, std::span<const Cell> cells, Vec2 goal);
+
+/// A path on a map judged against the closed cells: whole problem, ends included.
+Verification verify_map_path(const OccupancyMap& map, const WallProblem& problem, std::span<const Vec2> path,
+                             const Execution& execution);
+
+/// Verifies a solved answer and fills in length and clearance. A path that fails is a bug, std::logic_error; but for
+/// paths over_cells of a disc, which may fail on the way between an end and the middle of its cell: not_connected.
+void verify_solved_on_map(Answer& answer, const OccupancyMap& map, const WallProblem& problem, bool over_cells,
+                          const Execution& execution);
+
+}  // namespace warren

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The planner voronoi on an occupancy map: along the skeleton of its free cells, as far from what is blocked as a path
+// can be. min_clearance of the answer is measured on the path by the verification.
+#include <optional>
+
+#include "planners/skeleton_planner.hpp"
+#include "tools/answer_json.hpp"
+#include "tools/map_planners.hpp"
+#include "tools/plane_planners.hpp"
+#include "tools/verified_answer.hpp"
+
+namespace warren {
+namespace {
+
+PictureLayer drawn(const OccupancyMap& map, const std::vector<std::pair<Cell, Cell>>& steps) {
+  PictureLayer layer{"medial_axis", colors::layer, widths::search_tree, {}};
+  for (const auto& [from, to] : steps) layer.lines.add(std::array{cell_centre(map, from), cell_centre(map, to)});
+  return layer;
+}
+
+/// One solve: the steps share the question and fill in the answer.
+class SkeletonSolve {
+ public:
+  SkeletonSolve(const SolveRequest& request, const WallProblem& problem)
+      : request_(request), map_(*request.scene.map), problem_(problem) {
+    const SearchChoice search = search_choice(request.arguments);
+    options_.radius = problem.reach() / map_.cell;
+    options_.objective = axis_objective(request.arguments);
+    options_.search = search.search;
+    options_.queue = search.queue;
+    describe_plane_planner(answer_, request, problem, search);
+    answer_.options.emplace_back("objective", json_string(name_of(options_.objective)));
+  }
+
+  void run() {
+    const auto start = cell_at(map_, problem_.start);
+    const auto goal = cell_at(map_, problem_.goal);
+    if (!start) return end(Outcome::start_blocked);
+    if (!goal) return end(Outcome::goal_blocked);
+    std::vector<std::pair<Cell, Cell>> steps;
+    take(plan_on_skeleton(closed_cells(map_, problem_.start), *start, *goal, options_, request_.execution,
+                          request_.drawing != nullptr ? &steps : nullptr));
+    settle_blocked_ends();
+    if (request_.drawing != nullptr) request_.drawing->layers.push_back(drawn(map_, steps));
+    verify_solved_on_map(answer_, map_, problem_, true, request_.execution);
+  }
+  Answer& answer() { return answer_; }
+
+ private:
+  void end(Outcome outcome) { answer_.outcome = outcome; }
+
+  void take(const SkeletonPath& plan) {
+    Solution<Vec2> solution;
+    solution.outcome = plan.outcome;
+    solution.separation = plan.separation;
+    solution.roadmap = plan.roadmap;
+    solution.counters.expanded = plan.expanded;
+    solution.separation.nearest_gap *= map_.cell;
+    solution.seconds = plan.seconds;
+    if (plan.outcome == Outcome::solved) {
+      solution.path = path_over_cells(map_, problem_.start, plan.cells, problem_.goal);
+      answer_.figures.emplace_back("cells", std::to_string(plan.cells.size()));
+      answer_.figures.emplace_back("axis_clearance", json_number(plan.clearance * map_.cell));
+    }
+    take_solution(answer_, std::move(solution));
+  }
+
+  /// A body may fit where it stands and not at the middle of the cell: nobody proved that it is blocked.
+  void settle_blocked_ends() {
+    const bool start = answer_.outcome == Outcome::start_blocked;
+    if (!start && answer_.outcome != Outcome::goal_blocked) return;
+    const Vec2 end = start ? problem_.start : problem_.goal;
+    if (stands_free_on_map(map_, problem_, end, request_.execution)) answer_.outcome = Outcome::not_connected;
+  }
+
+  const SolveRequest& request_;
+  const OccupancyMap& map_;
+  WallProblem problem_;
+  SkeletonOptions options_;
+  Answer answer_;
+};
+
+}  // namespace
+
+Answer solve_on_skeleton(const SolveRequest& request) {
+  SkeletonSolve solve(request, map_problem(request.scene, request.problem));
+  answer_within_limits(solve.answer(), [&] { solve.run(); });
+  return std::move(solve.answer());
+}
+
+}  // namespace warren
