@@ -6,19 +6,28 @@
 #include "core/geometry.hpp"
 
 namespace warren {
+namespace {
 
-bool contains(std::span<const Vec2> polygon, Vec2 p) noexcept {
+enum class Place { outside, on_a_side, inside };
+
+Place place_of(std::span<const Vec2> polygon, Vec2 p) noexcept {
   bool inside = false;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Segment side = polygon_side(polygon, i);
-    if (on_segment(p, side)) return true;
+    if (on_segment(p, side)) return Place::on_a_side;
     // A half-open rule: a side counts where it crosses the height of p going right of it, shared corners once.
     if ((side.a.y <= p.y) == (side.b.y <= p.y)) continue;
     const int left = orient2d(side.a, side.b, p);
     if (side.b.y > side.a.y ? left > 0 : left < 0) inside = !inside;
   }
-  return inside;
+  return inside ? Place::inside : Place::outside;
 }
+
+}  // namespace
+
+bool contains(std::span<const Vec2> polygon, Vec2 p) noexcept { return place_of(polygon, p) != Place::outside; }
+
+bool strictly_inside(std::span<const Vec2> polygon, Vec2 p) noexcept { return place_of(polygon, p) == Place::inside; }
 
 double distance(std::span<const Vec2> polygon, const Segment& s) noexcept {
   if (contains(polygon, s.a)) return 0.0;

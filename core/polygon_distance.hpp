@@ -18,6 +18,8 @@ inline Segment polygon_side(std::span<const Vec2> polygon, std::size_t i) {
 
 /// Is p in the closed polygon? Exact.
 bool contains(std::span<const Vec2> polygon, Vec2 p) noexcept;
+/// Is p in the polygon and on no side of it? Exact.
+bool strictly_inside(std::span<const Vec2> polygon, Vec2 p) noexcept;
 
 double distance(std::span<const Vec2> polygon, const Segment& s) noexcept;
 double distance(std::span<const Vec2> a, std::span<const Vec2> b) noexcept;

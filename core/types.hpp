@@ -60,6 +60,17 @@ inline Box box_of(const Segment& s) {
   return {{std::min(s.a.x, s.b.x), std::min(s.a.y, s.b.y)}, {std::max(s.a.x, s.b.x), std::max(s.a.y, s.b.y)}};
 }
 
+/// The side of a box, of width and height > 0, that the segment lies on.
+enum class BoxSide : std::uint8_t { none, left, right, bottom, top };
+inline BoxSide side_under(const Segment& s, const Box& box) {
+  if (!(box.width() > 0.0) || !(box.height() > 0.0) || s.a == s.b) return BoxSide::none;
+  if (s.a.x == s.b.x) {
+    return s.a.x == box.min.x ? BoxSide::left : s.a.x == box.max.x ? BoxSide::right : BoxSide::none;
+  }
+  if (s.a.y != s.b.y) return BoxSide::none;
+  return s.a.y == box.min.y ? BoxSide::bottom : s.a.y == box.max.y ? BoxSide::top : BoxSide::none;
+}
+
 /// Number of a vertex in a Graph, and of a milestone in a roadmap.
 using VertexId = std::uint32_t;
 inline constexpr VertexId no_vertex = std::numeric_limits<VertexId>::max();

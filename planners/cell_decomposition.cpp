@@ -2,9 +2,13 @@
 #include "planners/cell_decomposition.hpp"
 
 #include <algorithm>
+#include <cassert>
+#include <cmath>
 
 #include "core/geometry.hpp"
+#include "core/polygon_distance.hpp"
 #include "planners/cell_sweep.hpp"
+#include "planners/noded_polygons.hpp"
 
 namespace warren {
 namespace {
@@ -21,6 +25,32 @@ std::string complaint(std::size_t obstacle, std::size_t other, std::size_t polyg
   if (other == ObstacleClash::bounds) return "reaches out of the bounds" + rule + " their sides";
   const bool overlap = obstacle < polygon_count && other < polygon_count;
   return (overlap ? "overlaps " : "crosses ") + name_of(other, polygon_count) + rule;
+}
+
+void add_box(const Box& box, PolygonSet& to) {
+  to.add(std::array{box.min, Vec2{box.max.x, box.min.y}, box.max, Vec2{box.min.x, box.max.y}});
+}
+
+/// The polygons, and the outside of the bounds as four more.
+PolygonSet framed(const PlaneObstacles& obstacles) {
+  PolygonSet polygons = obstacles.polygons;
+  if (!obstacles.bounds) return polygons;
+  const Box& inner = *obstacles.bounds;
+  Box outer = inner;
+  for (const Vec2 p : polygons.corners) outer.include(p);
+  outer = outer.grown(std::max({outer.width(), outer.height(), std::abs(outer.min.x), std::abs(outer.max.y)}));
+  add_box({outer.min, {inner.min.x, outer.max.y}}, polygons);
+  add_box({{inner.max.x, outer.min.y}, outer.max}, polygons);
+  add_box({{inner.min.x, outer.min.y}, {inner.max.x, inner.min.y}}, polygons);
+  add_box({{inner.min.x, inner.max.y}, {inner.max.x, outer.max.y}}, polygons);
+  return polygons;
+}
+
+bool is_blocked(const PolygonSet& polygons, Vec2 p) {
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    if (strictly_inside(polygons[i], p)) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -73,9 +103,22 @@ std::array<Vec2, 4> CellDecomposition::outline(std::uint32_t cell) const {
 }
 
 CellDecomposition decompose(const PlaneObstacles& obstacles, std::span<const Vec2> points, const Execution& execution) {
-  CellSweep sweep(obstacles, points, execution);
+  CellSweep sweep(obstacles, points, Overlaps::refused, execution);
   sweep.run();
   return sweep.take();
+}
+
+CellDecomposition decompose_united(const PlaneObstacles& obstacles, std::span<const Vec2> points,
+                                   const Execution& execution) {
+  assert(obstacles.walls.empty());
+  PlaneObstacles united{node_polygons(framed(obstacles), execution).polygons, {}, std::nullopt};
+  CellSweep sweep(united, points, Overlaps::united, execution);
+  sweep.run();
+  CellDecomposition cells = sweep.take();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    cells.places[i].blocked = is_blocked(united.polygons, points[i]) || !cells.box.contains(points[i]);
+  }
+  return cells;
 }
 
 }  // namespace warren

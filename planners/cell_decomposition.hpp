@@ -12,7 +12,9 @@
 //
 // Obstacles may touch: share corners and parts of sides, end on each other; walls may lie inside polygons. What crosses
 // or overlaps is refused (ObstacleClash). A corner on the box's side is taken as if the box were larger by nothing: the
-// cells and doors are the same as of a larger box, but the door between corner and side is shut. So k disjoint simple
+// cells and doors are the same as of a larger box. The door between corner and side has no length; it is shut if the box
+// is that of the bounds, which are walls. Where the box only confines, it is open (paths run along polygons on the box)
+// unless a wall lies there on the box. So k disjoint simple
 // polygons with V corners have exactly V + k + 1 cells and V + 2k doors, and a wall counts as a polygon of two corners.
 #pragma once
 
@@ -44,6 +46,9 @@ class ObstacleClash : public InputError {
   std::size_t obstacle_;
   std::size_t other_;
 };
+
+/// What the sweep does where polygons overlap; to be united they must share nothing but corners (noded_polygons).
+enum class Overlaps : std::uint8_t { refused, united };
 
 /// In place of a cell, a corner, a door or a polygon.
 inline constexpr std::uint32_t no_number = 0xffffffffU;
@@ -112,5 +117,11 @@ struct CellDecomposition {
 /// box. Locates the points on the way. Polygons and walls outside the bounds are left out; walls of length zero too.
 /// Throws ObstacleClash; InputError for 2^31 corners and more; Stopped at the deadline.
 CellDecomposition decompose(const PlaneObstacles& obstacles, std::span<const Vec2> points, const Execution& execution);
+
+/// The same around the union of polygons that may overlap and reach out of the bounds; there are no walls. Corners are
+/// rounded by so little (planners/noded_polygons.hpp), hence for obstacles that were grown by more. The bounds are made
+/// a frame of four polygons. Never throws ObstacleClash.
+CellDecomposition decompose_united(const PlaneObstacles& obstacles, std::span<const Vec2> points,
+                                   const Execution& execution);
 
 }  // namespace warren

@@ -9,6 +9,7 @@
 #include "parallel/components.hpp"
 #include "planners/cell_separation.hpp"
 #include "planners/queue_choice.hpp"
+#include "planners/taut_route.hpp"
 
 namespace warren {
 namespace {
@@ -46,6 +47,7 @@ class Planning {
   std::vector<VertexId> search_cells();
   std::vector<VertexId> search_doors();
   void follow_cells(const std::vector<VertexId>& cells);
+  void follow_taut_route();
   void follow_doors(const std::vector<VertexId>& doors);
   void lay_path();
   std::uint32_t door_between(std::uint32_t cell, std::uint32_t next) const;
@@ -66,7 +68,8 @@ class Planning {
 void Planning::decompose_plane() {
   const StageTimer timer(execution_, "cells", solution_.seconds.graph, obstacles_.polygons.corners.size());
   const std::array<Vec2, 2> ends{start_, goal_};
-  plan_.cells = decompose(obstacles_, ends, execution_);
+  plan_.cells = options_.overlaps == Overlaps::united ? decompose_united(obstacles_, ends, execution_)
+                                                      : decompose(obstacles_, ends, execution_);
   solution_.roadmap.milestones = plan_.cells.cells.size();
   solution_.roadmap.edges = plan_.cells.doors.size();
 }
@@ -111,9 +114,12 @@ void Planning::find_route() {
   const StageTimer timer(execution_, "search", solution_.seconds.search);
   const bool over_cells = options_.search == SearchKind::bfs || options_.search == SearchKind::dfs;
   plan_.route = {start_, goal_, {}, {}};
-  if (!over_cells || options_.doors == DoorKind::midpoint) points_.emplace(plan_.cells, execution_);
+  const bool taut = !over_cells && options_.doors == DoorKind::funnel;
+  if (options_.doors == DoorKind::midpoint) points_.emplace(plan_.cells, execution_);
   if (over_cells) {
     follow_cells(search_cells());
+  } else if (taut) {
+    follow_taut_route();
   } else {
     follow_doors(search_doors());
   }
@@ -219,6 +225,20 @@ void Planning::follow_doors(const std::vector<VertexId>& doors) {
     route.doors.push_back(door);
     route.cells.push_back(beyond);
   }
+}
+
+/// Where nothing is left although the cells are connected, rounding has cut the last way off: then a way through the
+/// doors' middles does.
+void Planning::follow_taut_route() {
+  const bool informed = options_.search == SearchKind::astar;
+  TautRoute found = shortest_taut_route(plan_.cells, start_, goal_, informed, execution_);
+  solution_.counters.expanded = found.expanded;
+  if (!found.found) {
+    points_.emplace(plan_.cells, execution_);
+    return follow_doors(search_doors());
+  }
+  plan_.route.cells = std::move(found.cells);
+  plan_.route.doors = std::move(found.doors);
 }
 
 void Planning::lay_path() {

@@ -25,6 +25,7 @@ struct CellOptions {
   DoorKind doors = DoorKind::midpoint;
   SearchKind search = SearchKind::astar;
   QueueKind queue = QueueKind::heap;
+  Overlaps overlaps = Overlaps::refused;  ///< united: decompose_united()
 };
 
 /// What a plan leaves to be drawn or counted.
@@ -35,9 +36,10 @@ struct CellPlan {
 
 /// Plans from start to goal for a point that may touch obstacles. Outcomes: solved; start_blocked and goal_blocked
 /// (strictly inside a polygon, or outside the bounds; without bounds, the obstacles' box); not_connected, which here
-/// means that there is no path, since the decomposition is exact; stopped. In the solution `roadmap` counts cells,
-/// doors and components of cells, `separation` the cells that start and goal can reach. Throws ObstacleClash where
-/// obstacles cross or overlap. `keep`, where given, receives cells and route. The same for any number of threads.
+/// means that there is no path, since the decomposition is exact (where polygons are united, but for the rounding);
+/// stopped. In the solution `roadmap` counts cells, doors and components of cells, `separation` the cells that start
+/// and goal can reach. Throws ObstacleClash where obstacles cross or overlap. `keep`, where given, receives cells and
+/// route. The same for any number of threads.
 Solution<Vec2> plan_through_cells(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal, const CellOptions& options,
                                   const Execution& execution, CellPlan* keep = nullptr);
 

@@ -18,8 +18,10 @@ Segment left_to_right(Vec2 p, Vec2 q) { return is_before(q, p) ? Segment{q, p} :
 
 }  // namespace
 
-CellSweep::CellSweep(const PlaneObstacles& obstacles, std::span<const Vec2> points, const Execution& execution)
+CellSweep::CellSweep(const PlaneObstacles& obstacles, std::span<const Vec2> points, Overlaps overlaps,
+                     const Execution& execution)
     : obstacles_(obstacles),
+      overlaps_(overlaps),
       execution_(execution),
       order_(SweepEntry{{}, {}, CellDecomposition::floor_segment, no_number, no_number}) {
   const std::size_t corners = obstacles.polygons.corners.size() + 2 * obstacles.walls.size();
@@ -189,13 +191,16 @@ void CellSweep::answer_questions(bool passed) {
   }
 }
 
-/// Does the cell lie between the box's side and a segment on it? Nobody can move there.
+/// Does the cell lie between the box's side and a segment on it where nobody can move? That is so for the bounds, which
+/// are walls. Where the box only confines, paths run along polygons on it, but not between walls and it.
 bool CellSweep::is_flat(const VerticalCell& cell) const {
   const bool on_floor = cell.lower == CellDecomposition::floor_segment;
   const bool on_ceiling = cell.upper == CellDecomposition::ceiling_segment;
   if (on_floor == on_ceiling) return false;
-  const Segment& s = result_.segments[on_floor ? cell.upper : cell.lower];
+  const std::uint32_t segment = on_floor ? cell.upper : cell.lower;
+  const Segment& s = result_.segments[segment];
   const Box& box = result_.box;
+  if (!obstacles_.bounds && (!is_wall(segment) || side_under(s, box) == BoxSide::none)) return false;
   const double y = on_floor ? box.min.y : box.max.y;
   const double x = on_floor ? box.max.x : box.min.x;
   return (s.a.y == y && s.b.y == y) || (s.a.x == x && s.b.x == x);
@@ -298,6 +303,7 @@ std::uint32_t CellSweep::open_cell(std::uint32_t lower, Node upper_node) {
 
 void CellSweep::add_door(std::uint32_t left, std::uint32_t right, bool above, bool shut) {
   if (left == no_number) return;  // blocked on both sides
+  if (shut && !obstacles_.bounds) shut = is_flat(result_.cells[left]) || is_flat(result_.cells[right]);
   const auto door = static_cast<std::uint32_t>(result_.doors.size());
   result_.doors.push_back({left, right, corner_, above, shut});
   const std::size_t place = above ? 1 : 0;
@@ -315,9 +321,11 @@ void CellSweep::check_neighbours(Node lower, Node upper) const {
   if (order < 0) clash(low.segment, high.segment);
 }
 
-/// The polygon above the segment, where `polygon` is the one below it.
+/// The polygon above the segment, where `polygon` is the one below it; where polygons are united, one less than the
+/// number of polygons there, which is no_number where there is none.
 std::uint32_t CellSweep::polygon_beyond(std::uint32_t polygon, std::uint32_t segment) const {
   if (is_wall(segment)) return polygon;
+  if (overlaps_ == Overlaps::united) return inside_is_above(segment) ? polygon + 1 : polygon - 1;
   const std::uint32_t own = polygon_of_[segment];
   const bool enters = inside_is_above(segment);
   if (enters ? polygon == no_number : polygon == own) return enters ? own : no_number;

@@ -22,7 +22,8 @@ namespace warren {
 
 class CellSweep {
  public:
-  CellSweep(const PlaneObstacles& obstacles, std::span<const Vec2> points, const Execution& execution);
+  CellSweep(const PlaneObstacles& obstacles, std::span<const Vec2> points, Overlaps overlaps,
+            const Execution& execution);
   void run();
   CellDecomposition take() { return std::move(result_); }
 
@@ -70,6 +71,7 @@ class CellSweep {
   }
 
   const PlaneObstacles& obstacles_;
+  const Overlaps overlaps_;
   const Execution& execution_;
   CellDecomposition result_;
   std::vector<std::uint32_t> polygon_of_;   // of each side

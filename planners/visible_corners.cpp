@@ -4,25 +4,11 @@
 #include <algorithm>
 #include <array>
 
+#include "core/polygon_distance.hpp"
 #include "parallel/chunks.hpp"
 
 namespace warren {
 namespace {
-
-/// Is p strictly inside the polygon, which runs counter-clockwise? Exact.
-bool strictly_inside(std::span<const Vec2> corners, Vec2 p) {
-  int winding = 0;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Vec2 a = corners[i];
-    const Vec2 b = corners[i + 1 == corners.size() ? 0 : i + 1];
-    if (on_segment(p, {a, b})) return false;
-    if ((a.y <= p.y) == (b.y <= p.y)) continue;
-    const int side = orient2d(a, b, p);
-    if (a.y <= p.y && side > 0) ++winding;
-    if (a.y > p.y && side < 0) --winding;
-  }
-  return winding != 0;
-}
 
 /// Half a turn round from a place.
 double opposite(double place) { return place < 2.0 ? place + 2.0 : place - 2.0; }

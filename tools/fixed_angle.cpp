@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "planners/visibility_path.hpp"
+#include "tools/plane_planners.hpp"
 #include "worlds/translation_obstacles.hpp"
 
 namespace warren {
@@ -20,10 +21,22 @@ double size_of(const Scene& scene, std::span<const Vec2> outline) {
   return largest;
 }
 
+Solution<Vec2> plan_for_point(const PlaneObstacles& obstacles, const FixedAngleProblem& problem,
+                              const Execution& execution, Drawing* drawing) {
+  const Vec2 start = problem.start.position();
+  if (!problem.cells) return visibility_path(obstacles, start, problem.goal, {}, execution);
+  CellOptions options = *problem.cells;
+  options.overlaps = Overlaps::united;
+  CellPlan plan;
+  Solution<Vec2> solution = plan_through_cells(obstacles, start, problem.goal, options, execution, &plan);
+  if (drawing != nullptr) drawing->layers.push_back(doors_of(plan.cells));
+  return solution;
+}
+
 }  // namespace
 
 Solution<Se2> plan_at_fixed_angle(const Scene& scene, const FixedAngleProblem& problem, const Execution& execution,
-                                  PolygonSet* keep) {
+                                  Drawing* drawing) {
   const double hair = 1e-10 * size_of(scene, problem.outline);
   const std::size_t disc_corners = problem.clearance > 0.0 ? 32 : 4;
   Solution<Se2> solution;
@@ -33,8 +46,8 @@ Solution<Se2> plan_at_fixed_angle(const Scene& scene, const FixedAngleProblem& p
     obstacles =
         translation_obstacles(scene, problem.outline, problem.start.theta, problem.clearance + hair, disc_corners);
   }
-  Solution<Vec2> plane = visibility_path(obstacles, problem.start.position(), problem.goal, {}, execution);
-  if (keep != nullptr) *keep = obstacles.polygons;
+  Solution<Vec2> plane = plan_for_point(obstacles, problem, execution, drawing);
+  if (drawing != nullptr) drawing->layers.push_back({"blocked", colors::layer, widths::edge, obstacles.polygons, true});
   solution.outcome = plane.outcome;
   solution.stop_reason = plane.stop_reason;
   solution.roadmap = plane.roadmap;

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The shortest path of a polygon that does not turn: Minkowski sums of the obstacles with the mirrored body
-// (worlds/translation_obstacles), and the visibility graph among them. The body keeps a hair's breadth off the
+// The path of a polygon that does not turn: Minkowski sums of the obstacles with the mirrored body
+// (worlds/translation_obstacles), and the visibility graph among them, which gives the shortest one, or vertical cells
+// around their union. The body keeps a hair's breadth off the
 // obstacles, a ten-billionth of the world's size, so that rounding can't fail the verification; by so little, times the
 // corners that it passes, the path may be longer than the shortest.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "core/polygon.hpp"
 #include "core/se2.hpp"
 #include "core/solution.hpp"
 #include "parallel/execution.hpp"
+#include "planners/cell_planner.hpp"
+#include "tools/picture.hpp"
 #include "worlds/scene.hpp"
 
 namespace warren {
@@ -19,12 +23,13 @@ struct FixedAngleProblem {
   std::span<const Vec2> outline;
   Se2 start;
   Vec2 goal;
-  double clearance = 0.0;  ///< a disc of this radius is replaced by a polygon of 32 corners around it
+  double clearance = 0.0;            ///< a disc of this radius is replaced by a polygon of 32 corners around it
+  std::optional<CellOptions> cells;  ///< none: the visibility graph
 };
 
-/// All poses of the path have the start's angle. `keep`, where given, receives what blocks the reference point.
-/// Never throws Stopped; InputError where the body doesn't fit in the bounds at this angle.
+/// All poses of the path have the start's angle. `drawing`, where given, receives what blocks the reference point, and
+/// the cells. Never throws Stopped; InputError where the body doesn't fit in the bounds at this angle.
 Solution<Se2> plan_at_fixed_angle(const Scene& scene, const FixedAngleProblem& problem, const Execution& execution,
-                                  PolygonSet* keep);
+                                  Drawing* drawing);
 
 }  // namespace warren

@@ -5,9 +5,12 @@
 
 #include <functional>
 #include <span>
+#include <string>
+#include <utility>
 
 #include "core/polygon.hpp"
 #include "core/solution.hpp"
+#include "planners/cell_planner.hpp"
 #include "planners/medial_axis_planner.hpp"
 #include "tools/solve_kind.hpp"
 
@@ -34,6 +37,12 @@ void describe_plane_planner(Answer& answer, const SolveRequest& request, const W
 
 /// The scene's obstacles for planners; the time is that of the stage `index`.
 PlaneObstacles indexed_obstacles(const SolveRequest& request, Answer& answer);
+
+/// --doors of cells, and how an answer repeats it.
+CellOptions cell_options(const Arguments& arguments, const SearchChoice& search);
+std::pair<std::string, std::string> doors_option(const CellOptions& options);
+/// The doors, which are the borders between cells; floors and ceilings are obstacles anyway.
+PictureLayer doors_of(const CellDecomposition& cells);
 
 /// Runs `plan`, and says it with the file's lines where obstacles clash (planners/cell_decomposition.hpp).
 Solution<Vec2> plan_without_clashes(const SolveRequest& request, const std::function<Solution<Vec2>()>& plan);

@@ -3,6 +3,7 @@
 // that there is no path.
 #include <array>
 
+#include "core/error.hpp"
 #include "planners/cell_planner.hpp"
 #include "tools/answer_json.hpp"
 #include "tools/option_values.hpp"
@@ -14,33 +15,39 @@ namespace {
 
 constexpr std::array<std::string_view, 2> door_words{"midpoint", "funnel"};
 
-CellOptions options_of(const SolveRequest& request, const SearchChoice& search) {
+}  // namespace
+
+CellOptions cell_options(const Arguments& arguments, const SearchChoice& search) {
   CellOptions options{.doors = DoorKind::midpoint, .search = search.search, .queue = search.queue};
-  if (const auto doors = request.arguments.value("--doors")) {
+  if (const auto doors = arguments.value("--doors")) {
     options.doors = static_cast<DoorKind>(choice_value("--doors", *doors, door_words));
+  }
+  if (options.doors == DoorKind::funnel && arguments.has("--queue")) {
+    throw UsageError("--queue: --doors funnel searches with a queue of its own; --doors midpoint takes others");
   }
   return options;
 }
 
-/// The doors, which are the borders between cells; floors and ceilings are obstacles anyway.
-void draw(const CellPlan& plan, Drawing& drawing) {
-  PictureLayer layer{"cells", colors::layer, widths::edge, {}};
-  for (std::uint32_t door = 0; door < plan.cells.doors.size(); ++door) {
-    const Segment line = plan.cells.door_line(door);
-    layer.lines.add(std::array{line.a, line.b});
-  }
-  drawing.layers.push_back(std::move(layer));
+std::pair<std::string, std::string> doors_option(const CellOptions& options) {
+  return {"doors", json_string(door_words[static_cast<std::size_t>(options.doors)])};
 }
 
-}  // namespace
+PictureLayer doors_of(const CellDecomposition& cells) {
+  PictureLayer layer{"cells", colors::layer, widths::edge, {}};
+  for (std::uint32_t door = 0; door < cells.doors.size(); ++door) {
+    const Segment line = cells.door_line(door);
+    layer.lines.add(std::array{line.a, line.b});
+  }
+  return layer;
+}
 
 Answer solve_by_cells(const SolveRequest& request) {
   const WallProblem problem = touching_problem(request);
   const SearchChoice search = search_choice(request.arguments);
-  const CellOptions options = options_of(request, search);
+  const CellOptions options = cell_options(request.arguments, search);
   Answer answer;
   describe_plane_planner(answer, request, problem, search);
-  answer.options.emplace_back("doors", json_string(door_words[static_cast<std::size_t>(options.doors)]));
+  answer.options.push_back(doors_option(options));
   answer_within_limits(answer, [&] {
     const PlaneObstacles obstacles = indexed_obstacles(request, answer);
     CellPlan plan;
@@ -50,7 +57,7 @@ Answer solve_by_cells(const SolveRequest& request) {
                   }));
     answer.cells = CellCount{plan.cells.cells.size(), plan.cells.doors.size()};
     if (answer.outcome == Outcome::not_connected) answer.outcome = Outcome::infeasible;  // cells miss no way
-    if (request.drawing != nullptr) draw(plan, *request.drawing);
+    if (request.drawing != nullptr) request.drawing->layers.push_back(doors_of(plan.cells));
     verify_solved(answer, request.scene, problem, request.execution);
   });
   return answer;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Joins Se2World with the planners that take it: a polygon that turns among walls, polygons and bounds. A goal X,Y
 // without a heading is met in any: trees have it as 16 goals, evenly turned; roadmaps take the one of these that has
-// the most room. `visibility` doesn't turn the body at all (tools/fixed_angle.hpp).
+// the most room. `visibility` and `cells` don't turn the body at all (tools/fixed_angle.hpp).
 #include <fmt/format.h>
 
 #include <array>
@@ -16,6 +16,7 @@
 #include "planners/rrt_connect.hpp"
 #include "planners/shortcut.hpp"
 #include "tools/fixed_angle.hpp"
+#include "tools/plane_planners.hpp"
 #include "tools/solve_kind.hpp"
 #include "tools/sweep_drawing.hpp"
 #include "tools/tree_options.hpp"
@@ -101,7 +102,7 @@ class TurningSolve {
     answer_.planner = name_of(request.planner);
     if (is_roadmap_planner(request.planner)) {
       describe_roadmap();
-    } else if (request.planner == PlannerKind::visibility) {
+    } else if (keeps_angle()) {
       describe_fixed_angle();
     } else {
       describe_trees();
@@ -120,6 +121,9 @@ class TurningSolve {
  private:
   const Scene& scene() const { return request_.scene; }
   const Execution& execution() const { return request_.execution; }
+  bool keeps_angle() const {
+    return request_.planner == PlannerKind::visibility || request_.planner == PlannerKind::cells;
+  }
   void index();
   Solution<Se2> plan();
   void describe_roadmap();
@@ -145,7 +149,7 @@ class TurningSolve {
   std::vector<std::vector<double>> via_;
   std::optional<Se2World> world_;
   std::vector<Roadmap<Se2>> roadmaps_;  // for the picture
-  PolygonSet blocked_;                  // for the picture: where the reference point can't be
+  std::optional<CellOptions> cells_;    // of cells
   std::vector<Se2> path_;
   Answer answer_;
 };
@@ -158,7 +162,7 @@ void TurningSolve::index() {
 
 Solution<Se2> TurningSolve::plan() {
   if (is_roadmap_planner(request_.planner)) return plan_roadmap();
-  return request_.planner == PlannerKind::visibility ? plan_fixed_angle() : plan_trees();
+  return keeps_angle() ? plan_fixed_angle() : plan_trees();
 }
 
 void TurningSolve::describe_roadmap() {
@@ -188,15 +192,22 @@ void TurningSolve::describe_trees() {
 void TurningSolve::describe_fixed_angle() {
   constexpr double same_rad = 1e-9;
   if (!problem_.any_heading() && std::abs(turn_between(problem_.start.theta, problem_.goal[2])) > same_rad) {
-    throw UsageError("--planner: visibility does not turn the body; start and goal have different angles");
+    throw UsageError(
+        fmt::format("--planner: {} does not turn the body; start and goal have different angles", answer_.planner));
   }
-  answer_.search = name_of(SearchKind::astar);
+  const SearchChoice search = search_choice(request_.arguments);
+  answer_.search = name_of(search.search);
+  if (request_.planner != PlannerKind::cells) return;
+  cells_ = cell_options(request_.arguments, search);
+  answer_.options.push_back(doors_option(*cells_));
 }
 
 Solution<Se2> TurningSolve::plan_fixed_angle() {
   const FixedAngleProblem problem{
-      problem_.robot.outline, problem_.start, {problem_.goal[0], problem_.goal[1]}, problem_.clearance};
-  return plan_at_fixed_angle(scene(), problem, execution(), request_.drawing != nullptr ? &blocked_ : nullptr);
+      problem_.robot.outline, problem_.start, {problem_.goal[0], problem_.goal[1]}, problem_.clearance, cells_};
+  Solution<Se2> solution = plan_at_fixed_angle(scene(), problem, execution(), request_.drawing);
+  if (cells_) answer_.cells = CellCount{solution.roadmap.milestones, solution.roadmap.edges};
+  return solution;
 }
 
 Solution<Se2> TurningSolve::plan_roadmap() {
@@ -297,7 +308,6 @@ void TurningSolve::verify() {
 
 void TurningSolve::draw(Drawing& drawing) const {
   drawing.roadmap = in_the_plane(roadmaps_);
-  if (!blocked_.empty()) drawing.layers.push_back({"blocked", colors::layer, widths::edge, blocked_, true});
   if (!path_.empty()) drawing.layers.push_back(sweep_of(path_, problem_.robot.outline));
 }
 
@@ -308,7 +318,8 @@ constexpr PlannerChoice planners[] = {{PlannerKind::rrt_connect, rrt_connect_opt
                                       {PlannerKind::rrt, rrt_options},
                                       {PlannerKind::prm, roadmap_options},
                                       {PlannerKind::lazy_prm, lazy_options},
-                                      {PlannerKind::visibility, ""}};
+                                      {PlannerKind::visibility, ""},
+                                      {PlannerKind::cells, "--doors --search --queue"}};
 
 bool fits_turning(const Scene& scene, const RobotSpec& robot) {
   return robot.kind == RobotKind::polygon && scene.spheres.empty();

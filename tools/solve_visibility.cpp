@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/graph.hpp"
 #include "core/search.hpp"
+#include "planners/confined_obstacles.hpp"
 #include "planners/queue_choice.hpp"
 #include "planners/sampled_visibility.hpp"
 #include "planners/visibility_path.hpp"
@@ -169,7 +170,8 @@ class VisibilitySolve {
       : request_(request), problem_(problem), asked_(asked) {}
 
   void run(Answer& answer) {
-    const PlaneObstacles obstacles = indexed_obstacles(request_, answer);
+    const PlaneObstacles obstacles = confined(indexed_obstacles(request_, answer));
+    if (!stand_in(obstacle_box(request_.scene), answer)) return;
     take_solution(answer, visibility_path(obstacles, problem_.start, problem_.goal, asked_.options, request_.execution,
                                           request_.drawing != nullptr ? &request_.drawing->roadmap : nullptr));
     if (answer.outcome == Outcome::not_connected) answer.outcome = Outcome::infeasible;  // the graph misses no path
@@ -178,6 +180,14 @@ class VisibilitySolve {
   }
 
  private:
+  /// Without bounds the obstacles' box confines; the planner knows of bounds only.
+  bool stand_in(const Box& box, Answer& answer) const {
+    if (request_.scene.bounds || box.empty()) return true;
+    if (!box.contains(problem_.goal)) answer.outcome = Outcome::goal_blocked;
+    if (!box.contains(problem_.start)) answer.outcome = Outcome::start_blocked;
+    return box.contains(problem_.start) && box.contains(problem_.goal);
+  }
+
   const SolveRequest& request_;
   const WallProblem& problem_;
   const VisibilityRequest& asked_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include "worlds/exact_segments.hpp"
 
@@ -43,10 +44,19 @@ class Surroundings {
     if (!(s.b == at_)) directions_.push_back(s.b);
   }
 
-  void add_frame(const Box& frame) {
-    if (!(frame.width() > 0.0) || !(frame.height() > 0.0)) return;
-    const Vec2 corners[] = {frame.min, {frame.min.x, frame.max.y}, frame.max, {frame.max.x, frame.min.y}};
-    for (std::size_t i = 0; i < 4; ++i) add_side(corners[(i + 3) % 4], corners[i], corners[(i + 1) % 4]);
+  /// Where a wall lies on the box that confines the path, nobody gets between the two.
+  void close_beyond(const Segment& wall, const Box& box) {
+    const BoxSide side = side_under(wall, box);
+    if (side == BoxSide::none) return;
+    const double reach = std::max({box.width(), box.height(), std::abs(at_.x), std::abs(at_.y)});
+    const bool level = side == BoxSide::bottom || side == BoxSide::top;
+    const Vec2 along = level ? Vec2{reach, 0.0} : Vec2{0.0, reach};
+    const bool beyond_is_left = side == BoxSide::top || side == BoxSide::left;  // of `along`
+    const Vec2 first = beyond_is_left ? at_ + along : at_ - along;
+    const Vec2 last = beyond_is_left ? at_ - along : at_ + along;
+    blocked_.push_back({first, last});
+    directions_.push_back(first);
+    directions_.push_back(last);
   }
 
   /// The sides of the stretch at_ -> `to` that are not blocked.
@@ -240,8 +250,10 @@ class Walk {
       sides_ = both_sides;
     } else {
       Surroundings around(at_);
-      for (const std::size_t obstacle : touching_) around.add(obstacles_, obstacle);
-      around.add_frame(frame_);
+      for (const std::size_t obstacle : touching_) {
+        around.add(obstacles_, obstacle);
+        if (obstacle < obstacles_.wall_count()) around.close_beyond(obstacles_.segment(obstacle), frame_);
+      }
       sides_ = begun_ ? around.passable(from_, sides_, to) : around.open_sides(to);
       if (sides_ == 0) return touching_.front();
     }

@@ -29,7 +29,8 @@ struct LegContact {
 
 /// The first leg that can't be walked, with the lowest obstacle of the point where it fails. contacts: sorted, all
 /// contacts of the legs before `leg_end`; none of these legs crosses an obstacle inside both. frame: the reference
-/// point stays in it. O(contacts log contacts).
+/// point stays in it, and does not get between it and walls that lie on its sides (a maze's outline).
+/// O(contacts log contacts).
 std::optional<LegContact> first_forbidden_contact(std::span<const Vec2> path, std::size_t leg_end, const Box& frame,
                                                   const Obstacles& obstacles, std::span<const LegContact> contacts,
                                                   const Execution& execution);

@@ -10,6 +10,9 @@
 #include <vector>
 
 #include "core/geometry.hpp"
+#include "planners/confined_obstacles.hpp"
+#include "planners/visibility_path.hpp"
+#include "tests/planners/degenerate_worlds.hpp"
 #include "tests/planners/plane_worlds.hpp"
 
 namespace warren {
@@ -231,28 +234,58 @@ TEST(CellPlanner, FunnelIsTheShortestPathThroughItsCells) {
       EXPECT_TRUE(is_taut(path, plan));
       const double refined = refined_length(plan);
       EXPECT_LE(length_of(path), refined * (1.0 + 1e-12));
-      EXPECT_GE(length_of(path), refined * 0.99);  // the search for it gets stuck where doors are close
+      EXPECT_GE(length_of(path), refined * 0.98);  // the search for it gets stuck where doors are close
       bends += static_cast<int>(path.size()) - 2;
     }
   }
   EXPECT_GT(bends, 100);
 }
 
-TEST(CellPlanner, FunnelIsNoShorterThanTheShortestPathAndOftenIsIt) {
-  int equal = 0;
-  for (std::uint64_t seed = 0; seed < 24; ++seed) {
+TEST(CellPlanner, FunnelSearchedByLengthIsTheShortestPath) {
+  for (std::uint64_t seed = 0; seed < 48; ++seed) {
     SCOPED_TRACE(seed);
-    const PlaneObstacles obstacles = disjoint_polygons(seed, 2);
+    const PlaneObstacles obstacles = disjoint_polygons(seed, 1 + static_cast<int>(seed % 3));
     const std::vector<Vec2> ends = free_points(obstacles, seed + 5, 2);
     const double shortest = shortest_length(obstacles, ends[0], ends[1]);
     for (const SearchKind search : all_searches) {
       const CellOptions options{.doors = DoorKind::funnel, .search = search};
       const double funnel = length_of(checked_plan(obstacles, ends[0], ends[1], options).path);
       EXPECT_GE(funnel, shortest * (1.0 - 1e-12));
-      if (search == SearchKind::astar && funnel <= shortest * (1.0 + 1e-12)) ++equal;
+      if (search == SearchKind::astar || search == SearchKind::dijkstra) {
+        EXPECT_LE(funnel, shortest * (1.0 + 1e-12));
+      }
     }
   }
-  EXPECT_GT(equal, 12);
+}
+
+TEST(CellPlanner, AgreesWithTheVisibilityGraphWhereObstaclesTouchInEveryWay) {
+  int solved = 0;
+  int refused = 0;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    SCOPED_TRACE(seed);
+    DegenerateWorlds worlds(seed);
+    const PlaneObstacles obstacles = worlds.make(false);
+    for (int trial = 0; trial < 4; ++trial) {
+      const Vec2 start = worlds.random_point();
+      const Vec2 goal = worlds.random_point();
+      if (!box_around(obstacles).contains(start) || !box_around(obstacles).contains(goal)) continue;
+      const CellOptions options{.doors = trial % 2 == 0 ? DoorKind::funnel : DoorKind::midpoint};
+      try {
+        const Solution<Vec2> s = checked_plan(obstacles, start, goal, options);
+        const Solution<Vec2> shortest = visibility_path(confined(obstacles), start, goal, {}, {});
+        ASSERT_EQ(s.outcome, shortest.outcome);
+        EXPECT_GE(length_of(s.path), length_of(shortest.path) * (1.0 - 1e-12));
+        if (options.doors == DoorKind::funnel) {
+          EXPECT_LE(length_of(s.path), length_of(shortest.path) * (1.0 + 1e-12)) << start.x << ' ' << start.y;
+        }
+        solved += s.outcome == Outcome::solved ? 1 : 0;
+      } catch (const ObstacleClash&) {
+        ++refused;  // some of these polygons overlap, corners on corners
+      }
+    }
+  }
+  EXPECT_GT(solved, 200);
+  EXPECT_LT(refused, 600);
 }
 
 TEST(CellPlanner, PathsLeaveCornersAndSidesWhereTheyMay) {

@@ -141,9 +141,11 @@ class GridWorld {
     const Box box{{0.0, 0.0}, {far, far}};
     if (bounded) {
       obstacles_.bounds = box;
-    } else {  // two walls that span the same box
+    } else {  // an outline, behind which nobody gets
       obstacles_.walls.push_back({box.min, {far, 0.0}});
       obstacles_.walls.push_back({{0.0, far}, box.max});
+      obstacles_.walls.push_back({box.min, {0.0, far}});
+      obstacles_.walls.push_back({{far, 0.0}, box.max});
     }
   }
 

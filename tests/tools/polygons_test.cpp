@@ -190,10 +190,43 @@ TEST(Polygons, CellsAndAdjacenciesAreAsManyAsTheFormulasSay) {
   EXPECT_GE(json_of({"solve", scene, "--planner", "cells", "--search", "dfs"})["length"], best["length"]);
   const Json shortest = json_of({"solve", scene});
   const Json funnel = json_of({"solve", scene, "--planner", "cells", "--doors", "funnel"});
-  EXPECT_GE(funnel["length"].get<double>(), shortest["length"].get<double>() * (1 - 1e-12));
+  EXPECT_NEAR(funnel["length"].get<double>() / shortest["length"].get<double>(), 1.0, 1e-12);
   EXPECT_LE(funnel["length"].get<double>(), best["length"].get<double>() * (1 + 1e-12));
   EXPECT_EQ(run({"solve", scene, "--planner", "cells", "--svg", folder.path("a.svg")}).code, 0);
   EXPECT_NE(folder.read("a.svg").find("<g id=\"cells\""), std::string::npos);
+}
+
+TEST(Polygons, WithoutBoundsPathsRunAlongTheObstaclesBoxButNotBehindAMazesOutline) {
+  const Folder folder;
+  struct Case {
+    const char* text;
+    double length;  // 0: there is no path
+  };
+  const Case cases[] = {
+      {"polygon 0 5 5 0 10 5 5 8\nstart 1 1\ngoal 9 1\n", 2 * std::sqrt(17.0)},        // round a corner on the box
+      {"polygon 0 0 1 0 1 2 0 2\npolygon 3 0 4 0 4 2 3 2\nstart 0 1\ngoal 4 1\n", 6},  // along sides on it
+      {"wall 0 3 10 3\nwall 5 3 5 8\nstart 1 4\ngoal 9 4\n", 2 * std::sqrt(32.0)},     // round a wall's end on it
+      {"wall 0 0 10 0\nwall 5 0 5 8\nstart 5 0\ngoal 9 1\n", std::sqrt(17.0)},
+      {"0 0 4 0\n4 0 4 4\n4 4 0 4\n0 4 0 3\n0 2 0 0\n2 0 2 4\nstart 0 2.5\ngoal 3 3\n", 0},  // a maze's outline
+  };
+  for (const Case& c : cases) {
+    const std::string scene = folder.write("a.scene", c.text);
+    for (const std::vector<std::string>& planner :
+         {std::vector<std::string>{"visibility"}, std::vector<std::string>{"visibility", "--full"},
+          std::vector<std::string>{"visibility", "--lazy"}, std::vector<std::string>{"cells", "--doors", "funnel"}}) {
+      std::vector<std::string> arguments{"solve", scene, "--planner"};
+      arguments.insert(arguments.end(), planner.begin(), planner.end());
+      const Json answer = json_of(arguments, c.length > 0 ? 0 : 1);
+      EXPECT_EQ(answer["status"], c.length > 0 ? "solved" : "infeasible") << c.text << planner.back();
+      if (c.length > 0) {
+        EXPECT_NEAR(answer["length"], c.length, 1e-12) << c.text << planner.back();
+      }
+    }
+    if (c.length == 0) continue;
+    EXPECT_EQ(json_of({"solve", scene, "--planner", "cells"})["verified"], true) << c.text;
+    EXPECT_EQ(json_of({"solve", scene, "--planner", "visibility", "--start=-1,1"}, 1)["status"], "start_blocked");
+    EXPECT_EQ(json_of({"solve", scene, "--planner", "cells", "--goal=-1,1"}, 1)["status"], "goal_blocked");
+  }
 }
 
 TEST(Polygons, TheMedialAxisKeepsAsMuchRoomAsThereIs) {
@@ -236,6 +269,7 @@ TEST(Polygons, PlannersRefuseWhatTheyWouldIgnore) {
   check({{"solve", scene, "--lazy", "--full"}, 2, "--lazy"});
   check({{"solve", scene, "--lazy", "--search", "dijkstra"}, 2, "--lazy"});
   check({{"solve", scene, "--lazy=path"}, 2, "--lazy"});
+  check({{"solve", scene, "--planner", "cells", "--doors", "funnel", "--queue", "lazy-heap"}, 2, "--queue"});
   check({{"solve", scene, "--sampled-edges", "0"}, 2, "--sampled-edges"});
   check({{"solve", scene, "--search", "bfs", "--queue", "heap"}, 2, "no priority queue"});
   check({{"solve", "maze:5x5", "--planner", "lazy-prm", "--lazy"}, 2, "WHEN is missing"});

@@ -56,13 +56,46 @@ goal 4 0 0
 )");
   // Round the box grown by the body: from (-4, 0) over (-2, 2.2) and (2, 2.2) to (4, 0).
   const double shortest = 4.0 + 2.0 * std::sqrt(4.0 + 2.2 * 2.2);
-  const Outcome outcome = run({"solve", straight, "--planner", "visibility", "--json", "-"});
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
-  const Json answer = Json::parse(outcome.out);
-  EXPECT_EQ(answer["verified"], true);
-  EXPECT_NEAR(answer["length"], shortest, 1e-7);
-  EXPECT_EQ(answer["turn_rad"], 0.0);
-  EXPECT_EQ(run({"solve", file_, "--planner", "visibility"}).code, 2);  // start and goal turn
+  for (const std::vector<std::string>& planner :
+       {std::vector<std::string>{"visibility"}, std::vector<std::string>{"cells", "--doors", "funnel"}}) {
+    std::vector<std::string> arguments{"solve", straight, "--json", "-", "--planner"};
+    arguments.insert(arguments.end(), planner.begin(), planner.end());
+    const Outcome outcome = run(arguments);
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const Json answer = Json::parse(outcome.out);
+    EXPECT_EQ(answer["verified"], true);
+    EXPECT_NEAR(answer["length"], shortest, 1e-7);
+    EXPECT_EQ(answer["turn_rad"], 0.0);
+    EXPECT_EQ(answer["roadmap"].contains("cells"), planner.front() == "cells");
+    EXPECT_EQ(run({"solve", file_, "--planner", planner.front()}).code, 2);  // start and goal turn
+  }
+  const Outcome middles = run({"solve", straight, "--planner", "cells", "--json", "-"});
+  EXPECT_GT(Json::parse(middles.out)["length"], shortest);
+}
+
+/// Ten convex polygons and a kite, whose Minkowski sums overlap: the study's scene poly-easy and its oracle.
+TEST_F(SolveTurning, AtAFixedAngleTheStudysSceneHasItsLength) {
+  const std::string scene = folder_.write("easy.scene", R"(bounds -4.29 -2.32 5.12 2.78
+robot polygon 0.10 0.63 0.22 0.41 0.49 0.20 0.48 0.82
+polygon 0.81 -0.87 1.03 -1.32 1.49 -1.38 1.76 -1.01 1.31 -0.47 0.81 -0.51
+polygon 0.32 0.90 1.22 0.71 1.22 1.39 1.03 1.60 0.78 1.56 0.53 1.42 0.35 1.11
+polygon -0.34 1.75 0.29 1.85 0.19 2.55 0.17 2.59 -0.32 2.68
+polygon 2.01 0.10 2.18 -0.15 2.39 -0.25 2.74 -0.09 2.89 0.13 2.76 0.51 2.31 0.58
+polygon -1.81 0.41 -1.73 -0.37 -0.96 -0.42 -1.25 0.06 -1.60 0.32
+polygon -0.55 -0.22 0.10 0.07 0.23 0.13 0.25 0.18 0.29 0.62 -0.16 0.72
+polygon 2.01 -1.07 2.02 -1.08 2.61 -0.82 2.92 -0.57 2.74 -0.34 2.30 -0.36
+polygon -2.09 2.05 -1.88 1.52 -1.53 1.35 -1.32 1.32 -1.27 1.50 -1.33 1.78 -1.37 1.91 -1.64 2.04 -2.04 2.13
+polygon 1.47 1.45 1.66 1.34 2.23 1.12 2.37 1.39 2.01 1.90 1.68 1.94
+polygon -1.19 -2.00 -1.11 -2.03 -0.54 -2.22 -0.53 -1.57 -0.90 -1.58 -1.08 -1.73 -1.18 -1.91
+start -3.14 0.23 0
+goal 3.86 0.23 0
+)");
+  for (const char* search : {"astar", "dijkstra"}) {
+    const Outcome outcome =
+        run({"solve", scene, "--planner", "cells", "--doors", "funnel", "--search", search, "--json", "-"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NEAR(Json::parse(outcome.out)["length"], 8.897707, 1e-6);
+  }
 }
 
 TEST_F(SolveTurning, AnswersAreTheSameForAnyNumberOfThreads) {
