@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -13,6 +14,7 @@
 #include "tools/command.hpp"
 #include "tools/compare_options.hpp"
 #include "tools/comparison_report.hpp"
+#include "tools/contest_pictures.hpp"
 #include "tools/exit_code.hpp"
 #include "tools/human_units.hpp"
 #include "tools/output_files.hpp"
@@ -21,6 +23,7 @@
 #include "tools/terminal.hpp"
 #include "tools/world_files.hpp"
 #include "tools/world_graph.hpp"
+#include "worlds/map_walls.hpp"
 #include "worlds/output_file_io.hpp"
 
 namespace warren {
@@ -47,6 +50,7 @@ bool check_outputs(const Arguments& arguments) {
   if (to_standard_output > 1) throw UsageError("standard output takes one of --json, --csv, --svg, --log and --trace");
   const std::string plot = ending_of(arguments.value("--svg").value_or(""));
   if (plot == ".png" || plot == ".html") throw UsageError("--svg: plots are written as SVG only");
+  if (const auto folder = arguments.value("--pictures")) make_folder(*folder);
   if (arguments.has("--log") && arguments.has("--sizes")) {
     throw UsageError("--log: holds the runs on one world; --sizes has many graphs");
   }
@@ -77,6 +81,7 @@ class CompareCommand {
   void compare(const Run& run);
   void compare_on_world(const Run& run);
   void compare_searches(const Scene& scene, const Run& run);
+  bool needs_map_walls(const Scene& scene) const;
   std::string graph_planner(const Scene& scene) const;
   void write_outputs() const;
   OmplExperiment experiment() const;
@@ -104,9 +109,23 @@ void CompareCommand::compare(const Run& run) {
 
 void CompareCommand::compare_on_world(const Run& run) {
   StageTimes before;
-  const Scene scene = load_world(*options_.world, execution_, before);
-  if (options_.planners) return run_planner_contest(scene, *options_.planners, execution_, comparison_);
-  compare_searches(scene, run);
+  Scene scene = load_world(*options_.world, execution_, before);
+  if (!options_.planners) return compare_searches(scene, run);
+  if (scene.map && needs_map_walls(scene)) add_map_walls(scene);
+  run_planner_contest(scene, *options_.planners, execution_, comparison_);
+  if (options_.planners->pictures.empty()) return;
+  draw_contest(scene, *options_.planners, comparison_, options_.planners->pictures, execution_);
+  comparison_.notes.push_back("pictures: " + options_.planners->pictures);
+}
+
+/// Bodies that turn plan among a map's borders, and pictures show them.
+bool CompareCommand::needs_map_walls(const Scene& scene) const {
+  const auto turns = [&](const PlannerWords& words) {
+    const RobotKind body = robot_of(scene, problem_options(solve_arguments(words))).kind;
+    return body != RobotKind::point && body != RobotKind::disc;
+  };
+  const std::vector<PlannerWords>& all = options_.planners->contenders;
+  return !options_.planners->pictures.empty() || std::any_of(all.begin(), all.end(), turns);
 }
 
 /// Chosen as `solve` chooses, by the world and the options.

@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "tools/cell_drawing.hpp"
 #include "tools/command.hpp"
 #include "tools/exit_code.hpp"
 #include "tools/output_files.hpp"
 #include "tools/picture.hpp"
+#include "tools/problem.hpp"
 #include "tools/recorded_answer.hpp"
 #include "tools/run_options.hpp"
+#include "tools/sweep_drawing.hpp"
 #include "tools/terminal.hpp"
 #include "tools/world_files.hpp"
 #include "worlds/map_walls.hpp"
@@ -51,7 +54,14 @@ int render(const Arguments& arguments) {
   Scene scene = load_world(arguments.operand(0), run.execution(), seconds);
   add_map_walls(scene);
   if (answer_file) check_same_world(answer, *answer_file, scene, run.execution());
+  std::vector<PictureLayer> layers;
+  if (scene.map) layers.push_back(map_layer(*scene.map));
+  const RobotSpec robot = robot_of(scene, answer.problem);
+  if (robot.kind == RobotKind::polygon && answer.state_width() == 3) {
+    layers.push_back(sweep_of(poses_of(answer.states), robot.outline));
+  }
   const Picture picture{.scene = scene,
+                        .layers = layers,
                         .path = answer.path,
                         .start = point_of(answer.problem.start, scene.start),
                         .goal = point_of(answer.problem.goal, scene.goal),

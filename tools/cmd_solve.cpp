@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "tools/answer_json.hpp"
+#include "tools/cell_drawing.hpp"
 #include "tools/command.hpp"
 #include "tools/exit_code.hpp"
 #include "tools/output_files.hpp"
@@ -140,6 +141,7 @@ void SolveCommand::write_outputs(const Run& run) {
 void SolveCommand::draw(const Execution& execution) {
   add_map_walls(scene_);
   if (solver_->kind->draw != nullptr) solver_->kind->draw(request(execution));
+  if (scene_.map) drawing_.layers.insert(drawing_.layers.begin(), map_layer(*scene_.map));
   const bool has_roadmap = is_roadmap_planner(solver_->planner) || !drawing_.roadmap.states.empty();
   const Picture picture{.scene = scene_,
                         .roadmap = has_roadmap ? &drawing_.roadmap : nullptr,

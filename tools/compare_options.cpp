@@ -43,6 +43,8 @@ constexpr OptionSpec own_specs[] = {
     {"--samplers", "LIST", "samplers of 'solve', apart by commas; with --planners each takes each"},
     {"--samples", "LIST", "numbers of samples, or auto, apart by commas; with --planners each takes each"},
     {"--seed", "N", "the first seed (default: 1)"},
+    {"--pictures", "FOLDER",
+     "with --planners: draw each planner's path of median length, the body along it, and the layers of the grid"},
 };
 
 /// Of all planners of this version, blank-separated.
@@ -118,6 +120,7 @@ PlannerContestOptions planner_options_of(const Arguments& arguments) {
   deal.planners = words_of(arguments, "--planners");
   PlannerContestOptions options;
   options.contenders = deal_planners(deal);
+  options.pictures = arguments.value("--pictures").value_or("");
   options.first_seed = first_seed(arguments);
   options.runs = count_or(arguments, arguments.has("--trials") ? "--trials" : "--seeds", usual_seeds);
   return options;
@@ -243,6 +246,7 @@ CompareOptions compare_options(const Arguments& arguments) {
     options.planners->budget_s = options.budget_s;
     return options;
   }
+  refuse(arguments, {"--pictures"}, "draws the paths of --planners");
   options.searches = search_options(arguments);
   options.searches.budget_s = options.budget_s;
   options.sweep = sweep_options(arguments);

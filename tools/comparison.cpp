@@ -35,6 +35,11 @@ ComparisonRow row_of(const Contender& contender) {
   row.hops = distribution(contender, [](const ComparedRun& r) { return if_solved(r, r.hops); });
   row.min_clearance = distribution(
       contender, [](const ComparedRun& r) { return r.solved() ? r.min_clearance : std::optional<double>(); });
+  row.cells = distribution(contender, [](const ComparedRun& r) {
+    return r.solved() && r.cells ? std::optional(static_cast<double>(*r.cells)) : std::nullopt;
+  });
+  row.turn_rad =
+      distribution(contender, [](const ComparedRun& r) { return r.solved() ? r.turn_rad : std::optional<double>(); });
   row.search_s =
       distribution(contender, [](const ComparedRun& r) { return r.solved() ? r.search_s : std::optional<double>(); });
   row.expanded =

@@ -24,6 +24,8 @@ struct ComparedRun {
   std::uint64_t hops = 0;
   std::uint64_t expanded = 0;                ///< vertices or states settled; known where nothing was found, too
   std::optional<double> min_clearance = {};  ///< planners only
+  std::optional<std::uint64_t> cells = {};   ///< that the path passes on the world's raster; planners only
+  std::optional<double> turn_rad = {};       ///< of bodies that turn
   std::optional<double> search_s = {};       ///< planners only: the search's part of time_s
   bool solved() const { return outcome == Outcome::solved; }
 };
@@ -63,6 +65,8 @@ struct ComparisonRow {
   std::optional<Distribution> length;         ///< of the solved runs
   std::optional<Distribution> hops;           ///< of the solved runs
   std::optional<Distribution> min_clearance;  ///< of the solved runs
+  std::optional<Distribution> cells;          ///< of the solved runs
+  std::optional<Distribution> turn_rad;       ///< of the solved runs
   std::optional<Distribution> expanded;       ///< of all runs
   std::optional<Distribution> time_s;         ///< of all runs: what did not succeed has cost its time, too
   std::optional<Distribution> search_s;       ///< of the solved runs

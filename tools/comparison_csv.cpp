@@ -56,7 +56,9 @@ std::string csv_row(const Comparison& comparison, const Contender& c) {
                    of(row.time_s, &Distribution::q3),
                    of(row.time_s, &Distribution::mean),
                    low,
-                   high});
+                   high,
+                   of(row.cells, &Distribution::median),
+                   of(row.turn_rad, &Distribution::median)});
 }
 
 }  // namespace
@@ -65,7 +67,7 @@ std::string comparison_csv(const Comparison& comparison) {
   std::string text =
       "source,vertices,edges,planner,search,queue,library,options,runs,solved,success_low,success_high,length_median,"
       "length_q1,length_q3,hops,expanded,min_clearance,time_median_s,time_q1_s,time_q3_s,time_mean_s,"
-      "time_mean_low_s,time_mean_high_s\n";
+      "time_mean_low_s,time_mean_high_s,cells,turn_rad\n";
   for (const Contender& c : comparison.contenders) text += csv_row(comparison, c);
   return text;
 }

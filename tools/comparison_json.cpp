@@ -71,6 +71,8 @@ Json row_json(const Comparison& comparison, const Contender& c) {
             {"hops", count_json(row.hops)},
             {"expanded", count_json(row.expanded)},
             {"time_s", seconds_json(row.time_s)}};
+  if (row.cells) json["cells"] = quartiles_json(row.cells);
+  if (row.turn_rad) json["turn_rad"] = quartiles_json(row.turn_rad);
   if (row.min_clearance) json["min_clearance"] = quartiles_json(row.min_clearance);
   if (row.search_s) json["search_s"] = seconds_json(row.search_s);
   return json;

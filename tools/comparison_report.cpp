@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <numbers>
+
 #include "tools/human_units.hpp"
 #include "tools/machine.hpp"
 #include "tools/run_options.hpp"
@@ -64,9 +66,11 @@ std::string planner_cell(const Contender& c) {
   return options.empty() ? name : name + ", " + options;
 }
 
+std::string degrees_text(double angle_rad) { return fmt::format("{:.0f} deg", angle_rad * 180.0 / std::numbers::pi); }
+
 std::string planner_table(const Comparison& comparison, std::size_t problem, const Palette& palette) {
-  TextTable table{{"planner", "solved", "95 %", "length q1", "median", "q3", "hops", "expanded", "clearance", "time q1",
-                   "median", "q3"},
+  TextTable table{{"planner", "solved", "95 %", "length q1", "median", "q3", "hops", "cells", "turning", "expanded",
+                   "clearance", "time q1", "median", "q3"},
                   1,
                   {}};
   for (const Contender& c : comparison.contenders) {
@@ -81,8 +85,10 @@ std::string planner_table(const Comparison& comparison, std::size_t problem, con
     table.rows.push_back({planner_cell(c), fmt::format("{} of {}", row.solved, row.runs),
                           fmt::format("{:.0f} to {:.0f} %", 100.0 * row.success.low, 100.0 * row.success.high),
                           number(&Distribution::q1), number(&Distribution::median), number(&Distribution::q3),
-                          median_number(row.hops), median_number(row.expanded), median_number(row.min_clearance),
-                          seconds(&Distribution::q1), seconds(&Distribution::median), seconds(&Distribution::q3)});
+                          median_number(row.hops), row.cells ? median_number(row.cells) : "",
+                          row.turn_rad ? degrees_text(row.turn_rad->median) : "", median_number(row.expanded),
+                          median_number(row.min_clearance), seconds(&Distribution::q1), seconds(&Distribution::median),
+                          seconds(&Distribution::q3)});
   }
   return table.text(palette);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/grid_options.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "core/error.hpp"
@@ -10,7 +11,8 @@ namespace warren {
 namespace {
 
 constexpr OptionSpec specs[] = {
-    {"--cell", "C", "grid in a scene: distance of its positions (default: the file's grid line)"},
+    {"--cell", "C",
+     "grid in a scene: distance of its positions (default: the file's grid line, else a 400th of the longer side)"},
     {"--angles", "N", "grid in a scene: headings of a body that turns (default: the file's grid line, else 72)"},
     {"--face-motion", "", "grid in a scene: a body moves only where it faces; a turn to the next heading costs 1"},
     {"--diagonal", "NAME", "grid: what a diagonal step costs (default: sqrt2)", "sqrt2 unit none"},
@@ -26,6 +28,23 @@ constexpr std::array<std::string_view, 4> method_words{"astar", "dijkstra", "bfs
 }  // namespace
 
 std::span<const OptionSpec> grid_option_specs() { return specs; }
+
+GridSpec grid_spec(const Arguments& arguments, const Scene& scene) {
+  constexpr std::uint32_t usual_angles = 72;
+  constexpr std::uint64_t most_angles = 1'000'000;
+  constexpr double cells_a_side = 400.0;
+  GridSpec grid = scene.grid.value_or(GridSpec{.cell = scene.map ? scene.map->cell : 0.0, .angles = usual_angles});
+  if (const auto text = arguments.value("--cell")) grid.cell = positive_value("--cell", *text);
+  if (const auto text = arguments.value("--angles")) {
+    grid.angles = static_cast<std::uint32_t>(count_value("--angles", *text, 1, most_angles));
+  }
+  if (grid.cell == 0.0) {
+    const Box box = scene.bounds ? *scene.bounds : obstacle_box(scene);
+    grid.cell = box.empty() ? 0.0 : std::max(box.width(), box.height()) / cells_a_side;
+    if (!(grid.cell > 0.0)) throw UsageError("--cell: is missing, and the world has no extent to divide");
+  }
+  return grid;
+}
 
 Diagonal diagonal_option(const Arguments& arguments) {
   const auto text = arguments.value("--diagonal");

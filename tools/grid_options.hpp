@@ -8,6 +8,7 @@
 #include "planners/grid_search.hpp"
 #include "tools/arguments.hpp"
 #include "tools/command.hpp"
+#include "worlds/scene.hpp"
 
 namespace warren {
 
@@ -19,6 +20,11 @@ Diagonal diagonal_option(const Arguments& arguments);
 
 /// --search: astar, dijkstra or bfs; `usual` where nothing is said. Throws UsageError for dfs.
 GridMethod method_option(const Arguments& arguments, GridMethod usual);
+
+/// The raster of a scene: --cell and --angles, else the file's grid line, else a four-hundredth of the longer side of
+/// the bounds (or of the obstacles' box) and 72 headings. A map's cells are its own. Throws UsageError for a world
+/// without extent and for values out of range.
+GridSpec grid_spec(const Arguments& arguments, const Scene& scene);
 
 std::string_view name_of(Diagonal diagonal);
 std::string_view name_of(GridMethod method);

@@ -30,12 +30,14 @@ struct PictureLayer {
   double width;         ///< multiples of Canvas::unit
   PolygonSet lines;     ///< each a chain of points
   bool closed = false;  ///< the chains are outlines
+  bool filled = false;  ///< the chains are outlines whose insides are drawn, without lines; they do not overlap
 };
 
 /// What a planner leaves for a picture.
 struct Drawing {
   Roadmap<Vec2> roadmap;
   std::vector<PictureLayer> layers;  ///< drawn in their order, under walls and path
+  std::vector<PictureLayer> pages;   ///< what deserves a picture of its own each, without the path
 };
 
 /// Refers to what it shows; all of it must outlive the picture.

@@ -8,6 +8,8 @@
 #include "core/error.hpp"
 #include "tools/answer.hpp"
 #include "tools/answer_json.hpp"
+#include "tools/cells_passed.hpp"
+#include "tools/grid_options.hpp"
 #include "tools/problem.hpp"
 #include "tools/signals.hpp"
 #include "tools/solve_kind.hpp"
@@ -118,13 +120,15 @@ class PlannerContest {
  private:
   void enter();
   void run_once(std::size_t i, std::uint64_t seed);
-  Answer solve(const Arguments& arguments) const;
+  Answer solve(const PlannerWords& words, std::uint64_t seed) const;
+  std::optional<std::uint64_t> cells_of(const Answer& answer) const;
 
   const Scene& scene_;
   const PlannerContestOptions& options_;
   const Execution& execution_;
   Comparison& comparison_;
   std::size_t first_contender_ = 0;
+  PlannerWords raster_words_;  ///< of the contender whose raster cells are counted on
 };
 
 /// Asks every planner, before the first run, whether it can solve this world with these options.
@@ -132,6 +136,7 @@ void PlannerContest::enter() {
   comparison_.problems.push_back({.source = scene_.source, .kind = ""});
   first_contender_ = comparison_.contenders.size();
   for (const PlannerWords& words : options_.contenders) {
+    if (raster_words_.empty() && words.front() == "--planner=grid") raster_words_ = words;
     const Arguments arguments = solve_arguments(words);
     const ChosenSolver solver = choose_solver(arguments, scene_, problem_options(arguments));
     Contender contender;
@@ -144,7 +149,7 @@ void PlannerContest::enter() {
   }
 }
 
-Answer PlannerContest::solve(const Arguments& arguments) const {
+Answer PlannerContest::solve(const PlannerWords& words, std::uint64_t seed) const {
   execution_.check();
   const std::size_t memory =
       execution_.deadline != nullptr ? execution_.deadline->memory_bytes() : std::numeric_limits<std::size_t>::max();
@@ -152,11 +157,24 @@ Answer PlannerContest::solve(const Arguments& arguments) const {
   Execution within = execution_;
   within.deadline = &deadline;
   within.progress = nullptr;  // the bar shows the runs, not the stages of each
-  const ProblemOptions problem = problem_options(arguments);
-  const ChosenSolver solver = choose_solver(arguments, scene_, problem);
-  Answer answer = solver.kind->solve({arguments, scene_, problem, solver.planner, within});
+  Answer answer = solve_contender(scene_, words, seed, within);
   if (answer.outcome == Outcome::stopped) execution_.check();
   return answer;
+}
+
+/// Where the world has a raster, or somebody plans on one.
+std::optional<std::uint64_t> PlannerContest::cells_of(const Answer& answer) const {
+  if (answer.path.empty()) return std::nullopt;
+  if (scene_.map) return cells_passed(answer.path, *scene_.map);
+  if (!scene_.grid && raster_words_.empty()) return std::nullopt;
+  const Box box = scene_.bounds ? *scene_.bounds : obstacle_box(scene_);
+  return cells_passed(answer.path, Raster{box.min, grid_spec(solve_arguments(raster_words_), scene_).cell});
+}
+
+/// Trees settle no vertices in a search; they grow them.
+std::uint64_t expanded_by(const Answer& answer) {
+  const bool grows = answer.planner == name_of(PlannerKind::rrt) || answer.planner == name_of(PlannerKind::rrt_connect);
+  return grows ? answer.roadmap.milestones : answer.counters.expanded;
 }
 
 std::size_t state_count(const Answer& answer) {
@@ -164,17 +182,17 @@ std::size_t state_count(const Answer& answer) {
 }
 
 void PlannerContest::run_once(std::size_t i, std::uint64_t seed) {
-  PlannerWords words = options_.contenders[i];
-  words.push_back(fmt::format("--seed={}", seed));
-  const Answer answer = solve(solve_arguments(words));
+  const Answer answer = solve(options_.contenders[i], seed);
   Contender& contender = comparison_.contenders[first_contender_ + i];
   ComparedRun run{.seed = seed,
                   .outcome = answer.outcome,
                   .time_s = answer.solve_s,
                   .length = answer.length,
                   .hops = state_count(answer) > 0 ? state_count(answer) - 1 : 0,
-                  .expanded = answer.counters.expanded};
+                  .expanded = expanded_by(answer)};
   if (answer.verified) run.min_clearance = answer.min_clearance;
+  run.cells = cells_of(answer);
+  run.turn_rad = answer.turn_rad;
   if (answer.seconds.search > 0.0) run.search_s = answer.seconds.search;
   contender.search = answer.search;
   contender.options = answer.options;
@@ -214,6 +232,19 @@ std::vector<PlannerWords> deal_planners(const PlannerDeal& deal) {
     }
   }
   return all;
+}
+
+Answer solve_contender(const Scene& scene, const PlannerWords& words, std::uint64_t seed, const Execution& execution,
+                       Drawing* drawing) {
+  PlannerWords all = words;
+  all.push_back(fmt::format("--seed={}", seed));
+  const Arguments arguments = solve_arguments(all);
+  const ProblemOptions problem = problem_options(arguments);
+  const ChosenSolver solver = choose_solver(arguments, scene, problem);
+  const SolveRequest request{arguments, scene, problem, solver.planner, execution, drawing};
+  Answer answer = solver.kind->solve(request);
+  if (drawing != nullptr && solver.kind->draw != nullptr) solver.kind->draw(request);
+  return answer;
 }
 
 void run_planner_contest(const Scene& scene, const PlannerContestOptions& options, const Execution& execution,

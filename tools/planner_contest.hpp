@@ -10,9 +10,11 @@
 #include <vector>
 
 #include "parallel/execution.hpp"
+#include "tools/answer.hpp"
 #include "tools/arguments.hpp"
 #include "tools/command.hpp"
 #include "tools/comparison.hpp"
+#include "tools/picture.hpp"
 #include "worlds/scene.hpp"
 
 namespace warren {
@@ -41,7 +43,13 @@ struct PlannerContestOptions {
   std::uint64_t first_seed = 1;
   std::uint64_t runs = 1;                                     ///< of each, with consecutive seeds
   double budget_s = std::numeric_limits<double>::infinity();  ///< of each run's solve_s
+  std::string pictures;                                       ///< the folder that takes them; empty: none are drawn
 };
+
+/// One run of a contender, within the execution's deadline; `drawing`, where given, receives what a picture shows.
+/// Throws UsageError.
+Answer solve_contender(const Scene& scene, const PlannerWords& words, std::uint64_t seed, const Execution& execution,
+                       Drawing* drawing = nullptr);
 
 /// Adds the world as a problem and the contenders to `comparison`. Every path counted as solved was verified. Throws
 /// Stopped at a signal (the runs until then are there), UsageError for what a planner can't be asked in this world.

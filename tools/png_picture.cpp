@@ -45,6 +45,7 @@ class PngPainter {
  private:
   void polygons();
   void lines(const PictureLayer& layer);
+  void fill(const PictureLayer& layer);
   void roadmap();
   void walls();
   void path();
@@ -85,7 +86,18 @@ void PngPainter::polygons() {
   }
 }
 
+void PngPainter::fill(const PictureLayer& layer) {
+  std::vector<Vec2> outline;
+  for (std::size_t i = 0; i < layer.lines.size(); ++i) {
+    if (i % 256 == 0) execution_.check();
+    outline.clear();
+    for (const Vec2 p : layer.lines[i]) outline.push_back(at(p));
+    image_.fill(outline, layer.color);
+  }
+}
+
 void PngPainter::lines(const PictureLayer& layer) {
+  if (layer.filled) return fill(layer);
   for (std::size_t i = 0; i < layer.lines.size(); ++i) {
     const std::span<const Vec2> chain = layer.lines[i];
     for (std::size_t k = 1; k < chain.size(); ++k) line(chain[k - 1], chain[k], layer.width * unit(), layer.color);

@@ -12,9 +12,11 @@
 #include "core/se2.hpp"
 #include "planners/layer_search.hpp"
 #include "tools/answer_json.hpp"
+#include "tools/cell_drawing.hpp"
 #include "tools/grid_options.hpp"
 #include "tools/option_values.hpp"
 #include "tools/solve_kind.hpp"
+#include "tools/sweep_drawing.hpp"
 #include "tools/verified_answer.hpp"
 #include "worlds/orientation_layers.hpp"
 #include "worlds/verify_se2.hpp"
@@ -56,20 +58,9 @@ Problem problem_of(const Scene& scene, const ProblemOptions& options) {
 }
 
 LayerOptions layer_options(const SolveRequest& request, const Problem& problem) {
-  constexpr std::uint32_t usual_angles = 72;
-  constexpr std::uint64_t most_angles = 1'000'000;
   LayerOptions options;
   options.clearance = problem.clearance;
-  if (request.scene.grid) options.grid = *request.scene.grid;
-  if (const auto text = request.arguments.value("--cell")) {
-    options.grid.cell = positive_value("--cell", *text);
-    if (!request.scene.grid) options.grid.angles = usual_angles;
-  } else if (!request.scene.grid) {
-    throw UsageError("--cell: is missing, and the world has no `grid CELL ANGLES` line");
-  }
-  if (const auto text = request.arguments.value("--angles")) {
-    options.grid.angles = static_cast<std::uint32_t>(count_value("--angles", *text, 1, most_angles));
-  }
+  options.grid = grid_spec(request.arguments, request.scene);
   if (const auto text = request.arguments.value("--layers")) {
     constexpr std::array<std::string_view, 2> words{"exact", "report004"};
     options.kind = static_cast<LayerKind>(choice_value("--layers", *text, words));
@@ -102,6 +93,7 @@ class LatticeSolve {
     answer_.figures.emplace_back("free_states", std::to_string(layers_.free_states()));
     search();
     if (answer_.outcome == Outcome::solved) verify();
+    if (request_.drawing != nullptr) draw(*request_.drawing);
   }
   Answer& answer() { return answer_; }
 
@@ -199,6 +191,19 @@ class LatticeSolve {
     answer_.verified = verification.verified;  // report 004's discs are no promise
     answer_.length = verification.length;
     answer_.min_clearance = verification.min_clearance;
+  }
+
+  /// The body along the path; and the layers of some headings, which course reports show, each on a page of its own.
+  void draw(Drawing& drawing) const {
+    if (!turns()) return;
+    if (!poses_.empty()) drawing.layers.push_back(sweep_of(poses_, problem_.robot.outline));
+    for (const std::uint32_t degrees : {0U, 45U, 90U}) {
+      const std::uint64_t heading = std::uint64_t{degrees} * layers_.angles;
+      if (heading % 360 != 0 || heading / 360 >= layers_.angles) continue;
+      const Bitmap& blocked = layers_.bitmaps[layers_.standing[heading / 360]];
+      const auto at = [&](Vec2 p) { return layers_.origin + layers_.cell * (p - Vec2{0.5, 0.5}); };
+      drawing.pages.push_back(cells_layer(fmt::format("layer_{}", degrees), blocked, at));
+    }
   }
 
   const SolveRequest& request_;

@@ -9,30 +9,11 @@
 #include <iterator>
 
 #include "tools/picture.hpp"
+#include "tools/plot_svg.hpp"
 #include "worlds/plane_obstacles.hpp"
 
 namespace warren {
 namespace {
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      default:
-        out += (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7e) ? '?' : c;
-    }
-  }
-  return out;
-}
 
 std::string hex(Rgb c) { return fmt::format("#{:02x}{:02x}{:02x}", c.red, c.green, c.blue); }
 
@@ -152,8 +133,8 @@ void SvgWriter::open() {
   fmt::format_to(std::back_inserter(text_),
                  "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{}\" width=\"{:.0f}\" height=\"{:.0f}\" "
                  "role=\"img\">\n<title>{}</title>\n<desc>{}</desc>\n",
-                 view, std::ceil(w * zoom), std::ceil(h * zoom), escaped(picture_.title),
-                 escaped(picture_.description));
+                 view, std::ceil(w * zoom), std::ceil(h * zoom), xml_text(picture_.title),
+                 xml_text(picture_.description));
   fmt::format_to(std::back_inserter(text_),
                  "<rect x=\"{:.3f}\" y=\"{:.3f}\" width=\"{:.3f}\" height=\"{:.3f}\" fill=\"{}\"/>\n"
                  "<g transform=\"scale(1,-1)\">\n",
@@ -194,12 +175,17 @@ void SvgWriter::polygons() {
 }
 
 void SvgWriter::lines(const PictureLayer& layer) {
-  open_layer(layer.id.c_str(), layer.color, layer.width);
+  if (layer.filled) {
+    fmt::format_to(std::back_inserter(text_), "<g id=\"{}\" fill=\"{}\" shape-rendering=\"crispEdges\">", layer.id,
+                   hex(layer.color));
+  } else {
+    open_layer(layer.id.c_str(), layer.color, layer.width);
+  }
   text_ += "<path d=\"";
   for (std::size_t i = 0; i < layer.lines.size(); ++i) {
     const std::span<const Vec2> line = layer.lines[i];
     for (std::size_t k = 0; k < line.size(); ++k) command(k == 0 ? 'M' : 'L', frame_.at(line[k]));
-    if (layer.closed) text_ += 'Z';
+    if (layer.closed || layer.filled) text_ += 'Z';
     piece_ended();
   }
   text_ += "\"/></g>\n";
@@ -348,7 +334,7 @@ void write_svg(const Picture& picture, const Execution& execution, const Write& 
 
 void write_html(const Picture& picture, const Execution& execution, const Write& write) {
   write(page_head);
-  write("<title>" + escaped(picture.title) + "</title></head><body>\n");
+  write("<title>" + xml_text(picture.title) + "</title></head><body>\n");
   write_svg(picture, execution, write);
   write(page_tail);
 }

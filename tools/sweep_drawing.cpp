@@ -49,6 +49,12 @@ Roadmap<Vec2> joined_in_the_plane(const std::vector<Roadmap<State>>& roadmaps) {
 
 }  // namespace
 
+std::vector<Se2> poses_of(const StateList& states) {
+  std::vector<Se2> poses;
+  for (std::size_t i = 0; i < states.size(); ++i) poses.push_back({states[i][0], states[i][1], states[i][2]});
+  return poses;
+}
+
 PictureLayer sweep_of(std::span<const Se2> path, std::span<const Vec2> outline) {
   constexpr double most = 400.0;
   PictureLayer layer{"sweep", colors::second_layer, widths::edge, {}, true};
@@ -57,11 +63,11 @@ PictureLayer sweep_of(std::span<const Se2> path, std::span<const Vec2> outline) 
   double whole = 0.0;
   for (std::size_t i = 1; i < path.size(); ++i) whole += travel(path[i - 1], path[i], radius);
   const double apart = std::max(radius / 3.0, whole / most);
+  double due = 0.0;  // way from the leg's first pose to the next outline
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-    const double pieces = std::max(1.0, std::ceil(travel(path[i], path[i + 1], radius) / apart));
-    for (double piece = 0.0; piece < pieces; piece += 1.0) {
-      add_body(layer.lines, interpolate(path[i], path[i + 1], piece / pieces), outline);
-    }
+    const double way = travel(path[i], path[i + 1], radius);
+    for (; due < way; due += apart) add_body(layer.lines, interpolate(path[i], path[i + 1], due / way), outline);
+    due -= way;
   }
   add_body(layer.lines, path.back(), outline);
   return layer;

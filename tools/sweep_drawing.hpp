@@ -10,15 +10,19 @@
 #include "core/types.hpp"
 #include "planners/roadmap.hpp"
 #include "tools/picture.hpp"
+#include "tools/state_list.hpp"
 
 namespace warren {
 
-/// The body's outlines along the path, about a third of its radius apart, at most 400 of them; ends and corners of the
-/// path included.
+/// The body's outlines along the path, a third of its radius apart, at most 400 of them and the last; the ends
+/// included.
 PictureLayer sweep_of(std::span<const Se2> path, std::span<const Vec2> outline);
 
 /// The positions of the states of several roadmaps, one after the other, with their edges.
 Roadmap<Vec2> in_the_plane(const std::vector<Roadmap<Se2>>& roadmaps);
 Roadmap<Vec2> in_the_plane(const std::vector<Roadmap<Vec2>>& roadmaps);
+
+/// Of states of three numbers.
+std::vector<Se2> poses_of(const StateList& states);
 
 }  // namespace warren

@@ -255,10 +255,81 @@ TEST(Lattice, TheCourseSceneHasItsFigures) {
   EXPECT_EQ(outcome.code, answer["verified"].get<bool>() ? 0 : 1);
 }
 
-TEST(Lattice, EndsOffTheGridAndMissingCellsAreUsageErrors) {
+TEST(Lattice, AFourHundredthOfTheLongerSideIsTheCellThatNobodyNamed) {
   const Folder folder;
   const std::string scene = folder.write("walls.scene", course_scene);
-  EXPECT_EQ(run({"solve", scene, "--planner", "grid"}).code, 2);
+  const Json answer = answered({"solve", scene, "--planner", "grid"});
+  EXPECT_EQ(answer["options"]["cell"], 2.0);
+  EXPECT_EQ(answer["options"]["angles"], 72);
+  EXPECT_EQ(answer["verified"], true);
+}
+
+/// Report 004's comparison in one command, of fewer seeds.
+TEST(Lattice, TheCoursesPlannersAreComparedAndDrawn) {
+  const Folder folder;
+  const std::string scene = folder.write("walls.scene", course_scene);
+  const std::string pictures = folder.path("pictures");
+  const Json compared = answered({"compare", scene, "--planners", "grid,voronoi,prm,rrt", "--samples", "50,500",
+                                  "--seeds", "3", "--pictures", pictures});
+  ASSERT_EQ(compared["rows"].size(), 5U);
+  const Json& grid = compared["rows"][0];
+  EXPECT_EQ(grid["solved"], 3);
+  EXPECT_EQ(grid["cells"]["median"], 559.0);
+  EXPECT_GT(grid["expanded"], 1000);
+  const Json& voronoi = compared["rows"][1];
+  EXPECT_NEAR(voronoi["length"]["median"].get<double>(), 2 * 785.356, 0.1);  // the oracle's units are cells
+  EXPECT_NEAR(voronoi["cells"]["median"].get<double>(), 722.0, 0.02 * 722.0);
+  EXPECT_EQ(voronoi["turn_rad"]["median"], 0.0);
+  const Json& prm = compared["rows"][3];
+  EXPECT_EQ(prm["options"]["samples"], 500);
+  EXPECT_EQ(prm["solved"], 3);
+  EXPECT_GT(prm["turn_rad"]["median"], 1.0);
+  EXPECT_GT(compared["rows"][4]["expanded"], 100);  // the tree's nodes
+  for (const char* name : {"pictures/grid_layer_0.svg", "pictures/grid_layer_45.svg", "pictures/grid_layer_90.svg"}) {
+    EXPECT_NE(folder.read(name).find("<g id=\"layer_"), std::string::npos) << name;
+  }
+  for (const char* name :
+       {"pictures/grid_cell_2_0_angles_72_diagonal_sqrt2.svg", "pictures/voronoi_objective_length.svg",
+        "pictures/prm_sampler_uniform_samples_500.svg", "pictures/rrt_sampler_uniform.svg"}) {
+    const std::string svg = folder.read(name);
+    EXPECT_NE(svg.find("<g id=\"sweep\""), std::string::npos) << name;
+    EXPECT_NE(svg.find("<g id=\"path\""), std::string::npos) << name;
+  }
+  EXPECT_EQ(run({"compare", scene, "--planners", "rrt", "--pictures", folder.path("gone/pictures")}).code, 73);
+  EXPECT_EQ(run({"compare", scene, "--graph", "prm", "--pictures", pictures}).code, 2);
+}
+
+TEST(Lattice, RoadmapsAndTreesSolveTheCourseSceneAsOftenAsTheyShould) {
+  const Folder folder;
+  const std::string scene = folder.write("walls.scene", std::string(course_scene) + "grid 2 72\n");
+  const Json compared = answered(
+      {"compare", scene, "--planners", "prm,rrt-connect", "--samples", "500", "--neighbours", "10", "--seeds", "60"});
+  EXPECT_GE(compared["rows"][0]["solved"], 57);  // 95 % of 60
+  EXPECT_LE(compared["rows"][0]["cells"]["median"], 660.0);
+  EXPECT_EQ(compared["rows"][1]["solved"], 60);
+}
+
+TEST(Maps, PlannersAreComparedOnThemPolygonsToo) {
+  const Folder folder;
+  const std::string map = folder.write("a.map", small_map);
+  for (const char* robot : {"disc 0.3", "polygon -0.2 -0.2 0.3 -0.2 0.2 0.2"}) {
+    SCOPED_TRACE(robot);
+    const bool turns = robot[0] == 'p';
+    std::vector<std::string> words{"compare", map, "--robot", robot, "--seeds", "2", "--goal", "6.5,4.5", "--start"};
+    words.insert(words.end(), {turns ? "0.5,0.5,0" : "0.5,0.5", "--planners",
+                               turns ? "voronoi,prm,rrt" : "grid,voronoi,prm,rrt", "--pictures", folder.path("out")});
+    for (const Json& row : answered(words)["rows"]) {
+      EXPECT_EQ(row["solved"], 2) << row["planner"];
+      EXPECT_GE(row["cells"]["median"], 7.0);
+      EXPECT_EQ(row.contains("turn_rad"), turns);
+    }
+    EXPECT_NE(folder.read("out/prm_sampler_uniform.svg").find("<g id=\"blocked\""), std::string::npos);
+  }
+}
+
+TEST(Lattice, EndsOffTheGridAndCellsThatAreNoneAreUsageErrors) {
+  const Folder folder;
+  const std::string scene = folder.write("walls.scene", course_scene);
   EXPECT_EQ(run({"solve", scene, "--planner", "grid", "--cell", "2", "--start", "51,50,0"}).code, 2);
   EXPECT_EQ(run({"solve", scene, "--planner", "grid", "--cell", "2", "--start", "50,50,0.01"}).code, 2);
   EXPECT_EQ(run({"solve", scene, "--planner", "grid", "--cell", "0"}).code, 2);

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/cell_drawing.hpp"
+
+#include <array>
+#include <map>
+#include <utility>
+
+namespace warren {
+namespace {
+
+using Run = std::pair<std::uint32_t, std::uint32_t>;  // first column, one past the last
+
+std::vector<Run> runs_of(const Bitmap& cells, std::uint32_t y) {
+  std::vector<Run> runs;
+  for (std::uint32_t x = 0; x < cells.width(); ++x) {
+    if (!cells.test(x, y)) continue;
+    if (runs.empty() || runs.back().second != x) runs.push_back({x, x});
+    runs.back().second = x + 1;
+  }
+  return runs;
+}
+
+}  // namespace
+
+PictureLayer cells_layer(std::string id, const Bitmap& cells, const std::function<Vec2(Vec2)>& at) {
+  PictureLayer layer{std::move(id), colors::polygon, 0.0, {}, true, true};
+  std::map<Run, std::uint32_t> open;  // runs of the rows before, and the row where each began
+  const auto close = [&](const Run& run, std::uint32_t first, std::uint32_t last) {
+    const Vec2 low{static_cast<double>(run.first), static_cast<double>(first)};
+    const Vec2 high{static_cast<double>(run.second), static_cast<double>(last)};
+    layer.lines.add(std::array{at(low), at({high.x, low.y}), at(high), at({low.x, high.y})});
+  };
+  for (std::uint32_t y = 0; y < cells.height(); ++y) {
+    std::map<Run, std::uint32_t> next;
+    for (const Run& run : runs_of(cells, y)) {
+      const auto found = open.find(run);
+      next[run] = found == open.end() ? y : found->second;
+    }
+    for (const auto& [run, first] : open) {
+      if (!next.contains(run)) close(run, first, y);
+    }
+    open = std::move(next);
+  }
+  for (const auto& [run, first] : open) close(run, first, cells.height());
+  return layer;
+}
+
+PictureLayer map_layer(const OccupancyMap& map) {
+  return cells_layer("blocked", map.blocked, [&](Vec2 p) { return world_point(map, p); });
+}
+
+}  // namespace warren

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How many cells of a raster a path passes, as course reports count a path's length.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "core/types.hpp"
+#include "worlds/scene.hpp"
+
+namespace warren {
+
+/// Where a raster's cell (0, 0) has its middle, and how far apart middles are.
+struct Raster {
+  Vec2 origin;
+  double cell = 1.0;
+};
+
+/// Ends of legs are rounded to cells; a leg takes as many steps as its longer side has cells, diagonal ones count as
+/// one; and the first cell. A path of one cell passes one, an empty path none.
+std::uint64_t cells_passed(std::span<const Vec2> path, const Raster& raster);
+
+/// The same on a map's own cells.
+std::uint64_t cells_passed(std::span<const Vec2> path, const OccupancyMap& map);
+
+}  // namespace warren

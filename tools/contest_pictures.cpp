@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/contest_pictures.hpp"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <set>
+#include <system_error>
+#include <vector>
+
+#include "core/error.hpp"
+#include "tools/cell_drawing.hpp"
+#include "tools/picture.hpp"
+#include "tools/solve_kind.hpp"
+#include "tools/world_files.hpp"
+
+namespace warren {
+namespace {
+
+/// Of the runs that were solved, the one whose path is of median length; nullptr where none was.
+const ComparedRun* median_run(const Contender& contender) {
+  std::vector<const ComparedRun*> solved;
+  for (const ComparedRun& run : contender.runs) {
+    if (run.solved()) solved.push_back(&run);
+  }
+  if (solved.empty()) return nullptr;
+  const auto middle = solved.begin() + static_cast<std::ptrdiff_t>((solved.size() - 1) / 2);
+  std::nth_element(solved.begin(), middle, solved.end(), [](const ComparedRun* a, const ComparedRun* b) {
+    return a->length != b->length ? a->length < b->length : a->seed < b->seed;
+  });
+  return *middle;
+}
+
+/// Letters, digits and dashes as they are, all else as one underscore.
+std::string file_name(std::string_view text) {
+  std::string name;
+  for (const char c : text) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-';
+    if (plain) {
+      name += c;
+    } else if (!name.empty() && name.back() != '_') {
+      name += '_';
+    }
+  }
+  while (name.ends_with('_')) name.pop_back();
+  return name;
+}
+
+class ContestPictures {
+ public:
+  ContestPictures(const Scene& scene, const PlannerContestOptions& options, const std::string& folder,
+                  const Execution& execution)
+      : scene_(scene), options_(options), folder_(folder), execution_(execution) {}
+
+  void draw(const Contender& contender, const PlannerWords& words) {
+    const ComparedRun* run = median_run(contender);
+    Drawing drawing;
+    const std::uint64_t seed = run != nullptr ? run->seed : options_.first_seed;
+    const Answer answer = solve_contender(scene_, words, seed, execution_, &drawing);
+    const std::string said = options_text(contender);
+    const std::string name = unused(file_name(contender.planner + " " + said));
+    const std::string title = fmt::format("{}, {}{}seed {}: {}", scene_.source, contender.planner,
+                                          said.empty() ? ", " : ", " + said + ", ", seed, name_of(answer.outcome));
+    write(name, title, drawing.layers, answer.path, drawing.roadmap.states.empty() ? nullptr : &drawing.roadmap);
+    for (const PictureLayer& page : drawing.pages) {
+      const std::string page_name = file_name(contender.planner) + "_" + page.id;
+      if (names_.insert(page_name).second)
+        write(page_name, scene_.source + ": " + page.id, std::span(&page, 1), {}, {});
+    }
+  }
+
+ private:
+  std::string unused(const std::string& wanted) {
+    std::string name = wanted;
+    for (int i = 2; !names_.insert(name).second; ++i) name = fmt::format("{}_{}", wanted, i);
+    return name;
+  }
+  void write(const std::string& name, const std::string& title, std::span<const PictureLayer> own,
+             std::span<const Vec2> path, const Roadmap<Vec2>* roadmap) const {
+    std::vector<PictureLayer> layers;
+    if (scene_.map) layers.push_back(map_layer(*scene_.map));
+    layers.insert(layers.end(), own.begin(), own.end());
+    const Picture picture{.scene = scene_,
+                          .roadmap = roadmap,
+                          .layers = layers,
+                          .path = path,
+                          .start = plane_point(scene_.start),
+                          .goal = plane_point(scene_.goal),
+                          .title = title,
+                          .description = description_of(scene_)};
+    write_picture(folder_ + "/" + name + ".svg", picture, execution_);
+  }
+
+  const Scene& scene_;
+  const PlannerContestOptions& options_;
+  const std::string& folder_;
+  const Execution& execution_;
+  std::set<std::string> names_;
+};
+
+}  // namespace
+
+void draw_contest(const Scene& scene, const PlannerContestOptions& options, const Comparison& comparison,
+                  const std::string& folder, const Execution& execution) {
+  ContestPictures pictures(scene, options, folder, execution);
+  for (std::size_t i = 0; i < options.contenders.size(); ++i) {
+    execution.check();
+    pictures.draw(comparison.contenders[i], options.contenders[i]);
+  }
+}
+
+void make_folder(const std::string& folder) {
+  constexpr mode_t all_that_the_mask_leaves = 0777;
+  const bool made = ::mkdir(folder.c_str(), all_that_the_mask_leaves) == 0;
+  const int error = errno;
+  struct stat status {};
+  const bool is_folder = ::stat(folder.c_str(), &status) == 0 && S_ISDIR(status.st_mode);
+  if (!is_folder) throw WriteError(folder, std::generic_category().message(made ? ENOTDIR : error));
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) throw WriteError(folder, std::generic_category().message(errno));
+}
+
+}  // namespace warren

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The pictures of a comparison of planners: for each contender the run whose path is of median length, with its roadmap
+// or tree, its path and the body along it; and the pages that a planner adds (the layers of some headings).
+#pragma once
+
+#include <string>
+
+#include "parallel/execution.hpp"
+#include "tools/comparison.hpp"
+#include "tools/planner_contest.hpp"
+#include "worlds/scene.hpp"
+
+namespace warren {
+
+/// Writes FOLDER/NAME.svg, NAME a contender's planner and options ("prm_samples_50"). The folder must exist. Solves
+/// each of the runs once more. A map's scene has its border walls. Throws WriteError, Stopped.
+void draw_contest(const Scene& scene, const PlannerContestOptions& options, const Comparison& comparison,
+                  const std::string& folder, const Execution& execution);
+
+/// Makes the folder where there is none; throws WriteError where that fails or it can't be written in.
+void make_folder(const std::string& folder);
+
+}  // namespace warren
