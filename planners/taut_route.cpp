@@ -48,6 +48,20 @@ struct Waiting {
   }
 };
 
+/// A bend at a corner, on the way out by a door, that was added: bends that see no more are not.
+struct Bend {
+  std::uint32_t door;
+  double length;
+  Vec2 from;
+  bool on_left;
+};
+
+/// A ray that was all that was left of what a root sees behind a door: many routes along collinear corners come to it.
+struct LastRay {
+  std::uint32_t root_door;
+  Vec2 from, to;
+};
+
 class TautSearch {
  public:
   TautSearch(const CellDecomposition& cells, Vec2 start, Vec2 goal, bool informed, const Execution& execution)
@@ -57,6 +71,8 @@ class TautSearch {
         informed_(informed),
         execution_(execution),
         best_(cells.doors.size(), std::numeric_limits<double>::infinity()),
+        bends_(cells.doors.size()),
+        last_rays_(cells.doors.size()),
         holds_goal_(cells.cells.size(), 0) {
     for (const VertexId cell : cells.places[1].cells) holds_goal_[cell] = 1;
   }
@@ -122,15 +138,43 @@ class TautSearch {
     const auto enter = [&](Node child) {
       child.left.fresh = false;
       child.right.fresh = false;
-      if (!narrow(child, door)) return;
+      if (!narrow(child, door) || is_known_ray(child, door)) return;
       child.cell = cells_.beyond(door, node.cell);
       child.door = door;
       child.parent = number;
       add(child);
     };
     enter(node);
-    if (can_bend(node.left)) enter(bent(node, true));
-    if (can_bend(node.right)) enter(bent(node, false));
+    if (can_bend(node.left) && is_new_bend(node, true, door)) enter(bent(node, true));
+    if (can_bend(node.right) && is_new_bend(node, false, door)) enter(bent(node, false));
+  }
+
+  /// Not if the same corner was reached as shortly, from where the way may bend at least as far.
+  bool is_new_bend(const Node& node, bool on_left, std::uint32_t door) {
+    const Bound& at = on_left ? node.left : node.right;
+    const double length = node.length + distance(node.root, at.to);
+    if (length > best_[at.door] * (1.0 + rounding)) return false;
+    for (const Bend& b : bends_[at.door]) {
+      if (b.door != door || b.on_left != on_left || b.length > length * (1.0 + rounding)) continue;
+      if (orient2d(b.from, at.to, node.root) * (on_left ? 1 : -1) <= 0) return false;
+    }
+    bends_[at.door].push_back({door, length, node.root, on_left});
+    return true;
+  }
+
+  /// Between rays that lie on one line: has the root been here by another route?
+  bool is_known_ray(const Node& node, std::uint32_t door) {
+    const Bound& l = node.left;
+    const Bound& r = node.right;
+    const auto on_line = [](Vec2 from, Vec2 to, const Bound& b) {
+      return orient2d(from, to, b.from) == 0 && orient2d(from, to, b.to) == 0;
+    };
+    if (!l.any() || !r.any() || !on_line(l.from, l.to, r)) return false;
+    for (const LastRay& known : last_rays_[door]) {
+      if (known.root_door == node.root_door && on_line(known.from, known.to, l)) return true;
+    }
+    last_rays_[door].push_back({node.root_door, l.from, l.to});
+    return false;
   }
 
   /// Takes the door's corner as a ray where that leaves less. False: nothing is left.
@@ -153,6 +197,7 @@ class TautSearch {
     Node child = node;
     if (!(corner_of(node.door) == node.root)) {
       if (!can_bend(on_left ? node.left : node.right)) return;  // hidden: another node has its root on the way
+      if (!is_new_bend(node, on_left, door)) return;
       child = bent(node, on_left);
     }
     child.left.fresh = false;
@@ -232,7 +277,9 @@ class TautSearch {
   const Vec2 start_, goal_;
   const bool informed_;
   const Execution& execution_;
-  std::vector<double> best_;  // of each door: the least length of a way to its corner, as a root
+  std::vector<double> best_;                     // of each door: the least length of a way to its corner, as a root
+  std::vector<std::vector<Bend>> bends_;         // of each door: at its corner
+  std::vector<std::vector<LastRay>> last_rays_;  // of each door: seen through it
   std::vector<char> holds_goal_;
   std::vector<Node> nodes_;
   std::priority_queue<Waiting> queue_;
