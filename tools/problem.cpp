@@ -35,6 +35,20 @@ Vec2 plane_state(std::string_view option, const std::vector<double>& given, cons
   return {state[0], state[1]};
 }
 
+std::string outline_text(std::span<const Vec2> outline) {
+  std::string text = "polygon";
+  for (const Vec2 corner : outline) text += fmt::format(" {} {}", corner.x, corner.y);
+  return text;
+}
+
+/// The steering only where it is not the usual one.
+std::string car_text(const RobotSpec& robot) {
+  const std::string body = robot.outline.empty() ? fmt::format("radius {}", robot.radius) : outline_text(robot.outline);
+  const std::string turning = fmt::format("car {} turning {}", body, robot.turning_radius);
+  return robot.steering == SteeringKind::dubins ? turning
+                                                : fmt::format("{} steering {}", turning, name_of(robot.steering));
+}
+
 RobotSpec robot_option(std::string_view text) {
   try {
     return robot_value("--robot", text);
@@ -59,15 +73,13 @@ std::string robot_text(const RobotSpec& robot) {
     case RobotKind::disc:
       return fmt::format("disc {}", robot.radius);
     case RobotKind::car:
-      return fmt::format("car radius {} turning {}", robot.radius, robot.turning_radius);
+      return car_text(robot);
     case RobotKind::puma560:
       return fmt::format("puma560 radius {} tool {}", robot.radius, robot.tool);
     case RobotKind::polygon:
       break;
   }
-  std::string text = "polygon";
-  for (const Vec2 corner : robot.outline) text += fmt::format(" {} {}", corner.x, corner.y);
-  return text;
+  return outline_text(robot.outline);
 }
 
 RobotSpec robot_of(const Scene& scene, const ProblemOptions& options) {

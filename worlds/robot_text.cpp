@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -27,8 +28,11 @@ class RobotReader {
     } else if (kind == "polygon") {
       robot.kind = RobotKind::polygon;
       robot.outline = corners();
-    } else if (kind == "car" || kind == "puma560") {
-      robot.kind = kind == "car" ? RobotKind::car : RobotKind::puma560;
+    } else if (kind == "car") {
+      robot.kind = RobotKind::car;
+      read_car(robot);
+    } else if (kind == "puma560") {
+      robot.kind = RobotKind::puma560;
       read_sizes(robot);
     } else {
       refuse_usage(kind.empty() ? "nothing" : kind);
@@ -76,22 +80,62 @@ class RobotReader {
 
   /// Named numbers, `radius R` and the like: each once, in any order.
   void read_sizes(RobotSpec& robot) {
-    const bool is_car = robot.kind == RobotKind::car;
-    const std::string_view second = is_car ? "turning" : "tool";
     bool has_radius = false;
-    bool has_second = false;
+    bool has_tool = false;
     while (!fields_.done()) {
       const std::string_view name = fields_.word();
-      bool& seen = name == "radius" ? has_radius : has_second;
-      if ((name != "radius" && name != second) || seen) refuse_usage(name);
+      bool& seen = name == "radius" ? has_radius : has_tool;
+      if ((name != "radius" && name != "tool") || seen) refuse_usage(name);
       seen = true;
       const double value = fields_.number();
       if (name == "radius") robot.radius = not_negative("radius", value);
-      if (name == "turning") robot.turning_radius = positive("turning", value);
       if (name == "tool") robot.tool = not_negative("tool", value);
     }
     if (!has_radius) refuse_usage("no radius");
-    if (is_car && !has_second) refuse_usage("no turning radius");
+  }
+
+  [[noreturn]] void refuse_car(std::string_view found) const {
+    fields_.place().fail(fmt::format("expected `{}`", car_usage), found);
+  }
+  SteeringKind steering() {
+    const std::string_view name = fields_.word();
+    for (const SteeringKind kind : {SteeringKind::dubins, SteeringKind::reeds_shepp}) {
+      if (name == name_of(kind)) return kind;
+    }
+    refuse_car(name.empty() ? "no steering" : name);
+  }
+  std::vector<Vec2> car_corners() {
+    std::vector<Vec2> points;
+    while (fields_.number_follows()) {
+      const double x = fields_.number();
+      if (!fields_.number_follows()) refuse_car("an x without its y");
+      points.push_back({x, fields_.number()});
+    }
+    if (points.size() < 3) refuse_car(fmt::format("{} corners", points.size()));
+    return points;
+  }
+  /// Its words in any order, each once.
+  void read_car(RobotSpec& robot) {
+    std::vector<std::string_view> seen;
+    while (!fields_.done()) {
+      const std::string_view name = fields_.word();
+      if (std::find(seen.begin(), seen.end(), name) != seen.end()) refuse_car(name);
+      seen.push_back(name);
+      if (name == "radius") {
+        robot.radius = not_negative("radius", fields_.number());
+      } else if (name == "polygon") {
+        robot.outline = car_corners();
+      } else if (name == "turning") {
+        robot.turning_radius = positive("turning", fields_.number());
+      } else if (name == "steering") {
+        robot.steering = steering();
+      } else {
+        refuse_car(name);
+      }
+    }
+    const auto has = [&](std::string_view name) { return std::find(seen.begin(), seen.end(), name) != seen.end(); };
+    if (has("radius") == has("polygon")) refuse_car(has("radius") ? "radius and polygon" : "no radius");
+    if (!has("turning")) refuse_car("no turning radius");
   }
 
   Fields& fields_;

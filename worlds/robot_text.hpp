@@ -12,6 +12,8 @@ namespace warren {
 
 inline constexpr std::string_view robot_usage =
     "robot point|disc R|polygon X Y X Y X Y ...|car radius R turning RHO|puma560 radius R [tool T]";
+inline constexpr std::string_view car_usage =
+    "robot car radius R|polygon X Y X Y X Y ... turning RHO [steering dubins|reeds-shepp]";
 
 /// Reads what follows the word `robot`, to the line's end. Throws InputError naming the fields' place, Stopped.
 RobotSpec read_robot(scene_text::Fields& fields, const Execution& execution);

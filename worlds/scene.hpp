@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/types.hpp"
@@ -35,12 +36,19 @@ struct MazeHint {
 
 enum class RobotKind : std::uint8_t { point, disc, polygon, car, puma560 };
 
+/// How a car drives: dubins, forwards only; reeds_shepp, backwards too.
+enum class SteeringKind : std::uint8_t { dubins, reeds_shepp };
+constexpr std::string_view name_of(SteeringKind steering) {
+  return steering == SteeringKind::dubins ? "dubins" : "reeds-shepp";
+}
+
 struct RobotSpec {
   RobotKind kind = RobotKind::point;
   double radius = 0.0;          ///< disc, car, puma560 links; >= 0
   double turning_radius = 0.0;  ///< car; > 0
   double tool = 0.0;            ///< puma560: tool length; >= 0
-  std::vector<Vec2> outline;    ///< polygon, around the reference point
+  std::vector<Vec2> outline;    ///< polygon, around the reference point; a car's too: empty where it is a disc
+  SteeringKind steering = SteeringKind::dubins;  ///< car
 };
 
 /// Raster for the grid planner.

@@ -65,12 +65,26 @@ void append_state(std::string& text, std::string_view item, const std::vector<do
   text.push_back('\n');
 }
 
+std::string number(double x) {
+  std::string digits;
+  append_number(digits, x);
+  return digits;
+}
+
+/// The steering only where it is not the usual one.
+void append_car(std::string& text, const RobotSpec& robot) {
+  if (robot.outline.empty()) {
+    text += fmt::format("robot car radius {}", number(robot.radius));
+  } else {
+    text += "robot car polygon";
+    for (const Vec2 p : robot.outline) text += fmt::format(" {} {}", number(p.x), number(p.y));
+  }
+  text += fmt::format(" turning {}", number(robot.turning_radius));
+  if (robot.steering != SteeringKind::dubins) text += fmt::format(" steering {}", name_of(robot.steering));
+  text += '\n';
+}
+
 void append_robot(std::string& text, const RobotSpec& robot) {
-  const auto number = [](double x) {
-    std::string digits;
-    append_number(digits, x);
-    return digits;
-  };
   switch (robot.kind) {
     case RobotKind::point:
       text.append("robot point\n");
@@ -82,7 +96,7 @@ void append_robot(std::string& text, const RobotSpec& robot) {
       append_points(text, "robot polygon", robot.outline);
       break;
     case RobotKind::car:
-      text += fmt::format("robot car radius {} turning {}\n", number(robot.radius), number(robot.turning_radius));
+      append_car(text, robot);
       break;
     case RobotKind::puma560:
       text += fmt::format("robot puma560 radius {} tool {}\n", number(robot.radius), number(robot.tool));

@@ -138,9 +138,16 @@ TEST(SceneText, RefusesBadInputInOneLineThatNamesFileAndLine) {
       {"point with a size", "robot point 1\n0 0 1 1\n", ":1: expected `robot point|"},
       {"disc negative", "robot disc -1\n0 0 1 1\n", ":1: `robot`: R must be at least 0 (found: -1)"},
       {"disc without radius", "robot disc\n0 0 1 1\n", ":1: expected `robot point|"},
-      {"car without turning", "robot car radius 1\n", ":1: expected `robot point|"},
+      {"car without turning", "robot car radius 1\n", ":1: expected `robot car radius R|polygon"},
+      {"car with two bodies", "robot car radius 1 polygon 0 0 1 0 0 1 turning 1\n",
+       ":1: expected `robot car radius R|polygon"},
+      {"car of two corners", "robot car polygon 0 0 1 0 turning 1\n", ":1: expected `robot car radius R|polygon"},
+      {"car with half a corner", "robot car polygon 0 0 1 0 0 turning 1\n", ":1: expected `robot car radius R|polygon"},
+      {"car that steers otherwise", "robot car radius 1 turning 1 steering ackermann\n",
+       ":1: expected `robot car radius R|polygon"},
+      {"car without a steering", "robot car radius 1 turning 1 steering\n", ":1: expected `robot car radius R|polygon"},
       {"car turning on the spot", "robot car radius 1 turning 0\n", ":1: `robot`: turning must be greater than 0"},
-      {"car with two radii", "robot car radius 1 radius 1 turning 1\n", ":1: expected `robot point|"},
+      {"car with two radii", "robot car radius 1 radius 1 turning 1\n", ":1: expected `robot car radius R|polygon"},
       {"car radius missing", "robot car radius turning 1\n", ":1: expected a number (found: turning)"},
       {"car radius ends", "robot car turning 1 radius\n", ":1: a number is missing"},
       {"puma with turning", "robot puma560 radius 1 turning 1\n", ":1: expected `robot point|"},
@@ -212,6 +219,7 @@ void expect_same(const Scene& a, const Scene& b) {
     EXPECT_EQ(a.robot->kind, b.robot->kind);
     EXPECT_EQ(a.robot->radius, b.robot->radius);
     EXPECT_EQ(a.robot->turning_radius, b.robot->turning_radius);
+    EXPECT_EQ(a.robot->steering, b.robot->steering);
     EXPECT_EQ(a.robot->tool, b.robot->tool);
     EXPECT_EQ(a.robot->outline, b.robot->outline);
   }
@@ -224,11 +232,13 @@ void expect_same(const Scene& a, const Scene& b) {
 
 TEST(SceneText, WhatIsWrittenReadsBackTheSame) {
   const TemporaryDirectory directory;
-  const RobotSpec robots[] = {{RobotKind::point, 0, 0, 0, {}},
-                              {RobotKind::disc, 0.1, 0, 0, {}},
-                              {RobotKind::polygon, 0, 0, 0, {{-0.1, 0}, {1. / 3, 0}, {0, 1}}},
-                              {RobotKind::car, 0.5, 1.7, 0, {}},
-                              {RobotKind::puma560, 0.05, 0, 0.123, {}}};
+  const RobotSpec robots[] = {
+      {RobotKind::point, 0, 0, 0, {}},
+      {RobotKind::disc, 0.1, 0, 0, {}},
+      {RobotKind::polygon, 0, 0, 0, {{-0.1, 0}, {1. / 3, 0}, {0, 1}}},
+      {RobotKind::car, 0.5, 1.7, 0, {}},
+      {RobotKind::car, 0, 1. / 3, 0, {{-0.1, 0}, {1. / 3, 0}, {0, 1}}, SteeringKind::reeds_shepp},
+      {RobotKind::puma560, 0.05, 0, 0.123, {}}};
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     SCOPED_TRACE(seed);
     SequentialRng rng(seed);

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "worlds/steering_curve.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/worlds/body_scenes.hpp"
+#include "tests/worlds/steering_words.hpp"
+#include "worlds/dubins_curve.hpp"
+#include "worlds/reeds_shepp_curve.hpp"
+
+namespace warren {
+namespace {
+
+using body_scenes::random_pose;
+
+constexpr double pi = std::numbers::pi;
+
+// Builds with sanitizers take a tenth of the pairs.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr std::uint64_t many = 10'000;
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
+constexpr std::uint64_t many = 10'000;
+#else
+constexpr std::uint64_t many = 100'000;
+#endif
+#else
+constexpr std::uint64_t many = 100'000;
+#endif
+
+double dubins(const Se2& a, const Se2& b, double rho) { return rho * DubinsCurve::shortest(a, b, rho).length; }
+double reeds_shepp(const Se2& a, const Se2& b, double rho) { return rho * ReedsSheppCurve::shortest(a, b, rho).length; }
+
+TEST(SteeringCurve, KnownLengthsComeOut) {
+  struct Known {
+    Se2 goal;
+    double rho, dubins, reeds_shepp;
+  };
+  const Known all[] = {{{4, 0, 0}, 1.0, 4.0, 4.0},
+                       {{0, 4, 0}, 1.0, 6.283185, 5.478121},
+                       {{0, 0, pi}, 1.0, 7.330383, 3.141593},
+                       {{1, 1, pi / 2}, 1.0, 1.570796, 1.570796},
+                       {{-3, 2, -pi / 2}, 1.0, 6.948457, 3.806864},
+                       {{3, 3, pi}, 1.0, 6.303870, 5.384233},
+                       {{0, 4, 0}, 0.5, 4.739060, 4.671134},
+                       {{1, 1, pi / 2}, 0.5, 1.492505, 1.492505},
+                       {{0.2, 0.3, pi}, 0.5, 3.277006, 1.570796}};
+  for (const Known& known : all) {
+    SCOPED_TRACE(::testing::Message() << known.goal.x << ' ' << known.goal.y << ' ' << known.goal.theta);
+    EXPECT_NEAR(dubins({}, known.goal, known.rho), known.dubins, 5e-7);
+    EXPECT_NEAR(reeds_shepp({}, known.goal, known.rho), known.reeds_shepp, 5e-7);
+  }
+}
+
+template <class Curve>
+void expect_ends_at_the_goal(std::uint64_t seed) {
+  double worst = 0.0;
+  std::uint64_t backwards = 0;
+  for (std::uint64_t i = 0; i < many; ++i) {
+    const Se2 a = random_pose(seed, 2 * i);
+    const Se2 b = random_pose(seed, 2 * i + 1);
+    const double rho = 0.2 + 3.0 * uniform(seed, i, 7);
+    const SteeringWord word = Curve::shortest(a, b, rho);
+    const Se2 end = steering_words::integrated(a, word, rho);
+    worst = std::max({worst, std::abs(end.x - b.x), std::abs(end.y - b.y), std::abs(turn_between(end.theta, b.theta))});
+    for (const SteeringPiece& piece : word.used()) backwards += piece.length < 0.0 ? 1 : 0;
+  }
+  EXPECT_LT(worst, 1e-9);
+  EXPECT_EQ(backwards == 0, Curve::one_way);
+}
+
+TEST(SteeringCurve, IntegratedNumericallyDubinsCurvesEndAtTheGoal) { expect_ends_at_the_goal<DubinsCurve>(1); }
+TEST(SteeringCurve, IntegratedNumericallyReedsSheppCurvesEndAtTheGoal) { expect_ends_at_the_goal<ReedsSheppCurve>(2); }
+
+TEST(SteeringCurve, BackingUpNeverMakesLongerAndTheWayBackIsAsLong) {
+  for (std::uint64_t i = 0; i < many / 4; ++i) {
+    const Se2 a = random_pose(3, 2 * i);
+    const Se2 b = random_pose(3, 2 * i + 1);
+    const double there = reeds_shepp(a, b, 1.0);
+    ASSERT_LE(there, dubins(a, b, 1.0) + 1e-9) << i;
+    ASSERT_NEAR(there, reeds_shepp(b, a, 1.0), 1e-9) << i;
+    ASSERT_GE(there, distance(a.position(), b.position()) - 1e-9) << i;
+    ASSERT_GE(there, std::abs(turn_between(a.theta, b.theta)) - 1e-9) << i;
+    // Forwards, the way back is the way between the reversed poses.
+    const Se2 turned_a{a.x, a.y, a.theta + pi};
+    const Se2 turned_b{b.x, b.y, b.theta + pi};
+    ASSERT_NEAR(dubins(a, b, 1.0), dubins(turned_b, turned_a, 1.0), 1e-9) << i;
+  }
+}
+
+TEST(SteeringCurve, NoDetourIsShorter) {
+  for (std::uint64_t i = 0; i < many / 4; ++i) {
+    const Se2 a = random_pose(4, 3 * i);
+    const Se2 b = random_pose(4, 3 * i + 1);
+    const Se2 c = random_pose(4, 3 * i + 2);
+    ASSERT_LE(dubins(a, c, 2.0), dubins(a, b, 2.0) + dubins(b, c, 2.0) + 1e-9) << i;
+    ASSERT_LE(reeds_shepp(a, c, 2.0), reeds_shepp(a, b, 2.0) + reeds_shepp(b, c, 2.0) + 1e-9) << i;
+  }
+}
+
+/// Rounding must not make a full circle of an arc of no length.
+template <class Curve>
+void expect_parts_of_shortest_curves_to_be_shortest(std::uint64_t seed) {
+  for (std::uint64_t i = 0; i < many / 4; ++i) {
+    const Se2 a = random_pose(seed, 2 * i);
+    const Se2 b = random_pose(seed, 2 * i + 1);
+    const SteeringCurve curve(a, b, Curve::shortest(a, b, 1.3), 1.3);
+    double way = curve.length() * uniform(seed, i, 9);
+    if (i % 4 == 0) way = curve.piece_length(0);  // between two pieces
+    const Se2 between = curve.at(way);
+    ASSERT_NEAR(1.3 * Curve::shortest(a, between, 1.3).length, way, 1e-8) << i;
+    ASSERT_NEAR(1.3 * Curve::shortest(between, b, 1.3).length, curve.length() - way, 1e-8) << i;
+  }
+}
+
+TEST(SteeringCurve, PartsOfShortestCurvesAreShortest) {
+  expect_parts_of_shortest_curves_to_be_shortest<DubinsCurve>(5);
+  expect_parts_of_shortest_curves_to_be_shortest<ReedsSheppCurve>(6);
+}
+
+/// All words of the theorems, solved by Newton's method.
+TEST(SteeringCurve, NoWordIsShorterThanTheShortest) {
+  const auto forward = steering_words::dubins_patterns();
+  const auto both = steering_words::reeds_shepp_patterns();
+  int met_forwards = 0;
+  int met = 0;
+  constexpr std::uint64_t seeds = 40;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    SCOPED_TRACE(seed);
+    const double size = seed % 3 == 0 ? 1.0 : 5.0;  // near goals take the words with many arcs
+    const Se2 goal{size * (2.0 * uniform(seed, 0, 0) - 1.0), size * (2.0 * uniform(seed, 0, 1) - 1.0),
+                   2.0 * pi * uniform(seed, 0, 2) - pi};
+    const double found = steering_words::shortest(forward, goal, true, seed, 24);
+    const double found_both = steering_words::shortest(both, goal, false, seed, 12);
+    EXPECT_LE(dubins({}, goal, 1.0), found + 1e-8);
+    EXPECT_LE(reeds_shepp({}, goal, 1.0), found_both + 1e-8);
+    met_forwards += dubins({}, goal, 1.0) > found - 1e-8 ? 1 : 0;
+    met += reeds_shepp({}, goal, 1.0) > found_both - 1e-8 ? 1 : 0;
+  }
+  EXPECT_GE(met_forwards, 36);  // Newton's method may miss some
+  EXPECT_GE(met, 36);
+}
+
+TEST(SteeringCurve, PosesOnTheWayLieOnTheCurveAndInItsBox) {
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    SCOPED_TRACE(seed);
+    const Se2 a = random_pose(seed, 0);
+    const Se2 b = random_pose(seed, 1);
+    const double rho = 0.3 + uniform(seed, 2, 0);
+    const SteeringCurve curve(a, b, ReedsSheppCurve::shortest(a, b, rho), rho);
+    EXPECT_EQ(curve.at(0.0), a);
+    EXPECT_EQ(curve.at(curve.length()), b);
+    Box met;
+    constexpr int steps = 2000;
+    const double step = curve.length() / steps;
+    for (int i = 0; i <= steps; ++i) {
+      const Se2 pose = curve.at(i * step);
+      met.include(pose.position());
+      if (i == 0) continue;
+      const Se2 before = curve.at((i - 1) * step);
+      ASSERT_LE(distance(before.position(), pose.position()), step * (1 + 1e-9));
+      ASSERT_LE(std::abs(turn_between(before.theta, pose.theta)), step / rho * (1 + 1e-9));
+    }
+    const Box box = curve.box();
+    EXPECT_TRUE(box.grown(1e-9).contains(met.min) && box.grown(1e-9).contains(met.max));
+    EXPECT_TRUE(met.grown(step).contains(box.min) && met.grown(step).contains(box.max));
+  }
+}
+
+TEST(SteeringCurve, ExtremesOfScaleEndAtTheGoal) {
+  for (const double scale : {1e-9, 1e-4, 1e3, 1e6, 1e9}) {
+    for (std::uint64_t i = 0; i < 200; ++i) {
+      SCOPED_TRACE(::testing::Message() << scale << " " << i);
+      const Se2 goal{scale * (uniform(8, i, 0) - 0.5), scale * (uniform(8, i, 1) - 0.5), 6.0 * uniform(8, i, 2)};
+      for (const SteeringWord& word :
+           {DubinsCurve::shortest({}, goal, 1.0), ReedsSheppCurve::shortest({}, goal, 1.0)}) {
+        EXPECT_TRUE(ends_at(word, goal));
+      }
+    }
+  }
+  EXPECT_EQ(DubinsCurve::shortest({1, 2, 3}, {1, 2, 3}, 1.0).length, 0.0);
+  EXPECT_EQ(ReedsSheppCurve::shortest({1, 2, 3}, {1, 2, 3}, 1.0).length, 0.0);
+  EXPECT_NEAR(dubins({1, 2, 3}, {1, 2, 3 + 2 * pi}, 1.0), 0.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace warren

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// In turning radii, from the origin with heading 0 to (x, y, phi). A car that turns left circles around (0, 1) at its
+// begin and around (x - sin phi, y + cos phi) at its end; to the right around (x + sin phi, y - cos phi).
+#include "worlds/dubins_curve.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace warren {
+namespace {
+
+constexpr double full_turn = 2.0 * std::numbers::pi;
+constexpr double nearly_full = full_turn - 1e-6;
+
+/// The angle in [0, 2 pi).
+double positive_angle(double angle) {
+  angle -= full_turn * std::floor(angle / full_turn);
+  return angle < full_turn ? angle : 0.0;
+}
+
+enum class Shape : std::uint8_t { lsl, lsr, lrl };
+
+/// A word of the shape, mirrored or not: first arc, middle, last arc. The last arc follows from the headings, or, where
+/// the last one is given, the first.
+struct Candidate {
+  Shape shape;
+  bool mirrored;
+  double phi;  // of the goal, in the mirror where mirrored
+  double first;
+  double middle;
+  double last;
+
+  double length() const { return first + middle + last; }
+  /// The heading at the goal is first - last for lsr, first - middle + last for lrl, first + last for lsl.
+  double last_for(double arc) const {
+    if (shape == Shape::lsr) return positive_angle(arc - phi);
+    return positive_angle(shape == Shape::lsl ? phi - arc : phi - arc + middle);
+  }
+  double first_for(double arc) const {
+    if (shape == Shape::lsr) return positive_angle(phi + arc);
+    return positive_angle(shape == Shape::lsl ? phi - arc : phi - arc + middle);
+  }
+  SteeringWord word() const {
+    const Steer left = mirrored ? Steer::right : Steer::left;
+    const Steer right = mirrored ? Steer::left : Steer::right;
+    SteeringWord word;
+    word.add(left, first);
+    word.add(shape == Shape::lrl ? right : Steer::straight, middle);
+    word.add(shape == Shape::lsr ? right : left, last);
+    return word;
+  }
+};
+
+/// All words of a pair of poses, and what rounding may have made of them.
+class Candidates {
+ public:
+  explicit Candidates(const Se2& goal) : goal_(goal) {
+    const double s = std::sin(goal.theta);
+    const double c = std::cos(goal.theta);
+    add(false, goal.y, goal.theta, s, c);
+    add(true, -goal.y, -goal.theta, -s, c);
+  }
+
+  /// The shortest that ends at the goal.
+  SteeringWord best() {
+    const auto shorter = [](const Candidate& a, const Candidate& b) { return a.length() < b.length(); };
+    for (;;) {
+      const auto end = list_.begin() + static_cast<std::ptrdiff_t>(count_);
+      const auto candidate = std::min_element(list_.begin(), end, shorter);
+      const SteeringWord word = candidate->word();
+      if (count_ == 1 || ends_at(word, goal_)) return word;
+      *candidate = list_[--count_];
+    }
+  }
+
+ private:
+  void add(bool mirrored, double y, double phi, double s, double c);
+  void add(Candidate candidate, double first);
+
+  Se2 goal_;
+  std::array<Candidate, 24> list_;  // of each of six words at most four
+  std::size_t count_ = 0;
+};
+
+/// y, phi, its sine and cosine: in the mirror where mirrored.
+void Candidates::add(bool mirrored, double y, double phi, double s, double c) {
+  const double x = goal_.x;
+  const Vec2 to_left{x - s, y + c - 1.0};  // from the first circle's centre to the last one's
+  const Vec2 to_right{x + s, y - c - 1.0};
+  const double left_distance = norm(to_left);
+  const double left_angle = std::atan2(to_left.y, to_left.x);
+  constexpr double one_circle = 1e-9;
+  constexpr double touching = 1e-11;
+  add({Shape::lsl, mirrored, phi, 0.0, left_distance, 0.0}, left_distance > one_circle ? left_angle : 0.0);
+  const double straight_sq = dot(to_right, to_right) - 4.0;
+  if (straight_sq >= -touching) {  // circles that touch: two arcs and nothing between
+    const double straight = std::sqrt(std::max(straight_sq, 0.0));
+    add({Shape::lsr, mirrored, phi, 0.0, straight, 0.0},
+        std::atan2(to_right.y, to_right.x) + std::atan2(2.0, straight));
+  }
+  if (left_distance <= 4.0 + touching) {
+    const double middle = full_turn - 2.0 * std::asin(std::min(0.25 * left_distance, 1.0));
+    add({Shape::lrl, mirrored, phi, 0.0, middle, 0.0}, left_angle + 0.5 * middle);
+  }
+}
+
+/// Adds it with this first arc; where an arc is nearly a full circle, also without that arc.
+void Candidates::add(Candidate candidate, double first) {
+  candidate.first = positive_angle(first);
+  candidate.last = candidate.last_for(candidate.first);
+  list_[count_++] = candidate;
+  const bool first_is_full = candidate.first > nearly_full;
+  const bool last_is_full = candidate.last > nearly_full;
+  if (first_is_full) {
+    candidate.first = 0.0;
+    candidate.last = candidate.last_for(0.0);
+    list_[count_++] = candidate;
+  }
+  if (last_is_full) {
+    candidate.last = 0.0;
+    candidate.first = candidate.first_for(0.0);
+    list_[count_++] = candidate;
+  }
+  if (first_is_full && last_is_full) {
+    candidate.first = 0.0;
+    list_[count_++] = candidate;
+  }
+}
+
+}  // namespace
+
+SteeringWord DubinsCurve::shortest(const Se2& a, const Se2& b, double turning_radius) noexcept {
+  if (a == b) return {};
+  return Candidates(seen_from(a, b, turning_radius)).best();
+}
+
+}  // namespace warren

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// In turning radii, from the origin with heading 0 to (x, y, phi), as complex numbers: a left circle at heading h has
+// its centre at i e^(ih) from the car, a right one at -i e^(ih). Adding up centre to centre along a word gives, for the
+// vector from the first circle (left) to the last one,
+//   L t S u L v             u e^(it)                          R a L v after L t:  4 sin(a/2) e^(i(t - a/2))
+//   L t S u R v             (u - 2i) e^(it)
+//   L t R a L -a R v        -2i (2 cos a - 1) e^(i(t - a))
+//   L t R a L a R v         -2i (2 - e^(-ia)) e^(it)
+//   L t R -q S u L v        (-2 + i (u - 2)) e^(it)           q: a quarter turn
+//   L t R -q S u R v        i (u - 2) e^(it)
+//   L t R -q S u L -q R v   (-2 + i (u - 4)) e^(it)
+// whose absolute value gives u or a and whose argument gives t; v makes the heading right.
+#include "worlds/reeds_shepp_curve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace warren {
+namespace {
+
+constexpr double quarter = 0.5 * std::numbers::pi;
+
+enum class Shape : std::uint8_t { lsl, lsr, lrl, lrlr_out, lrlr_in, lrsl, lrsr, lrslr };
+
+/// How the goal was changed before the word was solved for it.
+struct Change {
+  bool mirrored = false;
+  bool reversed = false;   // in time: forwards is backwards
+  bool from_goal = false;  // the way back
+};
+
+struct Solved {
+  double length = std::numeric_limits<double>::infinity();
+  Shape shape = Shape::lsl;
+  Change change;
+  double first = 0.0;
+  double middle = 0.0;
+  double last = 0.0;
+};
+
+/// Circles that touch up to rounding count as touching; ends_at() decides whether that is true.
+constexpr double touching = 1e-11;
+double root(double square) { return std::sqrt(std::max(square, 0.0)); }
+
+/// Into [-pi, pi], for angles within some turns.
+double wrapped(double angle) {
+  while (angle > std::numbers::pi) angle -= 2.0 * std::numbers::pi;
+  while (angle < -std::numbers::pi) angle += 2.0 * std::numbers::pi;
+  return angle;
+}
+
+/// Absolute value and argument.
+struct Polar {
+  double size;
+  double angle;
+  explicit Polar(Vec2 v) : size(norm(v)), angle(std::atan2(v.y, v.x)) {}
+  /// Of the vector with its x the other way.
+  void reverse() { angle = std::copysign(std::numbers::pi, angle) - angle; }
+};
+
+/// The pieces of the shape in the frame in which it was solved.
+SteeringWord plain_word(const Solved& w) {
+  SteeringWord word;
+  const auto left = [&](double arc) { word.add(Steer::left, arc); };
+  const auto right = [&](double arc) { word.add(Steer::right, arc); };
+  const auto straight = [&](double way) { word.add(Steer::straight, way); };
+  left(w.first);
+  switch (w.shape) {
+    case Shape::lsl:
+      straight(w.middle), left(w.last);
+      break;
+    case Shape::lsr:
+      straight(w.middle), right(w.last);
+      break;
+    case Shape::lrl:
+      right(w.middle), left(w.last);
+      break;
+    case Shape::lrlr_out:
+      right(w.middle), left(-w.middle), right(w.last);
+      break;
+    case Shape::lrlr_in:
+      right(w.middle), left(w.middle), right(w.last);
+      break;
+    case Shape::lrsl:
+      right(-quarter), straight(w.middle), left(w.last);
+      break;
+    case Shape::lrsr:
+      right(-quarter), straight(w.middle), right(w.last);
+      break;
+    case Shape::lrslr:
+      right(-quarter), straight(w.middle), left(-quarter), right(w.last);
+      break;
+  }
+  return word;
+}
+
+SteeringWord word_of(const Solved& w) {
+  const SteeringWord plain = plain_word(w);
+  SteeringWord word;
+  for (std::size_t i = 0; i < plain.count; ++i) {
+    SteeringPiece piece = plain.pieces[w.change.from_goal ? plain.count - 1 - i : i];
+    if (w.change.mirrored) piece.steer = static_cast<Steer>(-static_cast<int>(piece.steer));
+    word.add(piece.steer, w.change.reversed ? -piece.length : piece.length);
+  }
+  return word;
+}
+
+/// The shortest of all words that are longer than `longer_than`.
+class Enumeration {
+ public:
+  Enumeration(const Se2& goal, double longer_than) : longer_than_(longer_than) {
+    const double s = std::sin(goal.theta);
+    const double c = std::cos(goal.theta);
+    for (const bool mirrored : {false, true}) {
+      const double side = mirrored ? -1.0 : 1.0;
+      Frame frame({mirrored, false, false}, {goal.x, side * goal.y}, side * goal.theta, side * s, c);
+      // The goal seen the other way round: turned words, last piece first.
+      Frame back({mirrored, false, true}, {goal.x * c + goal.y * s, side * (goal.x * s - goal.y * c)},
+                 side * goal.theta, side * s, c);
+      for (int time = 0; time < 2; ++time) {
+        solve_all(frame);
+        solve_quarter(back);
+        frame.reverse();
+        back.reverse();
+      }
+    }
+  }
+  const Solved& best() const { return best_; }
+
+ private:
+  /// The goal, changed, and the vectors from the first circle (left) to the last one, left or right.
+  struct Frame {
+    Change change;
+    double phi;
+    Polar to_left;
+    Polar to_right;
+    Frame(const Change& how, Vec2 goal, double theta, double s, double c)
+        : change(how), phi(theta), to_left({goal.x - s, goal.y + c - 1.0}), to_right({goal.x + s, goal.y - c - 1.0}) {}
+    /// In time: x, and so heading and turning centres, the other way.
+    void reverse() {
+      change.reversed = true;
+      phi = -phi;
+      to_left.reverse();
+      to_right.reverse();
+    }
+  };
+
+  /// Is it worth to go on with a word that has at least this length?
+  bool worth(double at_least) const { return at_least < best_.length; }
+  void take(const Frame& frame, Shape shape, double first, double middle, double last, double fixed) {
+    const double length = fixed + std::abs(first) + std::abs(last);
+    if (length < best_.length && length > longer_than_) best_ = {length, shape, frame.change, first, middle, last};
+  }
+  void solve_all(const Frame& f);
+  void solve_four_arcs(const Frame& f);
+  void solve_quarter(const Frame& f);
+  void solve_two_quarters(const Frame& f);
+
+  double longer_than_;
+  Solved best_;
+};
+
+void Enumeration::solve_all(const Frame& f) {
+  constexpr double one_circle = 1e-9;
+  if (worth(f.to_left.size)) {
+    const double first = f.to_left.size > one_circle ? f.to_left.angle : 0.0;
+    take(f, Shape::lsl, first, f.to_left.size, wrapped(f.phi - first), f.to_left.size);
+  }
+  if (f.to_right.size >= 2.0 - touching) {
+    const double straight = root(f.to_right.size * f.to_right.size - 4.0);
+    if (worth(straight)) {
+      const double first = wrapped(f.to_right.angle + std::atan2(2.0, straight));
+      take(f, Shape::lsr, first, straight, wrapped(first - f.phi), straight);
+    }
+  }
+  if (f.to_left.size <= 4.0 + touching) {
+    const double arc = 2.0 * std::asin(std::min(0.25 * f.to_left.size, 1.0));
+    if (worth(arc)) {
+      const double first = wrapped(f.to_left.angle - 0.5 * arc + std::numbers::pi);
+      take(f, Shape::lrl, first, -arc, wrapped(f.phi - first - arc), arc);
+    }
+  }
+  solve_four_arcs(f);
+  solve_quarter(f);
+  solve_two_quarters(f);
+}
+
+void Enumeration::solve_four_arcs(const Frame& f) {
+  const double out_cosine = 0.25 * (2.0 + f.to_right.size);
+  if (out_cosine <= 1.0 + touching) {
+    const double arc = std::acos(std::min(out_cosine, 1.0));
+    if (worth(2.0 * arc)) {
+      const double first = wrapped(f.to_right.angle + arc + quarter);
+      take(f, Shape::lrlr_out, first, arc, wrapped(first - 2.0 * arc - f.phi), 2.0 * arc);
+    }
+  }
+  const double in_cosine = (20.0 - f.to_right.size * f.to_right.size) / 16.0;
+  if (in_cosine >= -1.0 && in_cosine <= 1.0 + touching) {
+    const double arc = std::acos(std::min(in_cosine, 1.0));
+    if (worth(2.0 * arc)) {
+      const double first = wrapped(f.to_right.angle + quarter + std::atan2(std::sin(arc), 2.0 - in_cosine));
+      take(f, Shape::lrlr_in, first, -arc, wrapped(first - f.phi), 2.0 * arc);
+    }
+  }
+}
+
+void Enumeration::solve_quarter(const Frame& f) {
+  if (f.to_left.size >= 2.0 - touching) {
+    const double across = root(f.to_left.size * f.to_left.size - 4.0);
+    const double straight = 2.0 - across;
+    if (worth(quarter + std::abs(straight))) {
+      const double first = wrapped(f.to_left.angle + std::atan2(across, -2.0));
+      take(f, Shape::lrsl, first, straight, wrapped(f.phi - first - quarter), quarter + std::abs(straight));
+    }
+  }
+  const double straight = 2.0 - f.to_right.size;
+  if (worth(quarter + std::abs(straight))) {
+    const double first = wrapped(f.to_right.angle + quarter);
+    take(f, Shape::lrsr, first, straight, wrapped(first + quarter - f.phi), quarter + std::abs(straight));
+  }
+}
+
+void Enumeration::solve_two_quarters(const Frame& f) {
+  if (f.to_right.size < 2.0 - touching) return;
+  const double across = root(f.to_right.size * f.to_right.size - 4.0);
+  const double straight = 4.0 - across;
+  if (!worth(2.0 * quarter + std::abs(straight))) return;
+  const double first = wrapped(f.to_right.angle + std::atan2(across, -2.0));
+  take(f, Shape::lrslr, first, straight, wrapped(first - f.phi), 2.0 * quarter + std::abs(straight));
+}
+
+}  // namespace
+
+SteeringWord ReedsSheppCurve::shortest(const Se2& a, const Se2& b, double turning_radius) noexcept {
+  if (a == b) return {};
+  const Se2 goal = seen_from(a, b, turning_radius);
+  double longer_than = -1.0;
+  for (;;) {
+    const Solved solved = Enumeration(goal, longer_than).best();
+    if (!std::isfinite(solved.length)) break;
+    const SteeringWord word = word_of(solved);
+    if (ends_at(word, goal)) return word;
+    longer_than = solved.length;
+  }
+  return word_of(Enumeration(goal, -1.0).best());
+}
+
+}  // namespace warren

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A curve that a car drives: up to five pieces, each straight or an arc of the turning radius, forwards or backwards.
+// A SteeringWord is the recipe, in units of the turning radius; a SteeringCurve puts it between two poses, with the
+// poses between the pieces computed once, so that a pose on the way costs one sine and one cosine. Which word is the
+// shortest: worlds/dubins_curve.hpp, worlds/reeds_shepp_curve.hpp.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "core/se2.hpp"
+#include "core/types.hpp"
+
+namespace warren {
+
+enum class Steer : std::int8_t { right = -1, straight = 0, left = 1 };
+
+/// One piece of constant steering.
+struct SteeringPiece {
+  Steer steer = Steer::straight;
+  double length = 0.0;  ///< in turning radii: of an arc, its angle in radians; negative: backwards
+};
+
+/// Pieces in the order in which they are driven.
+struct SteeringWord {
+  static constexpr std::size_t most_pieces = 5;
+  std::array<SteeringPiece, most_pieces> pieces{};
+  std::uint8_t count = 0;
+  double length = 0.0;  ///< sum of the pieces' lengths without their signs, in turning radii
+
+  void add(Steer steer, double piece) {
+    pieces[count++] = {steer, piece};
+    length += std::abs(piece);
+  }
+  std::span<const SteeringPiece> used() const { return {pieces.data(), count}; }
+};
+
+/// The pose of b seen from a, positions in turning radii.
+Se2 seen_from(const Se2& a, const Se2& b, double turning_radius) noexcept;
+
+/// Where one piece leads to from a pose; everything in turning radii.
+Se2 after_piece(const Se2& from, const SteeringPiece& piece) noexcept;
+
+/// Does the word, driven from the origin, end at `goal` up to rounding?
+bool ends_at(const SteeringWord& word, const Se2& goal) noexcept;
+
+/// A word between two poses, in world units. Pieces of no length to speak of (1e-12 radii) are left out.
+class SteeringCurve {
+ public:
+  /// word: leads from a to b with this turning radius (> 0).
+  SteeringCurve(const Se2& a, const Se2& b, const SteeringWord& word, double turning_radius) noexcept;
+
+  double length() const { return length_; }
+  double turning_radius() const { return radius_; }
+  std::size_t piece_count() const { return count_; }
+  const SteeringPiece& piece(std::size_t i) const { return pieces_[i]; }
+  /// Of a piece, in world units, >= 0.
+  double piece_length(std::size_t i) const { return radius_ * std::abs(pieces_[i].length); }
+  /// The pose at which piece i begins; i = piece_count(): the end.
+  const Se2& joint(std::size_t i) const { return joints_[i]; }
+  /// The pose after the way s from the begin, 0 <= s <= length(); the ends are a and b themselves.
+  Se2 at(double s) const noexcept;
+  /// Of the reference point's way.
+  Box box() const noexcept;
+
+ private:
+  std::array<SteeringPiece, SteeringWord::most_pieces> pieces_{};
+  std::array<Se2, SteeringWord::most_pieces + 1> joints_{};
+  std::size_t count_ = 0;
+  double radius_;
+  double length_ = 0.0;
+};
+
+}  // namespace warren
