@@ -28,6 +28,7 @@ class MotionTree {
   MotionTree(const W& world, GrowthDirection direction) : world_(&world), direction_(direction) {}
 
   void add_root(const State& state) { add(state, no_vertex); }
+  GrowthDirection direction() const { return direction_; }
   std::size_t size() const { return states_.size(); }
   const State& state(VertexId v) const { return states_[v]; }
   VertexId parent(VertexId v) const { return parents_[v]; }  ///< no_vertex for roots
@@ -93,11 +94,15 @@ template <SteerableWorld W>
 void keep_trees(std::span<const MotionTree<W>> trees, Roadmap<typename W::State>& roadmap) {
   std::vector<Edge> edges;
   roadmap.states.clear();
+  roadmap.motions.clear();
   for (const MotionTree<W>& tree : trees) {
     const auto first = static_cast<VertexId>(roadmap.states.size());
     for (VertexId v = 0; v < tree.size(); ++v) {
       roadmap.states.push_back(tree.state(v));
-      if (tree.parent(v) != no_vertex) edges.push_back({first + tree.parent(v), first + v});
+      if (tree.parent(v) == no_vertex) continue;
+      edges.push_back({first + tree.parent(v), first + v});
+      const bool forward = tree.direction() == GrowthDirection::forward;
+      roadmap.motions.push_back(forward ? edges.back() : Edge{first + v, first + tree.parent(v)});
     }
   }
   roadmap.states.push_back(trees.front().state(0));

@@ -12,9 +12,10 @@ namespace warren {
 
 template <class State>
 struct Roadmap {
-  RawVector<State> states;        ///< milestones, then start, then goal
-  Graph graph;                    ///< free edges; lazy planners: the edges that were checked and found free
-  std::vector<Edge> search_tree;  ///< (vertex, parent) of every vertex that the search reached
+  RawVector<State> states;         ///< milestones, then start, then goal
+  Graph graph;                     ///< free edges; lazy planners: the edges that were checked and found free
+  std::vector<Edge> search_tree;   ///< (vertex, parent) of every vertex that the search reached
+  std::vector<Edge> motions = {};  ///< trees that grow: each motion from where it begins to where it ends
 };
 
 }  // namespace warren

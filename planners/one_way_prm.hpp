@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// PRM for worlds whose motions have a direction (a car that only drives forwards): the way from a to b says nothing of
+// the way back. Edges are directed, so the graph is; that start and goal lie in one component means little, and the
+// search decides. Otherwise as prm and lazy_prm: milestones in tile order, rounds of growing size, the same answer for
+// any number of threads.
+//
+// Which edges: from each milestone those to its k nearest, and from the k nearest to the goal; nearest by the world's
+// metric, in the edge's direction. The metric may be far above the distance of the embedding (a car gets sideways by
+// a loop), so the k are chosen among the 4 k nearest of the embedding. Radius rule: what is within the radius by the
+// metric. Lazy: an edge is checked when the search would use it. Cost a round: n (4 k distances and k motion checks).
+#pragma once
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "planners/prm.hpp"
+
+namespace warren {
+
+namespace detail {
+
+template <World W>
+class OneWayPlan {
+ public:
+  using State = typename W::State;
+  OneWayPlan(const W& world, const State& start, const State& goal, const RoadmapOptions& options, bool lazy,
+             const Execution& execution, bool keep)
+      : world_(world), start_(start), goal_(goal), options_(options), execution_(execution), lazy_(lazy), keep_(keep) {}
+
+  bool round(std::uint64_t samples) {
+    ++solution_.counters.rounds;
+    solution_.counters.samples += samples;
+    draw(samples);
+    find_candidates(samples);
+    if (!lazy_) check_all();
+    return search();
+  }
+  void finish(Roadmap<State>* keep);
+  Solution<State>& solution() { return solution_; }
+
+ private:
+  enum class Check : std::uint8_t { unknown, free, blocked };
+  /// An edge from a vertex.
+  struct Way {
+    double length;
+    VertexId to;
+    Check state = Check::unknown;
+  };
+  using Ways = std::vector<Way>;
+
+  void draw(std::uint64_t samples);
+  void find_candidates(std::uint64_t samples);
+  Ways nearest(VertexId v, const ConnectionRule& rule, bool incoming, std::vector<Neighbour>& near) const;
+  void attach_goal(const ConnectionRule& rule);
+  bool is_free(VertexId from, Way& way, typename W::Query& query, Counters& counters) const {
+    if (way.state == Check::unknown) {
+      ++counters.edges_checked;
+      way.state = world_.is_free_motion(states_[from], states_[way.to], query) ? Check::free : Check::blocked;
+    }
+    return way.state == Check::free;
+  }
+  void check_all();
+  bool search();
+  SearchResult search_best();
+  SearchResult search_plainly();
+  Graph free_graph(bool reversed) const;
+  Separation separation() const;
+  VertexId start_vertex() const { return static_cast<VertexId>(states_.size() - 2); }
+  VertexId goal_vertex() const { return static_cast<VertexId>(states_.size() - 1); }
+  std::span<const State> milestones() const { return {states_.data(), states_.size() - 2}; }
+
+  const W& world_;
+  const State start_;
+  const State goal_;
+  const RoadmapOptions& options_;
+  const Execution& execution_;
+  bool lazy_;
+  bool keep_;
+  RawVector<State> states_;
+  StateIndex<W> index_;
+  std::vector<Ways> ways_;  // from each vertex, ascending by vertex
+  std::vector<Edge> tree_;
+  Solution<State> solution_;
+};
+
+template <World W>
+void OneWayPlan<W>::draw(std::uint64_t samples) {
+  const StageTimer timer(execution_, "sample", solution_.seconds.sample, samples);
+  states_ = draw_milestones(world_, options_, samples, execution_);
+  states_.push_back(start_);
+  states_.push_back(goal_);
+  solution_.roadmap = {states_.size(), 0, 0};
+}
+
+/// The candidate edges from v, or (incoming) those to v with their begins as `to`, nearest first.
+template <World W>
+auto OneWayPlan<W>::nearest(VertexId v, const ConnectionRule& rule, bool incoming, std::vector<Neighbour>& near) const
+    -> Ways {
+  constexpr std::size_t wider = 4;
+  const VertexId except = v < index_.size() ? v : no_vertex;
+  const auto at = embedded(world_, states_[v]);
+  if (rule.neighbours > 0) {
+    index_.nearest(at, wider * rule.neighbours, except, near);
+  } else {
+    index_.within(at, SearchRadius(rule.radius), except, near);
+  }
+  Ways ways;
+  for (const Neighbour& n : near) {
+    const double length =
+        incoming ? world_.distance(states_[n.id], states_[v]) : world_.distance(states_[v], states_[n.id]);
+    if (rule.neighbours > 0 || length <= rule.radius) ways.push_back({length, n.id});
+  }
+  std::sort(ways.begin(), ways.end(),
+            [](const Way& a, const Way& b) { return a.length != b.length ? a.length < b.length : a.to < b.to; });
+  if (rule.neighbours > 0 && ways.size() > rule.neighbours) ways.resize(rule.neighbours);
+  return ways;
+}
+
+template <World W>
+void OneWayPlan<W>::find_candidates(std::uint64_t samples) {
+  constexpr std::size_t grain = 64;
+  {
+    const StageTimer timer(execution_, "neighbours", solution_.seconds.neighbours, milestones().size());
+    index_ = index_of_states(world_, milestones(), execution_);
+  }
+  const StageTimer timer(execution_, "connect", solution_.seconds.connect, milestones().size());
+  const ConnectionRule rule = connection_rule_for(world_, options_, samples);
+  const std::size_t begins = states_.size() - 1;  // nothing leads on from the goal
+  ways_.assign(states_.size(), {});
+  for_chunks(begins, grain, execution_, [&](Range r) {
+    std::vector<Neighbour> near;
+    for (std::size_t v = r.first; v < r.last; ++v) ways_[v] = nearest(static_cast<VertexId>(v), rule, false, near);
+  });
+  solution_.counters.neighbour_queries += begins + 1;
+  attach_goal(rule);
+  for (Ways& ways : ways_) {
+    std::sort(ways.begin(), ways.end(), [](const Way& a, const Way& b) { return a.to < b.to; });
+  }
+}
+
+/// And the edge from start to goal.
+template <World W>
+void OneWayPlan<W>::attach_goal(const ConnectionRule& rule) {
+  std::vector<Neighbour> near;
+  for (const Way& way : nearest(goal_vertex(), rule, true, near)) {
+    ways_[way.to].push_back({way.length, goal_vertex()});
+  }
+  const double length = world_.distance(start_, goal_);
+  if (length <= direct_reach(rule)) ways_[start_vertex()].push_back({length, goal_vertex()});
+}
+
+template <World W>
+void OneWayPlan<W>::check_all() {
+  constexpr std::size_t grain = 64;
+  const StageTimer timer(execution_, "connect", solution_.seconds.connect, ways_.size());
+  std::vector<Counters> done(chunk_count(ways_.size(), grain));
+  for_chunks(ways_.size(), grain, execution_, [&](Range r) {
+    auto query = world_.make_query();
+    Counters& counters = done[r.first / grain];
+    for (std::size_t v = r.first; v < r.last; ++v) {
+      execution_.check();
+      for (Way& way : ways_[v]) is_free(static_cast<VertexId>(v), way, query, counters);
+    }
+    counters.refused = refused_motions(query);
+  });
+  for (const Counters& part : done) solution_.counters += part;
+}
+
+template <World W>
+bool OneWayPlan<W>::search() {
+  const StageTimer timer(execution_, "search", solution_.seconds.search);
+  const bool best = options_.search == SearchKind::astar || options_.search == SearchKind::dijkstra;
+  const SearchResult found = best ? search_best() : search_plainly();
+  if (found.status == SearchStatus::stopped) execution_.check();
+  solution_.counters.expanded += found.expanded;
+  solution_.roadmap.edges = 0;
+  for (const Ways& ways : ways_) {
+    solution_.roadmap.edges += static_cast<std::uint64_t>(
+        std::count_if(ways.begin(), ways.end(), [](const Way& way) { return way.state == Check::free; }));
+  }
+  solution_.outcome = found.status == SearchStatus::found ? Outcome::solved : Outcome::not_connected;
+  for (const VertexId v : found.path) solution_.path.push_back(states_[v]);
+  return found.status == SearchStatus::found;
+}
+
+template <World W>
+SearchResult OneWayPlan<W>::search_best() {
+  SearchState state;
+  state.resize(states_.size(), [&] { execution_.check(); });
+  auto query = world_.make_query();
+  Counters counters;
+  const auto neighbours = [&](VertexId v, const auto& visit) {
+    for (Way& way : ways_[v]) {
+      if (visit.wants(way.to, way.length) && is_free(v, way, query, counters)) visit(way.to, way.length);
+    }
+  };
+  const bool informed = options_.search == SearchKind::astar;
+  const auto estimate = [&](VertexId v) { return informed ? world_.distance(states_[v], goal_) : 0.0; };
+  const auto should_stop = [&] { return execution_.should_stop(); };
+  const SearchResult found = with_queue(options_.queue, states_.size(), [&](auto& queue) {
+    return best_first(start_vertex(), goal_vertex(), neighbours, estimate, queue, state, should_stop);
+  });
+  counters.refused = refused_motions(query);
+  solution_.counters += counters;
+  if (keep_) tree_ = search_tree(state);
+  return found;
+}
+
+/// Breadth or depth first, over the free edges.
+template <World W>
+SearchResult OneWayPlan<W>::search_plainly() {
+  if (lazy_) check_all();
+  SearchState state;
+  state.resize(states_.size(), [&] { execution_.check(); });
+  const Graph graph = free_graph(false);
+  const auto should_stop = [&] { return execution_.should_stop(); };
+  const SearchResult found = options_.search == SearchKind::bfs
+                                 ? breadth_first(graph, start_vertex(), goal_vertex(), state, should_stop)
+                                 : depth_first(graph, start_vertex(), goal_vertex(), state, should_stop);
+  if (keep_) tree_ = search_tree(state);
+  return found;
+}
+
+/// The free edges, each in the row of its begin (reversed: of its end).
+template <World W>
+Graph OneWayPlan<W>::free_graph(bool reversed) const {
+  RawVector<EdgeEnd> offsets(states_.size() + 1);
+  std::fill(offsets.begin(), offsets.end(), 0);
+  const auto each = [&](const auto& visit) {
+    for (VertexId v = 0; v < ways_.size(); ++v) {
+      for (const Way& way : ways_[v]) {
+        if (way.state == Check::free) reversed ? visit(way.to, v) : visit(v, way.to);
+      }
+    }
+  };
+  each([&](VertexId row, VertexId) { ++offsets[row + 1]; });
+  for (std::size_t v = 0; v < states_.size(); ++v) offsets[v + 1] += offsets[v];
+  RawVector<VertexId> targets(offsets[states_.size()]);
+  std::vector<EdgeEnd> next(offsets.begin(), offsets.end() - 1);
+  each([&](VertexId row, VertexId other) { targets[next[row]++] = other; });
+  return {std::move(offsets), std::move(targets)};
+}
+
+/// What start can reach, and what can reach the goal.
+template <World W>
+Separation OneWayPlan<W>::separation() const {
+  Components reached;
+  reached.label.assign(states_.size(), no_vertex);
+  const auto mark = [&](const Graph& graph, VertexId from, VertexId to) {
+    SearchState state;
+    state.resize(states_.size());
+    breadth_first(graph, from, to, state);
+    for (VertexId v = 0; v < states_.size(); ++v) {
+      if (state.reached(v)) reached.label[v] = from;
+    }
+  };
+  mark(free_graph(false), start_vertex(), goal_vertex());
+  mark(free_graph(true), goal_vertex(), start_vertex());
+  return separation_of(world_, std::span<const State>(states_), reached, start_vertex(), goal_vertex(), execution_);
+}
+
+template <World W>
+void OneWayPlan<W>::finish(Roadmap<State>* keep) {
+  if (solution_.outcome == Outcome::not_connected && !states_.empty()) {
+    check_all();
+    solution_.separation = separation();
+  }
+  if (keep == nullptr) return;
+  *keep = {RawVector<State>(), free_graph(false), std::move(tree_)};
+  keep->states = std::move(states_);
+}
+
+}  // namespace detail
+
+/// Plans from start to goal as prm does, or (lazy) as lazy_prm; LazyCheck makes no difference here. `keep`, where
+/// given, receives the roadmap of the last round; its graph is directed: w is among the neighbours of v where the
+/// motion from v to w is free.
+template <World W>
+Solution<typename W::State> one_way_prm(const W& world, const typename W::State& start, const typename W::State& goal,
+                                        const RoadmapOptions& options, bool lazy, const Execution& execution,
+                                        Roadmap<typename W::State>* keep = nullptr) {
+  detail::OneWayPlan<W> plan(world, start, goal, options, lazy, execution, keep != nullptr);
+  return detail::plan_in_rounds(world, start, goal, options, execution, keep, plan);
+}
+
+}  // namespace warren
