@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "tools/cell_drawing.hpp"
 #include "tools/command.hpp"
+#include "tools/curve_drawing.hpp"
 #include "tools/exit_code.hpp"
 #include "tools/output_files.hpp"
 #include "tools/picture.hpp"
@@ -22,6 +23,7 @@ namespace {
 constexpr OptionSpec specs[] = {
     {"--output", "FILE", "where to: .svg .png .html by ending", {}, "-o"},
     {"--answer", "FILE", "draw this answer's path"},
+    {"--animate", "", "with --answer: the body moves along the path (.svg and .html)"},
 };
 
 std::optional<Vec2> point_of(const std::vector<double>& answer, const std::vector<double>& scene) {
@@ -41,9 +43,37 @@ std::string picture_file(const Arguments& arguments) {
   return *file;
 }
 
+/// The body of an answer, for --animate. A point is shown as a small disc.
+MovingBody moving_body(const RobotSpec& robot, const RecordedAnswer& answer, std::span<const double> turns) {
+  constexpr double point_share = 1.0 / 120.0;
+  MovingBody body{.outline = robot.outline, .radius = robot.radius, .heads = robot.kind == RobotKind::car};
+  if (answer.state_width() == 3) {
+    body.poses = poses_of(answer.states);
+  } else if (answer.state_width() == 2) {
+    for (const Vec2 p : answer.path) body.poses.push_back({p.x, p.y, 0.0});
+  } else {
+    throw UsageError("--animate: draws bodies of the plane, not an arm");
+  }
+  const std::vector<double> straight(body.poses.size(), 0.0);
+  body.lengths = leg_lengths(body.poses, turns.empty() ? straight : turns);
+  if (body.outline.empty() && body.radius == 0.0) {
+    Box box;
+    for (const Vec2 p : answer.path) box.include(p);
+    body.radius = point_share * std::max(box.width(), box.height());
+  }
+  return body;
+}
+
+void check_animation(const Arguments& arguments, const std::string& file) {
+  if (!arguments.has("--animate")) return;
+  if (!arguments.has("--answer")) throw UsageError("--animate: needs --answer FILE, a path to move along");
+  if (ending_of(file) == ".png") throw UsageError("--animate: a .png stands still; say .svg or .html");
+}
+
 int render(const Arguments& arguments) {
   const std::string file = picture_file(arguments);
   const auto answer_file = arguments.value("--answer");
+  check_animation(arguments, file);
   if (answer_file == "-" && arguments.operand(0) == "-") {
     throw UsageError("WORLD and --answer can't both come from standard input");
   }
@@ -60,13 +90,21 @@ int render(const Arguments& arguments) {
   if (robot.kind == RobotKind::polygon && answer.state_width() == 3) {
     layers.push_back(sweep_of(poses_of(answer.states), robot.outline));
   }
+  if (robot.kind == RobotKind::car && answer.state_width() == 3) {
+    layers.push_back(car_sweep(poses_of(answer.states), robot));
+  }
+  const std::vector<double> turns = path_turns(robot, answer.states);
+  std::optional<MovingBody> body;
+  if (arguments.has("--animate")) body = moving_body(robot, answer, turns);
   const Picture picture{.scene = scene,
                         .layers = layers,
                         .path = answer.path,
+                        .path_turns = turns,
                         .start = point_of(answer.problem.start, scene.start),
                         .goal = point_of(answer.problem.goal, scene.goal),
                         .title = scene.source,
-                        .description = description_of(scene) + ": " + arguments.command_line()};
+                        .description = description_of(scene) + ": " + arguments.command_line(),
+                        .moving = body ? &*body : nullptr};
   double draw_seconds = 0.0;
   {
     const StageTimer timer(run.execution(), "draw", draw_seconds);

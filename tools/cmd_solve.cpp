@@ -9,6 +9,7 @@
 #include "tools/answer_json.hpp"
 #include "tools/cell_drawing.hpp"
 #include "tools/command.hpp"
+#include "tools/curve_drawing.hpp"
 #include "tools/exit_code.hpp"
 #include "tools/output_files.hpp"
 #include "tools/picture.hpp"
@@ -116,7 +117,9 @@ void SolveCommand::solve(const Run& run) {
 /// Among the border walls of a map, blocked cells look as free inside as free ones: a path in there starts blocked.
 void SolveCommand::confirm_on_map(const Execution& execution) {
   const double clearance = answer_.problem.clearance + answer_.problem.robot.radius;
-  if (verify_on_map(*scene_.map, answer_.path, {.clearance = clearance}, execution).verified) return;
+  std::span<const Vec2> path = answer_.path;
+  if (answer_.problem.robot.kind == RobotKind::car) path = path.first(1);  // its legs are arcs; inside is inside
+  if (verify_on_map(*scene_.map, path, {.clearance = clearance}, execution).verified) return;
   answer_.outcome = Outcome::start_blocked;
   answer_.verified = false;
   answer_.path.clear();
@@ -143,10 +146,12 @@ void SolveCommand::draw(const Execution& execution) {
   if (solver_->kind->draw != nullptr) solver_->kind->draw(request(execution));
   if (scene_.map) drawing_.layers.insert(drawing_.layers.begin(), map_layer(*scene_.map));
   const bool has_roadmap = is_roadmap_planner(solver_->planner) || !drawing_.roadmap.states.empty();
+  const std::vector<double> turns = path_turns(answer_.problem.robot, answer_.states);
   const Picture picture{.scene = scene_,
                         .roadmap = has_roadmap ? &drawing_.roadmap : nullptr,
                         .layers = drawing_.layers,
                         .path = answer_.path,
+                        .path_turns = turns,
                         .start = plane_point(answer_.problem.start),
                         .goal = plane_point(answer_.problem.goal),
                         .title = fmt::format("{}: {}", scene_.source, name_of(answer_.outcome)),

@@ -2,6 +2,8 @@
 #include "tools/picture.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "tools/output_files.hpp"
@@ -13,7 +15,7 @@ Canvas canvas_of(const Picture& picture, const Execution& execution) {
   Canvas canvas;
   canvas.box = obstacle_box(picture.scene, execution);
   if (picture.scene.bounds) canvas.box.include(*picture.scene.bounds);
-  for (const Vec2 p : picture.path) canvas.box.include(p);
+  for (const Vec2 p : without_arcs(picture.path, picture.path_turns)) canvas.box.include(p);
   if (picture.start) canvas.box.include(*picture.start);
   if (picture.goal) canvas.box.include(*picture.goal);
   if (canvas.box.empty()) canvas.box = {{0, 0}, {1, 1}};
@@ -22,6 +24,31 @@ Canvas canvas_of(const Picture& picture, const Execution& execution) {
   canvas.unit = picture.scene.maze ? std::min(1.0, extent / few_cells) : (extent > 0.0 ? extent / 40.0 : 1.0);
   canvas.box = canvas.box.grown(0.9 * canvas.unit);
   return canvas;
+}
+
+double arc_radius(Vec2 from, Vec2 to, double turn) { return 0.5 * distance(from, to) / std::abs(std::sin(0.5 * turn)); }
+
+std::vector<Vec2> without_arcs(std::span<const Vec2> points, std::span<const double> turns) {
+  constexpr double step_rad = std::numbers::pi / 45.0;
+  std::vector<Vec2> chain;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double turn = i == 0 || turns.empty() ? 0.0 : turns[i];
+    const double parts = std::ceil(std::abs(turn) / step_rad);
+    if (parts > 1.0) {
+      // Left of the chord by the arc's height over it, where the arc turns left.
+      const Vec2 chord = points[i] - points[i - 1];
+      const double half_cotangent = 0.5 / std::tan(0.5 * turn);
+      const Vec2 center = points[i - 1] + 0.5 * chord + half_cotangent * Vec2{-chord.y, chord.x};
+      const Vec2 from = points[i - 1] - center;
+      for (double part = 1.0; part < parts; part += 1.0) {
+        const double c = std::cos(turn * part / parts);
+        const double s = std::sin(turn * part / parts);
+        chain.push_back(center + Vec2{c * from.x - s * from.y, s * from.x + c * from.y});
+      }
+    }
+    chain.push_back(points[i]);
+  }
+  return chain;
 }
 
 std::vector<std::uint8_t> component_colors(const Graph& graph) {

@@ -15,6 +15,7 @@
 #include "core/types.hpp"
 #include "parallel/execution.hpp"
 #include "planners/roadmap.hpp"
+#include "tools/svg_animation.hpp"
 #include "worlds/scene.hpp"
 
 namespace warren {
@@ -31,7 +32,21 @@ struct PictureLayer {
   PolygonSet lines;     ///< each a chain of points
   bool closed = false;  ///< the chains are outlines
   bool filled = false;  ///< the chains are outlines whose insides are drawn, without lines; they do not overlap
+  /// The turn of the arc that leads to each corner of `lines`, anticlockwise, at most a half turn; 0: a straight.
+  /// Empty: all are straight.
+  std::vector<double> turns = {};
+
+  std::span<const double> turns_of(std::size_t line) const {
+    if (turns.empty()) return {};
+    return std::span(turns).subspan(lines.first[line], lines.first[line + 1] - lines.first[line]);
+  }
 };
+
+/// The points with arcs cut into chords that turn by some degrees; turns as in PictureLayer.
+std::vector<Vec2> without_arcs(std::span<const Vec2> points, std::span<const double> turns);
+
+/// Radius of the arc that turns by `turn` over a chord.
+double arc_radius(Vec2 from, Vec2 to, double turn);
 
 /// What a planner leaves for a picture.
 struct Drawing {
@@ -46,10 +61,12 @@ struct Picture {
   const Roadmap<Vec2>* roadmap = nullptr;  ///< nullptr: none
   std::span<const PictureLayer> layers = {};
   std::span<const Vec2> path = {};
+  std::span<const double> path_turns = {};  ///< as PictureLayer::turns
   std::optional<Vec2> start = {};
   std::optional<Vec2> goal = {};
   std::string title = {};
   std::string description = {};
+  const MovingBody* moving = nullptr;  ///< SVG only: moves along the path; nullptr: nothing does
 };
 
 /// Colours by role; a roadmap component takes the colour of its rank.

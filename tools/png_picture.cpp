@@ -99,7 +99,7 @@ void PngPainter::fill(const PictureLayer& layer) {
 void PngPainter::lines(const PictureLayer& layer) {
   if (layer.filled) return fill(layer);
   for (std::size_t i = 0; i < layer.lines.size(); ++i) {
-    const std::span<const Vec2> chain = layer.lines[i];
+    const std::vector<Vec2> chain = without_arcs(layer.lines[i], layer.turns_of(i));
     for (std::size_t k = 1; k < chain.size(); ++k) line(chain[k - 1], chain[k], layer.width * unit(), layer.color);
     if (layer.closed && chain.size() > 2) line(chain.back(), chain.front(), layer.width * unit(), layer.color);
   }
@@ -142,9 +142,10 @@ void PngPainter::path() {
   if (picture_.path.empty()) return;
   const double width = std::max(widths::path * unit(), unit() < 2.0 ? 3.0 : 2.0);
   const double halo = std::max(widths::halo * unit(), width + 1.5);
+  const std::vector<Vec2> path = without_arcs(picture_.path, picture_.path_turns);
   const auto polyline = [&](double w, Rgb color) {
-    line(picture_.path[0], picture_.path[0], w, color);
-    for (std::size_t i = 1; i < picture_.path.size(); ++i) line(picture_.path[i - 1], picture_.path[i], w, color);
+    line(path[0], path[0], w, color);
+    for (std::size_t i = 1; i < path.size(); ++i) line(path[i - 1], path[i], w, color);
   };
   polyline(halo, colors::paper);
   polyline(width, colors::path);

@@ -67,6 +67,9 @@ class SvgWriter {
     path();
     mark("start", picture_.start, colors::start);
     mark("goal", picture_.goal, colors::goal);
+    if (picture_.moving != nullptr && !picture_.path.empty()) {
+      text_ += svg_moving_body(*picture_.moving, "way", frame_.length(1.0), width(widths::search_tree));
+    }
     text_ += "</g>\n</svg>\n";
     flush();
   }
@@ -98,6 +101,7 @@ class SvgWriter {
     text_ += ' ';
     append_number(text_, p.y);
   }
+  void leg_to(Vec2 from, Vec2 to, double turn);
   void segment(Vec2 a, Vec2 b);
   void piece_ended() {
     constexpr std::size_t piece = 1 << 18;
@@ -139,6 +143,22 @@ void SvgWriter::open() {
                  "<rect x=\"{:.3f}\" y=\"{:.3f}\" width=\"{:.3f}\" height=\"{:.3f}\" fill=\"{}\"/>\n"
                  "<g transform=\"scale(1,-1)\">\n",
                  low.x, -high.y, w, h, hex(colors::paper));
+}
+
+/// A straight, or a circular arc.
+void SvgWriter::leg_to(Vec2 from, Vec2 to, double turn) {
+  constexpr double no_turn = 1e-9;
+  if (std::abs(turn) < no_turn) return line_to(to);
+  const double radius = frame_.length(arc_radius(from, to, turn));
+  text_ += 'A';
+  append_number(text_, radius);
+  text_ += ' ';
+  append_number(text_, radius);
+  text_ += turn > 0.0 ? " 0 0 1 " : " 0 0 0 ";
+  const Vec2 p = frame_.at(to);
+  append_number(text_, p.x);
+  text_ += ' ';
+  append_number(text_, p.y);
 }
 
 /// Axis-parallel segments, most of a maze, take the short commands.
@@ -184,7 +204,9 @@ void SvgWriter::lines(const PictureLayer& layer) {
   text_ += "<path d=\"";
   for (std::size_t i = 0; i < layer.lines.size(); ++i) {
     const std::span<const Vec2> line = layer.lines[i];
-    for (std::size_t k = 0; k < line.size(); ++k) command(k == 0 ? 'M' : 'L', frame_.at(line[k]));
+    const std::span<const double> turns = layer.turns_of(i);
+    move_to(line[0]);
+    for (std::size_t k = 1; k < line.size(); ++k) leg_to(line[k - 1], line[k], turns.empty() ? 0.0 : turns[k]);
     if (layer.closed || layer.filled) text_ += 'Z';
     piece_ended();
   }
@@ -273,10 +295,10 @@ void SvgWriter::path() {
   fmt::format_to(std::back_inserter(text_), "<path stroke=\"{}\" stroke-width=\"{:.3f}\" d=\"", hex(colors::paper),
                  width(widths::halo));
   for (int layer = 0; layer < 2; ++layer) {  // a light halo, then the line
-    if (layer == 1) text_ += "\"/>\n<path d=\"";
+    if (layer == 1) text_ += "\"/>\n<path id=\"way\" d=\"";
     move_to(picture_.path.front());
-    for (const Vec2 p : picture_.path.subspan(1)) {
-      line_to(p);
+    for (std::size_t i = 1; i < picture_.path.size(); ++i) {
+      leg_to(picture_.path[i - 1], picture_.path[i], picture_.path_turns.empty() ? 0.0 : picture_.path_turns[i]);
       piece_ended();
     }
   }

@@ -78,7 +78,7 @@ TEST(Usage, ValuesOutsideTheirRangeAreRefused) {
       {{"solve", "maze:5x7", "--robot", "disc -1"}, 2, "--robot"},
       {{"solve", "maze:5x7", "--robot", "disc nan"}, 2, "--robot"},
       {{"solve", "maze:5x7", "--robot", "blob 1"}, 2, "--robot"},
-      {{"solve", "maze:5x7", "--robot", "car radius 1 turning 2"}, 2, "this version does not have"},
+      {{"solve", "maze:5x7", "--robot", "car radius 1 turning 2"}, 2, "a car takes X,Y,THETA"},
   };
   for (const Case& c : cases) check(c);
 }

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/pose_problem.hpp"
+
+#include <array>
+#include <numbers>
+
+#include "tools/tree_options.hpp"
+#include "tools/verified_answer.hpp"
+
+namespace warren {
+namespace {
+
+std::vector<double> state_of(std::string_view option, const std::vector<double>& given,
+                             const std::vector<double>& in_file, std::size_t fewest, std::string_view body) {
+  const std::vector<double>& state = given.empty() ? in_file : given;
+  if (state.empty()) throw UsageError(fmt::format("{0}: the world has none; say {0} X,Y,THETA", option));
+  if (state.size() >= fewest && state.size() <= 3) return state;
+  throw UsageError(fmt::format("{}: {} takes X,Y,THETA{} (found: {} numbers)", option, body,
+                               fewest == 2 ? ", or X,Y for any heading" : "", state.size()));
+}
+
+}  // namespace
+
+PoseProblem pose_problem(const Scene& scene, const ProblemOptions& options, std::string_view body) {
+  if (options.contact == Contact::allowed) {
+    throw UsageError(
+        "--contact: the planners of turning bodies keep off the obstacles, so 'allowed' would change nothing");
+  }
+  PoseProblem problem;
+  problem.robot = robot_of(scene, options);
+  const std::vector<double> start = state_of("--start", options.start, scene.start, 3, body);
+  problem.start = {start[0], start[1], start[2]};
+  problem.goal = state_of("--goal", options.goal, scene.goal, 2, body);
+  problem.clearance = clearance_of(scene, options);
+  return problem;
+}
+
+std::vector<Se2> poses_of(const std::vector<double>& state) {
+  constexpr int headings = 16;
+  if (state.size() == 3) return {{state[0], state[1], state[2]}};
+  std::vector<Se2> poses;
+  for (int i = 0; i < headings; ++i) {
+    poses.push_back({state[0], state[1], wrapped_angle(2.0 * std::numbers::pi * i / headings)});
+  }
+  return poses;
+}
+
+std::vector<Se2> recorded_poses(const RecordedAnswer& answer, std::string_view body) {
+  check_state_width(answer, 3, body);
+  std::vector<Se2> path;
+  for (std::size_t i = 0; i < answer.states.size(); ++i) {
+    const auto state = answer.states[i];
+    path.push_back({state[0], state[1], state[2]});
+  }
+  return path;
+}
+
+RoadmapOptions pose_roadmap_options(const SolveRequest& request, Answer& answer) {
+  const PlannerOptions options = planner_options(request.arguments, request.scene, WallProblem{});
+  if (sampler_asked(request.arguments) == SamplerKind::lattice) {
+    throw UsageError("--sampler: lattice is for points and discs in mazes; a turning body takes the others");
+  }
+  RoadmapOptions roadmap = options.roadmap;
+  if (roadmap.sampler == SamplerKind::lattice) roadmap.sampler = SamplerKind::uniform;
+  answer.sampler = name_of(roadmap.sampler);
+  answer.search = name_of(roadmap.search);
+  answer.seed = roadmap.seed;
+  answer.options = options.given;
+  return roadmap;
+}
+
+PoseTreeOptions pose_tree_options(const SolveRequest& request, Answer& answer) {
+  PoseTreeOptions options{tree_options(request.arguments), way_points(request.arguments)};
+  for (const auto& point : options.via) {
+    if (point.size() > 3) throw UsageError("--via: a turning body takes X,Y or X,Y,THETA");
+  }
+  answer.sampler = name_of(options.trees.sampler);
+  answer.seed = options.trees.seed;
+  answer.options = given_tree_options(request.arguments);
+  return options;
+}
+
+void take_pose_solution(Answer& answer, const Solution<Se2>& solution) {
+  Solution<Vec2> plane{.outcome = solution.outcome,
+                       .stop_reason = solution.stop_reason,
+                       .path = {},
+                       .roadmap = solution.roadmap,
+                       .separation = solution.separation,
+                       .counters = solution.counters,
+                       .seconds = solution.seconds};
+  take_solution(answer, std::move(plane));
+}
+
+void record_poses(Answer& answer, std::span<const Se2> path) {
+  answer.states.width = 3;
+  for (const Se2& pose : path) {
+    answer.path.push_back(pose.position());
+    answer.states.add(std::array{pose.x, pose.y, pose.theta});
+  }
+}
+
+}  // namespace warren
