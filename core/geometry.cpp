@@ -63,17 +63,33 @@ int exact_orient2d(Vec2 a, Vec2 b, Vec2 c) noexcept {
   return sum.sign();
 }
 
+/// Error of a - b, which rounds to `difference`.
+double difference_error(double a, double b, double difference) noexcept {
+  const double back = a - difference;
+  return (a - (difference + back)) + (back - b);
+}
+
 }  // namespace
 
 int orient2d(Vec2 a, Vec2 b, Vec2 c) noexcept {
   constexpr double error_bound = 3.3306690738754716e-16;  // (3 + 16 eps) eps with eps = 2^-53: Shewchuk's ccwerrboundA
-  const double left = (a.x - c.x) * (b.y - c.y);
-  const double right = (a.y - c.y) * (b.x - c.x);
+  const double acx = a.x - c.x;
+  const double acy = a.y - c.y;
+  const double bcx = b.x - c.x;
+  const double bcy = b.y - c.y;
+  const double left = acx * bcy;
+  const double right = acy * bcx;
   const double area = left - right;
   const double bound = error_bound * (std::abs(left) + std::abs(right));
   if (area > bound) return 1;
   if (area < -bound) return -1;
-  return exact_orient2d(a, b, c);
+  if (left == 0.0 && right == 0.0) return 0;  // a factor of each is: within the coordinates' limits nothing underflows
+  const bool exact_differences = difference_error(a.x, c.x, acx) == 0.0 && difference_error(a.y, c.y, acy) == 0.0 &&
+                                 difference_error(b.x, c.x, bcx) == 0.0 && difference_error(b.y, c.y, bcy) == 0.0;
+  if (!exact_differences) return exact_orient2d(a, b, c);
+  // Rounding is monotone: where the rounded products differ, so do the products, the same way.
+  const double difference = left != right ? area : std::fma(acx, bcy, -left) - std::fma(acy, bcx, -right);
+  return difference > 0.0 ? 1 : difference < 0.0 ? -1 : 0;
 }
 
 bool on_segment(Vec2 p, const Segment& s) noexcept { return box_of(s).contains(p) && orient2d(s.a, s.b, p) == 0; }

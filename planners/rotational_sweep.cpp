@@ -72,15 +72,11 @@ void RotationalSweep::sort_events() {
   for (std::uint32_t i = 0; i < order_.size(); ++i) order_[i] = i;
   std::sort(order_.begin(), order_.end(),
             [&](std::uint32_t i, std::uint32_t j) { return events_[i].place < events_[j].place; });
-  for (std::size_t i = 1; i < order_.size(); ++i) {
-    const std::uint32_t moved = order_[i];
-    const Event& e = events_[moved];
-    std::size_t at = i;
-    for (; at > 0 && events_[order_[at - 1]].place > e.place - place_doubt; --at) {
-      if (!comes_before(e, events_[order_[at - 1]])) break;
-      order_[at] = order_[at - 1];
-    }
-    order_[at] = moved;
+  // Runs of places too close to tell are sorted exactly: two points mostly, thousands where corners are collinear.
+  const auto before = [&](std::uint32_t i, std::uint32_t j) { return comes_before(events_[i], events_[j]); };
+  for (auto first = order_.begin(), end = first; first != order_.end(); first = end) {
+    for (++end; end != order_.end() && events_[*end].place - events_[*(end - 1)].place <= place_doubt;) ++end;
+    if (end - first > 1) std::sort(first, end, before);
   }
 }
 

@@ -162,14 +162,17 @@ class TautSearch {
     return true;
   }
 
-  /// Between rays that lie on one line: has the root been here by another route?
+  /// Between rays that lie on one line: has the root, or the one before it, been here by another route?
   bool is_known_ray(const Node& node, std::uint32_t door) {
     const Bound& l = node.left;
     const Bound& r = node.right;
+    const auto is_ahead = [](Vec2 from, Vec2 to) { return from.x < to.x || (from.x == to.x && from.y < to.y); };
     const auto on_line = [](Vec2 from, Vec2 to, const Bound& b) {
       return orient2d(from, to, b.from) == 0 && orient2d(from, to, b.to) == 0;
     };
     if (!l.any() || !r.any() || !on_line(l.from, l.to, r)) return false;
+    const bool same_way = is_ahead(l.from, l.to) == is_ahead(r.from, r.to);
+    if (same_way && (l.kind == Bound::Kind::line || r.kind == Bound::Kind::line)) return true;  // no bend: seen before
     for (const LastRay& known : last_rays_[door]) {
       if (known.root_door == node.root_door && on_line(known.from, known.to, l)) return true;
     }

@@ -15,6 +15,7 @@
 #include "core/error.hpp"
 #include "worlds/output_file_io.hpp"
 #include "worlds/plane_obstacles.hpp"
+#include "worlds/polygon_holes.hpp"
 #include "worlds/scene_text.hpp"
 #include "worlds/wall_collector.hpp"
 
@@ -76,6 +77,7 @@ struct Piece {
   enum class Kind : std::uint8_t { polygon, wall, point } kind;
   std::vector<Vec2> points;
   std::size_t line;
+  std::vector<std::vector<Vec2>> holes = {};
 };
 
 class Reader {
@@ -118,7 +120,7 @@ class Reader {
   void end_geometry(Object& ended);
   void add_rings(const Coordinates& coordinates);
   void add(Piece::Kind kind, const std::vector<Vec2>& points, std::size_t line) {
-    pieces_.push_back({kind, points, line});
+    pieces_.push_back({kind, points, line, {}});
   }
   void settle(std::size_t first, const std::string& role);
   void settle_role(const Piece& piece, const std::string& role);
@@ -275,7 +277,7 @@ void Reader::end_geometry(Object& ended) {
   }
 }
 
-/// The first ring of each polygon; the others are its holes. In a bare array each ring is a polygon.
+/// The first ring of each polygon; the ones after it are its holes. In a bare array each ring is a polygon.
 void Reader::add_rings(const Coordinates& c) {
   for (std::size_t i = 0; i < c.chains.size(); ++i) {
     const std::vector<Vec2>& ring = c.chains[i];
@@ -285,7 +287,11 @@ void Reader::add_rings(const Coordinates& c) {
               closed ? fmt::format("{} positions", ring.size()) : "an open ring");
     }
     const bool outer = bare_ || (c.depth == 3 ? i == 0 : std::binary_search(c.groups.begin(), c.groups.end(), i));
-    if (outer) add(Piece::Kind::polygon, ring, c.lines[i]);
+    if (outer) {
+      add(Piece::Kind::polygon, ring, c.lines[i]);
+    } else {
+      pieces_.back().holes.push_back(ring);
+    }
   }
 }
 
@@ -327,7 +333,13 @@ void Reader::settle_obstacle(Piece& piece) {
     return;
   }
   if (!bare_) piece.points.pop_back();
-  scene_.polygons.push_back({std::move(piece.points), piece.line});
+  if (piece.holes.empty()) {
+    scene_.polygons.push_back({std::move(piece.points), piece.line});
+    return;
+  }
+  std::vector<std::vector<Vec2>> parts = without_holes(piece.points, piece.holes, execution_);
+  if (parts.empty()) fail_at(piece.line, misplaced_hole);
+  for (std::vector<Vec2>& part : parts) scene_.polygons.push_back({std::move(part), piece.line});
 }
 
 Scene Reader::finish() {

@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "worlds/output_file_io.hpp"
 #include "worlds/plane_obstacles.hpp"
+#include "worlds/polygon_holes.hpp"
 #include "worlds/scene_text.hpp"
 #include "worlds/wall_collector.hpp"
 
@@ -111,7 +112,7 @@ class Tokens {
 class Reader {
  public:
   Reader(const InputFile& file, const Execution& execution)
-      : name_(file.name()), tokens_(file, execution), walls_(execution) {}
+      : name_(file.name()), execution_(execution), tokens_(file, execution), walls_(execution) {}
 
   Scene read() {
     while (!tokens_.done()) {
@@ -223,7 +224,8 @@ class Reader {
   /// The first ring; the others are its holes.
   void polygon() {
     if (tokens_.take_word("EMPTY")) return;
-    bool outer = true;
+    Chain outline{{}, tokens_.line()};
+    std::vector<std::vector<Vec2>> holes;
     list([&] {
       Chain ring = chain();
       if (ring.points.empty()) return;
@@ -233,15 +235,27 @@ class Reader {
                 closed ? fmt::format("{} positions", ring.points.size()) : "an open ring");
       }
       ring.points.pop_back();
-      if (outer) scene_.polygons.push_back({std::move(ring.points), ring.line});
-      outer = false;
+      if (outline.points.empty()) {
+        outline = std::move(ring);
+      } else {
+        holes.push_back(std::move(ring.points));
+      }
     });
+    if (outline.points.empty()) return;
+    if (holes.empty()) {
+      scene_.polygons.push_back({std::move(outline.points), outline.line});
+      return;
+    }
+    std::vector<std::vector<Vec2>> parts = without_holes(outline.points, holes, execution_);
+    if (parts.empty()) fail_at(outline.line, misplaced_hole);
+    for (std::vector<Vec2>& part : parts) scene_.polygons.push_back({std::move(part), outline.line});
   }
   [[noreturn]] void fail_at(std::size_t line, std::string_view what, std::string_view found = {}) const {
     scene_text::Place{name_, line}.fail(what, found);
   }
 
   const std::string& name_;
+  const Execution& execution_;
   Tokens tokens_;
   WallCollector walls_;
   Scene scene_;

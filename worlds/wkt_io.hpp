@@ -2,8 +2,8 @@
 // Well-known text, in and out: POLYGON and MULTIPOLYGON are obstacles, LINESTRING and MULTILINESTRING walls, POINTs
 // mark nothing, GEOMETRYCOLLECTION holds any of them, EMPTY is nothing. Any number of geometries, apart by blanks,
 // lines or
-// `;`; upper or lower case; `SRID=n;` and Z, M, ZM are understood and dropped. A hole in an obstacle is a place that
-// nothing outside can reach, so it is blocked too. Rings of either orientation, closed.
+// `;`; upper or lower case; `SRID=n;` and Z, M, ZM are understood and dropped. A polygon with holes becomes several
+// that touch (worlds/polygon_holes). Rings of either orientation, closed.
 #pragma once
 
 #include <string>

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/polygon_distance.hpp"
 #include "tests/worlds/temporary_directory.hpp"
 #include "worlds/geojson_io.hpp"
 #include "worlds/plane_obstacles.hpp"
@@ -61,7 +62,15 @@ TEST(GeoJson, EveryKindOfObjectIsRead) {
   }
   const Scene many = read(R"({"type":"MultiPolygon","coordinates":[[)" + ring +
                           ",[[0.5,0.5],[1,0.5],[0.5,1],[0.5,0.5]]],[" + other + "]]}");
-  EXPECT_EQ(outlines(many), (std::vector<Outline>{triangle, square})) << "the hole is blocked too";
+  ASSERT_EQ(many.polygons.size(), 3U) << "around the hole stand two";
+  EXPECT_EQ(outlines(many)[2], square);
+  for (const Outline& part : {outlines(many)[0], outlines(many)[1]}) EXPECT_FALSE(contains(part, {0.6, 0.6}));
+  try {
+    read("{\"type\":\"Polygon\",\n\"coordinates\":[" + ring + ",[[7,7],[8,7],[7,8],[7,7]]]}");
+    ADD_FAILURE() << "a hole outside";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find(":2: a hole must"), std::string::npos) << error.what();
+  }
 }
 
 TEST(GeoJson, RolesLinesAndHeightsAreUnderstood) {
@@ -116,7 +125,7 @@ TEST(GeoJson, WhatIsNoneIsRefusedWithItsLine) {
 }
 
 TEST(Wkt, EveryKindOfGeometryIsRead) {
-  for (const char* text : {"POLYGON ((0 0, 4 0, 0 3, 0 0))", "polygon((0 0,4 0,0 3,0 0),(1 1,2 1,1 2,1 1))",
+  for (const char* text : {"POLYGON ((0 0, 4 0, 0 3, 0 0))", "polygon((0 0,4 0,0 3,0 0))",
                            "\n SRID=4326; Polygon Z ((0 0 7, 4 0 7, 0 3 7, 0 0 7))",
                            "POLYGON EMPTY\nPOLYGONZM((0 0 1 2,4 0 1 2,0 3 1 2,0 0 1 2));POINT(1 2)",
                            "GEOMETRYCOLLECTION (POINT EMPTY, POLYGON M ((0 0 1, 4 0 1, 0 3 1, 0 0 1)))",
