@@ -30,6 +30,8 @@ class CorridorCells {
   bool empty() const { return places_.empty(); }
   std::size_t size() const { return places_.size(); }
   std::size_t bytes() const { return ridge_.bytes() + places_.size() * 12; }
+  /// The sum of 1 / distance: how many stretches as long as half their width there are.
+  double weight() const { return weight_sums_.empty() ? 0.0 : weight_sums_.back(); }
   /// The cell at this share, 0 to 1, of all weights; not empty().
   Place at(double share) const;
   /// Is it a ridge cell? Any coordinates.

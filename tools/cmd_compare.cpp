@@ -109,7 +109,7 @@ void CompareCommand::compare(const Run& run) {
 
 void CompareCommand::compare_on_world(const Run& run) {
   StageTimes before;
-  Scene scene = load_world(*options_.world, execution_, before);
+  Scene scene = load_world(*options_.world, arguments_, execution_, before);
   if (!options_.planners) return compare_searches(scene, run);
   if (scene.map && needs_map_walls(scene)) add_map_walls(scene);
   run_planner_contest(scene, *options_.planners, execution_, comparison_);
@@ -196,6 +196,7 @@ int CompareCommand::exit_code() const {
 Command compare_command() {
   Command command{"compare", "[WORLD]", "measure planners, or searches and their queues, side by side", {}, {}};
   add_options(command.options, compare_option_specs());
+  add_options(command.options, world_option_specs());
   add_options(command.options, output_specs);
   for (const OptionSpec& option : run_option_specs()) {
     if (option.name != "--budget") command.options.push_back(option);

@@ -55,7 +55,7 @@ int convert(const Arguments& arguments) {
   Run run(arguments);
   StageTimes seconds;
   double write_seconds = 0.0;
-  Scene scene = load_world(arguments.operand(0), run.execution(), seconds);
+  Scene scene = load_world(arguments.operand(0), arguments, run.execution(), seconds);
   {
     const StageTimer timer(run.execution(), "write", write_seconds);
     write_any(scene, std::string{*file}, arguments, run.execution());
@@ -71,6 +71,7 @@ int convert(const Arguments& arguments) {
 Command convert_command() {
   Command command{"convert", "WORLD", "write a world in another format", {}, convert};
   add_options(command.options, specs);
+  add_options(command.options, world_option_specs());
   add_options(command.options, run_option_specs());
   return command;
 }

@@ -122,7 +122,7 @@ int info(const Arguments& arguments) {
   const auto json = output_file(arguments, "--json");
   Run run(arguments);
   StageTimes seconds;
-  const Scene scene = load_world(arguments.operand(0), run.execution(), seconds);
+  const Scene scene = load_world(arguments.operand(0), arguments, run.execution(), seconds);
   std::vector<Fact> facts = obstacle_facts(scene, account_of(scene, run.execution()), run.execution());
   add_problem_facts(scene, facts);
   run.end();
@@ -138,6 +138,7 @@ int info(const Arguments& arguments) {
 Command info_command() {
   Command command{"info", "WORLD", "say what is in a world", {}, info};
   add_options(command.options, specs);
+  add_options(command.options, world_option_specs());
   add_options(command.options, run_option_specs());
   return command;
 }

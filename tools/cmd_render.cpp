@@ -81,7 +81,7 @@ int render(const Arguments& arguments) {
   StageTimes seconds;
   RecordedAnswer answer;
   if (answer_file) answer = read_answer(*answer_file, run.execution());
-  Scene scene = load_world(arguments.operand(0), run.execution(), seconds);
+  Scene scene = load_world(arguments.operand(0), arguments, run.execution(), seconds);
   add_map_walls(scene);
   if (answer_file) check_same_world(answer, *answer_file, scene, run.execution());
   std::vector<PictureLayer> layers;
@@ -121,6 +121,7 @@ int render(const Arguments& arguments) {
 Command render_command() {
   Command command{"render", "WORLD", "draw a world, and an answer's path on it", {}, render};
   add_options(command.options, specs);
+  add_options(command.options, world_option_specs());
   add_options(command.options, run_option_specs());
   return command;
 }

@@ -90,7 +90,7 @@ void SolveCommand::check_outputs() const {
 void SolveCommand::answer(const Run& run) {
   StageTimes before;
   try {
-    scene_ = load_world(arguments_.operand(0), run.execution(), before);
+    scene_ = load_world(arguments_.operand(0), arguments_, run.execution(), before);
     solve(run);
   } catch (const Stopped& stopped) {
     answer_.stop_reason = stopped.reason;
@@ -171,6 +171,7 @@ Command solve_command() {
   Command command{"solve", "WORLD", "find a path, verify it, print a summary", {}, {}};
   add_options(command.options, solver_option_specs());
   add_options(command.options, problem_option_specs());
+  add_options(command.options, world_option_specs());
   add_options(command.options, output_specs);
   add_options(command.options, run_option_specs());
   command.run = [](const Arguments& arguments) { return SolveCommand(arguments).run(); };

@@ -81,7 +81,7 @@ int verify(const Arguments& arguments) {
   Run run(arguments);
   StageTimes seconds;
   const RecordedAnswer answer = read_answer(arguments.operand(1), run.execution());
-  Scene scene = load_world(arguments.operand(0), run.execution(), seconds);
+  Scene scene = load_world(arguments.operand(0), arguments, run.execution(), seconds);
   check_same_world(answer, arguments.operand(1), scene, run.execution());
   const ProblemOptions asked = merged(options, answer.problem);
   const RobotKind body = robot_of(scene, asked).kind;
@@ -106,6 +106,7 @@ Command verify_command() {
   Command command{"verify", "WORLD ANSWER.json", "re-check an answer independently", {}, verify};
   add_options(command.options, problem_option_specs());
   add_options(command.options, specs);
+  add_options(command.options, world_option_specs());
   add_options(command.options, run_option_specs());
   return command;
 }

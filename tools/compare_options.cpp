@@ -188,7 +188,7 @@ std::optional<SizeSweepOptions> sweep_options(const Arguments& arguments) {
 void refuse_world_options(const Arguments& arguments) {
   constexpr std::string_view why = "is about a world; give WORLD, too";
   for (const OptionSpec& spec : passed_specs()) refuse(arguments, {spec.name}, why);
-  refuse(arguments, {"--graph", "--samplers", "--samples"}, why);
+  refuse(arguments, {"--graph", "--samplers", "--samples", "--map-rules"}, why);
 }
 
 std::vector<std::string_view> blank_separated(std::string_view text) {

@@ -3,11 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <limits>
 #include <stdexcept>
 
 #include "core/error.hpp"
-#include "tools/option_values.hpp"
 #include "worlds/moving_ai_io.hpp"
 #include "worlds/verify_map.hpp"
 
@@ -18,11 +16,6 @@ WallProblem map_problem(const Scene& scene, const ProblemOptions& options) {
     throw UsageError("--contact: a blocked cell is a closed square, which no path on a map touches");
   }
   return wall_problem(scene, options);
-}
-
-std::uint64_t seed_of(const Arguments& arguments) {
-  const auto text = arguments.value("--seed");
-  return text ? count_value("--seed", *text, 0, std::numeric_limits<std::uint64_t>::max()) : 1;
 }
 
 Bitmap closed_cells(const OccupancyMap& map, Vec2 start) {

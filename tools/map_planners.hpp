@@ -21,9 +21,6 @@ Answer solve_sampled_on_map(const SolveRequest& request);   ///< prm, lazy-prm, 
 /// Throws UsageError where contact is to be allowed, and as wall_problem does.
 WallProblem map_problem(const Scene& scene, const ProblemOptions& options);
 
-/// --seed, 1 where nothing is said. Throws UsageError.
-std::uint64_t seed_of(const Arguments& arguments);
-
 /// The cells that the robot may not enter, among them the water if it starts on land.
 Bitmap closed_cells(const OccupancyMap& map, Vec2 start);
 

@@ -89,9 +89,7 @@ SearchChoice searched_how(const Arguments& arguments) {
   SearchChoice choices;
   choices.search = choice<SearchKind>(arguments, "--search", search_words).value_or(SearchKind::astar);
   choices.queue = choice<QueueKind>(arguments, "--queue", queue_words).value_or(QueueKind::heap);
-  if (const auto text = arguments.value("--seed")) {
-    choices.seed = count_value("--seed", *text, 0, std::numeric_limits<std::uint64_t>::max());
-  }
+  choices.seed = seed_of(arguments);
   return choices;
 }
 
@@ -191,6 +189,11 @@ std::string_view name_of(SamplerKind sampler) { return sampler_words[static_cast
 std::string_view name_of(SearchKind search) { return search_words[static_cast<std::size_t>(search)]; }
 
 std::span<const OptionSpec> planner_option_specs() { return specs; }
+
+std::uint64_t seed_of(const Arguments& arguments) {
+  const auto text = arguments.value("--seed");
+  return text ? count_value("--seed", *text, 0, std::numeric_limits<std::uint64_t>::max()) : 1;
+}
 
 SearchChoice search_choice(const Arguments& arguments) {
   const SearchChoice choices = searched_how(arguments);

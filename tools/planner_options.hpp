@@ -41,6 +41,9 @@ std::optional<PlannerKind> planner_asked(const Arguments& arguments);
 /// The sampler that --sampler names; throws UsageError for a word that is none.
 std::optional<SamplerKind> sampler_asked(const Arguments& arguments);
 
+/// --seed; 1 where nothing is said. Throws UsageError.
+std::uint64_t seed_of(const Arguments& arguments);
+
 /// --planner --sampler --samples --neighbours --radius --search --queue --lazy --pipeline --optimise --seed
 std::span<const OptionSpec> planner_option_specs();
 

@@ -125,4 +125,12 @@ WallProblem wall_problem(const Scene& scene, const ProblemOptions& options, Cont
   return problem;
 }
 
+std::vector<double> state_or_heading(std::string_view option, const std::vector<double>& given,
+                                     const std::vector<double>& in_file) {
+  const std::vector<double>& state = given.empty() ? in_file : given;
+  if (state.empty()) throw UsageError(fmt::format("{0}: the world has none; say {0} X,Y or X,Y,THETA", option));
+  if (state.size() == 2 || state.size() == 3) return state;
+  throw UsageError(fmt::format("{}: expected X,Y or X,Y,THETA (found: {} numbers)", option, state.size()));
+}
+
 }  // namespace warren

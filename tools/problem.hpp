@@ -64,6 +64,10 @@ double clearance_of(const Scene& scene, const ProblemOptions& options);
 /// where the body is another. `usual` is the contact that nobody asked for.
 WallProblem wall_problem(const Scene& scene, const ProblemOptions& options, Contact usual = Contact::blocked);
 
+/// X,Y or X,Y,THETA: what was given, else the file's. Throws UsageError where there is none, or of another size.
+std::vector<double> state_or_heading(std::string_view option, const std::vector<double>& given,
+                                     const std::vector<double>& in_file);
+
 /// "point", "disc 0.2", …: as the scene format writes it.
 std::string robot_text(const RobotSpec& robot);
 /// Reads what robot_text writes; throws InputError for others, naming `where`.

@@ -51,9 +51,15 @@ std::vector<std::string_view> planners_where(const Holds& holds) {
   return names;
 }
 
-std::vector<std::string_view> planners_of(const SolveKind& kind) {
+/// Of the kinds that fit a problem, each planner once.
+std::vector<std::string_view> planners_of(const std::vector<const SolveKind*>& kinds) {
   std::vector<std::string_view> names;
-  for (const PlannerChoice& choice : kind.planners) names.push_back(name_of(choice.planner));
+  for (const SolveKind* kind : kinds) {
+    for (const PlannerChoice& choice : kind->planners) {
+      const std::string_view name = name_of(choice.planner);
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+  }
   return names;
 }
 
@@ -112,9 +118,10 @@ void check_corridors(const Arguments& arguments, const Scene& scene) {
                                scene.source));
 }
 
-[[noreturn]] void refuse_planner(PlannerKind planner, const SolveKind& kind) {
-  throw UsageError(fmt::format("--planner: {} does not solve {}; {} {}", name_of(planner), kind.problem,
-                               listed(planners_of(kind)), kind.planners.size() == 1 ? "does" : "do"));
+[[noreturn]] void refuse_planner(PlannerKind planner, const std::vector<const SolveKind*>& fitting) {
+  const std::vector<std::string_view> others = planners_of(fitting);
+  throw UsageError(fmt::format("--planner: {} does not solve {}; {} {}", name_of(planner), fitting.front()->problem,
+                               listed(others), others.size() == 1 ? "does" : "do"));
 }
 
 }  // namespace
@@ -149,7 +156,7 @@ ChosenSolver choose_solver(const Arguments& arguments, const Scene& scene, const
   ChosenSolver chosen{&first, asked ? *asked : first.usual_planner(arguments, scene, problem)};
   const auto has_it = [&](const SolveKind* kind) { return choice_in(*kind, chosen.planner) != nullptr; };
   const auto found = std::find_if(fitting.begin(), fitting.end(), has_it);
-  if (found == fitting.end()) refuse_planner(chosen.planner, first);
+  if (found == fitting.end()) refuse_planner(chosen.planner, fitting);
   chosen.kind = *found;
   refuse_ignored(arguments, chosen.planner, {*choice_in(*chosen.kind, chosen.planner)});
   check_corridors(arguments, scene);

@@ -62,7 +62,8 @@ struct SolveKind {
   Answer (*solve)(const SolveRequest& request);
   /// Makes the drawing where solve() left it out because it costs; nullptr: solve() makes it. Throws Stopped.
   void (*draw)(const SolveRequest& request);
-  /// Re-checks an answer. Throws InputError where its states are none of this kind.
+  /// Re-checks an answer; nullptr: another kind that fits does. Throws InputError where its states are none of this
+  /// kind.
   Verdict (*verify)(const Scene& scene, const ProblemOptions& problem, const RecordedAnswer& answer,
                     const Execution& execution);
 };

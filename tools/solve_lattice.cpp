@@ -33,20 +33,12 @@ bool fits_lattice(const Scene& scene, const RobotSpec& robot) {
 
 PlannerKind usual_planner(const Arguments&, const Scene&, const ProblemOptions&) { return PlannerKind::grid; }
 
-std::vector<double> state_of(std::string_view option, const std::vector<double>& given,
-                             const std::vector<double>& file) {
-  const std::vector<double>& state = given.empty() ? file : given;
-  if (state.empty()) throw UsageError(fmt::format("{} is missing, and the world names none", option));
-  if (state.size() > 3) throw UsageError(fmt::format("{}: expected X,Y or X,Y,THETA", option));
-  return state;
-}
-
 Problem problem_of(const Scene& scene, const ProblemOptions& options) {
   if (options.contact == Contact::allowed) throw UsageError("--contact: grid keeps off walls and polygons");
   Problem problem;
   problem.robot = robot_of(scene, options);
-  problem.start = state_of("--start", options.start, scene.start);
-  problem.goal = state_of("--goal", options.goal, scene.goal);
+  problem.start = state_or_heading("--start", options.start, scene.start);
+  problem.goal = state_or_heading("--goal", options.goal, scene.goal);
   problem.clearance = clearance_of(scene, options);
   if (problem.robot.kind != RobotKind::polygon) {
     problem.start.resize(2);
@@ -221,24 +213,6 @@ Answer solve(const SolveRequest& request) {
   return std::move(solve.answer());
 }
 
-Verdict verify(const Scene& scene, const ProblemOptions& options, const RecordedAnswer& answer,
-               const Execution& execution) {
-  const Problem problem = problem_of(scene, options);
-  check_state_width(answer, 3, "a polygon that turns");
-  std::vector<Se2> poses;
-  for (std::size_t i = 0; i < answer.states.size(); ++i) {
-    const auto state = answer.states[i];
-    poses.push_back({state[0], state[1], state[2]});
-  }
-  const bool any_heading = problem.goal.size() == 2;
-  const Se2VerifyOptions how{.clearance = problem.clearance,
-                             .start = Se2{problem.start[0], problem.start[1], problem.start[2]},
-                             .goal = Se2{problem.goal[0], problem.goal[1], any_heading ? 0.0 : problem.goal[2]},
-                             .any_heading = any_heading};
-  const Se2Verification judged = verify_se2(scene, problem.robot.outline, poses, how, execution);
-  return {{judged.verified, judged.length, judged.min_clearance, judged.first_violation}, problem};
-}
-
 }  // namespace
 
 SolveKind lattice_kind() {
@@ -249,7 +223,7 @@ SolveKind lattice_kind() {
           usual_planner,
           solve,
           nullptr,
-          verify};
+          nullptr};
 }
 
 }  // namespace warren

@@ -30,14 +30,6 @@ bool fits_turning(const Scene& scene, const RobotSpec& robot) {
 
 PlannerKind usual_planner(const Arguments&, const Scene&, const ProblemOptions&) { return PlannerKind::voronoi; }
 
-std::vector<double> state_of(std::string_view option, const std::vector<double>& given,
-                             const std::vector<double>& in_file) {
-  const std::vector<double>& state = given.empty() ? in_file : given;
-  if (state.empty()) throw UsageError(fmt::format("{0}: the world has none; say {0} X,Y,THETA", option));
-  if (state.size() == 2 || state.size() == 3) return state;
-  throw UsageError(fmt::format("{}: a turning body takes X,Y,THETA or X,Y (found: {} numbers)", option, state.size()));
-}
-
 /// The question, and the same for the disc that holds the body.
 struct AxisProblem {
   RobotSpec robot;
@@ -48,9 +40,9 @@ struct AxisProblem {
 
   AxisProblem(const Scene& scene, const ProblemOptions& options)
       : robot(robot_of(scene, options)), clearance(clearance_of(scene, options)) {
-    const std::vector<double> from = state_of("--start", options.start, scene.start);
+    const std::vector<double> from = state_or_heading("--start", options.start, scene.start);
     start = {from[0], from[1], from.size() == 3 ? from[2] : 0.0};
-    goal = state_of("--goal", options.goal, scene.goal);
+    goal = state_or_heading("--goal", options.goal, scene.goal);
     of_disc.robot = RobotSpec{.kind = RobotKind::disc, .outline = {}};
     for (const Vec2 p : robot.outline) of_disc.robot->radius = std::max(of_disc.robot->radius, norm(p));
     of_disc.start = {start.x, start.y};

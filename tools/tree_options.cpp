@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <limits>
-
 #include "core/error.hpp"
 #include "tools/answer_json.hpp"
 #include "tools/option_values.hpp"
@@ -42,9 +40,7 @@ RrtOptions tree_options(const Arguments& arguments) {
   if (const auto text = arguments.value("--trees")) {
     options.trees = static_cast<std::uint32_t>(count_value("--trees", *text, 1, most_trees));
   }
-  if (const auto text = arguments.value("--seed")) {
-    options.seed = count_value("--seed", *text, 0, std::numeric_limits<std::uint64_t>::max());
-  }
+  options.seed = seed_of(arguments);
   return options;
 }
 

@@ -9,12 +9,22 @@
 
 #include "core/error.hpp"
 #include "tools/human_units.hpp"
+#include "tools/option_values.hpp"
 #include "tools/output_files.hpp"
 #include "tools/picture.hpp"
 #include "worlds/world_io.hpp"
 
 namespace warren {
 namespace {
+
+constexpr std::array<std::string_view, 2> rules_words{"nav2", "ros1"};
+
+constexpr OptionSpec specs[] = {
+    {"--map-rules", "NAME",
+     "whose rules the pixels of a map_server YAML follow: nav2's or those of ROS 1, strict at the thresholds "
+     "(default: nav2)",
+     "nav2 ros1"},
+};
 
 bool is_picture(std::string_view ending) { return ending == ".svg" || ending == ".png" || ending == ".html"; }
 
@@ -25,10 +35,20 @@ std::optional<Vec2> plane_point(const std::vector<double>& state) {
   return Vec2{state[0], state[1]};
 }
 
-Scene load_world(const std::string& source, const Execution& execution, StageTimes& seconds) {
+std::span<const OptionSpec> world_option_specs() { return specs; }
+
+Scene load_world(const std::string& source, const Arguments& arguments, const Execution& execution,
+                 StageTimes& seconds) {
   const bool generates = is_maze_source(source);
+  const auto asked = arguments.value("--map-rules");
+  const auto rules =
+      asked ? static_cast<MapServerRules>(choice_value("--map-rules", *asked, rules_words)) : MapServerRules::nav2;
   const StageTimer timer(execution, generates ? "generate" : "read", generates ? seconds.generate : seconds.read);
-  return read_world(source, execution);
+  Scene scene = read_world(source, execution, rules);
+  if (asked && !(scene.map && scene.map->format == MapFormat::ros)) {
+    throw UsageError(fmt::format("--map-rules: is for the YAML of map_server, and {} is none", source));
+  }
+  return scene;
 }
 
 void check_world_file(const std::string& file) {

@@ -3,18 +3,26 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "core/counters.hpp"
 #include "parallel/execution.hpp"
 #include "tools/answer.hpp"
+#include "tools/arguments.hpp"
+#include "tools/command.hpp"
 #include "worlds/scene.hpp"
 
 namespace warren {
 
-/// Reads or generates WORLD; adds the time to seconds.read or seconds.generate. Throws as read_world does.
-Scene load_world(const std::string& source, const Execution& execution, StageTimes& seconds);
+/// --map-rules
+std::span<const OptionSpec> world_option_specs();
+
+/// Reads or generates WORLD as world_option_specs say; adds the time to seconds.read or seconds.generate. Throws as
+/// read_world does, and UsageError for rules of maps where the world is no map of map_server.
+Scene load_world(const std::string& source, const Arguments& arguments, const Execution& execution,
+                 StageTimes& seconds);
 
 /// Scene text, .npy, or a picture (.svg .png .html), by the file's ending; "-" is scene text.
 void write_world(const Scene& scene, const std::string& file, const std::string& command_line,

@@ -93,9 +93,12 @@ bool GridWorld::row_is_free(const Segment& leg, std::int64_t row) const {
 }
 
 double GridWorld::suggested_samples() const {
-  constexpr double cells_a_sample = 64.0;
+  constexpr double samples_a_square = 4.5;  // as among walls: worlds/maze_world.cpp
   constexpr double fewest = 500.0;
-  return std::max(fewest, static_cast<double>(map_.free) / cells_a_sample);
+  const double squares = 0.5 * CorridorCells(field_, reach_, {}).weight();
+  if (corridors_) return std::max(fewest, samples_a_square * squares);  // which hardly ever fall on what is blocked
+  const double free_share = static_cast<double>(map_.free) / static_cast<double>(map_.blocked.size());
+  return std::max(fewest, free_share > 0.0 ? samples_a_square * squares / free_share : 0.0);
 }
 
 }  // namespace warren

@@ -49,7 +49,8 @@ class GridWorld {
   /// The map as if its origin were (0, 0) and it were not turned: what uniform samples are spread over.
   Box box() const { return {{0.0, 0.0}, {map_.cell * map_.width(), map_.cell * map_.height()}}; }
   double sampled_area() const { return box().width() * box().height(); }
-  /// Uniform samples that a first roadmap needs: one for each 64 cells, but no fewer than 500.
+  /// Uniform samples that a first roadmap needs: 4.5 for each free square as wide as its corridor, at least 500.
+  /// O(cells).
   double suggested_samples() const;
   const OccupancyMap& map() const { return map_; }
 

@@ -38,9 +38,8 @@ class Lines {
 
 bool is_blank(std::string_view line) { return line.find_first_not_of(" \t\r") == std::string_view::npos; }
 
-/// Fields between tabs; between blanks where the line has no tab.
-std::vector<std::string_view> fields_of(std::string_view line) {
-  const std::string_view marks = line.find('\t') != std::string_view::npos ? "\t" : " ";
+/// Fields between any of these marks, blanks around them left out.
+std::vector<std::string_view> split(std::string_view line, std::string_view marks) {
   std::vector<std::string_view> fields;
   while (!line.empty()) {
     const std::size_t end = std::min(line.find_first_of(marks), line.size());
@@ -53,6 +52,22 @@ std::vector<std::string_view> fields_of(std::string_view line) {
   return fields;
 }
 
+/// Words of a header.
+std::vector<std::string_view> words_of(std::string_view line) { return split(line, " \t"); }
+
+/// Fields between tabs, since names of maps may have blanks; between blanks where the line has no tab.
+std::vector<std::string_view> fields_of(std::string_view line) {
+  return split(line, line.find('\t') != std::string_view::npos ? "\t" : " ");
+}
+
+/// A row of a map without what editors leave behind it.
+std::string_view without_trailing_blanks(std::string_view line, std::size_t width) {
+  while (line.size() > width && (line.ends_with(' ') || line.ends_with('\t') || line.ends_with('\r'))) {
+    line.remove_suffix(1);
+  }
+  return line;
+}
+
 template <class T>
 T number(std::string_view field, const scene_text::Place& place, std::string_view what) {
   T value{};
@@ -63,7 +78,7 @@ T number(std::string_view field, const scene_text::Place& place, std::string_vie
 
 std::uint32_t size_line(Lines& lines, std::string_view word) {
   const auto expected = fmt::format("`{} N`, N from 1 to 2147483647", word);
-  const std::vector<std::string_view> fields = lines.done() ? std::vector<std::string_view>{} : fields_of(lines.next());
+  const std::vector<std::string_view> fields = lines.done() ? std::vector<std::string_view>{} : words_of(lines.next());
   if (fields.size() != 2 || fields[0] != word) {
     lines.place().fail("expected " + expected, fields.empty() ? "" : fields[0]);
   }
@@ -102,14 +117,14 @@ std::uint64_t fill_row(std::string_view line, std::uint32_t y, const scene_text:
 
 OccupancyMap read_moving_ai_map(const InputFile& file, const Execution& execution) {
   Lines lines(file);
-  const std::vector<std::string_view> type = fields_of(lines.next());
+  const std::vector<std::string_view> type = words_of(lines.next());
   if (type.size() != 2 || type[0] != "type" || type[1] != "octile") {
     lines.place().fail("expected `type octile`", type.empty() ? "" : type.back());
   }
   const std::uint32_t height = size_line(lines, "height");
   const std::uint32_t width = size_line(lines, "width");
   check_map_size(file.name(), width, height);
-  if (lines.done() || fields_of(lines.next()) != std::vector<std::string_view>{"map"}) {
+  if (lines.done() || words_of(lines.next()) != std::vector<std::string_view>{"map"}) {
     lines.place().fail("expected `map`");
   }
   execution.reserve(std::size_t{width} * height / 4);
@@ -125,7 +140,7 @@ OccupancyMap read_moving_ai_map(const InputFile& file, const Execution& executio
     if (lines.done()) {
       throw InputError(file.name(), fmt::format("expected {} rows after `map`", height), fmt::format("{}", row));
     }
-    const std::string_view line = lines.next();
+    const std::string_view line = without_trailing_blanks(lines.next(), width);
     if (line.size() != width) {
       lines.place().fail(fmt::format("expected a row of {} cells", width), fmt::format("{} characters", line.size()));
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Moving AI's grid maps (`type octile`) and scenario files. In the files row 0 is the top row; in an OccupancyMap it is
-// the bottom row, so a scenario's (x, y) is the cell (x, height - 1 - y). LF or CRLF.
+// the bottom row, so a scenario's (x, y) is the cell (x, height - 1 - y). LF or CRLF; blanks may follow a line.
 #pragma once
 
 #include <cstdint>

@@ -17,7 +17,6 @@
 #include "worlds/pgm_io.hpp"
 #include "worlds/plane_obstacles.hpp"
 #include "worlds/ring_list_io.hpp"
-#include "worlds/ros_map_io.hpp"
 #include "worlds/scene_io.hpp"
 #include "worlds/wkt_io.hpp"
 
@@ -150,7 +149,7 @@ Scene scene_of(OccupancyMap map) {
   return scene;
 }
 
-Scene read_unchecked(const InputFile& file, const Execution& execution) {
+Scene read_unchecked(const InputFile& file, const Execution& execution, MapServerRules rules) {
   switch (format_of(file)) {
     case WorldFormat::scene:
       break;
@@ -167,7 +166,7 @@ Scene read_unchecked(const InputFile& file, const Execution& execution) {
     case WorldFormat::moving_ai:
       return scene_of(read_moving_ai_map(file, execution));
     case WorldFormat::ros_map:
-      return scene_of(read_ros_map(file, execution));
+      return scene_of(read_ros_map(file, execution, rules));
     case WorldFormat::image:
       return scene_of(read_maze_image(file, execution));
   }
@@ -176,14 +175,14 @@ Scene read_unchecked(const InputFile& file, const Execution& execution) {
 
 }  // namespace
 
-Scene read_scene(const InputFile& file, const Execution& execution) {
-  Scene scene = read_unchecked(file, execution);
+Scene read_scene(const InputFile& file, const Execution& execution, MapServerRules rules) {
+  Scene scene = read_unchecked(file, execution, rules);
   check_polygons(scene, execution);
   return scene;
 }
 
-Scene read_world(const std::string& source, const Execution& execution) {
-  if (!is_maze_source(source)) return read_scene(InputFile(source, execution), execution);
+Scene read_world(const std::string& source, const Execution& execution, MapServerRules rules) {
+  if (!is_maze_source(source)) return read_scene(InputFile(source, execution), execution, rules);
   Scene scene = maze_scene(parse_maze_source(source), false, execution);
   scene.source = source;
   return scene;

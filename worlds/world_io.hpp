@@ -10,6 +10,7 @@
 #include "parallel/execution.hpp"
 #include "worlds/input_file_io.hpp"
 #include "worlds/maze_generator.hpp"
+#include "worlds/ros_map_io.hpp"
 #include "worlds/scene.hpp"
 
 namespace warren {
@@ -26,9 +27,10 @@ MazeOptions parse_maze_source(std::string_view source);
 
 /// Reads or generates a world of walls, polygons and spheres, or a map (Scene::map); a maze has unit walls in the
 /// course's order. Throws UsageError, ReadError, InputError (also for polygons that are not simple), Stopped.
-Scene read_world(const std::string& source, const Execution& execution);
+/// `rules` are for the maps of map_server alone.
+Scene read_world(const std::string& source, const Execution& execution, MapServerRules rules = MapServerRules::nav2);
 /// The same for a file that is open already.
-Scene read_scene(const InputFile& file, const Execution& execution);
+Scene read_scene(const InputFile& file, const Execution& execution, MapServerRules rules = MapServerRules::nav2);
 
 /// Writes .npy, .geojson, .wkt, or for .walls, .scene, .txt and "-" scene text. Throws UsageError for other
 /// endings, InputError for what the format can't hold, WriteError, Stopped.

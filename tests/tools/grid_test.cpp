@@ -351,6 +351,10 @@ TEST(BenchScen, ExitsWithZeroOnlyWhereEveryLengthIsTheOptimum) {
       answered({"bench-scen", folder.write("b.scen", "version 1\n0\ta.map\t7\t5\t0\t4\t6\t0\t10.002\n")}, 1);
   EXPECT_EQ(bad["differing"], 1);
   EXPECT_EQ(bad["differences"][0]["line"], 2);
+  const Json apart = answered({"bench-scen", folder.write("e.scen", "version 1\n0\ts.map\t5\t3\t0\t0\t4\t0\t4.0\n"),
+                               "--map", folder.write("s.map", sealed_map)},
+                              1);
+  EXPECT_EQ(apart["differing"], 1);  // there is no path, whatever the file says
   EXPECT_EQ(run({"bench-scen", folder.write("c.scen", "version 1\n0\tgone.map\t7\t5\t0\t4\t6\t0\t10\n")}).code, 66);
   EXPECT_EQ(run({"bench-scen", folder.write("d.scen", "version 1\n0\ta.map\t7\t5\t0\t4\t7\t0\t10\n")}).code, 65);
 }

@@ -35,6 +35,25 @@ TEST(MovingAiMap, ReadsTerrainTopRowFirst) {
   }
 }
 
+TEST(MovingAiMap, TakesBlanksAroundAndATinyMap) {
+  const TemporaryDirectory directory;
+  const std::string texts[] = {
+      "type octile\nheight 2\nwidth 3\nmap\n.@.  \n...\t\n",
+      "type   octile  \n height\t2 \nwidth 3\t\nmap \n.@. \n...",
+      with_crlf("type octile\nheight 2\nwidth 3\nmap\n.@. \n...\n\n \n"),
+  };
+  for (const std::string& text : texts) {
+    SCOPED_TRACE(text);
+    const OccupancyMap map = read_moving_ai_map(InputFile(directory.write("a.map", text), {}), {});
+    EXPECT_EQ(map.width(), 3U);
+    EXPECT_EQ(map.free, 5U);
+    EXPECT_TRUE(map.blocked.test(1, 1));
+  }
+  const OccupancyMap one =
+      read_moving_ai_map(InputFile(directory.write("b.map", "type octile\nheight 1\nwidth 1\nmap\n."), {}), {});
+  EXPECT_EQ(one.free, 1U);
+}
+
 TEST(MovingAiMap, WaterIsPassableFromWaterOnly) {
   const TemporaryDirectory directory;
   const OccupancyMap map =
