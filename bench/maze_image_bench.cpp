@@ -85,19 +85,19 @@ std::size_t plain_bfs(const Bitmap& blocked, Cell start, Cell goal) {
 
 void bm_maze_plain_bfs(benchmark::State& state) {
   const OccupancyMap& map = maze_of(static_cast<std::uint32_t>(state.range(0)));
-  const auto [start, goal] = ends_of(map);
-  for (auto _ : state) benchmark::DoNotOptimize(plain_bfs(map.blocked, start, goal));
+  const Ends ends = ends_of(map);
+  for (auto _ : state) benchmark::DoNotOptimize(plain_bfs(map.blocked, ends.start, ends.goal));
   report(state, map.blocked.size(), map.blocked.bytes());
 }
 
 /// As `warren solve` does: the map made ready for searches, then breadth first.
 void bm_maze_grid(benchmark::State& state) {
   const OccupancyMap& map = maze_of(static_cast<std::uint32_t>(state.range(0)));
-  const auto [start, goal] = ends_of(map);
+  const Ends ends = ends_of(map);
   const GridSearchOptions options{Diagonal::sqrt2, GridMethod::bfs};
-  const auto find = [&] { return GridSearch(map.blocked).find(start, goal, options, {}); };
+  const auto find = [&] { return GridSearch(map.blocked).find(ends.start, ends.goal, options, {}); };
   if (should_check(state)) {
-    check(find().cells.size() == plain_bfs(map.blocked, start, goal) + 1, "the length by the grid planner");
+    check(find().cells.size() == plain_bfs(map.blocked, ends.start, ends.goal) + 1, "the length by the grid planner");
   }
   for (auto _ : state) benchmark::DoNotOptimize(find().cost);
   report(state, map.blocked.size(), map.blocked.bytes());
@@ -105,10 +105,11 @@ void bm_maze_grid(benchmark::State& state) {
 
 void bm_maze_skeleton(benchmark::State& state) {
   const OccupancyMap& map = maze_of(static_cast<std::uint32_t>(state.range(0)));
-  const auto [start, goal] = ends_of(map);
-  const auto find = [&] { return plan_on_skeleton(map.blocked, start, goal, {}, {}); };
+  const Ends ends = ends_of(map);
+  const auto find = [&] { return plan_on_skeleton(map.blocked, ends.start, ends.goal, {}, {}); };
   if (should_check(state)) {
-    check(find().cells.size() == plain_bfs(map.blocked, start, goal) + 1, "the only way of a maze by its skeleton");
+    check(find().cells.size() == plain_bfs(map.blocked, ends.start, ends.goal) + 1,
+          "the only way of a maze by its skeleton");
   }
   for (auto _ : state) benchmark::DoNotOptimize(find().clearance);
   report(state, map.blocked.size(), map.blocked.bytes());
@@ -117,13 +118,13 @@ void bm_maze_skeleton(benchmark::State& state) {
 /// range(1): the sampler; a roadmap that grows until it joins the ends, from the map in memory on.
 void bm_maze_roadmap(benchmark::State& state) {
   const OccupancyMap& map = maze_of(static_cast<std::uint32_t>(state.range(0)));
-  const auto [start, goal] = ends_of(map);
+  const Ends ends = ends_of(map);
   const auto sampler = static_cast<SamplerKind>(state.range(1));
   const RoadmapOptions options{.sampler = sampler};
   std::uint64_t milestones = 0;
   for (auto _ : state) {
     const GridWorld world(map, 0.0, {}, sampler == SamplerKind::corridor);
-    const auto solution = lazy_prm(world, cell_centre(map, start), cell_centre(map, goal), options, {});
+    const auto solution = lazy_prm(world, cell_centre(map, ends.start), cell_centre(map, ends.goal), options, {});
     milestones = solution.roadmap.milestones;
     if (solution.outcome != Outcome::solved) state.SkipWithError("the roadmap does not join the ends");
   }

@@ -107,7 +107,9 @@ void SolveCommand::answer(const Run& run) {
 void SolveCommand::solve(const Run& run) {
   solver_ = choose_solver(arguments_, scene_, problem_);
   WorldAccount world = account_of(scene_, run.execution());
-  if (scene_.map && solver_->planner != PlannerKind::grid) add_map_walls(scene_);  // what they plan among
+  const RobotKind body = robot_of(scene_, problem_).kind;
+  const bool on_cells = body == RobotKind::point || body == RobotKind::disc;
+  if (scene_.map && !on_cells) add_map_walls(scene_);  // what the others plan among
   answer_ = solver_->kind->solve(request(run.execution()));
   answer_.world = std::move(world);
   const bool judged_by_cells = answer_.problem.robot.kind != RobotKind::car;

@@ -13,6 +13,7 @@
 
 #include "core/error.hpp"
 #include "tools/cell_drawing.hpp"
+#include "tools/curve_drawing.hpp"
 #include "tools/picture.hpp"
 #include "tools/solve_kind.hpp"
 #include "tools/world_files.hpp"
@@ -64,11 +65,11 @@ class ContestPictures {
     const std::string name = unused(file_name(contender.planner + " " + said));
     const std::string title = fmt::format("{}, {}{}seed {}: {}", scene_.source, contender.planner,
                                           said.empty() ? ", " : ", " + said + ", ", seed, name_of(answer.outcome));
-    write(name, title, drawing.layers, answer.path, drawing.roadmap.states.empty() ? nullptr : &drawing.roadmap);
+    const std::vector<double> turns = path_turns(answer.problem.robot, answer.states);
+    write(name, title, drawing.layers, {answer.path, turns, &drawing.roadmap});
     for (const PictureLayer& page : drawing.pages) {
       const std::string page_name = file_name(contender.planner) + "_" + page.id;
-      if (names_.insert(page_name).second)
-        write(page_name, scene_.source + ": " + page.id, std::span(&page, 1), {}, {});
+      if (names_.insert(page_name).second) write(page_name, scene_.source + ": " + page.id, std::span(&page, 1), {});
     }
   }
 
@@ -78,19 +79,26 @@ class ContestPictures {
     for (int i = 2; !names_.insert(name).second; ++i) name = fmt::format("{}_{}", wanted, i);
     return name;
   }
+  struct Shown {
+    std::span<const Vec2> path = {};
+    std::span<const double> turns = {};
+    const Roadmap<Vec2>* roadmap = nullptr;
+  };
   void write(const std::string& name, const std::string& title, std::span<const PictureLayer> own,
-             std::span<const Vec2> path, const Roadmap<Vec2>* roadmap) const {
+             const Shown& shown) const {
     std::vector<PictureLayer> layers;
     if (scene_.map) layers.push_back(map_layer(*scene_.map));
     layers.insert(layers.end(), own.begin(), own.end());
-    const Picture picture{.scene = scene_,
-                          .roadmap = roadmap,
-                          .layers = layers,
-                          .path = path,
-                          .start = plane_point(scene_.start),
-                          .goal = plane_point(scene_.goal),
-                          .title = title,
-                          .description = description_of(scene_)};
+    const Picture picture{
+        .scene = scene_,
+        .roadmap = shown.roadmap != nullptr && !shown.roadmap->states.empty() ? shown.roadmap : nullptr,
+        .layers = layers,
+        .path = shown.path,
+        .path_turns = shown.turns,
+        .start = plane_point(scene_.start),
+        .goal = plane_point(scene_.goal),
+        .title = title,
+        .description = description_of(scene_)};
     write_picture(folder_ + "/" + name + ".svg", picture, execution_);
   }
 

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -14,6 +13,7 @@
 #include "core/se2.hpp"
 #include "tools/map_planners.hpp"
 #include "tools/plane_planners.hpp"
+#include "tools/pose_problem.hpp"
 #include "tools/sweep_drawing.hpp"
 #include "tools/verified_answer.hpp"
 #include "worlds/plane_obstacles.hpp"
@@ -30,42 +30,25 @@ bool fits_turning(const Scene& scene, const RobotSpec& robot) {
 
 PlannerKind usual_planner(const Arguments&, const Scene&, const ProblemOptions&) { return PlannerKind::voronoi; }
 
-/// The question, and the same for the disc that holds the body.
-struct AxisProblem {
-  RobotSpec robot;
-  Se2 start;
-  std::vector<double> goal;
-  double clearance;
-  ProblemOptions of_disc;
-
-  AxisProblem(const Scene& scene, const ProblemOptions& options)
-      : robot(robot_of(scene, options)), clearance(clearance_of(scene, options)) {
-    const std::vector<double> from = state_or_heading("--start", options.start, scene.start);
-    start = {from[0], from[1], from.size() == 3 ? from[2] : 0.0};
-    goal = state_or_heading("--goal", options.goal, scene.goal);
-    of_disc.robot = RobotSpec{.kind = RobotKind::disc, .outline = {}};
-    for (const Vec2 p : robot.outline) of_disc.robot->radius = std::max(of_disc.robot->radius, norm(p));
-    of_disc.start = {start.x, start.y};
-    of_disc.goal = {goal[0], goal[1]};
-    of_disc.clearance = clearance;
-    of_disc.contact = options.contact;
-  }
-  Problem general() const { return {robot, {start.x, start.y, start.theta}, goal, clearance, Contact::blocked}; }
-  Se2VerifyOptions verify_options() const {
-    const bool any_heading = goal.size() == 2;
-    return {.clearance = clearance,
-            .start = start,
-            .goal = Se2{goal[0], goal[1], any_heading ? 0.0 : goal[2]},
-            .any_heading = any_heading};
-  }
-};
+/// The same question for the disc that holds the body.
+ProblemOptions question_of_disc(const PoseProblem& problem) {
+  ProblemOptions options;
+  options.robot = RobotSpec{.kind = RobotKind::disc, .outline = {}};
+  for (const Vec2 p : problem.robot.outline) options.robot->radius = std::max(options.robot->radius, norm(p));
+  options.start = {problem.start.x, problem.start.y};
+  options.goal = {problem.goal[0], problem.goal[1]};
+  options.clearance = problem.clearance;
+  return options;
+}
 
 class AxisSolve {
  public:
-  explicit AxisSolve(const SolveRequest& request) : request_(request), problem_(request.scene, request.problem) {}
+  explicit AxisSolve(const SolveRequest& request)
+      : request_(request), problem_(pose_problem(request.scene, request.problem, "a turning body")) {}
 
   Answer run() {
-    const SolveRequest of_disc{request_.arguments, request_.scene,     problem_.of_disc,
+    const ProblemOptions disc = question_of_disc(problem_);
+    const SolveRequest of_disc{request_.arguments, request_.scene,     disc,
                                request_.planner,   request_.execution, request_.drawing};
     answer_ = request_.scene.map ? solve_on_skeleton(of_disc) : solve_on_medial_axis(of_disc);
     answer_.problem = problem_.general();
@@ -89,7 +72,7 @@ class AxisSolve {
 
   /// In steps of at most a third of a turn, so that the way round is never in doubt.
   void turn_at_the_goal() {
-    if (problem_.goal.size() == 2) return;
+    if (problem_.any_heading()) return;
     constexpr double most_rad = 2.0 * std::numbers::pi / 3.0;
     const double turn = turn_between(problem_.start.theta, problem_.goal[2]);
     const auto steps = static_cast<int>(std::ceil(std::abs(turn) / most_rad));
@@ -101,16 +84,9 @@ class AxisSolve {
 
   /// The disc doesn't fit; the body may.
   void settle_blocked_ends() {
-    const bool start = answer_.outcome == Outcome::start_blocked;
-    if (!start && answer_.outcome != Outcome::goal_blocked) return;
-    const bool goal_turned = !start && problem_.goal.size() == 3;
-    const Se2 pose =
-        start ? problem_.start
-              : Se2{problem_.goal[0], problem_.goal[1], goal_turned ? problem_.goal[2] : problem_.start.theta};
-    const bool any_heading = !start && !goal_turned;
-    if (any_heading || verified(std::span(&pose, 1), {.clearance = problem_.clearance}).verified) {
-      answer_.outcome = Outcome::not_connected;
-    }
+    settle_blocked_poses(answer_, problem_, [&](const Se2& pose) {
+      return verified(std::span(&pose, 1), {.clearance = problem_.clearance}).verified;
+    });
   }
 
   Se2Verification verified(std::span<const Se2> path, const Se2VerifyOptions& options) const {
@@ -119,7 +95,11 @@ class AxisSolve {
 
   void verify() {
     const StageTimer timer(request_.execution, "verify", answer_.seconds.verify, poses_.size());
-    const Se2Verification found = verified(poses_, problem_.verify_options());
+    const Se2VerifyOptions options{.clearance = problem_.clearance,
+                                   .start = problem_.start,
+                                   .goal = problem_.goal_pose(),
+                                   .any_heading = problem_.any_heading()};
+    const Se2Verification found = verified(poses_, options);
     if (!found.verified) {
       const Violation violation = found.first_violation.value_or(Violation{});
       throw std::logic_error(fmt::format("the path of {} fails its verification at leg {}: {} is {} away",
@@ -128,16 +108,12 @@ class AxisSolve {
     answer_.length = found.length;
     answer_.turn_rad = found.turn_rad;
     answer_.min_clearance = found.min_clearance;
-    answer_.states = {.width = 3, .numbers = {}};
     answer_.path.clear();
-    for (const Se2& pose : poses_) {
-      answer_.path.push_back(pose.position());
-      answer_.states.add(std::array{pose.x, pose.y, pose.theta});
-    }
+    record_poses(answer_, poses_);
   }
 
   const SolveRequest& request_;
-  AxisProblem problem_;
+  PoseProblem problem_;
   std::vector<Se2> poses_;
   Answer answer_;
 };
