@@ -130,7 +130,7 @@ void bm_reduced_astar(benchmark::State& state) {
   SearchResult result;
   std::size_t bytes = 0;
   for (auto _ : state) {
-    const auto reduced = reduce_graph(
+    const TwiceReducedGraphView reduced(
         c.graph, keep, [&](VertexId v, VertexId w) { return distance(at[v], at[w]); }, execution);
     const Graph& graph = reduced.graph();
     IndexedHeap<4> heap;

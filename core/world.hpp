@@ -7,6 +7,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "core/rng.hpp"
 
@@ -43,6 +44,28 @@ concept SteerableWorld = World<W> && requires(const W& w, const typename W::Stat
 template <class W>
 concept CorridorWorld = World<W> && requires(const W& w) {
   { w.corridor_state(std::uint64_t{}, std::uint64_t{}) } -> std::same_as<typename W::State>;
+};
+
+/// Motions that a world may check faster together than one by one.
+template <class State>
+struct Motion {
+  State from;
+  State to;
+};
+inline constexpr std::size_t bunch_size = 16;
+
+/// w.free_motions(motions, q)  bit i is is_free_motion(from, to) of the i-th motion; at most bunch_size, best if they
+///                             are near each other
+template <class W>
+concept BunchWorld = World<W> && requires(const W& w, typename W::Query& q) {
+  { w.free_motions(std::span<const Motion<typename W::State>>(), q) } -> std::same_as<std::uint32_t>;
+};
+
+/// A world of the plane that looks at a row of points faster than at one after the other.
+/// w.keep_free(y, bits)  of the points (1, y), (2, y), ..., which have a bit each, clears those that are not free
+template <class W>
+concept RowWorld = World<W> && requires(const W& w, std::span<std::uint64_t> bits) {
+  w.keep_free(1.0, bits);
 };
 
 /// Motions that this query saw refused: neither proved free nor blocked. 0 for worlds whose checks are exact.

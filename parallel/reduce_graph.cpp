@@ -45,7 +45,8 @@ Execution without_progress(Execution execution) {
 
 }  // namespace
 
-KeyCoverView::KeyCoverView(const Graph& graph, std::span<const VertexId> keep, const Execution& execution)
+KeyCoverView::KeyCoverView(const Graph& graph, std::span<const VertexId> keep, Peeling peeling,
+                           const Execution& execution)
     : graph_(&graph) {
   const std::size_t n = graph.vertex_count();
   execution.reserve(n + n / 5);
@@ -61,10 +62,10 @@ KeyCoverView::KeyCoverView(const Graph& graph, std::span<const VertexId> keep, c
   }
   std::vector<std::vector<VertexId>> seeds(chunk_count(n, grain));
   for_chunks(n, grain, quiet, [&](Range r) { seeds[r.first / grain] = peel_block(r); });
-  for_chunks(seeds.size(), 1, quiet, [&](Range r) {
+  for_chunks(peeling == Peeling::everywhere ? seeds.size() : 0, 1, quiet, [&](Range r) {
     for (const VertexId v : seeds[r.first]) peel_across(v, execution);
   });
-  for_chunks(n, grain, quiet, [&](Range r) { mark_keys(r); });
+  for_chunks(n, grain, quiet, [&](Range r) { mark_keys(r, peeling); });
   rank_.back() = 0;
   exclusive_scan(rank_, quiet);
 }
@@ -107,14 +108,25 @@ void KeyCoverView::peel_across(VertexId seed, const Execution& execution) {
   }
 }
 
-void KeyCoverView::mark_keys(Range block) {
+void KeyCoverView::mark_keys(Range block, Peeling peeling) {
+  const auto first = static_cast<VertexId>(block.first);
+  const auto size = static_cast<VertexId>(block.size());
+  const bool within = peeling == Peeling::within_blocks;
+  const auto ends_chains = [&](std::span<const VertexId> row) {
+    unsigned left = 0;
+    bool leaves = false;
+    for (const VertexId w : row) {
+      left += left_[w] != 0 ? 1U : 0U;
+      leaves |= within && w - first >= size;
+    }
+    return left != 2 || leaves;
+  };
   for (std::size_t word = block.first / 64; word * 64 < block.last; ++word) {
     std::uint64_t bits = 0;
     const auto end = static_cast<VertexId>(std::min(block.last, word * 64 + 64));
     for (auto v = static_cast<VertexId>(word * 64); v < end; ++v) {
       if (left_[v] == 0) continue;
-      const bool is_key =
-          left_[v] == 2 || left_of(graph_->neighbours(v), [&](VertexId w) { return left_[w] != 0; }).count != 2;
+      const bool is_key = left_[v] == 2 || ends_chains(graph_->neighbours(v));
       bits |= std::uint64_t{is_key} << v % 64;
     }
     keys_[word] = bits;
@@ -152,23 +164,40 @@ ReducedGraphView::ReducedGraphView(KeyCoverView cover, const std::vector<std::ve
   reduced_ = Graph(std::move(degrees), std::move(targets), std::move(lengths));
 }
 
-std::vector<VertexId> ReducedGraphView::expand(std::span<const VertexId> keys, const Execution& execution) const {
-  std::vector<VertexId> path;
-  if (keys.empty()) return path;
-  path.push_back(vertex_of(keys.front()));
-  for (std::size_t i = 1; i < keys.size(); ++i) {
-    const std::span<const VertexId> row = reduced_.neighbours(keys[i - 1]);
-    const auto at = std::lower_bound(row.begin(), row.end(), keys[i]) - row.begin();
-    const std::size_t row_begin = static_cast<std::size_t>(row.data() - reduced_.neighbours(0).data());
-    VertexId before = path.back();
-    VertexId v = via_[row_begin + static_cast<std::size_t>(at)];
-    while (!cover_.is_key(v)) {
-      if (path.size() % detail::steps_per_poll == 0) execution.check();
-      path.push_back(v);
-      v = cover_.next_on_chain(std::exchange(before, v), v);
-    }
+/// Appends the chain from one key to another, without the first.
+void ReducedGraphView::expand_step(VertexId from, VertexId to, std::vector<VertexId>& path,
+                                   const Execution& execution) const {
+  const std::span<const VertexId> row = reduced_.neighbours(from);
+  const auto at = static_cast<std::size_t>(std::lower_bound(row.begin(), row.end(), to) - row.begin());
+  const auto row_begin = static_cast<std::size_t>(row.data() - reduced_.neighbours(0).data());
+  VertexId before = vertex_of(from);
+  VertexId v = via_[row_begin + at];
+  while (!cover_.is_key(v)) {
+    if (path.size() % detail::steps_per_poll == 0) execution.check();
     path.push_back(v);
+    v = cover_.next_on_chain(std::exchange(before, v), v);
   }
+  path.push_back(v);
+}
+
+std::vector<VertexId> ReducedGraphView::expand(std::span<const VertexId> keys, const Execution& execution) const {
+  if (keys.empty()) return {};
+  constexpr std::size_t keys_a_part = 1024;
+  const Execution quiet = without_progress(execution);
+  std::vector<std::vector<VertexId>> parts(chunk_count(keys.size() - 1, keys_a_part));
+  for_chunks(keys.size() - 1, keys_a_part, quiet, [&](Range r) {
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      expand_step(keys[i], keys[i + 1], parts[r.first / keys_a_part], execution);
+    }
+  });
+  std::vector<std::size_t> begins(parts.size() + 1, 1);
+  for (std::size_t p = 0; p < parts.size(); ++p) begins[p + 1] = begins[p] + parts[p].size();
+  std::vector<VertexId> path(1, vertex_of(keys.front()));
+  path.resize(begins.back());
+  for_chunks(parts.size(), 1, quiet, [&](Range r) {
+    std::copy(parts[r.first].begin(), parts[r.first].end(),
+              path.begin() + static_cast<std::ptrdiff_t>(begins[r.first]));
+  });
   return path;
 }
 

@@ -8,7 +8,13 @@
 // then all threads together follow the dead ends that are left across the blocks. What is left is the same in any
 // order: the largest set in which all but the kept vertices have degree 2 or more. Its vertices of another degree than
 // 2, and the kept ones, are the *keys*; each key follows its chains by itself, so a chain is walked once from either
-// end. Loops and all but the shortest chain between two keys are dropped (ties: the smaller first vertex).
+// end (within a block, once for both). Loops and all but the shortest chain between two keys are dropped (ties: the
+// smaller first vertex).
+//
+// Large graphs are reduced twice (reduce_graph_twice): first each block of vertices for itself, whose chains end where
+// they leave the block, so that all of it happens in cache; then what that left, a tenth to a twentieth of the
+// vertices, as a whole. The keys are the same or fewer: where the first step drops a longer one of two chains, the
+// second can peel more.
 //
 // O(V + E). Memory: 1.2 bytes a vertex, and 20 bytes an edge end of the reduced graph. Measured in
 // bench/search_bench.cpp.
@@ -17,6 +23,8 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <memory>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -25,11 +33,15 @@
 
 namespace warren {
 
+/// Dead ends are followed through the whole graph, or as far as their block of vertices.
+enum class Peeling : std::uint8_t { everywhere, within_blocks };
+
 /// Which vertices of a graph are left, and which of them are keys. Refers to the graph.
 class KeyCoverView {
  public:
   /// keep: vertices that must stay (start and goal); any number, in any order.
-  KeyCoverView(const Graph& graph, std::span<const VertexId> keep, const Execution& execution);
+  /// Peeling within blocks: keys are also the vertices with a neighbour in another block.
+  KeyCoverView(const Graph& graph, std::span<const VertexId> keep, Peeling peeling, const Execution& execution);
 
   std::size_t key_count() const { return rank_.back(); }
   bool is_key(VertexId v) const { return (keys_[v / 64] >> v % 64 & 1U) != 0; }
@@ -51,7 +63,7 @@ class KeyCoverView {
  private:
   std::vector<VertexId> peel_block(Range block);
   void peel_across(VertexId seed, const Execution& execution);
-  void mark_keys(Range block);
+  void mark_keys(Range block, Peeling peeling);
 
   const Graph* graph_;
   RawVector<std::uint8_t> left_;   // 0 peeled, 1 left, 2 left and never to be peeled
@@ -80,6 +92,8 @@ class ReducedGraphView {
   std::vector<VertexId> expand(std::span<const VertexId> keys, const Execution& execution) const;
 
  private:
+  void expand_step(VertexId from, VertexId to, std::vector<VertexId>& path, const Execution& execution) const;
+
   KeyCoverView cover_;
   Graph reduced_;
   RawVector<VertexId> via_;       // of each edge end: first vertex of its chain
@@ -90,10 +104,16 @@ namespace detail {
 inline constexpr std::size_t reduce_grain = std::size_t{1} << 14;  // a multiple of 64: key words are not shared
 inline constexpr std::size_t steps_per_poll = std::size_t{1} << 18;
 
+/// A chain from one key to another: the keys' neighbours on it, and its length.
+struct ChainEnds {
+  VertexId from, via, last, to;
+  double length;
+};
+
 /// Follows the chain that leaves `key` towards `via`.
 template <class Length>
-ReducedGraphView::Chain follow_chain(const KeyCoverView& cover, VertexId key, VertexId via, const Length& length,
-                                     const Execution& execution) {
+ChainEnds follow_chain(const KeyCoverView& cover, VertexId key, VertexId via, const Length& length,
+                       const Execution& execution) {
   double sum = length(key, via);
   VertexId before = key;
   VertexId at = via;
@@ -104,19 +124,12 @@ ReducedGraphView::Chain follow_chain(const KeyCoverView& cover, VertexId key, Ve
     before = at;
     at = next;
   }
-  return {cover.rank(at), via, sum};
+  return {key, via, before, at, sum};
 }
 
-/// Appends the row of a key: one chain to each other key, ascending.
-template <class Length>
-void append_row(const KeyCoverView& cover, VertexId key, const Length& length, const Execution& execution,
-                std::vector<ReducedGraphView::Chain>& row, std::vector<ReducedGraphView::Chain>& part) {
+/// Sorts the row of a key and leaves one chain to each other key, the shortest; no loops.
+inline void finish_row(VertexId self, std::vector<ReducedGraphView::Chain>& row) {
   using Chain = ReducedGraphView::Chain;
-  row.clear();
-  for (const VertexId via : cover.graph().neighbours(key)) {
-    if (cover.is_left(via)) row.push_back(follow_chain(cover, key, via, length, execution));
-  }
-  const VertexId self = cover.rank(key);
   std::erase_if(row, [self](const Chain& chain) { return chain.target == self; });
   std::sort(row.begin(), row.end(), [](const Chain& a, const Chain& b) {
     if (a.target != b.target) return a.target < b.target;
@@ -124,7 +137,64 @@ void append_row(const KeyCoverView& cover, VertexId key, const Length& length, c
   });
   const auto same_target = [](const Chain& a, const Chain& b) { return a.target == b.target; };
   row.erase(std::unique(row.begin(), row.end(), same_target), row.end());
-  part.insert(part.end(), row.begin(), row.end());
+}
+
+/// Calls row(chains) for each key of the block in turn: its chains, each followed from this end, in any order.
+template <class Length, class Row>
+void for_each_key(const KeyCoverView& cover, Range block, const Length& length, const Execution& execution,
+                  const Row& row) {
+  std::vector<ReducedGraphView::Chain> chains;
+  for (auto key = static_cast<VertexId>(block.first); key < block.last; ++key) {
+    if (!cover.is_key(key)) continue;
+    chains.clear();
+    for (const VertexId via : cover.graph().neighbours(key)) {
+      if (!cover.is_left(via)) continue;
+      const ChainEnds chain = follow_chain(cover, key, via, length, execution);
+      chains.push_back({cover.rank(chain.to), via, chain.length});
+    }
+    row(key, chains);
+  }
+}
+
+/// The same where no chain leaves its block: each is followed once, for both of its ends.
+template <class Length, class Row>
+void for_each_key_of_block(const KeyCoverView& cover, Range block, const Length& length, const Execution& execution,
+                           const Row& row) {
+  const auto first = static_cast<VertexId>(block.first);
+  std::vector<std::uint8_t> followed(block.size(), 0);  // by the neighbour of the key at its other end
+  std::vector<ChainEnds> found;
+  std::vector<std::uint32_t> begins(block.size() + 1, 0);
+  for (VertexId key = first; key < block.last; ++key) {
+    if (!cover.is_key(key)) continue;
+    for (const VertexId via : cover.graph().neighbours(key)) {
+      if (!cover.is_left(via)) continue;
+      if (cover.is_key(via)) {  // in this block or another: each end speaks for itself
+        found.push_back({key, via, no_vertex, via, length(key, via)});
+        ++begins[key - first];
+      } else if (followed[via - first] == 0) {
+        const ChainEnds chain = follow_chain(cover, key, via, length, execution);
+        followed[chain.last - first] = 1;
+        found.push_back(chain);
+        ++begins[key - first];
+        ++begins[chain.to - first];
+      }
+    }
+  }
+  std::exclusive_scan(begins.begin(), begins.end(), begins.begin(), std::uint32_t{0});
+  std::vector<ReducedGraphView::Chain> placed(begins.back());
+  for (const ChainEnds& chain : found) {
+    placed[begins[chain.from - first]++] = {cover.rank(chain.to), chain.via, chain.length};
+    if (chain.last != no_vertex)
+      placed[begins[chain.to - first]++] = {cover.rank(chain.from), chain.last, chain.length};
+  }
+  std::vector<ReducedGraphView::Chain> chains;  // begins[i] has become the end of row i
+  for (VertexId key = first; key < block.last; ++key) {
+    if (!cover.is_key(key)) continue;
+    const std::size_t i = key - first;
+    const auto at = [&](std::size_t place) { return placed.begin() + static_cast<std::ptrdiff_t>(place); };
+    chains.assign(at(i == 0 ? 0 : begins[i - 1]), at(begins[i]));
+    row(key, chains);
+  }
 }
 }  // namespace detail
 
@@ -133,22 +203,60 @@ void append_row(const KeyCoverView& cover, VertexId key, const Length& length, c
 /// no duplicate edges and must outlive the result.
 template <class Length>
 ReducedGraphView reduce_graph(const Graph& graph, std::span<const VertexId> keep, const Length& length,
-                              const Execution& execution) {
-  KeyCoverView cover(graph, keep, execution);
+                              const Execution& execution, Peeling peeling = Peeling::everywhere) {
+  KeyCoverView cover(graph, keep, peeling, execution);
   const std::size_t n = graph.vertex_count();
   std::vector<std::vector<ReducedGraphView::Chain>> parts(chunk_count(n, detail::reduce_grain));
   RawVector<EdgeEnd> degrees(cover.key_count() + 1, 0);
   for_chunks(n, detail::reduce_grain, execution, [&](Range r) {
     std::vector<ReducedGraphView::Chain>& part = parts[r.first / detail::reduce_grain];
-    std::vector<ReducedGraphView::Chain> row;
-    for (auto v = static_cast<VertexId>(r.first); v < r.last; ++v) {
-      if (!cover.is_key(v)) continue;
-      const std::size_t before = part.size();
-      detail::append_row(cover, v, length, execution, row, part);
-      degrees[cover.rank(v)] = static_cast<EdgeEnd>(part.size() - before);
+    const auto add_row = [&](VertexId key, std::vector<ReducedGraphView::Chain>& row) {
+      detail::finish_row(cover.rank(key), row);
+      part.insert(part.end(), row.begin(), row.end());
+      degrees[cover.rank(key)] = static_cast<EdgeEnd>(row.size());
+    };
+    if (peeling == Peeling::within_blocks) {
+      detail::for_each_key_of_block(cover, r, length, execution, add_row);
+    } else {
+      detail::for_each_key(cover, r, length, execution, add_row);
     }
   });
   return ReducedGraphView(std::move(cover), parts, std::move(degrees), execution);
 }
+
+/// A graph reduced block by block, and what that leaves reduced again: the same questions as ReducedGraphView.
+class TwiceReducedGraphView {
+ public:
+  template <class Length>
+  TwiceReducedGraphView(const Graph& graph, std::span<const VertexId> keep, const Length& length,
+                        const Execution& execution)
+      : blocks_(
+            std::make_unique<ReducedGraphView>(reduce_graph(graph, keep, length, execution, Peeling::within_blocks))),
+        whole_(reduce_graph(blocks_->graph(), keys_of(keep), EdgeLengths{blocks_->graph()}, execution)) {}
+
+  const Graph& graph() const { return whole_.graph(); }  ///< vertices are numbers of keys
+  VertexId vertex_of(VertexId key) const { return blocks_->vertex_of(whole_.vertex_of(key)); }
+  VertexId key_of(VertexId vertex) const { return whole_.key_of(blocks_->key_of(vertex)); }
+  std::vector<VertexId> expand(std::span<const VertexId> keys, const Execution& execution) const {
+    return blocks_->expand(whole_.expand(keys, execution), execution);
+  }
+
+ private:
+  struct EdgeLengths {
+    const Graph& graph;
+    double operator()(VertexId v, VertexId w) const {
+      const std::span<const VertexId> row = graph.neighbours(v);
+      return graph.lengths(v)[static_cast<std::size_t>(std::find(row.begin(), row.end(), w) - row.begin())];
+    }
+  };
+  std::vector<VertexId> keys_of(std::span<const VertexId> vertices) const {
+    std::vector<VertexId> keys;
+    for (const VertexId v : vertices) keys.push_back(blocks_->key_of(v));
+    return keys;
+  }
+
+  std::unique_ptr<ReducedGraphView> blocks_;  // whole_ refers to its graph, wherever this is moved to
+  ReducedGraphView whole_;
+};
 
 }  // namespace warren

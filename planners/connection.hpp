@@ -6,6 +6,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -79,7 +81,39 @@ void for_each_candidate(const StateIndex<W>& index, const detail::NearestLists& 
 
 namespace detail {
 
-/// The candidate edges for which keep(i, j, query) holds.
+/// Candidate edges that are put to the world together.
+class Bunch {
+ public:
+  void add(const Edge& edge) { edges_[count_++] = edge; }
+  void clear() { count_ = 0; }
+  bool full() const { return count_ == bunch_size; }
+  std::span<const Edge> edges() const { return {edges_.data(), count_}; }
+
+ private:
+  std::size_t count_ = 0;
+  std::array<Edge, bunch_size> edges_;
+};
+
+/// Bit i is set if the motion along edges[i] is free; at most bunch_size edges.
+template <World W>
+std::uint32_t free_edges(const W& world, std::span<const typename W::State> states, std::span<const Edge> edges,
+                         typename W::Query& query) {
+  std::uint32_t free = 0;
+  if constexpr (BunchWorld<W>) {
+    std::array<Motion<typename W::State>, bunch_size> motions;
+    std::transform(edges.begin(), edges.end(), motions.begin(), [&](const Edge& edge) {
+      return Motion<typename W::State>{states[edge.from], states[edge.to]};
+    });
+    free = world.free_motions({motions.data(), edges.size()}, query);
+  } else {
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      free |= std::uint32_t{world.is_free_motion(states[edges[i].from], states[edges[i].to], query)} << i;
+    }
+  }
+  return free;
+}
+
+/// The candidate edges for which keep(chunk, edges, query) sets their bit.
 template <World W, class Keep>
 EdgeParts edges_that(const W& world, std::span<const typename W::State> milestones, const StateIndex<W>& index,
                      const ConnectionRule& rule, const Execution& execution, const Keep& keep) {
@@ -91,12 +125,22 @@ EdgeParts edges_that(const W& world, std::span<const typename W::State> mileston
   for_chunks(n, connection_grain, execution, [&](Range r) {
     auto query = world.make_query();
     RawVector<Edge> edges;
+    edges.reserve(r.size() + r.size() / 4);
+    Bunch bunch;
+    const auto flush = [&] {
+      std::uint32_t kept = keep(r.first / connection_grain, bunch.edges(), query);
+      for (; kept != 0; kept &= kept - 1)
+        edges.push_back(bunch.edges()[static_cast<std::size_t>(std::countr_zero(kept))]);
+      bunch.clear();
+    };
     for (std::size_t i = r.first; i < r.last; ++i) {
       const auto from = static_cast<VertexId>(i);
       for_each_candidate<W>(index, lists, radius, from, [&](VertexId to) {
-        if (keep(r.first / connection_grain, from, to, query)) edges.push_back({from, to});
+        bunch.add({from, to});
+        if (bunch.full()) flush();
       });
     }
+    if (!bunch.edges().empty()) flush();
     parts[r.first / connection_grain] = std::move(edges);
   });
   return parts;
@@ -109,8 +153,10 @@ template <World W>
 EdgeParts candidate_edges(const W& world, std::span<const typename W::State> milestones, const StateIndex<W>& index,
                           const ConnectionRule& rule, const Execution& execution, Counters& counters) {
   counters.neighbour_queries += milestones.size();
-  return detail::edges_that(world, milestones, index, rule, execution,
-                            [](std::size_t, VertexId, VertexId, typename W::Query&) { return true; });
+  const auto all = [](std::size_t, std::span<const Edge> edges, typename W::Query&) {
+    return (std::uint32_t{1} << edges.size()) - 1;
+  };
+  return detail::edges_that(world, milestones, index, rule, execution, all);
 }
 
 /// The free edges among the milestones.
@@ -118,13 +164,13 @@ template <World W>
 EdgeParts connect_milestones(const W& world, std::span<const typename W::State> milestones, const StateIndex<W>& index,
                              const ConnectionRule& rule, const Execution& execution, Counters& counters) {
   std::vector<Counters> done(chunk_count(milestones.size(), detail::connection_grain));
-  EdgeParts parts = detail::edges_that(world, milestones, index, rule, execution,
-                                       [&](std::size_t chunk, VertexId i, VertexId j, typename W::Query& query) {
-                                         const bool is_free = world.is_free_motion(milestones[i], milestones[j], query);
-                                         ++done[chunk].edges_checked;
-                                         done[chunk].refused = refused_motions(query);  // one query a chunk
-                                         return is_free;
-                                       });
+  const auto free = [&](std::size_t chunk, std::span<const Edge> edges, typename W::Query& query) {
+    const std::uint32_t bits = detail::free_edges(world, milestones, edges, query);
+    done[chunk].edges_checked += edges.size();
+    done[chunk].refused = refused_motions(query);  // one query a chunk
+    return bits;
+  };
+  EdgeParts parts = detail::edges_that(world, milestones, index, rule, execution, free);
   for (const Counters& part : done) counters += part;
   counters.neighbour_queries += milestones.size();
   return parts;

@@ -51,6 +51,10 @@ class LatticeBits {
   }
 
  private:
+  /// Sets the bits of the free ones of the first `cols` points of a row, whose words are 0.
+  template <World W>
+  void fill_row(const W& world, std::size_t row, std::uint64_t cols, std::uint64_t* words,
+                typename W::Query& query) const;
   /// The bits of word w that stand for columns first .. last - 1.
   static std::uint64_t columns_mask(std::uint32_t w, std::uint32_t first, std::uint32_t last) {
     std::uint64_t mask = ~std::uint64_t{0};
@@ -85,19 +89,34 @@ LatticeBits::LatticeBits(const W& world, LatticeSize size, std::uint64_t count, 
       std::fill_n(words, words_a_row_, 0);
       const std::uint64_t first = row * size.cols;
       const std::uint64_t cols = std::min<std::uint64_t>(size.cols, count - std::min(count, first));
-      for (std::uint64_t col = 0; col < cols; ++col) {
-        const Vec2 point{static_cast<double>(col + 1), static_cast<double>(row + 1)};
-        if (!world.is_free(point, query)) continue;
-        words[col / 64] |= std::uint64_t{1} << (col % 64);
+      fill_row(world, row, cols, words, query);
+      const auto number = static_cast<std::uint32_t>(row);
+      for_each_in_row(number, 0, size.cols, [&](std::uint32_t col) {
         ++part.count;
-        part.box.include(point);
-      }
+        part.box.include(Vec2{static_cast<double>(col) + 1.0, static_cast<double>(row) + 1.0});
+      });
     }
     parts[r.first / grain] = part;
   });
   for (const Part& part : parts) {
     count_ += part.count;
     box_.include(part.box);
+  }
+}
+
+template <World W>
+void LatticeBits::fill_row(const W& world, std::size_t row, std::uint64_t cols, std::uint64_t* words,
+                           typename W::Query& query) const {
+  const double y = static_cast<double>(row) + 1.0;
+  if constexpr (RowWorld<W>) {
+    for (std::size_t w = 0; w * 64 < cols; ++w)
+      words[w] = columns_mask(static_cast<std::uint32_t>(w), 0, static_cast<std::uint32_t>(cols));
+    world.keep_free(y, {words, words_a_row_});
+  } else {
+    for (std::uint64_t col = 0; col < cols; ++col) {
+      const bool is_free = world.is_free({static_cast<double>(col + 1), y}, query);
+      words[col / 64] |= std::uint64_t{is_free} << (col % 64);
+    }
   }
 }
 

@@ -37,7 +37,7 @@ bool is_stringy(const Graph& graph, const Execution& execution) {
   return 2 * std::accumulate(counts.begin(), counts.end(), std::size_t{0}) >= n;
 }
 
-std::vector<Edge> expanded_tree(const ReducedGraphView& reduced, const std::vector<Edge>& keys,
+std::vector<Edge> expanded_tree(const TwiceReducedGraphView& reduced, const std::vector<Edge>& keys,
                                 const Execution& execution) {
   std::vector<Edge> tree;
   for (const Edge& e : keys) {

@@ -32,7 +32,7 @@ namespace detail {
 /// Are at least half of the vertices of degree 2 or less? On lattices of mazes 80 % are, in uniform roadmaps 1 %.
 bool is_stringy(const Graph& graph, const Execution& execution);
 /// A search tree over keys as the tree over the vertices on their chains.
-std::vector<Edge> expanded_tree(const ReducedGraphView& reduced, const std::vector<Edge>& keys,
+std::vector<Edge> expanded_tree(const TwiceReducedGraphView& reduced, const std::vector<Edge>& keys,
                                 const Execution& execution);
 
 /// A* or Dijkstra. estimate_to(root) gives a consistent estimate of the way to start or goal; `tree`, where given,
@@ -64,7 +64,7 @@ SearchResult search_reduced(const Graph& graph, VertexId start, VertexId goal, c
                             const EstimateTo& estimate_to, QueueKind kind, const Execution& execution,
                             std::vector<Edge>* tree) {
   const std::array<VertexId, 2> ends{start, goal};
-  const ReducedGraphView reduced = reduce_graph(graph, ends, length, execution);
+  const TwiceReducedGraphView reduced(graph, ends, length, execution);
   const auto neighbours = [&](VertexId key, const auto& visit) {
     const std::span<const VertexId> row = reduced.graph().neighbours(key);
     const std::span<const double> lengths = reduced.graph().lengths(key);

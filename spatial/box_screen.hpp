@@ -36,9 +36,30 @@ struct FourOf<double> {
 template <class T>
 class BoxScreen {
  public:
-  explicit BoxScreen(const Box& box)
-      : low_{below(box.min.x), below(box.min.y), below(box.min.x), below(box.min.y)},
-        high_{above(box.max.x), above(box.max.y), above(box.max.x), above(box.max.y)} {}
+  using Four = typename detail::FourOf<T>::Ends;
+  using FourDoubles = typename detail::FourOf<double>::Ends;
+
+  explicit BoxScreen(const Box& box) {
+    Four corners{};
+    outward(FourDoubles{box.min.x, box.min.y, box.max.x, box.max.y}, Four{-1, -1, 1, 1}, corners);
+    low_ = Four{corners[0], corners[1], corners[0], corners[1]};
+    high_ = Four{corners[2], corners[3], corners[2], corners[3]};
+  }
+
+  /// Four coordinates in T, moved down where the direction is -1 and up where it is 1: by less than two units in the
+  /// last place and half a one of the smallest numbers, from wherever rounding, or the end of the range, had put them.
+  static void outward(const FourDoubles& given, const Four& directions, Four& moved) noexcept {
+    if constexpr (std::is_same_v<T, double>) {
+      moved = given;
+    } else {
+      constexpr T largest = std::numeric_limits<T>::max();
+      Four near = __builtin_convertvector(given, Four);
+      near = near > largest ? Four{} + largest : near;
+      near = near < -largest ? Four{} - largest : near;
+      const Four sizes = near < 0 ? -near : near;
+      moved = near + directions * (sizes * std::numeric_limits<T>::epsilon() + std::numeric_limits<T>::min());
+    }
+  }
 
   bool meets(const WallOf<T>& wall) const noexcept {
     Four ends;
@@ -49,7 +70,6 @@ class BoxScreen {
   }
 
  private:
-  using Four = typename detail::FourOf<T>::Ends;
   using Flags = typename detail::FourOf<T>::Flags;
   using Words = typename detail::FourOf<T>::Words;
 
@@ -62,16 +82,6 @@ class BoxScreen {
       return (words[0] & words[2]) | (words[1] & words[3]);
     }
   }
-  /// At most x, and at least x; nearer than two units in the last place, and half a one of the smallest numbers.
-  static T below(double x) noexcept { return rounded(x, -1); }
-  static T above(double x) noexcept { return rounded(x, 1); }
-  static T rounded(double x, T outward) noexcept {
-    if constexpr (std::is_same_v<T, double>) return x;
-    constexpr auto largest = static_cast<double>(std::numeric_limits<T>::max());
-    const T t = static_cast<T>(x < -largest ? -largest : (x > largest ? largest : x));
-    return t + outward * (std::abs(t) * std::numeric_limits<T>::epsilon() + std::numeric_limits<T>::min());
-  }
-
   Four low_;
   Four high_;
 };

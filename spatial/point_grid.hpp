@@ -71,7 +71,7 @@ class PointGrid {
   template <class Run>
   void for_each_run(const Window& w, const Run& run) const;
   template <class Visit>
-  void visit_run(Vec2 p, double square, std::uint32_t first, std::uint32_t last, const Visit& visit) const;
+  class Gathering;
   void sort_points(std::span<const Vec2> points, const Execution& execution);
   bool in_order(std::span<const Vec2> points, const Execution& execution) const;
   bool take_points(std::span<const Vec2> points, const Execution& execution);
@@ -104,23 +104,51 @@ void PointGrid::for_each_run(const Window& w, const Run& run) const {
   }
 }
 
+/// The points of a disc, gathered run by run without a branch on their distance and visited when there are many.
 template <class Visit>
-void PointGrid::visit_run(Vec2 p, double square, std::uint32_t first, std::uint32_t last, const Visit& visit) const {
-  for (std::uint32_t place = first; place < last; ++place) {
-    const double dx = x_[place] - p.x;
-    const double dy = y_[place] - p.y;
-    const double sum = dx * dx + dy * dy;
-    if (sum <= square) visit(place, std::sqrt(sum));
+class PointGrid::Gathering {
+ public:
+  Gathering(const PointGrid& grid, Vec2 p, double square, const Visit& visit)
+      : grid_(grid), p_(p), square_(square), visit_(visit) {}
+
+  void add(std::uint32_t first, std::uint32_t last) {
+    while (first < last) {
+      if (count_ + (last - first) > room) visit_all();
+      const std::uint32_t end = first + std::min(room, last - first);
+      for (; first < end; ++first) {
+        const double dx = grid_.x_[first] - p_.x;
+        const double dy = grid_.y_[first] - p_.y;
+        const double sum = dx * dx + dy * dy;
+        place_[count_] = first;
+        sum_[count_] = sum;
+        count_ += static_cast<std::uint32_t>(sum <= square_);
+      }
+    }
   }
-}
+  void visit_all() {
+    for (std::uint32_t i = 0; i < count_; ++i) visit_(place_[i], std::sqrt(sum_[i]));
+    count_ = 0;
+  }
+
+ private:
+  static constexpr std::uint32_t room = 64;
+
+  const PointGrid& grid_;
+  Vec2 p_;
+  double square_;
+  const Visit& visit_;
+  std::uint32_t count_ = 0;
+  std::array<std::uint32_t, room> place_;
+  std::array<double, room> sum_;
+};
 
 template <class Visit>
 void PointGrid::for_each_within(Vec2 p, const SearchRadius& radius, const Visit& visit) const {
   if (x_.empty() || radius.square() < 0.0) return;
-  for_each_run(window(p, radius.reach()), [&](std::uint32_t first, std::uint32_t last) {
-    visit_run(p, radius.square(), first, last,
-              [&](std::uint32_t place, double distance) { visit(id_at(place), distance); });
-  });
+  const auto visit_place = [&](std::uint32_t place, double distance) { visit(id_at(place), distance); };
+  Gathering gathering(*this, p, radius.square(), visit_place);
+  for_each_run(window(p, radius.reach()), [&](std::uint32_t first, std::uint32_t last) { gathering.add(first, last); });
+  gathering.visit_all();
 }
 
 template <class Visit>
@@ -133,16 +161,16 @@ void PointGrid::for_each_later_within(VertexId i, const SearchRadius& radius, co
     });
     return;
   }
-  const auto visit_later = [&](std::uint32_t first, std::uint32_t last) {
-    visit_run(p, radius.square(), std::max(first, i + 1), last, visit);
-  };
+  Gathering gathering(*this, p, radius.square(), visit);
+  const auto add_later = [&](std::uint32_t first, std::uint32_t last) { gathering.add(std::max(first, i + 1), last); };
   // Of the point's own strip only the rows from its own one on hold later points; strips to the left hold none.
   const Window all = window(p, radius.reach());
   const std::uint32_t strip_left = frame_.column(p.x) / CellFrame::strip_width * CellFrame::strip_width;
   const std::uint32_t next_strip = strip_left + CellFrame::strip_width;
   for_each_run({std::max(all.left, strip_left), std::min(all.right, next_strip - 1), frame_.row(p.y), all.top},
-               visit_later);
-  if (all.right >= next_strip) for_each_run({next_strip, all.right, all.bottom, all.top}, visit_later);
+               add_later);
+  if (all.right >= next_strip) for_each_run({next_strip, all.right, all.bottom, all.top}, add_later);
+  gathering.visit_all();
 }
 
 }  // namespace warren

@@ -55,6 +55,31 @@ class WallGrid {
     return true;
   }
 
+  /// Copies to `out` the walls that for_each_near would visit, in its order, and returns how many; no_room if more than
+  /// `room` walls would have to be looked at, or if the cells around the box have finer grids.
+  std::size_t copy_near(const Box& box, WallOf<T>* out, std::size_t room) const noexcept {
+    if (!child_of_.empty()) return no_room;
+    const BoxScreen<T> screen(box);
+    const std::size_t last_row = row_of(box.max.y + reach_.y);
+    const std::size_t first_col = col_of(box.min.x - reach_.x);
+    const std::size_t last_col = col_of(box.max.x + reach_.x);
+    std::size_t looked_at = 0;
+    std::size_t count = 0;
+    for (std::size_t row = row_of(box.min.y - reach_.y); row <= last_row; ++row) {
+      const std::uint32_t first = offsets_[row * cols_ + first_col];
+      const std::uint32_t last = offsets_[row * cols_ + last_col + 1];
+      looked_at += last - first;
+      if (looked_at > room) return no_room;
+      for (std::uint32_t i = first; i < last; ++i) {  // no branch on what walls there are
+        out[count] = walls_[i];
+        count += static_cast<std::size_t>(screen.meets(walls_[i]));
+      }
+    }
+    fetch_rows_above(last_row, first_col, last_col);
+    return count;
+  }
+  static constexpr std::size_t no_room = std::size_t(-1);
+
   double cell() const { return cell_; }
   /// Walls in cell order, long ones once a piece.
   std::size_t filed_count() const { return walls_.size(); }
@@ -72,6 +97,20 @@ class WallGrid {
   }
   std::uint32_t col_of(double x) const { return clamped((x - origin_.x) * inverse_cell_, cols_); }
   std::uint32_t row_of(double y) const { return clamped((y - origin_.y) * inverse_cell_, rows_); }
+
+  /// Asks for the cells above, which motions in tile order come to next: their walls, and further up their offsets,
+  /// without which their walls can't be asked for.
+  void fetch_rows_above(std::size_t row, std::size_t first_col, std::size_t last_col) const noexcept {
+    constexpr std::size_t line = 64 / sizeof(WallOf<T>);
+    if (row + 4 >= rows_) return;
+    for (std::size_t above = row + 1; above <= row + 2; ++above) {
+      const std::uint32_t last = offsets_[above * cols_ + last_col];
+      for (std::uint32_t i = offsets_[above * cols_ + first_col]; i <= last; i += line)
+        __builtin_prefetch(walls_.data() + i);
+    }
+    __builtin_prefetch(offsets_.data() + (row + 3) * cols_ + first_col);
+    __builtin_prefetch(offsets_.data() + (row + 4) * cols_ + first_col);
+  }
 
   template <class Visit>
   bool visit_run(std::uint32_t row, std::uint32_t first_col, std::uint32_t last_col, const Box& box,

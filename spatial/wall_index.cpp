@@ -2,9 +2,11 @@
 #include "spatial/wall_index.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "core/error.hpp"
 #include "core/geometry.hpp"
+#include "spatial/motion_bunch.hpp"
 #include "spatial/wall_grid_builder.hpp"
 
 namespace warren {
@@ -42,11 +44,52 @@ bool crosses(const Segment& s, const Segment& t) noexcept {
   return (a1 > 0) != (a2 > 0) && (b1 > 0) != (b2 > 0);
 }
 
+Box hull(const Box& a, const Box& b) {
+  return {{std::min(a.min.x, b.min.x), std::min(a.min.y, b.min.y)},
+          {std::max(a.max.x, b.max.x), std::max(a.max.y, b.max.y)}};
+}
+
+/// WallIndex::keep_clearance, r > 0. A bunch with too many walls around it is halved.
+template <class T>
+std::uint32_t keep_clearance_in(const WallGrid<T>& grid, std::span<const Segment> motions, double r) noexcept {
+  constexpr std::size_t room = 128;
+  std::array<WallOf<T>, room> walls;
+  Box around = box_of(motions.front());
+  for (const Segment& motion : motions.subspan(1)) around = hull(around, box_of(motion));
+  const std::size_t count = grid.copy_near(around.grown(r), walls.data(), room);
+  if (count == grid.no_room) {
+    if (motions.size() == 1) {
+      return grid.for_each_along(motions[0], r,
+                                 [&](const Segment& wall) { return segments_keep_distance(motions[0], wall, r); });
+    }
+    const std::size_t half = motions.size() / 2;
+    return keep_clearance_in(grid, motions.first(half), r) | keep_clearance_in(grid, motions.subspan(half), r) << half;
+  }
+  detail::MotionBunch<T> bunch(motions, r);
+  bunch.sift({walls.data(), count});
+  const auto keeps_off = [&](std::size_t i, std::size_t wall) {
+    return segments_keep_distance(motions[i], walls[wall].segment(), r);
+  };
+  std::uint32_t kept = 0;
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    bool keeps = bunch.count(i) == 0 || keeps_off(i, bunch.first(i));
+    if (bunch.count(i) > 1) keeps = keeps && keeps_off(i, bunch.last(i));
+    if (bunch.count(i) > 2 && keeps) {
+      const BoxScreen<T> screen(box_of(motions[i]).grown(r));
+      for (std::size_t w = bunch.first(i) + 1; keeps && w < bunch.last(i); ++w) {
+        keeps = !screen.meets(walls[w]) || keeps_off(i, w);
+      }
+    }
+    kept |= std::uint32_t{keeps} << i;
+  }
+  return kept;
+}
+
 }  // namespace
 
 bool segments_keep_distance(const Segment& s, const Segment& t, double r) noexcept {
   const double r_sq = r * r;
-  return keeps(t.a, s, r_sq) && keeps(t.b, s, r_sq) && keeps(s.a, t, r_sq) && keeps(s.b, t, r_sq) && !crosses(s, t);
+  return !crosses(s, t) && keeps(t.a, s, r_sq) && keeps(t.b, s, r_sq) && keeps(s.a, t, r_sq) && keeps(s.b, t, r_sq);
 }
 
 WallIndex::WallIndex(const WallSet& walls, std::span<const Segment> more, const Execution& execution)
@@ -98,6 +141,14 @@ bool WallIndex::keeps_clearance(Vec2 a, Vec2 b, double r) const noexcept {
   const Segment motion{a, b};
   const auto keeps_off = [&](const Segment& wall) { return segments_keep_distance(motion, wall, r); };
   return std::visit([&](const auto& grid) { return grid.for_each_along(motion, r, keeps_off); }, grid_);
+}
+
+std::uint32_t WallIndex::keep_clearance(std::span<const Segment> motions, double r) const noexcept {
+  if (motions.empty()) return 0;
+  if (r > 0.0) return std::visit([&](const auto& grid) { return keep_clearance_in(grid, motions, r); }, grid_);
+  std::uint32_t kept = 0;
+  for (std::size_t i = 0; i < motions.size(); ++i) kept |= std::uint32_t{!blocks(motions[i].a, motions[i].b)} << i;
+  return kept;
 }
 
 double WallIndex::clearance(Vec2 p, double at_most) const noexcept {

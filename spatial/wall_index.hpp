@@ -16,6 +16,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
@@ -50,6 +51,10 @@ class WallIndex {
   double clearance(Vec2 p, double at_most = std::numeric_limits<double>::infinity()) const noexcept;
   /// Is every point of a-b at least r from every wall? r > 0: distance >= r, in double. r = 0: same as !blocks(a, b).
   bool keeps_clearance(Vec2 a, Vec2 b, double r) const noexcept;
+  /// The same for up to most_motions motions: bit i is set if the i-th keeps its distance. Best for motions near each
+  /// other: the walls around all of them are looked up once, and held against all of them at once.
+  std::uint32_t keep_clearance(std::span<const Segment> motions, double r) const noexcept;
+  static constexpr std::size_t most_motions = 16;
 
   /// Calls visit(const Segment&) -> bool for each wall whose own box meets `box`, some more than once, and perhaps for
   /// others nearby, in an order that depends on the walls alone; stops when visit returns false.

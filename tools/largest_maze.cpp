@@ -30,6 +30,7 @@ class LargestSearch {
 
  private:
   MazeOptions maze(std::uint32_t side, std::uint64_t seed) const;
+  void probe();
   bool fits(std::uint32_t side);
   void confirm(std::uint32_t side);
   bool all_seeds_fit(std::uint32_t side, bool first_is_known);
@@ -49,8 +50,17 @@ class LargestSearch {
 };
 
 void LargestSearch::search() {
+  probe();
   const std::uint32_t side = largest_side(options_.sizes, [&](std::uint32_t n) { return fits(n); });
   if (side > 0) confirm(side);
+}
+
+/// What a cell takes, learned from a smaller maze: else the memory of a large first one could not be warmed, nor known
+/// to be too little.
+void LargestSearch::probe() {
+  constexpr std::uint32_t large = 2000;
+  constexpr std::uint32_t enough = 500;
+  if (options_.sizes.start > large) trial(maze(std::max(enough, options_.sizes.start / 10), options_.maze.seed), false);
 }
 
 /// The shape keeps the number of cells: rows * cols is about side * side.

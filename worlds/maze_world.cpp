@@ -1,19 +1,57 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "worlds/maze_world.hpp"
 
+#include <algorithm>
+#include <bit>
+#include <cmath>
 #include <string>
+#include <utility>
 
 #include "core/error.hpp"
+#include "core/geometry.hpp"
 #include "worlds/free_width.hpp"
 
 namespace warren {
 namespace {
+
+static_assert(bunch_size <= WallIndex::most_motions);
 
 double checked_clearance(double clearance) {
   if (!(clearance >= 0.0) || clearance > largest_coordinate) {
     throw InputError("clearance", "must be a number from 0 to 1e60", std::to_string(clearance));
   }
   return clearance;
+}
+
+/// Calls test(x) for the set bits of the points in [low, high], and clears those for which it is false.
+template <class Test>
+void filter_points(double low, double high, std::span<std::uint64_t> bits, const Test& test) {
+  const double last = static_cast<double>(bits.size() * 64);
+  if (!(high >= 1.0) || !(low <= last)) return;
+  const auto first_point = static_cast<std::size_t>(std::ceil(std::max(low, 1.0))) - 1;
+  const auto last_point = static_cast<std::size_t>(std::floor(std::min(high, last)));  // one past
+  for (std::size_t point = first_point; point < last_point; ++point) {
+    const std::uint64_t rest = bits[point / 64] >> (point % 64);
+    if (rest == 0) {
+      point |= 63;
+      continue;
+    }
+    point += static_cast<std::size_t>(std::countr_zero(rest));
+    if (point >= last_point) return;
+    if (!test(static_cast<double>(point + 1))) bits[point / 64] &= ~(std::uint64_t{1} << (point % 64));
+  }
+}
+
+/// What part of the wall's extent in x lies in the band low_y <= y <= high_y, or a little more.
+std::pair<double, double> extent_in_band(const Segment& wall, double low_y, double high_y) {
+  const Box box = box_of(wall);
+  if (box.height() <= 1.0 || box.width() <= 1.0) return {box.min.x, box.max.x};
+  const double slope = (wall.b.x - wall.a.x) / (wall.b.y - wall.a.y);
+  const double at_low = wall.a.x + slope * (low_y - wall.a.y);
+  const double at_high = wall.a.x + slope * (high_y - wall.a.y);
+  const double margin = 1e-9 * (1.0 + std::abs(wall.a.x) + std::abs(at_low) + std::abs(at_high));
+  return {std::max(box.min.x, std::min(at_low, at_high) - margin),
+          std::min(box.max.x, std::max(at_low, at_high) + margin)};
 }
 
 }  // namespace
@@ -28,6 +66,28 @@ MazeWorld::MazeWorld(const Scene& scene, double clearance, const Execution& exec
 
 bool MazeWorld::is_free(const State& a, Query&) const noexcept {
   return box_.contains(a) && index_.keeps_clearance(a, a, planning_clearance_);
+}
+
+std::uint32_t MazeWorld::free_motions(std::span<const Motion<State>> motions, Query&) const noexcept {
+  std::array<Segment, bunch_size> segments;
+  std::transform(motions.begin(), motions.end(), segments.begin(), [](const Motion<State>& motion) {
+    return Segment{motion.from, motion.to};
+  });
+  return index_.keep_clearance({segments.data(), motions.size()}, planning_clearance_);
+}
+
+void MazeWorld::keep_free(double y, std::span<std::uint64_t> bits) const noexcept {
+  const double r = planning_clearance_;
+  const double last = static_cast<double>(bits.size() * 64);
+  filter_points(1.0, last, bits, [&](double x) { return box_.contains({x, y}); });
+  index_.for_each_near(Box{{1.0, y}, {last, y}}.grown(r), [&](const Segment& wall) {
+    const auto [low, high] = extent_in_band(wall, y - r, y + r);
+    filter_points(low - r, high + r, bits, [&](double x) {
+      const Segment point{{x, y}, {x, y}};
+      return r > 0.0 ? segments_keep_distance(point, wall, r) : !segments_touch(point, wall);
+    });
+    return true;
+  });
 }
 
 double MazeWorld::suggested_samples() const {

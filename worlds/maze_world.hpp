@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "core/types.hpp"
 #include "core/world.hpp"
@@ -34,6 +35,10 @@ class MazeWorld {
   bool is_free_motion(const State& a, const State& b, Query&) const noexcept {
     return index_.keeps_clearance(a, b, planning_clearance_);
   }
+  std::uint32_t free_motions(std::span<const Motion<State>> motions, Query&) const noexcept;
+  /// Of the points (1, y), (2, y), ..., a bit each, clears those that are not free. Asked wall by wall: O(walls near
+  /// the row), whatever it has points.
+  void keep_free(double y, std::span<std::uint64_t> bits) const noexcept;
   static double distance(const State& a, const State& b) { return warren::distance(a, b); }
   State interpolate(const State& a, const State& b, double t) const {
     return t <= 0.0 ? a : t >= 1.0 ? b : a + t * (b - a);
@@ -59,6 +64,6 @@ class MazeWorld {
   WallIndex index_;
 };
 
-static_assert(SteerableWorld<MazeWorld>);
+static_assert(SteerableWorld<MazeWorld> && BunchWorld<MazeWorld> && RowWorld<MazeWorld>);
 
 }  // namespace warren

@@ -56,37 +56,48 @@ std::vector<bool> peeled_naively(const Graph& graph, const std::vector<VertexId>
   return left;
 }
 
+template <class Reduced>
+void expect_shortest(const Graph& graph, const Reduced& reduced, VertexId start, VertexId goal,
+                     const SearchResult& oracle, unsigned threads, std::vector<VertexId>& path) {
+  for (VertexId key = 0; key < reduced.graph().vertex_count(); ++key) {
+    ASSERT_EQ(reduced.key_of(reduced.vertex_of(key)), key);
+    const auto row = reduced.graph().neighbours(key);
+    ASSERT_TRUE(std::adjacent_find(row.begin(), row.end(), std::greater_equal<>()) == row.end());
+  }
+  const SearchResult result = shortest(reduced.graph(), reduced.key_of(start), reduced.key_of(goal));
+  ASSERT_EQ(result.status, oracle.status);
+  ASSERT_LE(result.expanded, oracle.expanded);
+  if (oracle.status != SearchStatus::found) return;
+  path = reduced.expand(result.path, on(threads));
+  ASSERT_EQ(path.front(), start);
+  ASSERT_EQ(path.back(), goal);
+  double length = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const auto row = graph.neighbours(path[i - 1]);
+    ASSERT_TRUE(std::binary_search(row.begin(), row.end(), path[i]));
+    length += edge_length(path[i - 1], path[i]);
+  }
+  ASSERT_NEAR(length, oracle.length, 1e-9 * oracle.length);
+}
+
 void expect_exact(const Graph& graph, VertexId start, VertexId goal) {
   const std::vector<VertexId> keep{start, goal};
   const auto left = peeled_naively(graph, keep);
   const SearchResult oracle = shortest(graph, start, goal);
   std::vector<VertexId> path_of_one_thread;
+  std::vector<VertexId> twice_reduced_path;
   for (const unsigned threads : {1U, 2U, 3U, 8U}) {
     SCOPED_TRACE("threads " + std::to_string(threads));
-    const KeyCoverView cover(graph, keep, on(threads));
+    const KeyCoverView cover(graph, keep, Peeling::everywhere, on(threads));
     for (VertexId v = 0; v < graph.vertex_count(); ++v) ASSERT_EQ(cover.is_left(v), left[v]) << v;
-    const ReducedGraphView reduced = reduce_graph(graph, keep, edge_length, on(threads));
-    for (VertexId key = 0; key < reduced.graph().vertex_count(); ++key) {
-      ASSERT_EQ(reduced.key_of(reduced.vertex_of(key)), key);
-      const auto row = reduced.graph().neighbours(key);
-      ASSERT_TRUE(std::adjacent_find(row.begin(), row.end(), std::greater_equal<>()) == row.end());
-    }
-    const SearchResult result = shortest(reduced.graph(), reduced.key_of(start), reduced.key_of(goal));
-    ASSERT_EQ(result.status, oracle.status);
-    ASSERT_LE(result.expanded, oracle.expanded);
-    if (oracle.status != SearchStatus::found) continue;
-    const auto path = reduced.expand(result.path, on(threads));
-    ASSERT_EQ(path.front(), start);
-    ASSERT_EQ(path.back(), goal);
-    double length = 0.0;
-    for (std::size_t i = 1; i < path.size(); ++i) {
-      const auto row = graph.neighbours(path[i - 1]);
-      ASSERT_TRUE(std::binary_search(row.begin(), row.end(), path[i]));
-      length += edge_length(path[i - 1], path[i]);
-    }
-    ASSERT_NEAR(length, oracle.length, 1e-9 * oracle.length);
+    std::vector<VertexId> path;
+    expect_shortest(graph, reduce_graph(graph, keep, edge_length, on(threads)), start, goal, oracle, threads, path);
     if (threads == 1) path_of_one_thread = path;
     ASSERT_EQ(path, path_of_one_thread);
+    expect_shortest(graph, TwiceReducedGraphView(graph, keep, edge_length, on(threads)), start, goal, oracle, threads,
+                    path);
+    if (threads == 1) twice_reduced_path = path;
+    ASSERT_EQ(path, twice_reduced_path);
   }
 }
 
@@ -104,6 +115,36 @@ TEST(ReduceGraph, KeepsShortestPathsOfRandomGraphs) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     SCOPED_TRACE(seed);
     expect_exact(test::random_graph(seed, 30 + 5 * seed, 36 + 5 * seed + seed * seed / 8).graph, 1, 17);
+  }
+}
+
+TEST(ReduceGraph, KeepsShortestPathsThroughManyBlocks) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    SCOPED_TRACE(seed);
+    constexpr std::uint32_t side = 230;  // four blocks
+    const Graph graph = test::random_maze(seed, side, static_cast<double>(seed % 3) / 10.0, seed % 2 == 0).graph;
+    const auto start = static_cast<VertexId>(seed);
+    const VertexId goal = side * side - 1;
+    const SearchResult oracle = shortest(graph, start, goal);
+    std::vector<VertexId> path_of_one_thread;
+    for (const unsigned threads : {1U, 2U, 8U}) {
+      std::vector<VertexId> path;
+      const TwiceReducedGraphView reduced(graph, std::vector<VertexId>{start, goal}, edge_length, on(threads));
+      expect_shortest(graph, reduced, start, goal, oracle, threads, path);
+      if (threads == 1) path_of_one_thread = path;
+      ASSERT_EQ(path, path_of_one_thread);
+    }
+  }
+}
+
+TEST(ReduceGraph, ReducesByBlocksToNoMoreKeysThanAsAWhole) {
+  for (const double loops : {0.0, 0.1, 0.5}) {
+    SCOPED_TRACE(loops);
+    const Graph graph = test::random_maze(7, 230, loops, true).graph;
+    const std::vector<VertexId> keep{0, 230 * 230 - 1};
+    const std::size_t keys = KeyCoverView(graph, keep, Peeling::everywhere, on(2)).key_count();
+    EXPECT_LE(TwiceReducedGraphView(graph, keep, edge_length, on(2)).graph().vertex_count(), keys);
+    EXPECT_GT(KeyCoverView(graph, keep, Peeling::within_blocks, on(2)).key_count(), keys);
   }
 }
 
@@ -130,7 +171,7 @@ TEST(ReduceGraph, FollowsDeadEndsThroughManyBlocks) {
 
 TEST(ReduceGraph, OfATreeWithoutKeptVerticesNothingIsLeft) {
   const Graph graph = test::random_maze(3, 40, 0.0, true).graph;
-  EXPECT_EQ(KeyCoverView(graph, {}, on(2)).key_count(), 0U);
+  EXPECT_EQ(KeyCoverView(graph, {}, Peeling::everywhere, on(2)).key_count(), 0U);
   EXPECT_EQ(reduce_graph(graph, {}, edge_length, on(2)).graph().vertex_count(), 0U);
 }
 
@@ -144,7 +185,7 @@ TEST(ReduceGraph, OfAPerfectMazeOnlyThePathIsLeft) {
 
 TEST(ReduceGraph, RefusesAKeptVertexThatIsNotThere) {
   const Graph graph = test::random_maze(5, 3, 0.0, false).graph;
-  EXPECT_THROW(KeyCoverView(graph, std::vector<VertexId>{9}, on(1)), InputError);
+  EXPECT_THROW(KeyCoverView(graph, std::vector<VertexId>{9}, Peeling::everywhere, on(1)), InputError);
 }
 
 }  // namespace

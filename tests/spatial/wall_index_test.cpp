@@ -3,12 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "core/geometry.hpp"
 #include "core/rng.hpp"
+#include "spatial/motion_bunch.hpp"
 
 namespace warren {
 namespace {
@@ -110,6 +112,67 @@ TEST(WallIndex, AgreesWithBruteForceOnEveryKindOfWalls) {
         expect_brute_force_answers(walls, index, random_motion(walls, seed, i));
         if (testing::Test::HasFatalFailure()) return;
       }
+    }
+  }
+}
+
+/// Bunches of motions, near each other and not, of every size.
+void expect_single_answers(const Walls& walls, const WallIndex& index, std::uint64_t seed) {
+  for (std::uint64_t bunch = 0; bunch < 40; ++bunch) {
+    std::vector<Segment> motions;
+    const Motion centre = random_motion(walls, seed, 100 * bunch);
+    for (std::uint64_t i = 0; i < 1 + bunch % WallIndex::most_motions; ++i) {
+      const Motion other = random_motion(walls, seed, 100 * bunch + i);
+      const Vec2 away = other.motion.b - other.motion.a;
+      motions.push_back(bunch % 3 == 0 ? other.motion : Segment{centre.motion.a, centre.motion.a + 0.3 * away});
+    }
+    const std::uint32_t kept = index.keep_clearance(motions, centre.clearance);
+    const std::uint32_t touching = index.keep_clearance(motions, 0.0);
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+      ASSERT_EQ((kept >> i & 1U) != 0, index.keeps_clearance(motions[i].a, motions[i].b, centre.clearance)) << bunch;
+      ASSERT_EQ((touching >> i & 1U) != 0, !index.blocks(motions[i].a, motions[i].b)) << bunch;
+    }
+    ASSERT_EQ(kept >> motions.size(), 0U);
+  }
+}
+
+TEST(WallIndex, AnswersForABunchOfMotionsAsForEachAlone) {
+  for (const Kind& kind : kinds) {
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      SCOPED_TRACE(std::string(kind.name) + " seed " + std::to_string(seed));
+      const Walls walls = kind.make(seed);
+      expect_single_answers(walls, index_of(walls), seed);
+    }
+  }
+  EXPECT_EQ(index_of({}).keep_clearance(std::vector<Segment>{{{0, 0}, {1, 1}}, {{2, 0}, {1, 1}}}, 0.5), 3U);
+  EXPECT_EQ(index_of({}).keep_clearance({}, 0.5), 0U);
+}
+
+TEST(WallIndex, SiftsBunchesAlikeWithEveryInstructionSet) {
+  if (detail::best_instruction_set() == detail::InstructionSet::baseline) GTEST_SKIP() << "a machine without AVX2";
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    std::vector<Segment> motions;
+    std::vector<WallOf<float>> walls;
+    for (std::uint64_t i = 0; i < 16; ++i) motions.push_back({point_in(seed, i, 0, 3), point_in(seed, i, 2, 3)});
+    for (std::uint64_t i = 0; i < 5 * seed; ++i) {
+      const auto c = [&](std::uint64_t axis) { return static_cast<float>(4 * uniform(seed, i, axis)); };
+      walls.push_back({c(4), c(5), c(6), c(7)});
+    }
+    detail::MotionBunch<float> plain(motions, 0.1);
+    detail::MotionBunch<float> wide(motions, 0.1);
+    plain.sift(walls, detail::InstructionSet::baseline);
+    wide.sift(walls, detail::InstructionSet::avx2);
+    for (std::size_t i = 0; i < 16; ++i) {
+      const BoxScreen<float> screen(box_of(motions[i]).grown(0.1));
+      const auto meets = [&](const WallOf<float>& wall) { return screen.meets(wall); };
+      ASSERT_EQ(plain.count(i), static_cast<std::size_t>(std::count_if(walls.begin(), walls.end(), meets)));
+      ASSERT_EQ(wide.count(i), plain.count(i));
+      if (plain.count(i) == 0) continue;
+      ASSERT_EQ(plain.first(i),
+                static_cast<std::size_t>(std::find_if(walls.begin(), walls.end(), meets) - walls.begin()));
+      ASSERT_EQ(wide.first(i), plain.first(i));
+      ASSERT_EQ(wide.last(i), plain.last(i));
+      ASSERT_TRUE(meets(walls[plain.last(i)]));
     }
   }
 }

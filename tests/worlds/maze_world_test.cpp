@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "worlds/maze_world.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "core/rng.hpp"
+#include "worlds/maze_generator.hpp"
+
+namespace warren {
+namespace {
+
+/// Every point of every row, asked for alone.
+void expect_rows_as_points(const MazeWorld& world, std::size_t rows, std::size_t cols) {
+  MazeWorld::Query query;
+  for (std::size_t row = 0; row <= rows; ++row) {
+    const double y = static_cast<double>(row);
+    std::vector<std::uint64_t> bits((cols + 63) / 64, ~std::uint64_t{0});
+    if (row % 3 == 0) bits[0] = 0x5555;  // points that are out already stay out
+    const std::vector<std::uint64_t> before = bits;
+    world.keep_free(y, bits);
+    for (std::size_t i = 0; i < bits.size() * 64; ++i) {
+      const bool was_in = (before[i / 64] >> (i % 64) & 1U) != 0;
+      const bool is_in = (bits[i / 64] >> (i % 64) & 1U) != 0;
+      ASSERT_EQ(is_in, was_in && world.is_free({static_cast<double>(i + 1), y}, query))
+          << "row " << row << " point " << i;
+    }
+  }
+}
+
+TEST(MazeWorld, LooksAtRowsOfPointsAsAtEachPointAlone) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(seed);
+    constexpr double side = 90.0;
+    std::vector<Segment> walls;
+    for (std::uint64_t i = 0; i < 60; ++i) {
+      const auto c = [&](std::uint64_t axis) { return side * uniform(seed, i, axis); };
+      Segment wall{{c(0), c(1)}, {c(2), c(3)}};
+      if (i % 4 == 1) wall.b = wall.a + 0.02 * (wall.b - wall.a);
+      if (i % 4 == 2)
+        wall = {{std::round(wall.a.x), std::round(wall.a.y)}, {std::round(wall.b.x), std::round(wall.a.y)}};
+      if (i % 4 == 3) wall.b = {wall.a.x, wall.b.y};
+      walls.push_back(wall);
+    }
+    Scene scene;
+    scene.walls = WallSet::narrowest(walls);
+    if (seed % 2 == 0) scene.bounds = Box{{10.0, 5.0}, {80.5, 70.0}};
+    for (const double clearance : {0.0, 0.1, 1.0, 3.7}) {
+      SCOPED_TRACE(clearance);
+      expect_rows_as_points(MazeWorld(scene, clearance, Execution{1}), 92, 100);
+    }
+  }
+}
+
+TEST(MazeWorld, ChecksBunchesOfMotionsAsEachAlone) {
+  MazeOptions options;
+  options.rows = options.cols = 12;
+  for (options.seed = 1; options.seed <= 20; ++options.seed) {
+    SCOPED_TRACE(options.seed);
+    const MazeWorld world(maze_scene(options, options.seed % 2 == 0, Execution{1}), 0.1, Execution{1});
+    MazeWorld::Query query;
+    for (std::uint64_t bunch = 0; bunch < 50; ++bunch) {
+      std::vector<Motion<Vec2>> motions;
+      for (std::uint64_t i = 0; i < 1 + bunch % bunch_size; ++i) {
+        const auto u = [&](std::uint64_t axis) { return uniform(options.seed, 1000 * bunch + i, axis); };
+        const Vec2 from{1.0 + std::floor(11 * u(0)), 1.0 + std::floor(11 * u(1))};
+        motions.push_back({from, u(2) < 0.5 ? from + Vec2{1, 0} : from + Vec2{u(3), u(4)}});
+      }
+      const std::uint32_t free = world.free_motions(motions, query);
+      for (std::size_t i = 0; i < motions.size(); ++i) {
+        ASSERT_EQ((free >> i & 1U) != 0, world.is_free_motion(motions[i].from, motions[i].to, query));
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace warren
