@@ -25,7 +25,9 @@ using EdgeParts = std::vector<RawVector<Edge>>;
 
 namespace detail {
 
-inline constexpr std::size_t connection_grain = 2048;
+/// Milestones a chunk: the motion of a point is checked in nanoseconds, that of a body in microseconds.
+template <World W>
+inline constexpr std::size_t connection_grain = std::same_as<typename W::State, Vec2> ? 2048 : 64;
 
 inline std::uint64_t total_edges(const EdgeParts& parts) {
   std::uint64_t total = 0;
@@ -46,7 +48,7 @@ NearestLists nearest_lists(std::span<const typename W::State> milestones, const 
                            const Execution& execution) {
   execution.reserve(milestones.size() * (std::size_t{k} + 1) * sizeof(VertexId));
   NearestLists lists{k, RawVector<VertexId>(milestones.size() * k), RawVector<std::uint32_t>(milestones.size())};
-  for_chunks(milestones.size(), connection_grain, execution, [&](Range r) {
+  for_chunks(milestones.size(), connection_grain<W>, execution, [&](Range r) {
     std::vector<Neighbour> near;
     for (std::size_t i = r.first; i < r.last; ++i) {
       index.nearest(index.point(static_cast<VertexId>(i)), k, static_cast<VertexId>(i), near);
@@ -121,14 +123,14 @@ EdgeParts edges_that(const W& world, std::span<const typename W::State> mileston
   NearestLists lists;
   if (rule.neighbours > 0) lists = nearest_lists<W>(milestones, index, rule.neighbours, execution);
   const SearchRadius radius(rule.radius);
-  EdgeParts parts(chunk_count(n, connection_grain));
-  for_chunks(n, connection_grain, execution, [&](Range r) {
+  EdgeParts parts(chunk_count(n, connection_grain<W>));
+  for_chunks(n, connection_grain<W>, execution, [&](Range r) {
     auto query = world.make_query();
     RawVector<Edge> edges;
     edges.reserve(r.size() + r.size() / 4);
     Bunch bunch;
     const auto flush = [&] {
-      std::uint32_t kept = keep(r.first / connection_grain, bunch.edges(), query);
+      std::uint32_t kept = keep(r.first / connection_grain<W>, bunch.edges(), query);
       for (; kept != 0; kept &= kept - 1)
         edges.push_back(bunch.edges()[static_cast<std::size_t>(std::countr_zero(kept))]);
       bunch.clear();
@@ -141,7 +143,7 @@ EdgeParts edges_that(const W& world, std::span<const typename W::State> mileston
       });
     }
     if (!bunch.edges().empty()) flush();
-    parts[r.first / connection_grain] = std::move(edges);
+    parts[r.first / connection_grain<W>] = std::move(edges);
   });
   return parts;
 }
@@ -163,7 +165,7 @@ EdgeParts candidate_edges(const W& world, std::span<const typename W::State> mil
 template <World W>
 EdgeParts connect_milestones(const W& world, std::span<const typename W::State> milestones, const StateIndex<W>& index,
                              const ConnectionRule& rule, const Execution& execution, Counters& counters) {
-  std::vector<Counters> done(chunk_count(milestones.size(), detail::connection_grain));
+  std::vector<Counters> done(chunk_count(milestones.size(), detail::connection_grain<W>));
   const auto free = [&](std::size_t chunk, std::span<const Edge> edges, typename W::Query& query) {
     const std::uint32_t bits = detail::free_edges(world, milestones, edges, query);
     done[chunk].edges_checked += edges.size();
@@ -176,12 +178,49 @@ EdgeParts connect_milestones(const W& world, std::span<const typename W::State> 
   return parts;
 }
 
+namespace detail {
+
+/// The free edges from `vertex` to the milestones within a radius that grows until there are any.
+template <World W>
+RawVector<Edge> attach_within_growing_radius(const W& world, std::span<const typename W::State> milestones,
+                                             const StateIndex<W>& index, const ConnectionRule& rule,
+                                             const typename W::State& state, VertexId vertex, Counters& counters) {
+  auto query = world.make_query();
+  const auto at = embedded(world, state);
+  RawVector<Edge> edges;
+  std::vector<Neighbour> near;
+  double radius = rule.attach->radius.value_or(rule.radius);
+  if (!(radius > 0.0)) {  // as far as the k nearest
+    index.nearest(at, rule.neighbours, no_vertex, near);
+    if (near.empty()) return edges;
+    radius = near.back().distance;
+  }
+  const double step = rule.attach->step.value_or(0.5 * radius);
+  std::size_t tried = 0;
+  for (std::uint32_t attempt = 0; attempt < rule.attach->tries && edges.empty(); ++attempt) {
+    ++counters.neighbour_queries;
+    index.within(at, SearchRadius(radius + attempt * step), no_vertex, near);
+    for (; tried < near.size(); ++tried) {
+      ++counters.edges_checked;
+      if (world.is_free_motion(state, milestones[near[tried].id], query)) edges.push_back({near[tried].id, vertex});
+    }
+  }
+  counters.refused += refused_motions(query);
+  return edges;
+}
+
+}  // namespace detail
+
 /// The free edges from `vertex` (start or goal, which stands at `state` and is no milestone) to milestones: those
-/// within the rule; where none of them is free, to the nearest free one of the 256 nearest.
+/// within the rule; where none of them is free, to the nearest free one of the 256 nearest. Or, where the rule says so,
+/// those within a radius that grows.
 template <World W>
 RawVector<Edge> attach(const W& world, std::span<const typename W::State> milestones, const StateIndex<W>& index,
                        const ConnectionRule& rule, const typename W::State& state, VertexId vertex,
                        Counters& counters) {
+  if (rule.attach) {
+    return detail::attach_within_growing_radius(world, milestones, index, rule, state, vertex, counters);
+  }
   constexpr std::size_t farthest = 256;
   auto query = world.make_query();
   const auto at = embedded(world, state);

@@ -19,6 +19,12 @@ void RoadmapOptions::validate() const {
   if (radius && !(*radius > 0.0 && std::isfinite(*radius))) {
     throw InputError("radius", "must be a positive number", std::to_string(*radius));
   }
+  if (attach) {
+    const auto positive = [](const std::optional<double>& x) { return !x || (*x > 0.0 && std::isfinite(*x)); };
+    if (!positive(attach->radius) || !positive(attach->step) || attach->tries < 1) {
+      throw InputError("attach", "takes a positive radius and step, and one try or more");
+    }
+  }
   if (neighbours && radius) throw InputError("radius", "replaces the number of neighbours: give one of the two");
   if (star != StarRule::none && (neighbours || radius)) {
     throw InputError("neighbours", "follow from the samples by the rules of PRM*: give a number or the rule");

@@ -30,6 +30,14 @@ struct LatticeSize {
   std::uint32_t cols = 0;
 };
 
+/// Start and goal are joined to all milestones within a radius to which their motion is free; while there is none, the
+/// radius grows by a step, up to `tries` radii in all (after the study's query, which did this with the wrong metric).
+struct GrowingAttach {
+  std::optional<double> radius = {};  ///< the first, > 0; none: the rule's radius, or as far as its k nearest
+  std::optional<double> step = {};    ///< > 0; none: half of the first radius
+  std::uint32_t tries = 10;           ///< >= 1
+};
+
 /// validate() refuses values outside the stated ranges with InputError.
 struct RoadmapOptions {
   SamplerKind sampler = SamplerKind::uniform;
@@ -42,6 +50,8 @@ struct RoadmapOptions {
   SearchKind search = SearchKind::astar;
   QueueKind queue = QueueKind::heap;
   LazyCheck lazy = LazyCheck::expansion;  ///< only for lazy_prm
+  /// How start and goal are joined; none: by the rule, and where that finds nothing to the nearest that will do.
+  std::optional<GrowingAttach> attach = {};
 
   void validate() const;
 };

@@ -17,6 +17,7 @@ namespace warren {
 struct ConnectionRule {
   double radius = 0.0;
   std::uint32_t neighbours = 0;
+  std::optional<GrowingAttach> attach = {};  ///< of start and goal; none: by the rule too
 };
 
 /// Neighbours that the radius rule expects around a milestone in the open; see the table "uniform sampling that
@@ -85,14 +86,29 @@ double sampled_volume(const W& world) {
   }
 }
 
+/// Dimensions of that space: fewer than the world's where some coordinates are always the same.
+template <World W>
+std::size_t sampled_dimension(const W& world) {
+  if constexpr (requires {
+                  { world.sampled_dimension() } -> std::convertible_to<std::size_t>;
+                }) {
+    return world.sampled_dimension();
+  } else {
+    return W::dimension;
+  }
+}
+
 /// k = e (1 + 1/d) ln n, or radius = 2 ((1 + 1/d) V / B ln n / n)^(1/d), with B the volume of the unit ball and V that
 /// of the sampled space, which is not less than the free one's. InputError where the world doesn't tell V.
 ConnectionRule star_rule(StarRule rule, std::uint64_t samples, std::size_t dimension, double volume);
 
 template <World W>
 ConnectionRule connection_rule_for(const W& world, const RoadmapOptions& options, std::uint64_t samples) {
-  if (options.star == StarRule::none) return connection_rule(options, samples, sampled_area(world));
-  return star_rule(options.star, samples, W::dimension, sampled_volume(world));
+  ConnectionRule rule = options.star == StarRule::none
+                            ? connection_rule(options, samples, sampled_area(world))
+                            : star_rule(options.star, samples, sampled_dimension(world), sampled_volume(world));
+  rule.attach = options.attach;
+  return rule;
 }
 
 }  // namespace warren

@@ -20,6 +20,8 @@ Json state_or_null(const std::vector<double>& state) { return state.empty() ? Js
 Json world_json(const WorldAccount& world) {
   Json json{{"source", world.source}, {"kind", world.kind}, {"walls", world.walls}};
   if (world.polygons > 0) json["polygons"] = world.polygons;
+  if (world.spheres > 0) json["spheres"] = world.spheres;
+  if (world.boxes > 0) json["boxes"] = world.boxes;
   json["hash"] = world.hash;
   return json;
 }

@@ -90,6 +90,7 @@ std::vector<Fact> obstacle_facts(const Scene& scene, const WorldAccount& world, 
     facts.push_back(count_fact("corners", corners));
   }
   if (!scene.spheres.empty()) facts.push_back(count_fact("spheres", scene.spheres.size()));
+  if (!scene.boxes.empty()) facts.push_back(count_fact("boxes", scene.boxes.size()));
   if (const Box box = obstacle_box(scene, execution); !box.empty()) facts.push_back(box_fact("box", box));
   if (scene.bounds) facts.push_back(box_fact("bounds", *scene.bounds));
   facts.push_back({"hash", world.hash, json_string(world.hash)});

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "tools/arm_drawing.hpp"
 #include "tools/cell_drawing.hpp"
 #include "tools/command.hpp"
 #include "tools/curve_drawing.hpp"
@@ -96,12 +97,18 @@ int render(const Arguments& arguments) {
   const std::vector<double> turns = path_turns(robot, answer.states);
   std::optional<MovingBody> body;
   if (arguments.has("--animate")) body = moving_body(robot, answer, turns);
-  const Picture picture{.scene = scene,
+  std::optional<Scene> stage;  // views of an arm's world
+  if (is_arm(robot)) {
+    Drawing views = recorded_arm_drawing(scene, answer, run.execution());
+    stage = std::move(views.stage);
+    layers = std::move(views.layers);
+  }
+  const Picture picture{.scene = stage ? *stage : scene,
                         .layers = layers,
-                        .path = answer.path,
+                        .path = stage ? std::span<const Vec2>() : std::span<const Vec2>(answer.path),
                         .path_turns = turns,
-                        .start = point_of(answer.problem.start, scene.start),
-                        .goal = point_of(answer.problem.goal, scene.goal),
+                        .start = stage ? std::nullopt : point_of(answer.problem.start, scene.start),
+                        .goal = stage ? std::nullopt : point_of(answer.problem.goal, scene.goal),
                         .title = scene.source,
                         .description = description_of(scene) + ": " + arguments.command_line(),
                         .moving = body ? &*body : nullptr};

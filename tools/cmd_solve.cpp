@@ -149,13 +149,14 @@ void SolveCommand::draw(const Execution& execution) {
   if (scene_.map) drawing_.layers.insert(drawing_.layers.begin(), map_layer(*scene_.map));
   const bool has_roadmap = is_roadmap_planner(solver_->planner) || !drawing_.roadmap.states.empty();
   const std::vector<double> turns = path_turns(answer_.problem.robot, answer_.states);
-  const Picture picture{.scene = scene_,
-                        .roadmap = has_roadmap ? &drawing_.roadmap : nullptr,
+  const bool plane = !drawing_.stage;
+  const Picture picture{.scene = plane ? scene_ : *drawing_.stage,
+                        .roadmap = has_roadmap && plane ? &drawing_.roadmap : nullptr,
                         .layers = drawing_.layers,
-                        .path = answer_.path,
+                        .path = plane ? std::span<const Vec2>(answer_.path) : std::span<const Vec2>(),
                         .path_turns = turns,
-                        .start = plane_point(answer_.problem.start),
-                        .goal = plane_point(answer_.problem.goal),
+                        .start = plane ? plane_point(answer_.problem.start) : std::nullopt,
+                        .goal = plane ? plane_point(answer_.problem.goal) : std::nullopt,
                         .title = fmt::format("{}: {}", scene_.source, name_of(answer_.outcome)),
                         .description = fmt::format("{}. {}, seed {}: {}", description_of(scene_), answer_.planner,
                                                    answer_.seed, arguments_.command_line())};

@@ -53,6 +53,7 @@ struct Drawing {
   Roadmap<Vec2> roadmap;
   std::vector<PictureLayer> layers;  ///< drawn in their order, under walls and path
   std::vector<PictureLayer> pages;   ///< what deserves a picture of its own each, without the path
+  std::optional<Scene> stage = {};   ///< shown instead of the world: views of a world that is not plane
 };
 
 /// Refers to what it shows; all of it must outlive the picture.

@@ -75,7 +75,9 @@ std::string robot_text(const RobotSpec& robot) {
     case RobotKind::car:
       return car_text(robot);
     case RobotKind::puma560:
-      return fmt::format("puma560 radius {} tool {}", robot.radius, robot.tool);
+      return fmt::format("puma560 radius {} tool {}{}", robot.radius, robot.tool, arm_words(robot));
+    case RobotKind::arm:
+      return fmt::format("arm {} radius {} tool {}{}", robot.table, robot.radius, robot.tool, arm_words(robot));
     case RobotKind::polygon:
       break;
   }

@@ -74,7 +74,7 @@ std::string robot_text(const RobotSpec& robot);
 RobotSpec robot_value(const std::string& where, std::string_view text);
 
 constexpr std::string_view kind_name(RobotKind kind) {
-  constexpr std::string_view names[] = {"point", "disc", "polygon", "car", "puma560"};
+  constexpr std::string_view names[] = {"point", "disc", "polygon", "car", "puma560", "arm"};
   return names[static_cast<std::size_t>(kind)];
 }
 constexpr std::string_view name_of(Contact contact) { return contact == Contact::allowed ? "allowed" : "blocked"; }

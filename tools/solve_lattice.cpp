@@ -28,7 +28,7 @@ constexpr PlannerChoice planners[] = {{PlannerKind::grid, "--cell --angles --fac
 
 bool fits_lattice(const Scene& scene, const RobotSpec& robot) {
   const bool fits = robot.kind == RobotKind::point || robot.kind == RobotKind::disc || robot.kind == RobotKind::polygon;
-  return fits && !scene.map && scene.spheres.empty();
+  return fits && !scene.map && !has_solids(scene);
 }
 
 PlannerKind usual_planner(const Arguments&, const Scene&, const ProblemOptions&) { return PlannerKind::grid; }

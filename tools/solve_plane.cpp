@@ -25,7 +25,7 @@ constexpr PlannerChoice planners[] = {{PlannerKind::prm, roadmap_options},
 
 bool fits_plane(const Scene& scene, const RobotSpec& robot) {
   const bool plain = robot.kind == RobotKind::point || robot.kind == RobotKind::disc;
-  return plain && scene.spheres.empty();
+  return plain && !has_solids(scene);
 }
 
 /// A point may touch what it goes around, unless the contrary is asked for; who keeps a distance needs room.

@@ -196,7 +196,7 @@ constexpr PlannerChoice planners[] = {{PlannerKind::rrt_connect, rrt_connect_opt
                                       {PlannerKind::cells, "--doors --search --queue"}};
 
 bool fits_turning(const Scene& scene, const RobotSpec& robot) {
-  return robot.kind == RobotKind::polygon && scene.spheres.empty();
+  return robot.kind == RobotKind::polygon && !has_solids(scene);
 }
 
 PlannerKind usual_planner(const Arguments&, const Scene&, const ProblemOptions&) { return PlannerKind::rrt_connect; }

@@ -110,7 +110,7 @@ constexpr PlannerChoice planners[] = {{PlannerKind::prm, shared_options}, {Plann
 
 bool fits_walls(const Scene& scene, const RobotSpec& robot) {
   const bool plain = robot.kind == RobotKind::point || robot.kind == RobotKind::disc;
-  return plain && scene.polygons.empty() && scene.spheres.empty();
+  return plain && scene.polygons.empty() && !has_solids(scene);
 }
 
 PlannerKind usual_planner(const Arguments& arguments, const Scene& scene, const ProblemOptions&) {

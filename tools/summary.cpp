@@ -41,7 +41,10 @@ void line(std::string& text, const Palette& palette, std::string_view name, std:
 std::string world_text(const WorldAccount& world) {
   std::string text = world.kind;
   if (world.polygons > 0) text += ", " + plural(world.polygons, "polygon", "polygons");
-  if (world.walls > 0 || world.polygons == 0) text += ", " + plural(world.walls, "wall", "walls");
+  const bool solids = world.spheres > 0 || world.boxes > 0;
+  if (world.walls > 0 || (world.polygons == 0 && !solids)) text += ", " + plural(world.walls, "wall", "walls");
+  if (world.spheres > 0) text += ", " + plural(world.spheres, "sphere", "spheres");
+  if (world.boxes > 0) text += ", " + plural(world.boxes, "box", "boxes");
   return text;
 }
 

@@ -74,9 +74,16 @@ void write_world(const Scene& scene, const std::string& file, const std::string&
 }
 
 WorldAccount account_of(const Scene& scene, const Execution& execution) {
-  if (scene.map) return {scene.source, "map", 0, 0, scene_hash(scene, execution)};
-  const char* kind = scene.maze ? "maze" : scene.polygons.empty() ? "walls" : "polygons";
-  return {scene.source, kind, scene.walls.size(), scene.polygons.size(), scene_hash(scene, execution)};
+  if (scene.map) return {scene.source, "map", 0, 0, scene_hash(scene, execution), 0, 0};
+  const bool plane = scene.walls.size() > 0 || !has_solids(scene);
+  const char* kind = scene.maze ? "maze" : !scene.polygons.empty() ? "polygons" : plane ? "walls" : "solids";
+  return {scene.source,
+          kind,
+          scene.walls.size(),
+          scene.polygons.size(),
+          scene_hash(scene, execution),
+          scene.spheres.size(),
+          scene.boxes.size()};
 }
 
 std::string description_of(const Scene& scene) {
@@ -90,8 +97,13 @@ std::string description_of(const Scene& scene) {
   };
   if (!scene.polygons.empty()) text += counted(scene.polygons.size(), "polygon", "polygons");
   if (!scene.polygons.empty() && scene.walls.size() > 0) text += ", ";
-  if (scene.polygons.empty() || scene.walls.size() > 0) text += counted(scene.walls.size(), "wall", "walls");
-  if (!scene.spheres.empty()) text += fmt::format(", {} spheres", grouped(scene.spheres.size()));
+  const bool nothing_else = scene.polygons.empty() && !has_solids(scene);
+  if (nothing_else || scene.walls.size() > 0) text += counted(scene.walls.size(), "wall", "walls");
+  const auto add_solids = [&](std::size_t count, const char* one, const char* many) {
+    if (count > 0) text += (text.empty() ? "" : ", ") + counted(count, one, many);
+  };
+  add_solids(scene.spheres.size(), "sphere", "spheres");
+  add_solids(scene.boxes.size(), "box", "boxes");
   return text;
 }
 

@@ -303,7 +303,7 @@ Scene read_npy(const InputFile& file, const Execution& execution) {
 }
 
 void write_npy(const Scene& scene, const std::string& path, const Execution& execution) {
-  if (!scene.polygons.empty() || !scene.spheres.empty() || scene.bounds) {
+  if (!scene.polygons.empty() || has_solids(scene) || scene.bounds) {
     throw InputError(path, "a .npy file holds walls alone; write polygons, spheres and bounds to a .scene file");
   }
   constexpr std::size_t block = std::size_t{4} << 20;

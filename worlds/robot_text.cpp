@@ -31,8 +31,10 @@ class RobotReader {
     } else if (kind == "car") {
       robot.kind = RobotKind::car;
       read_car(robot);
-    } else if (kind == "puma560") {
-      robot.kind = RobotKind::puma560;
+    } else if (kind == "puma560" || kind == "arm") {
+      robot.kind = kind == "arm" ? RobotKind::arm : RobotKind::puma560;
+      if (robot.kind == RobotKind::arm) robot.table = fields_.word();
+      if (robot.kind == RobotKind::arm && robot.table.empty()) refuse_usage("no file");
       read_sizes(robot);
     } else {
       refuse_usage(kind.empty() ? "nothing" : kind);
@@ -84,6 +86,7 @@ class RobotReader {
     bool has_tool = false;
     while (!fields_.done()) {
       const std::string_view name = fields_.word();
+      if (read_arm_word(robot, name)) continue;
       bool& seen = name == "radius" ? has_radius : has_tool;
       if ((name != "radius" && name != "tool") || seen) refuse_usage(name);
       seen = true;
@@ -138,11 +141,28 @@ class RobotReader {
     if (!has("turning")) refuse_car("no turning radius");
   }
 
+  /// Words of arms that are no numbers: was this one?
+  bool read_arm_word(RobotSpec& robot, std::string_view name) {
+    if (name == "self-collision" && !robot.self_collision) return robot.self_collision = true;
+    if (name != "limits" || robot.kind != RobotKind::puma560 || !robot.limits.empty()) return false;
+    const std::string_view which = fields_.word();
+    if (which != "classic" && which != "symmetric") refuse_usage(which.empty() ? "nothing" : which);
+    robot.limits = which;
+    return true;
+  }
+
   Fields& fields_;
   const Execution& execution_;
 };
 
 }  // namespace
+
+std::string arm_words(const RobotSpec& robot) {
+  std::string words;
+  if (!robot.limits.empty()) words += " limits " + robot.limits;
+  if (robot.self_collision) words += " self-collision";
+  return words;
+}
 
 RobotSpec read_robot(Fields& fields, const Execution& execution) { return RobotReader(fields, execution).read(); }
 

@@ -2,6 +2,7 @@
 // The body of a `robot` line, read: the same words in a scene, on a command line and in an answer.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "parallel/execution.hpp"
@@ -11,9 +12,13 @@
 namespace warren {
 
 inline constexpr std::string_view robot_usage =
-    "robot point|disc R|polygon X Y X Y X Y ...|car radius R turning RHO|puma560 radius R [tool T]";
+    "robot point|disc R|polygon X Y X Y X Y ...|car radius R turning RHO|"
+    "puma560 radius R [tool T] [limits classic|symmetric] [self-collision]|arm FILE radius R [tool T] [self-collision]";
 inline constexpr std::string_view car_usage =
     "robot car radius R|polygon X Y X Y X Y ... turning RHO [steering dubins|reeds-shepp]";
+
+/// What a puma560's or arm's line says behind its tool: empty for the defaults, else with a blank before each word.
+std::string arm_words(const RobotSpec& robot);
 
 /// Reads what follows the word `robot`, to the line's end. Throws InputError naming the fields' place, Stopped.
 RobotSpec read_robot(scene_text::Fields& fields, const Execution& execution);

@@ -94,6 +94,7 @@ std::size_t state_size(const RobotSpec& robot) {
     case RobotKind::car:
       return 3;
     case RobotKind::puma560:
+    case RobotKind::arm:
       return 6;
   }
   return 2;
@@ -113,6 +114,10 @@ std::string scene_hash(const Scene& scene, const Execution& execution) {
   hasher.add(std::uint64_t{scene.spheres.size()});
   for (const Sphere& sphere : scene.spheres) {
     for (const double number : {sphere.x, sphere.y, sphere.z, sphere.radius}) hasher.add(number);
+  }
+  for (const SolidBox& box : scene.boxes) {  // nothing where there are none: worlds keep the hash they have
+    for (const double number : box.low) hasher.add(number);
+    for (const double number : box.high) hasher.add(number);
   }
   hasher.add(std::uint64_t{scene.bounds.has_value()});
   if (scene.bounds) {

@@ -2,6 +2,7 @@
 // Everything that a world file can say, as plain data: the common ground of readers, writers, generator and worlds.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -27,6 +28,12 @@ struct Sphere {
   double x, y, z, radius;
 };
 
+/// A closed box with faces square to the axes.
+struct SolidBox {
+  std::array<double, 3> low;
+  std::array<double, 3> high;  ///< >= low
+};
+
 /// "this is a maze": walls lie on the unit grid, cell centres at 1..cols x 1..rows.
 struct MazeHint {
   std::uint32_t rows = 0;
@@ -34,7 +41,8 @@ struct MazeHint {
   friend bool operator==(const MazeHint&, const MazeHint&) = default;
 };
 
-enum class RobotKind : std::uint8_t { point, disc, polygon, car, puma560 };
+/// arm: a serial chain whose table is in a file.
+enum class RobotKind : std::uint8_t { point, disc, polygon, car, puma560, arm };
 
 /// How a car drives: dubins, forwards only; reeds_shepp, backwards too.
 enum class SteeringKind : std::uint8_t { dubins, reeds_shepp };
@@ -44,11 +52,14 @@ constexpr std::string_view name_of(SteeringKind steering) {
 
 struct RobotSpec {
   RobotKind kind = RobotKind::point;
-  double radius = 0.0;          ///< disc, car, puma560 links; >= 0
+  double radius = 0.0;          ///< disc, car, links of puma560 and arm; >= 0
   double turning_radius = 0.0;  ///< car; > 0
-  double tool = 0.0;            ///< puma560: tool length; >= 0
+  double tool = 0.0;            ///< puma560, arm: tool length; >= 0
   std::vector<Vec2> outline;    ///< polygon, around the reference point; a car's too: empty where it is a disc
   SteeringKind steering = SteeringKind::dubins;  ///< car
+  std::string limits = {};                       ///< puma560: the name of its joint limits; empty: the classic ones
+  std::string table = {};                        ///< arm: the file of its Denavit-Hartenberg table
+  bool self_collision = false;                   ///< puma560, arm: may links not touch each other?
 };
 
 /// Raster for the grid planner.
@@ -61,12 +72,13 @@ struct Scene {
   WallSet walls;
   std::vector<ScenePolygon> polygons;
   std::vector<Sphere> spheres;
+  std::vector<SolidBox> boxes;
   std::optional<Box> bounds;
   std::optional<double> clearance;
   std::optional<MazeHint> maze;
   std::optional<RobotSpec> robot;
   std::vector<double> start;  ///< 2, 3 or 6 numbers; empty: none
-  std::vector<double> goal;
+  std::vector<double> goal;   ///< the same; an arm's 3 are a place of its tool
   std::optional<GridSpec> grid;
   /// Cells instead of walls and polygons. Walls beside a map are its own borders (add_map_walls) and no obstacles more.
   std::optional<OccupancyMap> map;
@@ -76,12 +88,15 @@ struct Scene {
 /// "polygon" and "car" turn, so their states have an angle; 2, 3 or 6 numbers.
 std::size_t state_size(const RobotSpec& robot);
 
-/// A 64-bit hash of everything that shapes the free space (walls in order, polygons, spheres, bounds), as 16 hex
+/// A 64-bit hash of everything that shapes the free space (walls in order, polygons, spheres, boxes, bounds), as 16 hex
 /// digits: the same for the same world whatever file it came from and however its walls are held. Words are folded by
 /// wide multiplications (as wyhash does), chunk by chunk in parallel; about memory speed. Not for adversaries.
 std::string scene_hash(const Scene& scene, const Execution& execution = {});
 
-/// The box of all walls and polygons (not of the bounds, nor of spheres); empty if there are none.
+/// Is there anything that only a body in space can meet?
+inline bool has_solids(const Scene& scene) { return !scene.spheres.empty() || !scene.boxes.empty(); }
+
+/// The box of all walls and polygons (not of the bounds, nor of spheres and boxes); empty if there are none.
 Box obstacle_box(const Scene& scene, const Execution& execution = {});
 
 /// The four sides of the bounds as walls; none without bounds.

@@ -74,10 +74,10 @@ class SceneReader {
     bool once;
     void (SceneReader::*read)(Fields&);
   };
-  static constexpr std::size_t item_count = 10;
+  static constexpr std::size_t item_count = 11;
   static constexpr std::size_t numbers_per_look = 4096;
   static const std::array<Item, item_count> items;
-  enum ItemNumber : std::size_t { maze_item = 5, robot_item = 6, start_item = 7, goal_item = 8 };
+  enum ItemNumber : std::size_t { maze_item = 6, robot_item = 7, start_item = 8, goal_item = 9 };
 
   void refuse_other_encodings() const {
     const std::string_view all = file_.bytes();
@@ -148,6 +148,16 @@ class SceneReader {
     if (n[3] < 0.0) refuse(fields.place(), "the radius must be at least 0", n[3]);
     scene_.spheres.push_back({n[0], n[1], n[2], n[3]});
   }
+  /// Any two opposite corners.
+  void read_box(Fields& fields) {
+    const std::vector<double>& n = numbers(fields, 6, 6);
+    SolidBox box{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      box.low[axis] = std::min(n[axis], n[axis + 3]);
+      box.high[axis] = std::max(n[axis], n[axis + 3]);
+    }
+    scene_.boxes.push_back(box);
+  }
   void read_bounds(Fields& fields) {
     const std::vector<double>& n = numbers(fields, 4, 4);
     if (!(n[0] < n[2])) refuse(fields.place(), fmt::format("XMIN must be less than XMAX = {}", n[2]), n[0]);
@@ -212,6 +222,7 @@ const std::array<SceneReader::Item, SceneReader::item_count> SceneReader::items 
     {"wall", "wall X1 Y1 X2 Y2", false, &SceneReader::read_wall},
     {"polygon", "polygon X Y X Y X Y ...", false, &SceneReader::read_polygon},
     {"sphere", "sphere X Y Z R", false, &SceneReader::read_sphere},
+    {"box", "box X1 Y1 Z1 X2 Y2 Z2", false, &SceneReader::read_box},
     {"bounds", "bounds XMIN YMIN XMAX YMAX", true, &SceneReader::read_bounds},
     {"clearance", "clearance R", true, &SceneReader::read_clearance},
     {"maze", "maze ROWS COLS", true, &SceneReader::read_maze},
@@ -222,8 +233,9 @@ const std::array<SceneReader::Item, SceneReader::item_count> SceneReader::items 
 }};
 
 void SceneReader::check_whole() const {
-  if (scene_.walls.size() == 0 && scene_.polygons.empty() && scene_.spheres.empty() && !scene_.bounds) {
-    Place{file_.name(), last_line_}.fail("the file ends without any wall, polygon, sphere or bounds");
+  if (scene_.walls.size() == 0 && scene_.polygons.empty() && scene_.spheres.empty() && scene_.boxes.empty() &&
+      !scene_.bounds) {
+    Place{file_.name(), last_line_}.fail("the file ends without any wall, polygon, sphere, box or bounds");
   }
   if (scene_.robot) {
     check_state(scene_.start, start_item);
@@ -236,7 +248,8 @@ void SceneReader::check_state(const std::vector<double>& given, ItemNumber item)
   if (given.empty()) return;
   const std::size_t wanted = state_size(*scene_.robot);
   const bool any_heading = item == goal_item && wanted == 3 && given.size() == 2;
-  if (given.size() == wanted || any_heading) return;
+  const bool place_of_tool = item == goal_item && wanted == 6 && given.size() == 3;
+  if (given.size() == wanted || any_heading || place_of_tool) return;
   place_of(item).fail(fmt::format("`{}` must be {} numbers for the robot of line {}", items[item].name, wanted,
                                   first_lines_[robot_item]),
                       fmt::format("{} numbers", given.size()));

@@ -10,6 +10,7 @@
 
 #include "parallel/chunks.hpp"
 #include "worlds/output_file_io.hpp"
+#include "worlds/robot_text.hpp"
 #include "worlds/scene_io.hpp"
 
 namespace warren {
@@ -99,7 +100,10 @@ void append_robot(std::string& text, const RobotSpec& robot) {
       append_car(text, robot);
       break;
     case RobotKind::puma560:
-      text += fmt::format("robot puma560 radius {} tool {}\n", number(robot.radius), number(robot.tool));
+    case RobotKind::arm:
+      text +=
+          fmt::format("robot {} radius {} tool {}{}\n", robot.kind == RobotKind::arm ? "arm " + robot.table : "puma560",
+                      number(robot.radius), number(robot.tool), arm_words(robot));
       break;
   }
 }
@@ -119,9 +123,11 @@ std::string head_of(const Scene& scene) {
   return text;
 }
 
-std::string spheres_of(const Scene& scene) {
+std::string solids_of(const Scene& scene) {
   std::string text;
   for (const Sphere& s : scene.spheres) append_line(text, "sphere", s.x, s.y, s.z, s.radius);
+  for (const auto& [low, high] : scene.boxes)
+    append_line(text, "box", low[0], low[1], low[2], high[0], high[1], high[2]);
   return text;
 }
 
@@ -160,7 +166,7 @@ void write_scene_text(const Scene& scene, const std::string& path, const Executi
   file.write(head_of(scene));
   write_items(scene.polygons.size(), grain / 16, file, execution,
               [&](std::string& text, std::size_t i) { append_polygon(text, scene.polygons[i]); });
-  file.write(spheres_of(scene));
+  file.write(solids_of(scene));
   scene.walls.visit([&](auto walls) {
     write_items(walls.size(), grain, file, execution,
                 [&](std::string& text, std::size_t i) { append_wall(text, walls[i].segment()); });

@@ -289,7 +289,7 @@ bool is_wkt(std::string_view bytes) {
 Scene read_wkt(const InputFile& file, const Execution& execution) { return Reader(file, execution).read(); }
 
 void write_wkt(const Scene& scene, const std::string& path, const Execution& execution) {
-  if (!scene.spheres.empty() || scene.bounds) {
+  if (has_solids(scene) || scene.bounds) {
     throw InputError(path, "WKT holds polygons and walls alone; write bounds and spheres to a .scene or .geojson file");
   }
   constexpr std::size_t batch = 1 << 10;

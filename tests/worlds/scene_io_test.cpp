@@ -67,6 +67,10 @@ TEST(SceneText, ReadsEveryRobot) {
   EXPECT_EQ(robot("puma560 radius 0.05").tool, 0.0);
   EXPECT_EQ(robot("puma560 radius 0.05 tool 0.2").tool, 0.2);
   EXPECT_EQ(robot("car turning 2 radius 0").turning_radius, 2.0);
+  EXPECT_EQ(robot("puma560 limits symmetric radius 0.05 self-collision").limits, "symmetric");
+  EXPECT_TRUE(robot("puma560 self-collision radius 0.05").self_collision);
+  EXPECT_EQ(robot("arm my.dh radius 0.05 tool 0.1").kind, RobotKind::arm);
+  EXPECT_EQ(robot("arm my.dh radius 0.05 tool 0.1").table, "my.dh");
 }
 
 TEST(SceneText, TakesWallsAsTheyAre) {
@@ -92,7 +96,7 @@ TEST(SceneText, RefusesBadInputInOneLineThatNamesFileAndLine) {
   const std::string nul("0 0 1 1\n\0\0\1 binary\n", 19);
   const BadInput cases[] = {
       {"empty", "", ":1: the file is empty"},
-      {"comments only", "# nothing\n\n", ":2: the file ends without any wall, polygon, sphere or bounds"},
+      {"comments only", "# nothing\n\n", ":2: the file ends without any wall, polygon, sphere, box or bounds"},
       {"start only", "start 1 1\ngoal 2 2\n", ":2: the file ends without any wall"},
       {"three numbers", "0 0 1 1\n1 2 3\n", ":2: expected `wall X1 Y1 X2 Y2` (found: 3 numbers)"},
       {"one number", "17", ":1: expected `wall X1 Y1 X2 Y2` (found: 1 number)"},
@@ -151,6 +155,12 @@ TEST(SceneText, RefusesBadInputInOneLineThatNamesFileAndLine) {
       {"car radius missing", "robot car radius turning 1\n", ":1: expected a number (found: turning)"},
       {"car radius ends", "robot car turning 1 radius\n", ":1: a number is missing"},
       {"puma with turning", "robot puma560 radius 1 turning 1\n", ":1: expected `robot point|"},
+      {"puma with unknown limits", "robot puma560 radius 1 limits wide\n", ":1: expected `robot point|"},
+      {"puma with limits twice", "robot puma560 radius 1 limits classic limits classic\n",
+       ":1: expected `robot point|"},
+      {"arm without a file", "robot arm\n", ":1: expected `robot point|"},
+      {"arm with limits", "robot arm a.dh radius 1 limits classic\n", ":1: expected `robot point|"},
+      {"box of five numbers", "box 0 0 0 1 1\n", ":1: expected `box X1 Y1 Z1 X2 Y2 Z2` (found: 5 numbers)"},
       {"robot outline of two corners", "robot polygon 0 0 1 1\n", ":1: expected `robot point|"},
       {"two starts", "0 0 1 1\nstart 1 1\nstart 1 2\n", ":3: a second `start` line; the first is line 2"},
       {"two bounds", "bounds 0 0 1 1\n\nbounds 0 0 1 1\n", ":3: a second `bounds` line; the first is line 1"},
@@ -222,6 +232,9 @@ void expect_same(const Scene& a, const Scene& b) {
     EXPECT_EQ(a.robot->steering, b.robot->steering);
     EXPECT_EQ(a.robot->tool, b.robot->tool);
     EXPECT_EQ(a.robot->outline, b.robot->outline);
+    EXPECT_EQ(a.robot->limits, b.robot->limits);
+    EXPECT_EQ(a.robot->table, b.robot->table);
+    EXPECT_EQ(a.robot->self_collision, b.robot->self_collision);
   }
   ASSERT_EQ(a.grid.has_value(), b.grid.has_value());
   if (a.grid) {
@@ -238,7 +251,9 @@ TEST(SceneText, WhatIsWrittenReadsBackTheSame) {
       {RobotKind::polygon, 0, 0, 0, {{-0.1, 0}, {1. / 3, 0}, {0, 1}}},
       {RobotKind::car, 0.5, 1.7, 0, {}},
       {RobotKind::car, 0, 1. / 3, 0, {{-0.1, 0}, {1. / 3, 0}, {0, 1}}, SteeringKind::reeds_shepp},
-      {RobotKind::puma560, 0.05, 0, 0.123, {}}};
+      {RobotKind::puma560, 0.05, 0, 0.123, {}},
+      {RobotKind::puma560, 0.05, 0, 0, {}, SteeringKind::dubins, "symmetric", {}, true},
+      {RobotKind::arm, 0.05, 0, 0, {}, SteeringKind::dubins, {}, "a/b.dh", false}};
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     SCOPED_TRACE(seed);
     SequentialRng rng(seed);
@@ -253,9 +268,12 @@ TEST(SceneText, WhatIsWrittenReadsBackTheSame) {
     scene.walls = WallSet::narrowest(walls);
     scene.polygons.push_back({{{number(), number()}, {number(), number()}, {number(), number()}}, 0});
     scene.spheres.push_back({number(), number(), number(), std::abs(number())});
+    SolidBox box{{number(), number(), number()}, {}};
+    for (std::size_t axis = 0; axis < 3; ++axis) box.high[axis] = box.low[axis] + std::abs(number());
+    scene.boxes.push_back(box);
     scene.bounds = Box{{-std::abs(number()), -1}, {1e20, 1. / 3}};
     scene.clearance = std::abs(number());
-    scene.robot = robots[seed % 5];
+    scene.robot = robots[seed % std::size(robots)];
     scene.start.assign(state_size(*scene.robot), number());
     scene.goal.assign(state_size(*scene.robot), number());
     scene.grid = GridSpec{0.1, 72};

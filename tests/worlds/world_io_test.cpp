@@ -110,6 +110,8 @@ TEST(SceneHash, SeesEveryObstacleAndNothingElse) {
   hashes.push_back(scene_hash(scene));
   scene.spheres.push_back({0, 0, 0, 1});
   hashes.push_back(scene_hash(scene));
+  scene.boxes.push_back({{0, 0, 0}, {1, 1, 1}});
+  hashes.push_back(scene_hash(scene));
   for (std::size_t i = 0; i < hashes.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) EXPECT_NE(hashes[i], hashes[j]) << i << " " << j;
   }

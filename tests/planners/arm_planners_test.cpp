@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Planners on arms: the study's scene and its sibling with nine spheres where their files are at hand, else worlds from
+// seeds. Every path is judged by worlds/verify_arm.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/error.hpp"
+#include "planners/lazy_prm.hpp"
+#include "planners/prm.hpp"
+#include "planners/rrt.hpp"
+#include "planners/rrt_connect.hpp"
+#include "planners/shortcut.hpp"
+#include "worlds/arm_world.hpp"
+#include "worlds/puma560.hpp"
+#include "worlds/verify_arm.hpp"
+#include "worlds/world_io.hpp"
+
+namespace warren {
+namespace {
+
+struct Question {
+  Scene scene;
+  DhTable table = puma560_table();
+  JointState start{};
+  JointState goal{};
+};
+
+double joint_distance(const JointState& a, const JointState& b) {
+  double sum = 0.0;
+  for (std::size_t j = 0; j < a.size(); ++j) sum += (a[j] - b[j]) * (a[j] - b[j]);
+  return std::sqrt(sum);
+}
+
+void expect_verified(const Question& q, const std::vector<JointState>& path) {
+  ArmVerifyOptions options;
+  options.start = q.start;
+  options.goal = q.goal;
+  const ArmVerification found = verify_arm(q.scene, q.table, path, options, {});
+  EXPECT_TRUE(found.verified) << (found.first_violation ? found.first_violation->obstacle : "");
+}
+
+/// A world from a seed, with start and goal free and the straight way blocked.
+Question random_question(std::uint64_t seed) {
+  Question q;
+  if (seed % 2 == 0) q.table = puma560_table(0.1);
+  for (std::uint64_t i = 0; q.scene.spheres.size() < 8; ++i) {
+    const auto at = [&](std::uint64_t axis) { return 2.0 * uniform(seed, i, axis) - 1.0; };
+    const Sphere s{at(0), at(1), at(2), 0.1 + 0.1 * uniform(seed, i, 3)};
+    if (std::hypot(s.x, s.y, s.z) > s.radius + 0.3) q.scene.spheres.push_back(s);
+  }
+  const ArmWorld world(q.scene, SerialChain(q.table), {});
+  auto query = world.make_query();
+  for (std::uint64_t i = 0;; ++i) {
+    q.start = uniform_state(world, seed + 100, 2 * i);
+    q.goal = uniform_state(world, seed + 100, 2 * i + 1);
+    if (world.is_free(q.start, query) && world.is_free(q.goal, query) &&
+        !world.is_free_motion(q.start, q.goal, query)) {
+      return q;
+    }
+  }
+}
+
+RoadmapOptions study_options(std::uint64_t seed) {
+  RoadmapOptions options;
+  options.samples = 100;
+  options.neighbours = 10;
+  options.seed = seed;
+  options.attach = GrowingAttach{};
+  return options;
+}
+
+TEST(ArmPlanners, FindVerifiedPathsTheSameForAnyNumberOfThreads) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(seed);
+    const Question q = random_question(seed);
+    const ArmWorld world(q.scene, SerialChain(q.table), {});
+    RoadmapOptions options = study_options(seed);
+    options.samples.reset();
+    RrtOptions trees;
+    trees.seed = seed;
+    std::vector<Solution<JointState>> first;
+    for (const unsigned threads : {1U, 2U, 3U, 8U}) {
+      const Execution execution{.threads = threads};
+      std::vector<Solution<JointState>> all{prm(world, q.start, q.goal, options, execution),
+                                            lazy_prm(world, q.start, q.goal, options, execution),
+                                            rrt(world, q.start, std::span(&q.goal, 1), trees, execution),
+                                            rrt_connect(world, q.start, std::span(&q.goal, 1), trees, execution)};
+      if (first.empty()) first = all;
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        EXPECT_EQ(all[i].outcome, Outcome::solved) << i;
+        EXPECT_EQ(all[i].path, first[i].path) << i;
+        EXPECT_EQ(all[i].counters, first[i].counters) << i;
+      }
+    }
+    for (const auto& solution : first) expect_verified(q, solution.path);
+    // The same roadmap has the same shortest path, whoever checks its edges.
+    EXPECT_NEAR(path_length(first[0].path, joint_distance), path_length(first[1].path, joint_distance), 1e-12);
+  }
+}
+
+class StudyScene : public ::testing::TestWithParam<const char*> {
+ protected:
+  /// Data of other people's, which no copy of this repository holds.
+  void SetUp() override {
+    const std::string file = std::string(WARREN_SHARED_DIR) + "/worlds/" + GetParam();
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not here";
+    question_.scene = read_world(file, {});
+    std::copy_n(question_.scene.start.begin(), most_joints, question_.start.begin());
+    std::copy_n(question_.scene.goal.begin(), most_joints, question_.goal.begin());
+    world_.emplace(question_.scene, SerialChain(question_.table), ArmOptions{});
+  }
+  Question question_;
+  std::optional<ArmWorld> world_;
+};
+
+TEST_P(StudyScene, AHundredSamplesSolveItForEachOfAHundredSeeds) {
+  std::vector<double> lengths;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    SCOPED_TRACE(seed);
+    const auto found = prm(*world_, question_.start, question_.goal, study_options(seed), {});
+    ASSERT_EQ(found.outcome, Outcome::solved);
+    if (seed > 12) continue;
+    Counters counters;
+    const auto shorter = shortcut_path(*world_, found.path, joint_distance, {.seed = seed}, {}, counters);
+    expect_verified(question_, shorter);
+    lengths.push_back(path_length(shorter, joint_distance));
+  }
+  if (GetParam() != std::string("puma-nine.scene")) return;
+  constexpr double best_known = 4.041;
+  std::sort(lengths.begin(), lengths.end());
+  EXPECT_LE(lengths.front(), 1.05 * best_known);
+  EXPECT_LE(lengths[lengths.size() / 2], 1.15 * best_known);
+  EXPECT_GE(lengths.front(), 4.023);  // the straight line
+}
+
+TEST_P(StudyScene, ThePathsEndsAreAttachedWithinARadiusThatGrows) {
+  RoadmapOptions options = study_options(1);
+  options.attach = GrowingAttach{.radius = 1e-3, .step = 1e-3, .tries = 10};
+  const auto narrow = prm(*world_, question_.start, question_.goal, options, {});
+  const bool straight = world_->judge_motion(question_.start, question_.goal) == MotionVerdict::free;
+  if (!straight) {
+    EXPECT_EQ(narrow.outcome, Outcome::not_connected);  // nothing is so near
+    EXPECT_EQ(narrow.separation.start_size, 1U);
+    EXPECT_EQ(narrow.separation.goal_size, 1U);
+  }
+  options.attach = GrowingAttach{.radius = 0.1, .step = 0.5, .tries = 10};
+  EXPECT_EQ(prm(*world_, question_.start, question_.goal, options, {}).outcome, Outcome::solved);
+  options.attach->tries = 0;
+  EXPECT_THROW(prm(*world_, question_.start, question_.goal, options, {}), InputError);
+}
+
+INSTANTIATE_TEST_SUITE_P(Puma, StudyScene, ::testing::Values("puma-seed.scene", "puma-nine.scene"));
+
+}  // namespace
+}  // namespace warren

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "worlds/arm_world.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <limits>
+
+#include "core/error.hpp"
+#include "tests/worlds/arm_oracle.hpp"
+#include "worlds/puma560.hpp"
+#include "worlds/world_io.hpp"
+
+namespace warren {
+namespace {
+
+using namespace arm_oracle;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// What a seed tests: a table, a scene, options.
+struct Setting {
+  DhTable table;
+  Scene scene;
+  ArmOptions options;
+};
+Setting setting(std::uint64_t seed) {
+  Setting s;
+  s.table = seed % 4 == 0   ? puma560_modified_table(0.15)
+            : seed % 4 == 1 ? puma560_table()
+            : seed % 4 == 2 ? puma560_table(0.2, PumaLimits::symmetric)
+                            : random_table(seed, seed % 8 == 3 ? DhConvention::standard : DhConvention::modified);
+  s.scene = scattered_spheres(seed, 4 + seed % 6);
+  if (seed % 3 == 0) add_boxes(s.scene, seed, 4);
+  s.options.radius = seed % 5 == 0 ? 0.1 : 0.05;
+  return s;
+}
+bool has_length(const DhTable& table) { return !links_of(SerialChain(table)).empty(); }
+
+TEST(ArmWorld, ClearanceIsTheDistanceOfTheCapsules) {
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+    SCOPED_TRACE(seed);
+    const Setting s = setting(seed);
+    if (!has_length(s.table)) continue;
+    const ArmWorld world(s.scene, SerialChain(s.table), s.options);
+    auto query = world.make_query();
+    for (std::uint64_t i = 0; i < 40; ++i) {
+      const JointState q = random_state(s.table, seed, i);
+      const double expected = clearance(s.scene, s.table, s.options.radius, q);
+      const double found = world.clearance(q, infinity);
+      if (expected <= 0.0) {
+        EXPECT_LE(found, 1e-9);
+      } else {
+        EXPECT_LE(found, expected + 1e-9);
+        EXPECT_GE(found, expected - 1e-8);
+      }
+      const double enough = 0.2 * uniform(seed, i, 70);
+      if (expected > enough + 1e-7) {
+        EXPECT_GT(world.clearance(q, enough), enough);
+      }
+      if (std::abs(expected) > 1e-7) {
+        EXPECT_EQ(world.is_free(q, query), expected > 0.0);
+      }
+    }
+  }
+}
+
+/// Random states, near and far ones.
+JointState other_state(const DhTable& table, const JointState& a, std::uint64_t seed, std::uint64_t i) {
+  return at_share(a, random_state(table, seed + 1000, i), i % 2 == 0 ? 1.0 : 0.1);
+}
+
+TEST(ArmWorld, NoPointOfTheBodyGoesFartherThanItsTravel) {
+  constexpr int steps = 500;
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+    SCOPED_TRACE(seed);
+    const Setting s = setting(seed);
+    if (!has_length(s.table)) continue;
+    const ArmWorld world(s.scene, SerialChain(s.table), s.options);
+    for (std::uint64_t i = 0; i < 10; ++i) {
+      const JointState a = random_state(s.table, seed, i);
+      const JointState b = other_state(s.table, a, seed, i);
+      const double bound = world.travel(a, b);
+      for (const double share : {0.0, 0.3, 1.0}) {  // points of the spines
+        std::vector<double> way(spines(s.table, a).size(), 0.0);
+        auto before = spines(s.table, a);
+        for (int step = 1; step <= steps; ++step) {
+          const auto after = spines(s.table, at_share(a, b, static_cast<double>(step) / steps));
+          for (std::size_t k = 0; k < way.size(); ++k) {
+            way[k] += apart(between(before[k][0], before[k][1], share), between(after[k][0], after[k][1], share));
+          }
+          before = after;
+        }
+        for (const double length : way) EXPECT_LE(length, bound + 1e-12);
+      }
+    }
+  }
+}
+
+/// Is the motion free at so many places?
+bool sampled_free(const Setting& s, const JointState& a, const JointState& b, int places, double margin) {
+  for (int i = 0; i <= places; ++i) {
+    const JointState q = at_share(a, b, static_cast<double>(i) / places);
+    if (quick_clearance(s.scene, s.table, s.options.radius + margin, q) <= 0.0) return false;
+  }
+  return true;
+}
+
+TEST(ArmWorld, AcceptedMotionsAreFreeAndFewFreeOnesAreRefused) {
+  int free_by_margin = 0;
+  int refused = 0;
+  int accepted = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(seed);
+    Setting s = setting(seed);
+    s.scene.boxes.clear();
+    if (!has_length(s.table)) continue;
+    const ArmWorld world(s.scene, SerialChain(s.table), s.options);
+    for (std::uint64_t i = 0; i < 60; ++i) {
+      SCOPED_TRACE(i);
+      const JointState a = random_state(s.table, seed, i);
+      const JointState b = other_state(s.table, a, seed, i);
+      const MotionVerdict verdict = world.judge_motion(a, b);
+      if (verdict == MotionVerdict::free) {
+        ++accepted;
+        EXPECT_TRUE(sampled_free(s, a, b, 2000, 0.0));
+      } else if (sampled_free(s, a, b, 1000, 0.01 * s.options.radius)) {
+        ++refused;
+      }
+      free_by_margin += verdict == MotionVerdict::free ? 1 : 0;
+    }
+  }
+  EXPECT_GT(accepted, 200);
+  EXPECT_EQ(refused, 0) << "of " << free_by_margin;
+}
+
+Setting study_setting() {
+  Setting s;
+  s.table = puma560_table();
+  s.scene = scattered_spheres(4, 9);
+  s.options.radius = 0.05;
+  return s;
+}
+JointState study_state(std::uint64_t index) { return random_state(puma560_table(), 99, index); }
+
+/// The study tests a motion at its start and ten places between, whatever its length; the goal was tested before.
+bool study_accepts(const Setting& s, const JointState& a, const JointState& b) {
+  return sampled_free(s, a, b, 11, 0.0);
+}
+
+/// Found by the search below among some 8700 motions that the study's test accepts, 278 of which collide; in the first
+/// six the links' very centre lines pass through a sphere.
+TEST(ArmWorld, BlocksMotionsThatTenSamplesAccept) {
+  const Setting s = study_setting();
+  const ArmWorld world(s.scene, SerialChain(s.table), s.options);
+  for (const auto& [first, second] : std::vector<std::pair<std::uint64_t, std::uint64_t>>{{1000, 1005},
+                                                                                          {1012, 1015},
+                                                                                          {1038, 1042},
+                                                                                          {115, 119},
+                                                                                          {1150, 1154},
+                                                                                          {119, 123},
+                                                                                          {1001, 1005},
+                                                                                          {1002, 1005},
+                                                                                          {1985, 1987}}) {
+    SCOPED_TRACE(first);
+    const JointState a = study_state(first);
+    const JointState b = study_state(second);
+    EXPECT_TRUE(study_accepts(s, a, b));
+    EXPECT_FALSE(sampled_free(s, a, b, 10'000, 0.0));
+    EXPECT_EQ(world.judge_motion(a, b), MotionVerdict::blocked);
+  }
+}
+
+TEST(ArmWorld, SearchFindsMotionsThatTenSamplesAcceptAndNoneThatItAcceptsItself) {
+  const Setting s = study_setting();
+  const ArmWorld world(s.scene, SerialChain(s.table), s.options);
+  int accepted_by_study = 0;
+  int wrongly = 0;
+  for (std::uint64_t i = 0; i < 120; ++i) {
+    for (std::uint64_t k = i + 1; k < i + 6; ++k) {
+      if (!study_accepts(s, study_state(i), study_state(k))) continue;
+      ++accepted_by_study;
+      if (sampled_free(s, study_state(i), study_state(k), 3000, 0.0)) continue;
+      ++wrongly;
+      EXPECT_NE(world.judge_motion(study_state(i), study_state(k)), MotionVerdict::free) << i << ' ' << k;
+    }
+  }
+  EXPECT_GT(accepted_by_study, 300);
+  EXPECT_GT(wrongly, 5);
+}
+
+TEST(ArmWorld, SelfCollisionKeepsLinksApartThatAreNoNeighbours) {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    SCOPED_TRACE(seed);
+    Setting s = setting(seed);
+    if (!has_length(s.table)) continue;
+    s.scene = {};
+    s.options.self_collision = true;
+    s.options.radius = 0.04;
+    const ArmWorld world(s.scene, SerialChain(s.table), s.options);
+    const auto folded = [&](const JointState& q) {
+      const auto all = spines(s.table, q);
+      double least = infinity;
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        double between_them = 0.0;
+        for (std::size_t k = i + 2; k < all.size(); ++k) {
+          between_them += apart(all[k - 1][0], all[k - 1][1]);
+          if (between_them <= 2.0 * s.options.radius + 1e-6) continue;
+          least = std::min(least, segments_apart(all[i][0], all[i][1], all[k][0], all[k][1]));
+        }
+      }
+      return least - 2.0 * s.options.radius;
+    };
+    auto query = world.make_query();
+    for (std::uint64_t i = 0; i < 12; ++i) {
+      const JointState a = random_state(s.table, seed, i);
+      const double expected = folded(a);
+      if (std::abs(expected) > 1e-6) {
+        EXPECT_EQ(world.is_free(a, query), expected > 0.0);
+      }
+      const JointState b = other_state(s.table, a, seed, i);
+      if (world.judge_motion(a, b) != MotionVerdict::free) continue;
+      for (int k = 1; k <= 6; ++k) EXPECT_GT(folded(at_share(a, b, k / 7.0)), -1e-6);
+    }
+  }
+}
+
+TEST(ArmWorld, SamplesStayWithinTheLimitsAndKeepIdleJointsAtRest) {
+  const ArmWorld world({}, SerialChain(puma560_table()), {});
+  EXPECT_EQ(world.sampled_dimension(), 3U);
+  for (std::uint64_t i = 0; i < 1000; ++i) {
+    const JointState q = uniform_state(world, 1, i);
+    EXPECT_EQ(world.chain().joint_outside_limits(q), most_joints);
+    for (std::size_t j = 3; j < 6; ++j) EXPECT_EQ(q[j], 0.0);
+  }
+  const ArmWorld with_tool({}, SerialChain(puma560_table(0.1)), {});
+  EXPECT_EQ(with_tool.sampled_dimension(), 5U);
+}
+
+TEST(ArmWorld, MetricWeighsJointsAndTheEmbeddingHasIt) {
+  ArmOptions options;
+  options.weights = {2.0, 1.0, 1.0, 0.5, 0.5, 0.1};
+  const ArmWorld world({}, SerialChain(puma560_table(0.1)), options);
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    const JointState a = random_state(puma560_table(), 1, 2 * i);
+    const JointState b = random_state(puma560_table(), 1, 2 * i + 1);
+    double sum = 0.0;
+    double plain = 0.0;
+    for (std::size_t j = 0; j < 6; ++j) {
+      sum += std::pow(options.weights[j] * (a[j] - b[j]), 2.0);
+      plain += std::pow(world.embed(a)[j] - world.embed(b)[j], 2.0);
+    }
+    EXPECT_NEAR(world.distance(a, b), std::sqrt(sum), 1e-12);
+    EXPECT_NEAR(world.distance(a, b), std::sqrt(plain), 1e-12);
+  }
+}
+
+TEST(ArmWorld, EvenIdleJointsMoveNothingAndNeverLengthen) {
+  const ArmWorld world({}, SerialChain(puma560_table()), {});
+  std::vector<JointState> path{{0, 0, 0, 1, 0, 0}, {1, 0, 0, -2, 0.5, 0}, {1, 1, 0, 0, 0, 3}, {1, 1, 2, 1, 1, 1}};
+  const std::vector<JointState> even = with_even_idle_joints(world, path);
+  const auto length = [&](const std::vector<JointState>& states) {
+    double sum = 0.0;
+    for (std::size_t i = 1; i < states.size(); ++i) sum += world.distance(states[i - 1], states[i]);
+    return sum;
+  };
+  EXPECT_NEAR(length(even), std::sqrt(16.0 + 2.0), 1e-12);
+  EXPECT_EQ(even.front(), path.front());
+  EXPECT_EQ(even.back(), path.back());
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    for (std::size_t j = 0; j < 3; ++j) EXPECT_EQ(even[i][j], path[i][j]);
+  }
+}
+
+TEST(ArmWorld, RefusesBadOptions) {
+  const SerialChain chain(puma560_table());
+  const auto refuses = [&](const ArmOptions& options) { EXPECT_THROW(ArmWorld({}, chain, options), InputError); };
+  refuses({.radius = -1.0});
+  refuses({.radius = std::nan("")});
+  refuses({.clearance = -1.0});
+  refuses({.weights = {1, 1, 0, 1, 1, 1}});
+  refuses({.resolution = 0.0});
+  DhTable point;
+  point.joints.push_back({0, 0, 0, -1, 1, 0});
+  EXPECT_THROW(ArmWorld({}, SerialChain(point), {}), InputError);
+}
+
+}  // namespace
+}  // namespace warren

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The three views stand as in a technical drawing: from above over the one from the front, the one from the side to
+// the right of it. A sphere is a circle in all of them, a box a rectangle, a capsule a stadium.
+#include "tools/arm_drawing.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "worlds/arm_world.hpp"
+
+namespace warren {
+namespace {
+
+/// One projection: which axes run right and up, and where its panel stands.
+struct View {
+  std::array<int, 2> axes;
+  Vec2 shift;
+  Vec2 at(const Vec3& p) const { return shift + Vec2{p[axes[0]], p[axes[1]]}; }
+};
+
+std::vector<Vec2> circle(Vec2 centre, double radius) {
+  constexpr int corners = 64;
+  std::vector<Vec2> points;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / corners;
+    points.push_back(centre + Vec2{radius * std::cos(angle), radius * std::sin(angle)});
+  }
+  return points;
+}
+
+/// The outline of a capsule seen from far.
+std::vector<Vec2> stadium(Vec2 a, Vec2 b, double radius) {
+  constexpr int half = 12;
+  const double heading = a == b ? 0.0 : std::atan2(b.y - a.y, b.x - a.x);
+  std::vector<Vec2> points;
+  for (const auto& [end, turn] : {std::pair{b, -0.5}, std::pair{a, 0.5}}) {
+    for (int i = 0; i <= half; ++i) {
+      const double angle = heading + std::numbers::pi * (turn + static_cast<double>(i) / half);
+      points.push_back(end + Vec2{radius * std::cos(angle), radius * std::sin(angle)});
+    }
+  }
+  return points;
+}
+
+class ArmDrawing {
+ public:
+  ArmDrawing(const Scene& scene, const ArmProblem& problem, std::span<const JointState> path)
+      : scene_(scene), problem_(problem), chain_(problem.table), links_(links_of(chain_)) {
+    path_.assign(path.begin(), path.end());
+    if (path_.empty()) path_.push_back(problem.start);
+    measure();
+    lay_out();
+  }
+
+  Drawing draw() {
+    Drawing drawing;
+    drawing.stage.emplace();
+    drawing.stage->source = scene_.source;
+    for (const View& view : views_) add_obstacles(view, *drawing.stage);
+    drawing.stage->walls = WallSet::narrowest(frames());
+    drawing.layers = {axes(), sweep(), arm_at("start", path_.front(), colors::start),
+                      arm_at("goal", path_.back(), colors::goal), trace()};
+    if (path_.size() == 1) drawing.layers.erase(drawing.layers.begin() + 3);
+    return drawing;
+  }
+
+ private:
+  static constexpr double margin = 0.08;  // of the extent
+
+  void include(const Vec3& p, double radius) {
+    low_ = low_.cwiseMin(p - Vec3::Constant(radius));
+    high_ = high_.cwiseMax(p + Vec3::Constant(radius));
+  }
+  ChainPosture posture(const JointState& q) const {
+    ChainPosture at;
+    chain_.place(q, at);
+    return at;
+  }
+  Vec3 tool(const JointState& q) const { return posture(q).points[chain_.point_count() - 1]; }
+  /// The path in pieces of about this length in joint space.
+  std::vector<JointState> pieces(double length) const;
+  double joint_length() const;
+  void measure();
+  void lay_out();
+  void add_obstacles(const View& view, Scene& stage) const;
+  void add_letter(PolygonSet& lines, int axis, Vec2 centre) const;
+  std::vector<Segment> frames() const;
+  PictureLayer axes() const;
+  PictureLayer sweep() const;
+  PictureLayer arm_at(const char* id, const JointState& q, Rgb color) const;
+  PictureLayer trace() const;
+
+  const Scene& scene_;
+  const ArmProblem& problem_;
+  SerialChain chain_;
+  std::vector<ArmLink> links_;
+  std::vector<JointState> path_;
+  Vec3 low_ = Vec3::Zero();
+  Vec3 high_ = Vec3::Zero();
+  double room_ = 1.0;  // around each view
+  std::array<View, 3> views_;
+};
+
+double ArmDrawing::joint_length() const {
+  double sum = 0.0;
+  for (std::size_t i = 1; i < path_.size(); ++i) {
+    double square = 0.0;
+    for (std::size_t j = 0; j < most_joints; ++j) square += std::pow(path_[i][j] - path_[i - 1][j], 2.0);
+    sum += std::sqrt(square);
+  }
+  return sum;
+}
+
+std::vector<JointState> ArmDrawing::pieces(double length) const {
+  std::vector<JointState> states{path_.front()};
+  for (std::size_t i = 1; i < path_.size(); ++i) {
+    double square = 0.0;
+    for (std::size_t j = 0; j < most_joints; ++j) square += std::pow(path_[i][j] - path_[i - 1][j], 2.0);
+    const int count = std::max(1, static_cast<int>(std::ceil(std::sqrt(square) / length)));
+    for (int k = 1; k <= count; ++k) {
+      JointState q;
+      const double t = static_cast<double>(k) / count;
+      for (std::size_t j = 0; j < most_joints; ++j) q[j] = path_[i - 1][j] + t * (path_[i][j] - path_[i - 1][j]);
+      states.push_back(q);
+    }
+  }
+  return states;
+}
+
+void ArmDrawing::measure() {
+  include(Vec3::Zero(), problem_.robot.radius);
+  for (const Sphere& s : scene_.spheres) include({s.x, s.y, s.z}, s.radius);
+  for (const auto& [low, high] : scene_.boxes) {
+    include({low[0], low[1], low[2]}, 0.0);
+    include({high[0], high[1], high[2]}, 0.0);
+  }
+  constexpr double pieces_a_path = 60.0;
+  for (const JointState& q : pieces(std::max(joint_length() / pieces_a_path, 1e-3))) {
+    const ChainPosture at = posture(q);
+    for (const ArmLink& link : links_) include(at.points[link.to], problem_.robot.radius);
+  }
+}
+
+void ArmDrawing::lay_out() {
+  const Vec3 size = high_ - low_;
+  room_ = margin * std::max(size.maxCoeff(), 1e-9);
+  const Vec2 right{size.x() + 3.0 * room_, 0.0};
+  const Vec2 above{0.0, size.z() + 3.0 * room_};
+  views_ = {View{{0, 2}, Vec2{-low_.x(), -low_.z()}}, View{{0, 1}, above + Vec2{-low_.x(), -low_.y()}},
+            View{{1, 2}, right + Vec2{-low_.y(), -low_.z()}}};
+}
+
+void ArmDrawing::add_obstacles(const View& view, Scene& stage) const {
+  for (const Sphere& s : scene_.spheres) {
+    if (s.radius > 0.0) stage.polygons.push_back({circle(view.at({s.x, s.y, s.z}), s.radius)});
+  }
+  for (const auto& [low, high] : scene_.boxes) {
+    const Vec2 a = view.at({low[0], low[1], low[2]});
+    const Vec2 b = view.at({high[0], high[1], high[2]});
+    stage.polygons.push_back({{a, {b.x, a.y}, b, {a.x, b.y}}});
+  }
+}
+
+/// x, y or z in strokes.
+void ArmDrawing::add_letter(PolygonSet& lines, int axis, Vec2 centre) const {
+  const double s = 0.22 * room_;
+  const auto stroke = [&](std::initializer_list<Vec2> points) {
+    std::vector<Vec2> line;
+    for (const Vec2 p : points) line.push_back(centre + s * p);
+    lines.add(line);
+  };
+  if (axis == 0) {
+    stroke({{-1, -1}, {1, 1}});
+    stroke({{-1, 1}, {1, -1}});
+  } else if (axis == 1) {
+    stroke({{-1, 1}, {0, 0}, {1, 1}});
+    stroke({{0, 0}, {0, -1.2}});
+  } else {
+    stroke({{-1, 1}, {1, 1}, {-1, -1}, {1, -1}});
+  }
+}
+
+std::vector<Segment> ArmDrawing::frames() const {
+  std::vector<Segment> sides;
+  for (const View& view : views_) {
+    const Vec2 room{room_, room_};
+    const Vec2 a = view.at(low_) - room;
+    const Vec2 b = view.at(high_) + room;
+    sides.insert(sides.end(), {{a, {b.x, a.y}}, {{b.x, a.y}, b}, {b, {a.x, b.y}}, {{a.x, b.y}, a}});
+  }
+  return sides;
+}
+
+/// Their names.
+PictureLayer ArmDrawing::axes() const {
+  PictureLayer layer{"axes", colors::outline, widths::edge, {}};
+  for (const View& view : views_) {
+    const Vec2 room{room_, room_};
+    const Vec2 a = view.at(low_) - room;
+    const Vec2 b = view.at(high_) + room;
+    add_letter(layer.lines, view.axes[0], {b.x - 0.5 * room_, a.y + 0.5 * room_});
+    add_letter(layer.lines, view.axes[1], {a.x + 0.5 * room_, b.y - 0.5 * room_});
+  }
+  return layer;
+}
+
+PictureLayer ArmDrawing::sweep() const {
+  constexpr double bodies = 24.0;
+  PictureLayer layer{"sweep", colors::second_layer, 0.5 * widths::edge, {}, true};
+  for (const JointState& q : pieces(std::max(joint_length() / bodies, 1e-9))) {
+    const ChainPosture at = posture(q);
+    for (const View& view : views_) {
+      for (const ArmLink& link : links_) {
+        layer.lines.add(stadium(view.at(at.points[link.from]), view.at(at.points[link.to]), problem_.robot.radius));
+      }
+    }
+  }
+  return layer;
+}
+
+PictureLayer ArmDrawing::arm_at(const char* id, const JointState& q, Rgb color) const {
+  PictureLayer layer{std::string("arm_at_") + id, color, widths::wall, {}};
+  const ChainPosture at = posture(q);
+  for (const View& view : views_) {
+    std::vector<Vec2> spine{view.at(at.points[links_.front().from])};
+    for (const ArmLink& link : links_) spine.push_back(view.at(at.points[link.to]));
+    layer.lines.add(spine);
+  }
+  return layer;
+}
+
+PictureLayer ArmDrawing::trace() const {
+  constexpr double pieces_a_path = 400.0;
+  PictureLayer layer{"trace", colors::path, 0.6 * widths::path, {}};
+  const std::vector<JointState> states = pieces(std::max(joint_length() / pieces_a_path, 1e-9));
+  for (const View& view : views_) {
+    std::vector<Vec2> line;
+    for (const JointState& q : states) line.push_back(view.at(tool(q)));
+    layer.lines.add(line);
+  }
+  return layer;
+}
+
+}  // namespace
+
+Drawing arm_drawing(const Scene& scene, const ArmProblem& problem, std::span<const JointState> path) {
+  return ArmDrawing(scene, problem, path).draw();
+}
+
+Drawing recorded_arm_drawing(const Scene& scene, const RecordedAnswer& answer, const Execution& execution) {
+  if (!answer.path.empty()) check_state_width(answer, most_joints, "an arm");
+  ArmProblem problem;
+  problem.robot = robot_of(scene, answer.problem);
+  problem.table = table_of(problem.robot, execution);
+  problem.start = joint_state(answer.problem.start.empty() ? scene.start : answer.problem.start);
+  std::vector<JointState> path;
+  for (std::size_t i = 0; i < answer.states.size(); ++i) path.push_back(joint_state(answer.states[i]));
+  return arm_drawing(scene, problem, path);
+}
+
+}  // namespace warren

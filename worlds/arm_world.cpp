@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "worlds/arm_world.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include "core/error.hpp"
+#include "core/types.hpp"
+
+namespace warren {
+namespace {
+
+double checked_length(const char* name, double value) {
+  if (value >= 0.0 && value <= largest_coordinate) return value;
+  throw InputError(name, "must be a number from 0 to 1e60", std::to_string(value));
+}
+
+double checked_positive(const char* name, double value) {
+  if (value > 0.0 && value <= largest_coordinate) return value;
+  throw InputError(name, "must be a number above 0, up to 1e60", std::to_string(value));
+}
+
+Spine spine_of(const ChainPosture& at, const ArmLink& link) { return {at.points[link.from], at.points[link.to]}; }
+
+}  // namespace
+
+std::vector<ArmLink> links_of(const SerialChain& chain) {
+  ChainPosture rest;
+  chain.place({}, rest);
+  // What joint i turns is frame i, and with it in a modified table not its origin, which stands on the axis.
+  const std::size_t lag = chain.table().convention == DhConvention::modified ? 1 : 0;
+  std::vector<ArmLink> links;
+  std::size_t from = 0;
+  for (std::size_t point = 1; point < chain.point_count(); ++point) {
+    // Between neighbouring origins the distance is a matter of the table, whatever the angles.
+    if ((rest.points[point] - rest.points[point - 1]).norm() <= 1e-12 * chain.reach()) continue;
+    links.push_back({from, point, point > chain.joint_count() ? chain.joint_count() : point - lag});
+    from = point;
+  }
+  return links;
+}
+
+ArmWorld::ArmWorld(const Scene& scene, const SerialChain& chain, const ArmOptions& options)
+    : chain_(chain),
+      solids_(scene.spheres, scene.boxes),
+      links_(links_of(chain)),
+      weights_(options.weights),
+      radius_(checked_length("radius", options.radius)),
+      resolution_(checked_positive("resolution", options.resolution.value_or(1e-5 * chain.reach()))) {
+  if (links_.empty()) throw InputError("arm", "has no link of any length");
+  for (const double weight : weights_) checked_positive("weight", weight);
+  const double clearance = checked_length("clearance", options.clearance);
+  const double rounding = 1e-12 * (chain_.reach() + solids_.extent() + radius_ + clearance);
+  touch_ = (radius_ + clearance) * (1.0 + 1e-9) + rounding;
+  touch_links_ = (2.0 * radius_ + clearance) * (1.0 + 1e-9) + rounding;
+  if (options.self_collision) find_pairs();
+}
+
+/// Links that what is between them keeps so near that they always touch are no use to keep apart.
+void ArmWorld::find_pairs() {
+  ChainPosture rest;
+  chain_.place({}, rest);
+  for (std::size_t far = 2; far < links_.size(); ++far) {
+    double between = 0.0;
+    for (std::size_t near = far - 1; near-- > 0;) {
+      const ArmLink& link = links_[near + 1];
+      between += (rest.points[link.to] - rest.points[link.from]).norm();
+      if (between > touch_links_) pairs_.push_back({near, far});
+    }
+  }
+}
+
+JointState ArmWorld::at_unit(const std::array<double, dimension>& u) const {
+  JointState q{};
+  for (std::size_t j = 0; j < dimension; ++j) {
+    const double low = chain_.low(j);
+    const double high = chain_.high(j);
+    q[j] = chain_.moves(j) ? std::min(high, low + u[j] * (high - low)) : std::clamp(0.0, low, high);
+  }
+  return q;
+}
+
+bool ArmWorld::is_free(const State& a, Query&) const {
+  if (chain_.joint_outside_limits(a) != most_joints) return false;
+  ChainPosture at;
+  chain_.place(a, at);
+  return room(at, Turns{}, 0.0) == Room::clear;
+}
+
+double ArmWorld::distance(const State& a, const State& b) const {
+  double sum = 0.0;
+  for (std::size_t j = 0; j < dimension; ++j) {
+    const double turn = weights_[j] * (b[j] - a[j]);
+    sum += turn * turn;
+  }
+  return std::sqrt(sum);
+}
+
+JointState ArmWorld::interpolate(const State& a, const State& b, double t) const {
+  if (t >= 1.0) return b;
+  JointState q;
+  for (std::size_t j = 0; j < dimension; ++j) q[j] = a[j] + t * (b[j] - a[j]);
+  return q;
+}
+
+std::array<double, 6> ArmWorld::embed(const State& a) const {
+  std::array<double, dimension> point;
+  for (std::size_t j = 0; j < dimension; ++j) point[j] = weights_[j] * a[j];
+  return point;
+}
+
+double ArmWorld::clearance(const State& a, double enough) const {
+  ChainPosture at;
+  chain_.place(a, at);
+  double least = std::numeric_limits<double>::infinity();
+  for (const ArmLink& link : links_) {
+    const double limit = std::min(least, enough);
+    least = std::min(least, solids_.distance(spine_of(at, link), limit + touch_) - touch_);
+    if (least <= 0.0) return least;
+  }
+  for (const LinkPair& pair : pairs_) {
+    const Spine near = spine_of(at, links_[pair.near]);
+    const Spine far = spine_of(at, links_[pair.far]);
+    least = std::min(least, std::sqrt(distance_square(near, far)) - touch_links_);
+  }
+  return least;
+}
+
+ArmWorld::Turns ArmWorld::turns_between(const State& a, const State& b) const {
+  constexpr double rounding = 1.0 + 1e-12;
+  Turns turns{};
+  const std::size_t n = chain_.joint_count();
+  for (std::size_t j = 0; j < n; ++j) turns.turn[j] = rounding * std::abs(b[j] - a[j]);
+  for (std::size_t point = 0; point < chain_.point_count(); ++point) {
+    double behind = 0.0;  // sum over the joints behind
+    for (std::size_t j = n; j-- > 0;) {
+      const double way = turns.turn[j] * chain_.reach(j, point);
+      turns.bend[point] += turns.turn[j] * behind;
+      behind += way;
+    }
+    turns.most[point] = behind;
+  }
+  return turns;
+}
+
+/// Travel of a point by the joints first .. last - 1, when the motion's share `share` is gone to either side.
+double ArmWorld::travel_of(const ChainPosture& at, const Turns& turns, std::size_t point, std::size_t first,
+                           std::size_t last, double share) const {
+  double speed = 0.0;
+  for (std::size_t j = first; j < last; ++j) {
+    if (turns.turn[j] == 0.0 || chain_.reach(j, point) == 0.0) continue;
+    speed += turns.turn[j] * at.axes[j].cross(at.points[point] - at.on_axes[j]).norm();
+  }
+  return std::min(share * (speed + 0.5 * share * turns.bend[point]), share * turns.most[point]);
+}
+
+double ArmWorld::travel_of_link(const ChainPosture& at, const Turns& turns, const ArmLink& link, std::size_t first,
+                                double share) const {
+  return std::max(travel_of(at, turns, link.from, first, link.joints, share),
+                  travel_of(at, turns, link.to, first, link.joints, share));
+}
+
+/// From the tip to the base: what moves most meets most.
+Room ArmWorld::room(const ChainPosture& at, const Turns& turns, double share) const {
+  Room least = Room::clear;
+  for (auto link = links_.rbegin(); link != links_.rend(); ++link) {
+    const double travel = share > 0.0 ? travel_of_link(at, turns, *link, 0, share) : 0.0;
+    const Room here = solids_.room(spine_of(at, *link), touch_, touch_ + travel);
+    if (here == Room::blocked) return here;
+    least = std::min(least, here);
+  }
+  for (const LinkPair& pair : pairs_) {
+    const Room here = room_between(at, turns, pair, share);
+    if (here == Room::blocked) return here;
+    least = std::min(least, here);
+  }
+  return least;
+}
+
+Room ArmWorld::room_between(const ChainPosture& at, const Turns& turns, const LinkPair& pair, double share) const {
+  const ArmLink& far = links_[pair.far];
+  const double travel = share > 0.0 ? travel_of_link(at, turns, far, links_[pair.near].joints, share) : 0.0;
+  const double distance = std::sqrt(distance_square(spine_of(at, links_[pair.near]), spine_of(at, far)));
+  return distance <= touch_links_ ? Room::blocked : distance <= touch_links_ + travel ? Room::narrow : Room::clear;
+}
+
+double ArmWorld::travel(const State& a, const State& b) const {
+  const Turns turns = turns_between(a, b);
+  double most = 0.0;
+  for (const ArmLink& link : links_) most = std::max({most, turns.most[link.from], turns.most[link.to]});
+  return most;
+}
+
+/// The share of the motion on which nothing goes farther than the resolution.
+double ArmWorld::resolution_share(const Turns& turns) const {
+  double most = 0.0;
+  for (const ArmLink& link : links_) most = std::max({most, turns.most[link.from], turns.most[link.to]});
+  return most > resolution_ ? resolution_ / most : 1.0;
+}
+
+/// Room and way are measured in shares of the motion: a piece is free where every link keeps clear for so long.
+MotionVerdict ArmWorld::judge_motion(const State& a, const State& b) const {
+  const Turns turns = turns_between(a, b);
+  ChainPosture at;
+  const auto free_share = [&](double t, double share) {
+    chain_.place(interpolate(a, b, t), at);
+    const Room here = room(at, turns, share);
+    return here == Room::blocked ? 0.0 : here == Room::narrow ? share : 2.0 * share;
+  };
+  return certified_motion(
+      free_share, [](double t, double u) { return u - t; }, resolution_share(turns));
+}
+
+bool ArmWorld::is_free_motion(const State& a, const State& b, Query& query) const {
+  const MotionVerdict verdict = judge_motion(a, b);
+  if (verdict == MotionVerdict::refused) ++query.refused;
+  return verdict == MotionVerdict::free;
+}
+
+double ArmWorld::sampled_volume() const {
+  double volume = 1.0;
+  for (std::size_t j = 0; j < dimension; ++j) {
+    if (chain_.moves(j)) volume *= weights_[j] * (chain_.high(j) - chain_.low(j));
+  }
+  return volume;
+}
+
+std::size_t ArmWorld::sampled_dimension() const {
+  std::size_t count = 0;
+  for (std::size_t j = 0; j < dimension; ++j) count += chain_.moves(j) ? 1 : 0;
+  return count;
+}
+
+std::vector<JointState> with_even_idle_joints(const ArmWorld& world, std::vector<JointState> path) {
+  if (path.size() < 2) return path;
+  std::vector<double> along(path.size(), 0.0);
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    double sum = 0.0;
+    for (std::size_t j = 0; j < most_joints; ++j) {
+      if (world.chain().moves(j)) sum += (path[i][j] - path[i - 1][j]) * (path[i][j] - path[i - 1][j]);
+    }
+    along[i] = along[i - 1] + std::sqrt(sum);
+  }
+  const double whole = along.back();
+  for (std::size_t i = 1; i + 1 < path.size() && whole > 0.0; ++i) {
+    const JointState even = world.interpolate(path.front(), path.back(), along[i] / whole);
+    for (std::size_t j = 0; j < most_joints; ++j) {
+      if (!world.chain().moves(j)) path[i][j] = even[j];
+    }
+  }
+  return path;
+}
+
+}  // namespace warren

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "worlds/puma560.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace warren {
+namespace {
+
+using Complex = std::complex<double>;
+using Angles = std::array<double, 3>;
+
+constexpr double degree = std::numbers::pi / 180.0;
+constexpr double full_turn = 2.0 * std::numbers::pi;
+/// Squares so little below zero, in units of the arm's size squared, are roundings of zero.
+constexpr double slack = 1e-14;
+
+struct Row {
+  double d, a, alpha_degrees;
+};
+constexpr std::array<Row, 6> standard_rows{
+    {{0, 0, 90}, {0, 0.4318, 0}, {0.15005, 0.0203, -90}, {0.4318, 0, 90}, {0, 0, -90}, {0, 0, 0}}};
+constexpr std::array<Row, 6> modified_rows{
+    {{0, 0, 0}, {0.2435, 0, -90}, {-0.0934, 0.4318, 0}, {0.4331, -0.0203, 90}, {0, 0, -90}, {0, 0, 90}}};
+
+constexpr std::array<std::array<double, 2>, 6> classic_degrees{
+    {{-160, 160}, {-45, 225}, {-225, 45}, {-110, 170}, {-100, 100}, {-266, 266}}};
+constexpr std::array<std::array<double, 2>, 6> symmetric_degrees{
+    {{-160, 160}, {-110, 110}, {-135, 135}, {-266, 266}, {-100, 100}, {-266, 266}}};
+
+DhTable table_of(DhConvention convention, const std::array<Row, 6>& rows, double tool, PumaLimits limits) {
+  const auto& range = limits == PumaLimits::classic ? classic_degrees : symmetric_degrees;
+  DhTable table;
+  table.convention = convention;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    table.joints.push_back(
+        {rows[i].d, rows[i].a, rows[i].alpha_degrees * degree, range[i][0] * degree, range[i][1] * degree, 0.0});
+  }
+  table.tool.translation() = Vec3(0.0, 0.0, tool);
+  return table;
+}
+
+bool is_near(double x, double y) { return std::abs(x - y) <= 1e-12; }
+
+/// A root; nothing where the square is below zero by more than rounding.
+std::optional<double> root_of(double square, double scale) {
+  if (square < -slack * scale) return std::nullopt;
+  return std::sqrt(std::max(square, 0.0));
+}
+
+/// The first three angles for which a point that is fixed in frame 3 comes to a place.
+class ShoulderAndElbow {
+ public:
+  /// point: in frame 3.
+  ShoulderAndElbow(const DhTable& table, const Vec3& point)
+      : upper_arm_(table.joints[1].a),
+        forearm_(table.joints[2].a + point.x(), point.z()),
+        side_(table.joints[2].d - point.y()) {}
+
+  std::vector<Angles> solve(const Vec3& place) const {
+    const double scale = place.squaredNorm() + std::norm(forearm_) + upper_arm_ * upper_arm_ + side_ * side_;
+    const auto ahead = root_of(place.x() * place.x() + place.y() * place.y() - side_ * side_, scale);
+    std::vector<Angles> found;
+    if (!ahead) return found;
+    for (const double forward : both_signs(*ahead)) {
+      const double first = std::atan2(place.y(), place.x()) - std::atan2(-side_, forward);
+      add_elbows(first, {forward, place.z()}, scale, found);
+    }
+    return found;
+  }
+
+ private:
+  static std::vector<double> both_signs(double x) {
+    return x == 0.0 ? std::vector<double>{x} : std::vector<double>{x, -x};
+  }
+  /// target: in the arm's plane, ahead and up.
+  void add_elbows(double first, Complex target, double scale, std::vector<Angles>& found) const {
+    const double twice = 2.0 * upper_arm_ * std::abs(forearm_);
+    if (twice == 0.0) return;
+    const double cosine = (std::norm(target) - upper_arm_ * upper_arm_ - std::norm(forearm_)) / twice;
+    const auto sine = root_of(1.0 - cosine * cosine, scale / twice);
+    if (!sine) return;
+    for (const double bend : both_signs(std::atan2(*sine, cosine))) {
+      const double third = bend - std::arg(forearm_);
+      const Complex reached = upper_arm_ + std::polar(1.0, third) * forearm_;
+      found.push_back({first, std::arg(target) - std::arg(reached), third});
+    }
+  }
+
+  double upper_arm_;
+  Complex forearm_;  // along x3 and z3: in the plane that shoulder and elbow move
+  double side_;      // offset from that plane
+};
+
+/// The last three angles: turn is the tool's, seen from frame 3.
+std::vector<Angles> wrists_for(const Eigen::Matrix3d& turn) {
+  constexpr double straight = 1e-9;
+  const double sine = std::hypot(turn(0, 2), turn(1, 2));
+  if (sine < straight) {
+    // Joints 4 and 6 turn about one line: all of it by joint 6.
+    const bool ahead = turn(2, 2) > 0.0;
+    return {{0.0, ahead ? 0.0 : std::numbers::pi, std::atan2(turn(1, 0), turn(1, 1))}};
+  }
+  std::vector<Angles> wrists;
+  for (const double s : {1.0, -1.0}) {
+    wrists.push_back({std::atan2(-s * turn(1, 2), -s * turn(0, 2)), std::atan2(s * sine, turn(2, 2)),
+                      std::atan2(-s * turn(2, 1), s * turn(2, 0))});
+  }
+  return wrists;
+}
+
+/// The angle and all full turns from it that are within a joint's limits.
+std::vector<double> turns_within(const SerialChain& chain, std::size_t joint, double angle) {
+  constexpr double rounding = 1e-12;
+  std::vector<double> angles;
+  const double low = chain.low(joint) - rounding;
+  for (double k = std::ceil((low - angle) / full_turn);; k += 1.0) {
+    const double turned = angle + k * full_turn;
+    if (turned > chain.high(joint) + rounding) return angles;
+    angles.push_back(std::clamp(turned, chain.low(joint), chain.high(joint)));
+  }
+}
+
+void add_turns(const SerialChain& chain, const JointState& angles, std::vector<JointState>& all) {
+  std::vector<JointState> states{angles};
+  for (std::size_t joint = 0; joint < most_joints; ++joint) {
+    std::vector<JointState> more;
+    for (const double angle : turns_within(chain, joint, angles[joint])) {
+      for (JointState state : states) {
+        state[joint] = angle;
+        more.push_back(state);
+      }
+    }
+    states = std::move(more);
+  }
+  all.insert(all.end(), states.begin(), states.end());
+}
+
+void check_shape(const SerialChain& chain) {
+  if (!has_puma560_shape(chain)) {
+    throw InputError("arm", "only arms of the Puma 560's shape have inverse kinematics in closed form here");
+  }
+}
+
+}  // namespace
+
+DhTable puma560_table(double tool, PumaLimits limits) {
+  return table_of(DhConvention::standard, standard_rows, tool, limits);
+}
+
+DhTable puma560_modified_table(double tool, PumaLimits limits) {
+  return table_of(DhConvention::modified, modified_rows, tool, limits);
+}
+
+bool has_puma560_shape(const SerialChain& chain) {
+  const DhTable& table = chain.table();
+  if (table.convention != DhConvention::standard || table.joints.size() != standard_rows.size()) return false;
+  constexpr std::array<bool, 6> any_d{false, false, true, true, false, false};
+  constexpr std::array<bool, 6> any_a{false, true, true, false, false, false};
+  for (std::size_t i = 0; i < standard_rows.size(); ++i) {
+    const DhJoint& joint = table.joints[i];
+    if (!is_near(joint.alpha_rad, standard_rows[i].alpha_degrees * degree) || joint.offset_rad != 0.0) return false;
+    if ((!any_d[i] && joint.d != 0.0) || (!any_a[i] && joint.a != 0.0)) return false;
+  }
+  const Vec3 tool = table.tool.translation();
+  return table.tool.linear().isIdentity(0.0) && tool.x() == 0.0 && tool.y() == 0.0;
+}
+
+std::vector<JointState> puma560_inverse(const SerialChain& chain, const Eigen::Isometry3d& pose) {
+  check_shape(chain);
+  const DhTable& table = chain.table();
+  const Vec3 wrist = pose.translation() - table.tool.translation().z() * pose.linear().col(2);
+  const ShoulderAndElbow arm(table, {0.0, 0.0, table.joints[3].d});
+  std::vector<JointState> all;
+  for (const Angles& first : arm.solve(wrist)) {
+    const JointState posture{first[0], first[1], first[2], 0.0, 0.0, 0.0};
+    const Eigen::Matrix3d turn = chain.frame(posture, 3).linear().transpose() * pose.linear();
+    for (const Angles& last : wrists_for(turn)) {
+      add_turns(chain, {first[0], first[1], first[2], last[0], last[1], last[2]}, all);
+    }
+  }
+  return all;
+}
+
+std::vector<JointState> puma560_inverse_place(const SerialChain& chain, const Vec3& place,
+                                              const std::array<double, 3>& wrist) {
+  check_shape(chain);
+  const JointState bent{0.0, 0.0, 0.0, wrist[0], wrist[1], wrist[2]};
+  const Vec3 tip = chain.frame(bent, 3).inverse() * chain.tool_pose(bent).translation();
+  std::vector<JointState> all;
+  for (const Angles& first : ShoulderAndElbow(chain.table(), tip).solve(place)) {
+    add_turns(chain, {first[0], first[1], first[2], wrist[0], wrist[1], wrist[2]}, all);
+  }
+  return all;
+}
+
+}  // namespace warren

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The Unimation Puma 560: its Denavit-Hartenberg tables (metres, after Corke and Armstrong-Helouvry, ICRA 1994), its
+// joint limits, and its inverse kinematics in closed form.
+//
+// Inverse kinematics (after Paul and Zhang, Int. J. Robotics Research 5(2), 1986): the wrist's place gives the shoulder
+// on two sides and for each the elbow on two, the tool's turn gives the wrist in two ways: eight branches, and each
+// angle again a full turn further where the limits leave room for that. Where an end of the reach or a straight wrist
+// makes two branches one, it is told once.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "worlds/serial_chain.hpp"
+
+namespace warren {
+
+/// classic: +-160, -45..225, -225..45, -110..170, +-100, +-266 degrees, as the toolboxes long had them.
+/// symmetric: +-160, +-110, +-135, +-266, +-100, +-266 degrees (Wang, Chen, IEEE Trans. Robotics Autom. 7(4), 1991), as
+/// they have them now.
+enum class PumaLimits : std::uint8_t { classic, symmetric };
+constexpr std::string_view name_of(PumaLimits limits) {
+  return limits == PumaLimits::classic ? "classic" : "symmetric";
+}
+
+/// The standard table; the tool stands `tool` metres along the last z axis.
+DhTable puma560_table(double tool = 0.0, PumaLimits limits = PumaLimits::classic);
+/// The same arm as a modified table with the dimensions of Armstrong, Khatib and Burdick (1986), which differ by
+/// millimetres and have the shoulder's offset in two parts.
+DhTable puma560_modified_table(double tool = 0.0, PumaLimits limits = PumaLimits::classic);
+
+/// All joint angles within the limits that bring the tool to `pose`, for an arm of puma560_table's shape (any lengths
+/// d3, d4, a2, a3, any limits, a tool along the last z axis). In a fixed order; empty: out of reach. Throws InputError
+/// for chains of another shape.
+std::vector<JointState> puma560_inverse(const SerialChain& chain, const Eigen::Isometry3d& pose);
+
+/// All joint angles within the limits that bring the tool's tip to `place`, with the wrist's three angles as given: the
+/// four branches of shoulder and elbow and their full turns.
+std::vector<JointState> puma560_inverse_place(const SerialChain& chain, const Vec3& place,
+                                              const std::array<double, 3>& wrist);
+
+/// Is this a chain that the two above take?
+bool has_puma560_shape(const SerialChain& chain);
+
+}  // namespace warren
