@@ -79,7 +79,7 @@ double plain_clearance(const ArmWorld& world, const Scene& scene, const JointSta
   for (const ArmLink& link : world.links()) {
     const Spine spine(at.points[link.from], at.points[link.to]);
     for (const Sphere& s : scene.spheres) {
-      least = std::min(least, std::sqrt(distance_square(spine, {s.x, s.y, s.z})) - s.radius);
+      least = std::min(least, std::sqrt(distance_square(spine, Vec3(s.x, s.y, s.z))) - s.radius);
     }
   }
   return least - world.radius();
