@@ -12,10 +12,10 @@
 //
 // Obstacles may touch: share corners and parts of sides, end on each other; walls may lie inside polygons. What crosses
 // or overlaps is refused (ObstacleClash). A corner on the box's side is taken as if the box were larger by nothing: the
-// cells and doors are the same as of a larger box. The door between corner and side has no length; it is shut if the box
-// is that of the bounds, which are walls. Where the box only confines, it is open (paths run along polygons on the box)
-// unless a wall lies there on the box. So k disjoint simple
-// polygons with V corners have exactly V + k + 1 cells and V + 2k doors, and a wall counts as a polygon of two corners.
+// cells and doors are the same as of a larger box. The door between corner and side has no length; it is shut if the
+// box is that of the bounds, which are walls. Where the box only confines, it is open (paths run along polygons on the
+// box) unless a wall lies there on the box. So k disjoint simple polygons with V corners have exactly V + k + 1 cells
+// and V + 2k doors, and a wall counts as a polygon of two corners.
 #pragma once
 
 #include <array>

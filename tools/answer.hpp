@@ -18,7 +18,8 @@ namespace warren {
 /// Which world was solved.
 struct WorldAccount {
   std::string source;  ///< as the command line gave it
-  std::string kind;    ///< "maze" where the scene has the hint, else "walls", "polygons" where there are any, "solids" where there is nothing else
+  std::string kind;    ///< "maze" where the scene has the hint, else "walls", "polygons" where there are any, "solids"
+                       ///< where there is nothing else
   std::uint64_t walls = 0;
   std::uint64_t polygons = 0;
   std::string hash;

@@ -219,9 +219,7 @@ constexpr PlannerChoice planners[] = {
     {PlannerKind::lazy_prm,
      "--sampler --samples --neighbours --radius --search --queue --lazy --optimise --steering --turning-radius"}};
 
-bool fits_car(const Scene& scene, const RobotSpec& robot) {
-  return robot.kind == RobotKind::car && !has_solids(scene);
-}
+bool fits_car(const Scene& scene, const RobotSpec& robot) { return robot.kind == RobotKind::car && !has_solids(scene); }
 
 PlannerKind usual_planner(const Arguments&, const Scene&, const ProblemOptions&) { return PlannerKind::rrt_connect; }
 

@@ -19,7 +19,8 @@ constexpr OptionSpec specs[] = {
     {"--goal-bias", "F", "share of rrt's samples that are the goal (default: 0.05)"},
     {"--nodes", "N", "a tree of so many nodes gives up (default: 100000)"},
     {"--trees", "N", "trees grown independently at once; the first to arrive answers (default: 1)"},
-    {"--via", "STATES", "way-points to be passed in this order: X,Y or X,Y,THETA or six joint angles each, apart by semicolons"},
+    {"--via", "STATES",
+     "way-points to be passed in this order: X,Y or X,Y,THETA or six joint angles each, apart by semicolons"},
 };
 
 }  // namespace
