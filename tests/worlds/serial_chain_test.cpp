@@ -144,7 +144,7 @@ TEST(SerialChain, TellsWhichJointIsOutsideItsLimits) {
 }
 
 TEST(SerialChain, RefusesBadTables) {
-  const auto refusal = [](DhTable table) -> std::string {
+  const auto refusal = [](const DhTable& table) -> std::string {
     try {
       const SerialChain chain(table);
     } catch (const InputError& error) {
