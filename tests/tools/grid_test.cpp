@@ -318,7 +318,8 @@ TEST(Maps, PlannersAreComparedOnThemPolygonsToo) {
     std::vector<std::string> words{"compare", map, "--robot", robot, "--seeds", "2", "--goal", "6.5,4.5", "--start"};
     words.insert(words.end(), {turns ? "0.5,0.5,0" : "0.5,0.5", "--planners",
                                turns ? "voronoi,prm,rrt" : "grid,voronoi,prm,rrt", "--pictures", folder.path("out")});
-    for (const Json& row : answered(words)["rows"]) {
+    const Json answer = answered(words);
+    for (const Json& row : answer["rows"]) {
       EXPECT_EQ(row["solved"], 2) << row["planner"];
       EXPECT_GE(row["cells"]["median"], 7.0);
       EXPECT_EQ(row.contains("turn_rad"), turns);
