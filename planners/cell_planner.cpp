@@ -9,6 +9,7 @@
 #include "parallel/components.hpp"
 #include "planners/cell_separation.hpp"
 #include "planners/queue_choice.hpp"
+#include "planners/stopped_solution.hpp"
 #include "planners/taut_route.hpp"
 
 namespace warren {
@@ -259,9 +260,7 @@ Solution<Vec2> plan_through_cells(const PlaneObstacles& obstacles, Vec2 start, V
   try {
     planning.run();
   } catch (const Stopped& stopped) {
-    planning.solution().outcome = Outcome::stopped;
-    planning.solution().stop_reason = stopped.reason;
-    planning.solution().path.clear();
+    mark_stopped(planning.solution(), stopped);
   }
   if (keep != nullptr) *keep = std::move(planning.plan());
   return std::move(planning.solution());

@@ -15,6 +15,7 @@
 #include "planners/axis_join.hpp"
 #include "planners/certain_clearance.hpp"
 #include "planners/separation.hpp"
+#include "planners/stopped_solution.hpp"
 #include "spatial/wall_index.hpp"
 
 namespace warren {
@@ -202,9 +203,7 @@ Solution<Vec2> plan_on_medial_axis(const PlaneObstacles& obstacles, Vec2 start, 
   try {
     planning.run();
   } catch (const Stopped& stopped) {
-    planning.solution().outcome = Outcome::stopped;
-    planning.solution().stop_reason = stopped.reason;
-    planning.solution().path.clear();
+    mark_stopped(planning.solution(), stopped);
   }
   if (keep != nullptr) *keep = std::move(planning.kept());
   return std::move(planning.solution());

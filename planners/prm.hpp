@@ -21,6 +21,7 @@
 #include "planners/roadmap_options.hpp"
 #include "planners/roadmap_search.hpp"
 #include "planners/separation.hpp"
+#include "planners/stopped_solution.hpp"
 
 namespace warren {
 
@@ -160,9 +161,7 @@ Solution<typename W::State> plan_in_rounds(const W& world, const typename W::Sta
     }
     plan.finish(keep);
   } catch (const Stopped& stopped) {
-    solution.outcome = Outcome::stopped;
-    solution.stop_reason = stopped.reason;
-    solution.path.clear();
+    mark_stopped(solution, stopped);
   }
   return std::move(solution);
 }

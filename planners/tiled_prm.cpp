@@ -9,6 +9,7 @@
 #include "planners/end_links.hpp"
 #include "planners/overlay.hpp"
 #include "planners/overlay_search.hpp"
+#include "planners/stopped_solution.hpp"
 #include "planners/tile_grid.hpp"
 #include "planners/tile_plane.hpp"
 #include "planners/tile_reduction.hpp"
@@ -176,8 +177,7 @@ Solution<Vec2> tiled_prm(const TiledProblem& problem, const RoadmapOptions& opti
   try {
     plan.run();
   } catch (const Stopped& stopped) {
-    plan.solution().outcome = Outcome::stopped;
-    plan.solution().stop_reason = stopped.reason;
+    mark_stopped(plan.solution(), stopped);
   }
   return std::move(plan.solution());
 }

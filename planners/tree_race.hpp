@@ -19,6 +19,7 @@
 #include "planners/roadmap.hpp"
 #include "planners/rrt_options.hpp"
 #include "planners/sampler.hpp"
+#include "planners/stopped_solution.hpp"
 
 namespace warren {
 
@@ -94,9 +95,7 @@ Solution<typename W::State> race_trees(const W& world, const typename W::State& 
     solution.outcome = winner ? Outcome::solved : Outcome::not_connected;
     searches[winner.value_or(0)].finish(solution, keep);
   } catch (const Stopped& stopped) {
-    solution.outcome = Outcome::stopped;
-    solution.stop_reason = stopped.reason;
-    solution.path.clear();
+    mark_stopped(solution, stopped);
   }
   for (const Search& search : searches) solution.counters += search.counters();
   return solution;
