@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// States are numbered (j width + i) angles + k, and one more number stands for "the goal at any heading": an edge of
-// length 0 leads to it from each state at the goal's position.
+// States are numbered (j width + i) angles + k. Two more numbers stand for what the ends' states are joined to: edges
+// as long as their costs lead from the one, and to the other.
 #include "planners/layer_search.hpp"
 
 #include <algorithm>
@@ -84,8 +84,8 @@ class LayerSteps {
   std::vector<std::vector<unsigned>> steps_facing_;
 };
 
-/// What is left to pay at least from each position: a Dijkstra from the goal over positions free at some heading.
-std::vector<double> plane_costs(const LayerSteps& steps, Cell goal, const Execution& execution) {
+/// What is left to pay at least from each position: a Dijkstra from the goals over positions free at some heading.
+std::vector<double> plane_costs(const LayerSteps& steps, std::span<const LayerEnd> goals, const Execution& execution) {
   const HeadingLayers& layers = steps.layers();
   const std::size_t positions = std::size_t{layers.width} * layers.height;
   execution.reserve(positions * sizeof(double));
@@ -106,7 +106,7 @@ std::vector<double> plane_costs(const LayerSteps& steps, Cell goal, const Execut
     costs[v] = cost;
     queue.push(static_cast<VertexId>(v), cost);
   };
-  reach(goal.x, goal.y, 0.0);
+  for (const LayerEnd& goal : goals) reach(goal.state.i, goal.state.j, goal.cost);
   for (std::uint64_t expanded = 1; !queue.empty(); ++expanded) {
     const QueueEntry top = queue.pop();
     if (top.key > costs[top.vertex]) continue;
@@ -126,45 +126,74 @@ std::vector<double> plane_costs(const LayerSteps& steps, Cell goal, const Execut
 /// One search: numbers of states, neighbours, heuristic.
 class LayerAStar {
  public:
-  LayerAStar(const LayerSteps& steps, Cell goal, std::optional<std::uint32_t> goal_heading, const Execution& execution)
+  LayerAStar(const LayerSteps& steps, std::span<const LayerEnd> starts, std::span<const LayerEnd> goals,
+             const Execution& execution)
       : steps_(steps),
         layers_(steps.layers()),
-        goal_(goal),
-        goal_heading_(goal_heading),
+        starts_(starts),
         execution_(execution),
-        plane_costs_(plane_costs(steps, goal, execution)) {}
+        plane_costs_(plane_costs(steps, goals, execution)) {
+    for (const LayerEnd& goal : goals) goals_.emplace_back(number(goal.state), goal.cost);
+    std::sort(goals_.begin(), goals_.end());
+    turn_costs_.assign(layers_.angles, std::numeric_limits<double>::infinity());
+    for (std::uint32_t k = 0; k < layers_.angles; ++k) {
+      for (const LayerEnd& goal : goals) turn_costs_[k] = std::min(turn_costs_[k], cost_of_turning(k, goal.state.k));
+    }
+  }
 
-  SearchResult find(const LayerState& start) {
+  SearchResult find() {
     constexpr std::size_t bytes_a_state = 12;
-    execution_.reserve((layers_.states() + 1) * bytes_a_state);
+    execution_.reserve((layers_.states() + 2) * bytes_a_state);
     SearchState state;
-    state.resize(layers_.states() + 1);
+    state.resize(layers_.states() + 2);
     BucketQueue queue(steps_.turn_cost());
     const auto neighbours = [&](VertexId v, const auto& visit) { visit_neighbours(v, visit); };
     const auto heuristic = [&](VertexId v) { return at_least(v); };
-    return best_first(number(start), goal_number(), neighbours, heuristic, queue, state,
+    return best_first(before_starts(), behind_goals(), neighbours, heuristic, queue, state,
                       [&] { return execution_.should_stop(); });
   }
 
-  /// Is there no way to the goal's position even for a body that is free wherever some heading is?
-  bool is_hopeless(const LayerState& start) const { return std::isinf(at_least(number(start))); }
+  /// Is there no way to a goal's position even for a body that is free wherever some heading is?
+  bool is_hopeless() const {
+    return std::all_of(starts_.begin(), starts_.end(),
+                       [&](const LayerEnd& start) { return std::isinf(at_least(number(start.state))); });
+  }
 
   LayerState state_of(VertexId v) const {
     const VertexId position = v / layers_.angles;
     return {position % layers_.width, position / layers_.width, v % layers_.angles};
   }
-  VertexId any_heading() const { return static_cast<VertexId>(layers_.states()); }
+  double start_cost(VertexId v) const {
+    const auto found =
+        std::find_if(starts_.begin(), starts_.end(), [&](const LayerEnd& e) { return number(e.state) == v; });
+    return found->cost;
+  }
+  double goal_cost(VertexId v) const { return std::lower_bound(goals_.begin(), goals_.end(), Goal{v, 0.0})->second; }
 
  private:
+  using Goal = std::pair<VertexId, double>;
+
+  VertexId before_starts() const { return static_cast<VertexId>(layers_.states()); }
+  VertexId behind_goals() const { return static_cast<VertexId>(layers_.states() + 1); }
   VertexId number(const LayerState& s) const {
     return static_cast<VertexId>((std::uint64_t{s.j} * layers_.width + s.i) * layers_.angles + s.k);
   }
-  VertexId goal_number() const { return goal_heading_ ? number({goal_.x, goal_.y, *goal_heading_}) : any_heading(); }
+  double cost_of_turning(std::uint32_t from, std::uint32_t to) const {
+    const std::uint32_t apart = from > to ? from - to : to - from;
+    return steps_.turn_cost() * std::min(apart, layers_.angles - apart);
+  }
 
   template <class Visit>
   void visit_neighbours(VertexId v, const Visit& visit) const {
+    if (v == before_starts()) {
+      for (const LayerEnd& start : starts_) visit(number(start.state), start.cost);
+      return;
+    }
     const LayerState s = state_of(v);
-    if (!goal_heading_ && s.i == goal_.x && s.j == goal_.y) visit(any_heading(), 0.0);
+    if (v >= goals_.front().first && v <= goals_.back().first) {
+      const auto goal = std::lower_bound(goals_.begin(), goals_.end(), Goal{v, 0.0});
+      if (goal->first == v) visit(behind_goals(), goal->second);
+    }
     for (const unsigned step : steps_.steps_at(s.k)) {
       if (!steps_.may_step(s, step)) continue;
       const auto position = static_cast<std::int64_t>(v / layers_.angles) +
@@ -179,33 +208,47 @@ class LayerAStar {
   }
 
   double at_least(VertexId v) const {
-    if (v == any_heading()) return 0.0;
-    const double way = plane_costs_[v / layers_.angles];
-    if (!goal_heading_) return way;
-    const std::uint32_t k = v % layers_.angles;
-    const std::uint32_t apart = k > *goal_heading_ ? k - *goal_heading_ : *goal_heading_ - k;
-    return way + steps_.turn_cost() * std::min(apart, layers_.angles - apart);
+    if (v >= layers_.states()) return 0.0;  // of the goal; and of the start, which is expanded first
+    return plane_costs_[v / layers_.angles] + turn_costs_[v % layers_.angles];
   }
 
   const LayerSteps& steps_;
   const HeadingLayers& layers_;
-  Cell goal_;
-  std::optional<std::uint32_t> goal_heading_;
+  std::span<const LayerEnd> starts_;
   const Execution& execution_;
   std::vector<double> plane_costs_;
+  std::vector<double> turn_costs_;  // to the nearest goal's heading, from each
+  std::vector<Goal> goals_;         // by number
 };
 
-void check(const HeadingLayers& layers, const LayerState& start, Cell goal, std::optional<std::uint32_t> goal_heading,
+bool is_inside(const HeadingLayers& layers, const LayerState& s) {
+  return s.i < layers.width && s.j < layers.height && s.k < layers.angles;
+}
+
+void check(const HeadingLayers& layers, std::span<const LayerEnd> starts, std::span<const LayerEnd> goals,
            const LayerSearchOptions& options) {
-  const auto inside = [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
-    return i < layers.width && j < layers.height && k < layers.angles;
+  const auto check_ends = [&](const char* name, std::span<const LayerEnd> ends) {
+    for (const LayerEnd& end : ends) {
+      if (!is_inside(layers, end.state)) throw InputError(name, "lies outside of the grid");
+      if (!(end.cost >= 0.0) || !std::isfinite(end.cost)) {
+        throw InputError(name, "must cost a number from 0", std::to_string(end.cost));
+      }
+    }
   };
-  if (!inside(start.i, start.j, start.k)) throw InputError("start", "lies outside of the grid");
-  if (!inside(goal.x, goal.y, goal_heading.value_or(0))) throw InputError("goal", "lies outside of the grid");
+  check_ends("start", starts);
+  check_ends("goal", goals);
   for (const double cost : {options.step_cost, options.turn_cost}) {
     if (!(cost > 0.0) || !std::isfinite(cost)) throw InputError("cost", "must be above 0", std::to_string(cost));
   }
-  if (layers.states() >= no_vertex) throw InputError("grid", "has 2^32 states or more");
+  if (layers.states() + 2 >= no_vertex) throw InputError("grid", "has 2^32 states or more");
+}
+
+std::vector<LayerEnd> free_ends(const HeadingLayers& layers, std::span<const LayerEnd> ends) {
+  std::vector<LayerEnd> free;
+  for (const LayerEnd& end : ends) {
+    if (layers.is_free(end.state.i, end.state.j, end.state.k)) free.push_back(end);
+  }
+  return free;
 }
 
 void count_moves(LayerPath& path, const LayerSearchOptions& options) {
@@ -229,25 +272,33 @@ void count_moves(LayerPath& path, const LayerSearchOptions& options) {
 LayerPath layer_search(const HeadingLayers& layers, const LayerState& start, Cell goal,
                        std::optional<std::uint32_t> goal_heading, const LayerSearchOptions& options,
                        const Execution& execution) {
-  check(layers, start, goal, goal_heading, options);
+  std::vector<LayerEnd> goals;
+  for (std::uint32_t k = 0; k < layers.angles && !goal_heading; ++k) goals.push_back({{goal.x, goal.y, k}});
+  if (goal_heading) goals.push_back({{goal.x, goal.y, *goal_heading}});
+  const LayerEnd only{start};
+  return layer_search(layers, std::span(&only, 1), goals, options, execution);
+}
+
+LayerPath layer_search(const HeadingLayers& layers, std::span<const LayerEnd> starts, std::span<const LayerEnd> goals,
+                       const LayerSearchOptions& options, const Execution& execution) {
+  check(layers, starts, goals, options);
   LayerPath path;
-  path.start_free = layers.is_free(start.i, start.j, start.k);
-  path.goal_free = false;
-  for (std::uint32_t k = 0; k < layers.angles; ++k) {
-    if (!goal_heading || k == *goal_heading) path.goal_free = path.goal_free || layers.is_free(goal.x, goal.y, k);
-  }
+  const std::vector<LayerEnd> from = free_ends(layers, starts);
+  const std::vector<LayerEnd> to = free_ends(layers, goals);
+  path.start_free = !from.empty();
+  path.goal_free = !to.empty();
   if (!path.start_free || !path.goal_free) return path;
   const LayerSteps steps(layers, options);
-  LayerAStar search(steps, goal, goal_heading, execution);
-  if (search.is_hopeless(start)) return path;
-  SearchResult result = search.find(start);
+  LayerAStar search(steps, from, to, execution);
+  if (search.is_hopeless()) return path;
+  const SearchResult result = search.find();
   if (result.status == SearchStatus::stopped) execution.check();
   path.status = result.status;
   path.expanded = result.expanded;
   if (result.status != SearchStatus::found) return path;
-  if (result.path.back() == search.any_heading()) result.path.pop_back();
-  for (const VertexId v : result.path) path.states.push_back(search.state_of(v));
+  for (std::size_t n = 1; n + 1 < result.path.size(); ++n) path.states.push_back(search.state_of(result.path[n]));
   count_moves(path, options);
+  path.cost += search.start_cost(result.path[1]) + search.goal_cost(result.path[result.path.size() - 2]);
   return path;
 }
 

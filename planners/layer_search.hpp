@@ -3,14 +3,18 @@
 // eight positions around it, or turns to the next heading either way; what may be stepped and turned is said by the
 // layers' bits. With face_motion a body steps only at the heading of its direction.
 //
-// Heuristic: the cheapest way over positions that are free at any heading (one Dijkstra from the goal in the plane),
-// plus the turns to the goal's heading if it has one. It never grows by more than an edge costs, so it is consistent,
+// A search may begin and end at several states, each at a cost: what lies off the lattice is joined to states around
+// it.
+//
+// Heuristic: the cheapest way over positions that are free at any heading (one Dijkstra from the goals in the plane),
+// plus the turns to the nearest goal's heading. It never grows by more than an edge costs, so it is consistent,
 // whatever the costs: every edge either steps or turns. 12 bytes a state and the queue; the plane's search costs a
 // little, and states it rules out are never reached.
 #pragma once
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/heading_layers.hpp"
@@ -34,14 +38,20 @@ struct LayerSearchOptions {
   bool face_motion = false;
 };
 
+/// A state by which a search may begin or end, and what getting there from outside the lattice costs.
+struct LayerEnd {
+  LayerState state;
+  double cost = 0.0;  ///< >= 0
+};
+
 struct LayerPath {
   SearchStatus status = SearchStatus::exhausted;  ///< exhausted: no path in these layers; also where an end is blocked
   bool start_free = true;
   bool goal_free = true;
   std::vector<LayerState> states;  ///< start to goal; empty unless found
-  double cost = 0.0;
-  std::uint64_t steps = 0;      ///< to another position, diagonal ones included
-  std::uint64_t diagonals = 0;  ///< of these
+  double cost = 0.0;               ///< that of both ends included
+  std::uint64_t steps = 0;         ///< to another position, diagonal ones included
+  std::uint64_t diagonals = 0;     ///< of these
   std::uint64_t turns = 0;
   std::uint64_t expanded = 0;
 };
@@ -51,5 +61,9 @@ struct LayerPath {
 LayerPath layer_search(const HeadingLayers& layers, const LayerState& start, Cell goal,
                        std::optional<std::uint32_t> goal_heading, const LayerSearchOptions& options,
                        const Execution& execution);
+
+/// A cheapest path from any of the starts to any of the goals; ends that are not free are left out.
+LayerPath layer_search(const HeadingLayers& layers, std::span<const LayerEnd> starts, std::span<const LayerEnd> goals,
+                       const LayerSearchOptions& options, const Execution& execution);
 
 }  // namespace warren

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A point, disc or turning polygon among walls and polygons, planned by the grid planner over a lattice of positions
-// and headings.
+// A point, disc or turning polygon among walls and polygons, or a turning polygon on an occupancy map, planned by the
+// grid planner over a lattice of positions and headings. What begins or ends off the lattice is joined to it.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -14,10 +14,12 @@
 #include "tools/answer_json.hpp"
 #include "tools/cell_drawing.hpp"
 #include "tools/grid_options.hpp"
+#include "tools/lattice_ends.hpp"
 #include "tools/option_values.hpp"
 #include "tools/solve_kind.hpp"
 #include "tools/sweep_drawing.hpp"
 #include "tools/verified_answer.hpp"
+#include "worlds/map_layers.hpp"
 #include "worlds/orientation_layers.hpp"
 #include "worlds/verify_se2.hpp"
 
@@ -28,7 +30,7 @@ constexpr PlannerChoice planners[] = {{PlannerKind::grid, "--cell --angles --fac
 
 bool fits_lattice(const Scene& scene, const RobotSpec& robot) {
   const bool fits = robot.kind == RobotKind::point || robot.kind == RobotKind::disc || robot.kind == RobotKind::polygon;
-  return fits && !scene.map && !has_solids(scene);
+  return fits && (!scene.map || robot.kind == RobotKind::polygon) && !has_solids(scene);
 }
 
 PlannerKind usual_planner(const Arguments&, const Scene&, const ProblemOptions&) { return PlannerKind::grid; }
@@ -52,6 +54,12 @@ Problem problem_of(const Scene& scene, const ProblemOptions& options) {
 LayerOptions layer_options(const SolveRequest& request, const Problem& problem) {
   LayerOptions options;
   options.clearance = problem.clearance;
+  if (request.scene.map && request.arguments.has("--cell")) {
+    throw UsageError("--cell: on a map the grid's positions are the middles of its cells");
+  }
+  if (request.scene.map && request.arguments.has("--layers")) {
+    throw UsageError("--layers: those of a map are exact; report 004's are for walls");
+  }
   options.grid = grid_spec(request.arguments, request.scene);
   if (const auto text = request.arguments.value("--layers")) {
     constexpr std::array<std::string_view, 2> words{"exact", "report004"};
@@ -67,7 +75,7 @@ LayerOptions layer_options(const SolveRequest& request, const Problem& problem) 
 class LatticeSolve {
  public:
   LatticeSolve(const SolveRequest& request, const Problem& problem)
-      : request_(request), problem_(problem), layer_options_(layer_options(request, problem)) {
+      : request_(request), problem_(problem), layer_options_(layer_options(request, problem)), frame_(request.scene) {
     search_.diagonal = diagonal_option(request.arguments);
     search_.face_motion = request.arguments.has("--face-motion");
     answer_.problem = problem;
@@ -79,7 +87,7 @@ class LatticeSolve {
   void run() {
     {
       const StageTimer timer(request_.execution, "index", answer_.seconds.index);
-      layers_ = orientation_layers(request_.scene, problem_.robot, layer_options_, request_.execution);
+      layers_ = layers();
     }
     answer_.figures.emplace_back("states", std::to_string(layers_.states()));
     answer_.figures.emplace_back("free_states", std::to_string(layers_.free_states()));
@@ -101,46 +109,65 @@ class LatticeSolve {
     if (layer_options_.kind == LayerKind::report004) add("layers", "\"report004\"");
   }
 
-  /// The position of the lattice at a point; it must be one, since the path begins there.
-  Cell position_of(std::string_view option, const std::vector<double>& state) const {
-    constexpr double rounding = 1e-6;
-    const double i = (state[0] - layers_.origin.x) / layers_.cell;
-    const double j = (state[1] - layers_.origin.y) / layers_.cell;
-    const double column = std::round(i);
-    const double row = std::round(j);
-    const bool inside = column >= 0.0 && row >= 0.0 && column < layers_.width && row < layers_.height;
-    if (!inside || std::abs(i - column) > rounding || std::abs(j - row) > rounding) {
-      throw UsageError(fmt::format("{}: {}, {} is no position of the grid: {} + {} i, {} + {} j", option, state[0],
-                                   state[1], layers_.origin.x, layers_.cell, layers_.origin.y, layers_.cell));
+  HeadingLayers layers() const {
+    if (!request_.scene.map) {
+      return orientation_layers(request_.scene, problem_.robot, layer_options_, request_.execution);
     }
-    return {static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row)};
+    return map_layers(*request_.scene.map, problem_.robot.outline, layer_options_.grid.angles, problem_.clearance,
+                      request_.execution);
   }
-  std::uint32_t heading_of(std::string_view option, double theta) const {
-    constexpr double rounding = 1e-6;
-    const double full = 2.0 * std::numbers::pi;
-    const double k = theta / full * layers_.angles;
-    if (std::abs(k - std::round(k)) > rounding) {
-      throw UsageError(fmt::format("{}: {} is none of the {} headings of the grid", option, theta, layers_.angles));
+
+  Se2 start_pose() const { return {problem_.start[0], problem_.start[1], turns() ? problem_.start[2] : 0.0}; }
+  bool any_heading() const { return turns() && problem_.goal.size() == 2; }
+  Se2 goal_pose() const {
+    return {problem_.goal[0], problem_.goal[1], turns() && !any_heading() ? problem_.goal[2] : 0.0};
+  }
+
+  /// The states of the lattice by which a path may begin or end.
+  std::vector<LayerEnd> ends_at(std::string_view option, const Se2& pose, bool any_heading) const {
+    const LatticeEnd end{frame_.in_lattice(pose), any_heading};
+    std::vector<LayerEnd> states = states_at(layers_, end);
+    const bool is_report = layer_options_.kind == LayerKind::report004;
+    if (states.empty() && is_report) {
+      throw UsageError(
+          fmt::format("{}: {}, {}, {} is no state of the grid, and report 004's layers join no others: {} "
+                      "+ {} i, {} + {} j, {} headings",
+                      option, pose.x, pose.y, pose.theta, layers_.origin.x, layers_.cell, layers_.origin.y,
+                      layers_.cell, layers_.angles));
     }
-    const double around = std::fmod(std::round(k), layers_.angles);
-    return static_cast<std::uint32_t>(around < 0.0 ? around + layers_.angles : around);
+    const bool any_free = std::any_of(states.begin(), states.end(), [&](const LayerEnd& e) {
+      return layers_.is_free(e.state.i, e.state.j, e.state.k);
+    });
+    if (any_free || is_report) return states;
+    return EndWorld(request_.scene, problem_, layers_, end, request_.execution).joined(search_);
+  }
+
+  /// Does the body fit at an end, in some heading where any will do, as the verification sees it?
+  bool stands_free(const Se2& pose, bool any_heading) const {
+    const std::uint32_t headings = any_heading ? layers_.angles : 1;
+    for (std::uint32_t k = 0; k < headings; ++k) {
+      const Se2 turned{pose.x, pose.y, pose.theta + 2.0 * std::numbers::pi * k / headings};
+      if (judged(std::span(&turned, 1), false).verified) return true;
+    }
+    return false;
   }
 
   void search() {
-    const Cell start = position_of("--start", problem_.start);
-    const Cell goal = position_of("--goal", problem_.goal);
-    const std::uint32_t heading = turns() ? heading_of("--start", problem_.start[2]) : 0;
-    std::optional<std::uint32_t> goal_heading;
-    if (turns() && problem_.goal.size() == 3) goal_heading = heading_of("--goal", problem_.goal[2]);
     const StageTimer timer(request_.execution, "search", answer_.seconds.search, layers_.states());
-    const LayerPath path =
-        layer_search(layers_, {start.x, start.y, heading}, goal, goal_heading, search_, request_.execution);
+    const std::vector<LayerEnd> starts = ends_at("--start", start_pose(), false);
+    const std::vector<LayerEnd> goals = ends_at("--goal", goal_pose(), any_heading());
+    const LayerPath path = layer_search(layers_, starts, goals, search_, request_.execution);
     answer_.counters.expanded = path.expanded;
-    answer_.outcome = !path.start_free                     ? Outcome::start_blocked
-                      : !path.goal_free                    ? Outcome::goal_blocked
+    answer_.outcome = !path.start_free                     ? blocked(Outcome::start_blocked, start_pose(), false)
+                      : !path.goal_free                    ? blocked(Outcome::goal_blocked, goal_pose(), any_heading())
                       : path.status == SearchStatus::found ? Outcome::solved
                                                            : Outcome::not_connected;
     if (answer_.outcome == Outcome::solved) take(path);
+  }
+  /// An end that no state is joined to may still be free: nobody proved that it is blocked.
+  Outcome blocked(Outcome outcome, const Se2& pose, bool any_heading) const {
+    const bool is_report = layer_options_.kind == LayerKind::report004;
+    return !is_report && stands_free(pose, any_heading) ? Outcome::not_connected : outcome;
   }
 
   void take(const LayerPath& path) {
@@ -152,29 +179,56 @@ class LatticeSolve {
     figure("moves", path.steps);
     figure("diagonal_moves", path.diagonals);
     figure("turn_steps", path.turns);
+    take_poses(path.states);
     answer_.states.width = 3;
-    for (const LayerState& s : path.states) {
-      const Se2 pose{layers_.origin.x + layers_.cell * s.i, layers_.origin.y + layers_.cell * s.j,
-                     2.0 * std::numbers::pi * s.k / layers_.angles};
+    for (const Se2& pose : poses_) {
       answer_.path.push_back(pose.position());
       if (turns()) answer_.states.add(std::array{pose.x, pose.y, pose.theta});
-      poses_.push_back(pose);
     }
+  }
+
+  /// The path begins and ends where it was asked to, on the lattice or off it.
+  void take_poses(const std::vector<LayerState>& states) {
+    const auto pose = [&](const LayerState& s) { return frame_.in_world(pose_of(layers_, s)); };
+    const auto is_there = [&](const Se2& end, const Se2& state, bool any_heading) {
+      const double rounding = 1e-9 * layers_.cell;
+      return distance(end.position(), state.position()) <= rounding &&
+             (any_heading || std::abs(turn_between(end.theta, state.theta)) <= rounding);
+    };
+    Se2 goal = goal_pose();
+    if (any_heading()) goal.theta = pose(states.back()).theta;
+    poses_.push_back(start_pose());
+    for (const LayerState& s : states) {
+      const Se2 next = pose(s);
+      const bool is_end = (s == states.front() && is_there(start_pose(), next, !turns())) ||
+                          (s == states.back() && is_there(goal, next, !turns()));
+      if (!is_end) poses_.push_back(next);
+    }
+    if (poses_.size() > 1 || !is_there(goal, start_pose(), !turns())) poses_.push_back(goal);
+  }
+
+  Se2Verification judged(std::span<const Se2> poses, bool ends_too) const {
+    if (turns()) {
+      Se2VerifyOptions options{.clearance = problem_.clearance};
+      if (ends_too) {
+        options.start = start_pose();
+        options.goal = goal_pose();
+        options.any_heading = any_heading();
+      }
+      return verify_se2(request_.scene, problem_.robot.outline, poses, options, request_.execution);
+    }
+    std::vector<Vec2> path;
+    for (const Se2& pose : poses) path.push_back(pose.position());
+    const VerifyOptions options{.clearance = problem_.clearance + problem_.robot.radius};
+    const Verification verification = verify_path(request_.scene, path, options, request_.execution);
+    return {verification.verified, verification.length, 0.0, verification.min_clearance - problem_.robot.radius,
+            verification.first_violation};
   }
 
   void verify() {
     const StageTimer timer(request_.execution, "verify", answer_.seconds.verify, answer_.path.size());
-    Verification verification;
-    if (turns()) {
-      const Se2Verification judged = verify_se2(request_.scene, problem_.robot.outline, poses_,
-                                                {.clearance = problem_.clearance}, request_.execution);
-      answer_.turn_rad = judged.turn_rad;
-      verification = {judged.verified, judged.length, judged.min_clearance, judged.first_violation};
-    } else {
-      const VerifyOptions options{.clearance = problem_.clearance + problem_.robot.radius};
-      verification = verify_path(request_.scene, answer_.path, options, request_.execution);
-      verification.min_clearance -= problem_.robot.radius;
-    }
+    const Se2Verification verification = judged(poses_, layer_options_.kind == LayerKind::exact);
+    if (turns()) answer_.turn_rad = verification.turn_rad;
     if (!verification.verified && layer_options_.kind == LayerKind::exact) {
       const Violation violation = verification.first_violation.value_or(Violation{});
       throw std::logic_error(fmt::format("the path of grid fails its verification at leg {}: {} is {} away",
@@ -202,6 +256,7 @@ class LatticeSolve {
   Problem problem_;
   LayerOptions layer_options_;
   LayerSearchOptions search_;
+  LatticeFrame frame_;
   HeadingLayers layers_;
   std::vector<Se2> poses_;
   Answer answer_;

@@ -12,6 +12,7 @@
 #include "spatial/distance_field.hpp"
 #include "worlds/convex_pieces.hpp"
 #include "worlds/lattice_marking.hpp"
+#include "worlds/layer_jobs.hpp"
 
 namespace warren {
 namespace {
@@ -39,12 +40,6 @@ HeadingLayers empty_lattice(const Scene& scene, const RobotSpec& robot, const Gr
   return layers;
 }
 
-/// One bitmap to be made: positions at which the union of the pieces touches something.
-struct Job {
-  std::vector<ConvexPiece> pieces;
-  bool fills_polygons = false;  ///< a body may also stand inside a polygon without touching its sides
-};
-
 /// The exact layers: a list of jobs, then all of them at once.
 class ExactLayers {
  public:
@@ -62,72 +57,15 @@ class ExactLayers {
   }
 
   HeadingLayers make() {
-    list_jobs();
-    execution_.reserve(jobs_.size() * (layers_.width / 8 + 8) * std::size_t{layers_.height});
-    layers_.bitmaps.resize(jobs_.size());
-    for_chunks(jobs_.size(), 1, execution_, [&](Range r) { layers_.bitmaps[r.first] = made(jobs_[r.first]); });
+    const std::vector<LayerJob> jobs = list_layer_jobs(outline_, layers_);
+    execution_.reserve(jobs.size() * (layers_.width / 8 + 8) * std::size_t{layers_.height});
+    layers_.bitmaps.resize(jobs.size());
+    for_chunks(jobs.size(), 1, execution_, [&](Range r) { layers_.bitmaps[r.first] = made(jobs[r.first]); });
     return std::move(layers_);
   }
 
  private:
-  /// Corners in order from the least: the same for every heading that covers the same set.
-  static ConvexPiece key_of(ConvexPiece corners) {
-    const auto less = [](Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); };
-    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end(), less), corners.end());
-    return corners;
-  }
-
-  std::uint32_t add(Job job) {
-    jobs_.push_back(std::move(job));
-    return static_cast<std::uint32_t>(jobs_.size() - 1);
-  }
-
-  void list_jobs() {
-    std::vector<ConvexPiece> keys;
-    for (std::uint32_t k = 0; k < layers_.angles; ++k) {
-      keys.push_back(key_of(turned(outline_, k, layers_.angles)));
-      const auto same = static_cast<std::size_t>(std::find(keys.begin(), keys.end(), keys.back()) - keys.begin());
-      if (same < k) {
-        layers_.standing.push_back(layers_.standing[same]);
-        layers_.moving.push_back(layers_.moving[same]);
-        if (layers_.angles > 1) layers_.turning.push_back(layers_.turning[same]);
-      } else {
-        list_jobs_of(convex_pieces(turned(outline_, k, layers_.angles)));
-      }
-    }
-  }
-
-  void list_jobs_of(const std::vector<ConvexPiece>& pieces) {
-    layers_.standing.push_back(add({pieces, true}));
-    std::array<std::uint32_t, 4> moving{};
-    for (std::size_t s = 0; s < moving.size(); ++s) {
-      const auto [dx, dy] = HeadingLayers::steps[s];
-      Job job;
-      for (const ConvexPiece& piece : pieces) {
-        job.pieces.push_back(swept_by_step(piece, {dx * layers_.cell, dy * layers_.cell}));
-      }
-      moving[s] = add(std::move(job));
-    }
-    layers_.moving.push_back(moving);
-    if (layers_.angles > 1) layers_.turning.push_back(add(turn_job(pieces)));
-  }
-
-  Job turn_job(const std::vector<ConvexPiece>& pieces) const {
-    Job job;
-    const double angle_rad = 2.0 * std::numbers::pi / layers_.angles;
-    constexpr double widest = std::numbers::pi / 24;  // larger turns in parts, so that arcs stay near their tangents
-    const int parts = static_cast<int>(std::ceil(angle_rad / widest));
-    for (const ConvexPiece& piece : pieces) {
-      for (int part = 0; part < parts; ++part) {
-        ConvexPiece from;
-        for (const Vec2 p : piece) from.push_back(Rotation(part * angle_rad / parts)(p));
-        for (ConvexPiece& swept : swept_by_turn(from, angle_rad / parts)) job.pieces.push_back(std::move(swept));
-      }
-    }
-    return job;
-  }
-
-  Bitmap made(const Job& job) const {
+  Bitmap made(const LayerJob& job) const {
     LatticeMarking marking(layers_.origin, layers_.cell, layers_.width, layers_.height);
     for (const ConvexPiece& piece : job.pieces) {
       execution_.check();
@@ -135,7 +73,7 @@ class ExactLayers {
       for (std::size_t i = 0; i < scene_.walls.size(); ++i) mark(piece, scene_.walls.segment(i), marking);
       for (const Segment& side : sides_) mark(piece, side, marking);
     }
-    if (job.fills_polygons) {
+    if (job.is_standing) {
       for (const ScenePolygon& polygon : scene_.polygons) {
         marking.mark_inside(polygon.corners, job.pieces.front().front());
       }
@@ -152,7 +90,6 @@ class ExactLayers {
   double radius_;
   std::vector<Segment> sides_;  // of polygons
   HeadingLayers layers_;
-  std::vector<Job> jobs_;
 };
 
 // ---- as in report 004 -----------------------------------------------------------------------------------------------

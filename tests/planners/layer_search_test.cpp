@@ -189,6 +189,40 @@ TEST(LayerSearch, CostsEqualAPlainDijkstraAndPathsAreVerified) {
   EXPECT_GT(found, 5);
 }
 
+TEST(LayerSearch, TheCheapestOfSeveralEndsIsTakenWithWhatItCosts) {
+  int found = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    RobotSpec robot;
+    robot.kind = RobotKind::polygon;
+    robot.outline = body_of(seed);
+    const HeadingLayers layers = orientation_layers(random_scene(seed), robot, {{1.5, 8}}, {});
+    const auto number = [&](std::uint64_t n, std::uint64_t axis, std::uint32_t end) {
+      return static_cast<std::uint32_t>(uniform(seed, n, 40 + axis) * end);
+    };
+    std::vector<LayerEnd> starts;
+    std::vector<LayerEnd> goals;
+    for (std::uint64_t n = 0; n < 3; ++n) {
+      starts.push_back({{number(n, 0, 6), number(n, 1, layers.height), number(n, 2, 8)}, 9 * uniform(seed, n, 50)});
+      goals.push_back({{10 + number(n, 3, 6), number(n, 4, layers.height), number(n, 5, 8)}, 9 * uniform(seed, n, 51)});
+    }
+    const LayerSearchOptions options{.turn_cost = 0.6};
+    double expected = std::numeric_limits<double>::infinity();
+    for (const LayerEnd& start : starts) {
+      for (const LayerEnd& goal : goals) {
+        const double way = plain_cost(layers, start.state, {goal.state.i, goal.state.j}, goal.state.k, options);
+        expected = std::min(expected, start.cost + way + goal.cost);
+      }
+    }
+    const LayerPath path = layer_search(layers, starts, goals, options, {});
+    ASSERT_EQ(path.status == SearchStatus::found, std::isfinite(expected));
+    if (path.status != SearchStatus::found) continue;
+    ++found;
+    EXPECT_NEAR(path.cost, expected, 1e-9);
+  }
+  EXPECT_GT(found, 5);
+}
+
 TEST(LayerSearch, RefusesStatesOutsideAndCostsOutOfRange) {
   const HeadingLayers layers = orientation_layers(course_scene(), square(25), {{10, 4}}, {});
   EXPECT_THROW(layer_search(layers, {80, 0, 0}, {5, 5}, std::nullopt, {}, {}), InputError);
@@ -196,6 +230,8 @@ TEST(LayerSearch, RefusesStatesOutsideAndCostsOutOfRange) {
   EXPECT_THROW(layer_search(layers, {5, 5, 0}, {5, 30}, std::nullopt, {}, {}), InputError);
   EXPECT_THROW(layer_search(layers, {5, 5, 0}, {5, 5}, 4, {}, {}), InputError);
   EXPECT_THROW(layer_search(layers, {5, 5, 0}, {5, 5}, std::nullopt, {.turn_cost = 0.0}, {}), InputError);
+  const LayerEnd owed{{5, 5, 0}, -1.0};
+  EXPECT_THROW(layer_search(layers, std::span(&owed, 1), std::span(&owed, 1), {}, {}), InputError);
   EXPECT_THROW(orientation_layers(course_scene(), square(25), {{0, 4}}, {}), InputError);
   EXPECT_THROW(orientation_layers(Scene{}, square(25), {{1, 4}}, {}), InputError);
 }

@@ -328,12 +328,89 @@ TEST(Maps, PlannersAreComparedOnThemPolygonsToo) {
   }
 }
 
-TEST(Lattice, EndsOffTheGridAndCellsThatAreNoneAreUsageErrors) {
+TEST(Lattice, EndsOffTheGridAreJoinedToIt) {
   const Folder folder;
   const std::string scene = folder.write("walls.scene", course_scene);
-  EXPECT_EQ(run({"solve", scene, "--planner", "grid", "--cell", "2", "--start", "51,50,0"}).code, 2);
-  EXPECT_EQ(run({"solve", scene, "--planner", "grid", "--cell", "2", "--start", "50,50,0.01"}).code, 2);
+  const std::string polygons =
+      folder.write("p.scene", "bounds 0 0 40 30\npolygon 10 0.5 20 0.5 20 20 10 20\nwall 30 29.5 30 12\n");
+  struct Case {
+    std::string world;
+    const char* robot;
+    const char* start;
+    const char* goal;
+    double straight;  // how far apart the ends are
+  };
+  const char* square = "polygon -25 -25 25 -25 25 25 -25 25";
+  for (const Case& c :
+       {Case{scene, square, "51.3,49.1,0.3", "750.7,50.3", 699.4},
+        Case{scene, square, "51.3,49.1,0.3", "750.7,50.3,1.1", 699.4},
+        Case{scene, square, "50,50,0", "750,50.5,0", 700.0}, Case{scene, "disc 20", "51.3,49.1", "750.7,50.3", 699.4},
+        Case{scene, "point", "51.3,49.1", "750.7,50.3", 699.4},
+        Case{polygons, "disc 1.5", "3.03,4.04", "36.1,3.3", 33.0},
+        Case{polygons, "polygon -2 -1 2 -1 2 1 -2 1", "3.03,4.04,0.1", "36.1,3.3,2", 33.0}}) {
+    SCOPED_TRACE(std::string(c.robot) + " from " + c.start);
+    const Json answer = answered({"solve", c.world, "--planner", "grid", "--cell", "1.9", "--angles", "36", "--robot",
+                                  c.robot, "--start", c.start, "--goal", c.goal});
+    EXPECT_EQ(answer["status"], "solved");
+    EXPECT_EQ(answer["verified"], true);
+    EXPECT_GT(answer["length"].get<double>(), c.straight);
+    EXPECT_EQ(answer["path"].front(), answer["start"]);
+    EXPECT_EQ(answer["path"].back()[0], answer["goal"][0]);
+    EXPECT_EQ(answer["path"].back()[1], answer["goal"][1]);
+    EXPECT_EQ(answered({"verify", c.world, folder.write("answer.json", answer.dump())})["verified"], true);
+  }
+  const std::vector<std::string> blocked{"solve", scene, "--planner", "grid", "--cell", "2", "--goal", "750,50"};
+  for (const char* start : {"24.9,50,0", "190,50,0", "199.9,100.1,0.2"}) {
+    std::vector<std::string> words = blocked;
+    words.insert(words.end(), {"--start", start});
+    EXPECT_EQ(answered(words, 1)["status"], "start_blocked") << start;
+  }
+}
+
+TEST(Lattice, ReportsLayersJoinNothingAndCellsThatAreNoneAreUsageErrors) {
+  const Folder folder;
+  const std::string scene = folder.write("walls.scene", course_scene);
+  const std::vector<std::string> report{"solve", scene,      "--planner", "grid",   "--cell",
+                                        "2",     "--layers", "report004", "--start"};
+  for (const char* start : {"51,50,0", "50,50,0.01"}) {
+    std::vector<std::string> words = report;
+    words.push_back(start);
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_NE(outcome.err.find("no state of the grid"), std::string::npos) << outcome.err;
+  }
   EXPECT_EQ(run({"solve", scene, "--planner", "grid", "--cell", "0"}).code, 2);
+}
+
+TEST(Lattice, PolygonsTurnOnTheGridOfAMap) {
+  const Folder folder;
+  const std::string map = folder.write("a.map", small_map);
+  const std::string body = "polygon -0.2 -0.2 0.3 -0.2 0.2 0.2";
+  const std::vector<std::string> common{"solve", map, "--planner", "grid", "--robot", body};
+  const auto with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = common;
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  };
+  for (const char* goal : {"6.5,4.5", "6.4,4.55,2.5"}) {
+    const Json answer = answered(with({"--start", "0.45,0.55,0.1", "--goal", goal, "--face-motion"}));
+    EXPECT_EQ(answer["status"], "solved");
+    EXPECT_EQ(answer["verified"], true);
+    EXPECT_EQ(answer["states"], 7 * 5 * 72);
+    EXPECT_GT(answer["length"].get<double>(), 7.0);
+    EXPECT_EQ(answered({"verify", map, folder.write("answer.json", answer.dump())})["verified"], true);
+    EXPECT_EQ(answered(with({"--start", "0.45,0.55,0.1", "--goal", goal, "--face-motion", "--threads", "3"}))["path"],
+              answer["path"]);
+  }
+  EXPECT_EQ(answered(with({"--start", "3.5,1.5,0", "--goal", "6.5,4.5"}), 1)["status"], "start_blocked");
+  EXPECT_EQ(answered(with({"--start", "0.5,0.5,0", "--goal", "3.5,1.5"}), 1)["status"], "goal_blocked");
+  EXPECT_EQ(run(with({"--start", "0.5,0.5,0", "--goal", "6.5,4.5", "--cell", "0.5"})).code, 2);
+  EXPECT_EQ(run(with({"--start", "0.5,0.5,0", "--goal", "6.5,4.5", "--layers", "exact"})).code, 2);
+  const std::string sealed = folder.write("s.map", sealed_map);
+  EXPECT_EQ(
+      answered({"solve", sealed, "--planner", "grid", "--robot", body, "--start", "0.5,0.5,0", "--goal", "4.5,0.5"},
+               1)["status"],
+      "not_connected");
 }
 
 TEST(BenchScen, ExitsWithZeroOnlyWhereEveryLengthIsTheOptimum) {
