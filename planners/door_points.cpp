@@ -20,6 +20,9 @@ Vec2 DoorPoints::middle_of(std::uint32_t door) const {
   const Door& d = cells_.doors[door];
   const Vec2 corner = cells_.corners[d.corner];
   const std::uint32_t far = cells_.far_segment(door);
+  const bool on_right = far == CellDecomposition::floor_segment && corner.x == cells_.box.max.x;
+  const bool on_left = far == CellDecomposition::ceiling_segment && corner.x == cells_.box.min.x;
+  if (d.above ? on_left : on_right) return corner;  // between corner and box: what lies there on the box may be a wall
   const Vec2 middle{corner.x, 0.5 * corner.y + 0.5 * cells_.height(far, corner.x)};
   const bool fits = d.above ? middle.y > corner.y && cells_.side(far, middle) < 0
                             : middle.y < corner.y && cells_.side(far, middle) > 0;

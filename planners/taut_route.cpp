@@ -180,6 +180,13 @@ class TautSearch {
     return false;
   }
 
+  /// Does the way on which the root was reached run against the node's, which turned back at the root? Then all that
+  /// the node may see lies beside that way, and only what lies behind the root's own way back is hidden by it.
+  static bool is_against(const Bound& bound, bool rightwards) {
+    if (bound.kind != Bound::Kind::line) return false;
+    return rightwards ? bound.to.x < bound.from.x : bound.to.x > bound.from.x;
+  }
+
   /// Takes the door's corner as a ray where that leaves less. False: nothing is left.
   bool narrow(Node& node, std::uint32_t door) const {
     const Vec2 corner = corner_of(door);
@@ -188,8 +195,11 @@ class TautSearch {
     Bound& own = on_left ? node.left : node.right;
     const Bound& other = on_left ? node.right : node.left;
     const int outwards = on_left ? 1 : -1;
-    if (other.any() && orient2d(other.from, other.to, corner) * outwards < 0) return false;
-    if (own.any() && orient2d(own.from, own.to, corner) * outwards > 0) return true;
+    const bool own_is_against = is_against(own, node.rightwards);
+    if (other.any() && !is_against(other, node.rightwards) && orient2d(other.from, other.to, corner) * outwards < 0) {
+      return false;
+    }
+    if (own.any() && orient2d(own.from, own.to, corner) * outwards > 0) return !own_is_against;
     own = {node.root, corner, door, Bound::Kind::corner, true};
     return true;
   }
@@ -249,12 +259,18 @@ class TautSearch {
     const double x = line.a.x;
     double low = std::min(line.a.y, line.b.y);
     double high = std::max(line.a.y, line.b.y);
-    const double slack = rounding * (std::abs(low) + std::abs(high));
-    const auto top = height_at(node.rightwards ? node.left : node.right, x, node.rightwards);
-    const auto bottom = height_at(node.rightwards ? node.right : node.left, x, node.rightwards);
-    if (top) high = std::min(high, *top);
-    if (bottom) low = std::max(low, *bottom);
-    if (low > high + slack) return std::nullopt;
+    double slack = std::abs(low) + std::abs(high);
+    const Bound& upper = node.rightwards ? node.left : node.right;
+    const Bound& lower = node.rightwards ? node.right : node.left;
+    if (const auto top = height_at(upper, x, node.rightwards)) {
+      high = std::min(high, *top);
+      slack += std::abs(upper.from.y) + std::abs(*top);
+    }
+    if (const auto bottom = height_at(lower, x, node.rightwards)) {
+      low = std::max(low, *bottom);
+      slack += std::abs(lower.from.y) + std::abs(*bottom);
+    }
+    if (low > high + rounding * slack) return std::nullopt;
     high = std::max(low, high);
     if (!informed_) return node.length + distance(node.root, Vec2{x, std::clamp(node.root.y, low, high)});
     const bool behind = (goal_.x < x) == (node.root.x < x) && goal_.x != x && node.root.x != x;

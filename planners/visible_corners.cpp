@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/polygon_distance.hpp"
 #include "parallel/chunks.hpp"
@@ -12,6 +13,15 @@ namespace {
 
 /// Half a turn round from a place.
 double opposite(double place) { return place < 2.0 ? place + 2.0 : place - 2.0; }
+
+/// The sector's directions, all where rounded places can't tell next to none from next to all.
+PlaceRange range_of(Vec2 at, const Sector& sector) {
+  constexpr double doubt = 1e-9;
+  if (sector.whole || sector.first == sector.last) return all_round;
+  const PlaceRange range{direction_place(sector.first - at), direction_place(sector.last - at)};
+  const double apart = std::abs(range.last - range.first);
+  return apart < doubt || apart > 4.0 - doubt ? all_round : range;
+}
 
 }  // namespace
 
@@ -96,12 +106,11 @@ void CornerSight::from_vertex(VertexId v, SightLines which, std::optional<Vec2> 
   if (tangent && !corners_.is_reflex(v)) return;
   const Vec2 eye = corners_.position(v);
   const Sector sector = corners_.sector(v);
-  const double first = direction_place(sector.first - eye);
-  const double last = direction_place(sector.last - eye);
-  std::array<PlaceRange, 2> ranges{{{first, last}, {first, last}}};
-  if (sector.first == sector.last) {
-    ranges.fill(all_round);
-  } else if (tangent) {
+  const PlaceRange all = range_of(eye, sector);
+  std::array<PlaceRange, 2> ranges{all, all};
+  if (tangent && sector.first != sector.last) {
+    const double first = direction_place(sector.first - eye);
+    const double last = direction_place(sector.last - eye);
     ranges = {{{first, opposite(last)}, {opposite(first), last}}};
   }
   const auto departure = [&](Vec2 q) {
@@ -139,9 +148,7 @@ void CornerSight::taut_from_vertex(VertexId v, Vec2 from, std::optional<Vec2> ex
 void CornerSight::from_point(Vec2 p, SightLines which, std::optional<Vec2> extra, std::vector<VertexId>& seen) {
   seen.clear();
   for (const Sector& sector : free_sectors(corners_.pieces(), p)) {
-    const bool all = sector.whole || sector.first == sector.last;
-    const PlaceRange range =
-        all ? all_round : PlaceRange{direction_place(sector.first - p), direction_place(sector.last - p)};
+    const PlaceRange range = range_of(p, sector);
     look(
         p, {&range, 1}, which, extra, [&](Vec2 q) { return lanes_in_sector(p, sector, q); }, seen);
   }

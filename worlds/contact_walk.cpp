@@ -44,7 +44,8 @@ class Surroundings {
     if (!(s.b == at_)) directions_.push_back(s.b);
   }
 
-  /// Where a wall lies on the box that confines the path, nobody gets between the two.
+  /// Where a wall lies on the box that confines the path, nobody gets between the two: all that lies beyond is blocked,
+  /// at the wall's ends beside the wall.
   void close_beyond(const Segment& wall, const Box& box) {
     const BoxSide side = side_under(wall, box);
     if (side == BoxSide::none) return;
@@ -54,9 +55,12 @@ class Surroundings {
     const bool beyond_is_left = side == BoxSide::top || side == BoxSide::left;  // of `along`
     const Vec2 first = beyond_is_left ? at_ + along : at_ - along;
     const Vec2 last = beyond_is_left ? at_ - along : at_ + along;
-    blocked_.push_back({first, last});
-    directions_.push_back(first);
-    directions_.push_back(last);
+    const Vec2 outwards = beyond_is_left ? at_ + Vec2{-along.y, along.x} : at_ + Vec2{along.y, -along.x};
+    const auto place = [&](Vec2 p) { return level ? p.x : p.y; };
+    const bool goes_on = std::max(place(wall.a), place(wall.b)) > place(at_);
+    const bool came = std::min(place(wall.a), place(wall.b)) < place(at_);
+    if (beyond_is_left ? goes_on : came) block(first, outwards);
+    if (beyond_is_left ? came : goes_on) block(outwards, last);
   }
 
   /// The sides of the stretch at_ -> `to` that are not blocked.
@@ -89,6 +93,12 @@ class Surroundings {
     Vec2 first, last;
   };
 
+  void block(Vec2 first, Vec2 last) {
+    blocked_.push_back({first, last});
+    directions_.push_back(first);
+    directions_.push_back(last);
+  }
+
   void add_side(const Obstacles& obstacles, const Obstacles::Side& side) {
     const std::vector<Vec2>& corners = obstacles.rings()[side.ring].corners;
     const std::size_t n = corners.size();
@@ -101,15 +111,10 @@ class Surroundings {
   /// The side here -> next of a ring, and the one that ends in it.
   void add_side(Vec2 last, Vec2 here, Vec2 next) {
     if (at_ == here) {
-      if (here == next) return;  // a ring of one point
-      blocked_.push_back({next, last});
+      if (!(here == next)) block(next, last);  // else a ring of one point
     } else if (!(at_ == next) && exact::contains({here, next}, at_)) {
-      blocked_.push_back({next, here});
-    } else {
-      return;
+      block(next, here);
     }
-    directions_.push_back(blocked_.back().first);
-    directions_.push_back(blocked_.back().last);
   }
 
   void sort() {
