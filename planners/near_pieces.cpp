@@ -73,6 +73,9 @@ void NearPieces::open(std::span<const PlaceRange> ranges) {
   }
 }
 
+/// But for the range that begins at place 2: directions just before it may be rounded to it.
+void NearPieces::close_downwards() { std::fill(sight_.begin() + directions / 2 + 1, sight_.end(), 0.0); }
+
 void NearPieces::next_epoch() {
   if (++epoch_ != 0) return;
   std::fill(cell_epoch_.begin(), cell_epoch_.end(), 0);
@@ -187,7 +190,7 @@ void NearPieces::enter(SegmentGrid::Cell cell) {
   propose_beyond(cell);
 }
 
-std::span<const std::uint32_t> NearPieces::look(Vec2 p, std::span<const PlaceRange> ranges) {
+std::span<const std::uint32_t> NearPieces::look(Vec2 p, std::span<const PlaceRange> ranges, bool upwards) {
   const SegmentGrid& grid = pieces_.grid();
   seen_.clear();
   if (!grid.box().contains(p)) {
@@ -197,6 +200,7 @@ std::span<const std::uint32_t> NearPieces::look(Vec2 p, std::span<const PlaceRan
   }
   next_epoch();
   open(ranges);
+  if (upwards) close_downwards();
   eye_ = p;
   home_ = grid.cell_of(p);
   next_.clear();

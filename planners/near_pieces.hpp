@@ -36,11 +36,13 @@ class NearPieces {
   explicit NearPieces(const PlanePieces& pieces);
   /// The pieces that may be seen from p within the ranges, and some more; valid until the next call. Outside of the
   /// grid all pieces.
-  std::span<const std::uint32_t> look(Vec2 p, std::span<const PlaceRange> ranges);
+  /// upwards: only directions of places in [0, 2], of those in the ranges, are of interest.
+  std::span<const std::uint32_t> look(Vec2 p, std::span<const PlaceRange> ranges, bool upwards = false);
 
  private:
   static constexpr std::size_t directions = 512;
   void open(std::span<const PlaceRange> ranges);
+  void close_downwards();
   void next_epoch();
   void enter(SegmentGrid::Cell cell);
   /// A piece as seen from the eye, anticlockwise from first to last.

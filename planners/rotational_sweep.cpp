@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planners/rotational_sweep.hpp"
 
+#include <utility>
+
 #include "planners/near_pieces.hpp"
 
 namespace warren {
@@ -41,41 +43,44 @@ std::uint32_t RotationalSweep::event_of(PointId p) {
 void RotationalSweep::add_radial_piece(PointId a, PointId b) {
   const Vec2 at_a = pieces_.points()[a];
   const Vec2 at_b = pieces_.points()[b];
-  if (at_a == eye_ || at_b == eye_) {
-    events_[event_of(at_a == eye_ ? b : a)].comes_along_a_piece = true;
-    return;
-  }
-  const std::uint32_t event_a = event_of(a);
-  const std::uint32_t event_b = event_of(b);
-  const bool around_eye = !DirectionOrder(eye_).same(at_a, at_b);
-  const bool a_is_nearer = nearer_on_ray(at_a, at_b);
-  if (around_eye || !a_is_nearer) events_[event_a].comes_along_a_piece = true;
-  if (around_eye || a_is_nearer) events_[event_b].comes_along_a_piece = true;
+  const bool from_eye = at_a == eye_ || at_b == eye_;
+  const bool around_eye = !from_eye && !DirectionOrder(eye_).same(at_a, at_b);
+  const bool a_is_nearer = at_a == eye_ || (!from_eye && nearer_on_ray(at_a, at_b));
+  const auto add = [&](PointId p, Vec2 at, bool is_farther) {
+    if (at == eye_ || !is_passed(at)) return;
+    Event& event = events_[event_of(p)];
+    event.comes_along_a_piece = event.comes_along_a_piece || is_farther;
+  };
+  add(a, at_a, around_eye || !a_is_nearer);
+  add(b, at_b, around_eye || a_is_nearer);
 }
 
 void RotationalSweep::add_piece(PointId a, PointId b) {
   const int turn = orient2d(eye_, pieces_.points()[a], pieces_.points()[b]);
   if (turn == 0) return add_radial_piece(a, b);
   if (turn < 0) std::swap(a, b);
-  const std::uint32_t first = event_of(a);
-  const std::uint32_t last = event_of(b);
+  const SeenPiece seen{pieces_.points()[a], pieces_.points()[b]};
+  const bool starts = is_passed(seen.first);
+  const bool ends = is_passed(seen.last);
+  if (!starts && !ends) return;
   const auto number = static_cast<std::uint32_t>(seen_.size());
-  seen_.push_back({events_[first].at, events_[last].at});
-  next_start_.push_back(std::exchange(events_[first].starts, number));
-  next_end_.push_back(std::exchange(events_[last].ends, number));
+  seen_.push_back(seen);
+  next_start_.push_back(starts ? std::exchange(events_[event_of(a)].starts, number) : none);
+  next_end_.push_back(ends ? std::exchange(events_[event_of(b)].ends, number) : none);
   const DirectionOrder order(eye_);
-  if (order.is_low(events_[first].at) && !order.is_low(events_[last].at)) crossed_at_first_.push_back(number);
+  if (order.is_low(seen.first) && !order.is_low(seen.last)) crossed_at_first_.push_back(number);
 }
 
 void RotationalSweep::sort_events() {
   order_.resize(events_.size());
-  for (std::uint32_t i = 0; i < order_.size(); ++i) order_[i] = i;
-  std::sort(order_.begin(), order_.end(),
-            [&](std::uint32_t i, std::uint32_t j) { return events_[i].place < events_[j].place; });
+  for (std::uint32_t i = 0; i < order_.size(); ++i) order_[i] = {events_[i].place, i};
+  std::sort(order_.begin(), order_.end(), [](const Turned& t, const Turned& u) { return t.place < u.place; });
   // Runs of places too close to tell are sorted exactly: two points mostly, thousands where corners are collinear.
-  const auto before = [&](std::uint32_t i, std::uint32_t j) { return comes_before(events_[i], events_[j]); };
+  const auto before = [&](const Turned& t, const Turned& u) {
+    return comes_before(events_[t.event], events_[u.event]);
+  };
   for (auto first = order_.begin(), end = first; first != order_.end(); first = end) {
-    for (++end; end != order_.end() && events_[*end].place - events_[*(end - 1)].place <= place_doubt;) ++end;
+    for (++end; end != order_.end() && end->place - (end - 1)->place <= place_doubt;) ++end;
     if (end - first > 1) std::sort(first, end, before);
   }
 }

@@ -26,6 +26,8 @@ namespace warren {
 /// Scratch of one thread; refers to the pieces, which must outlive it.
 class RotationalSweep {
  public:
+  /// How far the ray turns: half a turn stops before -x.
+  enum class Turn : std::uint8_t { whole, upper_half };
   /// What visit() is told instead of a point's number where it reaches the extra target.
   static constexpr PointId target = 0xffffffffU;
 
@@ -35,8 +37,9 @@ class RotationalSweep {
   /// it of interest? extra: one more target. departure(q) tells on which lanes the way towards q may begin (no_lane:
   /// q's direction is of no interest). visit(point, lanes on which the way arrives) is called for what is reached.
   template <class Departure, class Visit>
-  void run(Vec2 eye, std::span<const std::uint32_t> near, std::span<const std::uint8_t> wanted,
+  void run(Vec2 eye, Turn how_far, std::span<const std::uint32_t> near, std::span<const std::uint8_t> wanted,
            std::optional<Vec2> extra, const Departure& departure, const Visit& visit) {
+    half_ = how_far == Turn::upper_half;
     prepare(eye, near, extra);
     if (pieces_.crosses()) {
       turn(crossed_, wanted, departure, visit);
@@ -58,12 +61,19 @@ class RotationalSweep {
     bool comes_along_a_piece;  // the ray runs along a piece just before it
   };
 
+  /// What the events are sorted by.
+  struct Turned {
+    double place;
+    std::uint32_t event;
+  };
+
   void prepare(Vec2 eye, std::span<const std::uint32_t> near, std::optional<Vec2> extra);
   std::uint32_t event_of(PointId p);
   void add_piece(PointId a, PointId b);
   void add_radial_piece(PointId a, PointId b);
   void sort_events();
   bool nearer_on_ray(Vec2 p, Vec2 q) const;
+  bool is_passed(Vec2 p) const { return !half_ || !DirectionOrder(eye_).is_low(p); }
   bool comes_before(const Event& e, const Event& f) const;
   bool same_ray(const Event& e, const Event& f) const;
 
@@ -102,12 +112,13 @@ class RotationalSweep {
     }
   }
 
-  const Event& event(std::size_t i) const { return events_[order_[i]]; }
+  const Event& event(std::size_t i) const { return events_[order_[i].event]; }
 
   const PlanePieces& pieces_;
   Vec2 eye_;
+  bool half_ = false;  // no events below
   std::vector<Event> events_;
-  std::vector<std::uint32_t> order_;
+  std::vector<Turned> order_;
   std::vector<SeenPiece> seen_;  // pieces that are not seen end on
   std::vector<std::uint32_t> next_start_;
   std::vector<std::uint32_t> next_end_;

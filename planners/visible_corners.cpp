@@ -88,10 +88,11 @@ void CornerSight::arrive(Vec2 eye, PointId p, Lanes lanes, SightLines which, std
 }
 
 template <class Departure>
-void CornerSight::look(Vec2 eye, std::span<const PlaceRange> ranges, SightLines which, std::optional<Vec2> extra,
-                       const Departure& departure, std::vector<VertexId>& seen) {
+void CornerSight::look(Vec2 eye, RotationalSweep::Turn how_far, std::span<const PlaceRange> ranges, SightLines which,
+                       std::optional<Vec2> extra, const Departure& departure, std::vector<VertexId>& seen) {
   const std::vector<std::uint8_t>& wanted = which == SightLines::all ? corners_.any_ : corners_.reflex_;
-  sweep_.run(eye, near_.look(eye, ranges), wanted, extra, departure, [&](PointId p, Lanes lanes) {
+  const auto near = near_.look(eye, ranges, how_far == RotationalSweep::Turn::upper_half);
+  sweep_.run(eye, how_far, near, wanted, extra, departure, [&](PointId p, Lanes lanes) {
     if (p == RotationalSweep::target) {
       seen.push_back(target);
     } else {
@@ -100,7 +101,7 @@ void CornerSight::look(Vec2 eye, std::span<const PlaceRange> ranges, SightLines 
   });
 }
 
-void CornerSight::from_vertex(VertexId v, SightLines which, std::optional<Vec2> extra, std::vector<VertexId>& seen) {
+void CornerSight::above_vertex(VertexId v, SightLines which, std::vector<VertexId>& seen) {
   seen.clear();
   const bool tangent = which == SightLines::tangent;
   if (tangent && !corners_.is_reflex(v)) return;
@@ -117,7 +118,7 @@ void CornerSight::from_vertex(VertexId v, SightLines which, std::optional<Vec2> 
     const Lanes lanes = lanes_in_sector(eye, sector, q);
     return tangent && lanes != no_lane && !is_tangent(eye, sector, q) ? no_lane : lanes;
   };
-  look(eye, ranges, which, extra, departure, seen);
+  look(eye, RotationalSweep::Turn::upper_half, ranges, which, std::nullopt, departure, seen);
   std::sort(seen.begin(), seen.end());
 }
 
@@ -141,7 +142,7 @@ void CornerSight::taut_from_vertex(VertexId v, Vec2 from, std::optional<Vec2> ex
     return !DirectionOrder(eye).same(from, q);
   };
   const auto departure = [&](Vec2 q) { return is_taut(q) ? lanes_in_sector(eye, sector, q) : no_lane; };
-  look(eye, ranges, SightLines::tangent, extra, departure, seen);
+  look(eye, RotationalSweep::Turn::whole, ranges, SightLines::tangent, extra, departure, seen);
   std::sort(seen.begin(), seen.end());
 }
 
@@ -149,8 +150,8 @@ void CornerSight::from_point(Vec2 p, SightLines which, std::optional<Vec2> extra
   seen.clear();
   for (const Sector& sector : free_sectors(corners_.pieces(), p)) {
     const PlaceRange range = range_of(p, sector);
-    look(
-        p, {&range, 1}, which, extra, [&](Vec2 q) { return lanes_in_sector(p, sector, q); }, seen);
+    const auto departure = [&](Vec2 q) { return lanes_in_sector(p, sector, q); };
+    look(p, RotationalSweep::Turn::whole, {&range, 1}, which, extra, departure, seen);
   }
   std::sort(seen.begin(), seen.end());
   seen.erase(std::unique(seen.begin(), seen.end()), seen.end());

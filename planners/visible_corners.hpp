@@ -73,9 +73,11 @@ class CornerSight {
 
   explicit CornerSight(const VisibleCorners& corners);
 
-  /// Replaces `seen` by the neighbours of v, ascending, `target` last. extra: one more target.
-  void from_vertex(VertexId v, SightLines which, std::optional<Vec2> extra, std::vector<VertexId>& seen);
-  /// The tangent neighbours of v to which a way that came straight from `from` may bend and still be taut.
+  /// Replaces `seen` by half of the neighbours of v, ascending: those above it and, at its height, on its right. So of
+  /// each pair of neighbours one sees the other.
+  void above_vertex(VertexId v, SightLines which, std::vector<VertexId>& seen);
+  /// The tangent neighbours of v to which a way that came straight from `from` may bend and still be taut, ascending,
+  /// `target` last. extra: one more target.
   void taut_from_vertex(VertexId v, Vec2 from, std::optional<Vec2> extra, std::vector<VertexId>& seen);
   /// The vertices (with SightLines::tangent those of which the way there is a tangent) that are seen from any point
   /// that is not blocked.
@@ -83,8 +85,8 @@ class CornerSight {
 
  private:
   template <class Departure>
-  void look(Vec2 eye, std::span<const PlaceRange> ranges, SightLines which, std::optional<Vec2> extra,
-            const Departure& departure, std::vector<VertexId>& seen);
+  void look(Vec2 eye, RotationalSweep::Turn how_far, std::span<const PlaceRange> ranges, SightLines which,
+            std::optional<Vec2> extra, const Departure& departure, std::vector<VertexId>& seen);
   void arrive(Vec2 eye, PointId p, Lanes lanes, SightLines which, std::vector<VertexId>& seen) const;
 
   const VisibleCorners& corners_;
