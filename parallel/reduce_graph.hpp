@@ -110,16 +110,16 @@ struct ChainEnds {
   double length;
 };
 
-/// Follows the chain that leaves `key` towards `via`.
-template <class Length>
-ChainEnds follow_chain(const KeyCoverView& cover, VertexId key, VertexId via, const Length& length,
-                       const Execution& execution) {
+/// Follows the chain that leaves `key` towards `via`; next(before, at) is the vertex after `at`.
+template <class Next, class Length>
+ChainEnds follow_chain(const KeyCoverView& cover, VertexId key, VertexId via, const Next& next_on_chain,
+                       const Length& length, const Execution& execution) {
   double sum = length(key, via);
   VertexId before = key;
   VertexId at = via;
   for (std::size_t steps = 1; !cover.is_key(at); ++steps) {
     if (steps % steps_per_poll == 0) execution.check();
-    const VertexId next = cover.next_on_chain(before, at);
+    const VertexId next = next_on_chain(before, at);
     sum += length(at, next);
     before = at;
     at = next;
@@ -143,24 +143,47 @@ inline void finish_row(VertexId self, std::vector<ReducedGraphView::Chain>& row)
 template <class Length, class Row>
 void for_each_key(const KeyCoverView& cover, Range block, const Length& length, const Execution& execution,
                   const Row& row) {
+  const auto next = [&cover](VertexId before, VertexId at) { return cover.next_on_chain(before, at); };
   std::vector<ReducedGraphView::Chain> chains;
   for (auto key = static_cast<VertexId>(block.first); key < block.last; ++key) {
     if (!cover.is_key(key)) continue;
     chains.clear();
     for (const VertexId via : cover.graph().neighbours(key)) {
       if (!cover.is_left(via)) continue;
-      const ChainEnds chain = follow_chain(cover, key, via, length, execution);
+      const ChainEnds chain = follow_chain(cover, key, via, next, length, execution);
       chains.push_back({cover.rank(chain.to), via, chain.length});
     }
     row(key, chains);
   }
 }
 
+/// What the vertices on a block's chains are linked to: the exclusive or of their two neighbours that are left, so that
+/// one neighbour gives the other without a look at the graph. Of other vertices, nothing.
+class ChainLinks {
+ public:
+  ChainLinks(const KeyCoverView& cover, Range block) : first_(static_cast<VertexId>(block.first)), link_(block.size()) {
+    for (VertexId i = 0; i < link_.size(); ++i) {
+      const VertexId v = first_ + i;
+      if (!cover.is_left(v) || cover.is_key(v)) continue;
+      VertexId link = 0;
+      for (const VertexId w : cover.graph().neighbours(v)) link ^= cover.is_left(w) ? w : 0;
+      link_[i] = link;
+    }
+  }
+  VertexId next(VertexId before, VertexId at) const { return link_[at - first_] ^ before; }
+
+ private:
+  VertexId first_;
+  RawVector<VertexId> link_;
+};
+
 /// The same where no chain leaves its block: each is followed once, for both of its ends.
 template <class Length, class Row>
 void for_each_key_of_block(const KeyCoverView& cover, Range block, const Length& length, const Execution& execution,
                            const Row& row) {
   const auto first = static_cast<VertexId>(block.first);
+  const ChainLinks links(cover, block);
+  const auto next = [&links](VertexId before, VertexId at) { return links.next(before, at); };
   std::vector<std::uint8_t> followed(block.size(), 0);  // by the neighbour of the key at its other end
   std::vector<ChainEnds> found;
   std::vector<std::uint32_t> begins(block.size() + 1, 0);
@@ -172,7 +195,7 @@ void for_each_key_of_block(const KeyCoverView& cover, Range block, const Length&
         found.push_back({key, via, no_vertex, via, length(key, via)});
         ++begins[key - first];
       } else if (followed[via - first] == 0) {
-        const ChainEnds chain = follow_chain(cover, key, via, length, execution);
+        const ChainEnds chain = follow_chain(cover, key, via, next, length, execution);
         followed[chain.last - first] = 1;
         found.push_back(chain);
         ++begins[key - first];

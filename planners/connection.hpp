@@ -67,55 +67,61 @@ inline double direct_reach(const ConnectionRule& rule) {
   return rule.neighbours > 0 ? std::numeric_limits<double>::infinity() : rule.radius;
 }
 
-/// Calls candidate(j) for each candidate edge (i, j) that milestone i is to check; over all i each pair comes once.
+/// Calls candidate(i, j) for each candidate edge that the milestones i of the range are to check, i ascending; over all
+/// milestones each pair comes once.
 template <World W, class Candidate>
 void for_each_candidate(const StateIndex<W>& index, const detail::NearestLists& lists, const SearchRadius& radius,
-                        VertexId i, const Candidate& candidate) {
+                        Range milestones, const Candidate& candidate) {
   if (lists.k == 0) {
-    index.for_each_later_within(i, radius, [&](VertexId j, double) { candidate(j); });
+    index.for_each_later_pair(milestones, radius, candidate);
     return;
   }
-  for (const VertexId j : lists.of(i)) {
-    const auto theirs = lists.of(j);
-    if (j > i || std::find(theirs.begin(), theirs.end(), i) == theirs.end()) candidate(j);
+  for (std::size_t next = milestones.first; next < milestones.last; ++next) {
+    const auto i = static_cast<VertexId>(next);
+    for (const VertexId j : lists.of(i)) {
+      const auto theirs = lists.of(j);
+      if (j > i || std::find(theirs.begin(), theirs.end(), i) == theirs.end()) candidate(i, j);
+    }
   }
 }
 
 namespace detail {
 
-/// Candidate edges that are put to the world together.
+/// Candidate edges that are put to the world together, and their motions.
+template <class State>
 class Bunch {
  public:
-  void add(const Edge& edge) { edges_[count_++] = edge; }
+  void add(const Edge& edge, const State& from, const State& to) {
+    edges_[count_] = edge;
+    motions_[count_++] = {from, to};
+  }
   void clear() { count_ = 0; }
   bool full() const { return count_ == bunch_size; }
   std::span<const Edge> edges() const { return {edges_.data(), count_}; }
+  std::span<const Motion<State>> motions() const { return {motions_.data(), count_}; }
 
  private:
   std::size_t count_ = 0;
   std::array<Edge, bunch_size> edges_;
+  std::array<Motion<State>, bunch_size> motions_;
 };
 
-/// Bit i is set if the motion along edges[i] is free; at most bunch_size edges.
+/// Bit i is set if motions[i] is free; at most bunch_size motions.
 template <World W>
-std::uint32_t free_edges(const W& world, std::span<const typename W::State> states, std::span<const Edge> edges,
-                         typename W::Query& query) {
+std::uint32_t free_motions(const W& world, std::span<const Motion<typename W::State>> motions,
+                           typename W::Query& query) {
   std::uint32_t free = 0;
   if constexpr (BunchWorld<W>) {
-    std::array<Motion<typename W::State>, bunch_size> motions;
-    std::transform(edges.begin(), edges.end(), motions.begin(), [&](const Edge& edge) {
-      return Motion<typename W::State>{states[edge.from], states[edge.to]};
-    });
-    free = world.free_motions({motions.data(), edges.size()}, query);
+    free = world.free_motions(motions, query);
   } else {
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-      free |= std::uint32_t{world.is_free_motion(states[edges[i].from], states[edges[i].to], query)} << i;
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+      free |= std::uint32_t{world.is_free_motion(motions[i].from, motions[i].to, query)} << i;
     }
   }
   return free;
 }
 
-/// The candidate edges for which keep(chunk, edges, query) sets their bit.
+/// The candidate edges for which keep(chunk, motions, query) sets their bit.
 template <World W, class Keep>
 EdgeParts edges_that(const W& world, std::span<const typename W::State> milestones, const StateIndex<W>& index,
                      const ConnectionRule& rule, const Execution& execution, const Keep& keep) {
@@ -128,20 +134,17 @@ EdgeParts edges_that(const W& world, std::span<const typename W::State> mileston
     auto query = world.make_query();
     RawVector<Edge> edges;
     edges.reserve(r.size() + r.size() / 4);
-    Bunch bunch;
+    Bunch<typename W::State> bunch;
     const auto flush = [&] {
-      std::uint32_t kept = keep(r.first / connection_grain<W>, bunch.edges(), query);
+      std::uint32_t kept = keep(r.first / connection_grain<W>, bunch.motions(), query);
       for (; kept != 0; kept &= kept - 1)
         edges.push_back(bunch.edges()[static_cast<std::size_t>(std::countr_zero(kept))]);
       bunch.clear();
     };
-    for (std::size_t i = r.first; i < r.last; ++i) {
-      const auto from = static_cast<VertexId>(i);
-      for_each_candidate<W>(index, lists, radius, from, [&](VertexId to) {
-        bunch.add({from, to});
-        if (bunch.full()) flush();
-      });
-    }
+    for_each_candidate<W>(index, lists, radius, r, [&](VertexId from, VertexId to) {
+      bunch.add({from, to}, milestones[from], milestones[to]);
+      if (bunch.full()) flush();
+    });
     if (!bunch.edges().empty()) flush();
     parts[r.first / connection_grain<W>] = std::move(edges);
   });
@@ -155,8 +158,8 @@ template <World W>
 EdgeParts candidate_edges(const W& world, std::span<const typename W::State> milestones, const StateIndex<W>& index,
                           const ConnectionRule& rule, const Execution& execution, Counters& counters) {
   counters.neighbour_queries += milestones.size();
-  const auto all = [](std::size_t, std::span<const Edge> edges, typename W::Query&) {
-    return (std::uint32_t{1} << edges.size()) - 1;
+  const auto all = [](std::size_t, std::span<const Motion<typename W::State>> motions, typename W::Query&) {
+    return (std::uint32_t{1} << motions.size()) - 1;
   };
   return detail::edges_that(world, milestones, index, rule, execution, all);
 }
@@ -166,9 +169,10 @@ template <World W>
 EdgeParts connect_milestones(const W& world, std::span<const typename W::State> milestones, const StateIndex<W>& index,
                              const ConnectionRule& rule, const Execution& execution, Counters& counters) {
   std::vector<Counters> done(chunk_count(milestones.size(), detail::connection_grain<W>));
-  const auto free = [&](std::size_t chunk, std::span<const Edge> edges, typename W::Query& query) {
-    const std::uint32_t bits = detail::free_edges(world, milestones, edges, query);
-    done[chunk].edges_checked += edges.size();
+  const auto free = [&](std::size_t chunk, std::span<const Motion<typename W::State>> motions,
+                        typename W::Query& query) {
+    const std::uint32_t bits = detail::free_motions(world, motions, query);
+    done[chunk].edges_checked += motions.size();
     done[chunk].refused = refused_motions(query);  // one query a chunk
     return bits;
   };

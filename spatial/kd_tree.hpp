@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "parallel/execution.hpp"
+#include "parallel/chunks.hpp"
 #include "spatial/neighbour.hpp"
 
 namespace warren {
@@ -45,12 +45,16 @@ class KdTree {
     visit_within(p, radius, &visit,
                  [](const void* f, VertexId id, double d) { (*static_cast<const Visit*>(f))(id, d); });
   }
-  /// Calls visit(j, distance) for all points j > i at a distance <= radius from point i: over all i, each pair once.
+  /// Calls visit(i, j) for each point i of the range, ascending, and all points j > i at a distance <= radius from it:
+  /// over all points, each pair once.
   template <class Visit>
-  void for_each_later_within(VertexId i, const SearchRadius& radius, const Visit& visit) const {
-    for_each_within(point(i), radius, [&](VertexId j, double distance) {
-      if (j > i) visit(j, distance);
-    });
+  void for_each_later_pair(Range ids, const SearchRadius& radius, const Visit& visit) const {
+    for (std::size_t next = ids.first; next < ids.last; ++next) {
+      const auto i = static_cast<VertexId>(next);
+      for_each_within(point(i), radius, [&](VertexId j, double) {
+        if (j > i) visit(i, j);
+      });
+    }
   }
 
  private:

@@ -59,10 +59,11 @@ class Neighbours {
   void for_each_within(const Point& p, const SearchRadius& radius, const Visit& visit) const {
     with([&](const auto& index) { index.for_each_within(p, radius, visit); });
   }
-  /// Calls visit(j, distance) for all points j > i at a distance <= radius from point i: over all i, each pair once.
+  /// Calls visit(i, j) for each point i of the range, ascending, and all points j > i at a distance <= radius from it:
+  /// over all points, each pair once.
   template <class Visit>
-  void for_each_later_within(VertexId i, const SearchRadius& radius, const Visit& visit) const {
-    with([&](const auto& index) { index.for_each_later_within(i, radius, visit); });
+  void for_each_later_pair(Range ids, const SearchRadius& radius, const Visit& visit) const {
+    with([&](const auto& index) { index.for_each_later_pair(ids, radius, visit); });
   }
   /// Calls visit(i, neighbours) for each point i of the range, with its k nearest other points as a vector that is
   /// valid during the call. One range a chunk: ranges may run at once.

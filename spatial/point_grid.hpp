@@ -16,7 +16,7 @@
 
 #include "core/raw_vector.hpp"
 #include "core/types.hpp"
-#include "parallel/execution.hpp"
+#include "parallel/chunks.hpp"
 #include "spatial/neighbour.hpp"
 #include "spatial/tile_order.hpp"
 
@@ -51,10 +51,11 @@ class PointGrid {
   /// Calls visit(id, distance) for all points at a distance <= radius from p; ascending by id if in tile order.
   template <class Visit>
   void for_each_within(Vec2 p, const SearchRadius& radius, const Visit& visit) const;
-  /// Calls visit(j, distance) for all points j > i at a distance <= radius from point i: over all i, each pair once.
-  /// Ascending by j if in tile order.
+  /// Calls visit(i, j) for each point i of the range, ascending, and all points j > i at a distance <= radius from it:
+  /// over all points, each pair once. Ascending by j if in tile order, where it costs least: a cell is looked around
+  /// once for all of its points.
   template <class Visit>
-  void for_each_later_within(VertexId i, const SearchRadius& radius, const Visit& visit) const;
+  void for_each_later_pair(Range ids, const SearchRadius& radius, const Visit& visit) const;
 
  private:
   struct Window {  // columns and rows, both ends included
@@ -72,6 +73,7 @@ class PointGrid {
   void for_each_run(const Window& w, const Run& run) const;
   template <class Visit>
   class Gathering;
+  class CellCandidates;
   void sort_points(std::span<const Vec2> points, const Execution& execution);
   bool in_order(std::span<const Vec2> points, const Execution& execution) const;
   bool take_points(std::span<const Vec2> points, const Execution& execution);
@@ -151,26 +153,88 @@ void PointGrid::for_each_within(Vec2 p, const SearchRadius& radius, const Visit&
   gathering.visit_all();
 }
 
-template <class Visit>
-void PointGrid::for_each_later_within(VertexId i, const SearchRadius& radius, const Visit& visit) const {
-  if (radius.square() < 0.0) return;
-  const Vec2 p = point(i);
-  if (!id_.empty()) {
-    for_each_within(p, radius, [&](VertexId j, double distance) {
-      if (j > i) visit(j, distance);
-    });
-    return;
+/// Some points of one cell, and all later ones that may be within reach of any of them.
+class PointGrid::CellCandidates {
+ public:
+  explicit CellCandidates(const PointGrid& grid) : grid_(grid) {}
+
+  /// For the points first .. last - 1, which share a cell. False if there are too many.
+  bool gather(std::uint32_t first, std::uint32_t last, double reach) {
+    first_ = first;
+    count_ = 0;
+    fits_ = true;
+    Box box;
+    for (std::uint32_t place = first; place < last; ++place) box.include(Vec2{grid_.x_[place], grid_.y_[place]});
+    const CellFrame& frame = grid_.frame_;
+    const Window all{frame.column(box.min.x - reach), frame.column(box.max.x + reach), frame.row(box.min.y - reach),
+                     frame.row(box.max.y + reach)};
+    // Of the points' own strip only the rows from their own one on hold later points; strips to the left hold none.
+    const std::uint32_t strip_left = frame.column(box.min.x) / CellFrame::strip_width * CellFrame::strip_width;
+    const std::uint32_t next_strip = strip_left + CellFrame::strip_width;
+    const auto add_later = [&](std::uint32_t begin, std::uint32_t end) { add(std::max(begin, first), end); };
+    grid_.for_each_run(
+        {std::max(all.left, strip_left), std::min(all.right, next_strip - 1), frame.row(box.min.y), all.top},
+        add_later);
+    if (all.right >= next_strip) grid_.for_each_run({next_strip, all.right, all.bottom, all.top}, add_later);
+    return fits_;
   }
-  Gathering gathering(*this, p, radius.square(), visit);
-  const auto add_later = [&](std::uint32_t first, std::uint32_t last) { gathering.add(std::max(first, i + 1), last); };
-  // Of the point's own strip only the rows from its own one on hold later points; strips to the left hold none.
-  const Window all = window(p, radius.reach());
-  const std::uint32_t strip_left = frame_.column(p.x) / CellFrame::strip_width * CellFrame::strip_width;
-  const std::uint32_t next_strip = strip_left + CellFrame::strip_width;
-  for_each_run({std::max(all.left, strip_left), std::min(all.right, next_strip - 1), frame_.row(p.y), all.top},
-               add_later);
-  if (all.right >= next_strip) for_each_run({next_strip, all.right, all.bottom, all.top}, add_later);
-  gathering.visit_all();
+
+  /// Calls visit(place, later place) for the candidates after `place` with a squared distance <= square.
+  template <class Visit>
+  void visit_later(std::uint32_t place, double square, const Visit& visit) {
+    const double x = grid_.x_[place];
+    const double y = grid_.y_[place];
+    const std::uint32_t from = place - first_ + 1;
+    for (std::uint32_t i = from; i < count_; ++i) sum_[i] = (x_[i] - x) * (x_[i] - x) + (y_[i] - y) * (y_[i] - y);
+    std::uint32_t found = 0;
+    for (std::uint32_t i = from; i < count_; ++i) {
+      near_[found] = place_[i];
+      found += static_cast<std::uint32_t>(sum_[i] <= square);
+    }
+    for (std::uint32_t i = 0; i < found; ++i) visit(place, near_[i]);
+  }
+
+ private:
+  static constexpr std::uint32_t room = 256;
+
+  void add(std::uint32_t begin, std::uint32_t end) {
+    fits_ = fits_ && (begin >= end || count_ + (end - begin) <= room);
+    if (!fits_) return;
+    for (; begin < end; ++begin, ++count_) {
+      x_[count_] = grid_.x_[begin];
+      y_[count_] = grid_.y_[begin];
+      place_[count_] = begin;
+    }
+  }
+
+  const PointGrid& grid_;
+  std::uint32_t first_ = 0;
+  std::uint32_t count_ = 0;
+  bool fits_ = true;
+  std::array<double, room> x_, y_, sum_;
+  std::array<std::uint32_t, room> place_, near_;
+};
+
+template <class Visit>
+void PointGrid::for_each_later_pair(Range ids, const SearchRadius& radius, const Visit& visit) const {
+  if (radius.square() < 0.0) return;
+  const auto visit_one = [&](VertexId i) {
+    for_each_within(point(i), radius, [&](VertexId j, double) {
+      if (j > i) visit(i, j);
+    });
+  };
+  CellCandidates candidates(*this);
+  auto i = static_cast<VertexId>(ids.first);
+  while (i < ids.last) {
+    if (!in_tile_order()) {
+      visit_one(i++);
+      continue;
+    }
+    const VertexId cell_end = begin_[frame_.cell_of(point(i)) + 1];
+    const auto end = static_cast<VertexId>(std::min<std::size_t>(cell_end, ids.last));
+    const bool few = candidates.gather(i, end, radius.reach());
+    for (; i < end; ++i) few ? candidates.visit_later(i, radius.square(), visit) : visit_one(i);
+  }
 }
 
 }  // namespace warren

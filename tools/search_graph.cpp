@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -16,7 +17,7 @@
 namespace warren {
 namespace {
 
-constexpr VertexId vertices_per_poll = 1 << 12;
+constexpr std::size_t vertices_per_poll = 1 << 12;
 
 std::vector<Vec2> drawn_points(std::uint32_t size, std::uint64_t seed, const Execution& execution) {
   const double side = std::sqrt(static_cast<double>(size));
@@ -34,9 +35,10 @@ std::vector<Vec2> drawn_points(std::uint32_t size, std::uint64_t seed, const Exe
 RawVector<Edge> edges_within(const std::vector<Vec2>& at, const SearchRadius& radius, const Execution& execution) {
   const PointGrid grid(at, execution);
   RawVector<Edge> edges;
-  for (VertexId v = 0; v < at.size(); ++v) {
-    if (v % vertices_per_poll == 0) execution.check();
-    grid.for_each_later_within(v, radius, [&](VertexId w, double) { edges.push_back({v, w}); });
+  for (std::size_t v = 0; v < at.size(); v += vertices_per_poll) {
+    execution.check();
+    grid.for_each_later_pair({v, std::min(v + vertices_per_poll, at.size())}, radius,
+                             [&](VertexId i, VertexId j) { edges.push_back({i, j}); });
   }
   return edges;
 }

@@ -68,12 +68,11 @@ bool MazeWorld::is_free(const State& a, Query&) const noexcept {
   return box_.contains(a) && index_.keeps_clearance(a, a, planning_clearance_);
 }
 
-std::uint32_t MazeWorld::free_motions(std::span<const Motion<State>> motions, Query&) const noexcept {
-  std::array<Segment, bunch_size> segments;
-  std::transform(motions.begin(), motions.end(), segments.begin(), [](const Motion<State>& motion) {
+std::uint32_t MazeWorld::free_motions(std::span<const Motion<State>> motions, Query& query) const noexcept {
+  std::transform(motions.begin(), motions.end(), query.motions.begin(), [](const Motion<State>& motion) {
     return Segment{motion.from, motion.to};
   });
-  return index_.keep_clearance({segments.data(), motions.size()}, planning_clearance_);
+  return index_.keep_clearance({query.motions.data(), motions.size()}, planning_clearance_);
 }
 
 void MazeWorld::keep_free(double y, std::span<std::uint64_t> bits) const noexcept {

@@ -21,7 +21,9 @@ class MazeWorld {
  public:
   static constexpr std::size_t dimension = 2;
   using State = Vec2;
-  struct Query {};
+  struct Query {
+    std::array<Segment, bunch_size> motions;  ///< scratch
+  };
 
   /// Indexes the scene's walls and bounds. clearance >= 0 and finite (InputError otherwise); with 0, touching a wall
   /// is blocked. Throws InputError for a scene without walls and bounds.
@@ -35,7 +37,7 @@ class MazeWorld {
   bool is_free_motion(const State& a, const State& b, Query&) const noexcept {
     return index_.keeps_clearance(a, b, planning_clearance_);
   }
-  std::uint32_t free_motions(std::span<const Motion<State>> motions, Query&) const noexcept;
+  std::uint32_t free_motions(std::span<const Motion<State>> motions, Query& query) const noexcept;
   /// Of the points (1, y), (2, y), ..., a bit each, clears those that are not free. Asked wall by wall: O(walls near
   /// the row), whatever it has points.
   void keep_free(double y, std::span<std::uint64_t> bits) const noexcept;

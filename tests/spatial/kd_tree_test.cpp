@@ -77,19 +77,16 @@ void expect_within(const Index& index, const std::vector<PointOf<D>>& points, st
 
 template <int D, class Index>
 void expect_later(const Index& index, const std::vector<PointOf<D>>& points, double radius) {
-  for (std::size_t i = 0; i < points.size(); i += 7) {
-    std::vector<Neighbour> expected;
-    for (std::size_t j = i + 1; j < points.size(); ++j) {
-      const double d = testing::plain_distance<D>(points[i], points[j]);
-      if (d <= radius) expected.push_back({static_cast<VertexId>(j), d});
+  std::vector<std::pair<VertexId, VertexId>> expected;
+  for (VertexId i = 0; i < points.size(); ++i) {
+    for (VertexId j = i + 1; j < points.size(); ++j) {
+      if (testing::plain_distance<D>(points[i], points[j]) <= radius) expected.emplace_back(i, j);
     }
-    std::vector<Neighbour> found;
-    index.for_each_later_within(static_cast<VertexId>(i), radius, [&](VertexId j, double d) {
-      found.push_back({j, d});
-    });
-    std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
-    ASSERT_EQ(found, expected) << "point " << i;
   }
+  std::vector<std::pair<VertexId, VertexId>> found;
+  index.for_each_later_pair({0, points.size()}, radius, [&](VertexId i, VertexId j) { found.emplace_back(i, j); });
+  std::sort(found.begin(), found.end());
+  ASSERT_EQ(found, expected);
 }
 
 TYPED_TEST(KdTreeIn, AllQueriesEqualBruteForce) {

@@ -81,31 +81,48 @@ TEST(PointGrid, WithinEqualsBruteForceRadiiOfNeighboursIncluded) {
   }
 }
 
-TEST(PointGrid, LaterNeighboursAreEachPairOnce) {
+TEST(PointGrid, LaterPairsAreEachPairOnce) {
+  using Pairs = std::vector<std::pair<VertexId, VertexId>>;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     for (const auto& [name, points] : cases(seed)) {
       if (points.size() > 200) continue;
       SCOPED_TRACE(name + ", seed " + std::to_string(seed));
       const PointGrid grid(points, {});
       for (const double radius : {0.0, 1e-3, 0.2, 1.5, 1e61}) {
-        for (std::size_t i = 0; i < points.size(); ++i) {
-          std::vector<Neighbour> expected;
-          for (std::size_t j = i + 1; j < points.size(); ++j) {
-            const double d = testing::plain_distance<2>(points[i], points[j]);
-            if (d <= radius) expected.push_back({static_cast<VertexId>(j), d});
+        Pairs expected;
+        for (VertexId i = 0; i < points.size(); ++i) {
+          for (VertexId j = i + 1; j < points.size(); ++j) {
+            if (testing::plain_distance<2>(points[i], points[j]) <= radius) expected.emplace_back(i, j);
           }
-          std::vector<Neighbour> found;
-          grid.for_each_later_within(static_cast<VertexId>(i), radius, [&](VertexId j, double d) {
-            found.push_back({j, d});
-          });
-          if (!grid.in_tile_order()) {
-            std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
-          }
-          ASSERT_EQ(found, expected) << "milestone " << i << ", radius " << radius;
         }
+        Pairs found;
+        const std::size_t step = 1 + seed * 5;  // ranges end inside of cells
+        for (std::size_t first = 0; first < points.size(); first += step) {
+          grid.for_each_later_pair({first, std::min(first + step, points.size())}, radius,
+                                   [&](VertexId i, VertexId j) { found.emplace_back(i, j); });
+        }
+        if (!grid.in_tile_order()) std::sort(found.begin(), found.end());
+        ASSERT_EQ(found, expected) << "radius " << radius;
       }
     }
   }
+}
+
+TEST(PointGrid, LaterPairsOfManyPointsInOneDiscAreAllThere) {
+  std::vector<Vec2> points(3000);
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] = {uniform(1, i, 0), uniform(1, i, 1)};
+  points = in_tile_order(points);
+  const PointGrid grid(points, {});
+  ASSERT_TRUE(grid.in_tile_order());
+  std::size_t expected = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t j = i + 1; j < points.size(); ++j) {
+      expected += testing::plain_distance<2>(points[i], points[j]) <= 0.3 ? 1 : 0;
+    }
+  }
+  std::size_t found = 0;
+  grid.for_each_later_pair({0, points.size()}, 0.3, [&](VertexId, VertexId) { ++found; });
+  EXPECT_EQ(found, expected);
 }
 
 TEST(PointGrid, KeepsPointsThatComeInTileOrderAsTheyAre) {
