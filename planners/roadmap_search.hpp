@@ -35,6 +35,22 @@ bool is_stringy(const Graph& graph, const Execution& execution);
 std::vector<Edge> expanded_tree(const TwiceReducedGraphView& reduced, const std::vector<Edge>& keys,
                                 const Execution& execution);
 
+/// The edges of a graph, as a search asks for them; length(v, w) is called for neighbours.
+template <class Length>
+struct GraphEdges {
+  const Graph& graph;
+  const Length& length;
+  template <class Visit>
+  void operator()(VertexId v, const Visit& visit) const {
+    for (const VertexId w : graph.neighbours(v)) visit(w, length(v, w));
+  }
+  void fetch(VertexId v) const { __builtin_prefetch(graph.neighbours(v).data()); }
+  template <class Visit>
+  void for_each_target(VertexId v, const Visit& visit) const {
+    for (const VertexId w : graph.neighbours(v)) visit(w);
+  }
+};
+
 /// A* or Dijkstra. estimate_to(root) gives a consistent estimate of the way to start or goal; `tree`, where given,
 /// receives the search's tree.
 template <class Neighbours, class EstimateTo>
@@ -92,9 +108,7 @@ SearchResult search_roadmap(const W& world, const Graph& graph, std::span<const 
                             std::vector<Edge>* tree) {
   const auto should_stop = [&] { return execution.should_stop(); };
   const auto length = [&](VertexId v, VertexId w) { return world.distance(states[v], states[w]); };
-  const auto neighbours = [&](VertexId v, const auto& visit) {
-    for (const VertexId w : graph.neighbours(v)) visit(w, length(v, w));
-  };
+  const detail::GraphEdges<decltype(length)> neighbours{graph, length};
   const bool informed = options.search == SearchKind::astar;
   const auto estimate_to = [&](VertexId root) {
     return [&world, states, informed, root](VertexId v) {

@@ -4,6 +4,7 @@
 // contiguous run of walls. A cell that stays crowded is given a finer grid of its own.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -55,25 +56,20 @@ class WallGrid {
     return true;
   }
 
-  /// Copies to `out` the walls that for_each_near would visit, in its order, and returns how many; no_room if more than
-  /// `room` walls would have to be looked at, or if the cells around the box have finer grids.
+  /// Copies to `out` the walls of all cells that for_each_near would look at, in its order, and returns how many;
+  /// no_room if they are more than `room`, or if the cells around the box have finer grids.
   std::size_t copy_near(const Box& box, WallOf<T>* out, std::size_t room) const noexcept {
     if (!child_of_.empty()) return no_room;
-    const BoxScreen<T> screen(box);
     const std::size_t last_row = row_of(box.max.y + reach_.y);
     const std::size_t first_col = col_of(box.min.x - reach_.x);
     const std::size_t last_col = col_of(box.max.x + reach_.x);
-    std::size_t looked_at = 0;
     std::size_t count = 0;
     for (std::size_t row = row_of(box.min.y - reach_.y); row <= last_row; ++row) {
       const std::uint32_t first = offsets_[row * cols_ + first_col];
       const std::uint32_t last = offsets_[row * cols_ + last_col + 1];
-      looked_at += last - first;
-      if (looked_at > room) return no_room;
-      for (std::uint32_t i = first; i < last; ++i) {  // no branch on what walls there are
-        out[count] = walls_[i];
-        count += static_cast<std::size_t>(screen.meets(walls_[i]));
-      }
+      if (count + (last - first) > room) return no_room;
+      std::copy(walls_.data() + first, walls_.data() + last, out + count);
+      count += last - first;
     }
     fetch_rows_above(last_row, first_col, last_col);
     return count;
