@@ -145,13 +145,23 @@ std::uint64_t Overlay::peel(const Execution& execution) {
     execution.check();
     for (const VertexId v : core) closed[ranges] += peel_from(v, 0, static_cast<VertexId>(vertex_count()));
   }
-  core_.clear();
-  for (const auto& core : cores) {
-    std::copy_if(core.begin(), core.end(), std::back_inserter(core_), [&](VertexId v) { return !is_peeled(v); });
-  }
+  keep_core(cores, execution);
   std::uint64_t total = 0;
   for (const std::uint64_t count : closed) total += count;
   return total;
+}
+
+/// What is not peeled of the vertices that each range had left.
+void Overlay::keep_core(std::vector<std::vector<VertexId>>& cores, const Execution& execution) {
+  for_chunks(cores.size(), 1, execution,
+             [&](Range r) { std::erase_if(cores[r.first], [&](VertexId v) { return is_peeled(v); }); });
+  std::vector<std::size_t> first(cores.size() + 1, 0);
+  for (std::size_t i = 0; i < cores.size(); ++i) first[i + 1] = first[i] + cores[i].size();
+  core_.resize(first.back());
+  for_chunks(cores.size(), 1, execution, [&](Range r) {
+    std::copy(cores[r.first].begin(), cores[r.first].end(),
+              core_.begin() + static_cast<std::ptrdiff_t>(first[r.first]));
+  });
 }
 
 /// Follows the dead end that begins at v, if one does, as long as it stays among first .. last - 1. Edges that leave

@@ -71,6 +71,7 @@ class Overlay {
   void fill_tile(const TileGrid& grid, std::span<const TileSummary> tiles, std::size_t tile);
   void fill_ends(const TileGrid& grid, std::span<const TileSummary> tiles, const OverlayEnds& ends);
   VertexId key_at(const TileGrid& grid, std::span<const TileSummary> tiles, const EndLink& link) const;
+  void keep_core(std::vector<std::vector<VertexId>>& cores, const Execution& execution);
   std::uint64_t peel_from(VertexId v, VertexId first, VertexId last);
   std::size_t tile_count() const { return first_key_.size() - 1; }
 

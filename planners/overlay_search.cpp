@@ -2,11 +2,11 @@
 #include "planners/overlay_search.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 
-#include "core/indexed_heap.hpp"
-#include "parallel/bidirectional_search.hpp"
 #include "parallel/chunks.hpp"
+#include "planners/meeting_search.hpp"
 
 namespace warren {
 namespace {
@@ -97,25 +97,46 @@ RawVector<Vec2> points_of(const Overlay& overlay, const TileGrid& grid, std::spa
 }  // namespace
 
 CoreComponents core_components(const Overlay& overlay, const Execution& execution) {
-  execution.reserve(overlay.vertex_count() * sizeof(VertexId));
-  RawVector<VertexId> parent(overlay.vertex_count());
-  for (const VertexId v : overlay.core()) parent[v] = v;
+  constexpr std::size_t grain = std::size_t{1} << 14;
+  const std::size_t n = overlay.vertex_count();
+  execution.reserve(n * sizeof(VertexId));
+  RawVector<VertexId> parent(n);
   const auto root = [&](VertexId v) {
     while (parent[v] != v) v = parent[v] = parent[parent[v]];
     return v;
   };
-  CoreComponents result{overlay.core().size(), false};
-  std::uint64_t seen = 0;
-  for (const VertexId v : overlay.core()) {
-    if (++seen % 65536 == 0) execution.check();
-    for (const OverlayEnd& end : overlay.ends(v)) {
-      if (end.target > v || overlay.is_peeled(end.target)) continue;  // each edge once
-      const VertexId a = root(v);
-      const VertexId b = root(end.target);
-      if (a == b) continue;
-      parent[std::max(a, b)] = std::min(a, b);
-      --result.count;
+  const auto join = [&](VertexId v, VertexId w) {  // are they two components until now?
+    const VertexId a = root(v);
+    const VertexId b = root(w);
+    parent[std::max(a, b)] = std::min(a, b);
+    return a != b;
+  };
+  struct Part {
+    std::size_t joins = 0;
+    std::vector<Edge> across;  // to vertices before the chunk
+  };
+  std::vector<Part> parts(chunk_count(n, grain));
+  for_chunks(n, grain, execution, [&](Range r) {
+    Part part;
+    for (auto v = static_cast<VertexId>(r.first); v < r.last; ++v) {
+      parent[v] = v;
+      if (overlay.is_peeled(v)) continue;
+      for (const OverlayEnd& end : overlay.ends(v)) {
+        if (end.target > v || overlay.is_peeled(end.target)) continue;  // each edge once
+        if (end.target < r.first) {
+          part.across.push_back({v, end.target});
+        } else {
+          part.joins += join(v, end.target) ? 1 : 0;
+        }
+      }
     }
+    parts[r.first / grain] = std::move(part);
+  });
+  CoreComponents result{overlay.core().size(), false};
+  for (const Part& part : parts) {
+    execution.check();
+    result.count -= part.joins;
+    for (const Edge& edge : part.across) result.count -= join(edge.from, edge.to) ? 1 : 0;
   }
   result.joined = root(overlay.start()) == root(overlay.goal());
   return result;
@@ -125,18 +146,13 @@ SearchResult search_overlay(const Overlay& overlay, const TileGrid& grid, std::s
                             const OverlayEnds& ends, const Execution& execution) {
   execution.reserve(overlay.vertex_count() * (sizeof(Vec2) + 2 * (sizeof(double) + 2 * sizeof(VertexId) + 1)));
   const RawVector<Vec2> points = points_of(overlay, grid, tiles, ends, execution);
-  const CoreEdges neighbours{overlay};
-  const auto to_goal = [&](VertexId v) { return distance(points[v], ends.goal.at); };
-  const auto to_start = [&](VertexId v) { return distance(points[v], ends.start.at); };
-  struct Scratch {
-    SearchState state;
-    IndexedHeap<> queue;
-  } front, back;
-  SearchSide forward(overlay.start(), overlay.vertex_count(), neighbours, to_goal, to_start, front.queue, front.state);
-  SearchSide backward(overlay.goal(), overlay.vertex_count(), neighbours, to_start, to_goal, back.queue, back.state);
-  SearchResult result = bidirectional(forward, backward, execution);
-  if (result.status == SearchStatus::stopped) execution.check();
-  return result;
+  const CoreEdges edges{overlay};
+  const auto estimate_to = [&](VertexId root) {
+    return [&points, at = points[root]](VertexId v) { return distance(points[v], at); };
+  };
+  std::array<SearchState, 2> states;
+  return search_from_both_ends<CoreEdges>(QueueKind::heap, overlay.vertex_count(), {overlay.start(), overlay.goal()},
+                                          {edges, edges}, estimate_to, {&states[0], &states[1]}, execution);
 }
 
 std::vector<Vec2> expand_path(const Overlay& overlay, const TileGrid& grid, std::span<const TileSummary> tiles,
