@@ -123,7 +123,10 @@ void bm_maze_roadmap(benchmark::State& state) {
   const RoadmapOptions options{.sampler = sampler};
   std::uint64_t milestones = 0;
   for (auto _ : state) {
-    const GridWorld world(map, 0.0, {}, sampler == SamplerKind::corridor);
+    const GridWorld world(map, 0.0, {},
+                          sampler == SamplerKind::corridor       ? MapMilestones::corridors
+                          : sampler == SamplerKind::cell_centres ? MapMilestones::cell_centres
+                                                                 : MapMilestones::anywhere);
     const auto solution = lazy_prm(world, cell_centre(map, ends.start), cell_centre(map, ends.goal), options, {});
     milestones = solution.roadmap.milestones;
     if (solution.outcome != Outcome::solved) state.SkipWithError("the roadmap does not join the ends");
@@ -139,6 +142,7 @@ BENCHMARK(bm_maze_plain_bfs)->Apply(sides);
 BENCHMARK(bm_maze_grid)->Apply(sides);
 BENCHMARK(bm_maze_skeleton)->Apply(sides)->MeasureProcessCPUTime()->UseRealTime();
 BENCHMARK(bm_maze_roadmap)
+    ->ArgsProduct({{201, 1001, 2001, 4001, 6001}, {static_cast<int>(SamplerKind::cell_centres)}})
     ->ArgsProduct({{201, 1001, 2001},
                    {static_cast<int>(SamplerKind::corridor), static_cast<int>(SamplerKind::uniform)}})
     ->Unit(benchmark::kMillisecond)

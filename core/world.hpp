@@ -46,6 +46,17 @@ concept CorridorWorld = World<W> && requires(const W& w) {
   { w.corridor_state(std::uint64_t{}, std::uint64_t{}) } -> std::same_as<typename W::State>;
 };
 
+/// A world of cells, some of whose middles make a roadmap that joins what the cells join.
+/// w.milestone_cells()     a bit for each of those cells
+/// w.cell_state(x, y)      the state in the middle of a cell
+/// w.milestone_reach()     the longest motion that has to be tried between two of them
+template <class W>
+concept CellWorld = World<W> && requires(const W& w) {
+  { w.milestone_cells().count() } -> std::convertible_to<std::uint64_t>;
+  { w.cell_state(0U, 0U) } -> std::same_as<typename W::State>;
+  { w.milestone_reach() } -> std::convertible_to<double>;
+};
+
 /// Motions that a world may check faster together than one by one.
 template <class State>
 struct Motion {

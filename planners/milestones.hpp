@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -151,6 +152,29 @@ RawVector<typename W::State> in_tile_order(const W& world, const RawVector<typen
   return sorted;
 }
 
+/// The middles of a map's cells, in tile order.
+template <CellWorld W>
+RawVector<typename W::State> cell_centre_milestones(const W& world, const Execution& execution, std::size_t spare) {
+  constexpr std::size_t rows = 32;
+  const auto& cells = world.milestone_cells();
+  std::vector<RawVector<typename W::State>> parts(chunk_count(cells.height(), rows));
+  execution.reserve(cells.count() * sizeof(typename W::State));
+  for_chunks(cells.height(), rows, execution, [&](Range r) {
+    RawVector<typename W::State>& part = parts[r.first / rows];
+    for (auto y = static_cast<std::uint32_t>(r.first); y < r.last; ++y) {
+      const auto words = cells.row(y);
+      for (std::uint32_t w = 0; w < words.size(); ++w) {
+        for (std::uint64_t rest = words[w]; rest != 0; rest &= rest - 1) {
+          part.push_back(world.cell_state(64 * w + static_cast<std::uint32_t>(std::countr_zero(rest)), y));
+        }
+      }
+    }
+  });
+  const RawVector<typename W::State> states = joined(parts, execution, spare);
+  parts.clear();
+  return in_tile_order(world, states, execution);
+}
+
 }  // namespace detail
 
 /// The free ones of samples 0 .. count - 1, in tile order.
@@ -162,6 +186,11 @@ RawVector<typename W::State> draw_milestones(const W& world, const RoadmapOption
   if constexpr (std::same_as<typename W::State, Vec2>) {
     if (options.sampler == SamplerKind::lattice) {
       return lattice_milestones(world, options.lattice, count, execution, spare);
+    }
+  }
+  if constexpr (CellWorld<W>) {
+    if (options.sampler == SamplerKind::cell_centres) {
+      return detail::cell_centre_milestones(world, execution, spare);
     }
   }
   execution.reserve(count * sizeof(typename W::State));

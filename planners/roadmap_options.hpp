@@ -13,8 +13,23 @@ namespace warren {
 /// which joins mazes with a quarter of the milestones that independent draws need (docs/performance.md); else
 /// independent. lattice: the cell centres of a maze. halton: the Halton sequence, shifted by the seed. random:
 /// independent uniform. gaussian, bridge, mixture: planners/sampler.hpp. corridor: the middles of a map's corridors, by
-/// the distance transform (worlds/corridor_points.hpp); where the world knows none, as random.
-enum class SamplerKind : std::uint8_t { uniform, lattice, halton, random, gaussian, bridge, mixture, corridor };
+/// the distance transform (worlds/corridor_points.hpp); where the world knows none, as random. cell_centres: of a map
+/// (spatial/cell_milestones.hpp), all at once; for worlds without cells as random.
+enum class SamplerKind : std::uint8_t {
+  uniform,
+  lattice,
+  halton,
+  random,
+  gaussian,
+  bridge,
+  mixture,
+  corridor,
+  cell_centres
+};
+/// Does this kind take all its places at once, so that there is no number of samples to choose?
+constexpr bool takes_all_places(SamplerKind kind) {
+  return kind == SamplerKind::lattice || kind == SamplerKind::cell_centres;
+}
 /// The rules of PRM* (Karaman, Frazzoli, Int. J. Robotics Research 30(7), 2011), by which the number of neighbours or
 /// the radius follows the number of samples so that paths approach the shortest ones.
 enum class StarRule : std::uint8_t { none, neighbours, radius };

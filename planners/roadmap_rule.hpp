@@ -50,6 +50,10 @@ double sampled_area(const W& world) {
 template <World W>
 std::uint64_t first_samples(const W& world, const RoadmapOptions& options) {
   if (options.sampler == SamplerKind::lattice) return std::uint64_t{options.lattice.rows} * options.lattice.cols;
+  if constexpr (CellWorld<W>) {
+    if (options.sampler == SamplerKind::cell_centres)
+      return std::max<std::uint64_t>(1, world.milestone_cells().count());
+  }
   if (options.samples) return *options.samples;
   double suggested = 1000.0;
   if constexpr (SuggestsSamples<W>) suggested = world.suggested_samples();
@@ -58,7 +62,7 @@ std::uint64_t first_samples(const W& world, const RoadmapOptions& options) {
 
 /// Samples of the round after one with `samples`; 0 when there is none.
 inline std::uint64_t next_samples(const RoadmapOptions& options, std::uint64_t first, std::uint64_t samples) {
-  if (options.samples || options.sampler == SamplerKind::lattice || samples >= most_samples) return 0;
+  if (options.samples || takes_all_places(options.sampler) || samples >= most_samples) return 0;
   if (static_cast<double>(samples) >= growth_cap * static_cast<double>(first)) return 0;
   return std::min(most_samples, static_cast<std::uint64_t>(growth * static_cast<double>(samples)));
 }
@@ -104,6 +108,10 @@ ConnectionRule star_rule(StarRule rule, std::uint64_t samples, std::size_t dimen
 
 template <World W>
 ConnectionRule connection_rule_for(const W& world, const RoadmapOptions& options, std::uint64_t samples) {
+  if constexpr (CellWorld<W>) {
+    const bool by_rule = !options.radius && !options.neighbours && options.star == StarRule::none;
+    if (options.sampler == SamplerKind::cell_centres && by_rule) return {world.milestone_reach(), 0, options.attach};
+  }
   ConnectionRule rule = options.star == StarRule::none
                             ? connection_rule(options, samples, sampled_area(world))
                             : star_rule(options.star, samples, sampled_dimension(world), sampled_volume(world));

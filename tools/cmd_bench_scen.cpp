@@ -3,6 +3,7 @@
 // compared with the published optimum and each path is walked over the map again. Exit code 0 only if all agree.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -128,16 +129,24 @@ struct Totals {
   double jumps_s = 0.0;
   std::uint64_t astar_expanded = 0;
   std::uint64_t jumps_expanded = 0;
+  double median_speedup = 0.0;  // time of A* over that of jump points, by scenario
 };
 
 Totals totals_of(const std::vector<Scenario>& scenarios, const std::vector<Comparison>& results) {
   Totals totals;
+  std::vector<double> speedups;
   for (std::size_t i = 0; i < results.size(); ++i) {
     totals.wrong += results[i].agrees(scenarios[i]) ? 0 : 1;
     totals.astar_s += results[i].astar.seconds;
     totals.jumps_s += results[i].jumps.seconds;
     totals.astar_expanded += results[i].astar.expanded;
     totals.jumps_expanded += results[i].jumps.expanded;
+    if (results[i].jumps.seconds > 0.0) speedups.push_back(results[i].astar.seconds / results[i].jumps.seconds);
+  }
+  if (!speedups.empty()) {
+    const auto middle = speedups.begin() + static_cast<std::ptrdiff_t>(speedups.size() / 2);
+    std::nth_element(speedups.begin(), middle, speedups.end());
+    totals.median_speedup = *middle;
   }
   return totals;
 }
@@ -149,9 +158,9 @@ std::string json_of(const std::string& file, const OccupancyMap& map, const std:
       "{{\"schema\": \"warren.bench-scen/1\",\n \"file\": {},\n \"map\": {},\n \"scenarios\": {},\n \"differing\": "
       "{},\n "
       "\"astar_s\": {},\n \"jump_points_s\": {},\n \"astar_expanded\": {},\n \"jump_points_expanded\": {},\n "
-      "\"differences\": [",
+      "\"median_speedup\": {},\n \"differences\": [",
       json_string(file), json_string(map.source), scenarios.size(), t.wrong, json_number(t.astar_s),
-      json_number(t.jumps_s), t.astar_expanded, t.jumps_expanded);
+      json_number(t.jumps_s), t.astar_expanded, t.jumps_expanded, json_number(t.median_speedup));
   bool first = true;
   for (std::size_t i = 0; i < results.size(); ++i) {
     if (results[i].agrees(scenarios[i])) continue;
@@ -177,9 +186,10 @@ void print_report(const std::string& file, const std::vector<Scenario>& scenario
   const std::string verdict =
       t.wrong == 0 ? palette.good(fmt::format("all {} optimal", grouped(results.size())))
                    : palette.bad(fmt::format("{} of {} differ", grouped(t.wrong), grouped(results.size())));
-  print_text(fmt::format("{}: {}; A* {:.3f} s, {} cells; jump points {:.3f} s, {} cells: {:.1f} times as fast\n", file,
-                         verdict, t.astar_s, grouped(t.astar_expanded), t.jumps_s, grouped(t.jumps_expanded),
-                         t.jumps_s > 0.0 ? t.astar_s / t.jumps_s : 0.0));
+  print_text(fmt::format(
+      "{}: {}; A* {:.3f} s, {} cells; jump points {:.3f} s, {} cells: {:.1f} times as fast, median {:.1f}\n", file,
+      verdict, t.astar_s, grouped(t.astar_expanded), t.jumps_s, grouped(t.jumps_expanded),
+      t.jumps_s > 0.0 ? t.astar_s / t.jumps_s : 0.0, t.median_speedup));
 }
 
 int bench_scen(const Arguments& arguments) {

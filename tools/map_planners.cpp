@@ -6,6 +6,8 @@
 #include <stdexcept>
 
 #include "core/error.hpp"
+#include "planners/grid_search.hpp"
+#include "spatial/distance_field.hpp"
 #include "worlds/moving_ai_io.hpp"
 #include "worlds/verify_map.hpp"
 
@@ -25,6 +27,17 @@ Bitmap closed_cells(const OccupancyMap& map, Vec2 start) {
 
 bool stands_free_on_map(const OccupancyMap& map, const WallProblem& problem, Vec2 p, const Execution& execution) {
   return verify_on_map(map, std::span(&p, 1), {.clearance = problem.reach()}, execution).verified;
+}
+
+bool provably_apart(const OccupancyMap& map, const Bitmap& closed, const WallProblem& problem,
+                    const Execution& execution) {
+  const auto start = cell_at(map, problem.start);
+  const auto goal = cell_at(map, problem.goal);
+  if (!start || !goal) return false;
+  if (problem.reach() == 0.0) return !cells_connect(closed, *start, *goal, false, execution);
+  constexpr double half_diagonal = 0.7071067811865476 + 1e-9;
+  const double radius = problem.reach() / map.cell - half_diagonal;
+  return !cells_connect(blocked_for_disc(closed, radius, execution), *start, *goal, true, execution);
 }
 
 std::vector<Vec2> path_over_cells(const OccupancyMap& map, Vec2 start, std::span<const Cell> cells, Vec2 goal) {

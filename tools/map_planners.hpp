@@ -27,6 +27,12 @@ Bitmap closed_cells(const OccupancyMap& map, Vec2 start);
 /// Does the robot fit there, as the verification sees it?
 bool stands_free_on_map(const OccupancyMap& map, const WallProblem& problem, Vec2 p, const Execution& execution);
 
+/// Is it proved that no path leads from start to goal? A point between closed cells goes where cells with a common side
+/// are free. A disc's middle is nowhere where the middle of the cell is nearer than the radius less half a diagonal;
+/// all other cells are given it, corners too. O(cells).
+bool provably_apart(const OccupancyMap& map, const Bitmap& closed, const WallProblem& problem,
+                    const Execution& execution);
+
 /// From the start over the middles of the cells where the path turns to the goal; each cell is a neighbour of the one
 /// before.
 std::vector<Vec2> path_over_cells(const OccupancyMap& map, Vec2 start, std::span<const Cell> cells, Vec2 goal);

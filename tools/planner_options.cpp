@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::array<std::string_view, 8> planner_words{"prm",     "lazy-prm", "visibility",  "cells",
                                                         "voronoi", "rrt",      "rrt-connect", "grid"};
-constexpr std::array<std::string_view, 8> sampler_words{"uniform",  "lattice", "halton",  "random",
-                                                        "gaussian", "bridge",  "mixture", "corridor"};
+constexpr std::array<std::string_view, 9> sampler_words{"uniform", "lattice", "halton",   "random",      "gaussian",
+                                                        "bridge",  "mixture", "corridor", "cell-centres"};
 constexpr std::array<std::string_view, 4> search_words{"astar", "dijkstra", "bfs", "dfs"};
 constexpr std::array<std::string_view, 4> queue_words{"heap", "lazy-heap", "sorted-array", "resorted-array"};
 constexpr std::array<std::string_view, 2> pipeline_words{"plain", "tiled"};
@@ -29,8 +29,10 @@ constexpr std::uint64_t most_neighbours = 4096;
 constexpr OptionSpec specs[] = {
     {"--planner", "NAME",
      "prm checks every edge, lazy-prm only those that a search reaches (default: prm with lattice)", "prm lazy-prm"},
-    {"--sampler", "NAME", "where milestones come from (default: lattice in mazes, else uniform)",
-     "uniform lattice halton random gaussian bridge mixture corridor"},
+    {"--sampler", "NAME",
+     "where milestones come from (default: lattice in mazes, cell-centres on maps of corridors a cell wide, else "
+     "uniform)",
+     "uniform lattice halton random gaussian bridge mixture corridor cell-centres"},
     {"--samples", "N|auto", "states drawn; auto grows until start and goal connect (default: auto)"},
     {"--neighbours", "K|auto|star", "join each milestone to its K nearest; star: by the rule of PRM* (default: auto)"},
     {"--radius", "R|auto|star",
@@ -132,8 +134,9 @@ void check_planner(const Arguments& arguments, PlannerKind planner, SearchKind s
 
 /// The lattice has a point a cell: no number of samples to choose.
 void check_samples(SamplerKind sampler, const RoadmapOptions& options) {
-  if (sampler != SamplerKind::lattice || !options.samples) return;
-  throw UsageError("--samples: lattice takes every cell centre; the other samplers take a number");
+  if (!takes_all_places(sampler) || !options.samples) return;
+  throw UsageError(
+      fmt::format("--samples: {} takes every cell centre; the other samplers take a number", name_of(sampler)));
 }
 
 void check_lattice(SamplerKind sampler, const Scene& scene) {

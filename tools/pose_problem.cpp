@@ -57,8 +57,12 @@ std::vector<Se2> recorded_poses(const RecordedAnswer& answer, std::string_view b
 
 RoadmapOptions pose_roadmap_options(const SolveRequest& request, Answer& answer) {
   const PlannerOptions options = planner_options(request.arguments, request.scene, WallProblem{});
-  if (sampler_asked(request.arguments) == SamplerKind::lattice) {
-    throw UsageError("--sampler: lattice is for points and discs in mazes; a turning body takes the others");
+  const auto asked = sampler_asked(request.arguments);
+  if (asked && takes_all_places(*asked)) {
+    throw UsageError(
+        fmt::format("--sampler: {} is for points and discs in mazes and on maps; a turning body takes the "
+                    "others",
+                    name_of(*asked)));
   }
   RoadmapOptions roadmap = options.roadmap;
   if (roadmap.sampler == SamplerKind::lattice) roadmap.sampler = SamplerKind::uniform;

@@ -111,11 +111,12 @@ const SolveKind& first_kind(const std::vector<const SolveKind*>& fitting, const 
   throw UsageError(fmt::format(no_planner, where, what, solved_problems()));
 }
 
-/// Only maps have corridors that are known.
+/// Only maps have corridors and cells that are known.
 void check_corridors(const Arguments& arguments, const Scene& scene) {
-  if (scene.map || sampler_asked(arguments) != SamplerKind::corridor) return;
-  throw UsageError(fmt::format("--sampler: corridor is for occupancy maps, and {} is none; the others take any world",
-                               scene.source));
+  const auto asked = sampler_asked(arguments);
+  if (scene.map || (asked != SamplerKind::corridor && asked != SamplerKind::cell_centres)) return;
+  throw UsageError(fmt::format("--sampler: {} is for occupancy maps, and {} is none; the others take any world",
+                               name_of(*asked), scene.source));
 }
 
 [[noreturn]] void refuse_planner(PlannerKind planner, const std::vector<const SolveKind*>& fitting) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The planner grid on an occupancy map: over its cells. What it does not find it may prove infeasible.
+#include <algorithm>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "core/error.hpp"
 #include "planners/grid_search.hpp"
@@ -11,6 +14,7 @@
 #include "tools/map_planners.hpp"
 #include "tools/verified_answer.hpp"
 #include "worlds/grid_world.hpp"
+#include "worlds/verify_map.hpp"
 
 namespace warren {
 namespace {
@@ -41,8 +45,8 @@ class CellSolve {
     answer_.outcome = blocked_end(start, goal);
     if (answer_.outcome != Outcome::not_connected) return;
     index();
-    search(*start, *goal);
-    if (answer_.outcome != Outcome::solved) return prove(*start, *goal);
+    search(cells_joined_to(problem_.start, *start), cells_joined_to(problem_.goal, *goal));
+    if (answer_.outcome != Outcome::solved) return prove();
     if (request_.arguments.has("--optimise")) optimise();
     verify_solved_on_map(answer_, map_, problem_, true, request_.execution);
   }
@@ -66,31 +70,63 @@ class CellSolve {
   }
   const Bitmap& blocked() const { return blocked_.empty() ? closed_ : blocked_; }
 
-  void search(Cell start, Cell goal) {
+  /// Does the robot get from a point to the middle of a cell in a straight line?
+  bool is_joined(Vec2 p, Cell cell) const {
+    const Vec2 leg[] = {p, cell_centre(map_, cell)};
+    return verify_on_map(map_, leg, {.clearance = problem_.reach()}, request_.execution).verified;
+  }
+
+  /// The cells by whose middles a path may begin or end at p, the nearest first, one of those that steps join nearby: a
+  /// point's own; a disc may fit where it stands and not at the middle of its cell, but at one of those around it.
+  std::vector<Cell> cells_joined_to(Vec2 p, Cell own) const {
+    if (problem_.reach() == 0.0 || (!blocked().test(own.x, own.y) && is_joined(p, own))) return {own};
+    constexpr std::int64_t around = 2;
+    constexpr std::size_t most = 3;  // each may cost a search
+    std::vector<std::pair<double, Cell>> free;
+    for (std::int64_t y = std::int64_t{own.y} - around; y <= std::int64_t{own.y} + around; ++y) {
+      for (std::int64_t x = std::int64_t{own.x} - around; x <= std::int64_t{own.x} + around; ++x) {
+        if (x < 0 || y < 0 || x >= map_.width() || y >= map_.height() || blocked().holds(x, y)) continue;
+        const Cell cell{static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)};
+        if (is_joined(p, cell)) free.emplace_back(distance(p, cell_centre(map_, cell)), cell);
+      }
+    }
+    std::stable_sort(free.begin(), free.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<Cell> cells;
+    const auto beside = [](Cell a, Cell b) {
+      return (a.x == b.x || a.y == b.y) && a.x - b.x + 1 < 3 && a.y - b.y + 1 < 3;
+    };
+    for (const auto& [far, cell] : free) {
+      const bool is_known = std::any_of(cells.begin(), cells.end(), [&](Cell known) { return beside(known, cell); });
+      if (!is_known && cells.size() < most) cells.push_back(cell);
+    }
+    return cells;
+  }
+
+  void search(const std::vector<Cell>& starts, const std::vector<Cell>& goals) {
     const StageTimer timer(request_.execution, "search", answer_.seconds.search);
     const bool asked = request_.arguments.has("--search") || grid_.diagonal == Diagonal::none;
     if (!asked && !has_diagonal_steps(blocked())) grid_.method = GridMethod::bfs;  // mazes: as short, and faster
     answer_.search = name_of(grid_.method);
-    GridPath path = GridSearch(blocked()).find(start, goal, grid_, request_.execution);
-    answer_.counters.expanded = path.expanded;
-    if (path.status != SearchStatus::found) return;
+    GridSearch cells(blocked());
+    for (const Cell start : starts) {
+      for (const Cell goal : goals) {
+        const GridPath path = cells.find(start, goal, grid_, request_.execution);
+        answer_.counters.expanded += path.expanded;
+        if (path.status == SearchStatus::found) return take(path);
+      }
+    }
+  }
+
+  void take(const GridPath& path) {
     answer_.outcome = Outcome::solved;
     answer_.cost = path.cost;
     answer_.figures.emplace_back("cells", std::to_string(path.cells.size()));
     answer_.path = path_over_cells(map_, problem_.start, path.cells, problem_.goal);
   }
 
-  /// A point between closed cells goes where cells with a common side are free. A disc's middle is nowhere where the
-  /// middle of the cell is nearer than the radius less half a diagonal; all other cells are given it, corners too.
-  void prove(Cell start, Cell goal) {
+  void prove() {
     const StageTimer timer(request_.execution, "proof", answer_.seconds.search);
-    const double radius = problem_.reach() / map_.cell;
-    constexpr double half_diagonal = 0.7071067811865476 + 1e-9;
-    const bool joined = problem_.reach() == 0.0
-                            ? cells_connect(closed_, start, goal, false, request_.execution)
-                            : cells_connect(blocked_for_disc(closed_, radius - half_diagonal, request_.execution),
-                                            start, goal, true, request_.execution);
-    if (!joined) answer_.outcome = Outcome::infeasible;
+    if (provably_apart(map_, closed_, problem_, request_.execution)) answer_.outcome = Outcome::infeasible;
   }
 
   /// Off the grid: motions between any two points, certified against the closed cells.

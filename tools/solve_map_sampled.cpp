@@ -43,6 +43,7 @@ class SampledMapSolve {
   void describe_roadmap();
   void describe_trees();
   void index();
+  void bound_growth();
   Solution<Vec2> plan_roadmap();
   Solution<Vec2> plan_trees();
   std::vector<std::vector<Vec2>> stops() const;
@@ -65,6 +66,9 @@ void SampledMapSolve::describe_roadmap() {
   const PlannerOptions options = planner_options(request_.arguments, request_.scene, problem_);
   roadmap_options_ = options.roadmap;
   describe_roadmap_planner(answer_, problem_, options);
+  const bool free_choice = !sampler_asked(request_.arguments) && !roadmap_options_.samples;
+  if (free_choice && is_narrow(map_.blocked)) roadmap_options_.sampler = SamplerKind::cell_centres;
+  answer_.sampler = name_of(roadmap_options_.sampler);
   answer_.pipeline.clear();  // there is one
 }
 
@@ -83,17 +87,32 @@ void SampledMapSolve::describe_trees() {
 
 void SampledMapSolve::index() {
   const StageTimer timer(request_.execution, "index", answer_.seconds.index, map_.blocked.size());
-  const bool in_corridors = answer_.sampler == name_of(SamplerKind::corridor);
+  const auto asks = [&](SamplerKind sampler) { return answer_.sampler == name_of(sampler); };
+  const MapMilestones milestones = asks(SamplerKind::corridor)       ? MapMilestones::corridors
+                                   : asks(SamplerKind::cell_centres) ? MapMilestones::cell_centres
+                                                                     : MapMilestones::anywhere;
   if (map_.water.empty()) {
-    world_.emplace(map_, problem_.reach(), request_.execution, in_corridors);
+    world_.emplace(map_, problem_.reach(), request_.execution, milestones);
     return;
   }
   OccupancyMap map = map_;
   map.blocked = closed_cells(map_, problem_.start);
-  world_.emplace(map, problem_.reach(), request_.execution, in_corridors);
+  world_.emplace(map, problem_.reach(), request_.execution, milestones);
+}
+
+/// A roadmap that grows until start and goal connect has one round where they never can.
+void SampledMapSolve::bound_growth() {
+  const bool grows = !roadmap_options_.samples && !takes_all_places(roadmap_options_.sampler);
+  if (!grows) return;
+  const StageTimer timer(request_.execution, "proof", answer_.seconds.search);
+  const OccupancyMap& map = world_->map();
+  if (provably_apart(map, map.blocked, problem_, request_.execution)) {
+    roadmap_options_.samples = first_samples(*world_, roadmap_options_);
+  }
 }
 
 Solution<Vec2> SampledMapSolve::plan_roadmap() {
+  bound_growth();
   const auto planner = request_.planner == PlannerKind::prm ? prm<GridWorld> : lazy_prm<GridWorld>;
   return planner(*world_, problem_.start, problem_.goal, roadmap_options_, request_.execution, kept());
 }

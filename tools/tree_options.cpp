@@ -30,8 +30,8 @@ std::span<const OptionSpec> tree_option_specs() { return specs; }
 RrtOptions tree_options(const Arguments& arguments) {
   RrtOptions options;
   const auto sampler = sampler_asked(arguments);
-  if (sampler == SamplerKind::lattice) {
-    throw UsageError("--sampler: lattice is for the roadmaps of mazes; trees take the others");
+  if (sampler && takes_all_places(*sampler)) {
+    throw UsageError(fmt::format("--sampler: {} is for roadmaps; trees take the others", name_of(*sampler)));
   }
   if (sampler) options.sampler = *sampler;
   if (const auto text = arguments.value("--step")) options.step = positive_value("--step", *text);

@@ -46,9 +46,25 @@ std::pair<double, double> range_between(const Segment& leg, double low, double h
 
 }  // namespace
 
-GridWorld::GridWorld(const OccupancyMap& map, double radius, const Execution& execution, bool with_corridors)
-    : map_(map), reach_(planning_reach(map, radius)), field_(map.blocked, CellDistance::squares, true, execution) {
-  if (with_corridors) corridors_.emplace(map_, field_, reach_, execution);
+GridWorld::GridWorld(const OccupancyMap& map, double radius, const Execution& execution, MapMilestones milestones)
+    : map_(map), reach_(planning_reach(map, radius)) {
+  const bool fits_every_cell = reach_ < 0.5;
+  if (milestones == MapMilestones::cell_centres) {
+    milestone_cells_ = fits_every_cell ? cell_milestones(map_.blocked, execution)
+                                       : cell_milestones(blocked_for_disc(map_.blocked, reach_, execution), execution);
+    if (fits_every_cell) return;
+  }
+  field_.emplace(map_.blocked, CellDistance::squares, true, execution);
+  if (milestones == MapMilestones::corridors) corridors_.emplace(map_, *field_, reach_, execution);
+}
+
+bool GridWorld::lies_in_the_open(const Segment& leg) const {
+  if (!field_) return false;
+  const Vec2 middle = 0.5 * (leg.a + leg.b);
+  const auto x = static_cast<std::uint32_t>(middle.x);
+  const auto y = static_cast<std::uint32_t>(middle.y);
+  const double room = field_->distance(x, y) - warren::distance(middle, Vec2{x + 0.5, y + 0.5});
+  return room > 0.5 * warren::distance(leg.a, leg.b) + reach_ + margin;
 }
 
 bool GridWorld::is_free_motion(const State& a, const State& b, Query&) const {
@@ -58,12 +74,7 @@ bool GridWorld::is_free_motion(const State& a, const State& b, Query&) const {
         box.max.y <= map_.height() - reach_)) {
     return false;  // the outside is blocked, and it is nearest to an end
   }
-  // Everything within half the leg of its middle is free if the middle's cell is far enough from all squares.
-  const Vec2 middle = 0.5 * (leg.a + leg.b);
-  const auto x = static_cast<std::uint32_t>(middle.x);
-  const auto y = static_cast<std::uint32_t>(middle.y);
-  const double room = field_.distance(x, y) - warren::distance(middle, Vec2{x + 0.5, y + 0.5});
-  if (room > 0.5 * warren::distance(leg.a, leg.b) + reach_ + margin) return true;
+  if (lies_in_the_open(leg)) return true;
   const auto first = static_cast<std::int64_t>(std::floor(box.min.y - reach_));
   const auto last = static_cast<std::int64_t>(std::floor(box.max.y + reach_));
   for (std::int64_t row = std::max<std::int64_t>(first, 0); row <= std::min<std::int64_t>(last, map_.height() - 1);
@@ -95,7 +106,8 @@ bool GridWorld::row_is_free(const Segment& leg, std::int64_t row) const {
 double GridWorld::suggested_samples() const {
   constexpr double samples_a_square = 4.5;  // as among walls: worlds/maze_world.cpp
   constexpr double fewest = 500.0;
-  const double squares = 0.5 * CorridorCells(field_, reach_, {}).weight();
+  if (!field_) return static_cast<double>(map_.free);
+  const double squares = 0.5 * CorridorCells(*field_, reach_, {}).weight();
   if (corridors_) return std::max(fewest, samples_a_square * squares);  // which hardly ever fall on what is blocked
   const double free_share = static_cast<double>(map_.free) / static_cast<double>(map_.blocked.size());
   return std::max(fewest, free_share > 0.0 ? samples_a_square * squares / free_share : 0.0);

@@ -11,11 +11,15 @@
 #include "core/types.hpp"
 #include "core/world.hpp"
 #include "parallel/execution.hpp"
+#include "spatial/cell_milestones.hpp"
 #include "spatial/distance_field.hpp"
 #include "worlds/corridor_points.hpp"
 #include "worlds/occupancy_map.hpp"
 
 namespace warren {
+
+/// Which milestones a roadmap of the world will ask for: corridor_state(), or milestone_cells(), cost memory.
+enum class MapMilestones : std::uint8_t { anywhere, corridors, cell_centres };
 
 /// Immutable after construction; one Query a thread. A motion costs the cells of the strip around it, 64 at a time.
 class GridWorld {
@@ -25,8 +29,10 @@ class GridWorld {
   struct Query {};
 
   /// radius: distance that states keep from blocked squares, world units, >= 0 and finite (InputError otherwise); 0:
-  /// touching is blocked. Water is blocked. Copies the map. with_corridors: corridor_state will be asked for.
-  GridWorld(const OccupancyMap& map, double radius, const Execution& execution, bool with_corridors = false);
+  /// touching is blocked. Water is blocked. Copies the map. Cell centres need no distance transform for bodies up to a
+  /// cell wide.
+  GridWorld(const OccupancyMap& map, double radius, const Execution& execution,
+            MapMilestones milestones = MapMilestones::anywhere);
 
   Query make_query() const { return {}; }
   State at_unit(const std::array<double, 2>& u) const {
@@ -46,6 +52,11 @@ class GridWorld {
     return corridors_ && !corridors_->empty() ? corridors_->at(seed, index) : uniform_state(*this, seed, index);
   }
 
+  /// Cells whose middles make a roadmap that joins what steps over common sides join; none unless they were asked for.
+  const Bitmap& milestone_cells() const { return milestone_cells_; }
+  State cell_state(std::uint32_t x, std::uint32_t y) const { return cell_centre(map_, {x, y}); }
+  double milestone_reach() const { return cell_milestone_reach * map_.cell; }
+
   /// The map as if its origin were (0, 0) and it were not turned: what uniform samples are spread over.
   Box box() const { return {{0.0, 0.0}, {map_.cell * map_.width(), map_.cell * map_.height()}}; }
   double sampled_area() const { return box().width() * box().height(); }
@@ -56,13 +67,16 @@ class GridWorld {
 
  private:
   bool row_is_free(const Segment& leg, std::int64_t row) const;
+  /// Is all that is within half the leg of its middle free, by the middle's cell's distance from all squares?
+  bool lies_in_the_open(const Segment& leg) const;
 
   OccupancyMap map_;
   double reach_;  // cells
-  DistanceField field_;
+  std::optional<DistanceField> field_;
   std::optional<CorridorPoints> corridors_;
+  Bitmap milestone_cells_;
 };
 
-static_assert(SteerableWorld<GridWorld> && CorridorWorld<GridWorld>);
+static_assert(SteerableWorld<GridWorld> && CorridorWorld<GridWorld> && CellWorld<GridWorld>);
 
 }  // namespace warren

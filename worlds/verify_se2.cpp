@@ -11,6 +11,7 @@
 #include "parallel/chunks.hpp"
 #include "worlds/exact_segments.hpp"
 #include "worlds/obstacles.hpp"
+#include "worlds/path_surroundings.hpp"
 
 namespace warren {
 namespace {
@@ -39,66 +40,111 @@ double shorter_turn(double a, double b) {
   return turn;
 }
 
+/// What may be near a leg: sides of obstacles.
+using Sides = std::vector<NearSide>;
+
 class BodyVerifier {
  public:
   BodyVerifier(const Scene& scene, std::span<const Vec2> outline, double clearance, const Execution& execution)
       : obstacles_(scene),
+        surroundings_(scene, obstacles_, execution),
         outline_(outline),
         clearance_(clearance),
         execution_(execution),
         confines_(scene.bounds),
         map_(scene.map ? &*scene.map : nullptr) {
-    double largest = 0.0;
-    for (std::size_t i = 0; i < obstacles_.size(); ++i) {
-      const Segment s = obstacles_.segment(i);
-      segments_.push_back(s);
-      if (i < obstacles_.wall_count() || is_polygon_side(i)) box_.include(box_of(s));
-      for (const double c : {s.a.x, s.a.y, s.b.x, s.b.y}) largest = std::max(largest, std::abs(c));
-    }
     for (const Vec2 p : outline_) radius_ = std::max(radius_, std::hypot(p.x, p.y));
-    rounding_ = 2e-14 * (largest + 2.0 * radius_ + clearance);
+    rounding_ = 2e-14 * (surroundings_.largest_coordinate() + 2.0 * radius_ + clearance);
     finest_ = 1e-9 * radius_;
     close_ = 1e-3 * radius_;
+    for (const Ring& ring : obstacles_.rings()) {
+      Box box;
+      for (const Vec2 p : ring.corners) box.include(p);
+      ring_boxes_.push_back(box);
+    }
   }
 
+  /// To be called before the checks: obstacles farther than `reach` from the path are left out.
+  void look_around(std::span<const Se2> path, double reach);
+  /// Does any reach that is larger find the same?
+  bool looks_everywhere(std::span<const Se2> path) const;
+  double least_reach() const { return 1.01 * clearance_ + radius_; }
+
   LegReport check(const Leg& leg, std::size_t number) const {
-    return leg.turn == 0.0 ? check_straight(leg, number) : check_turning(leg, number);
+    Sides sides;
+    surroundings_.gather(boxes_of(leg), sides);
+    return leg.turn == 0.0 ? check_straight(leg, sides, number) : check_turning(leg, sides, number);
   }
   LegReport check_pose(const Se2& pose, std::size_t number) const;
 
  private:
   struct Near {
-    std::size_t obstacle;
+    std::size_t side;  // of the leg's
     double distance;
   };
-  bool is_polygon_side(std::size_t i) const {
-    return obstacles_.rings()[obstacles_.sides()[i - obstacles_.wall_count()].ring].polygon != Ring::none;
-  }
-  LegReport check_straight(const Leg& leg, std::size_t number) const;
-  LegReport check_turning(const Leg& leg, std::size_t number) const;
+  std::vector<Box> boxes_of(const Leg& leg) const;
+  LegReport check_straight(const Leg& leg, const Sides& sides, std::size_t number) const;
+  LegReport check_turning(const Leg& leg, const Sides& sides, std::size_t number) const;
   double distance_to_sweep(const std::vector<Vec2>& corners, Vec2 way, const Segment& s) const;
   std::vector<Vec2> corners_at(const Leg& leg, double t) const;
   bool body_holds(const std::vector<Vec2>& corners, Vec2 p) const;
   double distance_to(const std::vector<Vec2>& corners, const Segment& s) const;
-  /// The obstacles of `among` that may be the nearest to the body within `way` of the place t.
-  std::vector<Near> nearest_at(const Leg& leg, double t, double way, const std::vector<Near>& among) const;
+  /// The sides of `among` that may be the nearest to the body within `way` of the place t.
+  std::vector<Near> nearest_at(const Leg& leg, double t, double way, const Sides& sides,
+                               const std::vector<Near>& among) const;
   /// Checks the part of the leg that is `half` to both sides of `middle`.
-  void check_piece(const Leg& leg, double middle, double half, const std::vector<Near>& among, std::size_t number,
-                   LegReport& report) const;
+  void check_piece(const Leg& leg, double middle, double half, const Sides& sides, const std::vector<Near>& among,
+                   std::size_t number, LegReport& report) const;
 
   Obstacles obstacles_;
+  PathSurroundings surroundings_;
   std::span<const Vec2> outline_;
   double clearance_;
   const Execution& execution_;
   std::optional<Box> confines_;
   const OccupancyMap* map_;  // nullptr: the scene is none
-  std::vector<Segment> segments_;
-  Box box_;  // of walls and polygons
+  std::vector<Box> ring_boxes_;
+  double reach_ = 0.0;  // obstacles farther away are left out
   double radius_ = 0.0;
   double rounding_ = 0.0;  // bounds the error of every distance computed here
   double finest_ = 0.0;    // pieces on which the body goes less are not halved
   double close_ = 0.0;     // how sharp the least clearance shall be
 };
+
+/// Around the body and its reach on parts of the leg, which are about as long as the boxes are wide.
+std::vector<Box> BodyVerifier::boxes_of(const Leg& leg) const {
+  const double around = (radius_ + reach_) * (1.0 + 1e-9) + rounding_;
+  constexpr double most_parts = 65536.0;
+  const double parts = std::clamp(std::ceil(std::hypot(leg.way.x, leg.way.y) / (4.0 * around)), 1.0, most_parts);
+  const auto at = [&](double part) { return leg.a.position() + (part / parts) * leg.way; };
+  std::vector<Box> boxes;
+  for (double part = 0.0; part < parts; ++part) {
+    Box box;
+    box.include(at(part));
+    box.include(at(part + 1.0));
+    boxes.push_back({box.min - Vec2{around, around}, box.max + Vec2{around, around}});
+  }
+  return boxes;
+}
+
+void BodyVerifier::look_around(std::span<const Se2> path, double reach) {
+  reach_ = reach;
+  if (map_ != nullptr) return;  // is read where it is asked
+  std::vector<Box> boxes;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const Se2& next = path[std::min(i + 1, path.size() - 1)];
+    const std::vector<Box> more = boxes_of({path[i], next.position() - path[i].position(), 0.0});
+    boxes.insert(boxes.end(), more.begin(), more.end());
+  }
+  surroundings_.file(boxes, execution_);
+}
+
+bool BodyVerifier::looks_everywhere(std::span<const Se2> path) const {
+  Box all = surroundings_.box();
+  if (confines_) all.include(*confines_);
+  for (const Se2& pose : path) all.include(pose.position());
+  return reach_ >= all.width() + all.height();
+}
 
 std::vector<Vec2> BodyVerifier::corners_at(const Leg& leg, double t) const {
   const double theta = leg.a.theta + t * leg.turn;
@@ -151,7 +197,7 @@ double BodyVerifier::distance_to_sweep(const std::vector<Vec2>& corners, Vec2 wa
 }
 
 /// No halving: exact but for the rounding of corners.
-LegReport BodyVerifier::check_straight(const Leg& leg, std::size_t number) const {
+LegReport BodyVerifier::check_straight(const Leg& leg, const Sides& sides, std::size_t number) const {
   const std::vector<Vec2> corners = corners_at(leg, 0.0);
   Box swept;
   for (const Vec2 p : corners) {
@@ -159,20 +205,20 @@ LegReport BodyVerifier::check_straight(const Leg& leg, std::size_t number) const
     swept.include(p + leg.way);
   }
   LegReport report;
-  for (std::size_t i = 0; i < segments_.size(); ++i) {
-    execution_.check();
-    if (std::sqrt(exact::gap_sq(swept, box_of(segments_[i]))) > report.met) continue;
-    const double distance = distance_to_sweep(corners, leg.way, segments_[i]);
+  execution_.check();
+  for (const NearSide& side : sides) {
+    if (std::sqrt(exact::gap_sq(swept, box_of(side.segment))) > report.met) continue;
+    const double distance = distance_to_sweep(corners, leg.way, side.segment);
     if (distance >= report.met) continue;
     report.met = distance;
     report.least = distance - rounding_;
     if (report.least > clearance_ || (clearance_ > 0.0 && report.least >= clearance_)) continue;
-    report.violation = Violation{number, distance, obstacles_.name(i)};
+    report.violation = Violation{number, distance, surroundings_.name(side.number)};
   }
   return report;
 }
 
-std::vector<BodyVerifier::Near> BodyVerifier::nearest_at(const Leg& leg, double t, double way,
+std::vector<BodyVerifier::Near> BodyVerifier::nearest_at(const Leg& leg, double t, double way, const Sides& sides,
                                                          const std::vector<Near>& among) const {
   const std::vector<Vec2> corners = corners_at(leg, t);
   Box body;
@@ -181,24 +227,24 @@ std::vector<BodyVerifier::Near> BodyVerifier::nearest_at(const Leg& leg, double 
   const double spread = 2.0 * (way + rounding_);
   std::vector<Near> near;
   for (const Near& n : among) {
-    const Segment& s = segments_[n.obstacle];
+    const Segment& s = sides[n.side].segment;
     if (std::sqrt(exact::gap_sq(body, box_of(s))) > least + spread) continue;
     const double distance = distance_to(corners, s);
     least = std::min(least, distance);
-    near.push_back({n.obstacle, distance});
+    near.push_back({n.side, distance});
   }
   std::erase_if(near, [&](const Near& n) { return n.distance > least + spread; });
   return near;
 }
 
-void BodyVerifier::check_piece(const Leg& leg, double middle, double half, const std::vector<Near>& among,
-                               std::size_t number, LegReport& report) const {
+void BodyVerifier::check_piece(const Leg& leg, double middle, double half, const Sides& sides,
+                               const std::vector<Near>& among, std::size_t number, LegReport& report) const {
   constexpr std::size_t most_looks = 2'000'000;  // some seconds
   execution_.check();
   const bool weary = ++report.looks > most_looks;
   const double whole = std::hypot(leg.way.x, leg.way.y) + radius_ * std::abs(leg.turn);
   const double way = half * whole * (1.0 + 1e-12);
-  const std::vector<Near> near = nearest_at(leg, middle, way, among);
+  const std::vector<Near> near = nearest_at(leg, middle, way, sides, among);
   if (near.empty() || report.violation) return;
   const auto less = [](const Near& a, const Near& b) { return a.distance < b.distance; };
   const Near nearest = *std::min_element(near.begin(), near.end(), less);
@@ -211,19 +257,19 @@ void BodyVerifier::check_piece(const Leg& leg, double middle, double half, const
   }
   if (nearest.distance <= rounding_ || nearest.distance + rounding_ < clearance_ || way < finest_ || weary) {
     report.least = std::min(report.least, nearest.distance);
-    report.violation = Violation{number, nearest.distance, obstacles_.name(nearest.obstacle)};
+    report.violation = Violation{number, nearest.distance, surroundings_.name(sides[nearest.side].number)};
     return;
   }
-  check_piece(leg, middle - 0.5 * half, 0.5 * half, near, number, report);
-  check_piece(leg, middle + 0.5 * half, 0.5 * half, near, number, report);
+  check_piece(leg, middle - 0.5 * half, 0.5 * half, sides, near, number, report);
+  check_piece(leg, middle + 0.5 * half, 0.5 * half, sides, near, number, report);
 }
 
-LegReport BodyVerifier::check_turning(const Leg& leg, std::size_t number) const {
+LegReport BodyVerifier::check_turning(const Leg& leg, const Sides& sides, std::size_t number) const {
   std::vector<Near> all;
-  all.reserve(segments_.size());
-  for (std::size_t i = 0; i < segments_.size(); ++i) all.push_back({i, 0.0});
+  all.reserve(sides.size());
+  for (std::size_t i = 0; i < sides.size(); ++i) all.push_back({i, 0.0});
   LegReport report;
-  check_piece(leg, 0.5, 0.5, all, number, report);
+  check_piece(leg, 0.5, 0.5, sides, all, number, report);
   return report;
 }
 
@@ -240,11 +286,14 @@ LegReport BodyVerifier::check_pose(const Se2& pose, std::size_t number) const {
     const std::optional<Cell> cell = cell_at(*map_, corners.front());
     if (!cell) return bad("map: the body is outside");
     if (map_->blocked.test(cell->x, cell->y)) return bad(fmt::format("cell {}, {}", cell->x, cell->y));
-  } else if (!box_.contains({pose.x, pose.y})) {
+  } else if (!surroundings_.box().contains({pose.x, pose.y})) {
     return bad(fmt::format("box: {} {} is outside the box of the obstacles", pose.x, pose.y));
   }
-  for (const Ring& ring : obstacles_.rings()) {
-    if (ring.polygon == Ring::none || !strictly_inside(ring, corners.front())) continue;
+  for (std::size_t i = 0; i < ring_boxes_.size(); ++i) {
+    const Ring& ring = obstacles_.rings()[i];
+    if (ring.polygon == Ring::none || !ring_boxes_[i].contains(corners.front()) ||
+        !strictly_inside(ring, corners.front()))
+      continue;
     return bad(fmt::format("polygon {}: holds {} {}", ring.polygon, corners.front().x, corners.front().y));
   }
   return {};
@@ -281,17 +330,39 @@ std::vector<LegReport> leg_reports(const BodyVerifier& body, std::span<const Se2
   return reports;
 }
 
+/// All legs, with obstacles up to `reach` away.
+std::vector<std::vector<LegReport>> all_reports(BodyVerifier& body, std::span<const Se2> path, double reach,
+                                                const Execution& execution) {
+  body.look_around(path, reach);
+  std::vector<std::vector<LegReport>> reports(std::max<std::size_t>(path.size() - 1, 1));
+  for_chunks(reports.size(), 1, execution, [&](Range r) { reports[r.first] = leg_reports(body, path, r.first); });
+  return reports;
+}
+
+double least_of(const std::vector<std::vector<LegReport>>& reports) {
+  double least = infinity;
+  for (const auto& leg : reports) {
+    for (const LegReport& report : leg) least = std::min(least, report.least);
+  }
+  return least;
+}
+
 }  // namespace
 
 Se2Verification verify_se2(const Scene& scene, std::span<const Vec2> outline, std::span<const Se2> path,
                            const Se2VerifyOptions& options, const Execution& execution) {
   check_input(outline, path, options);
-  const BodyVerifier body(scene, outline, options.clearance, execution);
-  const std::size_t legs = std::max<std::size_t>(path.size() - 1, 1);
-  std::vector<std::vector<LegReport>> reports(legs);
-  for_chunks(legs, 1, execution, [&](Range r) { reports[r.first] = leg_reports(body, path, r.first); });
+  BodyVerifier body(scene, outline, options.clearance, execution);
+  constexpr double widening = 8.0;
+  double reach = body.least_reach();
+  std::vector<std::vector<LegReport>> reports = all_reports(body, path, reach, execution);
+  while (least_of(reports) > reach && !body.looks_everywhere(path)) {  // nothing so near: how far is it?
+    reach *= widening;
+    reports = all_reports(body, path, reach, execution);
+  }
 
   Se2Verification result;
+  result.min_clearance = least_of(reports);
   const auto note = [&](const Violation& v) {
     if (!result.first_violation || v.leg < result.first_violation->leg) result.first_violation = v;
   };
@@ -300,12 +371,11 @@ Se2Verification verify_se2(const Scene& scene, std::span<const Vec2> outline, st
   }
   for (const auto& leg : reports) {
     for (const LegReport& report : leg) {
-      result.min_clearance = std::min(result.min_clearance, report.least);
       if (report.violation) note(*report.violation);
     }
   }
   if (options.goal && !is_there(path.back(), *options.goal, options.any_heading, options.tolerance)) {
-    if (!result.first_violation) note({legs - 1, 0.0, "goal: the path ends elsewhere"});
+    if (!result.first_violation) note({reports.size() - 1, 0.0, "goal: the path ends elsewhere"});
   }
   for (std::size_t i = 1; i < path.size(); ++i) {
     result.length += std::hypot(path[i].x - path[i - 1].x, path[i].y - path[i - 1].y);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Is this path of a turning polygon free? Independent of everything that found it: nothing from spatial/, nothing of
-// the fast world's distances, motions or angles. Each leg is compared with every side of every obstacle at its middle;
-// obstacles that can't be the nearest anywhere on a piece are dropped from its halves, and pieces are halved until the
-// least distance, less the way that any point of the body goes and less all rounding, is proved to exceed the
-// clearance. O(legs * sides * corners) and what the halves near obstacles cost.
+// the fast world's distances, motions or angles. Each leg is compared, at its middle, with all sides of obstacles
+// within the body's radius and the clearance around it (worlds/path_surroundings; farther only where nothing is so
+// near); obstacles that can't be the nearest anywhere on a piece are dropped from its halves, and pieces are halved
+// until the least distance, less the way that any point of the body goes and less all rounding, is proved to exceed the
+// clearance. O(obstacles) once, but for maps, then O(legs * sides near them * corners) and what the halves near
+// obstacles cost.
 // Legs without a turn need no halving: what the body sweeps there is a polygon.
 #pragma once
 
@@ -36,8 +38,8 @@ struct Se2Verification {
   std::optional<Violation> first_violation;  ///< on the smallest leg
 };
 
-/// The body among the scene's walls, polygons and bounds (spheres are not looked at); on a map among its borders, which
-/// the scene must have as walls (worlds/map_walls.hpp), and over free cells. On a leg the reference point goes
+/// The body among the scene's walls, polygons and bounds (spheres are not looked at); on a map over its free cells,
+/// whose borders it reads from the bits: the walls of such a scene are not looked at. On a leg the reference point goes
 /// straight while the body turns evenly the shorter way; a leg of half a turn must be free both ways. The path has at
 /// least one pose, all finite (InputError otherwise); a single pose is a leg of length zero. A turning leg that
 /// runs within some millionths of the body's radius of an obstacle, beyond the clearance, may count as not free. The

@@ -104,6 +104,8 @@ std::vector<MapPlanner> map_planners() {
   return {{"prm", {}},
           {"prm", {"--sampler", "corridor"}},
           {"lazy-prm", {}},
+          {"prm", {"--sampler", "uniform"}},
+          {"prm", {"--sampler", "halton"}},
           {"lazy-prm", {"--sampler", "corridor", "--optimise"}},
           {"rrt", {}},
           {"rrt-connect", {}},
@@ -133,6 +135,42 @@ TEST(Maps, AllPlannersSolveThemForPointsDiscsAndPolygonsVerified) {
       EXPECT_EQ(answered(again)["path"], answer["path"]);
     }
   }
+}
+
+TEST(Maps, DiscsThatDoNotFitAtTheMiddleOfTheirCellAreJoinedToOthers) {
+  const Folder folder;
+  // The middle of the start's cell is too near to the blocked one; the next is not.
+  const std::string corner =
+      folder.write("b.map", "type octile\nheight 4\nwidth 6\nmap\n......\n......\n......\n@.....\n");
+  const Json joined = answered({"solve", corner, "--robot", "disc 0.8", "--start", "1.85,0.85", "--goal", "4.5,2.5"});
+  EXPECT_EQ(joined["status"], "solved");
+  EXPECT_EQ(joined["verified"], true);
+}
+
+TEST(Maps, RoadmapsOfNarrowMapsTakeTheMiddlesOfCells) {
+  const Folder folder;
+  const std::string map = folder.write("a.map", small_map);
+  for (const char* planner : {"prm", "lazy-prm"}) {
+    const Json answer = answered({"solve", map, "--planner", planner, "--start", "0.4,0.5", "--goal", "6.5,4.5"});
+    EXPECT_EQ(answer["sampler"], "cell-centres");
+    EXPECT_EQ(answer["verified"], true);
+    EXPECT_LT(answer["roadmap"]["milestones"], 24 + 2);
+    EXPECT_NEAR(answer["length"].get<double>(), 10.1, 1e-9);
+    const Json disc = answered(
+        {"solve", map, "--planner", planner, "--start", "0.5,0.5", "--goal", "6.5,4.5", "--robot", "disc 0.45"});
+    EXPECT_EQ(disc["sampler"], "cell-centres");
+    EXPECT_EQ(disc["verified"], true);
+  }
+  const auto refused = [&](std::vector<std::string> more) {
+    std::vector<std::string> words{"solve",  map,       "--start",   "0.5,0.5",
+                                   "--goal", "6.5,4.5", "--sampler", "cell-centres"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words).code;
+  };
+  EXPECT_EQ(refused({"--planner", "prm", "--samples", "10"}), 2);
+  EXPECT_EQ(refused({"--planner", "rrt"}), 2);
+  const std::string scene = folder.write("w.scene", "bounds 0 0 6 4\nwall 2.5 1 2.5 2.5\nstart 1 1\ngoal 5 3\n");
+  EXPECT_EQ(run({"solve", scene, "--planner", "prm", "--sampler", "cell-centres"}).code, 2);
 }
 
 TEST(Maps, OnlyTheGridPlannerProvesThatAMapIsSealed) {
@@ -324,7 +362,9 @@ TEST(Maps, PlannersAreComparedOnThemPolygonsToo) {
       EXPECT_GE(row["cells"]["median"], 7.0);
       EXPECT_EQ(row.contains("turn_rad"), turns);
     }
-    EXPECT_NE(folder.read("out/prm_sampler_uniform.svg").find("<g id=\"blocked\""), std::string::npos);
+    EXPECT_NE(folder.read(turns ? "out/prm_sampler_uniform.svg" : "out/prm_sampler_cell-centres.svg")
+                  .find("<g id=\"blocked\""),
+              std::string::npos);
   }
 }
 
@@ -425,6 +465,7 @@ TEST(BenchScen, ExitsWithZeroOnlyWhereEveryLengthIsTheOptimum) {
   const Json good = answered({"bench-scen", right});
   EXPECT_EQ(good["scenarios"], 1);
   EXPECT_EQ(good["differing"], 0);
+  EXPECT_GT(good["median_speedup"], 0.0);
   const Json bad =
       answered({"bench-scen", folder.write("b.scen", "version 1\n0\ta.map\t7\t5\t0\t4\t6\t0\t10.002\n")}, 1);
   EXPECT_EQ(bad["differing"], 1);

@@ -74,8 +74,8 @@ TEST(GridWorld, CorridorStatesAreMostlyFreeAndAPureFunctionOfSeedAndIndex) {
     SCOPED_TRACE(seed);
     const OccupancyMap map = random_map(seed);
     const double radius = map.cell * std::array{0.0, 0.3, 0.5, 1.7}[seed / 2 % 4];
-    const GridWorld world(map, radius, {.threads = 1}, true);
-    const GridWorld again(map, radius, {.threads = 3}, true);
+    const GridWorld world(map, radius, {.threads = 1}, MapMilestones::corridors);
+    const GridWorld again(map, radius, {.threads = 3}, MapMilestones::corridors);
     auto query = world.make_query();
     int free = 0;
     for (std::uint64_t i = 0; i < 200; ++i) {

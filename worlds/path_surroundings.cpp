@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "worlds/path_surroundings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "parallel/chunks.hpp"
+
+namespace warren {
+namespace {
+
+constexpr std::size_t grain = std::size_t{1} << 14;
+constexpr std::uint64_t most_cells_a_side = 64;
+
+bool apart(const Box& a, const Box& b) {
+  return a.max.x < b.min.x || b.max.x < a.min.x || a.max.y < b.min.y || b.max.y < a.min.y;
+}
+
+Box box_of_ends(const Segment& s) {
+  return {{std::min(s.a.x, s.b.x), std::min(s.a.y, s.b.y)}, {std::max(s.a.x, s.b.x), std::max(s.a.y, s.b.y)}};
+}
+
+double largest_of(const Segment& s) {
+  return std::max({std::abs(s.a.x), std::abs(s.a.y), std::abs(s.b.x), std::abs(s.b.y)});
+}
+
+}  // namespace
+
+PathSurroundings::PathSurroundings(const Scene& scene, const Obstacles& obstacles, const Execution& execution)
+    : scene_(scene), obstacles_(obstacles) {
+  struct Part {
+    Box box;
+    double largest = 0.0;
+  };
+  const auto confines = [&](std::size_t i) {  // bounds are no part of the box
+    if (i < obstacles.wall_count()) return true;
+    return obstacles.rings()[obstacles.sides()[i - obstacles.wall_count()].ring].polygon != Ring::none;
+  };
+  const std::size_t count = scene.map ? 0 : obstacles.size();
+  std::vector<Part> parts(chunk_count(count, grain));
+  for_chunks(count, grain, execution, [&](warren::Range r) {
+    Part part;
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      const Segment s = obstacles.segment(i);
+      part.largest = std::max(part.largest, largest_of(s));
+      if (!confines(i)) continue;
+      part.box.include(s.a);
+      part.box.include(s.b);
+    }
+    parts[r.first / grain] = part;
+  });
+  for (const Part& part : parts) {
+    box_.include(part.box);
+    largest_ = std::max(largest_, part.largest);
+  }
+  if (!scene.map) return;
+  const double width = scene.map->width();
+  const double height = scene.map->height();
+  for (const Vec2 corner : {Vec2{0.0, 0.0}, {width, 0.0}, {width, height}, {0.0, height}}) {
+    const Vec2 p = world_point(*scene.map, corner);
+    box_.include(p);
+    largest_ = std::max({largest_, std::abs(p.x), std::abs(p.y)});
+  }
+}
+
+/// Cells about as wide as the boxes, but not more than a million.
+void PathSurroundings::lay_grid(std::span<const Box> boxes) {
+  constexpr double most_cells = 1048576.0;
+  grid_ = {};
+  double sum = 0.0;
+  for (const Box& box : boxes) {
+    grid_.include(box);
+    sum += std::max(box.width(), box.height());
+  }
+  const double mean = sum / static_cast<double>(boxes.size());
+  const double longest = std::max(grid_.width(), grid_.height());
+  side_ = std::max({mean, longest / 65536.0, std::sqrt(grid_.width() / most_cells) * std::sqrt(grid_.height())});
+  if (!(side_ > 0.0) || !std::isfinite(side_)) side_ = 1.0;
+  columns_ = static_cast<std::uint32_t>(std::min(65536.0, grid_.width() / side_)) + 1;
+  rows_ = static_cast<std::uint32_t>(std::min(65536.0, grid_.height() / side_)) + 1;
+  marked_.assign(std::size_t{columns_} * rows_, false);
+  for (const Box& box : boxes) for_each_cell(range_of(box), [&](std::size_t cell) { marked_[cell] = true; });
+}
+
+PathSurroundings::Range PathSurroundings::range_of(const Box& box) const {
+  if (apart(box, grid_)) return {1, 1, 0, 0};
+  const auto index = [&](double x, double low, std::uint32_t count) {
+    return static_cast<std::uint32_t>(std::clamp((x - low) / side_, 0.0, static_cast<double>(count - 1)));
+  };
+  return {index(box.min.x, grid_.min.x, columns_), index(box.min.y, grid_.min.y, rows_),
+          index(box.max.x, grid_.min.x, columns_), index(box.max.y, grid_.min.y, rows_)};
+}
+
+template <class Visit>
+void PathSurroundings::for_each_cell(const Range& range, const Visit& visit) const {
+  if (range.first_x > range.last_x) return;
+  for (std::uint32_t y = range.first_y; y <= range.last_y; ++y) {
+    for (std::uint32_t x = range.first_x; x <= range.last_x; ++x) visit(std::size_t{y} * columns_ + x);
+  }
+}
+
+bool PathSurroundings::is_marked(const Range& range) const {
+  bool marked = false;
+  for_each_cell(range, [&](std::size_t cell) { marked = marked || marked_[cell]; });
+  return marked;
+}
+
+void PathSurroundings::file(std::span<const Box> boxes, const Execution& execution) {
+  if (scene_.map || boxes.empty()) return;
+  lay_grid(boxes);
+  struct Part {
+    std::vector<NearSide> near;
+    std::vector<NearSide> far_across;
+  };
+  std::vector<Part> parts(chunk_count(obstacles_.size(), grain));
+  for_chunks(obstacles_.size(), grain, execution, [&](warren::Range r) {
+    Part& part = parts[r.first / grain];
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      const NearSide side{obstacles_.segment(i), i};
+      const Range range = range_of(box_of_ends(side.segment));
+      if (range.first_x > range.last_x) continue;
+      if (range.count() > most_cells_a_side) {
+        part.far_across.push_back(side);
+      } else if (is_marked(range)) {
+        part.near.push_back(side);
+      }
+    }
+  });
+  near_.clear();
+  long_.clear();
+  for (const Part& part : parts) {
+    near_.insert(near_.end(), part.near.begin(), part.near.end());
+    long_.insert(long_.end(), part.far_across.begin(), part.far_across.end());
+  }
+  file_in_cells();
+}
+
+void PathSurroundings::file_in_cells() {
+  begin_.assign(marked_.size() + 1, 0);
+  const auto for_each_place = [&](const auto& visit) {
+    for (std::size_t n = 0; n < near_.size(); ++n) {
+      for_each_cell(range_of(box_of_ends(near_[n].segment)), [&](std::size_t cell) {
+        if (marked_[cell]) visit(cell, static_cast<std::uint32_t>(n));
+      });
+    }
+  };
+  for_each_place([&](std::size_t cell, std::uint32_t) { ++begin_[cell + 1]; });
+  for (std::size_t cell = 0; cell < marked_.size(); ++cell) begin_[cell + 1] += begin_[cell];
+  members_.resize(begin_.back());
+  std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
+  for_each_place([&](std::size_t cell, std::uint32_t n) { members_[next[cell]++] = n; });
+}
+
+void PathSurroundings::gather(std::span<const Box> boxes, std::vector<NearSide>& sides) const {
+  sides.clear();
+  if (scene_.map) {
+    for (const Box& box : boxes) gather_from_map(box, sides);
+    return;
+  }
+  std::vector<std::uint32_t> found;
+  for (const Box& box : boxes) {
+    for_each_cell(range_of(box), [&](std::size_t cell) {
+      found.insert(found.end(), members_.begin() + begin_[cell], members_.begin() + begin_[cell + 1]);
+    });
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  const auto meets = [&](const NearSide& side) {
+    const Box around = box_of_ends(side.segment);
+    return std::any_of(boxes.begin(), boxes.end(), [&](const Box& box) { return !apart(box, around); });
+  };
+  for (const std::uint32_t n : found) sides.push_back(near_[n]);
+  for (const NearSide& side : long_) {
+    if (meets(side)) sides.push_back(side);
+  }
+}
+
+/// Cells first_x .. last_x and rows first_y .. last_y of a map, the ring of blocked ones around it included.
+struct PathSurroundings::MapPart {
+  std::int64_t first_x, first_y, last_x, last_y;
+};
+
+/// 64 cells of a row, from column 64 w on: which are blocked. What lies outside is.
+std::uint64_t PathSurroundings::blocked_word(std::int64_t y, std::int64_t w) const {
+  const Bitmap& blocked = scene_.map->blocked;
+  const std::int64_t words = (std::int64_t{blocked.width()} + 63) / 64;
+  if (y < 0 || y >= blocked.height() || w < 0 || w >= words) return ~std::uint64_t{0};
+  const std::uint64_t beyond =
+      w + 1 == words && blocked.width() % 64 != 0 ? ~std::uint64_t{0} << blocked.width() % 64 : 0;
+  return blocked.row(static_cast<std::uint32_t>(y))[static_cast<std::size_t>(w)] | beyond;
+}
+
+std::uint64_t PathSurroundings::number_of(std::int64_t x, std::int64_t y) const {
+  const OccupancyMap& map = *scene_.map;
+  if (x < 0 || y < 0 || x >= map.width() || y >= map.height()) return NearSide::outside;
+  return static_cast<std::uint64_t>(y) * map.width() + static_cast<std::uint64_t>(x);
+}
+
+/// The borders between free and blocked cells.
+void PathSurroundings::gather_from_map(const Box& box, std::vector<NearSide>& sides) const {
+  const OccupancyMap& map = *scene_.map;
+  Box in_cells;
+  for (const Vec2 corner : {box.min, Vec2{box.max.x, box.min.y}, box.max, Vec2{box.min.x, box.max.y}}) {
+    in_cells.include(map_point(map, corner));
+  }
+  const auto clamped = [](double x, double most) { return static_cast<std::int64_t>(std::clamp(x, 0.0, most)); };
+  constexpr double rounding = 1e-6;  // cells
+  const MapPart part{clamped(std::floor(in_cells.min.x - rounding), map.width()),
+                     clamped(std::floor(in_cells.min.y - rounding), map.height()),
+                     clamped(std::floor(in_cells.max.x + rounding), map.width()),
+                     clamped(std::floor(in_cells.max.y + rounding), map.height())};
+  for (std::int64_t y = part.first_y; y <= part.last_y; ++y) {
+    for (std::int64_t w = part.first_x / 64; w <= part.last_x / 64; ++w) gather_from_word(part, y, w, sides);
+  }
+}
+
+/// The borders below and left of 64 cells.
+void PathSurroundings::gather_from_word(const MapPart& part, std::int64_t y, std::int64_t w,
+                                        std::vector<NearSide>& sides) const {
+  const auto point = [&](std::int64_t x, std::int64_t row) {
+    return world_point(*scene_.map, {static_cast<double>(x), static_cast<double>(row)});
+  };
+  const std::int64_t base = 64 * w;
+  std::uint64_t wanted = ~std::uint64_t{0};
+  if (part.first_x > base) wanted <<= part.first_x - base;
+  if (part.last_x < base + 63) wanted &= (std::uint64_t{2} << (part.last_x - base)) - 1;
+  const std::uint64_t here = blocked_word(y, w);
+  const std::uint64_t left = here << 1 | blocked_word(y, w - 1) >> 63;
+  for (std::uint64_t rest = (here ^ left) & wanted; rest != 0 && y < scene_.map->height(); rest &= rest - 1) {
+    const std::int64_t x = base + std::countr_zero(rest);
+    const bool blocks = (here >> (x - base) & 1U) != 0;
+    sides.push_back({{point(x, y), point(x, y + 1)}, number_of(blocks ? x : x - 1, y)});
+  }
+  const std::uint64_t below = blocked_word(y - 1, w);
+  for (const bool blocks : {false, true}) {  // which of the two rows
+    std::uint64_t rest = (blocks ? here & ~below : below & ~here) & wanted;
+    while (rest != 0) {  // run by run
+      const int first = std::countr_zero(rest);
+      const int length = std::countr_one(rest >> first);
+      const std::int64_t x = base + first;
+      sides.push_back({{point(x, y), point(x + length, y)}, number_of(x, blocks ? y : y - 1)});
+      rest = first + length < 64 ? rest & ~std::uint64_t{0} << (first + length) : 0;
+    }
+  }
+}
+
+std::string PathSurroundings::name(std::uint64_t number) const {
+  if (!scene_.map) return obstacles_.name(number);
+  if (number == NearSide::outside) return "map: the body reaches outside";
+  return fmt::format("cell {}, {}", number % scene_.map->width(), number / scene_.map->width());
+}
+
+}  // namespace warren
