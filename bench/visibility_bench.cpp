@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Visibility graphs: the sweep beside checking every pair against every side, linking start and goal, the search alone,
-// and a lazy query. Worlds of disjoint polygons from a seed; range(0): polygons (7.5 corners each).
+// and a lazy query. Worlds of disjoint polygons from a seed; range(0): polygons (7.5 corners each). The search alone in
+// the report's dense world too, where that is found beside the sources.
 #include <benchmark/benchmark.h>
 
 #include <cstdlib>
+#include <filesystem>
+#include <string>
 #include <vector>
 
 #include "core/geometry.hpp"
@@ -11,6 +14,7 @@
 #include "planners/visibility_graph.hpp"
 #include "worlds/plane_obstacles.hpp"
 #include "worlds/polygon_generator.hpp"
+#include "worlds/scene_io.hpp"
 
 namespace warren::bench {
 namespace {
@@ -19,7 +23,10 @@ struct World {
   explicit World(std::int64_t polygons) {
     PolygonOptions options;
     options.count = static_cast<std::uint64_t>(polygons);
-    const Scene scene = polygon_scene(options, {});
+    take(polygon_scene(options, {}));
+  }
+  explicit World(const Scene& scene) { take(scene); }
+  void take(const Scene& scene) {
     obstacles = plane_obstacles(scene, {});
     start = {scene.start[0], scene.start[1]};
     goal = {scene.goal[0], scene.goal[1]};
@@ -81,10 +88,9 @@ void bm_link(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(visibility.link(world.start, world.goal));
 }
 
-void bm_search(benchmark::State& state) {
-  const World world(state.range(0));
+void time_search(benchmark::State& state, const World& world, VisibilityEdges edges, bool informed) {
   const VisibleCorners corners(world.obstacles, {});
-  const VisibilityGraph visibility(corners, state.range(1) == 0 ? VisibilityEdges::reduced : VisibilityEdges::full, {});
+  const VisibilityGraph visibility(corners, edges, {});
   const VisibilityLinks links = visibility.link(world.start, world.goal);
   SearchState search;
   IndexedHeap<4> queue;
@@ -93,9 +99,21 @@ void bm_search(benchmark::State& state) {
   for (auto _ : state) {
     search.resize(visibility.size() + 2);
     queue.clear();
-    settled = visibility.search(links, true, queue, search).expanded;
+    settled = visibility.search(links, informed, queue, search).expanded;
   }
   state.counters["settled"] = static_cast<double>(settled);
+}
+
+void bm_search(benchmark::State& state) {
+  time_search(state, World(state.range(0)), state.range(1) == 0 ? VisibilityEdges::reduced : VisibilityEdges::full,
+              true);
+}
+
+/// range(0): 0 Dijkstra, 1 A*.
+void bm_search_dense(benchmark::State& state) {
+  const std::string path = std::string(WARREN_SHARED_DIR) + "/worlds/vg-dense.scene";
+  if (!std::filesystem::exists(path)) return state.SkipWithError("the report's world is not here");
+  time_search(state, World(read_scene_text(InputFile(path, {}), {})), VisibilityEdges::full, state.range(0) == 1);
 }
 
 void bm_lazy(benchmark::State& state) {
@@ -111,6 +129,7 @@ BENCHMARK(bm_brute_force)->Arg(7)->Arg(100)->Unit(benchmark::kMillisecond);
 BENCHMARK(bm_build)->ArgsProduct({{7, 100, 1300}, {0, 1}})->Unit(benchmark::kMillisecond);
 BENCHMARK(bm_link)->Arg(7)->Arg(1300)->Unit(benchmark::kMicrosecond);
 BENCHMARK(bm_search)->ArgsProduct({{7, 1300}, {0, 1}})->Unit(benchmark::kMicrosecond);
+BENCHMARK(bm_search_dense)->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
 BENCHMARK(bm_lazy)->Arg(1300)->Arg(13000)->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "tools/answer_json.hpp"
 #include "tools/option_values.hpp"
 #include "worlds/plane_obstacles.hpp"
+#include "worlds/polygon_holes.hpp"
 
 namespace warren {
 namespace {
@@ -65,6 +66,14 @@ WallProblem touching_problem(const SolveRequest& request) {
         fmt::format("--contact: paths of {} may touch obstacles; prm, lazy-prm and voronoi keep off them", planner));
   }
   return problem;
+}
+
+bool stand_on_seams(const SolveRequest& request, const WallProblem& problem, Answer& answer) {
+  const bool goal_blocked = stands_on_seam(request.scene, problem.goal);
+  const bool start_blocked = stands_on_seam(request.scene, problem.start);
+  if (goal_blocked) answer.outcome = Outcome::goal_blocked;
+  if (start_blocked) answer.outcome = Outcome::start_blocked;
+  return start_blocked || goal_blocked;
 }
 
 void describe_plane_planner(Answer& answer, const SolveRequest& request, const WallProblem& problem,

@@ -31,6 +31,9 @@ std::string_view name_of(AxisObjective objective);
 /// clearances that it can't keep, and where contact is to be blocked.
 WallProblem touching_problem(const SolveRequest& request);
 
+/// Does start or goal stand on a seam, strictly inside of a polygon that was cut there? Says so in the answer.
+bool stand_on_seams(const SolveRequest& request, const WallProblem& problem, Answer& answer);
+
 /// Problem, planner, search and seed, as the answer repeats them.
 void describe_plane_planner(Answer& answer, const SolveRequest& request, const WallProblem& problem,
                             const SearchChoice& search);

@@ -50,6 +50,7 @@ Answer solve_by_cells(const SolveRequest& request) {
   answer.options.push_back(doors_option(options));
   answer_within_limits(answer, [&] {
     const PlaneObstacles obstacles = indexed_obstacles(request, answer);
+    if (stand_on_seams(request, problem, answer)) return;
     CellPlan plan;
     take_solution(answer, plan_without_clashes(request, [&] {
                     return plan_through_cells(obstacles, problem.start, problem.goal, options, request.execution,

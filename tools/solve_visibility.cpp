@@ -171,7 +171,7 @@ class VisibilitySolve {
 
   void run(Answer& answer) {
     const PlaneObstacles obstacles = confined(indexed_obstacles(request_, answer));
-    if (!stand_in(obstacle_box(request_.scene), answer)) return;
+    if (!stand_in(obstacle_box(request_.scene), answer) || stand_on_seams(request_, problem_, answer)) return;
     take_solution(answer, visibility_path(obstacles, problem_.start, problem_.goal, asked_.options, request_.execution,
                                           request_.drawing != nullptr ? &request_.drawing->roadmap : nullptr));
     if (answer.outcome == Outcome::not_connected) answer.outcome = Outcome::infeasible;  // the graph misses no path

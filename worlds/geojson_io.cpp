@@ -13,9 +13,8 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "worlds/polygon_holes.hpp"
+#include "worlds/geojson_pieces.hpp"
 #include "worlds/scene_text.hpp"
-#include "worlds/wall_collector.hpp"
 
 namespace warren {
 namespace {
@@ -70,18 +69,10 @@ struct Object {
   int lists = 0;               ///< open arrays that hold no coordinates
 };
 
-/// One outline, chain or point with its role still open: the role stands in the feature around the geometry.
-struct Piece {
-  enum class Kind : std::uint8_t { polygon, wall, point } kind;
-  std::vector<Vec2> points;
-  std::size_t line;
-  std::vector<std::vector<Vec2>> holes = {};
-};
-
 class Reader {
  public:
   Reader(const std::string& file, const std::size_t& line, const Execution& execution)
-      : file_(file), line_(line), execution_(execution), walls_(execution) {}
+      : file_(file), line_(line), execution_(execution), pieces_(file, execution) {}
 
   bool null() { return scalar("null"); }
   bool boolean(bool) { return scalar("true or false"); }
@@ -99,7 +90,7 @@ class Reader {
     fail("this is not JSON from here on", token);
   }
 
-  Scene finish();
+  Scene finish() { return pieces_.finish(); }
 
  private:
   [[noreturn]] void fail(std::string_view what, std::string_view found = {}) const { fail_at(line_, what, found); }
@@ -117,21 +108,13 @@ class Reader {
   void end_position();
   void end_geometry(Object& ended);
   void add_rings(const Coordinates& coordinates);
-  void add(Piece::Kind kind, const std::vector<Vec2>& points, std::size_t line) {
-    pieces_.push_back({kind, points, line, {}});
-  }
-  void settle(std::size_t first, const std::string& role);
-  void settle_role(const Piece& piece, const std::string& role);
-  void settle_obstacle(Piece& piece);
 
   const std::string& file_;
   const std::size_t& line_;
   const Execution& execution_;
-  Scene scene_;
-  WallCollector walls_;
+  GeojsonPieces pieces_;
   std::vector<Object> objects_;
   std::vector<std::size_t> first_piece_;  // of each open object
-  std::vector<Piece> pieces_;             // of features that have not ended
   std::string key_;
   int list_depth_ = 0;  // inside "coordinates", or the array of rings
   std::vector<double> position_;
@@ -216,7 +199,7 @@ bool Reader::end_array() {
   if (--list_depth_ == 0) chain_open_ = false;
   if (bare_ && list_depth_ == 0) {
     end_geometry(object());
-    settle(0, {});
+    pieces_.settle(0, {});
     objects_.pop_back();
   }
   return true;
@@ -243,7 +226,7 @@ bool Reader::end_object() {
   objects_.pop_back();
   first_piece_.pop_back();
   end_geometry(ended);
-  if (ended.type == "Feature" || objects_.empty()) settle(first, ended.role);
+  if (ended.type == "Feature" || objects_.empty()) pieces_.settle(first, ended.role);
   key_.clear();
   return true;
 }
@@ -271,82 +254,27 @@ void Reader::end_geometry(Object& ended) {
   const bool points = ended.type == "Point" || ended.type == "MultiPoint";
   for (std::size_t i = 0; i < c.chains.size(); ++i) {
     if (!points && c.chains[i].size() < 2) fail_at(c.lines[i], "a LineString needs two positions or more");
-    add(points ? Piece::Kind::point : Piece::Kind::wall, c.chains[i], c.lines[i]);
+    pieces_.add(points ? GeojsonPieces::Kind::point : GeojsonPieces::Kind::wall, c.chains[i], c.lines[i]);
   }
 }
 
 /// The first ring of each polygon; the ones after it are its holes. In a bare array each ring is a polygon.
 void Reader::add_rings(const Coordinates& c) {
   for (std::size_t i = 0; i < c.chains.size(); ++i) {
-    const std::vector<Vec2>& ring = c.chains[i];
+    std::vector<Vec2> ring = c.chains[i];
     const bool closed = ring.size() > 1 && ring.front() == ring.back();
     if (!bare_ && (!closed || ring.size() < 4)) {
       fail_at(c.lines[i], "a ring needs four positions or more, the last one equal to the first",
               closed ? fmt::format("{} positions", ring.size()) : "an open ring");
     }
     const bool outer = bare_ || (c.depth == 3 ? i == 0 : std::binary_search(c.groups.begin(), c.groups.end(), i));
+    if (!bare_) ring.pop_back();
     if (outer) {
-      add(Piece::Kind::polygon, ring, c.lines[i]);
+      pieces_.add(GeojsonPieces::Kind::polygon, std::move(ring), c.lines[i]);
     } else {
-      pieces_.back().holes.push_back(ring);
+      pieces_.add_hole(std::move(ring));
     }
   }
-}
-
-void Reader::settle(std::size_t first, const std::string& role) {
-  for (std::size_t i = first; i < pieces_.size(); ++i) {
-    if (role == "start" || role == "goal" || role == "bounds") {
-      settle_role(pieces_[i], role);
-    } else {
-      settle_obstacle(pieces_[i]);
-    }
-  }
-  pieces_.resize(first);
-}
-
-void Reader::settle_role(const Piece& piece, const std::string& role) {
-  const bool wants_point = role != "bounds";
-  if ((piece.kind == Piece::Kind::point) != wants_point || piece.kind == Piece::Kind::wall) {
-    fail_at(piece.line, fmt::format("the role \"{}\" is that of a {}", role, wants_point ? "Point" : "Polygon"));
-  }
-  if (wants_point) {
-    std::vector<double>& state = role == "start" ? scene_.start : scene_.goal;
-    if (!state.empty() || piece.points.size() != 1) fail_at(piece.line, fmt::format("a second \"{}\"", role));
-    state = {piece.points[0].x, piece.points[0].y};
-    return;
-  }
-  if (scene_.bounds) fail_at(piece.line, "a second \"bounds\"");
-  Box box;
-  for (const Vec2 p : piece.points) box.include(p);
-  if (!(box.width() > 0.0) || !(box.height() > 0.0)) fail_at(piece.line, "the bounds have no area");
-  scene_.bounds = box;
-}
-
-void Reader::settle_obstacle(Piece& piece) {
-  if (piece.kind == Piece::Kind::point) return;  // a mark on a map blocks nothing
-  if (piece.kind == Piece::Kind::wall) {
-    for (std::size_t i = 1; i < piece.points.size(); ++i) {
-      walls_.add(piece.points[i - 1].x, piece.points[i - 1].y, piece.points[i].x, piece.points[i].y);
-    }
-    return;
-  }
-  if (!bare_) piece.points.pop_back();
-  if (piece.holes.empty()) {
-    scene_.polygons.push_back({std::move(piece.points), piece.line});
-    return;
-  }
-  std::vector<std::vector<Vec2>> parts = without_holes(piece.points, piece.holes, execution_);
-  if (parts.empty()) fail_at(piece.line, misplaced_hole);
-  for (std::vector<Vec2>& part : parts) scene_.polygons.push_back({std::move(part), piece.line});
-}
-
-Scene Reader::finish() {
-  scene_.walls = walls_.take();
-  scene_.source = file_;
-  if (scene_.walls.size() == 0 && scene_.polygons.empty() && !scene_.bounds) {
-    throw InputError(file_, "there is no polygon and no line in it; expected GeoJSON with some");
-  }
-  return std::move(scene_);
 }
 
 }  // namespace

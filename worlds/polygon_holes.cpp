@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "core/geometry.hpp"
 #include "worlds/plane_obstacles.hpp"
@@ -139,6 +140,25 @@ class HoleCutter {
   std::vector<std::uint32_t> ring_first_;
 };
 
+/// The sides that two of the pieces have, in opposite directions.
+std::vector<Segment> shared_sides(std::span<const std::vector<Vec2>> pieces) {
+  std::vector<Segment> sides;
+  for (const std::vector<Vec2>& piece : pieces) {
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+      const Vec2 a = piece[i];
+      const Vec2 b = piece[i + 1 == piece.size() ? 0 : i + 1];
+      sides.push_back(is_before(a, b) ? Segment{a, b} : Segment{b, a});
+    }
+  }
+  std::sort(sides.begin(), sides.end(),
+            [](const Segment& s, const Segment& t) { return s.a == t.a ? is_before(s.b, t.b) : is_before(s.a, t.a); });
+  std::vector<Segment> shared;
+  for (std::size_t i = 1; i < sides.size(); ++i) {
+    if (sides[i] == sides[i - 1]) shared.push_back(sides[i]);
+  }
+  return shared;
+}
+
 }  // namespace
 
 std::vector<std::vector<Vec2>> without_holes(const std::vector<Vec2>& outer, std::span<const std::vector<Vec2>> holes,
@@ -153,6 +173,20 @@ std::vector<std::vector<Vec2>> without_holes(const std::vector<Vec2>& outer, std
   }
   if (!cutter.tie_holes()) return {};
   return cutter.pieces();
+}
+
+bool add_without_holes(Scene& scene, std::size_t line, const std::vector<Vec2>& outer,
+                       std::span<const std::vector<Vec2>> holes, const Execution& execution) {
+  std::vector<std::vector<Vec2>> pieces = without_holes(outer, holes, execution);
+  const std::vector<Segment> seams = shared_sides(pieces);
+  scene.seams.insert(scene.seams.end(), seams.begin(), seams.end());
+  for (std::vector<Vec2>& piece : pieces) scene.polygons.push_back({std::move(piece), line});
+  return !pieces.empty();
+}
+
+bool stands_on_seam(const Scene& scene, Vec2 p) {
+  return std::any_of(scene.seams.begin(), scene.seams.end(),
+                     [&](const Segment& s) { return on_segment(p, s) && !(p == s.a) && !(p == s.b); });
 }
 
 }  // namespace warren

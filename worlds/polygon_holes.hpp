@@ -13,6 +13,7 @@
 
 #include "core/types.hpp"
 #include "parallel/execution.hpp"
+#include "worlds/scene.hpp"
 
 namespace warren {
 
@@ -25,5 +26,13 @@ inline constexpr std::string_view misplaced_hole =
 /// such rings are found: then the pieces touch themselves, which whoever takes them checks). Throws Stopped.
 std::vector<std::vector<Vec2>> without_holes(const std::vector<Vec2>& outer, std::span<const std::vector<Vec2>> holes,
                                              const Execution& execution);
+
+/// Adds the pieces as polygons of that line, and the cuts between them as seams. False: the rings can't be those of a
+/// polygon with holes, and nothing is added.
+bool add_without_holes(Scene& scene, std::size_t line, const std::vector<Vec2>& outer,
+                       std::span<const std::vector<Vec2>> holes, const Execution& execution);
+
+/// Is the point on a seam, between its ends? Then it is strictly inside of the polygon that was cut there.
+bool stands_on_seam(const Scene& scene, Vec2 p);
 
 }  // namespace warren

@@ -71,6 +71,7 @@ struct GridSpec {
 struct Scene {
   WallSet walls;
   std::vector<ScenePolygon> polygons;
+  std::vector<Segment> seams;  ///< where a polygon with holes was cut into several: no outline of what the file says
   std::vector<Sphere> spheres;
   std::vector<SolidBox> boxes;
   std::optional<Box> bounds;

@@ -246,9 +246,9 @@ class Reader {
       scene_.polygons.push_back({std::move(outline.points), outline.line});
       return;
     }
-    std::vector<std::vector<Vec2>> parts = without_holes(outline.points, holes, execution_);
-    if (parts.empty()) fail_at(outline.line, misplaced_hole);
-    for (std::vector<Vec2>& part : parts) scene_.polygons.push_back({std::move(part), outline.line});
+    if (!add_without_holes(scene_, outline.line, outline.points, holes, execution_)) {
+      fail_at(outline.line, misplaced_hole);
+    }
   }
   [[noreturn]] void fail_at(std::size_t line, std::string_view what, std::string_view found = {}) const {
     scene_text::Place{name_, line}.fail(what, found);

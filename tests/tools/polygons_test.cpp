@@ -179,6 +179,28 @@ TEST(Polygons, VisibilityGoesAroundWallsAndSaysWhereThereIsNoWay) {
       << "along a wall";
 }
 
+TEST(Polygons, StartsInsideOfOneThatWasCutForItsHolesAreBlocked) {
+  const Folder folder;
+  const std::string ring = "[[0,0],[9,0],[9,9],[0,9],[0,0]],[[3,4],[6,4],[6,5],[3,5],[3,4]]";
+  const std::string json = folder.write("a.geojson", "{\"type\": \"Polygon\", \"coordinates\": [" + ring + "]}");
+  const std::string wkt = folder.write("a.wkt", "POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0), (3 4, 6 4, 6 5, 3 5, 3 4))");
+  for (const std::string& file : {json, wkt}) {
+    for (const char* planner : {"visibility", "cells"}) {
+      SCOPED_TRACE(file + " " + planner);
+      const auto status = [&](const char* start, const char* goal) {
+        return json_of({"solve", file, "--planner", planner, "--start", start, "--goal", goal}, 1)["status"];
+      };
+      // Cuts run from corners of the hole to corners of the outline: of any such line each middle is solid.
+      for (const char* solid : {"1.5,2", "1.5,7", "7.5,7", "7.5,2", "1.5,2.5", "7.5,6.5", "1.5,6.5", "7.5,2.5"}) {
+        EXPECT_EQ(status(solid, "4,4.5"), "start_blocked") << solid;
+        EXPECT_EQ(status("4,4.5", solid), "goal_blocked") << solid;
+      }
+      EXPECT_EQ(status("0,0", "4,4.5"), "infeasible") << "a corner that is cut from";
+      EXPECT_EQ(json_of({"solve", file, "--planner", planner, "--start", "3,4", "--goal", "6,5"})["status"], "solved");
+    }
+  }
+}
+
 TEST(Polygons, CellsAndAdjacenciesAreAsManyAsTheFormulasSay) {
   const Folder folder;
   const std::string scene = folder.path("a.scene");
