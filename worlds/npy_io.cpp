@@ -16,7 +16,7 @@
 
 #include "core/error.hpp"
 #include "parallel/chunks.hpp"
-#include "worlds/maze_generator.hpp"
+#include "worlds/maze_outline.hpp"
 #include "worlds/output_file_io.hpp"
 #include "worlds/scene_text.hpp"
 
@@ -251,26 +251,6 @@ WallSet walls_of(const InputFile& file, const Header& header, const Execution& e
   return rows.fit_floats() ? rows.copy<float>() : rows.copy<double>();
 }
 
-/// The size that the first four walls say, if they are a maze's outline.
-std::optional<MazeHint> outline_size(const WallSet& walls) {
-  if (walls.size() < 4) return std::nullopt;
-  const Vec2 corner = walls.segment(1).b;
-  const double cols = corner.x - 0.5;
-  const double rows = corner.y - 0.5;
-  constexpr double most = std::numeric_limits<std::uint32_t>::max();
-  if (!(rows >= 1.0 && cols >= 1.0 && rows * cols <= most) || rows != std::floor(rows) || cols != std::floor(cols)) {
-    return std::nullopt;
-  }
-  const Segment outline[4] = {{{0.5, 0.5}, {corner.x, 0.5}},
-                              {{0.5, corner.y}, corner},
-                              {{0.5, 1.5}, {0.5, corner.y}},
-                              {{corner.x, 0.5}, {corner.x, corner.y - 1.0}}};
-  for (std::size_t i = 0; i < 4; ++i) {
-    if (walls.segment(i) != outline[i]) return std::nullopt;
-  }
-  return MazeHint{static_cast<std::uint32_t>(rows), static_cast<std::uint32_t>(cols)};
-}
-
 template <class T>
 std::string header_of(std::size_t walls) {
   constexpr std::size_t alignment = 64;
@@ -293,8 +273,7 @@ Scene read_npy(const InputFile& file, const Execution& execution) {
   Scene scene;
   scene.walls = walls_of(file, header, execution);
   scene.source = file.name();
-  const std::optional<MazeHint> hint = outline_size(scene.walls);
-  if (hint && !first_wall_off_grid(scene.walls, *hint, {execution.threads, execution.deadline})) {
+  if (const auto hint = maze_of_walls(scene.walls, {execution.threads, execution.deadline})) {
     scene.maze = hint;
     scene.start = {0.5, 1.0};
     scene.goal = {hint->cols + 0.5, static_cast<double>(hint->rows)};

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <string>
@@ -172,6 +173,40 @@ TEST(Npy, MazesComeBackWithHintStartAndGoal) {
       EXPECT_EQ(back.goal, maze.goal);
       EXPECT_EQ(scene_hash(back), scene_hash(maze));
     }
+  }
+}
+
+TEST(Npy, MazesAreToldWhateverTheOrderOfTheirWalls) {
+  const TemporaryDirectory directory;
+  for (const bool merged : {false, true}) {
+    const Scene maze = maze_scene({70, 90, 5}, merged, {});
+    std::vector<Segment> walls;
+    for (std::size_t i = 0; i < maze.walls.size(); ++i) {
+      const Segment wall = maze.walls.segment(i);
+      walls.push_back(i % 2 == 0 ? wall : Segment{wall.b, wall.a});
+    }
+    std::reverse(walls.begin(), walls.end());
+    std::rotate(walls.begin(), walls.begin() + 1000, walls.end());
+    Scene shuffled;
+    shuffled.walls = WallSet::narrowest(walls);
+    write_npy(shuffled, directory.file("m.npy"), {});
+    const Scene back = read_npy(InputFile(directory.file("m.npy"), {}), {});
+    ASSERT_TRUE(back.maze.has_value()) << merged;
+    EXPECT_EQ(*back.maze, *maze.maze);
+    EXPECT_EQ(back.goal, maze.goal);
+  }
+}
+
+TEST(Npy, WallsOfTheGridWithoutTheTwoDoorsAreNoMaze) {
+  const TemporaryDirectory directory;
+  const Scene maze = maze_scene({20, 30, 5}, false, {});
+  for (const Segment& door : {Segment{{0.5, 0.5}, {0.5, 1.5}}, Segment{{30.5, 20.5}, {30.5, 19.5}}}) {
+    std::vector<Segment> walls{door};
+    for (std::size_t i = 0; i < maze.walls.size(); ++i) walls.push_back(maze.walls.segment(i));
+    Scene closed;
+    closed.walls = WallSet::narrowest(walls);
+    write_npy(closed, directory.file("m.npy"), {});
+    EXPECT_FALSE(read_npy(InputFile(directory.file("m.npy"), {}), {}).maze.has_value());
   }
 }
 
