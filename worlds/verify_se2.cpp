@@ -70,8 +70,8 @@ class BodyVerifier {
   bool looks_everywhere(std::span<const Se2> path) const;
   double least_reach() const { return 1.01 * clearance_ + radius_; }
 
-  LegReport check(const Leg& leg, std::size_t number) const {
-    Sides sides;
+  /// `sides` is scratch.
+  LegReport check(const Leg& leg, std::size_t number, Sides& sides) const {
     surroundings_.gather(boxes_of(leg), sides);
     return leg.turn == 0.0 ? check_straight(leg, sides, number) : check_turning(leg, sides, number);
   }
@@ -318,33 +318,48 @@ void check_input(std::span<const Vec2> outline, std::span<const Se2> path, const
   }
 }
 
+/// What a run of legs came to.
+struct PathReport {
+  double least = infinity;
+  std::optional<Violation> first;  // in the order of legs
+
+  void add(const LegReport& report) {
+    least = std::min(least, report.least);
+    if (report.violation && (!first || report.violation->leg < first->leg)) first = report.violation;
+  }
+  void add(const PathReport& later) {
+    least = std::min(least, later.least);
+    if (!first) first = later.first;
+  }
+};
+
 /// The leg from pose i to the next one, turning the shorter way, or the other way where it is as short.
-std::vector<LegReport> leg_reports(const BodyVerifier& body, std::span<const Se2> path, std::size_t i) {
+void check_leg(const BodyVerifier& body, std::span<const Se2> path, std::size_t i, Sides& scratch, PathReport& report) {
   const Se2& a = path[i];
   const Se2& b = path[std::min(i + 1, path.size() - 1)];
   const Vec2 way{b.x - a.x, b.y - a.y};
   const double turn = shorter_turn(a.theta, b.theta);
-  std::vector<LegReport> reports{body.check_pose(a, i), body.check_pose(b, i), body.check({a, way, turn}, i)};
+  report.add(body.check_pose(a, i));
+  report.add(body.check_pose(b, i));
+  report.add(body.check({a, way, turn}, i, scratch));
   constexpr double nearly_half = 0.5 * full_turn * (1.0 - 1e-12);
-  if (std::abs(turn) >= nearly_half) reports.push_back(body.check({a, way, turn - std::copysign(full_turn, turn)}, i));
-  return reports;
+  if (std::abs(turn) >= nearly_half)
+    report.add(body.check({a, way, turn - std::copysign(full_turn, turn)}, i, scratch));
 }
 
 /// All legs, with obstacles up to `reach` away.
-std::vector<std::vector<LegReport>> all_reports(BodyVerifier& body, std::span<const Se2> path, double reach,
-                                                const Execution& execution) {
+PathReport check_path(BodyVerifier& body, std::span<const Se2> path, double reach, const Execution& execution) {
+  constexpr std::size_t legs_a_chunk = 16;
   body.look_around(path, reach);
-  std::vector<std::vector<LegReport>> reports(std::max<std::size_t>(path.size() - 1, 1));
-  for_chunks(reports.size(), 1, execution, [&](Range r) { reports[r.first] = leg_reports(body, path, r.first); });
-  return reports;
-}
-
-double least_of(const std::vector<std::vector<LegReport>>& reports) {
-  double least = infinity;
-  for (const auto& leg : reports) {
-    for (const LegReport& report : leg) least = std::min(least, report.least);
-  }
-  return least;
+  const std::size_t legs = std::max<std::size_t>(path.size() - 1, 1);
+  std::vector<PathReport> parts(chunk_count(legs, legs_a_chunk));
+  for_chunks(legs, legs_a_chunk, execution, [&](Range r) {
+    Sides scratch;
+    for (std::size_t i = r.first; i < r.last; ++i) check_leg(body, path, i, scratch, parts[r.first / legs_a_chunk]);
+  });
+  PathReport whole;
+  for (const PathReport& part : parts) whole.add(part);
+  return whole;
 }
 
 }  // namespace
@@ -355,27 +370,24 @@ Se2Verification verify_se2(const Scene& scene, std::span<const Vec2> outline, st
   BodyVerifier body(scene, outline, options.clearance, execution);
   constexpr double widening = 8.0;
   double reach = body.least_reach();
-  std::vector<std::vector<LegReport>> reports = all_reports(body, path, reach, execution);
-  while (least_of(reports) > reach && !body.looks_everywhere(path)) {  // nothing so near: how far is it?
+  PathReport report = check_path(body, path, reach, execution);
+  while (report.least > reach && !body.looks_everywhere(path)) {  // nothing so near: how far is it?
     reach *= widening;
-    reports = all_reports(body, path, reach, execution);
+    report = check_path(body, path, reach, execution);
   }
 
   Se2Verification result;
-  result.min_clearance = least_of(reports);
+  result.min_clearance = report.least;
   const auto note = [&](const Violation& v) {
     if (!result.first_violation || v.leg < result.first_violation->leg) result.first_violation = v;
   };
   if (options.start && !is_there(path.front(), *options.start, false, options.tolerance)) {
     note({0, 0.0, "start: the path begins elsewhere"});
   }
-  for (const auto& leg : reports) {
-    for (const LegReport& report : leg) {
-      if (report.violation) note(*report.violation);
-    }
-  }
+  if (report.first) note(*report.first);
   if (options.goal && !is_there(path.back(), *options.goal, options.any_heading, options.tolerance)) {
-    if (!result.first_violation) note({reports.size() - 1, 0.0, "goal: the path ends elsewhere"});
+    if (!result.first_violation)
+      note({std::max<std::size_t>(path.size(), 2) - 2, 0.0, "goal: the path ends elsewhere"});
   }
   for (std::size_t i = 1; i < path.size(); ++i) {
     result.length += std::hypot(path[i].x - path[i - 1].x, path[i].y - path[i - 1].y);
