@@ -95,7 +95,8 @@ class CellSolve {
     const auto beside = [](Cell a, Cell b) {
       return (a.x == b.x || a.y == b.y) && a.x - b.x + 1 < 3 && a.y - b.y + 1 < 3;
     };
-    for (const auto& [far, cell] : free) {
+    for (const auto& candidate : free) {
+      const Cell cell = candidate.second;
       const bool is_known = std::any_of(cells.begin(), cells.end(), [&](Cell known) { return beside(known, cell); });
       if (!is_known && cells.size() < most) cells.push_back(cell);
     }
