@@ -2,6 +2,7 @@
 #include "worlds/arm_world.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 #include <string>
 
@@ -9,6 +10,10 @@
 #include "core/types.hpp"
 
 namespace warren {
+
+/// How much room a link has on a piece of a motion.
+enum class ArmWorld::Room : std::uint8_t { blocked, narrow, clear };
+
 namespace {
 
 double checked_length(const char* name, double value) {
@@ -85,7 +90,8 @@ bool ArmWorld::is_free(const State& a, Query&) const {
   if (chain_.joint_outside_limits(a) != most_joints) return false;
   ChainPosture at;
   chain_.place(a, at);
-  return room(at, Turns{}, 0.0) == Room::clear;
+  std::uint32_t parts = all_parts();
+  return stays_clear(at, Turns{}, 0.0, parts) && parts == 0;
 }
 
 double ArmWorld::distance(const State& a, const State& b) const {
@@ -131,12 +137,16 @@ ArmWorld::Turns ArmWorld::turns_between(const State& a, const State& b) const {
   constexpr double rounding = 1.0 + 1e-12;
   Turns turns{};
   const std::size_t n = chain_.joint_count();
-  for (std::size_t j = 0; j < n; ++j) turns.turn[j] = rounding * std::abs(b[j] - a[j]);
+  for (std::size_t j = 0; j < n; ++j) {
+    turns.signed_turn[j] = b[j] - a[j];
+    turns.turn[j] = rounding * std::abs(b[j] - a[j]);
+  }
   for (std::size_t point = 0; point < chain_.point_count(); ++point) {
     double behind = 0.0;  // sum over the joints behind
     for (std::size_t j = n; j-- > 0;) {
       const double way = turns.turn[j] * chain_.reach(j, point);
       turns.bend[point] += turns.turn[j] * behind;
+      turns.acceleration[point] += turns.turn[j] * (2.0 * behind + way);
       behind += way;
     }
     turns.most[point] = behind;
@@ -161,28 +171,70 @@ double ArmWorld::travel_of_link(const ChainPosture& at, const Turns& turns, cons
                   travel_of(at, turns, link.to, first, link.joints, share));
 }
 
-/// From the tip to the base: what moves most meets most.
-Room ArmWorld::room(const ChainPosture& at, const Turns& turns, double share) const {
-  Room least = Room::clear;
-  for (auto link = links_.rbegin(); link != links_.rend(); ++link) {
-    const double travel = share > 0.0 ? travel_of_link(at, turns, *link, 0, share) : 0.0;
-    const Room here = solids_.room(spine_of(at, *link), touch_, touch_ + travel);
-    if (here == Room::blocked) return here;
-    least = std::min(least, here);
+/// Of a point by the first so many joints, the whole motion in a unit of time.
+Vec3 ArmWorld::velocity_of(const ChainPosture& at, const Turns& turns, std::size_t point, std::size_t joints) const {
+  Vec3 velocity = Vec3::Zero();
+  for (std::size_t j = 0; j < joints; ++j) {
+    if (turns.turn[j] == 0.0 || chain_.reach(j, point) == 0.0) continue;
+    velocity += turns.signed_turn[j] * at.axes[j].cross(at.points[point] - at.on_axes[j]);
   }
-  for (const LinkPair& pair : pairs_) {
-    const Room here = room_between(at, turns, pair, share);
-    if (here == Room::blocked) return here;
-    least = std::min(least, here);
-  }
-  return least;
+  return velocity;
 }
 
-Room ArmWorld::room_between(const ChainPosture& at, const Turns& turns, const LinkPair& pair, double share) const {
+/// Does a plane stay between the link and a sphere?
+bool ArmWorld::keeps_off(const ChainPosture& at, const Turns& turns, const ArmLink& link, double share,
+                         const Approach& near) const {
+  const auto stays_before = [&](std::size_t point) {
+    const double before = near.outward.dot(at.points[point] - near.centre);
+    const double bend = 0.5 * share * share * turns.acceleration[point];
+    if (before - bend <= near.radius + touch_) return false;
+    const double approach = share * std::abs(near.outward.dot(velocity_of(at, turns, point, link.joints)));
+    return before - bend - approach > near.radius + touch_;
+  };
+  return stays_before(link.to) && stays_before(link.from);
+}
+
+/// The bound of the travel that needs no posture says which obstacles may be met at all.
+ArmWorld::Room ArmWorld::room_of(const ChainPosture& at, const Turns& turns, const ArmLink& link, double share) const {
+  const double most = share * std::max(turns.most[link.from], turns.most[link.to]);
+  Room room = Room::clear;
+  std::optional<double> travel;
+  solids_.for_each_within(spine_of(at, link), touch_ + most, [&](const Approach& near) {
+    const double here = near.distance - touch_;
+    if (here <= 0.0) {
+      room = Room::blocked;
+      return false;
+    }
+    if (room == Room::narrow || here > most || keeps_off(at, turns, link, share, near)) return true;
+    if (!travel) travel = travel_of_link(at, turns, link, 0, share);
+    if (here <= *travel) room = Room::narrow;
+    return true;
+  });
+  return room;
+}
+
+ArmWorld::Room ArmWorld::room_between(const ChainPosture& at, const Turns& turns, const LinkPair& pair,
+                                      double share) const {
   const ArmLink& far = links_[pair.far];
   const double travel = share > 0.0 ? travel_of_link(at, turns, far, links_[pair.near].joints, share) : 0.0;
   const double distance = std::sqrt(distance_square(spine_of(at, links_[pair.near]), spine_of(at, far)));
   return distance <= touch_links_ ? Room::blocked : distance <= touch_links_ + travel ? Room::narrow : Room::clear;
+}
+
+/// From the tip to the base: what moves most meets most.
+bool ArmWorld::stays_clear(const ChainPosture& at, const Turns& turns, double share, std::uint32_t& parts) const {
+  std::uint32_t narrow = 0;
+  for (std::uint32_t left = parts; left != 0;) {
+    const auto part = static_cast<std::size_t>(std::bit_width(left) - 1);
+    const std::uint32_t bit = std::uint32_t{1} << part;
+    left ^= bit;
+    const Room room = part < links_.size() ? room_of(at, turns, links_[part], share)
+                                           : room_between(at, turns, pairs_[part - links_.size()], share);
+    if (room == Room::blocked) return false;
+    if (room == Room::narrow) narrow |= bit;
+  }
+  parts = narrow;
+  return true;
 }
 
 double ArmWorld::travel(const State& a, const State& b) const {
@@ -199,17 +251,14 @@ double ArmWorld::resolution_share(const Turns& turns) const {
   return most > resolution_ ? resolution_ / most : 1.0;
 }
 
-/// Room and way are measured in shares of the motion: a piece is free where every link keeps clear for so long.
 MotionVerdict ArmWorld::judge_motion(const State& a, const State& b) const {
   const Turns turns = turns_between(a, b);
   ChainPosture at;
-  const auto free_share = [&](double t, double share) {
-    chain_.place(interpolate(a, b, t), at);
-    const Room here = room(at, turns, share);
-    return here == Room::blocked ? 0.0 : here == Room::narrow ? share : 2.0 * share;
+  const auto look = [&](double middle, double half, std::uint32_t& parts) {
+    chain_.place(interpolate(a, b, middle), at);
+    return stays_clear(at, turns, half, parts);
   };
-  return certified_motion(
-      free_share, [](double t, double u) { return u - t; }, resolution_share(turns));
+  return certified_parts(all_parts(), look, resolution_share(turns));
 }
 
 bool ArmWorld::is_free_motion(const State& a, const State& b, Query& query) const {

@@ -11,9 +11,14 @@
 // A = sum_j |turn_j| distance_j(p) there and B = sum_j |turn_j| sum_(l>j) |turn_l| reach_l(p), nor more than C s with
 // C = sum_j |turn_j| reach_j(p). All are convex in p, so the two ends of a spine bound it. Each link has its own bound:
 // near the base little moves. Of two links only the joints between them count.
-// Joints that move no point (4 to 6 of a Puma without a tool) are idle: samples keep them at rest, so that planning has
-// as many dimensions as the problem.
-// Cost of a piece: forward kinematics, and a box-tree search a link.
+// Of a sphere only what comes nearer counts. If n is the direction from its centre to the nearest point of a spine,
+// every end e of the spine keeps n (e - centre) >= d, its distance; at the share s from the middle that is still d - s
+// |n v| - D s^2 / 2, with the velocity v of e there and D = sum_j sum_l |turn_j| |turn_l| reach_max(j,l)(e), which no
+// acceleration exceeds. While that is more than the radii, a plane stays between sphere and capsule. Most pieces pass
+// by this bound: turns that cancel out, and ways past a sphere, cost nothing. Joints that move no point (4 to 6 of a
+// Puma without a tool) are idle: samples keep them at rest, so that planning has as many dimensions as the problem.
+// Cost of a piece: forward kinematics, and a search of the obstacles for each link that was not proved free on a larger
+// piece.
 #pragma once
 
 #include <cmath>
@@ -76,6 +81,7 @@ class ArmWorld {
   MotionVerdict judge_motion(const State& a, const State& b) const;
 
   double suggested_samples() const { return 200.0; }
+  std::uint64_t first_samples() const { return 25; }  ///< of a roadmap that is tried first
   /// Volume, in the metric, of the box of limits of the joints that are not idle, and how many these are.
   double sampled_volume() const;
   std::size_t sampled_dimension() const;
@@ -85,16 +91,19 @@ class ArmWorld {
   double resolution() const { return resolution_; }
 
  private:
+  enum class Room : std::uint8_t;
   /// Two links that are no neighbours.
   struct LinkPair {
     std::size_t near;
     std::size_t far;
   };
-  /// A motion's turns, and what they say of each point: C and B of the head comment.
+  /// A motion's turns, and what they say of each point: C, B and D of the head comment.
   struct Turns {
+    JointState signed_turn;
     JointState turn;
     std::array<double, most_points> most;
     std::array<double, most_points> bend;
+    std::array<double, most_points> acceleration;
   };
   void find_pairs();
   Turns turns_between(const State& a, const State& b) const;
@@ -102,8 +111,13 @@ class ArmWorld {
                    double share) const;
   double travel_of_link(const ChainPosture& at, const Turns& turns, const ArmLink& link, std::size_t first,
                         double share) const;
-  Room room(const ChainPosture& at, const Turns& turns, double share) const;
+  Vec3 velocity_of(const ChainPosture& at, const Turns& turns, std::size_t point, std::size_t joints) const;
+  bool keeps_off(const ChainPosture& at, const Turns& turns, const ArmLink& link, double share,
+                 const Approach& near) const;
+  Room room_of(const ChainPosture& at, const Turns& turns, const ArmLink& link, double share) const;
   Room room_between(const ChainPosture& at, const Turns& turns, const LinkPair& pair, double share) const;
+  bool stays_clear(const ChainPosture& at, const Turns& turns, double share, std::uint32_t& parts) const;
+  std::uint32_t all_parts() const { return (std::uint32_t{1} << (links_.size() + pairs_.size())) - 1; }
   double resolution_share(const Turns& turns) const;
 
   SerialChain chain_;

@@ -38,32 +38,40 @@ struct MotionPiece {
   }
 };
 
+/// A piece and the parts of the body, a bit each, that are not proved free on it yet.
+struct OpenPiece {
+  std::uint32_t number;
+  std::uint32_t parts;
+};
+
 /// First in, first out, of fixed size.
 class PieceQueue {
  public:
   bool empty() const { return count_ == 0; }
   bool full() const { return count_ + 2 > pieces_.size(); }
-  void push(std::uint32_t piece) { pieces_[(first_ + count_++) % pieces_.size()] = piece; }
-  std::uint32_t pop() {
-    const std::uint32_t piece = pieces_[first_];
+  void push(const OpenPiece& piece) { pieces_[(first_ + count_++) % pieces_.size()] = piece; }
+  OpenPiece pop() {
+    const OpenPiece piece = pieces_[first_];
     first_ = (first_ + 1) % pieces_.size();
     --count_;
     return piece;
   }
 
  private:
-  std::array<std::uint32_t, 256> pieces_;
+  std::array<OpenPiece, 256> pieces_;
   std::size_t first_ = 0;
   std::size_t count_ = 0;
 };
 
 /// Looks at the piece and its parts, depth first; free when all of them are.
 template <class Look>
-MotionVerdict finish_depth_first(std::uint32_t root, const Look& look) {
+MotionVerdict finish_depth_first(const OpenPiece& begin, const Look& look) {
+  const std::uint32_t root = begin.number;
   std::uint32_t piece = root;
   for (;;) {
     bool split = false;
-    const MotionVerdict verdict = look(piece, split);
+    std::uint32_t parts = begin.parts;
+    const MotionVerdict verdict = look(piece, parts, split);
     if (split) {
       piece *= 2;
       continue;
@@ -75,6 +83,31 @@ MotionVerdict finish_depth_first(std::uint32_t root, const Look& look) {
   }
 }
 
+/// The whole motion, breadth first. look(number, parts, split): the verdict on a piece; takes the bits of parts away
+/// that its halves need not look at, and says whether they shall be looked at.
+template <class Look>
+MotionVerdict judge_pieces(std::uint32_t parts, const Look& look) {
+  PieceQueue queue;
+  queue.push({1, parts});
+  while (!queue.empty()) {
+    OpenPiece piece = queue.pop();
+    if (queue.full()) {
+      const MotionVerdict verdict = finish_depth_first(piece, look);
+      if (verdict != MotionVerdict::free) return verdict;
+      continue;
+    }
+    bool split = false;
+    const MotionVerdict verdict = look(piece.number, piece.parts, split);
+    if (verdict == MotionVerdict::free) continue;
+    if (!split) return verdict;
+    queue.push({2 * piece.number, piece.parts});
+    queue.push({2 * piece.number + 1, piece.parts});
+  }
+  return MotionVerdict::free;
+}
+
+inline constexpr std::uint32_t most_pieces = std::uint32_t{1} << 30;
+
 }  // namespace detail
 
 /// clearance(t, enough): of the body at the share t of the motion; may answer anything above `enough` when it is more.
@@ -82,8 +115,7 @@ MotionVerdict finish_depth_first(std::uint32_t root, const Look& look) {
 /// as ends of pieces, so a free verdict includes them.
 template <class Clearance, class Travel>
 MotionVerdict certified_motion(const Clearance& clearance, const Travel& travel, double resolution) {
-  constexpr std::uint32_t most_pieces = std::uint32_t{1} << 30;
-  const auto look = [&](std::uint32_t number, bool& split) {
+  const auto look = [&](std::uint32_t number, std::uint32_t&, bool& split) {
     const detail::MotionPiece piece(number);
     const double before = travel(piece.first, piece.middle);
     const double after = travel(piece.middle, piece.last);
@@ -91,26 +123,27 @@ MotionVerdict certified_motion(const Clearance& clearance, const Travel& travel,
     const double room = clearance(piece.middle, reach);
     if (room > reach) return MotionVerdict::free;
     if (room <= 0.0) return MotionVerdict::blocked;
-    split = reach > resolution && number < most_pieces;
+    split = reach > resolution && number < detail::most_pieces;
     return MotionVerdict::refused;
   };
-  detail::PieceQueue queue;
-  queue.push(1);
-  while (!queue.empty()) {
-    const std::uint32_t number = queue.pop();
-    if (queue.full()) {
-      const MotionVerdict verdict = detail::finish_depth_first(number, look);
-      if (verdict != MotionVerdict::free) return verdict;
-      continue;
-    }
-    bool split = false;
-    const MotionVerdict verdict = look(number, split);
-    if (verdict == MotionVerdict::free) continue;
-    if (!split) return verdict;
-    queue.push(2 * number);
-    queue.push(2 * number + 1);
-  }
-  return MotionVerdict::free;
+  return detail::judge_pieces(1, look);
+}
+
+/// The same for a body of up to 32 parts, a bit of `all` each: what is proved of a part on a piece need not be proved
+/// again on its halves. look(middle, half, parts): stays each of these parts free from `middle` for `half` to both
+/// sides, as shares of the motion? Takes the bits of those away that do; false where one is blocked. finest: the share
+/// down to which pieces are halved, > 0.
+template <class Look>
+MotionVerdict certified_parts(std::uint32_t all, const Look& look, double finest) {
+  const auto judge = [&](std::uint32_t number, std::uint32_t& parts, bool& split) {
+    const detail::MotionPiece piece(number);
+    const double half = piece.last - piece.middle;
+    if (!look(piece.middle, half, parts)) return MotionVerdict::blocked;
+    if (parts == 0) return MotionVerdict::free;
+    split = half > finest && number < detail::most_pieces;
+    return MotionVerdict::refused;
+  };
+  return detail::judge_pieces(all, judge);
 }
 
 }  // namespace warren

@@ -22,6 +22,7 @@ struct Spine {
     const double square = way.squaredNorm();
     inverse_square = square > shortest_square ? 1.0 / square : 0.0;
   }
+  Vec3 nearest(const Vec3& p) const { return a + std::clamp((p - a).dot(way) * inverse_square, 0.0, 1.0) * way; }
 };
 
 /// Square of the distance from a point.

@@ -29,13 +29,6 @@ BoxOf<3> bounds_of(const Sphere& s) {
   return {{s.x - s.radius, s.y - s.radius, s.z - s.radius}, {s.x + s.radius, s.y + s.radius, s.z + s.radius}};
 }
 
-BoxOf<3> bounds_of(const Spine& spine) {
-  const Vec3 b = spine.a + spine.way;
-  const Vec3 low = spine.a.cwiseMin(b);
-  const Vec3 high = spine.a.cwiseMax(b);
-  return {{low.x(), low.y(), low.z()}, {high.x(), high.y(), high.z()}};
-}
-
 }  // namespace
 
 SolidIndex::SolidIndex(std::span<const Sphere> spheres, std::span<const SolidBox> boxes)
@@ -49,7 +42,9 @@ SolidIndex::SolidIndex(std::span<const Sphere> spheres, std::span<const SolidBox
   }
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     check(boxes[i], i);
-    solids.push_back({Vec3::Zero(), 0.0, static_cast<std::int32_t>(i)});
+    const Vec3 low(boxes[i].low[0], boxes[i].low[1], boxes[i].low[2]);
+    const Vec3 high(boxes[i].high[0], boxes[i].high[1], boxes[i].high[2]);
+    solids.push_back({0.5 * (low + high), 0.5 * (high - low).norm(), static_cast<std::int32_t>(i)});
     bounds.push_back({boxes[i].low, boxes[i].high});
   }
   for (const BoxOf<3>& b : bounds) {
@@ -57,33 +52,32 @@ SolidIndex::SolidIndex(std::span<const Sphere> spheres, std::span<const SolidBox
       extent_ = std::max({extent_, std::abs(b.low[axis]), std::abs(b.high[axis])});
     }
   }
+  if (solids.size() <= most_without_tree) {
+    solids_ = std::move(solids);
+    return;
+  }
   tree_ = BoxTree<3>(bounds);
   for (const std::uint32_t i : tree_.order()) solids_.push_back(solids[i]);
 }
 
-double SolidIndex::distance(const Spine& spine, double enough) const {
-  double nearest = std::numeric_limits<double>::infinity();
-  tree_.search(bounds_of(spine), enough, [&](std::uint32_t place) {
-    const Solid& solid = solids_[place];
-    const double square = solid.box == no_box ? distance_square(spine, solid.centre)
-                                              : distance_square(spine, boxes_[static_cast<std::size_t>(solid.box)]);
-    nearest = std::min(nearest, std::max(0.0, std::sqrt(square) - solid.radius));
-    return std::min(enough, nearest);
-  });
-  return nearest;
+BoxOf<3> SolidIndex::box_around(const Spine& spine) {
+  const Vec3 b = spine.a + spine.way;
+  const Vec3 low = spine.a.cwiseMin(b);
+  const Vec3 high = spine.a.cwiseMax(b);
+  return {{low.x(), low.y(), low.z()}, {high.x(), high.y(), high.z()}};
 }
 
-Room SolidIndex::room(const Spine& spine, double touch, double enough) const {
-  constexpr double end = -1.0;
-  Room room = Room::clear;
-  tree_.search(bounds_of(spine), enough, [&](std::uint32_t place) {
-    const Solid& solid = solids_[place];
-    if (room == Room::clear && is_within(spine, solid, enough)) room = Room::narrow;
-    if (room == Room::clear || !is_within(spine, solid, touch)) return room == Room::clear ? enough : touch;
-    room = Room::blocked;
-    return end;
+Approach SolidIndex::box_approach(const Spine& spine, const SolidBox& box) {
+  return {std::sqrt(distance_square(spine, box)), Vec3::Zero(), Vec3::Zero(), 0.0};
+}
+
+double SolidIndex::distance(const Spine& spine, double enough) const {
+  double nearest = std::numeric_limits<double>::infinity();
+  for_each_within(spine, enough, [&](const Approach& found) {
+    nearest = std::min(nearest, std::max(0.0, found.distance));
+    return nearest > 0.0;
   });
-  return room;
+  return nearest;
 }
 
 }  // namespace warren

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Spheres and boxes in space, indexed by a box tree so that a capsule looks only at those near it: its cost grows with
-// the logarithm of their number where they are scattered. bench/arm_bench.cpp has it beside a plain loop.
+// Spheres and boxes in space: how far is a capsule's spine from them? Up to 32 are looked at one after the other, by
+// the balls around them first; more are indexed by a box tree, so that the cost grows with the logarithm of their
+// number where they are scattered. bench/arm_bench.cpp has it beside a plain loop.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +15,13 @@
 
 namespace warren {
 
-/// How much room a capsule has.
-enum class Room : std::uint8_t { blocked, narrow, clear };
+/// How near a segment comes to an obstacle.
+struct Approach {
+  double distance;  ///< from surface to segment; below 0 where it enters a ball
+  Vec3 outward;     ///< of length 1, from a ball's centre to the segment's nearest point; zero where nobody knows
+  Vec3 centre;      ///< of the ball; unused where outward is zero
+  double radius;
+};
 
 /// Immutable after construction; any number of threads may ask.
 class SolidIndex {
@@ -23,31 +29,55 @@ class SolidIndex {
   /// Copies the obstacles. Throws InputError for numbers that are not finite, negative radii and boxes upside down.
   SolidIndex(std::span<const Sphere> spheres, std::span<const SolidBox> boxes);
 
-  std::size_t size() const { return tree_.size(); }
+  std::size_t size() const { return solids_.size(); }
   /// Distance from the segment to the nearest obstacle; anything above `enough` when it is more.
   double distance(const Spine& spine, double enough) const;
-  /// blocked: some obstacle is at most `touch` away; clear: all are farther than `enough`, which is >= touch.
-  Room room(const Spine& spine, double touch, double enough) const;
+  /// Calls visit(Approach) for the obstacles at most `reach` away from the segment, and maybe some that are farther,
+  /// until it returns false.
+  template <class Visit>
+  void for_each_within(const Spine& spine, double reach, const Visit& visit) const {
+    if (tree_.size() == 0) {
+      visit_one_by_one(spine, reach, visit);
+      return;
+    }
+    tree_.search(box_around(spine), reach,
+                 [&](std::uint32_t place) { return visit(approach(spine, solids_[place])) ? reach : -1.0; });
+  }
   /// The largest coordinate of an obstacle, without sign.
   double extent() const { return extent_; }
 
  private:
   static constexpr std::int32_t no_box = -1;
+  static constexpr std::size_t most_without_tree = 32;
+  /// Of a box: the ball around it.
   struct Solid {
     Vec3 centre;
     double radius;
     std::int32_t box;  // in boxes_, or no_box
   };
-  /// Is the segment at most `reach` from it?
-  bool is_within(const Spine& spine, const Solid& solid, double reach) const {
-    const double whole = reach + solid.radius;
-    return solid.box == no_box ? distance_square(spine, solid.centre) <= whole * whole
-                               : distance_square(spine, boxes_[static_cast<std::size_t>(solid.box)]) <= whole * whole;
+  static BoxOf<3> box_around(const Spine& spine);
+  Approach approach(const Spine& spine, const Solid& solid) const {
+    if (solid.box != no_box) return box_approach(spine, boxes_[static_cast<std::size_t>(solid.box)]);
+    const Vec3 off = spine.nearest(solid.centre) - solid.centre;
+    const double length = off.norm();
+    return {length - solid.radius, length > 0.0 ? Vec3(off / length) : Vec3::Zero(), solid.centre, solid.radius};
+  }
+  static Approach box_approach(const Spine& spine, const SolidBox& box);
+  /// A ball is as far from the spine as from its middle, less half its length, at least.
+  template <class Visit>
+  void visit_one_by_one(const Spine& spine, double reach, const Visit& visit) const {
+    const Vec3 middle = spine.a + 0.5 * spine.way;
+    const double around = reach + 0.5 * spine.way.norm();
+    for (const Solid& solid : solids_) {
+      const double within = around + solid.radius;
+      if ((solid.centre - middle).squaredNorm() > within * within) continue;
+      if (!visit(approach(spine, solid))) return;
+    }
   }
 
   std::vector<SolidBox> boxes_;
-  std::vector<Solid> solids_;  // in the tree's order
-  BoxTree<3> tree_;
+  std::vector<Solid> solids_;  // in the tree's order, where there is one
+  BoxTree<3> tree_;            // of many
   double extent_ = 0.0;
 };
 

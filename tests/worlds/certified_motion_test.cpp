@@ -8,6 +8,8 @@
 #include <set>
 #include <vector>
 
+#include "core/rng.hpp"
+
 namespace warren {
 namespace {
 
@@ -24,6 +26,12 @@ MotionVerdict verdict_of(const Clearance& clearance, double resolution, int* loo
   if (looks != nullptr) *looks = count;
   return verdict;
 }
+
+/// Proved free, to both sides of its middle.
+struct Stretch {
+  double middle;
+  double half;
+};
 
 double distance_to(double obstacle, double t) { return std::abs(t - obstacle); }
 
@@ -94,6 +102,50 @@ TEST(CertifiedMotion, OfLengthZeroIsFreeWhereItStandsFree) {
   };
   EXPECT_EQ(still(1e-9), MotionVerdict::free);
   EXPECT_EQ(still(0.0), MotionVerdict::blocked);
+}
+
+/// Parts whose clearances fall off towards a place of their own, which some of them touch.
+TEST(CertifiedParts, JudgesAsAllPartsAtOnceAndLooksAtNonePieceTwice) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    SCOPED_TRACE(seed);
+    constexpr std::uint32_t count = 5;
+    const auto clearance = [&](std::uint32_t part, double t) {
+      const double least = 0.04 * uniform(seed, part, 0) - (seed % 2 == 0 ? 0.004 : 0.0);
+      return std::abs(t - uniform(seed, part, 1)) + least;
+    };
+    std::uint64_t all_looks = 0;
+    const auto together = [&](double t, double) {
+      double least = 1.0;
+      for (std::uint32_t part = 0; part < count; ++part) least = std::min(least, clearance(part, t));
+      all_looks += count;
+      return least;
+    };
+    const MotionVerdict expected = certified_motion(
+        together, [](double t, double u) { return u - t; }, 1e-6);
+    std::uint64_t looks = 0;
+    std::vector<std::vector<Stretch>> proved(count);
+    const auto look = [&](double middle, double half, std::uint32_t& parts) {
+      for (std::uint32_t part = 0; part < count; ++part) {
+        if ((parts >> part & 1U) == 0) continue;
+        ++looks;
+        for (const Stretch& s : proved[part]) EXPECT_GE(std::abs(middle - s.middle), s.half);
+        if (clearance(part, middle) <= 0.0) return false;
+        if (clearance(part, middle) <= half) continue;
+        proved[part].push_back({middle, half});
+        parts ^= 1U << part;
+      }
+      return true;
+    };
+    const MotionVerdict verdict = certified_parts((1U << count) - 1, look, 1e-6);
+    EXPECT_EQ(verdict, expected);
+    EXPECT_LE(looks, all_looks);
+    if (verdict != MotionVerdict::free) continue;
+    for (const auto& stretches : proved) {
+      double sum = 0.0;
+      for (const Stretch& s : stretches) sum += 2.0 * s.half;
+      EXPECT_EQ(sum, 1.0);  // of every part, all pieces once
+    }
+  }
 }
 
 }  // namespace

@@ -60,10 +60,10 @@ double plain_distance(const Scene& scene, const Vec3& a, const Vec3& b) {
   return least;
 }
 
-TEST(SolidIndex, DistanceAndRoomAreThoseOfAPlainLoop) {
+TEST(SolidIndex, DistancesAreThoseOfAPlainLoop) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE(seed);
-    Scene scene = scattered_spheres(seed, seed % 7 * 3);
+    Scene scene = scattered_spheres(seed, seed % 7 * 6);  // one by one up to 32 in all, else in a tree
     add_boxes(scene, seed, seed % 5 * 4);
     const SolidIndex index(scene.spheres, scene.boxes);
     ASSERT_EQ(index.size(), scene.spheres.size() + scene.boxes.size());
@@ -78,15 +78,25 @@ TEST(SolidIndex, DistanceAndRoomAreThoseOfAPlainLoop) {
       } else {
         EXPECT_NEAR(index.distance(spine, all), expected, 1e-8);
       }
-      const double touch = 0.2 * uniform(seed, i, 200);
-      const double enough = touch + 0.2 * uniform(seed, i, 201);
+      const double enough = 0.4 * uniform(seed, i, 201);
       if (expected > enough + 1e-8) {
         EXPECT_GT(index.distance(spine, enough), enough);
       }
-      if (std::abs(expected - touch) < 1e-8 || std::abs(expected - enough) < 1e-8) continue;
-      EXPECT_EQ(index.room(spine, touch, enough), expected <= touch    ? Room::blocked
-                                                  : expected <= enough ? Room::narrow
-                                                                       : Room::clear);
+      double nearest = all;
+      index.for_each_within(spine, enough, [&](const Approach& near) {
+        nearest = std::min(nearest, near.distance);
+        // A plane between ball and segment.
+        if (near.outward.squaredNorm() == 0.0) return true;
+        const double gap = near.distance + near.radius - 1e-9;
+        EXPECT_GE(near.outward.dot(a - near.centre), gap);
+        EXPECT_GE(near.outward.dot(b - near.centre), gap);
+        return true;
+      });
+      if (std::abs(expected - enough) < 1e-8) continue;
+      EXPECT_EQ(nearest <= enough, expected <= enough);
+      if (expected <= enough) {
+        EXPECT_NEAR(std::max(nearest, 0.0), std::max(expected, 0.0), 1e-8);
+      }
     }
   }
 }
