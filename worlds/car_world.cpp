@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "worlds/confined_pose.hpp"
 
 namespace warren {
 namespace {
@@ -43,10 +44,6 @@ double usual_resolution(const CarOptions& options) {
   constexpr double share = 1e-4;
   const double size = options.outline.empty() ? options.radius : radius_of(options.outline);
   return share * (size > 0.0 ? size : options.turning_radius);
-}
-
-double at_share(double low, double high, double share) {
-  return high > low ? low + share * (high - low) : 0.5 * (low + high);
 }
 
 /// How far the body has gone after the way s along a curve, at most.
@@ -95,16 +92,7 @@ CarBody::CarBody(const Scene& scene, const CarOptions& options)
 }
 
 Se2 CarBody::at_unit(const std::array<double, 3>& u) const {
-  const double theta = wrapped_angle((2.0 * u[2] - 1.0) * std::numbers::pi);
-  Box confines = box_;
-  if (tree_.bounds()) {
-    const Rotation turned(theta);
-    Box body;
-    for (const Vec2 p : outline_) body.include(turned(p));
-    const Box wide = body.grown(reach_);
-    confines = {confines.min - wide.min, confines.max - wide.max};
-  }
-  return {at_share(confines.min.x, confines.max.x, u[0]), at_share(confines.min.y, confines.max.y, u[1]), theta};
+  return confined_pose(box_, tree_.bounds().has_value(), outline_, reach_, u);
 }
 
 double CarBody::clearance(const Se2& a, double enough, Query& query) const {

@@ -48,6 +48,42 @@ double room_in(const Box& bounds, const Box& body) {
       {body.min.x - bounds.min.x, bounds.max.x - body.max.x, body.min.y - bounds.min.y, bounds.max.y - body.max.y});
 }
 
+/// Do the corners all turn the same way, once around in all, with sides that are neither without length nor too many?
+bool is_simply_convex(std::span<const Vec2> corners) {
+  constexpr std::size_t most_sides = 16;
+  if (corners.size() > most_sides) return false;
+  double least = 0.0;
+  double most = 0.0;
+  int rises = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec2 b = corners[(i + 1) % corners.size()];
+    const Vec2 along = b - corners[i];
+    if (!(inverse_square(along) > 0.0)) return false;
+    const Vec2 next = corners[(i + 2) % corners.size()] - b;
+    const double turn = cross(along, next);
+    rises += along.y <= 0.0 && next.y > 0.0 ? 1 : 0;
+    least = std::min(least, turn);
+    most = std::max(most, turn);
+  }
+  return (least == 0.0) != (most == 0.0) && rises == 1;
+}
+
+Box box_of(std::span<const Vec2> corners) {
+  Box box;
+  for (const Vec2 p : corners) box.include(p);
+  return box;
+}
+
+/// Does the whole body stay more than `reach` before the line through p, whose normal is `outward`, for so long?
+bool stays_before(const Footprint& body, double time, Vec2 p, Vec2 outward, double reach) {
+  const std::span<const Vec2> corners = body.corners();
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const double way = time * std::abs(dot(outward, body.velocities()[i])) + time * time * body.bends()[i];
+    if (!(dot(outward, corners[i] - p) - way > reach)) return false;
+  }
+  return true;
+}
+
 double largest_coordinate_of(const Box& box) {
   if (box.empty()) return 0.0;
   return std::max({std::abs(box.min.x), std::abs(box.max.x), std::abs(box.min.y), std::abs(box.max.y)});
@@ -60,6 +96,7 @@ void Footprint::finish() {
   for (const Vec2 p : corners_) box_.include(p);
   for (std::size_t i = 0; i + 1 < corners_.size(); ++i) sides_[i] = corners_[i + 1] - corners_[i];
   sides_.back() = corners_.front() - corners_.back();
+  for (std::size_t i = 0; i < sides_.size(); ++i) inverse_squares_[i] = inverse_square(sides_[i]);
 }
 
 ObstacleTree::ObstacleTree(const Scene& scene, double reach)
@@ -68,8 +105,15 @@ ObstacleTree::ObstacleTree(const Scene& scene, double reach)
   const double inner = largest_coordinate_of(box_);
   rounding_ = relative * (std::max(inner, bounds_ ? largest_coordinate_of(*bounds_) : 0.0) + reach);
   std::vector<Segment> sides;
+  std::vector<std::span<const Vec2>> convex;
+  std::vector<std::span<const Vec2>> others;
   for (std::size_t i = 0; i < scene.walls.size(); ++i) sides.push_back(scene.walls.segment(i));
   for (const ScenePolygon& polygon : scene.polygons) {
+    if (is_simply_convex(polygon.corners)) {
+      convex.emplace_back(polygon.corners);
+      continue;
+    }
+    others.emplace_back(polygon.corners);
     Vec2 a = polygon.corners.back();
     for (const Vec2 b : polygon.corners) {
       sides.push_back({a, b});
@@ -77,7 +121,8 @@ ObstacleTree::ObstacleTree(const Scene& scene, double reach)
     }
   }
   file_sides(sides);
-  file_polygons(scene);
+  file_polygons(others);
+  file_convex(convex);
 }
 
 ObstacleTree::Side ObstacleTree::side_between(Vec2 a, Vec2 b) { return {a, b - a, inverse_square(b - a)}; }
@@ -89,21 +134,35 @@ void ObstacleTree::file_sides(const std::vector<Segment>& sides) {
   for (const std::uint32_t id : side_tree_.order()) sides_.push_back(side_between(sides[id].a, sides[id].b));
 }
 
-void ObstacleTree::file_polygons(const Scene& scene) {
+void ObstacleTree::file_polygons(const std::vector<std::span<const Vec2>>& polygons) {
   std::vector<BoxOf<2>> boxes;
-  for (const ScenePolygon& polygon : scene.polygons) {
-    Box box;
-    for (const Vec2 p : polygon.corners) box.include(p);
-    boxes.push_back(box_of_body(box));
-  }
+  for (const auto corners : polygons) boxes.push_back(box_of_body(box_of(corners)));
   polygon_tree_ = BoxTree<2>(boxes);
-  for (const std::uint32_t id : polygon_tree_.order()) polygons_.push_back(scene.polygons[id].corners);
+  for (const std::uint32_t id : polygon_tree_.order()) polygons_.emplace_back(polygons[id].begin(), polygons[id].end());
+}
+
+void ObstacleTree::file_convex(const std::vector<std::span<const Vec2>>& polygons) {
+  std::vector<BoxOf<2>> boxes;
+  for (const auto corners : polygons) boxes.push_back(box_of_body(box_of(corners)));
+  convex_tree_ = BoxTree<2>(boxes);
+  for (const std::uint32_t id : convex_tree_.order()) {
+    const std::span<const Vec2> corners = polygons[id];
+    const auto first = static_cast<std::uint32_t>(convex_sides_.size());
+    const bool left = cross(corners[1] - corners[0], corners.back() - corners[0]) >= 0.0;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Side side = side_between(corners[i], corners[(i + 1) % corners.size()]);
+      const Vec2 right = (1.0 / norm(side.along)) * Vec2{side.along.y, -side.along.x};
+      convex_sides_.push_back({side, left ? right : Vec2{} - right});
+    }
+    convex_.push_back({first, static_cast<std::uint32_t>(convex_sides_.size()), box_of(corners)});
+  }
 }
 
 /// Square of the distance of boundaries; 0 where they cross.
 double ObstacleTree::distance_sq(const Footprint& body, const Side& side) {
   const std::span<const Vec2> corners = body.corners();
   const std::span<const Vec2> sides = body.sides();
+  const std::span<const double> inverse_squares = body.inverse_squares();
   double least = std::numeric_limits<double>::infinity();
   Vec2 to_corner = corners.back() - side.a;
   double corner_side = cross(side.along, to_corner);
@@ -116,7 +175,7 @@ double ObstacleTree::distance_sq(const Footprint& body, const Side& side) {
     const double a_side = cross(along, from_corner);
     const double b_side = cross(along, from_corner + side.along);
     if (corner_side * next_side < 0.0 && a_side * b_side < 0.0) return 0.0;
-    const double inverse = inverse_square(along);
+    const double inverse = inverse_squares[last];
     least =
         std::min({least, to_segment_sq(next_to_corner, side.along, side.inverse_length_sq),
                   to_segment_sq(from_corner, along, inverse), to_segment_sq(from_corner + side.along, along, inverse)});
@@ -124,6 +183,29 @@ double ObstacleTree::distance_sq(const Footprint& body, const Side& side) {
     corner_side = next_side;
   }
   return least;
+}
+
+/// From a convex polygon, 0 where they meet; anything above `enough` where it is more.
+double ObstacleTree::distance_to(const Footprint& body, const ConvexPolygon& polygon, double enough) const {
+  const std::span<const ConvexSide> sides(convex_sides_.data() + polygon.first, polygon.last - polygon.first);
+  const std::span<const Vec2> corners = body.corners();
+  bool holds_first = true;
+  for (const ConvexSide& s : sides) {
+    const double first = dot(s.outward, corners.front() - s.side.a);
+    double least = first;
+    for (const Vec2 p : corners.subspan(1)) least = std::min(least, dot(s.outward, p - s.side.a));
+    if (least > enough) return least;
+    holds_first = holds_first && first <= 0.0;
+  }
+  if (holds_first) return 0.0;
+  if (within(polygon.box, body.box()) && encloses(corners, sides.front().side.a)) return 0.0;
+  double square = std::numeric_limits<double>::infinity();
+  for (const ConvexSide& s : sides) {
+    // What is behind a side is nearer to another one, or inside, which is settled.
+    const auto is_before = [&s](Vec2 p) { return dot(s.outward, p - s.side.a) > 0.0; };
+    if (std::any_of(corners.begin(), corners.end(), is_before)) square = std::min(square, distance_sq(body, s.side));
+  }
+  return std::sqrt(square);
 }
 
 /// Does a polygon hold the body, whose boundary meets none?
@@ -145,7 +227,12 @@ double ObstacleTree::clearance(const Footprint& body, double enough) const {
     if (least <= rounding_) return std::min(least - rounding_, 0.0);
   }
   double boundary = least;
-  side_tree_.search(box_of_body(body.box()), least, [&](std::uint32_t place) {
+  convex_tree_.search(box_of_body(body.box()), least, [&](std::uint32_t place) {
+    boundary = std::min(boundary, distance_to(body, convex_[place], boundary));
+    return boundary > rounding_ ? boundary : -1.0;
+  });
+  if (boundary <= rounding_) return 0.0;
+  side_tree_.search(box_of_body(body.box()), boundary, [&](std::uint32_t place) {
     const Side& side = sides_[place];
     boundary = std::min(boundary, std::sqrt(distance_sq(body, side)));
     const bool swallowed =
@@ -157,8 +244,59 @@ double ObstacleTree::clearance(const Footprint& body, double enough) const {
   return boundary - rounding_;
 }
 
+Room ObstacleTree::room_in_bounds(const Footprint& body, const Move& move, double reach) const {
+  if (!bounds_) return Room::clear;
+  const double room = room_in(*bounds_, body.box());
+  if (room <= reach) return Room::blocked;
+  if (room > reach + move.travel) return Room::clear;
+  const bool stays = stays_before(body, move.time, bounds_->min, {1.0, 0.0}, reach) &&
+                     stays_before(body, move.time, bounds_->min, {0.0, 1.0}, reach) &&
+                     stays_before(body, move.time, bounds_->max, {-1.0, 0.0}, reach) &&
+                     stays_before(body, move.time, bounds_->max, {0.0, -1.0}, reach);
+  return stays ? Room::clear : Room::narrow;
+}
+
+bool ObstacleTree::passes(const Footprint& body, const Move& move, const ConvexPolygon& polygon, double reach) const {
+  const std::span<const ConvexSide> sides(convex_sides_.data() + polygon.first, polygon.last - polygon.first);
+  return std::any_of(sides.begin(), sides.end(),
+                     [&](const ConvexSide& s) { return stays_before(body, move.time, s.side.a, s.outward, reach); });
+}
+
+Room ObstacleTree::room(const Footprint& body, const Move& move, double reach) const {
+  const double touch = reach + rounding_;
+  const double enough = touch + move.travel;
+  Room room = room_in_bounds(body, move, touch);
+  if (room == Room::blocked) return room;
+  const auto end_at = [&](double distance) {
+    if (distance <= enough) room = distance <= touch ? Room::blocked : Room::narrow;
+    return room == Room::blocked ? -1.0 : enough;
+  };
+  const BoxOf<2> box = box_of_body(body.box());
+  convex_tree_.search(box, enough, [&](std::uint32_t place) {
+    const ConvexPolygon& polygon = convex_[place];
+    if (room == Room::clear && passes(body, move, polygon, touch)) return enough;
+    const double distance = distance_to(body, polygon, room == Room::clear ? enough : touch);
+    return room == Room::clear || distance <= touch ? end_at(distance) : enough;
+  });
+  if (room == Room::blocked) return room;
+  side_tree_.search(box, enough, [&](std::uint32_t place) {
+    const Side& side = sides_[place];
+    const Vec2 across = std::sqrt(side.inverse_length_sq) * Vec2{side.along.y, -side.along.x};
+    if (stays_before(body, move.time, side.a, across, touch) ||
+        stays_before(body, move.time, side.a, Vec2{} - across, touch)) {
+      return enough;
+    }
+    const Box here = box_of(Segment{side.a, side.a + side.along});
+    const bool swallowed = within(here, body.box()) && encloses(body.corners(), side.a);
+    return end_at(swallowed ? 0.0 : std::sqrt(distance_sq(body, side)));
+  });
+  return room != Room::blocked && swallows(body) ? Room::blocked : room;
+}
+
 std::size_t ObstacleTree::bytes() const {
-  std::size_t sum = side_tree_.bytes() + polygon_tree_.bytes() + sides_.size() * sizeof(Side);
+  std::size_t sum = convex_tree_.bytes() + convex_.size() * sizeof(ConvexPolygon) +
+                    convex_sides_.size() * sizeof(ConvexSide) + side_tree_.bytes() + polygon_tree_.bytes() +
+                    sides_.size() * sizeof(Side);
   for (const auto& polygon : polygons_) sum += polygon.size() * sizeof(Vec2);
   return sum;
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "worlds/confined_pose.hpp"
 
 namespace warren {
 namespace {
@@ -26,10 +27,6 @@ double checked_clearance(double clearance) {
   throw InputError("clearance", "must be a number from 0 to 1e60", std::to_string(clearance));
 }
 
-double at_share(double low, double high, double share) {
-  return high > low ? low + share * (high - low) : 0.5 * (low + high);
-}
-
 }  // namespace
 
 Se2World::Se2World(const Scene& scene, std::span<const Vec2> outline, const Se2Options& options,
@@ -49,16 +46,7 @@ Se2World::Se2World(const Scene& scene, std::span<const Vec2> outline, const Se2O
 }
 
 Se2 Se2World::at_unit(const std::array<double, 3>& u) const {
-  const double theta = wrapped_angle((2.0 * u[2] - 1.0) * std::numbers::pi);
-  Box confines = box_;
-  if (tree_.bounds()) {
-    const Rotation turned(theta);
-    Box body;
-    for (const Vec2 p : outline_) body.include(turned(p));
-    const Box wide = body.grown(planning_clearance_);
-    confines = {confines.min - wide.min, confines.max - wide.max};
-  }
-  return {at_share(confines.min.x, confines.max.x, u[0]), at_share(confines.min.y, confines.max.y, u[1]), theta};
+  return confined_pose(box_, tree_.bounds().has_value(), outline_, planning_clearance_, u);
 }
 
 double Se2World::clearance(const State& a, double enough, Query& query) const {
@@ -86,9 +74,25 @@ bool Se2World::is_confined(const State& a) const {
 bool Se2World::is_free(const State& a, Query& query) const { return is_confined(a) && clearance(a, 0.0, query) > 0.0; }
 
 MotionVerdict Se2World::judge_motion(const State& a, const State& b, Query& query) const {
-  const double whole = travel(a, b);
-  return certified_motion([&](double t, double enough) { return clearance(interpolate(a, b, t), enough, query); },
-                          [whole](double t, double u) { return (u - t) * whole; }, resolution_);
+  const Vec2 way = b.position() - a.position();
+  const double turn = turn_between(a.theta, b.theta);
+  const double whole = norm(way) + radius_ * std::abs(turn);
+  Footprint& body = query.footprint;
+  for (std::size_t i = 0; i < outline_.size(); ++i) body.bends()[i] = 0.5 * turn * turn * norm(outline_[i]);
+  const auto look = [&](double middle, double half, std::uint32_t& parts) {
+    const Vec2 position = a.position() + middle * way;
+    const Rotation turned(a.theta + middle * turn);
+    for (std::size_t i = 0; i < outline_.size(); ++i) {
+      const Vec2 arm = turned(outline_[i]);
+      body.corners()[i] = position + arm;
+      body.velocities()[i] = way + turn * Vec2{-arm.y, arm.x};
+    }
+    body.finish();
+    const Room room = tree_.room(body, {half, half * whole}, planning_clearance_);
+    if (room == Room::clear) parts = 0;
+    return room != Room::blocked;
+  };
+  return certified_parts(1, look, whole > 0.0 ? resolution_ / whole : 1.0);
 }
 
 bool Se2World::is_free_motion(const State& a, const State& b, Query& query) const {
