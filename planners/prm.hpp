@@ -155,8 +155,9 @@ Solution<typename W::State> plan_in_rounds(const W& world, const typename W::Sta
   }
   try {
     execution.check();
-    const std::uint64_t first = first_samples(world, options);
-    for (std::uint64_t samples = first; samples != 0; samples = next_samples(options, first, samples)) {
+    const std::uint64_t usual = usual_samples(world, options);
+    for (std::uint64_t samples = first_samples(world, options); samples != 0;
+         samples = next_samples(options, usual, samples)) {
       if (plan.round(samples)) break;
     }
     plan.finish(keep);

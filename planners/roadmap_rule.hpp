@@ -25,7 +25,9 @@ struct ConnectionRule {
 inline constexpr double expected_neighbours = 20.0;
 /// A round that leaves start and goal apart is followed by one with so many times the samples,
 inline constexpr double growth = 1.6;
-/// until there are this many times the first round's: then the answer is not_connected.
+/// with twice as many while there are fewer than usual,
+inline constexpr double first_growth = 2.0;
+/// until there are this many times the usual number: then the answer is not_connected.
 inline constexpr double growth_cap = 64.0;
 inline constexpr std::uint64_t most_samples = std::uint64_t{1} << 31;
 
@@ -46,9 +48,9 @@ double sampled_area(const W& world) {
   }
 }
 
-/// Samples of the first round.
+/// Samples that a round usually takes.
 template <World W>
-std::uint64_t first_samples(const W& world, const RoadmapOptions& options) {
+std::uint64_t usual_samples(const W& world, const RoadmapOptions& options) {
   if (options.sampler == SamplerKind::lattice) return std::uint64_t{options.lattice.rows} * options.lattice.cols;
   if constexpr (CellWorld<W>) {
     if (options.sampler == SamplerKind::cell_centres)
@@ -60,10 +62,26 @@ std::uint64_t first_samples(const W& world, const RoadmapOptions& options) {
   return static_cast<std::uint64_t>(std::clamp(suggested, 64.0, static_cast<double>(most_samples)));
 }
 
+/// Samples of the first round: fewer in worlds where many questions are easy (w.first_samples(), >= 1).
+template <World W>
+std::uint64_t first_samples(const W& world, const RoadmapOptions& options) {
+  const std::uint64_t usual = usual_samples(world, options);
+  if (options.samples || takes_all_places(options.sampler)) return usual;
+  if constexpr (requires {
+                  { world.first_samples() } -> std::convertible_to<std::uint64_t>;
+                }) {
+    return std::min<std::uint64_t>(usual, world.first_samples());
+  }
+  return usual;
+}
+
 /// Samples of the round after one with `samples`; 0 when there is none.
-inline std::uint64_t next_samples(const RoadmapOptions& options, std::uint64_t first, std::uint64_t samples) {
+inline std::uint64_t next_samples(const RoadmapOptions& options, std::uint64_t usual, std::uint64_t samples) {
   if (options.samples || takes_all_places(options.sampler) || samples >= most_samples) return 0;
-  if (static_cast<double>(samples) >= growth_cap * static_cast<double>(first)) return 0;
+  if (static_cast<double>(samples) >= growth_cap * static_cast<double>(usual)) return 0;
+  if (samples < usual) {
+    return std::min(usual, static_cast<std::uint64_t>(std::ceil(first_growth * static_cast<double>(samples))));
+  }
   return std::min(most_samples, static_cast<std::uint64_t>(growth * static_cast<double>(samples)));
 }
 

@@ -68,7 +68,7 @@ typename W::State RrtSearch<W>::next_target() {
   constexpr std::uint64_t bias_axis = 8;  // below 16: no axis of the samplers
   const std::uint64_t index = counters_.samples++;
   if (uniform(seed_, index, bias_axis) >= options_->goal_bias) {
-    return target_state(*world_, options_->sampler, seed_, index, query_);
+    return target_state(*world_, options_->sampler_of(index), seed_, index, query_);
   }
   return goals_[random_bits(seed_, index, bias_axis + 1) % goals_.size()];
 }

@@ -75,7 +75,8 @@ void RrtConnectSearch<W>::take_step() {
   // The first targets are the other tree's roots: in the open that is all.
   const bool straight = counters_.samples < 2;
   const State target =
-      straight ? other.state(0) : target_state(*world_, options_->sampler, seed_, counters_.samples, query_);
+      straight ? other.state(0)
+               : target_state(*world_, options_->sampler_of(counters_.samples), seed_, counters_.samples, query_);
   ++counters_.samples;
   const auto grown = mine.extend(mine.nearest(target, counters_), target, step_, query_, counters_);
   if (grown) {

@@ -11,15 +11,23 @@ namespace warren {
 
 /// validate() refuses values outside the stated ranges with InputError.
 struct RrtOptions {
-  SamplerKind sampler = SamplerKind::uniform;  ///< not lattice
-  std::optional<double> step = {};             ///< longest motion of a tree, in the world's metric, > 0; none: by world
-  double goal_bias = 0.05;                     ///< share of the samples that are the goal, 0 .. 1; only for rrt
+  /// Not lattice. None: uniform at first; a search that takes longer has narrow passages, so from then on every other
+  /// sample is a gaussian one, near the obstacles.
+  std::optional<SamplerKind> sampler = {};
+  std::optional<double> step = {};  ///< longest motion of a tree, in the world's metric, > 0; none: by world
+  double goal_bias = 0.05;          ///< share of the samples that are the goal, 0 .. 1; only for rrt
   /// A tree of so many gives up (rrt_connect: start's and goal's together), and after 64 times as many samples.
   std::uint64_t nodes = 100'000;  ///< 2 .. 2^31
   std::uint32_t trees = 1;        ///< grown independently at once, 1 .. 4096; the first to arrive answers
   std::uint64_t seed = 1;         ///< any value
 
   void validate() const;
+  /// Of a tree's index-th sample.
+  SamplerKind sampler_of(std::uint64_t index) const {
+    constexpr std::uint64_t first_gaussian = 512;
+    const bool near = index >= first_gaussian && index % 2 != 0;
+    return sampler.value_or(near ? SamplerKind::gaussian : SamplerKind::uniform);
+  }
 };
 
 }  // namespace warren

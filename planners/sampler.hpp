@@ -65,18 +65,33 @@ inline double mirrored(double x) {
   return x < 1.0 ? x : std::nextafter(1.0, 0.0);
 }
 
-/// A pair of points of the unit cube, `spread` apart in each coordinate on average.
+/// A pair of points of the unit cube, `spread` apart in each coordinate on average. The second costs ten times as much
+/// as the first, so it is made when it is asked for.
 template <std::size_t D>
-struct UnitPair {
-  std::array<double, D> a;
-  std::array<double, D> b;
-  UnitPair(std::uint64_t seed, std::uint64_t index, std::uint64_t attempt, double spread) {
-    const std::uint64_t base = 16 + attempt * 4 * D;  // axes below 16 are the uniform sample's
-    for (std::size_t axis = 0; axis < D; ++axis) {
-      a[axis] = uniform(seed, index, base + axis);
-      b[axis] = mirrored(a[axis] + spread * normal(seed, index, base / 2 + D + axis));
-    }
+class UnitPair {
+ public:
+  UnitPair(std::uint64_t seed, std::uint64_t index, std::uint64_t attempt, double spread)
+      : seed_(seed),
+        index_(index),
+        base_(16 + attempt * 4 * D),
+        spread_(spread) {  // axes below 16: the uniform sample's
+    for (std::size_t axis = 0; axis < D; ++axis) first_[axis] = uniform(seed, index, base_ + axis);
   }
+  const std::array<double, D>& first() const { return first_; }
+  std::array<double, D> second() const {
+    std::array<double, D> point;
+    for (std::size_t axis = 0; axis < D; ++axis) {
+      point[axis] = mirrored(first_[axis] + spread_ * normal(seed_, index_, base_ / 2 + D + axis));
+    }
+    return point;
+  }
+
+ private:
+  std::uint64_t seed_;
+  std::uint64_t index_;
+  std::uint64_t base_;
+  double spread_;
+  std::array<double, D> first_;
 };
 
 template <World W>
@@ -84,8 +99,8 @@ std::optional<typename W::State> gaussian_state(const W& world, std::uint64_t se
                                                 typename W::Query& query) {
   for (std::uint64_t attempt = 0; attempt < sample_tries; ++attempt) {
     const UnitPair<W::dimension> pair(seed, index, attempt, gaussian_spread);
-    const auto a = world.at_unit(pair.a);
-    const auto b = world.at_unit(pair.b);
+    const auto a = world.at_unit(pair.first());
+    const auto b = world.at_unit(pair.second());
     const bool a_is_free = world.is_free(a, query);
     if (a_is_free != world.is_free(b, query)) return a_is_free ? a : b;
   }
@@ -97,9 +112,11 @@ std::optional<typename W::State> bridge_state(const W& world, std::uint64_t seed
                                               typename W::Query& query) {
   for (std::uint64_t attempt = 0; attempt < sample_tries; ++attempt) {
     const UnitPair<W::dimension> pair(seed, index, attempt, bridge_spread);
-    if (world.is_free(world.at_unit(pair.a), query) || world.is_free(world.at_unit(pair.b), query)) continue;
+    if (world.is_free(world.at_unit(pair.first()), query)) continue;
+    const std::array<double, W::dimension> second = pair.second();
+    if (world.is_free(world.at_unit(second), query)) continue;
     std::array<double, W::dimension> middle;
-    for (std::size_t axis = 0; axis < W::dimension; ++axis) middle[axis] = 0.5 * (pair.a[axis] + pair.b[axis]);
+    for (std::size_t axis = 0; axis < W::dimension; ++axis) middle[axis] = 0.5 * (pair.first()[axis] + second[axis]);
     const auto state = world.at_unit(middle);
     if (world.is_free(state, query)) return state;
   }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <concepts>
 #include <cstdint>
@@ -29,15 +30,21 @@ inline std::uint64_t tree_seed(std::uint64_t seed, std::uint64_t index) {
   return index == 0 ? seed : random_bits(seed, index, purpose);
 }
 
-/// A motion's length where none is given: a quarter of the mean distance of random states.
+/// A motion's length where none is given: a third of the way from the middle of the states to a corner of them, were
+/// the coordinates square to each other.
 template <World W>
 double usual_step(const W& world) {
-  constexpr std::uint64_t pairs = 64;
+  std::array<double, W::dimension> u;
+  u.fill(0.5);
+  const auto middle = world.at_unit(u);
   double sum = 0.0;
-  for (std::uint64_t i = 0; i < pairs; ++i) {
-    sum += world.distance(uniform_state(world, 0, 2 * i), uniform_state(world, 0, 2 * i + 1));
+  for (std::size_t axis = 0; axis < W::dimension; ++axis) {
+    u[axis] = std::nextafter(1.0, 0.0);
+    const double way = world.distance(middle, world.at_unit(u));
+    sum += way * way;
+    u[axis] = 0.5;
   }
-  return 0.25 * sum / pairs;
+  return std::sqrt(sum) / 3.0;
 }
 
 /// s.advance(steps) takes so many steps, fewer where it arrives or gives up; s.arrived(), s.gave_up(),

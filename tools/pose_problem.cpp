@@ -78,7 +78,7 @@ PoseTreeOptions pose_tree_options(const SolveRequest& request, Answer& answer) {
   for (const auto& point : options.via) {
     if (point.size() > 3) throw UsageError("--via: a turning body takes X,Y or X,Y,THETA");
   }
-  answer.sampler = name_of(options.trees.sampler);
+  answer.sampler = sampler_name(options.trees);
   answer.seed = options.trees.seed;
   answer.options = given_tree_options(request.arguments);
   return options;

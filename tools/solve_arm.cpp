@@ -118,7 +118,7 @@ void ArmSolve::describe_trees() {
   for (const auto& point : via_) {
     if (point.size() != most_joints) throw UsageError("--via: an arm takes six joint angles a way-point");
   }
-  answer_.sampler = name_of(tree_options_.sampler);
+  answer_.sampler = sampler_name(tree_options_);
   answer_.seed = tree_options_.seed;
   answer_.options = given_tree_options(request_.arguments);
 }

@@ -74,13 +74,14 @@ void SampledMapSolve::describe_roadmap() {
 
 void SampledMapSolve::describe_trees() {
   tree_options_ = tree_options(request_.arguments);
+  if (!tree_options_.sampler) tree_options_.sampler = SamplerKind::uniform;
   for (const auto& point : way_points(request_.arguments)) {
     if (point.size() != 2) throw UsageError("--via: a point or disc takes X,Y");
     via_.push_back({point[0], point[1]});
   }
   answer_.problem = problem_.general();
   answer_.planner = name_of(request_.planner);
-  answer_.sampler = name_of(tree_options_.sampler);
+  answer_.sampler = sampler_name(tree_options_);
   answer_.seed = tree_options_.seed;
   answer_.options = given_tree_options(request_.arguments);
 }

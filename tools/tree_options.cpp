@@ -15,7 +15,7 @@ constexpr std::uint64_t most_nodes = std::uint64_t{1} << 31;
 constexpr std::uint64_t most_trees = 4096;
 
 constexpr OptionSpec specs[] = {
-    {"--step", "D", "longest motion of a tree, in the body's metric (default: a quarter of the states' mean distance)"},
+    {"--step", "D", "longest motion of a tree, in the body's metric (default: a third of half the space's width)"},
     {"--goal-bias", "F", "share of rrt's samples that are the goal (default: 0.05)"},
     {"--nodes", "N", "a tree of so many nodes gives up (default: 100000)"},
     {"--trees", "N", "trees grown independently at once; the first to arrive answers (default: 1)"},
@@ -33,7 +33,7 @@ RrtOptions tree_options(const Arguments& arguments) {
   if (sampler && takes_all_places(*sampler)) {
     throw UsageError(fmt::format("--sampler: {} is for roadmaps; trees take the others", name_of(*sampler)));
   }
-  if (sampler) options.sampler = *sampler;
+  options.sampler = sampler;
   if (const auto text = arguments.value("--step")) options.step = positive_value("--step", *text);
   if (const auto text = arguments.value("--goal-bias"))
     options.goal_bias = number_value("--goal-bias", *text, 0.0, 1.0);
@@ -43,6 +43,10 @@ RrtOptions tree_options(const Arguments& arguments) {
   }
   options.seed = seed_of(arguments);
   return options;
+}
+
+std::string_view sampler_name(const RrtOptions& options) {
+  return options.sampler ? name_of(*options.sampler) : "uniform-gaussian";
 }
 
 std::vector<std::vector<double>> way_points(const Arguments& arguments) {

@@ -23,6 +23,8 @@ inline constexpr std::string_view rrt_options = "--sampler --step --goal-bias --
 
 /// Throws UsageError for values out of range.
 RrtOptions tree_options(const Arguments& arguments);
+/// What the answer calls the trees' sampler.
+std::string_view sampler_name(const RrtOptions& options);
 /// The way-points of --via, in order: 2, 3 or 6 numbers each.
 std::vector<std::vector<double>> way_points(const Arguments& arguments);
 /// What was given, as Answer::options repeats it: name and value as JSON.

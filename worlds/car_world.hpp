@@ -110,6 +110,7 @@ class CarWorld {
     return {a, b, Curve::shortest(a, b, body_.turning_radius()), body_.turning_radius()};
   }
   double suggested_samples() const { return 400.0; }
+  std::uint64_t first_samples() const { return 100; }  ///< of a roadmap that is tried first
   const CarBody& body() const { return body_; }
 
  private:

@@ -328,7 +328,7 @@ TEST(Lattice, TheCoursesPlannersAreComparedAndDrawn) {
   }
   for (const char* name :
        {"pictures/grid_cell_2_0_angles_72_diagonal_sqrt2.svg", "pictures/voronoi_objective_length.svg",
-        "pictures/prm_sampler_uniform_samples_500.svg", "pictures/rrt_sampler_uniform.svg"}) {
+        "pictures/prm_sampler_uniform_samples_500.svg", "pictures/rrt_sampler_uniform-gaussian.svg"}) {
     const std::string svg = folder.read(name);
     EXPECT_NE(svg.find("<g id=\"sweep\""), std::string::npos) << name;
     EXPECT_NE(svg.find("<g id=\"path\""), std::string::npos) << name;
