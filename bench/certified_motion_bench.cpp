@@ -139,6 +139,41 @@ void bm_ten_samples(benchmark::State& state) {
 }
 BENCHMARK(bm_ten_samples);
 
+/// 1000 accepted motions at 10,000 places each, by a plain loop; how many of those are refused that have 1 % of the
+/// radius to spare?
+void bm_turning_certificates(benchmark::State& state) {
+  const Scene scene = hexagons(30);
+  const Se2World world(scene, kite, {});
+  auto query = world.make_query();
+  const auto keeps = [&](const Motion& m, int places, double margin) {
+    for (int i = 0; i <= places; ++i) {
+      if (plain_clearance(scene, world.interpolate(m.a, m.b, static_cast<double>(i) / places)) <= margin) return false;
+    }
+    return true;
+  };
+  int accepted = 0;
+  int colliding = 0;
+  int roomy = 0;
+  int refused = 0;
+  for (auto _ : state) {
+    for (const Motion& m : motions_in(world)) {
+      const bool is_free = world.is_free_motion(m.a, m.b, query);
+      if (keeps(m, 1000, 0.01 * world.radius())) {
+        ++roomy;
+        refused += is_free ? 0 : 1;
+      }
+      if (!is_free || accepted == 1000) continue;
+      ++accepted;
+      colliding += keeps(m, 10'000, 0.0) ? 0 : 1;
+    }
+  }
+  state.counters["accepted"] = accepted;
+  state.counters["colliding"] = colliding;
+  state.counters["free_by_1_percent"] = roomy;
+  state.counters["refused_of_these"] = refused;
+}
+BENCHMARK(bm_turning_certificates)->Iterations(1)->Unit(benchmark::kSecond);
+
 /// Insertions and as many queries, as a tree of motions makes them; a plain loop beside it.
 void bm_growing_tree(benchmark::State& state) {
   const auto n = static_cast<std::uint64_t>(state.range(0));

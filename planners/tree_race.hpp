@@ -31,17 +31,17 @@ inline std::uint64_t tree_seed(std::uint64_t seed, std::uint64_t index) {
 }
 
 /// A motion's length where none is given: a third of the way from the middle of the states to a corner of them, were
-/// the coordinates square to each other.
+/// the coordinates square to each other, by the embedding (a car's own metric has loops in it).
 template <World W>
 double usual_step(const W& world) {
   std::array<double, W::dimension> u;
   u.fill(0.5);
-  const auto middle = world.at_unit(u);
+  const auto middle = world.embed(world.at_unit(u));
   double sum = 0.0;
   for (std::size_t axis = 0; axis < W::dimension; ++axis) {
     u[axis] = std::nextafter(1.0, 0.0);
-    const double way = world.distance(middle, world.at_unit(u));
-    sum += way * way;
+    const auto end = world.embed(world.at_unit(u));
+    for (std::size_t i = 0; i < end.size(); ++i) sum += (end[i] - middle[i]) * (end[i] - middle[i]);
     u[axis] = 0.5;
   }
   return std::sqrt(sum) / 3.0;

@@ -184,12 +184,13 @@ Vec3 ArmWorld::velocity_of(const ChainPosture& at, const Turns& turns, std::size
 /// Does a plane stay between the link and a sphere?
 bool ArmWorld::keeps_off(const ChainPosture& at, const Turns& turns, const ArmLink& link, double share,
                          const Approach& near) const {
+  const double least = near.radius + touch_ + resolution_;  // nearer than that a path could hardly be verified
   const auto stays_before = [&](std::size_t point) {
     const double before = near.outward.dot(at.points[point] - near.centre);
     const double bend = 0.5 * share * share * turns.acceleration[point];
-    if (before - bend <= near.radius + touch_) return false;
+    if (before - bend <= least) return false;
     const double approach = share * std::abs(near.outward.dot(velocity_of(at, turns, point, link.joints)));
-    return before - bend - approach > near.radius + touch_;
+    return before - bend - approach > least;
   };
   return stays_before(link.to) && stays_before(link.from);
 }

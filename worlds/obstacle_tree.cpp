@@ -12,6 +12,9 @@
 namespace warren {
 namespace {
 
+/// Kept from lines, as a share of the body's size: nearer than that a path could hardly be verified.
+constexpr double spare = 1e-5;
+
 BoxOf<2> box_of_body(const Box& box) { return {{box.min.x, box.min.y}, {box.max.x, box.max.y}}; }
 
 double inverse_square(Vec2 v) {
@@ -249,10 +252,11 @@ Room ObstacleTree::room_in_bounds(const Footprint& body, const Move& move, doubl
   const double room = room_in(*bounds_, body.box());
   if (room <= reach) return Room::blocked;
   if (room > reach + move.travel) return Room::clear;
-  const bool stays = stays_before(body, move.time, bounds_->min, {1.0, 0.0}, reach) &&
-                     stays_before(body, move.time, bounds_->min, {0.0, 1.0}, reach) &&
-                     stays_before(body, move.time, bounds_->max, {-1.0, 0.0}, reach) &&
-                     stays_before(body, move.time, bounds_->max, {0.0, -1.0}, reach);
+  const double before = reach + spare * (body.box().width() + body.box().height());
+  const bool stays = stays_before(body, move.time, bounds_->min, {1.0, 0.0}, before) &&
+                     stays_before(body, move.time, bounds_->min, {0.0, 1.0}, before) &&
+                     stays_before(body, move.time, bounds_->max, {-1.0, 0.0}, before) &&
+                     stays_before(body, move.time, bounds_->max, {0.0, -1.0}, before);
   return stays ? Room::clear : Room::narrow;
 }
 
@@ -265,6 +269,7 @@ bool ObstacleTree::passes(const Footprint& body, const Move& move, const ConvexP
 Room ObstacleTree::room(const Footprint& body, const Move& move, double reach) const {
   const double touch = reach + rounding_;
   const double enough = touch + move.travel;
+  const double before = touch + spare * (body.box().width() + body.box().height());
   Room room = room_in_bounds(body, move, touch);
   if (room == Room::blocked) return room;
   const auto end_at = [&](double distance) {
@@ -274,7 +279,7 @@ Room ObstacleTree::room(const Footprint& body, const Move& move, double reach) c
   const BoxOf<2> box = box_of_body(body.box());
   convex_tree_.search(box, enough, [&](std::uint32_t place) {
     const ConvexPolygon& polygon = convex_[place];
-    if (room == Room::clear && passes(body, move, polygon, touch)) return enough;
+    if (room == Room::clear && passes(body, move, polygon, before)) return enough;
     const double distance = distance_to(body, polygon, room == Room::clear ? enough : touch);
     return room == Room::clear || distance <= touch ? end_at(distance) : enough;
   });
@@ -282,8 +287,8 @@ Room ObstacleTree::room(const Footprint& body, const Move& move, double reach) c
   side_tree_.search(box, enough, [&](std::uint32_t place) {
     const Side& side = sides_[place];
     const Vec2 across = std::sqrt(side.inverse_length_sq) * Vec2{side.along.y, -side.along.x};
-    if (stays_before(body, move.time, side.a, across, touch) ||
-        stays_before(body, move.time, side.a, Vec2{} - across, touch)) {
+    if (stays_before(body, move.time, side.a, across, before) ||
+        stays_before(body, move.time, side.a, Vec2{} - across, before)) {
       return enough;
     }
     const Box here = box_of(Segment{side.a, side.a + side.along});
