@@ -37,8 +37,9 @@ RawVector<Edge> edges_within(const std::vector<Vec2>& at, const SearchRadius& ra
   RawVector<Edge> edges;
   for (std::size_t v = 0; v < at.size(); v += vertices_per_poll) {
     execution.check();
-    grid.for_each_later_pair({v, std::min(v + vertices_per_poll, at.size())}, radius,
-                             [&](VertexId i, VertexId j) { edges.push_back({i, j}); });
+    grid.for_each_later_pair({v, std::min(v + vertices_per_poll, at.size())}, radius, [&](VertexId i, VertexId j) {
+      edges.push_back({i, j});
+    });
   }
   return edges;
 }
