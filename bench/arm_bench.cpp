@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What an arm costs: forward kinematics of the Puma, with plain 4 x 4 matrices beside it; clearance among n spheres
 // with the box tree and by a plain loop; motions certified, and sampled at ten places as the study's program did (the
-// labels say how many were accepted and how many of these collide at one of 1000 places); what certificates accept and
-// refuse, at 100,000 places; a roadmap of n milestones.
+// labels say how many were accepted and how many of these collide at one of 1000 places); a roadmap of n milestones.
 #include <benchmark/benchmark.h>
 
 #include <array>
@@ -10,30 +9,13 @@
 #include <limits>
 #include <vector>
 
-#include "core/rng.hpp"
+#include "bench/bodies.hpp"
 #include "planners/prm.hpp"
-#include "worlds/arm_world.hpp"
-#include "worlds/puma560.hpp"
 
 namespace {
 
 using namespace warren;
-
-/// n spheres around a Puma, none at its base; their size shrinks with their number so that as much stays free.
-Scene spheres(std::size_t n) {
-  Scene scene;
-  const double size = 0.55 / std::cbrt(static_cast<double>(n));
-  for (std::uint64_t i = 0; scene.spheres.size() < n; ++i) {
-    const auto at = [&](std::uint64_t axis) { return 2.0 * uniform(1, i, axis) - 1.0; };
-    const Sphere s{at(0), at(1), at(2), size * (0.5 + 0.5 * uniform(1, i, 3))};
-    if (std::hypot(s.x, s.y, s.z) > s.radius + 0.2) scene.spheres.push_back(s);
-  }
-  return scene;
-}
-
-ArmWorld world_of(std::size_t n, double tool = 0.0) {
-  return {spheres(n), SerialChain(puma560_table(tool)), {.radius = 0.05}};
-}
+using namespace warren::bench;
 
 void bm_forward_kinematics(benchmark::State& state) {
   const SerialChain chain(puma560_table(state.range(0) == 0 ? 0.0 : 0.1));
@@ -72,19 +54,6 @@ void bm_plain_matrices(benchmark::State& state) {
   }
 }
 BENCHMARK(bm_plain_matrices);
-
-double plain_clearance(const ArmWorld& world, const Scene& scene, const JointState& q) {
-  ChainPosture at;
-  world.chain().place(q, at);
-  double least = std::numeric_limits<double>::infinity();
-  for (const ArmLink& link : world.links()) {
-    const Spine spine(at.points[link.from], at.points[link.to]);
-    for (const Sphere& s : scene.spheres) {
-      least = std::min(least, std::sqrt(distance_square(spine, Vec3(s.x, s.y, s.z))) - s.radius);
-    }
-  }
-  return least - world.radius();
-}
 
 void bm_clearance(benchmark::State& state) {
   const auto n = static_cast<std::size_t>(state.range(0));
@@ -168,46 +137,6 @@ void bm_ten_samples(benchmark::State& state) {
   run_motions(state, [](const ArmWorld& world, const Motion& m) { return sampled_free(world, m.a, m.b, 11); });
 }
 BENCHMARK(bm_ten_samples)->Arg(9)->Arg(100)->Arg(1000);
-
-/// Is the clearance above the margin at so many places, by a plain loop?
-bool keeps(const ArmWorld& world, const Scene& scene, const Motion& m, int places, double margin) {
-  for (int i = 0; i <= places; ++i) {
-    const JointState q = world.interpolate(m.a, m.b, static_cast<double>(i) / places);
-    if (plain_clearance(world, scene, q) <= margin) return false;
-  }
-  return true;
-}
-
-/// 1000 accepted motions at 100,000 places each; how many of those are refused that have 1 % of the radius to spare?
-void bm_arm_certificates(benchmark::State& state) {
-  const Scene scene = spheres(9);
-  const ArmWorld world = world_of(9, 0.1);
-  auto query = world.make_query();
-  int accepted = 0;
-  int colliding = 0;
-  int roomy = 0;
-  int refused = 0;
-  for (auto _ : state) {
-    for (std::uint64_t i = 0; i < 20'000; ++i) {
-      const JointState a = uniform_state(world, 5, 2 * i);
-      const JointState far = uniform_state(world, 5, 2 * i + 1);
-      const Motion m{a, world.interpolate(a, far, std::min(1.0, 1.5 / world.distance(a, far)))};
-      const bool is_free = world.is_free_motion(m.a, m.b, query);
-      if (keeps(world, scene, m, 1000, 0.01 * world.radius())) {
-        ++roomy;
-        refused += is_free ? 0 : 1;
-      }
-      if (!is_free || accepted == 1000) continue;
-      ++accepted;
-      colliding += keeps(world, scene, m, 100'000, 0.0) ? 0 : 1;
-    }
-  }
-  state.counters["accepted"] = accepted;
-  state.counters["colliding"] = colliding;
-  state.counters["free_by_1_percent"] = roomy;
-  state.counters["refused_of_these"] = refused;
-}
-BENCHMARK(bm_arm_certificates)->Iterations(1)->Unit(benchmark::kSecond);
 
 /// The whole of a roadmap with k = 10: samples, neighbours, motions, graph, query.
 void bm_roadmap(benchmark::State& state) {

@@ -5,53 +5,15 @@
 #include <benchmark/benchmark.h>
 
 #include <cmath>
-#include <numbers>
 #include <vector>
 
-#include "core/polygon_distance.hpp"
-#include "core/rng.hpp"
+#include "bench/bodies.hpp"
 #include "spatial/growing_tree.hpp"
-#include "worlds/se2_world.hpp"
 
 namespace {
 
 using namespace warren;
-
-const std::vector<Vec2> kite = {{0.10, 0.63}, {0.22, 0.41}, {0.49, 0.20}, {0.48, 0.82}};
-
-/// n hexagons in a square that grows with them: their density stays.
-Scene hexagons(std::size_t n) {
-  Scene scene;
-  const double side = 2.2 * std::sqrt(static_cast<double>(n));
-  scene.bounds = Box{{0, 0}, {side, side}};
-  for (std::size_t i = 0; i < n; ++i) {
-    ScenePolygon polygon;
-    const Vec2 centre{side * uniform(1, i, 0), side * uniform(1, i, 1)};
-    for (int k = 0; k < 6; ++k) {
-      const double angle = k * std::numbers::pi / 3.0;
-      polygon.corners.push_back(centre + Vec2{0.5 * std::cos(angle), 0.5 * std::sin(angle)});
-    }
-    scene.polygons.push_back(polygon);
-  }
-  return scene;
-}
-
-std::vector<Vec2> body_at(const Se2& pose) {
-  std::vector<Vec2> corners;
-  for (const Vec2 p : kite) corners.push_back(placed(pose, p));
-  return corners;
-}
-
-double plain_clearance(const Scene& scene, const Se2& pose) {
-  const std::vector<Vec2> body = body_at(pose);
-  double least = 1e9;
-  for (const Vec2 p : body) {
-    least = std::min({least, p.x - scene.bounds->min.x, scene.bounds->max.x - p.x, p.y - scene.bounds->min.y,
-                      scene.bounds->max.y - p.y});
-  }
-  for (const ScenePolygon& polygon : scene.polygons) least = std::min(least, distance(body, polygon.corners));
-  return least;
-}
+using namespace warren::bench;
 
 void bm_clearance(benchmark::State& state) {
   const Scene scene = hexagons(static_cast<std::size_t>(state.range(0)));
@@ -77,15 +39,10 @@ void bm_plain_clearance(benchmark::State& state) {
 }
 BENCHMARK(bm_plain_clearance)->Arg(10)->Arg(100)->Arg(1000);
 
-struct Motion {
-  Se2 a;
-  Se2 b;
-};
-
 /// Motions of about the step of a tree, both ends free.
-std::vector<Motion> motions_in(const Se2World& world) {
+std::vector<PoseMotion> motions_in(const Se2World& world) {
   auto query = world.make_query();
-  std::vector<Motion> motions;
+  std::vector<PoseMotion> motions;
   for (std::uint64_t i = 0; motions.size() < 2000; ++i) {
     const Se2 a = uniform_state(world, 1, 2 * i);
     const Se2 far = uniform_state(world, 1, 2 * i + 1);
@@ -95,7 +52,7 @@ std::vector<Motion> motions_in(const Se2World& world) {
   return motions;
 }
 
-bool sampled_free(const Se2World& world, const Motion& m, int places, Se2World::Query& query) {
+bool sampled_free(const Se2World& world, const PoseMotion& m, int places, Se2World::Query& query) {
   for (int i = 0; i <= places; ++i) {
     if (!world.is_free(world.interpolate(m.a, m.b, static_cast<double>(i) / places), query)) return false;
   }
@@ -107,11 +64,11 @@ template <class Check>
 void run_motions(benchmark::State& state, const Check& check) {
   const Se2World world(hexagons(100), kite, {});
   auto query = world.make_query();
-  const std::vector<Motion> motions = motions_in(world);
+  const std::vector<PoseMotion> motions = motions_in(world);
   int accepted = 0;
   int wrong = 0;
   int truly_free = 0;
-  for (const Motion& m : motions) {
+  for (const PoseMotion& m : motions) {
     const bool is_free = sampled_free(world, m, 1000, query);
     truly_free += is_free ? 1 : 0;
     if (!check(world, m, query)) continue;
@@ -126,53 +83,18 @@ void run_motions(benchmark::State& state, const Check& check) {
 }
 
 void bm_certified_motion(benchmark::State& state) {
-  run_motions(state, [](const Se2World& world, const Motion& m, Se2World::Query& query) {
+  run_motions(state, [](const Se2World& world, const PoseMotion& m, Se2World::Query& query) {
     return world.is_free_motion(m.a, m.b, query);
   });
 }
 BENCHMARK(bm_certified_motion);
 
 void bm_ten_samples(benchmark::State& state) {
-  run_motions(state, [](const Se2World& world, const Motion& m, Se2World::Query& query) {
+  run_motions(state, [](const Se2World& world, const PoseMotion& m, Se2World::Query& query) {
     return sampled_free(world, m, 9, query);
   });
 }
 BENCHMARK(bm_ten_samples);
-
-/// 1000 accepted motions at 10,000 places each, by a plain loop; how many of those are refused that have 1 % of the
-/// radius to spare?
-void bm_turning_certificates(benchmark::State& state) {
-  const Scene scene = hexagons(30);
-  const Se2World world(scene, kite, {});
-  auto query = world.make_query();
-  const auto keeps = [&](const Motion& m, int places, double margin) {
-    for (int i = 0; i <= places; ++i) {
-      if (plain_clearance(scene, world.interpolate(m.a, m.b, static_cast<double>(i) / places)) <= margin) return false;
-    }
-    return true;
-  };
-  int accepted = 0;
-  int colliding = 0;
-  int roomy = 0;
-  int refused = 0;
-  for (auto _ : state) {
-    for (const Motion& m : motions_in(world)) {
-      const bool is_free = world.is_free_motion(m.a, m.b, query);
-      if (keeps(m, 1000, 0.01 * world.radius())) {
-        ++roomy;
-        refused += is_free ? 0 : 1;
-      }
-      if (!is_free || accepted == 1000) continue;
-      ++accepted;
-      colliding += keeps(m, 10'000, 0.0) ? 0 : 1;
-    }
-  }
-  state.counters["accepted"] = accepted;
-  state.counters["colliding"] = colliding;
-  state.counters["free_by_1_percent"] = roomy;
-  state.counters["refused_of_these"] = refused;
-}
-BENCHMARK(bm_turning_certificates)->Iterations(1)->Unit(benchmark::kSecond);
 
 /// Insertions and as many queries, as a tree of motions makes them; a plain loop beside it.
 void bm_growing_tree(benchmark::State& state) {
