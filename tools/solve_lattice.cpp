@@ -3,6 +3,8 @@
 // grid planner over a lattice of positions and headings. What begins or ends off the lattice is joined to it.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -191,8 +193,8 @@ class LatticeSolve {
   void take_poses(const std::vector<LayerState>& states) {
     const auto pose = [&](const LayerState& s) { return frame_.in_world(pose_of(layers_, s)); };
     const auto is_there = [&](const Se2& end, const Se2& state, bool any_heading) {
-      const double rounding = 1e-9 * layers_.cell;
-      return distance(end.position(), state.position()) <= rounding &&
+      constexpr double rounding = 1e-9;  // of a cell, and of a radian
+      return distance(end.position(), state.position()) <= rounding * layers_.cell &&
              (any_heading || std::abs(turn_between(end.theta, state.theta)) <= rounding);
     };
     Se2 goal = goal_pose();

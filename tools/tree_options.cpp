@@ -15,7 +15,7 @@ constexpr std::uint64_t most_nodes = std::uint64_t{1} << 31;
 constexpr std::uint64_t most_trees = 4096;
 
 constexpr OptionSpec specs[] = {
-    {"--step", "D", "longest motion of a tree, in the body's metric (default: a third of half the space's width)"},
+    {"--step", "D", "longest motion of a tree, in the body's metric (default: a third of half the space's diagonal)"},
     {"--goal-bias", "F", "share of rrt's samples that are the goal (default: 0.05)"},
     {"--nodes", "N", "a tree of so many nodes gives up (default: 100000)"},
     {"--trees", "N", "trees grown independently at once; the first to arrive answers (default: 1)"},

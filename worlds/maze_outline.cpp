@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "worlds/maze_outline.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <tuple>
 #include <vector>
 
 #include "parallel/chunks.hpp"
@@ -35,45 +38,48 @@ std::optional<MazeHint> size_of_box(const Box& box) {
   return MazeHint{static_cast<std::uint32_t>(rows), static_cast<std::uint32_t>(cols)};
 }
 
-/// What part of the maze's outline a wall covers.
-struct Cover {
-  double length = 0.0;  ///< whole numbers: sums are exact
-  bool closes_a_door = false;
+/// A wall on one side of the outline: 0 bottom, 1 top, 2 left, 3 right.
+struct Piece {
+  int side;
+  double low;
+  double high;
+  friend bool operator<(const Piece& a, const Piece& b) { return std::tie(a.side, a.low) < std::tie(b.side, b.low); }
 };
 
-Cover cover_of(const Segment& wall, const Box& outline) {
+std::optional<Piece> piece_of(const Segment& wall, const Box& outline) {
   const Box box = box_of(wall);
-  const auto is_on = [](double low, double high, double side) { return low == side && high == side; };
-  Cover cover;
-  if (is_on(box.min.y, box.max.y, outline.min.y) || is_on(box.min.y, box.max.y, outline.max.y)) {
-    cover.length = box.width();
-  }
-  const bool on_left = is_on(box.min.x, box.max.x, outline.min.x);
-  const bool on_right = is_on(box.min.x, box.max.x, outline.max.x);
-  if (on_left || on_right) cover.length = box.height();
-  cover.closes_a_door = (on_left && box.min.y < outline.min.y + 1.0 && box.height() > 0.0) ||
-                        (on_right && box.max.y > outline.max.y - 1.0 && box.height() > 0.0);
-  return cover;
+  if (box.min == box.max) return {};
+  if (box.max.y == outline.min.y) return Piece{0, box.min.x, box.max.x};
+  if (box.min.y == outline.max.y) return Piece{1, box.min.x, box.max.x};
+  if (box.max.x == outline.min.x) return Piece{2, box.min.y, box.max.y};
+  if (box.min.x == outline.max.x) return Piece{3, box.min.y, box.max.y};
+  return {};
+}
+
+/// In order of sides and places.
+std::vector<Piece> pieces_of(const WallSet& walls, const Box& outline, const Execution& execution) {
+  std::vector<std::vector<Piece>> parts(chunk_count(walls.size(), grain));
+  for_chunks(walls.size(), grain, execution, [&](Range r) {
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      if (const auto piece = piece_of(walls.segment(i), outline)) parts[r.first / grain].push_back(*piece);
+    }
+  });
+  std::vector<Piece> pieces;
+  for (const auto& part : parts) pieces.insert(pieces.end(), part.begin(), part.end());
+  std::sort(pieces.begin(), pieces.end());
+  return pieces;
 }
 
 bool has_outline(const WallSet& walls, const Box& outline, const Execution& execution) {
-  std::vector<Cover> covers(chunk_count(walls.size(), grain));
-  for_chunks(walls.size(), grain, execution, [&](Range r) {
-    Cover sum;
-    for (std::size_t i = r.first; i < r.last; ++i) {
-      const Cover cover = cover_of(walls.segment(i), outline);
-      sum.length += cover.length;
-      sum.closes_a_door |= cover.closes_a_door;
-    }
-    covers[r.first / grain] = sum;
-  });
-  double length = 0.0;
-  bool closed = false;
-  for (const Cover& cover : covers) {
-    length += cover.length;
-    closed |= cover.closes_a_door;
+  const double low[4] = {outline.min.x, outline.min.x, outline.min.y + 1.0, outline.min.y};
+  const double high[4] = {outline.max.x, outline.max.x, outline.max.y, outline.max.y - 1.0};
+  double covered[4] = {low[0], low[1], low[2], low[3]};
+  for (const Piece& piece : pieces_of(walls, outline, execution)) {
+    if (piece.low < low[piece.side] || piece.high > high[piece.side]) return false;  // it closes a door
+    if (piece.low > covered[piece.side]) return false;                               // a gap
+    covered[piece.side] = std::max(covered[piece.side], piece.high);
   }
-  return !closed && length == 2.0 * (outline.width() + outline.height()) - 2.0;
+  return std::equal(std::begin(covered), std::end(covered), std::begin(high));
 }
 
 }  // namespace

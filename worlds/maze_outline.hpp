@@ -12,8 +12,8 @@
 namespace warren {
 
 /// The size of the maze of the course: all walls on its grid, and its outline closed but for the entrance in the first
-/// row of the left side and the exit in the last row of the right one. Nothing for other walls, and where pieces of the
-/// outline overlap. Two passes over the walls at most. Throws Stopped.
+/// row of the left side and the exit in the last row of the right one. Nothing for other walls. Two passes over the
+/// walls, and a sort of those on the outline. Throws Stopped.
 std::optional<MazeHint> maze_of_walls(const WallSet& walls, const Execution& execution);
 
 }  // namespace warren

@@ -51,24 +51,31 @@ double room_in(const Box& bounds, const Box& body) {
       {body.min.x - bounds.min.x, bounds.max.x - body.max.x, body.min.y - bounds.min.y, bounds.max.y - body.max.y});
 }
 
-/// Do the corners all turn the same way, once around in all, with sides that are neither without length nor too many?
-bool is_simply_convex(std::span<const Vec2> corners) {
+/// Which way the corners go round.
+enum class Turning : std::uint8_t { left, right, neither };
+
+/// Do the corners all turn the same way or go straight on, once around in all, with sides that are neither without
+/// length nor too many?
+Turning turning_of(std::span<const Vec2> corners) {
   constexpr std::size_t most_sides = 16;
-  if (corners.size() > most_sides) return false;
+  if (corners.size() > most_sides) return Turning::neither;
   double least = 0.0;
   double most = 0.0;
   int rises = 0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vec2 b = corners[(i + 1) % corners.size()];
     const Vec2 along = b - corners[i];
-    if (!(inverse_square(along) > 0.0)) return false;
+    if (!(inverse_square(along) > 0.0)) return Turning::neither;
     const Vec2 next = corners[(i + 2) % corners.size()] - b;
     const double turn = cross(along, next);
+    if (turn == 0.0 && !(dot(along, next) > 0.0)) return Turning::neither;  // it turns back
     rises += along.y <= 0.0 && next.y > 0.0 ? 1 : 0;
     least = std::min(least, turn);
     most = std::max(most, turn);
   }
-  return (least == 0.0) != (most == 0.0) && rises == 1;
+  if ((least == 0.0) == (most == 0.0)) return Turning::neither;
+  const bool left = most > 0.0;
+  return rises == 1 ? (left ? Turning::left : Turning::right) : Turning::neither;
 }
 
 Box box_of(std::span<const Vec2> corners) {
@@ -112,7 +119,7 @@ ObstacleTree::ObstacleTree(const Scene& scene, double reach)
   std::vector<std::span<const Vec2>> others;
   for (std::size_t i = 0; i < scene.walls.size(); ++i) sides.push_back(scene.walls.segment(i));
   for (const ScenePolygon& polygon : scene.polygons) {
-    if (is_simply_convex(polygon.corners)) {
+    if (turning_of(polygon.corners) != Turning::neither) {
       convex.emplace_back(polygon.corners);
       continue;
     }
@@ -151,7 +158,7 @@ void ObstacleTree::file_convex(const std::vector<std::span<const Vec2>>& polygon
   for (const std::uint32_t id : convex_tree_.order()) {
     const std::span<const Vec2> corners = polygons[id];
     const auto first = static_cast<std::uint32_t>(convex_sides_.size());
-    const bool left = cross(corners[1] - corners[0], corners.back() - corners[0]) >= 0.0;
+    const bool left = turning_of(corners) == Turning::left;
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const Side side = side_between(corners[i], corners[(i + 1) % corners.size()]);
       const Vec2 right = (1.0 / norm(side.along)) * Vec2{side.along.y, -side.along.x};

@@ -4,8 +4,7 @@
 // of their rounding; only obstacles nearer than the best so far are looked at, so the cost grows with their density
 // around the body, not with their number. A pair of sides costs 15 ns. Of a convex polygon a side that has the whole
 // body farther before it than asked for settles it, for a product a corner; else only the sides that have a corner of
-// the body before them are measured. With that motions are certified in a third of the time
-// (bench/certified_motion_bench).
+// the body before them are measured.
 #pragma once
 
 #include <cstddef>

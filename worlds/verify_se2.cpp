@@ -369,7 +369,7 @@ Se2Verification verify_se2(const Scene& scene, std::span<const Vec2> outline, st
   check_input(outline, path, options);
   BodyVerifier body(scene, outline, options.clearance, execution);
   constexpr double widening = 8.0;
-  double reach = body.least_reach();
+  double reach = std::max(body.least_reach(), 1e-9);  // a body may have no extent
   PathReport report = check_path(body, path, reach, execution);
   while (report.least > reach && !body.looks_everywhere(path)) {  // nothing so near: how far is it?
     reach *= widening;

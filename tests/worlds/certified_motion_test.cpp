@@ -105,7 +105,7 @@ TEST(CertifiedMotion, OfLengthZeroIsFreeWhereItStandsFree) {
 }
 
 /// Parts whose clearances fall off towards a place of their own, which some of them touch.
-TEST(CertifiedParts, JudgesAsAllPartsAtOnceAndLooksAtNonePieceTwice) {
+TEST(CertifiedParts, JudgesAsAllPartsAtOnceAndLooksAtNoPieceTwice) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     SCOPED_TRACE(seed);
     constexpr std::uint32_t count = 5;

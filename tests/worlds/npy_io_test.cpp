@@ -210,6 +210,21 @@ TEST(Npy, WallsOfTheGridWithoutTheTwoDoorsAreNoMaze) {
   }
 }
 
+TEST(Npy, AnOutlineWithAGapIsNoMazeHoweverLongItIs) {
+  const TemporaryDirectory directory;
+  const Scene maze = maze_scene({20, 30, 5}, false, {});
+  std::vector<Segment> walls{{{0.5, 0.5}, {10.5, 0.5}}, {{11.5, 0.5}, {30.5, 0.5}}, {{11.5, 0.5}, {12.5, 0.5}}};
+  for (std::size_t i = 1; i < maze.walls.size(); ++i) walls.push_back(maze.walls.segment(i));  // 0 is the bottom
+  Scene open;
+  open.walls = WallSet::narrowest(walls);
+  write_npy(open, directory.file("m.npy"), {});
+  EXPECT_FALSE(read_npy(InputFile(directory.file("m.npy"), {}), {}).maze.has_value());
+  walls.push_back({{10.5, 0.5}, {11.5, 0.5}});
+  open.walls = WallSet::narrowest(walls);
+  write_npy(open, directory.file("m.npy"), {});
+  EXPECT_TRUE(read_npy(InputFile(directory.file("m.npy"), {}), {}).maze.has_value());
+}
+
 TEST(Npy, OneWallOffTheGridAndItIsNoMaze) {
   const TemporaryDirectory directory;
   const Scene maze = maze_scene({200, 200, 3}, false, {});

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <string>
 
 #include "core/error.hpp"
 #include "core/polygon_distance.hpp"
@@ -57,6 +58,29 @@ TEST(Se2World, ClearanceIsTheDistanceToTheNearestObstacle) {
           EXPECT_GT(world.clearance(pose, enough, query), enough) << i;
         }
         EXPECT_EQ(world.is_free(pose, query), plain > 1e-12) << i;
+      }
+    }
+  }
+}
+
+TEST(Se2World, ConvexObstaclesMayHaveCornersInTheirSidesAndGoEitherWayRound) {
+  const std::vector<Vec2> split = {{0, 0}, {0.5, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 0.3}};
+  for (const bool clockwise : {false, true}) {
+    for (std::size_t first = 0; first < split.size(); ++first) {
+      SCOPED_TRACE(std::to_string(first) + (clockwise ? " clockwise" : " anticlockwise"));
+      std::vector<Vec2> corners = split;
+      if (clockwise) std::reverse(corners.begin(), corners.end());
+      std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(first), corners.end());
+      Scene scene;
+      scene.bounds = Box{{-3, -3}, {5, 5}};
+      scene.polygons.push_back({corners});
+      const Se2World world(scene, kite, {});
+      auto query = world.make_query();
+      for (std::uint64_t i = 0; i < 200; ++i) {
+        const Se2 pose = uniform_state(world, first, i);
+        const double plain = plain_clearance(scene, kite, pose);
+        EXPECT_EQ(world.is_free(pose, query), plain > 1e-12) << i;
+        EXPECT_NEAR(std::max(0.0, world.clearance(pose, 1e9, query)), std::max(0.0, plain), 1e-11) << i;
       }
     }
   }
