@@ -135,13 +135,15 @@ void PathSurroundings::file(std::span<const Box> boxes, const Execution& executi
     near_.insert(near_.end(), part.near.begin(), part.near.end());
     long_.insert(long_.end(), part.far_across.begin(), part.far_across.end());
   }
-  file_in_cells();
+  file_in_cells(execution);
 }
 
-void PathSurroundings::file_in_cells() {
+void PathSurroundings::file_in_cells(const Execution& execution) {
+  constexpr std::size_t obstacles_a_poll = 4096;
   begin_.assign(marked_.size() + 1, 0);
   const auto for_each_place = [&](const auto& visit) {
     for (std::size_t n = 0; n < near_.size(); ++n) {
+      if (n % obstacles_a_poll == 0) execution.check();
       for_each_cell(range_of(box_of_ends(near_[n].segment)), [&](std::size_t cell) {
         if (marked_[cell]) visit(cell, static_cast<std::uint32_t>(n));
       });

@@ -51,7 +51,7 @@ class PathSurroundings {
   bool is_marked(const Range& range) const;
   template <class Visit>
   void for_each_cell(const Range& range, const Visit& visit) const;
-  void file_in_cells();
+  void file_in_cells(const Execution& execution);
   struct MapPart;
   void gather_from_map(const Box& box, std::vector<NearSide>& sides) const;
   void gather_from_word(const MapPart& part, std::int64_t y, std::int64_t w, std::vector<NearSide>& sides) const;

@@ -130,10 +130,12 @@ std::vector<Box> BodyVerifier::boxes_of(const Leg& leg) const {
 void BodyVerifier::look_around(std::span<const Se2> path, double reach) {
   reach_ = reach;
   if (map_ != nullptr) return;  // is read where it is asked
+  constexpr std::size_t many = 1024;
   std::vector<Box> boxes;
   for (std::size_t i = 0; i < path.size(); ++i) {
     const Se2& next = path[std::min(i + 1, path.size() - 1)];
     const std::vector<Box> more = boxes_of({path[i], next.position() - path[i].position(), 0.0});
+    if (i % many == 0 || more.size() >= many) execution_.reserve((many + more.size()) * sizeof(Box));  // and polls
     boxes.insert(boxes.end(), more.begin(), more.end());
   }
   surroundings_.file(boxes, execution_);
