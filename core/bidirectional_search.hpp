@@ -53,7 +53,8 @@ inline constexpr std::size_t apart = 128;
 /// One side of the search. Neighbours: neighbours(v, visit) calls visit(w, length) for each neighbour in ascending
 /// order; an implicit graph may ask visit.wants(w, length) first, whether an edge of at least this length could help,
 /// before it tests it. Where there are many, neighbours.fetch(v) asks the memory for the row of v, and
-/// neighbours.for_each_target(v, visit) reads it ahead of time. to_target: consistent estimate to the other side's root; to_root: to this side's root.
+/// neighbours.for_each_target(v, visit) reads it ahead of time. to_target: consistent estimate to the other side's
+/// root; to_root: to this side's root.
 template <class Queue, class Neighbours, class ToTarget, class ToRoot>
 class SearchSide {
  public:
