@@ -34,10 +34,13 @@ SearchResult search_from_both_ends(QueueKind kind, std::size_t vertex_count, con
       std::optional<SearchSide<Queue, Neighbours, Estimate, Estimate>> search;
     };
     std::array<Side, 2> sides{Side{empty_queue, {}}, Side{empty_queue, {}}};
-    for_chunks(2, 1, execution, [&](Range r) {  // both at once: the first touch of their memory is half of the cost
-      const std::size_t i = r.first;
-      sides[i].search.emplace(roots[i], vertex_count, neighbours[i], to_root[1 - i], to_root[i], sides[i].queue,
-                              *states[i], [&] { execution.check(); });
+    // Both at once: the first touch of their memory is half of the cost. Few vertices do not repay a thread's start.
+    const std::size_t grain = vertex_count < fewest_for_both_ends ? 2 : 1;
+    for_chunks(2, grain, execution, [&](Range r) {
+      for (std::size_t i = r.first; i < r.last; ++i) {
+        sides[i].search.emplace(roots[i], vertex_count, neighbours[i], to_root[1 - i], to_root[i], sides[i].queue,
+                                *states[i], [&] { execution.check(); });
+      }
     });
     return bidirectional(*sides[0].search, *sides[1].search, execution);
   });

@@ -130,7 +130,7 @@ std::uint64_t Overlay::peel(const Execution& execution) {
   const std::size_t grain = peel_grain(tile_count());
   const std::size_t ranges = chunk_count(tile_count(), grain);
   std::vector<std::uint64_t> closed(ranges + 1, 0);
-  std::vector<std::vector<VertexId>> cores(ranges + 1);
+  std::vector<std::vector<VertexId>> cores(ranges);
   for_chunks(tile_count(), grain, execution, [&](Range r) {
     const VertexId first = first_key_[r.first];
     const VertexId last = first_key_[r.last];
@@ -140,7 +140,6 @@ std::uint64_t Overlay::peel(const Execution& execution) {
       if (!is_peeled(v)) core.push_back(v);
     }
   });
-  cores[ranges] = {start(), goal()};
   for (const auto& core : cores) {
     execution.check();
     for (const VertexId v : core) closed[ranges] += peel_from(v, 0, static_cast<VertexId>(vertex_count()));
@@ -151,17 +150,19 @@ std::uint64_t Overlay::peel(const Execution& execution) {
   return total;
 }
 
-/// What is not peeled of the vertices that each range had left.
+/// What is not peeled of the vertices that each range had left, then start and goal. One range starts no threads.
 void Overlay::keep_core(std::vector<std::vector<VertexId>>& cores, const Execution& execution) {
   for_chunks(cores.size(), 1, execution,
              [&](Range r) { std::erase_if(cores[r.first], [&](VertexId v) { return is_peeled(v); }); });
   std::vector<std::size_t> first(cores.size() + 1, 0);
   for (std::size_t i = 0; i < cores.size(); ++i) first[i + 1] = first[i] + cores[i].size();
-  core_.resize(first.back());
+  core_.resize(first.back() + 2);
   for_chunks(cores.size(), 1, execution, [&](Range r) {
     std::copy(cores[r.first].begin(), cores[r.first].end(),
               core_.begin() + static_cast<std::ptrdiff_t>(first[r.first]));
   });
+  core_[first.back()] = start();
+  core_[first.back() + 1] = goal();
 }
 
 /// Follows the dead end that begins at v, if one does, as long as it stays among first .. last - 1. Edges that leave
