@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What certificates accept and refuse: a count, not a timing. In each space 20,000 random motions are certified; the
 // first 1000 accepted ones are looked at in 100,000 places each, by plain loops over the obstacles; and of those that
-// keep a hundredth of the body's radius in 1000 places it is counted how many were refused. Two and a half minutes on one core.
+// keep a hundredth of the body's radius in 1000 places it is counted how many were refused. Two and a half minutes on
+// one core.
 #include <fmt/format.h>
 
 #include <algorithm>
