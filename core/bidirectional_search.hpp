@@ -33,6 +33,7 @@
 #include <cstdint>
 #include <limits>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "core/search.hpp"
@@ -190,10 +191,14 @@ SearchResult joined_result(const SearchBorder& agreed, const Forward& forward, c
   return result;
 }
 
+/// What a side tells: SearchBorder, or what another kind of search makes of it, with an agree() of its own.
+template <class Side>
+using BorderOf = std::remove_cvref_t<decltype(std::declval<const Side&>().border())>;
+
 /// One round of both sides on this thread; returns what they agree on.
 template <class Forward, class Backward, class ShouldStop>
-SearchBorder one_round(Forward& forward, Backward& backward, const SearchBorder& agreed, std::uint64_t round,
-                       const ShouldStop& should_stop) {
+BorderOf<Forward> one_round(Forward& forward, Backward& backward, const BorderOf<Forward>& agreed, std::uint64_t round,
+                            const ShouldStop& should_stop) {
   forward.advance(backward, agreed, backward.border().least_key, round_size(round));
   backward.advance(forward, agreed, forward.border().least_key, round_size(round));
   forward.exchange(backward, should_stop());
@@ -205,7 +210,7 @@ SearchBorder one_round(Forward& forward, Backward& backward, const SearchBorder&
 template <class Forward, class Backward, class ShouldStop = NeverStop>
 requires std::is_invocable_r_v<bool, ShouldStop> SearchResult bidirectional(Forward& forward, Backward& backward,
                                                                             const ShouldStop& should_stop = {}) {
-  SearchBorder agreed;
+  BorderOf<Forward> agreed;
   for (std::uint64_t round = 0; !is_over(agreed); ++round) {
     agreed = one_round(forward, backward, agreed, round, should_stop);
   }

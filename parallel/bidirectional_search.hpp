@@ -17,8 +17,8 @@ namespace detail {
 inline constexpr std::uint64_t rounds_alone = 5;
 
 /// One side's rounds, up to the end of the search. `failure` receives what it throws.
-template <class Side, class Other>
-void run_side(Side& side, const Other& other, bool is_forward, SearchBorder agreed, std::uint64_t round,
+template <class Side, class Other, class Border>
+void run_side(Side& side, const Other& other, bool is_forward, Border agreed, std::uint64_t round,
               std::barrier<>& barrier, const Execution& execution, std::exception_ptr& failure) {
   while (!is_over(agreed)) {
     bool stop = false;
@@ -42,7 +42,7 @@ template <class Forward, class Backward>
 SearchResult bidirectional(Forward& forward, Backward& backward, const Execution& execution) {
   const auto should_stop = [&] { return execution.should_stop(); };
   if (thread_count(execution.threads) < 2) return bidirectional(forward, backward, should_stop);
-  SearchBorder agreed;
+  BorderOf<Forward> agreed;
   std::uint64_t round = 0;
   for (; round < detail::rounds_alone && !is_over(agreed); ++round) {
     agreed = one_round(forward, backward, agreed, round, should_stop);

@@ -2,11 +2,10 @@
 #include "planners/overlay_search.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 
+#include "core/graph.hpp"
 #include "parallel/chunks.hpp"
-#include "planners/meeting_search.hpp"
 
 namespace warren {
 namespace {
@@ -33,19 +32,24 @@ class Places {
   const OverlayEnds& ends_;
 };
 
-/// The shortest of the edges from v to w, the first of equals; there must be one.
-const OverlayEnd& edge_between(const Overlay& overlay, VertexId v, VertexId w) {
-  const std::span<const OverlayEnd> row = overlay.ends(v);
-  std::size_t best = row.size();
-  for (std::size_t i = 0; i < row.size(); ++i) {
-    if (row[i].target == w && (best == row.size() || row[i].length < row[best].length)) best = i;
+/// Steps of the shortest edge from key v to key w; there must be one.
+std::uint32_t steps_between(const Overlay& overlay, VertexId v, VertexId w) {
+  std::uint32_t least = no_vertex;
+  for (const OverlayEnd& end : overlay.ends(v)) {
+    if (end.target == w) least = std::min(least, end.steps);
   }
-  assert(best < row.size());
-  return row[best];
+  assert(least != no_vertex);
+  return least;
 }
 
-std::size_t steps_of(const OverlayEnd& edge) {
-  return edge.chain == no_chain ? 1 : static_cast<std::size_t>(edge.length);
+/// The first chain of so many steps between keys from < to of a tile; there must be one.
+const Chain& chain_between(const TileSummary& tile, std::uint32_t from, std::uint32_t to, std::uint32_t steps) {
+  const auto first = std::lower_bound(tile.chains.begin(), tile.chains.end(), from,
+                                      [](const Chain& chain, std::uint32_t key) { return chain.from < key; });
+  const auto found = std::find_if(first, tile.chains.end(),
+                                  [&](const Chain& chain) { return chain.to == to && chain.length == steps; });
+  assert(found != tile.chains.end() && found->from == from);
+  return *found;
 }
 
 constexpr Vec2 directions[4] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
@@ -58,40 +62,6 @@ void walk_chain(const TileSummary& tile, const Chain& chain, bool forward, Vec2 
     at = at + directions[direction];
     *out++ = at;
   }
-}
-
-/// The edges of the core, as a search asks for them.
-struct CoreEdges {
-  const Overlay& overlay;
-  template <class Visit>
-  void operator()(VertexId v, const Visit& visit) const {
-    for (const OverlayEnd& end : overlay.ends(v)) {
-      if (!overlay.is_peeled(end.target)) visit(end.target, end.length);
-    }
-  }
-  void fetch(VertexId v) const { overlay.fetch(v); }
-  template <class Visit>
-  void for_each_target(VertexId v, const Visit& visit) const {
-    for (const OverlayEnd& end : overlay.ends(v)) visit(end.target);
-  }
-};
-
-/// The points of all vertices, for the heuristic.
-RawVector<Vec2> points_of(const Overlay& overlay, const TileGrid& grid, std::span<const TileSummary> tiles,
-                          const OverlayEnds& ends, const Execution& execution) {
-  RawVector<Vec2> points(overlay.vertex_count());
-  for_chunks(tiles.size(), 16, execution, [&](Range r) {
-    for (std::size_t tile = r.first; tile < r.last; ++tile) {
-      const std::uint32_t side = grid.side();
-      Vec2* out = points.data() + overlay.first_key(tile);
-      for (const std::uint32_t local : tiles[tile].keys) {
-        *out++ = TileGrid::point(grid.first_col(tile) + local % side, grid.first_row(tile) + local / side);
-      }
-    }
-  });
-  points[overlay.start()] = ends.start.at;
-  points[overlay.goal()] = ends.goal.at;
-  return points;
 }
 
 }  // namespace
@@ -112,6 +82,7 @@ CoreComponents core_components(const Overlay& overlay, const Execution& executio
     return a != b;
   };
   struct Part {
+    std::size_t members = 0;
     std::size_t joins = 0;
     std::vector<Edge> across;  // to vertices before the chunk
   };
@@ -121,6 +92,7 @@ CoreComponents core_components(const Overlay& overlay, const Execution& executio
     for (auto v = static_cast<VertexId>(r.first); v < r.last; ++v) {
       parent[v] = v;
       if (overlay.is_peeled(v)) continue;
+      ++part.members;
       for (const OverlayEnd& end : overlay.ends(v)) {
         if (end.target > v || overlay.is_peeled(end.target)) continue;  // each edge once
         if (end.target < r.first) {
@@ -132,27 +104,14 @@ CoreComponents core_components(const Overlay& overlay, const Execution& executio
     }
     parts[r.first / grain] = std::move(part);
   });
-  CoreComponents result{overlay.core().size(), false};
+  CoreComponents result;
   for (const Part& part : parts) {
     execution.check();
-    result.count -= part.joins;
+    result.count += part.members - part.joins;
     for (const Edge& edge : part.across) result.count -= join(edge.from, edge.to) ? 1 : 0;
   }
   result.joined = root(overlay.start()) == root(overlay.goal());
   return result;
-}
-
-SearchResult search_overlay(const Overlay& overlay, const TileGrid& grid, std::span<const TileSummary> tiles,
-                            const OverlayEnds& ends, const Execution& execution) {
-  execution.reserve(overlay.vertex_count() * (sizeof(Vec2) + 2 * (sizeof(double) + 2 * sizeof(VertexId) + 1)));
-  const RawVector<Vec2> points = points_of(overlay, grid, tiles, ends, execution);
-  const CoreEdges edges{overlay};
-  const auto estimate_to = [&](VertexId root) {
-    return [&points, at = points[root]](VertexId v) { return distance(points[v], at); };
-  };
-  std::array<SearchState, 2> states;
-  return search_from_both_ends<CoreEdges>(QueueKind::heap, overlay.vertex_count(), {overlay.start(), overlay.goal()},
-                                          {edges, edges}, estimate_to, {&states[0], &states[1]}, execution);
 }
 
 std::vector<Vec2> expand_path(const Overlay& overlay, const TileGrid& grid, std::span<const TileSummary> tiles,
@@ -160,23 +119,27 @@ std::vector<Vec2> expand_path(const Overlay& overlay, const TileGrid& grid, std:
   const Places places(overlay, grid, tiles, ends);
   constexpr std::size_t grain = 1024;
   const std::size_t legs = path.size() - 1;
+  const auto steps_of = [&](std::size_t leg) {
+    const bool is_link = !overlay.is_key(path[leg]) || !overlay.is_key(path[leg + 1]);
+    return is_link ? 1 : steps_between(overlay, path[leg], path[leg + 1]);
+  };
   std::vector<std::size_t> first(legs + 1, 1);  // where the vertices of a leg go, its own beginning not counted
-  for (std::size_t i = 0; i < legs; ++i)
-    first[i + 1] = first[i] + steps_of(edge_between(overlay, path[i], path[i + 1]));
+  for (std::size_t i = 0; i < legs; ++i) first[i + 1] = first[i] + steps_of(i);
   execution.reserve(first.back() * sizeof(Vec2));
   std::vector<Vec2> points(first.back(), ends.start.at);
   for_chunks(legs, grain, execution, [&](Range r) {
     for (std::size_t i = r.first; i < r.last; ++i) {
-      const OverlayEnd& edge = edge_between(overlay, path[i], path[i + 1]);
       Vec2* const out = points.data() + first[i];
-      if (edge.chain == no_chain) {
+      const auto steps = static_cast<std::uint32_t>(first[i + 1] - first[i]);
+      if (steps == 1) {
         *out = places.of(path[i + 1]);
         continue;
       }
       const std::size_t tile = overlay.tile_of(path[i]);
-      const Chain& chain = tiles[tile].chains[edge.chain];
-      const bool forward = overlay.first_key(tile) + chain.from == path[i];
-      walk_chain(tiles[tile], chain, forward, places.of(path[i]), out);
+      const VertexId from = path[i] - overlay.first_key(tile);
+      const VertexId to = path[i + 1] - overlay.first_key(tile);
+      const Chain& chain = chain_between(tiles[tile], std::min(from, to), std::max(from, to), steps);
+      walk_chain(tiles[tile], chain, from < to, places.of(path[i]), out);
     }
   });
   return points;

@@ -9,6 +9,7 @@
 #include "planners/end_links.hpp"
 #include "planners/overlay.hpp"
 #include "planners/overlay_search.hpp"
+#include "planners/step_search.hpp"
 #include "planners/stopped_solution.hpp"
 #include "planners/tile_grid.hpp"
 #include "planners/tile_plane.hpp"
@@ -132,7 +133,7 @@ void TiledPlan::build_overlay() {
 }
 
 bool TiledPlan::joined() {
-  const StageTimer timer(execution_, "reduce", solution_.seconds.reduce, overlay_->core().size());
+  const StageTimer timer(execution_, "reduce", solution_.seconds.reduce, overlay_->vertex_count());
   const CoreComponents components = core_components(*overlay_, execution_);
   solution_.roadmap.components += components.count;
   if (!components.joined) solution_.outcome = Outcome::not_connected;
@@ -151,8 +152,8 @@ void TiledPlan::measure_gap() {
 }
 
 void TiledPlan::search() {
-  const StageTimer timer(execution_, "search", solution_.seconds.search, overlay_->core().size());
-  const SearchResult found = search_overlay(*overlay_, grid_, tiles_, ends_, execution_);
+  const StageTimer timer(execution_, "search", solution_.seconds.search, overlay_->vertex_count());
+  const SearchResult found = search_steps(*overlay_, ends_, execution_);
   solution_.counters.expanded = found.expanded;
   solution_.path = expand_path(*overlay_, grid_, tiles_, ends_, found.path, execution_);
   solution_.outcome = Outcome::solved;

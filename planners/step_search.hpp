@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The shortest path in an overlay's core: Dijkstra's search from both ends at once, a thread an end.
+//
+// Edges between keys are whole numbers of steps, so a side's open vertices lie in a circle of buckets, one a step (Dial
+// 1969): pushing and popping cost the same whatever is open, and what lies in the bucket that is emptied can't improve
+// each other, since no edge is shorter than a step. (Links of start and goal have any length; they are the first labels
+// of a side, and only those bring fractions.) A bucket is known before it is emptied, so rows and labels are asked of
+// the memory ahead of time.
+//
+// Rounds, as in core/bidirectional_search.hpp: each side empties buckets until it has settled some thousand vertices,
+// reading nothing of the other; then both compare the labels that they set in the round with the other's. With F and F'
+// the least open labels of both sides and L the best sum of two labels, the search is over when F + F' >= L. Then L is
+// the distance: on a shortest path of length d < F + F' let w be the vertex after the last one that one side has
+// settled; its label is right, and d - d(w) < F', so the other side has settled it: the round in which the later of the
+// two labels was set has compared them.
+//
+// No estimate of the rest of the way: mazes leave it nothing to prune, and open space, where it would, costs the
+// overlay more than this search. Measured against NBA* with an indexed heap: docs/performance.md.
+// Memory: 8 bytes a vertex and side; parents are found again on the way back, from the labels.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <vector>
+
+#include "core/bidirectional_search.hpp"
+#include "core/search.hpp"
+#include "parallel/execution.hpp"
+#include "planners/overlay.hpp"
+
+namespace warren {
+
+/// Like SearchBorder, but least keys are distances from the sides' own ends, so that their sum bounds a path.
+struct StepBorder : SearchBorder {};
+StepBorder agree(const StepBorder& forward, const StepBorder& backward);
+
+/// The search from one end; refers to the overlay.
+class StepSide {
+ public:
+  /// longest: no edge or link is longer. Labels are not set yet.
+  StepSide(const Overlay& overlay, std::uint32_t longest);
+  /// Sets the labels of vertices first .. last - 1; any thread. Peeled vertices seem to be reached already.
+  void clear(VertexId first, VertexId last);
+  /// Where the search begins: a key and its link's length.
+  void begin(VertexId key, double length);
+
+  /// Settles buckets until `limit` vertices are settled. Reads nothing that the other side writes.
+  void advance(const StepSide& other, const StepBorder& agreed, double other_least_key, std::uint64_t limit);
+  /// Compares what was labelled in the round with the other side's labels.
+  void exchange(const StepSide& other, bool stop);
+
+  const StepBorder& border() const { return border_; }
+  const StepSide& state() const { return *this; }
+  std::uint64_t settled() const { return settled_; }
+  /// A shortest path from the key where the search began to v, which has a label.
+  std::vector<VertexId> path_to(VertexId v) const;
+
+ private:
+  struct Entry {
+    VertexId vertex;
+    std::uint32_t next;  // in the same bucket, or in the list of free entries
+  };
+  struct Root {
+    VertexId key;
+    double length;
+  };
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::size_t block_size = 64;
+
+  double label(VertexId v) const { return std::abs(label_[v]); }
+  void push(VertexId v, double label);
+  void find_bucket();
+  void empty_bucket();
+  void settle(VertexId v);
+  VertexId before(VertexId v) const;
+
+  const Overlay& overlay_;
+  std::uint64_t mask_;                  // buckets - 1
+  RawVector<double> label_;             // with the sign bit set where settled
+  std::vector<std::uint8_t> is_near_;   // one a block of vertices: has it labels?
+  std::vector<std::uint32_t> first_;    // entry of each bucket
+  std::vector<std::uint64_t> is_used_;  // one bit a bucket
+  alignas(apart) std::vector<Entry> entries_;
+  std::vector<VertexId> bucket_;    // the one that is emptied
+  std::vector<VertexId> labelled_;  // in this round, perhaps more than once
+  std::vector<Root> roots_;
+  std::uint32_t free_ = none;
+  std::uint64_t at_ = 0;    // least label of the bucket that is emptied next
+  std::uint64_t open_ = 0;  // entries in buckets
+  std::uint64_t settled_ = 0;
+  StepBorder border_;
+};
+
+/// The shortest path from start to goal over vertices that are not peeled. Throws Stopped at the deadline.
+SearchResult search_steps(const Overlay& overlay, const OverlayEnds& ends, const Execution& execution);
+
+}  // namespace warren
