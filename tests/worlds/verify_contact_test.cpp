@@ -50,69 +50,103 @@ TEST(VerifyContact, PolygonsAreSolid) {
   }
 }
 
-TEST(VerifyContact, ContactWithWallsFollowsTheRules) {
-  struct Case {
-    const char* claim;
-    std::vector<Segment> walls;
-    std::vector<Vec2> path;
-    bool allowed;
-  };
-  const Segment floor{{0.0, 0.0}, {4.0, 0.0}};
-  const Case cases[] = {
-      {"running along a wall", {floor}, {{-1.0, 0.0}, {5.0, 0.0}}, true},
-      {"landing on a wall and leaving on the same side", {floor}, {{1.0, 1.0}, {2.0, 0.0}, {3.0, 1.0}}, true},
-      {"landing on a wall and leaving on the other side", {floor}, {{1.0, 1.0}, {2.0, 0.0}, {3.0, -1.0}}, false},
-      {"crossing a wall", {floor}, {{2.0, 1.0}, {2.0, -1.0}}, false},
+struct WallContact {
+  const char* claim;
+  std::vector<Segment> walls;
+  std::vector<Vec2> path;
+  bool allowed;
+};
+
+const Segment floor_wall{{0.0, 0.0}, {4.0, 0.0}};
+
+/// One wall from (0, 0) to (4, 0).
+std::vector<WallContact> contacts_with_one_wall() {
+  return {
+      {"running along a wall", {floor_wall}, {{-1.0, 0.0}, {5.0, 0.0}}, true},
+      {"landing on a wall and leaving on the same side", {floor_wall}, {{1.0, 1.0}, {2.0, 0.0}, {3.0, 1.0}}, true},
+      {"landing on a wall and leaving on the other side", {floor_wall}, {{1.0, 1.0}, {2.0, 0.0}, {3.0, -1.0}}, false},
+      {"crossing a wall", {floor_wall}, {{2.0, 1.0}, {2.0, -1.0}}, false},
       {"running, then leaving on the side it came from",
-       {floor},
+       {floor_wall},
        {{1.0, 1.0}, {2.0, 0.0}, {3.0, 0.0}, {3.5, 1.0}},
        true},
-      {"running, then leaving on the other side", {floor}, {{1.0, 1.0}, {2.0, 0.0}, {3.0, 0.0}, {3.5, -1.0}}, false},
-      {"around the end of a wall", {floor}, {{3.0, 1.0}, {4.0, 0.0}, {3.0, -1.0}}, true},
+      {"running, then leaving on the other side",
+       {floor_wall},
+       {{1.0, 1.0}, {2.0, 0.0}, {3.0, 0.0}, {3.5, -1.0}},
+       false},
+      {"around the end of a wall", {floor_wall}, {{3.0, 1.0}, {4.0, 0.0}, {3.0, -1.0}}, true},
       {"running to the end and back on the other side",
-       {floor},
+       {floor_wall},
        {{3.0, 1.0}, {3.0, 0.0}, {4.0, 0.0}, {2.0, -1.0}},
        true},
-      {"over the end of a wall", {floor}, {{4.0, 1.0}, {4.0, -1.0}}, true},
-      {"through the corner of two walls", {floor, {{4.0, 0.0}, {4.0, 3.0}}}, {{3.0, 1.0}, {5.0, -1.0}}, false},
-      {"past the corner of two walls outside", {floor, {{4.0, 0.0}, {4.0, 3.0}}}, {{3.0, -1.0}, {5.0, 1.0}}, true},
-      {"into the corner and back", {floor, {{4.0, 0.0}, {4.0, 3.0}}}, {{3.0, 1.0}, {4.0, 0.0}, {3.0, 2.0}}, true},
-      {"between two walls that meet end to end", {floor, {{4.0, 0.0}, {8.0, 0.0}}}, {{4.0, 1.0}, {4.0, -1.0}}, false},
+      {"over the end of a wall", {floor_wall}, {{4.0, 1.0}, {4.0, -1.0}}, true},
+  };
+}
+
+/// It and others at its end.
+std::vector<WallContact> contacts_where_walls_meet() {
+  return {
+      {"through the corner of two walls", {floor_wall, {{4.0, 0.0}, {4.0, 3.0}}}, {{3.0, 1.0}, {5.0, -1.0}}, false},
+      {"past the corner of two walls outside", {floor_wall, {{4.0, 0.0}, {4.0, 3.0}}}, {{3.0, -1.0}, {5.0, 1.0}}, true},
+      {"into the corner and back", {floor_wall, {{4.0, 0.0}, {4.0, 3.0}}}, {{3.0, 1.0}, {4.0, 0.0}, {3.0, 2.0}}, true},
+      {"between two walls that meet end to end",
+       {floor_wall, {{4.0, 0.0}, {8.0, 0.0}}},
+       {{4.0, 1.0}, {4.0, -1.0}},
+       false},
       {"changing sides where two walls meet end to end",
-       {floor, {{4.0, 0.0}, {8.0, 0.0}}},
+       {floor_wall, {{4.0, 0.0}, {8.0, 0.0}}},
        {{3.0, 1.0}, {3.0, 0.0}, {5.0, 0.0}, {5.0, -1.0}},
        false},
       {"changing sides in the gap between two walls",
-       {floor, {{4.5, 0.0}, {8.0, 0.0}}},
+       {floor_wall, {{4.5, 0.0}, {8.0, 0.0}}},
        {{3.0, 1.0}, {3.0, 0.0}, {5.0, 0.0}, {5.0, -1.0}},
        true},
+  };
+}
+
+/// Others that stand on it.
+std::vector<WallContact> runs_past_walls() {
+  return {
       {"running past a wall that ends here, on its side",
-       {floor, {{2.0, 0.0}, {2.0, 2.0}}},
+       {floor_wall, {{2.0, 0.0}, {2.0, 2.0}}},
        {{1.0, 1.0}, {1.0, 0.0}, {3.0, 0.0}},
        false},
       {"running past a wall that ends here, on the other side",
-       {floor, {{2.0, 0.0}, {2.0, 2.0}}},
+       {floor_wall, {{2.0, 0.0}, {2.0, 2.0}}},
        {{1.0, -1.0}, {1.0, 0.0}, {3.0, 0.0}},
        true},
       {"running between walls on both sides",
-       {floor, {{1.0, 0.0}, {1.0, 2.0}}, {{2.0, 0.0}, {2.0, -2.0}}},
+       {floor_wall, {{1.0, 0.0}, {1.0, 2.0}}, {{2.0, 0.0}, {2.0, -2.0}}},
        {{0.0, 0.0}, {4.0, 0.0}},
        false},
+  };
+}
+
+/// Walls without length, overlapping, crossing; paths that stand still or turn back.
+std::vector<WallContact> odd_contacts() {
+  return {
       {"a wall of length zero stops nobody", {{{2.0, 2.0}, {2.0, 2.0}}}, {{1.0, 2.0}, {3.0, 2.0}}, true},
-      {"a point on a wall doesn't open it", {floor, {{2.0, 0.0}, {2.0, 0.0}}}, {{2.0, 1.0}, {2.0, -1.0}}, false},
-      {"starting on a wall, either side", {floor}, {{2.0, 0.0}, {2.0, -1.0}}, true},
-      {"starting on a wall and coming back through it", {floor}, {{2.0, 0.0}, {2.0, -1.0}, {3.0, 1.0}}, false},
+      {"a point on a wall doesn't open it", {floor_wall, {{2.0, 0.0}, {2.0, 0.0}}}, {{2.0, 1.0}, {2.0, -1.0}}, false},
+      {"starting on a wall, either side", {floor_wall}, {{2.0, 0.0}, {2.0, -1.0}}, true},
+      {"starting on a wall and coming back through it", {floor_wall}, {{2.0, 0.0}, {2.0, -1.0}, {3.0, 1.0}}, false},
       {"overlapping walls count once",
-       {floor, {{2.0, 0.0}, {6.0, 0.0}}},
+       {floor_wall, {{2.0, 0.0}, {6.0, 0.0}}},
        {{3.0, 1.0}, {3.0, 0.0}, {5.0, 0.0}, {5.0, 1.0}},
        true},
-      {"overlapping walls close their ends", {floor, {{2.0, 0.0}, {6.0, 0.0}}}, {{4.0, 1.0}, {4.0, -1.0}}, false},
-      {"through a crossing", {floor, {{1.0, 1.0}, {3.0, -1.0}}}, {{1.0, -1.0}, {3.0, 1.0}}, false},
-      {"turning back at a wall", {floor}, {{2.0, 1.0}, {2.0, 0.0}, {2.0, 1.0}}, true},
-      {"standing still on a wall", {floor}, {{2.0, 1.0}, {2.0, 0.0}, {2.0, 0.0}, {2.0, -1.0}}, false},
-      {"a single point on a wall", {floor}, {{2.0, 0.0}}, true},
+      {"overlapping walls close their ends", {floor_wall, {{2.0, 0.0}, {6.0, 0.0}}}, {{4.0, 1.0}, {4.0, -1.0}}, false},
+      {"through a crossing", {floor_wall, {{1.0, 1.0}, {3.0, -1.0}}}, {{1.0, -1.0}, {3.0, 1.0}}, false},
+      {"turning back at a wall", {floor_wall}, {{2.0, 1.0}, {2.0, 0.0}, {2.0, 1.0}}, true},
+      {"standing still on a wall", {floor_wall}, {{2.0, 1.0}, {2.0, 0.0}, {2.0, 0.0}, {2.0, -1.0}}, false},
+      {"a single point on a wall", {floor_wall}, {{2.0, 0.0}}, true},
   };
-  for (const Case& c : cases) {
+}
+
+TEST(VerifyContact, ContactWithWallsFollowsTheRules) {
+  std::vector<WallContact> cases;
+  for (const auto& some : {contacts_with_one_wall(), contacts_where_walls_meet(), runs_past_walls(), odd_contacts()}) {
+    cases.insert(cases.end(), some.begin(), some.end());
+  }
+  for (const WallContact& c : cases) {
     SCOPED_TRACE(c.claim);
     for (const bool box : {true, false}) {
       std::vector<Segment> walls = with_far_box(c.walls, box ? -20.0 : -30.0, 30.0);
