@@ -153,7 +153,7 @@ BENCHMARK(bm_maze_roadmap)
 class MazeFile {
  public:
   explicit MazeFile(const OccupancyMap& map) : path_("/tmp/warren_bench_maze_" + std::to_string(map.width()) + ".pgm") {
-    write_map_pgm(map, path_, {});
+    write_map_pgm(map, path_, UnknownCells::black, {});
   }
   ~MazeFile() { std::remove(path_.c_str()); }
   MazeFile(const MazeFile&) = delete;

@@ -17,6 +17,9 @@ struct HeadingLayers {
   /// The four steps that are kept; the others are the same steps backwards.
   static constexpr std::array<std::array<int, 2>, 4> steps{{{1, 0}, {0, 1}, {1, 1}, {-1, 1}}};
 
+  /// More are refused: states and the two ends of a search are numbered in 32 bits, of which one means none.
+  static constexpr std::uint64_t most_states = 0xffff'fffc;
+
   Vec2 origin;
   double cell = 1.0;
   std::uint32_t width = 0;

@@ -164,9 +164,11 @@ class LayerAStar {
     return {position % layers_.width, position / layers_.width, v % layers_.angles};
   }
   double start_cost(VertexId v) const {
-    const auto found =
-        std::find_if(starts_.begin(), starts_.end(), [&](const LayerEnd& e) { return number(e.state) == v; });
-    return found->cost;
+    double least = std::numeric_limits<double>::infinity();  // a state may be among the starts more than once
+    for (const LayerEnd& start : starts_) {
+      if (number(start.state) == v) least = std::min(least, start.cost);
+    }
+    return least;
   }
   double goal_cost(VertexId v) const { return std::lower_bound(goals_.begin(), goals_.end(), Goal{v, 0.0})->second; }
 
@@ -240,7 +242,7 @@ void check(const HeadingLayers& layers, std::span<const LayerEnd> starts, std::s
   for (const double cost : {options.step_cost, options.turn_cost}) {
     if (!(cost > 0.0) || !std::isfinite(cost)) throw InputError("cost", "must be above 0", std::to_string(cost));
   }
-  if (layers.states() + 2 >= no_vertex) throw InputError("grid", "has 2^32 states or more");
+  if (layers.states() > HeadingLayers::most_states) throw InputError("grid", "has more than 2^32 - 4 states");
 }
 
 std::vector<LayerEnd> free_ends(const HeadingLayers& layers, std::span<const LayerEnd> ends) {

@@ -57,12 +57,13 @@ struct LayerPath {
 };
 
 /// A cheapest path; goal_heading: nullopt for any. Throws InputError for states outside the layers, costs out of range
-/// and more than 2^32 states; Stopped.
+/// and more than HeadingLayers::most_states; Stopped.
 LayerPath layer_search(const HeadingLayers& layers, const LayerState& start, Cell goal,
                        std::optional<std::uint32_t> goal_heading, const LayerSearchOptions& options,
                        const Execution& execution);
 
-/// A cheapest path from any of the starts to any of the goals; ends that are not free are left out.
+/// A cheapest path from any of the starts to any of the goals; ends that are not free are left out. A state may be
+/// there more than once: the cheapest counts.
 LayerPath layer_search(const HeadingLayers& layers, std::span<const LayerEnd> starts, std::span<const LayerEnd> goals,
                        const LayerSearchOptions& options, const Execution& execution);
 

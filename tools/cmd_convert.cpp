@@ -21,7 +21,9 @@ namespace {
 constexpr OptionSpec specs[] = {
     {"--output",
      "FILE",
-     "where to: .walls .scene .npy .geojson .wkt .map .yaml .pgm .svg .png .html by ending; - is standard output",
+     "where to: .walls .scene .npy .geojson .wkt .map .yaml .pgm .svg .png .html by ending; - is standard output. A "
+     "map's "
+     ".png has a pixel a cell; of other worlds it is a picture unless --cell is given",
      {},
      "-o"},
     {"--cell", "C", "side of a cell where walls become a map"},
@@ -35,8 +37,13 @@ OccupancyMap map_for(const Scene& scene, const std::optional<double>& cell, cons
   return map_of_scene(scene, *cell, execution);
 }
 
+/// A picture of walls in pixels can't be read back, so a map's is an image of its cells.
+bool becomes_map(const Scene& scene, std::string_view file, const Arguments& arguments) {
+  return is_map_ending(file) || (file.ends_with(".png") && (scene.map || arguments.has("--cell")));
+}
+
 void write_any(Scene& scene, const std::string& file, const Arguments& arguments, const Execution& execution) {
-  if (is_map_ending(file)) {
+  if (becomes_map(scene, file, arguments)) {
     const auto text = arguments.value("--cell");
     const auto cell = text ? std::optional(positive_value("--cell", *text)) : std::nullopt;
     return write_map(map_for(scene, cell, execution), file, execution);
@@ -49,8 +56,8 @@ int convert(const Arguments& arguments) {
   const auto file = arguments.value("--output");
   if (!file) throw UsageError("-o FILE is missing");
   if (!is_map_ending(*file)) check_world_file(*file);
-  if (!is_map_ending(*file) && arguments.has("--cell")) {
-    throw UsageError("--cell: only maps have cells: .map, .yaml and .pgm");
+  if (!is_map_ending(*file) && !file->ends_with(".png") && arguments.has("--cell")) {
+    throw UsageError("--cell: only maps have cells: .map, .yaml, .pgm and .png");
   }
   Run run(arguments);
   StageTimes seconds;

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/image.hpp"
 
-#include <png.h>
-
 #include <algorithm>
 #include <cmath>
-#include <csetjmp>
-#include <stdexcept>
 #include <utility>
 
 #include "core/geometry.hpp"
+#include "worlds/png_writer_io.hpp"
 
 namespace warren {
 
@@ -123,59 +120,12 @@ void Image::draw_line(Vec2 a, Vec2 b, double width, Rgb color) {
   }
 }
 
-namespace {
-
-/// libpng reports by longjmp, so nothing that needs a destructor may live between setjmp and the calls; an exception of
-/// `write` is kept and rethrown after.
-struct PngSink {
-  const Write& write;
-  std::exception_ptr error;
-};
-
-void png_write(png_structp png, png_bytep bytes, png_size_t size) {
-  auto* sink = static_cast<PngSink*>(png_get_io_ptr(png));
-  try {
-    sink->write({reinterpret_cast<const char*>(bytes), size});
-    return;
-  } catch (...) {
-    sink->error = std::current_exception();
-  }
-  png_error(png, "stopped");
-}
-
-void png_flush(png_structp) {}
-void png_fail(png_structp png, png_const_charp) { png_longjmp(png, 1); }
-void png_warn(png_structp, png_const_charp) {}
-
-/// False when libpng gave up; rows are written while `sink` takes them.
-bool encode(png_structp png, png_infop info, const Image& image, PngSink& sink, const Execution& execution) {
-  if (setjmp(png_jmpbuf(png)) != 0) return false;
-  constexpr int fast_compression = 4;
-  png_set_write_fn(png, &sink, png_write, png_flush);
-  png_set_compression_level(png, fast_compression);
-  png_set_IHDR(png, info, static_cast<png_uint_32>(image.width()), static_cast<png_uint_32>(image.height()), 8,
-               PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  png_write_info(png, info);
-  for (std::size_t y = 0; y < image.height(); ++y) {
-    if (execution.should_stop()) return true;
-    png_write_row(png, image.row(y));
-  }
-  png_write_end(png, info);
-  return true;
-}
-
-}  // namespace
-
 void write_png_image(const Image& image, const Execution& execution, const Write& write) {
-  PngSink sink{write, nullptr};
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, png_fail, png_warn);
-  png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
-  if (info == nullptr) throw std::bad_alloc();
-  const bool done = encode(png, info, image, sink, execution);
-  png_destroy_write_struct(&png, &info);
-  if (sink.error) std::rethrow_exception(sink.error);
-  execution.check();
-  if (!done) throw std::runtime_error("libpng refuses the picture");
+  write_png({.width = static_cast<std::uint32_t>(image.width()),
+             .height = static_cast<std::uint32_t>(image.height()),
+             .is_colour = true,
+             .row = [&](std::size_t y) { return image.row(y); }},
+            execution, write);
 }
 
 }  // namespace warren

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <stdexcept>
 
 #include "core/error.hpp"
@@ -93,6 +94,7 @@ class LatticeSolve {
     }
     answer_.figures.emplace_back("states", std::to_string(layers_.states()));
     answer_.figures.emplace_back("free_states", std::to_string(layers_.free_states()));
+    describe_layers();
     search();
     if (answer_.outcome == Outcome::solved) verify();
     if (request_.drawing != nullptr) draw(*request_.drawing);
@@ -109,6 +111,18 @@ class LatticeSolve {
     add("diagonal", json_string(name_of(search_.diagonal)));
     if (search_.face_motion) add("face_motion", "true");
     if (layer_options_.kind == LayerKind::report004) add("layers", "\"report004\"");
+  }
+
+  /// Free states heading by heading, and how many headings differ.
+  void describe_layers() {
+    if (!turns()) return;
+    std::string free;
+    for (std::uint32_t k = 0; k < layers_.angles; ++k) {
+      free += (k == 0 ? "[" : ", ") + std::to_string(layers_.free_at(k));
+    }
+    answer_.figures.emplace_back("free_at_headings", free + "]");
+    const std::set<std::uint32_t> distinct(layers_.standing.begin(), layers_.standing.end());
+    answer_.figures.emplace_back("distinct_layers", std::to_string(distinct.size()));
   }
 
   HeadingLayers layers() const {

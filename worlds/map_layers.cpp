@@ -205,10 +205,9 @@ HeadingLayers map_layers(const OccupancyMap& map, std::span<const Vec2> outline,
   layers.width = map.width();
   layers.height = map.height();
   layers.angles = angles;
-  constexpr double most_states = 4294967294.0;
-  if (angles < 1 || !(static_cast<double>(map.blocked.size()) * angles < most_states)) {
+  if (angles < 1 || map.blocked.size() > HeadingLayers::most_states / angles) {
     throw InputError(
-        "grid", "must have from 1 to 2^32 - 3 states: the map's cells times headings",
+        "grid", "must have from 1 to 2^32 - 4 states: the map's cells times headings",
         std::to_string(map.width()) + " x " + std::to_string(map.height()) + " x " + std::to_string(angles));
   }
   constexpr double widest = 4096.0;  // cells: half a stamp, which has 8 MB then

@@ -17,7 +17,7 @@ namespace warren {
 
 /// outline: three corners or more around the reference point, world units; clearance: room around the body, >= 0; 0:
 /// touching is blocked. Positions and headings are the map's own: as if its origin were (0, 0) and it were not turned.
-/// Throws InputError for 2^32 states and more, no heading, and a body that reaches over 4096 cells;
+/// Throws InputError for more than HeadingLayers::most_states, no heading, and a body that reaches over 4096 cells;
 /// Stopped.
 HeadingLayers map_layers(const OccupancyMap& map, std::span<const Vec2> outline, std::uint32_t angles, double clearance,
                          const Execution& execution);

@@ -113,6 +113,17 @@ std::uint64_t fill_row(std::string_view line, std::uint32_t y, const scene_text:
   return free;
 }
 
+/// What follows a blank line and is no row is somebody's note: where the map is from, what to cite.
+void refuse_more_rows(Lines& lines, std::uint32_t width, std::uint32_t height) {
+  bool is_note = false;
+  while (!lines.done()) {
+    const std::string_view line = lines.next();
+    is_note = is_note || is_blank(line);
+    const bool is_row = line.size() == width && line.find_first_not_of(".GSW@OT") == std::string_view::npos;
+    if (is_row || !is_note) lines.place().fail(fmt::format("expected nothing after {} rows", height));
+  }
+}
+
 }  // namespace
 
 OccupancyMap read_moving_ai_map(const InputFile& file, const Execution& execution) {
@@ -146,9 +157,7 @@ OccupancyMap read_moving_ai_map(const InputFile& file, const Execution& executio
     }
     map.free += fill_row(line, height - 1 - row, lines.place(), map);
   }
-  while (!lines.done()) {
-    if (!is_blank(lines.next())) lines.place().fail(fmt::format("expected nothing after {} rows", height));
-  }
+  refuse_more_rows(lines, width, height);
   map.occupied = map.blocked.size() - map.free;
   return map;
 }

@@ -26,9 +26,9 @@ HeadingLayers empty_lattice(const Scene& scene, const RobotSpec& robot, const Gr
   const double width = std::floor(box.width() / grid.cell + rounding);
   const double height = std::floor(box.height() / grid.cell + rounding);
   const std::uint32_t angles = robot.kind == RobotKind::polygon ? grid.angles : 1;
-  constexpr double most_states = 4294967295.0;
-  if (width < 1.0 || height < 1.0 || !(width * height * angles < most_states)) {
-    throw InputError("grid", "must have from 1 to 2^32 - 1 states: cells across the bounds, times headings",
+  constexpr auto most_states = static_cast<double>(HeadingLayers::most_states);
+  if (width < 1.0 || height < 1.0 || !(width * height * angles <= most_states)) {
+    throw InputError("grid", "must have from 1 to 2^32 - 4 states: cells across the bounds, times headings",
                      std::to_string(width) + " x " + std::to_string(height) + " x " + std::to_string(angles));
   }
   HeadingLayers layers;

@@ -116,15 +116,15 @@ void read_pgm(const InputFile& file, const ImageSink& sink, const Execution& exe
   }
 }
 
-void write_map_pgm(const OccupancyMap& map, const std::string& path, const Execution& execution) {
+void write_map_pgm(const OccupancyMap& map, const std::string& path, UnknownCells unknown, const Execution& execution) {
   constexpr char free = static_cast<char>(254);
-  constexpr char unknown = static_cast<char>(205);
+  const char grey = unknown == UnknownCells::grey ? static_cast<char>(205) : '\0';
   OutputFile file(path, execution);
   file.write(fmt::format("P5\n# CREATOR: warren {:.3f} m/pix\n{} {}\n255\n", map.cell, map.width(), map.height()));
   std::string row(map.width(), free);
   for (std::uint32_t y = map.height(); y-- > 0;) {
     for (std::uint32_t x = 0; x < map.width(); ++x) {
-      row[x] = map.unknown.holds(x, y) ? unknown : map.blocked.test(x, y) ? '\0' : free;
+      row[x] = map.unknown.holds(x, y) ? grey : map.blocked.test(x, y) ? '\0' : free;
     }
     file.write(row);
   }

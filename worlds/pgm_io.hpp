@@ -12,7 +12,13 @@ namespace warren {
 /// As read_image, for a PGM. What follows the pixels is ignored.
 void read_pgm(const InputFile& file, const ImageSink& sink, const Execution& execution);
 
-/// A map as map servers write it: free 254, unknown 205, all else 0; binary. Throws as OutputFile does.
-void write_map_pgm(const OccupancyMap& map, const std::string& path, const Execution& execution);
+/// What a cell of which a map server knew nothing becomes.
+enum class UnknownCells : std::uint8_t {
+  grey,   ///< 205, as map servers write and read it
+  black,  ///< a wall, so that an image without YAML holds the same free cells
+};
+
+/// A map in binary: free 254, blocked 0. Throws as OutputFile does.
+void write_map_pgm(const OccupancyMap& map, const std::string& path, UnknownCells unknown, const Execution& execution);
 
 }  // namespace warren

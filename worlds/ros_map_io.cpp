@@ -261,7 +261,7 @@ OccupancyMap read_ros_map(const InputFile& yaml, const Execution& execution, Map
 
 void write_ros_map(const OccupancyMap& map, const std::string& path, const Execution& execution) {
   const std::string image = path.substr(0, path.rfind('.')) + ".pgm";
-  write_map_pgm(map, image, execution);
+  write_map_pgm(map, image, UnknownCells::grey, execution);
   write_file(path,
              fmt::format("image: {}\nresolution: {}\norigin: [{}, {}, {}]\nnegate: 0\noccupied_thresh: 0.65\n"
                          "free_thresh: 0.196\n",

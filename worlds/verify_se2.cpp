@@ -5,301 +5,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "core/error.hpp"
 #include "parallel/chunks.hpp"
-#include "worlds/exact_segments.hpp"
-#include "worlds/obstacles.hpp"
-#include "worlds/path_surroundings.hpp"
+#include "worlds/body_verifier.hpp"
+#include "worlds/pose_runs.hpp"
 
 namespace warren {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double full_turn = 6.283185307179586476925;
-
-struct LegReport {
-  double least = infinity;  // proved
-  double met = infinity;    // where it was looked: never less than the truth
-  std::size_t looks = 0;
-  std::optional<Violation> violation;
-};
-
-/// From pose a, `way` and `turn` further.
-struct Leg {
-  Se2 a;
-  Vec2 way;
-  double turn;
-};
-
-/// The turn from a to b by which the body turns least; half turns may come out either way.
-double shorter_turn(double a, double b) {
-  double turn = b - a;
-  turn -= full_turn * std::floor(turn / full_turn + 0.5);
-  return turn;
-}
-
-/// What may be near a leg: sides of obstacles.
-using Sides = std::vector<NearSide>;
-
-class BodyVerifier {
- public:
-  BodyVerifier(const Scene& scene, std::span<const Vec2> outline, double clearance, const Execution& execution)
-      : obstacles_(scene),
-        surroundings_(scene, obstacles_, execution),
-        outline_(outline),
-        clearance_(clearance),
-        execution_(execution),
-        confines_(scene.bounds),
-        map_(scene.map ? &*scene.map : nullptr) {
-    for (const Vec2 p : outline_) radius_ = std::max(radius_, std::hypot(p.x, p.y));
-    rounding_ = 2e-14 * (surroundings_.largest_coordinate() + 2.0 * radius_ + clearance);
-    finest_ = 1e-9 * radius_;
-    close_ = 1e-3 * radius_;
-    for (const Ring& ring : obstacles_.rings()) {
-      Box box;
-      for (const Vec2 p : ring.corners) box.include(p);
-      ring_boxes_.push_back(box);
-    }
-  }
-
-  /// To be called before the checks: obstacles farther than `reach` from the path are left out.
-  void look_around(std::span<const Se2> path, double reach);
-  /// Does any reach that is larger find the same?
-  bool looks_everywhere(std::span<const Se2> path) const;
-  double least_reach() const { return 1.01 * clearance_ + radius_; }
-
-  /// `sides` is scratch.
-  LegReport check(const Leg& leg, std::size_t number, Sides& sides) const {
-    surroundings_.gather(boxes_of(leg), sides);
-    return leg.turn == 0.0 ? check_straight(leg, sides, number) : check_turning(leg, sides, number);
-  }
-  LegReport check_pose(const Se2& pose, std::size_t number) const;
-
- private:
-  struct Near {
-    std::size_t side;  // of the leg's
-    double distance;
-  };
-  std::vector<Box> boxes_of(const Leg& leg) const;
-  LegReport check_straight(const Leg& leg, const Sides& sides, std::size_t number) const;
-  LegReport check_turning(const Leg& leg, const Sides& sides, std::size_t number) const;
-  double distance_to_sweep(const std::vector<Vec2>& corners, Vec2 way, const Segment& s) const;
-  std::vector<Vec2> corners_at(const Leg& leg, double t) const;
-  bool body_holds(const std::vector<Vec2>& corners, Vec2 p) const;
-  double distance_to(const std::vector<Vec2>& corners, const Segment& s) const;
-  /// The sides of `among` that may be the nearest to the body within `way` of the place t.
-  std::vector<Near> nearest_at(const Leg& leg, double t, double way, const Sides& sides,
-                               const std::vector<Near>& among) const;
-  /// Checks the part of the leg that is `half` to both sides of `middle`.
-  void check_piece(const Leg& leg, double middle, double half, const Sides& sides, const std::vector<Near>& among,
-                   std::size_t number, LegReport& report) const;
-
-  Obstacles obstacles_;
-  PathSurroundings surroundings_;
-  std::span<const Vec2> outline_;
-  double clearance_;
-  const Execution& execution_;
-  std::optional<Box> confines_;
-  const OccupancyMap* map_;  // nullptr: the scene is none
-  std::vector<Box> ring_boxes_;
-  double reach_ = 0.0;  // obstacles farther away are left out
-  double radius_ = 0.0;
-  double rounding_ = 0.0;  // bounds the error of every distance computed here
-  double finest_ = 0.0;    // pieces on which the body goes less are not halved
-  double close_ = 0.0;     // how sharp the least clearance shall be
-};
-
-/// Around the body and its reach on parts of the leg, which are about as long as the boxes are wide.
-std::vector<Box> BodyVerifier::boxes_of(const Leg& leg) const {
-  const double around = (radius_ + reach_) * (1.0 + 1e-9) + rounding_;
-  constexpr double most_parts = 65536.0;
-  const double parts = std::clamp(std::ceil(std::hypot(leg.way.x, leg.way.y) / (4.0 * around)), 1.0, most_parts);
-  const auto at = [&](double part) { return leg.a.position() + (part / parts) * leg.way; };
-  std::vector<Box> boxes;
-  for (double part = 0.0; part < parts; ++part) {
-    Box box;
-    box.include(at(part));
-    box.include(at(part + 1.0));
-    boxes.push_back({box.min - Vec2{around, around}, box.max + Vec2{around, around}});
-  }
-  return boxes;
-}
-
-void BodyVerifier::look_around(std::span<const Se2> path, double reach) {
-  reach_ = reach;
-  if (map_ != nullptr) return;  // is read where it is asked
-  constexpr std::size_t many = 1024;
-  std::vector<Box> boxes;
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    const Se2& next = path[std::min(i + 1, path.size() - 1)];
-    const std::vector<Box> more = boxes_of({path[i], next.position() - path[i].position(), 0.0});
-    if (i % many == 0 || more.size() >= many) execution_.reserve((many + more.size()) * sizeof(Box));  // and polls
-    boxes.insert(boxes.end(), more.begin(), more.end());
-  }
-  surroundings_.file(boxes, execution_);
-}
-
-bool BodyVerifier::looks_everywhere(std::span<const Se2> path) const {
-  Box all = surroundings_.box();
-  if (confines_) all.include(*confines_);
-  for (const Se2& pose : path) all.include(pose.position());
-  return reach_ >= all.width() + all.height();
-}
-
-std::vector<Vec2> BodyVerifier::corners_at(const Leg& leg, double t) const {
-  const double theta = leg.a.theta + t * leg.turn;
-  const double c = std::cos(theta);
-  const double s = std::sin(theta);
-  std::vector<Vec2> corners;
-  corners.reserve(outline_.size());
-  for (const Vec2 p : outline_) {
-    corners.push_back({leg.a.x + t * leg.way.x + (c * p.x - s * p.y), leg.a.y + t * leg.way.y + (s * p.x + c * p.y)});
-  }
-  return corners;
-}
-
-/// Is p in the closed body? By exact signs, but the corners are rounded.
-bool BodyVerifier::body_holds(const std::vector<Vec2>& corners, Vec2 p) const {
-  bool inside = false;
-  Vec2 a = corners.back();
-  for (const Vec2 b : corners) {
-    if (exact::contains({a, b}, p)) return true;
-    if ((a.y <= p.y) != (b.y <= p.y)) {
-      const int side = exact::side_of(a, b, p);
-      if (b.y > a.y ? side > 0 : side < 0) inside = !inside;
-    }
-    a = b;
-  }
-  return inside;
-}
-
-double BodyVerifier::distance_to(const std::vector<Vec2>& corners, const Segment& s) const {
-  if (body_holds(corners, s.a)) return 0.0;
-  double least = infinity;
-  Vec2 a = corners.back();
-  for (const Vec2 b : corners) {
-    least = std::min(least, exact::distance({a, b}, s));
-    a = b;
-  }
-  return least;
-}
-
-/// Where the body does not turn, it sweeps the bodies at both ends and a parallelogram a side.
-double BodyVerifier::distance_to_sweep(const std::vector<Vec2>& corners, Vec2 way, const Segment& s) const {
-  double least = distance_to(corners, s);
-  Vec2 a = corners.back();
-  for (const Vec2 b : corners) {
-    const std::vector<Vec2> swept{a, b, b + way, a + way};
-    least = std::min(least, distance_to(swept, s));
-    a = b;
-  }
-  return least;
-}
-
-/// No halving: exact but for the rounding of corners.
-LegReport BodyVerifier::check_straight(const Leg& leg, const Sides& sides, std::size_t number) const {
-  const std::vector<Vec2> corners = corners_at(leg, 0.0);
-  Box swept;
-  for (const Vec2 p : corners) {
-    swept.include(p);
-    swept.include(p + leg.way);
-  }
-  LegReport report;
-  execution_.check();
-  for (const NearSide& side : sides) {
-    if (std::sqrt(exact::gap_sq(swept, box_of(side.segment))) > report.met) continue;
-    const double distance = distance_to_sweep(corners, leg.way, side.segment);
-    if (distance >= report.met) continue;
-    report.met = distance;
-    report.least = distance - rounding_;
-    if (report.least > clearance_ || (clearance_ > 0.0 && report.least >= clearance_)) continue;
-    report.violation = Violation{number, distance, surroundings_.name(side.number)};
-  }
-  return report;
-}
-
-std::vector<BodyVerifier::Near> BodyVerifier::nearest_at(const Leg& leg, double t, double way, const Sides& sides,
-                                                         const std::vector<Near>& among) const {
-  const std::vector<Vec2> corners = corners_at(leg, t);
-  Box body;
-  for (const Vec2 p : corners) body.include(p);
-  double least = infinity;
-  const double spread = 2.0 * (way + rounding_);
-  std::vector<Near> near;
-  for (const Near& n : among) {
-    const Segment& s = sides[n.side].segment;
-    if (std::sqrt(exact::gap_sq(body, box_of(s))) > least + spread) continue;
-    const double distance = distance_to(corners, s);
-    least = std::min(least, distance);
-    near.push_back({n.side, distance});
-  }
-  std::erase_if(near, [&](const Near& n) { return n.distance > least + spread; });
-  return near;
-}
-
-void BodyVerifier::check_piece(const Leg& leg, double middle, double half, const Sides& sides,
-                               const std::vector<Near>& among, std::size_t number, LegReport& report) const {
-  constexpr std::size_t most_looks = 2'000'000;  // some seconds
-  execution_.check();
-  const bool weary = ++report.looks > most_looks;
-  const double whole = std::hypot(leg.way.x, leg.way.y) + radius_ * std::abs(leg.turn);
-  const double way = half * whole * (1.0 + 1e-12);
-  const std::vector<Near> near = nearest_at(leg, middle, way, sides, among);
-  if (near.empty() || report.violation) return;
-  const auto less = [](const Near& a, const Near& b) { return a.distance < b.distance; };
-  const Near nearest = *std::min_element(near.begin(), near.end(), less);
-  const double proved = nearest.distance - way - rounding_;
-  report.met = std::min(report.met, nearest.distance);
-  const bool settled = proved >= report.met - close_ || way < finest_;
-  if (proved > clearance_ && settled) {
-    report.least = std::min(report.least, proved);
-    return;
-  }
-  if (nearest.distance <= rounding_ || nearest.distance + rounding_ < clearance_ || way < finest_ || weary) {
-    report.least = std::min(report.least, nearest.distance);
-    report.violation = Violation{number, nearest.distance, surroundings_.name(sides[nearest.side].number)};
-    return;
-  }
-  check_piece(leg, middle - 0.5 * half, 0.5 * half, sides, near, number, report);
-  check_piece(leg, middle + 0.5 * half, 0.5 * half, sides, near, number, report);
-}
-
-LegReport BodyVerifier::check_turning(const Leg& leg, const Sides& sides, std::size_t number) const {
-  std::vector<Near> all;
-  all.reserve(sides.size());
-  for (std::size_t i = 0; i < sides.size(); ++i) all.push_back({i, 0.0});
-  LegReport report;
-  check_piece(leg, 0.5, 0.5, sides, all, number, report);
-  return report;
-}
-
-/// Is the pose inside a polygon, outside the bounds, off the box or among a map's blocked cells? Boundaries are
-/// check()'s.
-LegReport BodyVerifier::check_pose(const Se2& pose, std::size_t number) const {
-  const std::vector<Vec2> corners = corners_at({pose, {}, 0.0}, 0.0);
-  const auto bad = [&](std::string what) { return LegReport{0.0, 0.0, 0, Violation{number, 0.0, std::move(what)}}; };
-  if (confines_) {
-    for (const Vec2 p : corners) {
-      if (!confines_->contains(p)) return bad(fmt::format("bounds: the corner {} {} is outside", p.x, p.y));
-    }
-  } else if (map_ != nullptr) {
-    const std::optional<Cell> cell = cell_at(*map_, corners.front());
-    if (!cell) return bad("map: the body is outside");
-    if (map_->blocked.test(cell->x, cell->y)) return bad(fmt::format("cell {}, {}", cell->x, cell->y));
-  } else if (!surroundings_.box().contains({pose.x, pose.y})) {
-    return bad(fmt::format("box: {} {} is outside the box of the obstacles", pose.x, pose.y));
-  }
-  for (std::size_t i = 0; i < ring_boxes_.size(); ++i) {
-    const Ring& ring = obstacles_.rings()[i];
-    if (ring.polygon == Ring::none || !ring_boxes_[i].contains(corners.front()) ||
-        !strictly_inside(ring, corners.front()))
-      continue;
-    return bad(fmt::format("polygon {}: holds {} {}", ring.polygon, corners.front().x, corners.front().y));
-  }
-  return {};
-}
+constexpr double full_turn = 2.0 * std::numbers::pi;
 
 bool is_there(const Se2& pose, const Se2& wanted, bool any_heading, double tolerance) {
   if (std::hypot(pose.x - wanted.x, pose.y - wanted.y) > tolerance) return false;
@@ -335,34 +53,67 @@ struct PathReport {
   }
 };
 
-/// The leg from pose i to the next one, turning the shorter way, or the other way where it is as short.
-void check_leg(const BodyVerifier& body, std::span<const Se2> path, std::size_t i, Sides& scratch, PathReport& report) {
-  const Se2& a = path[i];
-  const Se2& b = path[std::min(i + 1, path.size() - 1)];
-  const Vec2 way{b.x - a.x, b.y - a.y};
-  const double turn = shorter_turn(a.theta, b.theta);
-  report.add(body.check_pose(a, i));
-  report.add(body.check_pose(b, i));
-  report.add(body.check({a, way, turn}, i, scratch));
-  constexpr double nearly_half = 0.5 * full_turn * (1.0 - 1e-12);
-  if (std::abs(turn) >= nearly_half)
-    report.add(body.check({a, way, turn - std::copysign(full_turn, turn)}, i, scratch));
-}
+/// A path, cut into runs that are checked as one leg each.
+class PathCheck {
+ public:
+  PathCheck(BodyVerifier& body, std::span<const Se2> path, const Execution& execution)
+      : body_(body), path_(path), execution_(execution), runs_(pose_runs(path, body.bend(), execution)) {
+    execution.reserve(runs_.size() * sizeof(Leg));
+    for (const PoseRun& run : runs_) legs_.push_back(leg_of(path, run));
+  }
 
-/// All legs, with obstacles up to `reach` away.
-PathReport check_path(BodyVerifier& body, std::span<const Se2> path, double reach, const Execution& execution) {
-  constexpr std::size_t legs_a_chunk = 16;
-  body.look_around(path, reach);
-  const std::size_t legs = std::max<std::size_t>(path.size() - 1, 1);
-  std::vector<PathReport> parts(chunk_count(legs, legs_a_chunk));
-  for_chunks(legs, legs_a_chunk, execution, [&](Range r) {
-    Sides scratch;
-    for (std::size_t i = r.first; i < r.last; ++i) check_leg(body, path, i, scratch, parts[r.first / legs_a_chunk]);
-  });
-  PathReport whole;
-  for (const PathReport& part : parts) whole.add(part);
-  return whole;
-}
+  /// All runs, with obstacles up to `reach` away.
+  PathReport check(double reach) {
+    constexpr std::size_t runs_a_chunk = 16;
+    body_.look_around(legs_, reach);
+    std::vector<PathReport> parts(chunk_count(runs_.size(), runs_a_chunk));
+    for_chunks(runs_.size(), runs_a_chunk, execution_, [&](Range r) {
+      Sides scratch;
+      for (std::size_t i = r.first; i < r.last; ++i) check_run(i, scratch, parts[r.first / runs_a_chunk]);
+    });
+    PathReport whole;
+    for (const PathReport& part : parts) whole.add(part);
+    return whole;
+  }
+
+ private:
+  /// A single leg of about half a turn is checked both ways round.
+  void check_run(std::size_t number, Sides& sides, PathReport& report) const {
+    const PoseRun& run = runs_[number];
+    const Leg& leg = legs_[number];
+    report.add(body_.check_pose(path_[run.first], run.first));
+    report.add(body_.check_pose(path_[run.last], run.last - std::min<std::size_t>(run.legs(), 1)));
+    body_.gather(leg, sides);
+    report.add(blamed(run, body_.check(leg, sides, run.first), sides));
+    constexpr double nearly_half = 0.5 * full_turn * (1.0 - 1e-12);
+    if (std::abs(leg.turn) < nearly_half) return;
+    report.add(body_.check({leg.a, leg.way, leg.turn - std::copysign(full_turn, leg.turn)}, sides, run.first));
+  }
+
+  /// The report of a run, its violation that of the first leg that has one: by halving.
+  LegReport blamed(PoseRun run, LegReport report, const Sides& sides) const {
+    if (!report.violation || run.legs() < 2) return report;
+    while (run.legs() > 1) {
+      const std::size_t middle = run.first + run.legs() / 2;
+      const PoseRun earlier{run.first, middle};
+      const bool is_earlier = body_.check(leg_of(path_, earlier), sides, run.first).violation.has_value();
+      run = is_earlier ? earlier : PoseRun{middle, run.last};
+    }
+    const LegReport found = body_.check(leg_of(path_, run), sides, run.first);
+    if (found.violation) {
+      report.violation = found.violation;
+    } else {
+      report.violation->leg = run.first;
+    }
+    return report;
+  }
+
+  BodyVerifier& body_;
+  std::span<const Se2> path_;
+  const Execution& execution_;
+  std::vector<PoseRun> runs_;
+  std::vector<Leg> legs_;
+};
 
 }  // namespace
 
@@ -372,10 +123,11 @@ Se2Verification verify_se2(const Scene& scene, std::span<const Vec2> outline, st
   BodyVerifier body(scene, outline, options.clearance, execution);
   constexpr double widening = 8.0;
   double reach = std::max(body.least_reach(), 1e-9);  // a body may have no extent
-  PathReport report = check_path(body, path, reach, execution);
+  PathCheck path_check(body, path, execution);
+  PathReport report = path_check.check(reach);
   while (report.least > reach && !body.looks_everywhere(path)) {  // nothing so near: how far is it?
     reach *= widening;
-    report = check_path(body, path, reach, execution);
+    report = path_check.check(reach);
   }
 
   Se2Verification result;

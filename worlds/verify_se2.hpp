@@ -6,7 +6,8 @@
 // until the least distance, less the way that any point of the body goes and less all rounding, is proved to exceed the
 // clearance. O(obstacles) once, but for maps, then O(legs * sides near them * corners) and what the halves near
 // obstacles cost.
-// Legs without a turn need no halving: what the body sweeps there is a polygon.
+// Legs without a turn need no halving: what the body sweeps there is a polygon. Legs that go on straight or turn on the
+// spot are judged as one (worlds/pose_runs), so what is near a path over a lattice is looked at once.
 #pragma once
 
 #include <limits>

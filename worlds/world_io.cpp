@@ -16,6 +16,7 @@
 #include "worlds/npy_io.hpp"
 #include "worlds/pgm_io.hpp"
 #include "worlds/plane_obstacles.hpp"
+#include "worlds/png_writer_io.hpp"
 #include "worlds/ring_list_io.hpp"
 #include "worlds/scene_io.hpp"
 #include "worlds/wkt_io.hpp"
@@ -208,8 +209,9 @@ void write_map(const OccupancyMap& map, const std::string& path, const Execution
   const std::string_view name = path;
   if (name.ends_with(".map")) return write_moving_ai_map(map, path, execution);
   if (name.ends_with(".yaml")) return write_ros_map(map, path, execution);
-  if (name.ends_with(".pgm")) return write_map_pgm(map, path, execution);
-  throw UsageError(path + ": the ending must be .map, .yaml or .pgm");
+  if (name.ends_with(".pgm")) return write_map_pgm(map, path, UnknownCells::black, execution);
+  if (name.ends_with(".png")) return write_map_png(map, path, execution);
+  throw UsageError(path + ": the ending must be .map, .yaml, .pgm or .png");
 }
 
 }  // namespace warren

@@ -38,7 +38,7 @@ void write_scene(const Scene& scene, const std::string& path, const Execution& e
 
 /// Is this the ending of a map: .map (Moving AI), .yaml (map server, with a .pgm beside it) or .pgm?
 bool is_map_ending(std::string_view path);
-/// Writes a map by its ending. Throws UsageError for other endings, WriteError, Stopped.
+/// Writes a map by its ending, .png too. Throws UsageError for other endings, WriteError, Stopped.
 void write_map(const OccupancyMap& map, const std::string& path, const Execution& execution);
 
 }  // namespace warren

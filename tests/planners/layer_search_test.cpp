@@ -206,6 +206,10 @@ TEST(LayerSearch, TheCheapestOfSeveralEndsIsTakenWithWhatItCosts) {
       starts.push_back({{number(n, 0, 6), number(n, 1, layers.height), number(n, 2, 8)}, 9 * uniform(seed, n, 50)});
       goals.push_back({{10 + number(n, 3, 6), number(n, 4, layers.height), number(n, 5, 8)}, 9 * uniform(seed, n, 51)});
     }
+    for (std::size_t n = 0; n < 3; ++n) {  // each once more, dearer or cheaper
+      starts.push_back({starts[n].state, starts[n].cost + (n == 0 ? 1.0 : -0.25 * starts[n].cost)});
+      goals.push_back({goals[n].state, goals[n].cost + (n == 1 ? 1.0 : -0.25 * goals[n].cost)});
+    }
     const LayerSearchOptions options{.turn_cost = 0.6};
     double expected = std::numeric_limits<double>::infinity();
     for (const LayerEnd& start : starts) {

@@ -54,6 +54,14 @@ TEST(MovingAiMap, TakesBlanksAroundAndATinyMap) {
   EXPECT_EQ(one.free, 1U);
 }
 
+TEST(MovingAiMap, NotesMayFollowABlankLine) {
+  const TemporaryDirectory directory;
+  for (const char* note : {"\n/////\n  title={Benchmarks},\n}\n", "\r\n\r\ncite me\r\n", "\n\n"}) {
+    const std::string text = std::string("type octile\nheight 2\nwidth 2\nmap\n..\n.@\n") + note;
+    EXPECT_EQ(read_moving_ai_map(InputFile(directory.write("a.map", text), {}), {}).free, 3U);
+  }
+}
+
 TEST(MovingAiMap, WaterIsPassableFromWaterOnly) {
   const TemporaryDirectory directory;
   const OccupancyMap map =
@@ -82,6 +90,7 @@ TEST(MovingAiMap, RefusesWithFileAndLine) {
       {"type octile\nheight 2\nwidth 2\nmap\n..\n...\n", ":6: expected a row of 2 cells (found: 3 characters)"},
       {"type octile\nheight 2\nwidth 2\nmap\n..\n.x\n", ":6: expected one of . G S W @ O T at column 2 (found: x)"},
       {"type octile\nheight 2\nwidth 2\nmap\n..\n..\n\n..\n", ":8: expected nothing after 2 rows"},
+      {"type octile\nheight 2\nwidth 2\nmap\n..\n..\nnote\n", ":7: expected nothing after 2 rows"},
   };
   for (const auto& [text, expected] : cases) {
     SCOPED_TRACE(expected);

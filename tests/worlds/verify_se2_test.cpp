@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/polygon_distance.hpp"
+#include "core/rng.hpp"
 #include "tests/worlds/body_scenes.hpp"
 #include "worlds/se2_world.hpp"
 
@@ -141,6 +142,44 @@ TEST(VerifySe2, AgreesWithTheFastWorldAndWithSampledDistances) {
     }
   }
   EXPECT_GT(free, 100);
+}
+
+/// A path of many short legs, judged in runs, against each of its legs judged alone.
+TEST(VerifySe2, LongRunsOfShortLegsAreJudgedAsEachLegAlone) {
+  int refuted = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(seed);
+    const Scene scene = body_scenes::scattered(seed);
+    SequentialRng rng(seed);
+    std::vector<Se2> path{body_scenes::random_pose(seed, 0)};
+    while (path.size() < 60) {
+      const auto kind = rng.below(4);
+      const double way = rng.below(2) == 0 ? 0.03 : -0.03;
+      for (auto n = 1 + rng.below(20); n > 0; --n) {
+        Se2 next = path.back();
+        next.x += kind == 0 || kind == 2 ? way : 0.0;
+        next.y += kind == 1 || kind == 2 ? way : 0.0;
+        next.theta += kind == 3 ? 2.0 * way : 0.0;
+        path.push_back(next);
+      }
+    }
+    Se2Verification whole = verify_se2(scene, kite, path, {}, {});
+    Se2Verification alone;
+    std::optional<std::size_t> first;
+    for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+      const auto leg = verify_se2(scene, kite, std::span(path).subspan(i, 2), {}, {});
+      alone.min_clearance = std::min(alone.min_clearance, leg.min_clearance);
+      if (!leg.verified && !first) first = i;
+    }
+    EXPECT_EQ(whole.verified, !first);
+    EXPECT_NEAR(whole.min_clearance, alone.min_clearance, first ? 0.1 : 2e-3);
+    if (!first) continue;
+    ++refuted;
+    ASSERT_TRUE(whole.first_violation);
+    EXPECT_EQ(whole.first_violation->leg, *first);
+  }
+  EXPECT_GT(refuted, 3);
+  EXPECT_LT(refuted, 20);
 }
 
 TEST(VerifySe2, IsTheSameForAnyNumberOfThreads) {

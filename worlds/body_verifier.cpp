@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "worlds/body_verifier.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "worlds/exact_segments.hpp"
+
+namespace warren {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+BodyVerifier::BodyVerifier(const Scene& scene, std::span<const Vec2> outline, double clearance,
+                           const Execution& execution)
+    : obstacles_(scene),
+      surroundings_(scene, obstacles_, execution),
+      outline_(outline),
+      clearance_(clearance),
+      execution_(execution),
+      confines_(scene.bounds),
+      map_(scene.map ? &*scene.map : nullptr) {
+  for (const Vec2 p : outline_) radius_ = std::max(radius_, std::hypot(p.x, p.y));
+  bend_ = 1e-15 * surroundings_.largest_coordinate();
+  rounding_ = 2e-14 * (surroundings_.largest_coordinate() + 2.0 * radius_ + clearance) + 4.0 * bend_;
+  finest_ = 1e-9 * radius_;
+  close_ = 1e-3 * radius_;
+  for (const Ring& ring : obstacles_.rings()) {
+    Box box;
+    for (const Vec2 p : ring.corners) box.include(p);
+    ring_boxes_.push_back(box);
+  }
+}
+
+/// Around the body and its reach on parts of the leg, which are about as long as the boxes are wide.
+std::vector<Box> BodyVerifier::boxes_of(const Leg& leg) const {
+  const double around = (radius_ + reach_) * (1.0 + 1e-9) + rounding_;
+  constexpr double most_parts = 65536.0;
+  const double parts = std::clamp(std::ceil(std::hypot(leg.way.x, leg.way.y) / (4.0 * around)), 1.0, most_parts);
+  const auto at = [&](double part) { return leg.a.position() + (part / parts) * leg.way; };
+  std::vector<Box> boxes;
+  for (double part = 0.0; part < parts; ++part) {
+    Box box;
+    box.include(at(part));
+    box.include(at(part + 1.0));
+    boxes.push_back({box.min - Vec2{around, around}, box.max + Vec2{around, around}});
+  }
+  return boxes;
+}
+
+void BodyVerifier::look_around(std::span<const Leg> legs, double reach) {
+  reach_ = reach;
+  if (map_ != nullptr) return;  // is read where it is asked
+  constexpr std::size_t many = 1024;
+  std::vector<Box> boxes;
+  for (std::size_t i = 0; i < legs.size(); ++i) {
+    const std::vector<Box> more = boxes_of(legs[i]);
+    if (i % many == 0 || more.size() >= many) execution_.reserve((many + more.size()) * sizeof(Box));  // and polls
+    boxes.insert(boxes.end(), more.begin(), more.end());
+  }
+  surroundings_.file(boxes, execution_);
+}
+
+bool BodyVerifier::looks_everywhere(std::span<const Se2> path) const {
+  Box all = surroundings_.box();
+  if (confines_) all.include(*confines_);
+  for (const Se2& pose : path) all.include(pose.position());
+  return reach_ >= all.width() + all.height();
+}
+
+std::vector<Vec2> BodyVerifier::corners_at(const Leg& leg, double t) const {
+  const double theta = leg.a.theta + t * leg.turn;
+  const double c = std::cos(theta);
+  const double s = std::sin(theta);
+  std::vector<Vec2> corners;
+  corners.reserve(outline_.size());
+  for (const Vec2 p : outline_) {
+    corners.push_back({leg.a.x + t * leg.way.x + (c * p.x - s * p.y), leg.a.y + t * leg.way.y + (s * p.x + c * p.y)});
+  }
+  return corners;
+}
+
+/// Is p in the closed body? By exact signs, but the corners are rounded.
+bool BodyVerifier::body_holds(const std::vector<Vec2>& corners, Vec2 p) const {
+  bool inside = false;
+  Vec2 a = corners.back();
+  for (const Vec2 b : corners) {
+    if (exact::contains({a, b}, p)) return true;
+    if ((a.y <= p.y) != (b.y <= p.y)) {
+      const int side = exact::side_of(a, b, p);
+      if (b.y > a.y ? side > 0 : side < 0) inside = !inside;
+    }
+    a = b;
+  }
+  return inside;
+}
+
+double BodyVerifier::distance_to(const std::vector<Vec2>& corners, const Segment& s) const {
+  if (body_holds(corners, s.a)) return 0.0;
+  double least = infinity;
+  Vec2 a = corners.back();
+  for (const Vec2 b : corners) {
+    least = std::min(least, exact::distance({a, b}, s));
+    a = b;
+  }
+  return least;
+}
+
+/// Where the body does not turn, it sweeps the bodies at both ends and a parallelogram a side.
+double BodyVerifier::distance_to_sweep(const std::vector<Vec2>& corners, Vec2 way, const Segment& s) const {
+  double least = distance_to(corners, s);
+  Vec2 a = corners.back();
+  for (const Vec2 b : corners) {
+    const std::vector<Vec2> swept{a, b, b + way, a + way};
+    least = std::min(least, distance_to(swept, s));
+    a = b;
+  }
+  return least;
+}
+
+/// No halving: exact but for the rounding of corners.
+LegReport BodyVerifier::check_straight(const Leg& leg, const Sides& sides, std::size_t number) const {
+  const std::vector<Vec2> corners = corners_at(leg, 0.0);
+  Box swept;
+  for (const Vec2 p : corners) {
+    swept.include(p);
+    swept.include(p + leg.way);
+  }
+  LegReport report;
+  execution_.check();
+  for (const NearSide& side : sides) {
+    if (std::sqrt(exact::gap_sq(swept, box_of(side.segment))) > report.met) continue;
+    const double distance = distance_to_sweep(corners, leg.way, side.segment);
+    if (distance >= report.met) continue;
+    report.met = distance;
+    report.least = distance - rounding_;
+    if (report.least > clearance_ || (clearance_ > 0.0 && report.least >= clearance_)) continue;
+    report.violation = Violation{number, distance, surroundings_.name(side.number)};
+  }
+  return report;
+}
+
+std::vector<BodyVerifier::Near> BodyVerifier::nearest_at(const Leg& leg, double t, double way, const Sides& sides,
+                                                         const std::vector<Near>& among) const {
+  const std::vector<Vec2> corners = corners_at(leg, t);
+  Box body;
+  for (const Vec2 p : corners) body.include(p);
+  double least = infinity;
+  const double spread = 2.0 * (way + rounding_);
+  std::vector<Near> near;
+  for (const Near& n : among) {
+    const Segment& s = sides[n.side].segment;
+    if (std::sqrt(exact::gap_sq(body, box_of(s))) > least + spread) continue;
+    const double distance = distance_to(corners, s);
+    least = std::min(least, distance);
+    near.push_back({n.side, distance});
+  }
+  std::erase_if(near, [&](const Near& n) { return n.distance > least + spread; });
+  return near;
+}
+
+void BodyVerifier::check_piece(const Leg& leg, double middle, double half, const Sides& sides,
+                               const std::vector<Near>& among, std::size_t number, LegReport& report) const {
+  constexpr std::size_t most_looks = 2'000'000;  // some seconds
+  execution_.check();
+  const bool weary = ++report.looks > most_looks;
+  const double whole = std::hypot(leg.way.x, leg.way.y) + radius_ * std::abs(leg.turn);
+  const double way = half * whole * (1.0 + 1e-12);
+  const std::vector<Near> near = nearest_at(leg, middle, way, sides, among);
+  if (near.empty() || report.violation) return;
+  const auto less = [](const Near& a, const Near& b) { return a.distance < b.distance; };
+  const Near nearest = *std::min_element(near.begin(), near.end(), less);
+  const double proved = nearest.distance - way - rounding_;
+  report.met = std::min(report.met, nearest.distance);
+  const bool settled = proved >= report.met - close_ || way < finest_;
+  if (proved > clearance_ && settled) {
+    report.least = std::min(report.least, proved);
+    return;
+  }
+  if (nearest.distance <= rounding_ || nearest.distance + rounding_ < clearance_ || way < finest_ || weary) {
+    report.least = std::min(report.least, nearest.distance);
+    report.violation = Violation{number, nearest.distance, surroundings_.name(sides[nearest.side].number)};
+    return;
+  }
+  check_piece(leg, middle - 0.5 * half, 0.5 * half, sides, near, number, report);
+  check_piece(leg, middle + 0.5 * half, 0.5 * half, sides, near, number, report);
+}
+
+LegReport BodyVerifier::check_turning(const Leg& leg, const Sides& sides, std::size_t number) const {
+  std::vector<Near> all;
+  all.reserve(sides.size());
+  for (std::size_t i = 0; i < sides.size(); ++i) all.push_back({i, 0.0});
+  LegReport report;
+  check_piece(leg, 0.5, 0.5, sides, all, number, report);
+  return report;
+}
+
+LegReport BodyVerifier::check_pose(const Se2& pose, std::size_t number) const {
+  const std::vector<Vec2> corners = corners_at({pose, {}, 0.0}, 0.0);
+  const auto bad = [&](std::string what) { return LegReport{0.0, 0.0, 0, Violation{number, 0.0, std::move(what)}}; };
+  if (confines_) {
+    for (const Vec2 p : corners) {
+      if (!confines_->contains(p)) return bad(fmt::format("bounds: the corner {} {} is outside", p.x, p.y));
+    }
+  } else if (map_ != nullptr) {
+    const std::optional<Cell> cell = cell_at(*map_, corners.front());
+    if (!cell) return bad("map: the body is outside");
+    if (map_->blocked.test(cell->x, cell->y)) return bad(fmt::format("cell {}, {}", cell->x, cell->y));
+  } else if (!surroundings_.box().contains({pose.x, pose.y})) {
+    return bad(fmt::format("box: {} {} is outside the box of the obstacles", pose.x, pose.y));
+  }
+  for (std::size_t i = 0; i < ring_boxes_.size(); ++i) {
+    const Ring& ring = obstacles_.rings()[i];
+    if (ring.polygon == Ring::none || !ring_boxes_[i].contains(corners.front()) ||
+        !strictly_inside(ring, corners.front()))
+      continue;
+    return bad(fmt::format("polygon {}: holds {} {}", ring.polygon, corners.front().x, corners.front().y));
+  }
+  return {};
+}
+
+}  // namespace warren

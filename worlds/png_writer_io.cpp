@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "worlds/png_writer_io.hpp"
+
+#include <png.h>
+
+#include <csetjmp>
+#include <exception>
+#include <new>
+#include <stdexcept>
+#include <vector>
+
+#include "worlds/output_file_io.hpp"
+
+namespace warren {
+namespace {
+
+/// libpng reports by longjmp, so nothing that needs a destructor may live between setjmp and the calls; an exception of
+/// `write` is kept and rethrown after.
+struct PngSink {
+  const std::function<void(std::string_view)>& write;
+  std::exception_ptr error;
+};
+
+void png_write(png_structp png, png_bytep bytes, png_size_t size) {
+  auto* sink = static_cast<PngSink*>(png_get_io_ptr(png));
+  try {
+    sink->write({reinterpret_cast<const char*>(bytes), size});
+    return;
+  } catch (...) {
+    sink->error = std::current_exception();
+  }
+  png_error(png, "stopped");
+}
+
+void png_flush(png_structp) {}
+void png_fail(png_structp png, png_const_charp) { png_longjmp(png, 1); }
+void png_warn(png_structp, png_const_charp) {}
+
+/// False when libpng gave up; rows are written while `sink` takes them.
+bool encode(png_structp png, png_infop info, const PngRows& rows, PngSink& sink, const Execution& execution) {
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
+  constexpr int fast_compression = 4;
+  png_set_write_fn(png, &sink, png_write, png_flush);
+  png_set_compression_level(png, fast_compression);
+  png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+  png_set_IHDR(png, info, rows.width, rows.height, rows.is_colour ? 8 : 1,
+               rows.is_colour ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_write_info(png, info);
+  for (std::size_t y = 0; y < rows.height; ++y) {
+    if (execution.should_stop()) return true;
+    png_write_row(png, rows.row(y));
+  }
+  png_write_end(png, info);
+  return true;
+}
+
+}  // namespace
+
+void write_png(const PngRows& rows, const Execution& execution, const std::function<void(std::string_view)>& write) {
+  PngSink sink{write, nullptr};
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, png_fail, png_warn);
+  png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
+  if (info == nullptr) throw std::bad_alloc();
+  const bool done = encode(png, info, rows, sink, execution);
+  png_destroy_write_struct(&png, &info);
+  if (sink.error) std::rethrow_exception(sink.error);
+  execution.check();
+  if (!done) throw std::runtime_error("libpng refuses the picture");
+}
+
+void write_map_png(const OccupancyMap& map, const std::string& path, const Execution& execution) {
+  OutputFile file(path, execution);
+  std::vector<std::uint8_t> bytes((map.width() + 7) / 8);
+  const auto row = [&](std::size_t from_top) {
+    const auto y = static_cast<std::uint32_t>(map.height() - 1 - from_top);
+    bytes.assign(bytes.size(), 0);
+    for (std::uint32_t x = 0; x < map.width(); ++x) {
+      if (!map.blocked.test(x, y)) bytes[x / 8] |= static_cast<std::uint8_t>(0x80U >> (x % 8));
+    }
+    return static_cast<const std::uint8_t*>(bytes.data());
+  };
+  write_png({.width = map.width(), .height = map.height(), .is_colour = false, .row = row}, execution,
+            [&](std::string_view piece) { file.write(piece); });
+  file.commit();
+}
+
+}  // namespace warren

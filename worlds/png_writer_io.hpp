@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// PNG out, by libpng, row by row: pictures, and maps as images that read_world takes back.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "parallel/execution.hpp"
+#include "worlds/occupancy_map.hpp"
+
+namespace warren {
+
+/// What an encoder asks for.
+struct PngRows {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  bool is_colour = false;  ///< 3 bytes a pixel; else 1 bit a pixel, the first one the highest bit, 1 white
+  /// The bytes of row y, from the top; valid until the next call. Must not throw.
+  std::function<const std::uint8_t*(std::size_t)> row;
+};
+
+/// Hands the file's bytes on, piece by piece. Throws Stopped between rows, and what `write` throws.
+void write_png(const PngRows& rows, const Execution& execution, const std::function<void(std::string_view)>& write);
+
+/// A map, a pixel a cell: free white, all else black. Throws as OutputFile does.
+void write_map_png(const OccupancyMap& map, const std::string& path, const Execution& execution);
+
+}  // namespace warren
