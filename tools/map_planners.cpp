@@ -40,6 +40,13 @@ bool provably_apart(const OccupancyMap& map, const Bitmap& closed, const WallPro
   return !cells_connect(blocked_for_disc(closed, radius, execution), *start, *goal, true, execution);
 }
 
+bool provably_apart(const OccupancyMap& map, std::span<const Vec2> outline, const Se2& start, const Se2& goal,
+                    const Execution& execution) {
+  const auto from = cell_at(map, placed(start, outline.front()));
+  const auto to = cell_at(map, placed(goal, outline.front()));
+  return from && to && !cells_connect(map.blocked, *from, *to, false, execution);
+}
+
 std::vector<Vec2> path_over_cells(const OccupancyMap& map, Vec2 start, std::span<const Cell> cells, Vec2 goal) {
   std::vector<Vec2> path{start};
   const auto step = [&](std::size_t i) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/bitmap.hpp"
+#include "core/se2.hpp"
 #include "tools/solve_kind.hpp"
 #include "worlds/occupancy_map.hpp"
 #include "worlds/verify.hpp"
@@ -32,6 +33,14 @@ bool stands_free_on_map(const OccupancyMap& map, const WallProblem& problem, Vec
 /// all other cells are given it, corners too. O(cells).
 bool provably_apart(const OccupancyMap& map, const Bitmap& closed, const WallProblem& problem,
                     const Execution& execution);
+
+/// The same for a body that turns, by its first corner, a point: no motion takes it from where one pose has it to where
+/// the other has it.
+bool provably_apart(const OccupancyMap& map, std::span<const Vec2> outline, const Se2& start, const Se2& goal,
+                    const Execution& execution);
+
+/// Nodes of a tree that has no way to go, unless options say how many: it need not fill what it can reach.
+inline constexpr std::uint64_t nodes_where_apart = 1000;
 
 /// From the start over the middles of the cells where the path turns to the goal; each cell is a neighbour of the one
 /// before.

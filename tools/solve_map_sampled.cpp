@@ -31,6 +31,7 @@ class SampledMapSolve {
 
   void run() {
     index();
+    bound_growth();
     take_solution(answer_, is_roadmap_planner(request_.planner) ? plan_roadmap() : plan_trees());
     settle_blocked_ends();
     if (answer_.outcome == Outcome::solved && request_.arguments.has("--optimise")) optimise();
@@ -101,19 +102,23 @@ void SampledMapSolve::index() {
   world_.emplace(map, problem_.reach(), request_.execution, milestones);
 }
 
-/// A roadmap that grows until start and goal connect has one round where they never can.
+/// What grows until start and goal connect, a roadmap for one round and trees for a few nodes, where they never can.
 void SampledMapSolve::bound_growth() {
-  const bool grows = !roadmap_options_.samples && !takes_all_places(roadmap_options_.sampler);
+  const bool is_roadmap = is_roadmap_planner(request_.planner);
+  const bool grows = is_roadmap ? !roadmap_options_.samples && !takes_all_places(roadmap_options_.sampler)
+                                : !request_.arguments.has("--nodes");
   if (!grows) return;
   const StageTimer timer(request_.execution, "proof", answer_.seconds.search);
   const OccupancyMap& map = world_->map();
-  if (provably_apart(map, map.blocked, problem_, request_.execution)) {
+  if (!provably_apart(map, map.blocked, problem_, request_.execution)) return;
+  if (is_roadmap) {
     roadmap_options_.samples = first_samples(*world_, roadmap_options_);
+  } else {
+    tree_options_.nodes = nodes_where_apart;
   }
 }
 
 Solution<Vec2> SampledMapSolve::plan_roadmap() {
-  bound_growth();
   const auto planner = request_.planner == PlannerKind::prm ? prm<GridWorld> : lazy_prm<GridWorld>;
   return planner(*world_, problem_.start, problem_.goal, roadmap_options_, request_.execution, kept());
 }

@@ -12,6 +12,7 @@
 #include "planners/prm.hpp"
 #include "planners/shortcut.hpp"
 #include "tools/fixed_angle.hpp"
+#include "tools/map_planners.hpp"
 #include "tools/plane_planners.hpp"
 #include "tools/pose_problem.hpp"
 #include "tools/solve_kind.hpp"
@@ -67,6 +68,7 @@ class TurningSolve {
 
   void run() {
     index();
+    bound_growth();
     take(plan());
     settle_blocked_poses(answer_, problem_, [this](const Se2& pose) { return stands_free(pose); });
     if (answer_.outcome == Outcome::solved) finish_path();
@@ -81,6 +83,7 @@ class TurningSolve {
     return request_.planner == PlannerKind::visibility || request_.planner == PlannerKind::cells;
   }
   void index();
+  void bound_growth();
   Solution<Se2> plan();
   void describe_fixed_angle();
   Solution<Se2> plan_fixed_angle();
@@ -135,6 +138,23 @@ Solution<Se2> TurningSolve::plan_fixed_angle() {
   Solution<Se2> solution = plan_at_fixed_angle(scene(), problem, execution(), request_.drawing);
   if (cells_) answer_.cells = CellCount{solution.roadmap.milestones, solution.roadmap.edges};
   return solution;
+}
+
+/// On a map where it is proved that the body never gets from one pose to the other, one round of a roadmap or a few
+/// nodes of a tree are enough.
+void TurningSolve::bound_growth() {
+  const bool is_roadmap = is_roadmap_planner(request_.planner);
+  const bool grows = is_roadmap ? !roadmap_options_.samples : !request_.arguments.has("--nodes");
+  if (!scene().map || !grows || keeps_angle()) return;
+  const StageTimer timer(execution(), "proof", answer_.seconds.search);
+  for (const Se2& goal : poses_of(problem_.goal)) {
+    if (!provably_apart(*scene().map, problem_.robot.outline, problem_.start, goal, execution())) return;
+  }
+  if (is_roadmap) {
+    roadmap_options_.samples = first_samples(*world_, roadmap_options_);
+  } else {
+    tree_options_.trees.nodes = nodes_where_apart;
+  }
 }
 
 Solution<Se2> TurningSolve::plan_roadmap() {

@@ -158,10 +158,31 @@ TEST(Maps, OnlyTheGridPlannerProvesThatAMapIsSealed) {
     std::vector<std::string> words{"solve", map, "--planner", planner.name};
     words.insert(words.end(), ends.begin(), ends.end());
     words.insert(words.end(), planner.options.begin(), planner.options.end());
-    if (std::string_view(planner.name).starts_with("rrt")) words.insert(words.end(), {"--nodes", "500"});
     EXPECT_EQ(answered(words, 1)["status"], "not_connected");
+    std::vector<std::string> turning = words;
+    turning[std::find(turning.begin(), turning.end(), "--start") - turning.begin() + 1] = "0.5,0.5,0";
+    turning.insert(turning.end(), {"--robot", "polygon -0.2 -0.2 0.3 -0.2 0.2 0.2"});
+    EXPECT_EQ(answered(turning, 1)["status"], "not_connected");
     words.insert(words.end(), {"--robot", "disc 0.6"});
     EXPECT_EQ(answered(words, 1)["status"], "start_blocked");
+  }
+}
+
+TEST(Maps, WhatGrowsSoonGivesUpWhereItIsProvedThatThereIsNoWay) {
+  const Folder folder;
+  const std::string map = folder.write("a.map", sealed_map);
+  for (const char* robot : {"point", "disc 0.3", "polygon -0.2 -0.2 0.3 -0.2 0.2 0.2"}) {
+    SCOPED_TRACE(robot);
+    const char* start = std::string_view(robot).starts_with("polygon") ? "0.5,0.5,0" : "0.5,0.5";
+    const auto asked = [&](const char* planner) {
+      return answered({"solve", map, "--planner", planner, "--sampler", "uniform", "--robot", robot, "--start", start,
+                       "--goal", "4.5,0.5"},
+                      1);
+    };
+    for (const char* planner : {"prm", "lazy-prm"}) EXPECT_LE(asked(planner)["counters"]["rounds"], 1) << planner;
+    for (const char* planner : {"rrt", "rrt-connect"}) {
+      EXPECT_LE(asked(planner)["roadmap"]["milestones"], 2 * 1000) << planner;
+    }
   }
 }
 
