@@ -11,9 +11,6 @@
 
 namespace warren {
 
-/// How much room a link has on a piece of a motion.
-enum class ArmWorld::Room : std::uint8_t { blocked, narrow, clear };
-
 namespace {
 
 double checked_length(const char* name, double value) {
@@ -27,6 +24,10 @@ double checked_positive(const char* name, double value) {
 }
 
 Spine spine_of(const ChainPosture& at, const ArmLink& link) { return {at.points[link.from], at.points[link.to]}; }
+
+/// The part of a piece that keeps a way within `room`, where the way shrinks with the part at least in proportion; 1:
+/// all of the piece.
+double part_within(double room, double way) { return room > way ? 1.0 : (1.0 - 1e-9) * room / way; }
 
 }  // namespace
 
@@ -91,7 +92,7 @@ bool ArmWorld::is_free(const State& a, Query&) const {
   ChainPosture at;
   chain_.place(a, at);
   std::uint32_t parts = all_parts();
-  return stays_clear(at, Turns{}, 0.0, parts) && parts == 0;
+  return clear_part(at, Turns{}, 0.0, parts) >= 0.0 && parts == 0;
 }
 
 double ArmWorld::distance(const State& a, const State& b) const {
@@ -181,61 +182,72 @@ Vec3 ArmWorld::velocity_of(const ChainPosture& at, const Turns& turns, std::size
   return velocity;
 }
 
-/// Does a plane stay between the link and a sphere?
-bool ArmWorld::keeps_off(const ChainPosture& at, const Turns& turns, const ArmLink& link, double share,
-                         const Approach& near) const {
-  const double least = near.radius + touch_ + resolution_;  // nearer than that a path could hardly be verified
-  const auto stays_before = [&](std::size_t point) {
-    const double before = near.outward.dot(at.points[point] - near.centre);
-    const double bend = 0.5 * share * share * turns.acceleration[point];
-    if (before - bend <= least) return false;
-    const double approach = share * std::abs(near.outward.dot(velocity_of(at, turns, point, link.joints)));
-    return before - bend - approach > least;
-  };
-  return stays_before(link.to) && stays_before(link.from);
+ArmWorld::LinkMove ArmWorld::move_of(const ChainPosture& at, const Turns& turns, const ArmLink& link,
+                                     double share) const {
+  LinkMove move;
+  move.travel = travel_of_link(at, turns, link, 0, share);
+  move.velocity = {share * velocity_of(at, turns, link.from, link.joints),
+                   share * velocity_of(at, turns, link.to, link.joints)};
+  move.bend = {0.5 * share * share * turns.acceleration[link.from], 0.5 * share * share * turns.acceleration[link.to]};
+  return move;
 }
 
-/// The bound of the travel that needs no posture says which obstacles may be met at all.
-ArmWorld::Room ArmWorld::room_of(const ChainPosture& at, const Turns& turns, const ArmLink& link, double share) const {
+/// For which part of a piece does a plane stay between the link and a sphere?
+double ArmWorld::part_off(const ChainPosture& at, const ArmLink& link, const LinkMove& move,
+                          const Approach& near) const {
+  const double least = near.radius + touch_ + resolution_;  // nearer than that a path could hardly be verified
+  const auto part_before = [&](std::size_t point, const Vec3& velocity, double bend) {
+    const double room = near.outward.dot(at.points[point] - near.centre) - least;
+    return part_within(room, bend + std::abs(near.outward.dot(velocity)));
+  };
+  return std::min(part_before(link.to, move.velocity[1], move.bend[1]),
+                  part_before(link.from, move.velocity[0], move.bend[0]));
+}
+
+/// For which part of a piece, to both sides of its middle, is the link clear of the obstacles? Negative where it meets
+/// one, 1 for all of the piece. The bound of the travel that needs no posture says which may be met at all: fewer, the
+/// smaller the part is already.
+double ArmWorld::clear_part(const ChainPosture& at, const Turns& turns, const ArmLink& link, double share) const {
   const double most = share * std::max(turns.most[link.from], turns.most[link.to]);
-  Room room = Room::clear;
-  std::optional<double> travel;
+  double part = 1.0;
+  std::optional<LinkMove> move;
   solids_.for_each_within(spine_of(at, link), touch_ + most, [&](const Approach& near) {
     const double here = near.distance - touch_;
-    if (here <= 0.0) {
-      room = Room::blocked;
-      return false;
+    if (here <= 0.0) return part = -1.0;
+    if (here <= part * most) {
+      if (!move) move = move_of(at, turns, link, share);
+      const double by_travel = part_within(here, move->travel);
+      if (by_travel < part) part = std::min(part, std::max(by_travel, part_off(at, link, *move, near)));
     }
-    if (room == Room::narrow || here > most || keeps_off(at, turns, link, share, near)) return true;
-    if (!travel) travel = travel_of_link(at, turns, link, 0, share);
-    if (here <= *travel) room = Room::narrow;
-    return true;
+    return touch_ + part * most;
   });
-  return room;
+  return part;
 }
 
-ArmWorld::Room ArmWorld::room_between(const ChainPosture& at, const Turns& turns, const LinkPair& pair,
-                                      double share) const {
+double ArmWorld::clear_part(const ChainPosture& at, const Turns& turns, const LinkPair& pair, double share) const {
   const ArmLink& far = links_[pair.far];
   const double travel = share > 0.0 ? travel_of_link(at, turns, far, links_[pair.near].joints, share) : 0.0;
   const double distance = std::sqrt(distance_square(spine_of(at, links_[pair.near]), spine_of(at, far)));
-  return distance <= touch_links_ ? Room::blocked : distance <= touch_links_ + travel ? Room::narrow : Room::clear;
+  return distance <= touch_links_ ? -1.0 : part_within(distance - touch_links_, travel);
 }
 
-/// From the tip to the base: what moves most meets most.
-bool ArmWorld::stays_clear(const ChainPosture& at, const Turns& turns, double share, std::uint32_t& parts) const {
+/// The least of the parts that are not clear for all of the piece, whose bits stay. From the tip to the base: what
+/// moves most meets most.
+double ArmWorld::clear_part(const ChainPosture& at, const Turns& turns, double share, std::uint32_t& parts) const {
   std::uint32_t narrow = 0;
+  double least = 1.0;
   for (std::uint32_t left = parts; left != 0;) {
-    const auto part = static_cast<std::size_t>(std::bit_width(left) - 1);
-    const std::uint32_t bit = std::uint32_t{1} << part;
+    const auto number = static_cast<std::size_t>(std::bit_width(left) - 1);
+    const std::uint32_t bit = std::uint32_t{1} << number;
     left ^= bit;
-    const Room room = part < links_.size() ? room_of(at, turns, links_[part], share)
-                                           : room_between(at, turns, pairs_[part - links_.size()], share);
-    if (room == Room::blocked) return false;
-    if (room == Room::narrow) narrow |= bit;
+    const double part = number < links_.size() ? clear_part(at, turns, links_[number], share)
+                                               : clear_part(at, turns, pairs_[number - links_.size()], share);
+    if (part < 0.0) return part;
+    if (part < 1.0) narrow |= bit;
+    least = std::min(least, part);
   }
   parts = narrow;
-  return true;
+  return least;
 }
 
 double ArmWorld::travel(const State& a, const State& b) const {
@@ -257,7 +269,7 @@ MotionVerdict ArmWorld::judge_motion(const State& a, const State& b) const {
   ChainPosture at;
   const auto look = [&](double middle, double half, std::uint32_t& parts) {
     chain_.place(interpolate(a, b, middle), at);
-    return stays_clear(at, turns, half, parts);
+    return half * clear_part(at, turns, half, parts);
   };
   return certified_parts(all_parts(), look, resolution_share(turns));
 }

@@ -91,7 +91,6 @@ class ArmWorld {
   double resolution() const { return resolution_; }
 
  private:
-  enum class Room : std::uint8_t;
   /// Two links that are no neighbours.
   struct LinkPair {
     std::size_t near;
@@ -112,11 +111,17 @@ class ArmWorld {
   double travel_of_link(const ChainPosture& at, const Turns& turns, const ArmLink& link, std::size_t first,
                         double share) const;
   Vec3 velocity_of(const ChainPosture& at, const Turns& turns, std::size_t point, std::size_t joints) const;
-  bool keeps_off(const ChainPosture& at, const Turns& turns, const ArmLink& link, double share,
-                 const Approach& near) const;
-  Room room_of(const ChainPosture& at, const Turns& turns, const ArmLink& link, double share) const;
-  Room room_between(const ChainPosture& at, const Turns& turns, const LinkPair& pair, double share) const;
-  bool stays_clear(const ChainPosture& at, const Turns& turns, double share, std::uint32_t& parts) const;
+  /// What a link's ends do on a piece of a motion, taken once for all obstacles.
+  struct LinkMove {
+    double travel;                 ///< of any of its points
+    std::array<Vec3, 2> velocity;  ///< of its ends, the piece to either side in a unit of time
+    std::array<double, 2> bend;    ///< how far from there an end may be after that
+  };
+  LinkMove move_of(const ChainPosture& at, const Turns& turns, const ArmLink& link, double share) const;
+  double part_off(const ChainPosture& at, const ArmLink& link, const LinkMove& move, const Approach& near) const;
+  double clear_part(const ChainPosture& at, const Turns& turns, const ArmLink& link, double share) const;
+  double clear_part(const ChainPosture& at, const Turns& turns, const LinkPair& pair, double share) const;
+  double clear_part(const ChainPosture& at, const Turns& turns, double share, std::uint32_t& parts) const;
   std::uint32_t all_parts() const { return (std::uint32_t{1} << (links_.size() + pairs_.size())) - 1; }
   double resolution_share(const Turns& turns) const;
 

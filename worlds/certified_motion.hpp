@@ -8,12 +8,12 @@
 //
 // Pieces are looked at breadth first, so that blocked motions are known early: a blocked one of N pieces costs some
 // log2 N clearances instead of N / 2. They wait in a ring of fixed size, and where that is full a piece is finished
-// depth first, which needs no memory at all: no allocation. A free motion of length L that keeps a distance c costs
-// about L / c clearances, and at least one.
+// depth first, on a stack of fixed size: no allocation. A free motion of length L that keeps a distance c costs about
+// L / c clearances, and at least one; half of that where a look tells how far around the middle it proves
+// (certified_parts), since then only the rest is cut.
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -23,26 +23,22 @@ enum class MotionVerdict : std::uint8_t { free, blocked, refused };
 
 namespace detail {
 
-/// Pieces are numbered like the nodes of a heap: 1 is the whole motion, 2 n and 2 n + 1 are the halves of n.
-struct MotionPiece {
-  double first;
-  double middle;
-  double last;
-
-  explicit MotionPiece(std::uint32_t number) {
-    const std::uint32_t pieces = std::bit_floor(number);
-    const double width = 1.0 / pieces;
-    first = (number - pieces) * width;
-    middle = first + 0.5 * width;
-    last = first + width;
-  }
-};
-
-/// A piece and the parts of the body, a bit each, that are not proved free on it yet.
+/// The shares middle - half .. middle + half of a motion, the parts of the body, a bit each, that are not proved free
+/// there yet, and how far to both sides of the middle they have been proved free.
 struct OpenPiece {
-  std::uint32_t number;
+  double middle;
+  double half;
   std::uint32_t parts;
+  double proved = 0.0;
+
+  OpenPiece before() const { return {middle - proved - side(), side(), parts}; }
+  OpenPiece after() const { return {middle + proved + side(), side(), parts}; }
+
+ private:
+  double side() const { return 0.5 * (half - proved); }
 };
+
+inline constexpr double finest_half = 0x1p-31;  ///< where bits run out
 
 /// First in, first out, of fixed size.
 class PieceQueue {
@@ -66,29 +62,27 @@ class PieceQueue {
 /// Looks at the piece and its parts, depth first; free when all of them are.
 template <class Look>
 MotionVerdict finish_depth_first(const OpenPiece& begin, const Look& look) {
-  const std::uint32_t root = begin.number;
-  std::uint32_t piece = root;
-  for (;;) {
+  std::array<OpenPiece, 40> stack;  // halves halve at least: one waits on each of 31 levels
+  std::size_t top = 0;
+  stack[top++] = begin;
+  while (top > 0) {
+    OpenPiece piece = stack[--top];
     bool split = false;
-    std::uint32_t parts = begin.parts;
-    const MotionVerdict verdict = look(piece, parts, split);
-    if (split) {
-      piece *= 2;
-      continue;
-    }
-    if (verdict != MotionVerdict::free) return verdict;
-    while (piece != root && piece % 2 == 1) piece /= 2;  // right halves end their parents
-    if (piece == root) return MotionVerdict::free;
-    ++piece;
+    const MotionVerdict verdict = look(piece, split);
+    if (verdict == MotionVerdict::free) continue;
+    if (!split) return verdict;
+    stack[top++] = piece.after();
+    stack[top++] = piece.before();
   }
+  return MotionVerdict::free;
 }
 
-/// The whole motion, breadth first. look(number, parts, split): the verdict on a piece; takes the bits of parts away
-/// that its halves need not look at, and says whether they shall be looked at.
+/// The whole motion, breadth first. look(piece, split): the verdict on a piece; takes the bits of parts away that need
+/// not be looked at again, tells what it proved of the others, and whether the rest shall be cut.
 template <class Look>
 MotionVerdict judge_pieces(std::uint32_t parts, const Look& look) {
   PieceQueue queue;
-  queue.push({1, parts});
+  queue.push({0.5, 0.5, parts});
   while (!queue.empty()) {
     OpenPiece piece = queue.pop();
     if (queue.full()) {
@@ -97,16 +91,14 @@ MotionVerdict judge_pieces(std::uint32_t parts, const Look& look) {
       continue;
     }
     bool split = false;
-    const MotionVerdict verdict = look(piece.number, piece.parts, split);
+    const MotionVerdict verdict = look(piece, split);
     if (verdict == MotionVerdict::free) continue;
     if (!split) return verdict;
-    queue.push({2 * piece.number, piece.parts});
-    queue.push({2 * piece.number + 1, piece.parts});
+    queue.push(piece.before());
+    queue.push(piece.after());
   }
   return MotionVerdict::free;
 }
-
-inline constexpr std::uint32_t most_pieces = std::uint32_t{1} << 30;
 
 }  // namespace detail
 
@@ -115,32 +107,30 @@ inline constexpr std::uint32_t most_pieces = std::uint32_t{1} << 30;
 /// as ends of pieces, so a free verdict includes them.
 template <class Clearance, class Travel>
 MotionVerdict certified_motion(const Clearance& clearance, const Travel& travel, double resolution) {
-  const auto look = [&](std::uint32_t number, std::uint32_t&, bool& split) {
-    const detail::MotionPiece piece(number);
-    const double before = travel(piece.first, piece.middle);
-    const double after = travel(piece.middle, piece.last);
+  const auto look = [&](const detail::OpenPiece& piece, bool& split) {
+    const double before = travel(piece.middle - piece.half, piece.middle);
+    const double after = travel(piece.middle, piece.middle + piece.half);
     const double reach = before > after ? before : after;
     const double room = clearance(piece.middle, reach);
     if (room > reach) return MotionVerdict::free;
     if (room <= 0.0) return MotionVerdict::blocked;
-    split = reach > resolution && number < detail::most_pieces;
+    split = reach > resolution && piece.half > detail::finest_half;
     return MotionVerdict::refused;
   };
   return detail::judge_pieces(1, look);
 }
 
 /// The same for a body of up to 32 parts, a bit of `all` each: what is proved of a part on a piece need not be proved
-/// again on its halves. look(middle, half, parts): stays each of these parts free from `middle` for `half` to both
-/// sides, as shares of the motion? Takes the bits of those away that do; false where one is blocked. finest: the share
-/// down to which pieces are halved, > 0.
+/// again on what is cut from it. look(middle, half, parts): stays each of these parts free from `middle` for `half` to
+/// both sides, as shares of the motion? Takes the bits of those away that do; returns for how much, 0 .. half, the
+/// others do, and a negative number where one is blocked. finest: the share down to which pieces are cut, > 0.
 template <class Look>
 MotionVerdict certified_parts(std::uint32_t all, const Look& look, double finest) {
-  const auto judge = [&](std::uint32_t number, std::uint32_t& parts, bool& split) {
-    const detail::MotionPiece piece(number);
-    const double half = piece.last - piece.middle;
-    if (!look(piece.middle, half, parts)) return MotionVerdict::blocked;
-    if (parts == 0) return MotionVerdict::free;
-    split = half > finest && number < detail::most_pieces;
+  const auto judge = [&](detail::OpenPiece& piece, bool& split) {
+    piece.proved = look(piece.middle, piece.half, piece.parts);
+    if (piece.proved < 0.0) return MotionVerdict::blocked;
+    if (piece.parts == 0) return MotionVerdict::free;
+    split = piece.half > finest && piece.half > detail::finest_half;
     return MotionVerdict::refused;
   };
   return detail::judge_pieces(all, judge);

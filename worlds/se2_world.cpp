@@ -90,7 +90,7 @@ MotionVerdict Se2World::judge_motion(const State& a, const State& b, Query& quer
     body.finish();
     const Room room = tree_.room(body, {half, half * whole}, planning_clearance_);
     if (room == Room::clear) parts = 0;
-    return room != Room::blocked;
+    return room == Room::blocked ? -1.0 : 0.0;
   };
   return certified_parts(1, look, whole > 0.0 ? resolution_ / whole : 1.0);
 }

@@ -75,7 +75,7 @@ double SolidIndex::distance(const Spine& spine, double enough) const {
   double nearest = std::numeric_limits<double>::infinity();
   for_each_within(spine, enough, [&](const Approach& found) {
     nearest = std::min(nearest, std::max(0.0, found.distance));
-    return nearest > 0.0;
+    return nearest > 0.0 ? std::min(enough, nearest) : -1.0;
   });
   return nearest;
 }

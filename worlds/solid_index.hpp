@@ -32,16 +32,15 @@ class SolidIndex {
   std::size_t size() const { return solids_.size(); }
   /// Distance from the segment to the nearest obstacle; anything above `enough` when it is more.
   double distance(const Spine& spine, double enough) const;
-  /// Calls visit(Approach) for the obstacles at most `reach` away from the segment, and maybe some that are farther,
-  /// until it returns false.
+  /// Calls visit(Approach) for the obstacles at most `reach` away from the segment, and maybe some that are farther.
+  /// What visit returns is the new reach, not larger than the last one; a negative number ends the search.
   template <class Visit>
   void for_each_within(const Spine& spine, double reach, const Visit& visit) const {
     if (tree_.size() == 0) {
       visit_one_by_one(spine, reach, visit);
       return;
     }
-    tree_.search(box_around(spine), reach,
-                 [&](std::uint32_t place) { return visit(approach(spine, solids_[place])) ? reach : -1.0; });
+    tree_.search(box_around(spine), reach, [&](std::uint32_t place) { return visit(approach(spine, solids_[place])); });
   }
   /// The largest coordinate of an obstacle, without sign.
   double extent() const { return extent_; }
@@ -62,16 +61,22 @@ class SolidIndex {
     const double length = off.norm();
     return {length - solid.radius, length > 0.0 ? Vec3(off / length) : Vec3::Zero(), solid.centre, solid.radius};
   }
+  /// More exactly than by the spine's middle, and for half of what an approach costs.
+  static bool is_beyond(const Spine& spine, const Solid& solid, double reach) {
+    const double within = reach + solid.radius;
+    return distance_square(spine, solid.centre) > within * within;
+  }
   static Approach box_approach(const Spine& spine, const SolidBox& box);
   /// A ball is as far from the spine as from its middle, less half its length, at least.
   template <class Visit>
   void visit_one_by_one(const Spine& spine, double reach, const Visit& visit) const {
     const Vec3 middle = spine.a + 0.5 * spine.way;
-    const double around = reach + 0.5 * spine.way.norm();
+    const double half = 0.5 * spine.way.norm();
     for (const Solid& solid : solids_) {
-      const double within = around + solid.radius;
-      if ((solid.centre - middle).squaredNorm() > within * within) continue;
-      if (!visit(approach(spine, solid))) return;
+      const double within = reach + half + solid.radius;
+      if ((solid.centre - middle).squaredNorm() > within * within || is_beyond(spine, solid, reach)) continue;
+      reach = visit(approach(spine, solid));
+      if (reach < 0.0) return;
     }
   }
 

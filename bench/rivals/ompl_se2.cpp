@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// warren beside OMPL for bodies in the plane that turn.
-//   trees    rrt_connect and OMPL's RRTConnect (its defaults) on the same scenes, one thread each, the same certified
-//            checks of states and motions behind both, the same number of runs; every path's motions are checked again
-//            outside of the clock. Scenes: files given as operands whose robot is a polygon, and `slits`, an L that
-//            must turn through three slits. CPU milliseconds of the process, medians.
-//   lengths  Dubins and Reeds-Shepp distances on random pairs, seed by seed the same: how many agree to 1e-9, where
-//   ours
-//            or theirs is shorter and by how much, the first such pairs, and nanoseconds a pair.
-// OMPL's random numbers have one seed a process, so its runs follow each other; warren's have the seeds 1, 2, ...
+// warren beside OMPL (1.5.2 as packaged) for bodies in the plane that turn, and cars: time to a first path, one thread
+// each, the same checker behind all. Contestants: rrt_connect with the program's defaults; og::RRTConnect with its own,
+// twice:
+//   certified  the certified motion check as its MotionValidator, so that what is compared is the planning;
+//   sampled    its own motion validator of the space at its default resolution (1 % of the space's extent), which asks
+//              the checker about states alone. What it finds is a solution only where the certified check confirms it.
+// Scenes: files given as operands whose robot is a polygon (ob::SE2StateSpace) or a car (by both curves:
+// ob::DubinsStateSpace, ob::ReedsSheppStateSpace); and `slits`, an L that must turn through three slits.
+//
+// Each is timed from obstacles in memory to path found: "in all" with the world, its index, and OMPL's spaces and
+// set-up, "search" without. Every path's motions are checked again outside of the clock. They take turns, seed by seed.
+// CPU milliseconds of the process, medians; a ratio is to warren's. OMPL's random numbers have one seed a process, so
+// its runs follow each other; warren's have the seeds 1, 2, ...
 #include <fmt/core.h>
 #include <ompl/base/MotionValidator.h>
 #include <ompl/base/PlannerTerminationCondition.h>
@@ -29,10 +33,8 @@
 #include <vector>
 
 #include "bench/rivals/stopwatch.hpp"
-#include "core/rng.hpp"
 #include "planners/rrt_connect.hpp"
-#include "worlds/dubins_curve.hpp"
-#include "worlds/reeds_shepp_curve.hpp"
+#include "worlds/car_world.hpp"
 #include "worlds/se2_world.hpp"
 #include "worlds/world_io.hpp"
 
@@ -46,20 +48,20 @@ struct Options {
   std::vector<std::string> scenes;
   std::uint64_t runs = 20;
   double limit_s = 20.0;
-  std::uint64_t pairs = 100'000;
 };
 
 struct Course {
   std::string name;
   Scene scene;
-  std::vector<Vec2> outline;
+  RobotSpec robot;
   Se2 start;
   Se2 goal;
 };
 
 struct Run {
   std::vector<Se2> path;  ///< empty: not solved
-  double cpu_s = 0.0;
+  double cpu_s = 0.0;     ///< in all
+  double search_s = 0.0;  ///< the planner's own
 };
 
 /// Arms 1.8 long and 0.3 wide.
@@ -75,7 +77,7 @@ Course slits(double width) {
     block(3.0 * (i + 1), 0.01, gaps[i]);
     block(3.0 * (i + 1), gaps[i] + width, 7.99);
   }
-  course.outline = {{-0.15, -0.15}, {1.65, -0.15}, {1.65, 0.15}, {0.15, 0.15}, {0.15, 1.65}, {-0.15, 1.65}};
+  course.robot.outline = {{-0.15, -0.15}, {1.65, -0.15}, {1.65, 0.15}, {0.15, 0.15}, {0.15, 1.65}, {-0.15, 1.65}};
   course.start = {0.5, 0.5, 0};
   course.goal = {10.3, 6, 0};
   return course;
@@ -85,14 +87,33 @@ Course course_of(const std::string& file) {
   Course course;
   course.name = file.substr(file.find_last_of('/') + 1);
   course.scene = read_scene(InputFile(file, {}), {});
-  if (!course.scene.robot || course.scene.robot->kind != RobotKind::polygon || course.scene.goal.size() != 3) {
-    throw std::runtime_error(file + ": expected a polygon robot, start and goal with headings");
+  const RobotKind kind = course.scene.robot ? course.scene.robot->kind : RobotKind::point;
+  if ((kind != RobotKind::polygon && kind != RobotKind::car) || course.scene.goal.size() != 3) {
+    throw std::runtime_error(file + ": expected a polygon robot or a car, start and goal with headings");
   }
-  course.outline = course.scene.robot->outline;
+  course.robot = *course.scene.robot;
   course.start = {course.scene.start[0], course.scene.start[1], course.scene.start[2]};
   course.goal = {course.scene.goal[0], course.scene.goal[1], course.scene.goal[2]};
   return course;
 }
+
+/// What a kind of motion is to either side: how worlds and OMPL's spaces are made.
+struct Turning {
+  using World = Se2World;
+  static World world(const Course& c) { return {c.scene, c.robot.outline, {}}; }
+  static const Box& box(const World& world) { return world.box(); }
+  static auto space(const Course&) { return std::make_shared<ob::SE2StateSpace>(); }
+};
+
+template <class Curve, class Space>
+struct Driving {
+  using World = CarWorld<Curve>;
+  static World world(const Course& c) {
+    return {c.scene, {.turning_radius = c.robot.turning_radius, .radius = c.robot.radius, .outline = c.robot.outline}};
+  }
+  static const Box& box(const World& world) { return world.body().box(); }
+  static auto space(const Course& c) { return std::make_shared<Space>(c.robot.turning_radius); }
+};
 
 Execution one_thread() {
   Execution execution;
@@ -100,12 +121,15 @@ Execution one_thread() {
   return execution;
 }
 
-Run run_warren(const Course& course, const Se2World& world, std::uint64_t seed) {
+template <class Kind>
+Run run_warren(const Course& course, std::uint64_t seed) {
   RrtOptions options;
   options.seed = seed;
-  const Stopwatch stopwatch;
+  const Stopwatch in_all;
+  const typename Kind::World world = Kind::world(course);
+  const Stopwatch search;
   auto solution = rrt_connect(world, course.start, std::span(&course.goal, 1), options, one_thread());
-  return {std::move(solution.path), stopwatch.read().cpu_s};
+  return {std::move(solution.path), in_all.read().cpu_s, search.read().cpu_s};
 }
 
 Se2 pose_of(const ob::State* state) {
@@ -113,20 +137,22 @@ Se2 pose_of(const ob::State* state) {
   return {pose->getX(), pose->getY(), pose->getYaw()};
 }
 
+template <class World>
 class StateChecker : public ob::StateValidityChecker {
  public:
-  StateChecker(const ob::SpaceInformationPtr& space, const Se2World& world)
+  StateChecker(const ob::SpaceInformationPtr& space, const World& world)
       : ob::StateValidityChecker(space), world_(world), query_(world.make_query()) {}
   bool isValid(const ob::State* state) const override { return world_.is_free(pose_of(state), query_); }
 
  private:
-  const Se2World& world_;
-  mutable Se2World::Query query_;
+  const World& world_;
+  mutable typename World::Query query_;
 };
 
+template <class World>
 class MotionChecker : public ob::MotionValidator {
  public:
-  MotionChecker(const ob::SpaceInformationPtr& space, const Se2World& world)
+  MotionChecker(const ob::SpaceInformationPtr& space, const World& world)
       : ob::MotionValidator(space), world_(world), query_(world.make_query()) {}
   bool checkMotion(const ob::State* from, const ob::State* to) const override {
     return world_.is_free(pose_of(to), query_) && world_.is_free_motion(pose_of(from), pose_of(to), query_);
@@ -137,20 +163,26 @@ class MotionChecker : public ob::MotionValidator {
   }
 
  private:
-  const Se2World& world_;
-  mutable Se2World::Query query_;
+  const World& world_;
+  mutable typename World::Query query_;
 };
 
-Run run_ompl(const Course& course, const Se2World& world, double limit_s) {
-  auto poses = std::make_shared<ob::SE2StateSpace>();
+enum class Motions { certified, sampled };
+
+template <class Kind>
+Run run_ompl(const Course& course, Motions motions, double limit_s) {
+  const Stopwatch in_all;
+  const typename Kind::World world = Kind::world(course);
+  auto poses = Kind::space(course);
   ob::RealVectorBounds bounds(2);
-  const Box& box = world.box();
+  const Box& box = Kind::box(world);
   bounds.low = {box.min.x, box.min.y};
   bounds.high = {box.max.x, box.max.y};
   poses->setBounds(bounds);
   auto space = std::make_shared<ob::SpaceInformation>(poses);
-  space->setStateValidityChecker(std::make_shared<StateChecker>(space, world));
-  space->setMotionValidator(std::make_shared<MotionChecker>(space, world));
+  space->setStateValidityChecker(std::make_shared<StateChecker<typename Kind::World>>(space, world));
+  if (motions == Motions::certified)
+    space->setMotionValidator(std::make_shared<MotionChecker<typename Kind::World>>(space, world));
   space->setup();
   const auto state_at = [&](const Se2& pose) {
     ob::ScopedState<ob::SE2StateSpace> state(poses);
@@ -158,27 +190,29 @@ Run run_ompl(const Course& course, const Se2World& world, double limit_s) {
     state->setYaw(pose.theta);
     return state;
   };
-  auto problem = std::make_shared<ob::ProblemDefinition>(space);
+  const ob::ProblemDefinitionPtr problem = std::make_shared<ob::ProblemDefinition>(space);
   problem->setStartAndGoalStates(state_at(course.start), state_at(course.goal));
   og::RRTConnect planner(space);
   planner.setProblemDefinition(problem);
   planner.setup();
-  const Stopwatch stopwatch;
+  const Stopwatch search;
   const ob::PlannerStatus status = planner.solve(ob::timedPlannerTerminationCondition(limit_s));
   Run run;
-  run.cpu_s = stopwatch.read().cpu_s;
+  run.cpu_s = in_all.read().cpu_s;
+  run.search_s = search.read().cpu_s;
   if (status != ob::PlannerStatus::EXACT_SOLUTION) return run;
-  auto* path = problem->getSolutionPath()->as<og::PathGeometric>();
+  auto* path = problem->getSolutionPath()->template as<og::PathGeometric>();
   for (const ob::State* state : path->getStates()) run.path.push_back(pose_of(state));
   return run;
 }
 
-void confirm(const Course& course, const Se2World& world, const Run& run) {
+template <class World>
+bool is_free(const World& world, const std::vector<Se2>& path) {
   auto query = world.make_query();
-  for (std::size_t i = 1; i < run.path.size(); ++i) {
-    if (world.is_free_motion(run.path[i - 1], run.path[i], query)) continue;
-    throw std::runtime_error(course.name + ": a path that is not free");
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    if (!world.is_free_motion(path[i - 1], path[i], query)) return false;
   }
+  return true;
 }
 
 double median(std::vector<double> values) {
@@ -187,117 +221,80 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-struct Summary {
-  std::size_t solved = 0;
-  double cpu_s = 0.0;
-  double length = 0.0;
+/// Of the reference point.
+double way_between(const Se2World&, const Se2& a, const Se2& b) { return distance(a.position(), b.position()); }
+template <class Curve>
+double way_between(const CarWorld<Curve>& world, const Se2& a, const Se2& b) {
+  return world.distance(a, b);
+}
+
+/// What a contestant did in all its runs.
+struct Record {
+  std::uint64_t solved = 0;
+  std::uint64_t collide = 0;  ///< paths that are none
+  std::vector<double> cpu_s = {};
+  std::vector<double> search_s = {};
+  std::vector<double> lengths = {};  ///< of the reference point's ways
+
+  template <class World>
+  void add(const World& world, const Run& run) {
+    cpu_s.push_back(run.cpu_s);
+    search_s.push_back(run.search_s);
+    if (run.path.empty()) return;
+    ++(is_free(world, run.path) ? solved : collide);
+    const auto way = [&](const Se2& a, const Se2& b) { return way_between(world, a, b); };
+    lengths.push_back(path_length(run.path, way));
+  }
 };
 
-Summary summary_of(const std::vector<Run>& runs) {
-  Summary summary;
-  std::vector<double> times;
-  std::vector<double> lengths;
-  for (const Run& run : runs) {
-    times.push_back(run.cpu_s);
-    if (run.path.empty()) continue;
-    ++summary.solved;
-    lengths.push_back(
-        path_length(run.path, [](const Se2& a, const Se2& b) { return distance(a.position(), b.position()); }));
-  }
-  summary.cpu_s = median(times);
-  summary.length = median(lengths);
-  return summary;
+void print(const std::string& scene, const char* name, const Record& record, const Record& ours) {
+  fmt::print("{:<18} {:<18} {:>4} {:>4}/{} {:>9.3f} {:>7.1f} {:>9.3f} {:>7.1f} {:>7.2f}\n", scene, name, record.collide,
+             record.solved, record.cpu_s.size(), 1e3 * median(record.cpu_s), median(record.cpu_s) / median(ours.cpu_s),
+             1e3 * median(record.search_s), median(record.search_s) / median(ours.search_s), median(record.lengths));
 }
 
+template <class Kind>
 void compare_trees(const Course& course, const Options& options) {
-  const Se2World world(course.scene, course.outline, {});
-  std::vector<Run> ours;
-  std::vector<Run> theirs;
+  const typename Kind::World world = Kind::world(course);
+  Record ours;
+  Record certified;
+  Record sampled;
   for (std::uint64_t seed = 1; seed <= options.runs; ++seed) {
-    ours.push_back(run_warren(course, world, seed));
-    theirs.push_back(run_ompl(course, world, options.limit_s));
-    confirm(course, world, ours.back());
-    confirm(course, world, theirs.back());
+    ours.add(world, run_warren<Kind>(course, seed));
+    certified.add(world, run_ompl<Kind>(course, Motions::certified, options.limit_s));
+    sampled.add(world, run_ompl<Kind>(course, Motions::sampled, options.limit_s));
   }
-  const Summary a = summary_of(ours);
-  const Summary b = summary_of(theirs);
-  fmt::print(
-      "{:<18} warren {:>3}/{} {:>9.3f} ms, length {:>6.2f}   OMPL {:>3}/{} {:>9.3f} ms, length {:>6.2f}   {:.1f} "
-      "times\n",
-      course.name, a.solved, options.runs, 1e3 * a.cpu_s, a.length, b.solved, options.runs, 1e3 * b.cpu_s, b.length,
-      b.cpu_s / a.cpu_s);
+  if (ours.collide + certified.collide > 0) throw std::runtime_error(course.name + ": a path that is not free");
+  print(course.name, "warren", ours, ours);
+  print(course.name, "OMPL, certified", certified, ours);
+  print(course.name, "OMPL, sampled", sampled, ours);
 }
 
-Se2 random_pose(std::uint64_t index) {
-  return {10.0 * uniform(1, index, 0), 10.0 * uniform(1, index, 1), 6.283 * uniform(1, index, 2) - 3.1415};
-}
-
-/// Tells where the two disagree, and whether the shorter way is one (ours always is: its end is compared).
-template <class Curve, class Space>
-void compare_lengths(const char* name, std::uint64_t pairs) {
-  Space space(1.0);
-  auto* from = space.allocState()->template as<ob::SE2StateSpace::StateType>();
-  auto* to = space.allocState()->template as<ob::SE2StateSpace::StateType>();
-  const auto theirs = [&](const Se2& a, const Se2& b) {
-    from->setXY(a.x, a.y);
-    from->setYaw(a.theta);
-    to->setXY(b.x, b.y);
-    to->setYaw(b.theta);
-    return space.distance(from, to);
-  };
-  std::uint64_t agree = 0;
-  std::uint64_t shorter = 0;
-  std::uint64_t longer = 0;
-  double most_shorter = 0.0;
-  double most_longer = 0.0;
-  for (std::uint64_t i = 0; i < pairs; ++i) {
-    const Se2 a = random_pose(2 * i);
-    const Se2 b = random_pose(2 * i + 1);
-    const double ours = Curve::shortest(a, b, 1.0).length;
-    const double gap = theirs(a, b) - ours;
-    if (std::abs(gap) <= 1e-9) {
-      ++agree;
-      continue;
-    }
-    ++(gap > 0.0 ? shorter : longer);
-    most_shorter = std::max(most_shorter, gap);
-    most_longer = std::max(most_longer, -gap);
-    if (shorter + longer > 3) continue;
-    fmt::print("  {} {} {} -> {} {} {}: ours {:.9f}, theirs {:.9f}\n", a.x, a.y, a.theta, b.x, b.y, b.theta, ours,
-               ours + gap);
+void compare(Course course, const Options& options) {
+  if (course.robot.kind != RobotKind::car) {
+    compare_trees<Turning>(course, options);
+    return;
   }
-  double sum = 0.0;
-  const Stopwatch our_watch;
-  for (std::uint64_t i = 0; i < pairs; ++i)
-    sum += Curve::shortest(random_pose(2 * i), random_pose(2 * i + 1), 1.0).length;
-  const double our_s = our_watch.read().cpu_s;
-  const Stopwatch their_watch;
-  for (std::uint64_t i = 0; i < pairs; ++i) sum += theirs(random_pose(2 * i), random_pose(2 * i + 1));
-  const double their_s = their_watch.read().cpu_s;
-  const double scale = 1e9 / static_cast<double>(pairs);
-  fmt::print(
-      "{:<12} {} pairs: {} agree to 1e-9; ours shorter {} (by {:.3g} at most), theirs shorter {} (by {:.3g}); {:.0f} "
-      "and {:.0f} ns a pair (mean of all lengths {:.3f})\n",
-      name, pairs, agree, shorter, most_shorter, longer, most_longer, scale * our_s, scale * their_s,
-      sum / (2.0 * static_cast<double>(pairs)));
-  space.freeState(from);
-  space.freeState(to);
+  const std::string file = course.name;
+  course.name = file + " D";
+  compare_trees<Driving<DubinsCurve, ob::DubinsStateSpace>>(course, options);
+  course.name = file + " RS";
+  compare_trees<Driving<ReedsSheppCurve, ob::ReedsSheppStateSpace>>(course, options);
 }
 
 int run(int argc, char** argv) {
   Options options;
   CLI::App app("warren beside OMPL for bodies that turn");
-  app.add_option("scenes", options.scenes, "scene files whose robot is a polygon");
+  app.add_option("scenes", options.scenes, "scene files whose robot is a polygon or a car");
   app.add_option("--runs", options.runs, "runs of each planner a scene")->check(CLI::PositiveNumber);
   app.add_option("--limit", options.limit_s, "seconds that one run of OMPL may take")->check(CLI::PositiveNumber);
-  app.add_option("--pairs", options.pairs, "pairs of poses for the curves")->check(CLI::PositiveNumber);
   CLI11_PARSE(app, argc, argv);
   ompl::msg::setLogLevel(ompl::msg::LOG_ERROR);
   ompl::RNG::setSeed(1);
-  for (const std::string& file : options.scenes) compare_trees(course_of(file), options);
-  for (const double width : {1.2, 0.8}) compare_trees(slits(width), options);
-  compare_lengths<DubinsCurve, ob::DubinsStateSpace>("Dubins", options.pairs);
-  compare_lengths<ReedsSheppCurve, ob::ReedsSheppStateSpace>("Reeds-Shepp", options.pairs);
+  fmt::print("{:<18} {:<18} {:>4} {:>7} {:>9} {:>7} {:>9} {:>7} {:>7}\n", "scene", "planner", "hit", "solved", "in all",
+             "ratio", "search", "ratio", "length");
+  for (const std::string& file : options.scenes) compare(course_of(file), options);
+  for (const double width : {1.2, 0.8}) compare(slits(width), options);
   return 0;
 }
 

@@ -86,11 +86,11 @@ TEST(SolidIndex, DistancesAreThoseOfAPlainLoop) {
       index.for_each_within(spine, enough, [&](const Approach& near) {
         nearest = std::min(nearest, near.distance);
         // A plane between ball and segment.
-        if (near.outward.squaredNorm() == 0.0) return true;
+        if (near.outward.squaredNorm() == 0.0) return enough;
         const double gap = near.distance + near.radius - 1e-9;
         EXPECT_GE(near.outward.dot(a - near.centre), gap);
         EXPECT_GE(near.outward.dot(b - near.centre), gap);
-        return true;
+        return enough;
       });
       if (std::abs(expected - enough) < 1e-8) continue;
       EXPECT_EQ(nearest <= enough, expected <= enough);
