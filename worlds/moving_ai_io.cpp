@@ -17,7 +17,10 @@ namespace {
 /// Lines without their ends, numbered from 1.
 class Lines {
  public:
-  explicit Lines(const InputFile& file) : name_(file.name()), rest_(file.bytes()) {}
+  explicit Lines(const InputFile& file) : name_(file.name()), rest_(file.bytes()) {
+    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+    if (rest_.starts_with(byte_order_mark)) rest_.remove_prefix(byte_order_mark.size());
+  }
   bool done() const { return rest_.empty(); }
   std::string_view next() {
     ++number_;

@@ -33,6 +33,7 @@ class Tokens {
     rest_.remove_prefix(word.size());
     return value;
   }
+  std::string_view rest() const { return rest_; }
   void magic() { rest_.remove_prefix(2); }
   /// Exactly one byte stands between header and binary pixels.
   std::string_view pixels() const { return rest_.substr(std::min<std::size_t>(1, rest_.size())); }
@@ -61,6 +62,24 @@ class Tokens {
   std::size_t line_ = 1;
 };
 
+/// Gives back what was read, so that a large image is never held as a whole.
+class Forgetting {
+ public:
+  explicit Forgetting(const InputFile& file) : file_(file) {}
+  /// All before these last bytes of the file was read.
+  void but(std::string_view rest) {
+    constexpr std::size_t piece = std::size_t{1} << 22;
+    const std::size_t read = file_.bytes().size() - rest.size();
+    if (read - forgotten_ < piece) return;
+    file_.forget(forgotten_, read);
+    forgotten_ = read;
+  }
+
+ private:
+  const InputFile& file_;
+  std::size_t forgotten_ = 0;
+};
+
 /// One sample of a binary row; two bytes, the high one first, where maxval is beyond 255.
 std::uint16_t sample(std::string_view bytes, std::size_t i, bool wide) {
   const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(bytes[at]); };
@@ -78,8 +97,10 @@ void read_binary(const InputFile& file, const ImageHeader& header, std::string_v
                      fmt::format("{} bytes", pixels.size()));
   }
   std::vector<std::uint16_t> samples(header.width);
+  Forgetting forgetting(file);
   for (std::uint32_t y = 0; y < header.height; ++y) {
     execution.check();
+    forgetting.but(pixels.substr(y * row_bytes));
     const std::string_view row = pixels.substr(y * row_bytes, row_bytes);
     unsigned highest = 0;
     for (std::uint32_t x = 0; x < header.width; ++x) {
@@ -109,8 +130,10 @@ void read_pgm(const InputFile& file, const ImageSink& sink, const Execution& exe
   sink.begin(header);
   if (file.bytes()[1] == '5') return read_binary(file, header, tokens.pixels(), sink, execution);
   std::vector<std::uint16_t> samples(header.width);
+  Forgetting forgetting(file);
   for (std::uint32_t y = 0; y < header.height; ++y) {
     execution.check();
+    forgetting.but(tokens.rest());
     for (std::uint16_t& s : samples) s = static_cast<std::uint16_t>(tokens.number("a pixel", 0, header.maximum));
     sink.row({y, 0, 1, samples});
   }

@@ -54,8 +54,10 @@ TEST(MovingAiMap, TakesBlanksAroundAndATinyMap) {
   EXPECT_EQ(one.free, 1U);
 }
 
-TEST(MovingAiMap, NotesMayFollowABlankLine) {
+TEST(MovingAiMap, AByteOrderMarkMayStandBeforeAndANoteBehindABlankLine) {
   const TemporaryDirectory directory;
+  const std::string marked = "\xef\xbb\xbftype octile\nheight 1\nwidth 1\nmap\n.\n";
+  EXPECT_EQ(read_moving_ai_map(InputFile(directory.write("a.map", marked), {}), {}).free, 1U);
   for (const char* note : {"\n/////\n  title={Benchmarks},\n}\n", "\r\n\r\ncite me\r\n", "\n\n"}) {
     const std::string text = std::string("type octile\nheight 2\nwidth 2\nmap\n..\n.@\n") + note;
     EXPECT_EQ(read_moving_ai_map(InputFile(directory.write("a.map", text), {}), {}).free, 3U);
