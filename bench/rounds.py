@@ -93,6 +93,22 @@ def merged(rounds, context):
     return {"context": whole, "benchmarks": [entry for group in entries.values() for entry in group]}
 
 
+def over_limit(entries):
+    """A line for each benchmark that tells a limit (the counter limit_ms) and exceeded it in every round."""
+    units = {"ns": 1e-6, "us": 1e-3, "ms": 1.0, "s": 1e3}
+    least = {}
+    for entry in entries:
+        if "limit_ms" in entry and not entry.get("error_occurred"):
+            milliseconds = entry["real_time"] * units[entry["time_unit"]]
+            known = least.get(entry["name"], (milliseconds, entry["limit_ms"]))
+            least[entry["name"]] = (min(known[0], milliseconds), entry["limit_ms"])
+    return [
+        f"bench: {name}: {milliseconds:.3g} ms in the best round, over its limit of {limit:g} ms"
+        for name, (milliseconds, limit) in least.items()
+        if milliseconds > limit
+    ]
+
+
 def write_json(path, value):
     beside = f"{path}.{os.getpid()}.part"
     try:
@@ -151,7 +167,10 @@ def main():
         parser.error("expected PROGRAM=FILE")
     results = run_rounds([program for program, _, _ in runs], arguments)
     for (program, _, file), rounds in zip(runs, results):
-        write_json(file, merged(rounds, context_of(program, arguments)))
+        whole = merged(rounds, context_of(program, arguments))
+        write_json(file, whole)
+        for line in over_limit(whole["benchmarks"]):
+            print(line, file=sys.stderr)
     return 0
 
 

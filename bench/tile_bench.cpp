@@ -16,6 +16,7 @@
 #include "planners/wall_marking.hpp"
 #include "worlds/maze_generator.hpp"
 #include "worlds/maze_world.hpp"
+#include "worlds/verify.hpp"
 
 namespace warren::bench {
 namespace {
@@ -208,6 +209,19 @@ void bm_plain_plan(benchmark::State& state) {
   time_plan(state, scene, [&] { return plan_plainly(scene, execution); });
 }
 
+/// From walls in memory to path verified, as `warren solve` does it; the limit is watched by bench/rounds.py.
+void bm_walls_to_verified_path(benchmark::State& state) {
+  const Scene& scene = scene_of(state.range(0), state.range(1));
+  bool is_verified = true;
+  for (auto _ : state) {
+    const Solution<Vec2> solution = plan_in_tiles(scene, {});
+    is_verified = is_verified && verify_path(scene, solution.path, {.clearance = clearance}, {}).verified;
+  }
+  check(is_verified, "tiled_prm: a path that is not free");
+  report(state, cells_of(scene), scene.walls.bytes());
+  state.counters["limit_ms"] = 1.0;
+}
+
 BENCHMARK(bm_partition)
     ->ArgNames({"walls", "threads"})
     ->ArgsProduct({{backtracker, merged, shuffled}, {1}})
@@ -220,6 +234,10 @@ BENCHMARK(bm_tiled_plan)
     ->Args({backtracker, 41, 2})
     ->ArgsProduct({{backtracker}, {1000}, {1, 2}})
     ->ArgsProduct({{kruskal, kruskal_loops, merged, shuffled}, {1000}, {2}})
+    ->Apply(over_threads);
+BENCHMARK(bm_walls_to_verified_path)
+    ->ArgNames({"walls", "side"})
+    ->ArgsProduct({{backtracker, kruskal, kruskal_loops}, {41}})
     ->Apply(over_threads);
 BENCHMARK(bm_plain_plan)
     ->ArgNames({"walls", "side", "threads"})

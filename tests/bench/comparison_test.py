@@ -22,6 +22,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 sys.path.insert(0, os.path.join(ROOT, "bench"))
 
 import comparison
+import rounds
 
 PROGRAM = ""  # a warren_bench, if there is one
 MACHINE = {f"bm_machine_{i}": 1e6 for i in range(3)}
@@ -186,6 +187,17 @@ class Files(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn("bm_nothing", done.stderr)
         self.assertFalse(os.path.exists(file))
+
+    def test_a_limit_counts_as_passed_only_where_every_round_passed_it(self):
+        def entry(name, milliseconds):
+            return {"name": name, "real_time": milliseconds * 1e3, "time_unit": "us", "limit_ms": 1.0}
+
+        rounds_of = [entry("slow", 1.4), entry("slow", 1.2), entry("noisy", 1.4), entry("noisy", 0.9)]
+        unlimited = {"name": "free", "real_time": 9e9, "time_unit": "us"}
+        lines = rounds.over_limit(rounds_of + [unlimited])
+        self.assertEqual(len(lines), 1)
+        self.assertIn("slow: 1.2 ms", lines[0])
+        self.assertIn("limit of 1 ms", lines[0])
 
     def test_a_program_beside_itself_shows_no_difference(self):
         if not PROGRAM:
