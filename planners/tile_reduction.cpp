@@ -59,7 +59,8 @@ std::size_t TileSummary::bytes() const {
 TileReduction::TileReduction(const TilePlane& plane)
     : offset_(plane.offsets()),
       found_(static_cast<std::size_t>(plane.stride()) + 2),
-      number_(static_cast<std::size_t>(plane.stride()) * static_cast<std::size_t>(plane.stride())) {}
+      number_(static_cast<std::size_t>(plane.stride()) * static_cast<std::size_t>(plane.stride())),
+      steps_(2 * std::size_t{plane.grid().side()} * plane.grid().side()) {}
 
 TileSummary TileReduction::reduce(TilePlane& plane) {
   TileSummary summary;
@@ -72,7 +73,7 @@ TileSummary TileReduction::reduce(TilePlane& plane) {
   close_rings(plane, summary);
   summary.keys = keys_;
   summary.chains = chains_;
-  summary.steps = steps_;
+  summary.steps.assign(steps_.begin(), steps_.begin() + step_count_);
   return summary;
 }
 
@@ -180,7 +181,7 @@ void TileReduction::cut_crossings(TilePlane& plane, TileSummary& summary) {
 
 void TileReduction::chain_keys(TilePlane& plane) {
   chains_.clear();
-  steps_.clear();
+  step_count_ = 0;
   std::uint8_t* const base = plane.at(-plane.margin(), -plane.margin());
   for (const std::int32_t place : places_) {
     std::uint8_t* const at = base + place;
@@ -191,23 +192,26 @@ void TileReduction::chain_keys(TilePlane& plane) {
 /// Walks from a key to the next, wiping out the way. A way back to the same key is on no shortest path.
 void TileReduction::follow(std::uint8_t* from, unsigned direction, const TilePlane& plane) {
   const std::uint8_t* const base = plane.at(-plane.margin(), -plane.margin());
-  const std::size_t first_step = steps_.size();
+  std::uint8_t* const first_step = steps_.data() + step_count_;
+  std::uint8_t* step = first_step;
   std::uint8_t* at = from;
   *at &= static_cast<std::uint8_t>(~(1U << direction));
   for (;;) {
-    steps_.push_back(static_cast<std::uint8_t>(direction));
+    *step++ = static_cast<std::uint8_t>(direction);
     at += offset_[direction];
-    *at &= static_cast<std::uint8_t>(~opposite_bit(direction));
-    if ((*at & key) != 0) break;
-    direction = first_direction(*at & edges);
+    const unsigned bits = *at & ~static_cast<unsigned>(opposite_bit(direction));
+    if ((bits & key) != 0) {
+      *at = static_cast<std::uint8_t>(bits);
+      break;
+    }
+    direction = first_direction(bits & edges);
     *at = 0;
   }
-  if (at == from) {
-    steps_.resize(first_step);
-    return;
-  }
+  if (at == from) return;
+  const auto length = static_cast<std::uint32_t>(step - first_step);
   chains_.push_back({number_[static_cast<std::size_t>(from - base)], number_[static_cast<std::size_t>(at - base)],
-                     static_cast<std::uint32_t>(first_step), static_cast<std::uint32_t>(steps_.size() - first_step)});
+                     step_count_, length});
+  step_count_ += length;
 }
 
 /// What is left now are rings without a key: each is a component of its own.

@@ -69,7 +69,8 @@ class TileReduction {
   std::vector<std::uint16_t> keys_;
   std::vector<std::int32_t> places_;  // of the keys, in the plane
   std::vector<Chain> chains_;
-  std::vector<std::uint8_t> steps_;
+  std::vector<std::uint8_t> steps_;  // room for all edges of a tile
+  std::uint32_t step_count_ = 0;
 };
 
 }  // namespace warren
