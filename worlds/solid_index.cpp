@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "worlds/solid_index.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -54,6 +55,9 @@ SolidIndex::SolidIndex(std::span<const Sphere> spheres, std::span<const SolidBox
   }
   if (solids.size() <= most_without_tree) {
     solids_ = std::move(solids);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (const Solid& solid : solids_) middles_[axis].push_back(solid.centre[static_cast<Eigen::Index>(axis)]);
+    }
     return;
   }
   tree_ = BoxTree<3>(bounds);
@@ -65,6 +69,20 @@ BoxOf<3> SolidIndex::box_around(const Spine& spine) {
   const Vec3 low = spine.a.cwiseMin(b);
   const Vec3 high = spine.a.cwiseMax(b);
   return {{low.x(), low.y(), low.z()}, {high.x(), high.y(), high.z()}};
+}
+
+std::size_t SolidIndex::squares_from(const Vec3& p, std::array<double, most_without_tree>& squares) const {
+  const std::size_t count = solids_.size();
+  const double* x = middles_[0].data();
+  const double* y = middles_[1].data();
+  const double* z = middles_[2].data();
+  for (std::size_t i = 0; i < count; ++i) {
+    const double dx = x[i] - p.x();
+    const double dy = y[i] - p.y();
+    const double dz = z[i] - p.z();
+    squares[i] = dx * dx + dy * dy + dz * dz;
+  }
+  return static_cast<std::size_t>(std::min_element(squares.begin(), squares.begin() + count) - squares.begin());
 }
 
 Approach SolidIndex::box_approach(const Spine& spine, const SolidBox& box) {
