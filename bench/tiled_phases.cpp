@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "core/page_pool.hpp"
 #include "core/rng.hpp"
 #include "planners/overlay_search.hpp"
 #include "planners/tiled_prm.hpp"
@@ -97,6 +98,7 @@ void print_tile_parts(const Scene& scene, LatticeSize lattice) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const PagePool pool;  // from the second repeat on, memory has been touched
   const auto argument = [&](int i, const char* otherwise) { return std::string(i < argc ? argv[i] : otherwise); };
   MazeOptions maze;
   maze.rows = maze.cols = static_cast<std::uint32_t>(std::stoul(argument(1, "1000")));
