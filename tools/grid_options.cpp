@@ -14,8 +14,9 @@ constexpr OptionSpec specs[] = {
     {"--cell", "C",
      "grid in a scene: distance of its positions (default: the file's grid line, else a 400th of the longer side)"},
     {"--angles", "N", "grid: headings of a body that turns (default: the file's grid line, else 72)"},
-    {"--face-motion", "",
-     "grid of a body that turns: it moves only where it faces; a turn to the next heading costs 1"},
+    {"--face-motion", "", "grid of a body that turns: it moves only where it faces"},
+    {"--step-cost", "C", "grid in a scene or of a body that turns: what a step to the side costs (default: 1)"},
+    {"--turn-cost", "C", "grid of a body that turns: what a turn to the next heading costs (default: 1)"},
     {"--diagonal", "NAME", "grid: what a diagonal step costs (default: sqrt2)", "sqrt2 unit none"},
     {"--layers", "NAME",
      "grid in a scene: exact footprints, or report 004's discs, rounded up, among walls two cells thick "

@@ -12,7 +12,7 @@
 
 namespace warren {
 
-/// --cell --angles --face-motion --diagonal --layers
+/// --cell --angles --face-motion --step-cost --turn-cost --diagonal --layers
 std::span<const OptionSpec> grid_option_specs();
 
 /// --diagonal: sqrt2 where nothing is said. Throws UsageError.

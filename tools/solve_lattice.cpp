@@ -29,7 +29,8 @@
 namespace warren {
 namespace {
 
-constexpr PlannerChoice planners[] = {{PlannerKind::grid, "--cell --angles --face-motion --diagonal --layers"}};
+constexpr PlannerChoice planners[] = {
+    {PlannerKind::grid, "--cell --angles --face-motion --step-cost --turn-cost --diagonal --layers"}};
 
 bool fits_lattice(const Scene& scene, const RobotSpec& robot) {
   const bool fits = robot.kind == RobotKind::point || robot.kind == RobotKind::disc || robot.kind == RobotKind::polygon;
@@ -81,6 +82,8 @@ class LatticeSolve {
       : request_(request), problem_(problem), layer_options_(layer_options(request, problem)), frame_(request.scene) {
     search_.diagonal = diagonal_option(request.arguments);
     search_.face_motion = request.arguments.has("--face-motion");
+    search_.step_cost = cost_option("--step-cost");
+    search_.turn_cost = cost_option("--turn-cost");
     answer_.problem = problem;
     answer_.planner = name_of(PlannerKind::grid);
     answer_.search = name_of(GridMethod::astar);
@@ -104,12 +107,19 @@ class LatticeSolve {
  private:
   bool turns() const { return problem_.robot.kind == RobotKind::polygon; }
 
+  double cost_option(std::string_view name) const {
+    const auto text = request_.arguments.value(name);
+    return text ? positive_value(name, *text) : 1.0;
+  }
+
   void describe_options() {
     const auto add = [&](const char* name, std::string value) { answer_.options.emplace_back(name, std::move(value)); };
     add("cell", json_number(layer_options_.grid.cell));
     if (turns()) add("angles", std::to_string(layer_options_.grid.angles));
     add("diagonal", json_string(name_of(search_.diagonal)));
     if (search_.face_motion) add("face_motion", "true");
+    if (search_.step_cost != 1.0) add("step_cost", json_number(search_.step_cost));
+    if (search_.turn_cost != 1.0) add("turn_cost", json_number(search_.turn_cost));
     if (layer_options_.kind == LayerKind::report004) add("layers", "\"report004\"");
   }
 

@@ -40,6 +40,27 @@ TEST(Lattice, TheCourseSceneHasItsFigures) {
   EXPECT_EQ(outcome.code, answer["verified"].get<bool>() ? 0 : 1);
 }
 
+TEST(Lattice, StepsAndTurnsCostWhatIsSaid) {
+  const Folder folder;
+  const std::string scene = folder.write("walls.scene", course_scene);
+  const auto solved = [&](const char* step, const char* turn) {
+    return answered(
+        {"solve", scene, "--planner", "grid", "--diagonal", "unit", "--step-cost", step, "--turn-cost", turn});
+  };
+  const Json usual = solved("1", "1");
+  const Json both = solved("2.5", "2.5");
+  EXPECT_EQ(both["cost"], 2.5 * usual["cost"].get<double>());
+  EXPECT_EQ(both["options"]["step_cost"], 2.5);
+  EXPECT_EQ(usual["turn_steps"], 9);
+  const Json dear = solved("1", "40");
+  EXPECT_EQ(dear["cost"], dear["moves"].get<double>() + 40.0 * dear["turn_steps"].get<double>());
+  EXPECT_EQ(dear["turn_steps"], 0);
+  EXPECT_GT(dear["moves"], usual["moves"]);
+  for (const char* bad : {"0", "-1", "nan", "x"}) {
+    EXPECT_EQ(run({"solve", scene, "--planner", "grid", "--turn-cost", bad}).code, 2) << bad;
+  }
+}
+
 TEST(Lattice, AFourHundredthOfTheLongerSideIsTheCellThatNobodyNamed) {
   const Folder folder;
   const std::string scene = folder.write("walls.scene", course_scene);
