@@ -60,10 +60,11 @@ KeyCoverView::KeyCoverView(const Graph& graph, std::span<const VertexId> keep, P
     if (v >= n) throw InputError("reduce_graph", "a vertex to keep is not in the graph", std::to_string(v));
     left_[v] = 2;
   }
-  std::vector<std::vector<VertexId>> seeds(chunk_count(n, grain));
-  for_chunks(n, grain, quiet, [&](Range r) { seeds[r.first / grain] = peel_block(r); });
-  for_chunks(peeling == Peeling::everywhere ? seeds.size() : 0, 1, quiet, [&](Range r) {
-    for (const VertexId v : seeds[r.first]) peel_across(v, execution);
+  std::vector<Peeled> peeled(chunk_count(n, grain));
+  for_chunks(n, grain, quiet, [&](Range r) { peeled[r.first / grain] = peel_block(r); });
+  for (const Peeled& block : peeled) peeled_trees_ += block.trees;
+  for_chunks(peeling == Peeling::everywhere ? peeled.size() : 0, 1, quiet, [&](Range r) {
+    for (const VertexId v : peeled[r.first].seeds) peel_across(v, execution);
   });
   for_chunks(n, grain, quiet, [&](Range r) { mark_keys(r, peeling); });
   rank_.back() = 0;
@@ -71,29 +72,31 @@ KeyCoverView::KeyCoverView(const Graph& graph, std::span<const VertexId> keep, P
 }
 
 /// Neighbours outside the block count as left, so a vertex that is peeled here has none of them, and no other thread
-/// reads or writes what decides. Returns the vertices whose last neighbour lies outside: where peel_across has to
-/// begin.
-std::vector<VertexId> KeyCoverView::peel_block(Range block) {
+/// reads or writes what decides. The seeds are where peel_across has to begin.
+KeyCoverView::Peeled KeyCoverView::peel_block(Range block) {
   const auto first = static_cast<VertexId>(block.first);
   const auto size = static_cast<VertexId>(block.size());
   std::vector<std::uint32_t> degree(size);
   for (VertexId i = 0; i < size; ++i) degree[i] = static_cast<std::uint32_t>(graph_->degree(first + i));
-  std::vector<VertexId> seeds;
+  Peeled peeled;
   for (VertexId scan = 0; scan < size; ++scan) {
     for (VertexId i = scan; i <= scan && degree[i] <= 1 && left_[first + i] == 1;) {  // a larger one comes later
       VertexId last = no_vertex;
       for (const VertexId w : graph_->neighbours(first + i)) last = w - first >= size || left_[w] != 0 ? w : last;
       if (last != no_vertex && last - first >= size) {
-        seeds.push_back(first + i);
+        peeled.seeds.push_back(first + i);
         break;
       }
       left_[first + i] = 0;
-      if (last == no_vertex) break;
+      if (last == no_vertex) {
+        ++peeled.trees;
+        break;
+      }
       i = last - first;
       --degree[i];
     }
   }
-  return seeds;
+  return peeled;
 }
 
 /// Follows dead ends wherever they lead. Whoever peels a vertex looks at its last neighbour afterwards; sequentially
@@ -134,11 +137,12 @@ void KeyCoverView::mark_keys(Range block, Peeling peeling) {
   }
 }
 
-ReducedGraphView::ReducedGraphView(KeyCoverView cover, const std::vector<std::vector<Chain>>& parts,
-                                   RawVector<EdgeEnd> degrees, const Execution& execution)
+ReducedGraphView::ReducedGraphView(KeyCoverView cover, const std::vector<Part>& parts, RawVector<EdgeEnd> degrees,
+                                   const Execution& execution)
     : cover_(std::move(cover)) {
   std::vector<std::size_t> begins(parts.size() + 1, 0);
-  for (std::size_t p = 0; p < parts.size(); ++p) begins[p + 1] = begins[p] + parts[p].size();
+  for (std::size_t p = 0; p < parts.size(); ++p) begins[p + 1] = begins[p] + parts[p].chains.size();
+  for (const Part& part : parts) cycles_ += part.cycles;
   const Execution quiet = without_progress(execution);
   execution.reserve(begins.back() * (2 * sizeof(VertexId) + sizeof(double)));
   exclusive_scan(degrees, quiet);
@@ -149,7 +153,7 @@ ReducedGraphView::ReducedGraphView(KeyCoverView cover, const std::vector<std::ve
   for_chunks(parts.size(), 16, quiet, [&](Range r) {
     for (std::size_t p = r.first; p < r.last; ++p) {
       std::size_t at = begins[p];
-      for (const Chain& chain : parts[p]) {
+      for (const Chain& chain : parts[p].chains) {
         targets[at] = chain.target;
         lengths[at] = chain.length;
         via_[at++] = chain.via;

@@ -11,10 +11,11 @@
 // end (within a block, once for both). Loops and all but the shortest chain between two keys are dropped (ties: the
 // smaller first vertex).
 //
-// Large graphs are reduced twice (reduce_graph_twice): first each block of vertices for itself, whose chains end where
-// they leave the block, so that all of it happens in cache; then what that left, a tenth to a twentieth of the
+// Large graphs are reduced twice (TwiceReducedGraphView): first each block of vertices for itself, whose chains end
+// where they leave the block, so that all of it happens in cache; then what that left, a tenth to a twentieth of the
 // vertices, as a whole. The keys are the same or fewer: where the first step drops a longer one of two chains, the
-// second can peel more.
+// second can peel more. On the way the components are counted, by the keys that the first step leaves, the trees that
+// it peels wholly and the cycles that have no key: a tenth of what counting them in the whole graph costs.
 //
 // O(V + E). Memory: 1.2 bytes a vertex, and 20 bytes an edge end of the reduced graph. Measured in
 // bench/search_bench.cpp.
@@ -26,10 +27,12 @@
 #include <memory>
 #include <numeric>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/graph.hpp"
 #include "parallel/chunks.hpp"
+#include "parallel/components.hpp"
 
 namespace warren {
 
@@ -59,13 +62,20 @@ class KeyCoverView {
     return no_vertex;
   }
   const Graph& graph() const { return *graph_; }
+  /// Trees of the graph of which nothing is left. Only where peeling stays within blocks.
+  std::size_t peeled_trees() const { return peeled_trees_; }
 
  private:
-  std::vector<VertexId> peel_block(Range block);
+  struct Peeled {
+    std::vector<VertexId> seeds;  // vertices whose last neighbour lies outside the block
+    std::size_t trees = 0;        // that lay in the block as a whole
+  };
+  Peeled peel_block(Range block);
   void peel_across(VertexId seed, const Execution& execution);
   void mark_keys(Range block, Peeling peeling);
 
   const Graph* graph_;
+  std::size_t peeled_trees_ = 0;
   RawVector<std::uint8_t> left_;   // 0 peeled, 1 left, 2 left and never to be peeled
   RawVector<std::uint64_t> keys_;  // one bit a vertex
   RawVector<VertexId> rank_;       // keys before each word of keys_, and all
@@ -80,7 +90,12 @@ class ReducedGraphView {
     VertexId via;
     double length;
   };
-  ReducedGraphView(KeyCoverView cover, const std::vector<std::vector<Chain>>& parts, RawVector<EdgeEnd> degrees,
+  /// What a block of vertices gives: the chains of its keys, row by row, and how many cycles in it have no key.
+  struct Part {
+    std::vector<Chain> chains;
+    std::size_t cycles = 0;
+  };
+  ReducedGraphView(KeyCoverView cover, const std::vector<Part>& parts, RawVector<EdgeEnd> degrees,
                    const Execution& execution);
 
   const Graph& graph() const { return reduced_; }  ///< vertices are numbers of keys
@@ -88,6 +103,8 @@ class ReducedGraphView {
   /// The key with this vertex, which must be a key: start and goal always are.
   VertexId key_of(VertexId vertex) const { return cover_.rank(vertex); }
   bool is_key(VertexId vertex) const { return cover_.is_key(vertex); }
+  /// Components of the graph that no key stands for. Only where peeling stays within blocks.
+  std::size_t keyless_components() const { return cover_.peeled_trees() + cycles_; }
   /// A path over keys as the path over vertices that it stands for. O(path).
   std::vector<VertexId> expand(std::span<const VertexId> keys, const Execution& execution) const;
 
@@ -95,6 +112,7 @@ class ReducedGraphView {
   void expand_step(VertexId from, VertexId to, std::vector<VertexId>& path, const Execution& execution) const;
 
   KeyCoverView cover_;
+  std::size_t cycles_ = 0;
   Graph reduced_;
   RawVector<VertexId> via_;       // of each edge end: first vertex of its chain
   RawVector<VertexId> vertices_;  // of each key
@@ -168,22 +186,52 @@ class ChainLinks {
       VertexId link = 0;
       for (const VertexId w : cover.graph().neighbours(v)) link ^= cover.is_left(w) ? w : 0;
       link_[i] = link;
+      ++count_;
     }
   }
+  std::size_t count() const { return count_; }  ///< vertices that are linked
   VertexId next(VertexId before, VertexId at) const { return link_[at - first_] ^ before; }
 
  private:
   VertexId first_;
+  std::size_t count_ = 0;
   RawVector<VertexId> link_;
 };
 
-/// The same where no chain leaves its block: each is followed once, for both of its ends.
+/// Cycles of a block that have no key: the block's chains, which are marked, are all its linked vertices but theirs.
+inline std::size_t keyless_cycles(const KeyCoverView& cover, Range block, const ChainLinks& links,
+                                  const std::vector<ChainEnds>& chains) {
+  const auto first = static_cast<VertexId>(block.first);
+  std::vector<std::uint8_t> marked(block.size(), 0);
+  const auto mark = [&](VertexId before, VertexId at) {
+    while (!cover.is_key(at) && marked[at - first] == 0) {
+      marked[at - first] = 1;
+      before = std::exchange(at, links.next(before, at));
+    }
+  };
+  for (const ChainEnds& chain : chains) mark(chain.from, chain.via);
+  std::size_t cycles = 0;
+  for (VertexId v = first; v < block.last; ++v) {
+    if (!cover.is_left(v) || cover.is_key(v) || marked[v - first] != 0) continue;
+    ++cycles;
+    const std::span<const VertexId> row = cover.graph().neighbours(v);
+    mark(*std::find_if(row.begin(), row.end(), [&](VertexId w) { return cover.is_left(w); }), v);
+  }
+  return cycles;
+}
+
+/// The same where no chain leaves its block: each is followed once, for both of its ends. Returns the number of cycles
+/// that have no key.
 template <class Length, class Row>
-void for_each_key_of_block(const KeyCoverView& cover, Range block, const Length& length, const Execution& execution,
-                           const Row& row) {
+std::size_t for_each_key_of_block(const KeyCoverView& cover, Range block, const Length& length,
+                                  const Execution& execution, const Row& row) {
   const auto first = static_cast<VertexId>(block.first);
   const ChainLinks links(cover, block);
-  const auto next = [&links](VertexId before, VertexId at) { return links.next(before, at); };
+  std::size_t steps = 0;
+  const auto next = [&](VertexId before, VertexId at) {
+    ++steps;
+    return links.next(before, at);
+  };
   std::vector<std::uint8_t> followed(block.size(), 0);  // by the neighbour of the key at its other end
   std::vector<ChainEnds> found;
   std::vector<std::uint32_t> begins(block.size() + 1, 0);
@@ -218,6 +266,7 @@ void for_each_key_of_block(const KeyCoverView& cover, Range block, const Length&
     chains.assign(at(i == 0 ? 0 : begins[i - 1]), at(begins[i]));
     row(key, chains);
   }
+  return steps == links.count() ? 0 : keyless_cycles(cover, block, links, found);
 }
 }  // namespace detail
 
@@ -229,17 +278,17 @@ ReducedGraphView reduce_graph(const Graph& graph, std::span<const VertexId> keep
                               const Execution& execution, Peeling peeling = Peeling::everywhere) {
   KeyCoverView cover(graph, keep, peeling, execution);
   const std::size_t n = graph.vertex_count();
-  std::vector<std::vector<ReducedGraphView::Chain>> parts(chunk_count(n, detail::reduce_grain));
+  std::vector<ReducedGraphView::Part> parts(chunk_count(n, detail::reduce_grain));
   RawVector<EdgeEnd> degrees(cover.key_count() + 1, 0);
   for_chunks(n, detail::reduce_grain, execution, [&](Range r) {
-    std::vector<ReducedGraphView::Chain>& part = parts[r.first / detail::reduce_grain];
+    ReducedGraphView::Part& part = parts[r.first / detail::reduce_grain];
     const auto add_row = [&](VertexId key, std::vector<ReducedGraphView::Chain>& row) {
       detail::finish_row(cover.rank(key), row);
-      part.insert(part.end(), row.begin(), row.end());
+      part.chains.insert(part.chains.end(), row.begin(), row.end());
       degrees[cover.rank(key)] = static_cast<EdgeEnd>(row.size());
     };
     if (peeling == Peeling::within_blocks) {
-      detail::for_each_key_of_block(cover, r, length, execution, add_row);
+      part.cycles = detail::for_each_key_of_block(cover, r, length, execution, add_row);
     } else {
       detail::for_each_key(cover, r, length, execution, add_row);
     }
@@ -255,11 +304,16 @@ class TwiceReducedGraphView {
                         const Execution& execution)
       : blocks_(
             std::make_unique<ReducedGraphView>(reduce_graph(graph, keep, length, execution, Peeling::within_blocks))),
+        components_(components(blocks_->graph(), execution)),
         whole_(reduce_graph(blocks_->graph(), keys_of(keep), EdgeLengths{blocks_->graph()}, execution)) {}
 
   const Graph& graph() const { return whole_.graph(); }  ///< vertices are numbers of keys
   VertexId vertex_of(VertexId key) const { return blocks_->vertex_of(whole_.vertex_of(key)); }
   VertexId key_of(VertexId vertex) const { return whole_.key_of(blocks_->key_of(vertex)); }
+  /// Of the graph as it was.
+  std::size_t component_count() const { return components_.count + blocks_->keyless_components(); }
+  /// Are two vertices in one component? Both must be kept ones.
+  bool connected(VertexId v, VertexId w) const { return components_.connected(blocks_->key_of(v), blocks_->key_of(w)); }
   std::vector<VertexId> expand(std::span<const VertexId> keys, const Execution& execution) const {
     return blocks_->expand(whole_.expand(keys, execution), execution);
   }
@@ -279,6 +333,7 @@ class TwiceReducedGraphView {
   }
 
   std::unique_ptr<ReducedGraphView> blocks_;  // whole_ refers to its graph, wherever this is moved to
+  Components components_;                     // of that graph
   ReducedGraphView whole_;
 };
 

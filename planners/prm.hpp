@@ -2,12 +2,14 @@
 // PRM: the probabilistic roadmap method (Kavraki, Svestka, Latombe, Overmars 1996), every candidate edge checked.
 //
 // A round draws milestones in tile order, indexes them, checks the candidate edges on all cores, assembles the graph,
-// labels its components and, where start and goal are joined, searches it. With samples on auto a round that leaves
+// finds its components (on what the search's reduction leaves of it, where there is one) and, where start and goal are
+// joined, searches it. With samples on auto a round that leaves
 // them apart is followed by a larger one (roadmap_rule.hpp), until a documented cap. Time a round: O(n log n) for n
 // milestones with a bounded number of neighbours; memory: 36 bytes a milestone, 16 an edge (plane).
 // The result is a function of world, start, goal and options: the same bits for any thread count.
 #pragma once
 
+#include <optional>
 #include <utility>
 
 #include "core/solution.hpp"
@@ -43,6 +45,7 @@ class PrmPlan {
     draw(samples);
     const EdgeParts edges = connect(samples);
     assemble(edges);
+    reduce();
     return joined() && search();
   }
   void finish(Roadmap<State>* keep);
@@ -52,6 +55,7 @@ class PrmPlan {
   void draw(std::uint64_t samples);
   EdgeParts connect(std::uint64_t samples);
   void assemble(const EdgeParts& edges);
+  void reduce();
   bool joined();
   bool search();
   VertexId start_vertex() const { return static_cast<VertexId>(roadmap_.states.size() - 2); }
@@ -65,13 +69,15 @@ class PrmPlan {
   const Execution& execution_;
   bool keep_;
   Roadmap<State> roadmap_;
-  Components components_;
+  std::optional<TwiceReducedGraphView> reduced_;
+  Components components_;  // of the graph; empty if reduced_ knows them
   Solution<State> solution_;
 };
 
 template <World W>
 void PrmPlan<W>::draw(std::uint64_t samples) {
   const StageTimer timer(execution_, "sample", solution_.seconds.sample, samples);
+  reduced_.reset();
   roadmap_.graph = Graph();
   roadmap_.states = draw_milestones(world_, options_, samples, execution_);
   roadmap_.states.push_back(start_);
@@ -97,14 +103,27 @@ template <World W>
 void PrmPlan<W>::assemble(const EdgeParts& edges) {
   const StageTimer timer(execution_, "graph", solution_.seconds.graph, roadmap_.states.size());
   roadmap_.graph = assemble_graph(roadmap_.states.size(), edges, execution_);
-  components_ = components(roadmap_.graph, execution_);
   solution_.roadmap.edges = roadmap_.graph.edge_count();
-  solution_.roadmap.components = components_.count;
+}
+
+template <World W>
+void PrmPlan<W>::reduce() {
+  {
+    const StageTimer timer(execution_, "search", solution_.seconds.search);
+    reduced_ = reduced_for_search(world_, roadmap_.graph, roadmap_.states, start_vertex(), goal_vertex(), options_,
+                                  execution_);
+  }
+  const StageTimer timer(execution_, "graph", solution_.seconds.graph);
+  components_ = reduced_ ? Components() : components(roadmap_.graph, execution_);
+  solution_.roadmap.components = reduced_ ? reduced_->component_count() : components_.count;
 }
 
 template <World W>
 bool PrmPlan<W>::joined() {
-  if (components_.connected(start_vertex(), goal_vertex())) return true;
+  if (reduced_ ? reduced_->connected(start_vertex(), goal_vertex())
+               : components_.connected(start_vertex(), goal_vertex())) {
+    return true;
+  }
   solution_.outcome = Outcome::not_connected;
   return false;
 }
@@ -112,8 +131,10 @@ bool PrmPlan<W>::joined() {
 template <World W>
 bool PrmPlan<W>::search() {
   const StageTimer timer(execution_, "search", solution_.seconds.search);
-  const SearchResult found = search_roadmap(world_, roadmap_.graph, roadmap_.states, start_vertex(), goal_vertex(),
-                                            options_, execution_, keep_ ? &roadmap_.search_tree : nullptr);
+  const SearchResult found =
+      search_roadmap(world_, roadmap_.graph, reduced_, roadmap_.states, start_vertex(), goal_vertex(), options_,
+                     execution_, keep_ ? &roadmap_.search_tree : nullptr);
+  reduced_.reset();
   solution_.counters.expanded += found.expanded;
   if (found.status != SearchStatus::found) return false;
   solution_.outcome = Outcome::solved;
@@ -126,6 +147,7 @@ bool PrmPlan<W>::search() {
 template <World W>
 void PrmPlan<W>::finish(Roadmap<State>* keep) {
   if (solution_.outcome == Outcome::not_connected && !roadmap_.states.empty()) {
+    if (reduced_) components_ = components(roadmap_.graph, execution_);
     solution_.separation =
         separation_of(world_, roadmap_.states, components_, start_vertex(), goal_vertex(), execution_);
   }

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -74,13 +75,11 @@ SearchResult search_best(std::size_t vertex_count, VertexId start, VertexId goal
   return found;
 }
 
-/// The same over what reduce_graph leaves.
-template <class Length, class EstimateTo>
-SearchResult search_reduced(const Graph& graph, VertexId start, VertexId goal, const Length& length,
+/// The same over the keys of a reduced graph.
+template <class EstimateTo>
+SearchResult search_reduced(const TwiceReducedGraphView& reduced, VertexId start, VertexId goal,
                             const EstimateTo& estimate_to, QueueKind kind, const Execution& execution,
                             std::vector<Edge>* tree) {
-  const std::array<VertexId, 2> ends{start, goal};
-  const TwiceReducedGraphView reduced(graph, ends, length, execution);
   const auto neighbours = [&](VertexId key, const auto& visit) {
     const std::span<const VertexId> row = reduced.graph().neighbours(key);
     const std::span<const double> lengths = reduced.graph().lengths(key);
@@ -100,12 +99,26 @@ SearchResult search_reduced(const Graph& graph, VertexId start, VertexId goal, c
 
 }  // namespace detail
 
-/// Searches from `start` to `goal` over the graph; edge lengths are the world's distances. `tree`, where given,
-/// receives (vertex, parent) of what the search reached. Throws Stopped at the deadline.
+/// What is to be searched instead of the roadmap, start and goal kept; nothing where the roadmap itself is. Refers to
+/// the graph.
 template <World W>
-SearchResult search_roadmap(const W& world, const Graph& graph, std::span<const typename W::State> states,
-                            VertexId start, VertexId goal, const RoadmapOptions& options, const Execution& execution,
-                            std::vector<Edge>* tree) {
+std::optional<TwiceReducedGraphView> reduced_for_search(const W& world, const Graph& graph,
+                                                        std::span<const typename W::State> states, VertexId start,
+                                                        VertexId goal, const RoadmapOptions& options,
+                                                        const Execution& execution) {
+  if (options.search == SearchKind::bfs || options.search == SearchKind::dfs) return std::nullopt;
+  if (graph.vertex_count() < fewest_for_both_ends || !detail::is_stringy(graph, execution)) return std::nullopt;
+  const auto length = [&](VertexId v, VertexId w) { return world.distance(states[v], states[w]); };
+  return TwiceReducedGraphView(graph, std::array{start, goal}, length, execution);
+}
+
+/// Searches from `start` to `goal` over the graph, or over what reduced_for_search made of it; edge lengths are the
+/// world's distances. `tree`, where given, receives (vertex, parent) of what the search reached. Throws Stopped at the
+/// deadline.
+template <World W>
+SearchResult search_roadmap(const W& world, const Graph& graph, const std::optional<TwiceReducedGraphView>& reduced,
+                            std::span<const typename W::State> states, VertexId start, VertexId goal,
+                            const RoadmapOptions& options, const Execution& execution, std::vector<Edge>* tree) {
   const auto should_stop = [&] { return execution.should_stop(); };
   const auto length = [&](VertexId v, VertexId w) { return world.distance(states[v], states[w]); };
   const detail::GraphEdges<decltype(length)> neighbours{graph, length};
@@ -123,8 +136,8 @@ SearchResult search_roadmap(const W& world, const Graph& graph, std::span<const 
     found = options.search == SearchKind::bfs ? breadth_first(graph, start, goal, state, should_stop)
                                               : depth_first(graph, start, goal, state, should_stop);
     if (tree != nullptr) *tree = search_tree(state);
-  } else if (n >= fewest_for_both_ends && detail::is_stringy(graph, execution)) {
-    found = detail::search_reduced(graph, start, goal, length, estimate_to, options.queue, execution, tree);
+  } else if (reduced) {
+    found = detail::search_reduced(*reduced, start, goal, estimate_to, options.queue, execution, tree);
   } else {
     found = detail::search_best(n, start, goal, neighbours, estimate_to, options.queue, execution, tree);
   }

@@ -43,8 +43,10 @@ void count_baseline(const std::int32_t* key, std::size_t count, std::int32_t* ra
 }  // namespace
 
 InstructionSet best_instruction_set() noexcept {
-  static const InstructionSet best =
-      __builtin_cpu_supports("avx2") != 0 ? InstructionSet::avx2 : InstructionSet::baseline;
+  static const InstructionSet best = [] {
+    if (__builtin_cpu_supports("avx512f") != 0) return InstructionSet::avx512;
+    return __builtin_cpu_supports("avx2") != 0 ? InstructionSet::avx2 : InstructionSet::baseline;
+  }();
   return best;
 }
 
@@ -54,7 +56,7 @@ std::size_t DiscPoints::sort_roughly(std::size_t k, double scale, InstructionSet
     key[i] = static_cast<std::int32_t>((bits & ~index_mask) | static_cast<std::uint32_t>(i));
   }
   for (std::size_t i = count; i < count + padding; ++i) key[i] = std::numeric_limits<std::int32_t>::max();
-  (set == InstructionSet::avx2 ? count_avx2 : count_baseline)(key, count, rank);
+  (set == InstructionSet::baseline ? count_baseline : count_avx2)(key, count, rank);
   for (std::size_t i = 0; i < count; ++i) by_rank[rank[i]] = static_cast<std::uint32_t>(i);
   const std::int32_t limit = (key[by_rank[k - 1]] | static_cast<std::int32_t>(index_mask)) + std::int32_t{capacity};
   while (k < count && key[by_rank[k]] <= limit) ++k;

@@ -8,13 +8,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "core/types.hpp"
 
 namespace warren::detail {
 
-/// Versions of the counting loop; all give the same ranks.
-enum class InstructionSet : std::uint8_t { baseline, avx2 };
+/// Versions of a loop; all give the same answers. The counting loop has no third one.
+enum class InstructionSet : std::uint8_t { baseline, avx2, avx512 };
 /// The best one that this machine has.
 InstructionSet best_instruction_set() noexcept;
 
@@ -31,12 +32,12 @@ struct DiscPoints {
   std::uint32_t by_rank[capacity];
 
   /// Adds the points first .. last - 1 but `skip` with squared distances <= limit. There must be room for all.
-  void add_run(Vec2 p, double limit, const double* x, const double* y, std::uint32_t first, std::uint32_t last,
+  void add_run(Vec2 p, double limit, std::span<const Vec2> points, std::uint32_t first, std::uint32_t last,
                std::uint32_t skip) noexcept {
     std::size_t end = count;
     for (std::uint32_t i = first; i < last; ++i) {
-      const double dx = x[i] - p.x;
-      const double dy = y[i] - p.y;
+      const double dx = points[i].x - p.x;
+      const double dy = points[i].y - p.y;
       const double sum = dx * dx + dy * dy;
       square[end] = sum;
       place[end] = i;

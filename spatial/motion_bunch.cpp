@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "spatial/motion_bunch.hpp"
 
+#include <immintrin.h>
+
 #include <algorithm>
 #include <cstring>
 
@@ -31,6 +33,17 @@ struct LanesOf<double, 32> {
   using Indices = std::int64_t __attribute__((vector_size(32)));
 };
 
+/// A wall's box.
+template <class T>
+struct Ends {
+  T low_x, low_y, high_x, high_y;
+};
+template <class T>
+Ends<T> ends_of(const WallOf<T>& wall) {
+  return {std::min(wall.x1, wall.x2), std::min(wall.y1, wall.y2), std::max(wall.x1, wall.x2),
+          std::max(wall.y1, wall.y2)};
+}
+
 }  // namespace
 
 template <class T>
@@ -52,12 +65,9 @@ template <std::size_t bytes>
     IndexLanes first{};
     IndexLanes last{};
     for (std::size_t i = 0; i < walls.size(); ++i) {
-      const WallOf<T>& wall = walls[i];
-      const Lanes low_x = Lanes{} + std::min(wall.x1, wall.x2);
-      const Lanes high_x = Lanes{} + std::max(wall.x1, wall.x2);
-      const Lanes low_y = Lanes{} + std::min(wall.y1, wall.y2);
-      const Lanes high_y = Lanes{} + std::max(wall.y1, wall.y2);
-      const IndexLanes meets = (high_x >= left) & (low_x <= right) & (high_y >= bottom) & (low_y <= top);
+      const auto [low_x, low_y, high_x, high_y] = ends_of(walls[i]);
+      const IndexLanes meets = (Lanes{} + high_x >= left) & (Lanes{} + low_x <= right) & (Lanes{} + high_y >= bottom) &
+                               (Lanes{} + low_y <= top);
       const IndexLanes index = IndexLanes{} + static_cast<Index>(i);
       last = (index & meets) | (last & ~meets);
       first |= index & meets & (count == 0);
@@ -79,9 +89,69 @@ template <class T>
   sift_with<32>(walls);
 }
 
+// By the machine's own functions: its comparisons give bits, not lanes, which the compilers' vectors can't say well.
+template <>
+[[gnu::target("avx512f")]] void MotionBunch<float>::sift_avx512(std::span<const WallOf<float>> walls) noexcept {
+  const __m512 left = _mm512_load_ps(left_.data());
+  const __m512 bottom = _mm512_load_ps(bottom_.data());
+  const __m512 right = _mm512_load_ps(right_.data());
+  const __m512 top = _mm512_load_ps(top_.data());
+  __m512i count = _mm512_setzero_si512();
+  __m512i first = _mm512_setzero_si512();
+  __m512i last = _mm512_setzero_si512();
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    const auto [low_x, low_y, high_x, high_y] = ends_of(walls[i]);
+    __mmask16 meets = _mm512_cmp_ps_mask(_mm512_set1_ps(high_x), left, _CMP_GE_OQ);
+    meets = _mm512_mask_cmp_ps_mask(meets, _mm512_set1_ps(low_x), right, _CMP_LE_OQ);
+    meets = _mm512_mask_cmp_ps_mask(meets, _mm512_set1_ps(high_y), bottom, _CMP_GE_OQ);
+    meets = _mm512_mask_cmp_ps_mask(meets, _mm512_set1_ps(low_y), top, _CMP_LE_OQ);
+    const __m512i index = _mm512_set1_epi32(static_cast<int>(i));
+    last = _mm512_mask_mov_epi32(last, meets, index);
+    first = _mm512_mask_mov_epi32(first, _mm512_mask_testn_epi32_mask(meets, count, count), index);
+    count = _mm512_mask_add_epi32(count, meets, count, _mm512_set1_epi32(1));
+  }
+  _mm512_store_si512(count_.data(), count);
+  _mm512_store_si512(first_.data(), first);
+  _mm512_store_si512(last_.data(), last);
+}
+
+template <>
+[[gnu::target("avx512f")]] void MotionBunch<double>::sift_avx512(std::span<const WallOf<double>> walls) noexcept {
+  for (std::size_t lane = 0; lane < most; lane += 8) {
+    const __m512d left = _mm512_load_pd(&left_[lane]);
+    const __m512d bottom = _mm512_load_pd(&bottom_[lane]);
+    const __m512d right = _mm512_load_pd(&right_[lane]);
+    const __m512d top = _mm512_load_pd(&top_[lane]);
+    __m512i count = _mm512_setzero_si512();
+    __m512i first = _mm512_setzero_si512();
+    __m512i last = _mm512_setzero_si512();
+    for (std::size_t i = 0; i < walls.size(); ++i) {
+      const auto [low_x, low_y, high_x, high_y] = ends_of(walls[i]);
+      __mmask8 meets = _mm512_cmp_pd_mask(_mm512_set1_pd(high_x), left, _CMP_GE_OQ);
+      meets = _mm512_mask_cmp_pd_mask(meets, _mm512_set1_pd(low_x), right, _CMP_LE_OQ);
+      meets = _mm512_mask_cmp_pd_mask(meets, _mm512_set1_pd(high_y), bottom, _CMP_GE_OQ);
+      meets = _mm512_mask_cmp_pd_mask(meets, _mm512_set1_pd(low_y), top, _CMP_LE_OQ);
+      const __m512i index = _mm512_set1_epi64(static_cast<std::int64_t>(i));
+      last = _mm512_mask_mov_epi64(last, meets, index);
+      first = _mm512_mask_mov_epi64(first, _mm512_mask_testn_epi64_mask(meets, count, count), index);
+      count = _mm512_mask_add_epi64(count, meets, count, _mm512_set1_epi64(1));
+    }
+    _mm512_store_si512(&count_[lane], count);
+    _mm512_store_si512(&first_[lane], first);
+    _mm512_store_si512(&last_[lane], last);
+  }
+}
+
 template <class T>
 void MotionBunch<T>::sift(std::span<const WallOf<T>> walls, InstructionSet set) noexcept {
-  set == InstructionSet::avx2 ? sift_avx2(walls) : sift_baseline(walls);
+  switch (set) {
+    case InstructionSet::baseline:
+      return sift_baseline(walls);
+    case InstructionSet::avx2:
+      return sift_avx2(walls);
+    case InstructionSet::avx512:
+      return sift_avx512(walls);
+  }
 }
 
 template class MotionBunch<float>;

@@ -15,11 +15,14 @@ constexpr std::size_t grain = std::size_t{1} << 15;
 
 PointGrid::PointGrid(std::span<const Vec2> points, const Execution& execution) {
   if (points.empty()) return;
-  execution.reserve(points.size() * 18);
+  execution.reserve(points.size() * 2);
   frame_ = CellFrame(bounding_box({&points.front().x, 2, points.size()}, execution), points.size());
-  x_.resize(points.size());
-  y_.resize(points.size());
-  if (!take_points(points, execution)) sort_points(points, execution);
+  if (in_order(points, execution)) {
+    points_ = points;
+    file_points(execution);
+  } else {
+    sort_points(points, execution);
+  }
   count_crowding(execution);
   for (std::size_t k = 0; k < first_reach_.size(); ++k) first_reach_[k] = first_reach(k);
 }
@@ -40,7 +43,7 @@ void PointGrid::count_crowding(const Execution& execution) {
 }
 
 std::size_t PointGrid::bytes() const {
-  return (x_.size() + y_.size()) * sizeof(double) + (begin_.size() + id_.size() + place_of_.size()) * sizeof(VertexId);
+  return sorted_.size() * sizeof(Vec2) + (begin_.size() + id_.size() + place_of_.size()) * sizeof(VertexId);
 }
 
 /// Are the points in tile order? A pass of its own: filed out of order, two chunks would write the same cell.
@@ -58,38 +61,36 @@ bool PointGrid::in_order(std::span<const Vec2> points, const Execution& executio
   return std::find(sorted.begin(), sorted.end(), 0) == sorted.end();
 }
 
-/// Copies points that are in tile order, and files them; false if they turn out not to be.
-bool PointGrid::take_points(std::span<const Vec2> points, const Execution& execution) {
-  if (!in_order(points, execution)) return false;
-  const std::size_t n = points.size();
+/// Files points that are in tile order.
+void PointGrid::file_points(const Execution& execution) {
+  const std::size_t n = points_.size();
   begin_.resize(frame_.cell_count() + 1);
   for_chunks(n, grain, detail::quiet(execution), [&](Range range) {
-    std::size_t next = range.first == 0 ? 0 : std::size_t{frame_.cell_of(points[range.first - 1])} + 1;  // unfiled cell
+    std::size_t next = range.first == 0 ? 0 : std::size_t{frame_.cell_of(points_[range.first - 1])} + 1;  // not filed
     for (std::size_t i = range.first; i < range.last; ++i) {
-      const std::size_t cell = frame_.cell_of(points[i]);
+      const std::size_t cell = frame_.cell_of(points_[i]);
       for (; next <= cell; ++next) begin_[next] = static_cast<std::uint32_t>(i);
-      x_[i] = points[i].x;
-      y_[i] = points[i].y;
     }
   });
-  const std::size_t last = frame_.cell_of(points.back());
+  const std::size_t last = frame_.cell_of(points_.back());
   std::fill(begin_.begin() + static_cast<std::ptrdiff_t>(last) + 1, begin_.end(), static_cast<std::uint32_t>(n));
-  return true;
 }
 
 void PointGrid::sort_points(std::span<const Vec2> points, const Execution& execution) {
+  execution.reserve(points.size() * 24);
   KeyOrder order = counting_sort(points.size(), frame_.cell_count(), execution,
                                  [&](std::size_t i) { return frame_.cell_of(points[i]); });
   begin_ = std::move(order.first);
   id_ = std::move(order.item);
   place_of_.resize(points.size());
+  sorted_.resize(points.size());
   for_chunks(points.size(), grain, detail::quiet(execution), [&](Range range) {
     for (std::size_t place = range.first; place < range.last; ++place) {
-      x_[place] = points[id_[place]].x;
-      y_[place] = points[id_[place]].y;
+      sorted_[place] = points[id_[place]];
       place_of_[id_[place]] = static_cast<std::uint32_t>(place);
     }
   });
+  points_ = sorted_;
 }
 
 void PointGrid::within(Vec2 p, const SearchRadius& radius, VertexId except, std::vector<Neighbour>& out) const {
@@ -112,9 +113,8 @@ void PointGrid::nearest_in_window(Vec2 p, const Window& w, double square, std::s
   };
   for_each_run(w, [&](std::uint32_t first, std::uint32_t last) {
     for (std::uint32_t place = first; place < last; ++place) {
-      const double dx = x_[place] - p.x;
-      const double dy = y_[place] - p.y;
-      const double sum = dx * dx + dy * dy;
+      const Vec2 along = points_[place] - p;
+      const double sum = along.x * along.x + along.y * along.y;
       if (sum > square || id_at(place) == except) continue;
       out.push_back({id_at(place), std::sqrt(sum)});
       if (out.size() == 4 * k + 64) keep_best();
@@ -133,7 +133,7 @@ std::size_t PointGrid::nearest_in_disc(Vec2 p, const Window& w, double square, s
   bool fits = true;
   for_each_run(w, [&](std::uint32_t first, std::uint32_t last) {
     fits = fits && disc.count + (last - first) <= detail::DiscPoints::capacity;
-    if (fits) disc.add_run(p, square, x_.data(), y_.data(), first, last, skip);
+    if (fits) disc.add_run(p, square, points_, first, last, skip);
   });
   if (!fits) return no_vertex;
   if (disc.count < k) return disc.count;

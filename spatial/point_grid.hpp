@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Neighbours in the plane by a uniform grid: the index of choice for points that are not badly clustered (six to ten
-// times nanoflann, see bench/neighbours_bench.cpp). Points are copied into cell order as two arrays of coordinates; a
-// query reads, for each row of cells near it, one run of consecutive points. Cells as in tile_order.hpp: points that
-// come in tile order are already sorted, need no permutation, and are visited in ascending id.
-// Memory 18 bytes a point in tile order, 26 otherwise. A query costs O(points in the square of cells around its disc);
-// points that crowd in few cells make that O(n): use KdTree there (neighbours.hpp chooses).
+// times nanoflann, see bench/neighbours_bench.cpp). Points are kept in cell order; a query reads, for each row of cells
+// near it, one run of consecutive points. Cells as in tile_order.hpp: points that come in tile order are already
+// sorted, are read where they are, and are visited in ascending id. Memory 2 bytes a point in tile order, 26 otherwise.
+// A query costs O(points in the square of cells around its disc); points that crowd in few cells make that O(n): use
+// KdTree there (neighbours.hpp chooses).
 #pragma once
 
+#include <emmintrin.h>
+
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -27,19 +30,19 @@ namespace warren {
 class PointGrid {
  public:
   PointGrid() = default;  ///< no points
-  /// Copies the points; best when they are in tile order. Coordinates finite; below 2^32 points. Throws Stopped.
+  /// Points in tile order, which is best, are not copied: they must outlive the grid. Coordinates finite; below 2^32
+  /// points. Throws Stopped.
   PointGrid(std::span<const Vec2> points, const Execution& execution);
+  PointGrid(PointGrid&&) = default;
+  PointGrid& operator=(PointGrid&&) = default;
 
-  std::size_t size() const { return x_.size(); }
+  std::size_t size() const { return points_.size(); }
   std::size_t bytes() const;
   /// Did the points come in tile order?
   bool in_tile_order() const { return id_.empty(); }
 
   /// Point `id`, as it came.
-  Vec2 point(VertexId id) const {
-    const std::uint32_t place = place_of_.empty() ? id : place_of_[id];
-    return {x_[place], y_[place]};
-  }
+  Vec2 point(VertexId id) const { return points_[place_of_.empty() ? id : place_of_[id]]; }
   /// Mean number of points in the cell of a point, itself included: about 3 if they are spread evenly, size() if all
   /// share one cell. What a query costs grows with it. Counted on construction, exactly.
   double crowding() const { return crowding_; }
@@ -52,8 +55,8 @@ class PointGrid {
   template <class Visit>
   void for_each_within(Vec2 p, const SearchRadius& radius, const Visit& visit) const;
   /// Calls visit(i, j) for each point i of the range, ascending, and all points j > i at a distance <= radius from it:
-  /// over all points, each pair once. Ascending by j if in tile order, where it costs least: a cell is looked around
-  /// once for all of its points.
+  /// over all points, each pair once. Ascending by j if in tile order, where it costs least: a few
+  /// cells are looked around once for all of their points.
   template <class Visit>
   void for_each_later_pair(Range ids, const SearchRadius& radius, const Visit& visit) const;
 
@@ -76,7 +79,13 @@ class PointGrid {
   class CellCandidates;
   void sort_points(std::span<const Vec2> points, const Execution& execution);
   bool in_order(std::span<const Vec2> points, const Execution& execution) const;
-  bool take_points(std::span<const Vec2> points, const Execution& execution);
+  void file_points(const Execution& execution);
+  /// One past the last point of the range in the cell of point i, or in the group of so many cells (a power of two)
+  /// that it belongs to. The points come in tile order.
+  VertexId last_of(VertexId i, Range ids, std::uint32_t cells) const {
+    const std::size_t cell = frame_.cell_of(point(i)) | (cells - 1);
+    return static_cast<VertexId>(std::min<std::size_t>(begin_[std::min(cell + 1, begin_.size() - 1)], ids.last));
+  }
   std::size_t nearest_in_disc(Vec2 p, const Window& w, double square, std::size_t k, VertexId except,
                               std::vector<Neighbour>& out) const;
   void nearest_in_window(Vec2 p, const Window& w, double square, std::size_t k, VertexId except,
@@ -88,7 +97,8 @@ class PointGrid {
   CellFrame frame_;
   double crowding_ = 0.0;
   std::array<double, 49> first_reach_{};  // by k: two roots saved in each query
-  RawVector<double> x_, y_;               // in cell order
+  std::span<const Vec2> points_;          // in cell order
+  RawVector<Vec2> sorted_;                // what points_ refers to, unless they came in tile order
   RawVector<std::uint32_t> begin_;        // place of the first point of each cell, and the number of points
   RawVector<VertexId> id_;                // of each place; empty: the place
   RawVector<std::uint32_t> place_of_;     // of each id; empty: the id
@@ -118,9 +128,8 @@ class PointGrid::Gathering {
       if (count_ + (last - first) > room) visit_all();
       const std::uint32_t end = first + std::min(room, last - first);
       for (; first < end; ++first) {
-        const double dx = grid_.x_[first] - p_.x;
-        const double dy = grid_.y_[first] - p_.y;
-        const double sum = dx * dx + dy * dy;
+        const Vec2 along = grid_.points_[first] - p_;
+        const double sum = along.x * along.x + along.y * along.y;
         place_[count_] = first;
         sum_[count_] = sum;
         count_ += static_cast<std::uint32_t>(sum <= square_);
@@ -146,25 +155,25 @@ class PointGrid::Gathering {
 
 template <class Visit>
 void PointGrid::for_each_within(Vec2 p, const SearchRadius& radius, const Visit& visit) const {
-  if (x_.empty() || radius.square() < 0.0) return;
+  if (points_.empty() || radius.square() < 0.0) return;
   const auto visit_place = [&](std::uint32_t place, double distance) { visit(id_at(place), distance); };
   Gathering gathering(*this, p, radius.square(), visit_place);
   for_each_run(window(p, radius.reach()), [&](std::uint32_t first, std::uint32_t last) { gathering.add(first, last); });
   gathering.visit_all();
 }
 
-/// Some points of one cell, and all later ones that may be within reach of any of them.
+/// Some points of one cell or of a few, and all later ones that may be within reach of any of them.
 class PointGrid::CellCandidates {
  public:
   explicit CellCandidates(const PointGrid& grid) : grid_(grid) {}
 
-  /// For the points first .. last - 1, which share a cell. False if there are too many.
+  /// For the points first .. last - 1, which share a cell or a few. False if there are too many.
   bool gather(std::uint32_t first, std::uint32_t last, double reach) {
     first_ = first;
     count_ = 0;
     fits_ = true;
     Box box;
-    for (std::uint32_t place = first; place < last; ++place) box.include(Vec2{grid_.x_[place], grid_.y_[place]});
+    for (std::uint32_t place = first; place < last; ++place) box.include(grid_.points_[place]);
     const CellFrame& frame = grid_.frame_;
     const Window all{frame.column(box.min.x - reach), frame.column(box.max.x + reach), frame.row(box.min.y - reach),
                      frame.row(box.max.y + reach)};
@@ -181,17 +190,11 @@ class PointGrid::CellCandidates {
 
   /// Calls visit(place, later place) for the candidates after `place` with a squared distance <= square.
   template <class Visit>
-  void visit_later(std::uint32_t place, double square, const Visit& visit) {
-    const double x = grid_.x_[place];
-    const double y = grid_.y_[place];
-    const std::uint32_t from = place - first_ + 1;
-    for (std::uint32_t i = from; i < count_; ++i) sum_[i] = (x_[i] - x) * (x_[i] - x) + (y_[i] - y) * (y_[i] - y);
-    std::uint32_t found = 0;
-    for (std::uint32_t i = from; i < count_; ++i) {
-      near_[found] = place_[i];
-      found += static_cast<std::uint32_t>(sum_[i] <= square);
+  void visit_later(std::uint32_t place, double square, const Visit& visit) const {
+    for (std::uint32_t from = place - first_ + 1; from < count_; from += 64) {
+      for (std::uint64_t near = near_bits(from, grid_.points_[place], square); near != 0; near &= near - 1)
+        visit(place, place_[from + static_cast<std::uint32_t>(std::countr_zero(near))]);
     }
-    for (std::uint32_t i = 0; i < found; ++i) visit(place, near_[i]);
   }
 
  private:
@@ -201,18 +204,34 @@ class PointGrid::CellCandidates {
     fits_ = fits_ && (begin >= end || count_ + (end - begin) <= room);
     if (!fits_) return;
     for (; begin < end; ++begin, ++count_) {
-      x_[count_] = grid_.x_[begin];
-      y_[count_] = grid_.y_[begin];
+      x_[count_] = grid_.points_[begin].x;
+      y_[count_] = grid_.points_[begin].y;
       place_[count_] = begin;
     }
+  }
+
+  /// Bit i is set if the squared distance of candidate from + i is <= square, for up to 64 of them.
+  std::uint64_t near_bits(std::uint32_t from, Vec2 p, double square) const {
+    const std::uint32_t count = std::min(count_ - from, 64U);
+    const __m128d px = _mm_set1_pd(p.x);
+    const __m128d py = _mm_set1_pd(p.y);
+    std::uint64_t bits = 0;
+    for (std::uint32_t i = 0; i < count; i += 2) {  // one too many where they are odd, which x_ and y_ have room for
+      const __m128d dx = _mm_sub_pd(_mm_loadu_pd(&x_[from + i]), px);
+      const __m128d dy = _mm_sub_pd(_mm_loadu_pd(&y_[from + i]), py);
+      const __m128d sum = _mm_add_pd(_mm_mul_pd(dx, dx), _mm_mul_pd(dy, dy));
+      const int near = _mm_movemask_pd(_mm_cmple_pd(sum, _mm_set1_pd(square)));
+      bits |= static_cast<std::uint64_t>(near) << i;
+    }
+    return bits & (~std::uint64_t{0} >> (64 - count));
   }
 
   const PointGrid& grid_;
   std::uint32_t first_ = 0;
   std::uint32_t count_ = 0;
   bool fits_ = true;
-  std::array<double, room> x_, y_, sum_;
-  std::array<std::uint32_t, room> place_, near_;
+  std::array<double, room + 2> x_{}, y_{};
+  std::array<std::uint32_t, room> place_;
 };
 
 template <class Visit>
@@ -223,6 +242,7 @@ void PointGrid::for_each_later_pair(Range ids, const SearchRadius& radius, const
       if (j > i) visit(i, j);
     });
   };
+  constexpr std::uint32_t cells_together = 4;  // looked around once: fewer looks, but more points for each to compare
   CellCandidates candidates(*this);
   auto i = static_cast<VertexId>(ids.first);
   while (i < ids.last) {
@@ -230,9 +250,12 @@ void PointGrid::for_each_later_pair(Range ids, const SearchRadius& radius, const
       visit_one(i++);
       continue;
     }
-    const VertexId cell_end = begin_[frame_.cell_of(point(i)) + 1];
-    const auto end = static_cast<VertexId>(std::min<std::size_t>(cell_end, ids.last));
-    const bool few = candidates.gather(i, end, radius.reach());
+    VertexId end = last_of(i, ids, cells_together);
+    bool few = candidates.gather(i, end, radius.reach());
+    if (!few) {
+      end = last_of(i, ids, 1);
+      few = candidates.gather(i, end, radius.reach());
+    }
     for (; i < end; ++i) few ? candidates.visit_later(i, radius.square(), visit) : visit_one(i);
   }
 }

@@ -44,19 +44,13 @@ bool crosses(const Segment& s, const Segment& t) noexcept {
   return (a1 > 0) != (a2 > 0) && (b1 > 0) != (b2 > 0);
 }
 
-Box hull(const Box& a, const Box& b) {
-  return {{std::min(a.min.x, b.min.x), std::min(a.min.y, b.min.y)},
-          {std::max(a.max.x, b.max.x), std::max(a.max.y, b.max.y)}};
-}
-
 /// WallIndex::keep_clearance, r > 0. A bunch with too many walls around it is halved.
 template <class T>
 std::uint32_t keep_clearance_in(const WallGrid<T>& grid, std::span<const Segment> motions, double r) noexcept {
   constexpr std::size_t room = 128;
   std::array<WallOf<T>, room> walls;
-  Box around = box_of(motions.front());
-  for (const Segment& motion : motions.subspan(1)) around = hull(around, box_of(motion));
-  const std::size_t count = grid.copy_near(around.grown(r), walls.data(), room);
+  detail::MotionBunch<T> bunch(motions, r);
+  const std::size_t count = grid.copy_near(bunch.around(), walls.data(), room);
   if (count == grid.no_room) {
     if (motions.size() == 1) {
       return grid.for_each_along(motions[0], r,
@@ -65,7 +59,6 @@ std::uint32_t keep_clearance_in(const WallGrid<T>& grid, std::span<const Segment
     const std::size_t half = motions.size() / 2;
     return keep_clearance_in(grid, motions.first(half), r) | keep_clearance_in(grid, motions.subspan(half), r) << half;
   }
-  detail::MotionBunch<T> bunch(motions, r);
   bunch.sift({walls.data(), count});
   const auto keeps_off = [&](std::size_t i, std::size_t wall) {
     return segments_keep_distance(motions[i], walls[wall].segment(), r);

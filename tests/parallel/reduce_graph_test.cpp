@@ -84,6 +84,7 @@ void expect_exact(const Graph& graph, VertexId start, VertexId goal) {
   const std::vector<VertexId> keep{start, goal};
   const auto left = peeled_naively(graph, keep);
   const SearchResult oracle = shortest(graph, start, goal);
+  const Components labels = components(graph);
   std::vector<VertexId> path_of_one_thread;
   std::vector<VertexId> twice_reduced_path;
   for (const unsigned threads : {1U, 2U, 3U, 8U}) {
@@ -94,8 +95,10 @@ void expect_exact(const Graph& graph, VertexId start, VertexId goal) {
     expect_shortest(graph, reduce_graph(graph, keep, edge_length, on(threads)), start, goal, oracle, threads, path);
     if (threads == 1) path_of_one_thread = path;
     ASSERT_EQ(path, path_of_one_thread);
-    expect_shortest(graph, TwiceReducedGraphView(graph, keep, edge_length, on(threads)), start, goal, oracle, threads,
-                    path);
+    const TwiceReducedGraphView twice(graph, keep, edge_length, on(threads));
+    ASSERT_EQ(twice.component_count(), labels.count);
+    ASSERT_EQ(twice.connected(start, goal), labels.connected(start, goal));
+    expect_shortest(graph, twice, start, goal, oracle, threads, path);
     if (threads == 1) twice_reduced_path = path;
     ASSERT_EQ(path, twice_reduced_path);
   }
@@ -181,6 +184,33 @@ TEST(ReduceGraph, OfAPerfectMazeOnlyThePathIsLeft) {
   const ReducedGraphView reduced = reduce_graph(graph, keep, edge_length, on(2));
   ASSERT_EQ(reduced.graph().vertex_count(), 2U);
   EXPECT_EQ(reduced.expand(std::vector<VertexId>{0, 1}, on(1)), shortest(graph, 0, 3599).path);
+}
+
+TEST(ReduceGraph, CountsComponentsThatHaveNoKey) {
+  std::vector<Edge> edges;
+  VertexId next = 0;
+  const auto ring = [&](VertexId size, bool with_tail) {
+    const VertexId first = next;
+    for (VertexId i = 0; i < size; ++i) edges.push_back({first + i, first + (i + 1) % size});
+    next += size;
+    if (with_tail) edges.push_back({first + size / 2, next++});
+  };
+  ring(3, false);
+  ring(100, true);
+  ring(40'000, false);  // over three blocks of vertices
+  ring(5, true);
+  next += 7;  // vertices without an edge
+  for (VertexId i = 0; i < 20'000; ++i) edges.push_back({next + i, next + i + 1});
+  next += 20'001;
+  ring(4, false);
+  const VertexId kept = next - 2;
+  const Graph graph = Graph::from_edges(next, edges);
+  for (const auto& keep :
+       {std::vector<VertexId>{}, std::vector<VertexId>{1, kept}, std::vector<VertexId>{50, 60'100}}) {
+    const TwiceReducedGraphView reduced(graph, keep, edge_length, on(2));
+    EXPECT_EQ(reduced.component_count(), components(graph).count);
+    EXPECT_EQ(reduced.component_count(), 13U);
+  }
 }
 
 TEST(ReduceGraph, RefusesAKeptVertexThatIsNotThere) {

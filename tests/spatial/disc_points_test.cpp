@@ -15,28 +15,25 @@ namespace {
 
 std::vector<InstructionSet> instruction_sets() {
   std::vector<InstructionSet> sets{InstructionSet::baseline};
-  if (best_instruction_set() == InstructionSet::avx2) sets.push_back(InstructionSet::avx2);
+  if (best_instruction_set() >= InstructionSet::avx2) sets.push_back(InstructionSet::avx2);
   return sets;
 }
 
 DiscPoints random_disc(std::uint64_t seed, std::size_t n) {
   DiscPoints disc;
-  std::vector<double> x(n);
-  std::vector<double> y(n);
+  std::vector<Vec2> points(n);
   for (std::size_t i = 0; i < n; ++i) {
-    x[i] = uniform(seed, i, 0) - 0.5;
-    y[i] = uniform(seed, i, 1) - 0.5;
-    if (i % 3 == 2) x[i] = x[i - 1] * (1.0 + 1e-15), y[i] = y[i - 1];  // ties but for rounding
+    points[i] = {uniform(seed, i, 0) - 0.5, uniform(seed, i, 1) - 0.5};
+    if (i % 3 == 2) points[i] = {points[i - 1].x * (1.0 + 1e-15), points[i - 1].y};  // ties but for rounding
   }
-  disc.add_run({0.0, 0.0}, 0.25, x.data(), y.data(), 0, static_cast<std::uint32_t>(n), 1);
+  disc.add_run({0.0, 0.0}, 0.25, points, 0, static_cast<std::uint32_t>(n), 1);
   return disc;
 }
 
 TEST(DiscPoints, GatherThePointsOfTheDiscButOne) {
-  const double x[] = {0.0, 3.0, 1.0, -2.0, 0.0};
-  const double y[] = {0.0, 4.0, 1.0, 0.0, 2.0};
+  const std::vector<Vec2> points{{0.0, 0.0}, {3.0, 4.0}, {1.0, 1.0}, {-2.0, 0.0}, {0.0, 2.0}};
   DiscPoints disc;
-  disc.add_run({0.0, 0.0}, 4.0, x, y, 1, 5, 3);
+  disc.add_run({0.0, 0.0}, 4.0, points, 1, 5, 3);
   ASSERT_EQ(disc.count, 2U);
   EXPECT_EQ(disc.place[0], 2U);
   EXPECT_EQ(disc.square[0], 2.0);

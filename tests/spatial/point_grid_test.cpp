@@ -139,10 +139,11 @@ TEST(PointGrid, AnswersTheSameForAnyThreadCount) {
   std::vector<Vec2> points(100'000);
   for (std::size_t i = 0; i < points.size(); ++i) points[i] = {uniform(1, i, 0), uniform(1, i, 1)};
   const PointGrid one(points, {.threads = 1});
-  const PointGrid one_sorted(in_tile_order(points), {.threads = 1});
+  const auto sorted = in_tile_order(points);
+  const PointGrid one_sorted(sorted, {.threads = 1});
   for (const unsigned threads : {2U, 3U, 8U}) {
     const PointGrid many(points, {.threads = threads});
-    const PointGrid many_sorted(in_tile_order(points), {.threads = threads});
+    const PointGrid many_sorted(sorted, {.threads = threads});
     std::vector<Neighbour> a;
     std::vector<Neighbour> b;
     for (VertexId i = 0; i < points.size(); i += 997) {
