@@ -231,10 +231,22 @@ void Enumeration::solve_two_quarters(const Frame& f) {
   take(f, Shape::lrslr, first, straight, wrapped(first - f.phi), 2.0 * quarter + std::abs(straight));
 }
 
-}  // namespace
+/// Some order of poses.
+bool precedes(const Se2& a, const Se2& b) {
+  if (a.x != b.x) return a.x < b.x;
+  return a.y != b.y ? a.y < b.y : a.theta < b.theta;
+}
 
-SteeringWord ReedsSheppCurve::shortest(const Se2& a, const Se2& b, double turning_radius) noexcept {
-  if (a == b) return {};
+SteeringWord driven_back(const SteeringWord& word) {
+  SteeringWord back = word;
+  for (std::size_t i = 0; i < word.count; ++i) {
+    const SteeringPiece& piece = word.pieces[word.count - 1U - i];
+    back.pieces[i] = {piece.steer, -piece.length};
+  }
+  return back;
+}
+
+SteeringWord shortest_onwards(const Se2& a, const Se2& b, double turning_radius) noexcept {
   const Se2 goal = seen_from(a, b, turning_radius);
   double longer_than = -1.0;
   for (;;) {
@@ -245,6 +257,13 @@ SteeringWord ReedsSheppCurve::shortest(const Se2& a, const Se2& b, double turnin
     longer_than = solved.length;
   }
   return word_of(Enumeration(goal, -1.0).best());
+}
+
+}  // namespace
+
+SteeringWord ReedsSheppCurve::shortest(const Se2& a, const Se2& b, double turning_radius) noexcept {
+  if (a == b) return {};
+  return precedes(b, a) ? driven_back(shortest_onwards(b, a, turning_radius)) : shortest_onwards(a, b, turning_radius);
 }
 
 }  // namespace warren

@@ -88,6 +88,28 @@ TEST(SteeringCurve, BackingUpNeverMakesLongerAndTheWayBackIsAsLong) {
   }
 }
 
+/// Also where many words are as long, near poses with different headings: roadmaps check one direction alone.
+TEST(SteeringCurve, TheWayBackIsTheSameWayDrivenBack) {
+  for (std::uint64_t i = 0; i < 20'000; ++i) {
+    SCOPED_TRACE(i);
+    const double spread = i % 2 == 0 ? 0.5 : 5.0;
+    const auto pose = [&](std::uint64_t axis) {
+      return Se2{spread * uniform(9, i, axis), spread * uniform(9, i, axis + 1), 6.0 * uniform(9, i, axis + 2) - 3.0};
+    };
+    const Se2 a = pose(0);
+    const Se2 b = pose(3);
+    const SteeringWord there = ReedsSheppCurve::shortest(a, b, 1.0);
+    const SteeringWord back = ReedsSheppCurve::shortest(b, a, 1.0);
+    EXPECT_EQ(there.length, back.length);
+    ASSERT_EQ(there.count, back.count);
+    for (std::size_t k = 0; k < there.count; ++k) {
+      const SteeringPiece& piece = back.pieces[there.count - 1U - k];
+      EXPECT_EQ(there.pieces[k].steer, piece.steer);
+      EXPECT_EQ(there.pieces[k].length, -piece.length);
+    }
+  }
+}
+
 TEST(SteeringCurve, NoDetourIsShorter) {
   for (std::uint64_t i = 0; i < many / 4; ++i) {
     const Se2 a = random_pose(4, 3 * i);
