@@ -31,19 +31,6 @@ bool keeps(Vec2 p, const Segment& s, double r_sq) noexcept {
   return c * c >= r_sq * length_sq;
 }
 
-/// Do the segments cross properly, by plain doubles? In doubt an end is within rounding of the other segment, and its
-/// distance decides.
-bool crosses(const Segment& s, const Segment& t) noexcept {
-  const Vec2 u = s.b - s.a;
-  const Vec2 v = t.b - t.a;
-  const Vec2 w = t.a - s.a;
-  const double a1 = cross(u, w);
-  const double a2 = cross(u, t.b - s.a);
-  const double b1 = cross(v, s.a - t.a);
-  const double b2 = cross(v, s.b - t.a);
-  return (a1 > 0) != (a2 > 0) && (b1 > 0) != (b2 > 0);
-}
-
 /// WallIndex::keep_clearance, r > 0. A bunch with too many walls around it is halved.
 template <class T>
 std::uint32_t keep_clearance_in(const WallGrid<T>& grid, std::span<const Segment> motions, double r) noexcept {
@@ -80,9 +67,25 @@ std::uint32_t keep_clearance_in(const WallGrid<T>& grid, std::span<const Segment
 
 }  // namespace
 
+/// Most pairs lie on one side of the line of one of the two, far enough from it: that is asked first, and beyond
+/// rounding, so that the ends would say the same. Whether they cross is decided by plain doubles: in doubt an end is
+/// within rounding of the other segment, and its distance decides.
 bool segments_keep_distance(const Segment& s, const Segment& t, double r) noexcept {
+  constexpr double beyond_rounding = 1.0 + 1e-12;
   const double r_sq = r * r;
-  return !crosses(s, t) && keeps(t.a, s, r_sq) && keeps(t.b, s, r_sq) && keeps(s.a, t, r_sq) && keeps(s.b, t, r_sq);
+  const Vec2 u = s.b - s.a;
+  const Vec2 v = t.b - t.a;
+  const double a1 = cross(u, t.a - s.a);
+  const double a2 = cross(u, t.b - s.a);
+  const double b1 = cross(v, s.a - t.a);
+  const double b2 = cross(v, s.b - t.a);
+  const bool is_beside_s = (a1 > 0) == (a2 > 0);
+  const bool is_beside_t = (b1 > 0) == (b2 > 0);
+  const bool far_from_s = is_beside_s & (std::min(a1 * a1, a2 * a2) > beyond_rounding * r_sq * dot(u, u));
+  const bool far_from_t = is_beside_t & (std::min(b1 * b1, b2 * b2) > beyond_rounding * r_sq * dot(v, v));
+  if (far_from_s | far_from_t) return true;
+  if (!is_beside_s && !is_beside_t) return false;
+  return keeps(t.a, s, r_sq) && keeps(t.b, s, r_sq) && keeps(s.a, t, r_sq) && keeps(s.b, t, r_sq);
 }
 
 WallIndex::WallIndex(const WallSet& walls, std::span<const Segment> more, const Execution& execution)
