@@ -108,7 +108,8 @@ void SolveCommand::solve(const Run& run) {
   solver_ = choose_solver(arguments_, scene_, problem_);
   WorldAccount world = account_of(scene_, run.execution());
   const RobotKind body = robot_of(scene_, problem_).kind;
-  const bool on_cells = body == RobotKind::point || body == RobotKind::disc;
+  const bool by_cells = solver_->planner == PlannerKind::grid || solver_->planner == PlannerKind::voronoi;
+  const bool on_cells = by_cells || body == RobotKind::point || body == RobotKind::disc;
   if (scene_.map && !on_cells) add_map_walls(scene_);  // what the others plan among
   answer_ = solver_->kind->solve(request(run.execution()));
   answer_.world = std::move(world);

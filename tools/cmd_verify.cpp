@@ -85,7 +85,7 @@ int verify(const Arguments& arguments) {
   check_same_world(answer, arguments.operand(1), scene, run.execution());
   const ProblemOptions asked = merged(options, answer.problem);
   const RobotKind body = robot_of(scene, asked).kind;
-  if (body != RobotKind::point && body != RobotKind::disc) add_map_walls(scene);  // they are judged among walls
+  if (body == RobotKind::car) add_map_walls(scene);  // the others are judged by the cells
   const SolveKind& kind = verifying_kind(scene, asked);
   Verdict verdict;
   {
