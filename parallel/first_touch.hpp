@@ -5,24 +5,41 @@
 #pragma once
 
 #include <cstddef>
+#include <type_traits>
+#include <vector>
 
 #include "core/raw_vector.hpp"
 #include "parallel/chunks.hpp"
 
 namespace warren {
 
+namespace detail {
+inline void touch_pages(volatile char* bytes, std::size_t count, const Execution& execution) {
+  constexpr std::size_t page = 4096;
+  constexpr std::size_t grain = std::size_t{1} << 21;
+  Execution quiet = execution;
+  quiet.progress = nullptr;
+  for_chunks(count, grain, quiet, [&](Range r) {
+    for (std::size_t i = r.first; i < r.last; i += page) bytes[i] = 0;  // volatile: nobody reads the zeros
+  });
+}
+}  // namespace detail
+
 /// Writes a zero to each page of a block whose contents are not yet of value. Throws Stopped.
 template <class T>
 void touch_first(RawVector<T>& block, const Execution& execution) {
-  constexpr std::size_t page = 4096;
-  constexpr std::size_t grain = std::size_t{1} << 21;
   static_assert(std::is_trivially_copyable_v<T>);
-  Execution quiet = execution;
-  quiet.progress = nullptr;
-  for_chunks(block.size() * sizeof(T), grain, quiet, [&](Range r) {
-    volatile char* const bytes = reinterpret_cast<char*>(block.data());  // volatile: nobody reads the zeros
-    for (std::size_t i = r.first; i < r.last; i += page) bytes[i] = 0;
-  });
+  detail::touch_pages(reinterpret_cast<volatile char*>(block.data()), block.size() * sizeof(T), execution);
+}
+
+/// Makes an empty vector's room for `count` elements, and touches it: filling it is then quick for one thread. Throws
+/// Stopped, also where the memory limit doesn't allow for it.
+template <class T>
+void reserve_touched(std::vector<T>& empty, std::size_t count, const Execution& execution) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  execution.reserve(count * sizeof(T));
+  empty.reserve(count);
+  detail::touch_pages(reinterpret_cast<volatile char*>(empty.data()), count * sizeof(T), execution);
 }
 
 }  // namespace warren

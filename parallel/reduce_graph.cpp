@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "parallel/first_touch.hpp"
 #include "parallel/scan.hpp"
 
 namespace warren {
@@ -196,7 +197,9 @@ std::vector<VertexId> ReducedGraphView::expand(std::span<const VertexId> keys, c
   });
   std::vector<std::size_t> begins(parts.size() + 1, 1);
   for (std::size_t p = 0; p < parts.size(); ++p) begins[p + 1] = begins[p] + parts[p].size();
-  std::vector<VertexId> path(1, vertex_of(keys.front()));
+  std::vector<VertexId> path;
+  reserve_touched(path, begins.back(), quiet);
+  path.push_back(vertex_of(keys.front()));
   path.resize(begins.back());
   for_chunks(parts.size(), 1, quiet, [&](Range r) {
     std::copy(parts[r.first].begin(), parts[r.first].end(),

@@ -17,6 +17,7 @@
 #include "parallel/assemble_graph.hpp"
 #include "parallel/components.hpp"
 #include "parallel/execution.hpp"
+#include "parallel/first_touch.hpp"
 #include "planners/connection.hpp"
 #include "planners/milestones.hpp"
 #include "planners/roadmap.hpp"
@@ -138,8 +139,7 @@ bool PrmPlan<W>::search() {
   solution_.counters.expanded += found.expanded;
   if (found.status != SearchStatus::found) return false;
   solution_.outcome = Outcome::solved;
-  execution_.reserve(found.path.size() * sizeof(State));
-  solution_.path.reserve(found.path.size());
+  reserve_touched(solution_.path, found.path.size(), execution_);
   for (const VertexId v : found.path) solution_.path.push_back(roadmap_.states[v]);
   return true;
 }
