@@ -131,13 +131,13 @@ void StepSide::settle(VertexId v) {
 
 void StepSide::advance(const StepSide&, const StepBorder& agreed, double other_least_key, std::uint64_t limit) {
   const std::uint64_t last = settled_ + limit;
-  border_.least_key = unreached;
+  least_ = unreached;
   while (open_ > 0) {
     find_bucket();
-    border_.least_key = static_cast<double>(at_);
-    if (settled_ >= last || border_.least_key + other_least_key >= agreed.best) return;
+    least_ = static_cast<double>(at_);
+    if (settled_ >= last || least_ + other_least_key >= agreed.best) return;
     empty_bucket();
-    border_.least_key = unreached;
+    least_ = unreached;
   }
 }
 
@@ -151,6 +151,7 @@ void StepSide::exchange(const StepSide& other, bool stop) {
     }
   }
   labelled_.clear();
+  border_.least_key = least_;
   border_.stop = stop;
 }
 

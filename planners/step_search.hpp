@@ -44,9 +44,10 @@ class StepSide {
   /// Where the search begins: a key and its link's length.
   void begin(VertexId key, double length);
 
-  /// Settles buckets until `limit` vertices are settled. Reads nothing that the other side writes.
+  /// Settles buckets until `limit` vertices are settled. Reads nothing that the other side writes, and leaves alone
+  /// what border() shows, which the other side may be reading.
   void advance(const StepSide& other, const StepBorder& agreed, double other_least_key, std::uint64_t limit);
-  /// Compares what was labelled in the round with the other side's labels.
+  /// Compares what was labelled in the round with the other side's labels, and brings border() up to date.
   void exchange(const StepSide& other, bool stop);
 
   const StepBorder& border() const { return border_; }
@@ -86,6 +87,7 @@ class StepSide {
   std::vector<Root> roots_;
   std::uint32_t free_ = none;
   std::uint64_t at_ = 0;    // least label of the bucket that is emptied next
+  double least_ = 0.0;      // what exchange tells the other side of it; infinity: nothing is open
   std::uint64_t open_ = 0;  // entries in buckets
   std::uint64_t settled_ = 0;
   StepBorder border_;
