@@ -36,6 +36,7 @@ StateIndex<W> index_of_states(const W& world, std::span<const typename W::State>
   if constexpr (std::same_as<typename W::State, Vec2>) {
     return StateIndex<W>(states, execution);
   } else {
+    static_assert(embedding_dimension<W> != 2, "an index in the plane refers to its points, and these don't last");
     constexpr std::size_t grain = std::size_t{1} << 14;
     RawVector<PointOf<embedding_dimension<W>>> points(states.size());
     for_chunks(states.size(), grain, execution, [&](Range r) {

@@ -23,7 +23,8 @@ class Neighbours {
   using Point = PointOf<D>;
 
   Neighbours() = default;  ///< no points
-  /// Copies the points; in the plane, best when they are in tile order. Below 2^32 points. Throws Stopped.
+  /// Copies the points; but in the plane those in tile order, which is best, must outlive the index. Below 2^32 points.
+  /// Throws Stopped.
   Neighbours(std::span<const Point> points, const Execution& execution) {
     if constexpr (D == 2) {
       grid_ = PointGrid(points, execution);

@@ -109,6 +109,7 @@ class LatticeSolve {
 
   double cost_option(std::string_view name) const {
     const auto text = request_.arguments.value(name);
+    if (text && !turns() && name == "--turn-cost") throw UsageError("--turn-cost: a point and a disc do not turn");
     return text ? positive_value(name, *text) : 1.0;
   }
 

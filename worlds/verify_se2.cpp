@@ -24,14 +24,19 @@ bool is_there(const Se2& pose, const Se2& wanted, bool any_heading, double toler
   return any_heading || std::abs(shorter_turn(pose.theta, wanted.theta)) <= tolerance;
 }
 
+constexpr double largest_heading = 1000.0;
+
 void check_input(std::span<const Vec2> outline, std::span<const Se2> path, const Se2VerifyOptions& options) {
   if (outline.size() < 3) throw InputError("robot", "a polygon needs three corners or more");
   if (path.empty()) throw InputError("path", "has no poses");
   for (std::size_t i = 0; i < path.size(); ++i) {
     const Se2& p = path[i];
-    const bool fits = std::abs(p.x) <= largest_coordinate && std::abs(p.y) <= largest_coordinate &&
-                      std::abs(p.theta) <= largest_coordinate;
-    if (!fits) throw InputError(fmt::format("path: pose {}", i), "must be numbers of at most 1e60");
+    const bool fits = std::abs(p.x) <= largest_coordinate && std::abs(p.y) <= largest_coordinate;
+    if (!fits) throw InputError(fmt::format("path: pose {}", i), "must have coordinates of at most 1e60");
+    if (!(std::abs(p.theta) <= largest_heading)) {  // what lies between two headings is rounded with their size
+      throw InputError(fmt::format("path: pose {}", i), "must have a heading of at most 1000 rad",
+                       fmt::format("{}", p.theta));
+    }
   }
   if (!(options.clearance >= 0.0 && options.clearance <= largest_coordinate)) {
     throw InputError("clearance", "must be a number from 0 to 1e60", fmt::format("{}", options.clearance));
@@ -131,7 +136,7 @@ Se2Verification verify_se2(const Scene& scene, std::span<const Vec2> outline, st
   }
 
   Se2Verification result;
-  result.min_clearance = report.least;
+  result.min_clearance = std::max(report.least, 0.0);
   const auto note = [&](const Violation& v) {
     if (!result.first_violation || v.leg < result.first_violation->leg) result.first_violation = v;
   };

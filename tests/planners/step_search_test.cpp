@@ -144,21 +144,23 @@ TEST(StepSearch, TakesTheDirectWayWhereItIsNoLonger) {
 }
 
 TEST(StepSearch, TwoThreadsTakeTheStepsOfOne) {
-  const Case c = random_case(5, 65'000, 200'000, 20);
-  Overlay overlay(c.grid, c.tiles, c.ends, {});
-  overlay.peel({});
-  Execution one;
-  one.threads = 1;
-  const SearchResult expected = search_steps(overlay, c.ends, one);
-  ASSERT_EQ(expected.status, SearchStatus::found);
-  EXPECT_GT(expected.expanded, 10'000U);
-  Execution two;
-  two.threads = 2;
-  for (int i = 0; i < 5; ++i) {
-    const SearchResult found = search_steps(overlay, c.ends, two);
-    EXPECT_EQ(found.path, expected.path);
-    EXPECT_EQ(found.length, expected.length);
-    EXPECT_EQ(found.expanded, expected.expanded);
+  for (const std::uint32_t longest : {1U, 20U}) {
+    const Case c = random_case(4 + longest, 65'000, 200'000, longest);
+    Overlay overlay(c.grid, c.tiles, c.ends, {});
+    overlay.peel({});
+    Execution one;
+    one.threads = 1;
+    const SearchResult expected = search_steps(overlay, c.ends, one);
+    ASSERT_EQ(expected.status, SearchStatus::found);
+    EXPECT_GT(expected.expanded, 1'000U);
+    Execution two;
+    two.threads = 2;
+    for (int i = 0; i < 10; ++i) {
+      const SearchResult found = search_steps(overlay, c.ends, two);
+      EXPECT_EQ(found.path, expected.path);
+      EXPECT_EQ(found.length, expected.length);
+      EXPECT_EQ(found.expanded, expected.expanded);
+    }
   }
 }
 

@@ -56,9 +56,13 @@ TEST(Lattice, StepsAndTurnsCostWhatIsSaid) {
   EXPECT_EQ(dear["cost"], dear["moves"].get<double>() + 40.0 * dear["turn_steps"].get<double>());
   EXPECT_EQ(dear["turn_steps"], 0);
   EXPECT_GT(dear["moves"], usual["moves"]);
-  for (const char* bad : {"0", "-1", "nan", "x"}) {
+  for (const char* bad : {"0", "-1", "nan", "inf", "x"}) {
     EXPECT_EQ(run({"solve", scene, "--planner", "grid", "--turn-cost", bad}).code, 2) << bad;
+    EXPECT_EQ(run({"solve", scene, "--planner", "grid", "--step-cost", bad}).code, 2) << bad;
   }
+  const auto disc = run({"solve", scene, "--planner", "grid", "--robot", "disc 1", "--turn-cost", "3"});
+  EXPECT_EQ(disc.code, 2);
+  EXPECT_NE(disc.err.find("do not turn"), std::string::npos) << disc.err;
 }
 
 TEST(Lattice, AFourHundredthOfTheLongerSideIsTheCellThatNobodyNamed) {

@@ -200,6 +200,8 @@ TEST(VerifySe2, RefusesPathsWithoutPosesAndNumbersThatAreNone) {
   EXPECT_THROW(verify_se2(corridor(), bar, {}, {}, {}), InputError);
   const std::vector<Se2> nan = {{0, std::nan(""), 0}};
   EXPECT_THROW(verify_se2(corridor(), bar, nan, {}, {}), InputError);
+  const std::vector<Se2> dizzy{{1, 1, 0}, {1, 1, 1e16}};
+  EXPECT_THROW(verify_se2(corridor(), bar, dizzy, {}, {}), InputError);
 }
 
 }  // namespace
