@@ -10,11 +10,14 @@
 
 namespace warren {
 
+/// Beyond this, radians, rounding would leave too little of what a heading means modulo a full turn.
+inline constexpr double largest_heading = 1000.0;
+
 /// A pose: the body's point p is at (x, y) + p turned by theta, counter-clockwise.
 struct Se2 {
   double x = 0.0;
   double y = 0.0;
-  double theta = 0.0;  ///< radians; any number, turns modulo 2 pi
+  double theta = 0.0;  ///< radians, within +-largest_heading; turns modulo 2 pi
 
   constexpr Vec2 position() const { return {x, y}; }
   friend constexpr bool operator==(const Se2&, const Se2&) = default;

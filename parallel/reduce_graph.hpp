@@ -15,7 +15,7 @@
 // where they leave the block, so that all of it happens in cache; then what that left, a tenth to a twentieth of the
 // vertices, as a whole. The keys are the same or fewer: where the first step drops a longer one of two chains, the
 // second can peel more. On the way the components are counted, by the keys that the first step leaves, the trees that
-// it peels wholly and the cycles that have no key: a tenth of what counting them in the whole graph costs.
+// it peels wholly and the cycles that have no key, so that the whole graph is not asked.
 //
 // O(V + E). Memory: 1.2 bytes a vertex, and 20 bytes an edge end of the reduced graph. Measured in
 // bench/search_bench.cpp.

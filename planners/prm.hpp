@@ -5,7 +5,7 @@
 // finds its components (on what the search's reduction leaves of it, where there is one) and, where start and goal are
 // joined, searches it. With samples on auto a round that leaves
 // them apart is followed by a larger one (roadmap_rule.hpp), until a documented cap. Time a round: O(n log n) for n
-// milestones with a bounded number of neighbours; memory: 36 bytes a milestone, 16 an edge (plane).
+// milestones with a bounded number of neighbours; memory: 26 bytes a milestone, 16 an edge (plane).
 // The result is a function of world, start, goal and options: the same bits for any thread count.
 #pragma once
 
@@ -138,9 +138,9 @@ bool PrmPlan<W>::search() {
   reduced_.reset();
   solution_.counters.expanded += found.expanded;
   if (found.status != SearchStatus::found) return false;
-  solution_.outcome = Outcome::solved;
   reserve_touched(solution_.path, found.path.size(), execution_);
   for (const VertexId v : found.path) solution_.path.push_back(roadmap_.states[v]);
+  solution_.outcome = Outcome::solved;
   return true;
 }
 

@@ -29,8 +29,10 @@ PoseProblem pose_problem(const Scene& scene, const ProblemOptions& options, std:
   PoseProblem problem;
   problem.robot = robot_of(scene, options);
   const std::vector<double> start = state_of("--start", options.start, scene.start, 3, body);
+  check_heading("--start", start);
   problem.start = {start[0], start[1], start[2]};
   problem.goal = state_of("--goal", options.goal, scene.goal, 2, body);
+  check_heading("--goal", problem.goal);
   problem.clearance = clearance_of(scene, options);
   return problem;
 }

@@ -74,6 +74,7 @@ std::vector<std::vector<Se2>> pose_stops(const W& world, const std::vector<std::
                                          const std::vector<double>& goal) {
   std::vector<std::vector<Se2>> stops;
   for (const auto& point : via) {
+    check_heading("--via", point);
     stops.push_back(detail::free_states(world, std::span<const Se2>(poses_of(point))));
     if (!stops.back().empty()) continue;
     throw UsageError(fmt::format("--via: the body does not fit at way-point {}", stops.size()));

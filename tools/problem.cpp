@@ -6,6 +6,7 @@
 #include <array>
 
 #include "core/error.hpp"
+#include "core/se2.hpp"
 #include "tools/option_values.hpp"
 #include "worlds/robot_text.hpp"
 
@@ -133,6 +134,11 @@ std::vector<double> state_or_heading(std::string_view option, const std::vector<
   if (state.empty()) throw UsageError(fmt::format("{0}: the world has none; say {0} X,Y or X,Y,THETA", option));
   if (state.size() == 2 || state.size() == 3) return state;
   throw UsageError(fmt::format("{}: expected X,Y or X,Y,THETA (found: {} numbers)", option, state.size()));
+}
+
+void check_heading(std::string_view option, const std::vector<double>& state) {
+  if (state.size() != 3 || std::abs(state[2]) <= largest_heading) return;
+  throw UsageError(fmt::format("{}: a heading is at most {} rad (found: {})", option, largest_heading, state[2]));
 }
 
 }  // namespace warren

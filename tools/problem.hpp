@@ -68,6 +68,9 @@ WallProblem wall_problem(const Scene& scene, const ProblemOptions& options, Cont
 std::vector<double> state_or_heading(std::string_view option, const std::vector<double>& given,
                                      const std::vector<double>& in_file);
 
+/// Throws UsageError where X,Y,THETA has a heading beyond largest_heading; other states have none.
+void check_heading(std::string_view option, const std::vector<double>& state);
+
 /// "point", "disc 0.2", …: as the scene format writes it.
 std::string robot_text(const RobotSpec& robot);
 /// Reads what robot_text writes; throws InputError for others, naming `where`.

@@ -50,6 +50,8 @@ Problem problem_of(const Scene& scene, const ProblemOptions& options) {
     problem.start.resize(2);
     problem.goal.resize(2);
   } else {
+    check_heading("--start", problem.start);
+    check_heading("--goal", problem.goal);
     problem.start.resize(3, 0.0);
   }
   return problem;

@@ -48,6 +48,9 @@ class Picture {
       if (lines_[i].size() > 4 * cols_ + 1) {
         fail(i, fmt::format("expected at most {} characters, as many as the first line has", 4 * cols_ + 1));
       }
+      if (const auto tab = lines_[i].find('\t'); tab != lines_[i].npos) {  // it would shift what follows
+        fail(i, fmt::format("expected blanks, not a tab, at column {}", tab + 1));
+      }
       for (std::size_t c = 0; c <= cols_; ++c) (i % 2 == 0 ? check_posts(i, c) : check_cells(i, c));
     }
   }

@@ -227,8 +227,9 @@ void check_input(const VerifiedCar& car, std::span<const Se2> path, const CarVer
   }
   if (path.empty()) throw InputError("path", "has no poses");
   for (std::size_t i = 0; i < path.size(); ++i) {
-    if (fits(path[i].x) && fits(path[i].y) && fits(path[i].theta)) continue;
-    throw InputError(fmt::format("path: pose {}", i), "must be numbers of at most 1e60");
+    if (fits(path[i].x) && fits(path[i].y) && std::abs(path[i].theta) <= largest_heading) continue;
+    throw InputError(fmt::format("path: pose {}", i),
+                     "must have coordinates of at most 1e60, a heading of at most 1000");
   }
   if (!(options.clearance >= 0.0 && fits(options.clearance))) {
     throw InputError("clearance", "must be a number from 0 to 1e60", fmt::format("{}", options.clearance));

@@ -24,8 +24,6 @@ bool is_there(const Se2& pose, const Se2& wanted, bool any_heading, double toler
   return any_heading || std::abs(shorter_turn(pose.theta, wanted.theta)) <= tolerance;
 }
 
-constexpr double largest_heading = 1000.0;
-
 void check_input(std::span<const Vec2> outline, std::span<const Se2> path, const Se2VerifyOptions& options) {
   if (outline.size() < 3) throw InputError("robot", "a polygon needs three corners or more");
   if (path.empty()) throw InputError("path", "has no poses");

@@ -221,6 +221,7 @@ TEST(Prm, LargeLatticesAreReducedWithoutChangingTheAnswer) {
       ASSERT_EQ(one.outcome, Outcome::solved);
       ASSERT_GE(one.roadmap.milestones, fewest_for_both_ends);
       EXPECT_LT(one.counters.expanded, one.roadmap.milestones / 4);
+      EXPECT_EQ(one.roadmap.components, components(roadmap.graph).count);
       EXPECT_DOUBLE_EQ(length_of(one), shortest_walk(scene));
       expect_tree(roadmap, one.path);
       const auto two = plan(2);
@@ -252,18 +253,21 @@ TEST(Prm, EverySearchAndQueueFindsAPathAndTheOptimalOnesAgree) {
   }
 }
 
-/// A closed box around the goal.
-Scene walled_off() {
-  Scene scene = maze(6, 6, 2);
+/// A closed box around the goal, the cell in the last row and column.
+Scene walled_off(std::uint32_t rows, std::uint32_t cols) {
+  Scene scene = maze(rows, cols, 2);
+  const double left = cols - 0.5;
+  const double bottom = rows - 0.5;
   std::vector<Segment> walls;
   for (std::size_t i = 0; i < scene.walls.size(); ++i) walls.push_back(scene.walls.segment(i));
-  for (const Segment& s : {Segment{{5.5, 5.5}, {6.5, 5.5}}, Segment{{5.5, 5.5}, {5.5, 6.5}}}) walls.push_back(s);
+  for (const Segment& s : {Segment{{left, bottom}, {left + 1, bottom}}, Segment{{left, bottom}, {left, bottom + 1}}})
+    walls.push_back(s);
   scene.walls = WallSet::narrowest(walls);
   return scene;
 }
 
 TEST(Prm, TellsHowFarStartAndGoalAreApart) {
-  const Scene scene = walled_off();
+  const Scene scene = walled_off(6, 6);
   const MazeWorld world(scene, clearance, {});
   const MazeCells cells = cells_of_walls(scene.walls, *scene.maze, {});
   std::uint64_t reachable = 0;
@@ -279,6 +283,21 @@ TEST(Prm, TellsHowFarStartAndGoalAreApart) {
     EXPECT_EQ(solution.separation.goal_size, 2U);
     EXPECT_DOUBLE_EQ(solution.separation.nearest_gap, 1.0);
   }
+}
+
+TEST(Prm, KnowsTheComponentsOfWhatItReduces) {
+  const Scene scene = walled_off(230, 250);
+  const MazeWorld world(scene, clearance, {});
+  Roadmap<Vec2> roadmap;
+  const auto solution = prm(world, start_of(scene), goal_of(scene), lattice_options(scene), {}, &roadmap);
+  EXPECT_EQ(solution.outcome, Outcome::not_connected);
+  ASSERT_GE(solution.roadmap.milestones, fewest_for_both_ends);
+  const Components oracle = components(roadmap.graph);
+  const auto start = static_cast<VertexId>(roadmap.states.size() - 2);
+  EXPECT_GT(oracle.count, 1U);
+  EXPECT_EQ(solution.roadmap.components, oracle.count);
+  EXPECT_EQ(solution.separation.start_size, oracle.size_of(start));
+  EXPECT_EQ(solution.separation.goal_size, oracle.size_of(start + 1));
 }
 
 TEST(Prm, BlockedEndsAreNamed) {

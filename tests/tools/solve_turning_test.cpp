@@ -143,6 +143,10 @@ TEST_F(SolveTurning, SaysWhatIsWrongInOneLine) {
     const char* says;
   };
   const std::vector<Case> cases = {{{"--start", "0,0"}, "X,Y,THETA"},
+                                   {{"--start", "0,0,2000"}, "--start: a heading is at most 1000 rad"},
+                                   {{"--goal", "0,0,-1e16"}, "--goal: a heading"},
+                                   {{"--via", "0,0,1e16"}, "--via: a heading"},
+                                   {{"--start", "0,0,2000", "--planner", "grid", "--cell", "1"}, "--start: a heading"},
                                    {{"--sampler", "lattice"}, "lattice"},
                                    {{"--step", "0"}, "--step"},
                                    {{"--goal-bias", "2", "--planner", "rrt"}, "--goal-bias"},
