@@ -55,7 +55,7 @@ void bm_plain_matrices(benchmark::State& state) {
 }
 BENCHMARK(bm_plain_matrices);
 
-void bm_clearance(benchmark::State& state) {
+void bm_arm_clearance(benchmark::State& state) {
   const auto n = static_cast<std::size_t>(state.range(0));
   const Scene scene = spheres(n);
   const ArmWorld world = world_of(n);
@@ -68,16 +68,16 @@ void bm_clearance(benchmark::State& state) {
   std::uint64_t i = 0;
   for (auto _ : state) benchmark::DoNotOptimize(world.clearance(uniform_state(world, 1, i++ % 4096), all));
 }
-BENCHMARK(bm_clearance)->Arg(9)->Arg(100)->Arg(1000)->Arg(10000);
+BENCHMARK(bm_arm_clearance)->Arg(9)->Arg(100)->Arg(1000)->Arg(10000);
 
-void bm_plain_clearance(benchmark::State& state) {
+void bm_plain_arm_clearance(benchmark::State& state) {
   const auto n = static_cast<std::size_t>(state.range(0));
   const Scene scene = spheres(n);
   const ArmWorld world = world_of(n);
   std::uint64_t i = 0;
   for (auto _ : state) benchmark::DoNotOptimize(plain_clearance(world, scene, uniform_state(world, 1, i++ % 4096)));
 }
-BENCHMARK(bm_plain_clearance)->Arg(9)->Arg(100)->Arg(1000);
+BENCHMARK(bm_plain_arm_clearance)->Arg(9)->Arg(100)->Arg(1000);
 
 bool sampled_free(const ArmWorld& world, const JointState& a, const JointState& b, int places) {
   auto query = world.make_query();
@@ -105,7 +105,7 @@ std::vector<Motion> motions_in(const ArmWorld& world) {
 }
 
 template <class Check>
-void run_motions(benchmark::State& state, const Check& check) {
+void run_arm_motions(benchmark::State& state, const Check& check) {
   const ArmWorld world = world_of(static_cast<std::size_t>(state.range(0)));
   const std::vector<Motion> motions = motions_in(world);
   int accepted = 0;
@@ -125,18 +125,18 @@ void run_motions(benchmark::State& state, const Check& check) {
   state.counters["free"] = truly_free;
 }
 
-void bm_certified_motion(benchmark::State& state) {
-  run_motions(state, [](const ArmWorld& world, const Motion& m) {
+void bm_certified_arm_motion(benchmark::State& state) {
+  run_arm_motions(state, [](const ArmWorld& world, const Motion& m) {
     auto query = world.make_query();
     return world.is_free_motion(m.a, m.b, query);
   });
 }
-BENCHMARK(bm_certified_motion)->Arg(9)->Arg(100)->Arg(1000);
+BENCHMARK(bm_certified_arm_motion)->Arg(9)->Arg(100)->Arg(1000);
 
-void bm_ten_samples(benchmark::State& state) {
-  run_motions(state, [](const ArmWorld& world, const Motion& m) { return sampled_free(world, m.a, m.b, 11); });
+void bm_ten_arm_samples(benchmark::State& state) {
+  run_arm_motions(state, [](const ArmWorld& world, const Motion& m) { return sampled_free(world, m.a, m.b, 11); });
 }
-BENCHMARK(bm_ten_samples)->Arg(9)->Arg(100)->Arg(1000);
+BENCHMARK(bm_ten_arm_samples)->Arg(9)->Arg(100)->Arg(1000);
 
 /// The whole of a roadmap with k = 10: samples, neighbours, motions, graph, query.
 void bm_roadmap(benchmark::State& state) {

@@ -18,7 +18,7 @@ namespace warren::bench {
 namespace {
 
 constexpr std::uint32_t side = 300;  // of the maze
-constexpr double clearance = 0.1;
+constexpr double kept_clearance = 0.1;
 constexpr std::uint64_t draws_a_cell = 7;
 
 const Scene& scene() {
@@ -26,7 +26,7 @@ const Scene& scene() {
   return kept;
 }
 const MazeWorld& world() {
-  static const MazeWorld kept(scene(), clearance, {});
+  static const MazeWorld kept(scene(), kept_clearance, {});
   return kept;
 }
 

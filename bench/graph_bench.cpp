@@ -15,15 +15,15 @@
 namespace warren::bench {
 namespace {
 
-enum Kind : int { tiled, shuffled, geometric };
+enum GraphKind : int { tiled, shuffled_grid, random_places };
 
 const PlaneGraph& graph_of(int kind, int side) {
   static PlaneGraph graph;
   static std::pair<int, int> built{-1, -1};
   if (built != std::pair{kind, side}) {
-    graph = kind == geometric
+    graph = kind == random_places
                 ? random_geometric(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), 26.0, false)
-                : lattice(static_cast<std::uint32_t>(side), false, 0.0, kind == shuffled);
+                : lattice(static_cast<std::uint32_t>(side), false, 0.0, kind == shuffled_grid);
     built = {kind, side};
   }
   return graph;
@@ -105,7 +105,7 @@ void check_keys(const Graph& graph, const std::vector<VertexId>& keep, const Red
 
 /// Items are vertices; start and goal are opposite corners.
 void bm_reduce(benchmark::State& state) {
-  const PlaneGraph& maze = maze_of(state.range(0) == shuffled, state.range(1), state.range(2));
+  const PlaneGraph& maze = maze_of(state.range(0) == shuffled_grid, state.range(1), state.range(2));
   const Graph rows = Graph::from_edges(maze.at.size(), maze.edges);
   Execution execution;
   execution.threads = static_cast<unsigned>(state.range(3));
@@ -121,13 +121,14 @@ void bm_reduce(benchmark::State& state) {
 
 void serial_cases(benchmark::internal::Benchmark* b) {
   b->ArgNames({"kind", "side"})->Unit(benchmark::kMillisecond);
-  for (const int kind : {tiled, shuffled, geometric}) b->Args({kind, kind == geometric ? 500 : 1000});
+  for (const int kind : {tiled, shuffled_grid, random_places}) b->Args({kind, kind == random_places ? 500 : 1000});
   b->Args({tiled, 2000});
 }
 void parallel_cases(benchmark::internal::Benchmark* b) {
   b->ArgNames({"kind", "side", "threads"})->Apply(over_threads);
   for (const int threads : {1, 2}) {
-    for (const int kind : {tiled, shuffled, geometric}) b->Args({kind, kind == geometric ? 500 : 1000, threads});
+    for (const int kind : {tiled, shuffled_grid, random_places})
+      b->Args({kind, kind == random_places ? 500 : 1000, threads});
     b->Args({tiled, 2000, threads});
   }
 }
@@ -140,7 +141,7 @@ BENCHMARK(bm_components)->Apply(parallel_cases);
 BENCHMARK(bm_reduce)
     ->ArgNames({"kind", "side", "loops_%", "threads"})
     ->ArgsProduct({{tiled}, {1000, 2000}, {0, 10}, {1, 2}})
-    ->Args({shuffled, 1000, 10, 1})
+    ->Args({shuffled_grid, 1000, 10, 1})
     ->Apply(over_threads);
 
 }  // namespace

@@ -14,13 +14,13 @@
 namespace warren {
 namespace {
 
-constexpr std::uint32_t side = 1024;
+constexpr std::uint32_t map_side = 1024;
 
 Bitmap blocks() {
-  Bitmap map(side, side);
+  Bitmap map(map_side, map_side);
   for (std::uint64_t i = 0; i < 1500; ++i) {
-    const auto x = static_cast<std::uint32_t>(random_bits(1, i, 0) % (side - 24));
-    const auto y = static_cast<std::uint32_t>(random_bits(1, i, 1) % (side - 24));
+    const auto x = static_cast<std::uint32_t>(random_bits(1, i, 0) % (map_side - 24));
+    const auto y = static_cast<std::uint32_t>(random_bits(1, i, 1) % (map_side - 24));
     const auto height = static_cast<std::uint32_t>(2 + random_bits(1, i, 2) % 20);
     for (std::uint32_t v = y; v < y + height; ++v) map.set_run(v, x, x + 24 - height / 2);
   }
@@ -29,15 +29,15 @@ Bitmap blocks() {
 
 /// Rooms of 16 cells with a door in each side.
 Bitmap rooms() {
-  Bitmap map(side, side);
-  for (std::uint32_t at = 15; at < side; at += 16) {
-    map.set_run(at, 0, side);
-    for (std::uint32_t y = 0; y < side; ++y) map.set(at, y);
+  Bitmap map(map_side, map_side);
+  for (std::uint32_t at = 15; at < map_side; at += 16) {
+    map.set_run(at, 0, map_side);
+    for (std::uint32_t y = 0; y < map_side; ++y) map.set(at, y);
   }
-  for (std::uint32_t y = 0; y < side; y += 16) {
-    for (std::uint32_t x = 0; x < side; x += 16) {
-      if (y + 15 < side) map.clear(x + static_cast<std::uint32_t>(random_bits(2, x, y) % 15), y + 15);
-      if (x + 15 < side) map.clear(x + 15, y + static_cast<std::uint32_t>(random_bits(3, x, y) % 15));
+  for (std::uint32_t y = 0; y < map_side; y += 16) {
+    for (std::uint32_t x = 0; x < map_side; x += 16) {
+      if (y + 15 < map_side) map.clear(x + static_cast<std::uint32_t>(random_bits(2, x, y) % 15), y + 15);
+      if (x + 15 < map_side) map.clear(x + 15, y + static_cast<std::uint32_t>(random_bits(3, x, y) % 15));
     }
   }
   return map;
@@ -52,8 +52,8 @@ std::vector<Query> queries_of(const Bitmap& map) {
   std::vector<Query> queries;
   for (std::uint64_t i = 0; queries.size() < 20; ++i) {
     const auto cell = [&](std::uint64_t axis) {
-      return Cell{static_cast<std::uint32_t>(random_bits(4, i, axis) % side),
-                  static_cast<std::uint32_t>(random_bits(4, i, axis + 1) % side)};
+      return Cell{static_cast<std::uint32_t>(random_bits(4, i, axis) % map_side),
+                  static_cast<std::uint32_t>(random_bits(4, i, axis + 1) % map_side)};
     };
     const Query query{cell(0), cell(2)};
     if (!map.test(query.start.x, query.start.y) && !map.test(query.goal.x, query.goal.y)) queries.push_back(query);

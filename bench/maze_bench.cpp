@@ -18,8 +18,6 @@
 namespace warren::bench {
 namespace {
 
-const Execution one_thread{.threads = 1};
-
 std::uint32_t side_of(const benchmark::State& state) { return static_cast<std::uint32_t>(state.range(0)); }
 
 /// The maze of the last size asked for.

@@ -21,10 +21,15 @@
 namespace warren::bench {
 namespace {
 
-enum Kind : int { uniform_random, uniform_sorted, lattice_sorted, clustered, crowded };  // crowding 3, 3, 2, 18, 100
-const Execution one_thread{.threads = 1};
+enum PointsKind : int {
+  uniform_random,
+  uniform_sorted,
+  lattice_sorted,
+  clustered,
+  crowded
+};  // crowding 3, 3, 2, 18, 100
 
-Vec2 point_of(Kind kind, std::size_t side, std::size_t i) {
+Vec2 point_of(PointsKind kind, std::size_t side, std::size_t i) {
   const double width = static_cast<double>(side);
   const Vec2 u{uniform(1, i, 0), uniform(1, i, 1)};
   if (kind == lattice_sorted) return {static_cast<double>(i % side), static_cast<double>(i / side)};
@@ -41,7 +46,7 @@ const std::vector<Vec2>& points_of(std::int64_t kind_number, std::int64_t side_n
   static std::pair<std::int64_t, std::int64_t> built{-1, -1};
   if (built == std::pair{kind_number, side_number}) return points;
   built = {kind_number, side_number};
-  const auto kind = static_cast<Kind>(kind_number);
+  const auto kind = static_cast<PointsKind>(kind_number);
   const auto side = static_cast<std::size_t>(side_number);
   points.resize(side * side);
   for (std::size_t i = 0; i < points.size(); ++i) points[i] = point_of(kind, side, i);

@@ -10,7 +10,11 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "parallel/execution.hpp"
+
 namespace warren::bench {
+
+inline const Execution one_thread{.threads = 1};
 
 /// `items` were worked on in each iteration; `bytes` are held, read or written for all of them together.
 inline void report(benchmark::State& state, std::size_t items, std::size_t bytes) {

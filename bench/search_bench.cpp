@@ -19,7 +19,7 @@
 namespace warren::bench {
 namespace {
 
-enum Kind : int { maze, maze_with_loops, geometric };
+enum GraphOf : int { maze, maze_with_loops, geometric };
 
 /// A graph of about `size` vertices, kept from one benchmark to the next.
 struct Case {

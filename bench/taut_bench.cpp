@@ -57,8 +57,8 @@ double length_of(const std::vector<Vec2>& path) {
   return length;
 }
 
-struct Case {
-  explicit Case(std::uint32_t size) {
+struct TautCase {
+  explicit TautCase(std::uint32_t size) {
     MazeOptions options;
     options.rows = options.cols = size;
     scene = maze_scene(options, false, {});
@@ -68,7 +68,7 @@ struct Case {
   std::vector<Vec2> raw;
 };
 
-void report_path(benchmark::State& state, const Case& c, const std::vector<Vec2>& path) {
+void report_path(benchmark::State& state, const TautCase& c, const std::vector<Vec2>& path) {
   VerifyOptions options;
   options.clearance = clearance;
   if (!verify_path(c.scene, path, options, {}).verified) state.SkipWithError("the path is not free");
@@ -81,7 +81,7 @@ void report_path(benchmark::State& state, const Case& c, const std::vector<Vec2>
 }
 
 void bm_taut_path(benchmark::State& state) {
-  const Case c(static_cast<std::uint32_t>(state.range(0)));
+  const TautCase c(static_cast<std::uint32_t>(state.range(0)));
   const WallIndex index(c.scene.walls, {});
   Execution execution;
   execution.threads = 1;
@@ -113,7 +113,7 @@ void shortcut_sweep(const WallIndex& index, std::vector<Vec2>& path, SequentialR
 }
 
 void bm_random_shortcuts(benchmark::State& state) {
-  const Case c(static_cast<std::uint32_t>(state.range(0)));
+  const TautCase c(static_cast<std::uint32_t>(state.range(0)));
   const WallIndex index(c.scene.walls, {});
   std::vector<Vec2> path;
   for (auto _ : state) {

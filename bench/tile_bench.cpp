@@ -21,10 +21,9 @@
 namespace warren::bench {
 namespace {
 
-enum Kind : int { backtracker, kruskal, kruskal_loops, merged, shuffled };
+enum WallsOf : int { backtracker, kruskal, kruskal_loops, merged, shuffled };
 constexpr double clearance = 0.1;
 constexpr double halo = 1.11;  // an edge and its clearance
-const Execution one_thread{.threads = 1};
 
 WallSet mixed(const WallSet& walls) {
   std::vector<Segment> segments;

@@ -12,15 +12,15 @@
 namespace warren::bench {
 namespace {
 
-struct Case {
+struct VerifyCase {
   Scene scene;
   std::vector<Vec2> path;
   VerifyOptions options;
 };
 
 /// The maze that was asked for last, with its path.
-const Case& case_of(std::int64_t algorithm, std::int64_t side) {
-  static Case kept;
+const VerifyCase& case_of(std::int64_t algorithm, std::int64_t side) {
+  static VerifyCase kept;
   static std::pair<std::int64_t, std::int64_t> built{-1, -1};
   if (built == std::pair{algorithm, side}) return kept;
   built = {algorithm, side};
@@ -38,7 +38,7 @@ const Case& case_of(std::int64_t algorithm, std::int64_t side) {
 }
 
 /// The path is free; with a point moved to the end of a wall it isn't, and that leg is the first bad one.
-void check_verdicts(const Case& c, const Execution& execution) {
+void check_verdicts(const VerifyCase& c, const Execution& execution) {
   check(verify_path(c.scene, c.path, c.options, execution).verified, "verify_path");
   std::vector<Vec2> bent = c.path;
   const std::size_t moved = bent.size() / 2;
@@ -49,7 +49,7 @@ void check_verdicts(const Case& c, const Execution& execution) {
 }
 
 void bm_verify_path(benchmark::State& state) {
-  const Case& c = case_of(state.range(0), state.range(1));
+  const VerifyCase& c = case_of(state.range(0), state.range(1));
   const Execution execution{.threads = static_cast<unsigned>(state.range(2))};
   if (should_check(state)) check_verdicts(c, execution);
   for (auto _ : state) benchmark::DoNotOptimize(verify_path(c.scene, c.path, c.options, execution).verified);

@@ -23,8 +23,7 @@ namespace {
 
 enum Kind : int { maze, shuffled_maze, merged_maze, sparse, dense, long_walls };
 constexpr double capsule = 0.1;
-constexpr std::uint32_t side = 1000;  // of the mazes
-const Execution one_thread{.threads = 1};
+constexpr std::uint32_t maze_side = 1000;  // of the mazes
 
 std::vector<Segment> segments_of(const WallSet& walls) {
   std::vector<Segment> segments;
@@ -46,12 +45,12 @@ WallSet scattered(std::size_t count, double length, double width) {
 }
 
 WallSet walls_of(std::int64_t kind) {
-  constexpr std::size_t cells = std::size_t{side} * side;
-  const double width = side;
+  constexpr std::size_t cells = std::size_t{maze_side} * maze_side;
+  const double width = maze_side;
   if (kind == sparse) return scattered(cells / 10, 1.0, width);
   if (kind == dense) return scattered(cells, 1.0, width);
-  if (kind == long_walls) return scattered(side, 0.3 * width, width);
-  const WallSet walls = maze_scene({side, side, 1}, kind == merged_maze, {}).walls;
+  if (kind == long_walls) return scattered(maze_side, 0.3 * width, width);
+  const WallSet walls = maze_scene({maze_side, maze_side, 1}, kind == merged_maze, {}).walls;
   if (kind != shuffled_maze) return walls;
   std::vector<Segment> mixed = segments_of(walls);
   SequentialRng rng(7);
@@ -60,13 +59,13 @@ WallSet walls_of(std::int64_t kind) {
 }
 
 /// Walls and their index, kept until another kind is asked for.
-struct Case {
+struct WallCase {
   WallSet walls;
   WallIndex index;
 };
-const Case& case_of(std::int64_t kind) {
+const WallCase& case_of(std::int64_t kind) {
   static std::int64_t built = -1;
-  static Case kept{WallSet(), WallIndex(WallSet(), one_thread)};
+  static WallCase kept{WallSet(), WallIndex(WallSet(), one_thread)};
   if (built != kind) {
     kept.walls = walls_of(kind);
     kept.index = WallIndex(kept.walls, {});
@@ -80,8 +79,8 @@ std::vector<Segment> edges_of(bool random_places) {
   constexpr std::uint32_t block = 180;
   std::vector<Segment> edges;
   for (std::uint32_t i = 0; i < block * block; ++i) {
-    const double col = random_places ? std::floor((side - 2) * uniform(2, i, 0)) : side / 2.0 + i % block;
-    const double row = random_places ? std::floor((side - 2) * uniform(2, i, 1)) : side / 2.0 + i / block;
+    const double col = random_places ? std::floor((maze_side - 2) * uniform(2, i, 0)) : maze_side / 2.0 + i % block;
+    const double row = random_places ? std::floor((maze_side - 2) * uniform(2, i, 1)) : maze_side / 2.0 + i / block;
     const Vec2 at{1.0 + col, 1.0 + row};
     edges.push_back({at, at + Vec2{1.0, 0.0}});
     edges.push_back({at, at + Vec2{0.0, 1.0}});
@@ -108,7 +107,7 @@ PlainAnswer plain_answer(const WallSet& walls, const Segment& edge) {
   return answer;
 }
 
-void check_queries(const Case& c, const std::vector<Segment>& edges) {
+void check_queries(const WallCase& c, const std::vector<Segment>& edges) {
   constexpr std::size_t checked = 12;
   for (std::size_t i = 0; i < edges.size(); i += edges.size() / checked) {
     const Segment& edge = edges[i];
@@ -122,7 +121,7 @@ void check_queries(const Case& c, const std::vector<Segment>& edges) {
 /// Times query(index, edge) -> number; the mean of the numbers is reported, so that none goes uncounted.
 template <class Query>
 void run_queries(benchmark::State& state, const char* mean_name, const Query& query) {
-  const Case& c = case_of(state.range(0));
+  const WallCase& c = case_of(state.range(0));
   const std::vector<Segment> edges = edges_of(state.range(1) != 0);
   if (should_check(state)) check_queries(c, edges);
   double sum = 0.0;
@@ -137,7 +136,7 @@ void run_queries(benchmark::State& state, const char* mean_name, const Query& qu
 }
 
 void bm_wall_index_build(benchmark::State& state) {
-  const Case& c = case_of(state.range(0));
+  const WallCase& c = case_of(state.range(0));
   const Execution execution{.threads = static_cast<unsigned>(state.range(1))};
   if (should_check(state)) check_queries(c, edges_of(true));
   for (auto _ : state) benchmark::DoNotOptimize(WallIndex(c.walls, execution).wall_count());

@@ -23,6 +23,12 @@ add_compile_options(-ffp-contract=off -fno-fast-math)
 # Warnings are the developers' business: at -O3 the compiler also warns of paths in the libraries' headers that don't exist.
 if(WARREN_WERROR)
   add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Wnull-dereference -Werror)
+  # Between the files of a batch, names may shadow each other; each file by itself is looked at in the other builds.
+  if(CMAKE_UNITY_BUILD)
+    add_compile_options(-Wno-shadow)
+  endif()
+  # g++ says it only when asked; clang++ says it, but not of files in batches.
+  add_compile_options($<$<CXX_COMPILER_ID:GNU>:-Wunused-const-variable=1>)
 endif()
 if(WARREN_NATIVE)
   add_compile_options(-march=native)

@@ -12,6 +12,9 @@ namespace warren {
 /// Sign of the doubled area of a, b, c: +1 when c lies left of the line a -> b, -1 right, 0 on it. Exact.
 int orient2d(Vec2 a, Vec2 b, Vec2 c) noexcept;
 
+/// By x, then by y.
+constexpr bool is_before(Vec2 p, Vec2 q) noexcept { return p.x < q.x || (p.x == q.x && p.y < q.y); }
+
 /// Does p lie on the closed segment? Exact.
 bool on_segment(Vec2 p, const Segment& s) noexcept;
 

@@ -12,7 +12,7 @@
 namespace warren {
 namespace {
 
-constexpr std::size_t grain = std::size_t{1} << 14;
+constexpr std::size_t component_grain = std::size_t{1} << 14;
 
 /// Parents of the forest. Invariants: parent[v] <= v, and a vertex that is no root never becomes one again. Only these
 /// numbers pass between threads, no other memory depends on them, so relaxed order is enough.
@@ -77,8 +77,8 @@ Components components(const Graph& graph, const Execution& execution) {
   const Forest forest(result.label);
   Execution quiet = execution;
   quiet.progress = nullptr;
-  for_chunks(n, grain, execution, [&](Range r) { join_inside(graph, r, result.label); });
-  for_chunks(n, grain, quiet, [&](Range r) {
+  for_chunks(n, component_grain, execution, [&](Range r) { join_inside(graph, r, result.label); });
+  for_chunks(n, component_grain, quiet, [&](Range r) {
     for (auto v = static_cast<VertexId>(r.first); v < r.last; ++v) {
       for (const VertexId w : graph.neighbours(v)) {
         if (w >= r.first) break;
@@ -86,15 +86,15 @@ Components components(const Graph& graph, const Execution& execution) {
       }
     }
   });
-  std::vector<std::size_t> roots(chunk_count(n, grain), 0);
-  for_chunks(n, grain, quiet, [&](Range r) {
+  std::vector<std::size_t> roots(chunk_count(n, component_grain), 0);
+  for_chunks(n, component_grain, quiet, [&](Range r) {
     std::size_t count = 0;
     for (auto v = static_cast<VertexId>(r.first); v < r.last; ++v) {
       const VertexId root = forest.root_of(v);
       std::atomic_ref(result.label[v]).store(root, std::memory_order_relaxed);
       count += root == v ? 1U : 0U;
     }
-    roots[r.first / grain] = count;
+    roots[r.first / component_grain] = count;
   });
   result.count = std::accumulate(roots.begin(), roots.end(), std::size_t{0});
   return result;
@@ -102,10 +102,10 @@ Components components(const Graph& graph, const Execution& execution) {
 
 std::size_t component_size(const Components& components, VertexId v, const Execution& execution) {
   const VertexId label = components.label[v];
-  std::vector<std::size_t> sizes(chunk_count(components.label.size(), grain), 0);
-  for_chunks(components.label.size(), grain, execution, [&](Range r) {
+  std::vector<std::size_t> sizes(chunk_count(components.label.size(), component_grain), 0);
+  for_chunks(components.label.size(), component_grain, execution, [&](Range r) {
     const auto begin = components.label.begin();
-    sizes[r.first / grain] = static_cast<std::size_t>(
+    sizes[r.first / component_grain] = static_cast<std::size_t>(
         std::count(begin + static_cast<std::ptrdiff_t>(r.first), begin + static_cast<std::ptrdiff_t>(r.last), label));
   });
   return std::accumulate(sizes.begin(), sizes.end(), std::size_t{0});

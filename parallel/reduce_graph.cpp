@@ -12,8 +12,6 @@
 namespace warren {
 namespace {
 
-constexpr std::size_t grain = detail::reduce_grain;
-
 /// Neighbours that are left, as far as it matters: `count` is exact up to 2, `last` is one of them.
 struct Left {
   unsigned count = 0;
@@ -55,19 +53,19 @@ KeyCoverView::KeyCoverView(const Graph& graph, std::span<const VertexId> keep, P
   keys_.resize(chunk_count(n, 64));
   rank_.resize(chunk_count(n, 64) + 1);
   const Execution quiet = without_progress(execution);
-  for_chunks(n, grain, quiet,
+  for_chunks(n, detail::reduce_grain, quiet,
              [&](Range r) { std::fill(left_.data() + r.first, left_.data() + r.last, std::uint8_t{1}); });
   for (const VertexId v : keep) {
     if (v >= n) throw InputError("reduce_graph", "a vertex to keep is not in the graph", std::to_string(v));
     left_[v] = 2;
   }
-  std::vector<Peeled> peeled(chunk_count(n, grain));
-  for_chunks(n, grain, quiet, [&](Range r) { peeled[r.first / grain] = peel_block(r); });
+  std::vector<Peeled> peeled(chunk_count(n, detail::reduce_grain));
+  for_chunks(n, detail::reduce_grain, quiet, [&](Range r) { peeled[r.first / detail::reduce_grain] = peel_block(r); });
   for (const Peeled& block : peeled) peeled_trees_ += block.trees;
   for_chunks(peeling == Peeling::everywhere ? peeled.size() : 0, 1, quiet, [&](Range r) {
     for (const VertexId v : peeled[r.first].seeds) peel_across(v, execution);
   });
-  for_chunks(n, grain, quiet, [&](Range r) { mark_keys(r, peeling); });
+  for_chunks(n, detail::reduce_grain, quiet, [&](Range r) { mark_keys(r, peeling); });
   rank_.back() = 0;
   exclusive_scan(rank_, quiet);
 }
@@ -161,7 +159,7 @@ ReducedGraphView::ReducedGraphView(KeyCoverView cover, const std::vector<Part>& 
       }
     }
   });
-  for_chunks(cover_.graph().vertex_count(), grain, quiet, [&](Range r) {
+  for_chunks(cover_.graph().vertex_count(), detail::reduce_grain, quiet, [&](Range r) {
     for (auto v = static_cast<VertexId>(r.first); v < r.last; ++v) {
       if (cover_.is_key(v)) vertices_[cover_.rank(v)] = v;
     }

@@ -9,7 +9,7 @@ namespace warren {
 namespace {
 
 /// The posts on one side of a string, from its last fixed point on: a chain that bends around them.
-class Chain {
+class RouteChain {
  public:
   bool empty() const { return first_ == posts_.size(); }
   std::span<const Vec2> posts() const { return std::span(posts_).subspan(first_); }
@@ -34,7 +34,7 @@ class Funnel {
 
   void pass(Vec2 post, bool on_left) {
     if (post == apex_) return;
-    Chain& own = on_left ? left_ : right_;
+    RouteChain& own = on_left ? left_ : right_;
     const int inwards = on_left ? 1 : -1;  // the sign of a turn that keeps the own chain convex
     while (!own.empty()) {
       const std::span<const Vec2> posts = own.posts();
@@ -60,7 +60,7 @@ class Funnel {
 
  private:
   /// Bends the string around the other side's posts that stand in the way to `to`.
-  void move_apex(Chain& other, Vec2 to, int inwards) {
+  void move_apex(RouteChain& other, Vec2 to, int inwards) {
     while (!other.empty() && orient2d(apex_, other.posts().front(), to) * inwards < 0) {
       apex_ = other.posts().front();
       path_.push_back(apex_);
@@ -69,7 +69,7 @@ class Funnel {
   }
 
   Vec2 apex_;
-  Chain left_, right_;
+  RouteChain left_, right_;
   std::vector<Vec2> path_;
 };
 

@@ -12,8 +12,6 @@ namespace {
 constexpr std::size_t corners_per_poll = 4096;
 constexpr std::size_t bytes_per_corner = 150;
 
-bool is_before(Vec2 p, Vec2 q) { return p.x < q.x || (p.x == q.x && p.y < q.y); }
-
 Segment left_to_right(Vec2 p, Vec2 q) { return is_before(q, p) ? Segment{q, p} : Segment{p, q}; }
 
 }  // namespace

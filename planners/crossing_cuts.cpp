@@ -9,8 +9,6 @@
 namespace warren {
 namespace {
 
-bool is_before(Vec2 p, Vec2 q) { return p.x < q.x || (p.x == q.x && p.y < q.y); }
-
 /// The pieces' neighbourhoods: each is filed under the squares that its box meets, column by column along itself.
 class PieceGrid {
  public:

@@ -12,7 +12,7 @@
 namespace warren {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double open_sight = std::numeric_limits<double>::infinity();
 constexpr double margin = 1e-9;          // of places: far above their rounding, far below a range's width
 constexpr double shallow = 1e-6;         // sines below this: a distance along the ray is not to be trusted
 constexpr double outwards = 1.0 + 1e-9;  // distances are rounded up by this
@@ -66,10 +66,10 @@ void NearPieces::open(std::span<const PlaceRange> ranges) {
   sight_.fill(0.0);
   for (const PlaceRange& r : ranges) {
     const double end = r.last >= r.first ? r.last : r.last + 4.0;
-    if (end - r.first >= 4.0 - 2.0 / scale) return sight_.fill(infinity);
+    if (end - r.first >= 4.0 - 2.0 / scale) return sight_.fill(open_sight);
     const auto first = static_cast<std::size_t>((r.first + 4.0 - margin) * scale);
     const auto last = static_cast<std::size_t>((end + 4.0 + margin) * scale);
-    for (std::size_t i = first; i <= last; ++i) sight_[i % directions] = infinity;
+    for (std::size_t i = first; i <= last; ++i) sight_[i % directions] = open_sight;
   }
 }
 

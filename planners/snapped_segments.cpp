@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/geometry.hpp"
 #include "planners/crossing_cuts.hpp"
 
 namespace warren {
@@ -13,8 +14,6 @@ namespace {
 constexpr double largest_integer = 0x1.0p29;
 constexpr int most_rounds = 24;
 constexpr double rounding = 0.7072;  // of both coordinates, in units
-
-bool is_before(Vec2 p, Vec2 q) { return p.x < q.x || (p.x == q.x && p.y < q.y); }
 
 SnapGrid grid_of(std::span<const Segment> segments) {
   Box box;

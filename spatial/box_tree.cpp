@@ -6,7 +6,7 @@
 namespace warren {
 namespace {
 
-constexpr std::uint32_t leaf_size = 4;
+constexpr std::uint32_t box_leaf_size = 4;
 
 template <int D>
 BoxOf<D> joined(const BoxOf<D>& a, const BoxOf<D>& b) {
@@ -61,7 +61,7 @@ void BoxTree<D>::build(std::uint32_t first, std::uint32_t last, std::span<const 
   for (const std::uint32_t id : ids) box = joined(box, boxes[id]);
   const auto node = static_cast<std::uint32_t>(nodes_.size());
   nodes_.push_back({box, first, last - first});
-  if (ids.size() <= leaf_size) return;
+  if (ids.size() <= box_leaf_size) return;
   const std::size_t axis = widest_axis<D>(boxes, ids);
   const auto less = [&](std::uint32_t a, std::uint32_t b) {
     const double left = doubled_centre(boxes[a], axis);

@@ -22,7 +22,7 @@ constexpr std::size_t tree_size = 16'384;  // points of a subtree: aimed at
 constexpr std::size_t most_trees = 4096;
 constexpr std::size_t samples_per_tree = 32;
 constexpr std::size_t leaf_size = 16;
-constexpr std::size_t grain = std::size_t{1} << 14;
+constexpr std::size_t tree_grain = std::size_t{1} << 14;
 
 /// A square that is larger than the squares of all distances <= `distance`, as nanoflann computes them.
 double loose_square(double distance) { return distance * distance * slack + std::numeric_limits<double>::min(); }
@@ -214,7 +214,7 @@ struct KdTree<D>::Forest {
     place_of.resize(input.size());
     trees.resize(top.leaves);
     for_chunks(top.leaves, 1, quiet, [&](Range range) { plant(range.first, input); });
-    for_chunks(input.size(), grain, quiet, [&](Range range) {
+    for_chunks(input.size(), tree_grain, quiet, [&](Range range) {
       for (std::size_t i = range.first; i < range.last; ++i) place_of[ids[i]] = static_cast<std::uint32_t>(i);
     });
   }

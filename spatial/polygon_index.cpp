@@ -9,7 +9,7 @@
 
 namespace warren {
 namespace {
-constexpr std::size_t grain = std::size_t{1} << 12;
+constexpr std::size_t polygon_grain = std::size_t{1} << 12;
 }  // namespace
 
 /// What a ray from p to the right has met.
@@ -24,7 +24,7 @@ PolygonIndex::PolygonIndex(PolygonSet polygons, const Execution& execution) : po
   execution.reserve(n * (sizeof(std::uint32_t) + sizeof(Box) / 7) + polygons_.size() * 3 * sizeof(Box));
   next_.resize(n);
   std::vector<BoxOf<2>> boxes(polygons_.size());
-  for_chunks(polygons_.size(), grain, execution, [&](Range r) {
+  for_chunks(polygons_.size(), polygon_grain, execution, [&](Range r) {
     for (std::size_t polygon = r.first; polygon < r.last; ++polygon) {
       const auto [first, last] = sides_of(polygon);
       Box box;

@@ -8,7 +8,7 @@
 
 namespace warren {
 namespace {
-constexpr std::size_t grain = std::size_t{1} << 15;
+constexpr std::size_t order_grain = std::size_t{1} << 15;
 }  // namespace
 
 CellFrame::CellFrame(const Box& box, std::size_t count, double load) {
@@ -27,11 +27,11 @@ CellFrame::CellFrame(const Box& box, std::size_t count, double load) {
 }
 
 Box bounding_box(PlanarView positions, const Execution& execution) {
-  std::vector<Box> boxes(chunk_count(positions.count, grain));
-  for_chunks(positions.count, grain, detail::quiet(execution), [&](Range range) {
+  std::vector<Box> boxes(chunk_count(positions.count, order_grain));
+  for_chunks(positions.count, order_grain, detail::quiet(execution), [&](Range range) {
     Box box;
     for (std::size_t i = range.first; i < range.last; ++i) box.include(positions[i]);
-    boxes[range.first / grain] = box;
+    boxes[range.first / order_grain] = box;
   });
   Box all;
   for (const Box& box : boxes) all.include(box);

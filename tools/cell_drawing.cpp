@@ -8,10 +8,10 @@
 namespace warren {
 namespace {
 
-using Run = std::pair<std::uint32_t, std::uint32_t>;  // first column, one past the last
+using CellRun = std::pair<std::uint32_t, std::uint32_t>;  // first column, one past the last
 
-std::vector<Run> runs_of(const Bitmap& cells, std::uint32_t y) {
-  std::vector<Run> runs;
+std::vector<CellRun> runs_of(const Bitmap& cells, std::uint32_t y) {
+  std::vector<CellRun> runs;
   for (std::uint32_t x = 0; x < cells.width(); ++x) {
     if (!cells.test(x, y)) continue;
     if (runs.empty() || runs.back().second != x) runs.push_back({x, x});
@@ -24,15 +24,15 @@ std::vector<Run> runs_of(const Bitmap& cells, std::uint32_t y) {
 
 PictureLayer cells_layer(std::string id, const Bitmap& cells, const std::function<Vec2(Vec2)>& at) {
   PictureLayer layer{std::move(id), colors::polygon, 0.0, {}, true, true};
-  std::map<Run, std::uint32_t> open;  // runs of the rows before, and the row where each began
-  const auto close = [&](const Run& run, std::uint32_t first, std::uint32_t last) {
+  std::map<CellRun, std::uint32_t> open;  // runs of the rows before, and the row where each began
+  const auto close = [&](const CellRun& run, std::uint32_t first, std::uint32_t last) {
     const Vec2 low{static_cast<double>(run.first), static_cast<double>(first)};
     const Vec2 high{static_cast<double>(run.second), static_cast<double>(last)};
     layer.lines.add(std::array{at(low), at({high.x, low.y}), at(high), at({low.x, high.y})});
   };
   for (std::uint32_t y = 0; y < cells.height(); ++y) {
-    std::map<Run, std::uint32_t> next;
-    for (const Run& run : runs_of(cells, y)) {
+    std::map<CellRun, std::uint32_t> next;
+    for (const CellRun& run : runs_of(cells, y)) {
       const auto found = open.find(run);
       next[run] = found == open.end() ? y : found->second;
     }

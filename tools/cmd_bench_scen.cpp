@@ -27,7 +27,7 @@ namespace warren {
 namespace {
 
 constexpr double tolerance = 1e-3;
-constexpr OptionSpec specs[] = {
+constexpr OptionSpec bench_scen_specs[] = {
     {"--map", "FILE", "the map, where the scenario file's own name for it leads nowhere"},
     {"--json", "FILE", "write the figures as JSON; - is standard output"},
 };
@@ -40,7 +40,7 @@ struct Trial {
   bool walked = true;  ///< the path's cells are free, follow the rule and add up to the length
 };
 
-struct Comparison {
+struct ScenarioTrials {
   Trial astar;
   Trial jumps;
   bool agrees(const Scenario& s) const {
@@ -49,12 +49,12 @@ struct Comparison {
   }
 };
 
-std::string folder_of(const std::string& file) { return file.substr(0, file.rfind('/') + 1); }
+std::string folder_prefix(const std::string& file) { return file.substr(0, file.rfind('/') + 1); }
 
 /// The map beside the scenario file, by its whole name or its last part; as it stands from here; or without ".scen".
 OccupancyMap read_its_map(const std::string& scen, const std::string& map, const Execution& execution) {
   const std::string last = map.substr(map.rfind('/') + 1);
-  std::vector<std::string> places{folder_of(scen) + map, folder_of(scen) + last, map};
+  std::vector<std::string> places{folder_prefix(scen) + map, folder_prefix(scen) + last, map};
   if (scen.ends_with(".scen")) places.push_back(scen.substr(0, scen.size() - 5));
   for (const std::string& place : places) {
     std::optional<InputFile> file;
@@ -98,10 +98,10 @@ Trial trial(GridSearch& search, const Bitmap& blocked, Cell start, Cell goal, Gr
 }
 
 /// Scenarios in a number of parts that depends on their count alone, each with a search of its own.
-std::vector<Comparison> run_all(const OccupancyMap& map, const std::vector<Scenario>& scenarios,
-                                const std::string& file, const Execution& execution) {
+std::vector<ScenarioTrials> run_all(const OccupancyMap& map, const std::vector<Scenario>& scenarios,
+                                    const std::string& file, const Execution& execution) {
   constexpr std::size_t parts = 16;
-  std::vector<Comparison> results(scenarios.size());
+  std::vector<ScenarioTrials> results(scenarios.size());
   for_chunks(scenarios.size(), chunk_count(scenarios.size(), parts), execution, [&](Range r) {
     std::optional<GridSearch> search;
     Bitmap blocked;
@@ -132,7 +132,7 @@ struct Totals {
   double median_speedup = 0.0;  // time of A* over that of jump points, by scenario
 };
 
-Totals totals_of(const std::vector<Scenario>& scenarios, const std::vector<Comparison>& results) {
+Totals totals_of(const std::vector<Scenario>& scenarios, const std::vector<ScenarioTrials>& results) {
   Totals totals;
   std::vector<double> speedups;
   for (std::size_t i = 0; i < results.size(); ++i) {
@@ -152,7 +152,7 @@ Totals totals_of(const std::vector<Scenario>& scenarios, const std::vector<Compa
 }
 
 std::string json_of(const std::string& file, const OccupancyMap& map, const std::vector<Scenario>& scenarios,
-                    const std::vector<Comparison>& results) {
+                    const std::vector<ScenarioTrials>& results) {
   const Totals t = totals_of(scenarios, results);
   std::string text = fmt::format(
       "{{\"schema\": \"warren.bench-scen/1\",\n \"file\": {},\n \"map\": {},\n \"scenarios\": {},\n \"differing\": "
@@ -173,7 +173,7 @@ std::string json_of(const std::string& file, const OccupancyMap& map, const std:
 }
 
 void print_report(const std::string& file, const std::vector<Scenario>& scenarios,
-                  const std::vector<Comparison>& results, const Palette& palette) {
+                  const std::vector<ScenarioTrials>& results, const Palette& palette) {
   constexpr std::size_t most_lines = 50;
   std::size_t shown = 0;
   for (std::size_t i = 0; i < results.size() && shown < most_lines; ++i) {
@@ -205,7 +205,7 @@ int bench_scen(const Arguments& arguments) {
   const auto given = arguments.value("--map");
   const OccupancyMap map = given ? read_moving_ai_map(InputFile(std::string{*given}, run.execution()), run.execution())
                                  : read_its_map(file, scenarios.front().map, run.execution());
-  const std::vector<Comparison> results = run_all(map, scenarios, file, run.execution());
+  const std::vector<ScenarioTrials> results = run_all(map, scenarios, file, run.execution());
   run.end();
   if (json) write_file(*json, json_of(file, map, scenarios, results), run.execution());
   if (!run.quiet() && json != "-") print_report(file, scenarios, results, run.palette());
@@ -216,7 +216,7 @@ int bench_scen(const Arguments& arguments) {
 
 Command bench_scen_command() {
   Command command{"bench-scen", "FILE.scen", "check a Moving AI scenario file against its optima", {}, bench_scen};
-  add_options(command.options, specs);
+  add_options(command.options, bench_scen_specs);
   add_options(command.options, run_option_specs());
   return command;
 }

@@ -18,7 +18,7 @@
 namespace warren {
 namespace {
 
-constexpr OptionSpec specs[] = {
+constexpr OptionSpec convert_specs[] = {
     {"--output",
      "FILE",
      "where to: .walls .scene .npy .geojson .wkt .map .yaml .pgm .svg .png .html by ending; - is standard output. A "
@@ -77,7 +77,7 @@ int convert(const Arguments& arguments) {
 
 Command convert_command() {
   Command command{"convert", "WORLD", "write a world in another format", {}, convert};
-  add_options(command.options, specs);
+  add_options(command.options, convert_specs);
   add_options(command.options, world_option_specs());
   add_options(command.options, run_option_specs());
   return command;

@@ -23,7 +23,7 @@
 namespace warren {
 namespace {
 
-constexpr OptionSpec specs[] = {
+constexpr OptionSpec generate_specs[] = {
     {"--output",
      "FILE",
      "where to: .walls .scene .npy .geojson .wkt .svg .png .html by ending; - is standard output",
@@ -129,7 +129,7 @@ int generate(const Arguments& arguments) {
 Command generate_command() {
   Command command{
       "generate", "maze|polygons ROWSxCOLS|COUNT", "write a maze of any size, or any number of polygons", {}, generate};
-  add_options(command.options, specs);
+  add_options(command.options, generate_specs);
   add_options(command.options, run_option_specs());
   return command;
 }

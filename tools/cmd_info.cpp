@@ -18,7 +18,7 @@
 namespace warren {
 namespace {
 
-constexpr OptionSpec specs[] = {
+constexpr OptionSpec info_specs[] = {
     {"--json", "FILE", "write it as JSON; - is standard output"},
 };
 
@@ -138,7 +138,7 @@ int info(const Arguments& arguments) {
 
 Command info_command() {
   Command command{"info", "WORLD", "say what is in a world", {}, info};
-  add_options(command.options, specs);
+  add_options(command.options, info_specs);
   add_options(command.options, world_option_specs());
   add_options(command.options, run_option_specs());
   return command;

@@ -92,7 +92,7 @@ LargestOptions largest_options(const Arguments& arguments) {
   return options;
 }
 
-void check_outputs(const Arguments& arguments) {
+void check_report_files(const Arguments& arguments) {
   int to_standard_output = 0;
   for (const char* option : {"--json", "--svg", "--trace"}) {
     const auto file = arguments.value(option);
@@ -117,7 +117,7 @@ int largest(const Arguments& arguments) {
   const LargestOptions options = largest_options(arguments);
   check_planner_options(arguments);
   problem_options(arguments);  // refuses impossible values now, not after a maze was made
-  check_outputs(arguments);
+  check_report_files(arguments);
   Run run(arguments, RunScope::each_run);
   Execution execution = run.execution();
   if (const auto threads = arguments.value("--threads")) execution.threads = threads_value(*threads);

@@ -21,7 +21,7 @@
 namespace warren {
 namespace {
 
-constexpr OptionSpec specs[] = {
+constexpr OptionSpec render_specs[] = {
     {"--output", "FILE", "where to: .svg .png .html by ending", {}, "-o"},
     {"--answer", "FILE", "draw this answer's path"},
     {"--animate", "", "with --answer: the body moves along the path (.svg and .html)"},
@@ -127,7 +127,7 @@ int render(const Arguments& arguments) {
 
 Command render_command() {
   Command command{"render", "WORLD", "draw a world, and an answer's path on it", {}, render};
-  add_options(command.options, specs);
+  add_options(command.options, render_specs);
   add_options(command.options, world_option_specs());
   add_options(command.options, run_option_specs());
   return command;

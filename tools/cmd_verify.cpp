@@ -23,7 +23,7 @@
 namespace warren {
 namespace {
 
-constexpr OptionSpec specs[] = {
+constexpr OptionSpec verify_specs[] = {
     {"--json", "FILE", "write the verdict as JSON; - is standard output"},
 };
 
@@ -105,7 +105,7 @@ int verify(const Arguments& arguments) {
 Command verify_command() {
   Command command{"verify", "WORLD ANSWER.json", "re-check an answer independently", {}, verify};
   add_options(command.options, problem_option_specs());
-  add_options(command.options, specs);
+  add_options(command.options, verify_specs);
   add_options(command.options, world_option_specs());
   add_options(command.options, run_option_specs());
   return command;

@@ -10,7 +10,7 @@
 namespace warren {
 namespace {
 
-constexpr OptionSpec specs[] = {
+constexpr OptionSpec grid_specs[] = {
     {"--cell", "C",
      "grid in a scene: distance of its positions (default: the file's grid line, else a 400th of the longer side)"},
     {"--angles", "N", "grid: headings of a body that turns (default: the file's grid line, else 72)"},
@@ -29,7 +29,7 @@ constexpr std::array<std::string_view, 4> method_words{"astar", "dijkstra", "bfs
 
 }  // namespace
 
-std::span<const OptionSpec> grid_option_specs() { return specs; }
+std::span<const OptionSpec> grid_option_specs() { return grid_specs; }
 
 GridSpec grid_spec(const Arguments& arguments, const Scene& scene) {
   constexpr std::uint32_t usual_angles = 72;

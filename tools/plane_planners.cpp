@@ -15,7 +15,7 @@
 namespace warren {
 namespace {
 
-constexpr OptionSpec specs[] = {
+constexpr OptionSpec plane_planner_specs[] = {
     {"--full", "", "visibility: all visible edges instead of those that shortest paths take"},
     {"--sampled-edges", "D",
      "visibility: test edges at points D apart instead of exactly, and say which edges are wrong"},
@@ -37,7 +37,7 @@ std::string obstacle_text(const Scene& scene, std::size_t number) {
 
 }  // namespace
 
-std::span<const OptionSpec> plane_option_specs() { return specs; }
+std::span<const OptionSpec> plane_option_specs() { return plane_planner_specs; }
 
 AxisObjective axis_objective(const Arguments& arguments) {
   const auto text = arguments.value("--objective");

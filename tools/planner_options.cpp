@@ -26,7 +26,7 @@ constexpr std::array<std::string_view, 2> lazy_words{"expansion", "path"};
 constexpr std::uint64_t most_samples = std::uint64_t{1} << 31;
 constexpr std::uint64_t most_neighbours = 4096;
 
-constexpr OptionSpec specs[] = {
+constexpr OptionSpec planner_specs[] = {
     {"--planner", "NAME",
      "prm checks every edge, lazy-prm only those that a search reaches (default: prm with lattice)", "prm lazy-prm"},
     {"--sampler", "NAME",
@@ -191,7 +191,7 @@ std::string_view name_of(PipelineKind pipeline) { return pipeline_words[static_c
 std::string_view name_of(SamplerKind sampler) { return sampler_words[static_cast<std::size_t>(sampler)]; }
 std::string_view name_of(SearchKind search) { return search_words[static_cast<std::size_t>(search)]; }
 
-std::span<const OptionSpec> planner_option_specs() { return specs; }
+std::span<const OptionSpec> planner_option_specs() { return planner_specs; }
 
 std::uint64_t seed_of(const Arguments& arguments) {
   const auto text = arguments.value("--seed");

@@ -77,9 +77,10 @@ std::string tick_text(double value) {
 }
 
 /// Draws one plot from back to front.
-class Drawing {
+class PlotDrawing {
  public:
-  explicit Drawing(const Plot& plot) : plot_(plot), frame_(frame_beside_legend()), x_(axis(true)), y_(axis(false)) {}
+  explicit PlotDrawing(const Plot& plot)
+      : plot_(plot), frame_(frame_beside_legend()), x_(axis(true)), y_(axis(false)) {}
 
   std::string text() {
     begin();
@@ -118,7 +119,7 @@ class Drawing {
 };
 
 /// As wide as the names of the series leave it.
-Box Drawing::frame_beside_legend() const {
+Box PlotDrawing::frame_beside_legend() const {
   constexpr double width_of_letter = 6.7;
   std::size_t longest = 0;
   for (const PlotSeries& s : plot_.series) longest = std::max(longest, s.name.size());
@@ -129,7 +130,7 @@ Box Drawing::frame_beside_legend() const {
 }
 
 /// Wide enough for all that is shown and some room; never empty.
-Axis Drawing::axis(bool of_x) const {
+Axis PlotDrawing::axis(bool of_x) const {
   const bool logarithmic = of_x ? plot_.log_x : plot_.log_y;
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
@@ -152,7 +153,7 @@ Axis Drawing::axis(bool of_x) const {
   return {!of_x && plot_.from_zero && low >= 0.0 ? 0.0 : low - room, high + room, false, of_x && plot_.whole_x};
 }
 
-void Drawing::begin() {
+void PlotDrawing::begin() {
   text_ = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" role=\"img\" "
       "font-family=\"sans-serif\" font-size=\"12\" fill=\"#222222\">\n<title>{2}</title>\n"
@@ -164,7 +165,7 @@ void Drawing::begin() {
   label(18.0, middle, "middle", plot_.y_label, fmt::format(" transform=\"rotate(-90 18 {:.1f})\"", middle));
 }
 
-void Drawing::grid() {
+void PlotDrawing::grid() {
   constexpr std::string_view faint = "stroke=\"#e2e2e2\"";
   for (const double tick : x_.ticks()) {
     line(place_x(tick), frame_.min.y, place_x(tick), frame_.max.y, faint);
@@ -179,14 +180,14 @@ void Drawing::grid() {
                  frame_.min.x, frame_.min.y, frame_.width(), frame_.height());
 }
 
-void Drawing::level() {
+void PlotDrawing::level() {
   if (!plot_.level || !y_.shows(*plot_.level)) return;
   const double y = place_y(*plot_.level);
   line(frame_.min.x, y, frame_.max.x, y, "stroke=\"#c1121f\" stroke-width=\"1.5\" stroke-dasharray=\"7 4\"");
   label(frame_.min.x + 6.0, y - 6.0, "start", plot_.level_name, " style=\"fill:#c1121f\"");
 }
 
-void Drawing::series(std::size_t i) {
+void PlotDrawing::series(std::size_t i) {
   const PlotSeries& series = plot_.series[i];
   std::string path;
   std::string marks;
@@ -205,7 +206,7 @@ void Drawing::series(std::size_t i) {
   if (!series.dashed) fmt::format_to(std::back_inserter(text_), "<g fill=\"{}\">{}</g>\n", color(i), marks);
 }
 
-void Drawing::legend() {
+void PlotDrawing::legend() {
   const double left = frame_.max.x + 16.0;
   double y = frame_.min.y + 10.0;
   for (std::size_t i = 0; i < plot_.series.size(); ++i, y += 20.0) {
@@ -223,7 +224,7 @@ void Drawing::legend() {
 
 }  // namespace
 
-std::string plot_svg(const Plot& plot) { return Drawing(plot).text(); }
+std::string plot_svg(const Plot& plot) { return PlotDrawing(plot).text(); }
 
 std::string plots_svg(std::span<const Plot> plots, std::size_t columns) {
   const std::size_t rows = (plots.size() + columns - 1) / columns;

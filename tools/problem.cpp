@@ -16,7 +16,7 @@ namespace {
 constexpr std::array<std::string_view, 2> contact_words{"blocked", "allowed"};
 constexpr double clearance_in_mazes = 0.1;
 
-constexpr OptionSpec specs[] = {
+constexpr OptionSpec problem_specs[] = {
     {"--robot", "\"BODY\"",
      "the moving body: \"point\", \"disc RADIUS\" or \"polygon X Y X Y ...\" (default: the file's, else point)"},
     {"--start", "X,Y[,THETA]", "where the path begins (default: the file's)"},
@@ -60,7 +60,7 @@ RobotSpec robot_option(std::string_view text) {
 
 }  // namespace
 
-std::span<const OptionSpec> problem_option_specs() { return specs; }
+std::span<const OptionSpec> problem_option_specs() { return problem_specs; }
 
 RobotSpec robot_value(const std::string& where, std::string_view text) {
   scene_text::Fields fields(text, {where, 0});

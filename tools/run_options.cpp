@@ -21,7 +21,7 @@ namespace {
 constexpr std::array<std::string_view, 3> color_words{"auto", "always", "never"};
 constexpr std::array<std::string_view, 4> progress_words{"auto", "bar", "plain", "none"};
 
-constexpr OptionSpec specs[] = {
+constexpr OptionSpec run_specs[] = {
     {"--threads", "N", "threads to compute on; changes the time, never the result (default: all)"},
     {"--budget", "TIME", "stop after this time, such as 20s or 500ms: exit code 124 (default: none)"},
     {"--memory", "BYTES", "hold at most so much memory, such as 20GiB (default: what the machine has)"},
@@ -52,7 +52,7 @@ ColorMode color_mode(const Arguments& arguments) {
 
 }  // namespace
 
-std::span<const OptionSpec> run_option_specs() { return specs; }
+std::span<const OptionSpec> run_option_specs() { return run_specs; }
 
 unsigned threads_value(std::string_view text) {
   constexpr std::uint64_t most_threads = 1024;

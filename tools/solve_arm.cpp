@@ -260,14 +260,14 @@ void ArmSolve::verify() {
   }
 }
 
-constexpr std::string_view roadmap_options =
+constexpr std::string_view arm_roadmap_options =
     "--sampler --samples --neighbours --radius --attach --search --queue --optimise";
 constexpr std::string_view lazy_options =
     "--sampler --samples --neighbours --radius --attach --search --queue --lazy --optimise";
-constexpr PlannerChoice planners[] = {{PlannerKind::rrt_connect, rrt_connect_options},
-                                      {PlannerKind::rrt, rrt_options},
-                                      {PlannerKind::prm, roadmap_options},
-                                      {PlannerKind::lazy_prm, lazy_options}};
+constexpr PlannerChoice arm_planners[] = {{PlannerKind::rrt_connect, rrt_connect_options},
+                                          {PlannerKind::rrt, rrt_options},
+                                          {PlannerKind::prm, arm_roadmap_options},
+                                          {PlannerKind::lazy_prm, lazy_options}};
 
 std::span<const OptionSpec> arm_option_specs() {
   static const std::vector<OptionSpec> specs = [] {
@@ -280,16 +280,18 @@ std::span<const OptionSpec> arm_option_specs() {
 
 bool fits_arm(const Scene&, const RobotSpec& robot) { return is_arm(robot); }
 
-PlannerKind usual_planner(const Arguments&, const Scene&, const ProblemOptions&) { return PlannerKind::rrt_connect; }
+PlannerKind usual_arm_planner(const Arguments&, const Scene&, const ProblemOptions&) {
+  return PlannerKind::rrt_connect;
+}
 
-Answer solve(const SolveRequest& request) {
+Answer solve_arm(const SolveRequest& request) {
   ArmSolve arm(request);
   answer_within_limits(arm.answer(), [&] { arm.run(); });
   return std::move(arm.answer());
 }
 
-Verdict verify(const Scene& scene, const ProblemOptions& options, const RecordedAnswer& answer,
-               const Execution& execution) {
+Verdict recheck_arm(const Scene& scene, const ProblemOptions& options, const RecordedAnswer& answer,
+                    const Execution& execution) {
   check_state_width(answer, most_joints, "an arm");
   const ArmProblem problem = arm_problem(scene, options, execution);
   std::vector<JointState> path;
@@ -301,7 +303,7 @@ Verdict verify(const Scene& scene, const ProblemOptions& options, const Recorded
 }  // namespace
 
 SolveKind arm_kind() {
-  return {"an arm", fits_arm, planners, arm_option_specs(), usual_planner, solve, nullptr, verify};
+  return {"an arm", fits_arm, arm_planners, arm_option_specs(), usual_arm_planner, solve_arm, nullptr, recheck_arm};
 }
 
 }  // namespace warren

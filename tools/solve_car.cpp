@@ -211,7 +211,7 @@ std::span<const OptionSpec> car_option_specs() {
   return specs;
 }
 
-constexpr PlannerChoice planners[] = {
+constexpr PlannerChoice car_planners[] = {
     {PlannerKind::rrt_connect, "--sampler --step --nodes --trees --via --optimise --steering --turning-radius"},
     {PlannerKind::rrt, "--sampler --step --goal-bias --nodes --trees --via --optimise --steering --turning-radius"},
     {PlannerKind::prm,
@@ -221,7 +221,9 @@ constexpr PlannerChoice planners[] = {
 
 bool fits_car(const Scene& scene, const RobotSpec& robot) { return robot.kind == RobotKind::car && !has_solids(scene); }
 
-PlannerKind usual_planner(const Arguments&, const Scene&, const ProblemOptions&) { return PlannerKind::rrt_connect; }
+PlannerKind usual_car_planner(const Arguments&, const Scene&, const ProblemOptions&) {
+  return PlannerKind::rrt_connect;
+}
 
 template <class Curve>
 Answer solve_with(const SolveRequest& request, const PoseProblem& problem) {
@@ -230,14 +232,14 @@ Answer solve_with(const SolveRequest& request, const PoseProblem& problem) {
   return std::move(car.answer());
 }
 
-Answer solve(const SolveRequest& request) {
+Answer solve_car(const SolveRequest& request) {
   const PoseProblem problem = car_problem(request.scene, request.problem, request.arguments);
   return problem.robot.steering == SteeringKind::dubins ? solve_with<DubinsCurve>(request, problem)
                                                         : solve_with<ReedsSheppCurve>(request, problem);
 }
 
-Verdict verify(const Scene& scene, const ProblemOptions& options, const RecordedAnswer& answer,
-               const Execution& execution) {
+Verdict recheck_car(const Scene& scene, const ProblemOptions& options, const RecordedAnswer& answer,
+                    const Execution& execution) {
   const PoseProblem problem = pose_problem(scene, options, body_words);
   const std::vector<Se2> path = recorded_poses(answer, body_words);
   const CarVerification found =
@@ -248,7 +250,7 @@ Verdict verify(const Scene& scene, const ProblemOptions& options, const Recorded
 }  // namespace
 
 SolveKind car_kind() {
-  return {body_words, fits_car, planners, car_option_specs(), usual_planner, solve, nullptr, verify};
+  return {body_words, fits_car, car_planners, car_option_specs(), usual_car_planner, solve_car, nullptr, recheck_car};
 }
 
 }  // namespace warren

@@ -2,12 +2,12 @@
 // Which problems `solve` and `verify` know, and which planners solve each: one SolveKind a kind of problem, defined in
 // a file of its own, tools/solve_NAME.cpp; the table of all of them is in solve_kind.cpp.
 //
-// To add a planner to a kind: a line in the `planners` of its file, naming the options that it takes beyond --planner
-// and --seed (every other planner option is refused, by name, before the planner sees it), and a branch in its solve().
-// An option that nobody had yet: a line in the `options` of that file. A kind without planners is one that this version
-// does not solve: filling in its file is all it takes. To add a kind: its file, its declaration below, its line in the
-// table. Several kinds may fit a world (walls are plane obstacles too): the first in the table that has the planner
-// solves it, and the first that has any planner is asked for the default.
+// To add a planner to a kind: a line in the `NAME_planners` of its file, naming the options that it takes beyond
+// --planner and --seed (every other planner option is refused, by name, before the planner sees it), and a branch in
+// its solve_NAME(). An option that nobody had yet: a line in the `options` of that file. A kind without planners is one
+// that this version does not solve: filling in its file is all it takes. To add a kind: its file, its declaration
+// below, its line in the table. Several kinds may fit a world (walls are plane obstacles too): the first in the table
+// that has the planner solves it, and the first that has any planner is asked for the default.
 #pragma once
 
 #include <span>

@@ -29,7 +29,7 @@
 namespace warren {
 namespace {
 
-constexpr PlannerChoice planners[] = {
+constexpr PlannerChoice lattice_planners[] = {
     {PlannerKind::grid, "--cell --angles --face-motion --step-cost --turn-cost --diagonal --layers"}};
 
 bool fits_lattice(const Scene& scene, const RobotSpec& robot) {
@@ -37,7 +37,7 @@ bool fits_lattice(const Scene& scene, const RobotSpec& robot) {
   return fits && (!scene.map || robot.kind == RobotKind::polygon) && !has_solids(scene);
 }
 
-PlannerKind usual_planner(const Arguments&, const Scene&, const ProblemOptions&) { return PlannerKind::grid; }
+PlannerKind usual_lattice_planner(const Arguments&, const Scene&, const ProblemOptions&) { return PlannerKind::grid; }
 
 Problem problem_of(const Scene& scene, const ProblemOptions& options) {
   if (options.contact == Contact::allowed) throw UsageError("--contact: grid keeps off walls and polygons");
@@ -291,7 +291,7 @@ class LatticeSolve {
   Answer answer_;
 };
 
-Answer solve(const SolveRequest& request) {
+Answer solve_lattice(const SolveRequest& request) {
   LatticeSolve solve(request, problem_of(request.scene, request.problem));
   answer_within_limits(solve.answer(), [&] { solve.run(); });
   return std::move(solve.answer());
@@ -300,14 +300,8 @@ Answer solve(const SolveRequest& request) {
 }  // namespace
 
 SolveKind lattice_kind() {
-  return {"a body on a grid in a scene",
-          fits_lattice,
-          planners,
-          grid_option_specs(),
-          usual_planner,
-          solve,
-          nullptr,
-          nullptr};
+  return {"a body on a grid in a scene", fits_lattice,  lattice_planners, grid_option_specs(),
+          usual_lattice_planner,         solve_lattice, nullptr,          nullptr};
 }
 
 }  // namespace warren

@@ -11,23 +11,24 @@
 namespace warren {
 namespace {
 
-constexpr std::string_view roadmap_options = "--sampler --samples --neighbours --radius --search --queue --optimise";
+constexpr std::string_view occupancy_roadmap_options =
+    "--sampler --samples --neighbours --radius --search --queue --optimise";
 constexpr std::string_view lazy_options =
     "--sampler --samples --neighbours --radius --search --queue --lazy --optimise";
-constexpr PlannerChoice planners[] = {{PlannerKind::grid, "--search --diagonal --optimise"},
-                                      {PlannerKind::prm, roadmap_options},
-                                      {PlannerKind::lazy_prm, lazy_options},
-                                      {PlannerKind::rrt, rrt_options},
-                                      {PlannerKind::rrt_connect, rrt_connect_options},
-                                      {PlannerKind::voronoi, "--objective --search --queue"}};
+constexpr PlannerChoice occupancy_planners[] = {{PlannerKind::grid, "--search --diagonal --optimise"},
+                                                {PlannerKind::prm, occupancy_roadmap_options},
+                                                {PlannerKind::lazy_prm, lazy_options},
+                                                {PlannerKind::rrt, rrt_options},
+                                                {PlannerKind::rrt_connect, rrt_connect_options},
+                                                {PlannerKind::voronoi, "--objective --search --queue"}};
 
 bool fits_occupancy(const Scene& scene, const RobotSpec& robot) {
   return scene.map && (robot.kind == RobotKind::point || robot.kind == RobotKind::disc);
 }
 
-PlannerKind usual_planner(const Arguments&, const Scene&, const ProblemOptions&) { return PlannerKind::grid; }
+PlannerKind usual_occupancy_planner(const Arguments&, const Scene&, const ProblemOptions&) { return PlannerKind::grid; }
 
-Answer solve(const SolveRequest& request) {
+Answer solve_occupancy(const SolveRequest& request) {
   switch (request.planner) {
     case PlannerKind::grid:
       return solve_by_cells_of_map(request);
@@ -38,8 +39,8 @@ Answer solve(const SolveRequest& request) {
   }
 }
 
-Verdict verify(const Scene& scene, const ProblemOptions& options, const RecordedAnswer& answer,
-               const Execution& execution) {
+Verdict recheck_occupancy(const Scene& scene, const ProblemOptions& options, const RecordedAnswer& answer,
+                          const Execution& execution) {
   check_state_width(answer, 2, "a point or disc");
   const WallProblem problem = map_problem(scene, options);
   Verdict verdict{verify_map_path(*scene.map, problem, answer.path, execution), problem.general()};
@@ -52,12 +53,12 @@ Verdict verify(const Scene& scene, const ProblemOptions& options, const Recorded
 SolveKind occupancy_kind() {
   return {"a point or disc on an occupancy map",
           fits_occupancy,
-          planners,
+          occupancy_planners,
           grid_option_specs(),
-          usual_planner,
-          solve,
+          usual_occupancy_planner,
+          solve_occupancy,
           nullptr,
-          verify};
+          recheck_occupancy};
 }
 
 }  // namespace warren

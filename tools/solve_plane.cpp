@@ -15,13 +15,13 @@
 namespace warren {
 namespace {
 
-constexpr std::string_view roadmap_options =
+constexpr std::string_view plane_roadmap_options =
     "--sampler --samples --neighbours --radius --search --queue --lazy --pipeline --optimise";
-constexpr PlannerChoice planners[] = {{PlannerKind::prm, roadmap_options},
-                                      {PlannerKind::lazy_prm, roadmap_options},
-                                      {PlannerKind::visibility, "--full --lazy --sampled-edges --search --queue"},
-                                      {PlannerKind::cells, "--doors --search --queue"},
-                                      {PlannerKind::voronoi, "--objective --search --queue"}};
+constexpr PlannerChoice plane_planners[] = {{PlannerKind::prm, plane_roadmap_options},
+                                            {PlannerKind::lazy_prm, plane_roadmap_options},
+                                            {PlannerKind::visibility, "--full --lazy --sampled-edges --search --queue"},
+                                            {PlannerKind::cells, "--doors --search --queue"},
+                                            {PlannerKind::voronoi, "--objective --search --queue"}};
 
 bool fits_plane(const Scene& scene, const RobotSpec& robot) {
   const bool plain = robot.kind == RobotKind::point || robot.kind == RobotKind::disc;
@@ -29,7 +29,7 @@ bool fits_plane(const Scene& scene, const RobotSpec& robot) {
 }
 
 /// A point may touch what it goes around, unless the contrary is asked for; who keeps a distance needs room.
-PlannerKind usual_planner(const Arguments&, const Scene& scene, const ProblemOptions& problem) {
+PlannerKind usual_plane_planner(const Arguments&, const Scene& scene, const ProblemOptions& problem) {
   const double reach = clearance_of(scene, problem) + robot_of(scene, problem).radius;
   return reach > 0.0 || problem.contact == Contact::blocked ? PlannerKind::lazy_prm : PlannerKind::visibility;
 }
@@ -82,7 +82,7 @@ Answer solve_sampled(const SolveRequest& request) {
   return std::move(solve.answer());
 }
 
-Answer solve(const SolveRequest& request) {
+Answer solve_plane(const SolveRequest& request) {
   switch (request.planner) {
     case PlannerKind::visibility:
       return solve_by_visibility(request);
@@ -95,8 +95,8 @@ Answer solve(const SolveRequest& request) {
   }
 }
 
-Verdict verify(const Scene& scene, const ProblemOptions& options, const RecordedAnswer& answer,
-               const Execution& execution) {
+Verdict recheck_plane(const Scene& scene, const ProblemOptions& options, const RecordedAnswer& answer,
+                      const Execution& execution) {
   check_polygons(scene, execution);
   return verify_plane_answer(scene, wall_problem(scene, options), answer, execution);
 }
@@ -106,12 +106,12 @@ Verdict verify(const Scene& scene, const ProblemOptions& options, const Recorded
 SolveKind plane_kind() {
   return {"a point or disc among polygons",
           fits_plane,
-          planners,
+          plane_planners,
           plane_option_specs(),
-          usual_planner,
-          solve,
+          usual_plane_planner,
+          solve_plane,
           nullptr,
-          verify};
+          recheck_plane};
 }
 
 }  // namespace warren

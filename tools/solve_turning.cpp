@@ -208,27 +208,29 @@ void TurningSolve::draw(Drawing& drawing) const {
   if (!path_.empty()) drawing.layers.push_back(sweep_of(path_, problem_.robot.outline));
 }
 
-constexpr PlannerChoice planners[] = {{PlannerKind::rrt_connect, rrt_connect_options},
-                                      {PlannerKind::rrt, rrt_options},
-                                      {PlannerKind::prm, pose_roadmap_option_names},
-                                      {PlannerKind::lazy_prm, pose_lazy_option_names},
-                                      {PlannerKind::visibility, ""},
-                                      {PlannerKind::cells, "--doors --search --queue"}};
+constexpr PlannerChoice turning_planners[] = {{PlannerKind::rrt_connect, rrt_connect_options},
+                                              {PlannerKind::rrt, rrt_options},
+                                              {PlannerKind::prm, pose_roadmap_option_names},
+                                              {PlannerKind::lazy_prm, pose_lazy_option_names},
+                                              {PlannerKind::visibility, ""},
+                                              {PlannerKind::cells, "--doors --search --queue"}};
 
 bool fits_turning(const Scene& scene, const RobotSpec& robot) {
   return robot.kind == RobotKind::polygon && !has_solids(scene);
 }
 
-PlannerKind usual_planner(const Arguments&, const Scene&, const ProblemOptions&) { return PlannerKind::rrt_connect; }
+PlannerKind usual_turning_planner(const Arguments&, const Scene&, const ProblemOptions&) {
+  return PlannerKind::rrt_connect;
+}
 
-Answer solve(const SolveRequest& request) {
+Answer solve_turning(const SolveRequest& request) {
   TurningSolve turning(request);
   answer_within_limits(turning.answer(), [&] { turning.run(); });
   return std::move(turning.answer());
 }
 
-Verdict verify(const Scene& scene, const ProblemOptions& options, const RecordedAnswer& answer,
-               const Execution& execution) {
+Verdict recheck_turning(const Scene& scene, const ProblemOptions& options, const RecordedAnswer& answer,
+                        const Execution& execution) {
   const PoseProblem problem = pose_problem(scene, options, body_words);
   const std::vector<Se2> path = recorded_poses(answer, body_words);
   const Se2Verification found = verify_se2(scene, problem.robot.outline, path, verify_options(problem), execution);
@@ -238,7 +240,8 @@ Verdict verify(const Scene& scene, const ProblemOptions& options, const Recorded
 }  // namespace
 
 SolveKind turning_kind() {
-  return {"a polygon that turns", fits_turning, planners, tree_option_specs(), usual_planner, solve, nullptr, verify};
+  return {"a polygon that turns", fits_turning,  turning_planners, tree_option_specs(),
+          usual_turning_planner,  solve_turning, nullptr,          recheck_turning};
 }
 
 }  // namespace warren

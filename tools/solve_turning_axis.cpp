@@ -22,13 +22,15 @@
 namespace warren {
 namespace {
 
-constexpr PlannerChoice planners[] = {{PlannerKind::voronoi, "--objective --search --queue"}};
+constexpr PlannerChoice turning_axis_planners[] = {{PlannerKind::voronoi, "--objective --search --queue"}};
 
 bool fits_turning(const Scene& scene, const RobotSpec& robot) {
   return robot.kind == RobotKind::polygon && scene.spheres.empty();
 }
 
-PlannerKind usual_planner(const Arguments&, const Scene&, const ProblemOptions&) { return PlannerKind::voronoi; }
+PlannerKind usual_turning_axis_planner(const Arguments&, const Scene&, const ProblemOptions&) {
+  return PlannerKind::voronoi;
+}
 
 /// The same question for the disc that holds the body.
 ProblemOptions question_of_disc(const PoseProblem& problem) {
@@ -118,17 +120,17 @@ class AxisSolve {
   Answer answer_;
 };
 
-Answer solve(const SolveRequest& request) { return AxisSolve(request).run(); }
+Answer solve_turning_axis(const SolveRequest& request) { return AxisSolve(request).run(); }
 
 }  // namespace
 
 SolveKind turning_axis_kind() {
   return {"a polygon along the medial axis",
           fits_turning,
-          planners,
+          turning_axis_planners,
           plane_option_specs(),
-          usual_planner,
-          solve,
+          usual_turning_axis_planner,
+          solve_turning_axis,
           nullptr,
           nullptr};
 }

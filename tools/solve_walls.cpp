@@ -106,14 +106,15 @@ void WallSolve::optimise() {
 
 constexpr std::string_view shared_options =
     "--sampler --samples --neighbours --radius --search --queue --lazy --pipeline --optimise";
-constexpr PlannerChoice planners[] = {{PlannerKind::prm, shared_options}, {PlannerKind::lazy_prm, shared_options}};
+constexpr PlannerChoice walls_planners[] = {{PlannerKind::prm, shared_options},
+                                            {PlannerKind::lazy_prm, shared_options}};
 
 bool fits_walls(const Scene& scene, const RobotSpec& robot) {
   const bool plain = robot.kind == RobotKind::point || robot.kind == RobotKind::disc;
   return plain && scene.polygons.empty() && !has_solids(scene);
 }
 
-PlannerKind usual_planner(const Arguments& arguments, const Scene& scene, const ProblemOptions&) {
+PlannerKind usual_walls_planner(const Arguments& arguments, const Scene& scene, const ProblemOptions&) {
   return usual_roadmap_planner(arguments, scene);
 }
 
@@ -124,7 +125,7 @@ WallProblem problem_of(const Scene& scene, const ProblemOptions& options) {
   return wall_problem(scene, options);
 }
 
-Answer solve(const SolveRequest& request) {
+Answer solve_walls(const SolveRequest& request) {
   const WallProblem problem = problem_of(request.scene, request.problem);
   const PlannerOptions options = planner_options(request.arguments, request.scene, problem);
   Roadmap<Vec2>* keep = request.drawing != nullptr ? &request.drawing->roadmap : nullptr;
@@ -139,8 +140,8 @@ void draw(const SolveRequest& request) {
   draw_roadmap(request.scene, problem, options, request.execution, request.drawing->roadmap);
 }
 
-Verdict verify(const Scene& scene, const ProblemOptions& options, const RecordedAnswer& answer,
-               const Execution& execution) {
+Verdict recheck_walls(const Scene& scene, const ProblemOptions& options, const RecordedAnswer& answer,
+                      const Execution& execution) {
   return verify_plane_answer(scene, wall_problem(scene, options), answer, execution);
 }
 
@@ -163,7 +164,8 @@ void draw_roadmap(const Scene& scene, const WallProblem& problem, const PlannerO
 }
 
 SolveKind walls_kind() {
-  return {"a point or disc among walls", fits_walls, planners, {}, usual_planner, solve, draw, verify};
+  return {"a point or disc among walls", fits_walls,  walls_planners, {},
+          usual_walls_planner,           solve_walls, draw,           recheck_walls};
 }
 
 }  // namespace warren

@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint64_t most_nodes = std::uint64_t{1} << 31;
 constexpr std::uint64_t most_trees = 4096;
 
-constexpr OptionSpec specs[] = {
+constexpr OptionSpec tree_specs[] = {
     {"--step", "D", "longest motion of a tree, in the body's metric (default: a third of half the space's diagonal)"},
     {"--goal-bias", "F", "share of rrt's samples that are the goal (default: 0.05)"},
     {"--nodes", "N", "a tree of so many nodes gives up (default: 100000)"},
@@ -25,7 +25,7 @@ constexpr OptionSpec specs[] = {
 
 }  // namespace
 
-std::span<const OptionSpec> tree_option_specs() { return specs; }
+std::span<const OptionSpec> tree_option_specs() { return tree_specs; }
 
 RrtOptions tree_options(const Arguments& arguments) {
   RrtOptions options;

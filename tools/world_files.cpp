@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::array<std::string_view, 2> rules_words{"nav2", "ros1"};
 
-constexpr OptionSpec specs[] = {
+constexpr OptionSpec world_specs[] = {
     {"--map-rules", "NAME",
      "whose rules the pixels of a map_server YAML follow: nav2's or those of ROS 1, strict at the thresholds "
      "(default: nav2)",
@@ -35,7 +35,7 @@ std::optional<Vec2> plane_point(const std::vector<double>& state) {
   return Vec2{state[0], state[1]};
 }
 
-std::span<const OptionSpec> world_option_specs() { return specs; }
+std::span<const OptionSpec> world_option_specs() { return world_specs; }
 
 Scene load_world(const std::string& source, const Arguments& arguments, const Execution& execution,
                  StageTimes& seconds) {

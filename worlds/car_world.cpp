@@ -10,7 +10,7 @@
 namespace warren {
 namespace {
 
-double positive(const char* name, double value) {
+double positive_size(const char* name, double value) {
   if (value > 0.0 && value <= largest_coordinate) return value;
   throw InputError(name, "must be a number above 0, up to 1e60", std::to_string(value));
 }
@@ -26,7 +26,7 @@ std::vector<Vec2> outline_of(const CarOptions& options) {
   return options.outline;
 }
 
-double radius_of(std::span<const Vec2> outline) {
+double outline_radius(std::span<const Vec2> outline) {
   double radius = 0.0;
   for (const Vec2 p : outline) radius = std::max(radius, norm(p));
   return radius;
@@ -42,7 +42,7 @@ double planning_reach(const CarOptions& options) {
 
 double usual_resolution(const CarOptions& options) {
   constexpr double share = 1e-4;
-  const double size = options.outline.empty() ? options.radius : radius_of(options.outline);
+  const double size = options.outline.empty() ? options.radius : outline_radius(options.outline);
   return share * (size > 0.0 ? size : options.turning_radius);
 }
 
@@ -74,10 +74,10 @@ class BodyTravel {
 
 CarBody::CarBody(const Scene& scene, const CarOptions& options)
     : outline_(outline_of(options)),
-      turning_radius_(positive("robot: turning radius", options.turning_radius)),
+      turning_radius_(positive_size("robot: turning radius", options.turning_radius)),
       reach_(planning_reach(options)),
-      resolution_(positive("resolution", options.resolution.value_or(usual_resolution(options)))),
-      tree_(scene, radius_of(outline_) + reach_) {
+      resolution_(positive_size("resolution", options.resolution.value_or(usual_resolution(options)))),
+      tree_(scene, outline_radius(outline_) + reach_) {
   if (!options.outline.empty()) {
     for (const int side : {-1, 1}) {
       const Vec2 center{0.0, side * turning_radius_};

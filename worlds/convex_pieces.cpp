@@ -108,7 +108,7 @@ ConvexPiece convex_hull(std::vector<Vec2> points) {
   return hull;
 }
 
-std::vector<ConvexPiece> convex_pieces(std::span<const Vec2> outline) {
+std::vector<ConvexPiece> outline_pieces(std::span<const Vec2> outline) {
   std::vector<Vec2> ring(outline.begin(), outline.end());
   if (area(ring) < 0.0) std::reverse(ring.begin(), ring.end());
   if (ring.size() < 4 || is_convex(ring)) return {convex_hull(std::move(ring))};

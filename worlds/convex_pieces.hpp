@@ -17,7 +17,7 @@ using ConvexPiece = std::vector<Vec2>;
 ConvexPiece convex_hull(std::vector<Vec2> points);
 
 /// A simple polygon, either orientation, as convex pieces: itself if it is convex, else triangles. O(n^3).
-std::vector<ConvexPiece> convex_pieces(std::span<const Vec2> outline);
+std::vector<ConvexPiece> outline_pieces(std::span<const Vec2> outline);
 
 /// What a piece covers on its straight way by `step`: exact.
 ConvexPiece swept_by_step(const ConvexPiece& piece, Vec2 step);

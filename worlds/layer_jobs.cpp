@@ -81,7 +81,7 @@ std::vector<LayerJob> list_layer_jobs(std::span<const Vec2> outline, HeadingLaye
     if (same < k) {
       jobs.repeat_heading(same);
     } else {
-      jobs.add_heading(convex_pieces(turned(outline, k, layers.angles)));
+      jobs.add_heading(outline_pieces(turned(outline, k, layers.angles)));
     }
   }
   return jobs.take();

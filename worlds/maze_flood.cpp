@@ -19,7 +19,7 @@
 namespace warren {
 namespace {
 
-constexpr std::size_t grain = std::size_t{1} << 16;
+constexpr std::size_t flood_grain = std::size_t{1} << 16;
 constexpr std::int64_t units_per_look = std::int64_t{1} << 16;
 
 /// Do all walls lie on the grid? Grid lines are numbered from 0: line k is the coordinate k + 0.5. Branch-free, four
@@ -90,7 +90,7 @@ std::int64_t raise(const GridWall& w, MazeHint hint, MazeCells& cells) {
 
 /// Takes out all interior walls; the outline and the gaps keep theirs.
 void open_all(MazeCells& cells, const Execution& execution) {
-  for_chunks(cells.cols(), std::max<std::size_t>(1, grain / cells.stride()), execution, [&](Range r) {
+  for_chunks(cells.cols(), std::max<std::size_t>(1, flood_grain / cells.stride()), execution, [&](Range r) {
     for (std::size_t col = r.first; col < r.last; ++col) {
       const auto first =
           cells.bytes().begin() + static_cast<std::ptrdiff_t>(cells.index(static_cast<std::uint32_t>(col), 0));
@@ -110,7 +110,7 @@ RawVector<std::uint8_t> open_directions(const MazeCells& cells, const Execution&
   execution.reserve(bytes.size());
   RawVector<std::uint8_t> open(bytes.size());
   const std::size_t stride = cells.stride();
-  for_chunks(bytes.size(), grain, execution, [&](Range r) {
+  for_chunks(bytes.size(), flood_grain, execution, [&](Range r) {
     for (std::size_t i = r.first; i < r.last; ++i) {
       const unsigned left = i > stride ? bytes[i - stride] & 1U : 1U;
       const unsigned below = i > 0 ? bytes[i - 1] & 2U : 2U;
@@ -125,13 +125,13 @@ RawVector<std::uint8_t> open_directions(const MazeCells& cells, const Execution&
 
 std::optional<std::size_t> first_wall_off_grid(const WallSet& walls, MazeHint hint, const Execution& execution) {
   return walls.visit([&](auto span) -> std::optional<std::size_t> {
-    std::vector<std::size_t> firsts(chunk_count(span.size(), grain), span.size());
-    for_chunks(span.size(), grain, execution, [&](Range r) {
+    std::vector<std::size_t> firsts(chunk_count(span.size(), flood_grain), span.size());
+    for_chunks(span.size(), flood_grain, execution, [&](Range r) {
       const auto part = span.subspan(r.first, r.size());
       if (all_on_grid_exactly(part, hint)) return;
       std::size_t i = 0;
       while (all_on_grid_exactly(part.subspan(i, 1), hint)) ++i;
-      firsts[r.first / grain] = r.first + i;
+      firsts[r.first / flood_grain] = r.first + i;
     });
     const auto first = std::find_if(firsts.begin(), firsts.end(), [&](std::size_t i) { return i < span.size(); });
     if (first == firsts.end()) return std::nullopt;

@@ -21,7 +21,7 @@
 namespace warren {
 namespace {
 
-constexpr std::size_t grain = std::size_t{1} << 18;
+constexpr std::size_t generator_grain = std::size_t{1} << 18;
 
 struct Algorithm {
   MazeAlgorithm id;
@@ -44,13 +44,13 @@ void check_size(std::uint32_t rows, std::uint32_t cols) {
 }
 
 void fill_bytes(std::span<std::uint8_t> bytes, std::uint8_t value, const Execution& execution) {
-  for_chunks(bytes.size(), grain, execution,
+  for_chunks(bytes.size(), generator_grain, execution,
              [&](Range r) { std::fill(bytes.begin() + r.first, bytes.begin() + r.last, value); });
 }
 
 void clear_scratch(MazeCells& cells, const Execution& execution) {
   const std::span<std::uint8_t> bytes = cells.bytes();
-  for_chunks(bytes.size(), grain, execution, [&](Range r) {
+  for_chunks(bytes.size(), generator_grain, execution, [&](Range r) {
     for (std::size_t i = r.first; i < r.last; ++i) bytes[i] &= MazeCells::all_walls;
   });
 }
@@ -76,7 +76,7 @@ void open_loops(MazeCells& cells, std::uint64_t count, std::uint64_t standing, s
 namespace maze {
 void mark_gaps(MazeCells& cells, std::uint8_t bits, const Execution& execution) {
   const std::span<std::uint8_t> bytes = cells.bytes();
-  for_chunks(cells.cols() + std::size_t{1}, grain, {execution.threads, execution.deadline}, [&](Range r) {
+  for_chunks(cells.cols() + std::size_t{1}, generator_grain, {execution.threads, execution.deadline}, [&](Range r) {
     for (std::size_t gap = r.first; gap < r.last; ++gap) bytes[gap * cells.stride()] |= bits;
   });
 }

@@ -14,14 +14,14 @@
 namespace warren {
 namespace {
 
-constexpr std::size_t grain = std::size_t{1} << 16;
+constexpr std::size_t outline_grain = std::size_t{1} << 16;
 
 Box box_of_walls(const WallSet& walls, const Execution& execution) {
-  std::vector<Box> boxes(chunk_count(walls.size(), grain));
-  for_chunks(walls.size(), grain, execution, [&](Range r) {
+  std::vector<Box> boxes(chunk_count(walls.size(), outline_grain));
+  for_chunks(walls.size(), outline_grain, execution, [&](Range r) {
     Box box;
     for (std::size_t i = r.first; i < r.last; ++i) box.include(box_of(walls.segment(i)));
-    boxes[r.first / grain] = box;
+    boxes[r.first / outline_grain] = box;
   });
   Box all;
   for (const Box& box : boxes) all.include(box);
@@ -58,10 +58,10 @@ std::optional<Piece> piece_of(const Segment& wall, const Box& outline) {
 
 /// In order of sides and places.
 std::vector<Piece> pieces_of(const WallSet& walls, const Box& outline, const Execution& execution) {
-  std::vector<std::vector<Piece>> parts(chunk_count(walls.size(), grain));
-  for_chunks(walls.size(), grain, execution, [&](Range r) {
+  std::vector<std::vector<Piece>> parts(chunk_count(walls.size(), outline_grain));
+  for_chunks(walls.size(), outline_grain, execution, [&](Range r) {
     for (std::size_t i = r.first; i < r.last; ++i) {
-      if (const auto piece = piece_of(walls.segment(i), outline)) parts[r.first / grain].push_back(*piece);
+      if (const auto piece = piece_of(walls.segment(i), outline)) parts[r.first / outline_grain].push_back(*piece);
     }
   });
   std::vector<Piece> pieces;

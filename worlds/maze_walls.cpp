@@ -13,7 +13,7 @@
 namespace warren {
 namespace {
 
-constexpr std::size_t grain = std::size_t{1} << 16;
+constexpr std::size_t wall_grain = std::size_t{1} << 16;
 constexpr std::uint32_t largest_float_side = (1U << 23U) - 1;  // side + 0.5 is a float up to here
 
 /// Cells row_first .. row_last - 1 of one column.
@@ -163,11 +163,11 @@ std::array<WallOf<T>, 4> outline(const MazeCells& cells) {
 template <class T>
 WallSet walls_as(const MazeCells& cells, bool merged, const Execution& execution) {
   const WallStarts starts(cells, merged);
-  std::vector<std::size_t> places(chunk_count(cells.cell_count(), grain) + 1, 0);
-  for_chunks(cells.cell_count(), grain, {execution.threads, execution.deadline}, [&](Range r) {
+  std::vector<std::size_t> places(chunk_count(cells.cell_count(), wall_grain) + 1, 0);
+  for_chunks(cells.cell_count(), wall_grain, {execution.threads, execution.deadline}, [&](Range r) {
     std::size_t n = 0;
     for_runs(cells, r, [&](const Run& run) { n += starts.count(run); });
-    places[r.first / grain + 1] = n;
+    places[r.first / wall_grain + 1] = n;
   });
   const std::array<WallOf<T>, 4> frame = outline<T>(cells);
   places[0] = frame.size();
@@ -176,8 +176,8 @@ WallSet walls_as(const MazeCells& cells, bool merged, const Execution& execution
   execution.reserve(places.back() * sizeof(WallOf<T>));
   RawVector<WallOf<T>> walls(places.back());
   std::copy(frame.begin(), frame.end(), walls.begin());
-  for_chunks(cells.cell_count(), grain, execution, [&](Range r) {
-    WallWriter<T> writer(walls.data() + places[r.first / grain]);
+  for_chunks(cells.cell_count(), wall_grain, execution, [&](Range r) {
+    WallWriter<T> writer(walls.data() + places[r.first / wall_grain]);
     for_runs(cells, r, [&](const Run& run) {
       merged ? write_merged<T>(starts, run, writer) : write_units<T>(cells, starts, run, writer);
     });
@@ -189,9 +189,9 @@ WallSet walls_as(const MazeCells& cells, bool merged, const Execution& execution
 
 std::uint64_t interior_walls(const MazeCells& cells, const Execution& execution) {
   const WallStarts starts(cells, false);
-  std::vector<std::uint64_t> parts(chunk_count(cells.cell_count(), grain));
-  for_chunks(cells.cell_count(), grain, execution, [&](Range r) {
-    for_runs(cells, r, [&](const Run& run) { parts[r.first / grain] += starts.count(run); });
+  std::vector<std::uint64_t> parts(chunk_count(cells.cell_count(), wall_grain));
+  for_chunks(cells.cell_count(), wall_grain, execution, [&](Range r) {
+    for_runs(cells, r, [&](const Run& run) { parts[r.first / wall_grain] += starts.count(run); });
   });
   std::uint64_t sum = 0;
   for (const std::uint64_t part : parts) sum += part;

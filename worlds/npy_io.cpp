@@ -26,7 +26,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "numbers are copied as they lie in the file");
 
 constexpr std::string_view magic = "\x93NUMPY";
-constexpr std::size_t grain = std::size_t{1} << 16;
+constexpr std::size_t npy_grain = std::size_t{1} << 16;
 
 struct Header {
   bool is_float = false;  ///< else double
@@ -173,20 +173,20 @@ template <class In>
 class Rows {
  public:
   Rows(const InputFile& file, const Header& header, const Execution& execution)
-      : file_(file), header_(header), execution_(execution), bad_(chunk_count(header.walls, grain), header.walls) {}
+      : file_(file), header_(header), execution_(execution), bad_(chunk_count(header.walls, npy_grain), header.walls) {}
 
   template <class Out>
   WallSet copy() {
     execution_.reserve(header_.walls * sizeof(WallOf<Out>));
     RawVector<WallOf<Out>> walls(header_.walls);
-    for_chunks(header_.walls, grain, execution_, [&](Range r) {
+    for_chunks(header_.walls, npy_grain, execution_, [&](Range r) {
       bool good = true;
       for (std::size_t i = r.first; i < r.last; ++i) {
         const WallOf<In> w = row(i);
         good = good && is_sane(w);
         walls[i] = {as<Out>(w.x1), as<Out>(w.y1), as<Out>(w.x2), as<Out>(w.y2)};
       }
-      if (!good) bad_[r.first / grain] = first_bad(r);
+      if (!good) bad_[r.first / npy_grain] = first_bad(r);
       forget(r);
     });
     for (const std::size_t bad : bad_) {
@@ -196,13 +196,13 @@ class Rows {
   }
   bool fit_floats() const {
     std::vector<std::uint8_t> fit(bad_.size(), 0);
-    for_chunks(header_.walls, grain, {execution_.threads, execution_.deadline}, [&](Range r) {
+    for_chunks(header_.walls, npy_grain, {execution_.threads, execution_.deadline}, [&](Range r) {
       bool all = true;
       for (std::size_t i = r.first; i < r.last && all; ++i) {
         const WallOf<In> w = row(i);
         all = fits_float(w.x1) && fits_float(w.y1) && fits_float(w.x2) && fits_float(w.y2);
       }
-      fit[r.first / grain] = all ? 1 : 0;
+      fit[r.first / npy_grain] = all ? 1 : 0;
       forget(r);
     });
     return std::all_of(fit.begin(), fit.end(), [](std::uint8_t all) { return all == 1; });

@@ -8,8 +8,8 @@
 namespace warren {
 namespace {
 
-constexpr double cells_per_leg = 64;
-constexpr double pieces_per_leg = 4;
+constexpr double box_cells_per_leg = 64;
+constexpr double box_pieces_per_leg = 4;
 constexpr double free_cells = 1024;  // for a path of few legs
 constexpr std::size_t legs_between_checks = 4096;
 
@@ -52,9 +52,9 @@ PathBoxes::PathBoxes(const LegBoxes& legs, double typical_wall, const Execution&
 
 void PathBoxes::choose_cell(double length, double typical_wall) {
   const auto legs = static_cast<double>(path_.size() - 1);
-  cell_ = std::max(typical_wall, length / (pieces_per_leg * legs + free_cells));
-  cell_ = std::max(cell_,
-                   std::sqrt(box_.width()) * std::sqrt(box_.height()) / std::sqrt(cells_per_leg * legs + free_cells));
+  cell_ = std::max(typical_wall, length / (box_pieces_per_leg * legs + free_cells));
+  cell_ = std::max(
+      cell_, std::sqrt(box_.width()) * std::sqrt(box_.height()) / std::sqrt(box_cells_per_leg * legs + free_cells));
   if (cell_ == 0.0) cell_ = 1.0;
   per_cell_ = 1.0 / cell_;
 }

@@ -11,8 +11,8 @@
 namespace warren {
 namespace {
 
-constexpr double cells_per_leg = 64;
-constexpr double pieces_per_leg = 4;
+constexpr double screen_cells_per_leg = 64;
+constexpr double screen_pieces_per_leg = 4;
 constexpr double most_free_cells = 1 << 20;  // for a path of few legs among many walls
 constexpr unsigned up = 0;
 constexpr unsigned right = 1;
@@ -65,8 +65,9 @@ void PathScreen::choose_cell(const LegBoxes& legs, const Plan& plan) {
   const Box box = legs.box();
   const auto count = static_cast<double>(legs.leg_count());
   const double free = std::min(static_cast<double>(plan.walls), most_free_cells) + 1024.0;
-  const double by_length = legs.length() / (pieces_per_leg * count + 0.25 * free);
-  const double by_area = std::sqrt(box.width()) * std::sqrt(box.height()) / std::sqrt(cells_per_leg * count + free);
+  const double by_length = legs.length() / (screen_pieces_per_leg * count + 0.25 * free);
+  const double by_area =
+      std::sqrt(box.width()) * std::sqrt(box.height()) / std::sqrt(screen_cells_per_leg * count + free);
   const double least = std::max({by_length, by_area, std::max(box.width(), box.height()) / most_side});
   cell_ = plan.typical_wall > 0.0 ? power_of_two_below(plan.typical_wall) : 0.0;
   if (cell_ < least) cell_ = power_of_two_above(least);

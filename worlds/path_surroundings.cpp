@@ -12,7 +12,7 @@
 namespace warren {
 namespace {
 
-constexpr std::size_t grain = std::size_t{1} << 14;
+constexpr std::size_t surroundings_grain = std::size_t{1} << 14;
 constexpr std::uint64_t most_cells_a_side = 64;
 
 bool apart(const Box& a, const Box& b) {
@@ -40,8 +40,8 @@ PathSurroundings::PathSurroundings(const Scene& scene, const Obstacles& obstacle
     return obstacles.rings()[obstacles.sides()[i - obstacles.wall_count()].ring].polygon != Ring::none;
   };
   const std::size_t count = scene.map ? 0 : obstacles.size();
-  std::vector<Part> parts(chunk_count(count, grain));
-  for_chunks(count, grain, execution, [&](warren::Range r) {
+  std::vector<Part> parts(chunk_count(count, surroundings_grain));
+  for_chunks(count, surroundings_grain, execution, [&](warren::Range r) {
     Part part;
     for (std::size_t i = r.first; i < r.last; ++i) {
       const Segment s = obstacles.segment(i);
@@ -50,7 +50,7 @@ PathSurroundings::PathSurroundings(const Scene& scene, const Obstacles& obstacle
       part.box.include(s.a);
       part.box.include(s.b);
     }
-    parts[r.first / grain] = part;
+    parts[r.first / surroundings_grain] = part;
   });
   for (const Part& part : parts) {
     box_.include(part.box);
@@ -115,9 +115,9 @@ void PathSurroundings::file(std::span<const Box> boxes, const Execution& executi
     std::vector<NearSide> near;
     std::vector<NearSide> far_across;
   };
-  std::vector<Part> parts(chunk_count(obstacles_.size(), grain));
-  for_chunks(obstacles_.size(), grain, execution, [&](warren::Range r) {
-    Part& part = parts[r.first / grain];
+  std::vector<Part> parts(chunk_count(obstacles_.size(), surroundings_grain));
+  for_chunks(obstacles_.size(), surroundings_grain, execution, [&](warren::Range r) {
+    Part& part = parts[r.first / surroundings_grain];
     for (std::size_t i = r.first; i < r.last; ++i) {
       const NearSide side{obstacles_.segment(i), i};
       const Range range = range_of(box_of_ends(side.segment));

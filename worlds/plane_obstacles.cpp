@@ -16,7 +16,7 @@
 namespace warren {
 namespace {
 
-constexpr std::size_t grain = 512;
+constexpr std::size_t obstacle_grain = 512;
 
 /// Appends the corners without repetitions, the last one and the first included.
 void append_distinct(std::vector<Vec2>& to, const std::vector<Vec2>& corners) {
@@ -76,10 +76,10 @@ PolygonSet checked_outlines(const Scene& scene, Range range, const Execution& ex
 }
 
 std::vector<PolygonSet> checked_parts(const Scene& scene, const Execution& execution, bool keep) {
-  std::vector<PolygonSet> parts(chunk_count(scene.polygons.size(), grain));
-  for_chunks(scene.polygons.size(), grain, execution, [&](Range range) {
+  std::vector<PolygonSet> parts(chunk_count(scene.polygons.size(), obstacle_grain));
+  for_chunks(scene.polygons.size(), obstacle_grain, execution, [&](Range range) {
     PolygonSet part = checked_outlines(scene, range, execution);
-    if (keep) parts[range.first / grain] = std::move(part);
+    if (keep) parts[range.first / obstacle_grain] = std::move(part);
   });
   return parts;
 }

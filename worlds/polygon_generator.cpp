@@ -13,7 +13,7 @@
 namespace warren {
 namespace {
 
-constexpr std::size_t grain = 1024;
+constexpr std::size_t polygon_grain = 1024;
 constexpr std::uint32_t most_random_corners = 12;
 constexpr double turn = 2.0 * std::numbers::pi;
 
@@ -134,7 +134,7 @@ Scene polygon_scene(const PolygonOptions& options, const Execution& execution) {
   execution.reserve(options.count *
                     (sizeof(ScenePolygon) + 32 + sizeof(Vec2) * options.corners.value_or(most_random_corners)));
   scene.polygons.resize(options.count);
-  for_chunks(scene.polygons.size(), grain, execution, [&](Range range) {
+  for_chunks(scene.polygons.size(), polygon_grain, execution, [&](Range range) {
     for (std::size_t i = range.first; i < range.last; ++i) scene.polygons[i] = polygon_in(squares, options, i);
   });
   const double margin = 0.25 * squares.side;

@@ -12,8 +12,6 @@
 namespace warren {
 namespace {
 
-bool is_before(Vec2 p, Vec2 q) { return p.x < q.x || (p.x == q.x && p.y < q.y); }
-
 /// The polygon's inside lies left of each side: the outer ring runs anticlockwise, holes clockwise.
 class HoleCutter {
  public:

@@ -43,6 +43,11 @@ double shorter_turn(double a, double b) {
   return turn;
 }
 
+bool is_there(const Se2& pose, const Se2& wanted, bool any_heading, double tolerance) {
+  if (std::hypot(pose.x - wanted.x, pose.y - wanted.y) > tolerance) return false;
+  return any_heading || std::abs(shorter_turn(pose.theta, wanted.theta)) <= tolerance;
+}
+
 Leg leg_of(std::span<const Se2> path, const PoseRun& run) {
   const Se2& a = path[run.first];
   const Se2& b = path[run.last];

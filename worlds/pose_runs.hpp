@@ -32,6 +32,9 @@ Leg leg_of(std::span<const Se2> path, const PoseRun& run);
 /// The turn from a to b by which the body turns least; half turns may come out either way.
 double shorter_turn(double a, double b);
 
+/// Within tolerance of the place and, unless any heading will do, of the heading.
+bool is_there(const Se2& pose, const Se2& wanted, bool any_heading, double tolerance);
+
 /// The runs in their order, each of at most 1024 legs. The poses of a run that goes straight lie within `bend` of the
 /// line between its ends; a run that turns goes one way, less than 3 radians. Throws Stopped.
 std::vector<PoseRun> pose_runs(std::span<const Se2> path, double bend, const Execution& execution);

@@ -15,7 +15,7 @@
 namespace warren {
 namespace {
 
-constexpr std::size_t grain = std::size_t{1} << 16;
+constexpr std::size_t scene_grain = std::size_t{1} << 16;
 
 __extension__ using Wide = unsigned __int128;
 
@@ -45,9 +45,9 @@ std::uint64_t hash_of(std::span<const Wall> walls) {
 
 std::uint64_t hash_of(const WallSet& set, const Execution& execution) {
   return set.visit([&](auto walls) {
-    std::vector<std::uint64_t> parts(chunk_count(walls.size(), grain));
-    for_chunks(walls.size(), grain, execution,
-               [&](Range r) { parts[r.first / grain] = hash_of(walls.subspan(r.first, r.size())); });
+    std::vector<std::uint64_t> parts(chunk_count(walls.size(), scene_grain));
+    for_chunks(walls.size(), scene_grain, execution,
+               [&](Range r) { parts[r.first / scene_grain] = hash_of(walls.subspan(r.first, r.size())); });
     std::uint64_t hash = walls.size();
     for (const std::uint64_t part : parts) hash = fold(hash ^ secret_a, part ^ secret_b);
     return hash;
@@ -68,15 +68,15 @@ class Hasher {
 
 template <class Walls>
 Box box_of_walls(Walls walls, const Execution& execution) {
-  std::vector<Box> parts(chunk_count(walls.size(), grain));
-  for_chunks(walls.size(), grain, execution, [&](Range r) {
+  std::vector<Box> parts(chunk_count(walls.size(), scene_grain));
+  for_chunks(walls.size(), scene_grain, execution, [&](Range r) {
     Box box;
     for (const auto& wall : walls.subspan(r.first, r.size())) {
       const Segment s = wall.segment();
       box.include(s.a);
       box.include(s.b);
     }
-    parts[r.first / grain] = box;
+    parts[r.first / scene_grain] = box;
   });
   Box all;
   for (const Box& part : parts) all.include(part);

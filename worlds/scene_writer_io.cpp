@@ -16,7 +16,7 @@
 namespace warren {
 namespace {
 
-constexpr std::size_t grain = 8192;
+constexpr std::size_t line_grain = 8192;
 constexpr std::size_t chunks_a_batch = 64;
 
 void append_number(std::string& text, double x) {
@@ -164,11 +164,11 @@ void write_scene_text(const Scene& scene, const std::string& path, const Executi
   if (execution.progress != nullptr) execution.progress->begin("write", scene.polygons.size() + scene.walls.size());
   OutputFile file(path, execution);
   file.write(head_of(scene));
-  write_items(scene.polygons.size(), grain / 16, file, execution,
+  write_items(scene.polygons.size(), line_grain / 16, file, execution,
               [&](std::string& text, std::size_t i) { append_polygon(text, scene.polygons[i]); });
   file.write(solids_of(scene));
   scene.walls.visit([&](auto walls) {
-    write_items(walls.size(), grain, file, execution,
+    write_items(walls.size(), line_grain, file, execution,
                 [&](std::string& text, std::size_t i) { append_wall(text, walls[i].segment()); });
   });
   file.commit();

@@ -11,22 +11,16 @@
 #include "worlds/arc_distance.hpp"
 #include "worlds/exact_segments.hpp"
 #include "worlds/obstacles.hpp"
+#include "worlds/pose_runs.hpp"
 
 namespace warren {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double full_turn = 6.283185307179586476925;
 constexpr double small = 1e-9;  // what poses may be off by, in turning radii
 
-/// In [-pi, pi].
-double shorter_turn(double from, double to) {
-  const double turn = to - from;
-  return turn - full_turn * std::floor(turn / full_turn + 0.5);
-}
-
 /// From pose a with the steering wheel still.
-struct Leg {
+struct CarLeg {
   Se2 a;
   Vec2 chord;
   double turn = 0.0;
@@ -35,7 +29,7 @@ struct Leg {
   double length = 0.0;  // of the arc
   double radius = infinity;
 
-  Leg(const Se2& from, const Se2& to)
+  CarLeg(const Se2& from, const Se2& to)
       : a(from), chord{to.x - from.x, to.y - from.y}, turn(shorter_turn(from.theta, to.theta)) {
     const double middle = from.theta + 0.5 * turn;
     ahead = chord.x * std::cos(middle) + chord.y * std::sin(middle);
@@ -51,7 +45,7 @@ struct Leg {
   }
 };
 
-struct LegReport {
+struct CarLegReport {
   double least = infinity;
   std::optional<Violation> violation;
 };
@@ -71,10 +65,10 @@ class CarVerifier {
     tolerance_ = small * car.turning_radius + 1e-14 * largest_;
   }
 
-  LegReport check_pose(const Se2& pose, std::size_t number) const;
+  CarLegReport check_pose(const Se2& pose, std::size_t number) const;
   /// Can the car drive it?
-  std::optional<Violation> check_driving(const Leg& leg, std::size_t number) const;
-  LegReport check_room(const Leg& leg, std::size_t number) const;
+  std::optional<Violation> check_driving(const CarLeg& leg, std::size_t number) const;
+  CarLegReport check_room(const CarLeg& leg, std::size_t number) const;
   double tolerance() const { return tolerance_; }
 
  private:
@@ -86,10 +80,10 @@ class CarVerifier {
     return {corners[i], corners[i + 1 == corners.size() ? 0 : i + 1]};
   }
   bool body_holds(const std::vector<Vec2>& corners, Vec2 p) const;
-  bool goes_straight(const Leg& leg) const { return !(leg.radius < 1e6 * car_.turning_radius); }
+  bool goes_straight(const CarLeg& leg) const { return !(leg.radius < 1e6 * car_.turning_radius); }
   double straight_distance(const std::vector<Vec2>& corners, Vec2 way, const Segment& s) const;
-  double turning_distance(const std::vector<Vec2>& corners, const Leg& leg, const Segment& s) const;
-  bool leaves_box(const Leg& leg) const;
+  double turning_distance(const std::vector<Vec2>& corners, const CarLeg& leg, const Segment& s) const;
+  bool leaves_box(const CarLeg& leg) const;
 
   Obstacles obstacles_;
   const VerifiedCar& car_;
@@ -134,7 +128,7 @@ double CarVerifier::straight_distance(const std::vector<Vec2>& corners, Vec2 way
   return least;
 }
 
-double CarVerifier::turning_distance(const std::vector<Vec2>& corners, const Leg& leg, const Segment& s) const {
+double CarVerifier::turning_distance(const std::vector<Vec2>& corners, const CarLeg& leg, const Segment& s) const {
   const Vec2 center = leg.center();
   double least = infinity;
   for (const Vec2 p : corners) least = std::min(least, distance(Arc{center, p, leg.turn}, s));
@@ -146,7 +140,7 @@ double CarVerifier::turning_distance(const std::vector<Vec2>& corners, const Leg
   return least;
 }
 
-LegReport CarVerifier::check_room(const Leg& leg, std::size_t number) const {
+CarLegReport CarVerifier::check_room(const CarLeg& leg, std::size_t number) const {
   const std::vector<Vec2> corners = placed_corners(leg.a);
   const bool straight = goes_straight(leg);
   // What the leg is not known by, on top of the rounding of coordinates.
@@ -155,7 +149,7 @@ LegReport CarVerifier::check_room(const Leg& leg, std::size_t number) const {
   const double asked = clearance_ + car_.radius;
   const double reach = size_ + leg.length;
   const Box around{{leg.a.x - reach, leg.a.y - reach}, {leg.a.x + reach, leg.a.y + reach}};
-  LegReport report;
+  CarLegReport report;
   double met = infinity;
   for (std::size_t i = 0; i < segments_.size(); ++i) {
     execution_.check();
@@ -176,9 +170,11 @@ LegReport CarVerifier::check_room(const Leg& leg, std::size_t number) const {
 }
 
 /// Is the pose inside a polygon, outside the bounds or off the box? Boundaries are check_room()'s.
-LegReport CarVerifier::check_pose(const Se2& pose, std::size_t number) const {
+CarLegReport CarVerifier::check_pose(const Se2& pose, std::size_t number) const {
   const std::vector<Vec2> corners = placed_corners(pose);
-  const auto bad = [&](std::string what) { return LegReport{-car_.radius, Violation{number, 0.0, std::move(what)}}; };
+  const auto bad = [&](std::string what) {
+    return CarLegReport{-car_.radius, Violation{number, 0.0, std::move(what)}};
+  };
   if (confines_) {
     for (const Vec2 p : corners) {
       if (!confines_->contains(p)) return bad(fmt::format("bounds: {} {} of the body is outside", p.x, p.y));
@@ -193,7 +189,7 @@ LegReport CarVerifier::check_pose(const Se2& pose, std::size_t number) const {
   return {};
 }
 
-bool CarVerifier::leaves_box(const Leg& leg) const {
+bool CarVerifier::leaves_box(const CarLeg& leg) const {
   if (confines_ || goes_straight(leg)) return false;  // ends are looked at as poses
   const Box room = box_.grown(2.0 * tolerance_);
   const Arc way{leg.center(), {leg.a.x, leg.a.y}, leg.turn};
@@ -204,7 +200,7 @@ bool CarVerifier::leaves_box(const Leg& leg) const {
   return std::any_of(std::begin(sides), std::end(sides), [&](const Segment& s) { return distance(way, s) == 0.0; });
 }
 
-std::optional<Violation> CarVerifier::check_driving(const Leg& leg, std::size_t number) const {
+std::optional<Violation> CarVerifier::check_driving(const CarLeg& leg, std::size_t number) const {
   const auto bad = [&](std::string what) { return Violation{number, 0.0, std::move(what)}; };
   if (std::abs(leg.aside) > tolerance_) {
     return bad(fmt::format("leg: slides sideways by {}; between two poses a car keeps its steering", leg.aside));
@@ -236,18 +232,13 @@ void check_input(const VerifiedCar& car, std::span<const Se2> path, const CarVer
   }
 }
 
-bool is_there(const Se2& pose, const Se2& wanted, bool any_heading, double tolerance) {
-  if (std::hypot(pose.x - wanted.x, pose.y - wanted.y) > tolerance) return false;
-  return any_heading || std::abs(shorter_turn(pose.theta, wanted.theta)) <= tolerance;
-}
-
 /// The worst of what is said about leg i.
-LegReport leg_report(const CarVerifier& car, std::span<const Se2> path, std::size_t i) {
+CarLegReport leg_report(const CarVerifier& car, std::span<const Se2> path, std::size_t i) {
   const Se2& b = path[std::min(i + 1, path.size() - 1)];
-  const Leg leg(path[i], b);
-  LegReport report = car.check_room(leg, i);
+  const CarLeg leg(path[i], b);
+  CarLegReport report = car.check_room(leg, i);
   for (const Se2& pose : {path[i], b}) {
-    const LegReport at_pose = car.check_pose(pose, i);
+    const CarLegReport at_pose = car.check_pose(pose, i);
     report.least = std::min(report.least, at_pose.least);
     if (!report.violation) report.violation = at_pose.violation;
   }
@@ -259,7 +250,7 @@ LegReport leg_report(const CarVerifier& car, std::span<const Se2> path, std::siz
 void measure(std::span<const Se2> path, double nothing, CarVerification& result) {
   int gear = 0;
   for (std::size_t i = 1; i < path.size(); ++i) {
-    const Leg leg(path[i - 1], path[i]);
+    const CarLeg leg(path[i - 1], path[i]);
     result.length += leg.length;
     result.turn_rad += std::abs(leg.turn);
     if (leg.ahead < 0.0) result.reversed += leg.length;
@@ -277,14 +268,14 @@ CarVerification verify_car(const Scene& scene, const VerifiedCar& car, std::span
   check_input(car, path, options);
   const CarVerifier verifier(scene, car, options.clearance, execution);
   const std::size_t legs = std::max<std::size_t>(path.size() - 1, 1);
-  std::vector<LegReport> reports(legs);
+  std::vector<CarLegReport> reports(legs);
   for_chunks(legs, 1, execution, [&](Range r) { reports[r.first] = leg_report(verifier, path, r.first); });
 
   CarVerification result;
   if (options.start && !is_there(path.front(), *options.start, false, options.tolerance)) {
     result.first_violation = Violation{0, 0.0, "start: the path begins elsewhere"};
   }
-  for (const LegReport& report : reports) {
+  for (const CarLegReport& report : reports) {
     result.min_clearance = std::min(result.min_clearance, report.least);
     if (report.violation && !result.first_violation) result.first_violation = report.violation;
   }

@@ -16,7 +16,7 @@ namespace warren {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t grain = std::size_t{1} << 15;
+constexpr std::size_t verify_grain = std::size_t{1} << 15;
 constexpr std::size_t small_grain = 1024;  // where one obstacle takes microseconds
 constexpr std::size_t sample_block = 512;  // walls in a row: as many as make one visit to memory worth it
 constexpr std::size_t sample_stride = 32 * sample_block;
@@ -114,7 +114,7 @@ class ObstaclePass {
   /// What the screens leave; the box is that of walls and polygons.
   PathScreen::Rest screened(const PathScreen& screen, double bound) const {
     std::optional<PathBoxes> boxes;  // pays where the path doesn't keep to the cells' lines
-    if (expected_rest(screen) > legs_.leg_count() / 2 + grain) {
+    if (expected_rest(screen) > legs_.leg_count() / 2 + verify_grain) {
       boxes.emplace(legs_, 2.0 * half_wall_, execution_);
       boxes->set_reach(bound, options_.clearance);
     }
@@ -137,8 +137,8 @@ class ObstaclePass {
   template <class WallsIn>
   PathScreen::Rest screened(const PathScreen& screen, const std::optional<PathBoxes>& boxes, std::size_t count,
                             std::size_t first_number, const WallsIn& walls_in) const {
-    std::vector<PathScreen::Rest> parts(chunk_count(count, grain));
-    for_chunks(count, grain, execution_, [&](Range r) {
+    std::vector<PathScreen::Rest> parts(chunk_count(count, verify_grain));
+    for_chunks(count, verify_grain, execution_, [&](Range r) {
       PathScreen::Rest part;
       const auto& walls = walls_in(r);
       screen.sift(std::span(walls), first_number + r.first, part);
@@ -147,7 +147,7 @@ class ObstaclePass {
         return boxes->is_clear(box_of(walls[number - first_number - r.first].segment()), budget);
       };
       if (boxes) std::erase_if(part.doubtful, is_clear);
-      parts[r.first / grain] = std::move(part);
+      parts[r.first / verify_grain] = std::move(part);
     });
     PathScreen::Rest all;
     for (const PathScreen::Rest& part : parts) {
@@ -211,7 +211,7 @@ class ObstaclePass {
       const auto compare = [&, walls](Comparison& comparison, std::size_t i) {
         comparison.with_near_legs(index, walls[i].segment(), i);
       };
-      return tally_of(walls.size(), grain, reach, compare);
+      return tally_of(walls.size(), verify_grain, reach, compare);
     });
   }
 
@@ -219,7 +219,7 @@ class ObstaclePass {
     const auto compare = [&](Comparison& comparison, std::size_t i) {
       comparison.with_near_legs(index, obstacles_.side_segment(i), obstacles_.wall_count() + i);
     };
-    Tally tally = tally_of(obstacles_.sides().size(), grain, reach, compare);
+    Tally tally = tally_of(obstacles_.sides().size(), verify_grain, reach, compare);
     tally.box = {};
     for (const Ring& ring : obstacles_.rings()) include_corners(ring, tally.box);
     return tally;
@@ -234,8 +234,8 @@ class ObstaclePass {
     const std::size_t step = std::max<std::size_t>(1, obstacles_.size() / 512);
     const auto compare_some = [&](Comparison& comparison, std::size_t i) { compare(comparison, i * step); };
     const std::size_t some = obstacles_.size() / step;
-    const double bound = tally_of(some, grain, infinity, compare_some).least;
-    return std::min(bound, tally_of(obstacles_.size(), grain, bound, compare).least);
+    const double bound = tally_of(some, verify_grain, infinity, compare_some).least;
+    return std::min(bound, tally_of(obstacles_.size(), verify_grain, bound, compare).least);
   }
 
   const Scene& scene_;

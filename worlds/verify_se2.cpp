@@ -16,13 +16,7 @@
 namespace warren {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double full_turn = 2.0 * std::numbers::pi;
-
-bool is_there(const Se2& pose, const Se2& wanted, bool any_heading, double tolerance) {
-  if (std::hypot(pose.x - wanted.x, pose.y - wanted.y) > tolerance) return false;
-  return any_heading || std::abs(shorter_turn(pose.theta, wanted.theta)) <= tolerance;
-}
 
 void check_input(std::span<const Vec2> outline, std::span<const Se2> path, const Se2VerifyOptions& options) {
   if (outline.size() < 3) throw InputError("robot", "a polygon needs three corners or more");
@@ -43,7 +37,7 @@ void check_input(std::span<const Vec2> outline, std::span<const Se2> path, const
 
 /// What a run of legs came to.
 struct PathReport {
-  double least = infinity;
+  double least = std::numeric_limits<double>::infinity();
   std::optional<Violation> first;  // in the order of legs
 
   void add(const LegReport& report) {

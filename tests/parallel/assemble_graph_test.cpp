@@ -11,9 +11,12 @@
 #include "core/error.hpp"
 #include "core/rng.hpp"
 #include "parallel/components.hpp"
+#include "tests/parallel/on_threads.hpp"
 
 namespace warren {
 namespace {
+
+using test::on;
 
 /// Up to `count` different edges; reach bounds to - from (0: any).
 std::vector<Edge> random_edges(std::uint64_t seed, std::size_t vertices, std::size_t count, std::size_t reach) {
@@ -43,12 +46,6 @@ void expect_same(const Graph& graph, const Graph& oracle) {
   for (VertexId v = 0; v < graph.vertex_count(); ++v) {
     ASSERT_TRUE(std::ranges::equal(graph.neighbours(v), oracle.neighbours(v))) << "row " << v;
   }
-}
-
-Execution on(unsigned threads) {
-  Execution execution;
-  execution.threads = threads;
-  return execution;
 }
 
 struct Case {

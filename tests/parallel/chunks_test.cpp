@@ -16,17 +16,14 @@
 #include "core/rng.hpp"
 #include "parallel/scan.hpp"
 #include "parallel/trace.hpp"
+#include "tests/parallel/on_threads.hpp"
 
 namespace warren {
 namespace {
 
-constexpr unsigned thread_counts[] = {1, 2, 3, 8};
+using test::on;
 
-Execution on(unsigned threads) {
-  Execution execution;
-  execution.threads = threads;
-  return execution;
-}
+constexpr unsigned thread_counts[] = {1, 2, 3, 8};
 
 TEST(ForChunks, VisitsEachIndexOnceInChunksThatDependOnSizeAndGrainAlone) {
   for (const unsigned threads : thread_counts) {

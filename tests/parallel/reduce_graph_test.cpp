@@ -11,15 +11,12 @@
 #include "core/rng.hpp"
 #include "core/search.hpp"
 #include "tests/core/search_graphs.hpp"
+#include "tests/parallel/on_threads.hpp"
 
 namespace warren {
 namespace {
 
-Execution on(unsigned threads) {
-  Execution execution;
-  execution.threads = threads;
-  return execution;
-}
+using test::on;
 
 double edge_length(VertexId v, VertexId w) {
   return 1.0 + uniform(9, std::min(v, w), std::max(v, w)) * ((v + w) % 2);  // half of them tie

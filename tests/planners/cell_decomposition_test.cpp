@@ -16,10 +16,10 @@
 namespace warren {
 namespace {
 
-using testing::Dice;
-using testing::disjoint_polygons;
-using testing::GridWorld;
-using testing::obstacles_of;
+using test::Dice;
+using test::disjoint_polygons;
+using test::GridWorld;
+using test::obstacles_of;
 
 PlaneObstacles polygons(const std::vector<std::vector<Vec2>>& outlines, std::optional<Box> bounds = {}) {
   PlaneObstacles obstacles;

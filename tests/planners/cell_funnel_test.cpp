@@ -14,12 +14,12 @@
 namespace warren {
 namespace {
 
-using testing::all_searches;
-using testing::checked_plan;
-using testing::disjoint_polygons;
-using testing::free_points;
-using testing::judged;
-using testing::length_of;
+using test::all_searches;
+using test::checked_plan;
+using test::disjoint_polygons;
+using test::free_points;
+using test::judged;
+using test::length_of;
 
 /// Length of the shortest path over the corners, each leg asked of the judge: no planner's code. Infinite: none.
 double shortest_length(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal) {

@@ -16,13 +16,13 @@
 namespace warren {
 namespace {
 
-using testing::all_searches;
-using testing::checked_plan;
-using testing::Dice;
-using testing::disjoint_polygons;
-using testing::free_points;
-using testing::GridWorld;
-using testing::length_of;
+using test::all_searches;
+using test::checked_plan;
+using test::Dice;
+using test::disjoint_polygons;
+using test::free_points;
+using test::GridWorld;
+using test::length_of;
 
 TEST(CellPlanner, EverySearchAndDoorGivesVerifiedPathsOnDisjointPolygons) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {

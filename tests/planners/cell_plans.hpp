@@ -10,7 +10,7 @@
 #include "planners/cell_planner.hpp"
 #include "tests/planners/plane_worlds.hpp"
 
-namespace warren::testing {
+namespace warren::test {
 
 inline constexpr SearchKind all_searches[] = {SearchKind::astar, SearchKind::dijkstra, SearchKind::bfs,
                                               SearchKind::dfs};
@@ -41,4 +41,4 @@ inline std::vector<Vec2> free_points(const PlaneObstacles& obstacles, std::uint6
   return points;
 }
 
-}  // namespace warren::testing
+}  // namespace warren::test

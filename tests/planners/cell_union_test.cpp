@@ -15,8 +15,8 @@
 namespace warren {
 namespace {
 
-using testing::Dice;
-using testing::length_of;
+using test::Dice;
+using test::length_of;
 
 /// Stars with real coordinates, placed anywhere: many overlap, some stick out.
 PlaneObstacles overlapping_stars(std::uint64_t seed, int count) {

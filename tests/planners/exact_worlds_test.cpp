@@ -21,9 +21,9 @@
 namespace warren {
 namespace {
 
-using testing::judged;
-using testing::length_of;
-using testing::scene_of;
+using test::judged;
+using test::length_of;
+using test::scene_of;
 
 using VertexPairs = std::set<std::pair<rational::Vertex, rational::Vertex>>;
 

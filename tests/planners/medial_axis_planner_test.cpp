@@ -17,12 +17,12 @@
 namespace warren {
 namespace {
 
-using testing::Dice;
-using testing::disjoint_polygons;
-using testing::GridWorld;
-using testing::length_of;
-using testing::obstacles_of;
-using testing::scene_of;
+using test::Dice;
+using test::disjoint_polygons;
+using test::GridWorld;
+using test::length_of;
+using test::obstacles_of;
+using test::scene_of;
 
 /// Plans and lets the path be judged: it keeps the clearance; with clearance 0 it touches nothing.
 Solution<Vec2> checked_plan(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal, const MedialAxisOptions& options,

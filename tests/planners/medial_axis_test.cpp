@@ -17,8 +17,8 @@
 namespace warren {
 namespace {
 
-using testing::Dice;
-using testing::disjoint_polygons;
+using test::Dice;
+using test::disjoint_polygons;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 

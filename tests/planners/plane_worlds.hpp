@@ -11,10 +11,11 @@
 #include "core/geometry.hpp"
 #include "core/polygon.hpp"
 #include "core/rng.hpp"
+#include "core/solution.hpp"
 #include "worlds/scene.hpp"
 #include "worlds/verify.hpp"
 
-namespace warren::testing {
+namespace warren::test {
 
 /// Numbers in a row from one seed.
 class Dice {
@@ -65,6 +66,9 @@ inline double length_of(const std::vector<Vec2>& path) {
   for (std::size_t i = 1; i < path.size(); ++i) length += distance(path[i - 1], path[i]);
   return length;
 }
+
+/// 0 without a path.
+inline double length_of(const Solution<Vec2>& solution) { return length_of(solution.path); }
 
 /// A star around `center` with integer corners within `reach`, anticlockwise; empty where the dice gave none.
 inline std::vector<Vec2> star(Dice& dice, Vec2 center, int reach) {
@@ -251,4 +255,4 @@ class GridWorld {
   std::vector<char> right_shut_, top_shut_, full_;
 };
 
-}  // namespace warren::testing
+}  // namespace warren::test

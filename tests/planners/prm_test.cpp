@@ -11,11 +11,14 @@
 #include "core/error.hpp"
 #include "core/geometry.hpp"
 #include "planners/lazy_prm.hpp"
+#include "tests/planners/plane_worlds.hpp"
 #include "worlds/maze_generator.hpp"
 #include "worlds/maze_world.hpp"
 
 namespace warren {
 namespace {
+
+using test::length_of;
 
 constexpr double clearance = 0.1;
 
@@ -56,8 +59,6 @@ double shortest_walk(const Scene& scene) {
   }
   return steps.back() + 1.0;  // half a step from the start, half a step to the goal
 }
-
-double length_of(const Solution<Vec2>& solution) { return path_length(solution.path, MazeWorld::distance); }
 
 /// Every leg against every wall, by plain distances.
 void expect_clear(const Scene& scene, const std::vector<Vec2>& path) {

@@ -18,14 +18,14 @@ namespace {
 constexpr double unreached = std::numeric_limits<double>::infinity();
 
 /// One tile whose chains are drawn at random, each key with at most four: any graph, not only a plane one.
-struct Case {
+struct StepCase {
   TileGrid grid = TileGrid::of({64, 64});
   std::vector<TileSummary> tiles{1};
   OverlayEnds ends;
 };
 
-Case random_case(std::uint64_t seed, std::uint32_t keys, std::uint32_t chains, std::uint32_t longest) {
-  Case c;
+StepCase random_case(std::uint64_t seed, std::uint32_t keys, std::uint32_t chains, std::uint32_t longest) {
+  StepCase c;
   SequentialRng rng(seed);
   TileSummary& tile = c.tiles[0];
   if (keys > 4096) c.grid = TileGrid::of({256, 256}, 8);
@@ -59,7 +59,7 @@ struct Link {
   double length;
 };
 
-std::vector<Link> links_of(const Case& c, const Overlay& overlay) {
+std::vector<Link> links_of(const StepCase& c, const Overlay& overlay) {
   std::vector<Link> links;
   const auto both = [&](VertexId a, VertexId b, double length) {
     links.push_back({a, b, length});
@@ -100,7 +100,7 @@ double length_along(const std::vector<VertexId>& path, const std::vector<Link>& 
   return sum;
 }
 
-void expect_shortest(const Case& c) {
+void expect_shortest(const StepCase& c) {
   Overlay overlay(c.grid, c.tiles, c.ends, {});
   overlay.peel({});
   const std::vector<Link> links = links_of(c, overlay);
@@ -124,7 +124,7 @@ TEST(StepSearch, FindsAShortestPathWhateverTheLengths) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const std::uint32_t keys = seed % 3 == 0 ? 8 : 300;
     const std::uint32_t longest = seed % 4 == 0 ? 1 : seed % 4 == 1 ? 9 : seed % 4 == 2 ? 700 : 60'000;
-    const Case c = random_case(seed, keys, keys * (seed % 5 == 0 ? 1 : 3), longest);
+    const StepCase c = random_case(seed, keys, keys * (seed % 5 == 0 ? 1 : 3), longest);
     expect_shortest(c);
     Overlay overlay(c.grid, c.tiles, c.ends, {});
     connected += shortest_by_relaxing(links_of(c, overlay), overlay) < unreached ? 1 : 0;
@@ -136,7 +136,7 @@ TEST(StepSearch, FindsAShortestPathWhateverTheLengths) {
 TEST(StepSearch, TakesTheDirectWayWhereItIsNoLonger) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    Case c = random_case(seed, 6, 8, 1);
+    StepCase c = random_case(seed, 6, 8, 1);
     c.ends.direct = true;
     c.ends.goal.at = {0.05 * static_cast<double>(seed), 0.0};
     expect_shortest(c);
@@ -145,7 +145,7 @@ TEST(StepSearch, TakesTheDirectWayWhereItIsNoLonger) {
 
 TEST(StepSearch, TwoThreadsTakeTheStepsOfOne) {
   for (const std::uint32_t longest : {1U, 20U}) {
-    const Case c = random_case(4 + longest, 65'000, 200'000, longest);
+    const StepCase c = random_case(4 + longest, 65'000, 200'000, longest);
     Overlay overlay(c.grid, c.tiles, c.ends, {});
     overlay.peel({});
     Execution one;
@@ -165,7 +165,7 @@ TEST(StepSearch, TwoThreadsTakeTheStepsOfOne) {
 }
 
 TEST(StepSearch, StopsAtTheDeadline) {
-  const Case c = random_case(5, 3000, 9000, 20);
+  const StepCase c = random_case(5, 3000, 9000, 20);
   const Overlay overlay(c.grid, c.tiles, c.ends, {});
   const Deadline ended(0.0);
   Execution execution;

@@ -13,19 +13,16 @@
 
 #include "core/geometry.hpp"
 #include "core/rng.hpp"
+#include "tests/planners/plane_worlds.hpp"
 #include "worlds/maze_generator.hpp"
 #include "worlds/verify.hpp"
 
 namespace warren {
 namespace {
 
-constexpr double planning_factor = 1.0 + 1e-9;
+using test::length_of;
 
-double length_of(const std::vector<Vec2>& path) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) length += distance(path[i - 1], path[i]);
-  return length;
-}
+constexpr double planning_factor = 1.0 + 1e-9;
 
 Scene scene_of(const std::vector<Segment>& walls) {
   Scene scene;
@@ -105,7 +102,7 @@ struct Node {
   Vec2 center;
   double turn;  // +1: disc on the left
 };
-struct Edge {
+struct TangentEdge {
   std::size_t from, to;
   double length;
   double heading;
@@ -120,7 +117,7 @@ class TangentGraph {
       posts.insert(posts.end(), {w.a, w.b});
       box_.include(box_of(w));
     }
-    std::sort(posts.begin(), posts.end(), [](Vec2 p, Vec2 q) { return p.x < q.x || (p.x == q.x && p.y < q.y); });
+    std::sort(posts.begin(), posts.end(), is_before);
     posts.erase(std::unique(posts.begin(), posts.end()), posts.end());
     for (const Vec2 p : posts) nodes_.insert(nodes_.end(), {{p, 1.0}, {p, -1.0}});
     leaving_.resize(nodes_.size());
@@ -194,7 +191,7 @@ class TangentGraph {
   Box box_;
   double r_;
   std::vector<Node> nodes_;
-  std::vector<Edge> edges_;
+  std::vector<TangentEdge> edges_;
   std::vector<std::vector<std::size_t>> leaving_;
 };
 

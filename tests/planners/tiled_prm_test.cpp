@@ -12,6 +12,7 @@
 #include "core/geometry.hpp"
 #include "core/rng.hpp"
 #include "planners/prm.hpp"
+#include "tests/planners/plane_worlds.hpp"
 #include "worlds/maze_generator.hpp"
 #include "worlds/maze_world.hpp"
 #include "worlds/verify.hpp"
@@ -19,7 +20,9 @@
 namespace warren {
 namespace {
 
-struct Case {
+using test::length_of;
+
+struct TiledCase {
   Scene scene;
   LatticeSize lattice;
   double clearance = 0.1;
@@ -27,7 +30,7 @@ struct Case {
   Vec2 goal;
 };
 
-Case maze_case(const MazeOptions& maze, double clearance = 0.1, bool merged = false) {
+TiledCase maze_case(const MazeOptions& maze, double clearance = 0.1, bool merged = false) {
   Scene scene = maze_scene(maze, merged, {});
   const Vec2 start{scene.start[0], scene.start[1]};
   const Vec2 goal{scene.goal[0], scene.goal[1]};
@@ -40,14 +43,14 @@ std::vector<Segment> segments_of(const WallSet& walls) {
   return segments;
 }
 
-RoadmapOptions options_of(const Case& c) {
+RoadmapOptions options_of(const TiledCase& c) {
   RoadmapOptions options;
   options.sampler = SamplerKind::lattice;
   options.lattice = c.lattice;
   return options;
 }
 
-Solution<Vec2> tiled(const Case& c, const Execution& execution = {}) {
+Solution<Vec2> tiled(const TiledCase& c, const Execution& execution = {}) {
   std::vector<Segment> bounds;
   Box box = obstacle_box(c.scene);
   if (c.scene.bounds) {
@@ -58,14 +61,12 @@ Solution<Vec2> tiled(const Case& c, const Execution& execution = {}) {
   return tiled_prm({c.scene.walls, bounds, box, c.clearance, c.start, c.goal}, options_of(c), execution);
 }
 
-Solution<Vec2> plain(const Case& c) {
+Solution<Vec2> plain(const TiledCase& c) {
   const MazeWorld world(c.scene, c.clearance, {});
   return prm(world, c.start, c.goal, options_of(c), {});
 }
 
-double length_of(const Solution<Vec2>& s) { return path_length(s.path, MazeWorld::distance); }
-
-void expect_same_answer(const Case& c) {
+void expect_same_answer(const TiledCase& c) {
   const Solution<Vec2> expected = plain(c);
   const Solution<Vec2> found = tiled(c);
   ASSERT_EQ(name_of(found.outcome), name_of(expected.outcome));
@@ -139,14 +140,14 @@ TEST(TiledPrm, GivesThePlainAnswerAmongArbitrarySegments) {
     const LatticeSize lattice{70, 140};
     const int count = seed % 4 == 0 ? 3000 : seed % 4 == 1 ? 60 : seed % 4 == 2 ? 700 : 1500;
     const double clearances[] = {0.0, 0.1, 0.02, 0.6};
-    Case c{{}, lattice, clearances[seed / 4 % 4], {0.5, 1.0}, {140.5, 70.0}};
+    TiledCase c{{}, lattice, clearances[seed / 4 % 4], {0.5, 1.0}, {140.5, 70.0}};
     c.scene.walls = WallSet::narrowest(random_walls(seed, lattice, count));
     expect_same_answer(c);
   }
 }
 
 TEST(TiledPrm, TheOrderAndTheCutOfTheWallsDontMatter) {
-  const Case whole = maze_case({70, 130, 5, MazeAlgorithm::kruskal, 0.05});
+  const TiledCase whole = maze_case({70, 130, 5, MazeAlgorithm::kruskal, 0.05});
   const Solution<Vec2> expected = tiled(whole);
   std::vector<Segment> walls = segments_of(whole.scene.walls);
   std::vector<Segment> split;
@@ -170,7 +171,7 @@ TEST(TiledPrm, TheOrderAndTheCutOfTheWallsDontMatter) {
   const std::vector<Segment>* variants[] = {&split, &mixed, &reversed, &doubled, &merged};
   for (std::size_t i = 0; i < std::size(variants); ++i) {
     SCOPED_TRACE(i);
-    Case c = whole;
+    TiledCase c = whole;
     c.scene.walls = WallSet::narrowest(*variants[i]);
     const Solution<Vec2> found = tiled(c);
     EXPECT_EQ(found.path, expected.path);
@@ -180,12 +181,12 @@ TEST(TiledPrm, TheOrderAndTheCutOfTheWallsDontMatter) {
 }
 
 TEST(TiledPrm, AnyNumberOfThreadsGivesTheSameAnswer) {
-  std::vector<Case> cases = {maze_case({200, 300, 2, MazeAlgorithm::backtracker, 0.0}),
-                             maze_case({210, 190, 3, MazeAlgorithm::kruskal, 0.3})};
-  Case open{{}, {150, 150}, 0.1, {0.5, 1.0}, {150.5, 150.0}};
+  std::vector<TiledCase> cases = {maze_case({200, 300, 2, MazeAlgorithm::backtracker, 0.0}),
+                                  maze_case({210, 190, 3, MazeAlgorithm::kruskal, 0.3})};
+  TiledCase open{{}, {150, 150}, 0.1, {0.5, 1.0}, {150.5, 150.0}};
   open.scene.walls = WallSet::narrowest(random_walls(9, open.lattice, 900));
   cases.push_back(std::move(open));
-  for (const Case& c : cases) {
+  for (const TiledCase& c : cases) {
     Execution one;
     one.threads = 1;
     const Solution<Vec2> expected = tiled(c, one);
@@ -208,7 +209,7 @@ TEST(TiledPrm, LargerTilesGiveThePlainAnswerToo) {
 }
 
 TEST(TiledPrm, StartAndGoalMayStandAnywhere) {
-  const Case base = maze_case({66, 67, 8, MazeAlgorithm::backtracker, 0.1});
+  const TiledCase base = maze_case({66, 67, 8, MazeAlgorithm::backtracker, 0.1});
   SequentialRng rng(4);
   const auto place = [&] {
     const auto number = [&] { return 0.5 + 66.0 * static_cast<double>(rng.next() >> 11) * 0x1p-53; };
@@ -216,7 +217,7 @@ TEST(TiledPrm, StartAndGoalMayStandAnywhere) {
   };
   for (int i = 0; i < 40; ++i) {
     SCOPED_TRACE(i);
-    Case c = base;
+    TiledCase c = base;
     c.start = place();
     c.goal = i % 4 == 0 ? c.start : i % 4 == 1 ? Vec2{c.start.x + 0.3, c.start.y} : place();
     if (i % 5 == 0) c.start = {std::round(c.start.x), std::round(c.start.y)};
@@ -225,7 +226,7 @@ TEST(TiledPrm, StartAndGoalMayStandAnywhere) {
 }
 
 TEST(TiledPrm, AnEndOnAWallOrOutsideTheBoxIsBlocked) {
-  Case c = maze_case({20, 20, 1});
+  TiledCase c = maze_case({20, 20, 1});
   c.start = {5.5, 0.5};
   EXPECT_EQ(tiled(c).outcome, Outcome::start_blocked);
   c.start = {-3.0, 4.0};
@@ -237,7 +238,7 @@ TEST(TiledPrm, AnEndOnAWallOrOutsideTheBoxIsBlocked) {
 }
 
 TEST(TiledPrm, BoundsAreWallsAndConfineTheMilestones) {
-  Case c = maze_case({40, 40, 1, MazeAlgorithm::backtracker, 0.5});
+  TiledCase c = maze_case({40, 40, 1, MazeAlgorithm::backtracker, 0.5});
   c.scene.bounds = Box{{3.2, 2.1}, {30.0, 38.95}};
   c.start = {5.0, 4.0};
   c.goal = {28.0, 36.0};
@@ -245,7 +246,7 @@ TEST(TiledPrm, BoundsAreWallsAndConfineTheMilestones) {
 }
 
 TEST(TiledPrm, AWallAcrossTheMazeParts) {
-  Case c = maze_case({80, 90, 6, MazeAlgorithm::prim, 0.1});
+  TiledCase c = maze_case({80, 90, 6, MazeAlgorithm::prim, 0.1});
   std::vector<Segment> walls = segments_of(c.scene.walls);
   walls.push_back({{0.5, 20.3}, {90.5, 61.7}});
   c.scene.walls = WallSet::narrowest(walls);
@@ -254,13 +255,13 @@ TEST(TiledPrm, AWallAcrossTheMazeParts) {
 }
 
 TEST(TiledPrm, AnEmptyWorldIsCrossedStraight) {
-  Case c{{}, {150, 70}, 0.1, {0.5, 1.0}, {70.5, 150.0}};
+  TiledCase c{{}, {150, 70}, 0.1, {0.5, 1.0}, {70.5, 150.0}};
   c.scene.walls = WallSet::narrowest(std::vector<Segment>{{{0.5, 0.5}, {70.5, 0.5}}, {{0.5, 150.5}, {70.5, 150.5}}});
   expect_same_answer(c);
 }
 
 TEST(TiledPrm, ABudgetThatHasEndedStopsIt) {
-  const Case c = maze_case({100, 100, 1});
+  const TiledCase c = maze_case({100, 100, 1});
   const Deadline ended(0.0);
   Execution execution;
   execution.deadline = &ended;
@@ -273,7 +274,7 @@ TEST(TiledPrm, ABudgetThatHasEndedStopsIt) {
 }
 
 TEST(TiledPrm, RefusesWhatItCannotAnswerAsThePlainPipeline) {
-  const Case c = maze_case({10, 10, 1});
+  const TiledCase c = maze_case({10, 10, 1});
   RoadmapOptions options = options_of(c);
   EXPECT_TRUE(tiled_prm_applies(options, 0.1));
   EXPECT_FALSE(tiled_prm_applies(options, 9.0));

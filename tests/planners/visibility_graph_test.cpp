@@ -14,11 +14,14 @@
 #include "planners/lazy_visibility.hpp"
 #include "planners/visibility_path.hpp"
 #include "tests/planners/degenerate_worlds.hpp"
+#include "tests/planners/plane_worlds.hpp"
 #include "tests/planners/visibility_oracle.hpp"
 #include "worlds/verify.hpp"
 
 namespace warren {
 namespace {
+
+using test::length_of;
 
 oracle::Point grid_point(Vec2 p) { return {static_cast<std::int64_t>(p.x), static_cast<std::int64_t>(p.y)}; }
 
@@ -99,10 +102,6 @@ VisibilityOptions lazily() {
   VisibilityOptions options;
   options.lazy = true;
   return options;
-}
-
-double length_of(const Solution<Vec2>& s) {
-  return path_length(s.path, [](Vec2 a, Vec2 b) { return distance(a, b); });
 }
 
 /// The judge's word for a path that may touch.
@@ -190,7 +189,7 @@ TEST(VisibilityGraph, GraphIsTheSameForAnyNumberOfThreads) {
 }
 
 /// A small world with what is known about the way from start to goal.
-struct Case {
+struct GraphCase {
   const char* name;
   std::vector<std::vector<Vec2>> polygons;
   std::vector<Segment> walls;
@@ -206,7 +205,7 @@ TEST(VisibilityPath, CasesKnownByHand) {
   const std::vector<Vec2> above{{2, 2}, {4, 2}, {4, 4}, {2, 4}};
   const double diagonal = std::sqrt(2.0);
   const Box tight{{-1, 0}, {5, 2}};
-  const Case cases[] = {
+  const GraphCase cases[] = {
       {"nothing in the way", {}, {}, {}, {0, 0}, {3, 4}, Outcome::solved, 5.0},
       {"round a square", {square}, {}, {}, {-1, 1}, {3, 1}, Outcome::solved, 2 * diagonal + 2},
       {"along a side", {square}, {}, {}, {-1, 0}, {3, 0}, Outcome::solved, 4},
@@ -247,7 +246,7 @@ TEST(VisibilityPath, CasesKnownByHand) {
       {"outside of the bounds", {square}, {}, tight, {-2, 1}, {3, 1}, Outcome::start_blocked},
       {"start is goal", {square}, {}, {}, {0, 0}, {0, 0}, Outcome::solved, 0},
   };
-  for (const Case& c : cases) {
+  for (const GraphCase& c : cases) {
     SCOPED_TRACE(c.name);
     PlaneObstacles world{{}, c.walls, c.bounds};
     for (const auto& ring : c.polygons) world.polygons.add(ring);

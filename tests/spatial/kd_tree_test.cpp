@@ -9,7 +9,7 @@
 namespace warren {
 namespace {
 
-using testing::all_by_distance;
+using test::all_by_distance;
 
 template <class Dimension>
 class KdTreeIn : public ::testing::Test {};
@@ -24,7 +24,7 @@ TYPED_TEST_SUITE(KdTreeIn, AllDimensions);
 template <int D>
 std::vector<std::pair<PointOf<D>, VertexId>> queries(const std::vector<PointOf<D>>& points, std::uint64_t seed) {
   std::vector<std::pair<PointOf<D>, VertexId>> all{{PointOf<D>{}, no_vertex},
-                                                   {testing::make_point<D>({-1e7, 3e8}), no_vertex}};
+                                                   {test::make_point<D>({-1e7, 3e8}), no_vertex}};
   for (std::uint64_t q = 0; q < 3 && !points.empty(); ++q) {
     const auto i = static_cast<VertexId>(random_bits(seed, q) % points.size());
     all.push_back({points[i], i});
@@ -39,7 +39,7 @@ std::vector<PointOf<D>> even_points(std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) {
     std::array<double, 8> v{};
     for (std::size_t axis = 0; axis < D; ++axis) v[axis] = uniform(11, i, axis);
-    points[i] = testing::make_point<D>(v);
+    points[i] = test::make_point<D>(v);
   }
   return points;
 }
@@ -80,7 +80,7 @@ void expect_later(const Index& index, const std::vector<PointOf<D>>& points, dou
   std::vector<std::pair<VertexId, VertexId>> expected;
   for (VertexId i = 0; i < points.size(); ++i) {
     for (VertexId j = i + 1; j < points.size(); ++j) {
-      if (testing::plain_distance<D>(points[i], points[j]) <= radius) expected.emplace_back(i, j);
+      if (test::plain_distance<D>(points[i], points[j]) <= radius) expected.emplace_back(i, j);
     }
   }
   std::vector<std::pair<VertexId, VertexId>> found;
@@ -92,7 +92,7 @@ void expect_later(const Index& index, const std::vector<PointOf<D>>& points, dou
 TYPED_TEST(KdTreeIn, AllQueriesEqualBruteForce) {
   constexpr int D = TypeParam::value;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    for (const auto& set : testing::point_sets<D>(seed, 150 + seed % 7 * 30)) {
+    for (const auto& set : test::point_sets<D>(seed, 150 + seed % 7 * 30)) {
       SCOPED_TRACE(set.name + ", seed " + std::to_string(seed));
       const KdTree<D> tree(set.points, {});
       ASSERT_EQ(tree.size(), set.points.size());
@@ -137,7 +137,7 @@ TYPED_TEST(KdTreeIn, AForestKeepsThePointsAndTiesAcrossTrees) {
 TYPED_TEST(KdTreeIn, NeighboursEqualBruteForce) {
   constexpr int D = TypeParam::value;
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
-    for (const auto& set : testing::point_sets<D>(seed, 200)) {
+    for (const auto& set : test::point_sets<D>(seed, 200)) {
       SCOPED_TRACE(set.name);
       const Neighbours<D> neighbours(set.points, {});
       expect_nearest<D>(neighbours, set.points, seed);

@@ -8,8 +8,8 @@
 namespace warren {
 namespace {
 
-using testing::all_by_distance;
-using testing::PointSet;
+using test::all_by_distance;
+using test::PointSet;
 
 std::vector<Vec2> in_tile_order(const std::vector<Vec2>& points) {
   std::vector<Vec2> sorted;
@@ -19,7 +19,7 @@ std::vector<Vec2> in_tile_order(const std::vector<Vec2>& points) {
 
 /// Every set as it comes and in tile order.
 std::vector<PointSet<2>> cases(std::uint64_t seed) {
-  std::vector<PointSet<2>> sets = testing::point_sets<2>(seed, 150 + seed % 7 * 30);
+  std::vector<PointSet<2>> sets = test::point_sets<2>(seed, 150 + seed % 7 * 30);
   const std::size_t count = sets.size();
   for (std::size_t i = 0; i < count; ++i) {
     sets.push_back({sets[i].name + " in tile order", in_tile_order(sets[i].points)});
@@ -92,7 +92,7 @@ TEST(PointGrid, LaterPairsAreEachPairOnce) {
         Pairs expected;
         for (VertexId i = 0; i < points.size(); ++i) {
           for (VertexId j = i + 1; j < points.size(); ++j) {
-            if (testing::plain_distance<2>(points[i], points[j]) <= radius) expected.emplace_back(i, j);
+            if (test::plain_distance<2>(points[i], points[j]) <= radius) expected.emplace_back(i, j);
           }
         }
         Pairs found;
@@ -117,7 +117,7 @@ TEST(PointGrid, LaterPairsOfManyPointsInOneDiscAreAllThere) {
   std::size_t expected = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (std::size_t j = i + 1; j < points.size(); ++j) {
-      expected += testing::plain_distance<2>(points[i], points[j]) <= 0.3 ? 1 : 0;
+      expected += test::plain_distance<2>(points[i], points[j]) <= 0.3 ? 1 : 0;
     }
   }
   std::size_t found = 0;
@@ -126,11 +126,11 @@ TEST(PointGrid, LaterPairsOfManyPointsInOneDiscAreAllThere) {
 }
 
 TEST(PointGrid, KeepsPointsThatComeInTileOrderAsTheyAre) {
-  for (const auto& [name, points] : testing::point_sets<2>(5, 400)) {
+  for (const auto& [name, points] : test::point_sets<2>(5, 400)) {
     SCOPED_TRACE(name);
     EXPECT_TRUE(PointGrid(in_tile_order(points), {}).in_tile_order());
   }
-  std::vector<Vec2> even = in_tile_order(testing::point_sets<2>(5, 400)[3].points);
+  std::vector<Vec2> even = in_tile_order(test::point_sets<2>(5, 400)[3].points);
   std::reverse(even.begin(), even.end());
   EXPECT_FALSE(PointGrid(even, {}).in_tile_order());
 }

@@ -10,7 +10,7 @@
 #include "core/rng.hpp"
 #include "spatial/neighbour.hpp"
 
-namespace warren::testing {
+namespace warren::test {
 
 inline double axis_value(Vec2 p, int axis) { return axis == 0 ? p.x : p.y; }
 template <std::size_t D>
@@ -105,4 +105,4 @@ std::vector<PointSet<D>> point_sets(std::uint64_t seed, std::size_t n) {
   };
 }
 
-}  // namespace warren::testing
+}  // namespace warren::test

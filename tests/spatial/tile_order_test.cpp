@@ -10,7 +10,7 @@ namespace {
 
 TEST(TileOrder, IsAPermutationThatIsSortedByCellAndStable) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    for (const auto& set : testing::point_sets<2>(seed, 3000)) {
+    for (const auto& set : test::point_sets<2>(seed, 3000)) {
       SCOPED_TRACE(set.name);
       const std::vector<Vec2>& points = set.points;
       const TileOrder order = tile_order(points, {});
@@ -61,7 +61,7 @@ TEST(TileOrder, SortsPointsOfMoreDimensionsByTheFirstTwo) {
 
 TEST(CellFrame, HasFewCellsWhateverTheShape) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    for (const auto& [name, points] : testing::point_sets<2>(seed, 500)) {
+    for (const auto& [name, points] : test::point_sets<2>(seed, 500)) {
       Box box;
       for (const Vec2 p : points) box.include(p);
       EXPECT_LE(CellFrame(box, points.size()).cell_count(), 3 * points.size() / 2 + 2) << name;

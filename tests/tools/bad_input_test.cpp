@@ -7,7 +7,7 @@
 
 #include "tests/tools/process.hpp"
 
-namespace warren::testing {
+namespace warren::test {
 namespace {
 
 using namespace std::string_literals;
@@ -238,4 +238,4 @@ TEST(BadInput, AnswersThatAreNoneAreRefused) {
 }
 
 }  // namespace
-}  // namespace warren::testing
+}  // namespace warren::test

@@ -15,9 +15,9 @@
 namespace warren {
 namespace {
 
-using Json = nlohmann::json;
-using testing::check;
-using testing::Folder;
+using Json = nlohmann::ordered_json;
+using test::check;
+using test::Folder;
 
 Json compared(const std::string& words) {
   const ProgramRun run = run_program("compare " + words + " --quiet --json -");

@@ -9,7 +9,7 @@
 namespace warren {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 void expect_keys(const Json& json, std::initializer_list<const char*> keys) {
   for (const char* key : keys) EXPECT_TRUE(json.contains(key)) << key;

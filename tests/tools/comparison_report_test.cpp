@@ -13,7 +13,7 @@
 namespace warren {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 ComparedRun run_of(Outcome outcome, double time_s, double length) {
   ComparedRun run;

@@ -6,7 +6,7 @@
 
 #include "tests/tools/grid_worlds.hpp"
 
-namespace warren::testing {
+namespace warren::test {
 namespace {
 
 TEST(Maps, InfoCountsTheCells) {
@@ -328,4 +328,4 @@ TEST(BenchScen, ExitsWithZeroOnlyWhereEveryLengthIsTheOptimum) {
 }
 
 }  // namespace
-}  // namespace warren::testing
+}  // namespace warren::test

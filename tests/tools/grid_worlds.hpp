@@ -8,7 +8,7 @@
 
 #include "tests/tools/process.hpp"
 
-namespace warren::testing {
+namespace warren::test {
 
 using Json = nlohmann::ordered_json;
 
@@ -34,4 +34,4 @@ inline Json answered(std::vector<std::string> arguments, int code = 0) {
   return Json::parse(outcome.out, nullptr, false);
 }
 
-}  // namespace warren::testing
+}  // namespace warren::test

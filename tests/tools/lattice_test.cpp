@@ -4,7 +4,7 @@
 
 #include "tests/tools/grid_worlds.hpp"
 
-namespace warren::testing {
+namespace warren::test {
 namespace {
 
 TEST(Lattice, TheCourseSceneHasItsFigures) {
@@ -205,4 +205,4 @@ TEST(Lattice, PolygonsTurnOnTheGridOfAMap) {
 }
 
 }  // namespace
-}  // namespace warren::testing
+}  // namespace warren::test

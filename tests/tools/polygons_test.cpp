@@ -6,7 +6,7 @@
 
 #include "tests/tools/process.hpp"
 
-namespace warren::testing {
+namespace warren::test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -306,4 +306,4 @@ TEST(Polygons, BodiesAndWorldsWithoutAPlannerAreSaidToHaveNone) {
 }
 
 }  // namespace
-}  // namespace warren::testing
+}  // namespace warren::test

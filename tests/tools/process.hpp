@@ -19,7 +19,7 @@
 #include <thread>
 #include <vector>
 
-namespace warren::testing {
+namespace warren::test {
 
 /// A folder that lives as long as the test.
 class Folder {
@@ -135,4 +135,4 @@ inline void check(const Case& c, const std::string& input = "/dev/null") {
   }
 }
 
-}  // namespace warren::testing
+}  // namespace warren::test

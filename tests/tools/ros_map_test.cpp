@@ -7,7 +7,7 @@
 #include "tests/tools/process.hpp"
 #include "tests/worlds/test_images.hpp"
 
-namespace warren::testing {
+namespace warren::test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -134,4 +134,4 @@ TEST(RosMaps, RulesAreRefusedWhereTheyMeanNothing) {
 }
 
 }  // namespace
-}  // namespace warren::testing
+}  // namespace warren::test

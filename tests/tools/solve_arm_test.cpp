@@ -5,7 +5,7 @@
 
 #include "tests/tools/process.hpp"
 
-namespace warren::testing {
+namespace warren::test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -233,4 +233,4 @@ TEST_F(SolveArm, DrawsThreeViewsWithTheSweepAndTheTrace) {
 }
 
 }  // namespace
-}  // namespace warren::testing
+}  // namespace warren::test

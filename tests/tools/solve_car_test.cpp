@@ -5,7 +5,7 @@
 
 #include "tests/tools/process.hpp"
 
-namespace warren::testing {
+namespace warren::test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -184,4 +184,4 @@ TEST_F(SolveCar, DrawsCurvesAsArcs) {
 }
 
 }  // namespace
-}  // namespace warren::testing
+}  // namespace warren::test

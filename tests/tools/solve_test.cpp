@@ -5,7 +5,7 @@
 
 #include "tests/tools/process.hpp"
 
-namespace warren::testing {
+namespace warren::test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -271,4 +271,4 @@ TEST(Solve, StandardInputIsAWorld) {
 }
 
 }  // namespace
-}  // namespace warren::testing
+}  // namespace warren::test

@@ -10,7 +10,7 @@
 namespace warren {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 TEST(SvgAnimation, TimeGoesOnWhereTheBodyTurnsOnTheSpot) {
   const MovingBody bar{.outline = {{-2, -0.1}, {2, -0.1}, {2, 0.1}, {-2, 0.1}},
@@ -48,7 +48,7 @@ TEST(SvgAnimation, WhatStandsStillIsNotAnimated) {
 
 }  // namespace
 
-namespace testing {
+namespace test {
 namespace {
 
 TEST(RenderAnimate, WritesAMovingBodyForPointsPolygonsAndCars) {
@@ -86,5 +86,5 @@ TEST(RenderAnimate, NeedsAnAnswerAndAPictureThatMoves) {
 }
 
 }  // namespace
-}  // namespace testing
+}  // namespace test
 }  // namespace warren

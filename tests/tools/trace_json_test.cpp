@@ -15,7 +15,7 @@
 namespace warren {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 using std::chrono::nanoseconds;
 
 /// A "complete" event in whole nanoseconds.

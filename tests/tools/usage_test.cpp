@@ -2,7 +2,7 @@
 // Command lines that nobody should get away with: each ends with its exit code and one line that says what is wrong.
 #include "tests/tools/process.hpp"
 
-namespace warren::testing {
+namespace warren::test {
 namespace {
 
 TEST(Usage, WrongWordsAreRefusedWithTheClosestMatch) {
@@ -171,4 +171,4 @@ TEST(Usage, EveryOptionOfSolveIsInHelpManualAndCompletions) {
 TEST(Usage, DoubleDashEndsTheOptions) { check({{"info", "--", "--no-such-file"}, 66, "--no-such-file"}); }
 
 }  // namespace
-}  // namespace warren::testing
+}  // namespace warren::test

@@ -13,7 +13,7 @@
 namespace warren {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double to_segment(Vec2 p, const Segment& s) {
   const Vec2 along = s.b - s.a;

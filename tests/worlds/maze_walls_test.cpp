@@ -16,7 +16,6 @@ namespace warren {
 namespace {
 
 using mazes::all_algorithms;
-using mazes::Cell;
 using mazes::distances_from;
 using mazes::drawing;
 using mazes::maze;
@@ -175,8 +174,8 @@ TEST(FloodConnects, AgreesWithBreadthFirstSearchOnRandomWalls) {
       }
     }
     for (int pair = 0; pair < 10; ++pair) {
-      const Cell a{static_cast<std::uint32_t>(rng.below(cols)), static_cast<std::uint32_t>(rng.below(rows))};
-      const Cell b{static_cast<std::uint32_t>(rng.below(cols)), static_cast<std::uint32_t>(rng.below(rows))};
+      const mazes::Cell a{static_cast<std::uint32_t>(rng.below(cols)), static_cast<std::uint32_t>(rng.below(rows))};
+      const mazes::Cell b{static_cast<std::uint32_t>(rng.below(cols)), static_cast<std::uint32_t>(rng.below(rows))};
       const bool expected = distances_from(cells, a)[std::size_t{b.first} * rows + b.second] >= 0;
       EXPECT_EQ(flood_connects(cells, a, b, {}), expected);
       connected += expected ? 1 : 0;

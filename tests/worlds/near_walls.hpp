@@ -13,7 +13,7 @@
 #include "core/rng.hpp"
 #include "core/types.hpp"
 
-namespace warren::testing_screens {
+namespace warren::test_screens {
 
 using Real = long double;
 
@@ -126,4 +126,4 @@ inline std::vector<Variant> variants(const World& w, std::uint64_t seed) {
   return all;
 }
 
-}  // namespace warren::testing_screens
+}  // namespace warren::test_screens

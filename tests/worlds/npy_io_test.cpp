@@ -43,7 +43,7 @@ std::string dictionary(const std::string& type, const std::string& shape, const 
   return "{'descr': '" + type + "', 'fortran_order': " + fortran + ", 'shape': " + shape + ", }";
 }
 
-Scene read(const TemporaryDirectory& directory, const std::string& content) {
+Scene read_array(const TemporaryDirectory& directory, const std::string& content) {
   return read_npy(InputFile(directory.write("a.npy", content), {}), {});
 }
 
@@ -51,12 +51,12 @@ TEST(Npy, ReadsFloatsAndDoublesOfEveryVersion) {
   const TemporaryDirectory directory;
   for (const char version : {'\1', '\2', '\3'}) {
     const Scene f =
-        read(directory, npy(dictionary("<f4", "(2, 4)"), bytes_of<float>({1, 2, 3, 4, 5, 6, 7, 8.5}), version));
+        read_array(directory, npy(dictionary("<f4", "(2, 4)"), bytes_of<float>({1, 2, 3, 4, 5, 6, 7, 8.5}), version));
     ASSERT_EQ(f.walls.size(), 2U);
     EXPECT_TRUE(f.walls.holds_floats());
     EXPECT_EQ(f.walls.segment(1), (Segment{{5, 6}, {7, 8.5}}));
     EXPECT_FALSE(f.maze.has_value());
-    const Scene d = read(directory, npy(dictionary("<f8", "(1, 4)"), bytes_of<double>({1, 2, 3, 0.1}), version));
+    const Scene d = read_array(directory, npy(dictionary("<f8", "(1, 4)"), bytes_of<double>({1, 2, 3, 0.1}), version));
     EXPECT_FALSE(d.walls.holds_floats());
     EXPECT_EQ(d.walls.segment(0), (Segment{{1, 2}, {3, 0.1}}));
   }
@@ -65,18 +65,22 @@ TEST(Npy, ReadsFloatsAndDoublesOfEveryVersion) {
 TEST(Npy, DoublesThatFloatsHoldAreKeptAsFloats) {
   const TemporaryDirectory directory;
   const std::string two = dictionary("<f8", "(2, 4)");
-  EXPECT_FALSE(read(directory, npy(two, bytes_of<double>({1, 2, 3, 4, 0.5, -0.25, 1e30, 0}))).walls.holds_floats());
-  EXPECT_TRUE(read(directory, npy(two, bytes_of<double>({1, 2, 3, 4, 0.5, -0.25, 0x1p60, 0}))).walls.holds_floats());
-  EXPECT_EQ(read(directory, npy(two, bytes_of<double>({1, 2, 3, 4, 0.1, 1e-101, 1, 0}))).walls.segment(1).a.y, 0.0);
+  EXPECT_FALSE(
+      read_array(directory, npy(two, bytes_of<double>({1, 2, 3, 4, 0.5, -0.25, 1e30, 0}))).walls.holds_floats());
+  EXPECT_TRUE(
+      read_array(directory, npy(two, bytes_of<double>({1, 2, 3, 4, 0.5, -0.25, 0x1p60, 0}))).walls.holds_floats());
+  EXPECT_EQ(read_array(directory, npy(two, bytes_of<double>({1, 2, 3, 4, 0.1, 1e-101, 1, 0}))).walls.segment(1).a.y,
+            0.0);
 }
 
 TEST(Npy, ReadsHeadersInOtherOrderAndQuotes) {
   const TemporaryDirectory directory;
   const std::string data = bytes_of<float>({1, 2, 3, 4});
-  EXPECT_EQ(read(directory, npy("{\"shape\":(1,4),\"fortran_order\":False,\"descr\":\"<f4\"}", data)).walls.size(), 1U);
+  EXPECT_EQ(
+      read_array(directory, npy("{\"shape\":(1,4),\"fortran_order\":False,\"descr\":\"<f4\"}", data)).walls.size(), 1U);
 }
 
-struct BadInput {
+struct BadArray {
   const char* name;
   std::string content;
   const char* expected;
@@ -85,7 +89,7 @@ struct BadInput {
 TEST(Npy, RefusesBadInputInOneLineThatNamesTheFile) {
   const std::string four = bytes_of<float>({1, 2, 3, 4});
   const std::string good = npy(dictionary("<f4", "(1, 4)"), four);
-  const BadInput cases[] = {
+  const BadArray cases[] = {
       {"empty", "", ": expected a .npy file, which begins with \\x93NUMPY"},
       {"text", "0 0 1 1\n", ": expected a .npy file, which begins with \\x93NUMPY (found: 0 0 1 1"},
       {"magic alone", "\x93NUMPY", ": expected .npy version 1, 2 or 3 (found: version 0)"},
@@ -131,10 +135,10 @@ TEST(Npy, RefusesBadInputInOneLineThatNamesTheFile) {
        ": row 0: numbers must be finite and at most 1e60"},
   };
   const TemporaryDirectory directory;
-  for (const BadInput& bad : cases) {
+  for (const BadArray& bad : cases) {
     SCOPED_TRACE(bad.name);
     try {
-      read(directory, bad.content);
+      read_array(directory, bad.content);
       ADD_FAILURE() << "accepted";
     } catch (const InputError& error) {
       const std::string expected = directory.file("a.npy") + bad.expected;

@@ -105,7 +105,7 @@ TEST(ConvexPieces, CoverAPolygonAndNothingElse) {
     for (const bool turned_round : {false, true}) {
       if (turned_round) std::reverse(outline.begin(), outline.end());
       double area = 0.0;
-      for (const ConvexPiece& piece : convex_pieces(outline)) {
+      for (const ConvexPiece& piece : outline_pieces(outline)) {
         for (std::size_t i = 0; i < piece.size(); ++i) area += cross(piece[i], piece[(i + 1) % piece.size()]) / 2;
       }
       double whole = 0.0;

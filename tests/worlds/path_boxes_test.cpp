@@ -8,9 +8,9 @@
 namespace warren {
 namespace {
 
-using testing_screens::distances_of;
-using testing_screens::random_world;
-using testing_screens::Real;
+using test_screens::distances_of;
+using test_screens::random_world;
+using test_screens::Real;
 
 TEST(PathBoxes, NoNearWallIsClear) {
   for (std::uint64_t seed = 0; seed < 24; ++seed) {

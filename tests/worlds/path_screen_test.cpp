@@ -13,10 +13,10 @@
 namespace warren {
 namespace {
 
-using testing_screens::distances_of;
-using testing_screens::random_world;
-using testing_screens::Real;
-using testing_screens::World;
+using test_screens::distances_of;
+using test_screens::random_world;
+using test_screens::Real;
+using test_screens::World;
 
 bool fits_float(const Segment& s) {
   const auto fits = [](double x) { return static_cast<double>(static_cast<float>(x)) == x; };

@@ -86,7 +86,7 @@ TEST(SceneText, TakesWallsAsTheyAre) {
   EXPECT_EQ(scene.walls.segment(4), (Segment{{0.25, 0.25}, {2, 2}}));
 }
 
-struct BadInput {
+struct BadScene {
   const char* name;
   std::string content;
   const char* expected;  ///< ":line: " and part of the message
@@ -94,7 +94,7 @@ struct BadInput {
 
 TEST(SceneText, RefusesBadInputInOneLineThatNamesFileAndLine) {
   const std::string nul("0 0 1 1\n\0\0\1 binary\n", 19);
-  const BadInput cases[] = {
+  const BadScene cases[] = {
       {"empty", "", ":1: the file is empty"},
       {"comments only", "# nothing\n\n", ":2: the file ends without any wall, polygon, sphere, box or bounds"},
       {"start only", "start 1 1\ngoal 2 2\n", ":2: the file ends without any wall"},
@@ -194,7 +194,7 @@ TEST(SceneText, RefusesBadInputInOneLineThatNamesFileAndLine) {
        ":1: expected `wall X1 Y1 X2 Y2` (found: 600000 numbers)"},
   };
   const TemporaryDirectory directory;
-  for (const BadInput& bad : cases) {
+  for (const BadScene& bad : cases) {
     SCOPED_TRACE(bad.name);
     try {
       read(directory, bad.content);

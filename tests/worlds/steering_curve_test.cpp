@@ -13,7 +13,7 @@ namespace {
 
 using body_scenes::random_pose;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Builds with sanitizers take a tenth of the pairs.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

@@ -44,6 +44,14 @@ TEST(TranslationObstacles, BlockThePointWhereTheBodyCollides) {
   }
 }
 
+// An L is two convex pieces, not the four triangles that it can be cut into.
+TEST(TranslationObstacles, AreSumsOfTheFewestPieces) {
+  const std::vector<Vec2> square = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+  Scene scene;
+  scene.polygons.push_back({{{0, 0}, {4, 0}, {4, 3}, {3, 3}, {3, 1}, {0, 1}}, 0});
+  EXPECT_EQ(translation_obstacles(scene, square, 0.0, 1e-9).polygons.size(), 2U);
+}
+
 TEST(TranslationObstacles, RefuseABodyThatIsTooLargeForTheBounds) {
   Scene scene;
   scene.bounds = Box{{0, 0}, {0.2, 5}};

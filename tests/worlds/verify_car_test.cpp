@@ -19,7 +19,7 @@ using body_scenes::hook;
 using body_scenes::random_pose;
 using body_scenes::scattered;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Scene walls(const std::vector<Segment>& segments) {
   Scene scene;
@@ -28,22 +28,22 @@ Scene walls(const std::vector<Segment>& segments) {
   return scene;
 }
 
-const VerifiedCar disc{.turning_radius = 1.0, .radius = 0.25};
+const VerifiedCar disc_car{.turning_radius = 1.0, .radius = 0.25};
 const VerifiedCar reversing{.turning_radius = 1.0, .reverses = true, .radius = 0.25};
 
 TEST(VerifyCar, MeasuresArcsAndStraightsExactly) {
   // Two ahead, a left half circle of radius 1 around (2, 1), two back; a wall begins 0.5 beyond the arc.
   const Scene scene = walls({{{3.5, 1}, {5, 1}}});
   const std::vector<Se2> path = {{0, 0, 0}, {2, 0, 0}, {3, 1, pi / 2}, {2, 2, pi}, {0, 2, pi}};
-  const auto v = verify_car(scene, disc, path, {.start = path.front(), .goal = path.back()}, {});
+  const auto v = verify_car(scene, disc_car, path, {.start = path.front(), .goal = path.back()}, {});
   EXPECT_TRUE(v.verified) << v.first_violation->obstacle;
   EXPECT_NEAR(v.length, 4.0 + pi, 1e-14);
   EXPECT_NEAR(v.turn_rad, pi, 1e-14);
   EXPECT_NEAR(v.min_clearance, 0.25, 1e-12);
   EXPECT_EQ(v.cusps, 0U);
   EXPECT_EQ(v.reversed, 0.0);
-  EXPECT_TRUE(verify_car(scene, disc, path, {.clearance = 0.2499}, {}).verified);
-  const auto tight = verify_car(scene, disc, path, {.clearance = 0.2501}, {});
+  EXPECT_TRUE(verify_car(scene, disc_car, path, {.clearance = 0.2499}, {}).verified);
+  const auto tight = verify_car(scene, disc_car, path, {.clearance = 0.2501}, {});
   ASSERT_FALSE(tight.verified);
   EXPECT_EQ(tight.first_violation->leg, 1U);
   EXPECT_NEAR(tight.first_violation->distance, 0.5, 1e-12);
@@ -69,7 +69,7 @@ TEST(VerifyCar, RefusesWhatTheCarCannotDrive) {
   };
   for (const Bad& bad : all) {
     SCOPED_TRACE(bad.name);
-    const auto v = verify_car(scene, disc, bad.path, {}, {});
+    const auto v = verify_car(scene, disc_car, bad.path, {}, {});
     ASSERT_FALSE(v.verified);
     EXPECT_EQ(v.first_violation->leg, bad.path.size() - 2);
     EXPECT_EQ(v.first_violation->obstacle.substr(0, std::string(bad.obstacle).size()), bad.obstacle);
@@ -92,7 +92,7 @@ TEST(VerifyCar, CountsGearsOfACarThatReverses) {
   EXPECT_EQ(v.cusps, 2U);
   EXPECT_NEAR(v.length, pi, 1e-14);
   EXPECT_NEAR(v.reversed, t, 1e-14);
-  EXPECT_FALSE(verify_car(walls({}), disc, path, {}, {}).verified);
+  EXPECT_FALSE(verify_car(walls({}), disc_car, path, {}, {}).verified);
 }
 
 TEST(VerifyCar, RefusesWhatIsInTheWay) {
@@ -105,8 +105,8 @@ TEST(VerifyCar, RefusesWhatIsInTheWay) {
     bool verified;
   };
   const Case all[] = {
-      {"the disc hits in the middle of an arc", {{0.6, 0.2}, {0.8, 0.2}}, disc, false},
-      {"the disc passes inside", {{0, 0.9}, {0, 1.1}}, disc, true},
+      {"the disc hits in the middle of an arc", {{0.6, 0.2}, {0.8, 0.2}}, disc_car, false},
+      {"the disc passes inside", {{0, 0.9}, {0, 1.1}}, disc_car, true},
       {"the bar's end sweeps along", {{1.2, 1.2}, {1.3, 1.1}}, bar, false},
       {"the bar's side sweeps along", {{0.55, 1.2}, {0.6, 1.25}}, bar, false},
       {"the bar passes beyond", {{1.7, 1}, {2, 1}}, bar, true},
@@ -119,12 +119,12 @@ TEST(VerifyCar, RefusesWhatIsInTheWay) {
   Scene block;
   block.bounds = Box{{-10, -10}, {10, 10}};
   block.polygons.push_back({{{-9, -9}, {9, -9}, {9, 9}, {-9, 9}}});
-  EXPECT_FALSE(verify_car(block, disc, round, {}, {}).verified);
+  EXPECT_FALSE(verify_car(block, disc_car, round, {}, {}).verified);
   Scene small;
   small.bounds = Box{{-1, -1}, {1.2, 3}};
-  EXPECT_FALSE(verify_car(small, disc, round, {}, {}).verified);
+  EXPECT_FALSE(verify_car(small, disc_car, round, {}, {}).verified);
   small.bounds = Box{{-1, -1}, {1.26, 3}};
-  EXPECT_TRUE(verify_car(small, disc, round, {}, {}).verified);
+  EXPECT_TRUE(verify_car(small, disc_car, round, {}, {}).verified);
 }
 
 TEST(VerifyCar, WithoutBoundsTheReferencePointStaysInTheObstaclesBox) {
@@ -143,14 +143,14 @@ TEST(VerifyCar, WithoutBoundsTheReferencePointStaysInTheObstaclesBox) {
 TEST(VerifyCar, RefusesOtherEndsAndBadNumbers) {
   const std::vector<Se2> path = {{0, 0, 0}, {1, 0, 0}};
   const Scene scene = walls({});
-  EXPECT_FALSE(verify_car(scene, disc, path, {.start = Se2{0, 0, 0.1}}, {}).verified);
-  EXPECT_FALSE(verify_car(scene, disc, path, {.goal = Se2{1, 0, 0.1}}, {}).verified);
-  EXPECT_TRUE(verify_car(scene, disc, path, {.goal = Se2{1, 0, 0.1}, .any_heading = true}, {}).verified);
-  EXPECT_TRUE(verify_car(scene, disc, path, {.goal = Se2{1, 0, 2 * pi}}, {}).verified);
-  EXPECT_THROW(verify_car(scene, disc, std::vector<Se2>{}, {}, {}), InputError);
-  EXPECT_THROW(verify_car(scene, disc, std::vector<Se2>{{NAN, 0, 0}}, {}, {}), InputError);
+  EXPECT_FALSE(verify_car(scene, disc_car, path, {.start = Se2{0, 0, 0.1}}, {}).verified);
+  EXPECT_FALSE(verify_car(scene, disc_car, path, {.goal = Se2{1, 0, 0.1}}, {}).verified);
+  EXPECT_TRUE(verify_car(scene, disc_car, path, {.goal = Se2{1, 0, 0.1}, .any_heading = true}, {}).verified);
+  EXPECT_TRUE(verify_car(scene, disc_car, path, {.goal = Se2{1, 0, 2 * pi}}, {}).verified);
+  EXPECT_THROW(verify_car(scene, disc_car, std::vector<Se2>{}, {}, {}), InputError);
+  EXPECT_THROW(verify_car(scene, disc_car, std::vector<Se2>{{NAN, 0, 0}}, {}, {}), InputError);
   EXPECT_THROW(verify_car(scene, {.turning_radius = 0.0}, path, {}, {}), InputError);
-  EXPECT_THROW(verify_car(scene, disc, path, {.clearance = -1.0}, {}), InputError);
+  EXPECT_THROW(verify_car(scene, disc_car, path, {.clearance = -1.0}, {}), InputError);
 }
 
 double sampled_clearance(const Scene& scene, const std::vector<Vec2>& body) {

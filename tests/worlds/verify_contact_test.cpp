@@ -185,8 +185,8 @@ bool crosses_any(const std::vector<Segment>& walls, Vec2 p, Vec2 q) {
     return side(w.a, w.b, p) != side(w.a, w.b, q) && side(p, q, w.a) != side(p, q, w.b);
   });
 }
-using Ring = std::vector<char>;
-void spread(Ring& ring, Vec2 at, const std::vector<Segment>& walls) {
+using Reached = std::vector<char>;
+void spread(Reached& ring, Vec2 at, const std::vector<Segment>& walls) {
   for (int pass = 0; pass < 2 * ring_size; ++pass) {
     for (const int step : {1, ring_size - 1}) {
       const int i = step == 1 ? pass % ring_size : ring_size - 1 - pass % ring_size;
@@ -210,7 +210,7 @@ bool can_be_moved_off(const std::vector<Segment>& walls, const std::vector<Vec2>
     std::sort(here.begin(), here.end(), [&](Vec2 p, Vec2 q) { return norm(p - s.a) < norm(q - s.a); });
     stops.insert(stops.end(), here.begin(), here.end());
   }
-  Ring ring(ring_size, 1);
+  Reached ring(ring_size, 1);
   for (int i = 0; i < ring_size && !triangle.empty(); ++i) {
     const Vec2 p = ring_point(stops[0], i);
     int left = 0;
@@ -219,7 +219,7 @@ bool can_be_moved_off(const std::vector<Segment>& walls, const std::vector<Vec2>
   }
   for (std::size_t stop = 0; stop + 1 < stops.size(); ++stop) {
     spread(ring, stops[stop], walls);
-    Ring next(ring_size, 0);
+    Reached next(ring_size, 0);
     for (int i = 0; i < ring_size; ++i) {
       for (int j = 0; j < ring_size && ring[i] != 0; ++j) {
         if (next[j] == 0 && !crosses_any(walls, ring_point(stops[stop], i), ring_point(stops[stop + 1], j)))
