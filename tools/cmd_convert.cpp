@@ -22,8 +22,7 @@ constexpr OptionSpec convert_specs[] = {
     {"--output",
      "FILE",
      "where to: .walls .scene .npy .geojson .wkt .map .yaml .pgm .svg .png .html by ending; - is standard output. A "
-     "map's "
-     ".png has a pixel a cell; of other worlds it is a picture unless --cell is given",
+     "map's .png has a pixel a cell; of other worlds it is a picture unless --cell is given",
      {},
      "-o"},
     {"--cell", "C", "side of a cell where walls become a map"},

@@ -57,8 +57,16 @@ Problem problem_of(const Scene& scene, const ProblemOptions& options) {
   return problem;
 }
 
+/// What only a body that turns takes.
+void refuse_turns(const Arguments& arguments) {
+  for (const char* option : {"--angles", "--face-motion", "--turn-cost"}) {
+    if (arguments.has(option)) throw UsageError(fmt::format("{}: a point and a disc do not turn", option));
+  }
+}
+
 LayerOptions layer_options(const SolveRequest& request, const Problem& problem) {
   LayerOptions options;
+  if (problem.robot.kind != RobotKind::polygon) refuse_turns(request.arguments);
   options.clearance = problem.clearance;
   if (request.scene.map && request.arguments.has("--cell")) {
     throw UsageError("--cell: on a map the grid's positions are the middles of its cells");
@@ -111,7 +119,6 @@ class LatticeSolve {
 
   double cost_option(std::string_view name) const {
     const auto text = request_.arguments.value(name);
-    if (text && !turns() && name == "--turn-cost") throw UsageError("--turn-cost: a point and a disc do not turn");
     return text ? positive_value(name, *text) : 1.0;
   }
 

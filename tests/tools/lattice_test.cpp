@@ -60,9 +60,21 @@ TEST(Lattice, StepsAndTurnsCostWhatIsSaid) {
     EXPECT_EQ(run({"solve", scene, "--planner", "grid", "--turn-cost", bad}).code, 2) << bad;
     EXPECT_EQ(run({"solve", scene, "--planner", "grid", "--step-cost", bad}).code, 2) << bad;
   }
-  const auto disc = run({"solve", scene, "--planner", "grid", "--robot", "disc 1", "--turn-cost", "3"});
-  EXPECT_EQ(disc.code, 2);
-  EXPECT_NE(disc.err.find("do not turn"), std::string::npos) << disc.err;
+}
+
+TEST(Lattice, ABodyThatDoesNotTurnTakesNoOptionsOfTurns) {
+  const Folder folder;
+  const std::string scene = folder.write("walls.scene", course_scene);
+  const std::vector<std::vector<std::string>> options = {{"--angles", "36"}, {"--face-motion"}, {"--turn-cost", "3"}};
+  for (const char* robot : {"point", "disc 1"}) {
+    for (const std::vector<std::string>& option : options) {
+      std::vector<std::string> command{"solve", scene, "--planner", "grid", "--robot", robot};
+      command.insert(command.end(), option.begin(), option.end());
+      const auto refused = run(command);
+      EXPECT_EQ(refused.code, 2) << robot;
+      EXPECT_NE(refused.err.find(option[0] + ": a point and a disc do not turn"), std::string::npos) << refused.err;
+    }
+  }
 }
 
 TEST(Lattice, AFourHundredthOfTheLongerSideIsTheCellThatNobodyNamed) {
@@ -140,8 +152,10 @@ TEST(Lattice, EndsOffTheGridAreJoinedToIt) {
         Case{polygons, "disc 1.5", "3.03,4.04", "36.1,3.3", 33.0},
         Case{polygons, "polygon -2 -1 2 -1 2 1 -2 1", "3.03,4.04,0.1", "36.1,3.3,2", 33.0}}) {
     SCOPED_TRACE(std::string(c.robot) + " from " + c.start);
-    const Json answer = answered({"solve", c.world, "--planner", "grid", "--cell", "1.9", "--angles", "36", "--robot",
-                                  c.robot, "--start", c.start, "--goal", c.goal});
+    std::vector<std::string> words{"solve",   c.world, "--planner", "grid",  "--cell", "1.9",
+                                   "--robot", c.robot, "--start",   c.start, "--goal", c.goal};
+    if (std::string_view(c.robot).starts_with("polygon")) words.insert(words.end(), {"--angles", "36"});
+    const Json answer = answered(words);
     EXPECT_EQ(answer["status"], "solved");
     EXPECT_EQ(answer["verified"], true);
     EXPECT_GT(answer["length"].get<double>(), c.straight);
