@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/map_planners.hpp"
 
-#include <fmt/format.h>
-
-#include <stdexcept>
-
 #include "core/error.hpp"
 #include "planners/grid_search.hpp"
 #include "spatial/distance_field.hpp"
+#include "tools/verified_answer.hpp"
 #include "worlds/moving_ai_io.hpp"
 #include "worlds/verify_map.hpp"
 
@@ -77,10 +74,7 @@ void verify_solved_on_map(Answer& answer, const OccupancyMap& map, const WallPro
   if (!verification.verified) {
     const Violation violation = verification.first_violation.value_or(Violation{});
     const bool at_an_end = violation.leg == 0 || violation.leg + 2 == answer.path.size();
-    if (!over_cells || problem.reach() == 0.0 || !at_an_end) {
-      throw std::logic_error(fmt::format("the path of {} fails its verification at leg {}: {} is {} away",
-                                         answer.planner, violation.leg, violation.obstacle, violation.distance));
-    }
+    if (!over_cells || problem.reach() == 0.0 || !at_an_end) fail_verification(answer, violation);
     answer.outcome = Outcome::not_connected;
     answer.path.clear();
     return;

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <stdexcept>
 
 #include "core/error.hpp"
 #include "planners/guided.hpp"
@@ -244,11 +243,7 @@ void ArmSolve::verify() {
   const StageTimer timer(execution(), "verify", answer_.seconds.verify, path_.size());
   const ArmVerification found =
       verify_arm(request_.scene, problem_.table, path_, problem_.verify_options(), execution());
-  if (!found.verified) {
-    const Violation violation = found.first_violation.value_or(Violation{});
-    throw std::logic_error(fmt::format("the path of {} fails its verification at leg {}: {} is {} away",
-                                       answer_.planner, violation.leg, violation.obstacle, violation.distance));
-  }
+  if (!found.verified) fail_verification(answer_, found.first_violation);
   answer_.verified = true;
   answer_.length = found.length;
   answer_.min_clearance = found.min_clearance;

@@ -3,10 +3,7 @@
 // bounds. Dubins curves have a direction: their roadmaps are planners/one_way_prm.hpp's. The answer's path has a pose
 // wherever the steering or the gear changes, and one a quarter turn, so each leg is a straight or an arc that its two
 // poses tell wholly.
-#include <fmt/format.h>
-
 #include <optional>
-#include <stdexcept>
 
 #include "core/error.hpp"
 #include "planners/lazy_prm.hpp"
@@ -177,11 +174,7 @@ void CarSolve<Curve>::verify() {
   const StageTimer timer(execution(), "verify", answer_.seconds.verify, poses_.size());
   const CarVerification verification =
       verify_car(scene(), verified_car(problem_.robot), poses_, verify_options(problem_), execution());
-  if (!verification.verified) {
-    const Violation violation = verification.first_violation.value_or(Violation{});
-    throw std::logic_error(fmt::format("the path of {} fails its verification at leg {}: {} is {} away",
-                                       answer_.planner, violation.leg, violation.obstacle, violation.distance));
-  }
+  if (!verification.verified) fail_verification(answer_, verification.first_violation);
   answer_.verified = true;
   answer_.length = verification.length;
   answer_.turn_rad = verification.turn_rad;

@@ -9,7 +9,6 @@
 #include <numbers>
 #include <optional>
 #include <set>
-#include <stdexcept>
 
 #include "core/error.hpp"
 #include "core/se2.hpp"
@@ -266,9 +265,7 @@ class LatticeSolve {
     const Se2Verification verification = judged(poses_, layer_options_.kind == LayerKind::exact);
     if (turns()) answer_.turn_rad = verification.turn_rad;
     if (!verification.verified && layer_options_.kind == LayerKind::exact) {
-      const Violation violation = verification.first_violation.value_or(Violation{});
-      throw std::logic_error(fmt::format("the path of grid fails its verification at leg {}: {} is {} away",
-                                         violation.leg, violation.obstacle, violation.distance));
+      fail_verification(answer_, verification.first_violation);
     }
     answer_.verified = verification.verified;  // report 004's discs are no promise
     answer_.length = verification.length;

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <optional>
-#include <stdexcept>
 
 #include "core/error.hpp"
 #include "planners/lazy_prm.hpp"
@@ -191,11 +190,7 @@ void TurningSolve::verify() {
   const StageTimer timer(execution(), "verify", answer_.seconds.verify, path_.size());
   const Se2Verification verification =
       verify_se2(scene(), problem_.robot.outline, path_, verify_options(problem_), execution());
-  if (!verification.verified) {
-    const Violation violation = verification.first_violation.value_or(Violation{});
-    throw std::logic_error(fmt::format("the path of {} fails its verification at leg {}: {} is {} away",
-                                       answer_.planner, violation.leg, violation.obstacle, violation.distance));
-  }
+  if (!verification.verified) fail_verification(answer_, verification.first_violation);
   answer_.verified = true;
   answer_.length = verification.length;
   answer_.turn_rad = verification.turn_rad;

@@ -2,12 +2,9 @@
 // The planner voronoi for a polygon that could turn: along the medial axis of the scene, or the skeleton of a map, with
 // the disc that holds the body in any heading, so the heading of the start serves all the way; where the goal names
 // another, the body turns when it is there. A body that fits only in some headings is not found a way: not_connected.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 #include "core/error.hpp"
 #include "core/se2.hpp"
@@ -102,11 +99,7 @@ class AxisSolve {
                                    .goal = problem_.goal_pose(),
                                    .any_heading = problem_.any_heading()};
     const Se2Verification found = verified(poses_, options);
-    if (!found.verified) {
-      const Violation violation = found.first_violation.value_or(Violation{});
-      throw std::logic_error(fmt::format("the path of {} fails its verification at leg {}: {} is {} away",
-                                         answer_.planner, violation.leg, violation.obstacle, violation.distance));
-    }
+    if (!found.verified) fail_verification(answer_, found.first_violation);
     answer_.length = found.length;
     answer_.turn_rad = found.turn_rad;
     answer_.min_clearance = found.min_clearance;

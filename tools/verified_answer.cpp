@@ -57,15 +57,17 @@ void settle_blocked_ends(Answer& answer, const Scene& scene, const WallProblem& 
   if (start || goal) answer.outcome = Outcome::not_connected;
 }
 
+void fail_verification(const Answer& answer, const std::optional<Violation>& found) {
+  const Violation violation = found.value_or(Violation{});
+  throw std::logic_error(fmt::format("the path of {} fails its verification at leg {}: {} is {} away", answer.planner,
+                                     violation.leg, violation.obstacle, violation.distance));
+}
+
 void verify_solved(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution) {
   if (answer.outcome != Outcome::solved) return;
   const StageTimer timer(execution, "verify", answer.seconds.verify, answer.path.size() + scene.walls.size());
   const Verification verification = verify_path(scene, answer.path, verify_options(problem), execution);
-  if (!verification.verified) {
-    const Violation violation = verification.first_violation.value_or(Violation{});
-    throw std::logic_error(fmt::format("the path of {} fails its verification at leg {}: {} is {} away", answer.planner,
-                                       violation.leg, violation.obstacle, violation.distance));
-  }
+  if (!verification.verified) fail_verification(answer, verification.first_violation);
   answer.verified = true;
   answer.length = verification.length;
   answer.min_clearance = verification.min_clearance - problem.robot.radius;

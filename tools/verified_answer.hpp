@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <new>
+#include <optional>
 
 #include "core/solution.hpp"
 #include "parallel/execution.hpp"
@@ -13,6 +14,7 @@
 #include "tools/problem.hpp"
 #include "tools/solve_kind.hpp"
 #include "worlds/scene.hpp"
+#include "worlds/verify.hpp"
 
 namespace warren {
 
@@ -24,6 +26,9 @@ void take_solution(Answer& answer, Solution<Vec2> solution);
 
 /// Planning keeps 1e-9 more room than it must, so a body that fits exactly is no blocked one: nobody proved that.
 void settle_blocked_ends(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution);
+
+/// A planner's path that its judge refuses is a bug: throws std::logic_error with what the judge found.
+[[noreturn]] void fail_verification(const Answer& answer, const std::optional<Violation>& found);
 
 /// Verifies the path of a solved answer and fills in length and clearance. A path that fails is a bug: throws
 /// std::logic_error.

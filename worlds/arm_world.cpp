@@ -26,8 +26,11 @@ double checked_positive(const char* name, double value) {
 Spine spine_of(const ChainPosture& at, const ArmLink& link) { return {at.points[link.from], at.points[link.to]}; }
 
 /// The part of a piece that keeps a way within `room`, where the way shrinks with the part at least in proportion; 1:
-/// all of the piece.
-double part_within(double room, double way) { return room > way ? 1.0 : (1.0 - 1e-9) * room / way; }
+/// all of the piece, 0: none of it, so where there is neither room nor way.
+double part_within(double room, double way) {
+  if (room > way) return 1.0;
+  return way > 0.0 ? (1.0 - 1e-9) * room / way : 0.0;
+}
 
 }  // namespace
 
