@@ -51,6 +51,15 @@ class MotionTree {
     if (!is_free) return std::nullopt;
     return add(state, from);
   }
+  /// Grows one motion from `from` all the way to `to`: its vertex, or nothing where the motion is not free.
+  std::optional<VertexId> join(VertexId from, const State& to, typename W::Query& query, Counters& counters) {
+    ++counters.edges_checked;
+    const bool forward = direction_ == GrowthDirection::forward;
+    const bool is_free = forward ? world_->is_free_motion(states_[from], to, query)
+                                 : world_->is_free_motion(to, states_[from], query);
+    if (!is_free) return std::nullopt;
+    return add(to, from);
+  }
   /// Grows from `from` towards `to` step by step: the last vertex, which stands at `to` where nothing is in the way.
   VertexId connect(VertexId from, const State& to, double step, typename W::Query& query, Counters& counters) {
     while (!(states_[from] == to)) {

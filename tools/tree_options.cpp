@@ -34,6 +34,7 @@ RrtOptions tree_options(const Arguments& arguments) {
     throw UsageError(fmt::format("--sampler: {} is for roadmaps; trees take the others", name_of(*sampler)));
   }
   options.sampler = sampler;
+  options.places = !arguments.has("--optimise");  // trees find ways of more kinds, of which the best is wanted
   if (const auto text = arguments.value("--step")) options.step = positive_value("--step", *text);
   if (const auto text = arguments.value("--goal-bias"))
     options.goal_bias = number_value("--goal-bias", *text, 0.0, 1.0);

@@ -4,16 +4,19 @@
 #include "worlds/obstacle_tree.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "parallel/execution.hpp"
+#include "worlds/place_marking.hpp"
 
 namespace warren {
 namespace {
 
 /// Kept from lines, as a share of the body's size: nearer than that a path could hardly be verified.
 constexpr double spare = 1e-5;
+constexpr std::size_t most_sides = 16;  ///< of a convex polygon
 
 BoxOf<2> box_of_body(const Box& box) { return {{box.min.x, box.min.y}, {box.max.x, box.max.y}}; }
 
@@ -57,7 +60,6 @@ enum class Turning : std::uint8_t { left, right, neither };
 /// Do the corners all turn the same way or go straight on, once around in all, with sides that are neither without
 /// length nor too many?
 Turning turning_of(std::span<const Vec2> corners) {
-  constexpr std::size_t most_sides = 16;
   if (corners.size() > most_sides) return Turning::neither;
   double least = 0.0;
   double most = 0.0;
@@ -303,6 +305,21 @@ Room ObstacleTree::room(const Footprint& body, const Move& move, double reach) c
     return end_at(swallowed ? 0.0 : std::sqrt(distance_sq(body, side)));
   });
   return room != Room::blocked && swallows(body) ? Room::blocked : room;
+}
+
+void ObstacleTree::take_blocked_places(std::span<const Vec2> mirrored_body, double reach, PlaceGrid& free) const {
+  std::array<Vec2, most_sides> corners;
+  for (const ConvexPolygon& polygon : convex_) {
+    const std::size_t count = polygon.last - polygon.first;
+    const ConvexSide* sides = convex_sides_.data() + polygon.first;
+    const bool clockwise = cross(sides->side.along, sides->outward) > 0.0;
+    for (std::size_t i = 0; i < count; ++i) corners[clockwise ? count - 1 - i : i] = sides[i].side.a;
+    warren::take_blocked_places(std::span(corners).first(count), mirrored_body, reach, free);
+  }
+  for (const Side& side : sides_) {
+    const std::array<Vec2, 2> ends{side.a, side.a + side.along};
+    warren::take_blocked_places(ends, mirrored_body, reach, free);
+  }
 }
 
 std::size_t ObstacleTree::bytes() const {

@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "core/place_grid.hpp"
 #include "core/types.hpp"
 #include "spatial/box_tree.hpp"
 #include "worlds/scene.hpp"
@@ -71,6 +72,12 @@ class ObstacleTree {
   /// more than that away for the whole move, for it is farther away than it travels, or a line along a side of the
   /// obstacle stays between the two, as far as the body's velocities and bends let it come. All up to rounding.
   Room room(const Footprint& body, const Move& move, double reach) const;
+
+  /// Convex obstacles, and sides of the others.
+  std::size_t piece_count() const { return convex_.size() + sides_.size(); }
+  /// Takes the bits of places away at which a convex body, mirrored at its reference point, would come nearer than
+  /// `reach` to an obstacle (worlds/place_marking.hpp); of polygons that aren't convex, to a side.
+  void take_blocked_places(std::span<const Vec2> mirrored_body, double reach, PlaceGrid& free) const;
 
   const std::optional<Box>& bounds() const { return bounds_; }
   /// The box of walls and polygons; empty without any.

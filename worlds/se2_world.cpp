@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "worlds/confined_pose.hpp"
+#include "worlds/convex_pieces.hpp"
 
 namespace warren {
 namespace {
@@ -62,6 +63,29 @@ Se2 Se2World::corridor_state(std::uint64_t seed, std::uint64_t index) const {
   if (!corridors_ || corridors_->empty()) return state;
   const Vec2 p = corridors_->at(seed, index);
   return {p.x, p.y, state.theta};
+}
+
+PlaceGrid Se2World::free_places(const State& a) const {
+  constexpr std::size_t most_pieces = 256;
+  if (tree_.piece_count() > most_pieces) return {};
+  const Rotation turned(a.theta);
+  std::vector<Vec2> mirrored;
+  mirrored.reserve(outline_.size());
+  Box body;
+  for (const Vec2 p : outline_) {
+    const Vec2 arm = turned(p);
+    body.include(arm);
+    mirrored.push_back(Vec2{} - arm);
+  }
+  Box places = box_;
+  if (tree_.bounds()) {
+    const Box wide = body.grown(planning_clearance_);
+    places = {box_.min - wide.min, box_.max - wide.max};
+  }
+  if (places.empty()) return {};
+  PlaceGrid free = PlaceGrid::over(places);
+  tree_.take_blocked_places(convex_hull(std::move(mirrored)), planning_clearance_, free);
+  return free;
 }
 
 /// Is the body where it may be, if it touches no obstacle?
