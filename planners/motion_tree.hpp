@@ -55,8 +55,8 @@ class MotionTree {
   std::optional<VertexId> join(VertexId from, const State& to, typename W::Query& query, Counters& counters) {
     ++counters.edges_checked;
     const bool forward = direction_ == GrowthDirection::forward;
-    const bool is_free = forward ? world_->is_free_motion(states_[from], to, query)
-                                 : world_->is_free_motion(to, states_[from], query);
+    const bool is_free =
+        forward ? world_->is_free_motion(states_[from], to, query) : world_->is_free_motion(to, states_[from], query);
     if (!is_free) return std::nullopt;
     return add(to, from);
   }

@@ -99,7 +99,7 @@ TEST(RrtConnect, GoesOverFreePlacesBeforeAnythingIsDrawn) {
       const auto solution = rrt_connect(world, ends[0], std::span(&ends[1], 1), {.seed = 3}, {});
       ASSERT_EQ(solution.outcome, Outcome::solved);
       expect_verified(scene, kite, solution.path, {.start = ends[0], .goal = ends[1]});
-      if (turn == 0.0) {
+      if (turn == 0.0 && !backwards) {  // backwards the way cuts a corner, and trees go on from what was free of it
         EXPECT_EQ(solution.counters.samples, 0U);
       }
       EXPECT_LT(solution.counters.edges_checked, 60U);
