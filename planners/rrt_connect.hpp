@@ -45,7 +45,7 @@ class RrtConnectSearch {
   }
 
   void advance(std::uint64_t steps, const Execution& execution) {
-    if (!begun_) try_places();
+    if (!begun_ && !gave_up()) try_places();
     begun_ = true;
     for (std::uint64_t i = 0; i < steps && !arrived() && !gave_up(); ++i) {
       execution.check();
