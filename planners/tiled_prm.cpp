@@ -60,6 +60,7 @@ class TiledPlan {
   const TileGrid grid_;
   const double clearance_;
   std::optional<WallPartition> partition_;
+  Box box_;
   OverlayEnds ends_;
   std::vector<TileSummary> tiles_;
   std::optional<Overlay> overlay_;
@@ -70,11 +71,12 @@ void TiledPlan::partition() {
   const StageTimer timer(execution_, "index", solution_.seconds.index, 2 * problem_.walls.size());
   const double halo = 1.0 + clearance_ * (1 + 1e-9) + 0.01;  // an edge's length, its clearance, and rounding
   partition_.emplace(problem_.walls, problem_.more_walls, grid_, halo, execution_);
+  box_ = problem_.box.value_or(partition_->box());
 }
 
 /// Start and goal: false if one of them is blocked.
 bool TiledPlan::join_ends() {
-  const LatticeWorld world{grid_, problem_.walls, problem_.more_walls, *partition_, problem_.box, clearance_};
+  const LatticeWorld world{grid_, problem_.walls, problem_.more_walls, *partition_, box_, clearance_};
   ends_.start = end_links(world, problem_.start);
   ends_.goal = end_links(world, problem_.goal);
   ends_.direct =
@@ -102,7 +104,7 @@ void TiledPlan::reduce_tiles() {
     TilePlane plane(grid_, marker.margin());
     TileReduction reduction(plane);
     for (std::size_t tile = r.first; tile < r.last; ++tile) {
-      plane.reset(tile, problem_.box);
+      plane.reset(tile, box_);
       marker.mark(partition_->of(tile), plane);
       keep_linked(plane);
       tiles_[tile] = reduction.reduce(plane);
@@ -145,7 +147,7 @@ void TiledPlan::measure_gap() {
   partition();
   const int margin = WallMarker(clearance_).margin();
   const auto remake = [&](std::size_t tile, TilePlane& plane) {
-    plane.reset(tile, problem_.box);
+    plane.reset(tile, box_);
     WallMarker(clearance_).mark(partition_->of(tile), plane);
   };
   solution_.separation = tile_separation(*overlay_, grid_, tiles_, ends_, {margin, remake}, execution_);

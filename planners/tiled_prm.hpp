@@ -18,6 +18,7 @@
 // values.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "core/solution.hpp"
@@ -32,7 +33,7 @@ namespace warren {
 struct TiledProblem {
   const WallSet& walls;
   std::span<const Segment> more_walls;  ///< a few beside the set: the bounds
-  Box box;                              ///< the reference point stays in it
+  std::optional<Box> box;               ///< the reference point stays in it; if none, in that of the walls
   double clearance = 0.0;               ///< >= 0; planned with r (1 + 1e-9), as MazeWorld does
   Vec2 start;
   Vec2 goal;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "core/error.hpp"
 #include "parallel/chunks.hpp"
@@ -43,6 +44,32 @@ Units units_of(const DoubleWall& w) {
   const __m128i high = half(&w.x2, whole);
   return {_mm_unpacklo_epi64(low, high), whole == 6};
 }
+
+/// The box of the walls that it has been shown.
+class GrowingBox {
+ public:
+  void include(const FloatWall& w) {
+    const __m128 ends = _mm_loadu_ps(&w.x1);
+    low_ = _mm_min_ps(low_, ends);
+    high_ = _mm_max_ps(high_, ends);
+  }
+  void include(const DoubleWall& w) { doubles_.include(box_of(w.segment())); }
+  Box box() const {
+    Box box = doubles_;
+    alignas(16) float low[4];
+    alignas(16) float high[4];
+    _mm_store_ps(low, low_);
+    _mm_store_ps(high, high_);
+    box.include({{std::min(low[0], low[2]), std::min(low[1], low[3])},
+                 {std::max(high[0], high[2]), std::max(high[1], high[3])}});
+    return box;
+  }
+
+ private:
+  __m128 low_ = _mm_set1_ps(std::numeric_limits<float>::infinity());
+  __m128 high_ = _mm_set1_ps(-std::numeric_limits<float>::infinity());
+  Box doubles_;
+};
 
 /// Into which tiles a wall goes, and in which form.
 class Filer {
@@ -164,19 +191,27 @@ class Places {
 /// Chunks of at least 65536 walls, at most 256 of them: so that their counts stay small beside the walls.
 std::size_t grain_of(std::size_t walls) { return std::max<std::size_t>(65536, (walls + 255) / 256); }
 
+/// Returns the walls' box.
 template <class T>
-void count(std::span<const WallOf<T>> walls, const Filer& filer, std::size_t tiles, Places& places,
-           const Execution& execution) {
+Box count(std::span<const WallOf<T>> walls, const Filer& filer, std::size_t tiles, Places& places,
+          const Execution& execution) {
   const std::size_t grain = grain_of(walls.size());
+  std::vector<Box> boxes(chunk_count(walls.size(), grain));
   for_chunks(walls.size(), grain, execution, [&](Range r) {
     std::uint32_t* narrow = places.narrow(r.first / grain);
     std::uint32_t* wide = places.wide(r.first / grain);
     std::fill(narrow, narrow + 2 * tiles, 0U);
+    GrowingBox box;
     for (std::size_t i = r.first; i < r.last; ++i) {
+      box.include(walls[i]);
       filer.file(
           walls[i], [&](std::size_t tile, __m128i) { ++narrow[tile]; }, [&](std::size_t tile) { ++wide[tile]; });
     }
+    boxes[r.first / grain] = box.box();
   });
+  Box all;
+  for (const Box& box : boxes) all.include(box);
+  return all;
 }
 
 /// Middle of each column (or row) of tiles, in steps.
@@ -220,7 +255,7 @@ WallPartition::WallPartition(const WallSet& walls, std::span<const Segment> more
     const std::size_t chunks = chunk_count(given.size(), grain_of(given.size()));
     execution.reserve(2 * chunks * grid.count() * sizeof(std::uint32_t));
     Places places(chunks, grid.count());
-    count(given, filer, grid.count(), places, execution);
+    box_ = count(given, filer, grid.count(), places, execution);
     first_narrow_ = places.narrow_places();
     first_wide_ = places.wide_places();
     execution.reserve(first_narrow_.back() * sizeof(NarrowWall) + first_wide_.back() * sizeof(WallOf<T>));

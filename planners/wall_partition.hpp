@@ -52,8 +52,11 @@ class WallPartition {
                 const Execution& execution);
 
   TileWalls of(std::size_t tile) const;
+  /// Of the set's walls.
+  const Box& box() const { return box_; }
 
  private:
+  Box box_;
   RawVector<std::uint32_t> first_narrow_;  // places of tile t: first_narrow_[t] .. first_narrow_[t + 1] - 1
   RawVector<std::uint32_t> first_wide_;
   RawVector<NarrowWall> narrow_;

@@ -70,14 +70,8 @@ void WallSolve::plan(Roadmap<Vec2>* keep) {
 }
 
 Solution<Vec2> WallSolve::plan_tiles() {
-  Box box;
-  std::vector<Segment> bounds;
-  {
-    const StageTimer timer(execution_, "index", answer_.seconds.index, scene_.walls.size());
-    box = scene_.bounds ? *scene_.bounds : obstacle_box(scene_, execution_);
-    bounds = bounds_walls(scene_);
-  }
-  const TiledProblem problem{scene_.walls, bounds, box, problem_.reach(), problem_.start, problem_.goal};
+  const std::vector<Segment> bounds = bounds_walls(scene_);
+  const TiledProblem problem{scene_.walls, bounds, scene_.bounds, problem_.reach(), problem_.start, problem_.goal};
   return tiled_prm(problem, options_.roadmap, execution_);
 }
 

@@ -8,7 +8,7 @@
 namespace warren {
 
 LegBoxes::LegBoxes(std::span<const Vec2> path, const Execution& execution) : path_(path) {
-  constexpr std::size_t grain = 8192;
+  constexpr std::size_t grain = 1024;  // blocks: so that long paths fill all threads
   std::vector<Box> blocks((leg_count() + 7) / 8);
   execution.reserve(blocks.size() * sizeof(Box));
   std::vector<double> lengths(chunk_count(blocks.size(), grain));

@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "parallel/chunks.hpp"
 #include "worlds/contact_walk.hpp"
 #include "worlds/exact_segments.hpp"
+#include "worlds/leg_boxes.hpp"
 #include "worlds/obstacles.hpp"
 #include "worlds/verify_comparison.hpp"
 #include "worlds/verify_obstacles.hpp"
@@ -25,16 +27,21 @@ constexpr std::size_t goal_number = box_number + 1;
 class Verifier {
  public:
   Verifier(const Scene& scene, std::span<const Vec2> path, const VerifyOptions& options, const Execution& execution)
-      : scene_(scene), path_(path), options_(options), execution_(execution), obstacles_(scene) {}
+      : scene_(scene),
+        path_(path),
+        options_(options),
+        execution_(execution),
+        legs_(path, execution),
+        obstacles_(scene) {}
 
   Verification run() {
-    Tally tally = compare_obstacles(scene_, obstacles_, path_, options_, execution_);
+    Tally tally = compare_obstacles(scene_, obstacles_, legs_, options_, execution_);
     check_contacts(tally);
     check_insides(tally);
     check_box(tally);
     check_goal(tally);
     Verification result;
-    for (std::size_t i = 0; i < leg_count(); ++i) result.length += norm(path_[i + 1] - path_[i]);
+    result.length = legs_.length();
     result.min_clearance = tally.least;
     result.first_violation = start_violation();
     if (!result.first_violation && tally.violation != no_violation) result.first_violation = describe(tally);
@@ -43,7 +50,7 @@ class Verifier {
   }
 
  private:
-  std::size_t leg_count() const { return path_.size() - 1; }
+  std::size_t leg_count() const { return legs_.leg_count(); }
 
   Box frame(const Tally& tally) const { return scene_.bounds ? *scene_.bounds : tally.box; }
 
@@ -72,6 +79,7 @@ class Verifier {
   void check_box(Tally& tally) {
     box_ = frame(tally);
     if (box_.empty()) return;  // no obstacle, no bounds: nothing confines the path
+    if (box_.contains(legs_.box().min) && box_.contains(legs_.box().max)) return;
     for (std::size_t i = 0; i < path_.size(); ++i) {
       if (box_.contains(path_[i])) continue;
       tally.violation = std::min(tally.violation, LegContact{i == 0 ? 0 : i - 1, box_number});
@@ -114,17 +122,30 @@ class Verifier {
   std::span<const Vec2> path_;
   const VerifyOptions& options_;
   const Execution& execution_;
+  const LegBoxes legs_;
   Obstacles obstacles_;
   Box box_;
 };
 
-void check_input(std::span<const Vec2> path, const VerifyOptions& options) {
+/// The first point whose coordinates are not numbers or too large; the path's size, if there is none.
+std::size_t first_misfit(std::span<const Vec2> path, const Execution& execution) {
+  constexpr std::size_t grain = std::size_t{1} << 14;
+  std::vector<std::size_t> first(chunk_count(path.size(), grain), path.size());
+  for_chunks(path.size(), grain, execution, [&](Range r) {
+    const auto fits = [](Vec2 p) { return std::abs(p.x) <= largest_coordinate && std::abs(p.y) <= largest_coordinate; };
+    const auto part = path.subspan(r.first, r.size());
+    const auto misfit = std::find_if_not(part.begin(), part.end(), fits);
+    if (misfit != part.end()) first[r.first / grain] = r.first + static_cast<std::size_t>(misfit - part.begin());
+  });
+  return *std::min_element(first.begin(), first.end());
+}
+
+void check_input(std::span<const Vec2> path, const VerifyOptions& options, const Execution& execution) {
   constexpr std::size_t most_legs = 500'000'000;  // so that legs, and their runs in cells, can be numbered in 32 bits
   if (path.empty()) throw InputError("path", "has no points");
   if (path.size() > most_legs + 1) throw InputError("path", "more than 500 million legs can't be verified");
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    const bool fits = std::abs(path[i].x) <= largest_coordinate && std::abs(path[i].y) <= largest_coordinate;
-    if (!fits) throw InputError(fmt::format("path point {}", i), "expected finite coordinates of at most 1e60");
+  if (const std::size_t i = first_misfit(path, execution); i < path.size()) {
+    throw InputError(fmt::format("path point {}", i), "expected finite coordinates of at most 1e60");
   }
   if (!(options.clearance >= 0.0) || !(options.clearance <= largest_coordinate)) {
     throw InputError("clearance", "expected a finite number >= 0", fmt::format("{}", options.clearance));
@@ -138,7 +159,7 @@ void check_input(std::span<const Vec2> path, const VerifyOptions& options) {
 
 Verification verify_path(const Scene& scene, std::span<const Vec2> path, const VerifyOptions& options,
                          const Execution& execution) {
-  check_input(path, options);
+  check_input(path, options, execution);
   if (path.size() > 1) return Verifier(scene, path, options, execution).run();
   const Vec2 twice[] = {path.front(), path.front()};
   return Verifier(scene, twice, options, execution).run();

@@ -24,13 +24,13 @@ constexpr std::size_t sample_stride = 32 * sample_block;
 /// One such comparison in progress.
 class ObstaclePass {
  public:
-  ObstaclePass(const Scene& scene, const Obstacles& obstacles, std::span<const Vec2> path, const VerifyOptions& options,
+  ObstaclePass(const Scene& scene, const Obstacles& obstacles, const LegBoxes& legs, const VerifyOptions& options,
                const Execution& execution)
       : scene_(scene),
         options_(options),
         execution_(execution),
         obstacles_(obstacles),
-        legs_(path, execution),
+        legs_(legs),
         half_wall_(typical_wall()) {}
 
   Tally run() {
@@ -76,36 +76,44 @@ class ObstaclePass {
     return *middle;
   }
 
-  /// Calls visit(first, last) for some runs of obstacles, a 64th of all.
-  template <class Visit>
-  void for_some(const Visit& visit) const {
+  /// Some runs of obstacles, a 64th of all at most.
+  std::vector<Range> some() const {
     constexpr std::size_t most_runs = 64;
     constexpr std::size_t run = 64;  // obstacles in a row
     const std::size_t count = obstacles_.size();
-    const std::size_t runs = std::clamp<std::size_t>(count / (64 * run), 1, most_runs);
+    const std::size_t runs = std::clamp<std::size_t>(count / (64 * run), std::min<std::size_t>(count, 1), most_runs);
     const std::size_t length = std::min(run, count / 64 + 1);
-    for (std::size_t i = 0; i < runs && count > 0; ++i) visit(count / runs * i, count / runs * i + length);
+    std::vector<Range> ranges;
+    for (std::size_t i = 0; i < runs; ++i) ranges.push_back({count / runs * i, count / runs * i + length});
+    return ranges;
   }
 
   /// A distance from the path that some obstacle has: nothing beyond it matters for the least one.
   double least_of_some() const {
-    Comparison comparison(legs_, options_, infinity);
-    for_some([&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) comparison.with_all_legs(obstacles_.segment(i), i);
-    });
-    return comparison.take().least;
+    const std::vector<Range> runs = some();
+    if (runs.empty()) return infinity;
+    const auto compare_run = [&](Comparison& comparison, std::size_t run) {
+      for (std::size_t i = runs[run].first; i < runs[run].last; ++i) {
+        comparison.with_all_legs(obstacles_.segment(i), i);
+      }
+    };
+    Comparison first(legs_, options_, infinity);
+    compare_run(first, 0);
+    const double bound = first.take().least;  // so that every chunk starts with a good one
+    const auto compare_next = [&](Comparison& comparison, std::size_t i) { compare_run(comparison, i + 1); };
+    return std::min(bound, tally_of(runs.size() - 1, 8, bound, compare_next).least);
   }
 
   /// About so many obstacles the screen will leave.
   std::size_t expected_rest(const PathScreen& screen) const {
     PathScreen::Rest rest;
     std::size_t asked = 0;
-    for_some([&](std::size_t first, std::size_t last) {
-      std::vector<DoubleWall> some;
-      for (std::size_t i = first; i < last; ++i) some.push_back(wall_of(obstacles_.segment(i)));
-      screen.sift(some, first, rest);
-      asked += some.size();
-    });
+    for (const Range& run : some()) {
+      std::vector<DoubleWall> walls;
+      for (std::size_t i = run.first; i < run.last; ++i) walls.push_back(wall_of(obstacles_.segment(i)));
+      screen.sift(walls, run.first, rest);
+      asked += walls.size();
+    }
     return asked == 0 ? 0 : rest.doubtful.size() * (obstacles_.size() / asked);
   }
 
@@ -242,15 +250,15 @@ class ObstaclePass {
   const VerifyOptions& options_;
   const Execution& execution_;
   const Obstacles& obstacles_;
-  LegBoxes legs_;
+  const LegBoxes& legs_;
   double half_wall_;
 };
 
 }  // namespace
 
-Tally compare_obstacles(const Scene& scene, const Obstacles& obstacles, std::span<const Vec2> path,
+Tally compare_obstacles(const Scene& scene, const Obstacles& obstacles, const LegBoxes& legs,
                         const VerifyOptions& options, const Execution& execution) {
-  return ObstaclePass(scene, obstacles, path, options, execution).run();
+  return ObstaclePass(scene, obstacles, legs, options, execution).run();
 }
 
 }  // namespace warren

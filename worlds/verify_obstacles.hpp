@@ -5,10 +5,8 @@
 // the legs are searched by their boxes.
 #pragma once
 
-#include <span>
-
-#include "core/types.hpp"
 #include "parallel/execution.hpp"
+#include "worlds/leg_boxes.hpp"
 #include "worlds/obstacles.hpp"
 #include "worlds/scene.hpp"
 #include "worlds/verify.hpp"
@@ -16,9 +14,9 @@
 
 namespace warren {
 
-/// The tally of all walls and of the sides of polygons and bounds; its box is that of walls and polygons. path: at
-/// least two points. The same for any number of threads.
-Tally compare_obstacles(const Scene& scene, const Obstacles& obstacles, std::span<const Vec2> path,
+/// The tally of all walls and of the sides of polygons and bounds; its box is that of walls and polygons. The same for
+/// any number of threads.
+Tally compare_obstacles(const Scene& scene, const Obstacles& obstacles, const LegBoxes& legs,
                         const VerifyOptions& options, const Execution& execution);
 
 }  // namespace warren
