@@ -153,5 +153,12 @@ void return_pages(void* block, std::size_t bytes) noexcept {
   ::munmap(block, whole);
 }
 
+void prefer_huge_pages(void* block, std::size_t bytes) noexcept {
+  const auto begin = reinterpret_cast<std::uintptr_t>(block);
+  const std::uintptr_t first = whole_pages(begin);
+  const std::uintptr_t last = (begin + bytes) / huge_page * huge_page;
+  if (first < last) ::madvise(static_cast<char*>(block) + (first - begin), last - first, MADV_HUGEPAGE);
+}
+
 }  // namespace detail
 }  // namespace warren

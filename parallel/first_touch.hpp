@@ -8,15 +8,15 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/page_pool.hpp"
 #include "core/raw_vector.hpp"
 #include "parallel/chunks.hpp"
 
 namespace warren {
 
 namespace detail {
-inline void touch_pages(volatile char* bytes, std::size_t count, const Execution& execution) {
+inline void touch_pages(volatile char* bytes, std::size_t count, std::size_t grain, const Execution& execution) {
   constexpr std::size_t page = 4096;
-  constexpr std::size_t grain = std::size_t{1} << 21;
   Execution quiet = execution;
   quiet.progress = nullptr;
   for_chunks(count, grain, quiet, [&](Range r) {
@@ -29,7 +29,8 @@ inline void touch_pages(volatile char* bytes, std::size_t count, const Execution
 template <class T>
 void touch_first(RawVector<T>& block, const Execution& execution) {
   static_assert(std::is_trivially_copyable_v<T>);
-  detail::touch_pages(reinterpret_cast<volatile char*>(block.data()), block.size() * sizeof(T), execution);
+  constexpr std::size_t huge_page = std::size_t{1} << 21;
+  detail::touch_pages(reinterpret_cast<volatile char*>(block.data()), block.size() * sizeof(T), huge_page, execution);
 }
 
 /// Makes an empty vector's room for `count` elements, and touches it: filling it is then quick for one thread. Throws
@@ -39,7 +40,9 @@ void reserve_touched(std::vector<T>& empty, std::size_t count, const Execution& 
   static_assert(std::is_trivially_copyable_v<T>);
   execution.reserve(count * sizeof(T));
   empty.reserve(count);
-  detail::touch_pages(reinterpret_cast<volatile char*>(empty.data()), count * sizeof(T), execution);
+  detail::prefer_huge_pages(empty.data(), count * sizeof(T));
+  constexpr std::size_t many_pages = std::size_t{1} << 17;
+  detail::touch_pages(reinterpret_cast<volatile char*>(empty.data()), count * sizeof(T), many_pages, execution);
 }
 
 }  // namespace warren
