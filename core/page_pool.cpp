@@ -160,5 +160,18 @@ void prefer_huge_pages(void* block, std::size_t bytes) noexcept {
   if (first < last) ::madvise(static_cast<char*>(block) + (first - begin), last - first, MADV_HUGEPAGE);
 }
 
+bool populate_pages([[maybe_unused]] void* block, [[maybe_unused]] std::size_t bytes) noexcept {
+#ifdef MADV_POPULATE_WRITE
+  constexpr std::size_t page = 4096;
+  const auto begin = reinterpret_cast<std::uintptr_t>(block);
+  const std::uintptr_t first = (begin + page - 1) / page * page;
+  const std::uintptr_t last = (begin + bytes) / page * page;
+  return first >= last ||
+         ::madvise(static_cast<char*>(block) + (first - begin), last - first, MADV_POPULATE_WRITE) == 0;
+#else
+  return false;
+#endif
+}
+
 }  // namespace detail
 }  // namespace warren

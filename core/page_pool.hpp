@@ -10,7 +10,7 @@
 
 namespace warren {
 
-/// While one of these lives, the large blocks (4 MiB and more) that its thread releases keep their pages, and the large
+/// While one of these lives, the large blocks (1 MiB and more) that its thread releases keep their pages, and the large
 /// blocks that its thread allocates are made of them as far as they go; the last one to end gives the pages back. Other
 /// threads are not concerned. Made and ended on the same thread, in nested order.
 class PagePool {
@@ -33,6 +33,9 @@ void* take_pages(std::size_t bytes);
 void return_pages(void* block, std::size_t bytes) noexcept;
 /// Asks the system to back the whole huge pages within any block by such; a hint.
 void prefer_huge_pages(void* block, std::size_t bytes) noexcept;
+/// Makes the system find the whole pages within a block now, without a trap for each; contents stay. False where it
+/// can't do that.
+bool populate_pages(void* block, std::size_t bytes) noexcept;
 }  // namespace detail
 
 }  // namespace warren

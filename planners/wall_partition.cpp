@@ -188,8 +188,8 @@ class Places {
   RawVector<std::uint32_t> entries_;
 };
 
-/// Chunks of at least 65536 walls, at most 256 of them: so that their counts stay small beside the walls.
-std::size_t grain_of(std::size_t walls) { return std::max<std::size_t>(65536, (walls + 255) / 256); }
+/// Chunks of at least 16384 walls, at most 256 of them: so that their counts stay small beside the walls.
+std::size_t grain_of(std::size_t walls) { return std::max<std::size_t>(16384, (walls + 255) / 256); }
 
 /// Returns the walls' box.
 template <class T>

@@ -9,7 +9,7 @@ namespace warren {
 
 LegBoxes::LegBoxes(std::span<const Vec2> path, const Execution& execution) : path_(path) {
   constexpr std::size_t grain = 1024;  // blocks: so that long paths fill all threads
-  std::vector<Box> blocks((leg_count() + 7) / 8);
+  RawVector<Box> blocks((leg_count() + 7) / 8);
   execution.reserve(blocks.size() * sizeof(Box));
   std::vector<double> lengths(chunk_count(blocks.size(), grain));
   for_chunks(blocks.size(), grain, execution, [&](Range r) {
@@ -30,8 +30,8 @@ LegBoxes::LegBoxes(std::span<const Vec2> path, const Execution& execution) : pat
   for (const double length : lengths) length_ += length;
   levels_.push_back(std::move(blocks));
   while (levels_.back().size() > 1) {
-    const std::vector<Box>& parts = levels_.back();
-    std::vector<Box> wholes((parts.size() + 7) / 8);
+    const RawVector<Box>& parts = levels_.back();
+    RawVector<Box> wholes((parts.size() + 7) / 8);
     for (std::size_t i = 0; i < parts.size(); ++i) wholes[i / 8].include(parts[i]);
     levels_.push_back(std::move(wholes));
   }

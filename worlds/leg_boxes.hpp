@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "core/raw_vector.hpp"
 #include "core/types.hpp"
 #include "parallel/execution.hpp"
 
@@ -38,7 +39,7 @@ class LegBoxes {
 
   std::span<const Vec2> path_;
   double length_ = 0.0;
-  std::vector<std::vector<Box>> levels_;  ///< levels_[k][i]: of legs i * 8^(k+1) and the 8^(k+1) - 1 after it
+  std::vector<RawVector<Box>> levels_;  ///< levels_[k][i]: of legs i * 8^(k+1) and the 8^(k+1) - 1 after it
 };
 
 template <class Skip, class Visit>

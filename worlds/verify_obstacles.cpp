@@ -16,7 +16,7 @@ namespace warren {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t verify_grain = std::size_t{1} << 15;
+constexpr std::size_t verify_grain = std::size_t{1} << 14;
 constexpr std::size_t small_grain = 1024;  // where one obstacle takes microseconds
 constexpr std::size_t sample_block = 512;  // walls in a row: as many as make one visit to memory worth it
 constexpr std::size_t sample_stride = 32 * sample_block;
@@ -76,12 +76,12 @@ class ObstaclePass {
     return *middle;
   }
 
-  /// Some runs of obstacles, a 64th of all at most.
+  /// Some runs of obstacles: a 64th of a few, a 1024th of many.
   std::vector<Range> some() const {
     constexpr std::size_t most_runs = 64;
     constexpr std::size_t run = 64;  // obstacles in a row
     const std::size_t count = obstacles_.size();
-    const std::size_t runs = std::clamp<std::size_t>(count / (64 * run), std::min<std::size_t>(count, 1), most_runs);
+    const std::size_t runs = std::clamp<std::size_t>(count / (1024 * run), std::min<std::size_t>(count, 1), most_runs);
     const std::size_t length = std::min(run, count / 64 + 1);
     std::vector<Range> ranges;
     for (std::size_t i = 0; i < runs; ++i) ranges.push_back({count / runs * i, count / runs * i + length});
