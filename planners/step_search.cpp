@@ -182,7 +182,7 @@ SearchResult search_steps(const Overlay& overlay, const OverlayEnds& ends, const
   const auto longest = std::max(overlay.longest(), static_cast<std::uint32_t>(std::ceil(longest_link(ends))));
   StepSide forward(overlay, longest);
   StepSide backward(overlay, longest);
-  for_chunks(n, std::size_t{1} << 18, execution, [&](Range r) {
+  for_chunks(n, std::size_t{1} << 15, execution, [&](Range r) {
     forward.clear(static_cast<VertexId>(r.first), static_cast<VertexId>(r.last));
     backward.clear(static_cast<VertexId>(r.first), static_cast<VertexId>(r.last));
   });
