@@ -5,7 +5,7 @@
 
 namespace warren {
 namespace {
-constexpr std::size_t large_block = std::size_t{1} << 20;
+constexpr std::size_t large_block = std::size_t{2} << 20;
 }  // namespace
 
 void* allocate_raw(std::size_t bytes) {

@@ -51,9 +51,10 @@ class MotionTree {
     if (!is_free) return std::nullopt;
     return add(state, from);
   }
-  /// Grows one motion from `from` all the way to `to`: its vertex, or nothing where the motion is not free.
+  /// Grows one motion from `from` all the way to `to`: its vertex, or nothing where `to` or the motion is not free.
   std::optional<VertexId> join(VertexId from, const State& to, typename W::Query& query, Counters& counters) {
     ++counters.edges_checked;
+    if (!world_->is_free(to, query)) return std::nullopt;
     const bool forward = direction_ == GrowthDirection::forward;
     const bool is_free =
         forward ? world_->is_free_motion(states_[from], to, query) : world_->is_free_motion(to, states_[from], query);

@@ -128,7 +128,7 @@ std::vector<Vec2> expand_path(const Overlay& overlay, const TileGrid& grid, std:
   for (std::size_t i = 0; i < legs; ++i) first[i + 1] = first[i] + steps_of(i);
   std::vector<Vec2> points;
   reserve_touched(points, first.back(), execution);
-  points.resize(first.back());  // with a value it takes ten times as long in the library of g++ 12
+  points.resize(first.back());  // not with a value: the library of g++ 12 is slow at that
   points.front() = ends.start.at;
   for_chunks(legs, grain, execution, [&](Range r) {
     for (std::size_t i = r.first; i < r.last; ++i) {

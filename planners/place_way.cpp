@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 namespace warren {
 namespace {
 
 /// Row r of the grid stands at r + 1, so that every row has two neighbours.
-using Rows = std::array<std::uint64_t, PlaceGrid::most + 2>;
+using RowBits = std::array<std::uint64_t, PlaceGrid::most + 2>;
 
 /// A column and a row.
 struct Place {
@@ -18,7 +19,7 @@ struct Place {
 };
 
 /// The places of rows first .. last - 1 with their neighbours to the left and the right.
-void widen(const Rows& from, Rows& to, std::size_t first, std::size_t last) {
+void widen(const RowBits& from, RowBits& to, std::size_t first, std::size_t last) {
   for (std::size_t r = first; r < last; ++r) to[r] = from[r] | (from[r] << 1) | (from[r] >> 1);
 }
 
@@ -26,8 +27,8 @@ void widen(const Rows& from, Rows& to, std::size_t first, std::size_t last) {
 PlaceGrid narrowed(const PlaceGrid& grid) {
   PlaceGrid narrow = grid;
   const std::uint64_t all = ~std::uint64_t{0} >> (PlaceGrid::most - grid.columns);
-  Rows blocked{};
-  Rows wide{};
+  RowBits blocked{};
+  RowBits wide{};
   for (std::size_t row = 0; row < grid.rows; ++row) blocked[row + 1] = ~grid.bits[row] & all;
   widen(blocked, wide, 1, grid.rows + 1);
   for (std::size_t row = 0; row < grid.rows; ++row) narrow.bits[row] &= ~(wide[row] | wide[row + 1] | wide[row + 2]);
@@ -37,7 +38,7 @@ PlaceGrid narrowed(const PlaceGrid& grid) {
 /// The flood of a grid from some places: which step, modulo 3, reached each place.
 class Flood {
  public:
-  Flood(const PlaceGrid& free, const Rows& from) : free_(free), front_(from) {
+  Flood(const PlaceGrid& free, const RowBits& from) : free_(free), front_(from) {
     steps_[0] = from;
     first_ = free.rows + 1;
     for (std::size_t r = 1; r <= free.rows; ++r) {
@@ -48,16 +49,16 @@ class Flood {
     }
   }
   /// Takes steps until a place of `to` is reached: which one; x < 0 where none can be.
-  Place reach(const Rows& to);
+  Place reach(const RowBits& to);
   /// The places from the first to `last`.
   std::vector<Place> way_to(Place last) const;
 
  private:
-  bool holds(const Rows& set, Place p) const {
+  bool holds(const RowBits& set, Place p) const {
     return p.x >= 0 && p.y >= 0 && p.x < static_cast<int>(free_.columns) && p.y < static_cast<int>(free_.rows) &&
            (set[static_cast<std::size_t>(p.y) + 1] >> p.x & 1U) != 0;
   }
-  Place common(const Rows& to) const {
+  Place common(const RowBits& to) const {
     for (std::size_t r = first_; r < last_; ++r) {
       if (const std::uint64_t met = front_[r] & to[r]; met != 0) {
         return {std::countr_zero(met), static_cast<int>(r) - 1};
@@ -67,23 +68,23 @@ class Flood {
   }
 
   const PlaceGrid& free_;
-  Rows front_;  // what the last step reached: rows first_ .. last_ - 1
+  RowBits front_;  // what the last step reached: rows first_ .. last_ - 1
   std::size_t first_ = 0;
   std::size_t last_ = 0;
-  Rows unseen_{};
-  std::array<Rows, 3> steps_{};
+  RowBits unseen_{};
+  std::array<RowBits, 3> steps_{};
   std::size_t step_ = 0;
 };
 
-Place Flood::reach(const Rows& to) {
+Place Flood::reach(const RowBits& to) {
   if (first_ >= last_) return {-1, -1};
   Place met = common(to);
-  Rows wide{};
+  RowBits wide{};
   while (met.x < 0) {
     widen(front_, wide, first_, last_);
     first_ = std::max<std::size_t>(1, first_ - 1);
     last_ = std::min(free_.rows + 1, last_ + 1);
-    Rows& reached = steps_[++step_ % 3];
+    RowBits& reached = steps_[++step_ % 3];
     std::uint64_t any = 0;
     std::uint64_t arrived = 0;
     for (std::size_t r = first_; r < last_; ++r) {
@@ -121,8 +122,8 @@ std::vector<Place> Flood::way_to(Place last) const {
 }
 
 /// The free places next to p.
-Rows places_around(const PlaceGrid& free, Vec2 p) {
-  Rows near{};
+RowBits places_around(const PlaceGrid& free, Vec2 p) {
+  RowBits near{};
   const double x = std::round((p.x - free.origin.x) / free.step);
   const double y = std::round((p.y - free.origin.y) / free.step);
   const bool is_near =

@@ -45,7 +45,7 @@ class RrtConnectSearch {
   }
 
   void advance(std::uint64_t steps, const Execution& execution) {
-    if (!begun_ && !gave_up()) try_places();
+    if (!begun_) try_places(execution);
     begun_ = true;
     for (std::uint64_t i = 0; i < steps && !arrived() && !gave_up(); ++i) {
       execution.check();
@@ -63,9 +63,9 @@ class RrtConnectSearch {
   std::uint64_t most_steps() const { return 64 * options_->nodes; }
   std::size_t node_count() const { return trees_[0].size() + trees_[1].size(); }
   void take_step();
-  std::optional<VertexId> walk(MotionTree<W>& tree, const PlaceWay& way);
-  void try_places(std::size_t side);
-  void try_places();
+  std::optional<VertexId> walk(MotionTree<W>& tree, VertexId from, const PlaceWay& way, const Execution& execution);
+  VertexId try_places(std::size_t side, VertexId root, const Execution& execution);
+  void try_places(const Execution& execution);
 
   const W* world_;
   const RrtOptions* options_;
@@ -80,17 +80,21 @@ class RrtConnectSearch {
   Counters counters_;
 };
 
-/// Grows the tree along the way, over more of its places where a corner is cut too close: its last vertex.
+/// Grows the tree from a vertex along the way, over more of its places where a corner is cut too close: its last
+/// vertex.
 template <SteerableWorld W>
-std::optional<VertexId> RrtConnectSearch<W>::walk(MotionTree<W>& tree, const PlaceWay& way) {
+std::optional<VertexId> RrtConnectSearch<W>::walk(MotionTree<W>& tree, VertexId from, const PlaceWay& way,
+                                                  const Execution& execution) {
   constexpr int most_failures = 12;
   if (way.corners.empty()) return std::nullopt;
-  VertexId last = 0;
+  VertexId last = from;
   std::uint32_t at = 0;
   int failures = 0;
   for (const std::uint32_t corner : way.corners) {
     for (std::uint32_t stop = corner; at < corner;) {
-      const State next = world_->shifted(tree.state(0), way.places[stop]);
+      execution.check();
+      if (gave_up()) return std::nullopt;
+      const State next = world_->shifted(tree.state(from), way.places[stop]);
       if (const auto grown = tree.join(last, next, query_, counters_)) {
         last = *grown;
         at = stop;
@@ -104,37 +108,37 @@ std::optional<VertexId> RrtConnectSearch<W>::walk(MotionTree<W>& tree, const Pla
   return last;
 }
 
-/// From a tree's root to the nearest root of the other tree: straight on, or else with its heading kept to where that
-/// one is, and then to it.
+/// From a root of a tree to the nearest vertex of the other tree: straight on, or else with its heading kept to where
+/// that one is, and then to it. Returns that vertex.
 template <SteerableWorld W>
-void RrtConnectSearch<W>::try_places(std::size_t side) {
-  if constexpr (PlaceWorld<W>) {
-    MotionTree<W>& mine = trees_[side];
-    const State start = mine.state(0);
-    const VertexId root = trees_[1 - side].nearest(start, counters_);
-    const State goal = trees_[1 - side].state(root);
-    std::optional<VertexId> last = mine.join(0, goal, query_, counters_);
-    if (!last) {
-      last = walk(mine, way_over_places(world_->free_places(start), world_->place_of(start), world_->place_of(goal)));
-      if (last && !(mine.state(*last) == goal)) last = mine.join(*last, goal, query_, counters_);
-    }
-    if (!last) return;
-    arrived_ = true;
-    meeting_[side] = *last;
-    meeting_[1 - side] = root;
+VertexId RrtConnectSearch<W>::try_places(std::size_t side, VertexId root, const Execution& execution) {
+  MotionTree<W>& mine = trees_[side];
+  const State start = mine.state(root);
+  const VertexId end = trees_[1 - side].nearest(start, counters_);
+  const State goal = trees_[1 - side].state(end);
+  std::optional<VertexId> last = mine.join(root, goal, query_, counters_);
+  if (!last) {
+    const PlaceWay way = way_over_places(world_->free_places(start), world_->place_of(start), world_->place_of(goal));
+    last = walk(mine, root, way, execution);
+    if (last && !(mine.state(*last) == goal)) last = mine.join(*last, goal, query_, counters_);
   }
+  if (!last) return end;
+  arrived_ = true;
+  meeting_[side] = *last;
+  meeting_[1 - side] = end;
+  return end;
 }
 
-/// Before anything is drawn.
+/// Before anything is drawn: first at the heading of the start, then at that of the goal next to it.
 template <SteerableWorld W>
-void RrtConnectSearch<W>::try_places() {
+void RrtConnectSearch<W>::try_places(const Execution& execution) {
   if constexpr (PlaceWorld<W>) {
-    if (!options_->places || options_->sampler) return;
-    try_places(0);
-    const State& start = trees_[0].state(0);
-    const State& goal = trees_[1].state(0);
-    const bool is_turned = !(world_->shifted(start, world_->place_of(goal)) == goal);
-    if (!arrived_ && is_turned) try_places(1);
+    if (!options_->places || options_->sampler || gave_up()) return;
+    const VertexId goal = try_places(0, 0, execution);
+    const State& from = trees_[0].state(0);
+    const State& to = trees_[1].state(goal);
+    const bool is_turned = !(world_->shifted(from, world_->place_of(to)) == to);
+    if (!arrived_ && is_turned) try_places(1, goal, execution);
   }
 }
 

@@ -9,8 +9,9 @@ namespace warren {
 
 LegBoxes::LegBoxes(std::span<const Vec2> path, const Execution& execution) : path_(path) {
   constexpr std::size_t grain = 1024;  // blocks: so that long paths fill all threads
-  RawVector<Box> blocks((leg_count() + 7) / 8);
-  execution.reserve(blocks.size() * sizeof(Box));
+  const std::size_t block_count = (leg_count() + 7) / 8;
+  execution.reserve(block_count * sizeof(Box));
+  RawVector<Box> blocks(block_count);
   std::vector<double> lengths(chunk_count(blocks.size(), grain));
   for_chunks(blocks.size(), grain, execution, [&](Range r) {
     double length = 0.0;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "worlds/place_marking.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace warren {
 namespace {
@@ -40,9 +42,9 @@ bool comes_before(Vec2 a, Vec2 b) {
 }
 
 /// From where to where a convex set goes on each row of a grid; coordinates in steps of the grid.
-class Rows {
+class RowSpans {
  public:
-  explicit Rows(std::size_t rows) : rows_(static_cast<double>(rows)) {
+  explicit RowSpans(std::size_t rows) : rows_(static_cast<double>(rows)) {
     low_.fill(std::numeric_limits<double>::infinity());
     high_.fill(-std::numeric_limits<double>::infinity());
   }
@@ -86,7 +88,7 @@ void take_blocked_places(std::span<const Vec2> obstacle, std::span<const Vec2> m
                          PlaceGrid& free) {
   Walk a(obstacle);
   Walk b(mirrored_body);
-  Rows rows(free.rows);
+  RowSpans rows(free.rows);
   const double scale = 1.0 / free.step;
   Vec2 p = scale * (a.corner() + b.corner() - free.origin);
   do {

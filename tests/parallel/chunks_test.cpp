@@ -43,6 +43,32 @@ TEST(ForChunks, VisitsEachIndexOnceInChunksThatDependOnSizeAndGrainAlone) {
   }
 }
 
+TEST(ForChunks, RunsLoopsInsideOfLoops) {
+  for (const unsigned outer : thread_counts) {
+    for (const unsigned inner : thread_counts) {
+      std::vector<int> visits(40 * 30, 0);
+      for_chunks(40, 1, on(outer), [&](Range i) {
+        for_chunks(30, 4, on(inner), [&](Range r) {
+          for (std::size_t j = r.first; j < r.last; ++j) ++visits[30 * i.first + j];
+        });
+      });
+      EXPECT_EQ(std::count(visits.begin(), visits.end(), 1), 40 * 30) << outer << " and " << inner;
+    }
+  }
+}
+
+TEST(ForChunks, RunsAgainAfterAnExceptionOnAnyNumberOfThreads) {
+  for (const unsigned before : thread_counts) {
+    for (const unsigned after : thread_counts) {
+      const auto fail = [&] { for_chunks(100, 1, on(before), [](Range) { throw std::out_of_range("any"); }); };
+      EXPECT_THROW(fail(), std::out_of_range);
+      std::atomic<int> runs{0};
+      for_chunks(100, 1, on(after), [&](Range) { ++runs; });
+      EXPECT_EQ(runs, 100) << before << " and " << after;
+    }
+  }
+}
+
 TEST(ForChunks, AnExceptionOfABodyEndsTheLoopAndArrivesHere) {
   for (const unsigned threads : thread_counts) {
     std::atomic<int> runs{0};

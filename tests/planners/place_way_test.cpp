@@ -21,7 +21,7 @@ PlaceGrid random_grid(std::uint64_t seed, double share) {
   return grid;
 }
 
-struct Cell {
+struct GridCell {
   int x;
   int y;
 };
@@ -31,7 +31,7 @@ bool is_free(const PlaceGrid& grid, int x, int y) {
          grid.test(static_cast<std::size_t>(x), static_cast<std::size_t>(y));
 }
 
-Cell cell_at(const PlaceGrid& grid, Vec2 p) {
+GridCell cell_at(const PlaceGrid& grid, Vec2 p) {
   return {static_cast<int>(std::lround((p.x - grid.origin.x) / grid.step)),
           static_cast<int>(std::lround((p.y - grid.origin.y) / grid.step))};
 }
@@ -39,8 +39,8 @@ Cell cell_at(const PlaceGrid& grid, Vec2 p) {
 /// Are free places next to both ends joined, eight neighbours each? One place after the other.
 bool is_joined(const PlaceGrid& grid, Vec2 start, Vec2 goal) {
   std::vector<bool> seen(64 * 64);
-  std::queue<Cell> queue;
-  const auto push_around = [&](Cell c) {
+  std::queue<GridCell> queue;
+  const auto push_around = [&](GridCell c) {
     for (int y = c.y - 1; y <= c.y + 1; ++y) {
       for (int x = c.x - 1; x <= c.x + 1; ++x) {
         if (!is_free(grid, x, y) || seen[static_cast<std::size_t>(64 * y + x)]) continue;
@@ -50,9 +50,9 @@ bool is_joined(const PlaceGrid& grid, Vec2 start, Vec2 goal) {
     }
   };
   push_around(cell_at(grid, start));
-  const Cell end = cell_at(grid, goal);
+  const GridCell end = cell_at(grid, goal);
   while (!queue.empty()) {
-    const Cell c = queue.front();
+    const GridCell c = queue.front();
     queue.pop();
     if (std::abs(c.x - end.x) <= 1 && std::abs(c.y - end.y) <= 1) return true;
     push_around(c);
@@ -78,8 +78,8 @@ TEST(WayOverPlaces, IsFoundExactlyWhereTheFreePlacesAreJoined) {
     EXPECT_EQ(way.corners.back() + 1, way.places.size());
     for (std::size_t i = 1; i < way.corners.size(); ++i) EXPECT_LT(way.corners[i - 1], way.corners[i]);
     for (std::size_t i = 1; i < way.places.size(); ++i) {
-      const Cell a = cell_at(grid, way.places[i - 1]);
-      const Cell b = cell_at(grid, way.places[i]);
+      const GridCell a = cell_at(grid, way.places[i - 1]);
+      const GridCell b = cell_at(grid, way.places[i]);
       EXPECT_LE(std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)), 1);
       if (i + 1 < way.places.size()) {
         EXPECT_TRUE(is_free(grid, b.x, b.y));

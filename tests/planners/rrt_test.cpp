@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 #include <string>
 
@@ -142,6 +143,37 @@ TEST(Rrt, SolvesScatteredScenesWithEverySampler) {
       }
     }
   }
+}
+
+TEST(RrtConnect, KeepsToTheBoxOfObstaclesWithoutBounds) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    SCOPED_TRACE(seed);
+    Scene scene = body_scenes::scattered(seed);
+    scene.bounds.reset();
+    const Se2World world(scene, hook, {});
+    auto query = world.make_query();
+    std::vector<Se2> ends;
+    for (std::uint64_t i = 0; ends.size() < 2; ++i) {
+      const Se2 pose = body_scenes::random_pose(seed, i);
+      if (world.is_free(pose, query)) ends.push_back(pose);
+    }
+    const auto solution = rrt_connect(world, ends[0], std::span(&ends[1], 1), {.seed = seed}, {}, nullptr);
+    ASSERT_EQ(solution.outcome, Outcome::solved);
+    expect_verified(scene, hook, solution.path, {.start = ends[0], .goal = ends[1]});
+  }
+}
+
+TEST(RrtConnect, JoinsNoPlaceBeyondTheBox) {
+  Scene scene;
+  scene.walls = WallSet::narrowest(std::vector<Segment>{{{1.4, 1}, {7.2, 1}}, {{1.4, 5}, {7.2, 5}}});
+  const Se2World world(scene, kite, {});
+  auto query = world.make_query();
+  MotionTree<Se2World> tree(world, GrowthDirection::forward);
+  tree.add_root({7.0, 3, 0});
+  Counters counters;
+  const double beyond = std::nextafter(7.2, 8.0);
+  EXPECT_TRUE(tree.join(0, {7.2, 3, 0}, query, counters).has_value());
+  EXPECT_FALSE(tree.join(0, {beyond, 3, 0}, query, counters).has_value());
 }
 
 TEST(Rrt, IsTheSameForAnyNumberOfThreadsAndTrees) {

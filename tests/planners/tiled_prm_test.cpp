@@ -12,6 +12,7 @@
 #include "core/geometry.hpp"
 #include "core/rng.hpp"
 #include "planners/prm.hpp"
+#include "planners/wall_partition.hpp"
 #include "tests/planners/plane_worlds.hpp"
 #include "worlds/maze_generator.hpp"
 #include "worlds/maze_world.hpp"
@@ -52,13 +53,12 @@ RoadmapOptions options_of(const TiledCase& c) {
 
 Solution<Vec2> tiled(const TiledCase& c, const Execution& execution = {}) {
   std::vector<Segment> bounds;
-  Box box = obstacle_box(c.scene);
   if (c.scene.bounds) {
-    box = *c.scene.bounds;
+    const Box& box = *c.scene.bounds;
     const Vec2 corners[] = {box.min, {box.max.x, box.min.y}, box.max, {box.min.x, box.max.y}};
     for (int i = 0; i < 4; ++i) bounds.push_back({corners[i], corners[(i + 1) % 4]});
   }
-  return tiled_prm({c.scene.walls, bounds, box, c.clearance, c.start, c.goal}, options_of(c), execution);
+  return tiled_prm({c.scene.walls, bounds, c.scene.bounds, c.clearance, c.start, c.goal}, options_of(c), execution);
 }
 
 Solution<Vec2> plain(const TiledCase& c) {
@@ -271,6 +271,27 @@ TEST(TiledPrm, ABudgetThatHasEndedStopsIt) {
   const Solution<Vec2> solution = tiled(c, execution);
   EXPECT_EQ(solution.outcome, Outcome::stopped);
   EXPECT_EQ(solution.stop_reason, StopReason::memory);
+}
+
+TEST(WallPartition, KnowsTheBoxOfFloatsAndDoubles) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(seed);
+    SequentialRng rng(seed);
+    std::vector<Segment> segments;
+    for (int i = 0; i < 50; ++i) {
+      const auto number = [&] { return static_cast<double>(rng.below(4000)) / 16.0 - 100.0; };
+      segments.push_back({{number(), number()}, {number(), 3.0 * number()}});
+    }
+    if (seed % 2 == 0) segments.push_back({{0.1, 0.2}, {0.3, -0.4}});  // no floats: the set holds doubles
+    if (seed == 20) segments.clear();
+    Scene scene;
+    scene.walls = WallSet::narrowest(segments);
+    const TileGrid grid = TileGrid::of({70, 90});
+    const Box found = WallPartition(scene.walls, {}, grid, 1.2, {}).box();
+    const Box box = obstacle_box(scene);
+    EXPECT_EQ(found.min, box.min);
+    EXPECT_EQ(found.max, box.max);
+  }
 }
 
 TEST(TiledPrm, RefusesWhatItCannotAnswerAsThePlainPipeline) {
