@@ -11,9 +11,10 @@ namespace warren {
 namespace {
 
 /// The corners of a convex polygon from its lowest one on, the leftmost of these.
-class Walk {
+class CornerWalk {
  public:
-  explicit Walk(std::span<const Vec2> corners) : corners_(corners), left_(corners.size() > 1 ? corners.size() : 0) {
+  explicit CornerWalk(std::span<const Vec2> corners)
+      : corners_(corners), left_(corners.size() > 1 ? corners.size() : 0) {
     for (std::size_t i = 1; i < corners.size(); ++i) {
       const Vec2 p = corners[i];
       const Vec2 low = corners[at_];
@@ -86,8 +87,8 @@ class RowSpans {
 
 void take_blocked_places(std::span<const Vec2> obstacle, std::span<const Vec2> mirrored_body, double reach,
                          PlaceGrid& free) {
-  Walk a(obstacle);
-  Walk b(mirrored_body);
+  CornerWalk a(obstacle);
+  CornerWalk b(mirrored_body);
   RowSpans rows(free.rows);
   const double scale = 1.0 / free.step;
   Vec2 p = scale * (a.corner() + b.corner() - free.origin);
