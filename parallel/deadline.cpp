@@ -84,7 +84,8 @@ std::size_t peak_resident_bytes() {
 }
 
 std::size_t available_bytes() {
-  std::size_t bytes = machine_available_bytes() + resident_bytes();
+  const std::size_t free = machine_available_bytes();
+  std::size_t bytes = free - free / 16 + resident_bytes();  // who takes all of it is killed for it
   if (const auto limit = number_in("/sys/fs/cgroup/memory.max")) bytes = std::min(bytes, *limit);
   if (const auto limit = number_in("/sys/fs/cgroup/memory/memory.limit_in_bytes")) bytes = std::min(bytes, *limit);
   return bytes;

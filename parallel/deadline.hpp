@@ -53,7 +53,8 @@ class Deadline {
 /// thread keeps and has no use for (core/page_pool.hpp); 0 where the system doesn't tell.
 std::size_t resident_bytes();
 std::size_t peak_resident_bytes();
-/// Bytes that this process may hold: the smaller of the machine's memory that is available and the cgroup's limit.
+/// Bytes that this process may hold: the smaller of the machine's memory that is available, less a 16th of it for
+/// everybody else, and the cgroup's limit.
 std::size_t available_bytes();
 
 }  // namespace warren
