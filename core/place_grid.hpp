@@ -34,7 +34,7 @@ struct PlaceGrid {
     const double longest = std::max(box.width(), box.height());
     if (!(longest > 0.0)) return grid;
     grid.origin = box.min;
-    grid.step = longest / static_cast<double>(most - 1) * (1.0 - 1e-12);  // the last place may not leave the box
+    grid.step = longest / static_cast<double>(most - 1) * (1.0 - 1e-12);  // rounding hardly leaves the box
     const auto count = [&grid](double extent) {
       return std::min(most, static_cast<std::size_t>(extent / grid.step * (1.0 + 1e-9)) + 1);
     };
