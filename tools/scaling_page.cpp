@@ -11,6 +11,7 @@
 #include "tools/machine.hpp"
 #include "tools/plot_svg.hpp"
 #include "tools/scaling_report.hpp"
+#include "tools/thread_gains.hpp"
 
 namespace warren {
 namespace {
@@ -253,7 +254,11 @@ std::string scaling_page(const ScalingResult& result, const std::string& command
   if (rows.empty()) return page + "<p>No run was solved.</p>\n</body>\n</html>\n";
   page += "<div class=\"plots\">\n";
   for (const Plot& plot : plots_of(rows)) page += plot_svg(plot);
-  return page + "</div>\n<h2>Runs</h2>\n" + table_of(rows) + counts_of(result, rows) + "</body>\n</html>\n";
+  page += "</div>\n<h2>Runs</h2>\n";
+  for (const ThreadGain& gain : thread_gains(result, this_machine().cores)) {
+    page += "<p>" + xml_text(text_of(gain)) + ".</p>\n";
+  }
+  return page + table_of(rows) + counts_of(result, rows) + "</body>\n</html>\n";
 }
 
 }  // namespace warren

@@ -9,6 +9,7 @@
 
 #include "tools/human_units.hpp"
 #include "tools/machine.hpp"
+#include "tools/thread_gains.hpp"
 
 namespace warren {
 namespace {
@@ -19,6 +20,23 @@ Json exponents_json(std::span<const ScalingRow> rows) {
   Json json = Json::object();
   for (const auto& [stage, exponent] : stage_exponents(rows)) json[stage] = exponent;
   return json;
+}
+
+Json gain_json(const ThreadGain& gain) {
+  const MazeTrial& t = gain.first;
+  Json stages = Json::object();
+  for (const auto& [name, value] : gain.quiet_stages) stages[name] = value;
+  return {{"rows", t.rows},
+          {"cols", t.cols},
+          {"threads", t.threads},
+          {"planner", t.planner},
+          {"sampler", t.sampler},
+          {"pairs", gain.pairs},
+          {"gain", gain.gain},
+          {"arithmetic", gain.arithmetic},
+          {"quiet_pairs", gain.quiet_pairs},
+          {"quiet_gain", gain.quiet_gain ? Json(*gain.quiet_gain) : Json(nullptr)},
+          {"quiet_stage_gains", std::move(stages)}};
 }
 
 std::string size_text(const MazeTrial& t) { return fmt::format("{} x {}", t.rows, t.cols); }
@@ -76,6 +94,7 @@ std::string scaling_summary(const ScalingResult& result, const Palette& palette)
     text += fmt::format("{}{}\n", palette.faint(fmt::format("{:<11}", name)), what);
   };
   if (!exponents.empty()) line("exponents", exponents + " (of least times against cells)");
+  for (const ThreadGain& gain : thread_gains(result, this_machine().cores)) line("threads", text_of(gain));
   line("noise", noise_text(rows));
   line("machine", text_of(this_machine()));
   if (result.signal) text += palette.doubtful("interrupted") + ": these are the runs so far\n";
@@ -97,6 +116,7 @@ std::string scaling_json(const ScalingOptions& options, const ScalingResult& res
   for (const ScalingRun& run : result.runs) {
     Json entry = trial_json(run.trial);
     entry["repeat"] = run.repeat;
+    entry["arithmetic_per_s"] = run.arithmetic_per_s;
     entry.update(counts_json(run.counts));
     json["runs"].push_back(std::move(entry));
   }
@@ -117,6 +137,8 @@ std::string scaling_json(const ScalingOptions& options, const ScalingResult& res
                             {"efficiency", row.speed_up / t.threads},
                             {"bytes_per_cell", static_cast<double>(row.peak_memory_bytes) / t.cells()}});
   }
+  json["thread_gains"] = Json::array();
+  for (const ThreadGain& gain : thread_gains(result, machine.cores)) json["thread_gains"].push_back(gain_json(gain));
   json["exponents"] = exponents_json(rows);
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

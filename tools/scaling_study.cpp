@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "tools/answer.hpp"
+#include "tools/arithmetic_probe.hpp"
 #include "tools/human_units.hpp"
 
 namespace warren {
@@ -71,10 +72,13 @@ void ScalingStudy::run_once(const Scene& scene, const MazeOptions& maze, double 
     for (const unsigned threads : options_.threads) {
       Execution execution = run_.execution();
       execution.threads = threads;
+      const double arithmetic_before = arithmetic_per_second(execution);
       const RunCounts before = counters_.read();
       MazeTrial trial = solve_trial(scene, maze, planner, options_.budget_s, execution);
+      const RunCounts counts = counters_.read() - before;
       trial.generate_s = generate_s;
-      result_.runs.push_back({std::move(trial), repeat, counters_.read() - before});
+      result_.runs.push_back(
+          {std::move(trial), repeat, counts, 0.5 * (arithmetic_before + arithmetic_per_second(execution))});
     }
   }
 }
