@@ -49,6 +49,7 @@ class IdlePages {
   }
   bool open() const { return scopes_ > 0; }
 
+  char* take(std::size_t bytes);  ///< where they lie; nullptr if no piece is so large
   void fill(char* block, std::size_t bytes);
   void keep(char* block, std::size_t bytes);  ///< throws std::bad_alloc before it has changed anything that matters
 
@@ -63,6 +64,22 @@ class IdlePages {
   std::vector<Piece> pieces_;
   std::map<const char*, std::vector<std::size_t>> made_of_;  // the sizes of the pieces of a block, in their order
 };
+
+/// The end of the smallest piece that will do: no call of the system, which would stop all threads for new addresses.
+char* IdlePages::take(std::size_t bytes) {
+  const auto fits_worse = [bytes](const Piece& a, const Piece& b) {
+    return (a.bytes < bytes ? ~std::size_t{0} : a.bytes) < (b.bytes < bytes ? ~std::size_t{0} : b.bytes);
+  };
+  const auto piece = std::min_element(pieces_.begin(), pieces_.end(), fits_worse);
+  if (piece == pieces_.end() || piece->bytes < bytes) return nullptr;
+  char* const block = piece->at + (piece->bytes - bytes);
+  made_of_[block].assign(1, bytes);
+  idle -= bytes;
+  piece->bytes -= bytes;
+  if (piece->bytes == 0) pieces_.erase(piece);
+  least_idle = std::min(least_idle, idle);
+  return block;
+}
 
 /// Backs a block with idle pages as far as they go; the rest stays as it is.
 void IdlePages::fill(char* block, std::size_t bytes) {
@@ -138,9 +155,14 @@ namespace detail {
 
 void* take_pages(std::size_t bytes) {
   const std::size_t whole = whole_pages(bytes);
-  char* const block = whole < bytes ? nullptr : map_range(whole);
+  if (whole < bytes) throw std::bad_alloc();
+  IdlePages& pages = idle_pages();
+  if (pages.open()) {
+    if (char* const block = pages.take(whole)) return block;
+  }
+  char* const block = map_range(whole);
   if (block == nullptr) throw std::bad_alloc();
-  if (IdlePages& pages = idle_pages(); pages.open()) pages.fill(block, whole);
+  if (pages.open()) pages.fill(block, whole);
   return block;
 }
 

@@ -10,9 +10,9 @@
 
 namespace warren {
 
-/// While one of these lives, the large blocks (2 MiB and more) that its thread releases keep their pages, and the large
-/// blocks that its thread allocates are made of them as far as they go; the last one to end gives the pages back. Other
-/// threads are not concerned. Made and ended on the same thread, in nested order.
+/// While one of these lives, the large blocks (512 KiB and more) that its thread releases keep their pages, and the
+/// large blocks that its thread allocates are made of them as far as they go; the last one to end gives the pages back.
+/// Other threads are not concerned. Made and ended on the same thread, in nested order.
 class PagePool {
  public:
   PagePool();

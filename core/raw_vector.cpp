@@ -5,7 +5,7 @@
 
 namespace warren {
 namespace {
-constexpr std::size_t large_block = std::size_t{2} << 20;
+constexpr std::size_t large_block = std::size_t{512} << 10;
 }  // namespace
 
 void* allocate_raw(std::size_t bytes) {

@@ -63,8 +63,13 @@ std::optional<StopReason> Deadline::reached() const noexcept {
 void Deadline::reserve(std::size_t bytes) const {
   check();
   if (memory_bytes_ == std::numeric_limits<std::size_t>::max()) return;
+  std::size_t unasked = unasked_.load(std::memory_order_relaxed);
+  while (bytes < unasked) {
+    if (unasked_.compare_exchange_weak(unasked, unasked - bytes, std::memory_order_relaxed)) return;
+  }
   const std::size_t held = resident_bytes();
   if (held >= memory_bytes_ || bytes > memory_bytes_ - held) throw Stopped{StopReason::memory};
+  unasked_.store((memory_bytes_ - held - bytes) / 64, std::memory_order_relaxed);
 }
 
 std::size_t resident_bytes() {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <numeric>
 
 #include "core/graph.hpp"
 #include "parallel/chunks.hpp"
@@ -115,8 +116,8 @@ CoreComponents core_components(const Overlay& overlay, const Execution& executio
   return result;
 }
 
-std::vector<Vec2> expand_path(const Overlay& overlay, const TileGrid& grid, std::span<const TileSummary> tiles,
-                              const OverlayEnds& ends, std::span<const VertexId> path, const Execution& execution) {
+Path<Vec2> expand_path(const Overlay& overlay, const TileGrid& grid, std::span<const TileSummary> tiles,
+                       const OverlayEnds& ends, std::span<const VertexId> path, const Execution& execution) {
   const Places places(overlay, grid, tiles, ends);
   constexpr std::size_t grain = 1024;
   const std::size_t legs = path.size() - 1;
@@ -125,8 +126,13 @@ std::vector<Vec2> expand_path(const Overlay& overlay, const TileGrid& grid, std:
     return is_link ? 1 : steps_between(overlay, path[leg], path[leg + 1]);
   };
   std::vector<std::size_t> first(legs + 1, 1);  // where the vertices of a leg go, its own beginning not counted
-  for (std::size_t i = 0; i < legs; ++i) first[i + 1] = first[i] + steps_of(i);
-  std::vector<Vec2> points;
+  Execution quiet = execution;
+  quiet.progress = nullptr;
+  for_chunks(legs, grain, quiet, [&](Range r) {
+    for (std::size_t i = r.first; i < r.last; ++i) first[i + 1] = steps_of(i);
+  });
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  Path<Vec2> points;
   reserve_touched(points, first.back(), execution);
   points.resize(first.back());  // not with a value: the library of g++ 12 is slow at that
   points.front() = ends.start.at;

@@ -77,8 +77,13 @@ void TiledPlan::partition() {
 /// Start and goal: false if one of them is blocked.
 bool TiledPlan::join_ends() {
   const LatticeWorld world{grid_, problem_.walls, problem_.more_walls, *partition_, box_, clearance_};
-  ends_.start = end_links(world, problem_.start);
-  ends_.goal = end_links(world, problem_.goal);
+  constexpr std::size_t many_walls = 100'000;  // as many as make a search by two threads worth it
+  Execution own = execution_;
+  own.progress = nullptr;
+  if (problem_.walls.size() < many_walls) own.threads = 1;
+  for_chunks(2, 1, own, [&](Range r) {
+    (r.first == 0 ? ends_.start : ends_.goal) = end_links(world, r.first == 0 ? problem_.start : problem_.goal);
+  });
   ends_.direct =
       is_direct_candidate(problem_.start, problem_.goal) && is_direct_edge_free(world, problem_.start, problem_.goal);
   if (!ends_.start.free) solution_.outcome = Outcome::start_blocked;

@@ -158,7 +158,8 @@ class Places {
 
   /// Turns counts into places: by tile, in a tile by chunk. Returns where each tile begins, and the end.
   RawVector<std::uint32_t> narrow_places() { return places(0); }
-  RawVector<std::uint32_t> wide_places() { return places(tiles_); }
+  /// The same, where there is none: empty.
+  RawVector<std::uint32_t> wide_places(bool any) { return any ? places(tiles_) : RawVector<std::uint32_t>{0}; }
 
  private:
   RawVector<std::uint32_t> places(std::size_t half) {
@@ -191,26 +192,38 @@ class Places {
 /// Chunks of at least 16384 walls, at most 256 of them: so that their counts stay small beside the walls.
 std::size_t grain_of(std::size_t walls) { return std::max<std::size_t>(16384, (walls + 255) / 256); }
 
-/// Returns the walls' box.
+struct Counted {
+  Box box;  ///< of the walls
+  bool any_wide = false;
+};
+
 template <class T>
-Box count(std::span<const WallOf<T>> walls, const Filer& filer, std::size_t tiles, Places& places,
-          const Execution& execution) {
+Counted count(std::span<const WallOf<T>> walls, const Filer& filer, std::size_t tiles, Places& places,
+              const Execution& execution) {
   const std::size_t grain = grain_of(walls.size());
-  std::vector<Box> boxes(chunk_count(walls.size(), grain));
+  std::vector<Counted> parts(chunk_count(walls.size(), grain));
   for_chunks(walls.size(), grain, execution, [&](Range r) {
     std::uint32_t* narrow = places.narrow(r.first / grain);
     std::uint32_t* wide = places.wide(r.first / grain);
     std::fill(narrow, narrow + 2 * tiles, 0U);
     GrowingBox box;
+    bool any_wide = false;
     for (std::size_t i = r.first; i < r.last; ++i) {
       box.include(walls[i]);
       filer.file(
-          walls[i], [&](std::size_t tile, __m128i) { ++narrow[tile]; }, [&](std::size_t tile) { ++wide[tile]; });
+          walls[i], [&](std::size_t tile, __m128i) { ++narrow[tile]; },
+          [&](std::size_t tile) {
+            ++wide[tile];
+            any_wide = true;
+          });
     }
-    boxes[r.first / grain] = box.box();
+    parts[r.first / grain] = {box.box(), any_wide};
   });
-  Box all;
-  for (const Box& box : boxes) all.include(box);
+  Counted all;
+  for (const Counted& part : parts) {
+    all.box.include(part.box);
+    all.any_wide |= part.any_wide;
+  }
   return all;
 }
 
@@ -255,9 +268,10 @@ WallPartition::WallPartition(const WallSet& walls, std::span<const Segment> more
     const std::size_t chunks = chunk_count(given.size(), grain_of(given.size()));
     execution.reserve(2 * chunks * grid.count() * sizeof(std::uint32_t));
     Places places(chunks, grid.count());
-    box_ = count(given, filer, grid.count(), places, execution);
+    const Counted counted = count(given, filer, grid.count(), places, execution);
+    box_ = counted.box;
     first_narrow_ = places.narrow_places();
-    first_wide_ = places.wide_places();
+    first_wide_ = places.wide_places(counted.any_wide);
     execution.reserve(first_narrow_.back() * sizeof(NarrowWall) + first_wide_.back() * sizeof(WallOf<T>));
     narrow_.resize(first_narrow_.back());
     touch_first(narrow_, execution);

@@ -53,9 +53,10 @@ PathScreen::PathScreen(const LegBoxes& legs, const Plan& plan, const Execution& 
   const std::size_t bytes = static_cast<std::size_t>(columns_) * stride_ + sizeof(std::uint64_t);
   execution.reserve(bytes);
   bits_.resize(bytes);
-  const std::size_t stripe = std::max<std::size_t>(64, chunk_count(static_cast<std::size_t>(columns_), 16));
-  for_chunks(static_cast<std::size_t>(columns_), stripe, execution, [&](Range r) {
-    const bool is_last = r.last == static_cast<std::size_t>(columns_);
+  const auto columns = static_cast<std::size_t>(columns_);
+  const std::size_t stripe = std::max<std::size_t>(64, chunk_count(columns, 64));
+  for_chunks(columns, stripe, execution, [&](Range r) {
+    const bool is_last = r.last == columns;
     std::fill(&bits_[r.first * stride_], &bits_[0] + (is_last ? bytes : r.last * stride_), std::uint8_t{0});
     mark(legs, {static_cast<std::int32_t>(r.first), static_cast<std::int32_t>(r.last)}, execution);
   });

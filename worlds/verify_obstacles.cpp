@@ -63,7 +63,7 @@ class ObstaclePass {
 
   /// Half the extent of the middle one of some walls.
   double typical_wall() const {
-    constexpr std::size_t most = 1023;
+    constexpr std::size_t most = 255;
     const std::size_t step = std::max<std::size_t>(1, scene_.walls.size() / most);
     std::vector<double> halves;
     for (std::size_t i = 0; i < scene_.walls.size(); i += step) {
@@ -92,16 +92,17 @@ class ObstaclePass {
   double least_of_some() const {
     const std::vector<Range> runs = some();
     if (runs.empty()) return infinity;
-    const auto compare_run = [&](Comparison& comparison, std::size_t run) {
-      for (std::size_t i = runs[run].first; i < runs[run].last; ++i) {
-        comparison.with_all_legs(obstacles_.segment(i), i);
-      }
+    const auto compare = [&](Comparison& comparison, std::size_t i) {
+      comparison.with_all_legs(obstacles_.segment(i), i);
     };
     Comparison first(legs_, options_, infinity);
-    compare_run(first, 0);
+    for (std::size_t i = runs[0].first; i < std::min(runs[0].first + 8, runs[0].last); ++i) compare(first, i);
     const double bound = first.take().least;  // so that every chunk starts with a good one
-    const auto compare_next = [&](Comparison& comparison, std::size_t i) { compare_run(comparison, i + 1); };
-    return std::min(bound, tally_of(runs.size() - 1, 8, bound, compare_next).least);
+    const std::size_t length = runs[0].size();
+    const auto compare_next = [&](Comparison& comparison, std::size_t i) {
+      compare(comparison, runs[i / length].first + i % length);
+    };
+    return std::min(bound, tally_of(runs.size() * length, 128, bound, compare_next).least);
   }
 
   /// About so many obstacles the screen will leave.

@@ -38,6 +38,25 @@ TEST(PagePool, APageThatIsTakenAgainStillHoldsWhatWasWritten) {
   EXPECT_EQ(again[4 * mib], 77) << "a fresh page would be zero";
 }
 
+TEST(PagePool, TakesThePieceThatFitsBestWhereItLies) {
+  const PagePool pool;
+  const std::uint8_t* small = nullptr;
+  const std::uint8_t* middle = nullptr;
+  {
+    const auto a = written(4 * mib, 1);
+    const auto b = written(8 * mib, 2);
+    const auto c = written(32 * mib, 3);
+    small = a.data();
+    middle = b.data();
+  }
+  const RawVector<std::uint8_t> six(6 * mib);
+  EXPECT_EQ(six.data(), middle + 2 * mib);
+  EXPECT_EQ(six[0], 2);
+  const RawVector<std::uint8_t> four(4 * mib);
+  EXPECT_EQ(four.data(), small);
+  EXPECT_EQ(PagePool::idle_bytes(), 34 * mib);
+}
+
 TEST(PagePool, GivesBackAllPagesWithItsEnd) {
   {
     const PagePool outer;

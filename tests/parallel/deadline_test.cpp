@@ -5,6 +5,7 @@
 
 #include <csignal>
 #include <limits>
+#include <vector>
 
 #include "parallel/execution.hpp"
 
@@ -47,6 +48,20 @@ TEST(Deadline, RefusesBytesBeyondItsMemory) {
   EXPECT_EQ(reason_of(deadline, std::numeric_limits<std::size_t>::max()), StopReason::memory);
   EXPECT_EQ(reason_of(Deadline(forever, 1), 0), StopReason::memory);
   EXPECT_EQ(deadline.memory_bytes(), limit);
+}
+
+TEST(Deadline, GrantsThatItGaveUnaskedCountTowardsTheLimit) {
+  constexpr std::size_t step = std::size_t{1} << 20;
+  const Deadline deadline(forever, resident_bytes() + 64 * step);
+  std::vector<std::vector<char>> held;
+  const auto take_all = [&] {
+    while (held.size() < 1000) {
+      deadline.reserve(step);
+      held.emplace_back(step, 'x');
+    }
+  };
+  EXPECT_THROW(take_all(), Stopped);
+  EXPECT_LT(held.size(), 70U);
 }
 
 TEST(Deadline, NamesTheSignalThatCame) {
