@@ -21,7 +21,7 @@ constexpr double clearance = 0.1;
 constexpr double planning_clearance = clearance * (1.0 + 1e-9);
 
 /// Cell to cell from start to goal, breadth first.
-std::vector<Vec2> cell_path(const MazeCells& maze) {
+Path<Vec2> cell_path(const MazeCells& maze) {
   const std::uint32_t cols = maze.cols();
   const std::uint32_t last = maze.rows() * cols - 1;
   constexpr std::uint32_t none = 0xffffffffU;
@@ -42,7 +42,7 @@ std::vector<Vec2> cell_path(const MazeCells& maze) {
     if (c > 0) reach(!maze.wall_right(c - 1, r), id - 1);
     if (r > 0) reach(!maze.wall_above(c, r - 1), id - cols);
   }
-  std::vector<Vec2> path{{0.5, 1.0}};
+  Path<Vec2> path{{0.5, 1.0}};
   for (std::uint32_t id = 0;; id = parent[id]) {
     path.push_back({1.0 + id % cols, 1.0 + id / cols});
     if (id == last) break;
@@ -51,7 +51,7 @@ std::vector<Vec2> cell_path(const MazeCells& maze) {
   return path;
 }
 
-double length_of(const std::vector<Vec2>& path) {
+double length_of(const Path<Vec2>& path) {
   double length = 0.0;
   for (std::size_t i = 1; i < path.size(); ++i) length += distance(path[i - 1], path[i]);
   return length;
@@ -65,10 +65,10 @@ struct TautCase {
     raw = cell_path(generate_maze(options, {}));
   }
   Scene scene;
-  std::vector<Vec2> raw;
+  Path<Vec2> raw;
 };
 
-void report_path(benchmark::State& state, const TautCase& c, const std::vector<Vec2>& path) {
+void report_path(benchmark::State& state, const TautCase& c, const Path<Vec2>& path) {
   VerifyOptions options;
   options.clearance = clearance;
   if (!verify_path(c.scene, path, options, {}).verified) state.SkipWithError("the path is not free");
@@ -85,7 +85,7 @@ void bm_taut_path(benchmark::State& state) {
   const WallIndex index(c.scene.walls, {});
   Execution execution;
   execution.threads = 1;
-  std::vector<Vec2> path;
+  Path<Vec2> path;
   for (auto _ : state) path = taut_path(index, c.raw, planning_clearance, execution);
   report_path(state, c, path);
 }
@@ -93,7 +93,7 @@ BENCHMARK(bm_taut_path)->Arg(300)->Arg(1000)->Unit(benchmark::kMillisecond);
 
 /// One sweep: as many tries as the path has points; places at most 30 points apart, since farther ones never see
 /// each other in a maze.
-void shortcut_sweep(const WallIndex& index, std::vector<Vec2>& path, SequentialRng& rng) {
+void shortcut_sweep(const WallIndex& index, Path<Vec2>& path, SequentialRng& rng) {
   const auto unit = [&] { return static_cast<double>(rng.below(1U << 30)) * 0x1p-30; };
   for (std::size_t tries = path.size(); tries-- > 0;) {
     const std::size_t i = rng.below(path.size() - 1);
@@ -115,7 +115,7 @@ void shortcut_sweep(const WallIndex& index, std::vector<Vec2>& path, SequentialR
 void bm_random_shortcuts(benchmark::State& state) {
   const TautCase c(static_cast<std::uint32_t>(state.range(0)));
   const WallIndex index(c.scene.walls, {});
-  std::vector<Vec2> path;
+  Path<Vec2> path;
   for (auto _ : state) {
     path = c.raw;
     SequentialRng rng(1);

@@ -174,7 +174,7 @@ Solution<Vec2> plan_plainly(const Scene& scene, const Execution& execution) {
   return prm(world, ends.start, ends.goal, lattice_options(scene), execution);
 }
 
-double length_of(const std::vector<Vec2>& path) {
+double length_of(const Path<Vec2>& path) {
   double length = 0.0;
   for (std::size_t i = 1; i < path.size(); ++i) length += distance(path[i - 1], path[i]);
   return length;

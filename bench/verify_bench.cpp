@@ -14,7 +14,7 @@ namespace {
 
 struct VerifyCase {
   Scene scene;
-  std::vector<Vec2> path;
+  Path<Vec2> path;
   VerifyOptions options;
 };
 
@@ -40,7 +40,7 @@ const VerifyCase& case_of(std::int64_t algorithm, std::int64_t side) {
 /// The path is free; with a point moved to the end of a wall it isn't, and that leg is the first bad one.
 void check_verdicts(const VerifyCase& c, const Execution& execution) {
   check(verify_path(c.scene, c.path, c.options, execution).verified, "verify_path");
-  std::vector<Vec2> bent = c.path;
+  Path<Vec2> bent = c.path;
   const std::size_t moved = bent.size() / 2;
   bent[moved] = bent[moved] + Vec2{0.5, 0.5};
   const Verification refused = verify_path(c.scene, bent, c.options, execution);

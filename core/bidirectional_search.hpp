@@ -185,7 +185,7 @@ SearchResult joined_result(const SearchBorder& agreed, const Forward& forward, c
     result.status = SearchStatus::found;
     result.length = agreed.best;
     result.path = forward.state().path_to(agreed.meeting);
-    const std::vector<VertexId> end = backward.state().path_to(agreed.meeting);
+    const RawVector<VertexId> end = backward.state().path_to(agreed.meeting);
     result.path.insert(result.path.end(), end.rbegin() + 1, end.rend());
   }
   return result;

@@ -15,8 +15,8 @@ void SearchState::clear() {
   touched_blocks_.clear();
 }
 
-std::vector<VertexId> SearchState::path_to(VertexId v) const {
-  std::vector<VertexId> path;
+RawVector<VertexId> SearchState::path_to(VertexId v) const {
+  RawVector<VertexId> path;
   for (; v != no_vertex; v = parent_[v]) path.push_back(v);
   std::reverse(path.begin(), path.end());
   return path;

@@ -26,7 +26,7 @@ enum class SearchStatus : std::uint8_t { found, exhausted, stopped };
 
 struct SearchResult {
   SearchStatus status = SearchStatus::exhausted;
-  std::vector<VertexId> path;  ///< start to goal; empty unless found
+  RawVector<VertexId> path;  ///< start to goal; empty unless found
   double length = 0.0;
   std::uint64_t expanded = 0;  ///< vertices settled, the goal included
 };
@@ -72,7 +72,7 @@ class SearchState {
   void close(VertexId v) { g_[v] = -g(v); }  // -0.0 for the start: closed() reads the sign bit
 
   /// The vertices from start to v along the parents.
-  std::vector<VertexId> path_to(VertexId v) const;
+  RawVector<VertexId> path_to(VertexId v) const;
   /// Vertices that the search has reached, ascending: the search tree, for pictures. O(touched blocks log).
   std::vector<VertexId> touched() const;
   std::size_t bytes() const {

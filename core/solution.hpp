@@ -6,9 +6,9 @@
 #include <limits>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "core/counters.hpp"
+#include "core/path.hpp"
 #include "core/stop_reason.hpp"
 
 namespace warren {
@@ -41,19 +41,11 @@ template <class State>
 struct Solution {
   Outcome outcome = Outcome::not_connected;
   StopReason stop_reason = StopReason::time;  ///< only for stopped
-  std::vector<State> path;                    ///< start to goal; empty unless solved
+  Path<State> path;                           ///< start to goal; empty unless solved
   RoadmapSize roadmap;
   Separation separation;  ///< only for not_connected
   Counters counters;      ///< exact, the same for any thread count
   StageTimes seconds;
 };
-
-/// Sum of the motions' lengths, in the path's order.
-template <class State, class Distance>
-double path_length(const std::vector<State>& path, Distance&& distance_between) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) length += distance_between(path[i - 1], path[i]);
-  return length;
-}
 
 }  // namespace warren

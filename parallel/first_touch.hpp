@@ -38,11 +38,10 @@ void touch_first(RawVector<T>& block, const Execution& execution) {
 /// Makes an empty vector's room for `count` elements, and touches it: filling it is then quick for one thread. Throws
 /// Stopped, also where the memory limit doesn't allow for it.
 template <class T>
-void reserve_touched(std::vector<T>& empty, std::size_t count, const Execution& execution) {
+void reserve_touched(RawVector<T>& empty, std::size_t count, const Execution& execution) {
   static_assert(std::is_trivially_copyable_v<T>);
   execution.reserve(count * sizeof(T));
   empty.reserve(count);
-  detail::prefer_huge_pages(empty.data(), count * sizeof(T));
   constexpr std::size_t many_pages = std::size_t{1} << 17;
   detail::touch_pages(reinterpret_cast<char*>(empty.data()), count * sizeof(T), many_pages, execution);
 }

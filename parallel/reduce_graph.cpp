@@ -168,7 +168,7 @@ ReducedGraphView::ReducedGraphView(KeyCoverView cover, const std::vector<Part>& 
 }
 
 /// Appends the chain from one key to another, without the first.
-void ReducedGraphView::expand_step(VertexId from, VertexId to, std::vector<VertexId>& path,
+void ReducedGraphView::expand_step(VertexId from, VertexId to, RawVector<VertexId>& path,
                                    const Execution& execution) const {
   const std::span<const VertexId> row = reduced_.neighbours(from);
   const auto at = static_cast<std::size_t>(std::lower_bound(row.begin(), row.end(), to) - row.begin());
@@ -183,11 +183,11 @@ void ReducedGraphView::expand_step(VertexId from, VertexId to, std::vector<Verte
   path.push_back(v);
 }
 
-std::vector<VertexId> ReducedGraphView::expand(std::span<const VertexId> keys, const Execution& execution) const {
+RawVector<VertexId> ReducedGraphView::expand(std::span<const VertexId> keys, const Execution& execution) const {
   if (keys.empty()) return {};
   constexpr std::size_t keys_a_part = 1024;
   const Execution quiet = without_progress(execution);
-  std::vector<std::vector<VertexId>> parts(chunk_count(keys.size() - 1, keys_a_part));
+  std::vector<RawVector<VertexId>> parts(chunk_count(keys.size() - 1, keys_a_part));
   for_chunks(keys.size() - 1, keys_a_part, quiet, [&](Range r) {
     for (std::size_t i = r.first; i < r.last; ++i) {
       expand_step(keys[i], keys[i + 1], parts[r.first / keys_a_part], execution);
@@ -195,7 +195,7 @@ std::vector<VertexId> ReducedGraphView::expand(std::span<const VertexId> keys, c
   });
   std::vector<std::size_t> begins(parts.size() + 1, 1);
   for (std::size_t p = 0; p < parts.size(); ++p) begins[p + 1] = begins[p] + parts[p].size();
-  std::vector<VertexId> path;
+  RawVector<VertexId> path;
   reserve_touched(path, begins.back(), quiet);
   path.push_back(vertex_of(keys.front()));
   path.resize(begins.back());

@@ -106,10 +106,10 @@ class ReducedGraphView {
   /// Components of the graph that no key stands for. Only where peeling stays within blocks.
   std::size_t keyless_components() const { return cover_.peeled_trees() + cycles_; }
   /// A path over keys as the path over vertices that it stands for. O(path).
-  std::vector<VertexId> expand(std::span<const VertexId> keys, const Execution& execution) const;
+  RawVector<VertexId> expand(std::span<const VertexId> keys, const Execution& execution) const;
 
  private:
-  void expand_step(VertexId from, VertexId to, std::vector<VertexId>& path, const Execution& execution) const;
+  void expand_step(VertexId from, VertexId to, RawVector<VertexId>& path, const Execution& execution) const;
 
   KeyCoverView cover_;
   std::size_t cycles_ = 0;
@@ -314,7 +314,7 @@ class TwiceReducedGraphView {
   std::size_t component_count() const { return components_.count + blocks_->keyless_components(); }
   /// Are two vertices in one component? Both must be kept ones.
   bool connected(VertexId v, VertexId w) const { return components_.connected(blocks_->key_of(v), blocks_->key_of(w)); }
-  std::vector<VertexId> expand(std::span<const VertexId> keys, const Execution& execution) const {
+  RawVector<VertexId> expand(std::span<const VertexId> keys, const Execution& execution) const {
     return blocks_->expand(whole_.expand(keys, execution), execution);
   }
 

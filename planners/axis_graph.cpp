@@ -124,7 +124,7 @@ const AxisLink& AxisGraph::link_between(VertexId v, VertexId w) const {
   return *best;
 }
 
-std::vector<Vec2> AxisGraph::polyline(const std::vector<VertexId>& path) const {
+std::vector<Vec2> AxisGraph::polyline(std::span<const VertexId> path) const {
   std::vector<Vec2> points{place(path.front())};
   for (std::size_t i = 1; i < path.size(); ++i) {
     const AxisLink& l = link_between(path[i - 1], path[i]);

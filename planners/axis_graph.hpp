@@ -46,7 +46,7 @@ class AxisGraph {
   /// The link between two vertices that follow each other in a path: the shortest one, where several do.
   const AxisLink& link_between(VertexId v, VertexId w) const;
   /// The polyline along a search's path, both ends included.
-  std::vector<Vec2> polyline(const std::vector<VertexId>& path) const;
+  std::vector<Vec2> polyline(std::span<const VertexId> path) const;
 
  private:
   void add(VertexId from, VertexId to, std::uint32_t edge, double first, double last, double clearance);

@@ -45,11 +45,11 @@ class Planning {
   void connect_cells();
   bool ends_are_joined();
   void find_route();
-  std::vector<VertexId> search_cells();
-  std::vector<VertexId> search_doors();
-  void follow_cells(const std::vector<VertexId>& cells);
+  RawVector<VertexId> search_cells();
+  RawVector<VertexId> search_doors();
+  void follow_cells(std::span<const VertexId> cells);
   void follow_taut_route();
-  void follow_doors(const std::vector<VertexId>& doors);
+  void follow_doors(std::span<const VertexId> doors);
   void lay_path();
   std::uint32_t door_between(std::uint32_t cell, std::uint32_t next) const;
   template <class Visit>
@@ -126,7 +126,7 @@ void Planning::find_route() {
   }
 }
 
-std::vector<VertexId> Planning::search_cells() {
+RawVector<VertexId> Planning::search_cells() {
   const auto should_stop = [&] { return execution_.should_stop(); };
   SearchState state;
   state.resize(graph_.vertex_count());
@@ -146,7 +146,7 @@ void Planning::for_each_door(std::uint32_t cell, const Visit& visit) const {
 }
 
 /// Best first over the doors, start and goal behind them.
-std::vector<VertexId> Planning::search_doors() {
+RawVector<VertexId> Planning::search_doors() {
   const auto count = static_cast<VertexId>(plan_.cells.doors.size());
   const VertexId start = count;
   const VertexId goal = count + 1;
@@ -191,7 +191,7 @@ std::uint32_t Planning::door_between(std::uint32_t cell, std::uint32_t next) con
 }
 
 /// cells: start's vertex, cells, goal's vertex.
-void Planning::follow_cells(const std::vector<VertexId>& cells) {
+void Planning::follow_cells(std::span<const VertexId> cells) {
   CellRoute& route = plan_.route;
   route.cells.assign(cells.begin() + 1, cells.end() - 1);
   for (std::size_t i = 1; i < route.cells.size(); ++i) {
@@ -202,7 +202,7 @@ void Planning::follow_cells(const std::vector<VertexId>& cells) {
 
 /// doors: start's vertex, doors, goal's vertex. A door that is reached but not passed (all legs lie in one cell) is
 /// left out, at the ends too.
-void Planning::follow_doors(const std::vector<VertexId>& doors) {
+void Planning::follow_doors(std::span<const VertexId> doors) {
   CellRoute& route = plan_.route;
   middles_.assign(doors.begin() + 1, doors.end() - 1);
   const auto holds = [](const CellPlace& place, std::uint32_t cell) {
@@ -244,7 +244,7 @@ void Planning::follow_taut_route() {
 
 void Planning::lay_path() {
   const StageTimer timer(execution_, "path", solution_.seconds.search);
-  std::vector<Vec2>& path = solution_.path;
+  Path<Vec2>& path = solution_.path;
   path = options_.doors == DoorKind::midpoint ? path_through_middles(start_, goal_, middles_, *points_)
                                               : shortest_path_through(plan_.route, plan_.cells);
   path.erase(std::unique(path.begin(), path.end()), path.end());

@@ -56,7 +56,7 @@ class Funnel {
     apex_ = at;
   }
 
-  std::vector<Vec2> take() { return std::move(path_); }
+  Path<Vec2> take() { return std::move(path_); }
 
  private:
   /// Bends the string around the other side's posts that stand in the way to `to`.
@@ -70,14 +70,13 @@ class Funnel {
 
   Vec2 apex_;
   RouteChain left_, right_;
-  std::vector<Vec2> path_;
+  Path<Vec2> path_;
 };
 
 }  // namespace
 
-std::vector<Vec2> path_through_middles(Vec2 start, Vec2 goal, std::span<const std::uint32_t> doors,
-                                       const DoorPoints& points) {
-  std::vector<Vec2> path{start};
+Path<Vec2> path_through_middles(Vec2 start, Vec2 goal, std::span<const std::uint32_t> doors, const DoorPoints& points) {
+  Path<Vec2> path{start};
   for (std::size_t i = 0; i < doors.size(); ++i) {
     if (i > 0) {
       if (const auto bend = points.bend(doors[i - 1], doors[i])) path.push_back(*bend);
@@ -88,7 +87,7 @@ std::vector<Vec2> path_through_middles(Vec2 start, Vec2 goal, std::span<const st
   return path;
 }
 
-std::vector<Vec2> shortest_path_through(const CellRoute& route, const CellDecomposition& cells) {
+Path<Vec2> shortest_path_through(const CellRoute& route, const CellDecomposition& cells) {
   const auto is_rightwards = [&](std::size_t i) { return cells.doors[route.doors[i]].left == route.cells[i]; };
   Funnel funnel(route.start);
   for (std::size_t i = 0; i < route.doors.size(); ++i) {

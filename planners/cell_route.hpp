@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "core/path.hpp"
 #include "core/types.hpp"
 #include "planners/cell_decomposition.hpp"
 #include "planners/door_points.hpp"
@@ -28,10 +29,9 @@ struct CellRoute {
 };
 
 /// Through the middles of the doors, of which each two in a row belong to one cell; start and goal included.
-std::vector<Vec2> path_through_middles(Vec2 start, Vec2 goal, std::span<const std::uint32_t> doors,
-                                       const DoorPoints& points);
+Path<Vec2> path_through_middles(Vec2 start, Vec2 goal, std::span<const std::uint32_t> doors, const DoorPoints& points);
 
 /// The shortest path through the doors; bends at corners of the obstacles only.
-std::vector<Vec2> shortest_path_through(const CellRoute& route, const CellDecomposition& cells);
+Path<Vec2> shortest_path_through(const CellRoute& route, const CellDecomposition& cells);
 
 }  // namespace warren

@@ -111,8 +111,8 @@ VertexId JumpPoints::jump_diagonal(VertexId v, int dx, int dy, VertexId goal) co
   return no_vertex;
 }
 
-std::vector<VertexId> JumpPoints::with_steps(const std::vector<VertexId>& jump_points) const {
-  std::vector<VertexId> path;
+RawVector<VertexId> JumpPoints::with_steps(std::span<const VertexId> jump_points) const {
+  RawVector<VertexId> path;
   for (const VertexId to : jump_points) {
     if (!path.empty()) {
       const Cell a = rows_.cell(path.back());

@@ -35,7 +35,7 @@ class JumpPoints {
   }
 
   /// Jump points with the cells between them.
-  std::vector<VertexId> with_steps(const std::vector<VertexId>& jump_points) const;
+  RawVector<VertexId> with_steps(std::span<const VertexId> jump_points) const;
 
  private:
   /// A bit for each of cell_steps that a shortest path may take from v.

@@ -46,9 +46,9 @@ class LazyPathSearch {
   }
 
   /// The shortest path all of whose edges are free, as vertices; empty if there is none. Throws Stopped.
-  std::vector<VertexId> run() {
+  RawVector<VertexId> run() {
     while (settle_goal()) {
-      std::vector<VertexId> path;
+      RawVector<VertexId> path;
       for (VertexId v = goal_; v != no_vertex; v = parent_[v]) path.push_back(v);
       std::reverse(path.begin(), path.end());
       if (check(path)) return path;
@@ -72,7 +72,7 @@ class LazyPathSearch {
   double length(VertexId v, VertexId w) const { return world_.distance(states_[v], states_[w]); }
 
   bool settle_goal();
-  bool check(const std::vector<VertexId>& path);
+  bool check(std::span<const VertexId> path);
   bool is_free(VertexId v, VertexId w);
   std::uint8_t& status(VertexId v, VertexId w) {
     const auto row = graph_.neighbours(v);
@@ -122,7 +122,7 @@ bool LazyPathSearch<W>::settle_goal() {
 
 /// Checks all edges of a path from the goal's end and drops the blocked ones: small subtrees first.
 template <World W>
-bool LazyPathSearch<W>::check(const std::vector<VertexId>& path) {
+bool LazyPathSearch<W>::check(std::span<const VertexId> path) {
   bool all_free = true;
   for (std::size_t i = path.size() - 1; i > 0; --i) {
     if (is_free(path[i - 1], path[i])) continue;

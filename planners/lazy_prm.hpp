@@ -42,7 +42,7 @@ class LazyPlan {
     solution_.counters.samples += samples;
     draw(samples);
     attach_ends();
-    const std::vector<VertexId> path = options_.lazy == LazyCheck::path ? search_paths() : search_expanding();
+    const RawVector<VertexId> path = options_.lazy == LazyCheck::path ? search_paths() : search_expanding();
     if (path.empty()) return false;
     solution_.outcome = Outcome::solved;
     for (const VertexId v : path) solution_.path.push_back(states_[v]);
@@ -54,9 +54,9 @@ class LazyPlan {
  private:
   void draw(std::uint64_t samples);
   void attach_ends();
-  std::vector<VertexId> search_expanding();
-  std::vector<VertexId> search_from_both_ends();
-  std::vector<VertexId> search_paths();
+  RawVector<VertexId> search_expanding();
+  RawVector<VertexId> search_from_both_ends();
+  RawVector<VertexId> search_paths();
   SearchResult expand_from(VertexId from, VertexId to, SearchState& state, std::vector<Edge>* record);
   LazyGraph<W> lazy_graph() const { return {world_, states_, index_, rule_, candidates_, end_edges_}; }
   void count(const LazyGraph<W>& graph);
@@ -136,7 +136,7 @@ void LazyPlan<W>::count(const LazyGraph<W>& graph) {
 }
 
 template <World W>
-std::vector<VertexId> LazyPlan<W>::search_expanding() {
+RawVector<VertexId> LazyPlan<W>::search_expanding() {
   const StageTimer timer(execution_, "search", solution_.seconds.search);
   free_edges_.assign(end_edges_.begin(), end_edges_.end());
   if (states_.size() >= fewest_for_both_ends) return search_from_both_ends();
@@ -148,7 +148,7 @@ std::vector<VertexId> LazyPlan<W>::search_expanding() {
 }
 
 template <World W>
-std::vector<VertexId> LazyPlan<W>::search_from_both_ends() {
+RawVector<VertexId> LazyPlan<W>::search_from_both_ends() {
   execution_.reserve(states_.size() * 36);
   std::array<LazyEnd<W>, 2> ends{LazyEnd<W>{lazy_graph(), {}, {}}, LazyEnd<W>{lazy_graph(), {}, {}}};
   if (keep_) {
@@ -171,10 +171,10 @@ std::vector<VertexId> LazyPlan<W>::search_from_both_ends() {
 }
 
 template <World W>
-std::vector<VertexId> LazyPlan<W>::search_paths() {
+RawVector<VertexId> LazyPlan<W>::search_paths() {
   const StageTimer timer(execution_, "search", solution_.seconds.search);
   LazyPathSearch<W> search(world_, candidates_, states_, start_vertex(), goal_vertex(), execution_);
-  std::vector<VertexId> path = search.run();
+  RawVector<VertexId> path = search.run();
   solution_.counters.expanded += search.expanded();
   solution_.counters.edges_checked += search.checked();
   solution_.roadmap.edges += search.free_edges().size();

@@ -149,7 +149,7 @@ bool Planning::plan(double clearance) {
     plan_.axis_length += link.length;
     plan_.axis_clearance = std::min(plan_.axis_clearance, link.clearance);
   }
-  std::vector<Vec2>& path = solution_.path;
+  Path<Vec2>& path = solution_.path;
   path.assign(1, start_);
   const std::vector<Vec2> line = graph.polyline(found.path);
   path.insert(path.end(), line.begin(), line.end());

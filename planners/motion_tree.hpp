@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/counters.hpp"
+#include "core/path.hpp"
 #include "core/world.hpp"
 #include "planners/roadmap.hpp"
 #include "planners/state_index.hpp"
@@ -71,8 +72,8 @@ class MotionTree {
     return from;
   }
   /// The states from v to its root, in this order.
-  std::vector<State> way_to_root(VertexId v) const {
-    std::vector<State> way;
+  Path<State> way_to_root(VertexId v) const {
+    Path<State> way;
     for (; v != no_vertex; v = parents_[v]) way.push_back(states_[v]);
     return way;
   }

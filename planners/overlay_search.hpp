@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/path.hpp"
 #include "parallel/execution.hpp"
 #include "planners/overlay.hpp"
 
@@ -20,7 +21,7 @@ struct CoreComponents {
 CoreComponents core_components(const Overlay& overlay, const Execution& execution);
 
 /// All vertices of a path from start to goal, in order. O(vertices), in parallel.
-std::vector<Vec2> expand_path(const Overlay& overlay, const TileGrid& grid, std::span<const TileSummary> tiles,
-                              const OverlayEnds& ends, std::span<const VertexId> path, const Execution& execution);
+Path<Vec2> expand_path(const Overlay& overlay, const TileGrid& grid, std::span<const TileSummary> tiles,
+                       const OverlayEnds& ends, std::span<const VertexId> path, const Execution& execution);
 
 }  // namespace warren

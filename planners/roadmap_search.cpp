@@ -41,7 +41,7 @@ std::vector<Edge> expanded_tree(const TwiceReducedGraphView& reduced, const std:
                                 const Execution& execution) {
   std::vector<Edge> tree;
   for (const Edge& e : keys) {
-    const std::vector<VertexId> chain = reduced.expand(std::array{e.from, e.to}, execution);
+    const RawVector<VertexId> chain = reduced.expand(std::array{e.from, e.to}, execution);
     for (std::size_t i = 0; i + 1 < chain.size(); ++i) tree.push_back({chain[i], chain[i + 1]});
   }
   return tree;

@@ -169,7 +169,7 @@ void RrtConnectSearch<W>::finish(Solution<State>& solution, Roadmap<State>* keep
   if (arrived_) {
     solution.path = trees_[0].way_to_root(meeting_[0]);
     std::reverse(solution.path.begin(), solution.path.end());
-    const std::vector<State> rest = trees_[1].way_to_root(meeting_[1]);
+    const Path<State> rest = trees_[1].way_to_root(meeting_[1]);
     solution.path.insert(solution.path.end(), rest.begin() + 1, rest.end());
   } else {
     const auto points = [&](const MotionTree<W>& tree) {

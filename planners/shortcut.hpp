@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/counters.hpp"
+#include "core/path.hpp"
 #include "core/rng.hpp"
 #include "core/world.hpp"
 #include "parallel/chunks.hpp"
@@ -33,11 +34,11 @@ class Shortener {
  public:
   using State = typename W::State;
 
-  Shortener(const W& world, std::vector<State> path, const Length& length, const ShortcutOptions& options,
+  Shortener(const W& world, Path<State> path, const Length& length, const ShortcutOptions& options,
             const Execution& execution)
       : world_(world), path_(std::move(path)), length_(length), options_(options), execution_(execution) {}
 
-  std::vector<State> run() {
+  Path<State> run() {
     constexpr int patience = 12;
     constexpr double worth = 1e-4;
     int idle = 0;
@@ -89,10 +90,10 @@ class Shortener {
   template <class Make>
   void change(std::size_t count, const Make& make);
   void apply(std::vector<Change>& changes);
-  std::vector<State> with(const std::vector<Change>& chosen) const;
+  Path<State> with(const std::vector<Change>& chosen) const;
 
   const W& world_;
-  std::vector<State> path_;
+  Path<State> path_;
   const Length& length_;
   const ShortcutOptions& options_;
   const Execution& execution_;
@@ -213,8 +214,8 @@ void Shortener<W, Length>::apply(std::vector<Change>& changes) {
 
 /// chosen: in the path's order, no two on one leg.
 template <SteerableWorld W, class Length>
-auto Shortener<W, Length>::with(const std::vector<Change>& chosen) const -> std::vector<State> {
-  std::vector<State> path;
+auto Shortener<W, Length>::with(const std::vector<Change>& chosen) const -> Path<State> {
+  Path<State> path;
   const auto add = [&](const State& state) {
     if (path.empty() || !(path.back() == state)) path.push_back(state);
   };
@@ -234,12 +235,11 @@ auto Shortener<W, Length>::with(const std::vector<Change>& chosen) const -> std:
 /// longer in the sum of length(a, b) over its motions, which obeys the triangle inequality along motions. Adds the work
 /// to counters. Throws Stopped at the deadline.
 template <SteerableWorld W, class Length>
-std::vector<typename W::State> shortcut_path(const W& world, std::vector<typename W::State> path, const Length& length,
-                                             const ShortcutOptions& options, const Execution& execution,
-                                             Counters& counters) {
+Path<typename W::State> shortcut_path(const W& world, Path<typename W::State> path, const Length& length,
+                                      const ShortcutOptions& options, const Execution& execution, Counters& counters) {
   if (path.size() < 3) return path;
   detail::Shortener<W, Length> shortener(world, std::move(path), length, options, execution);
-  std::vector<typename W::State> shorter = shortener.run();
+  Path<typename W::State> shorter = shortener.run();
   counters += shortener.counters();
   return shorter;
 }

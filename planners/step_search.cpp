@@ -155,8 +155,8 @@ void StepSide::exchange(const StepSide& other, bool stop) {
   border_.stop = stop;
 }
 
-std::vector<VertexId> StepSide::path_to(VertexId v) const {
-  std::vector<VertexId> path{v};
+RawVector<VertexId> StepSide::path_to(VertexId v) const {
+  RawVector<VertexId> path{v};
   const auto is_root = [&](VertexId key) {
     return std::any_of(roots_.begin(), roots_.end(),
                        [&](const Root& root) { return root.key == key && root.length == label(key); });
@@ -195,7 +195,7 @@ SearchResult search_steps(const Overlay& overlay, const OverlayEnds& ends, const
   const double direct = ends.direct ? distance(ends.start.at, ends.goal.at) : unreached;
   const bool is_direct = ends.direct && (result.status != SearchStatus::found || direct <= result.length);
   if (result.status != SearchStatus::found && !is_direct) return result;
-  std::vector<VertexId> path{overlay.start()};
+  RawVector<VertexId> path{overlay.start()};
   if (!is_direct) path.insert(path.end(), result.path.begin(), result.path.end());
   path.push_back(overlay.goal());
   return {SearchStatus::found, std::move(path), is_direct ? direct : result.length, result.expanded};

@@ -54,7 +54,7 @@ class StepSide {
   const StepSide& state() const { return *this; }
   std::uint64_t settled() const { return settled_; }
   /// A shortest path from the key where the search began to v, which has a label.
-  std::vector<VertexId> path_to(VertexId v) const;
+  RawVector<VertexId> path_to(VertexId v) const;
 
  private:
   struct Entry {

@@ -20,13 +20,13 @@ constexpr std::size_t grain = 1024;
 
 /// Without points that repeat the last one or lie between their neighbours on a line parallel to an axis: there it is
 /// certain that the longer leg is as free as its parts.
-std::vector<Vec2> corners_of(std::span<const Vec2> path) {
+Path<Vec2> corners_of(std::span<const Vec2> path) {
   const auto between = [](Vec2 a, Vec2 b, Vec2 c) {
     const bool upright = a.x == b.x && b.x == c.x && (b.y - a.y) * (c.y - b.y) > 0.0;
     const bool level = a.y == b.y && b.y == c.y && (b.x - a.x) * (c.x - b.x) > 0.0;
     return upright || level;
   };
-  std::vector<Vec2> corners;
+  Path<Vec2> corners;
   for (const Vec2 p : path) {
     if (!corners.empty() && p == corners.back()) continue;
     if (corners.size() > 1 && between(corners[corners.size() - 2], corners.back(), p)) corners.pop_back();
@@ -56,7 +56,7 @@ class Pulling {
 
   /// Appends the taut path along `points` but for its first point. Where something fails the check, the halves are
   /// pulled by themselves; what can't be halved stays as it was.
-  void append(std::span<const Vec2> points, std::vector<Vec2>& result) {
+  void append(std::span<const Vec2> points, Path<Vec2>& result) {
     if (points.size() > 2) {
       std::vector<Vec2> taut = pulled(points);
       if (taut.empty()) {
@@ -162,11 +162,10 @@ class Pulling {
 
 }  // namespace
 
-std::vector<Vec2> taut_path(const WallIndex& walls, std::span<const Vec2> path, double clearance,
-                            const Execution& execution) {
-  const std::vector<Vec2> corners = corners_of(path);
+Path<Vec2> taut_path(const WallIndex& walls, std::span<const Vec2> path, double clearance, const Execution& execution) {
+  const Path<Vec2> corners = corners_of(path);
   if (corners.size() < 3) return corners;
-  std::vector<Vec2> result{corners.front()};
+  Path<Vec2> result{corners.front()};
   Pulling(walls, corners, clearance, execution).append(corners, result);
   return result;
 }

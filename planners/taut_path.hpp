@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "core/path.hpp"
 #include "core/types.hpp"
 #include "parallel/execution.hpp"
 #include "spatial/wall_index.hpp"
@@ -20,7 +21,6 @@ namespace warren {
 /// path: free with this clearance (as keeps_clearance answers), at least one point. The result has the same ends, is
 /// free in the same sense, is never longer than the path, and stays in its box. Throws Stopped at the deadline.
 /// The same for any number of threads.
-std::vector<Vec2> taut_path(const WallIndex& walls, std::span<const Vec2> path, double clearance,
-                            const Execution& execution);
+Path<Vec2> taut_path(const WallIndex& walls, std::span<const Vec2> path, double clearance, const Execution& execution);
 
 }  // namespace warren

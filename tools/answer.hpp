@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/path.hpp"
 #include "core/solution.hpp"
 #include "parallel/deadline.hpp"
 #include "tools/problem.hpp"
@@ -61,8 +62,8 @@ struct Answer {
   StageTimes seconds;
   double solve_s = 0.0;
   std::size_t peak_memory_bytes = 0;
-  std::vector<Vec2> path;  ///< of the reference point in the plane, as pictures show it; a point's or disc's states
-  StateList states;        ///< start to goal, where a state is more than a point of the plane; else empty
+  Path<Vec2> path;   ///< of the reference point in the plane, as pictures show it; a point's or disc's states
+  StateList states;  ///< start to goal, where a state is more than a point of the plane; else empty
 };
 
 /// Stages with the names that JSON and summary give them, in the order of the work.

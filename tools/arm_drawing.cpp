@@ -96,7 +96,7 @@ class ArmDrawing {
   const ArmProblem& problem_;
   SerialChain chain_;
   std::vector<ArmLink> links_;
-  std::vector<JointState> path_;
+  Path<JointState> path_;
   Vec3 low_ = Vec3::Zero();
   Vec3 high_ = Vec3::Zero();
   double room_ = 1.0;  // around each view
@@ -255,7 +255,7 @@ Drawing recorded_arm_drawing(const Scene& scene, const RecordedAnswer& answer, c
   problem.robot = robot_of(scene, answer.problem);
   problem.table = table_of(problem.robot, execution);
   problem.start = joint_state(answer.problem.start.empty() ? scene.start : answer.problem.start);
-  std::vector<JointState> path;
+  Path<JointState> path;
   for (std::size_t i = 0; i < answer.states.size(); ++i) path.push_back(joint_state(answer.states[i]));
   return arm_drawing(scene, problem, path);
 }

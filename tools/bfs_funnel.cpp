@@ -17,6 +17,13 @@ constexpr std::uint8_t reached = 4;
 constexpr int came_by_shift = 3;  ///< bits 3 and 4 of a reached cell's byte: the direction of the step into it
 constexpr std::size_t poll_every = std::size_t{1} << 16;
 
+/// Appends to a list that may fill much of the memory: asks before it grows.
+template <class T>
+void append(T item, RawVector<T>& list, const Execution& execution) {
+  if (list.size() == list.capacity()) execution.reserve(2 * list.size() * sizeof(T));
+  list.push_back(item);
+}
+
 /// Breadth-first search over the cells' own bytes.
 class CellWalk {
  public:
@@ -25,7 +32,7 @@ class CellWalk {
 
   bool reaches(std::size_t start, std::size_t goal);
   /// The steps that lead from start to goal.
-  std::vector<Direction> steps(std::size_t start, std::size_t goal) const;
+  RawVector<Direction> steps(std::size_t start, std::size_t goal) const;
 
  private:
   bool open(std::size_t i, Direction d) const {
@@ -75,12 +82,12 @@ bool CellWalk::reaches(std::size_t start, std::size_t goal) {
   return (bytes_[goal] & reached) != 0;
 }
 
-std::vector<Direction> CellWalk::steps(std::size_t start, std::size_t goal) const {
-  std::vector<Direction> steps;
+RawVector<Direction> CellWalk::steps(std::size_t start, std::size_t goal) const {
+  RawVector<Direction> steps;
   for (std::size_t i = goal; i != start;) {
     if (steps.size() % poll_every == 0) execution_.check();
     const auto came_by = static_cast<Direction>((bytes_[i] >> came_by_shift) & 3);
-    steps.push_back(came_by);
+    append(came_by, steps, execution_);
     i = beyond(i, static_cast<Direction>(came_by ^ 2));
   }
   std::reverse(steps.begin(), steps.end());
@@ -93,20 +100,26 @@ struct Gate {
   Vec2 right;
 };
 
-/// Left of a walker who faces in direction d is the direction before it.
-std::vector<Gate> gates_along(const std::vector<Direction>& steps, Vec2 goal) {
-  constexpr std::array<Vec2, 4> ahead{{{0, 1}, {1, 0}, {0, -1}, {-1, 0}}};
-  std::vector<Gate> gates;
-  gates.reserve(steps.size() + 1);
+constexpr std::array<Vec2, 4> ahead{{{0, 1}, {1, 0}, {0, -1}, {-1, 0}}};
+
+/// Where a walker stands who goes through the gates along the steps: in front of one of them. The last one is the goal.
+struct Spot {
+  std::size_t gate = 0;
   Vec2 cell{1.0, 1.0};
-  for (const Direction d : steps) {
-    const Vec2 middle = cell + 0.5 * ahead[d];
-    const Vec2 leftward = 0.5 * ahead[(d + 3) % 4];
-    gates.push_back({middle + leftward, middle - leftward});
-    cell = cell + ahead[d];
-  }
-  gates.push_back({goal, goal});
-  return gates;
+};
+
+/// Left of a walker who faces in direction d is the direction before it.
+Gate gate_at(const Spot& spot, const RawVector<Direction>& steps, Vec2 goal) {
+  if (spot.gate == steps.size()) return {goal, goal};
+  const Direction d = steps[spot.gate];
+  const Vec2 middle = spot.cell + 0.5 * ahead[d];
+  const Vec2 leftward = 0.5 * ahead[(d + 3) % 4];
+  return {middle + leftward, middle - leftward};
+}
+
+Spot after(const Spot& spot, const RawVector<Direction>& steps) {
+  if (spot.gate == steps.size()) return {spot.gate + 1, spot.cell};
+  return {spot.gate + 1, spot.cell + ahead[steps[spot.gate]]};
 }
 
 double turn(Vec2 a, Vec2 b, Vec2 c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
@@ -114,60 +127,62 @@ double turn(Vec2 a, Vec2 b, Vec2 c) { return (b.x - a.x) * (c.y - a.y) - (b.y - 
 /// The taut string through the gates. Half-integer coordinates below 2^23 make every turn exact.
 class Funnel {
  public:
-  explicit Funnel(Vec2 start) : path_{start}, left_(start), right_(start) {}
+  Funnel(Vec2 start, const Execution& execution) : execution_(execution), path_{start}, left_(start), right_(start) {}
 
-  std::vector<Vec2> pull(const std::vector<Gate>& gates, const Execution& execution) {
+  Path<Vec2> pull(const RawVector<Direction>& steps, Vec2 goal) {
     std::size_t gates_seen = 0;
-    for (std::size_t i = 0; i < gates.size(); ++i) {
-      if (++gates_seen % poll_every == 0) execution.check();
-      if (!narrow_right(gates[i].right, i) || !narrow_left(gates[i].left, i)) i = restart_;
+    for (Spot at; at.gate <= steps.size(); at = after(at, steps)) {
+      if (++gates_seen % poll_every == 0) execution_.check();
+      const Gate gate = gate_at(at, steps, goal);
+      if (!narrow_right(gate.right, at) || !narrow_left(gate.left, at)) at = restart_;
     }
-    if (path_.back() != gates.back().left) path_.push_back(gates.back().left);
+    if (path_.back() != goal) append(goal, path_, execution_);
     return std::move(path_);
   }
 
  private:
   Vec2 apex() const { return path_.back(); }
   /// False where the string bends round the other side's corner: the walk goes on after that corner's gate.
-  bool narrow_right(Vec2 p, std::size_t i) {
+  bool narrow_right(Vec2 p, const Spot& at) {
     if (turn(apex(), right_, p) < 0.0) return true;
-    if (apex() != right_ && turn(apex(), left_, p) > 0.0) return bend(left_, left_gate_);
+    if (apex() != right_ && turn(apex(), left_, p) > 0.0) return bend(left_, left_spot_);
     right_ = p;
-    right_gate_ = i;
+    right_spot_ = at;
     return true;
   }
-  bool narrow_left(Vec2 p, std::size_t i) {
+  bool narrow_left(Vec2 p, const Spot& at) {
     if (turn(apex(), left_, p) > 0.0) return true;
-    if (apex() != left_ && turn(apex(), right_, p) < 0.0) return bend(right_, right_gate_);
+    if (apex() != left_ && turn(apex(), right_, p) < 0.0) return bend(right_, right_spot_);
     left_ = p;
-    left_gate_ = i;
+    left_spot_ = at;
     return true;
   }
-  bool bend(Vec2 corner, std::size_t gate) {
-    path_.push_back(corner);
+  bool bend(Vec2 corner, Spot spot) {
+    append(corner, path_, execution_);
     left_ = right_ = corner;
-    left_gate_ = right_gate_ = restart_ = gate;
+    left_spot_ = right_spot_ = restart_ = spot;
     return false;
   }
 
-  std::vector<Vec2> path_;
+  const Execution& execution_;
+  Path<Vec2> path_;
   Vec2 left_;
   Vec2 right_;
-  std::size_t left_gate_ = 0;
-  std::size_t right_gate_ = 0;
-  std::size_t restart_ = 0;
+  Spot left_spot_;
+  Spot right_spot_;
+  Spot restart_;
 };
 
 }  // namespace
 
-std::vector<Vec2> bfs_funnel(const Scene& scene, const Execution& execution) {
+Path<Vec2> bfs_funnel(const Scene& scene, const Execution& execution) {
   MazeCells cells = cells_of_walls(scene.walls, *scene.maze, execution);
   const std::size_t first = cells.index(0, 0);
   const std::size_t last = cells.index(cells.cols() - 1, cells.rows() - 1);
   CellWalk walk(cells, execution);
   if (!walk.reaches(first, last)) return {};
   const Vec2 goal{cells.cols() + 0.5, static_cast<double>(cells.rows())};
-  return Funnel({0.5, 1.0}).pull(gates_along(walk.steps(first, last), goal), execution);
+  return Funnel({0.5, 1.0}, execution).pull(walk.steps(first, last), goal);
 }
 
 }  // namespace warren

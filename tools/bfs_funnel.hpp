@@ -6,8 +6,7 @@
 // walls.
 #pragma once
 
-#include <vector>
-
+#include "core/path.hpp"
 #include "core/types.hpp"
 #include "parallel/execution.hpp"
 #include "worlds/scene.hpp"
@@ -16,6 +15,6 @@ namespace warren {
 
 /// From the maze's start (0.5, 1) to its goal (cols + 0.5, rows); empty if cells don't connect them. The scene has the
 /// maze hint. Throws InputError if a wall is off the unit grid, Stopped at the deadline.
-std::vector<Vec2> bfs_funnel(const Scene& scene, const Execution& execution);
+Path<Vec2> bfs_funnel(const Scene& scene, const Execution& execution);
 
 }  // namespace warren

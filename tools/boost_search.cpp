@@ -159,8 +159,8 @@ class BoostSearch : public GraphSearch {
     }
   }
 
-  std::vector<VertexId> path() const {
-    std::vector<VertexId> path{from_.goal};
+  RawVector<VertexId> path() const {
+    RawVector<VertexId> path{from_.goal};
     while (path.back() != from_.start) path.push_back(parent_[path.back()]);
     std::reverse(path.begin(), path.end());
     return path;

@@ -125,7 +125,7 @@ std::unique_ptr<GraphSearch> graph_search(const SearchGraph& graph, const Search
   }
 }
 
-double path_length(const SearchGraph& graph, const std::vector<VertexId>& path) {
+double path_length(const SearchGraph& graph, std::span<const VertexId> path) {
   double length = 0.0;
   for (std::size_t i = 1; i < path.size(); ++i) {
     const std::span<const VertexId> row = graph.graph.neighbours(path[i - 1]);

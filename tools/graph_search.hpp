@@ -51,6 +51,6 @@ bool has_boost_graph();
 std::unique_ptr<GraphSearch> boost_search(const SearchGraph& graph, SearchKind search);
 
 /// Sum of the lengths along a path; the path's vertices are neighbours.
-double path_length(const SearchGraph& graph, const std::vector<VertexId>& path);
+double path_length(const SearchGraph& graph, std::span<const VertexId> path);
 
 }  // namespace warren

@@ -145,7 +145,7 @@ std::optional<MazeTrial> LargestSearch::trial(const MazeOptions& maze, bool last
 void LargestSearch::measure_bar(const Scene& scene) {
   const auto begin = std::chrono::steady_clock::now();
   try {
-    const std::vector<Vec2> path = bfs_funnel(scene, execution_);
+    const Path<Vec2> path = bfs_funnel(scene, execution_);
     HonestBar bar;
     bar.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     for (std::size_t i = 1; i < path.size(); ++i) bar.length += distance(path[i - 1], path[i]);

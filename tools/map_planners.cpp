@@ -44,8 +44,8 @@ bool provably_apart(const OccupancyMap& map, std::span<const Vec2> outline, cons
   return from && to && !cells_connect(map.blocked, *from, *to, false, execution);
 }
 
-std::vector<Vec2> path_over_cells(const OccupancyMap& map, Vec2 start, std::span<const Cell> cells, Vec2 goal) {
-  std::vector<Vec2> path{start};
+Path<Vec2> path_over_cells(const OccupancyMap& map, Vec2 start, std::span<const Cell> cells, Vec2 goal) {
+  Path<Vec2> path{start};
   const auto step = [&](std::size_t i) {
     return std::pair{std::int64_t{cells[i].x} - cells[i - 1].x, std::int64_t{cells[i].y} - cells[i - 1].y};
   };

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/bitmap.hpp"
+#include "core/path.hpp"
 #include "core/se2.hpp"
 #include "tools/solve_kind.hpp"
 #include "worlds/occupancy_map.hpp"
@@ -44,7 +45,7 @@ inline constexpr std::uint64_t nodes_where_apart = 1000;
 
 /// From the start over the middles of the cells where the path turns to the goal; each cell is a neighbour of the one
 /// before.
-std::vector<Vec2> path_over_cells(const OccupancyMap& map, Vec2 start, std::span<const Cell> cells, Vec2 goal);
+Path<Vec2> path_over_cells(const OccupancyMap& map, Vec2 start, std::span<const Cell> cells, Vec2 goal);
 
 /// A path on a map judged against the closed cells: whole problem, ends included.
 Verification verify_map_path(const OccupancyMap& map, const WallProblem& problem, std::span<const Vec2> path,

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/path.hpp"
 #include "core/types.hpp"
 #include "parallel/execution.hpp"
 #include "tools/problem.hpp"
@@ -20,9 +21,9 @@ struct RecordedAnswer {
   ProblemOptions problem;  ///< what the answer says of the problem
   std::optional<std::string> world_hash;
   std::optional<double> length;
-  std::string file;        ///< where it stands, for messages
-  std::vector<Vec2> path;  ///< where a state has two numbers
-  StateList states;        ///< where a state has three or six; then `path` is their first two
+  std::string file;  ///< where it stands, for messages
+  Path<Vec2> path;   ///< where a state has two numbers
+  StateList states;  ///< where a state has three or six; then `path` is their first two
 
   std::size_t state_width() const { return states.empty() ? 2 : states.width; }
 };

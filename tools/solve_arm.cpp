@@ -90,7 +90,7 @@ class ArmSolve {
   std::vector<std::vector<double>> via_;
   std::optional<ArmWorld> world_;
   std::vector<JointState> goals_;
-  std::vector<JointState> path_;
+  Path<JointState> path_;
   Answer answer_;
 };
 
@@ -289,7 +289,7 @@ Verdict recheck_arm(const Scene& scene, const ProblemOptions& options, const Rec
                     const Execution& execution) {
   check_state_width(answer, most_joints, "an arm");
   const ArmProblem problem = arm_problem(scene, options, execution);
-  std::vector<JointState> path;
+  Path<JointState> path;
   for (std::size_t i = 0; i < answer.states.size(); ++i) path.push_back(joint_state(answer.states[i]));
   const ArmVerification found = verify_arm(scene, problem.table, path, problem.verify_options(), execution);
   return {{found.verified, found.length, found.min_clearance, found.first_violation}, problem.general()};

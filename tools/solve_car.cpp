@@ -105,7 +105,7 @@ class CarSolve {
   PoseTreeOptions tree_options_;    // of the others
   std::optional<World> world_;
   std::vector<Roadmap<Se2>> roadmaps_;  // for the picture
-  std::vector<Se2> path_;               // a curve leads from each to the next
+  Path<Se2> path_;                      // a curve leads from each to the next
   std::vector<Se2> poses_;              // with the joints of the curves
   Answer answer_;
 };

@@ -37,9 +37,9 @@ Se2VerifyOptions verify_options(const PoseProblem& problem) {
 double plane_length(const Se2& a, const Se2& b) { return distance(a.position(), b.position()); }
 
 /// A leg of about half a turn could be read either way: it gets a pose in the middle.
-std::vector<Se2> without_half_turns(const std::vector<Se2>& path) {
+Path<Se2> without_half_turns(const Path<Se2>& path) {
   constexpr double most_rad = 3.0;
-  std::vector<Se2> cut;
+  Path<Se2> cut;
   for (const Se2& pose : path) {
     if (!cut.empty() && std::abs(turn_between(cut.back().theta, pose.theta)) > most_rad) {
       cut.push_back(interpolate(Se2(cut.back()), pose, 0.5));
@@ -101,7 +101,7 @@ class TurningSolve {
   std::optional<Se2World> world_;
   std::vector<Roadmap<Se2>> roadmaps_;  // for the picture
   std::optional<CellOptions> cells_;    // of cells
-  std::vector<Se2> path_;
+  Path<Se2> path_;
   Answer answer_;
 };
 

@@ -297,7 +297,7 @@ std::size_t ArmWorld::sampled_dimension() const {
   return count;
 }
 
-std::vector<JointState> with_even_idle_joints(const ArmWorld& world, std::vector<JointState> path) {
+Path<JointState> with_even_idle_joints(const ArmWorld& world, Path<JointState> path) {
   if (path.size() < 2) return path;
   std::vector<double> along(path.size(), 0.0);
   for (std::size_t i = 1; i < path.size(); ++i) {

@@ -26,6 +26,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/path.hpp"
 #include "core/world.hpp"
 #include "worlds/certified_motion.hpp"
 #include "worlds/scene.hpp"
@@ -139,6 +140,6 @@ class ArmWorld {
 static_assert(SteerableWorld<ArmWorld>);
 
 /// The same way with the idle joints turning evenly along it: they move nothing, so it is as free, and no longer.
-std::vector<JointState> with_even_idle_joints(const ArmWorld& world, std::vector<JointState> path);
+Path<JointState> with_even_idle_joints(const ArmWorld& world, Path<JointState> path);
 
 }  // namespace warren

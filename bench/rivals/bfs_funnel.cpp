@@ -32,13 +32,13 @@ struct RivalTimes {
   void take(const CpuWall& now) { best = {std::min(best.cpu_s, now.cpu_s), std::min(best.wall_s, now.wall_s)}; }
 };
 
-double length_of(const std::vector<Vec2>& path) {
+double length_of(const Path<Vec2>& path) {
   double length = 0.0;
   for (std::size_t i = 1; i < path.size(); ++i) length += distance(path[i - 1], path[i]);
   return length;
 }
 
-std::vector<Vec2> plan(const Scene& scene, double kept, const Execution& execution) {
+Path<Vec2> plan(const Scene& scene, double kept, const Execution& execution) {
   RoadmapOptions options;
   options.sampler = SamplerKind::lattice;
   options.lattice = {scene.maze->rows, scene.maze->cols};
@@ -52,13 +52,13 @@ std::vector<Vec2> plan(const Scene& scene, double kept, const Execution& executi
 }
 
 /// The lattice path pulled taut with next to no clearance: the string that the funnel gives.
-std::vector<Vec2> plan_taut(const Scene& scene, const Execution& execution) {
-  const std::vector<Vec2> path = plan(scene, 0.0, execution);
+Path<Vec2> plan_taut(const Scene& scene, const Execution& execution) {
+  const Path<Vec2> path = plan(scene, 0.0, execution);
   const WallIndex index(scene.walls, execution);
   return taut_path(index, path, 0.0, execution);
 }
 
-void check_verified(const Scene& scene, const std::vector<Vec2>& path, double kept) {
+void check_verified(const Scene& scene, const Path<Vec2>& path, double kept) {
   VerifyOptions options;
   options.clearance = kept;
   if (path.empty() || !verify_path(scene, path, options, {}).verified)
@@ -81,7 +81,7 @@ void compare(std::uint32_t side, MazeAlgorithm algorithm, int repeats, const Exe
   for (int i = 0; i < repeats; ++i) {
     const auto timed = [&](RivalTimes& times, const auto& run) {
       const Stopwatch watch;
-      std::vector<Vec2> path = run();
+      Path<Vec2> path = run();
       times.take(watch.read());
       return path;
     };

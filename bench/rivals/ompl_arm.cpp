@@ -58,7 +58,7 @@ struct Question {
 };
 
 struct ArmRun {
-  std::vector<JointState> path;
+  Path<JointState> path;
   CpuWall seconds;
 };
 

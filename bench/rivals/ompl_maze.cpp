@@ -74,7 +74,7 @@ double optimum_of(const Maze& maze) {
   options.sampler = SamplerKind::lattice;
   options.lattice = maze.size;
   const Solution<Vec2> walk = lazy_prm(world, maze.start, maze.goal, options, one_thread(), nullptr);
-  const std::vector<Vec2> taut = taut_path(world.walls(), walk.path, clearance, one_thread());
+  const Path<Vec2> taut = taut_path(world.walls(), walk.path, clearance, one_thread());
   return path_length(taut, [](Vec2 a, Vec2 b) { return distance(a, b); });
 }
 

@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "bench/rivals/stopwatch.hpp"
+#include "core/path.hpp"
 #include "core/rng.hpp"
 #include "planners/roadmap_options.hpp"
 #include "worlds/maze_world.hpp"
@@ -33,8 +34,8 @@ namespace warren {
 
 /// One run of one contestant.
 struct RivalRun {
-  std::vector<Vec2> path;  ///< start to goal; empty: not solved
-  CpuWall seconds;         ///< from walls indexed to path found
+  Path<Vec2> path;  ///< start to goal; empty: not solved
+  CpuWall seconds;  ///< from walls indexed to path found
   std::uint64_t milestones = 0;
   std::uint64_t edges = 0;
 };
@@ -129,8 +130,8 @@ inline ob::ProblemDefinitionPtr make_problem(const ob::SpaceInformationPtr& spac
   return problem;
 }
 
-inline std::vector<Vec2> points_of(const ob::PathPtr& path) {
-  std::vector<Vec2> points;
+inline Path<Vec2> points_of(const ob::PathPtr& path) {
+  Path<Vec2> points;
   if (!path) return points;
   for (const ob::State* state : path->as<og::PathGeometric>()->getStates()) points.push_back(point_of(state));
   return points;

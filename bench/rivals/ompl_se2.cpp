@@ -59,7 +59,7 @@ struct Course {
 };
 
 struct Run {
-  std::vector<Se2> path;  ///< empty: not solved
+  Path<Se2> path;         ///< empty: not solved
   double cpu_s = 0.0;     ///< in all
   double search_s = 0.0;  ///< the planner's own
 };
@@ -207,7 +207,7 @@ Run run_ompl(const Course& course, Motions motions, double limit_s) {
 }
 
 template <class World>
-bool is_free(const World& world, const std::vector<Se2>& path) {
+bool is_free(const World& world, const Path<Se2>& path) {
   auto query = world.make_query();
   for (std::size_t i = 1; i < path.size(); ++i) {
     if (!world.is_free_motion(path[i - 1], path[i], query)) return false;

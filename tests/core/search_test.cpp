@@ -148,7 +148,7 @@ TEST(DepthFirst, GoesDownTheFirstNeighbourThatIsNew) {
   SearchState state;
   state.resize(5);
   const SearchResult result = depth_first(graph, 0, 4, state);
-  EXPECT_EQ(result.path, (std::vector<VertexId>{0, 1, 3, 4}));
+  EXPECT_EQ(result.path, (RawVector<VertexId>{0, 1, 3, 4}));
   EXPECT_EQ(result.expanded, 5U);
 }
 
@@ -156,7 +156,7 @@ TEST(BreadthFirst, TiesGoToTheSmallerParent) {
   const Graph graph = Graph::from_edges(4, std::vector<Edge>{{0, 1}, {0, 2}, {1, 3}, {2, 3}});
   SearchState state;
   state.resize(4);
-  EXPECT_EQ(breadth_first(graph, 0, 3, state).path, (std::vector<VertexId>{0, 1, 3}));
+  EXPECT_EQ(breadth_first(graph, 0, 3, state).path, (RawVector<VertexId>{0, 1, 3}));
 }
 
 TEST(Searches, StopWithin1024ExpansionsWhenAsked) {
@@ -186,11 +186,11 @@ TEST(Searches, StopWithin1024ExpansionsWhenAsked) {
 TEST(Searches, OfAStartThatIsTheGoalGiveOneVertex) {
   const Problem problem = random_graph(1, 10, 12);
   SearchState state;
-  EXPECT_EQ(astar(problem, 4, 4, IndexedHeap<4>(), state).path, (std::vector<VertexId>{4}));
+  EXPECT_EQ(astar(problem, 4, 4, IndexedHeap<4>(), state).path, (RawVector<VertexId>{4}));
   state.resize(10);
-  EXPECT_EQ(breadth_first(problem.graph, 4, 4, state).path, (std::vector<VertexId>{4}));
+  EXPECT_EQ(breadth_first(problem.graph, 4, 4, state).path, (RawVector<VertexId>{4}));
   state.resize(10);
-  EXPECT_EQ(depth_first(problem.graph, 4, 4, state).path, (std::vector<VertexId>{4}));
+  EXPECT_EQ(depth_first(problem.graph, 4, 4, state).path, (RawVector<VertexId>{4}));
 }
 
 TEST(SearchState, ClearForgetsEverythingThatWasTouched) {

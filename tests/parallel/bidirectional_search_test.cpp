@@ -142,7 +142,7 @@ TEST(Bidirectional, SettlesFewerVerticesThanOneSideOnAnOpenGraph) {
 TEST(Bidirectional, OfAStartThatIsTheGoalIsOneVertex) {
   const PlaneGraph g = test::random_maze(1, 10, 0.0, false);
   const SearchResult result = two_sided(g, 7, 7, 2);
-  EXPECT_EQ(result.path, (std::vector<VertexId>{7}));
+  EXPECT_EQ(result.path, (RawVector<VertexId>{7}));
   EXPECT_EQ(result.length, 0.0);
 }
 

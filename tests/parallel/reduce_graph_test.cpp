@@ -55,7 +55,7 @@ std::vector<bool> peeled_naively(const Graph& graph, const std::vector<VertexId>
 
 template <class Reduced>
 void expect_shortest(const Graph& graph, const Reduced& reduced, VertexId start, VertexId goal,
-                     const SearchResult& oracle, unsigned threads, std::vector<VertexId>& path) {
+                     const SearchResult& oracle, unsigned threads, RawVector<VertexId>& path) {
   for (VertexId key = 0; key < reduced.graph().vertex_count(); ++key) {
     ASSERT_EQ(reduced.key_of(reduced.vertex_of(key)), key);
     const auto row = reduced.graph().neighbours(key);
@@ -82,13 +82,13 @@ void expect_exact(const Graph& graph, VertexId start, VertexId goal) {
   const auto left = peeled_naively(graph, keep);
   const SearchResult oracle = shortest(graph, start, goal);
   const Components labels = components(graph);
-  std::vector<VertexId> path_of_one_thread;
-  std::vector<VertexId> twice_reduced_path;
+  RawVector<VertexId> path_of_one_thread;
+  RawVector<VertexId> twice_reduced_path;
   for (const unsigned threads : {1U, 2U, 3U, 8U}) {
     SCOPED_TRACE("threads " + std::to_string(threads));
     const KeyCoverView cover(graph, keep, Peeling::everywhere, on(threads));
     for (VertexId v = 0; v < graph.vertex_count(); ++v) ASSERT_EQ(cover.is_left(v), left[v]) << v;
-    std::vector<VertexId> path;
+    RawVector<VertexId> path;
     expect_shortest(graph, reduce_graph(graph, keep, edge_length, on(threads)), start, goal, oracle, threads, path);
     if (threads == 1) path_of_one_thread = path;
     ASSERT_EQ(path, path_of_one_thread);
@@ -126,9 +126,9 @@ TEST(ReduceGraph, KeepsShortestPathsThroughManyBlocks) {
     const auto start = static_cast<VertexId>(seed);
     const VertexId goal = side * side - 1;
     const SearchResult oracle = shortest(graph, start, goal);
-    std::vector<VertexId> path_of_one_thread;
+    RawVector<VertexId> path_of_one_thread;
     for (const unsigned threads : {1U, 2U, 8U}) {
-      std::vector<VertexId> path;
+      RawVector<VertexId> path;
       const TwiceReducedGraphView reduced(graph, std::vector<VertexId>{start, goal}, edge_length, on(threads));
       expect_shortest(graph, reduced, start, goal, oracle, threads, path);
       if (threads == 1) path_of_one_thread = path;

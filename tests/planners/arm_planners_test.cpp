@@ -33,7 +33,7 @@ double joint_distance(const JointState& a, const JointState& b) {
   return std::sqrt(sum);
 }
 
-void expect_verified(const Question& q, const std::vector<JointState>& path) {
+void expect_verified(const Question& q, const Path<JointState>& path) {
   ArmVerifyOptions options;
   options.start = q.start;
   options.goal = q.goal;

@@ -103,7 +103,7 @@ double shortest_through_doors(const CellPlan& plan) {
 }
 
 /// Does the path pass the route's doors, one after the other?
-bool passes_doors(const std::vector<Vec2>& path, const CellPlan& plan) {
+bool passes_doors(const Path<Vec2>& path, const CellPlan& plan) {
   constexpr double tolerance = 1e-9;
   std::size_t leg = 1;
   double done = 0.0;  // of the leg
@@ -135,7 +135,7 @@ bool passes_doors(const std::vector<Vec2>& path, const CellPlan& plan) {
 
 /// Does the path bend around corners of the route's doors only, and around each towards it? A path through the doors
 /// with that property can't be shortened anywhere, and in cells without a hole that makes it the shortest one.
-bool is_taut(const std::vector<Vec2>& path, const CellPlan& plan) {
+bool is_taut(const Path<Vec2>& path, const CellPlan& plan) {
   for (std::size_t i = 1; i + 1 < path.size(); ++i) {
     const int turn = orient2d(path[i - 1], path[i], path[i + 1]);
     bool held = false;
@@ -159,7 +159,7 @@ TEST(CellFunnel, IsTheShortestPathThroughItsCells) {
     for (const SearchKind search : {SearchKind::dijkstra, SearchKind::dfs}) {
       CellPlan plan;
       const CellOptions options{.doors = DoorKind::funnel, .search = search};
-      const std::vector<Vec2> path = checked_plan(obstacles, ends[0], ends[1], options, &plan).path;
+      const Path<Vec2> path = checked_plan(obstacles, ends[0], ends[1], options, &plan).path;
       EXPECT_TRUE(passes_doors(path, plan));
       EXPECT_TRUE(is_taut(path, plan));
       const double shortest = shortest_through_doors(plan);

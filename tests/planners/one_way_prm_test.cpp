@@ -33,7 +33,7 @@ const CarOptions car{.turning_radius = 0.7, .radius = 0.2};
 
 /// What the program does with a path: joints, and at most a quarter turn a leg.
 template <class W>
-std::vector<Se2> poses_along(const W& world, const std::vector<Se2>& path) {
+std::vector<Se2> poses_along(const W& world, const Path<Se2>& path) {
   std::vector<Se2> poses{path.front()};
   for (std::size_t i = 1; i < path.size(); ++i) {
     const SteeringCurve curve = world.curve(path[i - 1], path[i]);
@@ -48,7 +48,7 @@ std::vector<Se2> poses_along(const W& world, const std::vector<Se2>& path) {
 }
 
 template <class W>
-void expect_verified(const Scene& scene, const W& world, const std::vector<Se2>& path) {
+void expect_verified(const Scene& scene, const W& world, const Path<Se2>& path) {
   ASSERT_GE(path.size(), 2U);
   const VerifiedCar body{.turning_radius = car.turning_radius, .reverses = !W::one_way, .radius = car.radius};
   const auto v = verify_car(scene, body, poses_along(world, path), {.start = start, .goal = goal}, {});

@@ -57,11 +57,11 @@ inline PlaneObstacles obstacles_of(const Scene& scene) {
 }
 
 /// The judge's word for a point's path that may touch.
-inline Verification judged(const PlaneObstacles& obstacles, const std::vector<Vec2>& path) {
+inline Verification judged(const PlaneObstacles& obstacles, const Path<Vec2>& path) {
   return verify_path(scene_of(obstacles), path, {.contact = Contact::allowed}, {});
 }
 
-inline double length_of(const std::vector<Vec2>& path) {
+inline double length_of(const Path<Vec2>& path) {
   double length = 0.0;
   for (std::size_t i = 1; i < path.size(); ++i) length += distance(path[i - 1], path[i]);
   return length;

@@ -61,7 +61,7 @@ double shortest_walk(const Scene& scene) {
 }
 
 /// Every leg against every wall, by plain distances.
-void expect_clear(const Scene& scene, const std::vector<Vec2>& path) {
+void expect_clear(const Scene& scene, const Path<Vec2>& path) {
   ASSERT_GE(path.size(), 2U);
   EXPECT_EQ(path.front(), start_of(scene));
   EXPECT_EQ(path.back(), goal_of(scene));
@@ -163,7 +163,7 @@ TEST(Prm, ResultAndCountersAreTheSameForAnyNumberOfThreads) {
 }
 
 /// Each parent joined to its vertex, and one a vertex; all of the path in the tree.
-void expect_tree(const Roadmap<Vec2>& roadmap, const std::vector<Vec2>& path) {
+void expect_tree(const Roadmap<Vec2>& roadmap, const Path<Vec2>& path) {
   std::vector<int> parents(roadmap.states.size(), 0);
   std::set<std::pair<double, double>> in_tree;
   for (const Edge& e : roadmap.search_tree) {

@@ -62,7 +62,7 @@ struct NamedPlanner {
 };
 const std::vector<NamedPlanner> planners = {{"rrt", rrt<Se2World>}, {"rrt-connect", rrt_connect<Se2World>}};
 
-void expect_verified(const Scene& scene, const std::vector<Vec2>& outline, const std::vector<Se2>& path,
+void expect_verified(const Scene& scene, const std::vector<Vec2>& outline, const Path<Se2>& path,
                      const Se2VerifyOptions& options) {
   const Se2Verification v = verify_se2(scene, outline, path, options, {});
   EXPECT_TRUE(v.verified) << v.first_violation.value_or(Violation{}).obstacle;
@@ -297,7 +297,7 @@ TEST(ShortcutPath, ApproachesTheShortestPathAroundACorner) {
   scene.bounds = Box{{0, 0}, {10, 10}};
   scene.walls = WallSet::narrowest(std::vector<Segment>{{{5, 0}, {5, 5}}});
   const MazeWorld world(scene, 1e-6, {});
-  const std::vector<Vec2> path = {{2, 1}, {1, 9}, {4, 6}, {5, 9}, {9, 9}, {8, 1}};
+  const Path<Vec2> path = {{2, 1}, {1, 9}, {4, 6}, {5, 9}, {9, 9}, {8, 1}};
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Counters counters;
     const auto shorter = shortcut_path(world, path, MazeWorld::distance, {.seed = seed}, {}, counters);
@@ -353,7 +353,7 @@ TEST(Prm, SolvesForTurningBodiesWithEverySamplerAndRule) {
       options.sampler = sampler;
       options.star = star;
       Counters first;
-      std::vector<Se2> path;
+      Path<Se2> path;
       for (const unsigned threads : {1U, 2U, 3U, 8U}) {
         if (threads > 1 && star != StarRule::none) continue;
         const auto solution = prm(world, easy_start, easy_goal, options, {.threads = threads});

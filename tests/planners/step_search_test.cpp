@@ -88,7 +88,7 @@ double shortest_by_relaxing(const std::vector<Link>& links, const Overlay& overl
 }
 
 /// Sum of the shortest edges between a path's vertices; infinity where two have none.
-double length_along(const std::vector<VertexId>& path, const std::vector<Link>& links) {
+double length_along(std::span<const VertexId> path, const std::vector<Link>& links) {
   double sum = 0.0;
   for (std::size_t i = 1; i < path.size(); ++i) {
     double least = unreached;

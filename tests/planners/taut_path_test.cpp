@@ -37,9 +37,9 @@ std::vector<Segment> walls_of(const Scene& scene) {
 }
 
 /// What must hold of every result; returns it.
-std::vector<Vec2> checked(const Scene& scene, const std::vector<Vec2>& path, double r) {
+Path<Vec2> checked(const Scene& scene, const Path<Vec2>& path, double r) {
   const WallIndex index(scene.walls, {});
-  const std::vector<Vec2> taut = taut_path(index, path, r * planning_factor, {});
+  const Path<Vec2> taut = taut_path(index, path, r * planning_factor, {});
   EXPECT_EQ(taut.front(), path.front());
   EXPECT_EQ(taut.back(), path.back());
   EXPECT_LE(length_of(taut), length_of(path) * (1.0 + 1e-15));
@@ -47,13 +47,13 @@ std::vector<Vec2> checked(const Scene& scene, const std::vector<Vec2>& path, dou
   options.clearance = r;
   const Verification v = verify_path(scene, taut, options, {});
   EXPECT_TRUE(v.verified) << v.first_violation->obstacle << " at " << v.first_violation->distance;
-  const std::vector<Vec2> again = taut_path(index, taut, r * planning_factor, {});
+  const Path<Vec2> again = taut_path(index, taut, r * planning_factor, {});
   EXPECT_NEAR(length_of(again), length_of(taut), 1e-9 * length_of(taut));
   return taut;
 }
 
 /// The way over cell centres, breadth first over a lattice of points `step` apart, edges with the clearance.
-std::vector<Vec2> lattice_path(const WallIndex& index, Vec2 from, Vec2 to, double step, double r) {
+Path<Vec2> lattice_path(const WallIndex& index, Vec2 from, Vec2 to, double step, double r) {
   const Box& box = index.box();
   const auto cols = 2 * static_cast<int>(box.width() / step) + 3;
   const auto rows = 2 * static_cast<int>(box.height() / step) + 3;
@@ -67,7 +67,7 @@ std::vector<Vec2> lattice_path(const WallIndex& index, Vec2 from, Vec2 to, doubl
   for (std::size_t i = 0; i < queue.size(); ++i) {
     const int id = queue[i];
     if (distance(point(id), to) <= step && index.keeps_clearance(point(id), to, r)) {
-      std::vector<Vec2> path{to};
+      Path<Vec2> path{to};
       for (int at = id; at != start; at = parent[at]) path.push_back(point(at));
       path.push_back(from);
       return {path.rbegin(), path.rend()};
@@ -82,12 +82,12 @@ std::vector<Vec2> lattice_path(const WallIndex& index, Vec2 from, Vec2 to, doubl
   return {};
 }
 
-std::vector<Vec2> maze_path(const Scene& scene, double r) {
+Path<Vec2> maze_path(const Scene& scene, double r) {
   const WallIndex index(scene.walls, {});
   const Vec2 start{scene.start[0], scene.start[1]};
   const Vec2 goal{scene.goal[0], scene.goal[1]};
-  std::vector<Vec2> path{start};
-  const std::vector<Vec2> inside = lattice_path(index, {1.0, 1.0}, {goal.x - 0.5, goal.y}, 1.0, r);
+  Path<Vec2> path{start};
+  const Path<Vec2> inside = lattice_path(index, {1.0, 1.0}, {goal.x - 0.5, goal.y}, 1.0, r);
   path.insert(path.end(), inside.begin(), inside.end());
   path.push_back(goal);
   return path;
@@ -205,7 +205,7 @@ TEST(TautPath, ReachesTheOptimumOfPerfectMazes) {
     options.seed = seed;
     options.algorithm = algorithms[seed % 3];
     const Scene scene = maze_scene(options, seed % 2 == 0, {});
-    const std::vector<Vec2> raw = maze_path(scene, 0.45);
+    const Path<Vec2> raw = maze_path(scene, 0.45);
     ASSERT_FALSE(raw.size() < 3);
     for (const double r : {0.0, 0.1, 0.25, 0.4}) {
       SCOPED_TRACE(r);
@@ -233,8 +233,8 @@ std::vector<Segment> random_segments(std::uint64_t seed, std::size_t count) {
 }
 
 /// A way through several random points, so it crosses itself.
-std::vector<Vec2> wandering_path(const WallIndex& index, std::uint64_t seed, double r) {
-  std::vector<Vec2> path;
+Path<Vec2> wandering_path(const WallIndex& index, std::uint64_t seed, double r) {
+  Path<Vec2> path;
   for (std::uint64_t i = 0; i < 400 && path.size() < 400; ++i) {
     const Vec2 p{20.0 * uniform(seed, i, 7), 20.0 * uniform(seed, i, 8)};
     if (index.clearance(p) < 1.01 * r || index.clearance(p) < 1e-3) continue;
@@ -242,7 +242,7 @@ std::vector<Vec2> wandering_path(const WallIndex& index, std::uint64_t seed, dou
       path.push_back(p);
       continue;
     }
-    const std::vector<Vec2> leg = lattice_path(index, path.back(), p, 0.25, r);
+    const Path<Vec2> leg = lattice_path(index, path.back(), p, 0.25, r);
     path.insert(path.end(), leg.begin(), leg.end());
   }
   return path;
@@ -255,9 +255,9 @@ TEST(TautPath, HoldsItsPromisesAmongRandomSegments) {
     const WallIndex index(scene.walls, {});
     for (const double r : {0.0, 0.02, 0.2}) {
       SCOPED_TRACE(r);
-      const std::vector<Vec2> raw = wandering_path(index, seed, r * planning_factor);
+      const Path<Vec2> raw = wandering_path(index, seed, r * planning_factor);
       if (raw.size() < 2) continue;
-      const std::vector<Vec2> taut = checked(scene, raw, r);
+      const Path<Vec2> taut = checked(scene, raw, r);
       EXPECT_LT(length_of(taut), length_of(raw));
     }
   }
@@ -271,9 +271,9 @@ TEST(TautPath, EveryBendIsHeldByAWallEnd) {
     const Scene scene = scene_of(walls);
     const WallIndex index(scene.walls, {});
     const double r = 0.05;
-    const std::vector<Vec2> raw = wandering_path(index, seed, r * planning_factor);
+    const Path<Vec2> raw = wandering_path(index, seed, r * planning_factor);
     if (raw.size() < 2) continue;
-    const std::vector<Vec2> taut = taut_path(index, raw, r * planning_factor, {});
+    const Path<Vec2> taut = taut_path(index, raw, r * planning_factor, {});
     for (std::size_t i = 1; i + 1 < taut.size(); ++i) {
       const Vec2 in = (1.0 / distance(taut[i - 1], taut[i])) * (taut[i] - taut[i - 1]);
       const Vec2 out = (1.0 / distance(taut[i], taut[i + 1])) * (taut[i + 1] - taut[i]);
@@ -292,7 +292,7 @@ TEST(TautPath, EveryBendIsHeldByAWallEnd) {
 
 TEST(TautPath, GoesOnCirclingAPillar) {
   const Scene scene = scene_of({{{-5, -5}, {5, -5}}, {{-5, 5}, {5, 5}}, {{0, 0}, {0, 0}}});
-  std::vector<Vec2> path{{-4.0, -1.0}};
+  Path<Vec2> path{{-4.0, -1.0}};
   for (int round = 0; round < 3; ++round) path.insert(path.end(), {{2, -1}, {2, 2}, {-2, 2}, {-2, -1}});
   path.insert(path.end(), {{2, -1}, {4.0, -1.0}});
   const double r = 0.5;
@@ -309,7 +309,7 @@ TEST(TautPath, GoesOnCirclingAPillar) {
 TEST(TautPath, PassesAGapThatIsJustWideEnough) {
   const double r = 0.5;
   const Scene scene = scene_of({{{0, 0}, {0, 4}}, {{0, 5.0 + 3e-9}, {0, 9}}, {{-9, 0}, {9, 0}}, {{-9, 9}, {9, 9}}});
-  const std::vector<Vec2> path{{-3, 1}, {-3, 4.5 + 1.5e-9}, {3, 4.5 + 1.5e-9}, {3, 8}};
+  const Path<Vec2> path{{-3, 1}, {-3, 4.5 + 1.5e-9}, {3, 4.5 + 1.5e-9}, {3, 8}};
   const double length = length_of(checked(scene, path, r));
   EXPECT_LT(length, 11.0);
   EXPECT_GT(length, 2.0 * std::hypot(3.0, 3.5));
@@ -318,19 +318,19 @@ TEST(TautPath, PassesAGapThatIsJustWideEnough) {
 TEST(TautPath, KeepsWhatCannotBeShorter) {
   const Scene scene = scene_of({{{0, 0}, {10, 0}}, {{0, 10}, {10, 10}}});
   const WallIndex index(scene.walls, {});
-  const auto taut = [&](std::vector<Vec2> path) { return taut_path(index, path, 0.1, {}); };
-  EXPECT_EQ(taut({{1, 1}}), (std::vector<Vec2>{{1, 1}}));
+  const auto taut = [&](Path<Vec2> path) { return taut_path(index, path, 0.1, {}); };
+  EXPECT_EQ(taut({{1, 1}}), (Path<Vec2>{{1, 1}}));
   EXPECT_EQ(taut({{1, 1}, {1, 1}}).front(), (Vec2{1, 1}));
-  EXPECT_EQ(taut({{1, 1}, {3, 2}}), (std::vector<Vec2>{{1, 1}, {3, 2}}));
-  EXPECT_EQ(taut({{1, 1}, {5, 7}, {3, 2}}), (std::vector<Vec2>{{1, 1}, {3, 2}}));
-  EXPECT_EQ(taut({{1, 1}, {5, 5}, {1, 1}, {3, 2}}), (std::vector<Vec2>{{1, 1}, {3, 2}}));
+  EXPECT_EQ(taut({{1, 1}, {3, 2}}), (Path<Vec2>{{1, 1}, {3, 2}}));
+  EXPECT_EQ(taut({{1, 1}, {5, 7}, {3, 2}}), (Path<Vec2>{{1, 1}, {3, 2}}));
+  EXPECT_EQ(taut({{1, 1}, {5, 5}, {1, 1}, {3, 2}}), (Path<Vec2>{{1, 1}, {3, 2}}));
 }
 
 TEST(TautPath, MovedAndScaledMazesGiveTheSamePath) {
   MazeOptions options;
   options.rows = options.cols = 12;
   const Scene scene = maze_scene(options, false, {});
-  const std::vector<Vec2> raw = maze_path(scene, 0.3);
+  const Path<Vec2> raw = maze_path(scene, 0.3);
   const double length = length_of(checked(scene, raw, 0.1));
   for (const double shift : {0.0, 1e6}) {
     for (const double scale : {1e-3, 1.0, 1e3}) {
@@ -340,10 +340,10 @@ TEST(TautPath, MovedAndScaledMazesGiveTheSamePath) {
       };
       std::vector<Segment> walls;
       for (const Segment& w : walls_of(scene)) walls.push_back({moved(w.a), moved(w.b)});
-      std::vector<Vec2> path;
+      Path<Vec2> path;
       for (const Vec2 p : raw) path.push_back(moved(p));
       const WallIndex index(WallSet::narrowest(walls), {});
-      const std::vector<Vec2> taut = taut_path(index, path, 0.1 * scale, {});
+      const Path<Vec2> taut = taut_path(index, path, 0.1 * scale, {});
       EXPECT_NEAR(length_of(taut) / scale, length, 1e-4 * length);
       for (std::size_t i = 1; i < taut.size(); ++i)
         EXPECT_TRUE(index.keeps_clearance(taut[i - 1], taut[i], 0.1 * scale));
@@ -355,11 +355,11 @@ TEST(TautPath, ThreadsDoNotChangeThePath) {
   MazeOptions options;
   options.rows = options.cols = 60;
   const Scene scene = maze_scene(options, false, {});
-  const std::vector<Vec2> raw = maze_path(scene, 0.3);
+  const Path<Vec2> raw = maze_path(scene, 0.3);
   const WallIndex index(scene.walls, {});
   Execution execution;
   execution.threads = 1;
-  const std::vector<Vec2> one = taut_path(index, raw, 0.2, execution);
+  const Path<Vec2> one = taut_path(index, raw, 0.2, execution);
   for (const unsigned threads : {2U, 3U, 8U}) {
     execution.threads = threads;
     EXPECT_EQ(taut_path(index, raw, 0.2, execution), one);

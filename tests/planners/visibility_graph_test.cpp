@@ -105,7 +105,7 @@ VisibilityOptions lazily() {
 }
 
 /// The judge's word for a path that may touch.
-bool verified(const PlaneObstacles& world, const std::vector<Vec2>& path, Vec2 start, Vec2 goal) {
+bool verified(const PlaneObstacles& world, const Path<Vec2>& path, Vec2 start, Vec2 goal) {
   Scene scene;
   scene.walls = WallSet::narrowest(world.walls);
   for (std::size_t p = 0; p < world.polygons.size(); ++p) {

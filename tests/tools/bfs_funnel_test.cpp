@@ -16,7 +16,7 @@
 namespace warren {
 namespace {
 
-double length_of(const std::vector<Vec2>& path) {
+double length_of(std::span<const Vec2> path) {
   double length = 0.0;
   for (std::size_t i = 1; i < path.size(); ++i) length += distance(path[i - 1], path[i]);
   return length;
@@ -62,7 +62,7 @@ TEST(BfsFunnel, GivesTheShortestPathOfAMazeWithoutLoops) {
     const auto cols = static_cast<std::uint32_t>(2 + seed * 7 % 13);
     const MazeOptions options{.rows = rows, .cols = cols, .seed = seed};
     const Scene scene = maze_scene(options, seed % 2 == 0, Execution{});
-    const std::vector<Vec2> path = bfs_funnel(scene, Execution{});
+    const Path<Vec2> path = bfs_funnel(scene, Execution{});
     const VerifyOptions verify{.clearance = 0.0,
                                .contact = Contact::allowed,
                                .start = Vec2{0.5, 1.0},

@@ -257,9 +257,9 @@ TEST(ArmWorld, MetricWeighsJointsAndTheEmbeddingHasIt) {
 
 TEST(ArmWorld, EvenIdleJointsMoveNothingAndNeverLengthen) {
   const ArmWorld world({}, SerialChain(puma560_table()), {});
-  std::vector<JointState> path{{0, 0, 0, 1, 0, 0}, {1, 0, 0, -2, 0.5, 0}, {1, 1, 0, 0, 0, 3}, {1, 1, 2, 1, 1, 1}};
-  const std::vector<JointState> even = with_even_idle_joints(world, path);
-  const auto length = [&](const std::vector<JointState>& states) {
+  Path<JointState> path{{0, 0, 0, 1, 0, 0}, {1, 0, 0, -2, 0.5, 0}, {1, 1, 0, 0, 0, 3}, {1, 1, 2, 1, 1, 1}};
+  const Path<JointState> even = with_even_idle_joints(world, path);
+  const auto length = [&](const Path<JointState>& states) {
     double sum = 0.0;
     for (std::size_t i = 1; i < states.size(); ++i) sum += world.distance(states[i - 1], states[i]);
     return sum;
