@@ -48,8 +48,8 @@ constexpr OptionSpec planner_specs[] = {
      {},
      true},
     {"--pipeline", "NAME",
-     "how prm works on a lattice: stage by stage, or tile by tile in cache "
-     "(default: tiled where the rules of joining and searching are the usual ones)",
+     "how prm works: stage by stage, or tile by tile in cache (default: tiled on a lattice "
+     "where the rules of joining and searching are the usual ones)",
      "plain tiled"},
     {"--optimise", "", "pull the path taut after the search"},
     {"--seed", "N", "seed of the sampling; never alters the world (default: 1)"},
@@ -145,22 +145,26 @@ void check_lattice(SamplerKind sampler, const Scene& scene) {
       "--sampler: lattice needs a maze, and {} has no 'maze ROWS COLS' line; the others take any world", scene.source));
 }
 
-/// Tiles take the lattice with its own rule of joining and their own search; what else is asked for, the plain stages
-/// do.
-PipelineKind pipeline_for(const Arguments& arguments, const PlannerOptions& options, double clearance) {
+/// Fused tiles take the lattice with its own rule of joining, and have a search of their own.
+bool takes_fused_tiles(const Arguments& arguments, const PlannerOptions& options, double clearance) {
   const bool usual_search = !arguments.has("--search") && !arguments.has("--queue");
-  const bool tiles =
-      options.planner == PlannerKind::prm && usual_search && tiled_prm_applies(options.roadmap, clearance);
+  return options.planner == PlannerKind::prm && usual_search && tiled_prm_applies(options.roadmap, clearance);
+}
+
+/// Whatever else is asked for, the plain stages do, or tiles of milestones where these are asked for.
+PipelineKind pipeline_for(const Arguments& arguments, const PlannerOptions& options, const Scene& scene) {
   const auto asked = choice<PipelineKind>(arguments, "--pipeline", pipeline_words);
   if (asked && options.planner != PlannerKind::prm) {
     throw UsageError("--pipeline: lazy-prm has one way of working; the planner prm takes this option");
   }
-  if (asked == PipelineKind::tiled && !tiles) {
-    throw UsageError(
-        "--pipeline: tiled takes the lattice sampler with radius 1, a clearance of at most 8, and no --search or "
-        "--queue; plain takes the rest");
+  const SearchKind search = options.roadmap.search;
+  if (asked == PipelineKind::tiled && (search == SearchKind::bfs || search == SearchKind::dfs)) {
+    throw UsageError("--pipeline: tiles keep shortest paths only; for --search bfs and dfs there is plain");
   }
-  return asked.value_or(tiles ? PipelineKind::tiled : PipelineKind::plain);
+  if (asked == PipelineKind::tiled && !scene.polygons.empty()) {
+    throw UsageError("--pipeline: tiled takes worlds of walls; among polygons there is plain");
+  }
+  return asked.value_or(options.fused ? PipelineKind::tiled : PipelineKind::plain);
 }
 
 SamplerKind sampler_for(const Arguments& arguments, const Scene& scene) {
@@ -242,7 +246,8 @@ PlannerOptions planner_options(const Arguments& arguments, const Scene& scene, c
   check_lattice(options.roadmap.sampler, scene);
   options.planner = planner_asked(arguments).value_or(usual_roadmap_planner(arguments, scene));
   check_planner(arguments, options.planner, options.roadmap.search);
-  options.pipeline = pipeline_for(arguments, options, problem.reach());
+  options.fused = takes_fused_tiles(arguments, options, problem.reach());
+  options.pipeline = pipeline_for(arguments, options, scene);
   options.optimise = arguments.has("--optimise");
   options.given = given_options(arguments, options);
   return options;

@@ -60,6 +60,7 @@ struct PlannerOptions {
   PlannerKind planner = PlannerKind::prm;
   RoadmapOptions roadmap;
   PipelineKind pipeline = PipelineKind::plain;  ///< only for prm
+  bool fused = false;                           ///< tiled by tiled_prm, which knows the lattice; else by prm_in_tiles
   bool optimise = false;                        ///< pull the path taut after the search
   /// What the command line said beyond planner, sampler, search and seed: name and value as JSON.
   std::vector<std::pair<std::string, std::string>> given;

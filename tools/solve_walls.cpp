@@ -8,6 +8,7 @@
 #include "planners/prm.hpp"
 #include "planners/taut_path.hpp"
 #include "planners/tiled_prm.hpp"
+#include "planners/tiled_roadmap.hpp"
 #include "tools/maze_proof.hpp"
 #include "tools/solve_kind.hpp"
 #include "tools/verified_answer.hpp"
@@ -59,12 +60,16 @@ const MazeWorld& WallSolve::indexed_world() {
 }
 
 void WallSolve::plan(Roadmap<Vec2>* keep) {
-  if (options_.planner == PlannerKind::prm && options_.pipeline == PipelineKind::tiled) {
+  if (options_.pipeline == PipelineKind::tiled && options_.fused) {
     take_solution(answer_, plan_tiles());
     return;
   }
   const MazeWorld& world = indexed_world();
   if (grows() && ends_are_free(world) && proved_infeasible()) return;
+  if (options_.pipeline == PipelineKind::tiled) {
+    take_solution(answer_, prm_in_tiles(world, problem_.start, problem_.goal, options_.roadmap, execution_));
+    return;
+  }
   const auto planner = options_.planner == PlannerKind::prm ? prm<MazeWorld> : lazy_prm<MazeWorld>;
   take_solution(answer_, planner(world, problem_.start, problem_.goal, options_.roadmap, execution_, keep));
 }

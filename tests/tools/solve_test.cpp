@@ -32,6 +32,8 @@ TEST(Solve, AnswersAreTheSameForAnyNumberOfThreads) {
       {"maze:31x23"},
       {"maze:61x61,loops=0.3"},
       {"maze:61x61,loops=0.3", "--pipeline", "plain"},
+      {"maze:61x61,loops=0.3", "--pipeline", "tiled", "--search", "dijkstra"},
+      {"maze:61x61", "--planner", "prm", "--sampler", "uniform", "--pipeline", "tiled"},
       {"maze:31x23", "--sampler", "uniform", "--seed", "7"},
       {"maze:31x23", "--sampler", "halton", "--planner", "prm", "--neighbours", "12"},
       {"maze:31x23", "--planner", "lazy-prm", "--lazy", "path"},

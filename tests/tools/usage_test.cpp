@@ -112,6 +112,7 @@ TEST(Usage, ContradictionsAreRefusedAndSayWhoTakesTheOption) {
       {{"solve", "maze:5x7", "--sampler", "lattice", "--samples", "9"}, 2, "lattice takes every cell centre"},
       {{"solve", "maze:5x7", "--contact", "allowed"}, 2, "--contact"},
       {{"solve", "maze:5x7", "--planner", "lazy-prm", "--pipeline", "tiled"}, 2, "the planner prm takes"},
+      {{"solve", "maze:5x7", "--pipeline", "tiled", "--search", "bfs"}, 2, "there is plain"},
       {{"solve", "maze:5x7", "--json", "-", "--svg", "-"}, 2, "standard output takes one"},
   };
   for (const Case& c : cases) check(c);

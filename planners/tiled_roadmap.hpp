@@ -1,0 +1,406 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// PRM by tiles for any sampler and rule of joining: the roadmap of planners/prm.hpp, of which only what the exact
+// reduction leaves is ever held as a graph.
+//
+// Milestones stand in tile order, so a tile is a run of them. First the candidate edges between different tiles are
+// checked: their ends are kept. Then one thread a tile checks the edges inside, peels the dead ends and contracts the
+// chains, all in cache (parallel/reduce_graph.hpp), and hands back the keys, the edges between them and what lies on
+// their chains. The keys of all tiles with the edges between tiles, start and goal make the overlay, which is reduced
+// once more where that pays, and searched. The path is as long as the plain pipeline's, on any roadmap; only the gain
+// differs: a maze's lattice leaves a thirtieth of its vertices, a dense uniform roadmap nearly all of them.
+// Candidates are found twice, each is checked once. Memory: 16 bytes a milestone, and the overlay. The same for any
+// number of threads.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "planners/prm.hpp"
+
+namespace warren {
+
+namespace detail {
+
+/// What is left of one tile. Keys have numbers of their own within the tile.
+struct ReducedTile {
+  /// Vertices between two keys, in the order from the smaller key to the larger one.
+  struct Chain {
+    Edge keys;
+    double length;
+    std::size_t first;  // of `inner`
+    std::size_t count;
+  };
+  RawVector<VertexId> keys;    // their milestones, ascending
+  RawVector<Edge> edges;       // `from` ascends
+  std::vector<Chain> chains;   // of the edges that stand for several; by keys, ascending
+  RawVector<VertexId> inner;   // milestones on chains
+  std::size_t components = 0;  // of which nothing is left
+  std::uint64_t free_edges = 0;
+  Counters counters;
+
+  const Chain* chain_between(VertexId a, VertexId b) const {
+    const Edge keys_of_chain{std::min(a, b), std::max(a, b)};
+    const auto at = std::lower_bound(chains.begin(), chains.end(), keys_of_chain,
+                                     [](const Chain& chain, const Edge& edge) { return chain.keys < edge; });
+    return at != chains.end() && at->keys == keys_of_chain ? &*at : nullptr;
+  }
+};
+
+/// One plan: what its rounds share.
+template <World W>
+class TiledRoadmapPlan {
+ public:
+  using State = typename W::State;
+  TiledRoadmapPlan(const W& world, const State& start, const State& goal, const RoadmapOptions& options,
+                   const Execution& execution)
+      : world_(world), start_(start), goal_(goal), options_(options), execution_(execution) {}
+
+  /// Builds and searches a roadmap with so many samples; true when the answer is final.
+  bool round(std::uint64_t samples) {
+    samples_ = samples;
+    ++solution_.counters.rounds;
+    solution_.counters.samples += samples;
+    draw();
+    connect();
+    assemble();
+    return joined() && search();
+  }
+  void finish(Roadmap<State>*);
+  Solution<State>& solution() { return solution_; }
+
+ private:
+  static constexpr std::size_t tile_size = reduce_grain;
+
+  void draw();
+  void connect();
+  void check_between_tiles(const StateIndex<W>& index, const NearestLists& lists, const ConnectionRule& rule);
+  void reduce_tiles(const StateIndex<W>& index, const NearestLists& lists, const ConnectionRule& rule);
+  void reduce_tile(Range tile, RawVector<Edge>& edges, ReducedTile& reduced) const;
+  template <class Wanted, class Free>
+  void check_tile(Range tile, const StateIndex<W>& index, const NearestLists& lists, const ConnectionRule& rule,
+                  Counters& counters, const Wanted& wanted, const Free& free) const;
+  void assemble();
+  bool joined();
+  bool search();
+  void append(VertexId from, VertexId to, RawVector<VertexId>& path) const;
+
+  std::size_t milestone_count() const { return states_.size() - 2; }
+  std::size_t tile_count() const { return chunk_count(milestone_count(), tile_size); }
+  static std::size_t tile_of(VertexId milestone) { return milestone / tile_size; }
+  VertexId start_key() const { return first_key_.back(); }
+  VertexId goal_key() const { return first_key_.back() + 1; }
+  /// The overlay's vertex of a milestone that is a key, of start or of goal.
+  VertexId key_of(VertexId vertex) const {
+    if (vertex >= milestone_count()) return start_key() + static_cast<VertexId>(vertex - milestone_count());
+    const auto& keys = tiles_[tile_of(vertex)].keys;
+    if (keys.size() == tile_size) return first_key_[tile_of(vertex)] + vertex % tile_size;  // all of them
+    return first_key_[tile_of(vertex)] +
+           static_cast<VertexId>(std::lower_bound(keys.begin(), keys.end(), vertex) - keys.begin());
+  }
+  VertexId vertex_of(VertexId key) const { return vertices_[key]; }
+  /// The chain that an edge of the overlay stands for, if it does.
+  const ReducedTile::Chain* chain_of(VertexId a, VertexId b) const {
+    if (std::max(a, b) >= start_key() || tile_of(vertex_of(a)) != tile_of(vertex_of(b))) return nullptr;
+    const std::size_t tile = tile_of(vertex_of(a));
+    return tiles_[tile].chain_between(a - first_key_[tile], b - first_key_[tile]);
+  }
+  double length_between(VertexId a, VertexId b) const {
+    const ReducedTile::Chain* const chain = any_chain_ ? chain_of(a, b) : nullptr;
+    return chain != nullptr ? chain->length : world_.distance(states_[vertex_of(a)], states_[vertex_of(b)]);
+  }
+
+  const W& world_;
+  const State start_;
+  const State goal_;
+  const RoadmapOptions& options_;
+  const Execution& execution_;
+  std::uint64_t samples_ = 0;
+  RawVector<State> states_;                // milestones, start, goal
+  std::vector<RawVector<Edge>> crossing_;  // free edges between tiles, by the tile that checked them
+  RawVector<Edge> end_edges_;              // of start and goal
+  RawVector<std::uint8_t> is_kept_;        // of each milestone: has an edge out of its tile
+  std::vector<ReducedTile> tiles_;
+  std::vector<VertexId> first_key_;  // by tile, and start's
+  RawVector<VertexId> vertices_;     // of the overlay: their milestones; start and goal after all of these
+  bool any_chain_ = false;
+  Graph overlay_;  // with lengths where there are chains
+  Solution<State> solution_;
+};
+
+template <World W>
+void TiledRoadmapPlan<W>::draw() {
+  const StageTimer timer(execution_, "sample", solution_.seconds.sample, samples_);
+  states_ = draw_milestones(world_, options_, samples_, execution_);
+  states_.push_back(start_);
+  states_.push_back(goal_);
+  solution_.roadmap = {states_.size(), 0, 0};
+}
+
+template <World W>
+void TiledRoadmapPlan<W>::connect() {
+  const std::span<const State> milestones(states_.data(), milestone_count());
+  StateIndex<W> index;
+  {
+    const StageTimer timer(execution_, "neighbours", solution_.seconds.neighbours, milestones.size());
+    index = index_of_states(world_, milestones, execution_);
+  }
+  const StageTimer timer(execution_, "connect", solution_.seconds.connect, 2 * tile_count());
+  const ConnectionRule rule = connection_rule_for(world_, options_, samples_);
+  NearestLists lists;
+  if (rule.neighbours > 0) lists = nearest_lists<W>(milestones, index, rule.neighbours, execution_);
+  solution_.counters.neighbour_queries += milestones.size();
+  is_kept_.assign(milestones.size(), 0);
+  check_between_tiles(index, lists, rule);
+  end_edges_ = attach_start_and_goal(world_, milestones, index, rule, start_, goal_, solution_.counters);
+  for (const Edge& edge : end_edges_) {
+    if (edge.from < milestones.size()) is_kept_[edge.from] = 1;
+  }
+  solution_.roadmap.edges += end_edges_.size();
+  reduce_tiles(index, lists, rule);
+}
+
+/// Calls free(from, to) for the free ones of the tile's candidate edges that are wanted.
+template <World W>
+template <class Wanted, class Free>
+void TiledRoadmapPlan<W>::check_tile(Range tile, const StateIndex<W>& index, const NearestLists& lists,
+                                     const ConnectionRule& rule, Counters& counters, const Wanted& wanted,
+                                     const Free& free) const {
+  auto query = world_.make_query();
+  Bunch<State> bunch;
+  const auto flush = [&] {
+    std::uint32_t kept = free_motions(world_, bunch.motions(), query);
+    counters.edges_checked += bunch.motions().size();
+    for (; kept != 0; kept &= kept - 1) free(bunch.edges()[static_cast<std::size_t>(std::countr_zero(kept))]);
+    bunch.clear();
+  };
+  const SearchRadius radius(rule.radius);
+  for (std::size_t first = tile.first; first < tile.last; first += connection_grain<W>) {
+    execution_.check();
+    const Range part{first, std::min(tile.last, first + connection_grain<W>)};
+    for_each_candidate<W>(index, lists, radius, part, [&](VertexId from, VertexId to) {
+      if (!wanted(from, to)) return;
+      bunch.add({from, to}, states_[from], states_[to]);
+      if (bunch.full()) flush();
+    });
+  }
+  if (!bunch.edges().empty()) flush();
+  counters.refused += refused_motions(query);
+}
+
+template <World W>
+void TiledRoadmapPlan<W>::check_between_tiles(const StateIndex<W>& index, const NearestLists& lists,
+                                              const ConnectionRule& rule) {
+  crossing_.assign(tile_count(), {});
+  std::vector<Counters> counters(tile_count());
+  const auto wanted = [](VertexId from, VertexId to) { return tile_of(from) != tile_of(to); };
+  for_chunks(milestone_count(), tile_size, execution_, [&](Range r) {
+    RawVector<Edge> edges;
+    check_tile(r, index, lists, rule, counters[r.first / tile_size], wanted, [&](const Edge& edge) {
+      edges.push_back({std::min(edge.from, edge.to), std::max(edge.from, edge.to)});
+    });
+    crossing_[r.first / tile_size] = std::move(edges);
+  });
+  for (std::size_t tile = 0; tile < crossing_.size(); ++tile) {
+    execution_.check();
+    solution_.counters += counters[tile];
+    solution_.roadmap.edges += crossing_[tile].size();
+    for (const Edge& edge : crossing_[tile]) is_kept_[edge.from] = is_kept_[edge.to] = 1;
+  }
+}
+
+template <World W>
+void TiledRoadmapPlan<W>::reduce_tiles(const StateIndex<W>& index, const NearestLists& lists,
+                                       const ConnectionRule& rule) {
+  tiles_.assign(tile_count(), {});
+  const auto wanted = [](VertexId from, VertexId to) { return tile_of(from) == tile_of(to); };
+  for_chunks(milestone_count(), tile_size, execution_, [&](Range r) {
+    ReducedTile& tile = tiles_[r.first / tile_size];
+    RawVector<Edge> edges;
+    const auto first = static_cast<VertexId>(r.first);
+    check_tile(r, index, lists, rule, tile.counters, wanted, [&](const Edge& edge) {
+      edges.push_back({edge.from - first, edge.to - first});
+    });
+    reduce_tile(r, edges, tile);
+  });
+  for (const ReducedTile& tile : tiles_) {
+    solution_.counters += tile.counters;
+    solution_.roadmap.edges += tile.free_edges;
+    solution_.roadmap.components += tile.components;
+  }
+}
+
+/// edges: between the tile's milestones, numbered within it. Where fewer than half of these are dead ends or links of
+/// chains, all are keys.
+template <World W>
+void TiledRoadmapPlan<W>::reduce_tile(Range tile, RawVector<Edge>& edges, ReducedTile& reduced) const {
+  const auto first = static_cast<VertexId>(tile.first);
+  reduced.free_edges = edges.size();
+  std::vector<std::uint32_t> degrees(tile.size(), 0);
+  for (const Edge& edge : edges) {
+    ++degrees[edge.from];
+    ++degrees[edge.to];
+  }
+  const auto is_thin = [](std::uint32_t degree) { return degree <= 2; };
+  if (2 * std::count_if(degrees.begin(), degrees.end(), is_thin) < static_cast<std::ptrdiff_t>(tile.size())) {
+    reduced.keys.resize(tile.size());
+    std::iota(reduced.keys.begin(), reduced.keys.end(), first);
+    reduced.edges = std::move(edges);
+    return;
+  }
+  std::vector<VertexId> kept;
+  for (VertexId v = 0; v < tile.size(); ++v) {
+    if (is_kept_[first + v] != 0) kept.push_back(v);
+  }
+  Execution own = execution_;
+  own.threads = 1;
+  own.progress = nullptr;
+  own.trace = nullptr;
+  const Graph graph = Graph::from_edges(tile.size(), edges);
+  const auto length = [&](VertexId v, VertexId w) { return world_.distance(states_[first + v], states_[first + w]); };
+  const ReducedGraphView view = reduce_graph(graph, kept, length, own, Peeling::within_blocks);
+  reduced.components = view.keyless_components();
+  for (VertexId key = 0; key < view.graph().vertex_count(); ++key) {
+    reduced.keys.push_back(first + view.vertex_of(key));
+    const std::span<const VertexId> row = view.graph().neighbours(key);
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      if (row[i] < key) continue;
+      reduced.edges.push_back({key, row[i]});
+      if (view.is_plain_edge(key, i)) continue;
+      const RawVector<VertexId> vertices = view.expand(std::array{key, row[i]}, own);
+      reduced.chains.push_back(
+          {{key, row[i]}, view.graph().lengths(key)[i], reduced.inner.size(), vertices.size() - 2});
+      for (std::size_t k = 1; k + 1 < vertices.size(); ++k) reduced.inner.push_back(first + vertices[k]);
+    }
+  }
+}
+
+template <World W>
+void TiledRoadmapPlan<W>::assemble() {
+  const StageTimer timer(execution_, "graph", solution_.seconds.graph, tile_count());
+  first_key_.assign(1, 0);
+  for (const ReducedTile& tile : tiles_) {
+    first_key_.push_back(first_key_.back() + static_cast<VertexId>(tile.keys.size()));
+  }
+  execution_.reserve((start_key() + std::size_t{2}) * sizeof(VertexId));
+  vertices_.resize(start_key() + std::size_t{2});
+  vertices_[start_key()] = static_cast<VertexId>(milestone_count());
+  vertices_[goal_key()] = static_cast<VertexId>(milestone_count() + 1);
+  EdgeParts parts(2 * tile_count() + 1);
+  for_chunks(tile_count(), 1, execution_, [&](Range r) {
+    const std::size_t t = r.first;
+    std::copy(tiles_[t].keys.begin(), tiles_[t].keys.end(), vertices_.data() + first_key_[t]);
+    for (Edge& edge : tiles_[t].edges) edge = {first_key_[t] + edge.from, first_key_[t] + edge.to};
+    for (Edge& edge : crossing_[t]) edge = {key_of(edge.from), key_of(edge.to)};
+    parts[t] = std::move(tiles_[t].edges);
+    parts[tile_count() + t] = std::move(crossing_[t]);
+  });
+  for (const Edge& edge : end_edges_) parts.back().push_back({key_of(edge.from), key_of(edge.to)});
+  const auto has_chain = [](const ReducedTile& tile) { return !tile.chains.empty(); };
+  any_chain_ = std::any_of(tiles_.begin(), tiles_.end(), has_chain);
+  const std::size_t n = start_key() + std::size_t{2};
+  const auto length = [this](VertexId v, VertexId w) { return length_between(v, w); };
+  overlay_ = any_chain_ ? assemble_graph(n, parts, execution_, length) : assemble_graph(n, parts, execution_);
+}
+
+template <World W>
+bool TiledRoadmapPlan<W>::joined() {
+  const StageTimer timer(execution_, "graph", solution_.seconds.graph);
+  const Components parts = components(overlay_, execution_);
+  solution_.roadmap.components += parts.count;
+  if (parts.connected(start_key(), goal_key())) return true;
+  solution_.outcome = Outcome::not_connected;
+  return false;
+}
+
+template <World W>
+bool TiledRoadmapPlan<W>::search() {
+  const StageTimer timer(execution_, "search", solution_.seconds.search);
+  const bool informed = options_.search == SearchKind::astar;
+  const auto estimate = [&](VertexId v, VertexId root) {
+    return informed ? world_.distance(states_[vertex_of(v)], states_[vertex_of(root)]) : 0.0;
+  };
+  const auto length = [this](VertexId v, VertexId w) { return length_between(v, w); };
+  std::optional<ReducedGraphView> reduced;
+  if (overlay_.vertex_count() >= fewest_for_both_ends && is_stringy(overlay_, execution_)) {
+    reduced.emplace(reduce_graph(overlay_, std::array{start_key(), goal_key()}, length, execution_));
+  }
+  const Graph& graph = reduced ? reduced->graph() : overlay_;
+  const auto overlay_key = [&](VertexId v) { return reduced && v != no_vertex ? reduced->vertex_of(v) : v; };
+  const auto neighbours = [&](VertexId v, const auto& visit) {
+    const std::span<const VertexId> row = graph.neighbours(v);
+    if (!graph.has_lengths()) {
+      for (const VertexId w : row) visit(w, length(v, w));
+      return;
+    }
+    const std::span<const double> lengths = graph.lengths(v);
+    for (std::size_t i = 0; i < row.size(); ++i) visit(row[i], lengths[i]);
+  };
+  const auto estimate_to = [&](VertexId root) {
+    return
+        [&, root = overlay_key(root)](VertexId v) { return root == no_vertex ? 0.0 : estimate(overlay_key(v), root); };
+  };
+  const auto key = [&](VertexId v) { return reduced ? reduced->key_of(v) : v; };
+  SearchResult found = search_best(graph.vertex_count(), key(start_key()), key(goal_key()), neighbours, estimate_to,
+                                   options_.queue, execution_, nullptr);
+  solution_.counters.expanded += found.expanded;
+  if (found.status == SearchStatus::stopped) execution_.check();
+  if (found.status != SearchStatus::found) return false;
+  if (reduced) found.path = reduced->expand(found.path, execution_);
+  RawVector<VertexId> path{vertex_of(found.path.front())};
+  for (std::size_t i = 1; i < found.path.size(); ++i) append(found.path[i - 1], found.path[i], path);
+  execution_.reserve(path.size() * sizeof(State));
+  for (const VertexId v : path) solution_.path.push_back(states_[v]);
+  solution_.outcome = Outcome::solved;
+  return true;
+}
+
+/// The vertices of an edge of the overlay, without its first.
+template <World W>
+void TiledRoadmapPlan<W>::append(VertexId from, VertexId to, RawVector<VertexId>& path) const {
+  constexpr std::size_t often = std::size_t{1} << 16;
+  if (path.size() % often == 0) execution_.check();
+  if (const ReducedTile::Chain* const chain = chain_of(from, to)) {
+    const RawVector<VertexId>& inner = tiles_[tile_of(vertex_of(from))].inner;
+    for (std::size_t i = 0; i < chain->count; ++i) {
+      path.push_back(inner[chain->first + (from < to ? i : chain->count - 1 - i)]);
+    }
+  }
+  path.push_back(vertex_of(to));
+}
+
+/// Tiles keep no roadmap to ask how far apart its parts are: an answer without a path is not hurried, so the last round
+/// is made again in the plain way.
+template <World W>
+void TiledRoadmapPlan<W>::finish(Roadmap<State>*) {
+  if (solution_.outcome != Outcome::not_connected) return;
+  tiles_ = {};
+  overlay_ = Graph();
+  PrmPlan<W> plain(world_, start_, goal_, options_, execution_, false);
+  plain.round(samples_);
+  plain.finish(nullptr);
+  solution_.separation = plain.solution().separation;
+}
+
+}  // namespace detail
+
+/// Can prm_in_tiles give the answer under these options? A shortest-path search.
+inline bool prm_in_tiles_applies(const RoadmapOptions& options) {
+  return options.search == SearchKind::astar || options.search == SearchKind::dijkstra;
+}
+
+/// Plans as prm() does, with the same milestones and edges; counters differ in what is expanded. Never throws Stopped;
+/// InputError for options out of range or where prm_in_tiles_applies() is false.
+template <World W>
+Solution<typename W::State> prm_in_tiles(const W& world, const typename W::State& start, const typename W::State& goal,
+                                         const RoadmapOptions& options, const Execution& execution) {
+  if (!prm_in_tiles_applies(options)) throw InputError("pipeline", "tiles keep shortest paths only");
+  detail::TiledRoadmapPlan<W> plan(world, start, goal, options, execution);
+  return detail::plan_in_rounds<W>(world, start, goal, options, execution, nullptr, plan);
+}
+
+}  // namespace warren

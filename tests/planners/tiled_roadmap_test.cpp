@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The oracle is the plain pipeline: prm over the same world with the same options.
+#include "planners/tiled_roadmap.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "tests/planners/plane_worlds.hpp"
+#include "worlds/maze_generator.hpp"
+#include "worlds/maze_world.hpp"
+#include "worlds/verify.hpp"
+
+namespace warren {
+namespace {
+
+using test::length_of;
+
+Execution on(unsigned threads) {
+  Execution execution;
+  execution.threads = threads;
+  return execution;
+}
+
+struct Question {
+  Scene scene;
+  Vec2 start;
+  Vec2 goal;
+  RoadmapOptions options;
+};
+
+Question maze_question(std::uint32_t side, double loops, SamplerKind sampler, std::uint64_t seed = 1) {
+  Question q;
+  q.scene = maze_scene({side, side, seed, MazeAlgorithm::backtracker, loops}, false, {});
+  q.start = {q.scene.start[0], q.scene.start[1]};
+  q.goal = {q.scene.goal[0], q.scene.goal[1]};
+  q.options.sampler = sampler;
+  q.options.seed = seed;
+  q.options.lattice = {side, side};
+  return q;
+}
+
+/// The same answer as the plain pipeline's, the same roadmap, and the same bytes on any number of threads.
+void expect_plain_answer(const Question& q, const std::string& what) {
+  SCOPED_TRACE(what);
+  const MazeWorld world(q.scene, 0.1, {});
+  const auto plain = prm(world, q.start, q.goal, q.options, {});
+  const auto tiled = prm_in_tiles(world, q.start, q.goal, q.options, on(1));
+  ASSERT_EQ(tiled.outcome, plain.outcome);
+  EXPECT_EQ(tiled.roadmap.milestones, plain.roadmap.milestones);
+  EXPECT_EQ(tiled.roadmap.edges, plain.roadmap.edges);
+  EXPECT_EQ(tiled.roadmap.components, plain.roadmap.components);
+  EXPECT_EQ(tiled.counters.edges_checked, plain.counters.edges_checked);
+  EXPECT_EQ(tiled.counters.samples, plain.counters.samples);
+  EXPECT_EQ(tiled.counters.neighbour_queries, plain.counters.neighbour_queries);
+  EXPECT_EQ(tiled.counters.rounds, plain.counters.rounds);
+  EXPECT_EQ(tiled.separation.start_size, plain.separation.start_size);
+  EXPECT_EQ(tiled.separation.goal_size, plain.separation.goal_size);
+  if (plain.outcome == Outcome::solved) {
+    EXPECT_NEAR(length_of(tiled.path), length_of(plain.path), 1e-12 * length_of(plain.path));
+    VerifyOptions verify;
+    verify.clearance = 0.1;
+    verify.start = q.start;
+    verify.goal = q.goal;
+    EXPECT_TRUE(verify_path(q.scene, tiled.path, verify, {}).verified);
+  }
+  for (const unsigned threads : {2U, 3U, 8U}) {
+    const auto again = prm_in_tiles(world, q.start, q.goal, q.options, on(threads));
+    EXPECT_EQ(again.path, tiled.path) << threads;
+    EXPECT_EQ(again.counters, tiled.counters) << threads;
+  }
+}
+
+TEST(TiledRoadmap, GivesThePlainAnswerForUniformRoadmaps) {
+  for (const double loops : {0.0, 0.1}) {
+    for (const std::uint64_t seed : {1U, 2U}) {
+      expect_plain_answer(maze_question(100, loops, SamplerKind::uniform, seed),
+                          "uniform, loops " + std::to_string(loops));
+    }
+  }
+  expect_plain_answer(maze_question(20, 0.1, SamplerKind::uniform), "less than a tile");
+  expect_plain_answer(maze_question(60, 0.3, SamplerKind::halton), "halton");
+}
+
+TEST(TiledRoadmap, GivesThePlainAnswerForTheRuleOfTheNearest) {
+  Question q = maze_question(80, 0.2, SamplerKind::uniform);
+  q.options.neighbours = 18;
+  q.options.samples = 60'000;
+  expect_plain_answer(q, "the 18 nearest");
+}
+
+TEST(TiledRoadmap, GivesThePlainAnswerForStringyRoadmaps) {
+  for (const double loops : {0.0, 0.1}) {
+    Question q = maze_question(250, loops, SamplerKind::lattice);
+    expect_plain_answer(q, "a lattice with loops " + std::to_string(loops));  // long chains across four tiles
+    q.options.radius = 1.5;
+    expect_plain_answer(q, "diagonals too");
+    q.options.search = SearchKind::dijkstra;
+    expect_plain_answer(q, "uninformed");
+  }
+}
+
+TEST(TiledRoadmap, SaysHowFarApartThePartsAreThatDoNotMeet) {
+  Question q = maze_question(100, 0.0, SamplerKind::uniform);
+  q.options.samples = 25'000;  // too few
+  expect_plain_answer(q, "too few samples");
+  q = maze_question(5, 0.0, SamplerKind::uniform);
+  q.options.samples = 1;
+  expect_plain_answer(q, "one sample");
+  q = maze_question(150, 0.0, SamplerKind::lattice);
+  q.goal = {151.5, 150.9};  // outside, beyond the outline
+  expect_plain_answer(q, "no way there");
+}
+
+TEST(TiledRoadmap, SaysWhichEndIsBlocked) {
+  Question q = maze_question(20, 0.0, SamplerKind::uniform);
+  q.start = {1.5, 1.5};  // a corner of cells, where a wall ends
+  const MazeWorld world(q.scene, 0.1, {});
+  EXPECT_EQ(prm_in_tiles(world, q.start, q.goal, q.options, {}).outcome, Outcome::start_blocked);
+  EXPECT_EQ(prm_in_tiles(world, q.goal, q.start, q.options, {}).outcome, Outcome::goal_blocked);
+}
+
+TEST(TiledRoadmap, StopsAtTheDeadlineAndWithoutMemory) {
+  const Question q = maze_question(60, 0.0, SamplerKind::uniform);
+  const MazeWorld world(q.scene, 0.1, {});
+  const Deadline over(0.0);
+  Execution execution;
+  execution.deadline = &over;
+  const auto late = prm_in_tiles(world, q.start, q.goal, q.options, execution);
+  EXPECT_EQ(late.outcome, Outcome::stopped);
+  EXPECT_TRUE(late.path.empty());
+  const Deadline small(std::numeric_limits<double>::infinity(), 1);
+  execution.deadline = &small;
+  const auto starved = prm_in_tiles(world, q.start, q.goal, q.options, execution);
+  EXPECT_EQ(starved.outcome, Outcome::stopped);
+  EXPECT_EQ(starved.stop_reason, StopReason::memory);
+}
+
+TEST(TiledRoadmap, RefusesSearchesThatDoNotSeekTheShortest) {
+  Question q = maze_question(10, 0.0, SamplerKind::uniform);
+  q.options.search = SearchKind::bfs;
+  const MazeWorld world(q.scene, 0.1, {});
+  EXPECT_THROW(prm_in_tiles(world, q.start, q.goal, q.options, {}), InputError);
+}
+
+}  // namespace
+}  // namespace warren
