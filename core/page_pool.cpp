@@ -175,13 +175,6 @@ void return_pages(void* block, std::size_t bytes) noexcept {
   ::munmap(block, whole);
 }
 
-void prefer_huge_pages(void* block, std::size_t bytes) noexcept {
-  const auto begin = reinterpret_cast<std::uintptr_t>(block);
-  const std::uintptr_t first = whole_pages(begin);
-  const std::uintptr_t last = (begin + bytes) / huge_page * huge_page;
-  if (first < last) ::madvise(static_cast<char*>(block) + (first - begin), last - first, MADV_HUGEPAGE);
-}
-
 bool populate_pages([[maybe_unused]] void* block, [[maybe_unused]] std::size_t bytes) noexcept {
 #ifdef MADV_POPULATE_WRITE
   constexpr std::size_t page = 4096;

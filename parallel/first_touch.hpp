@@ -6,7 +6,6 @@
 
 #include <cstddef>
 #include <type_traits>
-#include <vector>
 
 #include "core/page_pool.hpp"
 #include "core/raw_vector.hpp"

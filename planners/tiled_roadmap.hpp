@@ -8,8 +8,8 @@
 // their chains. The keys of all tiles with the edges between tiles, start and goal make the overlay, which is reduced
 // once more where that pays, and searched. The path is as long as the plain pipeline's, on any roadmap; only the gain
 // differs: a maze's lattice leaves a thirtieth of its vertices, a dense uniform roadmap nearly all of them.
-// Candidates are found twice, each is checked once. Memory: 16 bytes a milestone, and the overlay. The same for any
-// number of threads.
+// Candidates are found twice, each is checked once. Memory: the milestones, their index (and k neighbours each for that
+// rule), the edges between tiles, and the overlay. The same for any number of threads.
 #pragma once
 
 #include <algorithm>
@@ -36,13 +36,17 @@ struct ReducedTile {
     std::size_t count;
   };
   RawVector<VertexId> keys;    // their milestones, ascending
-  RawVector<Edge> edges;       // `from` ascends
+  EdgeParts edges;             // as they were found, or by the first key
   std::vector<Chain> chains;   // of the edges that stand for several; by keys, ascending
   RawVector<VertexId> inner;   // milestones on chains
   std::size_t components = 0;  // of which nothing is left
   std::uint64_t free_edges = 0;
   Counters counters;
 
+  std::size_t bytes() const {
+    return total_edges(edges) * sizeof(Edge) + (keys.size() + inner.size()) * sizeof(VertexId) +
+           chains.size() * sizeof(Chain);
+  }
   const Chain* chain_between(VertexId a, VertexId b) const {
     const Edge keys_of_chain{std::min(a, b), std::max(a, b)};
     const auto at = std::lower_bound(chains.begin(), chains.end(), keys_of_chain,
@@ -56,9 +60,15 @@ template <World W>
 class TiledRoadmapPlan {
  public:
   using State = typename W::State;
+  /// An overlay of at least `fewest_to_reduce` vertices is reduced again where that pays.
   TiledRoadmapPlan(const W& world, const State& start, const State& goal, const RoadmapOptions& options,
-                   const Execution& execution)
-      : world_(world), start_(start), goal_(goal), options_(options), execution_(execution) {}
+                   const Execution& execution, std::size_t fewest_to_reduce = fewest_for_both_ends)
+      : world_(world),
+        start_(start),
+        goal_(goal),
+        options_(options),
+        execution_(execution),
+        fewest_to_reduce_(fewest_to_reduce) {}
 
   /// Builds and searches a roadmap with so many samples; true when the answer is final.
   bool round(std::uint64_t samples) {
@@ -76,11 +86,12 @@ class TiledRoadmapPlan {
  private:
   static constexpr std::size_t tile_size = reduce_grain;
 
+  void release();
   void draw();
   void connect();
   void check_between_tiles(const StateIndex<W>& index, const NearestLists& lists, const ConnectionRule& rule);
   void reduce_tiles(const StateIndex<W>& index, const NearestLists& lists, const ConnectionRule& rule);
-  void reduce_tile(Range tile, RawVector<Edge>& edges, ReducedTile& reduced) const;
+  void reduce_tile(Range tile, EdgeParts& edges, ReducedTile& reduced) const;
   template <class Wanted, class Free>
   void check_tile(Range tile, const StateIndex<W>& index, const NearestLists& lists, const ConnectionRule& rule,
                   Counters& counters, const Wanted& wanted, const Free& free) const;
@@ -119,6 +130,7 @@ class TiledRoadmapPlan {
   const State goal_;
   const RoadmapOptions& options_;
   const Execution& execution_;
+  const std::size_t fewest_to_reduce_;
   std::uint64_t samples_ = 0;
   RawVector<State> states_;                // milestones, start, goal
   std::vector<RawVector<Edge>> crossing_;  // free edges between tiles, by the tile that checked them
@@ -132,9 +144,22 @@ class TiledRoadmapPlan {
   Solution<State> solution_;
 };
 
+/// What the last round has left.
+template <World W>
+void TiledRoadmapPlan<W>::release() {
+  states_ = {};
+  crossing_ = {};
+  is_kept_ = {};
+  tiles_ = {};
+  first_key_ = {};
+  vertices_ = {};
+  overlay_ = Graph();
+}
+
 template <World W>
 void TiledRoadmapPlan<W>::draw() {
   const StageTimer timer(execution_, "sample", solution_.seconds.sample, samples_);
+  release();
   states_ = draw_milestones(world_, options_, samples_, execution_);
   states_.push_back(start_);
   states_.push_back(goal_);
@@ -149,11 +174,16 @@ void TiledRoadmapPlan<W>::connect() {
     const StageTimer timer(execution_, "neighbours", solution_.seconds.neighbours, milestones.size());
     index = index_of_states(world_, milestones, execution_);
   }
-  const StageTimer timer(execution_, "connect", solution_.seconds.connect, 2 * tile_count());
+  const StageTimer timer(execution_, "connect", solution_.seconds.connect, 2 * milestones.size());
   const ConnectionRule rule = connection_rule_for(world_, options_, samples_);
   NearestLists lists;
-  if (rule.neighbours > 0) lists = nearest_lists<W>(milestones, index, rule.neighbours, execution_);
+  if (rule.neighbours > 0) {
+    Execution quiet = execution_;
+    quiet.progress = nullptr;
+    lists = nearest_lists<W>(milestones, index, rule.neighbours, quiet);
+  }
   solution_.counters.neighbour_queries += milestones.size();
+  execution_.reserve(milestones.size());
   is_kept_.assign(milestones.size(), 0);
   check_between_tiles(index, lists, rule);
   end_edges_ = attach_start_and_goal(world_, milestones, index, rule, start_, goal_, solution_.counters);
@@ -216,17 +246,29 @@ void TiledRoadmapPlan<W>::check_between_tiles(const StateIndex<W>& index, const 
 template <World W>
 void TiledRoadmapPlan<W>::reduce_tiles(const StateIndex<W>& index, const NearestLists& lists,
                                        const ConnectionRule& rule) {
+  constexpr std::size_t batch = 64;       // tiles between two questions for memory
+  constexpr std::size_t part = 1U << 15;  // edges
   tiles_.assign(tile_count(), {});
   const auto wanted = [](VertexId from, VertexId to) { return tile_of(from) == tile_of(to); };
-  for_chunks(milestone_count(), tile_size, execution_, [&](Range r) {
+  const auto reduce = [&](Range r) {
     ReducedTile& tile = tiles_[r.first / tile_size];
-    RawVector<Edge> edges;
+    EdgeParts edges;
     const auto first = static_cast<VertexId>(r.first);
     check_tile(r, index, lists, rule, tile.counters, wanted, [&](const Edge& edge) {
-      edges.push_back({edge.from - first, edge.to - first});
+      if (edges.empty() || edges.back().size() == part) edges.emplace_back().reserve(part);
+      edges.back().push_back({edge.from - first, edge.to - first});
     });
     reduce_tile(r, edges, tile);
-  });
+  };
+  std::size_t bytes = 0;  // of the last batch: the next one will take about as many
+  for (std::size_t tile = 0; tile < tile_count(); tile += batch) {
+    execution_.reserve(bytes);
+    const std::size_t first = tile * tile_size;
+    const std::size_t last = std::min(milestone_count(), first + batch * tile_size);
+    for_chunks(last - first, tile_size, execution_, [&](Range r) { reduce({first + r.first, first + r.last}); });
+    bytes = 0;
+    for (std::size_t t = tile; t < std::min(tile + batch, tile_count()); ++t) bytes += tiles_[t].bytes();
+  }
   for (const ReducedTile& tile : tiles_) {
     solution_.counters += tile.counters;
     solution_.roadmap.edges += tile.free_edges;
@@ -237,13 +279,15 @@ void TiledRoadmapPlan<W>::reduce_tiles(const StateIndex<W>& index, const Nearest
 /// edges: between the tile's milestones, numbered within it. Where fewer than half of these are dead ends or links of
 /// chains, all are keys.
 template <World W>
-void TiledRoadmapPlan<W>::reduce_tile(Range tile, RawVector<Edge>& edges, ReducedTile& reduced) const {
+void TiledRoadmapPlan<W>::reduce_tile(Range tile, EdgeParts& edges, ReducedTile& reduced) const {
   const auto first = static_cast<VertexId>(tile.first);
-  reduced.free_edges = edges.size();
+  reduced.free_edges = total_edges(edges);
   std::vector<std::uint32_t> degrees(tile.size(), 0);
-  for (const Edge& edge : edges) {
-    ++degrees[edge.from];
-    ++degrees[edge.to];
+  for (const RawVector<Edge>& part : edges) {
+    for (const Edge& edge : part) {
+      ++degrees[edge.from];
+      ++degrees[edge.to];
+    }
   }
   const auto is_thin = [](std::uint32_t degree) { return degree <= 2; };
   if (2 * std::count_if(degrees.begin(), degrees.end(), is_thin) < static_cast<std::ptrdiff_t>(tile.size())) {
@@ -256,11 +300,12 @@ void TiledRoadmapPlan<W>::reduce_tile(Range tile, RawVector<Edge>& edges, Reduce
   for (VertexId v = 0; v < tile.size(); ++v) {
     if (is_kept_[first + v] != 0) kept.push_back(v);
   }
-  Execution own = execution_;
+  Execution own;  // a tile takes milliseconds and little memory
   own.threads = 1;
-  own.progress = nullptr;
-  own.trace = nullptr;
-  const Graph graph = Graph::from_edges(tile.size(), edges);
+  std::vector<Edge> all;
+  for (const RawVector<Edge>& part : edges) all.insert(all.end(), part.begin(), part.end());
+  const Graph graph = Graph::from_edges(tile.size(), all);
+  reduced.edges.emplace_back();
   const auto length = [&](VertexId v, VertexId w) { return world_.distance(states_[first + v], states_[first + w]); };
   const ReducedGraphView view = reduce_graph(graph, kept, length, own, Peeling::within_blocks);
   reduced.components = view.keyless_components();
@@ -269,7 +314,7 @@ void TiledRoadmapPlan<W>::reduce_tile(Range tile, RawVector<Edge>& edges, Reduce
     const std::span<const VertexId> row = view.graph().neighbours(key);
     for (std::size_t i = 0; i < row.size(); ++i) {
       if (row[i] < key) continue;
-      reduced.edges.push_back({key, row[i]});
+      reduced.edges.back().push_back({key, row[i]});
       if (view.is_plain_edge(key, i)) continue;
       const RawVector<VertexId> vertices = view.expand(std::array{key, row[i]}, own);
       reduced.chains.push_back(
@@ -281,7 +326,7 @@ void TiledRoadmapPlan<W>::reduce_tile(Range tile, RawVector<Edge>& edges, Reduce
 
 template <World W>
 void TiledRoadmapPlan<W>::assemble() {
-  const StageTimer timer(execution_, "graph", solution_.seconds.graph, tile_count());
+  const StageTimer timer(execution_, "graph", solution_.seconds.graph);
   first_key_.assign(1, 0);
   for (const ReducedTile& tile : tiles_) {
     first_key_.push_back(first_key_.back() + static_cast<VertexId>(tile.keys.size()));
@@ -290,15 +335,22 @@ void TiledRoadmapPlan<W>::assemble() {
   vertices_.resize(start_key() + std::size_t{2});
   vertices_[start_key()] = static_cast<VertexId>(milestone_count());
   vertices_[goal_key()] = static_cast<VertexId>(milestone_count() + 1);
-  EdgeParts parts(2 * tile_count() + 1);
   for_chunks(tile_count(), 1, execution_, [&](Range r) {
     const std::size_t t = r.first;
     std::copy(tiles_[t].keys.begin(), tiles_[t].keys.end(), vertices_.data() + first_key_[t]);
-    for (Edge& edge : tiles_[t].edges) edge = {first_key_[t] + edge.from, first_key_[t] + edge.to};
+    for (RawVector<Edge>& part : tiles_[t].edges) {
+      for (Edge& edge : part) edge = {first_key_[t] + edge.from, first_key_[t] + edge.to};
+    }
     for (Edge& edge : crossing_[t]) edge = {key_of(edge.from), key_of(edge.to)};
-    parts[t] = std::move(tiles_[t].edges);
-    parts[tile_count() + t] = std::move(crossing_[t]);
   });
+  EdgeParts parts;
+  for (ReducedTile& tile : tiles_) {
+    for (RawVector<Edge>& part : tile.edges) parts.push_back(std::move(part));
+    tile.edges = {};
+  }
+  for (RawVector<Edge>& part : crossing_) parts.push_back(std::move(part));
+  crossing_ = {};
+  parts.emplace_back();
   for (const Edge& edge : end_edges_) parts.back().push_back({key_of(edge.from), key_of(edge.to)});
   const auto has_chain = [](const ReducedTile& tile) { return !tile.chains.empty(); };
   any_chain_ = std::any_of(tiles_.begin(), tiles_.end(), has_chain);
@@ -326,7 +378,7 @@ bool TiledRoadmapPlan<W>::search() {
   };
   const auto length = [this](VertexId v, VertexId w) { return length_between(v, w); };
   std::optional<ReducedGraphView> reduced;
-  if (overlay_.vertex_count() >= fewest_for_both_ends && is_stringy(overlay_, execution_)) {
+  if (overlay_.vertex_count() >= fewest_to_reduce_ && is_stringy(overlay_, execution_)) {
     reduced.emplace(reduce_graph(overlay_, std::array{start_key(), goal_key()}, length, execution_));
   }
   const Graph& graph = reduced ? reduced->graph() : overlay_;
@@ -352,8 +404,11 @@ bool TiledRoadmapPlan<W>::search() {
   if (found.status != SearchStatus::found) return false;
   if (reduced) found.path = reduced->expand(found.path, execution_);
   RawVector<VertexId> path{vertex_of(found.path.front())};
-  for (std::size_t i = 1; i < found.path.size(); ++i) append(found.path[i - 1], found.path[i], path);
-  execution_.reserve(path.size() * sizeof(State));
+  for (std::size_t i = 1; i < found.path.size(); ++i) {
+    if (i % 1024 == 0) execution_.check();
+    append(found.path[i - 1], found.path[i], path);
+  }
+  reserve_touched(solution_.path, path.size(), execution_);
   for (const VertexId v : path) solution_.path.push_back(states_[v]);
   solution_.outcome = Outcome::solved;
   return true;
@@ -362,8 +417,6 @@ bool TiledRoadmapPlan<W>::search() {
 /// The vertices of an edge of the overlay, without its first.
 template <World W>
 void TiledRoadmapPlan<W>::append(VertexId from, VertexId to, RawVector<VertexId>& path) const {
-  constexpr std::size_t often = std::size_t{1} << 16;
-  if (path.size() % often == 0) execution_.check();
   if (const ReducedTile::Chain* const chain = chain_of(from, to)) {
     const RawVector<VertexId>& inner = tiles_[tile_of(vertex_of(from))].inner;
     for (std::size_t i = 0; i < chain->count; ++i) {
@@ -378,8 +431,8 @@ void TiledRoadmapPlan<W>::append(VertexId from, VertexId to, RawVector<VertexId>
 template <World W>
 void TiledRoadmapPlan<W>::finish(Roadmap<State>*) {
   if (solution_.outcome != Outcome::not_connected) return;
-  tiles_ = {};
-  overlay_ = Graph();
+  const StageTimer timer(execution_, "connect", solution_.seconds.connect);
+  release();
   PrmPlan<W> plain(world_, start_, goal_, options_, execution_, false);
   plain.round(samples_);
   plain.finish(nullptr);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/arithmetic_probe.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <vector>
@@ -10,7 +11,7 @@
 namespace warren {
 namespace {
 
-constexpr std::size_t parts = 64;
+constexpr std::size_t probe_parts = 64;
 constexpr std::uint64_t rounds = 120'000;  // of each part: some 150 us
 
 /// One number that doesn't wait for the others. Opaque to the compiler, which would put several into one register.
@@ -47,19 +48,20 @@ double arithmetic_per_second(const Execution& execution) {
     std::uint64_t result = 0;
     double seconds = 0.0;
   };
-  std::vector<Part> done(parts);
+  std::vector<Part> done(probe_parts);
   const auto run = [&](Range r) {
     const auto begin = std::chrono::steady_clock::now();
     const std::uint64_t result = run_part(r.first);
     done[r.first] = {result, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()};
   };
-  for_chunks(parts / 8, 1, own, run);  // wakes threads that sleep
-  for_chunks(parts, 1, own, run);
+  for_chunks(probe_parts / 8, 1, own, run);  // wakes threads that sleep
+  for_chunks(probe_parts, 1, own, run);
   double seconds = 0.0;
   for (const Part& part : done) seconds += part.seconds;
   const volatile std::uint64_t read = done.back().result;  // or the work would be left out
   static_cast<void>(read);
-  return thread_count(own.threads) * static_cast<double>(parts * rounds) / seconds;
+  const auto threads = static_cast<double>(std::min<std::size_t>(thread_count(own.threads), probe_parts));
+  return threads * static_cast<double>(probe_parts * rounds) / seconds;
 }
 
 }  // namespace warren

@@ -31,6 +31,7 @@ Json gain_json(const ThreadGain& gain) {
           {"threads", t.threads},
           {"planner", t.planner},
           {"sampler", t.sampler},
+          {"pipeline", t.pipeline},
           {"pairs", gain.pairs},
           {"gain", gain.gain},
           {"arithmetic", gain.arithmetic},

@@ -77,8 +77,8 @@ void ScalingStudy::run_once(const Scene& scene, const MazeOptions& maze, double 
       MazeTrial trial = solve_trial(scene, maze, planner, options_.budget_s, execution);
       const RunCounts counts = counters_.read() - before;
       trial.generate_s = generate_s;
-      result_.runs.push_back(
-          {std::move(trial), repeat, counts, 0.5 * (arithmetic_before + arithmetic_per_second(execution))});
+      result_.runs.push_back({std::move(trial), repeat, counts});
+      result_.runs.back().arithmetic_per_s = 0.5 * (arithmetic_before + arithmetic_per_second(execution));
     }
   }
 }

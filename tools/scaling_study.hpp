@@ -35,7 +35,7 @@ struct ScalingRun {
   MazeTrial trial;
   unsigned repeat = 0;  ///< 0 is the first
   RunCounts counts = {};
-  double arithmetic_per_s = 0.0;  ///< what the machine gave its threads: the mean of before and after
+  double arithmetic_per_s = 0.0;  ///< what the machine gave its threads, before and after; 0: broken off
 };
 
 struct ScalingResult {

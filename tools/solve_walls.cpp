@@ -131,11 +131,14 @@ Answer solve_walls(const SolveRequest& request) {
   return solve_walls(request.scene, problem, options, request.execution, keep);
 }
 
+constexpr std::uint64_t most_drawn = 40'000;  // cells or samples: beyond, a picture's edges would merge
+
 /// Tiles keep no roadmap.
 void draw(const SolveRequest& request) {
   const WallProblem problem = problem_of(request.scene, request.problem);
   const PlannerOptions options = planner_options(request.arguments, request.scene, problem);
   if (options.planner != PlannerKind::prm || options.pipeline != PipelineKind::tiled) return;
+  if (!options.fused && options.roadmap.samples.value_or(0) > most_drawn) return;
   draw_roadmap(request.scene, problem, options, request.execution, request.drawing->roadmap);
 }
 
@@ -155,9 +158,8 @@ Answer solve_walls(const Scene& scene, const WallProblem& problem, const Planner
 
 void draw_roadmap(const Scene& scene, const WallProblem& problem, const PlannerOptions& options,
                   const Execution& execution, Roadmap<Vec2>& roadmap) {
-  constexpr std::uint64_t most_cells = 40'000;  // beyond, a picture's edges would merge
   const LatticeSize size = options.roadmap.lattice;
-  if (std::uint64_t{size.rows} * size.cols > most_cells) return;
+  if (std::uint64_t{size.rows} * size.cols > most_drawn) return;
   const MazeWorld world(scene, problem.reach(), execution);
   prm(world, problem.start, problem.goal, options.roadmap, execution, &roadmap);
 }

@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <tuple>
+
+#include "tools/statistics.hpp"
 
 namespace warren {
 namespace {
@@ -17,8 +20,14 @@ struct Pair {
   double scaled(double ratio) const { return ratio * fewer->trial.threads; }
   double gain() const { return scaled(fewer->trial.solve_s / more->trial.solve_s); }
   double arithmetic() const { return scaled(more->arithmetic_per_s / fewer->arithmetic_per_s); }
-  bool is_quiet(unsigned cores) const { return arithmetic() >= 0.95 * std::min(more->trial.threads, cores); }
+  bool is_quiet(unsigned cores) const {
+    const double all = std::min(more->trial.threads, cores);
+    return std::abs(arithmetic() - all) <= 0.05 * all;  // more: the other run was disturbed
+  }
 };
+
+/// Was it solved, and the arithmetic beside it timed?
+bool counts(const ScalingRun& run) { return run.trial.verified && run.arithmetic_per_s > 0.0; }
 
 /// What the runs of a repeat have in common.
 auto repeat_of(const ScalingRun& run) {
@@ -26,18 +35,11 @@ auto repeat_of(const ScalingRun& run) {
   return std::make_tuple(t.planner, t.sampler, t.pipeline, t.rows, t.cols, t.seed, run.repeat);
 }
 
-template <class Values>
-double middle_of(Values values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 template <class Value>
 double median(const std::vector<Pair>& pairs, const Value& value) {
   std::vector<double> values;
   for (const Pair& pair : pairs) values.push_back(value(pair));
-  return middle_of(std::move(values));
+  return median_of(values);
 }
 
 std::vector<std::pair<std::string, double>> stage_gains(const std::vector<Pair>& pairs) {
@@ -70,7 +72,7 @@ ThreadGain gain_of(const std::vector<Pair>& pairs, unsigned cores) {
 std::vector<ThreadGain> thread_gains(const ScalingResult& result, unsigned cores) {
   std::map<decltype(repeat_of(result.runs.front())), const ScalingRun*> fewest;
   for (const ScalingRun& run : result.runs) {
-    if (!run.trial.verified) continue;
+    if (!counts(run)) continue;
     const ScalingRun*& least = fewest.try_emplace(repeat_of(run), &run).first->second;
     if (run.trial.threads < least->trial.threads) least = &run;
   }
@@ -78,7 +80,7 @@ std::vector<ThreadGain> thread_gains(const ScalingResult& result, unsigned cores
   std::map<Key, std::size_t> place;
   std::vector<std::vector<Pair>> groups;
   for (const ScalingRun& run : result.runs) {
-    if (!run.trial.verified) continue;
+    if (!counts(run)) continue;
     const ScalingRun* const base = fewest.at(repeat_of(run));
     const MazeTrial& t = run.trial;
     if (base->trial.threads == t.threads) continue;
@@ -96,7 +98,7 @@ std::string text_of(const ThreadGain& gain) {
   const MazeTrial& t = gain.first;
   std::string text = fmt::format(
       "{} x {}, {}, {} threads: {:.2f} times in the median of {} {}, arithmetic alone {:.2f}", t.rows, t.cols,
-      t.planner, t.threads, gain.gain, gain.pairs, gain.pairs == 1 ? "pair" : "pairs", gain.arithmetic);
+      planner_text(t), t.threads, gain.gain, gain.pairs, gain.pairs == 1 ? "pair" : "pairs", gain.arithmetic);
   if (!gain.quiet_gain) return text + "; the machine was quiet in none of them";
   text += fmt::format("; {:.2f} in the {} in which the machine was quiet", *gain.quiet_gain, gain.quiet_pairs);
   std::string stages;

@@ -11,7 +11,7 @@ namespace {
 
 TEST(RawVector, KeepsItsElementsWhenItGrowsFromSmallToLargeBlocks) {
   RawVector<std::uint64_t> numbers;
-  for (std::uint64_t i = 0; i < 2'000'000; ++i) numbers.push_back(i);  // 16 MB: passes the border of 2 MiB
+  for (std::uint64_t i = 0; i < 2'000'000; ++i) numbers.push_back(i);  // 16 MB: passes the border of 512 KiB
   for (std::uint64_t i = 0; i < numbers.size(); ++i) ASSERT_EQ(numbers[i], i);
   RawVector<std::uint64_t> copy = numbers;
   numbers.clear();

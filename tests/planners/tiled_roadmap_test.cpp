@@ -115,6 +115,32 @@ TEST(TiledRoadmap, SaysHowFarApartThePartsAreThatDoNotMeet) {
   expect_plain_answer(q, "no way there");
 }
 
+TEST(TiledRoadmap, AnOverlayThatIsReducedAgainGivesTheSamePath) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    Question q = maze_question(250, 0.02, SamplerKind::lattice, seed);
+    const MazeWorld world(q.scene, 0.1, {});
+    const auto once = prm_in_tiles(world, q.start, q.goal, q.options, {});
+    const Execution execution;
+    detail::TiledRoadmapPlan<MazeWorld> plan(world, q.start, q.goal, q.options, execution, 0);
+    const auto twice = detail::plan_in_rounds(world, q.start, q.goal, q.options, execution, nullptr, plan);
+    ASSERT_EQ(twice.outcome, Outcome::solved);
+    EXPECT_LT(twice.counters.expanded, once.counters.expanded) << "it was not reduced";
+    EXPECT_NEAR(length_of(twice.path), length_of(once.path), 1e-12 * length_of(once.path));
+    for (std::size_t i = 1; i < twice.path.size(); ++i) ASSERT_LE(distance(twice.path[i - 1], twice.path[i]), 1.5);
+  }
+}
+
+TEST(TiledRoadmap, StandsAtTheGoalAndWithoutMilestones) {
+  Question q = maze_question(30, 0.0, SamplerKind::uniform);
+  q.goal = q.start;
+  expect_plain_answer(q, "start and goal are one");
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {  // of single samples a fifth is blocked
+    q = maze_question(3, 0.0, SamplerKind::random, seed);
+    q.options.samples = 1;
+    expect_plain_answer(q, "one sample, seed " + std::to_string(seed));
+  }
+}
+
 TEST(TiledRoadmap, SaysWhichEndIsBlocked) {
   Question q = maze_question(20, 0.0, SamplerKind::uniform);
   q.start = {1.5, 1.5};  // a corner of cells, where a wall ends
