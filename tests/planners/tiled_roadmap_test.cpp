@@ -25,15 +25,15 @@ Execution on(unsigned threads) {
   return execution;
 }
 
-struct Question {
+struct TileQuestion {
   Scene scene;
   Vec2 start;
   Vec2 goal;
   RoadmapOptions options;
 };
 
-Question maze_question(std::uint32_t side, double loops, SamplerKind sampler, std::uint64_t seed = 1) {
-  Question q;
+TileQuestion tile_question(std::uint32_t side, double loops, SamplerKind sampler, std::uint64_t seed = 1) {
+  TileQuestion q;
   q.scene = maze_scene({side, side, seed, MazeAlgorithm::backtracker, loops}, false, {});
   q.start = {q.scene.start[0], q.scene.start[1]};
   q.goal = {q.scene.goal[0], q.scene.goal[1]};
@@ -44,7 +44,7 @@ Question maze_question(std::uint32_t side, double loops, SamplerKind sampler, st
 }
 
 /// The same answer as the plain pipeline's, the same roadmap, and the same bytes on any number of threads.
-void expect_plain_answer(const Question& q, const std::string& what) {
+void expect_plain_answer(const TileQuestion& q, const std::string& what) {
   SCOPED_TRACE(what);
   const MazeWorld world(q.scene, 0.1, {});
   const auto plain = prm(world, q.start, q.goal, q.options, {});
@@ -77,16 +77,16 @@ void expect_plain_answer(const Question& q, const std::string& what) {
 TEST(TiledRoadmap, GivesThePlainAnswerForUniformRoadmaps) {
   for (const double loops : {0.0, 0.1}) {
     for (const std::uint64_t seed : {1U, 2U}) {
-      expect_plain_answer(maze_question(100, loops, SamplerKind::uniform, seed),
+      expect_plain_answer(tile_question(100, loops, SamplerKind::uniform, seed),
                           "uniform, loops " + std::to_string(loops));
     }
   }
-  expect_plain_answer(maze_question(20, 0.1, SamplerKind::uniform), "less than a tile");
-  expect_plain_answer(maze_question(60, 0.3, SamplerKind::halton), "halton");
+  expect_plain_answer(tile_question(20, 0.1, SamplerKind::uniform), "less than a tile");
+  expect_plain_answer(tile_question(60, 0.3, SamplerKind::halton), "halton");
 }
 
 TEST(TiledRoadmap, GivesThePlainAnswerForTheRuleOfTheNearest) {
-  Question q = maze_question(80, 0.2, SamplerKind::uniform);
+  TileQuestion q = tile_question(80, 0.2, SamplerKind::uniform);
   q.options.neighbours = 18;
   q.options.samples = 60'000;
   expect_plain_answer(q, "the 18 nearest");
@@ -94,7 +94,7 @@ TEST(TiledRoadmap, GivesThePlainAnswerForTheRuleOfTheNearest) {
 
 TEST(TiledRoadmap, GivesThePlainAnswerForStringyRoadmaps) {
   for (const double loops : {0.0, 0.1}) {
-    Question q = maze_question(250, loops, SamplerKind::lattice);
+    TileQuestion q = tile_question(250, loops, SamplerKind::lattice);
     expect_plain_answer(q, "a lattice with loops " + std::to_string(loops));  // long chains across four tiles
     q.options.radius = 1.5;
     expect_plain_answer(q, "diagonals too");
@@ -104,20 +104,20 @@ TEST(TiledRoadmap, GivesThePlainAnswerForStringyRoadmaps) {
 }
 
 TEST(TiledRoadmap, SaysHowFarApartThePartsAreThatDoNotMeet) {
-  Question q = maze_question(100, 0.0, SamplerKind::uniform);
+  TileQuestion q = tile_question(100, 0.0, SamplerKind::uniform);
   q.options.samples = 25'000;  // too few
   expect_plain_answer(q, "too few samples");
-  q = maze_question(5, 0.0, SamplerKind::uniform);
+  q = tile_question(5, 0.0, SamplerKind::uniform);
   q.options.samples = 1;
   expect_plain_answer(q, "one sample");
-  q = maze_question(150, 0.0, SamplerKind::lattice);
+  q = tile_question(150, 0.0, SamplerKind::lattice);
   q.goal = {151.5, 150.9};  // outside, beyond the outline
   expect_plain_answer(q, "no way there");
 }
 
 TEST(TiledRoadmap, AnOverlayThatIsReducedAgainGivesTheSamePath) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
-    Question q = maze_question(250, 0.02, SamplerKind::lattice, seed);
+    TileQuestion q = tile_question(250, 0.02, SamplerKind::lattice, seed);
     const MazeWorld world(q.scene, 0.1, {});
     const auto once = prm_in_tiles(world, q.start, q.goal, q.options, {});
     const Execution execution;
@@ -131,18 +131,18 @@ TEST(TiledRoadmap, AnOverlayThatIsReducedAgainGivesTheSamePath) {
 }
 
 TEST(TiledRoadmap, StandsAtTheGoalAndWithoutMilestones) {
-  Question q = maze_question(30, 0.0, SamplerKind::uniform);
+  TileQuestion q = tile_question(30, 0.0, SamplerKind::uniform);
   q.goal = q.start;
   expect_plain_answer(q, "start and goal are one");
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {  // of single samples a fifth is blocked
-    q = maze_question(3, 0.0, SamplerKind::random, seed);
+    q = tile_question(3, 0.0, SamplerKind::random, seed);
     q.options.samples = 1;
     expect_plain_answer(q, "one sample, seed " + std::to_string(seed));
   }
 }
 
 TEST(TiledRoadmap, SaysWhichEndIsBlocked) {
-  Question q = maze_question(20, 0.0, SamplerKind::uniform);
+  TileQuestion q = tile_question(20, 0.0, SamplerKind::uniform);
   q.start = {1.5, 1.5};  // a corner of cells, where a wall ends
   const MazeWorld world(q.scene, 0.1, {});
   EXPECT_EQ(prm_in_tiles(world, q.start, q.goal, q.options, {}).outcome, Outcome::start_blocked);
@@ -150,7 +150,7 @@ TEST(TiledRoadmap, SaysWhichEndIsBlocked) {
 }
 
 TEST(TiledRoadmap, StopsAtTheDeadlineAndWithoutMemory) {
-  const Question q = maze_question(60, 0.0, SamplerKind::uniform);
+  const TileQuestion q = tile_question(60, 0.0, SamplerKind::uniform);
   const MazeWorld world(q.scene, 0.1, {});
   const Deadline over(0.0);
   Execution execution;
@@ -166,7 +166,7 @@ TEST(TiledRoadmap, StopsAtTheDeadlineAndWithoutMemory) {
 }
 
 TEST(TiledRoadmap, RefusesSearchesThatDoNotSeekTheShortest) {
-  Question q = maze_question(10, 0.0, SamplerKind::uniform);
+  TileQuestion q = tile_question(10, 0.0, SamplerKind::uniform);
   q.options.search = SearchKind::bfs;
   const MazeWorld world(q.scene, 0.1, {});
   EXPECT_THROW(prm_in_tiles(world, q.start, q.goal, q.options, {}), InputError);

@@ -9,7 +9,7 @@ namespace warren {
 namespace {
 
 /// A run of `threads` threads; the machine did `rate` of arithmetic meanwhile.
-ScalingRun run_of(unsigned threads, unsigned repeat, double seconds, double rate, std::uint32_t side = 100) {
+ScalingRun timed_run(unsigned threads, unsigned repeat, double seconds, double rate, std::uint32_t side = 100) {
   MazeTrial t;
   t.rows = t.cols = side;
   t.threads = threads;
@@ -32,8 +32,8 @@ TEST(ThreadGains, AreMediansOfPairsAndOfThoseInWhichTheMachineGaveAllItsCores) {
   const double gains[] = {1.9, 1.8, 1.0, 1.2, 1.7};
   const double rates[] = {2.0, 1.96, 3.0, 1.89, 1.91};
   for (unsigned repeat = 0; repeat < 5; ++repeat) {
-    result.runs.push_back(run_of(1, repeat, 1.0, 100.0));
-    result.runs.push_back(run_of(2, repeat, 1.0 / gains[repeat], 100.0 * rates[repeat]));
+    result.runs.push_back(timed_run(1, repeat, 1.0, 100.0));
+    result.runs.push_back(timed_run(2, repeat, 1.0 / gains[repeat], 100.0 * rates[repeat]));
   }
   const auto all = thread_gains(result, 2);
   ASSERT_EQ(all.size(), 1U);
@@ -54,8 +54,8 @@ TEST(ThreadGains, AreMediansOfPairsAndOfThoseInWhichTheMachineGaveAllItsCores) {
 
 TEST(ThreadGains, TheMedianOfAnEvenNumberLiesBetween) {
   ScalingResult result;
-  result.runs = {run_of(1, 0, 1.0, 100.0), run_of(2, 0, 1.0, 200.0), run_of(1, 1, 1.0, 100.0),
-                 run_of(2, 1, 0.5, 200.0)};
+  result.runs = {timed_run(1, 0, 1.0, 100.0), timed_run(2, 0, 1.0, 200.0), timed_run(1, 1, 1.0, 100.0),
+                 timed_run(2, 1, 0.5, 200.0)};
   const auto gains = thread_gains(result, 2);
   ASSERT_EQ(gains.size(), 1U);
   EXPECT_NEAR(gains[0].gain, 1.5, 1e-12);
@@ -63,13 +63,13 @@ TEST(ThreadGains, TheMedianOfAnEvenNumberLiesBetween) {
 
 TEST(ThreadGains, ARunThatWasBrokenOffBeforeItsArithmeticIsNoPair) {
   ScalingResult result;
-  result.runs = {run_of(1, 0, 1.0, 100.0), run_of(2, 0, 0.5, 0.0)};
+  result.runs = {timed_run(1, 0, 1.0, 100.0), timed_run(2, 0, 0.5, 0.0)};
   EXPECT_TRUE(thread_gains(result, 2).empty());
 }
 
 TEST(ThreadGains, AMachineThatWasNeverQuietShowsNone) {
   ScalingResult result;
-  result.runs = {run_of(1, 0, 1.0, 100.0), run_of(2, 0, 1.0, 110.0)};
+  result.runs = {timed_run(1, 0, 1.0, 100.0), timed_run(2, 0, 1.0, 110.0)};
   const auto gains = thread_gains(result, 2);
   ASSERT_EQ(gains.size(), 1U);
   EXPECT_FALSE(gains[0].quiet_gain);
@@ -78,7 +78,7 @@ TEST(ThreadGains, AMachineThatWasNeverQuietShowsNone) {
 
 TEST(ThreadGains, MoreThreadsThanCoresAreQuietWhereAllCoresAre) {
   ScalingResult result;
-  result.runs = {run_of(2, 0, 1.0, 200.0), run_of(8, 0, 0.9, 199.0)};
+  result.runs = {timed_run(2, 0, 1.0, 200.0), timed_run(8, 0, 0.9, 199.0)};
   const auto gains = thread_gains(result, 2);
   ASSERT_EQ(gains.size(), 1U);
   EXPECT_NEAR(gains[0].gain, 2.0 / 0.9, 1e-12) << "the fewest threads gain their own number";
@@ -87,8 +87,8 @@ TEST(ThreadGains, MoreThreadsThanCoresAreQuietWhereAllCoresAre) {
 
 TEST(ThreadGains, PairRunsOfOneSizeAndRepeatOnly) {
   ScalingResult result;
-  result.runs = {run_of(1, 0, 1.0, 100.0), run_of(2, 1, 0.5, 200.0), run_of(2, 0, 0.5, 200.0, 200)};
-  ScalingRun failed = run_of(2, 0, 0.5, 200.0);
+  result.runs = {timed_run(1, 0, 1.0, 100.0), timed_run(2, 1, 0.5, 200.0), timed_run(2, 0, 0.5, 200.0, 200)};
+  ScalingRun failed = timed_run(2, 0, 0.5, 200.0);
   failed.trial.verified = false;
   result.runs.push_back(failed);
   EXPECT_TRUE(thread_gains(result, 2).empty());
