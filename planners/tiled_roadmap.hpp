@@ -4,56 +4,27 @@
 //
 // Milestones stand in tile order, so a tile is a run of them. First the candidate edges between different tiles are
 // checked: their ends are kept. Then one thread a tile checks the edges inside, peels the dead ends and contracts the
-// chains, all in cache (parallel/reduce_graph.hpp), and hands back the keys, the edges between them and what lies on
+// chains, all in cache (planners/reduced_tile.hpp), and hands back the keys, the edges between them and what lies on
 // their chains. The keys of all tiles with the edges between tiles, start and goal make the overlay, which is reduced
 // once more where that pays, and searched. The path is as long as the plain pipeline's, on any roadmap; only the gain
-// differs: a maze's lattice leaves a thirtieth of its vertices, a dense uniform roadmap nearly all of them.
+// differs: a maze's lattice leaves few of its vertices, a dense uniform roadmap nearly all of them.
 // Candidates are found twice, each is checked once. Memory: the milestones, their index (and k neighbours each for that
 // rule), the edges between tiles, and the overlay. The same for any number of threads.
 #pragma once
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/error.hpp"
 #include "planners/prm.hpp"
+#include "planners/reduced_tile.hpp"
 
 namespace warren {
 
 namespace detail {
-
-/// What is left of one tile. Keys have numbers of their own within the tile.
-struct ReducedTile {
-  /// Vertices between two keys, in the order from the smaller key to the larger one.
-  struct Chain {
-    Edge keys;
-    double length;
-    std::size_t first;  // of `inner`
-    std::size_t count;
-  };
-  RawVector<VertexId> keys;    // their milestones, ascending
-  EdgeParts edges;             // as they were found, or by the first key
-  std::vector<Chain> chains;   // of the edges that stand for several; by keys, ascending
-  RawVector<VertexId> inner;   // milestones on chains
-  std::size_t components = 0;  // of which nothing is left
-  std::uint64_t free_edges = 0;
-  Counters counters;
-
-  std::size_t bytes() const {
-    return total_edges(edges) * sizeof(Edge) + (keys.size() + inner.size()) * sizeof(VertexId) +
-           chains.size() * sizeof(Chain);
-  }
-  const Chain* chain_between(VertexId a, VertexId b) const {
-    const Edge keys_of_chain{std::min(a, b), std::max(a, b)};
-    const auto at = std::lower_bound(chains.begin(), chains.end(), keys_of_chain,
-                                     [](const Chain& chain, const Edge& edge) { return chain.keys < edge; });
-    return at != chains.end() && at->keys == keys_of_chain ? &*at : nullptr;
-  }
-};
 
 /// One plan: what its rounds share.
 template <World W>
@@ -91,7 +62,6 @@ class TiledRoadmapPlan {
   void connect();
   void check_between_tiles(const StateIndex<W>& index, const NearestLists& lists, const ConnectionRule& rule);
   void reduce_tiles(const StateIndex<W>& index, const NearestLists& lists, const ConnectionRule& rule);
-  void reduce_tile(Range tile, EdgeParts& edges, ReducedTile& reduced) const;
   template <class Wanted, class Free>
   void check_tile(Range tile, const StateIndex<W>& index, const NearestLists& lists, const ConnectionRule& rule,
                   Counters& counters, const Wanted& wanted, const Free& free) const;
@@ -258,7 +228,8 @@ void TiledRoadmapPlan<W>::reduce_tiles(const StateIndex<W>& index, const Nearest
       if (edges.empty() || edges.back().size() == part) edges.emplace_back().reserve(part);
       edges.back().push_back({edge.from - first, edge.to - first});
     });
-    reduce_tile(r, edges, tile);
+    const auto length = [&](VertexId v, VertexId w) { return world_.distance(states_[v], states_[w]); };
+    tile.reduce(first, {is_kept_.data() + r.first, r.size()}, std::move(edges), length);
   };
   std::size_t bytes = 0;  // of the last batch: the next one will take about as many
   for (std::size_t tile = 0; tile < tile_count(); tile += batch) {
@@ -273,54 +244,6 @@ void TiledRoadmapPlan<W>::reduce_tiles(const StateIndex<W>& index, const Nearest
     solution_.counters += tile.counters;
     solution_.roadmap.edges += tile.free_edges;
     solution_.roadmap.components += tile.components;
-  }
-}
-
-/// edges: between the tile's milestones, numbered within it. Where fewer than half of these are dead ends or links of
-/// chains, all are keys.
-template <World W>
-void TiledRoadmapPlan<W>::reduce_tile(Range tile, EdgeParts& edges, ReducedTile& reduced) const {
-  const auto first = static_cast<VertexId>(tile.first);
-  reduced.free_edges = total_edges(edges);
-  std::vector<std::uint32_t> degrees(tile.size(), 0);
-  for (const RawVector<Edge>& part : edges) {
-    for (const Edge& edge : part) {
-      ++degrees[edge.from];
-      ++degrees[edge.to];
-    }
-  }
-  const auto is_thin = [](std::uint32_t degree) { return degree <= 2; };
-  if (2 * std::count_if(degrees.begin(), degrees.end(), is_thin) < static_cast<std::ptrdiff_t>(tile.size())) {
-    reduced.keys.resize(tile.size());
-    std::iota(reduced.keys.begin(), reduced.keys.end(), first);
-    reduced.edges = std::move(edges);
-    return;
-  }
-  std::vector<VertexId> kept;
-  for (VertexId v = 0; v < tile.size(); ++v) {
-    if (is_kept_[first + v] != 0) kept.push_back(v);
-  }
-  Execution own;  // a tile takes milliseconds and little memory
-  own.threads = 1;
-  std::vector<Edge> all;
-  for (const RawVector<Edge>& part : edges) all.insert(all.end(), part.begin(), part.end());
-  const Graph graph = Graph::from_edges(tile.size(), all);
-  reduced.edges.emplace_back();
-  const auto length = [&](VertexId v, VertexId w) { return world_.distance(states_[first + v], states_[first + w]); };
-  const ReducedGraphView view = reduce_graph(graph, kept, length, own, Peeling::within_blocks);
-  reduced.components = view.keyless_components();
-  for (VertexId key = 0; key < view.graph().vertex_count(); ++key) {
-    reduced.keys.push_back(first + view.vertex_of(key));
-    const std::span<const VertexId> row = view.graph().neighbours(key);
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      if (row[i] < key) continue;
-      reduced.edges.back().push_back({key, row[i]});
-      if (view.is_plain_edge(key, i)) continue;
-      const RawVector<VertexId> vertices = view.expand(std::array{key, row[i]}, own);
-      reduced.chains.push_back(
-          {{key, row[i]}, view.graph().lengths(key)[i], reduced.inner.size(), vertices.size() - 2});
-      for (std::size_t k = 1; k + 1 < vertices.size(); ++k) reduced.inner.push_back(first + vertices[k]);
-    }
   }
 }
 

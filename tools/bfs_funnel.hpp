@@ -2,8 +2,8 @@
 // The honest bar beside any record: what somebody does who knows that the walls are a maze. Reads the cells back from
 // the walls, walks them breadth first, and pulls the string through the corridor's open sides (the funnel of Lee and
 // Preparata 1984, in Mononen's form). Gives the shortest path of a point that may touch wall ends; in a maze with loops
-// the shortest within the corridor that the breadth-first search took. O(walls + cells) time, 1 byte a cell beside the
-// walls.
+// the shortest within the corridor that the breadth-first search took. O(walls + cells) time; beside the walls 1 byte a
+// cell, 1 a step and 16 a bend.
 #pragma once
 
 #include "core/path.hpp"
