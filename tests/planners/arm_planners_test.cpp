@@ -12,6 +12,7 @@
 #include "planners/rrt.hpp"
 #include "planners/rrt_connect.hpp"
 #include "planners/shortcut.hpp"
+#include "tests/paths.hpp"
 #include "worlds/arm_world.hpp"
 #include "worlds/puma560.hpp"
 #include "worlds/verify_arm.hpp"
@@ -104,7 +105,7 @@ class StudyScene : public ::testing::TestWithParam<const char*> {
  protected:
   /// Data of other people's, which no copy of this repository holds.
   void SetUp() override {
-    const std::string file = std::string(WARREN_SHARED_DIR) + "/worlds/" + GetParam();
+    const std::string file = test::shared_dir() + "/worlds/" + GetParam();
     if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not here";
     question_.scene = read_world(file, {});
     std::copy_n(question_.scene.start.begin(), most_joints, question_.start.begin());

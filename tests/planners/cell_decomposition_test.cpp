@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/geometry.hpp"
+#include "tests/paths.hpp"
 #include "tests/planners/plane_worlds.hpp"
 #include "worlds/world_io.hpp"
 
@@ -238,7 +239,7 @@ TEST(CellDecomposition, GivesThePublishedWorldsTheirNumbers) {
     const char* file;
     std::size_t cells, doors;
   };
-  const std::string folder = std::string(WARREN_SHARED_DIR) + "/worlds/";
+  const std::string folder = test::shared_dir() + "/worlds/";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "without " << folder;
   for (const Case& c :
        {Case{"vg-sparse.scene", 16, 18}, Case{"vg-dense.scene", 62, 70}, Case{"poly-easy.scene", 75, 84}}) {

@@ -10,6 +10,7 @@
 
 #include "planners/lazy_visibility.hpp"
 #include "planners/visibility_path.hpp"
+#include "tests/paths.hpp"
 #include "worlds/plane_obstacles.hpp"
 #include "worlds/scene_io.hpp"
 
@@ -32,7 +33,7 @@ constexpr Figures dense{"vg-dense.scene", 54, 267, 122, 1.193397743, 2.029231, 4
 class ReportWorld : public testing::Test {
  protected:
   void read(const char* file) {
-    const std::string path = std::string(WARREN_SHARED_DIR) + "/worlds/" + file;
+    const std::string path = test::shared_dir() + "/worlds/" + file;
     if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
     const Scene scene = read_scene_text(InputFile(path, {}), {});
     obstacles_ = plane_obstacles(scene, {});

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "tests/paths.hpp"
 #include "tests/tools/process.hpp"
 #include "tests/tools/program.hpp"
 #include "tools/graph_search.hpp"
@@ -85,7 +86,7 @@ TEST(Compare, ARoadmapAmongPolygonsIsSearchedToo) {
 }
 
 TEST(Compare, TheVisibilityGraphOfTheReportHasItsFigures) {
-  const std::string world = std::string{WARREN_SHARED_DIR} + "/worlds/vg-dense.scene";
+  const std::string world = test::shared_dir() + "/worlds/vg-dense.scene";
   if (!std::filesystem::exists(world)) GTEST_SKIP() << world << " is not here";
   const Json json = compared(world + " --full --trials 3");
   ASSERT_EQ(json["rows"].size(), 12U);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "tests/paths.hpp"
 #include "tests/tools/process.hpp"
 
 namespace warren::test {
@@ -122,7 +123,7 @@ TEST(Polygons, ImpossibleWordsOfGenerateAreUsageErrors) {
 
 /// A world of the shared folder; empty where it is absent.
 std::string shared_world(const std::string& name) {
-  const std::string path = std::string(WARREN_SHARED_DIR) + "/worlds/" + name;
+  const std::string path = test::shared_dir() + "/worlds/" + name;
   return std::filesystem::exists(path) ? path : std::string();
 }
 

@@ -19,6 +19,8 @@
 #include <thread>
 #include <vector>
 
+#include "tests/paths.hpp"
+
 namespace warren::test {
 
 /// A folder that lives as long as the test.
@@ -65,7 +67,7 @@ class Process {
                    const std::string& output = {}) {
     const std::string out = output.empty() ? folder_.path("out") : output;
     const std::string err = folder_.path("err");
-    std::vector<std::string> words{WARREN_PROGRAM};
+    std::vector<std::string> words{program()};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> pointers;
     for (std::string& word : words) pointers.push_back(word.data());

@@ -9,6 +9,8 @@
 #include <memory>
 #include <string>
 
+#include "tests/paths.hpp"
+
 namespace warren {
 
 struct ProgramRun {
@@ -18,7 +20,7 @@ struct ProgramRun {
 
 /// `words` go through the shell; standard error is joined to the output only where they say "2>&1".
 inline ProgramRun run_program(const std::string& words) {
-  const std::string command = std::string{WARREN_PROGRAM} + " " + words;
+  const std::string command = test::program() + " " + words;
   std::FILE* pipe = ::popen(command.c_str(), "r");
   ProgramRun run;
   if (pipe == nullptr) return run;

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where this build and its tree lie. Only paths.cpp knows the names, so that all other objects are the same for every
+// checkout and a compiler cache serves them all.
+#pragma once
+
+#include <string>
+
+namespace warren::test {
+
+std::string source_dir();  ///< the root of the tree
+std::string shared_dir();  ///< the folder of worlds beside it, which a lone clone doesn't have
+std::string program();     ///< the program `warren` of this build
+
+}  // namespace warren::test
