@@ -223,13 +223,14 @@ class TautSearch {
   }
 
   void reach_goal(const Node& node, std::uint32_t number) {
+    // No two bounds hide the goal unless one runs against the node: then the other, if it is a corner, is bent at.
     const bool left_of_all = node.left.any() && orient2d(node.left.from, node.left.to, goal_) > 0;
     const bool right_of_all = node.right.any() && orient2d(node.right.from, node.right.to, goal_) < 0;
     double length = node.length;
     if (!left_of_all && !right_of_all) {
       length += distance(node.root, goal_);
     } else {
-      const Bound& at = left_of_all ? node.left : node.right;
+      const Bound& at = left_of_all && !is_against(node.left, node.rightwards) ? node.left : node.right;
       if (!can_bend(at)) return;
       length += distance(node.root, at.to) + distance(at.to, goal_);
     }

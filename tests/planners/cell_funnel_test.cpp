@@ -187,5 +187,15 @@ TEST(CellFunnel, SearchedByLengthIsTheShortestPath) {
   }
 }
 
+TEST(CellFunnel, FindsTheWayOverAnEndThatWallsShare) {
+  const PlaneObstacles obstacles{{}, {{{1, 3}, {2, 5}}, {{2, 2}, {2, 5}}}, Box{{0, 0}, {8, 8}}};
+  const double over_the_end = std::hypot(0.5, 0.75) + std::hypot(1.0, 2.0) + 1.0;
+  for (const SearchKind search : {SearchKind::astar, SearchKind::dijkstra}) {
+    const CellOptions options{.doors = DoorKind::funnel, .search = search};
+    const Solution<Vec2> plan = checked_plan(obstacles, {1.5, 3.75}, {3, 5}, options);
+    EXPECT_NEAR(length_of(plan.path), over_the_end, 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace warren
