@@ -2,11 +2,13 @@
 #include "planners/visibility_path.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 #include <vector>
 
 #include "core/error.hpp"
 #include "parallel/components.hpp"
+#include "planners/confined_obstacles.hpp"
 #include "planners/lazy_visibility.hpp"
 #include "planners/queue_choice.hpp"
 #include "planners/roadmap_search.hpp"
@@ -18,14 +20,14 @@ namespace {
 /// One plan.
 class VisibilityPlan {
  public:
-  VisibilityPlan(Vec2 start, Vec2 goal, const VisibilityOptions& options, const Execution& execution,
+  VisibilityPlan(const Box& box, Vec2 start, Vec2 goal, const VisibilityOptions& options, const Execution& execution,
                  Roadmap<Vec2>* keep)
-      : start_(start), goal_(goal), options_(options), execution_(execution), keep_(keep) {}
+      : box_(box), start_(start), goal_(goal), options_(options), execution_(execution), keep_(keep) {}
 
   void run(const PlaneObstacles& obstacles) {
     const VisibleCorners corners = index(obstacles);
-    if (corners.is_blocked(start_)) return end(Outcome::start_blocked);
-    if (corners.is_blocked(goal_)) return end(Outcome::goal_blocked);
+    if (!box_.contains(start_) || corners.is_blocked(start_)) return end(Outcome::start_blocked);
+    if (!box_.contains(goal_) || corners.is_blocked(goal_)) return end(Outcome::goal_blocked);
     solution_.roadmap.milestones = corners.size() + 2;
     if (start_ == goal_) {
       solution_.path = {start_, goal_};
@@ -119,6 +121,7 @@ class VisibilityPlan {
     solution_.separation = separation_between<2>(std::move(with_start), std::move(with_goal), execution_);
   }
 
+  const Box box_;
   const Vec2 start_;
   const Vec2 goal_;
   const VisibilityOptions& options_;
@@ -127,6 +130,21 @@ class VisibilityPlan {
   Roadmap<Vec2> roadmap_;
   Solution<Vec2> solution_;
 };
+
+constexpr double far = std::numeric_limits<double>::infinity();
+constexpr Box everywhere{{-far, -far}, {far, far}};
+
+Solution<Vec2> plan(const PlaneObstacles& obstacles, const Box& box, Vec2 start, Vec2 goal,
+                    const VisibilityOptions& options, const Execution& execution, Roadmap<Vec2>* keep) {
+  options.validate();
+  VisibilityPlan plan(box, start, goal, options, execution, keep);
+  try {
+    plan.run(obstacles);
+  } catch (const Stopped& stopped) {
+    plan.stop(stopped.reason);
+  }
+  return plan.take();
+}
 
 }  // namespace
 
@@ -138,14 +156,14 @@ void VisibilityOptions::validate() const {
 
 Solution<Vec2> visibility_path(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal, const VisibilityOptions& options,
                                const Execution& execution, Roadmap<Vec2>* keep) {
-  options.validate();
-  VisibilityPlan plan(start, goal, options, execution, keep);
-  try {
-    plan.run(obstacles);
-  } catch (const Stopped& stopped) {
-    plan.stop(stopped.reason);
-  }
-  return plan.take();
+  return plan(obstacles, everywhere, start, goal, options, execution, keep);
+}
+
+Solution<Vec2> confined_visibility_path(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal,
+                                        const VisibilityOptions& options, const Execution& execution,
+                                        Roadmap<Vec2>* keep) {
+  const Box box = box_around(obstacles);
+  return plan(confined(obstacles), box.empty() ? everywhere : box, start, goal, options, execution, keep);
 }
 
 }  // namespace warren

@@ -29,4 +29,9 @@ struct VisibilityOptions {
 Solution<Vec2> visibility_path(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal, const VisibilityOptions& options,
                                const Execution& execution, Roadmap<Vec2>* keep = nullptr);
 
+/// The same where, without bounds, the obstacles' box confines the point (planners/confined_obstacles.hpp).
+Solution<Vec2> confined_visibility_path(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal,
+                                        const VisibilityOptions& options, const Execution& execution,
+                                        Roadmap<Vec2>* keep = nullptr);
+
 }  // namespace warren

@@ -10,7 +10,6 @@
 #include "core/error.hpp"
 #include "core/graph.hpp"
 #include "core/search.hpp"
-#include "planners/confined_obstacles.hpp"
 #include "planners/queue_choice.hpp"
 #include "planners/sampled_visibility.hpp"
 #include "planners/visibility_path.hpp"
@@ -170,24 +169,17 @@ class VisibilitySolve {
       : request_(request), problem_(problem), asked_(asked) {}
 
   void run(Answer& answer) {
-    const PlaneObstacles obstacles = confined(indexed_obstacles(request_, answer));
-    if (!stand_in(obstacle_box(request_.scene), answer) || stand_on_seams(request_, problem_, answer)) return;
-    take_solution(answer, visibility_path(obstacles, problem_.start, problem_.goal, asked_.options, request_.execution,
-                                          request_.drawing != nullptr ? &request_.drawing->roadmap : nullptr));
+    const PlaneObstacles obstacles = indexed_obstacles(request_, answer);
+    if (stand_on_seams(request_, problem_, answer)) return;
+    Roadmap<Vec2>* keep = request_.drawing != nullptr ? &request_.drawing->roadmap : nullptr;
+    take_solution(answer, confined_visibility_path(obstacles, problem_.start, problem_.goal, asked_.options,
+                                                   request_.execution, keep));
     if (answer.outcome == Outcome::not_connected) answer.outcome = Outcome::infeasible;  // the graph misses no path
     verify_solved(answer, request_.scene, problem_, request_.execution);
     answer.optimal = answer.verified && is_best_first(asked_.options.search);
   }
 
  private:
-  /// Without bounds the obstacles' box confines; the planner knows of bounds only.
-  bool stand_in(const Box& box, Answer& answer) const {
-    if (request_.scene.bounds || box.empty()) return true;
-    if (!box.contains(problem_.goal)) answer.outcome = Outcome::goal_blocked;
-    if (!box.contains(problem_.start)) answer.outcome = Outcome::start_blocked;
-    return box.contains(problem_.start) && box.contains(problem_.goal);
-  }
-
   const SolveRequest& request_;
   const WallProblem& problem_;
   const VisibilityRequest& asked_;

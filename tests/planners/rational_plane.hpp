@@ -130,6 +130,17 @@ class Plane {
     return false;
   }
 
+  /// Do two sides or walls cross inside both (the bounds' sides too), or do polygons share more than their outlines?
+  bool has_overlaps() const {
+    for (const Side& s : sides_) {
+      for (const Side& t : sides_) {
+        if (turn(s.a, s.b, t.a) * turn(s.a, s.b, t.b) < 0 && turn(t.a, t.b, s.a) * turn(t.a, t.b, s.b) < 0) return true;
+      }
+      if (s.owner < obstacles_.polygons.size() && runs_through_another(s)) return true;
+    }
+    return false;
+  }
+
  private:
   using Key = std::pair<double, double>;
   static constexpr std::size_t wall = static_cast<std::size_t>(-1);
@@ -199,6 +210,28 @@ class Plane {
       if (inside(o, p, aside)) return false;
     }
     return true;
+  }
+
+  /// Is the inside of a polygon, somewhere along its side, another one's too? No side crosses another.
+  bool runs_through_another(const Side& s) const {
+    const Point d = s.b - s.a;
+    std::vector<Point> places{s.a, s.b};
+    for (const Side& other : sides_) {
+      for (const Point& p : {other.a, other.b}) {
+        if (holds(s, p)) places.push_back(p);
+      }
+    }
+    std::sort(places.begin(), places.end(), [&](const Point& p, const Point& q) {
+      return (p.x - s.a.x) * d.x + (p.y - s.a.y) * d.y < (q.x - s.a.x) * d.x + (q.y - s.a.y) * d.y;
+    });
+    for (std::size_t i = 1; i < places.size(); ++i) {
+      if (places[i] == places[i - 1]) continue;
+      const Point middle{(places[i].x + places[i - 1].x) / 2, (places[i].y + places[i - 1].y) / 2};
+      int depth = 0;
+      for (std::size_t o = 0; o < obstacles_.polygons.size(); ++o) depth += inside(o, middle, left_of(d)) ? 1 : 0;
+      if (depth > 1) return true;
+    }
+    return false;
   }
 
   static bool is_low(const Point& d) { return d.y < 0 || (d.y == 0 && d.x < 0); }
