@@ -66,6 +66,23 @@ TEST(Orient2d, IsExactFarFromTheOrigin) {
   }
 }
 
+TEST(Orient2d, IsExactWhereDifferencesRound) {
+  // A line past the origin from far away to far away, and points near it with bits that the differences lose.
+  SequentialRng rng(5);
+  for (int i = 0; i < 50000; ++i) {
+    const auto rounded = [](std::int64_t x) { return static_cast<std::int64_t>(static_cast<double>(x)); };
+    const std::int64_t dx = within(rng, std::int64_t{1} << 57);
+    const std::int64_t dy = within(rng, std::int64_t{1} << 57);
+    const Lattice a{rounded(-dx), rounded(-dy)};
+    const Lattice b{rounded(3 * dx), rounded(3 * dy)};
+    const Lattice c{within(rng, 200), within(rng, 200)};
+    const int expected = exact_orientation(a, b, c);
+    ASSERT_EQ(orient2d(scaled(a, 1.0), scaled(b, 1.0), scaled(c, 1.0)), expected);
+    ASSERT_EQ(orient2d(scaled(c, 1.0), scaled(a, 1.0), scaled(b, 1.0)), expected);
+    ASSERT_EQ(orient2d(scaled(b, 1.0), scaled(a, 1.0), scaled(c, 1.0)), -expected);
+  }
+}
+
 TEST(Orient2d, SeesTheSmallestCoordinateBesideTheLargest) {
   const double large = largest_coordinate;
   const double small = smallest_coordinate;

@@ -79,6 +79,32 @@ TEST(ConvexPieces, AreConvexDisjointAndMakeUpThePolygon) {
   }
 }
 
+/// Some points of a grid in their order around its middle: many lie on lines through others.
+std::vector<Vec2> grid_star(std::uint64_t seed) {
+  constexpr std::uint64_t side = 6;
+  const Vec2 middle{2.503, 2.511};
+  std::vector<Vec2> polygon;
+  for (std::uint64_t i = 0; i < side * side; ++i) {
+    if (uniform(seed, i, 0) < 0.5) polygon.push_back({static_cast<double>(i % side), static_cast<double>(i / side)});
+  }
+  const auto angle = [&](Vec2 p) { return std::atan2(p.y - middle.y, p.x - middle.x); };
+  std::sort(polygon.begin(), polygon.end(), [&](Vec2 p, Vec2 q) { return angle(p) < angle(q); });
+  return polygon;
+}
+
+TEST(ConvexPieces, MakeUpPolygonsWhoseCornersLieOnLinesThroughOthers) {
+  for (std::uint64_t seed = 1; seed <= 500; ++seed) {
+    SCOPED_TRACE(seed);
+    const std::vector<Vec2> polygon = grid_star(seed);
+    double sum = 0.0;
+    for (const auto& piece : convex_pieces(polygon)) {
+      EXPECT_TRUE(is_convex(piece));
+      sum += area(piece);
+    }
+    EXPECT_DOUBLE_EQ(sum, area(polygon));
+  }
+}
+
 TEST(ConvexPieces, LeaveConvexPolygonsWhole) {
   const std::vector<Vec2> hexagon = {{0, 0}, {2, 0}, {3, 1}, {2, 2}, {0, 2}, {-1, 1}};
   EXPECT_EQ(convex_pieces(hexagon), std::vector<std::vector<Vec2>>{hexagon});

@@ -31,6 +31,13 @@ TEST(PolygonDistance, IsZeroWhereTheyTouchOverlapOrHoldEachOther) {
   EXPECT_EQ(distance(square, Segment{{0.5, 0.5}, {1, 1}}), 0.0);
 }
 
+TEST(PolygonDistance, OfASegmentIsThatOfTheNearestSide) {
+  EXPECT_DOUBLE_EQ(distance(square, Segment{{0.5, -3}, {1.5, -1}}), 1.0);
+  EXPECT_DOUBLE_EQ(distance(square, Segment{{5, 0.5}, {3, 1.5}}), 1.0);
+  EXPECT_DOUBLE_EQ(distance(square, Segment{{0.5, 3}, {1.5, 5}}), 1.0);
+  EXPECT_DOUBLE_EQ(distance(square, Segment{{-1, 0.5}, {-3, 1.5}}), 1.0);  // the side back to the first corner
+}
+
 TEST(PolygonDistance, KnowsTheInsideOfAHookFromItsBay) {
   EXPECT_TRUE(contains(hook, {3.5, 2}));
   EXPECT_FALSE(contains(hook, {1, 2}));

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "core/geometry.hpp"
 #include "core/rng.hpp"
 #include "worlds/maze_generator.hpp"
 
@@ -50,6 +52,35 @@ TEST(MazeWorld, LooksAtRowsOfPointsAsAtEachPointAlone) {
     for (const double clearance : {0.0, 0.1, 1.0, 3.7}) {
       SCOPED_TRACE(clearance);
       expect_rows_as_points(MazeWorld(scene, clearance, Execution{1}), 92, 100);
+    }
+  }
+}
+
+TEST(MazeWorld, StatesAndMotionsAreFreeWhereWallsAndBoundsAreFarEnough) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(seed);
+    const auto point = [&](std::uint64_t i) {
+      return Vec2{10 * uniform(seed, i, 0) - 1, 10 * uniform(seed, i, 1) - 1};
+    };
+    std::vector<Segment> walls;
+    for (std::uint64_t i = 0; i < 10; ++i) walls.push_back({point(2 * i), point(2 * i) + 0.2 * point(2 * i + 1)});
+    Scene scene;
+    scene.walls = WallSet::narrowest(walls);
+    scene.bounds = Box{{0.0, 0.0}, {8.0, 8.0}};
+    for (const Segment& side : bounds_walls(scene)) walls.push_back(side);
+    const double clearance = 0.1 * static_cast<double>(seed % 4);
+    const MazeWorld world(scene, clearance, Execution{1});
+    MazeWorld::Query query;
+    for (std::uint64_t i = 100; i < 600; ++i) {
+      const Segment motion{point(2 * i), point(2 * i) + 0.3 * point(2 * i + 1)};
+      const auto is_free = [&](const Segment& s) {
+        return std::all_of(walls.begin(), walls.end(), [&](const Segment& wall) {
+          const double d = distance(s, wall);
+          return d > 0.0 && d >= clearance;
+        });
+      };
+      ASSERT_EQ(world.is_free(motion.a, query), scene.bounds->contains(motion.a) && is_free({motion.a, motion.a})) << i;
+      ASSERT_EQ(world.is_free_motion(motion.a, motion.b, query), is_free(motion)) << i;
     }
   }
 }

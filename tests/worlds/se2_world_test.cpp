@@ -105,6 +105,37 @@ TEST(Se2World, BodyInAPolygonAndAWallInTheBodyAreBlocked) {
   EXPECT_FALSE(is_free(wall, {0.05, 0.0, 0.05}));  // across its boundary
 }
 
+/// Nothing comes near the body's outline: only what lies inside tells.
+TEST(Se2World, WhatHoldsTheOtherWhollyBlocksPosesAndMotions) {
+  const auto scaled = [](std::vector<Vec2> corners, double by) {
+    for (Vec2& p : corners) p = by * p;
+    return corners;
+  };
+  const std::vector<Vec2> square = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+  const std::vector<Vec2> arrow = {{-1, -1}, {0.5, 0.2}, {1, 1}, {0.2, 0.5}};
+  const auto polygon = [](std::vector<Vec2> corners) {
+    Scene scene;
+    scene.polygons.push_back({std::move(corners)});
+    return scene;
+  };
+  Scene wall;
+  wall.walls = WallSet::narrowest(std::vector<Segment>{{{-0.1, 0.0}, {0.1, 0.1}}});
+  const std::vector<Scene> scenes = {wall, polygon(scaled(square, 0.1)), polygon(scaled(arrow, 0.1)),
+                                     polygon(scaled(square, 5.0)),
+                                     polygon({{-9, -9}, {9, -9}, {9, 9}, {0, 6}, {-9, 9}})};
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    SCOPED_TRACE(i);
+    Scene scene = scenes[i];
+    scene.bounds = Box{{-20, -20}, {20, 20}};
+    const Se2World world(scene, square, {});
+    auto query = world.make_query();
+    EXPECT_FALSE(world.is_free({0, 0, 0}, query));
+    EXPECT_LE(world.clearance({0, 0, 0}, 1e9, query), 0.0);
+    EXPECT_FALSE(world.is_free_motion({0, 0, 0}, {0.2, 0, 0}, query));
+    EXPECT_FALSE(world.is_free_motion({0, 0, 0}, {0, 0.1, 0.2}, query));
+  }
+}
+
 TEST(Se2World, TouchingIsBlockedAndClearanceIsKept) {
   const std::vector<Vec2> square = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
   Scene scene;
