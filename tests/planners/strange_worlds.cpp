@@ -14,7 +14,7 @@
 namespace warren::test {
 namespace {
 
-constexpr int grid_size = 6;
+constexpr int grid_size = 8;
 constexpr int decades = 12;  // coordinates reach from 1e-12 to 1e12
 
 double moved_by_ulps(double c, int ulps) {
@@ -227,7 +227,8 @@ bool StrangeWorlds::add_polygon() {
   return true;
 }
 
-void StrangeWorlds::add_wall() {
+/// False: it would cross something and mayn't.
+bool StrangeWorlds::add_wall() {
   Segment wall{place(), place()};
   if (!sides_.empty()) {
     const Segment known = known_side();
@@ -250,22 +251,25 @@ void StrangeWorlds::add_wall() {
   }
   PlaneObstacles both = made_.obstacles;
   both.walls.push_back(wall);
-  if (!may_overlap_ && rational::Plane(both).has_overlaps()) return;
+  if (!may_overlap_ && rational::Plane(both).has_overlaps()) return false;
   made_.obstacles.walls.push_back(wall);
   sides_.push_back(wall);
+  return true;
 }
 
 void StrangeWorlds::add_bounds() {
   PlaneObstacles& obstacles = made_.obstacles;
   const Box around = box_around(obstacles);
   Box box = around;
-  switch (dice_.roll(6)) {
+  switch (dice_.roll(8)) {
     case 0:
       break;
     case 1:
+    case 2:
+    case 3:
       box = around.grown(std::max(around.width(), around.height()) * (dice_.roll(2) == 0 ? 0.25 : 1e-9));
       break;
-    case 2:
+    case 4:
       box = {};
       for (int i = 0; i < 3; ++i) box.include(place());
       break;
@@ -277,24 +281,28 @@ void StrangeWorlds::add_bounds() {
 
 /// Mostly a place where a path may begin.
 Vec2 StrangeWorlds::end_of_path() {
-  Vec2 p = place();
+  const bool anywhere = dice_.roll(2) == 0;
+  const auto end = [&] {
+    if (!anywhere) return place();
+    if (numbers_ == Numbers::grid)
+      return 0.25 * scale_ * Vec2{1.0 * dice_.roll(4 * grid_size), 1.0 * dice_.roll(4 * grid_size)} + offset_;
+    return fresh_point();
+  };
+  Vec2 p = end();
   const int tries = dice_.roll(8) == 0 ? 0 : 6;
-  for (int i = 0; i < tries && !judged(made_.obstacles, {p}).verified; ++i) p = place();
+  for (int i = 0; i < tries && !judged(made_.obstacles, {p}).verified; ++i) p = end();
   return p;
 }
 
 PlaneProblem StrangeWorlds::make() {
-  const int polygons = dice_.roll(5);
-  const int walls = dice_.roll(polygons == 0 ? 7 : 5);
+  const bool many = dice_.roll(2) == 0;
+  const int polygons = dice_.roll(3) == 0 ? 0 : dice_.roll(many ? 8 : 4);
+  const int walls = dice_.roll(many || polygons == 0 ? 14 : 5);
   for (int left_polygons = polygons, left_walls = walls; left_polygons + left_walls > 0;) {
-    if (dice_.roll(left_polygons + left_walls) < left_polygons) {
-      --left_polygons;
-      for (int tries = 0; tries < 4; ++tries) {
-        if (add_polygon()) break;
-      }
-    } else {
-      --left_walls;
-      add_wall();
+    const bool polygon = dice_.roll(left_polygons + left_walls) < left_polygons;
+    --(polygon ? left_polygons : left_walls);
+    for (int tries = 0; tries < 4; ++tries) {
+      if (polygon ? add_polygon() : add_wall()) break;
     }
   }
   add_bounds();

@@ -47,7 +47,7 @@ class StrangeWorlds {
   std::vector<Vec2> outline();
   bool overlaps(const std::vector<Vec2>& ring) const;
   bool add_polygon();
-  void add_wall();
+  bool add_wall();
   void add_bounds();
   Vec2 end_of_path();
 
