@@ -3,20 +3,68 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <optional>
 #include <utility>
 
 #include "core/geometry.hpp"
 #include "worlds/plane_obstacles.hpp"
+#include "worlds/ring_sweep.hpp"
 
 namespace warren {
 namespace {
 
+/// The cuts, as a line sweeps over the rings. Between a side with the inside above it and the next side above lies an
+/// open strip; its post is the corner that the line passed last in it (or on the side, or where it opened). Nothing
+/// lies between a post and the next corner in the strip, so what joins the two meets no ring, and no two such joins
+/// cross.
+class HoleTies {
+ public:
+  HoleTies(const RingSides& rings, std::span<const std::uint32_t> ring_first)
+      : rings_(rings), posts_(rings.size()), place_(rings.size(), Place::other) {
+    for (std::size_t r = 1; r < ring_first.size(); ++r) {
+      std::uint32_t low = ring_first[r];
+      std::uint32_t high = low;
+      for (std::uint32_t i = rings.next(low); i != ring_first[r]; i = rings.next(i)) {
+        if (is_before(rings.corner(i), rings.corner(low))) low = i;
+        if (is_before(rings.corner(high), rings.corner(i))) high = i;
+      }
+      place_[low] = Place::leftmost;
+      place_[high] = Place::rightmost;
+    }
+  }
+
+  /// below: the side that the corner lies directly above.
+  void pass(std::uint32_t corner, std::uint32_t below) {
+    const std::uint32_t before = rings_.previous(corner);
+    const bool in_strip = below != RingSweep::no_side && rings_.ahead(below);
+    if (in_strip) arrive(corner, below);
+    if (place_[corner] == Place::leftmost && !in_strip) any_outside_ = true;
+    if (rings_.ahead(before)) arrive(corner, before);  // ends here, with the inside above it
+    if (rings_.ahead(corner)) posts_[corner] = corner;
+  }
+
+  bool any_outside() const { return any_outside_; }
+  const std::vector<std::pair<std::uint32_t, std::uint32_t>>& cuts() const { return cuts_; }
+
+ private:
+  /// Of holes.
+  enum class Place : std::uint8_t { other, leftmost, rightmost };
+
+  void arrive(std::uint32_t corner, std::uint32_t side) {
+    std::uint32_t& post = posts_[side];
+    if (place_[corner] == Place::leftmost || place_[post] == Place::rightmost) cuts_.emplace_back(post, corner);
+    post = corner;
+  }
+
+  const RingSides& rings_;
+  std::vector<std::uint32_t> posts_;  // of the strip above each side; only of sides on the line, with the inside above
+  std::vector<Place> place_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> cuts_;
+  bool any_outside_ = false;
+};
+
 /// The polygon's inside lies left of each side: the outer ring runs anticlockwise, holes clockwise.
 class HoleCutter {
  public:
-  explicit HoleCutter(const Execution& execution) : execution_(execution) {}
-
   void add_ring(const std::vector<Vec2>& ring) {
     const auto first = static_cast<std::uint32_t>(corners_.size());
     const auto n = static_cast<std::uint32_t>(ring.size());
@@ -27,18 +75,16 @@ class HoleCutter {
     ring_first_.push_back(first);
   }
 
-  /// Ties all rings but the first one to what lies left and right of them.
-  bool tie_holes() {
-    for (std::size_t r = 1; r < ring_first_.size(); ++r) {
-      const std::uint32_t end =
-          r + 1 < ring_first_.size() ? ring_first_[r + 1] : static_cast<std::uint32_t>(corners_.size());
-      std::uint32_t low = ring_first_[r];
-      std::uint32_t high = low;
-      for (std::uint32_t i = low; i < end; ++i) {
-        if (is_before(corners_[i], corners_[low])) low = i;
-        if (is_before(corners_[high], corners_[i])) high = i;
-      }
-      if (!tie(low, true) || !tie(high, false)) return false;
+  /// Ties all rings but the first one to what lies left and right of them. False: rings meet, or a hole lies outside.
+  bool tie_holes(const Execution& execution) {
+    const RingSides rings(corners_, ring_first_);
+    HoleTies ties(rings, ring_first_);
+    const auto contact =
+        RingSweep(rings, execution).run([&](std::uint32_t corner, std::uint32_t below) { ties.pass(corner, below); });
+    if (contact || ties.any_outside()) return false;
+    for (const auto& [from, to] : ties.cuts()) {
+      add_line(from, to);
+      add_line(to, from);
     }
     return true;
   }
@@ -70,45 +116,6 @@ class HoleCutter {
   };
 
   void add_line(std::uint32_t from, std::uint32_t to) { lines_.push_back({from, to}); }
-  Segment segment(const Line& line) const { return {corners_[line.from], corners_[line.to]}; }
-
-  /// Cuts from the corner to the nearest one that it sees on the left (or on the right).
-  bool tie(std::uint32_t corner, bool leftwards) {
-    const Vec2 at = corners_[corner];
-    std::vector<std::uint32_t> candidates;
-    for (std::uint32_t i = 0; i < corners_.size(); ++i) {
-      if (leftwards ? is_before(corners_[i], at) : is_before(at, corners_[i])) candidates.push_back(i);
-    }
-    std::sort(candidates.begin(), candidates.end(), [&](std::uint32_t i, std::uint32_t j) {
-      const double near = distance(corners_[i], at);
-      const double far = distance(corners_[j], at);
-      return near != far ? near < far : i < j;
-    });
-    for (const std::uint32_t candidate : candidates) {
-      execution_.check();
-      if (!sees(corner, candidate)) continue;
-      add_line(corner, candidate);
-      add_line(candidate, corner);
-      return true;
-    }
-    return std::any_of(lines_.begin(), lines_.end(), [&](const Line& line) {  // the cut of a ring on that side
-      return line.from == corner && (leftwards ? is_before(corners_[line.to], at) : is_before(at, corners_[line.to]));
-    });
-  }
-
-  bool sees(std::uint32_t from, std::uint32_t to) const {
-    const Segment cut{corners_[from], corners_[to]};
-    return std::none_of(lines_.begin(), lines_.end(), [&](const Line& line) {
-      for (const std::uint32_t end : {from, to}) {
-        if (line.from != end && line.to != end) continue;
-        const Vec2 other = corners_[line.from == end ? line.to : line.from];
-        const Vec2 beyond = end == from ? cut.b : cut.a;
-        if (on_segment(other, cut) || on_segment(beyond, {corners_[end], other})) return true;
-        return false;
-      }
-      return segments_touch(cut, segment(line));
-    });
-  }
 
   /// Of the lines that leave the end of `arriving`, the first one clockwise of the way back.
   std::uint32_t next_line(std::uint32_t arriving, const std::vector<std::uint32_t>& leaving) const {
@@ -132,7 +139,6 @@ class HoleCutter {
     return orient2d(at, p, q) < 0;
   }
 
-  const Execution& execution_;
   std::vector<Vec2> corners_;
   std::vector<Line> lines_;  // sides, and each cut in both directions
   std::vector<std::uint32_t> ring_first_;
@@ -161,15 +167,19 @@ std::vector<Segment> shared_sides(std::span<const std::vector<Vec2>> pieces) {
 
 std::vector<std::vector<Vec2>> without_holes(const std::vector<Vec2>& outer, std::span<const std::vector<Vec2>> holes,
                                              const Execution& execution) {
-  HoleCutter cutter(execution);
-  cutter.add_ring(anticlockwise(outer));
+  std::vector<std::vector<Vec2>> rings{anticlockwise(outer)};
   for (const std::vector<Vec2>& hole : holes) {
     std::vector<Vec2> ring = anticlockwise(hole);
     std::reverse(ring.begin(), ring.end());
     if (ring.size() < 3 || anticlockwise(ring) == ring) return {};  // what has no area can't be turned
+    rings.push_back(std::move(ring));
+  }
+  HoleCutter cutter;
+  for (const std::vector<Vec2>& ring : rings) {
+    if (ring.size() < 3 || self_contact(ring, execution)) return {ring};
     cutter.add_ring(ring);
   }
-  if (!cutter.tie_holes()) return {};
+  if (!cutter.tie_holes(execution)) return {};
   return cutter.pieces();
 }
 

@@ -3,8 +3,9 @@
 // what is blocked and what is free stays the same to the last bit, holes included, and all planners know the pieces.
 //
 // Each hole is tied by two cuts, from its leftmost and from its rightmost corner (of equal x: the lower and the upper
-// one) to the nearest corners that can be seen on that side, so every piece is bounded by one outline. Every decision
-// is exact. O(h n log n + candidates tried * n) for h holes and n corners in all.
+// one), so every piece is bounded by one outline. A sweep (worlds/ring_sweep) finds the cuts as those of polygons into
+// monotone ones are found (de Berg et al., Computational Geometry, ch. 3), and rings that meet. Every decision is
+// exact. O(n log n) for n corners in all, however many holes.
 #pragma once
 
 #include <span>
@@ -22,8 +23,8 @@ inline constexpr std::string_view misplaced_hole =
     "a hole must have an area, lie inside its polygon and touch neither its outline nor another hole";
 
 /// outer, holes: rings of either orientation, not closed. The pieces run anticlockwise. Empty where the rings can't be
-/// those of a polygon with holes: a hole without area, outside of the polygon, or one that meets another ring (not all
-/// such rings are found: then the pieces touch themselves, which whoever takes them checks). Throws Stopped.
+/// those of a polygon with holes: a hole without area, outside of the polygon, or one that meets another ring. A ring
+/// that meets itself is handed back alone, as the one piece: whoever takes it says what is wrong. Throws Stopped.
 std::vector<std::vector<Vec2>> without_holes(const std::vector<Vec2>& outer, std::span<const std::vector<Vec2>> holes,
                                              const Execution& execution);
 

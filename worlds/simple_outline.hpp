@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Is a closed outline simple: does it neither cross nor touch itself? Small ones by comparing all sides, others by
-// sweeping a line over them (Shamos, Hoey 1976), which stops at the first contact: O(n log n), exact, whatever the
-// shape: neighbours on the line are compared, and where the outline meets itself first, two neighbours meet. Corners
-// are ordered by x, then y, as if the line leaned a little, so vertical sides and equal x need no rule of their own.
+// Is a closed outline simple: does it neither cross nor touch itself? Small ones by comparing all sides, others by a
+// sweep (worlds/ring_sweep), which stops at the first contact: O(n log n), exact, whatever the shape.
 #pragma once
 
 #include <cstddef>

@@ -3,11 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/geometry.hpp"
 #include "core/polygon_distance.hpp"
 #include "core/rng.hpp"
 #include "worlds/plane_obstacles.hpp"
@@ -87,13 +89,62 @@ TEST(PolygonHoles, ThatAreMisplacedAreRefused) {
   const Ring outer{{0, 0}, {10, 0}, {10, 10}, {0, 10}};
   EXPECT_TRUE(without_holes(outer, std::vector<Ring>{{{1, 1}, {2, 2}, {3, 3}}}, {}).empty()) << "no area";
   EXPECT_TRUE(without_holes(outer, std::vector<Ring>{{{20, 1}, {22, 1}, {22, 3}}}, {}).empty()) << "outside";
-  // A hole that crosses the outline: refused here or by the check of the pieces.
-  const std::vector<Ring> pieces = without_holes(outer, std::vector<Ring>{{{8, 1}, {12, 1}, {12, 3}, {8, 3}}}, {});
-  Scene scene;
-  for (const Ring& piece : pieces) scene.polygons.push_back({piece, 7});
-  if (!pieces.empty()) {
+  const auto refused = [&](const std::vector<Ring>& holes) { return without_holes(outer, holes, {}).empty(); };
+  EXPECT_TRUE(refused({{{8, 1}, {12, 1}, {12, 3}, {8, 3}}})) << "crosses the outline";
+  EXPECT_TRUE(refused({{{8, 1}, {10, 2}, {8, 3}}})) << "touches the outline";
+  EXPECT_TRUE(refused({{{1, 1}, {5, 1}, {5, 5}, {1, 5}}, {{4, 4}, {7, 4}, {7, 7}, {4, 7}}})) << "crosses a hole";
+  EXPECT_TRUE(refused({{{1, 1}, {5, 1}, {5, 5}, {1, 5}}, {{2, 2}, {3, 2}, {3, 3}}})) << "lies in a hole";
+  EXPECT_TRUE(refused({{{1, 1}, {3, 1}, {2, 3}}, {{2, 3}, {3, 5}, {1, 5}}})) << "shares a corner with a hole";
+}
+
+TEST(PolygonHoles, RingsThatMeetThemselvesAreHandedBackToBeRefused) {
+  const Ring square{{0, 0}, {10, 0}, {10, 10}, {0, 10}};
+  const Ring crossed{{1, 1}, {4, 4}, {4, 1}, {1, 5}};
+  for (const auto& pieces : {without_holes(crossed, std::vector<Ring>{{{1.2, 3}, {1.3, 3}, {1.2, 3.1}}}, {}),
+                             without_holes(square, std::vector<Ring>{crossed}, {})}) {
+    ASSERT_EQ(pieces.size(), 1U);
+    Scene scene;
+    scene.polygons.push_back({pieces[0], 7});
     EXPECT_THROW(plane_obstacles(scene, {}), InputError);
   }
+}
+
+/// `side` times `side` small stars in a square, each turned and moved a little.
+std::vector<Ring> many_holes(int side) {
+  std::vector<Ring> holes;
+  for (int i = 0; i < side * side; ++i) {
+    const Vec2 center{10.0 * (i % side + 0.5) / side, 10.0 * (i / side + 0.5) / side};
+    holes.push_back(star(3, static_cast<std::uint64_t>(i), center, 4.0 / side, 3 + i % 4));
+  }
+  return holes;
+}
+
+TEST(PolygonHoles, HundredsAreCutIntoPiecesThatCoverThePolygon) {
+  check_pieces({{0, 0}, {10, 0}, {10, 10}, {0, 10}}, many_holes(17), 5);
+}
+
+TEST(PolygonHoles, OfTwentyThousandEachCostsTwoCutsAndNoCornerHasMany) {
+  const std::vector<Ring> holes = many_holes(142);
+  const std::vector<Ring> pieces = without_holes({{0, 0}, {10, 0}, {10, 10}, {0, 10}}, holes, {});
+  std::size_t corners = 4;
+  for (const Ring& hole : holes) corners += hole.size();
+  std::size_t sides = 0;
+  std::vector<Vec2> all;
+  for (const Ring& piece : pieces) {
+    sides += piece.size();
+    all.insert(all.end(), piece.begin(), piece.end());
+  }
+  const std::size_t cuts = (sides - corners) / 2;  // each is a side of two pieces
+  EXPECT_EQ(pieces.size(), cuts - holes.size() + 1) << "Euler";
+  EXPECT_LE(cuts, 2 * holes.size());
+  EXPECT_GT(cuts, holes.size());
+  std::sort(all.begin(), all.end(), is_before);
+  std::size_t most = 0;
+  for (std::size_t first = 0, last = 0; first < all.size(); first = last) {
+    while (last < all.size() && all[last] == all[first]) ++last;
+    most = std::max(most, last - first);
+  }
+  EXPECT_LE(most, 6U) << "of a corner with k cuts k + 1 pieces";
 }
 
 }  // namespace
