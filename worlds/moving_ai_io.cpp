@@ -183,6 +183,24 @@ void write_moving_ai_map(const OccupancyMap& map, const std::string& path, const
 
 namespace {
 
+/// Half a unit of the last digit of a number >= 0 as it is written. Where it is whole, writers of six digits have left
+/// out the zeros behind the point.
+double half_unit_of(std::string_view digits, double value) {
+  constexpr int usual_digits = 6;
+  const std::size_t mantissa_end = std::min(digits.find_first_of("eE"), digits.size());
+  const std::size_t point = std::min(digits.find('.'), mantissa_end);
+  int last = value > 0.0 ? static_cast<int>(std::floor(std::log10(value))) - (usual_digits - 1) : -usual_digits;
+  if (point < mantissa_end) {
+    int exponent = 0;
+    const std::size_t sign = mantissa_end + 1 < digits.size() && digits[mantissa_end + 1] == '+' ? 1 : 0;
+    if (mantissa_end < digits.size()) {
+      std::from_chars(digits.data() + mantissa_end + 1 + sign, digits.data() + digits.size(), exponent);
+    }
+    last = exponent - static_cast<int>(mantissa_end - point - 1);
+  }
+  return 0.5 * std::pow(10.0, last);
+}
+
 Scenario scenario_of(std::string_view line, bool has_sizes, const scene_text::Place& place) {
   const std::vector<std::string_view> fields = fields_of(line);
   const std::size_t expected = has_sizes ? 9 : 7;
@@ -210,6 +228,7 @@ Scenario scenario_of(std::string_view line, bool has_sizes, const scene_text::Pl
   if (!(scenario.length >= 0.0 && std::isfinite(scenario.length))) {
     place.fail("expected the optimal length, not negative", fields[next]);
   }
+  scenario.half_unit = half_unit_of(fields[next], scenario.length);
   return scenario;
 }
 

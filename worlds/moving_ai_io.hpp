@@ -27,7 +27,8 @@ struct Scenario {
   std::uint32_t map_height = 0;
   Cell start;  ///< as the file counts: row 0 at the top
   Cell goal;
-  double length = 0.0;  ///< the published optimum
+  double length = 0.0;     ///< the published optimum
+  double half_unit = 0.0;  ///< of its last digit: by so much it may be rounded
   std::size_t line = 0;
 };
 

@@ -319,6 +319,12 @@ TEST(BenchScen, ExitsWithZeroOnlyWhereEveryLengthIsTheOptimum) {
       answered({"bench-scen", folder.write("b.scen", "version 1\n0\ta.map\t7\t5\t0\t4\t6\t0\t10.002\n")}, 1);
   EXPECT_EQ(bad["differing"], 1);
   EXPECT_EQ(bad["differences"][0]["line"], 2);
+  const auto published = [&](const std::string& length) {
+    const std::string line = "version 1\n0\ta.map\t7\t5\t0\t4\t6\t0\t" + length + "\n";
+    return run({"bench-scen", folder.write("f.scen", line)}).code;
+  };
+  for (const char* rounded : {"10", "10.0", "10.00", "10.0004", "1.0e1"}) EXPECT_EQ(published(rounded), 0) << rounded;
+  for (const char* wrong : {"10.1", "10.01", "11", "9", "10.41"}) EXPECT_EQ(published(wrong), 1) << wrong;
   const Json apart = answered({"bench-scen", folder.write("e.scen", "version 1\n0\ts.map\t5\t3\t0\t0\t4\t0\t4.0\n"),
                                "--map", folder.write("s.map", sealed_map)},
                               1);

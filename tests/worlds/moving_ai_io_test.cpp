@@ -127,6 +127,21 @@ TEST(Scenarios, ReadsBothVersionsAndLineEnds) {
   EXPECT_EQ(old[0].length, 12.5);
 }
 
+TEST(Scenarios, TellHowFarTheirOptimaAreRounded) {
+  const TemporaryDirectory directory;
+  const auto half_unit = [&](const std::string& length) {
+    const std::string file = directory.write("c.scen", "version 1\n3\ta.map\t4\t3\t0\t1\t2\t2\t" + length + "\n");
+    return read_scenarios(InputFile(file, {}), {})[0].half_unit;
+  };
+  EXPECT_DOUBLE_EQ(half_unit("1008.81"), 0.005);
+  EXPECT_DOUBLE_EQ(half_unit("1105.1"), 0.05);
+  EXPECT_DOUBLE_EQ(half_unit("34.071067"), 5e-7);
+  EXPECT_DOUBLE_EQ(half_unit("12"), 5e-5) << "six digits, of which zeros were left out";
+  EXPECT_DOUBLE_EQ(half_unit("123456"), 0.5);
+  EXPECT_DOUBLE_EQ(half_unit("1.23e+06"), 5e3);
+  EXPECT_LT(half_unit("0"), 1e-5);
+}
+
 TEST(Scenarios, CellsCountFromTheTopAndScaleToTheMap) {
   const TemporaryDirectory directory;
   const OccupancyMap map = read_moving_ai_map(InputFile(directory.write("a.map", small), {}), {});
