@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where results are written. A regular file is written beside its place under another name and renamed by commit(), so
+// Where results are written. A regular file is written beside its place, as .NAME.part, and renamed by commit(), so
 // nothing half-written ever stands under the name asked for; devices, pipes and "-" (standard output) are written
-// straight. A reader that closes its pipe is a WriteError, not a signal. Waiting for a slow reader polls the deadline.
+// straight. What a killed run left behind is removed by the next that writes the same file: whoever writes a .part
+// holds its lock, which ends with the process. A reader that closes its pipe is a WriteError, not a signal. Waiting for
+// a slow reader polls the deadline.
 #pragma once
 
 #include <string>
@@ -27,10 +29,13 @@ class OutputFile {
 
  private:
   void open_straight(const std::string& path);
-  void open_beside(const std::string& path);
+  void open_beside(std::string target);
+  bool create(std::string part);
   void flush();
   void write_now(std::string_view bytes);
+  void check_written() const;
   void close_file();
+  void discard() noexcept;
   [[noreturn]] void fail(int error) const;
 
   Execution execution_;
@@ -43,5 +48,8 @@ class OutputFile {
 
 /// Writes a whole file at once.
 void write_file(const std::string& path, std::string_view bytes, const Execution& execution);
+
+/// The path of the file that `path` leads to: symbolic links followed, also to where nothing is yet.
+std::string behind_links(std::string path);
 
 }  // namespace warren

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -51,6 +52,82 @@ TEST(OutputFile, FollowsLinksAndKeepsPermissions) {
   EXPECT_TRUE(std::filesystem::is_symlink(directory.file("link.txt")));
   EXPECT_EQ(directory.read("real.txt"), "new");
   EXPECT_EQ(std::filesystem::status(directory.file("real.txt")).permissions(), std::filesystem::perms(0600));
+}
+
+TEST(OutputFile, FollowsLinksToWhereNothingIsYet) {
+  const TemporaryDirectory directory;
+  std::filesystem::create_directory(directory.file("inner"));
+  std::filesystem::create_symlink("inner/second", directory.file("first"));
+  std::filesystem::create_symlink("../made.txt", directory.file("inner/second"));
+  write_file(directory.file("first"), "new", {});
+  EXPECT_EQ(directory.read("made.txt"), "new");
+  EXPECT_TRUE(std::filesystem::is_symlink(directory.file("first")));
+  EXPECT_EQ(directory.entries(), 3U);
+}
+
+TEST(OutputFile, TakesNamesOfAnyLegalLength) {
+  const TemporaryDirectory directory;
+  for (const std::size_t size : {1U, 120U, 128U, 129U, 240U, 250U, 255U}) {
+    std::string name(size, 'n');
+    if (size > 200) name.replace(2 * (size / 2) - 40, 40, "ääääääääääääääääääää");  // 20 characters of two bytes
+    write_file(directory.file(name), name, {});
+    EXPECT_EQ(directory.read(name), name) << size;
+  }
+  EXPECT_EQ(directory.entries(), 7U);
+}
+
+/// Begins to write a file and dies without a word.
+void die_while_writing(const std::string& path) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    OutputFile file(path, {});
+    file.write(std::string(3'000'000, 'x'));
+    ::_exit(0);  // no destructor
+  }
+  ASSERT_GT(child, 0);
+  ::waitpid(child, nullptr, 0);
+}
+
+TEST(OutputFile, TheNextRunRemovesWhatAKilledOneLeft) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.file("a.txt");
+  die_while_writing(path);
+  {
+    const OutputFile other(path, {});  // holds the first name while another one dies
+    EXPECT_EQ(directory.entries(), 1U);
+    die_while_writing(path);
+    EXPECT_EQ(directory.entries(), 2U);
+  }
+  EXPECT_EQ(directory.entries(), 1U) << "the second one's rest";
+  write_file(path, "new", {});
+  EXPECT_EQ(directory.read("a.txt"), "new");
+  EXPECT_EQ(directory.entries(), 1U);
+}
+
+TEST(OutputFile, RunsThatWriteTheSameFileLeaveEachOthersPartsAlone) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.file("a.txt");
+  OutputFile first(path, {});
+  OutputFile second(path, {});
+  first.write(std::string(2'000'000, '1'));
+  second.write(std::string(2'000'000, '2'));
+  EXPECT_EQ(directory.entries(), 2U);
+  second.commit();
+  EXPECT_EQ(directory.read("a.txt"), std::string(2'000'000, '2'));
+  first.commit();
+  EXPECT_EQ(directory.read("a.txt"), std::string(2'000'000, '1'));
+  EXPECT_EQ(directory.entries(), 1U);
+}
+
+TEST(OutputFile, ANameOfAnOpenDescriptorGoesOnWhereThatIs) {
+  const TemporaryDirectory directory;
+  const int file = ::open(directory.file("a.txt").c_str(), O_WRONLY | O_CREAT, 0600);
+  ASSERT_GE(file, 0);
+  ASSERT_EQ(::write(file, "one ", 4), 4);
+  write_file("/dev/fd/" + std::to_string(file), "two ", {});
+  ASSERT_EQ(::write(file, "three", 5), 5);
+  ::close(file);
+  EXPECT_EQ(directory.read("a.txt"), "one two three");
 }
 
 TEST(OutputFile, RefusesWhatCannotBeWrittenAndNamesIt) {
