@@ -27,10 +27,6 @@ install(FILES ${PROJECT_BINARY_DIR}/warrenConfig.cmake ${PROJECT_BINARY_DIR}/war
 
 # The way from the file to the prefix, so that an installation may be moved.
 file(RELATIVE_PATH warren_pc_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
-set(warren_pc_tbb "")
-if(WARREN_PARALLEL STREQUAL "tbb")
-  set(warren_pc_tbb ", tbb")
-endif()
 configure_file(${CMAKE_CURRENT_LIST_DIR}/warren.pc.in ${PROJECT_BINARY_DIR}/warren.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/warren.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT library)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT library)

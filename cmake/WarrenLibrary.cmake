@@ -3,13 +3,6 @@
 # include. Sources are found by pattern: a file belongs to the library of the folder that it lies in, always.
 function(warren_library folder)
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp ${PROJECT_SOURCE_DIR}/${folder}/*.hpp)
-  if(folder STREQUAL "parallel")
-    set(other tbb)
-    if(WARREN_PARALLEL STREQUAL "tbb")
-      set(other std)
-    endif()
-    list(FILTER sources EXCLUDE REGEX "_${other}\\.cpp$")
-  endif()
   add_library(warren_${folder} STATIC ${sources})
   add_library(warren::${folder} ALIAS warren_${folder})
   set_target_properties(warren_${folder} PROPERTIES LINKER_LANGUAGE CXX EXPORT_NAME ${folder})

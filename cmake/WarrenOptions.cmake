@@ -5,8 +5,6 @@ option(WARREN_TESTS "build the tests" ON)
 option(WARREN_BENCH "build the microbenchmarks" OFF)
 option(WARREN_WERROR "warnings are errors" OFF)
 option(WARREN_NATIVE "tune for this machine (the default build runs on any x86-64)" OFF)
-set(WARREN_PARALLEL "tbb" CACHE STRING "back end of parallel/: tbb, or std (for ThreadSanitizer)")
-set_property(CACHE WARREN_PARALLEL PROPERTY STRINGS tbb std)
 set(WARREN_SANITIZE "" CACHE STRING "sanitizers, as -fsanitize= takes them")
 
 if(NOT CMAKE_BUILD_TYPE)

@@ -35,6 +35,18 @@ void run_side(Side& side, const Other& other, bool is_forward, Border agreed, st
     agreed = is_forward ? agree(side.border(), other.border()) : agree(other.border(), side.border());
   }
 }
+
+/// Runs both at the same time, the first on a thread of its own. False where there is no such thread: nothing ran then.
+bool beside(const auto& first, const auto& second) {
+  std::jthread thread;
+  try {
+    thread = std::jthread(first);
+  } catch (const std::system_error&) {
+    return false;
+  }
+  second();
+  return true;
+}
 }  // namespace detail
 
 /// Both sides, on two threads where execution.threads allows it. Throws what a side's callables throw.
@@ -50,16 +62,15 @@ SearchResult bidirectional(Forward& forward, Backward& backward, const Execution
   if (!is_over(agreed)) {
     std::barrier<> barrier(2);
     std::exception_ptr failures[2];
-    {
-      const std::jthread second(
-          [&] { detail::run_side(backward, forward, false, agreed, round, barrier, execution, failures[1]); });
-      detail::run_side(forward, backward, true, agreed, round, barrier, execution, failures[0]);
-    }
+    const bool on_two = detail::beside(
+        [&] { detail::run_side(backward, forward, false, agreed, round, barrier, execution, failures[1]); },
+        [&] { detail::run_side(forward, backward, true, agreed, round, barrier, execution, failures[0]); });
     for (const std::exception_ptr& failure : failures) {
       if (failure) std::rethrow_exception(failure);
     }
-    agreed = agree(forward.border(), backward.border());
+    if (on_two) agreed = agree(forward.border(), backward.border());
   }
+  for (; !is_over(agreed); ++round) agreed = one_round(forward, backward, agreed, round, should_stop);
   return joined_result(agreed, forward, backward);
 }
 

@@ -2,8 +2,15 @@
 #include "parallel/chunks.hpp"
 
 #include "parallel/trace.hpp"
+#include "parallel/worker_crew.hpp"
 
 namespace warren::detail {
+
+void run_chunks(std::size_t chunks, unsigned threads, const void* body, void (*call)(const void*, std::size_t)) {
+  static WorkerCrew crew;
+  SharedLoop loop(chunks, threads, body, call);
+  crew.run(loop);
+}
 
 ChunkTrace::ChunkTrace(const Execution& execution) : execution_(execution) {
   if (execution_.trace != nullptr) begin_ = std::chrono::steady_clock::now();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // for_chunks: spreads a loop over the cores. Borders depend on n and grain alone, never on the threads, so parts that
 // are kept one slot a chunk and joined in chunk order are the same bits for any thread count. Deadline and progress are
-// served once a chunk; an exception of a body ends the loop and is rethrown here. Back ends: chunks_tbb.cpp, and
-// chunks_std.cpp for ThreadSanitizer.
+// served once a chunk; an exception of a body ends the loop and is rethrown here. The threads are those of
+// worker_crew.hpp, fewer where the system makes no more.
 #pragma once
 
 #include <algorithm>

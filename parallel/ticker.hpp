@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Calls a function at even intervals on a thread of its own until it is destroyed: what draws progress while the
-// workers work.
+// workers work. Where the system makes no more threads, nothing is called.
 #pragma once
 
 #include <chrono>
 #include <condition_variable>
 #include <functional>
 #include <mutex>
+#include <system_error>
 #include <thread>
 
 namespace warren {
@@ -15,7 +16,12 @@ class Ticker {
  public:
   /// tick must not throw; it is first called after `first`, then every `period`.
   Ticker(std::chrono::milliseconds first, std::chrono::milliseconds period, std::function<void()> tick)
-      : tick_(std::move(tick)), thread_([this, first, period] { run(first, period); }) {}
+      : tick_(std::move(tick)) {
+    try {
+      thread_ = std::thread([this, first, period] { run(first, period); });
+    } catch (const std::system_error&) {  // no thread is to be had
+    }
+  }
   /// Waits for a running tick; none follows.
   ~Ticker() {
     {
@@ -23,7 +29,7 @@ class Ticker {
       ended_ = true;
     }
     wake_.notify_one();
-    thread_.join();
+    if (thread_.joinable()) thread_.join();
   }
   Ticker(const Ticker&) = delete;
   Ticker& operator=(const Ticker&) = delete;
@@ -42,7 +48,7 @@ class Ticker {
   std::mutex mutex_;  // guards ended_
   std::condition_variable wake_;
   bool ended_ = false;
-  std::thread thread_;  // last: starts when all above are made
+  std::thread thread_;
 };
 
 }  // namespace warren

@@ -24,7 +24,6 @@ function(only name pattern where)
 endfunction()
 
 set(above "^(tools|bench|tests)/")
-only(tbb "#include <(oneapi/)?tbb/" "^parallel/")
 only(nanoflann "#include <nanoflann" "^(spatial/kd_tree[.]cpp$|bench/|tests/)")
 only(boost "#include <boost/" "${above}|^planners/voronoi_diagram[.]cpp$")
 only(threads "#include <(thread|mutex|shared_mutex|atomic|barrier|latch|semaphore|condition_variable|future|stop_token)>"

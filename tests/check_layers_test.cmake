@@ -39,7 +39,6 @@ complains(spatial/a.cpp "#include \"tools/progress.hpp\"" "spatial/ may include"
 complains(core/a.cpp "#include \"geometry.hpp\"" "core/ may include")
 complains(core/a.cpp "#include \"../worlds/scene.hpp\"" "core/ may include")
 complains(worlds/verify.cpp "#include \"spatial/wall_index.hpp\"" "the judge shares nothing")
-complains(spatial/a.cpp "#include <tbb/parallel_for.h>" "rule 'tbb'")
 complains(spatial/wall_index.cpp "#include <nanoflann.hpp>" "rule 'nanoflann'")
 complains(planners/medial_axis.cpp "#include <boost/polygon/voronoi.hpp>" "rule 'boost'")
 complains(planners/a.cpp "#include <atomic>" "rule 'threads'")

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "parallel/worker_crew.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <new>
+#include <system_error>
+
+#include "parallel/execution.hpp"
+
+namespace warren {
+namespace {
+
+constexpr int looks_before_sleep = 100;
+
+/// Gives the core away some times while `waits` holds.
+template <class Waits>
+void look_out(const Waits& waits) {
+  for (int look = 0; look < looks_before_sleep && waits(); ++look) std::this_thread::yield();
+}
+
+}  // namespace
+
+void SharedLoop::work() noexcept {
+  for (std::size_t chunk = next_++; chunk < chunks_; chunk = next_++) {
+    try {
+      call_(body_, chunk);
+    } catch (...) {
+      if (!failed_.exchange(true)) error_ = std::current_exception();
+      next_ = chunks_;
+    }
+  }
+}
+
+void SharedLoop::rethrow() const {
+  if (error_) std::rethrow_exception(error_);
+}
+
+WorkerCrew::WorkerCrew() : process_(::getpid()) {}
+
+WorkerCrew::~WorkerCrew() {
+  {
+    const std::lock_guard lock(mutex_);
+    ended_ = true;
+    for (const auto& worker : workers_) worker->wake.notify_one();
+  }
+  const bool forked = ::getpid() != process_;  // the threads stayed with the parent
+  for (const auto& worker : workers_) {
+    if (forked) {
+      worker->thread.detach();
+    } else {
+      worker->thread.join();
+    }
+  }
+}
+
+void WorkerCrew::run(SharedLoop& loop) {
+  open(loop);
+  loop.work();
+  close(loop);
+  loop.rethrow();
+}
+
+void WorkerCrew::open(SharedLoop& loop) {
+  const std::size_t helpers = std::min<std::size_t>(loop.threads_, loop.chunks_) - 1;
+  const std::lock_guard lock(mutex_);
+  grow(loop.threads_ - 1);
+  loop.next_loop_ = first_loop_;
+  first_loop_ = &loop;
+  posts_.fetch_add(1);
+  for (std::size_t i = 0; i < std::min(helpers, workers_.size()); ++i) {
+    if (workers_[i]->asleep) workers_[i]->wake.notify_one();
+  }
+}
+
+/// Nobody joins the loop any more; returns when those who did have left.
+void WorkerCrew::close(SharedLoop& loop) {
+  {
+    const std::lock_guard lock(mutex_);
+    SharedLoop** link = &first_loop_;
+    while (*link != &loop) link = &(*link)->next_loop_;
+    *link = loop.next_loop_;
+  }
+  look_out([&] { return loop.inside_.load() > 0; });
+  std::unique_lock lock(mutex_);  // also for those who have left, but still hold it
+  loop.left_.wait(lock, [&] { return loop.inside_.load() == 0; });
+}
+
+/// Makes workers until there are `count`, or as many as the system allows now.
+void WorkerCrew::grow(std::size_t count) {
+  try {
+    while (workers_.size() < count) {
+      workers_.push_back(std::make_unique<Worker>());
+      try {
+        workers_.back()->thread = std::thread([this, index = workers_.size() - 1] { help(index); });
+      } catch (...) {
+        workers_.pop_back();
+        throw;
+      }
+    }
+  } catch (const std::system_error&) {  // no more threads now
+  } catch (const std::bad_alloc&) {     // nor memory for them
+  }
+}
+
+/// The newest loop that worker number `index` may help: so the same few threads help all loops on few threads.
+SharedLoop* WorkerCrew::loop_for(std::size_t index) const {
+  SharedLoop* loop = first_loop_;
+  while (loop != nullptr && (index + 1 >= loop->threads_ || !loop->has_chunks())) loop = loop->next_loop_;
+  return loop;
+}
+
+void WorkerCrew::help(std::size_t index) {
+  std::unique_lock lock(mutex_);
+  Worker& worker = *workers_[index];
+  while (!ended_) {
+    SharedLoop* const loop = loop_for(index);
+    if (loop == nullptr) {
+      wait_for_work(lock, worker, index);
+      continue;
+    }
+    ++loop->inside_;
+    lock.unlock();
+    loop->work();
+    lock.lock();
+    if (--loop->inside_ == 0) loop->left_.notify_one();
+  }
+}
+
+void WorkerCrew::wait_for_work(std::unique_lock<std::mutex>& lock, Worker& worker, std::size_t index) {
+  const unsigned seen = posts_.load();
+  if (index + 1 < thread_count(0)) {  // more threads than cores would only take them from each other
+    lock.unlock();
+    look_out([&] { return posts_.load() == seen; });
+    lock.lock();
+    if (posts_.load() != seen || ended_) return;
+  }
+  worker.asleep = true;
+  worker.wake.wait(lock, [&] { return posts_.load() != seen || ended_; });
+  worker.asleep = false;
+}
+
+}  // namespace warren

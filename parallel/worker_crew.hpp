@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The threads that help with loops: made when a loop first asks for them, kept for the next one until the program ends.
+// Where the system makes no more threads, loops run on those there are, at the worst on their caller's alone; nothing
+// but the time tells the difference. (oneTBB, which stood here before, aborts or hangs then: it starts threads on
+// threads, where nobody can catch what they throw. The same speed, measured with tools/bench.)
+// Whoever runs dry looks for another loop for some tens of microseconds, for the next one often comes at once, and
+// sleeps then.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstddef>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include <sys/types.h>
+
+namespace warren {
+
+/// Chunks 0 .. chunks - 1, each given to one thread; whoever takes part draws the next one. Lives on its caller's
+/// stack.
+class SharedLoop {
+ public:
+  SharedLoop(std::size_t chunks, unsigned threads, const void* body, void (*call)(const void*, std::size_t))
+      : chunks_(chunks), threads_(threads), body_(body), call_(call) {}
+
+  /// Runs chunks until none is left; the first exception ends the loop.
+  void work() noexcept;
+  bool has_chunks() const { return next_.load(std::memory_order_relaxed) < chunks_; }
+  /// Call when all have left: throws what a chunk threw.
+  void rethrow() const;
+
+ private:
+  friend class WorkerCrew;
+
+  const std::size_t chunks_;
+  const unsigned threads_;
+  const void* body_;
+  void (*call_)(const void*, std::size_t);
+  std::atomic<std::size_t> next_{0};  // each value is handed to one thread
+  std::atomic<bool> failed_{false};   // whoever sets it writes error_
+  std::exception_ptr error_;          // read when nobody is inside
+  std::atomic<unsigned> inside_{0};   // helpers; written under the crew's mutex
+  std::condition_variable left_;      // inside_ became 0
+  SharedLoop* next_loop_ = nullptr;   // under the crew's mutex
+};
+
+class WorkerCrew {
+ public:
+  WorkerCrew();
+  ~WorkerCrew();
+  WorkerCrew(const WorkerCrew&) = delete;
+  WorkerCrew& operator=(const WorkerCrew&) = delete;
+
+  /// Runs a loop on the calling thread and up to loop.threads - 1 others. Any threads may call it, also from loops.
+  void run(SharedLoop& loop);
+
+ private:
+  struct Worker {
+    std::condition_variable wake;
+    bool asleep = false;
+    std::thread thread;
+  };
+
+  void grow(std::size_t count);
+  void help(std::size_t index);
+  void wait_for_work(std::unique_lock<std::mutex>& lock, Worker& worker, std::size_t index);
+  SharedLoop* loop_for(std::size_t index) const;
+  void open(SharedLoop& loop);
+  void close(SharedLoop& loop);
+
+  std::mutex mutex_;  // guards all below but posts_, which is only written under it
+  std::vector<std::unique_ptr<Worker>> workers_;
+  SharedLoop* first_loop_ = nullptr;
+  bool ended_ = false;
+  std::atomic<unsigned> posts_{0};  // loops opened so far, for those who look for one without the mutex
+  pid_t process_;
+};
+
+}  // namespace warren
