@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "tools/exit_code.hpp"
+#include "tools/last_words.hpp"
 #include "tools/option_values.hpp"
 #include "tools/output_files.hpp"
 #include "tools/signals.hpp"
@@ -78,7 +79,7 @@ Run::Run(const Arguments& arguments, RunScope scope)
 
 void Run::note(std::string_view line) const {
   if (mode_ == ProgressMode::none) return;
-  fmt::print(stderr, "{}{}\n", resolved(mode_) == ProgressMode::bar ? "\r\x1b[K" : "", line);
+  say_on_standard_error(fmt::format("{}{}\n", resolved(mode_) == ProgressMode::bar ? "\r\x1b[K" : "", line));
 }
 
 void Run::end() {
