@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/grid_options.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/error.hpp"
 #include "tools/option_values.hpp"
@@ -31,12 +34,25 @@ constexpr std::array<std::string_view, 4> method_words{"astar", "dijkstra", "bfs
 
 std::span<const OptionSpec> grid_option_specs() { return grid_specs; }
 
+double cell_value(std::string_view text, const Scene& scene) {
+  const double cell = positive_value("--cell", text);
+  const Box box = scene.bounds ? *scene.bounds : obstacle_box(scene);
+  if (box.empty()) return cell;
+  const double width = std::max(1.0, std::ceil(box.width() / cell));
+  const double height = std::max(1.0, std::ceil(box.height() / cell));
+  constexpr double too_many = 4294967296.0;
+  if (width * height < too_many) return cell;
+  throw UsageError(
+      fmt::format("--cell: {} is too small: the world has {:.6g} x {:.6g} such cells, and 2^32 - 1 are the most", text,
+                  width, height));
+}
+
 GridSpec grid_spec(const Arguments& arguments, const Scene& scene) {
   constexpr std::uint32_t usual_angles = 72;
   constexpr std::uint64_t most_angles = 1'000'000;
   constexpr double cells_a_side = 400.0;
   GridSpec grid = scene.grid.value_or(GridSpec{.cell = scene.map ? scene.map->cell : 0.0, .angles = usual_angles});
-  if (const auto text = arguments.value("--cell")) grid.cell = positive_value("--cell", *text);
+  if (const auto text = arguments.value("--cell")) grid.cell = cell_value(*text, scene);
   if (const auto text = arguments.value("--angles")) {
     grid.angles = static_cast<std::uint32_t>(count_value("--angles", *text, 1, most_angles));
   }

@@ -21,6 +21,9 @@ Diagonal diagonal_option(const Arguments& arguments);
 /// --search: astar, dijkstra or bfs; `usual` where nothing is said. Throws UsageError for dfs.
 GridMethod method_option(const Arguments& arguments, GridMethod usual);
 
+/// --cell: throws UsageError where it is no size, or where the world has more such cells than any grid or map.
+double cell_value(std::string_view text, const Scene& scene);
+
 /// The raster of a scene: --cell and --angles, else the file's grid line, else a four-hundredth of the longer side of
 /// the bounds (or of the obstacles' box) and 72 headings. A map's cells are its own. Throws UsageError for a world
 /// without extent and for values out of range.

@@ -70,15 +70,43 @@ std::vector<OptionSpec> refusable_options() {
   return options;
 }
 
-/// Refuses the options that none of `choices` takes.
-void refuse_ignored(const Arguments& arguments, PlannerKind planner, const std::vector<PlannerChoice>& choices) {
+std::string takers_text(const std::vector<std::string_view>& takers) {
+  return fmt::format("{} {} it", listed(takers), takers.size() == 1 ? "takes" : "take");
+}
+
+/// Refuses an option where the problem is known: others of its planners take the option, or the option is for other
+/// problems.
+[[noreturn]] void refuse_for_problem(std::string_view option, PlannerKind planner,
+                                     const std::vector<const SolveKind*>& fitting) {
+  const auto takes = [&](const PlannerChoice& choice) { return lists(choice.options, option); };
+  const auto is_here = [&](const SolveKind& kind) {
+    return std::find(fitting.begin(), fitting.end(), &kind) != fitting.end();
+  };
+  const auto here = planners_where(
+      [&](const SolveKind& kind, const PlannerChoice& choice) { return is_here(kind) && takes(choice); });
+  std::string taken = takers_text(here);
+  if (here.empty()) {
+    std::vector<std::string_view> problems;
+    for (const SolveKind& kind : solve_kinds()) {
+      if (std::any_of(kind.planners.begin(), kind.planners.end(), takes)) problems.push_back(kind.problem);
+    }
+    const auto all = planners_where([&](const SolveKind&, const PlannerChoice& choice) { return takes(choice); });
+    taken = fmt::format("{} for {}", takers_text(all), listed(problems));
+  }
+  throw UsageError(
+      fmt::format("{}: {} would ignore it for {}; {}", option, name_of(planner), fitting.front()->problem, taken));
+}
+
+/// Refuses the options that none of `choices` takes; `fitting` are the kinds of the problem, where that is known.
+void refuse_ignored(const Arguments& arguments, PlannerKind planner, const std::vector<PlannerChoice>& choices,
+                    const std::vector<const SolveKind*>& fitting = {}) {
   for (const OptionSpec& option : refusable_options()) {
     if (!arguments.has(option.name)) continue;
     const auto takes = [&](const PlannerChoice& choice) { return lists(choice.options, option.name); };
     if (std::any_of(choices.begin(), choices.end(), takes)) continue;
+    if (!fitting.empty()) refuse_for_problem(option.name, planner, fitting);
     const auto takers = planners_where([&](const SolveKind&, const PlannerChoice& choice) { return takes(choice); });
-    throw UsageError(fmt::format("{}: {} would ignore it; {} {} it", option.name, name_of(planner), listed(takers),
-                                 takers.size() == 1 ? "takes" : "take"));
+    throw UsageError(fmt::format("{}: {} would ignore it; {}", option.name, name_of(planner), takers_text(takers)));
   }
 }
 
@@ -159,7 +187,7 @@ ChosenSolver choose_solver(const Arguments& arguments, const Scene& scene, const
   const auto found = std::find_if(fitting.begin(), fitting.end(), has_it);
   if (found == fitting.end()) refuse_planner(chosen.planner, fitting);
   chosen.kind = *found;
-  refuse_ignored(arguments, chosen.planner, {*choice_in(*chosen.kind, chosen.planner)});
+  refuse_ignored(arguments, chosen.planner, {*choice_in(*chosen.kind, chosen.planner)}, fitting);
   check_corridors(arguments, scene);
   return chosen;
 }

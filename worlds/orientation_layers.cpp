@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "worlds/orientation_layers.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -29,7 +31,7 @@ HeadingLayers empty_lattice(const Scene& scene, const RobotSpec& robot, const Gr
   constexpr auto most_states = static_cast<double>(HeadingLayers::most_states);
   if (width < 1.0 || height < 1.0 || !(width * height * angles <= most_states)) {
     throw InputError("grid", "must have from 1 to 2^32 - 4 states: cells across the bounds, times headings",
-                     std::to_string(width) + " x " + std::to_string(height) + " x " + std::to_string(angles));
+                     fmt::format("{} x {} x {}", width, height, angles));
   }
   HeadingLayers layers;
   layers.origin = box.min;
