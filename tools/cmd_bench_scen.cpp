@@ -18,6 +18,7 @@
 #include "tools/command.hpp"
 #include "tools/exit_code.hpp"
 #include "tools/human_units.hpp"
+#include "tools/output_conflicts.hpp"
 #include "tools/output_files.hpp"
 #include "tools/run_options.hpp"
 #include "tools/terminal.hpp"
@@ -55,7 +56,8 @@ struct ScenarioTrials {
 std::string folder_prefix(const std::string& file) { return file.substr(0, file.rfind('/') + 1); }
 
 /// The map beside the scenario file, by its whole name or its last part; as it stands from here; or without ".scen".
-OccupancyMap read_its_map(const std::string& scen, const std::string& map, const Execution& execution) {
+OccupancyMap read_its_map(const Arguments& arguments, const std::string& map, const Execution& execution) {
+  const std::string& scen = arguments.operand(0);
   const std::string last = map.substr(map.rfind('/') + 1);
   std::vector<std::string> places{folder_prefix(scen) + map, folder_prefix(scen) + last, map};
   if (scen.ends_with(".scen")) places.push_back(scen.substr(0, scen.size() - 5));
@@ -66,6 +68,7 @@ OccupancyMap read_its_map(const std::string& scen, const std::string& map, const
     } catch (const ReadError&) {
       continue;
     }
+    check_not_written(arguments, place);
     return read_moving_ai_map(*file, execution);
   }
   throw ReadError(scen, fmt::format("its map {} is neither beside it nor here; --map says where it is", map));
@@ -212,7 +215,7 @@ int bench_scen(const Arguments& arguments) {
   }
   const auto given = arguments.value("--map");
   const OccupancyMap map = given ? read_moving_ai_map(InputFile(std::string{*given}, run.execution()), run.execution())
-                                 : read_its_map(file, scenarios.front().map, run.execution());
+                                 : read_its_map(arguments, scenarios.front().map, run.execution());
   const std::vector<ScenarioTrials> results = run_all(map, scenarios, file, run.execution());
   run.end();
   if (json) write_file(*json, json_of(file, map, scenarios, results), run.execution());

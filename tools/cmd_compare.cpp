@@ -39,17 +39,13 @@ constexpr OptionSpec output_specs[] = {
 constexpr std::array<const char*, 4> output_options{"--json", "--csv", "--svg", "--log"};
 
 /// Throws unless every output can be written; says whether one of them takes standard output.
-bool check_outputs(const Arguments& arguments) {
-  int to_standard_output = arguments.value("--trace").value_or("") == "-" ? 1 : 0;
+bool check_reports(const Arguments& arguments) {
   bool taken = false;
   for (const char* option : output_options) {
     const auto file = output_file(arguments, option);
     taken = taken || file == "-";
-    to_standard_output += file == "-" ? 1 : 0;
   }
-  if (to_standard_output > 1) throw UsageError("standard output takes one of --json, --csv, --svg, --log and --trace");
-  const std::string plot = ending_of(arguments.value("--svg").value_or(""));
-  if (plot == ".png" || plot == ".html") throw UsageError("--svg: plots are written as SVG only");
+  check_picture_ending("--svg", arguments.value("--svg").value_or(""), ".svg");
   if (const auto folder = arguments.value("--pictures")) make_folder(*folder);
   if (arguments.has("--log") && arguments.has("--sizes")) {
     throw UsageError("--log: holds the runs on one world; --sizes has many graphs");
@@ -63,7 +59,7 @@ class CompareCommand {
   explicit CompareCommand(const Arguments& arguments)
       : arguments_(arguments),
         options_(compare_options(arguments)),
-        standard_output_taken_(check_outputs(arguments)),
+        standard_output_taken_(check_reports(arguments)),
         begin_(std::chrono::system_clock::now()) {}
 
   int run() {

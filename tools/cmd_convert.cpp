@@ -8,11 +8,13 @@
 #include "core/error.hpp"
 #include "tools/command.hpp"
 #include "tools/exit_code.hpp"
-#include "tools/option_values.hpp"
+#include "tools/grid_options.hpp"
+#include "tools/output_files.hpp"
 #include "tools/run_options.hpp"
 #include "tools/terminal.hpp"
 #include "tools/world_files.hpp"
 #include "worlds/map_walls.hpp"
+#include "worlds/ros_map_io.hpp"
 #include "worlds/world_io.hpp"
 
 namespace warren {
@@ -44,17 +46,24 @@ bool becomes_map(const Scene& scene, std::string_view file, const Arguments& arg
 void write_any(Scene& scene, const std::string& file, const Arguments& arguments, const Execution& execution) {
   if (becomes_map(scene, file, arguments)) {
     const auto text = arguments.value("--cell");
-    const auto cell = text ? std::optional(positive_value("--cell", *text)) : std::nullopt;
+    const auto cell = text ? std::optional(cell_value(*text, scene)) : std::nullopt;
     return write_map(map_for(scene, cell, execution), file, execution);
   }
   add_map_walls(scene);
   write_world(scene, file, arguments.command_line(), execution);
 }
 
+/// Throws as check_world_file does; a YAML has its image beside it.
+void check_map_or_world_file(const std::string& file) {
+  if (!is_map_ending(file)) return check_world_file(file);
+  check_writable(file);
+  if (file.ends_with(".yaml")) check_writable(map_image_of(file));
+}
+
 int convert(const Arguments& arguments) {
   const auto file = arguments.value("--output");
   if (!file) throw UsageError("-o FILE is missing");
-  if (!is_map_ending(*file)) check_world_file(*file);
+  check_map_or_world_file(*file);
   if (!is_map_ending(*file) && !file->ends_with(".png") && arguments.has("--cell")) {
     throw UsageError("--cell: only maps have cells: .map, .yaml, .pgm and .png");
   }

@@ -93,14 +93,12 @@ LargestOptions largest_options(const Arguments& arguments) {
 }
 
 void check_report_files(const Arguments& arguments) {
-  int to_standard_output = 0;
   for (const char* option : {"--json", "--svg", "--trace"}) {
     const auto file = arguments.value(option);
     if (!file) continue;
     check_writable(*file);
-    to_standard_output += *file == "-" ? 1 : 0;
   }
-  if (to_standard_output > 1) throw UsageError("standard output takes one of --json, --svg and --trace");
+  check_picture_ending("--svg", arguments.value("--svg").value_or(""), ".svg");
 }
 
 int exit_code(const LargestResult& result) {

@@ -8,6 +8,7 @@
 #include "tools/command.hpp"
 #include "tools/curve_drawing.hpp"
 #include "tools/exit_code.hpp"
+#include "tools/output_conflicts.hpp"
 #include "tools/output_files.hpp"
 #include "tools/picture.hpp"
 #include "tools/problem.hpp"
@@ -88,6 +89,7 @@ int render(const Arguments& arguments) {
   std::vector<PictureLayer> layers;
   if (scene.map) layers.push_back(map_layer(*scene.map));
   const RobotSpec robot = robot_of(scene, answer.problem);
+  check_not_written(arguments, robot.table);
   if (robot.kind == RobotKind::polygon && answer.state_width() == 3) {
     layers.push_back(sweep_of(poses_of(answer.states), robot.outline));
   }

@@ -121,19 +121,15 @@ ScalingOptions scaling_options(const Arguments& arguments) {
 constexpr std::array<const char*, 3> output_options{"--json", "--csv", "--html"};
 
 /// Throws unless every output can be written; says whether one of them takes standard output.
-bool check_outputs(const Arguments& arguments) {
-  int to_standard_output = 0;
+bool check_reports(const Arguments& arguments) {
+  bool taken = false;
   for (const char* option : output_options) {
     const auto file = arguments.value(option);
     if (!file) continue;
     check_writable(*file);
-    to_standard_output += *file == "-" ? 1 : 0;
+    taken = taken || *file == "-";
   }
-  const int trace = arguments.value("--trace").value_or("") == "-" ? 1 : 0;
-  if (to_standard_output + trace > 1) {
-    throw UsageError("standard output takes one of --json, --csv, --html and --trace");
-  }
-  return to_standard_output > 0;
+  return taken;
 }
 
 int exit_code(const ScalingResult& result) {
@@ -151,7 +147,7 @@ int exit_code(const ScalingResult& result) {
 int scale(const Arguments& arguments) {
   const ScalingOptions options = scaling_options(arguments);
   problem_options(arguments);  // refuses impossible values now, not after a maze was made
-  const bool standard_output_taken = check_outputs(arguments);
+  const bool standard_output_taken = check_reports(arguments);
   Run run(arguments, RunScope::each_run);
   const ScalingResult result = run_scaling_study(options, run);
   run.end();

@@ -40,7 +40,7 @@ class SolveCommand {
         svg_(output_file(arguments, "--svg").value_or("")),
         problem_(problem_options(arguments)) {
     check_solver_options(arguments);
-    check_outputs();
+    check_picture_ending("--svg", svg_, ".svg .png .html");
   }
 
   int run() {
@@ -48,15 +48,14 @@ class SolveCommand {
     answer(run);
     run.end();
     write_outputs(run);
-    if (!run.quiet() && writes_to_standard_output() == 0) {
+    if (!run.quiet() && !takes_standard_output()) {
       print_text(fmt::format("{}", summary_of(answer_, run.palette(), written_)));
     }
     return exit_code();
   }
 
  private:
-  int writes_to_standard_output() const;
-  void check_outputs() const;
+  bool takes_standard_output() const;
   void answer(const Run& run);
   void solve(const Run& run);
   void confirm_on_map(const Execution& execution);
@@ -78,13 +77,8 @@ class SolveCommand {
   std::vector<std::string> written_;
 };
 
-/// How many of --json, --svg and --trace go to standard output.
-int SolveCommand::writes_to_standard_output() const {
-  return (json_ == "-") + (svg_ == "-") + (arguments_.value("--trace") == "-");
-}
-
-void SolveCommand::check_outputs() const {
-  if (writes_to_standard_output() > 1) throw UsageError("standard output takes one of --json, --svg and --trace");
+bool SolveCommand::takes_standard_output() const {
+  return json_ == "-" || svg_ == "-" || arguments_.value("--trace") == "-";
 }
 
 void SolveCommand::answer(const Run& run) {

@@ -9,6 +9,7 @@
 #include "tools/command.hpp"
 #include "tools/exit_code.hpp"
 #include "tools/human_units.hpp"
+#include "tools/output_conflicts.hpp"
 #include "tools/output_files.hpp"
 #include "tools/problem.hpp"
 #include "tools/recorded_answer.hpp"
@@ -83,6 +84,7 @@ int verify(const Arguments& arguments) {
   const RecordedAnswer answer = read_answer(arguments.operand(1), run.execution());
   Scene scene = load_world(arguments.operand(0), arguments, run.execution(), seconds);
   check_same_world(answer, arguments.operand(1), scene, run.execution());
+  if (answer.problem.robot) check_not_written(arguments, answer.problem.robot->table);
   const ProblemOptions asked = merged(options, answer.problem);
   const RobotKind body = robot_of(scene, asked).kind;
   if (body == RobotKind::car) add_map_walls(scene);  // the others are judged by the cells

@@ -5,10 +5,12 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <new>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "core/error.hpp"
@@ -17,6 +19,8 @@
 #include "tools/command.hpp"
 #include "tools/exit_code.hpp"
 #include "tools/help.hpp"
+#include "tools/last_words.hpp"
+#include "tools/output_conflicts.hpp"
 #include "tools/run_options.hpp"
 #include "tools/signals.hpp"
 #include "tools/terminal.hpp"
@@ -37,14 +41,17 @@ const Command& command_named(std::string_view name) {
 
 int run_command(const Command& command, std::span<const std::string> words) {
   const Arguments arguments(command, words);
-  if (!arguments.wants_help()) return command.run(arguments);
-  print_text(command_help(command));
-  return exit_code::success;
+  if (arguments.wants_help()) {
+    print_text(command_help(command));
+    return exit_code::success;
+  }
+  check_outputs(arguments);
+  return command.run(arguments);
 }
 
 int dispatch(std::span<const std::string> words) {
   if (words.empty()) {
-    fmt::print(stderr, "{}", program_help());
+    say_on_standard_error(program_help());
     return exit_code::usage;
   }
   if (words[0] == "--help" || words[0] == "-h" || words[0] == "help") {
@@ -59,7 +66,7 @@ int dispatch(std::span<const std::string> words) {
 }
 
 int complain(int code, std::string_view text) {
-  fmt::print(stderr, "warren: {}\n", text);
+  say_on_standard_error(fmt::format("warren: {}\n", text));
   return code;
 }
 
@@ -87,7 +94,8 @@ void die_if_unheard() {
 int run_program(std::span<const std::string> words) {
   try {
     const int code = dispatch(words);
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) throw WriteError("standard output", "no space left");
+    if (std::fflush(stdout) != 0) throw WriteError("standard output", std::generic_category().message(errno));
+    if (std::ferror(stdout) != 0) throw WriteError("standard output", "it did not take all");
     return code;
   } catch (const UsageError& error) {
     return complain(exit_code::usage, error.what() + usage_hint(words));
@@ -101,7 +109,7 @@ int run_program(std::span<const std::string> words) {
   } catch (const Stopped& stopped) {
     return complain(exit_code_of(stopped.reason), fmt::format("stopped: {}", text_of(stopped.reason)));
   } catch (const std::bad_alloc&) {
-    return complain(exit_code::budget, fmt::format("stopped: {}", text_of(StopReason::memory)));
+    return say_memory_is_out();
   } catch (const std::exception& error) {
     return report_bug(error.what());
   }
@@ -111,7 +119,13 @@ int run_program(std::span<const std::string> words) {
 }  // namespace warren
 
 int main(int argc, char** argv) {
+  warren::hold_standard_descriptors();
+  warren::install_last_words();
   warren::install_signal_handlers();
-  const std::vector<std::string> words(argv + (argc > 0 ? 1 : 0), argv + argc);
-  return warren::run_program(words);
+  try {
+    const std::vector<std::string> words(argv + (argc > 0 ? 1 : 0), argv + argc);
+    return warren::run_program(words);
+  } catch (const std::bad_alloc&) {  // also of those who told of another error
+    return warren::say_memory_is_out();
+  }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/output_files.hpp"
 
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -9,6 +10,7 @@
 #include <system_error>
 
 #include "core/error.hpp"
+#include "worlds/output_file_io.hpp"
 
 namespace warren {
 namespace {
@@ -17,13 +19,13 @@ namespace {
   throw WriteError(path, std::generic_category().message(error));
 }
 
+}  // namespace
+
 std::string folder_of(const std::string& path) {
   const std::size_t slash = path.rfind('/');
   if (slash == std::string::npos) return ".";
   return slash == 0 ? "/" : path.substr(0, slash);
 }
-
-}  // namespace
 
 void check_writable(const std::string& path) {
   if (path == "-") return;
@@ -36,7 +38,13 @@ void check_writable(const std::string& path) {
   } else if (errno != ENOENT) {
     fail(path, errno);
   }
-  if (::access(folder_of(path).c_str(), W_OK | X_OK) != 0) fail(path, errno);
+  if (::access(folder_of(behind_links(path)).c_str(), W_OK | X_OK) != 0) fail(path, errno);
+}
+
+void check_picture_ending(std::string_view option, const std::string& file, std::string_view endings) {
+  const std::string ending = ending_of(file);
+  if (ending.empty() || fmt::format(" {} ", endings).find(" " + ending + " ") != std::string::npos) return;
+  throw UsageError(fmt::format("{}: a picture here ends in one of: {} (found: '{}')", option, endings, file));
 }
 
 std::optional<std::string> output_file(const Arguments& arguments, std::string_view option) {

@@ -13,8 +13,15 @@ namespace warren {
 /// Throws WriteError if `path` can't be written as things stand. Creates and changes nothing.
 void check_writable(const std::string& path);
 
+/// Throws UsageError where the file's ending promises another picture than one of `endings`, such as ".svg .png"; no
+/// ending promises nothing.
+void check_picture_ending(std::string_view option, const std::string& file, std::string_view endings);
+
 /// The file that an option names, if it is given; check_writable has been asked.
 std::optional<std::string> output_file(const Arguments& arguments, std::string_view option);
+
+/// "a" of "a/b.svg"; "." of "b.svg".
+std::string folder_of(const std::string& path);
 
 /// ".svg" of "a.SVG", in lower case; "" where there is none.
 std::string ending_of(const std::string& path);

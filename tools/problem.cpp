@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/se2.hpp"
 #include "tools/option_values.hpp"
+#include "tools/output_conflicts.hpp"
 #include "worlds/robot_text.hpp"
 
 namespace warren {
@@ -98,6 +99,7 @@ double clearance_of(const Scene& scene, const ProblemOptions& options) {
 ProblemOptions problem_options(const Arguments& arguments) {
   ProblemOptions options;
   if (const auto text = arguments.value("--robot")) options.robot = robot_option(*text);
+  if (options.robot) check_not_written(arguments, options.robot->table);
   if (const auto text = arguments.value("--start")) options.start = state_value("--start", *text);
   if (const auto text = arguments.value("--goal")) options.goal = state_value("--goal", *text);
   if (const auto text = arguments.value("--clearance")) {

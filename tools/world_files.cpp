@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "tools/human_units.hpp"
 #include "tools/option_values.hpp"
+#include "tools/output_conflicts.hpp"
 #include "tools/output_files.hpp"
 #include "tools/picture.hpp"
 #include "worlds/world_io.hpp"
@@ -48,6 +49,8 @@ Scene load_world(const std::string& source, const Arguments& arguments, const Ex
   if (asked && !(scene.map && scene.map->format == MapFormat::ros)) {
     throw UsageError(fmt::format("--map-rules: is for the YAML of map_server, and {} is none", source));
   }
+  if (scene.map) check_not_written(arguments, scene.map->image);
+  if (scene.robot) check_not_written(arguments, scene.robot->table);
   return scene;
 }
 

@@ -31,6 +31,7 @@ struct OccupancyMap {
   std::optional<Vec2> start;  ///< world coordinates; maze images: the entrance in the first row
   std::optional<Vec2> goal;
   std::string source;
+  std::string image = {};  ///< map server: the file that the pixels come from
 
   std::uint32_t width() const { return blocked.width(); }
   std::uint32_t height() const { return blocked.height(); }

@@ -106,6 +106,8 @@ void remove_rest(const std::string& part) {
 
 }  // namespace
 
+bool is_standard_output(std::string_view path) { return path == "-" || descriptor_named(path) == STDOUT_FILENO; }
+
 std::string behind_links(std::string path) {
   constexpr int most_links = 40;  // as the system has it
   std::string target(PATH_MAX, '\0');

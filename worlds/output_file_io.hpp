@@ -49,6 +49,9 @@ class OutputFile {
 /// Writes a whole file at once.
 void write_file(const std::string& path, std::string_view bytes, const Execution& execution);
 
+/// "-" and the system's names for standard output.
+bool is_standard_output(std::string_view path);
+
 /// The path of the file that `path` leads to: symbolic links followed, also to where nothing is yet.
 std::string behind_links(std::string path);
 

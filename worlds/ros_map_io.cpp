@@ -227,6 +227,7 @@ std::string image_path(const std::string& yaml, const std::string& image) {
 void read_pixels(const std::string& yaml, const Description& description, MapServerRules rules, OccupancyMap& map,
                  const Execution& execution) {
   const std::string path = image_path(yaml, description.image);
+  map.image = path;
   Classifier classifier(description, rules, map);
   const ImageSink sink{[&](const ImageHeader& header) { classifier.begin(header, execution); },
                        [&](const PixelRun& run) { classifier.row(run); }};
@@ -239,6 +240,24 @@ void read_pixels(const std::string& yaml, const Description& description, MapSer
   }
   read_image(*image, sink, execution);
   classifier.end();
+}
+
+/// As it is where nothing in it means anything to YAML, else quoted.
+std::string yaml_text(std::string_view text) {
+  constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./";
+  const bool begins_plainly = plain.find(text.front()) != std::string_view::npos;
+  if (begins_plainly && text.find_first_not_of("-+" + std::string{plain}) == std::string_view::npos)
+    return std::string{text};
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    if (static_cast<unsigned char>(c) < 0x20U || c == 0x7f) {
+      quoted += fmt::format("\\x{:02x}", c);
+    } else {
+      quoted += c;
+    }
+  }
+  return quoted + '"';
 }
 
 }  // namespace
@@ -259,14 +278,18 @@ OccupancyMap read_ros_map(const InputFile& yaml, const Execution& execution, Map
   return map;
 }
 
+std::string map_image_of(const std::string& yaml) { return yaml.substr(0, yaml.rfind('.')) + ".pgm"; }
+
 void write_ros_map(const OccupancyMap& map, const std::string& path, const Execution& execution) {
-  const std::string image = path.substr(0, path.rfind('.')) + ".pgm";
+  const std::string image = map_image_of(path);
+  const std::string name = image.substr(image.rfind('/') + 1);
+  OutputFile yaml(path, execution);
+  yaml.write(
+      fmt::format("image: {}\nresolution: {}\norigin: [{}, {}, {}]\nnegate: 0\noccupied_thresh: 0.65\n"
+                  "free_thresh: 0.196\n",
+                  yaml_text(name), map.cell, map.origin.x, map.origin.y, map.yaw_rad));
   write_map_pgm(map, image, UnknownCells::grey, execution);
-  write_file(path,
-             fmt::format("image: {}\nresolution: {}\norigin: [{}, {}, {}]\nnegate: 0\noccupied_thresh: 0.65\n"
-                         "free_thresh: 0.196\n",
-                         image.substr(image.rfind('/') + 1), map.cell, map.origin.x, map.origin.y, map.yaw_rad),
-             execution);
+  yaml.commit();
 }
 
 }  // namespace warren

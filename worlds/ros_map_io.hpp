@@ -23,7 +23,10 @@ enum class MapServerRules : std::uint8_t { nav2, ros1 };
 OccupancyMap read_ros_map(const InputFile& yaml, const Execution& execution,
                           MapServerRules rules = MapServerRules::nav2);
 
-/// Writes NAME.yaml and, beside it, NAME.pgm. Throws as OutputFile does.
+/// NAME.pgm, the image that write_ros_map writes beside NAME.yaml.
+std::string map_image_of(const std::string& yaml);
+
+/// Writes NAME.yaml and, beside it, NAME.pgm: the YAML only where its image is whole. Throws as OutputFile does.
 void write_ros_map(const OccupancyMap& map, const std::string& path, const Execution& execution);
 
 }  // namespace warren

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/output_conflicts.hpp"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+#include "tools/option_values.hpp"
+#include "tools/output_files.hpp"
+#include "worlds/output_file_io.hpp"
+#include "worlds/ros_map_io.hpp"
+#include "worlds/world_io.hpp"
+
+namespace warren {
+namespace {
+
+/// Of all verbs: the options whose values are files that are written, and that are read. Operands are read.
+constexpr std::array<std::string_view, 8> output_options{"--json", "--svg", "--png",   "--html",
+                                                         "--csv",  "--log", "--trace", "--output"};
+constexpr std::array<std::string_view, 2> input_options{"--answer", "--map"};
+
+/// Where a file is, or will be: two are the same file exactly if their places are equal.
+struct Place {
+  dev_t device = 0;
+  ino_t inode = 0;   ///< the file's, or while there is none its folder's
+  std::string name;  ///< empty where the file exists
+  bool operator==(const Place&) const = default;
+};
+
+struct NamedFile {
+  std::string option;  ///< what named it, for people
+  std::string path;
+};
+
+std::optional<Place> place_of(const struct stat& status) {
+  // Nothing is lost on a device; folders are refused elsewhere.
+  if (S_ISCHR(status.st_mode) || S_ISDIR(status.st_mode)) return std::nullopt;
+  return Place{status.st_dev, status.st_ino, {}};
+}
+
+std::string name_in_folder(const std::string& path) { return path.substr(path.rfind('/') + 1); }
+
+std::optional<Place> place_of(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) == 0) return place_of(status);
+  const std::string real = behind_links(path);
+  if (::stat(folder_of(real).c_str(), &status) != 0) return std::nullopt;
+  return Place{status.st_dev, status.st_ino, name_in_folder(real)};
+}
+
+/// The file that standard input or output is redirected to; a pipe or terminal may well be both.
+std::optional<Place> place_of_descriptor(int descriptor) {
+  struct stat status {};
+  if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
+  return place_of(status);
+}
+
+std::optional<Place> place_of_output(const std::string& path) {
+  return path == "-" ? place_of_descriptor(STDOUT_FILENO) : place_of(path);
+}
+
+/// What is not there can't be overwritten.
+std::optional<Place> place_of_input(const std::string& path) {
+  if (path == "-") return place_of_descriptor(STDIN_FILENO);
+  const std::optional<Place> place = is_maze_source(path) ? std::nullopt : place_of(path);
+  return place && place->name.empty() ? place : std::nullopt;
+}
+
+std::vector<NamedFile> outputs_of(const Arguments& arguments) {
+  std::vector<NamedFile> files;
+  for (const std::string_view option : output_options) {
+    const auto path = arguments.value(option);
+    if (!path) continue;
+    files.push_back({std::string{option}, is_standard_output(*path) ? "-" : *path});
+    if (option == "--output" && ending_of(*path) == ".yaml") files.push_back({"its image", map_image_of(*path)});
+  }
+  return files;
+}
+
+std::vector<NamedFile> inputs_of(const Arguments& arguments) {
+  std::vector<NamedFile> files;
+  for (std::size_t i = 0; i < arguments.operand_count(); ++i) files.push_back({"", arguments.operand(i)});
+  for (const std::string_view option : input_options) {
+    if (const auto path = arguments.value(option)) files.push_back({std::string{option}, *path});
+  }
+  return files;
+}
+
+void check_standard_output(const std::vector<NamedFile>& outputs) {
+  std::string taker;
+  for (const NamedFile& output : outputs) {
+    if (output.path != "-") continue;
+    if (!taker.empty()) {
+      throw UsageError(fmt::format("standard output takes one of them: {} or {}", taker, output.option));
+    }
+    taker = output.option;
+  }
+}
+
+/// Is that the name of a picture that `compare --pictures` may write? They begin with the planner's.
+bool is_picture_name(const Arguments& arguments, std::string_view name) {
+  if (!name.ends_with(".svg")) return false;
+  for (const std::string& planner : list_value("--planners", arguments.value("--planners").value_or("none"))) {
+    if (!name.starts_with(planner) || name.size() == planner.size()) continue;
+    const char next = name[planner.size()];
+    if (next == '.' || next == '_') return true;
+  }
+  return false;
+}
+
+/// No picture of `compare --pictures FOLDER` may take the place of any of these files.
+void check_pictures(const Arguments& arguments, const std::vector<NamedFile>& files) {
+  const auto folder = arguments.value("--pictures");
+  struct stat pictures {};
+  if (!folder || ::stat(folder->c_str(), &pictures) != 0) return;
+  for (const NamedFile& file : files) {
+    const std::string real = behind_links(file.path);
+    struct stat its {};
+    if (::stat(folder_of(real).c_str(), &its) != 0) continue;
+    const bool beside = its.st_dev == pictures.st_dev && its.st_ino == pictures.st_ino;
+    if (beside && is_picture_name(arguments, name_in_folder(real))) {
+      throw UsageError(fmt::format("--pictures: {} may be the name of one of the pictures", file.path));
+    }
+  }
+}
+
+}  // namespace
+
+void check_outputs(const Arguments& arguments) {
+  std::vector<NamedFile> files = outputs_of(arguments);
+  check_standard_output(files);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const auto place = place_of_output(files[i].path);
+    for (std::size_t j = 0; place && j < i; ++j) {
+      if (place_of_output(files[j].path) == place) {
+        throw UsageError(fmt::format("{} and {} would both write {}", files[j].option, files[i].option, files[i].path));
+      }
+    }
+  }
+  const std::vector<NamedFile> inputs = inputs_of(arguments);
+  for (const NamedFile& input : inputs) check_not_written(arguments, input.path);
+  files.insert(files.end(), inputs.begin(), inputs.end());
+  check_pictures(arguments, files);
+}
+
+void check_not_written(const Arguments& arguments, const std::string& input) {
+  const auto place = input.empty() ? std::nullopt : place_of_input(input);
+  if (!place) return;
+  for (const NamedFile& output : outputs_of(arguments)) {
+    if (place_of_output(output.path) == place) {
+      throw UsageError(fmt::format("{}: {} would overwrite {}, which is read", output.option, output.path, input));
+    }
+  }
+}
+
+}  // namespace warren

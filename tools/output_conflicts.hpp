@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// No verb writes a file that it reads, or the same file twice. Files are compared as files (device and inode, links
+// followed), what is not there yet as the name in its folder: "m.scene" is "./m.scene" and every link to it.
+#pragma once
+
+#include <string>
+
+#include "tools/arguments.hpp"
+
+namespace warren {
+
+/// Throws UsageError where an output that the command line names is one of its inputs or another of its outputs, or
+/// where standard output is to take two.
+void check_outputs(const Arguments& arguments);
+
+/// The same for a file that the command line does not name: a map's image, an arm's table. Empty: no file.
+void check_not_written(const Arguments& arguments, const std::string& input);
+
+}  // namespace warren
