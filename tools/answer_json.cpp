@@ -135,6 +135,19 @@ void write_path(std::size_t count, const State& state, const Execution& executio
   write(text + "]");
 }
 
+/// All but the path.
+std::string json_head(const Answer& answer) {
+  Json json;
+  add_outcome(json, answer);
+  add_problem(json, answer);
+  add_work(json, answer);
+  std::string head = "{";
+  for (const auto& [key, value] : json.items()) {
+    head += json_string(key) + ": " + value.dump(-1, ' ', false, Json::error_handler_t::replace) + ",\n ";
+  }
+  return head;
+}
+
 }  // namespace
 
 std::vector<std::pair<const char*, double>> named_stages(const StageTimes& s) {
@@ -168,15 +181,7 @@ std::string json_number(double value) {
 
 void write_answer_json(const Answer& answer, const Execution& execution,
                        const std::function<void(std::string_view)>& write) {
-  Json json;
-  add_outcome(json, answer);
-  add_problem(json, answer);
-  add_work(json, answer);
-  std::string head = "{";
-  for (const auto& [key, value] : json.items()) {
-    head += json_string(key) + ": " + value.dump(-1, ' ', false, Json::error_handler_t::replace) + ",\n ";
-  }
-  write(head);
+  write(json_head(answer));
   const auto append_point = [&](std::size_t i, std::string& text) {
     text.append(json_number(answer.path[i].x)).append(", ").append(json_number(answer.path[i].y));
   };

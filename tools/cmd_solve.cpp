@@ -127,9 +127,12 @@ void SolveCommand::write_outputs(const Run& run) {
   Execution execution = run.execution();
   if (stopped) execution.deadline = nullptr;  // what is left to say is short, and must be said
   if (!json_.empty()) {
-    OutputFile file(json_, execution);
-    write_answer_json(answer_, execution, [&](std::string_view text) { file.write(text); });
-    file.commit();
+    std::optional<OutputFile> file;  // from the first word on: nlohmann ends the program where memory is out
+    write_answer_json(answer_, execution, [&](std::string_view text) {
+      if (!file) file.emplace(json_, execution);
+      file->write(text);
+    });
+    file->commit();
     written_.push_back(json_);
   }
   if (!svg_.empty() && !stopped) {
