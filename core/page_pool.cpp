@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <new>
 #include <vector>
 
@@ -41,26 +42,24 @@ struct Piece {
 /// sum of their sizes.
 class IdlePages {
  public:
-  ~IdlePages() { give_back(); }
-
-  void enter() { ++scopes_; }
-  void leave() {
-    if (--scopes_ == 0) give_back();
+  IdlePages() = default;
+  ~IdlePages() {
+    for (const Piece& piece : pieces_) ::munmap(piece.at, piece.bytes);
   }
-  bool open() const { return scopes_ > 0; }
+  IdlePages(const IdlePages&) = delete;
+  IdlePages& operator=(const IdlePages&) = delete;
 
   char* take(std::size_t bytes);  ///< where they lie; nullptr if no piece is so large
   void fill(char* block, std::size_t bytes);
   void keep(char* block, std::size_t bytes);  ///< throws std::bad_alloc before it has changed anything that matters
 
+  int scopes = 0;
   std::size_t idle = 0;
   std::size_t least_idle = 0;
 
  private:
   bool move_last_piece(char* to, std::size_t bytes);
-  void give_back() noexcept;
 
-  int scopes_ = 0;
   std::vector<Piece> pieces_;
   std::map<const char*, std::vector<std::size_t>> made_of_;  // the sizes of the pieces of a block, in their order
 };
@@ -131,45 +130,45 @@ void IdlePages::keep(char* block, std::size_t bytes) {
   idle += bytes;
 }
 
-void IdlePages::give_back() noexcept {
-  for (const Piece& piece : pieces_) ::munmap(piece.at, piece.bytes);
-  pieces_.clear();
-  idle = 0;
-  least_idle = 0;
-}
-
-IdlePages& idle_pages() {
-  thread_local IdlePages pages;
-  return pages;
-}
+/// Owned by the outermost PagePool of the thread; nullptr while there is none. No object with a destructor: glibc
+/// aborts where it has no memory to note that one.
+thread_local IdlePages* thread_pages = nullptr;
 
 }  // namespace
 
-PagePool::PagePool() { idle_pages().enter(); }
-PagePool::~PagePool() { idle_pages().leave(); }
-std::size_t PagePool::idle_bytes() noexcept { return idle_pages().idle; }
-std::size_t PagePool::least_idle_bytes() noexcept { return idle_pages().least_idle; }
-void PagePool::watch_idle_bytes() noexcept { idle_pages().least_idle = idle_pages().idle; }
+PagePool::PagePool() {
+  if (thread_pages == nullptr) thread_pages = std::make_unique<IdlePages>().release();
+  ++thread_pages->scopes;
+}
+PagePool::~PagePool() {
+  if (--thread_pages->scopes > 0) return;
+  const std::unique_ptr<IdlePages> last(thread_pages);
+  thread_pages = nullptr;
+}
+std::size_t PagePool::idle_bytes() noexcept { return thread_pages != nullptr ? thread_pages->idle : 0; }
+std::size_t PagePool::least_idle_bytes() noexcept { return thread_pages != nullptr ? thread_pages->least_idle : 0; }
+void PagePool::watch_idle_bytes() noexcept {
+  if (thread_pages != nullptr) thread_pages->least_idle = thread_pages->idle;
+}
 
 namespace detail {
 
 void* take_pages(std::size_t bytes) {
   const std::size_t whole = whole_pages(bytes);
   if (whole < bytes) throw std::bad_alloc();
-  IdlePages& pages = idle_pages();
-  if (pages.open()) {
-    if (char* const block = pages.take(whole)) return block;
+  if (thread_pages != nullptr) {
+    if (char* const block = thread_pages->take(whole)) return block;
   }
   char* const block = map_range(whole);
   if (block == nullptr) throw std::bad_alloc();
-  if (pages.open()) pages.fill(block, whole);
+  if (thread_pages != nullptr) thread_pages->fill(block, whole);
   return block;
 }
 
 void return_pages(void* block, std::size_t bytes) noexcept {
   const std::size_t whole = whole_pages(bytes);
   try {
-    if (IdlePages& pages = idle_pages(); pages.open()) return pages.keep(static_cast<char*>(block), whole);
+    if (thread_pages != nullptr) return thread_pages->keep(static_cast<char*>(block), whole);
   } catch (const std::bad_alloc&) {  // no room for the note that says where the pages are: they go back
   }
   ::munmap(block, whole);

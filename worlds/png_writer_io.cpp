@@ -61,12 +61,15 @@ void write_png(const PngRows& rows, const Execution& execution, const std::funct
   PngSink sink{write, nullptr};
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, png_fail, png_warn);
   png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
-  if (info == nullptr) throw std::bad_alloc();
+  if (info == nullptr) {
+    png_destroy_write_struct(&png, nullptr);
+    throw std::bad_alloc();
+  }
   const bool done = encode(png, info, rows, sink, execution);
   png_destroy_write_struct(&png, &info);
   if (sink.error) std::rethrow_exception(sink.error);
   execution.check();
-  if (!done) throw std::runtime_error("libpng refuses the picture");
+  if (!done) throw std::bad_alloc();  // libpng takes all that is written here, so it has no memory
 }
 
 void write_map_png(const OccupancyMap& map, const std::string& path, const Execution& execution) {
