@@ -169,6 +169,31 @@ TEST(Usage, EveryOptionOfSolveIsInHelpManualAndCompletions) {
   }
 }
 
+TEST(Usage, AnIgnoredOptionIsToldWithTheProblemThatItIsNotFor) {
+  const Folder folder;
+  const std::string turning = folder.write(
+      "t.scene", "bounds 0 0 9 9\npolygon 3 3 5 3 5 5\nrobot polygon 0 0 1 0 0 1\nstart 1 1 0\ngoal 8 1 0\n");
+  check({{"solve", turning, "--planner", "visibility", "--sampled-edges", "1"},
+         2,
+         "--sampled-edges: visibility would ignore it for a polygon that turns; visibility takes it for a point"});
+  check({{"solve", turning, "--planner", "grid", "--optimise"},
+         2,
+         "--optimise: grid would ignore it for a polygon that turns; prm, lazy-prm, rrt and rrt-connect take it"});
+}
+
+TEST(Usage, CellsThatAreTooSmallAreRefusedByTheirOptionAndInFewDigits) {
+  const Folder folder;
+  const std::string scene = folder.write("s.scene", "bounds 0 0 9 9\nwall 1 1 2 2\nstart 4 4\ngoal 5 5\n");
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"solve", scene, "--planner", "grid", "--cell", "1e-300"},
+                                             {"solve", scene, "--planner", "grid", "--cell", "1e-5"},
+                                             {"convert", scene, "--cell", "1e-300", "-o", folder.path("a.map")},
+                                             {"convert", scene, "--cell", "1e-5", "-o", folder.path("a.png")}}) {
+    check({words, 2, "--cell: 1e-"});
+    EXPECT_LT(run(words).err.size(), 200U);
+  }
+}
+
 TEST(Usage, DoubleDashEndsTheOptions) { check({{"info", "--", "--no-such-file"}, 66, "--no-such-file"}); }
 
 }  // namespace
