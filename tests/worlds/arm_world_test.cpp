@@ -237,6 +237,21 @@ TEST(ArmWorld, SamplesStayWithinTheLimitsAndKeepIdleJointsAtRest) {
   EXPECT_EQ(with_tool.sampled_dimension(), 5U);
 }
 
+TEST(ArmWorld, PosturesBeyondALimitAreBlocked) {
+  const ArmWorld world({}, SerialChain(puma560_table()), {.self_collision = false});
+  auto query = world.make_query();
+  for (std::size_t j = 0; j < world.chain().joint_count(); ++j) {
+    for (const double beyond : {-1e-6, 1e-6}) {
+      JointState q = world.at_unit({0.5, 0.5, 0.5, 0.5, 0.5, 0.5});
+      EXPECT_TRUE(world.is_free(q, query));
+      q[j] = beyond < 0.0 ? world.chain().low(j) : world.chain().high(j);
+      EXPECT_TRUE(world.is_free(q, query)) << j;
+      q[j] += beyond;
+      EXPECT_FALSE(world.is_free(q, query)) << j;
+    }
+  }
+}
+
 TEST(ArmWorld, MetricWeighsJointsAndTheEmbeddingHasIt) {
   ArmOptions options;
   options.weights = {2.0, 1.0, 1.0, 0.5, 0.5, 0.1};

@@ -130,6 +130,18 @@ TEST_F(VerifyArmPath, KeepsLinksApartOnlyWhereAskedTo) {
   EXPECT_EQ(refusal(folded, {.radius = 0.0745, .clearance = 0.001, .self_collision = true}), "");
 }
 
+/// Three links in a plane, the last across the middle of the first: no end of either is near the other.
+TEST(VerifyArm, LinksThatCrossBetweenTheirEndsCollide) {
+  DhTable table;
+  for (const double length : {2.0, 1.0, 2.0}) table.joints.push_back({.a = length, .low_rad = -3.0, .high_rad = 3.0});
+  const auto verified = [&](double last) {
+    const std::vector<JointState> path{{0.0, 2.0, last}, {0.1, 2.0, last}};
+    return verify_arm({}, table, path, {.radius = 0.05, .self_collision = true}, one_thread).verified;
+  };
+  EXPECT_FALSE(verified(2.3));
+  EXPECT_TRUE(verified(0.0));
+}
+
 TEST_F(VerifyArmPath, RefusesWhatIsNoPath) {
   EXPECT_THROW(verify({}), InputError);
   EXPECT_THROW(verify({{std::nan(""), 0, 0, 0, 0, 0}}), InputError);

@@ -169,6 +169,8 @@ TEST(VerifyContact, TheBoxCannotBeSlippedAround) {
   EXPECT_TRUE(
       verified(scene_of(walls), {{1.0, 1.0}, {1.0, 0.0}, {2.0, 0.0}, {2.0, 3.0}, {3.0, 1.0}}, 0.0, Contact::allowed)
           .verified);
+  EXPECT_FALSE(verified(scene_of(walls), {{1.0, 0.0}, {3.0, 0.0}}, 0.0, Contact::allowed).verified);  // or behind it
+  EXPECT_TRUE(verified(scene_of(walls), {{0.0, 0.0}, {2.0, 0.0}}, 0.0, Contact::allowed).verified);
 }
 
 // ---- contact allowed, decided by an oracle: can the path be moved off its obstacles by a thousandth?

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/rng.hpp"
 #include "tests/worlds/paths_among_walls.hpp"
+#include "worlds/exact_segments.hpp"
 
 namespace warren {
 namespace {
@@ -160,6 +161,25 @@ TEST(Verify, DistanceEqualToTheClearanceIsFree) {
   EXPECT_TRUE(verified(flat, {{0.0, -4.5}, {1.0, -4.5}}, 0.5).verified);
   // 0.3 - 0.1 is below 0.2 in the exact numbers that these doubles are, and above it after rounding
   EXPECT_FALSE(verified(flat, {{0.0, 0.3}, {1.0, 0.3}}, 0.2).verified);
+}
+
+TEST(Verify, ADistanceThatRoundsToTheClearanceIsComparedExactly) {
+  int rounded_up = 0;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    SCOPED_TRACE(seed);
+    const auto point = [&](std::uint64_t i) { return Vec2{1e3 * uniform(seed, i, 0), 1e3 * uniform(seed, i, 1)}; };
+    const Segment wall{point(0), point(1)};
+    const Segment leg{point(2), point(2) + 1e-3 * (point(3) - point(2))};
+    const double d = exact::distance(leg, wall);
+    if (d == 0.0) continue;
+    const Scene scene = scene_of(with_far_box({wall}, -1e4, 1e4));
+    for (const double r : {std::nextafter(d, 0.0), d, std::nextafter(d, 1e4)}) {
+      const bool closer = exact::closer_than(leg, wall, r);
+      EXPECT_EQ(verified(scene, {leg.a, leg.b}, r).verified, !closer) << r - d;
+      rounded_up += closer && d > r ? 1 : 0;
+    }
+  }
+  EXPECT_GT(rounded_up, 10);
 }
 
 TEST(Verify, AMutatedPathIsRefuted) {
