@@ -48,6 +48,19 @@ double sampled_area(const W& world) {
   }
 }
 
+/// Shorter side of the box that this area fills; else 0.
+template <World W>
+double sampled_breadth(const W& world) {
+  if constexpr (requires {
+                  { world.box().width() } -> std::convertible_to<double>;
+                  { world.sampled_area() } -> std::convertible_to<double>;
+                }) {
+    return std::min(world.box().width(), world.box().height());
+  } else {
+    return 0.0;
+  }
+}
+
 /// Samples that a round usually takes.
 template <World W>
 std::uint64_t usual_samples(const W& world, const RoadmapOptions& options) {
@@ -86,14 +99,18 @@ inline std::uint64_t next_samples(const RoadmapOptions& options, std::uint64_t u
 }
 
 /// volume: of the space that the samples were drawn from, in the world's metric; only for the plane, else the rule is
-/// by k.
-inline ConnectionRule connection_rule(const RoadmapOptions& options, std::uint64_t samples, double volume) {
+/// by k. breadth: of its box; where a disc of the usual area sticks far out of it, the radius is that of a strip which
+/// has this area within the box. 0: not known.
+inline ConnectionRule connection_rule(const RoadmapOptions& options, std::uint64_t samples, double volume,
+                                      double breadth = 0.0) {
   if (options.radius) return {*options.radius, 0};
   if (options.neighbours) return {0.0, *options.neighbours};
   if (options.sampler == SamplerKind::lattice) return {1.0, 0};     // the four neighbours in the lattice
   const bool on_curves = options.sampler == SamplerKind::corridor;  // which fill no area evenly
   if (on_curves || !(volume > 0.0)) return {0.0, static_cast<std::uint32_t>(expected_neighbours)};
-  return {std::sqrt(expected_neighbours * volume / (std::numbers::pi * static_cast<double>(samples))), 0};
+  const double area = expected_neighbours * volume / static_cast<double>(samples);
+  const double strip = breadth > 0.0 ? area / (2.0 * breadth) : 0.0;
+  return {std::max(std::sqrt(area / std::numbers::pi), strip), 0};
 }
 
 /// Volume of the space that samples are drawn from, in the world's metric; 0 where the world doesn't tell.
@@ -131,7 +148,7 @@ ConnectionRule connection_rule_for(const W& world, const RoadmapOptions& options
     if (options.sampler == SamplerKind::cell_centres && by_rule) return {world.milestone_reach(), 0, options.attach};
   }
   ConnectionRule rule = options.star == StarRule::none
-                            ? connection_rule(options, samples, sampled_area(world))
+                            ? connection_rule(options, samples, sampled_area(world), sampled_breadth(world))
                             : star_rule(options.star, samples, sampled_dimension(world), sampled_volume(world));
   rule.attach = options.attach;
   return rule;

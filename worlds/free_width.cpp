@@ -10,7 +10,8 @@ double free_width(const WallIndex& index, const Box& box, const Segment& wall, d
   const Vec2 middle = 0.5 * (wall.a + wall.b);
   const Vec2 normal = (side / length) * Vec2{-along.y, along.x};
   const double farthest = box.width() + box.height();
-  const double step = 1e-3 * std::min(length, farthest);
+  const double breadth = std::min(box.width(), box.height());
+  const double step = 1e-3 * std::min(length, breadth > 0.0 ? breadth : farthest);
   const auto blocked = [&](double t) { return index.blocks(middle + step * normal, middle + t * normal); };
   double far = 2.0 * step;
   while (far < farthest && !blocked(far)) far *= 2.0;
@@ -27,6 +28,14 @@ double samples_for_width(double width, double area, double clearance) {
   constexpr double samples_a_square = 4.5;
   const double free = std::max(width - 2.0 * clearance, 0.1 * width);
   return samples_a_square * area / (free * free);
+}
+
+double most_samples_for(const Box& box, double width, double clearance, std::size_t walls) {
+  constexpr double least = 500.0;
+  constexpr double samples_a_wall = 16.0;
+  const double breadth = std::min(box.width(), box.height());
+  return std::max(samples_for_width(width, breadth * breadth, clearance),
+                  least + samples_a_wall * static_cast<double>(walls));
 }
 
 }  // namespace warren

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "core/types.hpp"
@@ -18,6 +19,11 @@ double free_width(const WallIndex& index, const Box& box, const Segment& wall, d
 
 /// 4.5 samples for each square as wide as what the clearance leaves of `width`.
 double samples_for_width(double width, double area, double clearance);
+
+/// What so many walls in such a box are worth, however long the box is: what a square as broad as the box would need,
+/// since a long world of few walls is no harder than the same one pushed together, or some samples for each wall, since
+/// a long corridor may have a cell for each.
+double most_samples_for(const Box& box, double width, double clearance, std::size_t walls);
 
 /// The lower quartile of the free widths on those sides of some walls that begin in a point p with is_outside(p); the
 /// side of a square of the box's area where no other wall is seen.

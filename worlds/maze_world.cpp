@@ -90,7 +90,9 @@ void MazeWorld::keep_free(double y, std::span<std::uint64_t> bits) const noexcep
 }
 
 double MazeWorld::suggested_samples() const {
-  return samples_for_width(typical_width(index_, box_, [](Vec2) { return true; }), sampled_area(), clearance_);
+  const double width = typical_width(index_, box_, [](Vec2) { return true; });
+  return std::min(samples_for_width(width, sampled_area(), clearance_),
+                  most_samples_for(box_, width, clearance_, index_.wall_count()));
 }
 
 }  // namespace warren
