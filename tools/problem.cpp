@@ -24,7 +24,9 @@ constexpr OptionSpec problem_specs[] = {
     {"--goal", "X,Y[,THETA]", "where the path ends (default: the file's)"},
     {"--clearance", "R",
      "room kept around the body all along the path (default: the file's, else 0.1 in mazes, else 0)"},
-    {"--contact", "WORD", "with clearance 0: may the path touch a wall? (default: blocked)", "blocked allowed"},
+    {"--contact", "WORD",
+     "with clearance 0: may the path touch an obstacle? (default: allowed for visibility and cells, else blocked)",
+     "blocked allowed"},
 };
 
 Vec2 plane_state(std::string_view option, const std::vector<double>& given, const std::vector<double>& in_file) {

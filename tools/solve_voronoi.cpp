@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The planner voronoi: along the medial axis, as far from all obstacles as a path can be. min_clearance of the answer
 // is measured on the path by the verification.
+#include <fmt/format.h>
+
 #include "core/error.hpp"
 #include "planners/medial_axis_planner.hpp"
 #include "tools/answer_json.hpp"
@@ -31,6 +33,14 @@ void draw(const MedialAxis& axis, Drawing& drawing) {
   drawing.layers.push_back(std::move(layer));
 }
 
+/// A box without area has no middle: said with the file's name.
+void check_box(const Scene& scene) {
+  const Box box = scene.bounds ? *scene.bounds : obstacle_box(scene);
+  if (box.empty() || (box.width() > 0.0 && box.height() > 0.0)) return;
+  throw InputError(scene.source, "voronoi needs bounds, or obstacles, that span an area",
+                   fmt::format("{} x {}", box.width(), box.height()));
+}
+
 }  // namespace
 
 Answer solve_on_medial_axis(const SolveRequest& request) {
@@ -44,6 +54,7 @@ Answer solve_on_medial_axis(const SolveRequest& request) {
   describe_plane_planner(answer, request, problem, search);
   answer.options.emplace_back("objective", json_string(name_of(options.objective)));
   answer_within_limits(answer, [&] {
+    check_box(request.scene);
     const PlaneObstacles obstacles = indexed_obstacles(request, answer);
     MedialAxisPlan plan;
     take_solution(answer, plan_without_clashes(request, [&] {

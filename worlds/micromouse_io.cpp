@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -55,7 +56,7 @@ class Picture {
     }
   }
 
-  Scene scene() const {
+  Scene scene(const Execution& execution) const {
     std::vector<Segment> walls;
     for (std::size_t i = 0; i < lines_.size(); i += 2) {
       add_runs(
@@ -76,7 +77,7 @@ class Picture {
     scene.walls = WallSet::narrowest(walls);
     scene.maze = MazeHint{static_cast<std::uint32_t>(rows_), static_cast<std::uint32_t>(cols_)};
     scene.start = find('S');
-    scene.goal = find('G');
+    scene.goal = nearest_goal(execution);
     scene.source = name_;
     return scene;
   }
@@ -118,13 +119,55 @@ class Picture {
     }
   }
 
-  std::vector<double> find(char mark) const {
-    for (std::size_t i = 1; i < lines_.size(); i += 2) {
-      for (std::size_t c = 0; c < cols_; ++c) {
-        if (at(i, 4 * c + 2) == mark) return {static_cast<double>(c + 1), line_y(i)};
+  // Cells are numbered in reading order.
+  char mark(std::size_t cell) const { return at(2 * (cell / cols_) + 1, 4 * (cell % cols_) + 2); }
+  std::vector<double> middle(std::size_t cell) const {
+    return {static_cast<double>(cell % cols_ + 1), line_y(2 * (cell / cols_) + 1)};
+  }
+  std::size_t first_cell(char wanted) const {
+    std::size_t cell = 0;
+    while (cell < rows_ * cols_ && mark(cell) != wanted) ++cell;
+    return cell;
+  }
+  std::vector<double> find(char wanted) const {
+    const std::size_t cell = first_cell(wanted);
+    return cell < rows_ * cols_ ? middle(cell) : std::vector<double>{};
+  }
+
+  template <class Visit>
+  void for_each_open_neighbour(std::size_t cell, const Visit& visit) const {
+    const std::size_t line = 2 * (cell / cols_) + 1;
+    const std::size_t column = 4 * (cell % cols_);
+    if (line > 1 && at(line - 1, column + 2) != '-') visit(cell - cols_);
+    if (column > 0 && at(line, column) != '|') visit(cell - 1);
+    if (cell % cols_ + 1 < cols_ && at(line, column + 4) != '|') visit(cell + 1);
+    if (line + 2 < lines_.size() && at(line + 1, column + 2) != '-') visit(cell + cols_);
+  }
+
+  /// The G that takes the fewest cells from S, the first of these in reading order; the first of all where none can be
+  /// reached.
+  std::vector<double> nearest_goal(const Execution& execution) const {
+    const std::size_t count = rows_ * cols_;
+    const std::size_t start = first_cell('S');
+    if (start == count) return find('G');
+    execution.reserve(count + 2 * (rows_ + cols_) * sizeof(std::size_t));
+    std::vector<char> seen(count, 0);
+    std::vector<std::size_t> level{start};
+    std::vector<std::size_t> next;
+    for (seen[start] = 1; !level.empty(); level.swap(next)) {
+      execution.check();
+      std::size_t goal = count;
+      next.clear();
+      for (const std::size_t cell : level) {
+        if (mark(cell) == 'G') goal = std::min(goal, cell);
+        for_each_open_neighbour(cell, [&](std::size_t to) {
+          if (seen[to] == 0) next.push_back(to);
+          seen[to] = 1;
+        });
       }
+      if (goal < count) return middle(goal);
     }
-    return {};
+    return find('G');
   }
 
   const std::string& name_;
@@ -148,7 +191,7 @@ bool is_micromouse(std::string_view bytes) {
 Scene read_micromouse(const InputFile& file, const Execution& execution) {
   const Picture picture(file);
   picture.check(execution);
-  return picture.scene();
+  return picture.scene(execution);
 }
 
 }  // namespace warren

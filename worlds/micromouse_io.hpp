@@ -14,8 +14,9 @@ namespace warren {
 /// Is the first line a row of posts?
 bool is_micromouse(std::string_view bytes);
 
-/// Walls on the unit grid, cell centres at 1..W x 1..H, the maze hint; walls in a row are joined. The goal is the first
-/// G in reading order. Throws InputError naming file, line and what was expected; Stopped.
+/// Walls on the unit grid, cell centres at 1..W x 1..H, the maze hint; walls in a row are joined. Of several G the goal
+/// is the one that takes the fewest cells from S, then the first in reading order. Throws InputError naming file, line
+/// and what was expected; Stopped.
 Scene read_micromouse(const InputFile& file, const Execution& execution);
 
 }  // namespace warren

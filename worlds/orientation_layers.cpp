@@ -29,7 +29,12 @@ HeadingLayers empty_lattice(const Scene& scene, const RobotSpec& robot, const Gr
   const double height = std::floor(box.height() / grid.cell + rounding);
   const std::uint32_t angles = robot.kind == RobotKind::polygon ? grid.angles : 1;
   constexpr auto most_states = static_cast<double>(HeadingLayers::most_states);
-  if (width < 1.0 || height < 1.0 || !(width * height * angles <= most_states)) {
+  if (width < 1.0 || height < 1.0) {
+    throw InputError(scene.source.empty() ? "world" : scene.source,
+                     fmt::format("a grid needs bounds, or obstacles, that span a cell of {} each way", grid.cell),
+                     fmt::format("{} x {}", box.width(), box.height()));
+  }
+  if (!(width * height * angles <= most_states)) {
     throw InputError("grid", "must have from 1 to 2^32 - 4 states: cells across the bounds, times headings",
                      fmt::format("{} x {} x {}", width, height, angles));
   }

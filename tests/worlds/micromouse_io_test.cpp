@@ -41,6 +41,28 @@ TEST(Micromouse, WallsLieOnTheUnitGridNorthUp) {
   }
 }
 
+TEST(Micromouse, OfSeveralGoalsTheOneThatTakesTheFewestCellsIsTaken) {
+  const TemporaryDirectory directory;
+  const auto goal_of = [&](const char* text) { return read_world(directory.write("g.txt", text), {}).goal; };
+  EXPECT_EQ(goal_of("o---o---o---o---o\n"
+                    "| G   G | S | G |\n"
+                    "o   o   o   o   o\n"
+                    "|         G | G |\n"
+                    "o---o---o---o---o\n"),
+            (std::vector<double>{3, 1}))
+      << "below the start, though others come first or lie behind one wall";
+  EXPECT_EQ(goal_of("o---o---o---o\n"
+                    "| G   S   G |\n"
+                    "o---o---o---o\n"),
+            (std::vector<double>{1, 1}))
+      << "of two as near the first in reading order";
+  EXPECT_EQ(goal_of("o---o---o---o\n"
+                    "| G | S | G |\n"
+                    "o---o---o---o\n"),
+            (std::vector<double>{1, 1}))
+      << "out of reach";
+}
+
 TEST(Micromouse, TrailingBlanksMayBeMissing) {
   const TemporaryDirectory directory;
   const Scene scene = read_world(directory.write("m.txt", "o---o---o\n|\no---o   o\n|\no---o---o\n"), {});
