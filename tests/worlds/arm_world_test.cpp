@@ -237,6 +237,17 @@ TEST(ArmWorld, SamplesStayWithinTheLimitsAndKeepIdleJointsAtRest) {
   EXPECT_EQ(with_tool.sampled_dimension(), 5U);
 }
 
+/// Three links in a plane; at half of the motion nothing is near, at its end the last link lies across the first.
+TEST(ArmWorld, MotionsOfTheJointBehindALinkAreHeldAgainstIt) {
+  DhTable table;
+  for (const double length : {2.0, 1.0, 2.0}) table.joints.push_back({.a = length, .low_rad = -3.0, .high_rad = 3.0});
+  const ArmWorld world({}, SerialChain(table), {.radius = 0.05, .self_collision = true});
+  auto query = world.make_query();
+  EXPECT_TRUE(world.is_free({0.0, 0.0, 2.3}, query));
+  EXPECT_TRUE(world.is_free_motion({0.0, -2.0, 2.3}, {0.0, 0.0, 2.3}, query));
+  EXPECT_FALSE(world.is_free_motion({0.0, -2.0, 2.3}, {0.0, 2.0, 2.3}, query));
+}
+
 TEST(ArmWorld, PosturesBeyondALimitAreBlocked) {
   const ArmWorld world({}, SerialChain(puma560_table()), {.self_collision = false});
   auto query = world.make_query();

@@ -134,7 +134,8 @@ TEST(PathScreen, NoRowOfALongWallIsSkipped) {
     const auto at = [&](double u, double v) { return turned ? Vec2{v, u} : Vec2{u, v}; };
     for (double place = 10.0; place < 90.0; place += 0.5) {  // where the path passes the wall, and keeps off otherwise
       SCOPED_TRACE(place);
-      PathScreen screen = screen_of({at(0.0, 100.0), at(10.0, 100.0), at(10.0, place), at(4.0, place)}, 0, 1.0);
+      PathScreen screen =
+          screen_of({at(0.0, 0.0), at(0.0, 100.0), at(10.0, 100.0), at(10.0, place), at(4.0, place)}, 0, 1.0);
       screen.set_reach(0.3, 0.0);
       EXPECT_TRUE(clear_walls(screen, {{at(5.0, 5.0), at(5.0, 95.0)}}).empty());
       EXPECT_TRUE(clear_walls(screen, {{at(5.5, 5.5), at(5.5, 94.5)}}).empty());
