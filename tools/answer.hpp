@@ -13,6 +13,7 @@
 #include "parallel/deadline.hpp"
 #include "tools/problem.hpp"
 #include "tools/state_list.hpp"
+#include "worlds/verification.hpp"
 
 namespace warren {
 
@@ -34,13 +35,22 @@ struct CellCount {
   std::uint64_t adjacencies = 0;
 };
 
+/// A path of a method that promises nothing, as its verification refuted it: what studies of such methods show.
+struct RefutedPath {
+  Violation violation;
+  double length = 0.0;
+  std::optional<double> cost;
+  Path<Vec2> path;
+  StateList states;
+};
+
 struct Answer {
   Outcome outcome = Outcome::stopped;
   std::optional<StopReason> stop_reason;  ///< only for stopped
   bool verified = false;
-  std::optional<Violation> refuted_by;  ///< of a path that is answered although its verification refutes it
-  double length = 0.0;                  ///< only where verified or refuted
-  double min_clearance = 0.0;           ///< room around the body along the path; only where verified
+  std::optional<RefutedPath> refuted;  ///< the answer says nothing else of that path
+  double length = 0.0;                 ///< only where verified, as all that is said of the path
+  double min_clearance = 0.0;          ///< room around the body along the path
   std::optional<double> raw_length;
   bool optimal = false;            ///< proved: no shorter path exists
   std::optional<double> cost;      ///< in the planner's own units, where that is not the length
@@ -56,8 +66,9 @@ struct Answer {
   std::vector<std::pair<std::string, std::string>> options;  ///< name, value as JSON
   RoadmapSize roadmap;
   std::optional<CellCount> cells;
-  std::vector<std::pair<std::string, std::string>> figures;  ///< the planner's own keys: name, value as JSON
-  Separation separation;                                     ///< only for not_connected
+  std::vector<std::pair<std::string, std::string>> figures;       ///< the planner's own keys: name, value as JSON
+  std::vector<std::pair<std::string, std::string>> path_figures;  ///< those that tell of the path
+  Separation separation;                                          ///< only for not_connected
   Counters counters;
   StageTimes seconds;
   double solve_s = 0.0;

@@ -55,19 +55,13 @@ std::string_view stop_name(StopReason reason) {
 void add_outcome(Json& json, const Answer& answer) {
   json["schema"] = "warren.answer/1";
   json["warren_version"] = WARREN_VERSION;
-  json["status"] = name_of(answer.outcome);
+  json["status"] = answer.refuted ? "refuted" : name_of(answer.outcome);
   if (answer.stop_reason) json["stopped_by"] = stop_name(*answer.stop_reason);
   json["verified"] = answer.verified;
-  const bool measured = answer.verified || answer.refuted_by;
-  json["length"] = measured ? finite(answer.length) : Json(nullptr);
-  json["min_clearance"] = measured ? finite(answer.min_clearance) : Json(nullptr);
+  json["length"] = answer.verified ? finite(answer.length) : Json(nullptr);
+  json["min_clearance"] = answer.verified ? finite(answer.min_clearance) : Json(nullptr);
   json["raw_length"] = answer.raw_length ? finite(*answer.raw_length) : Json(nullptr);
   if (answer.optimal) json["optimal"] = true;
-  if (answer.refuted_by) {
-    json["first_violation"] = {{"leg", answer.refuted_by->leg},
-                               {"distance", finite(answer.refuted_by->distance)},
-                               {"obstacle", answer.refuted_by->obstacle}};
-  }
   if (answer.cost) json["cost"] = finite(*answer.cost);
   if (answer.turn_rad) json["turn_rad"] = finite(*answer.turn_rad);
 }
@@ -103,8 +97,10 @@ void add_work(Json& json, const Answer& answer) {
     json["roadmap"]["cells"] = answer.cells->cells;
     json["roadmap"]["adjacencies"] = answer.cells->adjacencies;
   }
-  for (const auto& [name, value] : answer.figures) json[name] = Json::parse(value);
-  if (answer.outcome == Outcome::not_connected) {
+  for (const auto* figures : {&answer.figures, &answer.path_figures}) {
+    for (const auto& [name, value] : *figures) json[name] = Json::parse(value);
+  }
+  if (answer.outcome == Outcome::not_connected && !answer.refuted) {
     json["components"] = {{"start_size", answer.separation.start_size},
                           {"goal_size", answer.separation.goal_size},
                           {"nearest_gap", finite(answer.separation.nearest_gap)}};
@@ -115,13 +111,12 @@ void add_work(Json& json, const Answer& answer) {
   json["peak_memory_bytes"] = answer.peak_memory_bytes;
 }
 
-/// state(i, text) appends the numbers of the i-th of `count` states.
+/// state(i, text) appends the numbers of the i-th of `count` states. Writes the list alone.
 template <class State>
 void write_path(std::size_t count, const State& state, const Execution& execution,
                 const std::function<void(std::string_view)>& write) {
   constexpr std::size_t piece = 1 << 14;
-  write("\"path\": [");
-  std::string text;
+  std::string text = "[";
   for (std::size_t i = 0; i < count; ++i) {
     text.append(i == 0 ? "[" : ", [");
     state(i, text);
@@ -148,7 +143,37 @@ std::string json_head(const Answer& answer) {
   return head;
 }
 
+/// The states, or the points where a state is no more.
+void write_states(const Path<Vec2>& path, const StateList& states, const Execution& execution,
+                  const std::function<void(std::string_view)>& write) {
+  const auto append_point = [&](std::size_t i, std::string& text) {
+    text.append(json_number(path[i].x)).append(", ").append(json_number(path[i].y));
+  };
+  const auto append_state = [&](std::size_t i, std::string& text) {
+    for (std::size_t k = 0; k < states.width; ++k) {
+      text.append(k == 0 ? "" : ", ").append(json_number(states[i][k]));
+    }
+  };
+  if (states.empty()) {
+    write_path(path.size(), append_point, execution, write);
+  } else {
+    write_path(states.size(), append_state, execution, write);
+  }
+}
+
+/// The same of a refuted one.
+std::string refuted_head(const RefutedPath& refuted) {
+  std::string text = fmt::format("\"length\": {}", json_number(refuted.length));
+  if (refuted.cost) text += fmt::format(", \"cost\": {}", json_number(*refuted.cost));
+  return text + fmt::format(R"(, "first_violation": {})", violation_json(refuted.violation));
+}
+
 }  // namespace
+
+std::string violation_json(const Violation& violation) {
+  return fmt::format(R"({{"leg": {}, "distance": {}, "obstacle": {}}})", violation.leg, json_number(violation.distance),
+                     json_string(violation.obstacle));
+}
 
 std::vector<std::pair<const char*, double>> named_stages(const StageTimes& s) {
   constexpr double always = -1.0;  // shown even if nothing was done there
@@ -182,19 +207,13 @@ std::string json_number(double value) {
 void write_answer_json(const Answer& answer, const Execution& execution,
                        const std::function<void(std::string_view)>& write) {
   write(json_head(answer));
-  const auto append_point = [&](std::size_t i, std::string& text) {
-    text.append(json_number(answer.path[i].x)).append(", ").append(json_number(answer.path[i].y));
-  };
-  const auto append_state = [&](std::size_t i, std::string& text) {
-    for (std::size_t k = 0; k < answer.states.width; ++k) {
-      text.append(k == 0 ? "" : ", ").append(json_number(answer.states[i][k]));
-    }
-  };
-  if (answer.states.empty()) {
-    write_path(answer.path.size(), append_point, execution, write);
-  } else {
-    write_path(answer.states.size(), append_state, execution, write);
+  if (answer.refuted) {
+    write(fmt::format("\"refuted\": {{{}, \"path\": ", refuted_head(*answer.refuted)));
+    write_states(answer.refuted->path, answer.refuted->states, execution, write);
+    write("},\n ");
   }
+  write("\"path\": ");
+  write_states(answer.path, answer.states, execution, write);
   write("}\n");
 }
 

@@ -19,6 +19,8 @@ void write_answer_json(const Answer& answer, const Execution& execution,
 
 /// A text as a JSON string, quotes included; bytes that are not UTF-8 become U+FFFD.
 std::string json_string(std::string_view text);
+/// {"leg", "distance", "obstacle"}.
+std::string violation_json(const Violation& violation);
 /// A finite number as JSON, "1.0" rather than "1"; null for others.
 std::string json_number(double value);
 

@@ -21,7 +21,6 @@
 #include "tools/world_files.hpp"
 #include "worlds/map_walls.hpp"
 #include "worlds/output_file_io.hpp"
-#include "worlds/verify_map.hpp"
 
 namespace warren {
 namespace {
@@ -58,7 +57,6 @@ class SolveCommand {
   bool takes_standard_output() const;
   void answer(const Run& run);
   void solve(const Run& run);
-  void confirm_on_map(const Execution& execution);
   SolveRequest request(const Execution& execution) {
     return {arguments_, scene_, problem_, solver_->planner, execution, svg_.empty() ? nullptr : &drawing_};
   }
@@ -107,19 +105,6 @@ void SolveCommand::solve(const Run& run) {
   if (scene_.map && !on_cells) add_map_walls(scene_);  // what the others plan among
   answer_ = solver_->kind->solve(request(run.execution()));
   answer_.world = std::move(world);
-  const bool judged_by_cells = answer_.problem.robot.kind != RobotKind::car;
-  if (scene_.map && answer_.verified && !judged_by_cells) confirm_on_map(run.execution());
-}
-
-/// Among the border walls of a map, blocked cells look as free inside as free ones: a path in there starts blocked.
-void SolveCommand::confirm_on_map(const Execution& execution) {
-  const double clearance = answer_.problem.clearance + answer_.problem.robot.radius;
-  std::span<const Vec2> path = answer_.path;
-  if (answer_.problem.robot.kind == RobotKind::car) path = path.first(1);  // its legs are arcs; inside is inside
-  if (verify_on_map(*scene_.map, path, {.clearance = clearance}, execution).verified) return;
-  answer_.outcome = Outcome::start_blocked;
-  answer_.verified = false;
-  answer_.path.clear();
 }
 
 void SolveCommand::write_outputs(const Run& run) {
@@ -146,12 +131,14 @@ void SolveCommand::draw(const Execution& execution) {
   if (solver_->kind->draw != nullptr) solver_->kind->draw(request(execution));
   if (scene_.map) drawing_.layers.insert(drawing_.layers.begin(), map_layer(*scene_.map));
   const bool has_roadmap = is_roadmap_planner(solver_->planner) || !drawing_.roadmap.states.empty();
-  const std::vector<double> turns = path_turns(answer_.problem.robot, answer_.states);
+  const StateList& states = answer_.refuted ? answer_.refuted->states : answer_.states;
+  const std::span<const Vec2> path = answer_.refuted ? answer_.refuted->path : answer_.path;
+  const std::vector<double> turns = path_turns(answer_.problem.robot, states);
   const bool plane = !drawing_.stage;
   const Picture picture{.scene = plane ? scene_ : *drawing_.stage,
                         .roadmap = has_roadmap && plane ? &drawing_.roadmap : nullptr,
                         .layers = drawing_.layers,
-                        .path = plane ? std::span<const Vec2>(answer_.path) : std::span<const Vec2>(),
+                        .path = plane ? path : std::span<const Vec2>(),
                         .path_turns = turns,
                         .start = plane ? plane_point(answer_.problem.start) : std::nullopt,
                         .goal = plane ? plane_point(answer_.problem.goal) : std::nullopt,

@@ -17,7 +17,6 @@
 #include "tools/solve_kind.hpp"
 #include "tools/terminal.hpp"
 #include "tools/world_files.hpp"
-#include "worlds/map_walls.hpp"
 #include "worlds/output_file_io.hpp"
 #include "worlds/verify.hpp"
 
@@ -50,11 +49,7 @@ void check_length(Verification& verification, const RecordedAnswer& answer) {
 }
 
 std::string verdict_json(const Verification& v) {
-  std::string violation = "null";
-  if (v.first_violation) {
-    violation = fmt::format(R"({{"leg": {}, "distance": {}, "obstacle": {}}})", v.first_violation->leg,
-                            json_number(v.first_violation->distance), json_string(v.first_violation->obstacle));
-  }
+  const std::string violation = v.first_violation ? violation_json(*v.first_violation) : "null";
   return fmt::format(
       "{{\"schema\": \"warren.verify/1\",\n \"verified\": {},\n \"length\": {},\n \"min_clearance\": {},\n "
       "\"first_violation\": {}}}\n",
@@ -82,12 +77,10 @@ int verify(const Arguments& arguments) {
   Run run(arguments);
   StageTimes seconds;
   const RecordedAnswer answer = read_answer(arguments.operand(1), run.execution());
-  Scene scene = load_world(arguments.operand(0), arguments, run.execution(), seconds);
+  const Scene scene = load_world(arguments.operand(0), arguments, run.execution(), seconds);
   check_same_world(answer, arguments.operand(1), scene, run.execution());
   if (answer.problem.robot) check_not_written(arguments, answer.problem.robot->table);
   const ProblemOptions asked = merged(options, answer.problem);
-  const RobotKind body = robot_of(scene, asked).kind;
-  if (body == RobotKind::car) add_map_walls(scene);  // the others are judged by the cells
   const SolveKind& kind = verifying_kind(scene, asked);
   Verdict verdict;
   {

@@ -241,8 +241,7 @@ void ArmSolve::finish_path() {
 
 void ArmSolve::verify() {
   const StageTimer timer(execution(), "verify", answer_.seconds.verify, path_.size());
-  const ArmVerification found =
-      verify_arm(request_.scene, problem_.table, path_, problem_.verify_options(), execution());
+  const Verification found = verify_arm(request_.scene, problem_.table, path_, problem_.verify_options(), execution());
   if (!found.verified) fail_verification(answer_, found.first_violation);
   answer_.verified = true;
   answer_.length = found.length;
@@ -291,8 +290,8 @@ Verdict recheck_arm(const Scene& scene, const ProblemOptions& options, const Rec
   const ArmProblem problem = arm_problem(scene, options, execution);
   Path<JointState> path;
   for (std::size_t i = 0; i < answer.states.size(); ++i) path.push_back(joint_state(answer.states[i]));
-  const ArmVerification found = verify_arm(scene, problem.table, path, problem.verify_options(), execution);
-  return {{found.verified, found.length, found.min_clearance, found.first_violation}, problem.general()};
+  const Verification found = verify_arm(scene, problem.table, path, problem.verify_options(), execution);
+  return {found, problem.general()};
 }
 
 }  // namespace

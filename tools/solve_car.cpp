@@ -46,7 +46,7 @@ VerifiedCar verified_car(const RobotSpec& robot) {
           .outline = robot.outline};
 }
 
-CarVerifyOptions verify_options(const PoseProblem& problem) {
+PoseVerifyOptions verify_options(const PoseProblem& problem) {
   return {.clearance = problem.clearance,
           .start = problem.start,
           .goal = problem.goal_pose(),
@@ -148,7 +148,7 @@ void CarSolve<Curve>::take(Solution<Se2> solution) {
 
 template <class Curve>
 bool CarSolve<Curve>::stands_free(const Se2& pose) const {
-  const CarVerifyOptions options{.clearance = problem_.clearance};
+  const PoseVerifyOptions options{.clearance = problem_.clearance};
   return verify_car(scene(), verified_car(problem_.robot), std::span(&pose, 1), options, execution()).verified;
 }
 
@@ -172,16 +172,16 @@ void CarSolve<Curve>::optimise() {
 template <class Curve>
 void CarSolve<Curve>::verify() {
   const StageTimer timer(execution(), "verify", answer_.seconds.verify, poses_.size());
-  const CarVerification verification =
+  const Verification verification =
       verify_car(scene(), verified_car(problem_.robot), poses_, verify_options(problem_), execution());
   if (!verification.verified) fail_verification(answer_, verification.first_violation);
   answer_.verified = true;
   answer_.length = verification.length;
   answer_.turn_rad = verification.turn_rad;
   answer_.min_clearance = verification.min_clearance;
-  answer_.figures.emplace_back("steering", json_string(name_of(problem_.robot.steering)));
-  answer_.figures.emplace_back("cusps", std::to_string(verification.cusps));
-  answer_.figures.emplace_back("reversed_length", json_number(verification.reversed));
+  answer_.path_figures.emplace_back("steering", json_string(name_of(problem_.robot.steering)));
+  answer_.path_figures.emplace_back("cusps", std::to_string(verification.cusps));
+  answer_.path_figures.emplace_back("reversed_length", json_number(verification.reversed));
   record_poses(answer_, poses_);
 }
 
@@ -235,9 +235,8 @@ Verdict recheck_car(const Scene& scene, const ProblemOptions& options, const Rec
                     const Execution& execution) {
   const PoseProblem problem = pose_problem(scene, options, body_words);
   const std::vector<Se2> path = recorded_poses(answer, body_words);
-  const CarVerification found =
-      verify_car(scene, verified_car(problem.robot), path, verify_options(problem), execution);
-  return {{found.verified, found.length, found.min_clearance, found.first_violation}, problem.general()};
+  const Verification found = verify_car(scene, verified_car(problem.robot), path, verify_options(problem), execution);
+  return {found, problem.general()};
 }
 
 }  // namespace

@@ -126,17 +126,22 @@ std::string solved_problems() {
   return listed(problems);
 }
 
-/// The first that fits and has planners.
-const SolveKind& first_kind(const std::vector<const SolveKind*>& fitting, const Scene& scene,
-                            const ProblemOptions& problem) {
-  const auto found =
-      std::find_if(fitting.begin(), fitting.end(), [](const SolveKind* kind) { return !kind->planners.empty(); });
-  if (found != fitting.end()) return **found;
+[[noreturn]] void refuse_problem(const std::vector<const SolveKind*>& fitting, const Scene& scene,
+                                 const ProblemOptions& problem) {
   const std::string where = problem.robot ? "--robot" : scene.source;
   const std::string what = fitting.empty()
                                ? fmt::format("a {} in such a world", kind_name(robot_of(scene, problem).kind))
                                : std::string{fitting.front()->problem};
   throw UsageError(fmt::format(no_planner, where, what, solved_problems()));
+}
+
+/// The first that fits and has planners.
+const SolveKind& first_kind(const std::vector<const SolveKind*>& fitting, const Scene& scene,
+                            const ProblemOptions& problem) {
+  const auto found =
+      std::find_if(fitting.begin(), fitting.end(), [](const SolveKind* kind) { return !kind->planners.empty(); });
+  if (found == fitting.end()) refuse_problem(fitting, scene, problem);
+  return **found;
 }
 
 /// Only maps have corridors and cells that are known.
@@ -196,7 +201,8 @@ const SolveKind& verifying_kind(const Scene& scene, const ProblemOptions& proble
   const std::vector<const SolveKind*> fitting = fitting_kinds(scene, robot_of(scene, problem));
   const auto found =
       std::find_if(fitting.begin(), fitting.end(), [](const SolveKind* kind) { return kind->verify != nullptr; });
-  return found != fitting.end() ? **found : first_kind(fitting, scene, problem);
+  if (found == fitting.end()) refuse_problem(fitting, scene, problem);
+  return **found;
 }
 
 bool planner_takes(PlannerKind planner, std::string_view option) {

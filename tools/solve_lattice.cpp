@@ -208,7 +208,7 @@ class LatticeSolve {
   void take(const LayerPath& path) {
     answer_.cost = path.cost;
     const auto figure = [&](const char* name, std::uint64_t n) {
-      answer_.figures.emplace_back(name, std::to_string(n));
+      answer_.path_figures.emplace_back(name, std::to_string(n));
     };
     figure("cells", path.steps + 1);
     figure("moves", path.steps);
@@ -242,9 +242,9 @@ class LatticeSolve {
     if (poses_.size() > 1 || !is_there(goal, start_pose(), !turns())) poses_.push_back(goal);
   }
 
-  Se2Verification judged(std::span<const Se2> poses, bool ends_too) const {
+  Verification judged(std::span<const Se2> poses, bool ends_too) const {
     if (turns()) {
-      Se2VerifyOptions options{.clearance = problem_.clearance};
+      PoseVerifyOptions options{.clearance = problem_.clearance};
       if (ends_too) {
         options.start = start_pose();
         options.goal = goal_pose();
@@ -255,19 +255,20 @@ class LatticeSolve {
     std::vector<Vec2> path;
     for (const Se2& pose : poses) path.push_back(pose.position());
     const VerifyOptions options{.clearance = problem_.clearance + problem_.robot.radius};
-    const Verification verification = verify_path(request_.scene, path, options, request_.execution);
-    return {verification.verified, verification.length, 0.0, verification.min_clearance - problem_.robot.radius,
-            verification.first_violation};
+    Verification verification = verify_path(request_.scene, path, options, request_.execution);
+    verification.min_clearance -= problem_.robot.radius;
+    return verification;
   }
 
   void verify() {
     const StageTimer timer(request_.execution, "verify", answer_.seconds.verify, answer_.path.size());
-    const Se2Verification verification = judged(poses_, layer_options_.kind == LayerKind::exact);
-    if (turns()) answer_.turn_rad = verification.turn_rad;
-    if (!verification.verified && layer_options_.kind == LayerKind::exact) {
-      fail_verification(answer_, verification.first_violation);
+    const Verification verification = judged(poses_, layer_options_.kind == LayerKind::exact);
+    if (!verification.verified) {
+      if (layer_options_.kind == LayerKind::exact) fail_verification(answer_, verification.first_violation);
+      return refute(answer_, verification);  // report 004's discs are no promise
     }
-    answer_.verified = verification.verified;  // report 004's discs are no promise
+    answer_.verified = true;
+    if (turns()) answer_.turn_rad = verification.turn_rad;
     answer_.length = verification.length;
     answer_.min_clearance = verification.min_clearance;
   }

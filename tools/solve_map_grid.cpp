@@ -121,7 +121,7 @@ class CellSolve {
   void take(const GridPath& path) {
     answer_.outcome = Outcome::solved;
     answer_.cost = path.cost;
-    answer_.figures.emplace_back("cells", std::to_string(path.cells.size()));
+    answer_.path_figures.emplace_back("cells", std::to_string(path.cells.size()));
     answer_.path = path_over_cells(map_, problem_.start, path.cells, problem_.goal);
   }
 

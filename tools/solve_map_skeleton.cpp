@@ -59,8 +59,8 @@ class SkeletonSolve {
     solution.seconds = plan.seconds;
     if (plan.outcome == Outcome::solved) {
       solution.path = path_over_cells(map_, problem_.start, plan.cells, problem_.goal);
-      answer_.figures.emplace_back("cells", std::to_string(plan.cells.size()));
-      answer_.figures.emplace_back("axis_clearance", json_number(plan.clearance * map_.cell));
+      answer_.path_figures.emplace_back("cells", std::to_string(plan.cells.size()));
+      answer_.path_figures.emplace_back("axis_clearance", json_number(plan.clearance * map_.cell));
     }
     take_solution(answer_, std::move(solution));
   }

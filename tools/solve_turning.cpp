@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::string_view body_words = "a turning body";
 
-Se2VerifyOptions verify_options(const PoseProblem& problem) {
+PoseVerifyOptions verify_options(const PoseProblem& problem) {
   return {.clearance = problem.clearance,
           .start = problem.start,
           .goal = problem.goal_pose(),
@@ -169,7 +169,7 @@ void TurningSolve::take(Solution<Se2> solution) {
 }
 
 bool TurningSolve::stands_free(const Se2& pose) const {
-  const Se2VerifyOptions options{.clearance = problem_.clearance};
+  const PoseVerifyOptions options{.clearance = problem_.clearance};
   return verify_se2(scene(), problem_.robot.outline, std::span(&pose, 1), options, execution()).verified;
 }
 
@@ -188,7 +188,7 @@ void TurningSolve::optimise() {
 
 void TurningSolve::verify() {
   const StageTimer timer(execution(), "verify", answer_.seconds.verify, path_.size());
-  const Se2Verification verification =
+  const Verification verification =
       verify_se2(scene(), problem_.robot.outline, path_, verify_options(problem_), execution());
   if (!verification.verified) fail_verification(answer_, verification.first_violation);
   answer_.verified = true;
@@ -228,8 +228,8 @@ Verdict recheck_turning(const Scene& scene, const ProblemOptions& options, const
                         const Execution& execution) {
   const PoseProblem problem = pose_problem(scene, options, body_words);
   const std::vector<Se2> path = recorded_poses(answer, body_words);
-  const Se2Verification found = verify_se2(scene, problem.robot.outline, path, verify_options(problem), execution);
-  return {{found.verified, found.length, found.min_clearance, found.first_violation}, problem.general()};
+  const Verification found = verify_se2(scene, problem.robot.outline, path, verify_options(problem), execution);
+  return {found, problem.general()};
 }
 
 }  // namespace

@@ -88,18 +88,19 @@ class AxisSolve {
     });
   }
 
-  Se2Verification verified(std::span<const Se2> path, const Se2VerifyOptions& options) const {
+  Verification verified(std::span<const Se2> path, const PoseVerifyOptions& options) const {
     return verify_se2(request_.scene, problem_.robot.outline, path, options, request_.execution);
   }
 
   void verify() {
     const StageTimer timer(request_.execution, "verify", answer_.seconds.verify, poses_.size());
-    const Se2VerifyOptions options{.clearance = problem_.clearance,
-                                   .start = problem_.start,
-                                   .goal = problem_.goal_pose(),
-                                   .any_heading = problem_.any_heading()};
-    const Se2Verification found = verified(poses_, options);
+    const PoseVerifyOptions options{.clearance = problem_.clearance,
+                                    .start = problem_.start,
+                                    .goal = problem_.goal_pose(),
+                                    .any_heading = problem_.any_heading()};
+    const Verification found = verified(poses_, options);
     if (!found.verified) fail_verification(answer_, found.first_violation);
+    answer_.verified = true;
     answer_.length = found.length;
     answer_.turn_rad = found.turn_rad;
     answer_.min_clearance = found.min_clearance;

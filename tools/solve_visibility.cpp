@@ -148,10 +148,10 @@ class SampledVisibilitySolve {
     const RecordedAnswer found{
         .problem = {}, .world_hash = {}, .length = {}, .file = {}, .path = answer.path, .states = {}};
     const Verification judged = verify_plane_answer(request_.scene, problem_, found, request_.execution).verification;
-    answer.verified = judged.verified;
+    if (!judged.verified) return refute(answer, judged);
+    answer.verified = true;
     answer.length = judged.length;
     answer.min_clearance = judged.min_clearance;
-    answer.refuted_by = judged.first_violation;
   }
 
   const SolveRequest& request_;

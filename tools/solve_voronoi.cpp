@@ -63,8 +63,8 @@ Answer solve_on_medial_axis(const SolveRequest& request) {
                   }));
     settle_blocked_ends(answer, request.scene, problem, request.execution);
     if (answer.outcome == Outcome::solved) {
-      answer.figures.emplace_back("axis_length", json_number(plan.axis_length));
-      answer.figures.emplace_back("axis_clearance", json_number(plan.axis_clearance));
+      answer.path_figures.emplace_back("axis_length", json_number(plan.axis_length));
+      answer.path_figures.emplace_back("axis_clearance", json_number(plan.axis_clearance));
     }
     if (request.drawing != nullptr && plan.axis) draw(*plan.axis, *request.drawing);
     verify_solved(answer, request.scene, problem, request.execution);

@@ -16,9 +16,9 @@ std::string plural(std::uint64_t count, std::string_view one, std::string_view m
 }
 
 std::string headline(const Answer& answer, const Palette& palette) {
+  if (answer.refuted) return palette.bad("refuted") + ": the path meets " + answer.refuted->violation.obstacle;
   switch (answer.outcome) {
     case Outcome::solved:
-      if (answer.refuted_by) return palette.bad("refuted") + ": the path meets " + answer.refuted_by->obstacle;
       return palette.good("solved") + " and verified";
     case Outcome::infeasible:
       return palette.bad("infeasible") + ": proved, no path exists";
@@ -110,7 +110,7 @@ std::string summary_of(const Answer& answer, const Palette& palette, std::span<c
     line(text, palette, "world", world_text(answer.world));
     line(text, palette, "planner", planner_text(answer));
   }
-  if (answer.verified || answer.refuted_by) add_path(text, answer, palette);
+  if (answer.verified) add_path(text, answer, palette);
   add_roadmap(text, answer, palette);
   add_times(text, answer, palette);
   for (const std::string& file : files_written) line(text, palette, "wrote", file);

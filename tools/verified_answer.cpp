@@ -57,6 +57,29 @@ void settle_blocked_ends(Answer& answer, const Scene& scene, const WallProblem& 
   if (start || goal) answer.outcome = Outcome::not_connected;
 }
 
+void claim_nothing(Answer& answer) {
+  answer.verified = false;
+  answer.optimal = false;
+  answer.length = 0.0;
+  answer.min_clearance = 0.0;
+  answer.raw_length.reset();
+  answer.cost.reset();
+  answer.turn_rad.reset();
+  answer.path_figures.clear();
+  answer.path.clear();
+  answer.states = {};
+}
+
+void refute(Answer& answer, const Verification& found) {
+  answer.refuted = RefutedPath{.violation = found.first_violation.value_or(Violation{}),
+                               .length = found.length,
+                               .cost = answer.cost,
+                               .path = std::move(answer.path),
+                               .states = std::move(answer.states)};
+  answer.outcome = Outcome::not_connected;
+  claim_nothing(answer);
+}
+
 void fail_verification(const Answer& answer, const std::optional<Violation>& found) {
   const Violation violation = found.value_or(Violation{});
   throw std::logic_error(fmt::format("the path of {} fails its verification at leg {}: {} is {} away", answer.planner,

@@ -27,6 +27,12 @@ void take_solution(Answer& answer, Solution<Vec2> solution);
 /// Planning keeps 1e-9 more room than it must, so a body that fits exactly is no blocked one: nobody proved that.
 void settle_blocked_ends(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution);
 
+/// Forgets all that an answer says of a path: only what a judge has verified is claimed.
+void claim_nothing(Answer& answer);
+
+/// The path of a method that promises nothing has failed its verification: it is told as refuted, and as nothing else.
+void refute(Answer& answer, const Verification& found);
+
 /// A planner's path that its judge refuses is a bug: throws std::logic_error with what the judge found.
 [[noreturn]] void fail_verification(const Answer& answer, const std::optional<Violation>& found);
 
@@ -38,15 +44,16 @@ void verify_solved(Answer& answer, const Scene& scene, const WallProblem& proble
 Verdict verify_plane_answer(const Scene& scene, const WallProblem& problem, const RecordedAnswer& answer,
                             const Execution& execution);
 
-/// Runs `solve`, which fills in `answer`; its seconds are solve_s, and whatever stops it is an answer.
+/// Runs `solve`, which fills in `answer`; its seconds are solve_s, and whatever stops it is an answer. One that is not
+/// verified claims nothing.
 template <class Solve>
 void answer_within_limits(Answer& answer, const Solve& solve) {
   const auto begin = std::chrono::steady_clock::now();
   const auto stop = [&](StopReason reason) {
     answer.outcome = Outcome::stopped;
     answer.stop_reason = reason;
-    answer.path.clear();
-    answer.states = {};
+    answer.refuted.reset();
+    claim_nothing(answer);
   };
   try {
     solve();
@@ -55,6 +62,7 @@ void answer_within_limits(Answer& answer, const Solve& solve) {
   } catch (const std::bad_alloc&) {
     stop(StopReason::memory);
   }
+  if (!answer.verified) claim_nothing(answer);
   answer.solve_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 

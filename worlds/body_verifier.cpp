@@ -13,14 +13,21 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// The way of the reference point about the point that the body turns about.
+Arc arc_of(const Leg& leg) {
+  const Vec2 aside{-leg.way.y, leg.way.x};
+  return {leg.a.position() + 0.5 * leg.way + (0.5 / std::tan(0.5 * leg.turn)) * aside, leg.a.position(), leg.turn};
+}
+
 }  // namespace
 
-BodyVerifier::BodyVerifier(const Scene& scene, std::span<const Vec2> outline, double clearance,
+BodyVerifier::BodyVerifier(const Scene& scene, std::span<const Vec2> outline, double clearance, double poses_off,
                            const Execution& execution)
     : obstacles_(scene),
       surroundings_(scene, obstacles_, execution),
       outline_(outline),
       clearance_(clearance),
+      poses_off_(poses_off),
       execution_(execution),
       confines_(scene.bounds),
       map_(scene.map ? &*scene.map : nullptr) {
@@ -40,14 +47,22 @@ BodyVerifier::BodyVerifier(const Scene& scene, std::span<const Vec2> outline, do
 std::vector<Box> BodyVerifier::boxes_of(const Leg& leg) const {
   const double around = (radius_ + reach_) * (1.0 + 1e-9) + rounding_;
   constexpr double most_parts = 65536.0;
-  const double parts = std::clamp(std::ceil(std::hypot(leg.way.x, leg.way.y) / (4.0 * around)), 1.0, most_parts);
-  const auto at = [&](double part) { return leg.a.position() + (part / parts) * leg.way; };
+  const bool bends = leg.is_arc && leg.turn != 0.0;
+  const Arc arc = bends ? arc_of(leg) : Arc{};
+  const double radius = bends ? distance(arc.center, arc.from) : 0.0;
+  const double length = bends ? radius * std::abs(leg.turn) : std::hypot(leg.way.x, leg.way.y);
+  const double parts = std::clamp(std::ceil(length / (4.0 * around)), 1.0, most_parts);
+  const double bulge = radius * (1.0 - std::cos(0.5 * leg.turn / parts)) * (1.0 + 1e-9);  // over a part's chord
+  const double margin = around + bulge + leg.blur;
+  const auto at = [&](double part) {
+    return bends ? arc.at(leg.turn * part / parts) : leg.a.position() + (part / parts) * leg.way;
+  };
   std::vector<Box> boxes;
   for (double part = 0.0; part < parts; ++part) {
     Box box;
     box.include(at(part));
     box.include(at(part + 1.0));
-    boxes.push_back({box.min - Vec2{around, around}, box.max + Vec2{around, around}});
+    boxes.push_back({box.min - Vec2{margin, margin}, box.max + Vec2{margin, margin}});
   }
   return boxes;
 }
@@ -134,14 +149,57 @@ LegReport BodyVerifier::check_straight(const Leg& leg, const Sides& sides, std::
   execution_.check();
   for (const NearSide& side : sides) {
     if (std::sqrt(exact::gap_sq(swept, box_of(side.segment))) > report.met) continue;
-    const double distance = distance_to_sweep(corners, leg.way, side.segment);
-    if (distance >= report.met) continue;
-    report.met = distance;
-    report.least = distance - rounding_;
-    if (report.least > clearance_ || (clearance_ > 0.0 && report.least >= clearance_)) continue;
-    report.violation = Violation{number, distance, surroundings_.name(side.number)};
+    note(distance_to_sweep(corners, leg.way, side.segment), rounding_ + leg.blur, side, number, report);
   }
   return report;
+}
+
+void BodyVerifier::note(double distance, double rounding, const NearSide& side, std::size_t number,
+                        LegReport& report) const {
+  if (distance >= report.met) return;
+  report.met = distance;
+  report.least = distance - rounding;
+  if (report.least > clearance_ || (clearance_ > 0.0 && report.least >= clearance_)) return;
+  report.violation = Violation{number, distance, surroundings_.name(side.number)};
+}
+
+/// The corners go along arcs, and in the body's eyes the side's ends do, the other way round: apart at the start, they
+/// come nearest where one of these is.
+double BodyVerifier::distance_to_arcs(const std::vector<Vec2>& corners, const Arc& way, const Segment& s) const {
+  double least = distance_to(corners, s);
+  Vec2 a = corners.back();
+  for (const Vec2 b : corners) {
+    least = std::min(least, distance(Arc{way.center, b, way.turn}, s));
+    for (const Vec2 end : {s.a, s.b}) least = std::min(least, distance(Arc{way.center, end, -way.turn}, {a, b}));
+    a = b;
+  }
+  return least;
+}
+
+/// No halving: exact but for rounding.
+LegReport BodyVerifier::check_arc(const Leg& leg, const Sides& sides, std::size_t number) const {
+  const std::vector<Vec2> corners = corners_at({leg.a, {}, 0.0}, 0.0);
+  const Arc way = arc_of(leg);
+  const double rounding = rounding_ + leg.blur + 1e-15 * distance(way.center, way.from);
+  LegReport report;
+  for (const NearSide& side : sides) {
+    execution_.check();
+    if (distance(way, side.segment) - radius_ > report.met) continue;
+    note(distance_to_arcs(corners, way, side.segment), rounding, side, number, report);
+  }
+  if (!report.violation && leaves_box(way)) {
+    report.violation = Violation{number, 0.0, "box: the way leaves the box of the obstacles"};
+  }
+  return report;
+}
+
+/// Between its ends, which are looked at as poses.
+bool BodyVerifier::leaves_box(const Arc& way) const {
+  if (confines_ || map_ != nullptr) return false;
+  const auto [low, high] = surroundings_.box().grown(2.0 * poses_off_);
+  const Segment sides[] = {
+      {low, {high.x, low.y}}, {{high.x, low.y}, high}, {high, {low.x, high.y}}, {{low.x, high.y}, low}};
+  return std::any_of(std::begin(sides), std::end(sides), [&](const Segment& s) { return distance(way, s) == 0.0; });
 }
 
 std::vector<BodyVerifier::Near> BodyVerifier::nearest_at(const Leg& leg, double t, double way, const Sides& sides,
@@ -201,7 +259,9 @@ LegReport BodyVerifier::check_turning(const Leg& leg, const Sides& sides, std::s
 
 LegReport BodyVerifier::check_pose(const Se2& pose, std::size_t number) const {
   const std::vector<Vec2> corners = corners_at({pose, {}, 0.0}, 0.0);
-  const auto bad = [&](std::string what) { return LegReport{0.0, 0.0, 0, Violation{number, 0.0, std::move(what)}}; };
+  const auto bad = [&](std::string what) {
+    return LegReport{.least = 0.0, .met = 0.0, .violation = Violation{number, 0.0, std::move(what)}};
+  };
   if (confines_) {
     for (const Vec2 p : corners) {
       if (!confines_->contains(p)) return bad(fmt::format("bounds: the corner {} {} is outside", p.x, p.y));
@@ -210,7 +270,7 @@ LegReport BodyVerifier::check_pose(const Se2& pose, std::size_t number) const {
     const std::optional<Cell> cell = cell_at(*map_, corners.front());
     if (!cell) return bad("map: the body is outside");
     if (map_->blocked.test(cell->x, cell->y)) return bad(fmt::format("cell {}, {}", cell->x, cell->y));
-  } else if (!surroundings_.box().contains({pose.x, pose.y})) {
+  } else if (!surroundings_.box().grown(poses_off_).contains({pose.x, pose.y})) {
     return bad(fmt::format("box: {} {} is outside the box of the obstacles", pose.x, pose.y));
   }
   for (std::size_t i = 0; i < ring_boxes_.size(); ++i) {

@@ -1,28 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One leg of a turning body against all sides of obstacles near it: the judge behind verify_se2, whose head tells the
-// method.
+// One leg of a body that moves in the plane against all sides of obstacles near it: the judge behind verify_se2, whose
+// head tells the method for bodies that turn while they go straight, and behind verify_car, whose head tells that of
+// arcs. Both rest on this: a body that is apart from an obstacle where a leg begins, neither inside of the other, and
+// whose outline does not meet the obstacle's on the leg, stays apart.
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "core/se2.hpp"
 #include "parallel/execution.hpp"
+#include "worlds/arc_distance.hpp"
+#include "worlds/leg_reports.hpp"
 #include "worlds/obstacles.hpp"
 #include "worlds/path_surroundings.hpp"
 #include "worlds/pose_runs.hpp"
-#include "worlds/verify.hpp"
 
 namespace warren {
-
-struct LegReport {
-  double least = std::numeric_limits<double>::infinity();  ///< proved
-  double met = std::numeric_limits<double>::infinity();    ///< where it was looked: never less than the truth
-  std::size_t looks = 0;                                   ///< how often a piece was halved
-  std::optional<Violation> violation;
-};
 
 /// What may be near a leg: sides of obstacles.
 using Sides = std::vector<NearSide>;
@@ -30,13 +25,15 @@ using Sides = std::vector<NearSide>;
 /// One body among the obstacles of a scene. Refers to all that it is given. Any number of threads may check.
 class BodyVerifier {
  public:
-  BodyVerifier(const Scene& scene, std::span<const Vec2> outline, double clearance, const Execution& execution);
+  /// outline: of a disc its middle alone, and then `clearance` includes its radius. poses_off: how far poses may stand
+  /// off the box of the obstacles, where nothing else confines them.
+  BodyVerifier(const Scene& scene, std::span<const Vec2> outline, double clearance, double poses_off,
+               const Execution& execution);
 
-  /// To be called before all else: with every leg that sides will be gathered for. Obstacles farther than `reach` from
-  /// these legs are left out.
-  void look_around(std::span<const Leg> legs, double reach);
-  /// Does any reach that is larger find the same?
-  bool looks_everywhere(std::span<const Se2> path) const;
+  /// What all legs come to: report_of(i, sides) says it of the i-th, with scratch for its sides, once or several times:
+  /// at first with the obstacles up to `reach` away, then with ever more until the least distance is known.
+  template <class ReportOf>
+  LegReport check_all(std::span<const Leg> legs, std::span<const Se2> path, double reach, const ReportOf& report_of);
   double least_reach() const { return 1.01 * clearance_ + radius_; }
 
   /// How far poses may lie beside the line that is checked in their place.
@@ -46,7 +43,8 @@ class BodyVerifier {
   void gather(const Leg& leg, Sides& sides) const { surroundings_.gather(boxes_of(leg), sides); }
   /// `number` is what a violation calls the leg.
   LegReport check(const Leg& leg, const Sides& sides, std::size_t number) const {
-    return leg.turn == 0.0 ? check_straight(leg, sides, number) : check_turning(leg, sides, number);
+    if (leg.turn == 0.0) return check_straight(leg, sides, number);
+    return leg.is_arc ? check_arc(leg, sides, number) : check_turning(leg, sides, number);
   }
   /// Is the pose inside a polygon, outside the bounds, off the box or among a map's blocked cells? Boundaries are
   /// check()'s.
@@ -57,10 +55,19 @@ class BodyVerifier {
     std::size_t side;  // of the leg's
     double distance;
   };
+  /// Obstacles farther than `reach` from these legs are left out from now on.
+  void look_around(std::span<const Leg> legs, double reach);
+  /// Does any reach that is larger find the same?
+  bool looks_everywhere(std::span<const Se2> path) const;
   std::vector<Box> boxes_of(const Leg& leg) const;
   LegReport check_straight(const Leg& leg, const Sides& sides, std::size_t number) const;
   LegReport check_turning(const Leg& leg, const Sides& sides, std::size_t number) const;
+  LegReport check_arc(const Leg& leg, const Sides& sides, std::size_t number) const;
+  /// Notes a distance, which is known but for `rounding`, if it is the least.
+  void note(double distance, double rounding, const NearSide& side, std::size_t number, LegReport& report) const;
+  bool leaves_box(const Arc& way) const;
   double distance_to_sweep(const std::vector<Vec2>& corners, Vec2 way, const Segment& s) const;
+  double distance_to_arcs(const std::vector<Vec2>& corners, const Arc& way, const Segment& s) const;
   std::vector<Vec2> corners_at(const Leg& leg, double t) const;
   bool body_holds(const std::vector<Vec2>& corners, Vec2 p) const;
   double distance_to(const std::vector<Vec2>& corners, const Segment& s) const;
@@ -75,6 +82,7 @@ class BodyVerifier {
   PathSurroundings surroundings_;
   std::span<const Vec2> outline_;
   double clearance_;
+  double poses_off_;
   const Execution& execution_;
   std::optional<Box> confines_;
   const OccupancyMap* map_;  // nullptr: the scene is none
@@ -86,5 +94,22 @@ class BodyVerifier {
   double finest_ = 0.0;    // pieces on which the body goes less are not halved
   double close_ = 0.0;     // how sharp the least clearance shall be
 };
+
+template <class ReportOf>
+LegReport BodyVerifier::check_all(std::span<const Leg> legs, std::span<const Se2> path, double reach,
+                                  const ReportOf& report_of) {
+  constexpr double widening = 8.0;
+  constexpr std::size_t legs_a_chunk = 16;
+  for (;; reach *= widening) {
+    look_around(legs, reach);
+    LegReport whole = report_legs(legs.size(), legs_a_chunk, execution_, [&](Range r) {
+      Sides scratch;
+      LegReport part;
+      for (std::size_t i = r.first; i < r.last; ++i) part.add(report_of(i, scratch));
+      return part;
+    });
+    if (whole.least <= reach || looks_everywhere(path)) return whole;
+  }
+}
 
 }  // namespace warren

@@ -89,6 +89,7 @@ CarBody::CarBody(const Scene& scene, const CarOptions& options)
   }
   box_ = scene.bounds ? *scene.bounds : tree_.obstacle_box();
   if (box_.empty()) throw InputError("world", "has neither obstacles nor bounds: nothing confines the car");
+  map_ = scene.map;
 }
 
 Se2 CarBody::at_unit(const std::array<double, 3>& u) const {
@@ -109,14 +110,18 @@ double CarBody::clearance(const Se2& a, double enough, Query& query) const {
 
 bool CarBody::confines(const Box& way) const {
   constexpr double rounding = 1e-11;
-  if (tree_.bounds()) return true;  // they are obstacles like the others
+  if (tree_.bounds() || map_) return true;  // they are obstacles like the others, and so is the rim of a map
   const Box room = box_.grown(rounding * (turning_radius_ + box_.width() + box_.height()));
   return room.contains(way.min) && room.contains(way.max);
 }
 
-bool CarBody::is_free(const Se2& a, Query& query) const {
-  return (tree_.bounds() || box_.contains(a.position())) && clearance(a, 0.0, query) > 0.0;
+bool CarBody::is_confined(const Se2& a) const {
+  if (!map_) return tree_.bounds() || box_.contains(a.position());
+  const std::optional<Cell> cell = cell_at(*map_, placed(a, outline_.front()));
+  return cell && !map_->blocked.test(cell->x, cell->y);
 }
+
+bool CarBody::is_free(const Se2& a, Query& query) const { return is_confined(a) && clearance(a, 0.0, query) > 0.0; }
 
 MotionVerdict CarBody::judge(const SteeringCurve& curve, Query& query) const {
   if (!confines(curve.box())) return MotionVerdict::blocked;

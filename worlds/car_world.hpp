@@ -6,7 +6,9 @@
 // Every motion is certified free all along (worlds/certified_motion.hpp): on a straight piece each point of the body
 // goes as far as the reference point, on an arc farther by the ratio of its distance from the turning centre to the
 // turning radius (of a disc, which looks the same however it is turned, the middle alone counts). Without bounds the
-// reference point stays in the obstacles' box, on the curve too.
+// reference point stays in the obstacles' box, on the curve too. On a map the body moves among the borders between free
+// and blocked cells, which the scene has as walls (worlds/map_walls.hpp): as it touches none of them, it is among free
+// cells wholly or not at all.
 // The metric is the curve's length; for Dubins curves it has a direction. The chord in (x, y, rho cos theta, rho sin
 // theta), shortened by sqrt(2), never exceeds it.
 #pragma once
@@ -65,6 +67,8 @@ class CarBody {
 
  private:
   bool confines(const Box& way) const;
+  /// Is the body where it may be, if it touches no obstacle?
+  bool is_confined(const Se2& a) const;
 
   std::vector<Vec2> outline_;  // of the disc: its middle
   double turning_radius_;
@@ -73,6 +77,7 @@ class CarBody {
   double resolution_;
   ObstacleTree tree_;
   Box box_;
+  std::optional<OccupancyMap> map_;
 };
 
 /// Curve: DubinsCurve or ReedsSheppCurve.

@@ -21,12 +21,16 @@ struct PoseRun {
   friend constexpr bool operator==(const PoseRun&, const PoseRun&) = default;
 };
 
-/// The run as one leg: from pose a, `way` and `turn` further, the shorter way where it is a single leg.
+/// A motion from pose a, `way` and `turn` further: the reference point goes straight while the body turns evenly, or
+/// the body turns about a point, as a car's does.
 struct Leg {
   Se2 a;
   Vec2 way;
   double turn;
+  bool is_arc = false;
+  double blur = 0.0;  ///< how far points of the body may be off that motion
 };
+/// The run as one leg, the shorter way round where it is a single one.
 Leg leg_of(std::span<const Se2> path, const PoseRun& run);
 
 /// The turn from a to b by which the body turns least; half turns may come out either way.

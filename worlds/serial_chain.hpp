@@ -11,34 +11,11 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
+#include "worlds/dh_table.hpp"
+
 namespace warren {
-
-using Vec3 = Eigen::Vector3d;
-
-inline constexpr std::size_t most_joints = 6;
-/// Joint angles in radians; those that a shorter chain lacks are 0.
-using JointState = std::array<double, most_joints>;
-
-enum class DhConvention : std::uint8_t { standard, modified };
-
-/// A row of the table: lengths in the world's unit, angles in radians. Limits are of q, without the offset.
-struct DhJoint {
-  double d = 0.0;
-  double a = 0.0;
-  double alpha_rad = 0.0;
-  double low_rad = 0.0;   ///< finite
-  double high_rad = 0.0;  ///< >= low_rad
-  double offset_rad = 0.0;
-};
-
-struct DhTable {
-  DhConvention convention = DhConvention::standard;
-  std::vector<DhJoint> joints;                             ///< 1 .. 6
-  Eigen::Isometry3d tool = Eigen::Isometry3d::Identity();  ///< from the last frame
-};
 
 /// Points of a chain: 0 is the base, i the origin of frame i, joint_count() + 1 the tool's.
 inline constexpr std::size_t most_points = most_joints + 2;

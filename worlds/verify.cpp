@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -11,17 +12,19 @@
 #include "parallel/chunks.hpp"
 #include "worlds/contact_walk.hpp"
 #include "worlds/exact_segments.hpp"
+#include "worlds/judged_input.hpp"
 #include "worlds/leg_boxes.hpp"
+#include "worlds/leg_reports.hpp"
 #include "worlds/obstacles.hpp"
 #include "worlds/verify_comparison.hpp"
+#include "worlds/verify_map.hpp"
 #include "worlds/verify_obstacles.hpp"
 
 namespace warren {
 namespace {
 
-// Obstacle numbers past all real ones, in the order in which they are reported on one leg.
+// Past all real numbers of obstacles: on one leg reported after them.
 constexpr std::size_t box_number = std::numeric_limits<std::size_t>::max() - 2;
-constexpr std::size_t goal_number = box_number + 1;
 
 /// One verification in progress: the path's legs among the scene's obstacles.
 class Verifier {
@@ -39,13 +42,10 @@ class Verifier {
     check_contacts(tally);
     check_insides(tally);
     check_box(tally);
-    check_goal(tally);
-    Verification result;
+    LegReport legs{.least = tally.least};
+    if (tally.violation != no_violation) legs.violation = describe(tally);
+    Verification result = verdict_on(legs, wrong_start(path_, options_), wrong_goal(path_, options_));
     result.length = legs_.length();
-    result.min_clearance = tally.least;
-    result.first_violation = start_violation();
-    if (!result.first_violation && tally.violation != no_violation) result.first_violation = describe(tally);
-    result.verified = !result.first_violation;
     return result;
   }
 
@@ -87,24 +87,11 @@ class Verifier {
     }
   }
 
-  void check_goal(Tally& tally) const {
-    if (!options_.goal || norm(path_.back() - *options_.goal) <= options_.start_tolerance) return;
-    tally.violation = std::min(tally.violation, LegContact{leg_count() - 1, goal_number});
-  }
-
-  std::optional<Violation> start_violation() const {
-    if (!options_.start || norm(path_.front() - *options_.start) <= options_.start_tolerance) return std::nullopt;
-    return Violation{0, norm(path_.front() - *options_.start), place("start", *options_.start)};
-  }
-
-  static std::string place(std::string_view what, Vec2 p) { return fmt::format("{}: {} {}", what, p.x, p.y); }
-
   Violation describe(const Tally& tally) const {
     const auto [leg, number] = tally.violation;
     if (number == box_number) {
       return {leg, 0.0, fmt::format("box: {} {} {} {}", box_.min.x, box_.min.y, box_.max.x, box_.max.y)};
     }
-    if (number == goal_number) return {leg, norm(path_.back() - *options_.goal), place("goal", *options_.goal)};
     const double d = tally.least == 0.0 && leg == 0 && is_inside(number)
                          ? 0.0
                          : exact::distance({path_[leg], path_[leg + 1]}, obstacles_.segment(number));
@@ -149,19 +136,28 @@ void check_input(std::span<const Vec2> path, const VerifyOptions& options, const
   if (const std::size_t i = first_misfit(path, execution); i < path.size()) {
     throw InputError(fmt::format("path point {}", i), "expected finite coordinates of at most 1e60");
   }
-  if (!(options.clearance >= 0.0) || !(options.clearance <= largest_coordinate)) {
-    throw InputError("clearance", "expected a finite number >= 0", fmt::format("{}", options.clearance));
-  }
-  if (!(options.start_tolerance >= 0.0)) {
-    throw InputError("start_tolerance", "expected a number >= 0", fmt::format("{}", options.start_tolerance));
-  }
+  check_not_negative("clearance", options.clearance);
+  check_not_negative("tolerance", options.tolerance);
 }
 
 }  // namespace
 
+std::optional<Violation> wrong_start(std::span<const Vec2> path, const VerifyOptions& options) {
+  if (!options.start || norm(path.front() - *options.start) <= options.tolerance) return std::nullopt;
+  return elsewhere("start", std::array{options.start->x, options.start->y}, norm(path.front() - *options.start), 0);
+}
+
+std::optional<Violation> wrong_goal(std::span<const Vec2> path, const VerifyOptions& options) {
+  if (!options.goal || norm(path.back() - *options.goal) <= options.tolerance) return std::nullopt;
+  return elsewhere("goal", std::array{options.goal->x, options.goal->y}, norm(path.back() - *options.goal),
+                   legs_of(path.size()) - 1);
+}
+
 Verification verify_path(const Scene& scene, std::span<const Vec2> path, const VerifyOptions& options,
                          const Execution& execution) {
   check_input(path, options, execution);
+  check_plane_scene(scene, execution);
+  if (scene.map) return verify_on_map(*scene.map, path, options, execution);
   if (path.size() > 1) return Verifier(scene, path, options, execution).run();
   const Vec2 twice[] = {path.front(), path.front()};
   return Verifier(scene, twice, options, execution).run();

@@ -6,15 +6,14 @@
 // sample of them; a second pass only where no wall comes within some leg lengths of the path.
 #pragma once
 
-#include <cstddef>
-#include <limits>
+#include <cstdint>
 #include <optional>
 #include <span>
-#include <string>
 
 #include "core/types.hpp"
 #include "parallel/execution.hpp"
 #include "worlds/scene.hpp"
+#include "worlds/verification.hpp"
 
 namespace warren {
 
@@ -25,26 +24,19 @@ struct VerifyOptions {
   Contact contact = Contact::blocked;  ///< with clearance 0: touching counts as blocked, or only crossing
   std::optional<Vec2> start = {};      ///< where the path must begin; nullopt: anywhere
   std::optional<Vec2> goal = {};       ///< where it must end
-  double start_tolerance = 0.0;        ///< distance from start and goal that still counts as there; >= 0
+  double tolerance = 0.0;              ///< distance from start and goal that still counts as there; >= 0
 };
 
-struct Violation {
-  std::size_t leg = 0;    ///< 0-based: from path[leg] to path[leg + 1]
-  double distance = 0.0;  ///< between that leg and the obstacle; 0 inside a polygon or outside the box
-  std::string obstacle;  ///< e.g. "wall 17: 1.5 0.5 1.5 1.5", "polygon 2: ...", "bounds: ...", "box: ...", "start: ..."
-};
-
-struct Verification {
-  bool verified = false;
-  double length = 0.0;                                             ///< Euclidean
-  double min_clearance = std::numeric_limits<double>::infinity();  ///< least distance of the path to any obstacle
-  std::optional<Violation> first_violation;  ///< the one with the smallest leg, then the smallest wall number
-};
-
-/// Point or disc among the scene's walls, polygons and bounds; spheres are not looked at. The path has at least one
-/// point, all finite, fewer than 500 million (InputError otherwise); a single point is a leg of length zero. The points
-/// must lie in the box of walls and polygons, or in the bounds. The result is the same for any number of threads.
+/// Point or disc among the scene's walls, polygons and bounds; on a map by its cells (worlds/verify_map), where contact
+/// can't be allowed. Throws InputError for scenes that hold anything else, or nothing (worlds/judged_input). The path
+/// has at least one point, all finite, fewer than 500 million (InputError otherwise); a single point is a leg of length
+/// zero. The points must lie in the box of walls and polygons, or in the bounds. The result is the same for any number
+/// of threads.
 Verification verify_path(const Scene& scene, std::span<const Vec2> path, const VerifyOptions& options,
                          const Execution& execution);
+
+/// What the ends of a path of points say that begins or ends elsewhere; nothing where they are as asked for.
+std::optional<Violation> wrong_start(std::span<const Vec2> path, const VerifyOptions& options);
+std::optional<Violation> wrong_goal(std::span<const Vec2> path, const VerifyOptions& options);
 
 }  // namespace warren

@@ -9,12 +9,11 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "parallel/chunks.hpp"
+#include "worlds/judged_input.hpp"
+#include "worlds/leg_reports.hpp"
 
 namespace warren {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 using Point = std::array<double, 3>;
 using Matrix = std::array<std::array<double, 4>, 4>;
@@ -105,13 +104,6 @@ struct Pair {
   std::size_t capsule;
   Kind kind;
   std::size_t other;
-};
-
-struct LegReport {
-  double least = infinity;  // proved
-  double met = infinity;    // where it was looked: never less than the truth
-  std::size_t looks = 0;
-  std::optional<Violation> violation;
 };
 
 class ArmVerifier {
@@ -289,11 +281,11 @@ std::optional<Violation> ArmVerifier::outside_limits(const JointState& q, std::s
   return std::nullopt;
 }
 
-bool is_there(const JointState& q, const JointState& wanted, double tolerance) {
-  for (std::size_t j = 0; j < q.size(); ++j) {
-    if (std::abs(q[j] - wanted[j]) > tolerance) return false;
-  }
-  return true;
+/// The largest difference of a joint, in radians.
+double difference(const JointState& a, const JointState& b) {
+  double most = 0.0;
+  for (std::size_t j = 0; j < a.size(); ++j) most = std::max(most, std::abs(a[j] - b[j]));
+  return most;
 }
 
 void check_input(std::span<const JointState> path, const ArmVerifyOptions& options) {
@@ -303,10 +295,9 @@ void check_input(std::span<const JointState> path, const ArmVerifyOptions& optio
     if (std::all_of(path[i].begin(), path[i].end(), fits)) continue;
     throw InputError(fmt::format("path: state {}", i), "must be numbers of at most 1e60");
   }
-  for (const double length : {options.clearance, options.radius}) {
-    if (length >= 0.0 && length <= largest_coordinate) continue;
-    throw InputError("clearance and radius", "must be numbers from 0 to 1e60", fmt::format("{}", length));
-  }
+  check_not_negative("clearance", options.clearance);
+  check_not_negative("robot: radius", options.radius);
+  check_not_negative("tolerance", options.tolerance);
 }
 
 double joint_length(std::span<const JointState> path) {
@@ -319,41 +310,44 @@ double joint_length(std::span<const JointState> path) {
   return sum;
 }
 
+std::optional<Violation> wrong_start(std::span<const JointState> path, const ArmVerifyOptions& options) {
+  if (!options.start) return std::nullopt;
+  const double off = difference(path.front(), *options.start);
+  if (off <= options.tolerance) return std::nullopt;
+  return elsewhere("start", *options.start, off, 0);
+}
+
+std::optional<Violation> wrong_goal(std::span<const JointState> path, const ArmVerifyOptions& options,
+                                    const ArmVerifier& arm) {
+  const std::size_t last = legs_of(path.size()) - 1;
+  if (options.goal) {
+    const double off = difference(path.back(), *options.goal);
+    if (!(off <= options.tolerance)) return elsewhere("goal", *options.goal, off, last);
+  }
+  if (!options.goal_place) return std::nullopt;
+  const Point place{options.goal_place->x(), options.goal_place->y(), options.goal_place->z()};
+  const double off = size_of(minus(arm.tool_at(path.back()), place));
+  if (off <= options.tolerance) return std::nullopt;
+  return elsewhere("goal", place, off, last);
+}
+
 }  // namespace
 
-ArmVerification verify_arm(const Scene& scene, const DhTable& table, std::span<const JointState> path,
-                           const ArmVerifyOptions& options, const Execution& execution) {
+Verification verify_arm(const Scene& scene, const DhTable& table, std::span<const JointState> path,
+                        const ArmVerifyOptions& options, const Execution& execution) {
   check_input(path, options);
+  check_space_scene(scene);
   const ArmVerifier arm(scene, table, options, execution);
-  const std::size_t legs = std::max<std::size_t>(path.size() - 1, 1);
-  std::vector<LegReport> reports(legs);
-  for_chunks(legs, 1, execution, [&](Range r) {
+  const LegReport legs = report_legs(legs_of(path.size()), 1, execution, [&](Range r) {
     const JointState& a = path[r.first];
     const JointState& b = path[std::min(r.first + 1, path.size() - 1)];
-    LegReport& report = reports[r.first];
+    LegReport report;
     report.violation = arm.outside_limits(a, r.first);
     if (!report.violation) report.violation = arm.outside_limits(b, r.first);
-    if (!report.violation) report = arm.check(a, b, r.first);
+    return report.violation ? report : arm.check(a, b, r.first);
   });
-
-  ArmVerification result;
-  if (options.start && !is_there(path.front(), *options.start, options.tolerance)) {
-    result.first_violation = Violation{0, 0.0, "start: the path begins elsewhere"};
-  }
-  for (const LegReport& report : reports) {
-    result.min_clearance = std::min(result.min_clearance, report.least);
-    if (report.violation && !result.first_violation) result.first_violation = report.violation;
-  }
-  bool arrived = !options.goal || is_there(path.back(), *options.goal, options.tolerance);
-  if (options.goal_place) {
-    const Vec3& place = *options.goal_place;
-    const Point tool = arm.tool_at(path.back());
-    arrived = arrived && size_of(minus(tool, {place.x(), place.y(), place.z()})) <= options.tolerance;
-  }
-  if (!arrived && !result.first_violation)
-    result.first_violation = Violation{legs - 1, 0.0, "goal: the path ends elsewhere"};
+  Verification result = verdict_on(legs, wrong_start(path, options), wrong_goal(path, options, arm));
   result.length = joint_length(path);
-  result.verified = !result.first_violation;
   return result;
 }
 

@@ -9,14 +9,13 @@
 // obstacle is measured a few times.
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <span>
 
 #include "parallel/execution.hpp"
+#include "worlds/dh_table.hpp"
 #include "worlds/scene.hpp"
-#include "worlds/serial_chain.hpp"
-#include "worlds/verify.hpp"
+#include "worlds/verification.hpp"
 
 namespace warren {
 
@@ -30,20 +29,13 @@ struct ArmVerifyOptions {
   double tolerance = 1e-9;               ///< of start, goal and limits: an angle or distance that still counts as there
 };
 
-struct ArmVerification {
-  bool verified = false;
-  double length = 0.0;  ///< Euclidean, in joint space: radians
-  /// Of the arm along the path: a lower bound, within a hundredth of the links' radius; where the path is not free, the
-  /// least distance met. Infinite where there is nothing to meet.
-  double min_clearance = std::numeric_limits<double>::infinity();
-  std::optional<Violation> first_violation;  ///< on the smallest leg
-};
-
-/// The arm among the scene's spheres and boxes (nothing else is looked at), within its limits. The path has at least
-/// one state, all finite (InputError otherwise); a single state is a leg of length zero. A leg that runs within a
-/// millionth of the arm's size of an obstacle, beyond the clearance, may count as not free. The same for any number of
-/// threads.
-ArmVerification verify_arm(const Scene& scene, const DhTable& table, std::span<const JointState> path,
-                           const ArmVerifyOptions& options, const Execution& execution);
+/// The arm among the scene's spheres and boxes, or in free space, within its limits. Throws InputError for scenes with
+/// walls, polygons, bounds or a map: these have no height (worlds/judged_input). The path has at least one state, all
+/// finite (InputError otherwise); a single state is a leg of length zero. A leg that runs within a millionth of the
+/// arm's size of an obstacle, beyond the clearance, may count as not free. min_clearance is of the arm along the path:
+/// a lower bound, within a hundredth of the links' radius; where the path is not free, the least distance met. The same
+/// for any number of threads.
+Verification verify_arm(const Scene& scene, const DhTable& table, std::span<const JointState> path,
+                        const ArmVerifyOptions& options, const Execution& execution);
 
 }  // namespace warren

@@ -10,6 +10,8 @@
 
 #include "core/error.hpp"
 #include "worlds/exact_segments.hpp"
+#include "worlds/judged_input.hpp"
+#include "worlds/leg_reports.hpp"
 
 namespace warren {
 namespace {
@@ -86,52 +88,46 @@ Nearest nearest_to(const Closed& closed, const Segment& leg, double enough, cons
   return nearest;
 }
 
-void check(std::span<const Vec2> path) {
+void check(std::span<const Vec2> path, const VerifyOptions& options) {
   if (path.empty()) throw InputError("path", "has no points");
   for (const Vec2 p : path) {
     if (!(std::abs(p.x) <= largest_coordinate && std::abs(p.y) <= largest_coordinate)) {
       throw InputError("path", "has a point that is not finite");
     }
   }
-}
-
-std::optional<Violation> wrong_end(std::span<const Vec2> path, const VerifyOptions& options) {
-  if (options.start && distance(path.front(), *options.start) > options.start_tolerance) {
-    return Violation{0, distance(path.front(), *options.start), "start: the path begins elsewhere"};
+  check_not_negative("clearance", options.clearance);
+  check_not_negative("tolerance", options.tolerance);
+  if (options.contact == Contact::allowed) {
+    throw InputError("contact", "can't be allowed on a map: a blocked cell is a closed square");
   }
-  if (options.goal && distance(path.back(), *options.goal) > options.start_tolerance) {
-    return Violation{path.size() < 2 ? 0 : path.size() - 2, distance(path.back(), *options.goal),
-                     "goal: the path ends elsewhere"};
-  }
-  return std::nullopt;
 }
 
 }  // namespace
 
 Verification verify_on_map(const OccupancyMap& map, std::span<const Vec2> path, const VerifyOptions& options,
                            const Execution& execution) {
-  check(path);
-  Verification result;
-  result.first_violation = wrong_end(path, options);
+  check(path, options);
   const auto first_cell = cell_at(map, path.front());
   const Closed closed(map, first_cell && !map.water.empty() && map.water.test(first_cell->x, first_cell->y));
   constexpr double rounding = 1e-9;  // of coordinates turned into cells
   const double needed = options.clearance / map.cell * (1.0 - rounding);
-  double least = std::numeric_limits<double>::infinity();
-  const std::size_t legs = std::max<std::size_t>(path.size() - 1, 1);
-  for (std::size_t leg = 0; leg < legs; ++leg) {
-    const Vec2 a = path[leg];
-    const Vec2 b = path[std::min(leg + 1, path.size() - 1)];
-    result.length += distance(a, b);
-    const Nearest nearest = nearest_to(closed, {map_point(map, a), map_point(map, b)}, least, execution);
-    least = std::min(least, nearest.distance);
-    const bool is_free = nearest.distance > 0.0 && nearest.distance >= needed;
-    if (is_free || (result.first_violation && result.first_violation->leg <= leg)) continue;
-    result.first_violation =
-        Violation{leg, nearest.distance * map.cell, fmt::format("cell {}, {}", nearest.x, nearest.y)};
-  }
-  result.min_clearance = least * map.cell;
-  result.verified = !result.first_violation;
+  const auto leg_at = [&](std::size_t i) { return Segment{path[i], path[std::min(i + 1, path.size() - 1)]}; };
+  constexpr std::size_t legs_a_chunk = 256;
+  LegReport legs = report_legs(legs_of(path.size()), legs_a_chunk, execution, [&](Range r) {
+    LegReport report;
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      const auto [a, b] = leg_at(i);
+      const Nearest nearest = nearest_to(closed, {map_point(map, a), map_point(map, b)}, report.least, execution);
+      report.least = std::min(report.least, nearest.distance);
+      const bool is_free = nearest.distance > 0.0 && nearest.distance >= needed;
+      if (is_free || report.violation) continue;
+      report.violation = Violation{i, nearest.distance * map.cell, fmt::format("cell {}, {}", nearest.x, nearest.y)};
+    }
+    return report;
+  });
+  legs.least *= map.cell;
+  Verification result = verdict_on(legs, wrong_start(path, options), wrong_goal(path, options));
+  for (std::size_t i = 0; i < legs_of(path.size()); ++i) result.length += distance(leg_at(i).a, leg_at(i).b);
   return result;
 }
 

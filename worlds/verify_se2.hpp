@@ -10,42 +10,36 @@
 // spot are judged as one (worlds/pose_runs), so what is near a path over a lattice is looked at once.
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <span>
 
 #include "core/se2.hpp"
 #include "parallel/execution.hpp"
 #include "worlds/scene.hpp"
-#include "worlds/verify.hpp"
+#include "worlds/verification.hpp"
 
 namespace warren {
 
-struct Se2VerifyOptions {
+struct PoseVerifyOptions {
   double clearance = 0.0;         ///< room around the body all along the path; >= 0; 0: touching is blocked
   std::optional<Se2> start = {};  ///< where the path must begin; nullopt: anywhere
   std::optional<Se2> goal = {};   ///< where it must end
   bool any_heading = false;       ///< the goal's angle doesn't matter
-  double tolerance = 1e-9;        ///< of start and goal: distance and angle that still count as there
+  double tolerance = 1e-9;        ///< of start and goal: distance and angle that still count as there; >= 0
 };
 
-struct Se2Verification {
-  bool verified = false;
-  double length = 0.0;    ///< of the reference point's curve
-  double turn_rad = 0.0;  ///< sum of the turns
-  /// Of the body along the path: a lower bound, within a thousandth of the body's radius; where the path is not free,
-  /// the least distance met.
-  double min_clearance = std::numeric_limits<double>::infinity();
-  std::optional<Violation> first_violation;  ///< on the smallest leg
-};
+/// The body among the scene's walls, polygons and bounds; on a map among its cells, whose borders it reads from the
+/// bits. Throws InputError for scenes that hold anything else, or nothing (worlds/judged_input). On a leg the reference
+/// point goes straight while the body turns evenly the shorter way; a leg of half a turn must be free both ways. The
+/// path has at least one pose, all finite (InputError otherwise); a single pose is a leg of length zero. A turning leg
+/// that runs within some millionths of the body's radius of an obstacle, beyond the clearance, may count as not free.
+/// min_clearance is of the body along the path: a lower bound, within a thousandth of the body's radius; where the path
+/// is not free, the least distance met. The same for any number of threads.
+Verification verify_se2(const Scene& scene, std::span<const Vec2> outline, std::span<const Se2> path,
+                        const PoseVerifyOptions& options, const Execution& execution);
 
-/// The body among the scene's walls, polygons and bounds (spheres are not looked at); on a map over its free cells,
-/// whose borders it reads from the bits: the walls of such a scene are not looked at. On a leg the reference point goes
-/// straight while the body turns evenly the shorter way; a leg of half a turn must be free both ways. The path has at
-/// least one pose, all finite (InputError otherwise); a single pose is a leg of length zero. A turning leg that
-/// runs within some millionths of the body's radius of an obstacle, beyond the clearance, may count as not free. The
-/// same for any number of threads.
-Se2Verification verify_se2(const Scene& scene, std::span<const Vec2> outline, std::span<const Se2> path,
-                           const Se2VerifyOptions& options, const Execution& execution);
+/// What the ends of a path of poses say that begins or ends elsewhere; nothing where they are as asked for.
+std::optional<Violation> wrong_start(std::span<const Se2> path, const PoseVerifyOptions& options);
+std::optional<Violation> wrong_goal(std::span<const Se2> path, const PoseVerifyOptions& options);
 
 }  // namespace warren

@@ -221,7 +221,7 @@ double verified_length(const Question& q, const ArmRun& run, const std::string& 
   ArmVerifyOptions options{.radius = q.radius};
   options.start = q.start;
   options.goal = q.goal;
-  const ArmVerification found = verify_arm(q.scene, q.table, run.path, options, one_thread());
+  const Verification found = verify_arm(q.scene, q.table, run.path, options, one_thread());
   if (!found.verified) throw std::runtime_error(name + ": the path is not verified");
   return found.length;
 }

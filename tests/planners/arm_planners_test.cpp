@@ -38,7 +38,7 @@ void expect_verified(const Question& q, const Path<JointState>& path) {
   ArmVerifyOptions options;
   options.start = q.start;
   options.goal = q.goal;
-  const ArmVerification found = verify_arm(q.scene, q.table, path, options, {});
+  const Verification found = verify_arm(q.scene, q.table, path, options, {});
   EXPECT_TRUE(found.verified) << (found.first_violation ? found.first_violation->obstacle : "");
 }
 

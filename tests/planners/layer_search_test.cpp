@@ -76,7 +76,7 @@ TEST(LayerSearch, ExactLayersOfTheCourseSceneHaveItsFiguresAndSafePaths) {
       EXPECT_EQ(path.steps, 558U);
       EXPECT_EQ(path.turns, 126U);
     }
-    const Se2Verification verified = verify_se2(scene, square(25).outline, poses_of(layers, path), {}, {});
+    const Verification verified = verify_se2(scene, square(25).outline, poses_of(layers, path), {}, {});
     EXPECT_TRUE(verified.verified);
   }
 }
@@ -183,7 +183,7 @@ TEST(LayerSearch, CostsEqualAPlainDijkstraAndPathsAreVerified) {
     ++found;
     EXPECT_NEAR(path.cost, expected, 1e-9);
     EXPECT_EQ(path.states.front(), start);
-    const Se2Verification verified = verify_se2(scene, robot.outline, poses_of(layers, path), {}, {});
+    const Verification verified = verify_se2(scene, robot.outline, poses_of(layers, path), {}, {});
     EXPECT_TRUE(verified.verified) << verified.first_violation.value_or(Violation{}).obstacle;
   }
   EXPECT_GT(found, 5);

@@ -63,8 +63,8 @@ struct NamedPlanner {
 const std::vector<NamedPlanner> planners = {{"rrt", rrt<Se2World>}, {"rrt-connect", rrt_connect<Se2World>}};
 
 void expect_verified(const Scene& scene, const std::vector<Vec2>& outline, const Path<Se2>& path,
-                     const Se2VerifyOptions& options) {
-  const Se2Verification v = verify_se2(scene, outline, path, options, {});
+                     const PoseVerifyOptions& options) {
+  const Verification v = verify_se2(scene, outline, path, options, {});
   EXPECT_TRUE(v.verified) << v.first_violation.value_or(Violation{}).obstacle;
 }
 

@@ -152,13 +152,17 @@ TEST(Polygons, SampledEdgesAreToldWhereTheyAreWrong) {
   const std::string dense = shared_world("vg-dense.scene");
   if (dense.empty()) GTEST_SKIP() << "the shared worlds are not here";
   const Json answer = json_of({"solve", dense, "--sampled-edges", "0.01"}, 1);
-  EXPECT_NEAR(answer["length"], 1.187952, 1e-6);
+  EXPECT_EQ(answer["status"], "refuted");
   EXPECT_EQ(answer["verified"], false);
+  EXPECT_TRUE(answer["length"].is_null());
+  EXPECT_EQ(answer["path"], Json::array());
+  EXPECT_NEAR(answer["refuted"]["length"], 1.187952, 1e-6);
   EXPECT_EQ(answer["roadmap"]["edges"], 271);
   Json edges = Json::array();
   for (const Json& wrong : answer["wrong_edges"]) edges.push_back(wrong["edge"]);
   EXPECT_EQ(edges, Json::parse("[[1, 35], [15, 28], [20, 52]]"));
-  EXPECT_FALSE(answer["first_violation"].is_null());
+  EXPECT_FALSE(answer["refuted"]["first_violation"].is_null());
+  EXPECT_GT(answer["refuted"]["path"].size(), 2U);
 }
 
 TEST(Polygons, VisibilityGoesAroundWallsAndSaysWhereThereIsNoWay) {

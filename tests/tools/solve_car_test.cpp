@@ -183,5 +183,63 @@ TEST_F(SolveCar, DrawsCurvesAsArcs) {
   ASSERT_EQ(run({"render", file_, "--answer", folder_.path("car.json"), "-o", folder_.path("again.png")}).code, 0);
 }
 
+/// Free but for a block of 8 x 6 cells from (12, 3) on.
+std::string map_with_a_block() {
+  std::string text = "type octile\nheight 12\nwidth 24\nmap\n";
+  for (int y = 11; y >= 0; --y) {
+    for (int x = 0; x < 24; ++x) text += x >= 12 && x < 20 && y >= 3 && y < 9 ? '@' : '.';
+    text += '\n';
+  }
+  return text;
+}
+
+TEST(SolveCarOnMaps, TheWholeBodyIsJudgedByTheCells) {
+  const Folder folder;
+  const std::string map = folder.write("block.map", map_with_a_block());
+  const std::string ahead = "car polygon 8 -0.4 9 -0.4 9 0.4 8 0.4 turning 1";  // far from its reference point
+  const std::string small = "car radius 0.3 turning 1 steering reeds-shepp";
+  struct Case {
+    const std::string& robot;
+    const char* start;
+    const char* goal;
+    const char* status;
+  };
+  const Case all[] = {{ahead, "6,6,0", "7,6,0", "start_blocked"},  // the reference point is free, the body in the block
+                      {ahead, "2,6,0", "6,6,0", "goal_blocked"},
+                      {ahead, "16,6,1.5707963", "16,6,1.5707963", "start_blocked"},  // out of the map
+                      {ahead, "16,6,3.14159265", "15,6,3.14159265", "solved"},  // the reference point is in the block
+                      {small, "16,6,0", "17,6,0", "start_blocked"},
+                      {small, "2,2,0", "16,6", "goal_blocked"},
+                      {small, "2,6,0", "22,6,0", "solved"}};
+  for (const char* planner : {"rrt-connect", "prm"}) {
+    for (const Case& c : all) {
+      const std::vector<std::string> words{"solve",  map,    "--robot", c.robot, "--start",   c.start,
+                                           "--goal", c.goal, "--json",  "-",     "--planner", planner};
+      SCOPED_TRACE(shown(words));
+      const Outcome outcome = run(words);
+      EXPECT_EQ(outcome.code, std::string_view(c.status) == "solved" ? 0 : 1) << outcome.err;
+      const Json answer = Json::parse(outcome.out);
+      EXPECT_EQ(answer["status"], c.status);
+      if (outcome.code != 0) continue;
+      EXPECT_EQ(run({"verify", map, folder.write("answer.json", answer.dump())}).code, 0);
+    }
+  }
+  const std::string inside = R"({"path": [[16, 6, 0], [17, 6, 0]], "robot": "car radius 0.3 turning 1"})";
+  EXPECT_EQ(run({"verify", map, folder.write("inside.json", inside), "--start", "16,6,0", "--goal", "17,6,0"}).code, 1);
+}
+
+TEST(SolveCarOnMaps, AWallAcrossTheBodyBlocksTheStart) {
+  const Folder folder;
+  const std::string scene = folder.write("wall.scene",
+                                         "bounds 0 0 30 10\nwall 0 5 30 5\n"
+                                         "robot car polygon -1 -0.9 3.6 -0.9 3.6 0.9 -1 0.9 turning 2\n"
+                                         "start 3 5 0\ngoal 20 5 0\n");
+  const Outcome outcome = run({"solve", scene, "--json", "-"});
+  EXPECT_EQ(outcome.code, 1) << outcome.err;
+  EXPECT_EQ(Json::parse(outcome.out)["status"], "start_blocked");
+  const std::string driven = R"({"path": [[3, 5, 0], [20, 5, 0]]})";
+  EXPECT_EQ(run({"verify", scene, folder.write("driven.json", driven)}).code, 1);
+}
+
 }  // namespace
 }  // namespace warren::test

@@ -64,7 +64,7 @@ class Oracle {
  private:
   Scene scene_;
   std::vector<Vec2> body_;
-  Se2VerifyOptions options_;
+  PoseVerifyOptions options_;
 };
 
 TEST(MapLayers, EqualTheVerificationOfEveryStandStepAndTurn) {

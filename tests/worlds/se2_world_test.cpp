@@ -304,7 +304,7 @@ TEST(Se2World, OnAMapABodyIsFreeOnlyAmongFreeCells) {
     free += is_free ? 1 : 0;
     ASSERT_FALSE(is_free && touches) << i;
     ASSERT_TRUE(is_free || touches || world.clearance(pose, 0.0, query) < 0.05) << i;
-    const Se2Verification judged = verify_se2(scene, body, std::span(&pose, 1), {}, {});
+    const Verification judged = verify_se2(scene, body, std::span(&pose, 1), {}, {});
     ASSERT_FALSE(is_free && !judged.verified) << i;
     ASSERT_FALSE(judged.verified && touches) << i;
   }

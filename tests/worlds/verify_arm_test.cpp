@@ -38,7 +38,7 @@ TEST(VerifyArm, AgreesWithDenseSamplingAndNeverPromisesMoreClearanceThanThereIs)
     for (std::uint64_t i = 0; i < 4; ++i) {
       const JointState a = random_state(table, seed, i);
       const std::vector<JointState> path{a, at_share(a, random_state(table, seed, i + 50), i % 2 == 0 ? 1.0 : 0.2)};
-      const ArmVerification found = verify_arm(scene, table, path, {.radius = radius}, one_thread);
+      const Verification found = verify_arm(scene, table, path, {.radius = radius}, one_thread);
       const double sampled = sampled_clearance(scene, table, radius, path);
       (found.verified ? verified : refuted) += 1;
       if (found.verified) {
@@ -71,7 +71,7 @@ TEST(VerifyArm, PassesEveryMotionThatThePlannersAccept) {
       const JointState b = at_share(a, random_state(table, seed, i + 99), i % 2 == 0 ? 1.0 : 0.2);
       if (world.judge_motion(a, b) != MotionVerdict::free) continue;
       ++accepted;
-      const ArmVerification found = verify_arm(scene, table, std::vector{a, b}, options, one_thread);
+      const Verification found = verify_arm(scene, table, std::vector{a, b}, options, one_thread);
       EXPECT_TRUE(found.verified) << i << ' ' << (found.first_violation ? found.first_violation->obstacle : "");
       EXPECT_GE(found.min_clearance, 0.01);
     }
@@ -81,11 +81,11 @@ TEST(VerifyArm, PassesEveryMotionThatThePlannersAccept) {
 
 class VerifyArmPath : public ::testing::Test {
  protected:
-  ArmVerification verify(const std::vector<JointState>& path, const ArmVerifyOptions& options = {}) const {
+  Verification verify(const std::vector<JointState>& path, const ArmVerifyOptions& options = {}) const {
     return verify_arm(scene_, table_, path, options, one_thread);
   }
   std::string refusal(const std::vector<JointState>& path, const ArmVerifyOptions& options = {}) const {
-    const ArmVerification found = verify(path, options);
+    const Verification found = verify(path, options);
     EXPECT_EQ(found.verified, !found.first_violation);
     return found.first_violation ? found.first_violation->obstacle : "";
   }
@@ -152,9 +152,9 @@ TEST_F(VerifyArmPath, IsTheSameForAnyNumberOfThreadsAndStops) {
   scene_ = scattered_spheres(3, 3);
   std::vector<JointState> path;
   for (std::uint64_t i = 0; i < 12; ++i) path.push_back(at_share(rest_, random_state(table_, 1, i), 0.1));
-  const ArmVerification one = verify_arm(scene_, table_, path, {}, one_thread);
+  const Verification one = verify_arm(scene_, table_, path, {}, one_thread);
   for (const unsigned threads : {2U, 3U, 8U}) {
-    const ArmVerification many = verify_arm(scene_, table_, path, {}, {.threads = threads});
+    const Verification many = verify_arm(scene_, table_, path, {}, {.threads = threads});
     EXPECT_EQ(many.verified, one.verified);
     EXPECT_EQ(many.min_clearance, one.min_clearance);
     EXPECT_EQ(many.length, one.length);

@@ -127,6 +127,110 @@ TEST(VerifyCar, RefusesWhatIsInTheWay) {
   EXPECT_TRUE(verify_car(small, disc_car, round, {}, {}).verified);
 }
 
+TEST(VerifyCar, HalfATurnGoesAheadAndMustBeFreeBothWaysForACarThatReverses) {
+  for (const double turn : {pi, -pi}) {
+    SCOPED_TRACE(turn);
+    const std::vector<Se2> half = {{0, 0, 0}, {0, 2, turn}};  // to the left ahead, or to the right backwards
+    EXPECT_TRUE(verify_car(walls({}), disc_car, half, {}, {}).verified);
+    const Scene right = walls({{{1, 0.9}, {1, 1.1}}});
+    EXPECT_FALSE(verify_car(right, disc_car, half, {}, {}).verified);
+    const Scene left = walls({{{-1, 0.9}, {-1, 1.1}}});
+    EXPECT_TRUE(verify_car(left, disc_car, half, {}, {}).verified);
+    EXPECT_FALSE(verify_car(left, reversing, half, {}, {}).verified);
+    EXPECT_TRUE(verify_car(walls({}), reversing, half, {}, {}).verified);
+  }
+}
+
+const std::vector<Vec2> van = {{-1, -0.9}, {3.6, -0.9}, {3.6, 0.9}, {-1, 0.9}};
+
+TEST(VerifyCar, WhatLiesAcrossTheWholeBodyFromTheStartOnIsMet) {
+  Scene scene;
+  scene.bounds = Box{{0, 0}, {30, 12}};
+  const VerifiedCar car{.turning_radius = 2.0, .outline = van};
+  const std::vector<Se2> straight = {{3, 5, 0}, {20, 5, 0}};
+  const std::vector<Se2> round = {{10, 5, 0}, {12, 7, pi / 2}};
+  ASSERT_TRUE(verify_car(scene, car, straight, {}, {}).verified);
+  ASSERT_TRUE(verify_car(scene, car, round, {}, {}).verified);
+  const auto refuted_by = [&](const Scene& blocked, const std::vector<Se2>& path) {
+    const auto v = verify_car(blocked, car, path, {}, {});
+    return v.first_violation ? v.first_violation->obstacle.substr(0, 6) : "";
+  };
+  Scene wall = scene;
+  wall.walls = WallSet::narrowest(std::vector<Segment>{{{0, 5}, {30, 5}}});
+  EXPECT_EQ(refuted_by(wall, straight), "wall 0");
+  EXPECT_EQ(refuted_by(wall, round), "wall 0");
+  EXPECT_EQ(refuted_by(wall, {straight.front()}), "wall 0");
+  Scene spike = scene;  // it reaches 0.4 deep into the body's side, between its corners
+  spike.polygons.push_back({{{4, 4.5}, {4.2, 3}, {4.4, 3}}});
+  EXPECT_EQ(refuted_by(spike, straight), "polygo");
+  EXPECT_EQ(refuted_by(spike, {straight.front()}), "polygo");
+  Scene pebble = scene;
+  pebble.polygons.push_back({{{5, 5}, {5.1, 5}, {5, 5.1}}});
+  EXPECT_EQ(refuted_by(pebble, {straight.front()}), "polygo");
+}
+
+TEST(VerifyCar, WhatStandsBesideTheBulgeOfAnArcIsMet) {
+  const double h = std::sqrt(0.5);
+  const std::vector<Se2> below = {{-h, 1 - h, -pi / 4}, {h, 1 - h, pi / 4}};  // its lowest point is (0, 0)
+  const VerifiedCar car{.turning_radius = 1.0, .radius = 0.5};
+  const Segment clear{{-h - 0.503, 1 - h}, {-h - 0.6, 1 - h}};  // so near that nothing farther is looked for
+  EXPECT_TRUE(verify_car(walls({clear}), car, below, {}, {}).verified);
+  const auto v = verify_car(walls({clear, {{0, -0.4}, {0.01, -0.4}}}), car, below, {}, {});
+  ASSERT_FALSE(v.verified);
+  EXPECT_NEAR(v.first_violation->distance, 0.4, 1e-12);
+}
+
+Scene room_with_a_block(double yaw) {
+  Scene scene;
+  OccupancyMap map;
+  map.blocked = Bitmap(30, 20);
+  map.yaw_rad = yaw;
+  for (std::uint32_t y = 4; y < 16; ++y) {
+    for (std::uint32_t x = 15; x < 28; ++x) map.blocked.set(x, y);
+  }
+  scene.map = map;
+  return scene;
+}
+
+TEST(VerifyCar, CellsOfMapsAreInTheWay) {
+  for (const double yaw : {0.0, 0.7}) {
+    SCOPED_TRACE(yaw);
+    const Scene scene = room_with_a_block(yaw);
+    const auto posed = [&](double x, double y, double theta) {
+      const Vec2 p = world_point(*scene.map, {x, y});
+      return Se2{p.x, p.y, theta + yaw};
+    };
+    const VerifiedCar ahead{.turning_radius = 1.0, .outline = {{8, -0.4}, {9, -0.4}, {9, 0.4}, {8, 0.4}}};
+    const VerifiedCar disc{.turning_radius = 1.0, .radius = 0.5};
+    const auto refuted_by = [&](const VerifiedCar& car, const std::vector<Se2>& path) {
+      const auto v = verify_car(scene, car, path, {}, {});
+      return v.first_violation ? v.first_violation->obstacle.substr(0, 4) : "";
+    };
+    EXPECT_EQ(refuted_by(disc, {posed(20, 10, 0)}), "cell");  // wholly inside of the block
+    EXPECT_EQ(refuted_by(disc, {posed(14.6, 10, 0)}), "cell");
+    EXPECT_EQ(refuted_by(disc, {posed(14.4, 10, 0)}), "");
+    EXPECT_EQ(refuted_by(disc, {posed(2, 18, 0), posed(29, 18, 0)}), "");
+    EXPECT_EQ(refuted_by(disc, {posed(2, 10, 0), posed(29, 10, 0)}), "cell");
+    EXPECT_EQ(refuted_by(disc, {posed(29.6, 18, 0)}), "map:");
+    EXPECT_EQ(refuted_by(disc, {posed(40, 18, 0)}), "map:");
+    EXPECT_EQ(refuted_by(ahead, {posed(12, 10, 0), posed(13, 10, 0)}),
+              "cell");  // the reference point is free, not the body
+    EXPECT_EQ(refuted_by(ahead, {posed(20, 10, pi), posed(21, 10, pi)}), "gear");
+    EXPECT_EQ(refuted_by(ahead, {posed(21, 10, pi), posed(20, 10, pi)}), "");  // and the other way round
+    EXPECT_EQ(refuted_by(ahead, {posed(24, 18, pi / 2)}), "map:");
+  }
+}
+
+TEST(VerifyCar, ManyWallsAreLookedAtOnceAndThoseNearALegOnItsAccount) {
+  std::vector<Segment> many;
+  for (int i = 0; i < 200'000; ++i)
+    many.push_back({{20.0 + i % 500, 1.0 * (i / 500)}, {20.5 + i % 500, 1.0 * (i / 500)}});
+  const Scene scene = walls(many);
+  std::vector<Se2> path;
+  for (int i = 0; i <= 2000; ++i) path.push_back({-9 + 0.009 * i, 0, 0});
+  EXPECT_TRUE(verify_car(scene, disc_car, path, {}, {}).verified);
+}
+
 TEST(VerifyCar, WithoutBoundsTheReferencePointStaysInTheObstaclesBox) {
   Scene scene;
   scene.walls = WallSet::narrowest(std::vector<Segment>{{{-2, -1}, {-1.9, -1}}, {{0.9, 3}, {0.9, 2.9}}});
@@ -138,6 +242,21 @@ TEST(VerifyCar, WithoutBoundsTheReferencePointStaysInTheObstaclesBox) {
   EXPECT_EQ(v.first_violation->obstacle.substr(0, 4), "box:");
   const std::vector<Se2> in = {{0, 0, 0}, {std::sin(t), 1 - std::cos(t), t}};
   EXPECT_TRUE(verify_car(scene, {.turning_radius = 1.0}, in, {}, {}).verified);
+}
+
+TEST(VerifyCar, IsTheSameForAnyNumberOfThreads) {
+  const Scene scene = scattered(7, 4, 3);
+  std::vector<Se2> path{{1, 1, 0}};
+  for (int i = 1; i < 100; ++i) path.push_back({1 + 0.05 * i, 1, 0});
+  const Verification one = verify_car(scene, disc_car, path, {}, {.threads = 1});
+  for (const unsigned threads : {2U, 3U, 8U}) {
+    const Verification many = verify_car(scene, disc_car, path, {}, {.threads = threads});
+    EXPECT_EQ(many.min_clearance, one.min_clearance);
+    ASSERT_EQ(many.first_violation.has_value(), one.first_violation.has_value());
+    if (one.first_violation) {
+      EXPECT_EQ(many.first_violation->obstacle, one.first_violation->obstacle);
+    }
+  }
 }
 
 TEST(VerifyCar, RefusesOtherEndsAndBadNumbers) {

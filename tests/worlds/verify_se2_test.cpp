@@ -163,8 +163,8 @@ TEST(VerifySe2, LongRunsOfShortLegsAreJudgedAsEachLegAlone) {
         path.push_back(next);
       }
     }
-    Se2Verification whole = verify_se2(scene, kite, path, {}, {});
-    Se2Verification alone;
+    Verification whole = verify_se2(scene, kite, path, {}, {});
+    Verification alone;
     std::optional<std::size_t> first;
     for (std::size_t i = 0; i + 1 < path.size(); ++i) {
       const auto leg = verify_se2(scene, kite, std::span(path).subspan(i, 2), {}, {});
@@ -185,7 +185,7 @@ TEST(VerifySe2, LongRunsOfShortLegsAreJudgedAsEachLegAlone) {
 TEST(VerifySe2, IsTheSameForAnyNumberOfThreads) {
   std::vector<Se2> path;
   for (int i = 0; i <= 40; ++i) path.push_back({-7 + 0.35 * i, 0.02 * (i % 5), 0.1 * (i % 3)});
-  std::vector<Se2Verification> all;
+  std::vector<Verification> all;
   for (const unsigned threads : {1U, 2U, 3U, 8U}) {
     all.push_back(verify_se2(corridor(), bar, path, {}, {.threads = threads}));
   }

@@ -316,7 +316,7 @@ TEST(Verify, StartAndGoalAreChecked) {
   EXPECT_EQ(good.length, 5.0);
   options.goal = Vec2{3.0, 4.5};
   EXPECT_EQ(verify_path(scene, path, options, {}).first_violation->obstacle, "goal: 3 4.5");
-  options.start_tolerance = 0.5;
+  options.tolerance = 0.5;
   EXPECT_TRUE(verify_path(scene, path, options, {}).verified);
   options.start = Vec2{1.0, 0.0};
   EXPECT_EQ(verify_path(scene, path, options, {}).first_violation->obstacle, "start: 1 0");
@@ -339,10 +339,22 @@ TEST(Verify, StopsAtTheDeadline) {
   EXPECT_THROW(verify_path(scene_of(with_far_box({}, -10.0, 10.0)), path, {}, execution), Stopped);
 }
 
-TEST(Verify, AWorldWithoutObstaclesConfinesNothing) {
-  const Verification v = verified({}, {{0.0, 0.0}, {1.0, 0.0}}, 0.1);
-  EXPECT_TRUE(v.verified);
-  EXPECT_TRUE(std::isinf(v.min_clearance));
+TEST(Verify, AWorldWithoutObstaclesAndBoundsIsRefusedAndBoundsAloneConfine) {
+  const std::vector<Vec2> path{{0.0, 0.0}, {1.0, 0.0}};
+  EXPECT_THROW(verified({}, path, 0.1), InputError);
+  Scene room;
+  room.bounds = Box{{-1.0, -1.0}, {2.0, 1.0}};
+  EXPECT_DOUBLE_EQ(verified(room, path, 0.1).min_clearance, 1.0);
+}
+
+TEST(Verify, OnAMapTheCellsAreJudged) {
+  Scene scene;
+  scene.map.emplace().blocked = Bitmap(4, 1);
+  scene.map->blocked.set(2, 0);
+  const std::vector<Vec2> path{{0.5, 0.5}, {1.5, 0.5}};
+  EXPECT_DOUBLE_EQ(verified(scene, path, 0.1).min_clearance, 0.5);
+  EXPECT_EQ(verified(scene, {{0.5, 0.5}, {2.5, 0.5}}, 0.1).first_violation->obstacle, "cell 2, 0");
+  EXPECT_THROW(verify_path(scene, path, {.contact = Contact::allowed}, {}), InputError);
 }
 
 }  // namespace
