@@ -1,11 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # cmake -DSCRIPT=check_layers.cmake -DSCRATCH=DIR -P check_layers_test.cmake: does check_layers.cmake notice? Each case is
-# a tree of one file; the rule named must be what is complained about, and a tree without fault must pass.
+# a tree of one file, or of a few; the rule named must be what is complained about, and a tree without fault must pass.
 cmake_minimum_required(VERSION 3.25)
 
+# Further files of the tree, and their texts, follow: without semicolons, these are a list.
 function(run_check path text result output)
   file(REMOVE_RECURSE ${SCRATCH})
   file(WRITE ${SCRATCH}/${path} "// SPDX-License-Identifier: BSD-3-Clause\n${text}\n")
+  set(rest ${ARGN})
+  while(rest)
+    list(POP_FRONT rest name content)
+    file(WRITE ${SCRATCH}/${name} "// SPDX-License-Identifier: BSD-3-Clause\n${content}\n")
+  endwhile()
   execute_process(COMMAND ${CMAKE_COMMAND} -DROOT=${SCRATCH} -P ${SCRIPT}
                   RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE out)
   set(${result} ${code} PARENT_SCOPE)
@@ -13,14 +19,14 @@ function(run_check path text result output)
 endfunction()
 
 function(passes path text)
-  run_check(${path} "${text}" code out)
+  run_check(${path} "${text}" code out ${ARGN})
   if(NOT code EQUAL 0)
     message(SEND_ERROR "${path} with '${text}' should pass, but:\n${out}")
   endif()
 endfunction()
 
 function(complains path text expected)
-  run_check(${path} "${text}" code out)
+  run_check(${path} "${text}" code out ${ARGN})
   string(REGEX REPLACE "[ \n]+" " " out "${out}")
   if(code EQUAL 0 OR NOT out MATCHES "${expected}")
     message(SEND_ERROR "${path} with '${text}' should fail with '${expected}', but gave ${code}:\n${out}")
@@ -38,7 +44,18 @@ complains(core/a.cpp "#include \"parallel/chunks.hpp\"" "core/ may include")
 complains(spatial/a.cpp "#include \"tools/progress.hpp\"" "spatial/ may include")
 complains(core/a.cpp "#include \"geometry.hpp\"" "core/ may include")
 complains(core/a.cpp "#include \"../worlds/scene.hpp\"" "core/ may include")
-complains(worlds/verify.cpp "#include \"spatial/wall_index.hpp\"" "the judge shares nothing")
+complains(worlds/verify.cpp "#include \"spatial/wall_index.hpp\"" "reached from worlds/verify.cpp: a judge shares nothing"
+          spatial/wall_index.hpp "#pragma once")
+passes(worlds/verify.cpp "#include \"worlds/arcs.hpp\"\n#include \"core/types.hpp\"" worlds/arcs.hpp "#pragma once"
+       core/types.hpp "#pragma once" spatial/kd_tree.hpp "#include \"core/types.hpp\"")
+complains(worlds/verify_a.hpp "#include \"worlds/arcs.hpp\"" "spatial/kd_tree.hpp: reached from worlds/lines.cpp"
+          worlds/arcs.hpp "#include \"worlds/lines.hpp\"" worlds/lines.hpp "#pragma once"
+          worlds/lines.cpp "#include \"spatial/kd_tree.hpp\"" spatial/kd_tree.hpp "#pragma once")
+complains(worlds/verify_a.hpp "#include \"worlds/arcs.hpp\"" "core/geometry.hpp: reached from worlds/arcs.hpp"
+          worlds/arcs.hpp "#include \"core/geometry.hpp\"" core/geometry.hpp "#pragma once")
+complains(worlds/verify_a.cpp "#include \"worlds/arcs.hpp\"" "worlds/motions.hpp: reached from worlds/arcs.hpp"
+          worlds/arcs.hpp "#include \"worlds/motions.hpp\"" worlds/motions.hpp "#pragma once"
+          worlds/car_world.cpp "#include \"worlds/motions.hpp\"")
 complains(spatial/wall_index.cpp "#include <nanoflann.hpp>" "rule 'nanoflann'")
 complains(planners/medial_axis.cpp "#include <boost/polygon/voronoi.hpp>" "rule 'boost'")
 complains(planners/a.cpp "#include <atomic>" "rule 'threads'")
