@@ -40,7 +40,7 @@ def read_results():
 
 def times_of_build(folder):
     """Times of the tests with no fault, measured once a build."""
-    programs = [os.path.join(folder, "tests", name + "_tests") for name in test_steps.PROGRAMS]
+    programs = [test_steps.program_file(folder, name) for name in test_steps.programs_of(folder)]
     stamp = [os.stat(name).st_mtime for name in [*programs, os.path.join(folder, "warren")]]
     kept = os.path.join(PLACE, "times.json")
     try:
@@ -72,7 +72,7 @@ def judge(fault, folder, times):
 
 
 def judge_all(faults, folder, times):
-    """Two at a time, each answer kept as soon as it is there. The answers that no test noticed."""
+    """Two at a time, each answer kept as soon as it is there. The names of those that no test noticed."""
     lock, unnoticed = threading.Lock(), []
     with concurrent.futures.ThreadPoolExecutor(2) as pool, open(RESULTS, "a", encoding="utf-8") as results:
         def one(fault):

@@ -12,10 +12,11 @@ import time
 
 from planted_tree import VARIABLE
 
-PROGRAMS = ("core", "spatial", "worlds", "planners", "tools")
+PROGRAMS = ("core", "spatial", "worlds", "planners", "tools", "matrix")  # those that there are, the last ones last
 QUICK_S = 0.2  # tests up to this long are asked before the others
 MOST_MEMORY = 6 << 30
-NOT_ASKED = "house|parallel|" + "|".join(PROGRAMS)  # labels: what looks at the sources, and what is asked otherwise
+# Labels: what looks at the sources, what knows no geometry, and what is asked otherwise.
+NOT_ASKED = "house|parallel|faults|fuzz|" + "|".join(PROGRAMS)
 FAILED = re.compile(r"^\[  FAILED  \] ([\w/.]+)", re.MULTILINE)
 BEGUN = re.compile(r"^\[ RUN      \] ([\w/.]+)$", re.MULTILINE)
 CTEST_FAILED = re.compile(r"^\t *\d+ - (\S+) \(", re.MULTILINE)
@@ -34,6 +35,14 @@ class Step:
 class Outcome:
     noticed: bool
     by: str = ""
+
+
+def program_file(folder, program):
+    return os.path.join(folder, "tests", program + "_tests")
+
+
+def programs_of(folder):
+    return [program for program in PROGRAMS if os.path.exists(program_file(folder, program))]
 
 
 def run(command, folder, fault, scratch, limit):
@@ -69,7 +78,7 @@ def ask_program(folder, step, fault, scratch):
     os.makedirs(scratch, exist_ok=True)
     with open(flags, "w", encoding="utf-8") as file:
         file.write("--gtest_filter=" + ":".join(step.tests) + "\n--gtest_fail_fast\n--gtest_color=no\n")
-    program = os.path.join(folder, "tests", step.program + "_tests")
+    program = program_file(folder, step.program)
     code, text = run([program, "--gtest_flagfile=" + flags], folder, fault, scratch, 60 + 10 * step.seconds)
     if code == 0:
         return Outcome(False)
@@ -78,7 +87,7 @@ def ask_program(folder, step, fault, scratch):
         return Outcome(True, (begun[-1] if begun else step.program) + ", by its time limit")
     if failed:
         return Outcome(True, failed[0])
-    return Outcome(True, (begun[-1] if begun else step.program) + ", by its end")
+    return Outcome(True, (begun[-1] if begun else step.program) + ", which crashed")
 
 
 def ask_ctest(folder, step, fault, scratch):
@@ -98,7 +107,7 @@ def ask(folder, step, fault, scratch):
 def times_of(folder, program, scratch):
     """[test, its file, its seconds] of all tests of a program, which have to pass; None where one fails."""
     report = os.path.join(scratch, program + ".json")
-    command = [os.path.join(folder, "tests", program + "_tests"), "--gtest_output=json:" + report]
+    command = [program_file(folder, program), "--gtest_output=json:" + report]
     code, text = run(command, folder, None, scratch, 3600)
     if code != 0:
         return None, text
@@ -111,7 +120,7 @@ def times_of(folder, program, scratch):
 def measure(folder, scratch):
     """Times of all tests with no fault: {program: [[test, file, seconds], ...]}; TestsFail where one fails."""
     times = {}
-    for program in PROGRAMS:
+    for program in programs_of(folder):
         times[program], text = times_of(folder, program, scratch)
         if times[program] is None:
             raise TestsFail(f"{program}_tests fails with no fault: " + ", ".join(sorted(set(FAILED.findall(text)))))
@@ -140,7 +149,7 @@ def steps_for(fault, times):
             asked.update(test[0] for test in tests)
             steps.append(Step(program, [test[0] for test in tests], sum(test[2] for test in tests)))
 
-    programs = sorted(PROGRAMS, key=lambda name: name != folder)
+    programs = sorted((name for name in times if name), key=lambda name: name != folder)
     for program in programs:
         add(program, lambda test: any(test[1].endswith(name) for name in near))
     for program in programs:
