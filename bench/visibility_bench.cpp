@@ -85,13 +85,13 @@ void bm_link(benchmark::State& state) {
   const World world(state.range(0));
   const VisibleCorners corners(world.obstacles, {});
   const VisibilityGraph visibility(corners, VisibilityEdges::reduced, {});
-  for (auto _ : state) benchmark::DoNotOptimize(visibility.link(world.start, world.goal));
+  for (auto _ : state) benchmark::DoNotOptimize(visibility.link(world.start, world.goal, {}));
 }
 
 void time_search(benchmark::State& state, const World& world, VisibilityEdges edges, bool informed) {
   const VisibleCorners corners(world.obstacles, {});
   const VisibilityGraph visibility(corners, edges, {});
-  const VisibilityLinks links = visibility.link(world.start, world.goal);
+  const VisibilityLinks links = visibility.link(world.start, world.goal, {});
   SearchState search;
   IndexedHeap<4> queue;
   queue.resize(visibility.size() + 2);

@@ -90,8 +90,8 @@ class SearchState {
   std::vector<VertexId> touched_blocks_;
 };
 
-/// How many expansions pass between two looks at should_stop().
-inline constexpr std::uint64_t expansions_per_poll = 1024;
+/// How many expansions pass between two looks at should_stop(): few, for a vertex may have ten thousand neighbours.
+inline constexpr std::uint64_t expansions_per_poll = 128;
 
 /// For callers without a deadline.
 struct NeverStop {
@@ -116,16 +116,21 @@ struct BestFirstVisit {
 }  // namespace detail
 
 /// A* from start to goal. state and queue must be cleared and sized for all vertices; should_stop() is asked every
-/// 1024 expansions. The heuristic is called once a vertex push.
+/// expansions_per_poll of them, and of stale entries. The heuristic is called once a vertex push.
 template <class Queue, class Neighbours, class Heuristic, class ShouldStop>
 SearchResult best_first(VertexId start, VertexId goal, const Neighbours& neighbours, const Heuristic& heuristic,
                         Queue& queue, SearchState& state, const ShouldStop& should_stop) {
   SearchResult result;
+  std::uint64_t stale = 0;
   state.reach(start, 0.0, no_vertex);
   queue.push(start, heuristic(start));
   while (!queue.empty()) {
     const VertexId v = queue.pop().vertex;
-    if (state.closed(v)) continue;  // a stale entry of a queue without decrease-key
+    if (state.closed(v)) {  // a stale entry of a queue without decrease-key
+      if (++stale % expansions_per_poll != 0 || !should_stop()) continue;
+      result.status = SearchStatus::stopped;
+      return result;
+    }
     state.close(v);
     ++result.expanded;
     if (v == goal) {

@@ -15,7 +15,7 @@
 namespace warren {
 namespace {
 
-using Parts = std::span<const RawVector<Edge>>;
+using Parts = std::span<const std::span<const Edge>>;
 
 constexpr unsigned smallest_block_bits = 14;  // a block's rows stay in a second-level cache
 constexpr std::size_t most_blocks = 2048;     // bounds the table of counts
@@ -34,7 +34,7 @@ struct PartShape {
   VertexId last = 0;
 };
 
-PartShape check_part(std::size_t vertex_count, const RawVector<Edge>& part) {
+PartShape check_part(std::size_t vertex_count, std::span<const Edge> part) {
   PartShape shape;
   VertexId largest = 0;
   VertexId before = 0;
@@ -271,12 +271,22 @@ class Assembly {
 
 }  // namespace
 
-GraphRows assemble_rows(std::size_t vertex_count, Parts parts, const Execution& execution) {
-  return Assembly(vertex_count, parts, execution).run();
+GraphRows assemble_rows(std::size_t vertex_count, std::span<const RawVector<Edge>> parts, const Execution& execution) {
+  const std::vector<std::span<const Edge>> spans(parts.begin(), parts.end());
+  return Assembly(vertex_count, spans, execution).run();
 }
 
-Graph assemble_graph(std::size_t vertex_count, Parts parts, const Execution& execution) {
+Graph assemble_graph(std::size_t vertex_count, std::span<const RawVector<Edge>> parts, const Execution& execution) {
   GraphRows rows = assemble_rows(vertex_count, parts, execution);
+  return Graph(std::move(rows.offsets), std::move(rows.targets));
+}
+
+Graph assemble_graph(std::size_t vertex_count, std::span<const Edge> edges, const Execution& execution) {
+  std::vector<std::span<const Edge>> parts;
+  for (std::size_t i = 0; i < edges.size(); i += smallest_run) {
+    parts.push_back(edges.subspan(i, std::min(smallest_run, edges.size() - i)));
+  }
+  GraphRows rows = Assembly(vertex_count, parts, execution).run();
   return Graph(std::move(rows.offsets), std::move(rows.targets));
 }
 

@@ -22,10 +22,12 @@
 
 namespace warren {
 
-/// Parts: any edges, no duplicates, ends below vertex_count and different; fastest when `from` ascends over the
+/// Parts: any edges (duplicates are kept), ends below vertex_count and different; fastest when `from` ascends over the
 /// concatenation, from < to, and each `to` ascends within its `from`. Extra edges, of a start and goal say, follow as a
 /// last part. Throws InputError for an end out of range, a loop, or more than 2^32 - 1 edge ends (before allocating).
 Graph assemble_graph(std::size_t vertex_count, std::span<const RawVector<Edge>> parts, const Execution& execution);
+/// The same of one list of edges.
+Graph assemble_graph(std::size_t vertex_count, std::span<const Edge> edges, const Execution& execution);
 
 /// The arrays of a graph before they become one.
 struct GraphRows {

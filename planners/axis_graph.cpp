@@ -5,14 +5,21 @@
 #include <cassert>
 #include <numeric>
 
+#include "parallel/assemble_graph.hpp"
+#include "parallel/polled_sort.hpp"
 #include "planners/queue_choice.hpp"
 
 namespace warren {
+namespace {
+constexpr std::size_t links_per_poll = 1 << 14;
+}  // namespace
 
-AxisGraph::AxisGraph(const MedialAxis& axis, const AxisPlace& start, const AxisPlace& goal, double clearance)
-    : axis_(axis), ends_{start, goal} {
+AxisGraph::AxisGraph(const MedialAxis& axis, const AxisPlace& start, const AxisPlace& goal, double clearance,
+                     const Execution& execution)
+    : axis_(axis), execution_(execution), ends_{start, goal} {
   const double least = std::max(clearance, axis.resolution());
   for (std::uint32_t i = 0; i < axis.edges().size(); ++i) {
+    if (i % links_per_poll == 0) execution_.check();
     const AxisEdge& e = axis.edges()[i];
     if (e.clearance < least) continue;
     const AxisCurve curve = axis.curve(e);
@@ -42,14 +49,16 @@ void AxisGraph::join(VertexId v, double clearance) {
 
 void AxisGraph::index_links() {
   first_.assign(vertex_count() + 1, 0);
-  for (const AxisLink& l : links_) {
-    ++first_[l.from + 1];
-    ++first_[l.to + 1];
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    if (i % links_per_poll == 0) execution_.check();
+    ++first_[links_[i].from + 1];
+    ++first_[links_[i].to + 1];
   }
   std::partial_sum(first_.begin(), first_.end(), first_.begin());
   at_.resize(first_.back());
   std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
   for (std::uint32_t i = 0; i < links_.size(); ++i) {
+    if (i % links_per_poll == 0) execution_.check();
     at_[next[links_[i].from]++] = i;
     at_[next[links_[i].to]++] = i;
   }
@@ -61,13 +70,13 @@ Graph AxisGraph::graph() const {
   for (const AxisLink& l : links_) {
     if (l.from != l.to) edges.push_back({l.from, l.to});
   }
-  return Graph::from_edges(vertex_count(), edges);
+  return assemble_graph(vertex_count(), edges, execution_);
 }
 
 double AxisGraph::widest() const {
   std::vector<std::uint32_t> order(links_.size());
   std::iota(order.begin(), order.end(), 0U);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
+  polled_sort(order.begin(), order.end(), execution_, [&](std::uint32_t i, std::uint32_t j) {
     return links_[i].clearance != links_[j].clearance ? links_[i].clearance > links_[j].clearance : i < j;
   });
   std::vector<VertexId> parent(vertex_count());
@@ -76,7 +85,9 @@ double AxisGraph::widest() const {
     while (parent[v] != v) v = parent[v] = parent[parent[v]];
     return v;
   };
-  for (const std::uint32_t i : order) {
+  for (std::size_t n = 0; n < order.size(); ++n) {
+    if (n % links_per_poll == 0) execution_.check();
+    const std::uint32_t i = order[n];
     parent[root(links_[i].from)] = root(links_[i].to);
     if (root(start()) == root(goal())) return links_[i].clearance;
   }
@@ -88,10 +99,10 @@ void AxisGraph::narrow_to(double clearance) {
   index_links();
 }
 
-SearchResult AxisGraph::search(SearchKind search, QueueKind queue_kind, const Execution& execution) const {
-  const auto should_stop = [&] { return execution.should_stop(); };
+SearchResult AxisGraph::search(SearchKind search, QueueKind queue_kind) const {
+  const auto should_stop = [&] { return execution_.should_stop(); };
   SearchState state;
-  state.resize(vertex_count());
+  state.resize(vertex_count(), [&] { execution_.check(); });
   SearchResult found;
   if (search == SearchKind::bfs || search == SearchKind::dfs) {
     found = search == SearchKind::bfs ? breadth_first(graph(), start(), goal(), state, should_stop)
@@ -105,11 +116,11 @@ SearchResult AxisGraph::search(SearchKind search, QueueKind queue_kind, const Ex
     };
     const bool informed = search == SearchKind::astar;
     const auto estimate = [&](VertexId v) { return informed ? distance(place(v), place(goal())) : 0.0; };
-    found = with_queue(queue_kind, vertex_count(), [&](auto& queue) {
+    found = with_queue(queue_kind, vertex_count(), execution_, [&](auto& queue) {
       return best_first(start(), goal(), neighbours, estimate, queue, state, should_stop);
     });
   }
-  if (found.status == SearchStatus::stopped) execution.check();
+  if (found.status == SearchStatus::stopped) execution_.check();
   return found;
 }
 

@@ -24,11 +24,13 @@ struct AxisLink {
   double clearance;
 };
 
-/// The axis' vertices, behind them the start and the goal. Refers to the axis.
+/// The axis' vertices, behind them the start and the goal. Refers to the axis and the execution; what takes longer than
+/// a path throws Stopped.
 class AxisGraph {
  public:
   /// Keeps what has at least this clearance and more than the axis' resolution.
-  AxisGraph(const MedialAxis& axis, const AxisPlace& start, const AxisPlace& goal, double clearance);
+  AxisGraph(const MedialAxis& axis, const AxisPlace& start, const AxisPlace& goal, double clearance,
+            const Execution& execution);
 
   std::size_t vertex_count() const { return axis_.vertices().size() + 2; }
   VertexId start() const { return static_cast<VertexId>(axis_.vertices().size()); }
@@ -42,7 +44,7 @@ class AxisGraph {
   /// Drops links with less clearance.
   void narrow_to(double clearance);
   /// Start to goal; lengths are the curves' for A* and Dijkstra, numbers of links else.
-  SearchResult search(SearchKind search, QueueKind queue, const Execution& execution) const;
+  SearchResult search(SearchKind search, QueueKind queue) const;
   /// The link between two vertices that follow each other in a path: the shortest one, where several do.
   const AxisLink& link_between(VertexId v, VertexId w) const;
   /// The polyline along a search's path, both ends included.
@@ -54,6 +56,7 @@ class AxisGraph {
   void index_links();
 
   const MedialAxis& axis_;
+  const Execution& execution_;
   std::array<AxisPlace, 2> ends_;
   std::vector<AxisLink> links_;
   std::vector<std::uint32_t> first_, at_;  // the links at vertex v are at_[first_[v]] .. at_[first_[v + 1] - 1]

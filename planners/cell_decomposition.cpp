@@ -7,6 +7,7 @@
 
 #include "core/geometry.hpp"
 #include "core/polygon_distance.hpp"
+#include "parallel/assemble_graph.hpp"
 #include "planners/cell_sweep.hpp"
 #include "planners/noded_polygons.hpp"
 
@@ -60,14 +61,15 @@ ObstacleClash::ObstacleClash(std::size_t obstacle, std::size_t other, std::size_
       obstacle_(obstacle),
       other_(other) {}
 
-Graph CellDecomposition::graph(std::size_t further_vertices, std::span<const Edge> further_edges) const {
+Graph CellDecomposition::graph(std::size_t further_vertices, std::span<const Edge> further_edges,
+                               const Execution& execution) const {
   std::vector<Edge> edges;
   edges.reserve(doors.size() + further_edges.size());
   for (const Door& door : doors) {
     if (!door.shut) edges.push_back({door.left, door.right});
   }
   edges.insert(edges.end(), further_edges.begin(), further_edges.end());
-  return Graph::from_edges(cells.size() + further_vertices, edges);
+  return assemble_graph(cells.size() + further_vertices, edges, execution);
 }
 
 int CellDecomposition::side(std::uint32_t segment, Vec2 p) const noexcept {

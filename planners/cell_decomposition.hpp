@@ -87,7 +87,7 @@ struct CellDecomposition {
   std::vector<CellPlace> places;  ///< of the points that were asked about
 
   /// The cells, and behind them further vertices; an edge for each door that is not shut, and the given edges.
-  Graph graph(std::size_t further_vertices, std::span<const Edge> further_edges) const;
+  Graph graph(std::size_t further_vertices, std::span<const Edge> further_edges, const Execution& execution) const;
   /// The cell on the other side.
   std::uint32_t beyond(std::uint32_t door, std::uint32_t cell) const {
     return doors[door].left == cell ? doors[door].right : doors[door].left;

@@ -98,7 +98,7 @@ void Planning::connect_cells() {
   std::vector<Edge> edges;
   for (const VertexId cell : start_place().cells) edges.push_back({start_vertex(), cell});
   for (const VertexId cell : goal_place().cells) edges.push_back({goal_vertex(), cell});
-  graph_ = plan_.cells.graph(2, edges);
+  graph_ = plan_.cells.graph(2, edges, execution_);
 }
 
 bool Planning::ends_are_joined() {
@@ -129,7 +129,7 @@ void Planning::find_route() {
 RawVector<VertexId> Planning::search_cells() {
   const auto should_stop = [&] { return execution_.should_stop(); };
   SearchState state;
-  state.resize(graph_.vertex_count());
+  state.resize(graph_.vertex_count(), [&] { execution_.check(); });
   SearchResult found = options_.search == SearchKind::bfs
                            ? breadth_first(graph_, start_vertex(), goal_vertex(), state, should_stop)
                            : depth_first(graph_, start_vertex(), goal_vertex(), state, should_stop);
@@ -173,8 +173,8 @@ RawVector<VertexId> Planning::search_doors() {
     return distance(v == start ? start_ : points_->middle(v), goal_);
   };
   SearchState state;
-  state.resize(count + 2);
-  SearchResult found = with_queue(options_.queue, count + 2, [&](auto& queue) {
+  state.resize(count + 2, [&] { execution_.check(); });
+  SearchResult found = with_queue(options_.queue, count + 2, execution_, [&](auto& queue) {
     return best_first(start, goal, neighbours, estimate, queue, state, [&] { return execution_.should_stop(); });
   });
   solution_.counters.expanded = found.expanded;

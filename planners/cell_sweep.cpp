@@ -5,6 +5,7 @@
 #include <cassert>
 
 #include "core/geometry.hpp"
+#include "parallel/polled_sort.hpp"
 
 namespace warren {
 namespace {
@@ -65,6 +66,7 @@ void CellSweep::add_polygons() {
   polygon_of_.resize(polygons.corners.size());
   side_before_.resize(polygons.corners.size());
   for (std::size_t p = 0; p < polygons.size(); ++p) {
+    if (p % corners_per_poll == 0) execution_.check();
     const std::span<const Vec2> corners = polygons[p];
     const bool inside = stands_inside(corners, p);
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -79,6 +81,7 @@ void CellSweep::add_polygons() {
 
 void CellSweep::add_walls() {
   for (std::size_t w = 0; w < obstacles_.walls.size(); ++w) {
+    if (w % corners_per_poll == 0) execution_.check();
     const Segment& wall = obstacles_.walls[w];
     const Segment s = left_to_right(wall.a, wall.b);
     const auto number = static_cast<std::uint32_t>(result_.corners.size());
@@ -93,6 +96,7 @@ void CellSweep::add_walls() {
 void CellSweep::add_points(std::span<const Vec2> points) {
   result_.places.resize(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
+    if (i % corners_per_poll == 0) execution_.check();
     result_.places[i].blocked = !result_.box.contains(points[i]);
     if (result_.places[i].blocked) continue;
     events_.push_back({points[i], static_cast<std::uint32_t>(result_.corners.size() + i)});
@@ -101,7 +105,7 @@ void CellSweep::add_points(std::span<const Vec2> points) {
 
 void CellSweep::run() {
   execution_.check();
-  std::sort(events_.begin(), events_.end(), [](const Event& e, const Event& f) {
+  polled_sort(events_.begin(), events_.end(), execution_, [](const Event& e, const Event& f) {
     return is_before(e.at, f.at) || (e.at == f.at && e.number < f.number);
   });
   result_.cells.reserve(events_.size() + 1);
@@ -246,7 +250,7 @@ void CellSweep::sort_starting() {
   if (ended != ending_.size()) clash(ending_.front(), ending_.back());  // crossings are found before they show here
   if (starting_.size() < 2) return;
   const auto rank = [&](std::uint32_t segment) { return is_wall(segment) ? 1 : inside_is_above(segment) ? 2 : 0; };
-  std::sort(starting_.begin(), starting_.end(), [&](std::uint32_t s, std::uint32_t t) {
+  polled_sort(starting_.begin(), starting_.end(), execution_, [&](std::uint32_t s, std::uint32_t t) {
     const int turn = orient2d(at_, result_.segments[s].b, result_.segments[t].b);
     if (turn != 0) return turn > 0;
     return rank(s) != rank(t) ? rank(s) < rank(t) : s < t;

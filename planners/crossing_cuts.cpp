@@ -5,9 +5,12 @@
 #include <cmath>
 
 #include "core/geometry.hpp"
+#include "parallel/asked_growth.hpp"
 
 namespace warren {
 namespace {
+
+constexpr std::size_t pieces_per_poll = 4096;
 
 /// The pieces' neighbourhoods: each is filed under the squares that its box meets, column by column along itself.
 class PieceGrid {
@@ -18,12 +21,16 @@ class PieceGrid {
     columns_ = static_cast<std::size_t>(std::clamp(std::sqrt(static_cast<double>(pieces.size())), 1.0, 4096.0));
     square_ = side / static_cast<double>(columns_) * (1.0 + 1e-12);
     first_.assign(columns_ * columns_ + 1, 0);
-    for (const IntegerPiece& p : pieces) for_each_square(p, [&](std::size_t s) { ++first_[s + 1]; });
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      if (i % pieces_per_poll == 0) execution.check();
+      for_each_square(pieces[i], [&](std::size_t s) { ++first_[s + 1]; });
+    }
     for (std::size_t s = 1; s < first_.size(); ++s) first_[s] += first_[s - 1];
     execution.reserve(first_.back() * sizeof(std::uint32_t));
     filed_.resize(first_.back());
     std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
     for (std::size_t i = 0; i < pieces.size(); ++i) {
+      if (i % pieces_per_poll == 0) execution.check();
       for_each_square(pieces[i], [&](std::size_t s) { filed_[next[s]++] = static_cast<std::uint32_t>(i); });
     }
   }
@@ -31,12 +38,13 @@ class PieceGrid {
   /// Calls visit(i, j) for pieces i < j that share a square and whose boxes meet, some pairs more than once.
   template <class Visit>
   void for_each_pair(const Execution& execution, const Visit& visit) const {
-    std::size_t polled = 0;
+    constexpr std::size_t looks_per_poll = 4096;  // exact ones take microseconds
+    std::size_t looks = 0;
     for (std::size_t s = 0; s + 1 < first_.size(); ++s) {
       for (std::size_t k = first_[s]; k < first_[s + 1]; ++k) {
-        if (++polled % 4096 == 0) execution.check();
         const Box box = box_of({pieces_[filed_[k]].a, pieces_[filed_[k]].b});
         for (std::size_t l = k + 1; l < first_[s + 1]; ++l) {
+          if (++looks % looks_per_poll == 0) execution.check();
           if (box.meets(box_of({pieces_[filed_[l]].a, pieces_[filed_[l]].b}))) visit(filed_[k], filed_[l]);
         }
       }
@@ -83,11 +91,12 @@ Vec2 rounded_crossing(const IntegerPiece& p, const IntegerPiece& q) {
 }
 
 /// Where do two pieces have to be split? Ends that lie inside the other, and the rounded point of a crossing.
-void cut_pair(const std::vector<IntegerPiece>& pieces, std::uint32_t i, std::uint32_t j, CrossingCuts& found) {
+void cut_pair(const std::vector<IntegerPiece>& pieces, std::uint32_t i, std::uint32_t j, CrossingCuts& found,
+              const Execution& execution) {
   const IntegerPiece& p = pieces[i];
   const IntegerPiece& q = pieces[j];
   const auto cut = [&](std::uint32_t number, const IntegerPiece& piece, Vec2 at) {
-    if (!(at == piece.a) && !(at == piece.b)) found.cuts.push_back({number, at});
+    if (!(at == piece.a) && !(at == piece.b)) push_asked(found.cuts, {number, at}, execution);
   };
   if (segments_cross({p.a, p.b}, {q.a, q.b})) {
     const Vec2 at = rounded_crossing(p, q);
@@ -110,7 +119,7 @@ void cut_pair(const std::vector<IntegerPiece>& pieces, std::uint32_t i, std::uin
 CrossingCuts find_cuts(const std::vector<IntegerPiece>& pieces, const Execution& execution) {
   CrossingCuts found;
   const PieceGrid grid(pieces, execution);
-  grid.for_each_pair(execution, [&](std::uint32_t i, std::uint32_t j) { cut_pair(pieces, i, j, found); });
+  grid.for_each_pair(execution, [&](std::uint32_t i, std::uint32_t j) { cut_pair(pieces, i, j, found, execution); });
   return found;
 }
 

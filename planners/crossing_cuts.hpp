@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/raw_vector.hpp"
 #include "core/types.hpp"
 #include "parallel/execution.hpp"
 
@@ -27,11 +28,11 @@ struct Cut {
 };
 
 struct CrossingCuts {
-  std::vector<Cut> cuts;  ///< some more than once
-  bool crossed = false;   ///< is one of them a rounded crossing?
+  RawVector<Cut> cuts;   ///< some more than once
+  bool crossed = false;  ///< is one of them a rounded crossing?
 };
 
-/// What is left to cut. Throws Stopped at the deadline.
+/// What is left to cut. Throws Stopped at the deadline and the memory limit: crowded pieces have many cuts.
 CrossingCuts find_cuts(const std::vector<IntegerPiece>& pieces, const Execution& execution);
 
 }  // namespace warren

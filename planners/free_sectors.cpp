@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planners/free_sectors.hpp"
 
-#include <algorithm>
+#include "parallel/polled_sort.hpp"
 
 namespace warren {
 namespace {
@@ -23,9 +23,11 @@ void add_spokes(const PlanePieces& pieces, std::uint32_t piece, Vec2 at, std::ve
 
 /// Sorts the spokes, at least one, and calls visit(spoke, next spoke) for the free sectors between them.
 template <class Visit>
-void visit_free(const PlanePieces& pieces, Vec2 at, std::vector<Spoke>& spokes, const Visit& visit) {
+void visit_free(const PlanePieces& pieces, Vec2 at, std::vector<Spoke>& spokes, const Execution& execution,
+                const Visit& visit) {
   const DirectionOrder before(at);
-  std::sort(spokes.begin(), spokes.end(), [&](const Spoke& s, const Spoke& t) { return before(s.towards, t.towards); });
+  polled_sort(spokes.begin(), spokes.end(), execution,
+              [&](const Spoke& s, const Spoke& t) { return before(s.towards, t.towards); });
   // The depth was taken just anticlockwise of +x: past the first spoke if that is +x, else before all.
   int depth = pieces.depth_beside(at);
   if (spokes[0].towards.y == at.y && spokes[0].towards.x > at.x) depth -= spokes[0].rise;
@@ -60,7 +62,7 @@ std::vector<Sector> free_sectors(const PlanePieces& pieces, Vec2 at) {
   }
   std::vector<Sector> sectors;
   if (!spokes.empty()) {
-    visit_free(pieces, at, spokes, [&](const Spoke& s, const Spoke& t) {
+    visit_free(pieces, at, spokes, {}, [&](const Spoke& s, const Spoke& t) {
       sectors.push_back({s.towards, t.towards, false});
     });
   } else if (pieces.depth_beside(at) == 0) {
@@ -69,11 +71,11 @@ std::vector<Sector> free_sectors(const PlanePieces& pieces, Vec2 at) {
   return sectors;
 }
 
-std::vector<SectorOfPoints> free_sectors_at(const PlanePieces& pieces, PointId at) {
+std::vector<SectorOfPoints> free_sectors_at(const PlanePieces& pieces, PointId at, const Execution& execution) {
   std::vector<Spoke> spokes;
   for (const std::uint32_t piece : pieces.pieces_at(at)) add_spokes(pieces, piece, pieces.points()[at], spokes);
   std::vector<SectorOfPoints> sectors;
-  visit_free(pieces, pieces.points()[at], spokes, [&](const Spoke& s, const Spoke& t) {
+  visit_free(pieces, pieces.points()[at], spokes, execution, [&](const Spoke& s, const Spoke& t) {
     sectors.push_back({s.end, t.end});
   });
   return sectors;

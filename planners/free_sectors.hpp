@@ -67,7 +67,7 @@ struct SectorOfPoints {
   PointId first;
   PointId last;
 };
-/// The same around an end of pieces.
-std::vector<SectorOfPoints> free_sectors_at(const PlanePieces& pieces, PointId at);
+/// The same around an end of pieces, of which there may be many. Throws Stopped.
+std::vector<SectorOfPoints> free_sectors_at(const PlanePieces& pieces, PointId at, const Execution& execution);
 
 }  // namespace warren

@@ -74,7 +74,7 @@ class BreadthFirst {
   BreadthFirst(const FreeCells& cells, const Steps& steps, const Execution& execution)
       : steps_(steps), execution_(execution) {
     execution.reserve(cells.number_end());
-    arrived_by_.assign(cells.number_end(), 0);
+    assign_polled(arrived_by_, cells.number_end(), std::uint8_t{0}, [&] { execution.check(); });
   }
 
   SearchResult find(VertexId start, VertexId goal) {
@@ -169,7 +169,7 @@ struct GridSearch::Scratch {
 void GridSearch::Scratch::prepare(const Execution& execution) {
   constexpr std::size_t bytes_a_cell = 12;
   if (state.vertex_count() < cells.number_end()) execution.reserve(cells.number_end() * bytes_a_cell);
-  state.resize(cells.number_end());
+  state.resize(cells.number_end(), [&] { execution.check(); });
   queue.clear();
 }
 
@@ -187,7 +187,7 @@ SearchResult GridSearch::Scratch::best_first_search(VertexId start, VertexId goa
 }
 
 SearchResult GridSearch::Scratch::jump_point_search(VertexId start, VertexId goal, const Execution& execution) {
-  if (!jumps) jumps.emplace(cells);
+  if (!jumps) jumps.emplace(cells, execution);
   prepare(execution);
   const auto successors = [&](VertexId v, const auto& visit) { jumps->visit(v, state.parent(v), goal, visit); };
   SearchResult result = best_first(start, goal, successors, FreeDistance(cells, goal, Diagonal::sqrt2), queue, state,

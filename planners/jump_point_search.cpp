@@ -8,9 +8,10 @@
 namespace warren {
 namespace {
 
-Bitmap blocked_transposed(const FreeCells& cells) {
+Bitmap blocked_transposed(const FreeCells& cells, const Execution& execution) {
   Bitmap blocked(cells.height(), cells.width());
   for (std::uint32_t y = 0; y < cells.height(); ++y) {
+    if (y % 16 == 0) execution.check();
     for (std::uint32_t x = 0; x < cells.width(); ++x) {
       if (!cells.is_free(cells.number({x, y}))) blocked.set(y, x);
     }
@@ -59,7 +60,8 @@ constexpr unsigned step_of(int dx, int dy) {
 
 }  // namespace
 
-JumpPoints::JumpPoints(const FreeCells& cells) : rows_(cells), columns_(blocked_transposed(cells)) {}
+JumpPoints::JumpPoints(const FreeCells& cells, const Execution& execution)
+    : rows_(cells), columns_(blocked_transposed(cells, execution)) {}
 
 unsigned JumpPoints::directions(VertexId v, VertexId parent) const {
   const unsigned around = rows_.around(v);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/types.hpp"
+#include "parallel/execution.hpp"
 #include "spatial/free_cells.hpp"
 
 namespace warren {
@@ -21,7 +22,8 @@ namespace warren {
 /// Refers to the cells, which must outlive it. Immutable; any number of threads may read.
 class JumpPoints {
  public:
-  explicit JumpPoints(const FreeCells& cells);
+  /// O(cells). Throws Stopped.
+  JumpPoints(const FreeCells& cells, const Execution& execution);
 
   /// Calls visit(w, length) for the jump points after v, which was reached from `parent` (no_vertex: it is the start).
   template <class Visit>

@@ -85,12 +85,13 @@ class LayerSteps {
 };
 
 /// What is left to pay at least from each position: a Dijkstra from the goals over positions free at some heading.
-std::vector<double> plane_costs(const LayerSteps& steps, std::span<const LayerEnd> goals, const Execution& execution) {
+RawVector<double> plane_costs(const LayerSteps& steps, std::span<const LayerEnd> goals, const Execution& execution) {
   const HeadingLayers& layers = steps.layers();
   const std::size_t positions = std::size_t{layers.width} * layers.height;
   execution.reserve(positions * sizeof(double));
   Bitmap free(layers.width, layers.height);
   for (std::uint32_t k = 0; k < layers.angles; ++k) {
+    execution.check();
     const Bitmap& blocked = layers.bitmaps[layers.standing[k]];
     for (std::uint32_t j = 0; j < layers.height; ++j) {
       const auto to = free.row(j);
@@ -98,7 +99,8 @@ std::vector<double> plane_costs(const LayerSteps& steps, std::span<const LayerEn
       for (std::size_t w = 0; w < to.size(); ++w) to[w] |= ~from[w];
     }
   }
-  std::vector<double> costs(positions, std::numeric_limits<double>::infinity());
+  RawVector<double> costs;
+  assign_polled(costs, positions, std::numeric_limits<double>::infinity(), [&] { execution.check(); });
   BucketQueue queue;
   const auto reach = [&](std::uint32_t i, std::uint32_t j, double cost) {
     const std::size_t v = std::size_t{j} * layers.width + i;
@@ -107,10 +109,10 @@ std::vector<double> plane_costs(const LayerSteps& steps, std::span<const LayerEn
     queue.push(static_cast<VertexId>(v), cost);
   };
   for (const LayerEnd& goal : goals) reach(goal.state.i, goal.state.j, goal.cost);
-  for (std::uint64_t expanded = 1; !queue.empty(); ++expanded) {
+  for (std::uint64_t popped = 1; !queue.empty(); ++popped) {
     const QueueEntry top = queue.pop();
+    if (popped % expansions_per_poll == 0) execution.check();
     if (top.key > costs[top.vertex]) continue;
-    if (expanded % expansions_per_poll == 0) execution.check();
     const std::int64_t i = top.vertex % layers.width;
     const std::int64_t j = top.vertex / layers.width;
     for (const unsigned s : steps.steps()) {
@@ -145,7 +147,7 @@ class LayerAStar {
     constexpr std::size_t bytes_a_state = 12;
     execution_.reserve((layers_.states() + 2) * bytes_a_state);
     SearchState state;
-    state.resize(layers_.states() + 2);
+    state.resize(layers_.states() + 2, [&] { execution_.check(); });
     BucketQueue queue(steps_.turn_cost());
     const auto neighbours = [&](VertexId v, const auto& visit) { visit_neighbours(v, visit); };
     const auto heuristic = [&](VertexId v) { return at_least(v); };
@@ -218,7 +220,7 @@ class LayerAStar {
   const HeadingLayers& layers_;
   std::span<const LayerEnd> starts_;
   const Execution& execution_;
-  std::vector<double> plane_costs_;
+  RawVector<double> plane_costs_;
   std::vector<double> turn_costs_;  // to the nearest goal's heading, from each
   std::vector<Goal> goals_;         // by number
 };

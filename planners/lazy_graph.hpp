@@ -18,14 +18,14 @@
 
 namespace warren {
 
-/// Belongs to one thread; each side of a search has its own. Vertices: milestones, then start, then goal (whose edges
-/// were checked by attach()).
+/// Belongs to one thread; each side of a search has its own. Throws Stopped between checks. Vertices: milestones, then
+/// start, then goal (whose edges were checked by attach()).
 template <World W>
 class LazyGraph {
  public:
   using State = typename W::State;
   LazyGraph(const W& world, std::span<const State> states, const StateIndex<W>& index, const ConnectionRule& rule,
-            const Graph& candidates, std::span<const Edge> end_edges)
+            const Graph& candidates, std::span<const Edge> end_edges, const Execution& execution)
       : world_(world),
         states_(states),
         index_(index),
@@ -33,6 +33,7 @@ class LazyGraph {
         radius_(rule.radius),
         candidates_(candidates),
         end_edges_(end_edges),
+        execution_(&execution),
         query_(world.make_query()) {}
 
   /// Keeps the free edges that were used, for pictures.
@@ -56,6 +57,8 @@ class LazyGraph {
   }
 
  private:
+  static constexpr std::uint64_t checks_per_poll = 64;
+
   template <class Visit>
   void visit_milestones(VertexId v, const Visit& visit) {
     ++counters_.neighbour_queries;
@@ -63,7 +66,7 @@ class LazyGraph {
       if (!visit.wants(w, at_least) || w == v) return;  // most are settled already
       const double length = world_.distance(states_[v], states_[w]);
       if (!visit.wants(w, length)) return;
-      ++counters_.edges_checked;
+      if (++counters_.edges_checked % checks_per_poll == 0) execution_->check();
       if (!world_.is_free_motion(states_[std::min(v, w)], states_[std::max(v, w)], query_)) return;
       ++free_edges_;
       if (recorded_ != nullptr) recorded_->push_back({std::min(v, w), std::max(v, w)});
@@ -83,6 +86,7 @@ class LazyGraph {
   SearchRadius radius_;
   const Graph& candidates_;  // k rule only
   std::span<const Edge> end_edges_;
+  const Execution* execution_;
   Counters counters_;
   typename W::Query query_;
   std::vector<Edge>* recorded_ = nullptr;

@@ -12,6 +12,8 @@
 #include <array>
 #include <utility>
 
+#include "parallel/assemble_graph.hpp"
+#include "parallel/polled_sort.hpp"
 #include "planners/lazy_graph.hpp"
 #include "planners/lazy_path_search.hpp"
 #include "planners/meeting_search.hpp"
@@ -58,7 +60,7 @@ class LazyPlan {
   RawVector<VertexId> search_from_both_ends();
   RawVector<VertexId> search_paths();
   SearchResult expand_from(VertexId from, VertexId to, SearchState& state, std::vector<Edge>* record);
-  LazyGraph<W> lazy_graph() const { return {world_, states_, index_, rule_, candidates_, end_edges_}; }
+  LazyGraph<W> lazy_graph() const { return {world_, states_, index_, rule_, candidates_, end_edges_, execution_}; }
   void count(const LazyGraph<W>& graph);
   /// Estimate of the way to `to`: consistent; zero for Dijkstra and where there is no target.
   auto estimate_to(VertexId to) const {
@@ -120,7 +122,7 @@ SearchResult LazyPlan<W>::expand_from(VertexId from, VertexId to, SearchState& s
   const auto should_stop = [&] { return execution_.should_stop(); };
   const auto remaining = estimate_to(to);
   const auto neighbours = [&](VertexId v, const auto& visit) { graph(v, visit); };
-  SearchResult found = with_queue(options_.queue, states_.size(), [&](auto& queue) {
+  SearchResult found = with_queue(options_.queue, states_.size(), execution_, [&](auto& queue) {
     return best_first(from, to, neighbours, remaining, queue, state, should_stop);
   });
   if (found.status == SearchStatus::stopped) execution_.check();
@@ -195,7 +197,7 @@ Separation LazyPlan<W>::separation() {
   expand_from(start_vertex(), no_vertex, from_start, nullptr);
   expand_from(goal_vertex(), no_vertex, from_goal, nullptr);
   Components reached;
-  reached.label.assign(states_.size(), no_vertex);
+  assign_polled(reached.label, states_.size(), no_vertex, [&] { execution_.check(); });
   for (VertexId v = 0; v < states_.size(); ++v) {
     if (from_start.reached(v)) reached.label[v] = start_vertex();
     if (from_goal.reached(v)) reached.label[v] = goal_vertex();
@@ -207,10 +209,10 @@ template <World W>
 void LazyPlan<W>::finish(Roadmap<State>* keep) {
   if (solution_.outcome == Outcome::not_connected && !states_.empty()) solution_.separation = separation();
   if (keep == nullptr) return;
-  std::sort(free_edges_.begin(), free_edges_.end());
+  polled_sort(free_edges_.begin(), free_edges_.end(), execution_);
   free_edges_.erase(std::unique(free_edges_.begin(), free_edges_.end()), free_edges_.end());
   *keep = {std::move(states_), Graph(), std::move(tree_)};
-  keep->graph = Graph::from_edges(keep->states.size(), free_edges_);
+  keep->graph = assemble_graph(keep->states.size(), free_edges_, execution_);
 }
 
 }  // namespace detail

@@ -7,11 +7,12 @@ SearchResult lazy_visibility_search(const VisibleCorners& corners, Vec2 start, V
                                     Counters& counters, std::vector<Edge>* found) {
   constexpr std::uint64_t looks_per_poll = 64;
   const auto n = static_cast<VertexId>(corners.size());
-  CornerSight sight(corners);
+  CornerSight sight(corners, execution);
   SearchState state;
-  state.resize(n + 2);
+  const auto poll = [&] { execution.check(); };
+  state.resize(n + 2, poll);
   IndexedHeap<4> queue;
-  queue.resize(n + 2);
+  queue.resize(n + 2, poll);
   std::vector<VertexId> seen;
   const auto at = [&](VertexId v) { return v < n ? corners.position(v) : v == n ? start : goal; };
   const auto neighbours = [&](VertexId v, const auto& visit) {

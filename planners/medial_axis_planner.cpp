@@ -135,11 +135,11 @@ std::optional<AxisPlace> Planning::nearest_clear(Vec2 p) const {
 /// Searches with this clearance; true if there is a path.
 bool Planning::plan(double clearance) {
   const StageTimer timer(execution_, "search", solution_.seconds.search);
-  AxisGraph graph(axis(), start_place_, goal_place_, clearance);
+  AxisGraph graph(axis(), start_place_, goal_place_, clearance, execution_);
   solution_.outcome = Outcome::not_connected;
   if (!ends_are_joined(graph)) return false;
   if (options_.objective == AxisObjective::clearance) graph.narrow_to(graph.widest());
-  const SearchResult found = graph.search(options_.search, options_.queue, execution_);
+  const SearchResult found = graph.search(options_.search, options_.queue);
   solution_.counters.expanded += found.expanded;
   if (found.status != SearchStatus::found) return false;
   plan_.axis_length = 0.0;

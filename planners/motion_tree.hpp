@@ -12,6 +12,7 @@
 #include "core/counters.hpp"
 #include "core/path.hpp"
 #include "core/world.hpp"
+#include "parallel/assemble_graph.hpp"
 #include "planners/roadmap.hpp"
 #include "planners/state_index.hpp"
 #include "spatial/growing_tree.hpp"
@@ -100,9 +101,9 @@ class MotionTree {
 };
 
 /// The trees as a roadmap, one after the other; the first root of the first tree and of the last stand once more as
-/// start and goal.
+/// start and goal. Throws Stopped.
 template <SteerableWorld W>
-void keep_trees(std::span<const MotionTree<W>> trees, Roadmap<typename W::State>& roadmap) {
+void keep_trees(std::span<const MotionTree<W>> trees, Roadmap<typename W::State>& roadmap, const Execution& execution) {
   std::vector<Edge> edges;
   roadmap.states.clear();
   roadmap.motions.clear();
@@ -118,7 +119,7 @@ void keep_trees(std::span<const MotionTree<W>> trees, Roadmap<typename W::State>
   }
   roadmap.states.push_back(trees.front().state(0));
   roadmap.states.push_back(trees.back().state(0));
-  roadmap.graph = Graph::from_edges(roadmap.states.size(), edges);
+  roadmap.graph = assemble_graph(roadmap.states.size(), edges, execution);
 }
 
 }  // namespace warren

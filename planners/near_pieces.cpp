@@ -53,8 +53,11 @@ double direction_place(Vec2 d) {
   return d.x < 0.0 ? 2.0 - d.y / sum : 3.0 + d.x / sum;
 }
 
-NearPieces::NearPieces(const PlanePieces& pieces)
-    : pieces_(pieces), cell_epoch_(pieces.grid().cell_count(), 0), piece_epoch_(pieces.pieces().size(), 0) {
+NearPieces::NearPieces(const PlanePieces& pieces, const Execution& execution)
+    : pieces_(pieces),
+      execution_(execution),
+      cell_epoch_(pieces.grid().cell_count(), 0),
+      piece_epoch_(pieces.pieces().size(), 0) {
   for (std::size_t i = 0; i < directions; ++i) {
     const Vec2 d = direction_at(4.0 * static_cast<double>(i) / static_cast<double>(directions));
     unit_[i] = (1.0 / norm(d)) * d;
@@ -185,6 +188,7 @@ void NearPieces::propose_beyond(SegmentGrid::Cell from) {
 }
 
 void NearPieces::enter(SegmentGrid::Cell cell) {
+  if (++entered_ % 64 == 0) execution_.check();
   if (is_hidden(cell)) return;
   for (const std::uint32_t piece : pieces_.grid().in_cell(cell)) see(piece);
   propose_beyond(cell);

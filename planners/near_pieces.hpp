@@ -30,12 +30,12 @@ struct PlaceRange {
 };
 inline constexpr PlaceRange all_round{0.0, 4.0};
 
-/// Scratch of one thread; refers to the pieces, which must outlive it. 4 bytes a cell and a piece.
+/// Scratch of one thread; refers to the pieces and the execution, which must outlive it. 4 bytes a cell and a piece.
 class NearPieces {
  public:
-  explicit NearPieces(const PlanePieces& pieces);
+  NearPieces(const PlanePieces& pieces, const Execution& execution);
   /// The pieces that may be seen from p within the ranges, and some more; valid until the next call. Outside of the
-  /// grid all pieces.
+  /// grid all pieces. Throws Stopped.
   /// upwards: only directions of places in [0, 2], of those in the ranges, are of interest.
   std::span<const std::uint32_t> look(Vec2 p, std::span<const PlaceRange> ranges, bool upwards = false);
 
@@ -63,11 +63,13 @@ class NearPieces {
   void propose_beyond(SegmentGrid::Cell from);
 
   const PlanePieces& pieces_;
+  const Execution& execution_;
   std::array<double, directions> sight_{};  // how far one can see at most in these directions
   std::array<Vec2, directions> unit_{};     // the direction where each range begins
   RawVector<std::uint32_t> cell_epoch_;
   RawVector<std::uint32_t> piece_epoch_;
   std::uint32_t epoch_ = 0;
+  std::uint32_t entered_ = 0;
   Vec2 eye_;
   SegmentGrid::Cell home_{0, 0};
   std::vector<SegmentGrid::Cell> now_;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "parallel/polled_sort.hpp"
 #include "planners/crossing_cuts.hpp"
 
 namespace warren {
@@ -54,10 +55,11 @@ std::vector<IntegerPiece> sides_of(const PolygonSet& polygons) {
 }
 
 /// Puts the cuts, in the order along their sides, between the sides' ends.
-PolygonSet with_cuts(const PolygonSet& polygons, const std::vector<IntegerPiece>& sides, std::vector<Cut>& cuts) {
+PolygonSet with_cuts(const PolygonSet& polygons, const std::vector<IntegerPiece>& sides, RawVector<Cut>& cuts,
+                     const Execution& execution) {
   const auto along = [&](const Cut& c) { return dot(c.at - sides[c.piece].a, sides[c.piece].b - sides[c.piece].a); };
-  std::sort(cuts.begin(), cuts.end(),
-            [&](const Cut& c, const Cut& d) { return c.piece != d.piece ? c.piece < d.piece : along(c) < along(d); });
+  polled_sort(cuts.begin(), cuts.end(), execution,
+              [&](const Cut& c, const Cut& d) { return c.piece != d.piece ? c.piece < d.piece : along(c) < along(d); });
   PolygonSet result;
   auto cut = cuts.begin();
   for (std::size_t p = 0; p < polygons.size(); ++p) {
@@ -84,7 +86,7 @@ NodedPolygons node_polygons(const PolygonSet& polygons, const Execution& executi
     if (found.cuts.empty()) break;
     if (round == most_rounds) throw InputError("union", "outlines cross too often within a rounding unit");
     if (found.crossed) result.error += rounding * unit;
-    result.polygons = with_cuts(result.polygons, sides, found.cuts);
+    result.polygons = with_cuts(result.polygons, sides, found.cuts, execution);
   }
   for (Vec2& corner : result.polygons.corners) corner = unit * corner;  // exact: a power of two
   return result;

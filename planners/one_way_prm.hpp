@@ -40,6 +40,7 @@ class OneWayPlan {
   Solution<State>& solution() { return solution_; }
 
  private:
+  static constexpr std::uint64_t checks_per_poll = 64;
   enum class Check : std::uint8_t { unknown, free, blocked };
   /// An edge from a vertex.
   struct Way {
@@ -55,7 +56,7 @@ class OneWayPlan {
   void attach_goal(const ConnectionRule& rule);
   bool is_free(VertexId from, Way& way, typename W::Query& query, Counters& counters) const {
     if (way.state == Check::unknown) {
-      ++counters.edges_checked;
+      if (++counters.edges_checked % checks_per_poll == 0) execution_.check();
       way.state = world_.is_free_motion(states_[from], states_[way.to], query) ? Check::free : Check::blocked;
     }
     return way.state == Check::free;
@@ -198,7 +199,7 @@ SearchResult OneWayPlan<W>::search_best() {
   const bool informed = options_.search == SearchKind::astar;
   const auto estimate = [&](VertexId v) { return informed ? world_.distance(states_[v], goal_) : 0.0; };
   const auto should_stop = [&] { return execution_.should_stop(); };
-  const SearchResult found = with_queue(options_.queue, states_.size(), [&](auto& queue) {
+  const SearchResult found = with_queue(options_.queue, states_.size(), execution_, [&](auto& queue) {
     return best_first(start_vertex(), goal_vertex(), neighbours, estimate, queue, state, should_stop);
   });
   counters.refused = refused_motions(query);
@@ -246,11 +247,12 @@ Graph OneWayPlan<W>::free_graph(bool reversed) const {
 template <World W>
 Separation OneWayPlan<W>::separation() const {
   Components reached;
-  reached.label.assign(states_.size(), no_vertex);
+  assign_polled(reached.label, states_.size(), no_vertex, [&] { execution_.check(); });
   const auto mark = [&](const Graph& graph, VertexId from, VertexId to) {
     SearchState state;
-    state.resize(states_.size());
-    breadth_first(graph, from, to, state);
+    state.resize(states_.size(), [&] { execution_.check(); });
+    breadth_first(graph, from, to, state, [&] { return execution_.should_stop(); });
+    execution_.check();
     for (VertexId v = 0; v < states_.size(); ++v) {
       if (state.reached(v)) reached.label[v] = from;
     }

@@ -6,11 +6,14 @@
 
 #include "core/error.hpp"
 #include "core/geometry.hpp"
+#include "parallel/asked_growth.hpp"
+#include "parallel/polled_sort.hpp"
 
 namespace warren {
 namespace {
 
 constexpr std::size_t items_per_poll = 1 << 14;
+constexpr std::size_t looks_per_poll = 1 << 12;  // exact predicates can take microseconds
 
 /// All sides and walls as segments between numbered points, as they are given.
 struct Sides {
@@ -47,20 +50,22 @@ Sides sides_of(const PlaneObstacles& obstacles) {
 }
 
 /// Numbers equal ends alike, in the order in which they first appear; `points` receives the different ones.
-std::vector<PointId> number_points(std::span<const Vec2> ends, std::vector<Vec2>& points) {
+std::vector<PointId> number_points(std::span<const Vec2> ends, std::vector<Vec2>& points, const Execution& execution) {
   std::vector<std::uint32_t> order(ends.size());
   std::iota(order.begin(), order.end(), 0U);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
+  polled_sort(order.begin(), order.end(), execution, [&](std::uint32_t i, std::uint32_t j) {
     if (ends[i].x != ends[j].x) return ends[i].x < ends[j].x;
     if (ends[i].y != ends[j].y) return ends[i].y < ends[j].y;
     return i < j;
   });
   std::vector<PointId> number(ends.size());  // first of all the first end at the same place
   for (std::size_t k = 0; k < order.size(); ++k) {
+    if (k % items_per_poll == 0) execution.check();
     const bool again = k > 0 && ends[order[k]] == ends[order[k - 1]];
     number[order[k]] = again ? number[order[k - 1]] : order[k];
   }
   for (std::size_t i = 0; i < ends.size(); ++i) {
+    if (i % items_per_poll == 0) execution.check();
     if (number[i] == i) {
       number[i] = static_cast<PointId>(points.size());
       points.push_back(ends[i]);
@@ -85,12 +90,12 @@ PlanePieces::PlanePieces(const PlaneObstacles& obstacles, const Execution& execu
   const Sides sides = sides_of(obstacles);
   outside_depth_ = obstacles.bounds && has_area(*obstacles.bounds) ? 1 : 0;
   execution.reserve(sides.rise.size() * 150);
-  const std::vector<PointId> number = number_points(sides.ends, points_);
+  const std::vector<PointId> number = number_points(sides.ends, points_, execution);
   corner_count_ = 0;
   for (std::size_t i = 0; i < sides.corner_ends; ++i)
     corner_count_ = std::max<std::size_t>(corner_count_, number[i] + 1);
   cut(number, sides.rise, execution);
-  list_at_points();
+  list_at_points(execution);
   std::vector<Segment> segments(pieces_.size());
   for (std::size_t i = 0; i < segments.size(); ++i) segments[i] = segment(static_cast<std::uint32_t>(i));
   grid_ = SegmentGrid(segments, execution);
@@ -98,74 +103,86 @@ PlanePieces::PlanePieces(const PlaneObstacles& obstacles, const Execution& execu
   sound_depths(execution);
 }
 
+/// The places at which segments have to be cut: (segment, point inside it).
+RawVector<PlanePieces::Cut> PlanePieces::cuts_of(std::span<const Segment> segments, const Execution& execution) const {
+  const SegmentGrid grid(segments, execution);
+  RawVector<Cut> cuts;
+  std::size_t looks = 0;
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    const Vec2 at = points_[p];
+    for (const std::uint32_t i : grid.in_cell(grid.cell_of(at))) {
+      if (++looks % looks_per_poll == 0) execution.check();
+      if (segments[i].a == at || segments[i].b == at || !on_segment(at, segments[i])) continue;
+      push_asked(cuts, {i, static_cast<PointId>(p)}, execution);
+    }
+  }
+  const auto is_earlier = [&](const Cut& c, const Cut& d) {
+    if (c.segment != d.segment) return c.segment < d.segment;
+    const Segment& s = segments[c.segment];
+    const Vec2 p = points_[c.at];
+    const Vec2 q = points_[d.at];
+    if (p.x != q.x) return (p.x < q.x) == (s.a.x < s.b.x);
+    return p.y != q.y && (p.y < q.y) == (s.a.y < s.b.y);
+  };
+  polled_sort(cuts.begin(), cuts.end(), execution, is_earlier);
+  return cuts;
+}
+
 void PlanePieces::cut(std::span<const PointId> ends, std::span<const std::int32_t> rises, const Execution& execution) {
   std::vector<Segment> segments(rises.size());
   for (std::size_t i = 0; i < segments.size(); ++i) segments[i] = {points_[ends[2 * i]], points_[ends[2 * i + 1]]};
-  const SegmentGrid grid(segments, execution);
-  std::vector<std::pair<std::uint32_t, PointId>> cuts;  // (segment, point inside it)
-  for (std::size_t p = 0; p < points_.size(); ++p) {
-    if (p % items_per_poll == 0) execution.check();
-    const Vec2 at = points_[p];
-    for (const std::uint32_t i : grid.in_cell(grid.cell_of(at))) {
-      if (segments[i].a == at || segments[i].b == at || !on_segment(at, segments[i])) continue;
-      cuts.emplace_back(i, static_cast<PointId>(p));
-    }
-  }
-  std::sort(cuts.begin(), cuts.end());
-  std::vector<Piece> pieces;
+  const RawVector<Cut> cuts = cuts_of(segments, execution);
+  RawVector<Piece> pieces;
+  execution.reserve((segments.size() + cuts.size()) * sizeof(Piece));
   pieces.reserve(segments.size() + cuts.size());
   auto cut = cuts.begin();
   for (std::uint32_t i = 0; i < segments.size(); ++i) {
-    const Segment& s = segments[i];
-    const auto first = cut;
-    while (cut != cuts.end() && cut->first == i) ++cut;
-    std::sort(first, cut, [&](const auto& c, const auto& d) {
-      const Vec2 p = points_[c.second];
-      const Vec2 q = points_[d.second];
-      if (p.x != q.x) return (p.x < q.x) == (s.a.x < s.b.x);
-      return p.y != q.y && (p.y < q.y) == (s.a.y < s.b.y);
-    });
+    if (i % items_per_poll == 0) execution.check();
     PointId last = ends[2 * i];
-    for (auto c = first; c != cut; ++c) {
-      pieces.push_back({last, c->second, rises[i]});
-      last = c->second;
+    for (; cut != cuts.end() && cut->segment == i; ++cut) {
+      pieces.push_back({last, cut->at, rises[i]});
+      last = cut->at;
     }
     pieces.push_back({last, ends[2 * i + 1], rises[i]});
   }
-  merge(pieces);
+  merge(pieces, execution);
 }
 
-void PlanePieces::merge(std::vector<Piece>& pieces) {
+void PlanePieces::merge(RawVector<Piece>& pieces, const Execution& execution) {
   for (Piece& p : pieces) {
     if (p.a > p.b) p = {p.b, p.a, -p.rise};
   }
-  std::sort(pieces.begin(), pieces.end(),
-            [](const Piece& p, const Piece& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
+  polled_sort(pieces.begin(), pieces.end(), execution,
+              [](const Piece& p, const Piece& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
   for (const Piece& p : pieces) {
     if (!pieces_.empty() && pieces_.back().a == p.a && pieces_.back().b == p.b) {
       pieces_.back().rise += p.rise;
     } else {
-      pieces_.push_back(p);
+      push_asked(pieces_, p, execution);
     }
   }
 }
 
-void PlanePieces::list_at_points() {
-  first_at_point_.assign(points_.size() + 1, 0);
-  for (const Piece& p : pieces_) {
-    ++first_at_point_[p.a];
-    ++first_at_point_[p.b];
+void PlanePieces::list_at_points(const Execution& execution) {
+  execution.reserve((points_.size() + 2 * pieces_.size()) * sizeof(std::uint32_t));
+  assign_polled(first_at_point_, points_.size() + 1, std::uint32_t{0}, [&] { execution.check(); });
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    if (i % items_per_poll == 0) execution.check();
+    ++first_at_point_[pieces_[i].a];
+    ++first_at_point_[pieces_[i].b];
   }
   std::uint32_t sum = 0;
   for (std::uint32_t& first : first_at_point_) sum += first, first = sum;
   at_point_.resize(sum);
   for (std::size_t i = pieces_.size(); i-- > 0;) {
+    if (i % items_per_poll == 0) execution.check();
     at_point_[--first_at_point_[pieces_[i].a]] = static_cast<std::uint32_t>(i);
     at_point_[--first_at_point_[pieces_[i].b]] = static_cast<std::uint32_t>(i);
   }
 }
 
 void PlanePieces::find_crossings(const Execution& execution) {
+  std::size_t looks = 0;
   for (std::uint32_t row = 0; row < grid_.rows(); ++row) {
     execution.check();
     for (std::uint32_t col = 0; col < grid_.cols(); ++col) {
@@ -173,8 +190,8 @@ void PlanePieces::find_crossings(const Execution& execution) {
       for (std::size_t i = 0; i < here.size(); ++i) {
         const Segment s = segment(here[i]);
         const Box box = box_of(s);
-        if (i % items_per_poll == 0) execution.check();
         for (std::size_t j = i + 1; j < here.size(); ++j) {
+          if (++looks % looks_per_poll == 0) execution.check();
           const Segment t = segment(here[j]);
           if (!box.meets(box_of(t)) || !segments_cross(s, t)) continue;
           crosses_ = true;

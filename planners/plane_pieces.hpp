@@ -33,7 +33,8 @@ struct Piece {
 /// Immutable; any number of threads may read.
 class PlanePieces {
  public:
-  /// Throws Stopped at the deadline, InputError for 2^31 corners and more.
+  /// Throws Stopped at the deadline and the memory limit (walls that lie on each other have many cuts), InputError for
+  /// 2^31 corners and more.
   PlanePieces(const PlaneObstacles& obstacles, const Execution& execution);
 
   /// Different points in the order in which they first appear: corners of the polygons, ends of the walls, and then
@@ -53,9 +54,15 @@ class PlanePieces {
   int depth_beside(Vec2 p) const;
 
  private:
+  struct Cut {
+    std::uint32_t segment;
+    PointId at;
+  };
+
+  RawVector<Cut> cuts_of(std::span<const Segment> segments, const Execution& execution) const;
   void cut(std::span<const PointId> ends, std::span<const std::int32_t> rises, const Execution& execution);
-  void merge(std::vector<Piece>& pieces);
-  void list_at_points();
+  void merge(RawVector<Piece>& pieces, const Execution& execution);
+  void list_at_points(const Execution& execution);
   void find_crossings(const Execution& execution);
   void sound_depths(const Execution& execution);
   int rise_across(std::uint32_t piece, Vec2 from, Vec2 to) const;

@@ -177,8 +177,8 @@ Solution<typename W::State> plan_in_rounds(const W& world, const typename W::Sta
   }
   try {
     execution.check();
-    const std::uint64_t usual = usual_samples(world, options);
-    for (std::uint64_t samples = first_samples(world, options); samples != 0;
+    const std::uint64_t usual = usual_samples(world, options, execution);
+    for (std::uint64_t samples = first_samples(world, options, execution); samples != 0;
          samples = next_samples(options, usual, samples)) {
       if (plan.round(samples)) break;
     }

@@ -32,8 +32,8 @@ inline constexpr double growth_cap = 64.0;
 inline constexpr std::uint64_t most_samples = std::uint64_t{1} << 31;
 
 template <class W>
-concept SuggestsSamples = requires(const W& w) {
-  { w.suggested_samples() } -> std::convertible_to<double>;
+concept SuggestsSamples = requires(const W& w, const Execution& execution) {
+  { w.suggested_samples(execution) } -> std::convertible_to<double>;
 };
 
 /// Area that the world's samples are drawn from, where it is plane; else 0.
@@ -63,7 +63,7 @@ double sampled_breadth(const W& world) {
 
 /// Samples that a round usually takes.
 template <World W>
-std::uint64_t usual_samples(const W& world, const RoadmapOptions& options) {
+std::uint64_t usual_samples(const W& world, const RoadmapOptions& options, const Execution& execution) {
   if (options.sampler == SamplerKind::lattice) return std::uint64_t{options.lattice.rows} * options.lattice.cols;
   if constexpr (CellWorld<W>) {
     if (options.sampler == SamplerKind::cell_centres)
@@ -71,14 +71,14 @@ std::uint64_t usual_samples(const W& world, const RoadmapOptions& options) {
   }
   if (options.samples) return *options.samples;
   double suggested = 1000.0;
-  if constexpr (SuggestsSamples<W>) suggested = world.suggested_samples();
+  if constexpr (SuggestsSamples<W>) suggested = world.suggested_samples(execution);
   return static_cast<std::uint64_t>(std::clamp(suggested, 64.0, static_cast<double>(most_samples)));
 }
 
 /// Samples of the first round: fewer in worlds where many questions are easy (w.first_samples(), >= 1).
 template <World W>
-std::uint64_t first_samples(const W& world, const RoadmapOptions& options) {
-  const std::uint64_t usual = usual_samples(world, options);
+std::uint64_t first_samples(const W& world, const RoadmapOptions& options, const Execution& execution) {
+  const std::uint64_t usual = usual_samples(world, options, execution);
   if (options.samples || takes_all_places(options.sampler)) return usual;
   if constexpr (requires {
                   { world.first_samples() } -> std::convertible_to<std::uint64_t>;

@@ -66,7 +66,7 @@ SearchResult search_best(std::size_t vertex_count, VertexId start, VertexId goal
                                               {&states[0], &states[1]}, execution);
   } else {
     states[0].resize(vertex_count, [&] { execution.check(); });
-    found = with_queue(kind, vertex_count, [&](auto& queue) {
+    found = with_queue(kind, vertex_count, execution, [&](auto& queue) {
       return best_first(start, goal, neighbours, estimate_to(goal), queue, states[0],
                         [&] { return execution.should_stop(); });
     });

@@ -3,16 +3,19 @@
 
 #include <utility>
 
+#include "parallel/polled_sort.hpp"
 #include "planners/near_pieces.hpp"
 
 namespace warren {
 namespace {
 
 constexpr double place_doubt = 1e-12;  // places that differ by more are in the directions' order for certain
+constexpr std::size_t pieces_per_poll = 1 << 14;
 
 }  // namespace
 
-RotationalSweep::RotationalSweep(const PlanePieces& pieces) : pieces_(pieces), event_of_(pieces.points().size(), 0) {}
+RotationalSweep::RotationalSweep(const PlanePieces& pieces, const Execution& execution)
+    : pieces_(pieces), execution_(execution), event_of_(pieces.points().size(), 0) {}
 
 bool RotationalSweep::nearer_on_ray(Vec2 p, Vec2 q) const {
   if (p.x != q.x) return (p.x < q.x) == (eye_.x < q.x);
@@ -74,14 +77,15 @@ void RotationalSweep::add_piece(PointId a, PointId b) {
 void RotationalSweep::sort_events() {
   order_.resize(events_.size());
   for (std::uint32_t i = 0; i < order_.size(); ++i) order_[i] = {events_[i].place, i};
-  std::sort(order_.begin(), order_.end(), [](const Turned& t, const Turned& u) { return t.place < u.place; });
+  polled_sort(order_.begin(), order_.end(), execution_,
+              [](const Turned& t, const Turned& u) { return t.place < u.place; });
   // Runs of places too close to tell are sorted exactly: two points mostly, thousands where corners are collinear.
   const auto before = [&](const Turned& t, const Turned& u) {
     return comes_before(events_[t.event], events_[u.event]);
   };
   for (auto first = order_.begin(), end = first; first != order_.end(); first = end) {
     for (++end; end != order_.end() && end->place - (end - 1)->place <= place_doubt;) ++end;
-    if (end - first > 1) std::sort(first, end, before);
+    if (end - first > 1) polled_sort(first, end, execution_, before);
   }
 }
 
@@ -92,7 +96,10 @@ void RotationalSweep::prepare(Vec2 eye, std::span<const std::uint32_t> near, std
   next_start_.clear();
   next_end_.clear();
   crossed_at_first_.clear();
-  for (const std::uint32_t piece : near) add_piece(pieces_.pieces()[piece].a, pieces_.pieces()[piece].b);
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    if (i % pieces_per_poll == 0) execution_.check();
+    add_piece(pieces_.pieces()[near[i]].a, pieces_.pieces()[near[i]].b);
+  }
   if (extra && !(*extra == eye)) events_.push_back({*extra, direction_place(*extra - eye), target, none, none, false});
   sort_events();
 }

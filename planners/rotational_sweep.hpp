@@ -23,7 +23,7 @@
 
 namespace warren {
 
-/// Scratch of one thread; refers to the pieces, which must outlive it.
+/// Scratch of one thread; refers to the pieces and the execution, which must outlive it.
 class RotationalSweep {
  public:
   /// How far the ray turns: half a turn stops before -x.
@@ -31,11 +31,12 @@ class RotationalSweep {
   /// What visit() is told instead of a point's number where it reaches the extra target.
   static constexpr PointId target = 0xffffffffU;
 
-  explicit RotationalSweep(const PlanePieces& pieces);
+  RotationalSweep(const PlanePieces& pieces, const Execution& execution);
 
   /// near: pieces among which all that are met first by a ray of interest, in any order. wanted: one byte a point, is
   /// it of interest? extra: one more target. departure(q) tells on which lanes the way towards q may begin (no_lane:
   /// q's direction is of no interest). visit(point, lanes on which the way arrives) is called for what is reached.
+  /// Throws Stopped.
   template <class Departure, class Visit>
   void run(Vec2 eye, Turn how_far, std::span<const std::uint32_t> near, std::span<const std::uint8_t> wanted,
            std::optional<Vec2> extra, const Departure& departure, const Visit& visit) {
@@ -50,6 +51,7 @@ class RotationalSweep {
 
  private:
   static constexpr std::uint32_t none = 0xffffffffU;
+  static constexpr std::uint32_t rays_per_poll = 64;  // where pieces cross, one asks each of them
 
   /// An end of pieces, or the extra target.
   struct Event {
@@ -83,6 +85,7 @@ class RotationalSweep {
     for (const std::uint32_t piece : crossed_at_first_) active.insert(piece);
     for (std::size_t first = 0, end = 0; first < order_.size(); first = end) {
       bool worth_it = false;
+      if (++rays_ % rays_per_poll == 0) execution_.check();
       for (end = first; end < order_.size() && (end == first || same_ray(event(first), event(end))); ++end) {
         for (std::uint32_t p = event(end).ends; p != none; p = next_end_[p]) active.remove(p);
         worth_it = worth_it || event(end).id == target || wanted[event(end).id] != 0;
@@ -115,8 +118,10 @@ class RotationalSweep {
   const Event& event(std::size_t i) const { return events_[order_[i].event]; }
 
   const PlanePieces& pieces_;
+  const Execution& execution_;
   Vec2 eye_;
   bool half_ = false;  // no events below
+  std::uint32_t rays_ = 0;
   std::vector<Event> events_;
   std::vector<Turned> order_;
   std::vector<SeenPiece> seen_;  // pieces that are not seen end on

@@ -44,7 +44,7 @@ class RrtSearch {
   bool arrived() const { return last_ != no_vertex; }
   bool gave_up() const { return tree_.size() >= options_->nodes || counters_.samples >= most_steps(); }
   const Counters& counters() const { return counters_; }
-  void finish(Solution<State>& solution, Roadmap<State>* keep) const;
+  void finish(Solution<State>& solution, Roadmap<State>* keep, const Execution& execution) const;
 
  private:
   /// A tree that is shut in on all sides never gets its nodes.
@@ -90,7 +90,7 @@ void RrtSearch<W>::take_step() {
 }
 
 template <SteerableWorld W>
-void RrtSearch<W>::finish(Solution<State>& solution, Roadmap<State>* keep) const {
+void RrtSearch<W>::finish(Solution<State>& solution, Roadmap<State>* keep, const Execution& execution) const {
   solution.roadmap = {tree_.size(), tree_.size() - 1, 1};
   if (arrived()) {
     solution.path = tree_.way_to_root(last_);
@@ -100,9 +100,9 @@ void RrtSearch<W>::finish(Solution<State>& solution, Roadmap<State>* keep) const
     std::vector<PointOf<embedding_dimension<W>>> goals;
     for (const State& state : tree_.states()) states.push_back(embedded(*world_, state));
     for (const State& state : goals_) goals.push_back(embedded(*world_, state));
-    solution.separation = separation_between<embedding_dimension<W>>(std::move(states), std::move(goals), {});
+    solution.separation = separation_between<embedding_dimension<W>>(std::move(states), std::move(goals), execution);
   }
-  if (keep != nullptr) keep_trees<W>(std::span(&tree_, 1), *keep);
+  if (keep != nullptr) keep_trees<W>(std::span(&tree_, 1), *keep, execution);
 }
 
 }  // namespace detail

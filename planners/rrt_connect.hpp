@@ -56,7 +56,7 @@ class RrtConnectSearch {
   bool arrived() const { return arrived_; }
   bool gave_up() const { return node_count() >= options_->nodes || counters_.samples >= most_steps(); }
   const Counters& counters() const { return counters_; }
-  void finish(Solution<State>& solution, Roadmap<State>* keep) const;
+  void finish(Solution<State>& solution, Roadmap<State>* keep, const Execution& execution) const;
 
  private:
   /// Trees that are shut in on all sides never get their nodes.
@@ -164,7 +164,7 @@ void RrtConnectSearch<W>::take_step() {
 }
 
 template <SteerableWorld W>
-void RrtConnectSearch<W>::finish(Solution<State>& solution, Roadmap<State>* keep) const {
+void RrtConnectSearch<W>::finish(Solution<State>& solution, Roadmap<State>* keep, const Execution& execution) const {
   solution.roadmap = {node_count(), node_count() - 1, arrived_ ? 1U : 2U};
   if (arrived_) {
     solution.path = trees_[0].way_to_root(meeting_[0]);
@@ -177,9 +177,9 @@ void RrtConnectSearch<W>::finish(Solution<State>& solution, Roadmap<State>* keep
       for (const State& state : tree.states()) embeddings.push_back(embedded(*world_, state));
       return embeddings;
     };
-    solution.separation = separation_between<embedding_dimension<W>>(points(trees_[0]), points(trees_[1]), {});
+    solution.separation = separation_between<embedding_dimension<W>>(points(trees_[0]), points(trees_[1]), execution);
   }
-  if (keep != nullptr) keep_trees<W>(trees_, *keep);
+  if (keep != nullptr) keep_trees<W>(trees_, *keep, execution);
 }
 
 }  // namespace detail

@@ -9,7 +9,9 @@
 #include <optional>
 
 #include "core/search.hpp"
+#include "parallel/assemble_graph.hpp"
 #include "parallel/components.hpp"
+#include "parallel/polled_sort.hpp"
 #include "planners/map_skeleton.hpp"
 #include "planners/queue_choice.hpp"
 #include "planners/separation.hpp"
@@ -137,7 +139,7 @@ void SkeletonPlan::link() {
 }
 
 bool SkeletonPlan::joined() {
-  const Graph graph = Graph::from_edges(cells_->size(), edges_);
+  const Graph graph = assemble_graph(cells_->size(), edges_, execution_);
   const Components parts = components(graph, execution_);
   plan_.roadmap = {cells_->size(), edges_.size(), parts.count};
   if (parts.connected(start(), goal())) return true;
@@ -199,12 +201,12 @@ std::vector<Edge> SkeletonPlan::at_least(std::span<const Edge> edges, std::span<
 /// The largest width at which start and goal are joined; they are at the least one.
 std::uint32_t SkeletonPlan::widest(std::span<const std::uint32_t> widths) const {
   std::vector<std::uint32_t> levels(widths.begin(), widths.end());
-  std::sort(levels.begin(), levels.end());
+  polled_sort(levels.begin(), levels.end(), execution_);
   levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
   std::size_t low = 0;  // joins; from `high` on nothing does
   for (std::size_t high = levels.size(); high - low > 1;) {
     const std::size_t middle = low + (high - low) / 2;
-    const Graph wide = Graph::from_edges(cells_->size(), at_least(edges_, widths, levels[middle]));
+    const Graph wide = assemble_graph(cells_->size(), at_least(edges_, widths, levels[middle]), execution_);
     (components(wide, execution_).connected(start(), goal()) ? low : high) = middle;
   }
   return levels[low];
@@ -224,7 +226,7 @@ SearchResult SkeletonPlan::found(const Graph& graph) const {
     const Cell c = cells_->cell(v);
     return informed ? std::hypot(static_cast<double>(c.x) - goal_.x, static_cast<double>(c.y) - goal_.y) : 0.0;
   };
-  return with_queue(options_.queue, graph.vertex_count(), [&](auto& queue) {
+  return with_queue(options_.queue, graph.vertex_count(), execution_, [&](auto& queue) {
     return best_first(start(), goal(), neighbours, estimate, queue, state, should_stop);
   });
 }
@@ -235,7 +237,7 @@ void SkeletonPlan::search() {
     const std::vector<std::uint32_t> wide = widths();
     edges_ = at_least(edges_, wide, widest(wide));
   }
-  const SearchResult result = found(Graph::from_edges(cells_->size(), edges_));
+  const SearchResult result = found(assemble_graph(cells_->size(), edges_, execution_));
   if (result.status == SearchStatus::stopped) execution_.check();
   plan_.expanded = result.expanded;
   if (result.status != SearchStatus::found) return;

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/geometry.hpp"
+#include "parallel/polled_sort.hpp"
 #include "planners/crossing_cuts.hpp"
 
 namespace warren {
@@ -13,6 +14,7 @@ namespace {
 
 constexpr double largest_integer = 0x1.0p29;
 constexpr int most_rounds = 24;
+constexpr std::size_t pieces_per_poll = 1 << 14;
 constexpr double rounding = 0.7072;  // of both coordinates, in units
 
 SnapGrid grid_of(std::span<const Segment> segments) {
@@ -34,14 +36,18 @@ Vec2 snapped(const SnapGrid& grid, Vec2 p) {
 }
 
 /// Splits the pieces at their cuts, in order along each.
-std::vector<IntegerPiece> split(const std::vector<IntegerPiece>& pieces, std::vector<Cut>& cuts) {
-  std::sort(cuts.begin(), cuts.end(),
-            [](const Cut& c, const Cut& d) { return c.piece != d.piece ? c.piece < d.piece : is_before(c.at, d.at); });
+std::vector<IntegerPiece> split(const std::vector<IntegerPiece>& pieces, RawVector<Cut>& cuts,
+                                const Execution& execution) {
+  polled_sort(cuts.begin(), cuts.end(), execution, [](const Cut& c, const Cut& d) {
+    return c.piece != d.piece ? c.piece < d.piece : is_before(c.at, d.at);
+  });
   cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
   std::vector<IntegerPiece> parts;
+  execution.reserve((pieces.size() + cuts.size()) * sizeof(IntegerPiece));
   parts.reserve(pieces.size() + cuts.size());
   auto cut = cuts.begin();
   for (std::uint32_t i = 0; i < pieces.size(); ++i) {
+    if (i % pieces_per_poll == 0) execution.check();
     Vec2 from = pieces[i].a;
     for (; cut != cuts.end() && cut->piece == i; ++cut) {
       parts.push_back({from, cut->at, pieces[i].source});
@@ -53,11 +59,11 @@ std::vector<IntegerPiece> split(const std::vector<IntegerPiece>& pieces, std::ve
 }
 
 /// Turns pieces to run from left to right and drops doubles (the lowest source stays).
-void tidy(std::vector<IntegerPiece>& pieces) {
+void tidy(std::vector<IntegerPiece>& pieces, const Execution& execution) {
   for (IntegerPiece& p : pieces) {
     if (is_before(p.b, p.a)) std::swap(p.a, p.b);
   }
-  std::sort(pieces.begin(), pieces.end(), [](const IntegerPiece& p, const IntegerPiece& q) {
+  polled_sort(pieces.begin(), pieces.end(), execution, [](const IntegerPiece& p, const IntegerPiece& q) {
     if (!(p.a == q.a)) return is_before(p.a, q.a);
     return p.b == q.b ? p.source < q.source : is_before(p.b, q.b);
   });
@@ -75,6 +81,7 @@ SnappedSegments snap_segments(std::span<const Segment> segments, const Execution
   pieces.reserve(segments.size());
   bool is_exact = true;
   for (std::size_t i = 0; i < segments.size(); ++i) {
+    if (i % pieces_per_poll == 0) execution.check();
     const Vec2 a = snapped(result.grid, segments[i].a);
     const Vec2 b = snapped(result.grid, segments[i].b);
     is_exact = is_exact && result.grid.at(a.x, a.y) == segments[i].a && result.grid.at(b.x, b.y) == segments[i].b;
@@ -82,12 +89,12 @@ SnappedSegments snap_segments(std::span<const Segment> segments, const Execution
   }
   result.error = is_exact ? 0.0 : rounding * result.grid.unit;
   for (int round = 0;; ++round) {
-    tidy(pieces);
+    tidy(pieces, execution);
     CrossingCuts found = find_cuts(pieces, execution);
     if (found.cuts.empty()) break;
     if (round == most_rounds) throw InputError("medial axis", "obstacles cross too often within a rounding unit");
     if (found.crossed) result.error += rounding * result.grid.unit;
-    pieces = split(pieces, found.cuts);
+    pieces = split(pieces, found.cuts, execution);
   }
   result.segments.reserve(pieces.size());
   for (const IntegerPiece& p : pieces) {

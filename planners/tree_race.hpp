@@ -48,7 +48,7 @@ double usual_step(const W& world) {
 }
 
 /// s.advance(steps) takes so many steps, fewer where it arrives or gives up; s.arrived(), s.gave_up(),
-/// s.counters() and s.finish(solution, keep).
+/// s.counters() and s.finish(solution, keep, execution).
 namespace detail {
 
 /// Batches until one has arrived or all have given up: which one answers.
@@ -100,7 +100,7 @@ Solution<typename W::State> race_trees(const W& world, const typename W::State& 
     for (std::uint32_t i = 0; i < options.trees; ++i) searches.emplace_back(world, start, free_goals, options, step, i);
     const auto winner = race(searches, solution.counters.rounds, execution);
     solution.outcome = winner ? Outcome::solved : Outcome::not_connected;
-    searches[winner.value_or(0)].finish(solution, keep);
+    searches[winner.value_or(0)].finish(solution, keep, execution);
   } catch (const Stopped& stopped) {
     mark_stopped(solution, stopped);
   }

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "parallel/chunks.hpp"
+#include "parallel/first_touch.hpp"
 
 namespace warren {
 namespace {
@@ -25,11 +26,11 @@ std::vector<Rows> rows_above(const VisibleCorners& corners, SightLines which, co
   const std::size_t grain = grain_for(n);
   std::vector<Rows> parts(chunk_count(n, grain));
   for_chunks(n, grain, execution, [&](Range r) {
-    CornerSight sight(corners);
+    CornerSight sight(corners, execution);
     std::vector<VertexId> seen;
     Rows& part = parts[r.first / grain];
     for (std::size_t v = r.first; v < r.last; ++v) {
-      if (v % 16 == 0) execution.check();
+      execution.check();
       sight.above_vertex(static_cast<VertexId>(v), which, seen);
       part.targets.insert(part.targets.end(), seen.begin(), seen.end());
       part.degrees.push_back(static_cast<EdgeEnd>(seen.size()));
@@ -39,14 +40,14 @@ std::vector<Rows> rows_above(const VisibleCorners& corners, SightLines which, co
   return parts;
 }
 
-/// Calls visit(v, w) for all v, ascending, and the neighbours w above it, ascending; polls between parts.
+/// Calls visit(v, w) for all v, ascending, and the neighbours w above it, ascending.
 template <class Visit>
 void for_each_pair(const std::vector<Rows>& parts, const Execution& execution, const Visit& visit) {
   VertexId v = 0;
   for (const Rows& part : parts) {
-    execution.check();
     auto target = part.targets.begin();
     for (const EdgeEnd degree : part.degrees) {
+      if (v % 16 == 0) execution.check();
       for (const auto end = target + degree; target != end; ++target) visit(v, *target);
       ++v;
     }
@@ -85,6 +86,7 @@ Graph graph_of_rows(std::size_t n, std::vector<Rows>& parts, const Execution& ex
   RowBorders borders = row_borders(n, parts, execution);
   execution.reserve(borders.first[n] * sizeof(VertexId));
   RawVector<VertexId> targets(borders.first[n]);
+  touch_first(targets, execution);
   std::vector<EdgeEnd> below(borders.first.begin(), borders.first.end() - 1);
   std::vector<EdgeEnd> above(borders.above.begin(), borders.above.end());
   for_each_pair(parts, execution, [&](VertexId v, VertexId w) {
@@ -112,9 +114,9 @@ VisibilityGraph::VisibilityGraph(const VisibleCorners& corners, VisibilityEdges 
   graph_ = graph_of_rows(positions_.size(), parts, execution);
 }
 
-VisibilityLinks VisibilityGraph::link(Vec2 start, Vec2 goal) const {
+VisibilityLinks VisibilityGraph::link(Vec2 start, Vec2 goal, const Execution& execution) const {
   VisibilityLinks links{start, goal, {}, {}, std::vector<std::uint8_t>(size(), 0), false};
-  CornerSight sight(corners_);
+  CornerSight sight(corners_, execution);
   sight.from_point(start, which_, goal, links.from_start);
   if (!links.from_start.empty() && links.from_start.back() == CornerSight::target) {
     links.direct = true;
@@ -125,15 +127,16 @@ VisibilityLinks VisibilityGraph::link(Vec2 start, Vec2 goal) const {
   return links;
 }
 
-Graph VisibilityGraph::joined(const VisibilityLinks& links) const {
+Graph VisibilityGraph::joined(const VisibilityLinks& links, const Execution& execution) const {
   const std::size_t n = size();
   std::vector<std::uint8_t> sees_start(n, 0);
   for (const VertexId v : links.from_start) sees_start[v] = 1;
   RawVector<EdgeEnd> offsets;
   RawVector<VertexId> targets;
   offsets.reserve(n + 3);
-  targets.reserve(2 * (graph_.edge_count() + links.count()));
+  reserve_touched(targets, 2 * (graph_.edge_count() + links.count()), execution);
   for (VertexId v = 0; v < n; ++v) {
+    if (v % 256 == 0) execution.check();
     offsets.push_back(static_cast<EdgeEnd>(targets.size()));
     targets.insert(targets.end(), graph_.neighbours(v).begin(), graph_.neighbours(v).end());
     if (sees_start[v] != 0) targets.push_back(start_vertex());

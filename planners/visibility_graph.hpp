@@ -48,10 +48,10 @@ class VisibilityGraph {
   VertexId start_vertex() const { return static_cast<VertexId>(size()); }
   VertexId goal_vertex() const { return static_cast<VertexId>(size() + 1); }
 
-  /// Two sweeps, O(vertices). Start and goal are not blocked, and different.
-  VisibilityLinks link(Vec2 start, Vec2 goal) const;
-  /// The graph with start and goal as the last two vertices; O(vertices + edges).
-  Graph joined(const VisibilityLinks& links) const;
+  /// Two sweeps, O(vertices). Start and goal are not blocked, and different. Throws Stopped.
+  VisibilityLinks link(Vec2 start, Vec2 goal, const Execution& execution) const;
+  /// The graph with start and goal as the last two vertices; O(vertices + edges). Throws Stopped.
+  Graph joined(const VisibilityLinks& links, const Execution& execution) const;
 
   /// A* (informed) or Dijkstra between start and goal without joining them to the graph. Queue and state are cleared
   /// and sized for size() + 2 vertices.

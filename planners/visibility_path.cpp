@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "parallel/assemble_graph.hpp"
 #include "parallel/components.hpp"
+#include "parallel/polled_sort.hpp"
 #include "planners/confined_obstacles.hpp"
 #include "planners/lazy_visibility.hpp"
 #include "planners/queue_choice.hpp"
@@ -58,14 +60,14 @@ class VisibilityPlan {
 
   void search(const VisibilityGraph& visibility) {
     const StageTimer timer(execution_, "search", solution_.seconds.search);
-    const VisibilityLinks links = visibility.link(start_, goal_);
+    const VisibilityLinks links = visibility.link(start_, goal_, execution_);
     solution_.roadmap.edges = visibility.graph().edge_count() + links.count();
     const bool plain = options_.search == SearchKind::bfs || options_.search == SearchKind::dfs;
     SearchState state;
-    state.resize(visibility.size() + 2);
-    if (plain || keep_ != nullptr) roadmap_.graph = visibility.joined(links);
+    state.resize(visibility.size() + 2, [&] { execution_.check(); });
+    if (plain || keep_ != nullptr) roadmap_.graph = visibility.joined(links, execution_);
     const SearchResult found = plain ? search_plainly(state) : search_best(visibility, links, state);
-    if (found.status == SearchStatus::exhausted) separate(visibility, visibility.joined(links));
+    if (found.status == SearchStatus::exhausted) separate(visibility, visibility.joined(links, execution_));
     if (keep_ != nullptr) roadmap_.search_tree = search_tree(state);
     finish(visibility.positions(), found);
   }
@@ -78,7 +80,7 @@ class VisibilityPlan {
   }
 
   SearchResult search_best(const VisibilityGraph& visibility, const VisibilityLinks& links, SearchState& state) const {
-    return with_queue(options_.queue, visibility.size() + 2, [&](auto& queue) {
+    return with_queue(options_.queue, visibility.size() + 2, execution_, [&](auto& queue) {
       return visibility.search(links, options_.search == SearchKind::astar, queue, state,
                                [&] { return execution_.should_stop(); });
     });
@@ -91,10 +93,10 @@ class VisibilityPlan {
     std::vector<Vec2> positions(corners.size());
     for (VertexId v = 0; v < positions.size(); ++v) positions[v] = corners.position(v);
     for (Edge& e : edges) e = {std::min(e.from, e.to), std::max(e.from, e.to)};
-    std::sort(edges.begin(), edges.end());
+    polled_sort(edges.begin(), edges.end(), execution_);
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     solution_.roadmap.edges = edges.size();
-    if (keep_ != nullptr) roadmap_.graph = Graph::from_edges(corners.size() + 2, edges);
+    if (keep_ != nullptr) roadmap_.graph = assemble_graph(corners.size() + 2, edges, execution_);
     finish(positions, found);
   }
 

@@ -34,8 +34,9 @@ VisibleCorners::VisibleCorners(const PlaneObstacles& obstacles, const Execution&
   for_chunks(corners, grain, execution, [&](Range r) {
     std::vector<SectorEnds>& part = parts[r.first / grain];
     for (std::size_t p = r.first; p < r.last; ++p) {
+      if (p % 64 == 0) execution.check();
       const auto at = static_cast<PointId>(p);
-      const std::vector<SectorOfPoints> sectors = free_sectors_at(pieces_, at);
+      const std::vector<SectorOfPoints> sectors = free_sectors_at(pieces_, at, execution);
       first_vertex_[p + 1] = static_cast<VertexId>(sectors.size());
       for (const SectorOfPoints& s : sectors) {
         const Vec2 first = pieces_.points()[s.first];
@@ -46,6 +47,7 @@ VisibleCorners::VisibleCorners(const PlaneObstacles& obstacles, const Execution&
   });
   for (std::size_t p = 0; p < pieces_.points().size(); ++p) first_vertex_[p + 1] += first_vertex_[p];
   for (const auto& part : parts) ends_.insert(ends_.end(), part.begin(), part.end());
+  execution.check();
   point_.resize(ends_.size());
   any_.assign(pieces_.points().size(), 0);
   reflex_.assign(pieces_.points().size(), 0);
@@ -67,8 +69,8 @@ bool VisibleCorners::is_blocked(Vec2 at) const {
   return false;
 }
 
-CornerSight::CornerSight(const VisibleCorners& corners)
-    : corners_(corners), near_(corners.pieces()), sweep_(corners.pieces()) {}
+CornerSight::CornerSight(const VisibleCorners& corners, const Execution& execution)
+    : corners_(corners), near_(corners.pieces(), execution), sweep_(corners.pieces(), execution) {}
 
 void CornerSight::arrive(Vec2 eye, PointId p, Lanes lanes, SightLines which, std::vector<VertexId>& seen) const {
   const Vec2 at = corners_.pieces().points()[p];

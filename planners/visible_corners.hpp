@@ -65,13 +65,14 @@ class VisibleCorners {
 /// Which neighbours count.
 enum class SightLines : std::uint8_t { all, tangent };
 
-/// Looks from vertices and from other points; scratch of one thread. The corners must outlive it.
+/// Looks from vertices and from other points; scratch of one thread. The corners and the execution must outlive it.
+/// Throws Stopped.
 class CornerSight {
  public:
   /// What is told instead of a vertex where the extra target is seen.
   static constexpr VertexId target = no_vertex;
 
-  explicit CornerSight(const VisibleCorners& corners);
+  CornerSight(const VisibleCorners& corners, const Execution& execution);
 
   /// Replaces `seen` by half of the neighbours of v, ascending: those above it and, at its height, on its right. So of
   /// each pair of neighbours one sees the other.

@@ -46,9 +46,10 @@ FreeCells::FreeCells(const Bitmap& blocked)
   }
 }
 
-Bitmap transposed(const Bitmap& bitmap) {
+Bitmap transposed(const Bitmap& bitmap, const Execution& execution) {
   Bitmap result(bitmap.height(), bitmap.width());
   for (std::uint32_t y = 0; y < bitmap.height(); ++y) {
+    if (y % 16 == 0) execution.check();
     const auto words = bitmap.row(y);
     for (std::uint32_t w = 0; w < words.size(); ++w) {
       for (std::uint64_t rest = words[w]; rest != 0; rest &= rest - 1) {

@@ -10,6 +10,7 @@
 #include "core/bitmap.hpp"
 #include "core/raw_vector.hpp"
 #include "core/types.hpp"
+#include "parallel/execution.hpp"
 
 namespace warren {
 
@@ -56,8 +57,8 @@ class FreeCells {
   RawVector<std::uint64_t> words_;
 };
 
-/// The bitmap with rows and columns exchanged.
-Bitmap transposed(const Bitmap& bitmap);
+/// The bitmap with rows and columns exchanged. Throws Stopped.
+Bitmap transposed(const Bitmap& bitmap, const Execution& execution);
 
 /// The eight steps from a cell, by ascending number of the cell that they lead to.
 inline constexpr std::array<std::array<int, 2>, 8> cell_steps{

@@ -22,7 +22,8 @@ std::vector<CellRun> runs_of(const Bitmap& cells, std::uint32_t y) {
 
 }  // namespace
 
-PictureLayer cells_layer(std::string id, const Bitmap& cells, const std::function<Vec2(Vec2)>& at) {
+PictureLayer cells_layer(std::string id, const Bitmap& cells, const std::function<Vec2(Vec2)>& at,
+                         const Execution& execution) {
   PictureLayer layer{std::move(id), colors::polygon, 0.0, {}, true, true};
   std::map<CellRun, std::uint32_t> open;  // runs of the rows before, and the row where each began
   const auto close = [&](const CellRun& run, std::uint32_t first, std::uint32_t last) {
@@ -31,6 +32,7 @@ PictureLayer cells_layer(std::string id, const Bitmap& cells, const std::functio
     layer.lines.add(std::array{at(low), at({high.x, low.y}), at(high), at({low.x, high.y})});
   };
   for (std::uint32_t y = 0; y < cells.height(); ++y) {
+    execution.check();
     std::map<CellRun, std::uint32_t> next;
     for (const CellRun& run : runs_of(cells, y)) {
       const auto found = open.find(run);
@@ -45,8 +47,9 @@ PictureLayer cells_layer(std::string id, const Bitmap& cells, const std::functio
   return layer;
 }
 
-PictureLayer map_layer(const OccupancyMap& map) {
-  return cells_layer("blocked", map.blocked, [&](Vec2 p) { return world_point(map, p); });
+PictureLayer map_layer(const OccupancyMap& map, const Execution& execution) {
+  return cells_layer(
+      "blocked", map.blocked, [&](Vec2 p) { return world_point(map, p); }, execution);
 }
 
 }  // namespace warren

@@ -13,10 +13,11 @@
 namespace warren {
 
 /// at(p): where the bitmap's coordinates lie in the world; cell (x, y) is the square from (x, y) to (x + 1, y + 1).
-/// O(cells / 64 + runs).
-PictureLayer cells_layer(std::string id, const Bitmap& cells, const std::function<Vec2(Vec2)>& at);
+/// O(cells + runs log). Throws Stopped.
+PictureLayer cells_layer(std::string id, const Bitmap& cells, const std::function<Vec2(Vec2)>& at,
+                         const Execution& execution);
 
 /// The blocked cells of a map.
-PictureLayer map_layer(const OccupancyMap& map);
+PictureLayer map_layer(const OccupancyMap& map, const Execution& execution);
 
 }  // namespace warren

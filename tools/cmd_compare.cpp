@@ -107,7 +107,7 @@ void CompareCommand::compare_on_world(const Run& run) {
   StageTimes before;
   Scene scene = load_world(*options_.world, arguments_, execution_, before);
   if (!options_.planners) return compare_searches(scene, run);
-  if (scene.map && needs_map_walls(scene)) add_map_walls(scene);
+  if (scene.map && needs_map_walls(scene)) add_map_walls(scene, execution_);
   run_planner_contest(scene, *options_.planners, execution_, comparison_);
   if (options_.planners->pictures.empty()) return;
   draw_contest(scene, *options_.planners, comparison_, options_.planners->pictures, execution_);

@@ -49,7 +49,7 @@ void write_any(Scene& scene, const std::string& file, const Arguments& arguments
     const auto cell = text ? std::optional(cell_value(*text, scene)) : std::nullopt;
     return write_map(map_for(scene, cell, execution), file, execution);
   }
-  add_map_walls(scene);
+  add_map_walls(scene, execution);
   write_world(scene, file, arguments.command_line(), execution);
 }
 

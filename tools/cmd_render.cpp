@@ -84,10 +84,10 @@ int render(const Arguments& arguments) {
   RecordedAnswer answer;
   if (answer_file) answer = read_answer(*answer_file, run.execution());
   Scene scene = load_world(arguments.operand(0), arguments, run.execution(), seconds);
-  add_map_walls(scene);
+  add_map_walls(scene, run.execution());
   if (answer_file) check_same_world(answer, *answer_file, scene, run.execution());
   std::vector<PictureLayer> layers;
-  if (scene.map) layers.push_back(map_layer(*scene.map));
+  if (scene.map) layers.push_back(map_layer(*scene.map, run.execution()));
   const RobotSpec robot = robot_of(scene, answer.problem);
   check_not_written(arguments, robot.table);
   if (robot.kind == RobotKind::polygon && answer.state_width() == 3) {

@@ -102,7 +102,7 @@ void SolveCommand::solve(const Run& run) {
   const RobotKind body = robot_of(scene_, problem_).kind;
   const bool by_cells = solver_->planner == PlannerKind::grid || solver_->planner == PlannerKind::voronoi;
   const bool on_cells = by_cells || body == RobotKind::point || body == RobotKind::disc;
-  if (scene_.map && !on_cells) add_map_walls(scene_);  // what the others plan among
+  if (scene_.map && !on_cells) add_map_walls(scene_, run.execution());  // what the others plan among
   answer_ = solver_->kind->solve(request(run.execution()));
   answer_.world = std::move(world);
 }
@@ -127,9 +127,9 @@ void SolveCommand::write_outputs(const Run& run) {
 }
 
 void SolveCommand::draw(const Execution& execution) {
-  add_map_walls(scene_);
+  add_map_walls(scene_, execution);
   if (solver_->kind->draw != nullptr) solver_->kind->draw(request(execution));
-  if (scene_.map) drawing_.layers.insert(drawing_.layers.begin(), map_layer(*scene_.map));
+  if (scene_.map) drawing_.layers.insert(drawing_.layers.begin(), map_layer(*scene_.map, execution));
   const bool has_roadmap = is_roadmap_planner(solver_->planner) || !drawing_.roadmap.states.empty();
   const StateList& states = answer_.refuted ? answer_.refuted->states : answer_.states;
   const std::span<const Vec2> path = answer_.refuted ? answer_.refuted->path : answer_.path;

@@ -87,7 +87,7 @@ class ContestPictures {
   void write(const std::string& name, const std::string& title, std::span<const PictureLayer> own,
              const Shown& shown) const {
     std::vector<PictureLayer> layers;
-    if (scene_.map) layers.push_back(map_layer(*scene_.map));
+    if (scene_.map) layers.push_back(map_layer(*scene_.map, execution_));
     layers.insert(layers.end(), own.begin(), own.end());
     const Picture picture{
         .scene = scene_,

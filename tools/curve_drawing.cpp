@@ -93,14 +93,18 @@ std::vector<double> path_turns(const RobotSpec& robot, const StateList& states) 
   return leg_turns(poses);
 }
 
-void draw_curves(Drawing& drawing, const std::vector<Roadmap<Se2>>& roadmaps, bool one_way, const CurveBetween& curve) {
+void draw_curves(Drawing& drawing, const std::vector<Roadmap<Se2>>& roadmaps, bool one_way, const CurveBetween& curve,
+                 const Execution& execution) {
   PictureLayer edges{"edges", colors::components[0], widths::edge, {}};
   PictureLayer trees{"search_tree", colors::search_tree, widths::search_tree, {}};
+  std::size_t drawn = 0;
   for (const Roadmap<Se2>& roadmap : roadmaps) {
     for (const Edge& motion : motions_of(roadmap, one_way)) {
+      if (++drawn % 256 == 0) execution.check();
       add_curve(edges, curve(roadmap.states[motion.from], roadmap.states[motion.to]));
     }
     for (const Edge& edge : roadmap.search_tree) {
+      if (++drawn % 256 == 0) execution.check();
       if (edge.to != no_vertex) add_curve(trees, curve(roadmap.states[edge.to], roadmap.states[edge.from]));
     }
     for (const Se2& state : roadmap.states) drawing.roadmap.states.push_back(state.position());

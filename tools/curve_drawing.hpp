@@ -33,8 +33,9 @@ std::vector<double> leg_lengths(std::span<const Se2> poses, std::span<const doub
 std::vector<double> path_turns(const RobotSpec& robot, const StateList& states);
 
 /// Edges and search trees as layers of curves, milestones as the drawing's roadmap. one_way: an edge leads from the
-/// vertex in whose row it stands.
-void draw_curves(Drawing& drawing, const std::vector<Roadmap<Se2>>& roadmaps, bool one_way, const CurveBetween& curve);
+/// vertex in whose row it stands. Throws Stopped.
+void draw_curves(Drawing& drawing, const std::vector<Roadmap<Se2>>& roadmaps, bool one_way, const CurveBetween& curve,
+                 const Execution& execution);
 
 /// The pose at the share t of the leg from a to b, which is straight or an arc.
 Se2 pose_on_leg(const Se2& a, const Se2& b, double t);

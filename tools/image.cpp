@@ -10,9 +10,11 @@
 
 namespace warren {
 
-Image::Image(std::size_t width, std::size_t height, Rgb paper)
+Image::Image(std::size_t width, std::size_t height, Rgb paper, const Execution& execution)
     : width_(width), height_(height), pixels_(3 * width * height) {
+  constexpr std::size_t pixels_per_poll = std::size_t{1} << 18;
   for (std::size_t i = 0; i < width * height; ++i) {
+    if (i % pixels_per_poll == 0) execution.check();
     pixels_[3 * i] = paper.red;
     pixels_[3 * i + 1] = paper.green;
     pixels_[3 * i + 2] = paper.blue;
@@ -48,8 +50,9 @@ constexpr int sub_rows = 4;
 
 }  // namespace
 
-void Image::fill(std::span<const Vec2> outline, Rgb color) {
+void Image::fill(std::span<const Vec2> outline, Rgb color, const Execution& execution) {
   if (outline.size() < 3) return;
+  execution.check();
   Box box;
   for (const Vec2 p : outline) box.include(p);
   const double top = std::clamp(std::floor(box.min.y), 0.0, static_cast<double>(height_));
@@ -64,7 +67,9 @@ void Image::fill(std::span<const Vec2> outline, Rgb color) {
     return static_cast<std::size_t>(std::clamp(k, 0.0, static_cast<double>(crossings.size())));
   };
   Vec2 a = outline.back();
+  std::size_t sides = 0;
   for (const Vec2 b : outline) {
+    if (++sides % 256 == 0) execution.check();
     const auto [upper, lower] = a.y < b.y ? std::pair(a, b) : std::pair(b, a);
     for (std::size_t k = sub_row(upper.y); k < sub_row(lower.y); ++k) {
       crossings[k].push_back(upper.x + (lower.x - upper.x) / (lower.y - upper.y) * (height_of(k) - upper.y));
@@ -73,6 +78,7 @@ void Image::fill(std::span<const Vec2> outline, Rgb color) {
   }
   std::vector<double> cover(width_ + 1);
   for (std::size_t row = 0; row < rows; ++row) {
+    if (row % 64 == 63) execution.check();
     fill_row(first_row + row, std::span(crossings).subspan(row * sub_rows, sub_rows), cover, color);
   }
 }

@@ -20,7 +20,7 @@ namespace warren {
 /// Row 0 is the top row; 3 bytes a pixel.
 class Image {
  public:
-  Image(std::size_t width, std::size_t height, Rgb paper);
+  Image(std::size_t width, std::size_t height, Rgb paper, const Execution& execution);
 
   std::size_t width() const { return width_; }
   std::size_t height() const { return height_; }
@@ -29,7 +29,8 @@ class Image {
   /// A line with round ends; coordinates in pixels from the upper left corner, y down. O(pixels covered + rows).
   void draw_line(Vec2 a, Vec2 b, double width, Rgb color);
   /// The inside of an outline, by the even-odd rule, with even edges. O(pixels covered + crossed rows).
-  void fill(std::span<const Vec2> outline, Rgb color);
+  /// Throws Stopped.
+  void fill(std::span<const Vec2> outline, Rgb color, const Execution& execution);
 
  private:
   void fill_row(std::size_t y, std::span<std::vector<double>> crossings, std::vector<double>& cover, Rgb color);

@@ -80,7 +80,7 @@ Se2World turning_world(const Scene& scene, const Problem& problem, const Se2& po
   for (const Vec2 p : problem.robot.outline) reach = std::max(reach, problem.clearance + norm(p));
   Scene around;
   around.map = cut_out(*scene.map, pose, reach);
-  add_map_walls(around);
+  add_map_walls(around, execution);
   return {around, problem.robot.outline, options, execution};
 }
 

@@ -36,7 +36,7 @@ std::size_t machine_bytes() {
 /// Seconds that it takes to write a byte to every page of a new block.
 double touch_once(std::size_t bytes, const Execution& execution) {
   constexpr std::size_t page = 4096;
-  constexpr std::size_t grain = std::size_t{16} << 20;
+  constexpr std::size_t grain = std::size_t{4} << 20;
   const auto begin = std::chrono::steady_clock::now();
   RawVector<std::uint8_t> block(bytes);
   for_chunks(bytes, grain, execution, [&](Range r) {

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "parallel/components.hpp"
 #include "tools/output_files.hpp"
 #include "worlds/output_file_io.hpp"
 
@@ -51,14 +52,16 @@ std::vector<Vec2> without_arcs(std::span<const Vec2> points, std::span<const dou
   return chain;
 }
 
-std::vector<std::uint8_t> component_colors(const Graph& graph) {
-  const Components parts = components(graph);
+std::vector<std::uint8_t> component_colors(const Graph& graph, const Execution& execution) {
+  const Components parts = components(graph, execution);
   std::vector<std::uint32_t> size(graph.vertex_count(), 0);
   for (const VertexId label : parts.label) ++size[label];
+  execution.check();
   std::vector<VertexId> largest;
   for (VertexId v = 0; v < graph.vertex_count(); ++v) {
     if (size[v] > 1) largest.push_back(v);
   }
+  execution.check();
   constexpr std::size_t own = colors::components.size() - 1;
   const std::size_t ranked = std::min(own, largest.size());
   std::partial_sort(largest.begin(), largest.begin() + static_cast<std::ptrdiff_t>(ranked), largest.end(),

@@ -116,7 +116,8 @@ struct Canvas {
 Canvas canvas_of(const Picture& picture, const Execution& execution);
 
 /// For each vertex the index of its colour in colors::components: the largest components have colours of their own.
-std::vector<std::uint8_t> component_colors(const Graph& graph);
+/// Throws Stopped.
+std::vector<std::uint8_t> component_colors(const Graph& graph, const Execution& execution);
 
 using Write = std::function<void(std::string_view)>;
 

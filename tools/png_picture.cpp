@@ -28,7 +28,7 @@ class PngPainter {
         execution_(execution),
         canvas_(canvas_of(picture, execution)),
         scale_(scale_of(canvas_)),
-        image_(pixels(canvas_.box.width()), pixels(canvas_.box.height()), colors::paper) {}
+        image_(pixels(canvas_.box.width()), pixels(canvas_.box.height()), colors::paper, execution) {}
 
   const Image& paint() {
     constexpr double readable_roadmap = 6.0;  // pixels a unit
@@ -57,7 +57,7 @@ class PngPainter {
   double unit() const { return scale_ * canvas_.unit; }
   Vec2 at(Vec2 p) const { return {scale_ * (p.x - canvas_.box.min.x), scale_ * (canvas_.box.max.y - p.y)}; }
   void line(Vec2 a, Vec2 b, double width, Rgb color) {
-    constexpr std::uint64_t batch = 1 << 16;
+    constexpr std::uint64_t batch = 64;  // each may run across the whole picture
     if (++drawn_ % batch == 0) execution_.check();
     image_.draw_line(at(a), at(b), width, color);
   }
@@ -71,14 +71,11 @@ class PngPainter {
 };
 
 void PngPainter::polygons() {
-  constexpr std::size_t batch = 256;
   std::vector<Vec2> outline;
-  std::size_t drawn = 0;
   for (const ScenePolygon& polygon : picture_.scene.polygons) {
-    if (++drawn % batch == 0) execution_.check();
     outline.clear();
     for (const Vec2 p : polygon.corners) outline.push_back(at(p));
-    image_.fill(outline, colors::polygon);
+    image_.fill(outline, colors::polygon, execution_);
     const double width = widths::outline * unit();
     for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
       line(polygon.corners[i], polygon.corners[i + 1 < polygon.corners.size() ? i + 1 : 0], width, colors::outline);
@@ -89,10 +86,9 @@ void PngPainter::polygons() {
 void PngPainter::fill(const PictureLayer& layer) {
   std::vector<Vec2> outline;
   for (std::size_t i = 0; i < layer.lines.size(); ++i) {
-    if (i % 256 == 0) execution_.check();
     outline.clear();
     for (const Vec2 p : layer.lines[i]) outline.push_back(at(p));
-    image_.fill(outline, layer.color);
+    image_.fill(outline, layer.color, execution_);
   }
 }
 
@@ -122,7 +118,7 @@ void PngPainter::walls() {
 
 void PngPainter::roadmap() {
   const Roadmap<Vec2>& roadmap = *picture_.roadmap;
-  const std::vector<std::uint8_t> color = component_colors(roadmap.graph);
+  const std::vector<std::uint8_t> color = component_colors(roadmap.graph, execution_);
   if (color.size() != roadmap.states.size()) return;  // stopped before the graph was made
   for (VertexId v = 0; v < color.size(); ++v) {
     for (const VertexId w : roadmap.graph.neighbours(v)) {

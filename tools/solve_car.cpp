@@ -188,7 +188,7 @@ void CarSolve<Curve>::verify() {
 template <class Curve>
 void CarSolve<Curve>::draw(Drawing& drawing) const {
   const auto curve = [this](const Se2& a, const Se2& b) { return world_->curve(a, b); };
-  draw_curves(drawing, roadmaps_, World::one_way, curve);
+  draw_curves(drawing, roadmaps_, World::one_way, curve, execution());
   drawing.layers.push_back(car_sweep(poses_, problem_.robot));
 }
 

@@ -282,7 +282,7 @@ class LatticeSolve {
       if (heading % 360 != 0 || heading / 360 >= layers_.angles) continue;
       const Bitmap& blocked = layers_.bitmaps[layers_.standing[heading / 360]];
       const auto at = [&](Vec2 p) { return layers_.origin + layers_.cell * (p - Vec2{0.5, 0.5}); };
-      drawing.pages.push_back(cells_layer(fmt::format("layer_{}", degrees), blocked, at));
+      drawing.pages.push_back(cells_layer(fmt::format("layer_{}", degrees), blocked, at, request_.execution));
     }
   }
 

@@ -36,7 +36,7 @@ class SampledMapSolve {
     settle_blocked_ends();
     if (answer_.outcome == Outcome::solved && request_.arguments.has("--optimise")) optimise();
     verify_solved_on_map(answer_, map_, problem_, false, request_.execution);
-    if (request_.drawing != nullptr) request_.drawing->roadmap = in_the_plane(roadmaps_);
+    if (request_.drawing != nullptr) request_.drawing->roadmap = in_the_plane(roadmaps_, request_.execution);
   }
   Answer& answer() { return answer_; }
 
@@ -112,7 +112,7 @@ void SampledMapSolve::bound_growth() {
   const OccupancyMap& map = world_->map();
   if (!provably_apart(map, map.blocked, problem_, request_.execution)) return;
   if (is_roadmap) {
-    roadmap_options_.samples = first_samples(*world_, roadmap_options_);
+    roadmap_options_.samples = first_samples(*world_, roadmap_options_, request_.execution);
   } else {
     tree_options_.nodes = nodes_where_apart;
   }

@@ -150,7 +150,7 @@ void TurningSolve::bound_growth() {
     if (!provably_apart(*scene().map, problem_.robot.outline, problem_.start, goal, execution())) return;
   }
   if (is_roadmap) {
-    roadmap_options_.samples = first_samples(*world_, roadmap_options_);
+    roadmap_options_.samples = first_samples(*world_, roadmap_options_, execution());
   } else {
     tree_options_.trees.nodes = nodes_where_apart;
   }
@@ -199,7 +199,7 @@ void TurningSolve::verify() {
 }
 
 void TurningSolve::draw(Drawing& drawing) const {
-  drawing.roadmap = in_the_plane(roadmaps_);
+  drawing.roadmap = in_the_plane(roadmaps_, execution());
   if (!path_.empty()) drawing.layers.push_back(sweep_of(path_, problem_.robot.outline));
 }
 

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/graph.hpp"
 #include "core/search.hpp"
+#include "parallel/assemble_graph.hpp"
 #include "planners/queue_choice.hpp"
 #include "planners/sampled_visibility.hpp"
 #include "planners/visibility_path.hpp"
@@ -94,25 +95,28 @@ class SampledVisibilitySolve {
  private:
   SearchResult search(const Graph& graph, VertexId start, VertexId goal) const {
     SearchState state;
-    state.resize(graph.vertex_count());
-    if (asked_.options.search == SearchKind::bfs) return breadth_first(graph, start, goal, state);
-    if (asked_.options.search == SearchKind::dfs) return depth_first(graph, start, goal, state);
+    const Execution& execution = request_.execution;
+    const auto should_stop = [&] { return execution.should_stop(); };
+    state.resize(graph.vertex_count(), [&] { execution.check(); });
+    if (asked_.options.search == SearchKind::bfs) return breadth_first(graph, start, goal, state, should_stop);
+    if (asked_.options.search == SearchKind::dfs) return depth_first(graph, start, goal, state, should_stop);
     const auto neighbours = [&](VertexId v, const auto& visit) {
       for (const VertexId w : graph.neighbours(v)) visit(w, distance(points_[v], points_[w]));
     };
     const bool informed = asked_.options.search == SearchKind::astar;
     const auto remaining = [&](VertexId v) { return informed ? distance(points_[v], points_[goal]) : 0.0; };
-    return with_queue(asked_.options.queue, graph.vertex_count(), [&](auto& queue) {
-      return best_first(start, goal, neighbours, remaining, queue, state, NeverStop{});
+    return with_queue(asked_.options.queue, graph.vertex_count(), execution, [&](auto& queue) {
+      return best_first(start, goal, neighbours, remaining, queue, state, should_stop);
     });
   }
 
   void search(Answer& answer) {
     const StageTimer timer(request_.execution, "search", answer.seconds.search);
-    const Graph graph = Graph::from_edges(points_.size(), edges_);
+    const Graph graph = assemble_graph(points_.size(), edges_, request_.execution);
     const auto goal = static_cast<VertexId>(points_.size() - 1);
     const SearchResult found = search(graph, goal - 1, goal);
     answer.counters.expanded = found.expanded;
+    if (found.status == SearchStatus::stopped) request_.execution.check();
     answer.outcome = found.status == SearchStatus::found ? Outcome::solved : Outcome::not_connected;
     for (const VertexId v : found.path) answer.path.push_back(points_[v]);
   }

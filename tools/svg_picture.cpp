@@ -15,6 +15,8 @@
 namespace warren {
 namespace {
 
+constexpr std::size_t vertices_per_poll = 1 << 16;
+
 std::string hex(Rgb c) { return fmt::format("#{:02x}{:02x}{:02x}", c.red, c.green, c.blue); }
 
 /// World to picture coordinates: moved and scaled only where three decimals would not do.
@@ -187,9 +189,11 @@ void SvgWriter::polygons() {
                  hex(colors::polygon), hex(colors::outline), width(widths::outline));
   for (const ScenePolygon& polygon : picture_.scene.polygons) {
     const std::vector<Vec2> corners = anticlockwise(polygon.corners);
-    for (std::size_t i = 0; i < corners.size(); ++i) command(i == 0 ? 'M' : 'L', frame_.at(corners[i]));
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      command(i == 0 ? 'M' : 'L', frame_.at(corners[i]));
+      piece_ended();
+    }
     text_ += 'Z';
-    piece_ended();
   }
   text_ += "\"/>\n";
 }
@@ -206,9 +210,11 @@ void SvgWriter::lines(const PictureLayer& layer) {
     const std::span<const Vec2> line = layer.lines[i];
     const std::span<const double> turns = layer.turns_of(i);
     move_to(line[0]);
-    for (std::size_t k = 1; k < line.size(); ++k) leg_to(line[k - 1], line[k], turns.empty() ? 0.0 : turns[k]);
+    for (std::size_t k = 1; k < line.size(); ++k) {
+      leg_to(line[k - 1], line[k], turns.empty() ? 0.0 : turns[k]);
+      piece_ended();
+    }
     if (layer.closed || layer.filled) text_ += 'Z';
-    piece_ended();
   }
   text_ += "\"/></g>\n";
 }
@@ -234,7 +240,7 @@ void SvgWriter::walls() {
 }
 
 void SvgWriter::roadmap() {
-  const std::vector<std::uint8_t> color = component_colors(picture_.roadmap->graph);
+  const std::vector<std::uint8_t> color = component_colors(picture_.roadmap->graph, execution_);
   if (color.size() != picture_.roadmap->states.size()) return;  // stopped before the graph was made
   edges(color);
   search_tree();
@@ -248,6 +254,7 @@ void SvgWriter::edges(const std::vector<std::uint8_t>& color) {
     const std::string head = fmt::format("\n<path stroke=\"{}\" d=\"", hex(colors::components[c]));
     bool any = false;
     for (VertexId v = 0; v < roadmap.graph.vertex_count(); ++v) {
+      if (v % vertices_per_poll == 0) execution_.check();
       if (color[v] != c) continue;
       for (const VertexId w : roadmap.graph.neighbours(v)) {
         if (w < v) continue;

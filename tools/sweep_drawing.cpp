@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "parallel/assemble_graph.hpp"
+
 namespace warren {
 namespace {
 
@@ -28,13 +30,14 @@ Vec2 position_of(const Se2& state) { return state.position(); }
 Vec2 position_of(Vec2 state) { return state; }
 
 template <class State>
-Roadmap<Vec2> joined_in_the_plane(const std::vector<Roadmap<State>>& roadmaps) {
+Roadmap<Vec2> joined_in_the_plane(const std::vector<Roadmap<State>>& roadmaps, const Execution& execution) {
   Roadmap<Vec2> plane;
   std::vector<Edge> edges;
   for (const Roadmap<State>& roadmap : roadmaps) {
     const auto first = static_cast<VertexId>(plane.states.size());
     for (const State& state : roadmap.states) plane.states.push_back(position_of(state));
     for (VertexId v = 0; v < roadmap.graph.vertex_count(); ++v) {
+      if (v % 1024 == 0) execution.check();
       for (const VertexId w : roadmap.graph.neighbours(v)) {
         if (v < w) edges.push_back({first + v, first + w});
       }
@@ -43,7 +46,7 @@ Roadmap<Vec2> joined_in_the_plane(const std::vector<Roadmap<State>>& roadmaps) {
       if (edge.to != no_vertex) plane.search_tree.push_back({first + edge.from, first + edge.to});
     }
   }
-  plane.graph = Graph::from_edges(plane.states.size(), edges);
+  plane.graph = assemble_graph(plane.states.size(), edges, execution);
   return plane;
 }
 
@@ -73,7 +76,11 @@ PictureLayer sweep_of(std::span<const Se2> path, std::span<const Vec2> outline) 
   return layer;
 }
 
-Roadmap<Vec2> in_the_plane(const std::vector<Roadmap<Se2>>& roadmaps) { return joined_in_the_plane(roadmaps); }
-Roadmap<Vec2> in_the_plane(const std::vector<Roadmap<Vec2>>& roadmaps) { return joined_in_the_plane(roadmaps); }
+Roadmap<Vec2> in_the_plane(const std::vector<Roadmap<Se2>>& roadmaps, const Execution& execution) {
+  return joined_in_the_plane(roadmaps, execution);
+}
+Roadmap<Vec2> in_the_plane(const std::vector<Roadmap<Vec2>>& roadmaps, const Execution& execution) {
+  return joined_in_the_plane(roadmaps, execution);
+}
 
 }  // namespace warren

@@ -81,7 +81,7 @@ class ArmWorld {
   double travel(const State& a, const State& b) const;
   MotionVerdict judge_motion(const State& a, const State& b) const;
 
-  double suggested_samples() const { return 200.0; }
+  double suggested_samples(const Execution&) const { return 200.0; }
   std::uint64_t first_samples() const { return 25; }  ///< of a roadmap that is tried first
   /// Volume, in the metric, of the box of limits of the joints that are not idle, and how many these are.
   double sampled_volume() const;

@@ -114,7 +114,7 @@ class CarWorld {
   SteeringCurve curve(const State& a, const State& b) const {
     return {a, b, Curve::shortest(a, b, body_.turning_radius()), body_.turning_radius()};
   }
-  double suggested_samples() const { return 400.0; }
+  double suggested_samples(const Execution&) const { return 400.0; }
   std::uint64_t first_samples() const { return 100; }  ///< of a roadmap that is tried first
   const CarBody& body() const { return body_; }
 

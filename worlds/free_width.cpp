@@ -3,7 +3,8 @@
 
 namespace warren {
 
-double free_width(const WallIndex& index, const Box& box, const Segment& wall, double side) {
+double free_width(const WallIndex& index, const Box& box, const Segment& wall, double side,
+                  const Execution& execution) {
   const Vec2 along = wall.b - wall.a;
   const double length = norm(along);
   if (length == 0.0) return 0.0;
@@ -12,7 +13,10 @@ double free_width(const WallIndex& index, const Box& box, const Segment& wall, d
   const double farthest = box.width() + box.height();
   const double breadth = std::min(box.width(), box.height());
   const double step = 1e-3 * std::min(length, breadth > 0.0 ? breadth : farthest);
-  const auto blocked = [&](double t) { return index.blocks(middle + step * normal, middle + t * normal); };
+  const auto blocked = [&](double t) {
+    execution.check();
+    return index.blocks(middle + step * normal, middle + t * normal);
+  };
   double far = 2.0 * step;
   while (far < farthest && !blocked(far)) far *= 2.0;
   if (far >= farthest) return 0.0;

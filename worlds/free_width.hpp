@@ -9,13 +9,14 @@
 #include <vector>
 
 #include "core/types.hpp"
+#include "parallel/execution.hpp"
 #include "spatial/wall_index.hpp"
 
 namespace warren {
 
 /// How far one sees from the middle of a wall, square to it (side = 1: to its left, -1: right), before the next wall,
-/// to a percent; 0 where nothing is in the way within the box.
-double free_width(const WallIndex& index, const Box& box, const Segment& wall, double side);
+/// to a percent; 0 where nothing is in the way within the box. Throws Stopped: a look among crowded walls takes long.
+double free_width(const WallIndex& index, const Box& box, const Segment& wall, double side, const Execution& execution);
 
 /// 4.5 samples for each square as wide as what the clearance leaves of `width`.
 double samples_for_width(double width, double area, double clearance);
@@ -28,14 +29,14 @@ double most_samples_for(const Box& box, double width, double clearance, std::siz
 /// The lower quartile of the free widths on those sides of some walls that begin in a point p with is_outside(p); the
 /// side of a square of the box's area where no other wall is seen.
 template <class IsOutside>
-double typical_width(const WallIndex& index, const Box& box, const IsOutside& is_outside) {
+double typical_width(const WallIndex& index, const Box& box, const IsOutside& is_outside, const Execution& execution) {
   constexpr std::size_t probes = 64;
   std::vector<double> widths;
   for (const Segment& wall : index.some_walls(probes)) {
     const Vec2 along = wall.b - wall.a;
     for (const double side : {-1.0, 1.0}) {
       if (!is_outside(0.5 * (wall.a + wall.b) + (side * 1e-3) * Vec2{-along.y, along.x})) continue;
-      const double width = free_width(index, box, wall, side);
+      const double width = free_width(index, box, wall, side, execution);
       if (width > 0.0) widths.push_back(width);
     }
   }

@@ -32,7 +32,10 @@ class Writer {
   }
   void ring(std::string_view role, const std::vector<Vec2>& corners) {
     std::string text = "[[";
-    for (const Vec2 p : corners) text += position(p) + ", ";
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      if (i % 4096 == 4095) execution_.check();
+      text += position(corners[i]) + ", ";
+    }
     feature(role, "Polygon", text + position(corners.front()) + "]]");
   }
   void commit() {

@@ -103,11 +103,11 @@ bool GridWorld::row_is_free(const Segment& leg, std::int64_t row) const {
   return true;
 }
 
-double GridWorld::suggested_samples() const {
+double GridWorld::suggested_samples(const Execution& execution) const {
   constexpr double samples_a_square = 4.5;  // as among walls: worlds/maze_world.cpp
   constexpr double fewest = 500.0;
   if (!field_) return static_cast<double>(map_.free);
-  const double squares = 0.5 * CorridorCells(*field_, reach_, {}).weight();
+  const double squares = 0.5 * CorridorCells(*field_, reach_, execution).weight();
   if (corridors_) return std::max(fewest, samples_a_square * squares);  // which hardly ever fall on what is blocked
   const double free_share = static_cast<double>(map_.free) / static_cast<double>(map_.blocked.size());
   return std::max(fewest, free_share > 0.0 ? samples_a_square * squares / free_share : 0.0);

@@ -62,7 +62,7 @@ class GridWorld {
   double sampled_area() const { return box().width() * box().height(); }
   /// Uniform samples that a first roadmap needs: 4.5 for each free square as wide as its corridor, at least 500.
   /// O(cells).
-  double suggested_samples() const;
+  double suggested_samples(const Execution& execution) const;
   const OccupancyMap& map() const { return map_; }
 
  private:

@@ -106,12 +106,21 @@ void LatticeMarking::mark_outside(std::span<const Vec2> piece, double radius, co
   }
 }
 
-void LatticeMarking::mark_inside(std::span<const Vec2> polygon, Vec2 offset) {
+void LatticeMarking::mark_inside(std::span<const Vec2> polygon, Vec2 offset, const Execution& execution) {
+  constexpr std::size_t sides_per_poll = std::size_t{1} << 16;
+  const Box box = box_around(polygon);
+  const double rows = marked_.height();
+  // A row more on either side: the heights of rows are rounded, and what lies on none is not marked anyway.
+  const auto row_near = [&](double y) { return std::clamp((y - offset.y - origin_.y) / cell_, -2.0, rows + 2.0); };
+  const auto first = std::max<std::int64_t>(0, static_cast<std::int64_t>(std::floor(row_near(box.min.y))) - 1);
+  const auto end = std::min<std::int64_t>(marked_.height(), static_cast<std::int64_t>(row_near(box.max.y)) + 2);
   std::vector<double> crossings;
-  for (std::int64_t j = 0; j < marked_.height(); ++j) {
+  std::size_t sides = 0;
+  for (std::int64_t j = first; j < end; ++j) {
     const double y = row_y(j) + offset.y;
     crossings.clear();
     for (std::size_t i = 0; i < polygon.size(); ++i) {
+      if (++sides % sides_per_poll == 0) execution.check();
       const Vec2 a = polygon[i];
       const Vec2 b = polygon[(i + 1) % polygon.size()];
       if ((a.y <= y) == (b.y <= y)) continue;

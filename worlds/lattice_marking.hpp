@@ -10,6 +10,7 @@
 
 #include "core/bitmap.hpp"
 #include "core/types.hpp"
+#include "parallel/execution.hpp"
 
 namespace warren {
 
@@ -23,8 +24,9 @@ class LatticeMarking {
   void mark_near(std::span<const Vec2> convex, double radius);
   /// The positions at which a piece, widened by `radius`, touches or leaves the bounds.
   void mark_outside(std::span<const Vec2> piece, double radius, const Box& bounds);
-  /// The positions p for which p + `offset` lies inside a simple polygon. O(corners * rows).
-  void mark_inside(std::span<const Vec2> polygon, Vec2 offset);
+  /// The positions p for which p + `offset` lies inside a simple polygon. O(corners * rows that it meets). Throws
+  /// Stopped.
+  void mark_inside(std::span<const Vec2> polygon, Vec2 offset, const Execution& execution);
 
   Bitmap take() { return std::move(marked_); }
 

@@ -69,9 +69,8 @@ class Widening {
   }
 
   Bitmap run(const Execution& execution) {
-    constexpr std::uint32_t rows_a_poll = 256;
     for (std::uint32_t y = 0; y < blocked_.height(); ++y) {
-      if (y % rows_a_poll == 0) execution.check();
+      execution.check();
       const auto row = blocked_.row(y);
       if (std::any_of(row.begin(), row.end(), [](std::uint64_t word) { return word != 0; })) widen_row(y);
     }

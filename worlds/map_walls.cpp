@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "spatial/free_cells.hpp"
 #include "worlds/convex_pieces.hpp"
 #include "worlds/lattice_marking.hpp"
 
@@ -14,7 +15,7 @@ namespace {
 
 /// Calls add(y, from, to) for each longest run of borders between rows y - 1 and y.
 template <class Add>
-void for_borders_between_rows(const Bitmap& blocked, const Add& add) {
+void for_borders_between_rows(const Bitmap& blocked, const Execution& execution, const Add& add) {
   const std::size_t words = blocked.empty() ? 0 : blocked.row(0).size();
   const auto solid = [&](std::int64_t y, std::size_t w) {
     if (y < 0 || y >= blocked.height()) return ~std::uint64_t{0};
@@ -23,6 +24,7 @@ void for_borders_between_rows(const Bitmap& blocked, const Add& add) {
     return blocked.row(static_cast<std::uint32_t>(y))[w] | beyond;
   };
   for (std::int64_t y = 0; y <= blocked.height(); ++y) {
+    if (y % 16 == 0) execution.check();
     std::int64_t first = -1;  // of the run that is open
     for (std::size_t w = 0; w < words; ++w) {
       std::uint64_t differs = solid(y - 1, w) ^ solid(y, w);
@@ -45,34 +47,25 @@ void for_borders_between_rows(const Bitmap& blocked, const Add& add) {
   }
 }
 
-Bitmap transposed_bits(const Bitmap& bitmap) {
-  Bitmap result(bitmap.height(), bitmap.width());
-  for (std::uint32_t y = 0; y < bitmap.height(); ++y) {
-    for (std::uint32_t x = 0; x < bitmap.width(); ++x) {
-      if (bitmap.test(x, y)) result.set(y, x);
-    }
-  }
-  return result;
-}
-
 }  // namespace
 
-std::vector<Segment> border_walls(const OccupancyMap& map) {
+std::vector<Segment> border_walls(const OccupancyMap& map, const Execution& execution) {
   std::vector<Segment> walls;
   const auto point = [&](std::int64_t x, std::int64_t y) {
     return world_point(map, {static_cast<double>(x), static_cast<double>(y)});
   };
-  for_borders_between_rows(map.blocked, [&](std::int64_t y, std::int64_t from, std::int64_t to) {
+  for_borders_between_rows(map.blocked, execution, [&](std::int64_t y, std::int64_t from, std::int64_t to) {
     walls.push_back({point(from, y), point(to, y)});
   });
-  for_borders_between_rows(transposed_bits(map.blocked), [&](std::int64_t x, std::int64_t from, std::int64_t to) {
-    walls.push_back({point(x, from), point(x, to)});
-  });
+  for_borders_between_rows(transposed(map.blocked, execution), execution,
+                           [&](std::int64_t x, std::int64_t from, std::int64_t to) {
+                             walls.push_back({point(x, from), point(x, to)});
+                           });
   return walls;
 }
 
-void add_map_walls(Scene& scene) {
-  if (scene.map && scene.walls.size() == 0) scene.walls = WallSet::narrowest(border_walls(*scene.map));
+void add_map_walls(Scene& scene, const Execution& execution) {
+  if (scene.map && scene.walls.size() == 0) scene.walls = WallSet::narrowest(border_walls(*scene.map, execution));
 }
 
 OccupancyMap map_of_scene(const Scene& scene, double cell, const Execution& execution) {
@@ -97,7 +90,7 @@ OccupancyMap map_of_scene(const Scene& scene, double cell, const Execution& exec
   const ConvexPiece square{{-half, -half}, {half, -half}, {half, half}, {-half, half}};
   const auto mark = [&](const Segment& s) { marking.mark_near(touching_positions(square, s), 0.0); };
   for (std::size_t i = 0; i < scene.walls.size(); ++i) {
-    if (i % 4096 == 0) execution.check();
+    if (i % 64 == 0) execution.check();
     mark(scene.walls.segment(i));
   }
   for (const ScenePolygon& polygon : scene.polygons) {
@@ -105,7 +98,7 @@ OccupancyMap map_of_scene(const Scene& scene, double cell, const Execution& exec
     for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
       mark({polygon.corners[i], polygon.corners[(i + 1) % polygon.corners.size()]});
     }
-    marking.mark_inside(polygon.corners, {0.0, 0.0});
+    marking.mark_inside(polygon.corners, {0.0, 0.0}, execution);
   }
   map.blocked = marking.take();
   map.occupied = map.blocked.count();

@@ -89,8 +89,9 @@ void MazeWorld::keep_free(double y, std::span<std::uint64_t> bits) const noexcep
   });
 }
 
-double MazeWorld::suggested_samples() const {
-  const double width = typical_width(index_, box_, [](Vec2) { return true; });
+double MazeWorld::suggested_samples(const Execution& execution) const {
+  const auto is_outside = [](Vec2) { return true; };
+  const double width = typical_width(index_, box_, is_outside, execution);
   return std::min(samples_for_width(width, sampled_area(), clearance_),
                   most_samples_for(box_, width, clearance_, index_.wall_count()));
 }

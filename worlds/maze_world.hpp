@@ -52,7 +52,7 @@ class MazeWorld {
   /// Uniform samples that a first roadmap needs: 4.5 for each square as wide as the corridors are free. The corridors'
   /// width is the lower quartile of what rays from some walls' middles see on either side. A pure function of the
   /// walls.
-  double suggested_samples() const;
+  double suggested_samples(const Execution& execution) const;
 
   const Box& box() const { return box_; }
   double clearance() const { return clearance_; }

@@ -73,16 +73,23 @@ class ExactLayers {
 
  private:
   Bitmap made(const LayerJob& job) const {
+    constexpr std::size_t walls_per_poll = 64;  // each may meet all rows
     LatticeMarking marking(layers_.origin, layers_.cell, layers_.width, layers_.height);
     for (const ConvexPiece& piece : job.pieces) {
-      execution_.check();
       if (scene_.bounds) marking.mark_outside(piece, radius_, *scene_.bounds);
-      for (std::size_t i = 0; i < scene_.walls.size(); ++i) mark(piece, scene_.walls.segment(i), marking);
-      for (const Segment& side : sides_) mark(piece, side, marking);
+      for (std::size_t i = 0; i < scene_.walls.size(); ++i) {
+        if (i % walls_per_poll == 0) execution_.check();
+        mark(piece, scene_.walls.segment(i), marking);
+      }
+      for (std::size_t i = 0; i < sides_.size(); ++i) {
+        if (i % walls_per_poll == 0) execution_.check();
+        mark(piece, sides_[i], marking);
+      }
     }
     if (job.is_standing) {
-      for (const ScenePolygon& polygon : scene_.polygons) {
-        marking.mark_inside(polygon.corners, job.pieces.front().front());
+      for (std::size_t i = 0; i < scene_.polygons.size(); ++i) {
+        if (i % walls_per_poll == 0) execution_.check();
+        marking.mark_inside(scene_.polygons[i].corners, job.pieces.front().front(), execution_);
       }
     }
     return marking.take();
@@ -138,10 +145,14 @@ std::uint32_t disc_cells(const RobotSpec& robot, const HeadingLayers& lattice, s
   return static_cast<std::uint32_t>(std::ceil(reach / lattice.cell - rounding));
 }
 
-Bitmap drawn_walls(const Scene& scene, const HeadingLayers& lattice) {
+Bitmap drawn_walls(const Scene& scene, const HeadingLayers& lattice, const Execution& execution) {
   Bitmap drawn(lattice.width, lattice.height);
-  for (std::size_t i = 0; i < scene.walls.size(); ++i) draw_two_cells_thick(scene.walls.segment(i), lattice, drawn);
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) {
+    if (i % 64 == 0) execution.check();
+    draw_two_cells_thick(scene.walls.segment(i), lattice, drawn);
+  }
   for (const ScenePolygon& polygon : scene.polygons) {
+    execution.check();
     for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
       draw_two_cells_thick({polygon.corners[i], polygon.corners[(i + 1) % polygon.corners.size()]}, lattice, drawn);
     }
@@ -158,16 +169,16 @@ Bitmap drawn_walls(const Scene& scene, const HeadingLayers& lattice) {
 HeadingLayers report_layers(const Scene& scene, const RobotSpec& robot, const LayerOptions& options,
                             const Execution& execution) {
   HeadingLayers layers = empty_lattice(scene, robot, options.grid, execution);
-  const DistanceField field(drawn_walls(scene, layers), CellDistance::centres, false, execution);
+  const DistanceField field(drawn_walls(scene, layers, execution), CellDistance::centres, false, execution);
   std::map<std::uint32_t, std::uint32_t> bitmap_of;  // by the disc's radius
   for (std::uint32_t k = 0; k < layers.angles; ++k) {
     const std::uint32_t radius = disc_cells(robot, layers, k);
     const auto [at, is_new] = bitmap_of.emplace(radius, static_cast<std::uint32_t>(layers.bitmaps.size()));
     layers.standing.push_back(at->second);
     if (!is_new) continue;
-    execution.check();
     Bitmap blocked(layers.width, layers.height);
     for (std::uint32_t j = 0; j < layers.height; ++j) {
+      if (j % 64 == 0) execution.check();
       for (std::uint32_t i = 0; i < layers.width; ++i) {
         if (field.squared(i, j) <= std::uint64_t{radius} * radius) blocked.set(i, j);
       }

@@ -49,7 +49,7 @@ class PolygonWorld {
   double sampled_area() const { return box_.width() * box_.height(); }
   /// Uniform samples that a first roadmap needs: 4.5 for each square as wide as a typical gap, at least 500 and at most
   /// 8 a corner beyond that. A pure function of the obstacles.
-  double suggested_samples() const;
+  double suggested_samples(const Execution& execution) const;
 
   const Box& box() const { return box_; }
   double clearance() const { return clearance_; }

@@ -45,10 +45,13 @@ void append_line(std::string& text, std::string_view item, Numbers... numbers) {
   text.push_back('\n');
 }
 
-void append_points(std::string& text, std::string_view item, const std::vector<Vec2>& points) {
+void append_points(std::string& text, std::string_view item, const std::vector<Vec2>& points,
+                   const Execution& execution) {
+  constexpr std::size_t points_per_poll = 4096;
   text.append(item);
-  for (const Vec2 p : points) {
-    for (const double x : {p.x, p.y}) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (i % points_per_poll == points_per_poll - 1) execution.check();
+    for (const double x : {points[i].x, points[i].y}) {
       text.push_back(' ');
       append_number(text, x);
     }
@@ -94,7 +97,7 @@ void append_robot(std::string& text, const RobotSpec& robot) {
       append_line(text, "robot disc", robot.radius);
       break;
     case RobotKind::polygon:
-      append_points(text, "robot polygon", robot.outline);
+      append_points(text, "robot polygon", robot.outline, {});
       break;
     case RobotKind::car:
       append_car(text, robot);
@@ -131,8 +134,6 @@ std::string solids_of(const Scene& scene) {
   return text;
 }
 
-void append_polygon(std::string& text, const ScenePolygon& polygon) { append_points(text, "polygon", polygon.corners); }
-
 void append_wall(std::string& text, const Segment& s) {
   for (const double x : {s.a.x, s.a.y, s.b.x}) {
     append_number(text, x);
@@ -164,8 +165,9 @@ void write_scene_text(const Scene& scene, const std::string& path, const Executi
   if (execution.progress != nullptr) execution.progress->begin("write", scene.polygons.size() + scene.walls.size());
   OutputFile file(path, execution);
   file.write(head_of(scene));
-  write_items(scene.polygons.size(), line_grain / 16, file, execution,
-              [&](std::string& text, std::size_t i) { append_polygon(text, scene.polygons[i]); });
+  write_items(scene.polygons.size(), line_grain / 16, file, execution, [&](std::string& text, std::size_t i) {
+    append_points(text, "polygon", scene.polygons[i].corners, execution);
+  });
   file.write(solids_of(scene));
   scene.walls.visit([&](auto walls) {
     write_items(walls.size(), line_grain, file, execution,

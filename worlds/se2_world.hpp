@@ -87,7 +87,7 @@ class Se2World {
   Vec2 place_of(const State& a) const { return a.position(); }
   State shifted(const State& a, Vec2 to) const { return {to.x, to.y, a.theta}; }
 
-  double suggested_samples() const { return 400.0; }
+  double suggested_samples(const Execution&) const { return 400.0; }
   std::uint64_t first_samples() const { return 50; }  ///< of a roadmap that is tried first
   /// Of the box times a full turn, in the metric.
   double sampled_volume() const { return box_.width() * box_.height() * 2.0 * std::numbers::pi * angle_weight_; }

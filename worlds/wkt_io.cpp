@@ -299,7 +299,10 @@ void write_wkt(const Scene& scene, const std::string& path, const Execution& exe
     if (++written % batch == 0) execution.check();
     std::string text = "POLYGON ((";
     const std::vector<Vec2> corners = anticlockwise(polygon.corners);
-    for (const Vec2 p : corners) text += position_text(p) + ", ";
+    for (const Vec2 p : corners) {
+      if (++written % batch == 0) execution.check();
+      text += position_text(p) + ", ";
+    }
     file.write(text + position_text(corners.front()) + "))\n");
   }
   scene.walls.visit([&](auto walls) {

@@ -37,7 +37,7 @@ TEST(FreeCells, AgreesWithItsBitmapAndIsBlockedAllAround) {
         }
       }
     }
-    const Bitmap turned = transposed(blocked);
+    const Bitmap turned = transposed(blocked, {});
     for (std::uint32_t y = 0; y < height; ++y) {
       for (std::uint32_t x = 0; x < width; ++x) ASSERT_EQ(turned.test(y, x), blocked.test(x, y));
     }

@@ -49,7 +49,7 @@ class Oracle {
   Oracle(const OccupancyMap& map, std::vector<Vec2> body, double clearance) : body_(std::move(body)) {
     options_.clearance = clearance;
     scene_.map = map;
-    add_map_walls(scene_);
+    add_map_walls(scene_, {});
   }
   Se2 pose(const HeadingLayers& layers, std::int64_t i, std::int64_t j, std::uint32_t k) const {
     const OccupancyMap& map = *scene_.map;

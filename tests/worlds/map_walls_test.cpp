@@ -53,7 +53,7 @@ TEST(BorderWalls, AreTheBordersOfFreeCellsInLongestRuns) {
     std::multiset<UnitSide> covered;
     std::set<std::tuple<double, double, bool>> begins;
     std::set<std::tuple<double, double, bool>> ends;
-    for (const Segment& s : border_walls(map)) {
+    for (const Segment& s : border_walls(map, {})) {
       const bool upright = s.a.x == s.b.x;
       ASSERT_TRUE(upright || s.a.y == s.b.y);
       const double length = distance(s.a, s.b);
@@ -77,7 +77,7 @@ TEST(BorderWalls, StandWhereTheMapStands) {
   map.cell = 0.5;
   map.origin = {10, 20};
   map.yaw_rad = std::acos(0.0);
-  for (const Segment& s : border_walls(map)) {
+  for (const Segment& s : border_walls(map, {})) {
     for (const Vec2 p : {s.a, s.b}) {
       EXPECT_GE(p.x, 9.5 - 1e-9);
       EXPECT_LE(p.x, 10.0 + 1e-9);
@@ -87,7 +87,7 @@ TEST(BorderWalls, StandWhereTheMapStands) {
   }
   Scene scene;
   scene.map = map;
-  add_map_walls(scene);
+  add_map_walls(scene, {});
   EXPECT_EQ(scene.walls.size(), 4U);
 }
 

@@ -128,7 +128,7 @@ TEST(LatticeMarking, MarksInsidesOfSimplePolygons) {
   LatticeMarking marking({0, 0}, 1.0, 8, 6);
   const std::vector<Vec2> u{{0.5, 0.5}, {6.5, 0.5}, {6.5, 4.5}, {4.5, 4.5},
                             {4.5, 2.5}, {2.5, 2.5}, {2.5, 4.5}, {0.5, 4.5}};
-  marking.mark_inside(u, {0, 0});
+  marking.mark_inside(u, {0, 0}, {});
   const Bitmap marked = marking.take();
   for (std::uint32_t y = 0; y < 6; ++y) {
     for (std::uint32_t x = 0; x < 8; ++x) {

@@ -278,7 +278,7 @@ Scene block_map() {
   map.origin = {3.0, -2.0};
   map.yaw_rad = 0.4;
   scene.map = map;
-  add_map_walls(scene);
+  add_map_walls(scene, {});
   return scene;
 }
 
