@@ -6,6 +6,8 @@
 namespace warren {
 
 /// Why a computation was stopped before its end.
-enum class StopReason : std::uint8_t { time, memory, interrupt, terminate };
+enum class StopReason : std::uint8_t { time, memory, interrupt, terminate, hang_up };
+
+constexpr bool is_signal(StopReason reason) { return reason >= StopReason::interrupt; }
 
 }  // namespace warren

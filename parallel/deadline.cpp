@@ -41,6 +41,11 @@ std::size_t machine_available_bytes() {
   return std::numeric_limits<std::size_t>::max();
 }
 
+StopReason reason_of_signal(int number) {
+  if (number == SIGTERM) return StopReason::terminate;
+  return number == SIGHUP ? StopReason::hang_up : StopReason::interrupt;
+}
+
 }  // namespace
 
 Deadline::Deadline(double seconds, std::size_t memory_bytes, const SignalFlag* signal)
@@ -54,7 +59,7 @@ Deadline::Deadline(double seconds, std::size_t memory_bytes, const SignalFlag* s
 std::optional<StopReason> Deadline::reached() const noexcept {
   if (signal_ != nullptr) {
     const int number = signal_->load(std::memory_order_relaxed);
-    if (number != 0) return number == SIGTERM ? StopReason::terminate : StopReason::interrupt;
+    if (number != 0) return reason_of_signal(number);
   }
   if (end_ && Clock::now() >= *end_) return StopReason::time;
   return std::nullopt;

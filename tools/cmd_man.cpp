@@ -84,8 +84,8 @@ an output can't be written.
 \fB124\fR
 the time or memory budget ran out.
 .TP
-\fB130, 143\fR
-SIGINT, SIGTERM.
+\fB129, 130, 143\fR
+SIGHUP, SIGINT, SIGTERM.
 .SH ENVIRONMENT
 .TP
 \fBNO_COLOR\fR, \fBCLICOLOR_FORCE\fR, \fBFORCE_COLOR\fR, \fBTERM\fR

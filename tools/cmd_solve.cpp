@@ -2,6 +2,7 @@
 // warren solve: finds a path, verifies it, prints what it took. A stop at any stage still gives an answer.
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <new>
 #include <optional>
 
@@ -18,6 +19,7 @@
 #include "tools/solve_kind.hpp"
 #include "tools/summary.hpp"
 #include "tools/terminal.hpp"
+#include "tools/verified_answer.hpp"
 #include "tools/world_files.hpp"
 #include "worlds/map_walls.hpp"
 #include "worlds/output_file_io.hpp"
@@ -29,6 +31,14 @@ constexpr OptionSpec output_specs[] = {
     {"--json", "FILE", "write the answer as JSON; - is standard output"},
     {"--svg", "FILE", "draw walls, roadmap, search and path; .png and .html work too"},
 };
+
+/// A device, a pipe or standard output: what is written there can't be taken back.
+bool is_straight(const std::string& path) {
+  if (path == "-" || path.starts_with("/dev/") || path.starts_with("/proc/")) return true;
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
+}
 
 /// One `warren solve`.
 class SolveCommand {
@@ -49,6 +59,8 @@ class SolveCommand {
     write_outputs(run);
     if (!run.quiet() && !takes_standard_output()) {
       print_text(fmt::format("{}", summary_of(answer_, run.palette(), written_)));
+    } else if (answer_.outcome == Outcome::stopped) {
+      fmt::print(stderr, "warren: stopped: {}\n", text_of(stop_reason()));
     }
     return exit_code();
   }
@@ -61,7 +73,12 @@ class SolveCommand {
     return {arguments_, scene_, problem_, solver_->planner, execution, svg_.empty() ? nullptr : &drawing_};
   }
   void write_outputs(const Run& run);
+  void write_finished(const Execution& execution);
+  void write_stopped(const Execution& execution);
+  void write_json(std::optional<OutputFile>& file, const Execution& execution) const;
+  void take_back_answer(StopReason reason);
   void draw(const Execution& execution);
+  StopReason stop_reason() const { return answer_.stop_reason.value_or(StopReason::time); }
   int exit_code() const;
 
   const Arguments& arguments_;
@@ -73,6 +90,7 @@ class SolveCommand {
   Drawing drawing_;
   Answer answer_;
   std::vector<std::string> written_;
+  bool json_said_ = false;  ///< some of it is where it can't be taken back
 };
 
 bool SolveCommand::takes_standard_output() const {
@@ -107,23 +125,55 @@ void SolveCommand::solve(const Run& run) {
   answer_.world = std::move(world);
 }
 
+/// What is on disk says the same as the exit code: a stop while something is written makes it a stopped answer.
 void SolveCommand::write_outputs(const Run& run) {
-  const bool stopped = answer_.outcome == Outcome::stopped;
-  Execution execution = run.execution();
-  if (stopped) execution.deadline = nullptr;  // what is left to say is short, and must be said
-  if (!json_.empty()) {
-    std::optional<OutputFile> file;  // from the first word on: nlohmann ends the program where memory is out
-    write_answer_json(answer_, execution, [&](std::string_view text) {
-      if (!file) file.emplace(json_, execution);
-      file->write(text);
-    });
-    file->commit();
-    written_.push_back(json_);
+  try {
+    if (answer_.outcome != Outcome::stopped) return write_finished(run.execution());
+  } catch (const Stopped& stopped) {
+    take_back_answer(stopped.reason);
+  } catch (const std::bad_alloc&) {
+    take_back_answer(StopReason::memory);
   }
-  if (!svg_.empty() && !stopped) {
-    draw(execution);
-    written_.push_back(svg_);
+  write_stopped(run.execution());
+}
+
+/// A JSON file is put into its place when the picture is in its own; what is written straight follows the picture.
+void SolveCommand::write_finished(const Execution& execution) {
+  std::optional<OutputFile> json;
+  const bool json_follows = !json_.empty() && is_straight(json_);
+  if (!json_.empty() && !json_follows) write_json(json, execution);
+  if (!svg_.empty()) draw(execution);
+  json_said_ = json_follows;
+  if (json_follows) write_json(json, execution);
+  if (json) json->commit();
+  for (const std::string& file : {json_, svg_}) {
+    if (!file.empty()) written_.push_back(file);
   }
+}
+
+void SolveCommand::write_stopped(const Execution& execution) {
+  if (json_.empty() || json_said_) return;
+  Execution unhurried = execution;
+  unhurried.deadline = nullptr;  // what is left to say is short, and must be said
+  std::optional<OutputFile> json;
+  write_json(json, unhurried);
+  json->commit();
+  written_.push_back(json_);
+}
+
+/// Opens the file with the first word: nlohmann ends the program where memory is out.
+void SolveCommand::write_json(std::optional<OutputFile>& file, const Execution& execution) const {
+  write_answer_json(answer_, execution, [&](std::string_view text) {
+    if (!file) file.emplace(json_, execution);
+    file->write(text);
+  });
+}
+
+void SolveCommand::take_back_answer(StopReason reason) {
+  answer_.outcome = Outcome::stopped;
+  answer_.stop_reason = reason;
+  answer_.refuted.reset();
+  claim_nothing(answer_);
 }
 
 void SolveCommand::draw(const Execution& execution) {
@@ -149,7 +199,7 @@ void SolveCommand::draw(const Execution& execution) {
 }
 
 int SolveCommand::exit_code() const {
-  if (answer_.outcome == Outcome::stopped) return exit_code_of(answer_.stop_reason.value_or(StopReason::time));
+  if (answer_.outcome == Outcome::stopped) return exit_code_of(stop_reason());
   return answer_.verified ? exit_code::success : exit_code::no_path;
 }
 

@@ -12,6 +12,7 @@ inline constexpr int unreadable = 66;
 inline constexpr int internal = 70;
 inline constexpr int unwritable = 73;
 inline constexpr int budget = 124;
+inline constexpr int hung_up = 129;
 inline constexpr int interrupted = 130;
 inline constexpr int terminated = 143;
 

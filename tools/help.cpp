@@ -31,7 +31,7 @@ std::string program_help() {
          "'warren COMMAND --help' lists a command's options. Example:\n\n"
          "  warren solve maze:41x41 --svg maze.svg --json maze.json\n\n"
          "Exit codes: 0 success, 1 no path or refuted, 2 usage, 65 bad data, 66 unreadable input, 70 bug,\n"
-         "73 unwritable output, 124 budget of time or memory reached, 130 and 143 interrupted.\n";
+         "73 unwritable output, 124 budget of time or memory reached, 129, 130 and 143 interrupted.\n";
 }
 
 std::string command_help(const Command& command) {

@@ -168,7 +168,7 @@ std::string largest_json(const LargestOptions& options, const LargestResult& res
   json["bfs_funnel_length"] = result.bar ? Json(result.bar->length) : Json(nullptr);
   json["algorithm"] = name_of(options.maze.algorithm);
   json["loops"] = options.maze.loops;
-  if (result.signal) json["stopped_by"] = *result.signal == StopReason::terminate ? "SIGTERM" : "SIGINT";
+  if (result.signal) json["stopped_by"] = signal_name(*result.signal);
   add_figures(json, result);
   const MemoryTouch& touch = result.touch;
   json["first_touch"] = {{"bytes", touch.bytes}, {"cold_s", touch.cold_s}, {"warm_s", touch.warm_s}};

@@ -67,7 +67,7 @@ MazeTrial solve_trial(const Scene& scene, const MazeOptions& maze, const Argumen
   within.deadline = &deadline;
   const Answer answer = solve_walls(scene, problem, planner, within, nullptr);
   const auto reason = answer.outcome == Outcome::stopped ? answer.stop_reason : std::nullopt;
-  if (reason == StopReason::interrupt || reason == StopReason::terminate) throw Stopped{*reason};
+  if (reason && is_signal(*reason)) throw Stopped{*reason};
   return {.rows = maze.rows,
           .cols = maze.cols,
           .seed = maze.seed,

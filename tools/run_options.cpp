@@ -95,6 +95,8 @@ int exit_code_of(StopReason reason) {
       return exit_code::interrupted;
     case StopReason::terminate:
       return exit_code::terminated;
+    case StopReason::hang_up:
+      return exit_code::hung_up;
     default:
       return exit_code::budget;
   }
@@ -108,9 +110,16 @@ std::string_view text_of(StopReason reason) {
       return "it needs more memory than it may hold";
     case StopReason::interrupt:
       return "interrupted";
+    case StopReason::hang_up:
+      return "the terminal was closed";
     default:
       return "terminated";
   }
+}
+
+std::string_view signal_name(StopReason reason) {
+  if (reason == StopReason::hang_up) return "SIGHUP";
+  return reason == StopReason::terminate ? "SIGTERM" : "SIGINT";
 }
 
 }  // namespace warren

@@ -60,9 +60,11 @@ class Run {
   std::unique_ptr<ProgressBar> bar_;
 };
 
-/// 124 for a budget, 130 and 143 for signals.
+/// 124 for a budget, 129, 130 and 143 for signals.
 int exit_code_of(StopReason reason);
 /// "the time budget ended", …
 std::string_view text_of(StopReason reason);
+/// "SIGINT", … of a reason that is a signal.
+std::string_view signal_name(StopReason reason);
 
 }  // namespace warren

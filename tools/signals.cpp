@@ -2,25 +2,53 @@
 #include "tools/signals.hpp"
 
 #include <csignal>
+#include <ctime>
 
 namespace warren {
 namespace {
 
 constinit SignalFlag flag{0};
-static_assert(SignalFlag::is_always_lock_free, "a signal handler may only touch lock-free atomics");
+constinit std::atomic<std::int64_t> first_ms{0};
+static_assert(SignalFlag::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free,
+              "a signal handler may only touch lock-free atomics");
 
-void remember(int number) { flag.store(number, std::memory_order_relaxed); }
+std::int64_t now_ms() {
+  timespec now{};
+  ::clock_gettime(CLOCK_MONOTONIC, &now);
+  return std::int64_t{now.tv_sec} * 1000 + now.tv_nsec / 1'000'000;
+}
+
+void remember(int number) {
+  constexpr std::int64_t patience_ms = 1000;
+  int none = 0;
+  if (flag.compare_exchange_strong(none, number, std::memory_order_relaxed)) {
+    first_ms.store(now_ms(), std::memory_order_relaxed);
+  } else if (now_ms() - first_ms.load(std::memory_order_relaxed) >= patience_ms) {
+    std::signal(number, SIG_DFL);  // the next thing that happens in this thread
+    std::raise(number);
+  }
+}
+
+void stop_at(int number) {
+  struct sigaction action {};
+  action.sa_handler = remember;
+  ::sigemptyset(&action.sa_mask);
+  ::sigaction(number, &action, nullptr);  // no SA_RESTART: a read that waits for input must return
+}
+
+bool is_ignored(int number) {
+  struct sigaction action {};
+  return ::sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
 
 }  // namespace
 
 void install_signal_handlers() {
-  struct sigaction action {};
-  action.sa_handler = remember;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);  // no SA_RESTART: a read that waits for input must return
-  ::sigemptyset(&action.sa_mask);
-  ::sigaction(SIGINT, &action, nullptr);
-  ::sigaction(SIGTERM, &action, nullptr);
+  stop_at(SIGINT);
+  stop_at(SIGTERM);
+  if (!is_ignored(SIGHUP)) stop_at(SIGHUP);  // nohup has said so
   std::signal(SIGPIPE, SIG_DFL);
+  std::signal(SIGXFSZ, SIG_IGN);  // the write that is too long fails, as on a full disk
 }
 
 const SignalFlag& signal_flag() { return flag; }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SIGINT and SIGTERM set a flag that every stage polls; a second signal kills at once. SIGPIPE ends the program
-// quietly.
+// SIGINT, SIGTERM and SIGHUP (unless nohup has it ignored) set a flag that every stage polls: the program ends in
+// order, and a second one within a second changes nothing about that, for a key pressed twice must leave no
+// half-written file; after a second it kills at once. A file that grows past its limit (SIGXFSZ) is an output that
+// can't be written. SIGPIPE ends the program quietly, SIGQUIT at once, with a core where the system keeps one.
 #pragma once
 
 #include "parallel/deadline.hpp"

@@ -72,6 +72,8 @@ TEST(Deadline, NamesTheSignalThatCame) {
   EXPECT_EQ(deadline.reached(), StopReason::interrupt);
   flag = SIGTERM;
   EXPECT_EQ(deadline.reached(), StopReason::terminate);
+  flag = SIGHUP;
+  EXPECT_EQ(deadline.reached(), StopReason::hang_up);
 }
 
 TEST(Memory, FiguresAreInAPlausibleOrder) {

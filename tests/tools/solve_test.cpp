@@ -239,19 +239,6 @@ TEST(Solve, TheTraceIsChromesFormat) {
   EXPECT_TRUE(verified) << "each stage stands in the trace";
 }
 
-TEST(Solve, SignalsEndItWithTheirCodeAndPartialFigures) {
-  const std::pair<int, int> signals[] = {{SIGINT, 130}, {SIGTERM, 143}};
-  for (const auto& [number, code] : signals) {
-    SCOPED_TRACE(number);
-    Process process({"solve", "maze:20000x20000", "--json", "-", "--memory", "64GiB"});
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
-    process.send(number);
-    const Outcome outcome = process.wait();
-    EXPECT_EQ(outcome.code, code) << outcome.err;
-    EXPECT_EQ(Json::parse(outcome.out)["status"], "stopped");
-  }
-}
-
 TEST(Solve, AReaderThatGoesAwayIsNoError) {
   const Folder folder;
   const std::string pipe = folder.path("pipe");

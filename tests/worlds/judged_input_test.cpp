@@ -118,7 +118,7 @@ TEST(JudgedInput, EveryPartThatIsLookedAtIsJudgedByEveryJudge) {
 TEST(JudgedInput, TheWallsThatAMapGetsForPlannersAreItsOwn) {
   Scene scene;
   give_map(scene);
-  add_map_walls(scene);
+  add_map_walls(scene, {});
   ASSERT_GT(scene.walls.size(), 0U);
   for (const Judge& judge : plane_judges()) EXPECT_TRUE(judge.judge(scene).verified) << judge.name;
 }
