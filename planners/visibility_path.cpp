@@ -133,11 +133,14 @@ class VisibilityPlan {
   Solution<Vec2> solution_;
 };
 
-constexpr double far = std::numeric_limits<double>::infinity();
-constexpr Box everywhere{{-far, -far}, {far, far}};
+/// A box that confines nothing.
+Box whole_plane() {
+  constexpr double endless = std::numeric_limits<double>::infinity();
+  return {{-endless, -endless}, {endless, endless}};
+}
 
-Solution<Vec2> plan(const PlaneObstacles& obstacles, const Box& box, Vec2 start, Vec2 goal,
-                    const VisibilityOptions& options, const Execution& execution, Roadmap<Vec2>* keep) {
+Solution<Vec2> plan_within(const PlaneObstacles& obstacles, const Box& box, Vec2 start, Vec2 goal,
+                           const VisibilityOptions& options, const Execution& execution, Roadmap<Vec2>* keep) {
   options.validate();
   VisibilityPlan plan(box, start, goal, options, execution, keep);
   try {
@@ -158,14 +161,14 @@ void VisibilityOptions::validate() const {
 
 Solution<Vec2> visibility_path(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal, const VisibilityOptions& options,
                                const Execution& execution, Roadmap<Vec2>* keep) {
-  return plan(obstacles, everywhere, start, goal, options, execution, keep);
+  return plan_within(obstacles, whole_plane(), start, goal, options, execution, keep);
 }
 
 Solution<Vec2> confined_visibility_path(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal,
                                         const VisibilityOptions& options, const Execution& execution,
                                         Roadmap<Vec2>* keep) {
   const Box box = box_around(obstacles);
-  return plan(confined(obstacles), box.empty() ? everywhere : box, start, goal, options, execution, keep);
+  return plan_within(confined(obstacles), box.empty() ? whole_plane() : box, start, goal, options, execution, keep);
 }
 
 }  // namespace warren

@@ -29,14 +29,14 @@ TEST(PlaneContest, AllFindTheShortestPathOfStrangeWorlds) {
   EXPECT_LT(tally.refused, 100) << "else cells compete too seldom";
 }
 
-struct Case {
+struct WorldOnceLost {
   const char* name;
   std::vector<std::vector<Vec2>> polygons;
   std::vector<Segment> walls;
   std::optional<Box> bounds;
   Vec2 start, goal;
 };
-const Case cases[] = {
+const WorldOnceLost worlds_once_lost[] = {
     {"walls that share an end, in sight of which the way turns back",
      {},
      {{{1, 3}, {2, 5}}, {{2, 2}, {2, 5}}},
@@ -52,7 +52,7 @@ const Case cases[] = {
 };
 
 TEST(PlaneContest, AllFindTheShortestPathWhereSomebodyOnceDidNot) {
-  for (const Case& c : cases) {
+  for (const WorldOnceLost& c : worlds_once_lost) {
     SCOPED_TRACE(c.name);
     PlaneProblem problem{{{}, c.walls, c.bounds}, c.start, c.goal};
     for (const auto& ring : c.polygons) problem.obstacles.polygons.add(ring);

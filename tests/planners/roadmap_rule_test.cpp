@@ -13,30 +13,30 @@
 namespace warren {
 namespace {
 
-constexpr double length = 1e5;
+constexpr double world_length = 1e5;
 
 /// Fences in a box of length : 1, each open below or above; some are short and lie anywhere.
 Scene long_world(std::uint64_t seed) {
   test::Dice dice(seed);
   std::vector<Segment> walls;
   for (int i = 0; i < 20; ++i) {
-    const double x = length * (i + 1 + 0.5 * dice.real()) / 22.0;
+    const double x = world_length * (i + 1 + 0.5 * dice.real()) / 22.0;
     const double gap = 0.3 + 0.4 * dice.real();
     walls.push_back(dice.roll(2) == 0 ? Segment{{x, 0.0}, {x, gap}} : Segment{{x, gap}, {x, 1.0}});
-    const Vec2 at{length * dice.real(), 0.1 + 0.8 * dice.real()};
+    const Vec2 at{world_length * dice.real(), 0.1 + 0.8 * dice.real()};
     walls.push_back({at, {at.x + 0.05 * dice.real(), at.y + 0.05}});
   }
   Scene scene;
   scene.walls = WallSet::narrowest(walls);
-  scene.bounds = Box{{0.0, 0.0}, {length, 1.0}};
+  scene.bounds = Box{{0.0, 0.0}, {world_length, 1.0}};
   return scene;
 }
 
 TEST(RoadmapRule, JoinsWithinAStripWhereADiscWouldStickOutOfTheWorld) {
   const double in_square = connection_rule({}, 1000, 1.0, 1.0).radius;
   EXPECT_EQ(in_square, connection_rule({}, 1000, 1.0).radius) << "as where the box is not known";
-  const double in_strip = connection_rule({}, 1000, length, 1.0).radius;
-  EXPECT_DOUBLE_EQ(2.0 * in_strip * 1000 / length, expected_neighbours);
+  const double in_strip = connection_rule({}, 1000, world_length, 1.0).radius;
+  EXPECT_DOUBLE_EQ(2.0 * in_strip * 1000 / world_length, expected_neighbours);
 }
 
 TEST(RoadmapRule, LongWorldsOfFewWallsAreSolvedWithFewSamples) {
@@ -44,7 +44,7 @@ TEST(RoadmapRule, LongWorldsOfFewWallsAreSolvedWithFewSamples) {
     SCOPED_TRACE(seed);
     const MazeWorld world(long_world(seed), 0.0, {});
     const RoadmapOptions options{.seed = seed};
-    const Solution<Vec2> plan = lazy_prm(world, {1.0, 0.5}, {length - 1.0, 0.5}, options, {});
+    const Solution<Vec2> plan = lazy_prm(world, {1.0, 0.5}, {world_length - 1.0, 0.5}, options, {});
     EXPECT_EQ(plan.outcome, Outcome::solved);
     EXPECT_LT(plan.counters.samples, 20'000U);
     EXPECT_LT(growth_cap * growth * static_cast<double>(usual_samples(world, options)), 1e6) << "if there were no way";
