@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "core/raw_vector.hpp"
 #include "parallel/execution.hpp"
@@ -16,6 +17,8 @@ class InputFile {
  public:
   /// Opens and maps or reads; "-" is standard input. Throws ReadError (also for directories), Stopped.
   InputFile(const std::string& path, const Execution& execution);
+  /// Bytes that are in memory already, under the name that messages shall give: a copy.
+  static InputFile of_bytes(std::string name, std::string_view bytes) { return {std::move(name), bytes, Held{}}; }
   ~InputFile();
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
@@ -28,6 +31,11 @@ class InputFile {
   void forget(std::size_t first, std::size_t last) const noexcept;
 
  private:
+  struct Held {};
+  InputFile(std::string name, std::string_view bytes, Held)
+      : name_(std::move(name)), read_(bytes.begin(), bytes.end()) {
+    bytes_ = {read_.data(), read_.size()};
+  }
   void map(int file, std::size_t size);
   void read_all(int file, const Execution& execution);
 

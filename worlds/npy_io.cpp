@@ -50,7 +50,7 @@ class HeaderParser {
 
  private:
   [[noreturn]] void fail(std::string_view what, std::string_view found) const {
-    throw InputError(name_, what, scene_text::printable(found));
+    scene_text::Place{name_, 0}.fail(what, found);
   }
   std::size_t little_endian(std::size_t at, std::size_t count) const {
     std::size_t value = 0;

@@ -16,10 +16,10 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/printable.hpp"
 #include "worlds/image_io.hpp"
 #include "worlds/output_file_io.hpp"
 #include "worlds/pgm_io.hpp"
-#include "worlds/scene_text.hpp"
 
 namespace warren {
 namespace {
@@ -67,7 +67,8 @@ class DescriptionReader {
     return mark.is_null() ? name_ : fmt::format("{}:{}", name_, mark.line + 1);
   }
   [[noreturn]] void fail(const YAML::Node& node, std::string_view what) const {
-    throw InputError(place(node.Mark()), what, node.IsScalar() ? scene_text::printable(node.Scalar()) : "");
+    constexpr std::size_t longest = 40;
+    throw InputError(place(node.Mark()), what, node.IsScalar() ? printable(node.Scalar(), longest) : "");
   }
   YAML::Node needed(const char* key) const {
     const YAML::Node node = root_[key];

@@ -10,20 +10,11 @@
 #include <numeric>
 
 #include "core/error.hpp"
+#include "core/printable.hpp"
 #include "core/types.hpp"
 
 namespace warren::scene_text {
 namespace {
-
-/// Bytes of the UTF-8 character at the front; 0 if it is broken or a control character.
-std::size_t character_bytes(std::string_view text) {
-  const auto lead = static_cast<unsigned char>(text.front());
-  if (lead < 0x80) return lead >= 0x20 && lead != 0x7f ? 1 : 0;
-  const std::size_t bytes = lead >= 0xf0 && lead < 0xf5 ? 4 : lead >= 0xe0 ? 3 : lead >= 0xc2 ? 2 : 0;
-  if (lead >= 0xf5 || bytes > text.size()) return 0;
-  const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) == 0x80; };
-  return std::all_of(text.begin() + 1, text.begin() + static_cast<std::ptrdiff_t>(bytes), continues) ? bytes : 0;
-}
 
 constexpr std::size_t longest_word = 32;
 
@@ -47,23 +38,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 std::string Place::text() const { return line == 0 ? file : fmt::format("{}:{}", file, line); }
 
 void Place::fail(std::string_view what, std::string_view found) const {
-  throw InputError(text(), what, printable(found));
-}
-
-std::string printable(std::string_view text) {
   constexpr std::size_t longest = 40;
-  std::string shown;
-  while (!text.empty()) {
-    if (shown.size() >= longest) return shown + "...";
-    const std::size_t bytes = character_bytes(text);
-    if (bytes == 0) {
-      shown += fmt::format("\\x{:02x}", static_cast<unsigned char>(text.front()));
-    } else {
-      shown.append(text.substr(0, bytes));
-    }
-    text.remove_prefix(std::max<std::size_t>(1, bytes));
-  }
-  return shown;
+  throw InputError(text(), what, printable(found, longest));
 }
 
 std::string_view Fields::word() {

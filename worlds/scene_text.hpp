@@ -20,9 +20,6 @@ struct Place {
   [[noreturn]] void fail(std::string_view what, std::string_view found = {}) const;
 };
 
-/// At most 40 characters, control characters and broken UTF-8 as \xHH.
-std::string printable(std::string_view text);
-
 inline bool is_blank(char c) { return c == ' ' || c == ',' || c == '\t' || c == '\r' || c == '\f' || c == '\v'; }
 
 /// Walks over the fields of one line.
