@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "core/printable.hpp"
 #include "parallel/chunks.hpp"
 #include "planners/grid_search.hpp"
 #include "tools/answer_json.hpp"
@@ -189,8 +190,8 @@ void print_report(const std::string& file, const std::vector<Scenario>& scenario
   std::size_t shown = 0;
   for (std::size_t i = 0; i < results.size() && shown < most_lines; ++i) {
     if (results[i].agrees(scenarios[i])) continue;
-    print_text(fmt::format("{}:{}: published {}, A* {}, jump points {}\n", file, scenarios[i].line, scenarios[i].length,
-                           results[i].astar.length, results[i].jumps.length));
+    print_text(fmt::format("{}:{}: published {}, A* {}, jump points {}\n", printable(file), scenarios[i].line,
+                           scenarios[i].length, results[i].astar.length, results[i].jumps.length));
     ++shown;
   }
   const Totals t = totals_of(scenarios, results);
@@ -198,8 +199,8 @@ void print_report(const std::string& file, const std::vector<Scenario>& scenario
       t.wrong == 0 ? palette.good(fmt::format("all {} optimal", grouped(results.size())))
                    : palette.bad(fmt::format("{} of {} differ", grouped(t.wrong), grouped(results.size())));
   print_text(fmt::format(
-      "{}: {}; A* {:.3f} s, {} cells; jump points {:.3f} s, {} cells: {:.1f} times as fast, median {:.1f}\n", file,
-      verdict, t.astar_s, grouped(t.astar_expanded), t.jumps_s, grouped(t.jumps_expanded),
+      "{}: {}; A* {:.3f} s, {} cells; jump points {:.3f} s, {} cells: {:.1f} times as fast, median {:.1f}\n",
+      printable(file), verdict, t.astar_s, grouped(t.astar_expanded), t.jumps_s, grouped(t.jumps_expanded),
       t.jumps_s > 0.0 ? t.astar_s / t.jumps_s : 0.0, t.median_speedup));
 }
 

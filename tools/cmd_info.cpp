@@ -4,6 +4,7 @@
 
 #include <iterator>
 
+#include "core/printable.hpp"
 #include "tools/answer_json.hpp"
 #include "tools/command.hpp"
 #include "tools/exit_code.hpp"
@@ -130,7 +131,7 @@ int info(const Arguments& arguments) {
   if (json) write_file(*json, json_of(facts), run.execution());
   if (run.quiet() || json == "-") return exit_code::success;
   for (const Fact& fact : facts)
-    print_text(fmt::format("{}{}\n", run.palette().faint(fmt::format("{:<11}", fact.name)), fact.text));
+    print_text(fmt::format("{}{}\n", run.palette().faint(fmt::format("{:<11}", fact.name)), printable(fact.text)));
   return exit_code::success;
 }
 

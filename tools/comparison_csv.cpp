@@ -2,13 +2,15 @@
 // A comparison as CSV (RFC 4180): a line a contender, empty where nothing is known.
 #include <fmt/format.h>
 
+#include "core/printable.hpp"
 #include "tools/comparison_report.hpp"
 
 namespace warren {
 namespace {
 
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+std::string csv_field(const std::string& field) {
+  const std::string text = printable(field);
+  if (text.find_first_of(",\"") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? std::string{"\"\""} : std::string(1, c);
   return quoted + '"';

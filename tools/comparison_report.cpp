@@ -5,6 +5,7 @@
 
 #include <numbers>
 
+#include "core/printable.hpp"
 #include "tools/human_units.hpp"
 #include "tools/machine.hpp"
 #include "tools/run_options.hpp"
@@ -63,7 +64,7 @@ std::string search_table(const Comparison& comparison, std::size_t problem, cons
 std::string planner_cell(const Contender& c) {
   std::string name = name_of(c, true);
   const std::string options = options_text(c);
-  return options.empty() ? name : name + ", " + options;
+  return options.empty() ? name : name + ", " + printable(options);
 }
 
 std::string degrees_text(double angle_rad) { return fmt::format("{:.0f} deg", angle_rad * 180.0 / std::numbers::pi); }
@@ -96,7 +97,7 @@ std::string planner_table(const Comparison& comparison, std::size_t problem, con
 std::string problem_text(const Comparison& comparison, std::size_t problem, const Palette& palette) {
   const ComparedProblem& p = comparison.problems[problem];
   if (p.kind.empty()) return planner_table(comparison, problem, palette);
-  return fmt::format("{}: graph of {}, {} vertices, {} edges\n", p.source, p.kind, p.vertices, p.edges) +
+  return fmt::format("{}: graph of {}, {} vertices, {} edges\n", printable(p.source), p.kind, p.vertices, p.edges) +
          search_table(comparison, problem, palette);
 }
 
@@ -111,7 +112,7 @@ std::string comparison_summary(const Comparison& comparison, const Palette& pale
   const auto line = [&](std::string_view name, const std::string& what) {
     text += fmt::format("{}{}\n", palette.faint(fmt::format("{:<11}", name)), what);
   };
-  for (const std::string& note : comparison.notes) line("note", note);
+  for (const std::string& note : comparison.notes) line("note", printable(note));
   if (comparison.clock_s > 0.0) line("clock", precise_seconds(comparison.clock_s) + " a reading, taken off each time");
   line("machine", text_of(this_machine()));
   if (comparison.stopped) text += palette.doubtful(text_of(*comparison.stopped)) + ": these are the runs so far\n";

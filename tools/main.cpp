@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/printable.hpp"
 #include "parallel/deadline.hpp"
 #include "tools/closest_match.hpp"
 #include "tools/command.hpp"
@@ -82,7 +83,7 @@ int report_bug(std::string_view what) {
       exit_code::internal,
       fmt::format("internal error: {}\nwarren: this is a bug. Please report it with the whole command line, "
                   "the input file and the output of 'warren --version'.",
-                  what));
+                  printable(what)));
 }
 
 /// Where the reader of our standard output has gone, say nothing and end as other programs do.

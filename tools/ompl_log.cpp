@@ -6,6 +6,7 @@
 #include <array>
 #include <iterator>
 
+#include "core/printable.hpp"
 #include "tools/comparison_report.hpp"
 #include "tools/machine.hpp"
 
@@ -55,7 +56,7 @@ std::string run_line(const ComparedRun& run) {
 std::string planner_block(const Contender& contender) {
   std::string text = planner_name(contender) + "\n";
   text += fmt::format("{} common properties\n", contender.options.size());
-  for (const auto& [name, value] : contender.options) text += fmt::format("{} = {}\n", name, value);
+  for (const auto& [name, value] : contender.options) text += fmt::format("{} = {}\n", name, printable(value));
   text += properties;
   text += fmt::format("{} runs\n", contender.runs.size());
   for (const ComparedRun& run : contender.runs) text += run_line(run);
@@ -67,9 +68,10 @@ std::string planner_block(const Contender& contender) {
 std::string ompl_log(const Comparison& comparison, const OmplExperiment& experiment) {
   std::size_t most_runs = 0;
   for (const Contender& c : comparison.contenders) most_runs = std::max(most_runs, c.runs.size());
-  std::string text = fmt::format(
-      "warren version {}\nExperiment {}\nRunning on {}\nStarting at {}\n<<<|\n{}\n|>>>\n<<<|\n{}\n|>>>\n",
-      WARREN_VERSION, experiment.name, experiment.hostname, experiment.date, experiment.setup, text_of(this_machine()));
+  std::string text =
+      fmt::format("warren version {}\nExperiment {}\nRunning on {}\nStarting at {}\n<<<|\n{}\n|>>>\n<<<|\n{}\n|>>>\n",
+                  WARREN_VERSION, printable(experiment.name), experiment.hostname, experiment.date,
+                  printable(experiment.setup), text_of(this_machine()));
   fmt::format_to(std::back_inserter(text),
                  "{} is the random seed\n{} seconds per run\n{} MB per run\n{} runs per planner\n"
                  "{} seconds spent to collect the data\n1 enum type\n{}\n{} planners\n",

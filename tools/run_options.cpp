@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "core/printable.hpp"
 #include "tools/exit_code.hpp"
 #include "tools/last_words.hpp"
 #include "tools/option_values.hpp"
@@ -79,7 +80,7 @@ Run::Run(const Arguments& arguments, RunScope scope)
 
 void Run::note(std::string_view line) const {
   if (mode_ == ProgressMode::none) return;
-  say_on_standard_error(fmt::format("{}{}\n", resolved(mode_) == ProgressMode::bar ? "\r\x1b[K" : "", line));
+  say_on_standard_error(fmt::format("{}{}\n", resolved(mode_) == ProgressMode::bar ? "\r\x1b[K" : "", printable(line)));
 }
 
 void Run::end() {

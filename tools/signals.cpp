@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/signals.hpp"
 
+#include <unistd.h>
+
 #include <csignal>
+#include <cstring>
 #include <ctime>
+
+#include "parallel/mapped_ranges.hpp"
+#include "tools/exit_code.hpp"
 
 namespace warren {
 namespace {
@@ -11,6 +17,25 @@ constinit SignalFlag flag{0};
 constinit std::atomic<std::int64_t> first_ms{0};
 static_assert(SignalFlag::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free,
               "a signal handler may only touch lock-free atomics");
+
+void say(const char* text) {
+  const ssize_t ignored = ::write(STDERR_FILENO, text, std::strlen(text));
+  static_cast<void>(ignored);
+}
+
+/// A page of an input that is no longer there: its file became shorter while it was read. Other pages are a bug's, and
+/// the signal comes again with its usual effect.
+void report_lost_page(int number, siginfo_t* info, void*) {
+  const char* name = name_of_mapped(info->si_addr);
+  if (name == nullptr) {
+    std::signal(number, SIG_DFL);
+    return;
+  }
+  say("warren: ");
+  say(name);
+  say(": can't be read: it became shorter meanwhile\n");
+  ::_exit(exit_code::unreadable);
+}
 
 std::int64_t now_ms() {
   timespec now{};
@@ -49,6 +74,11 @@ void install_signal_handlers() {
   if (!is_ignored(SIGHUP)) stop_at(SIGHUP);  // nohup has said so
   std::signal(SIGPIPE, SIG_DFL);
   std::signal(SIGXFSZ, SIG_IGN);  // the write that is too long fails, as on a full disk
+  struct sigaction lost {};
+  lost.sa_sigaction = report_lost_page;
+  lost.sa_flags = SA_SIGINFO;
+  ::sigemptyset(&lost.sa_mask);
+  ::sigaction(SIGBUS, &lost, nullptr);
 }
 
 const SignalFlag& signal_flag() { return flag; }

@@ -5,6 +5,7 @@
 
 #include <iterator>
 
+#include "core/printable.hpp"
 #include "tools/human_units.hpp"
 #include "tools/run_options.hpp"
 
@@ -113,7 +114,7 @@ std::string summary_of(const Answer& answer, const Palette& palette, std::span<c
   if (answer.verified) add_path(text, answer, palette);
   add_roadmap(text, answer, palette);
   add_times(text, answer, palette);
-  for (const std::string& file : files_written) line(text, palette, "wrote", file);
+  for (const std::string& file : files_written) line(text, palette, "wrote", printable(file));
   return text;
 }
 

@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "core/printable.hpp"
+
 namespace warren {
 namespace {
 
@@ -44,8 +46,8 @@ std::size_t terminal_width() {
 void print_text(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); }
 
 std::string Palette::painted(std::string_view code, std::string_view text) const {
-  if (!on_) return std::string{text};
-  return "\x1b[" + std::string{code} + "m" + std::string{text} + "\x1b[0m";
+  if (!on_) return printable(text);
+  return "\x1b[" + std::string{code} + "m" + printable(text) + "\x1b[0m";
 }
 
 }  // namespace warren

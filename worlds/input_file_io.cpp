@@ -12,11 +12,13 @@
 #include <system_error>
 
 #include "core/error.hpp"
+#include "core/printable.hpp"
 
 namespace warren {
 namespace {
 
 constexpr int poll_ms = 50;
+constexpr std::size_t least_mapped = std::size_t{16} << 20;
 
 /// A descriptor that is closed at the end, unless it is standard input.
 class Descriptor {
@@ -64,14 +66,16 @@ InputFile::InputFile(const std::string& path, const Execution& execution)
   if (::fstat(file.number(), &status) != 0) fail(name_, errno);
   if (S_ISDIR(status.st_mode)) fail(name_, EISDIR);
   const bool from_start = S_ISREG(status.st_mode) && ::lseek(file.number(), 0, SEEK_CUR) == 0;
-  if (from_start && status.st_size > 0) {
-    map(file.number(), static_cast<std::size_t>(status.st_size));
+  const auto size = static_cast<std::size_t>(std::max<off_t>(0, status.st_size));
+  if (from_start && size >= least_mapped) {
+    map(file.number(), size);
   } else {
-    read_all(file.number(), execution);
+    read_all(file.number(), from_start ? std::optional(size) : std::nullopt, execution);
   }
 }
 
 InputFile::~InputFile() {
+  range_.reset();
   if (map_ != nullptr) ::munmap(map_, bytes_.size());
 }
 
@@ -79,20 +83,25 @@ void InputFile::map(int file, std::size_t size) {
   void* block = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file, 0);
   if (block == MAP_FAILED) fail(name_, errno);
   map_ = block;
+  shown_name_ = printable(name_);
+  range_.emplace(map_, size, shown_name_.c_str());
   ::madvise(map_, size, MADV_SEQUENTIAL);  // a hint
   bytes_ = {static_cast<const char*>(map_), size};
 }
 
-void InputFile::read_all(int file, const Execution& execution) {
-  constexpr std::size_t least = std::size_t{1} << 16;
+void InputFile::read_all(int file, std::optional<std::size_t> size, const Execution& execution) {
+  const std::size_t least = std::max(std::size_t{1} << 16, size.value_or(0) + 1);  // one more, to see the end
   std::size_t used = 0;
   for (;;) {
     if (used == read_.size()) {
-      execution.reserve(read_.size() + least);
-      read_.resize(std::max(least, 2 * read_.size()));
+      const std::size_t larger = std::max(least, 2 * read_.size());
+      execution.reserve(larger);
+      read_.resize(larger);
     }
     wait_for_input(file, execution);
-    const ssize_t got = ::read(file, read_.data() + used, read_.size() - used);
+    char* to = read_.data() + used;
+    const std::size_t room = read_.size() - used;
+    const ssize_t got = size ? ::pread(file, to, room, static_cast<off_t>(used)) : ::read(file, to, room);
     if (got == 0) break;
     if (got < 0 && errno != EINTR && errno != EAGAIN) fail(name_, errno);
     if (got > 0) used += static_cast<std::size_t>(got);

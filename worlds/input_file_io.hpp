@@ -1,17 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The bytes of an input: a regular file mapped into memory (nothing is read before it is looked at, pages can be given
-// back), a pipe, device or standard input read to its end. Waiting for a pipe polls the deadline every 50 ms.
+// The bytes of an input: a pipe, device, standard input or small file read to its end; a file of 16 MiB and more mapped
+// into memory (nothing is read before it is looked at, pages can be given back). Waiting for a pipe polls the deadline
+// every 50 ms. A mapped file must not become shorter: who looks at what is gone gets SIGBUS (parallel/mapped_ranges.hpp
+// tells a handler whose it was; the program says that the file can't be read).
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "core/raw_vector.hpp"
 #include "parallel/execution.hpp"
+#include "parallel/mapped_ranges.hpp"
 
 namespace warren {
+
+/// Of what kind a file is, its first so many bytes tell: blanks that go on for longer are nobody's.
+inline constexpr std::size_t bytes_that_tell = std::size_t{1} << 16;
 
 class InputFile {
  public:
@@ -37,11 +44,14 @@ class InputFile {
     bytes_ = {read_.data(), read_.size()};
   }
   void map(int file, std::size_t size);
-  void read_all(int file, const Execution& execution);
+  /// `size`: that of a regular file, which is read from its beginning and stays at it.
+  void read_all(int file, std::optional<std::size_t> size, const Execution& execution);
 
   std::string name_;
   std::string_view bytes_;
+  std::string shown_name_;
   void* map_ = nullptr;
+  std::optional<MappedRange> range_;
   RawVector<char> read_;
 };
 
