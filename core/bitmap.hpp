@@ -26,10 +26,17 @@ class Bitmap {
 
   Bitmap() = default;
   /// All bits `value`. Fewer than 2^32 bits in all.
-  Bitmap(std::uint32_t width, std::uint32_t height, bool value = false)
-      : width_(width), height_(height), stride_((width + word_bits - 1) / word_bits) {
-    words_.assign(stride_ * height, value ? ~std::uint64_t{0} : 0);
+  Bitmap(std::uint32_t width, std::uint32_t height, bool value = false) : Bitmap(width, height, value, NoPoll{}) {}
+  /// The same, with calls of poll() on the way: the first touch of gigabytes takes seconds.
+  template <class Poll>
+  Bitmap(std::uint32_t width, std::uint32_t height, bool value, const Poll& poll)
+      : width_(width), height_(height), stride_(words_a_row(width)) {
+    assign_polled(words_, stride_ * height, value ? ~std::uint64_t{0} : 0, poll);
     if (value) clear_beyond_width();
+  }
+  /// What a bitmap of this size takes: rows are whole words.
+  static std::size_t bytes_for(std::uint32_t width, std::uint32_t height) {
+    return words_a_row(width) * height * sizeof(std::uint64_t);
   }
 
   std::uint32_t width() const { return width_; }
@@ -74,6 +81,9 @@ class Bitmap {
   friend bool operator==(const Bitmap&, const Bitmap&) = default;
 
  private:
+  static constexpr std::size_t words_a_row(std::uint32_t width) {
+    return (std::size_t{width} + word_bits - 1) / word_bits;
+  }
   static constexpr std::uint64_t bit(std::uint32_t x) { return std::uint64_t{1} << (x % word_bits); }
   void clear_beyond_width() {
     if (width_ % word_bits == 0) return;

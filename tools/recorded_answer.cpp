@@ -8,7 +8,7 @@
 
 #include "core/error.hpp"
 #include "tools/answer_json.hpp"
-#include "worlds/input_file_io.hpp"
+#include "worlds/json_bytes.hpp"
 
 namespace warren {
 namespace {
@@ -62,6 +62,7 @@ class AnswerReader {
 constexpr std::string_view point_expected = "[X, Y], two finite numbers (three or six for other bodies)";
 constexpr std::string_view path_expected = "a list of points [X, Y]";
 
+constexpr std::size_t longest_state = 6;
 constexpr bool is_state_size(std::size_t n) { return n == 2 || n == 3 || n == 6; }
 
 bool AnswerReader::start_object(std::size_t) {
@@ -132,7 +133,10 @@ bool AnswerReader::number(double value) {
     answer_.problem.clearance = value;
   }
   if (in("length")) answer_.length = value;
-  if (arrays_ > 0) numbers_.push_back(value);
+  if (wanted && arrays_ > 0) {
+    if (numbers_.size() >= longest_state) refuse(in("path") ? path_expected : point_expected, "more numbers");
+    numbers_.push_back(value);
+  }
   return true;
 }
 
@@ -175,11 +179,13 @@ RecordedAnswer AnswerReader::finish() {
 }  // namespace
 
 RecordedAnswer read_answer(const std::string& file, const Execution& execution) {
-  const InputFile input(file, execution);
-  std::string_view text = input.bytes();
-  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+  return read_answer(InputFile(file, execution), execution);
+}
+
+RecordedAnswer read_answer(const InputFile& input, const Execution& execution) {
+  JsonBytes bytes(input, execution);
   AnswerReader reader(input.name(), execution);
-  Json::sax_parse(text.begin(), text.end(), &reader);
+  Json::sax_parse(bytes.begin(), bytes.end(), &reader);
   RecordedAnswer answer = reader.finish();
   answer.file = input.name();
   return answer;

@@ -13,6 +13,7 @@
 #include "parallel/execution.hpp"
 #include "tools/problem.hpp"
 #include "tools/state_list.hpp"
+#include "worlds/input_file_io.hpp"
 #include "worlds/scene.hpp"
 
 namespace warren {
@@ -30,6 +31,8 @@ struct RecordedAnswer {
 
 /// "-" is standard input. Throws ReadError, InputError naming file and key, Stopped.
 RecordedAnswer read_answer(const std::string& file, const Execution& execution);
+/// The same for a file that is open already.
+RecordedAnswer read_answer(const InputFile& input, const Execution& execution);
 
 /// Throws InputError unless each state of the path has so many numbers; `body` is whose they are.
 void check_state_width(const RecordedAnswer& answer, std::size_t width, std::string_view body);

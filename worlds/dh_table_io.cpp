@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "worlds/scene_text.hpp"
+#include "worlds/text_lines.hpp"
 
 namespace warren {
 namespace {
@@ -20,9 +21,8 @@ class TableReader {
  public:
   explicit TableReader(const std::string& name) : name_(name) {}
 
-  void read_line(std::string_view line, std::size_t number) {
-    Fields fields(line, {name_, number});
-    last_line_ = number;
+  void read_line(Fields fields) {
+    last_line_ = fields.place().line;
     if (fields.done()) return;
     const std::string_view item = fields.word();
     if (item == "joint") return read_joint(fields);
@@ -85,14 +85,8 @@ class TableReader {
 
 DhTable read_dh_table(const InputFile& file, const Execution& execution) {
   TableReader reader(file.name());
-  const std::string_view all = file.bytes();
-  std::size_t number = 1;
-  for (std::size_t at = 0; at < all.size(); ++number) {
-    execution.check();
-    const std::size_t end = std::min(all.find('\n', at), all.size());
-    reader.read_line(all.substr(at, end - at), number);
-    at = end + 1;
-  }
+  TextLines lines(file, execution);
+  while (lines.next()) reader.read_line(lines.fields());
   return reader.take();
 }
 

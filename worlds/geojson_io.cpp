@@ -8,12 +8,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "core/error.hpp"
+#include "worlds/asked_growth.hpp"
 #include "worlds/geojson_pieces.hpp"
+#include "worlds/json_bytes.hpp"
 #include "worlds/scene_text.hpp"
 
 namespace warren {
@@ -21,35 +22,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t deepest = 64;  // objects in objects: more is no map
-
-/// Walks over bytes and counts lines, for whoever holds the count.
-class LineCounter {
- public:
-  using iterator_category = std::input_iterator_tag;
-  using value_type = char;
-  using difference_type = std::ptrdiff_t;
-  using pointer = const char*;
-  using reference = const char&;
-
-  LineCounter(const char* at, std::size_t* line) : at_(at), line_(line) {}
-  const char& operator*() const { return *at_; }
-  LineCounter& operator++() {
-    if (*at_ == '\n' && line_ != nullptr) ++*line_;
-    ++at_;
-    return *this;
-  }
-  LineCounter operator++(int) {
-    LineCounter before = *this;
-    ++*this;
-    return before;
-  }
-  friend bool operator==(const LineCounter& a, const LineCounter& b) { return a.at_ == b.at_; }
-
- private:
-  const char* at_;
-  std::size_t* line_;
-};
+constexpr std::size_t deepest = 64;       // objects in objects: more is no map
+constexpr std::size_t longest_word = 32;  // of those that mean something: longer ones are cut off
 
 /// Nested lists of points: chains, and the groups of chains.
 struct Coordinates {
@@ -137,7 +111,7 @@ bool Reader::start_object(std::size_t) {
 }
 
 bool Reader::key(std::string& name) {
-  key_ = name;
+  key_ = name.substr(0, longest_word);
   look();
   return true;
 }
@@ -146,8 +120,9 @@ bool Reader::string(std::string& text) {
   if (in_coordinates()) fail("expected numbers in \"coordinates\"", text);
   if (objects_.empty()) fail("expected a GeoJSON object or an array of rings", text);
   if (object().lists > 0) return true;
-  if (key_ == "type" && !object().in_properties) object().type = text;
-  if (key_ == "role" && object().in_properties && objects_.size() > 1) objects_[objects_.size() - 2].role = text;
+  if (key_ == "type" && !object().in_properties) object().type = text.substr(0, longest_word);
+  if (key_ == "role" && object().in_properties && objects_.size() > 1)
+    objects_[objects_.size() - 2].role = text.substr(0, longest_word);
   return true;
 }
 
@@ -182,7 +157,7 @@ bool Reader::start_array(std::size_t) {
   if (list_depth_ == 0 && c.given) fail("\"coordinates\" stands twice");
   c.given = true;
   if (++list_depth_ > most_nested) fail("\"coordinates\" are nested too deeply");
-  if (list_depth_ == 2) c.groups.push_back(c.chains.size());
+  if (list_depth_ == 2) push_asking(c.groups, c.chains.size(), execution_);
   return true;
 }
 
@@ -211,11 +186,11 @@ void Reader::end_position() {
   if (c.depth != 0 && c.depth != list_depth_) fail("\"coordinates\" are nested unevenly");
   c.depth = list_depth_;
   if (!chain_open_) {
-    c.chains.emplace_back();
-    c.lines.push_back(line_);
+    push_asking(c.chains, {}, execution_);
+    push_asking(c.lines, line_, execution_);
     chain_open_ = true;
   }
-  c.chains.back().push_back({position_[0], position_[1]});
+  push_asking(c.chains.back(), {position_[0], position_[1]}, execution_);
   position_.clear();
   look();
 }
@@ -280,17 +255,16 @@ void Reader::add_rings(const Coordinates& c) {
 }  // namespace
 
 bool is_geojson(std::string_view bytes) {
+  bytes = bytes.substr(0, bytes_that_tell);
   if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
   const std::size_t at = bytes.find_first_not_of(" \t\r\n");
   return at != std::string_view::npos && (bytes[at] == '{' || bytes[at] == '[');
 }
 
 Scene read_geojson(const InputFile& file, const Execution& execution) {
-  std::string_view text = file.bytes();
-  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-  std::size_t line = 1;
-  Reader reader(file.name(), line, execution);
-  Json::sax_parse(LineCounter(text.data(), &line), LineCounter(text.data() + text.size(), nullptr), &reader);
+  JsonBytes bytes(file, execution);
+  Reader reader(file.name(), bytes.line(), execution);
+  Json::sax_parse(bytes.begin(), bytes.end(), &reader);
   return reader.finish();
 }
 

@@ -53,7 +53,7 @@ void GeojsonPieces::settle_obstacle(Piece& piece) {
     return;
   }
   if (piece.holes.empty()) {
-    scene_.polygons.push_back({std::move(piece.points), piece.line});
+    push_asking(scene_.polygons, {std::move(piece.points), piece.line}, execution_);
   } else if (!add_without_holes(scene_, piece.line, piece.points, piece.holes, execution_)) {
     fail_at(piece.line, misplaced_hole);
   }

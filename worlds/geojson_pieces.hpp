@@ -12,6 +12,7 @@
 
 #include "core/types.hpp"
 #include "parallel/execution.hpp"
+#include "worlds/asked_growth.hpp"
 #include "worlds/scene.hpp"
 #include "worlds/wall_collector.hpp"
 
@@ -29,10 +30,10 @@ class GeojsonPieces {
   std::size_t size() const { return waiting_.size(); }
   /// Rings are not closed.
   void add(Kind kind, std::vector<Vec2> points, std::size_t line) {
-    waiting_.push_back({kind, std::move(points), line, {}});
+    push_asking(waiting_, {kind, std::move(points), line, {}}, execution_);
   }
   /// Of the polygon that was added last.
-  void add_hole(std::vector<Vec2> ring) { waiting_.back().holes.push_back(std::move(ring)); }
+  void add_hole(std::vector<Vec2> ring) { push_asking(waiting_.back().holes, std::move(ring), execution_); }
   /// Takes those that wait, from the one of that number on, into the world. role: "start", "goal", "bounds", or else
   /// they are obstacles.
   void settle(std::size_t first, const std::string& role);

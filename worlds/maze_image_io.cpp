@@ -72,8 +72,7 @@ OccupancyMap read_maze_image(const InputFile& file, const Execution& execution) 
   map.source = file.name();
   std::optional<Darkness> darkness;
   const auto begin = [&](const ImageHeader& header) {
-    execution.reserve(std::size_t{header.width} * header.height / 8);
-    map.blocked = Bitmap(header.width, header.height);
+    map.blocked = cell_bitmap(header.width, header.height, execution);
     darkness.emplace(header, map.blocked);
   };
   read_image(file, {begin, [&](const PixelRun& run) { darkness->row(run); }}, execution);

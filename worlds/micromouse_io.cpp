@@ -8,61 +8,57 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "worlds/asked_growth.hpp"
 #include "worlds/scene_text.hpp"
+#include "worlds/text_lines.hpp"
 
 namespace warren {
 namespace {
 
 bool is_post(char c) { return c == 'o' || c == '+'; }
 
-std::string_view first_line(std::string_view bytes) {
-  std::string_view line = bytes.substr(0, std::min(bytes.find('\n'), bytes.size()));
-  while (line.ends_with('\r') || line.ends_with(' ')) line.remove_suffix(1);
-  return line;
+std::string_view without_trailing_blanks(std::string_view line) {
+  return line.substr(0, line.find_last_not_of("\r ") + 1);  // npos + 1 is 0
 }
 
 /// The picture, and the walls that it shows.
 class Picture {
  public:
-  explicit Picture(const InputFile& file) : name_(file.name()) {
-    std::string_view rest = file.bytes();
-    while (!rest.empty()) {
-      const std::size_t end = std::min(rest.find('\n'), rest.size());
-      std::string_view line = rest.substr(0, end);
-      while (line.ends_with('\r') || line.ends_with(' ')) line.remove_suffix(1);
-      lines_.push_back(line);
-      rest.remove_prefix(std::min(end + 1, rest.size()));
-    }
+  Picture(const InputFile& file, const Execution& execution) : name_(file.name()), execution_(execution) {
+    TextLines lines(file, execution);
+    while (lines.next()) push_asking(lines_, without_trailing_blanks(lines.line()), execution);
     while (!lines_.empty() && lines_.back().empty()) lines_.pop_back();
     cols_ = (lines_.front().size() - 1) / 4;
     rows_ = (lines_.size() - 1) / 2;
   }
 
-  void check(const Execution& execution) const {
+  void check() const {
     if (lines_.size() % 2 == 0 || lines_.size() < 3) {
       throw InputError(name_, "expected 2 H + 1 lines for H rows of cells", fmt::format("{} lines", lines_.size()));
     }
     if (!is_post(lines_.back().empty() ? ' ' : lines_.back().front()))
       fail(lines_.size() - 1, "expected a row of posts");
     for (std::size_t i = 0; i < lines_.size(); ++i) {
-      execution.check();
       if (lines_[i].size() > 4 * cols_ + 1) {
         fail(i, fmt::format("expected at most {} characters, as many as the first line has", 4 * cols_ + 1));
       }
       if (const auto tab = lines_[i].find('\t'); tab != lines_[i].npos) {  // it would shift what follows
         fail(i, fmt::format("expected blanks, not a tab, at column {}", tab + 1));
       }
-      for (std::size_t c = 0; c <= cols_; ++c) (i % 2 == 0 ? check_posts(i, c) : check_cells(i, c));
+      for (std::size_t c = 0; c <= cols_; ++c) {
+        if (c % cells_a_look == 0) execution_.check();
+        i % 2 == 0 ? check_posts(i, c) : check_cells(i, c);
+      }
     }
   }
 
-  Scene scene(const Execution& execution) const {
+  Scene scene() const {
     std::vector<Segment> walls;
     for (std::size_t i = 0; i < lines_.size(); i += 2) {
       add_runs(
           cols_, [&](std::size_t c) { return at(i, 4 * c + 2) == '-'; },
           [&](double from, double to) {
-            walls.push_back({{from, line_y(i)}, {to, line_y(i)}});
+            push_asking(walls, {{from, line_y(i)}, {to, line_y(i)}}, execution_);
           });
     }
     for (std::size_t c = 0; c <= cols_; ++c) {
@@ -70,14 +66,15 @@ class Picture {
       add_runs(
           rows_, [&](std::size_t r) { return at(lines_.size() - 2 - 2 * r, 4 * c) == '|'; },
           [&](double from, double to) {
-            walls.push_back({{x, from}, {x, to}});
+            push_asking(walls, {{x, from}, {x, to}}, execution_);
           });
     }
+    execution_.reserve(walls.size() * sizeof(DoubleWall));
     Scene scene;
     scene.walls = WallSet::narrowest(walls);
     scene.maze = MazeHint{static_cast<std::uint32_t>(rows_), static_cast<std::uint32_t>(cols_)};
     scene.start = find('S');
-    scene.goal = nearest_goal(execution);
+    scene.goal = nearest_goal();
     scene.source = name_;
     return scene;
   }
@@ -109,8 +106,9 @@ class Picture {
 
   /// Calls add(first - 0.5, last + 0.5) in cell coordinates for each run of walls.
   template <class IsWall, class Add>
-  static void add_runs(std::size_t count, const IsWall& is_wall, const Add& add) {
+  void add_runs(std::size_t count, const IsWall& is_wall, const Add& add) const {
     for (std::size_t first = 0; first < count; ++first) {
+      if (first % cells_a_look == 0) execution_.check();
       if (!is_wall(first)) continue;
       std::size_t last = first + 1;
       while (last < count && is_wall(last)) ++last;
@@ -126,7 +124,9 @@ class Picture {
   }
   std::size_t first_cell(char wanted) const {
     std::size_t cell = 0;
-    while (cell < rows_ * cols_ && mark(cell) != wanted) ++cell;
+    while (cell < rows_ * cols_ && mark(cell) != wanted) {
+      if (++cell % cells_a_look == 0) execution_.check();
+    }
     return cell;
   }
   std::vector<double> find(char wanted) const {
@@ -146,16 +146,16 @@ class Picture {
 
   /// The G that takes the fewest cells from S, the first of these in reading order; the first of all where none can be
   /// reached.
-  std::vector<double> nearest_goal(const Execution& execution) const {
+  std::vector<double> nearest_goal() const {
     const std::size_t count = rows_ * cols_;
     const std::size_t start = first_cell('S');
     if (start == count) return find('G');
-    execution.reserve(count + 2 * (rows_ + cols_) * sizeof(std::size_t));
+    execution_.reserve(count + 2 * (rows_ + cols_) * sizeof(std::size_t));
     std::vector<char> seen(count, 0);
     std::vector<std::size_t> level{start};
     std::vector<std::size_t> next;
     for (seen[start] = 1; !level.empty(); level.swap(next)) {
-      execution.check();
+      execution_.check();
       std::size_t goal = count;
       next.clear();
       for (const std::size_t cell : level) {
@@ -170,7 +170,10 @@ class Picture {
     return find('G');
   }
 
+  static constexpr std::size_t cells_a_look = 1 << 14;
+
   const std::string& name_;
+  const Execution& execution_;
   std::vector<std::string_view> lines_;
   std::size_t cols_ = 0;
   std::size_t rows_ = 0;
@@ -179,8 +182,11 @@ class Picture {
 }  // namespace
 
 bool is_micromouse(std::string_view bytes) {
-  const std::string_view line = first_line(bytes);
-  if (line.size() < 5 || line.size() % 4 != 1) return false;
+  const std::string_view head = bytes.substr(0, bytes_that_tell);
+  const std::size_t end = head.find('\n');
+  const bool whole = end != head.npos || head.size() == bytes.size();
+  const std::string_view line = whole ? without_trailing_blanks(head.substr(0, end)) : head;
+  if (line.size() < 5 || (whole && line.size() % 4 != 1)) return false;
   for (std::size_t i = 0; i < line.size(); ++i) {
     const bool fits = i % 4 == 0 ? is_post(line[i]) : line[i] == '-' || line[i] == ' ';
     if (!fits) return false;
@@ -189,9 +195,12 @@ bool is_micromouse(std::string_view bytes) {
 }
 
 Scene read_micromouse(const InputFile& file, const Execution& execution) {
-  const Picture picture(file);
-  picture.check(execution);
-  return picture.scene(execution);
+  if (!is_micromouse(file.bytes())) {
+    scene_text::Place{file.name(), 1}.fail("expected a row of posts, o---o---o", file.bytes().substr(0, 40));
+  }
+  const Picture picture(file, execution);
+  picture.check();
+  return picture.scene();
 }
 
 }  // namespace warren

@@ -11,7 +11,7 @@
 
 namespace warren {
 
-/// Is the first line a row of posts?
+/// Is the first line a row of posts, as far as its first 64 KiB tell?
 bool is_micromouse(std::string_view bytes);
 
 /// Walls on the unit grid, cell centres at 1..W x 1..H, the maze hint; walls in a row are joined. Of several G the goal

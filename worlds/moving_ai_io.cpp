@@ -3,47 +3,36 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <string_view>
 
 #include "core/error.hpp"
+#include "worlds/asked_growth.hpp"
 #include "worlds/output_file_io.hpp"
 #include "worlds/scene_text.hpp"
+#include "worlds/text_lines.hpp"
 
 namespace warren {
 namespace {
 
-/// Lines without their ends, numbered from 1.
-class Lines {
- public:
-  explicit Lines(const InputFile& file) : name_(file.name()), rest_(file.bytes()) {
-    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-    if (rest_.starts_with(byte_order_mark)) rest_.remove_prefix(byte_order_mark.size());
-  }
-  bool done() const { return rest_.empty(); }
-  std::string_view next() {
-    ++number_;
-    const std::size_t end = std::min(rest_.find('\n'), rest_.size());
-    std::string_view line = rest_.substr(0, end);
-    rest_.remove_prefix(std::min(end + 1, rest_.size()));
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    return line;
-  }
-  scene_text::Place place() const { return {name_, number_}; }
-  std::size_t number() const { return number_; }
+/// Without what is left of its end.
+std::string_view text_of(const TextLines& lines) {
+  std::string_view line = lines.line();
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  return line;
+}
 
- private:
-  const std::string& name_;
-  std::string_view rest_;
-  std::size_t number_ = 0;
-};
+constexpr std::size_t longest_line = 1 << 16;  // of words: a row of a map may be longer
 
 bool is_blank(std::string_view line) { return line.find_first_not_of(" \t\r") == std::string_view::npos; }
 
 /// Fields between any of these marks, blanks around them left out.
-std::vector<std::string_view> split(std::string_view line, std::string_view marks) {
+std::vector<std::string_view> split(const TextLines& lines, std::string_view marks) {
   std::vector<std::string_view> fields;
+  std::string_view line = text_of(lines);
+  if (line.size() > longest_line) lines.place().fail("expected a line of at most 65536 characters", line);
   while (!line.empty()) {
     const std::size_t end = std::min(line.find_first_of(marks), line.size());
     std::string_view field = line.substr(0, end);
@@ -55,12 +44,14 @@ std::vector<std::string_view> split(std::string_view line, std::string_view mark
   return fields;
 }
 
-/// Words of a header.
-std::vector<std::string_view> words_of(std::string_view line) { return split(line, " \t"); }
+/// Words of a header's next line; none at the end.
+std::vector<std::string_view> next_words(TextLines& lines) {
+  return lines.next() ? split(lines, " \t") : std::vector<std::string_view>{};
+}
 
 /// Fields between tabs, since names of maps may have blanks; between blanks where the line has no tab.
-std::vector<std::string_view> fields_of(std::string_view line) {
-  return split(line, line.find('\t') != std::string_view::npos ? "\t" : " ");
+std::vector<std::string_view> fields_of(const TextLines& lines) {
+  return split(lines, lines.line().find('\t') != std::string_view::npos ? "\t" : " ");
 }
 
 /// A row of a map without what editors leave behind it.
@@ -79,9 +70,9 @@ T number(std::string_view field, const scene_text::Place& place, std::string_vie
   return value;
 }
 
-std::uint32_t size_line(Lines& lines, std::string_view word) {
+std::uint32_t size_line(TextLines& lines, std::string_view word) {
   const auto expected = fmt::format("`{} N`, N from 1 to 2147483647", word);
-  const std::vector<std::string_view> fields = lines.done() ? std::vector<std::string_view>{} : words_of(lines.next());
+  const std::vector<std::string_view> fields = next_words(lines);
   if (fields.size() != 2 || fields[0] != word) {
     lines.place().fail("expected " + expected, fields.empty() ? "" : fields[0]);
   }
@@ -91,9 +82,12 @@ std::uint32_t size_line(Lines& lines, std::string_view word) {
 }
 
 /// Fills one row; returns how many cells are free.
-std::uint64_t fill_row(std::string_view line, std::uint32_t y, const scene_text::Place& place, OccupancyMap& map) {
+std::uint64_t fill_row(std::string_view line, std::uint32_t y, const scene_text::Place& place, OccupancyMap& map,
+                       const Execution& execution) {
+  constexpr std::uint32_t cells_a_look = 1 << 16;
   std::uint64_t free = 0;
   for (std::uint32_t x = 0; x < map.width(); ++x) {
+    if (x % cells_a_look == 0) execution.check();
     switch (line[x]) {
       case '.':
       case 'G':
@@ -101,7 +95,7 @@ std::uint64_t fill_row(std::string_view line, std::uint32_t y, const scene_text:
         ++free;
         break;
       case 'W':
-        if (map.water.empty()) map.water = Bitmap(map.width(), map.height());
+        if (map.water.empty()) map.water = cell_bitmap(map.width(), map.height(), execution);
         map.water.set(x, y);
         [[fallthrough]];
       case '@':
@@ -117,10 +111,10 @@ std::uint64_t fill_row(std::string_view line, std::uint32_t y, const scene_text:
 }
 
 /// What follows a blank line and is no row is somebody's note: where the map is from, what to cite.
-void refuse_more_rows(Lines& lines, std::uint32_t width, std::uint32_t height) {
+void refuse_more_rows(TextLines& lines, std::uint32_t width, std::uint32_t height) {
   bool is_note = false;
-  while (!lines.done()) {
-    const std::string_view line = lines.next();
+  while (lines.next()) {
+    const std::string_view line = text_of(lines);
     is_note = is_note || is_blank(line);
     const bool is_row = line.size() == width && line.find_first_not_of(".GSW@OT") == std::string_view::npos;
     if (is_row || !is_note) lines.place().fail(fmt::format("expected nothing after {} rows", height));
@@ -130,35 +124,31 @@ void refuse_more_rows(Lines& lines, std::uint32_t width, std::uint32_t height) {
 }  // namespace
 
 OccupancyMap read_moving_ai_map(const InputFile& file, const Execution& execution) {
-  Lines lines(file);
-  const std::vector<std::string_view> type = words_of(lines.next());
+  TextLines lines(file, execution);
+  const std::vector<std::string_view> type = next_words(lines);
   if (type.size() != 2 || type[0] != "type" || type[1] != "octile") {
     lines.place().fail("expected `type octile`", type.empty() ? "" : type.back());
   }
   const std::uint32_t height = size_line(lines, "height");
   const std::uint32_t width = size_line(lines, "width");
   check_map_size(file.name(), width, height);
-  if (lines.done() || words_of(lines.next()) != std::vector<std::string_view>{"map"}) {
-    lines.place().fail("expected `map`");
-  }
-  execution.reserve(std::size_t{width} * height / 4);
+  if (next_words(lines) != std::vector<std::string_view>{"map"}) lines.place().fail("expected `map`");
   OccupancyMap map;
   map.format = MapFormat::moving_ai;
   map.source = file.name();
   if (file.bytes().size() / width < height) {
     throw InputError(file.name(), fmt::format("expected {} rows of {} cells; the file is too short", height, width));
   }
-  map.blocked = Bitmap(width, height);
+  map.blocked = cell_bitmap(width, height, execution);
   for (std::uint32_t row = 0; row < height; ++row) {
-    execution.check();
-    if (lines.done()) {
+    if (!lines.next()) {
       throw InputError(file.name(), fmt::format("expected {} rows after `map`", height), fmt::format("{}", row));
     }
-    const std::string_view line = without_trailing_blanks(lines.next(), width);
+    const std::string_view line = without_trailing_blanks(text_of(lines), width);
     if (line.size() != width) {
       lines.place().fail(fmt::format("expected a row of {} cells", width), fmt::format("{} characters", line.size()));
     }
-    map.free += fill_row(line, height - 1 - row, lines.place(), map);
+    map.free += fill_row(line, height - 1 - row, lines.place(), map, execution);
   }
   refuse_more_rows(lines, width, height);
   map.occupied = map.blocked.size() - map.free;
@@ -196,13 +186,15 @@ double half_unit_of(std::string_view digits, double value) {
     if (mantissa_end < digits.size()) {
       std::from_chars(digits.data() + mantissa_end + 1 + sign, digits.data() + digits.size(), exponent);
     }
-    last = exponent - static_cast<int>(mantissa_end - point - 1);
+    constexpr int beyond_all = 1000;  // of a double
+    last = std::clamp(exponent, -beyond_all, beyond_all) - static_cast<int>(mantissa_end - point - 1);
   }
   return 0.5 * std::pow(10.0, last);
 }
 
-Scenario scenario_of(std::string_view line, bool has_sizes, const scene_text::Place& place) {
-  const std::vector<std::string_view> fields = fields_of(line);
+Scenario scenario_of(const TextLines& lines, bool has_sizes) {
+  const scene_text::Place place = lines.place();
+  const std::vector<std::string_view> fields = fields_of(lines);
   const std::size_t expected = has_sizes ? 9 : 7;
   if (fields.size() != expected) {
     place.fail(has_sizes ? "expected bucket, map, its width and height, start x y, goal x y, optimal length"
@@ -240,21 +232,20 @@ std::uint32_t scaled(std::uint32_t coordinate, std::uint32_t map_size, std::uint
 }  // namespace
 
 std::vector<Scenario> read_scenarios(const InputFile& file, const Execution& execution) {
-  Lines lines(file);
+  TextLines lines(file, execution);
   std::vector<Scenario> scenarios;
   bool has_sizes = false;
   bool first = true;
-  while (!lines.done()) {
-    const std::string_view line = lines.next();
-    if (lines.number() % 1024 == 0) execution.check();
+  while (lines.next()) {
+    const std::string_view line = text_of(lines);
     if (is_blank(line)) continue;
     if (first && line.starts_with("version")) {
-      const std::vector<std::string_view> fields = fields_of(line);
+      const std::vector<std::string_view> fields = fields_of(lines);
       const double version = fields.size() == 2 ? number<double>(fields[1], lines.place(), "`version 1`") : -1.0;
       if (version != 0.0 && version != 1.0) lines.place().fail("expected `version 1` or `version 0`", line);
       has_sizes = version == 1.0;
     } else {
-      scenarios.push_back(scenario_of(line, has_sizes, lines.place()));
+      push_asking(scenarios, scenario_of(lines, has_sizes), execution);
     }
     first = false;
   }

@@ -26,6 +26,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "numbers are copied as they lie in the file");
 
 constexpr std::string_view magic = "\x93NUMPY";
+constexpr std::size_t longest_header = 65535;  // all that version 1 can say, and a hundred times what walls need
 constexpr std::size_t npy_grain = std::size_t{1} << 16;
 
 struct Header {
@@ -62,8 +63,10 @@ class HeaderParser {
     if (version < 1 || version > 3) fail("expected .npy version 1, 2 or 3", fmt::format("version {}", version));
     const std::size_t length_bytes = version == 1 ? 2 : 4;
     const std::size_t begin = magic.size() + 2 + length_bytes;
-    const std::size_t length =
-        bytes_.size() < begin ? bytes_.size() : little_endian(begin - length_bytes, length_bytes);
+    const std::size_t length = bytes_.size() < begin ? 0 : little_endian(begin - length_bytes, length_bytes);
+    if (length > longest_header) {
+      fail("expected a header of at most 65535 bytes", fmt::format("{} bytes", length));
+    }
     if (bytes_.size() < begin || bytes_.size() - begin < length) {
       fail("the file ends within its header", fmt::format("{} bytes", bytes_.size()));
     }
@@ -227,7 +230,7 @@ class Rows {
   }
   std::size_t first_bad(Range r) const {
     std::size_t i = r.first;
-    while (is_sane(row(i))) ++i;
+    while (i + 1 < r.last && is_sane(row(i))) ++i;  // the file may change meanwhile
     return i;
   }
   [[noreturn]] void refuse(std::size_t i) const {

@@ -49,6 +49,11 @@ std::string map_hash(const OccupancyMap& map) {
   return fmt::format("{:016x}", hash);
 }
 
+Bitmap cell_bitmap(std::uint32_t width, std::uint32_t height, const Execution& execution) {
+  execution.reserve(Bitmap::bytes_for(width, height));
+  return {width, height, false, [&] { execution.check(); }};
+}
+
 void check_map_size(const std::string& where, std::uint64_t width, std::uint64_t height) {
   constexpr std::uint64_t side_end = std::uint64_t{1} << 31;
   constexpr std::uint64_t cells_end = std::uint64_t{1} << 32;

@@ -48,6 +48,9 @@ std::optional<Cell> cell_at(const OccupancyMap& map, Vec2 in_world);
 /// A 64-bit hash of blocked and water cells and of the map's place, as 16 hex digits.
 std::string map_hash(const OccupancyMap& map);
 
+/// All cells clear. Throws Stopped where the memory lacks, or while it is filled.
+Bitmap cell_bitmap(std::uint32_t width, std::uint32_t height, const Execution& execution);
+
 /// Throws InputError unless 1 <= width, height < 2^31 and width x height < 2^32; `where` names the place.
 void check_map_size(const std::string& where, std::uint64_t width, std::uint64_t height);
 

@@ -16,10 +16,11 @@ namespace {
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\v' || c == '\f'; }
 
-/// Tokens between white space; `#` starts a comment to the end of the line.
-class Tokens {
+/// Tokens between white space; `#` starts a comment to the end of the line. Runs of blanks look at the deadline.
+class PgmTokens {
  public:
-  explicit Tokens(const InputFile& file) : name_(file.name()), rest_(file.bytes()) {}
+  PgmTokens(const InputFile& file, const Execution& execution)
+      : name_(file.name()), rest_(file.bytes()), execution_(execution) {}
 
   std::uint32_t number(std::string_view what, std::uint32_t least, std::uint32_t most) {
     skip();
@@ -40,7 +41,9 @@ class Tokens {
 
  private:
   void skip() {
-    while (!rest_.empty()) {
+    constexpr std::size_t batch = 1 << 16;
+    for (std::size_t steps = 1; !rest_.empty(); ++steps) {
+      if (steps % batch == 0) execution_.check();
       if (rest_.front() == '#') {
         rest_.remove_prefix(std::min(rest_.find('\n'), rest_.size()));
       } else if (is_space(rest_.front())) {
@@ -51,14 +54,17 @@ class Tokens {
       }
     }
   }
+  /// No number is longer than that, and a message shows no more.
   std::size_t word_length() const {
+    constexpr std::size_t longest = 64;
     std::size_t n = 0;
-    while (n < rest_.size() && !is_space(rest_[n]) && rest_[n] != '#') ++n;
+    while (n < std::min(rest_.size(), longest) && !is_space(rest_[n]) && rest_[n] != '#') ++n;
     return n;
   }
 
   const std::string& name_;
   std::string_view rest_;
+  const Execution& execution_;
   std::size_t line_ = 1;
 };
 
@@ -86,16 +92,24 @@ std::uint16_t sample(std::string_view bytes, std::size_t i, bool wide) {
   return static_cast<std::uint16_t>(wide ? byte(2 * i) << 8 | byte(2 * i + 1) : byte(i));
 }
 
+/// Before anybody makes room for many pixels: `bytes_a_pixel` is the least that one takes.
+void check_pixels_are_there(const InputFile& file, const ImageHeader& header, std::size_t bytes_a_pixel,
+                            std::size_t bytes) {
+  const std::size_t row_bytes = bytes_a_pixel * header.width;
+  if (bytes / row_bytes >= header.height) return;
+  throw InputError(file.name(),
+                   fmt::format("expected {} x {} pixels, {} bytes{} after the header", header.width, header.height,
+                               row_bytes * header.height, file.bytes()[1] == '5' ? "" : " or more"),
+                   fmt::format("{} bytes", bytes));
+}
+
 void read_binary(const InputFile& file, const ImageHeader& header, std::string_view pixels, const ImageSink& sink,
                  const Execution& execution) {
   const bool wide = header.maximum > 255;
   const std::size_t row_bytes = std::size_t{header.width} * (wide ? 2 : 1);
-  if (pixels.size() / row_bytes < header.height) {
-    throw InputError(file.name(),
-                     fmt::format("expected {} x {} pixels, {} bytes after the header", header.width, header.height,
-                                 row_bytes * header.height),
-                     fmt::format("{} bytes", pixels.size()));
-  }
+  check_pixels_are_there(file, header, wide ? 2 : 1, pixels.size());
+  sink.begin(header);
+  execution.reserve(sizeof(std::uint16_t) * header.width);
   std::vector<std::uint16_t> samples(header.width);
   Forgetting forgetting(file);
   for (std::uint32_t y = 0; y < header.height; ++y) {
@@ -116,27 +130,42 @@ void read_binary(const InputFile& file, const ImageHeader& header, std::string_v
   }
 }
 
+void read_ascii(const InputFile& file, const ImageHeader& header, PgmTokens& tokens, const ImageSink& sink,
+                const Execution& execution) {
+  constexpr std::uint32_t pixels_a_look = 1 << 14;
+  constexpr std::uint64_t few_pixels = 1 << 20;  // of these the message names the line where they end
+  if (std::uint64_t{header.width} * header.height > few_pixels) {
+    check_pixels_are_there(file, header, 2, tokens.rest().size());
+  }
+  sink.begin(header);
+  execution.reserve(sizeof(std::uint16_t) * header.width);
+  std::vector<std::uint16_t> samples(header.width);
+  Forgetting forgetting(file);
+  for (std::uint32_t y = 0; y < header.height; ++y) {
+    for (std::uint32_t x = 0; x < header.width; ++x) {
+      if (x % pixels_a_look == 0) {
+        execution.check();
+        forgetting.but(tokens.rest());
+      }
+      samples[x] = static_cast<std::uint16_t>(tokens.number("a pixel", 0, header.maximum));
+    }
+    sink.row({y, 0, 1, samples});
+  }
+}
+
 }  // namespace
 
 void read_pgm(const InputFile& file, const ImageSink& sink, const Execution& execution) {
   constexpr std::uint32_t most_side = 0x7fffffff;
-  Tokens tokens(file);
+  PgmTokens tokens(file, execution);
   tokens.magic();
   ImageHeader header;
   header.width = tokens.number("the width of a PGM image", 1, most_side);
   header.height = tokens.number("the height of a PGM image", 1, most_side);
   header.maximum = tokens.number("the maxval of a PGM image", 1, 65535);
   check_map_size(file.name(), header.width, header.height);
-  sink.begin(header);
   if (file.bytes()[1] == '5') return read_binary(file, header, tokens.pixels(), sink, execution);
-  std::vector<std::uint16_t> samples(header.width);
-  Forgetting forgetting(file);
-  for (std::uint32_t y = 0; y < header.height; ++y) {
-    execution.check();
-    forgetting.but(tokens.rest());
-    for (std::uint16_t& s : samples) s = static_cast<std::uint16_t>(tokens.number("a pixel", 0, header.maximum));
-    sink.row({y, 0, 1, samples});
-  }
+  read_ascii(file, header, tokens, sink, execution);
 }
 
 void write_map_pgm(const OccupancyMap& map, const std::string& path, UnknownCells unknown, const Execution& execution) {

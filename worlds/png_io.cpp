@@ -21,13 +21,16 @@ namespace {
 
 struct PngInput {
   std::string_view rest;
+  const Execution& execution;
   std::string error;
+  std::size_t bits_a_pixel = 0;        // as the file has them
   std::vector<png_byte> bytes;         // one row as libpng gives it
   std::vector<std::uint16_t> samples;  // the same, widened
 };
 
 void png_take(png_structp png, png_bytep to, std::size_t size) {
   auto* input = static_cast<PngInput*>(png_get_io_ptr(png));
+  if (input->execution.should_stop()) png_error(png, "stopped");  // at most 8 KiB are taken, 8 MiB inflated, at once
   if (size > input->rest.size()) png_error(png, "the file ends too early");
   std::memcpy(to, input->rest.data(), size);
   input->rest.remove_prefix(size);
@@ -43,7 +46,9 @@ void png_warn(png_structp, png_const_charp) {}
 bool begin(png_structp png, png_infop info, PngInput& input, ImageHeader& header) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_read_fn(png, &input, png_take);
+  png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);  // texts, profiles, times: none is looked at
   png_read_info(png, info);
+  input.bits_a_pixel = std::size_t{png_get_bit_depth(png, info)} * png_get_channels(png, info);
   png_set_expand(png);
   png_read_update_info(png, info);
   header.width = png_get_image_width(png, info);
@@ -94,17 +99,33 @@ class PngReader {
   png_infop info_;
 };
 
+/// Before anybody makes room for the pixels: deflate makes at most 1032 bytes of one.
+void check_pixels_are_there(const InputFile& file, const ImageHeader& header, std::size_t bits_a_pixel) {
+  constexpr std::uint64_t most_inflated = 1032;
+  const std::uint64_t bytes = std::uint64_t{header.width} * header.height * bits_a_pixel / 8;
+  if (bytes / most_inflated <= file.bytes().size()) return;
+  throw InputError(file.name(), "expected a whole PNG image: no " + std::to_string(file.bytes().size()) +
+                                    " bytes hold " + std::to_string(header.width) + " x " +
+                                    std::to_string(header.height) + " pixels");
+}
+
 }  // namespace
 
 void read_png(const InputFile& file, const ImageSink& sink, const Execution& execution) {
-  PngInput input{file.bytes(), {}, {}, {}};
-  const auto fail = [&] { throw InputError(file.name(), "expected a whole PNG image: " + input.error); };
+  PngInput input{
+      .rest = file.bytes(), .execution = execution, .error = {}, .bits_a_pixel = 0, .bytes = {}, .samples = {}};
+  const auto fail = [&] {
+    execution.check();
+    throw InputError(file.name(), "expected a whole PNG image: " + input.error);
+  };
   const PngReader reader(input);
   ImageHeader header;
   if (!begin(reader.png(), reader.info(), input, header)) fail();
   check_map_size(file.name(), header.width, header.height);
+  check_pixels_are_there(file, header, input.bits_a_pixel);
   sink.begin(header);
   const std::size_t row_samples = std::size_t{header.width} * header.channels;
+  execution.reserve(8 * row_samples);  // two of libpng's rows, of two bytes a sample, and our two
   input.bytes.resize(png_get_rowbytes(reader.png(), reader.info()));
   input.samples.resize(row_samples);
   const bool interlaced = png_get_interlace_type(reader.png(), reader.info()) == PNG_INTERLACE_ADAM7;

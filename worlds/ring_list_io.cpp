@@ -12,44 +12,32 @@
 
 #include "core/error.hpp"
 #include "spatial/polygon_index.hpp"
+#include "worlds/asked_growth.hpp"
 #include "worlds/plane_obstacles.hpp"
 #include "worlds/scene_text.hpp"
+#include "worlds/text_lines.hpp"
 #include "worlds/wall_collector.hpp"
 
 namespace warren {
 namespace {
 
 using scene_text::Fields;
-using scene_text::Place;
 
-constexpr std::size_t lines_a_look = 1 << 13;
-
-std::string_view without_mark(std::string_view bytes) {
+/// The first bytes without a byte order mark.
+std::string_view head_of(std::string_view bytes) {
   if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
-  return bytes;
+  return bytes.substr(0, bytes_that_tell);
 }
 
 bool is_environment(std::string_view bytes) {
-  bytes = without_mark(bytes);
+  bytes = head_of(bytes);
   const std::size_t at = bytes.find_first_not_of(" \t\r\n");
   return at != std::string_view::npos && bytes.substr(at).starts_with("//");
 }
 
 bool is_polymap(std::string_view bytes) {
-  bytes = without_mark(bytes);
+  bytes = head_of(bytes);
   return bytes.starts_with("poly\n") || bytes.starts_with("poly\r") || bytes.starts_with("poly ");
-}
-
-/// Calls f(line, number) for each line.
-template <class F>
-void for_each_line(std::string_view bytes, const Execution& execution, const F& f) {
-  std::size_t number = 0;
-  while (!bytes.empty()) {
-    if (++number % lines_a_look == 0) execution.check();
-    const std::size_t end = std::min(bytes.find('\n'), bytes.size());
-    f(bytes.substr(0, end), number);
-    bytes.remove_prefix(std::min(end + 1, bytes.size()));
-  }
 }
 
 using Rings = std::vector<ScenePolygon>;
@@ -58,27 +46,24 @@ using Rings = std::vector<ScenePolygon>;
 Rings rings_of_lines(const InputFile& file, const Execution& execution) {
   Rings rings;
   bool open = false;
-  for_each_line(without_mark(file.bytes()), execution, [&](std::string_view line, std::size_t number) {
-    Fields fields(line, {file.name(), number});
-    if (!fields.number_follows()) {
-      open = false;
-      return;
-    }
-    if (!open) rings.push_back({{}, number});
-    open = true;
+  TextLines lines(file, execution);
+  while (lines.next()) {
+    Fields fields = lines.fields();
+    const bool goes_on = std::exchange(open, fields.number_follows());
+    if (!open) continue;
+    if (!goes_on) push_asking(rings, {{}, lines.number()}, execution);
     const double x = fields.number();
-    rings.back().corners.push_back({x, fields.number()});
-    if (!fields.done()) fields.place().fail("expected two numbers a line", line);
-  });
+    push_asking(rings.back().corners, {x, fields.number()}, execution);
+    if (!fields.done()) fields.place().fail("expected two numbers a line", lines.line());
+  }
   return rings;
 }
 
 /// Numbers one after the other, wherever the lines end.
 class NumberStream {
  public:
-  NumberStream(const InputFile& file, const Execution& execution)
-      : name_(file.name()), execution_(execution), rest_(without_mark(file.bytes())) {}
-  std::size_t line() const { return line_; }
+  NumberStream(const InputFile& file, const Execution& execution) : lines_(file, execution) {}
+  std::size_t line() const { return lines_.number(); }
   std::string_view word() { return fields().word(); }
   double number() { return fields().number(); }
   std::size_t count(std::string_view what, double least) {
@@ -88,7 +73,7 @@ class NumberStream {
     }
     return static_cast<std::size_t>(value);
   }
-  [[noreturn]] void fail(std::string_view what, std::string_view found) const { Place{name_, line_}.fail(what, found); }
+  [[noreturn]] void fail(std::string_view what, std::string_view found) const { lines_.place().fail(what, found); }
   bool done() { return !next_line(); }
 
  private:
@@ -98,19 +83,13 @@ class NumberStream {
   }
   bool next_line() {
     while (!fields_ || fields_->done()) {
-      if (rest_.empty()) return false;
-      if (++line_ % lines_a_look == 0) execution_.check();
-      const std::size_t end = std::min(rest_.find('\n'), rest_.size());
-      fields_.emplace(rest_.substr(0, end), Place{name_, line_});
-      rest_.remove_prefix(std::min(end + 1, rest_.size()));
+      if (!lines_.next()) return false;
+      fields_.emplace(lines_.fields());
     }
     return true;
   }
 
-  const std::string& name_;
-  const Execution& execution_;
-  std::string_view rest_;
-  std::size_t line_ = 0;
+  TextLines lines_;
   std::optional<Fields> fields_;
 };
 
@@ -119,13 +98,15 @@ Rings rings_of_polymap(const InputFile& file, const Execution& execution) {
   numbers.word();
   if (numbers.count("the version 1", 1) != 1) numbers.fail("expected the version 1 of a polymap", "another");
   const std::size_t count = numbers.count("the number of rings", 1);
+  constexpr std::size_t corners_a_look = 1 << 14;
   Rings rings;
   while (rings.size() < count) {
     const std::size_t corners = numbers.count("the number of a ring's corners", 3);
-    rings.push_back({{}, numbers.line()});
+    push_asking(rings, {{}, numbers.line()}, execution);
     for (std::size_t i = 0; i < corners; ++i) {
+      if (i % corners_a_look == 0) execution.check();
       const double x = numbers.number();
-      rings.back().corners.push_back({x, numbers.number()});
+      push_asking(rings.back().corners, {x, numbers.number()}, execution);
     }
   }
   if (!numbers.done()) numbers.fail(fmt::format("expected the end after {} rings", count), "more");

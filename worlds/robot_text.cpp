@@ -7,6 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "worlds/asked_growth.hpp"
+
 namespace warren {
 namespace {
 
@@ -62,10 +64,9 @@ class RobotReader {
   }
 
   std::vector<double> numbers(std::size_t least, std::size_t most) {
-    constexpr std::size_t numbers_per_look = 4096;
     std::vector<double> read;
     while (!fields_.done()) {
-      read.push_back(fields_.number());
+      push_asking(read, fields_.number(), execution_);
       if (read.size() % numbers_per_look == 0) execution_.check();
     }
     if (read.size() < least || read.size() > most) refuse_count(read.size());
@@ -76,6 +77,7 @@ class RobotReader {
     const std::vector<double> n = numbers(6, std::numeric_limits<std::size_t>::max());
     if (n.size() % 2 != 0) refuse_count(n.size());
     std::vector<Vec2> points;
+    execution_.reserve(n.size() * sizeof(double));
     for (std::size_t i = 0; i < n.size(); i += 2) points.push_back({n[i], n[i + 1]});
     return points;
   }
@@ -112,7 +114,8 @@ class RobotReader {
     while (fields_.number_follows()) {
       const double x = fields_.number();
       if (!fields_.number_follows()) refuse_car("an x without its y");
-      points.push_back({x, fields_.number()});
+      push_asking(points, {x, fields_.number()}, execution_);
+      if (points.size() % numbers_per_look == 0) execution_.check();
     }
     if (points.size() < 3) refuse_car(fmt::format("{} corners", points.size()));
     return points;
@@ -150,6 +153,8 @@ class RobotReader {
     robot.limits = which;
     return true;
   }
+
+  static constexpr std::size_t numbers_per_look = 4096;
 
   Fields& fields_;
   const Execution& execution_;

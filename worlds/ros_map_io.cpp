@@ -8,9 +8,12 @@
 #include <unistd.h>
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <istream>
 #include <numeric>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,12 +40,36 @@ struct Description {
   Mode mode = Mode::trinary;
 };
 
+constexpr std::size_t most_yaml_bytes = std::size_t{1} << 20;
+
+/// The text as yaml-cpp takes it, 2 KiB at a time: each time the deadline is looked at, and the memory asked for that
+/// its tree needs for them.
+class PolledText : public std::stringbuf {
+ public:
+  PolledText(const std::string& text, const Execution& execution) : std::stringbuf(text), execution_(execution) {}
+
+ private:
+  std::streamsize xsgetn(char* to, std::streamsize count) override {
+    constexpr std::size_t tree_bytes_a_byte = 256;  // measured: 236
+    execution_.reserve(tree_bytes_a_byte * static_cast<std::size_t>(count));
+    return std::stringbuf::xsgetn(to, count);
+  }
+
+  const Execution& execution_;
+};
+
 /// Reads the keys; each error names file, line and what was expected.
 class DescriptionReader {
  public:
-  explicit DescriptionReader(const InputFile& yaml) : name_(yaml.name()) {
+  DescriptionReader(const InputFile& yaml, const Execution& execution) : name_(yaml.name()) {
+    if (yaml.bytes().size() > most_yaml_bytes) {
+      throw InputError(name_, "expected a map server's YAML of at most 1 MiB",
+                       fmt::format("{} bytes", yaml.bytes().size()));
+    }
+    PolledText text(std::string{yaml.bytes()}, execution);
+    std::istream stream(&text);
     try {
-      root_ = YAML::Load(std::string(yaml.bytes()));
+      root_ = YAML::Load(stream);
     } catch (const YAML::Exception& error) {
       throw InputError(place(error.mark), "expected YAML: " + error.msg);
     }
@@ -158,7 +185,6 @@ class Classifier {
       : description_(description), rules_(rules), map_(map) {}
 
   void begin(const ImageHeader& header, const Execution& execution) {
-    execution.reserve(std::size_t{header.width} * header.height / 4);
     header_ = header;
     const bool alpha_is_colour = rules_ == MapServerRules::ros1 && description_.mode == Mode::trinary;
     colours_ = header.channels - (header.has_alpha() && !alpha_is_colour ? 1 : 0);
@@ -170,8 +196,8 @@ class Classifier {
     for (std::size_t sum = 0; sum <= brightest; ++sum) {
       classes_[sum] = class_of(static_cast<double>(sum) / static_cast<double>(brightest), description_, rules_);
     }
-    map_.blocked = Bitmap(header.width, header.height);
-    map_.unknown = Bitmap(header.width, header.height);
+    map_.blocked = cell_bitmap(header.width, header.height, execution);
+    map_.unknown = cell_bitmap(header.width, header.height, execution);
   }
 
   void row(const PixelRun& run) {
@@ -264,7 +290,7 @@ std::string yaml_text(std::string_view text) {
 }  // namespace
 
 OccupancyMap read_ros_map(const InputFile& yaml, const Execution& execution, MapServerRules rules) {
-  const Description description = DescriptionReader(yaml).read();
+  const Description description = DescriptionReader(yaml, execution).read();
   if (description.mode != Mode::raw && description.free_thresh > description.occupied_thresh) {
     throw InputError(yaml.name(), "`free_thresh` must not be above `occupied_thresh`",
                      fmt::format("{} > {}", description.free_thresh, description.occupied_thresh));

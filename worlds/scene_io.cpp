@@ -15,9 +15,11 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "worlds/asked_growth.hpp"
 #include "worlds/maze_generator.hpp"
 #include "worlds/robot_text.hpp"
 #include "worlds/scene_text.hpp"
+#include "worlds/text_lines.hpp"
 #include "worlds/wall_collector.hpp"
 
 namespace warren {
@@ -26,41 +28,16 @@ namespace {
 using scene_text::Fields;
 using scene_text::Place;
 
-/// Calls f(line, number) for each line, without its end; f returns false to stop. Looks at the deadline now and then
-/// and gives back the pages that are behind.
-template <class F>
-void for_lines(const InputFile& file, const Execution& execution, F&& f) {
-  constexpr std::size_t bytes_per_look = std::size_t{1} << 18;
-  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-  const std::string_view all = file.bytes();
-  std::size_t forgotten = 0;
-  std::size_t at = all.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
-  for (std::size_t number = 1; at < all.size(); ++number) {
-    if (at - forgotten >= bytes_per_look) {
-      execution.check();
-      execution.advance(at - forgotten);
-      file.forget(forgotten, at);
-      forgotten = at;
-    }
-    const std::size_t end = std::min(all.find('\n', at), all.size());
-    if (!f(all.substr(at, end - at), number)) return;
-    at = end + 1;
-  }
-}
-
 class SceneReader {
  public:
   SceneReader(const InputFile& file, const Execution& execution)
       : file_(file), execution_(execution), walls_(execution) {}
 
   Scene read() {
-    if (execution_.progress != nullptr) execution_.progress->begin("read", file_.bytes().size());
     refuse_other_encodings();
-    for_lines(file_, execution_, [&](std::string_view line, std::size_t number) {
-      read_line({line, {file_.name(), number}}, line);
-      last_line_ = number;
-      return true;
-    });
+    TextLines lines(file_, execution_);
+    while (lines.next()) read_line(lines.fields(), lines.line());
+    last_line_ = lines.number();
     scene_.walls = walls_.take();
     scene_.source = file_.name();
     check_whole();
@@ -118,7 +95,7 @@ class SceneReader {
   const std::vector<double>& numbers(Fields& fields, std::size_t least, std::size_t most) {
     numbers_.clear();
     while (!fields.done()) {
-      numbers_.push_back(fields.number());
+      push_asking(numbers_, fields.number(), execution_);
       if (numbers_.size() % numbers_per_look == 0) execution_.check();
     }
     if (numbers_.size() < least || numbers_.size() > most) refuse_count(fields.place(), numbers_.size());
@@ -138,15 +115,19 @@ class SceneReader {
   std::vector<Vec2> corners(Fields& fields) {
     const std::vector<double>& n = numbers(fields, 6, std::numeric_limits<std::size_t>::max());
     if (n.size() % 2 != 0) refuse_count(fields.place(), n.size());
+    execution_.reserve(n.size() * sizeof(double));
     std::vector<Vec2> points;
+    points.reserve(n.size() / 2);
     for (std::size_t i = 0; i < n.size(); i += 2) points.push_back({n[i], n[i + 1]});
     return points;
   }
-  void read_polygon(Fields& fields) { scene_.polygons.push_back({corners(fields), fields.place().line}); }
+  void read_polygon(Fields& fields) {
+    push_asking(scene_.polygons, {corners(fields), fields.place().line}, execution_);
+  }
   void read_sphere(Fields& fields) {
     const std::vector<double>& n = numbers(fields, 4, 4);
     if (n[3] < 0.0) refuse(fields.place(), "the radius must be at least 0", n[3]);
-    scene_.spheres.push_back({n[0], n[1], n[2], n[3]});
+    push_asking(scene_.spheres, {n[0], n[1], n[2], n[3]}, execution_);
   }
   /// Any two opposite corners.
   void read_box(Fields& fields) {
@@ -156,7 +137,7 @@ class SceneReader {
       box.low[axis] = std::min(n[axis], n[axis + 3]);
       box.high[axis] = std::max(n[axis], n[axis + 3]);
     }
-    scene_.boxes.push_back(box);
+    push_asking(scene_.boxes, box, execution_);
   }
   void read_bounds(Fields& fields) {
     const std::vector<double>& n = numbers(fields, 4, 4);
@@ -259,14 +240,15 @@ void SceneReader::check_maze() const {
   const auto off = first_wall_off_grid(scene_.walls, *scene_.maze, execution_);
   if (!off) return;
   std::size_t walls = 0;
-  for_lines(file_, execution_, [&](std::string_view line, std::size_t number) {
-    Fields fields(line, {file_.name(), number});
-    if (!fields.number_follows() && fields.word() != "wall") return true;
-    if (walls++ < *off) return true;
+  TextLines lines(file_, execution_);
+  while (lines.next()) {
+    Fields fields = lines.fields();
+    if (!fields.number_follows() && fields.word() != "wall") continue;
+    if (walls++ < *off) continue;
     fields.place().fail(fmt::format("this wall is not on the unit grid of the {}x{} maze of line {}", scene_.maze->rows,
                                     scene_.maze->cols, first_lines_[maze_item]),
-                        line);
-  });
+                        lines.line());
+  }
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ void Place::fail(std::string_view what, std::string_view found) const {
 
 std::string_view Fields::word() {
   const char* begin = at_;
-  while (at_ != end_ && !is_blank(*at_) && *at_ != '#') ++at_;
+  skip_while([](char c) { return !is_blank(c) && c != '#'; });
   const std::string_view field(begin, static_cast<std::size_t>(at_ - begin));
   skip_blanks();
   return field;
@@ -54,7 +54,8 @@ double Fields::number() {
   const char* begin = at_;
   double value = 0.0;
   const bool plus = at_ != end_ && *at_ == '+' && at_ + 1 != end_ && at_[1] != '-';
-  const auto [last, error] = std::from_chars(plus ? at_ + 1 : at_, end_, value);
+  const char* limit = at_ + std::min(longest_run, end_ - at_);
+  const auto [last, error] = std::from_chars(plus ? at_ + 1 : at_, limit, value);
   if (error == std::errc() && std::abs(value) <= largest_coordinate &&
       (last == end_ || is_blank(*last) || *last == '#')) {
     at_ = last;
@@ -63,6 +64,9 @@ double Fields::number() {
   }
   const std::string_view field = word();
   if (field.empty()) place_.fail("a number is missing");
+  if (last == limit && last != begin + field.size()) {
+    place_.fail("expected numbers of at most 65536 characters", field);
+  }
   if (last != begin + field.size() || error == std::errc::invalid_argument) place_.fail("expected a number", field);
   if (error == std::errc::result_out_of_range) return out_of_range(field);
   if (!std::isfinite(value)) place_.fail("numbers must be finite", field);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "worlds/asked_growth.hpp"
 #include "worlds/output_file_io.hpp"
 #include "worlds/plane_obstacles.hpp"
 #include "worlds/polygon_holes.hpp"
@@ -55,11 +56,12 @@ class Tokens {
   void expect(char c) {
     if (!take(c)) fail(fmt::format("`{}`", c));
   }
-  /// The next word in capitals; empty if none follows.
+  /// The next word in capitals; empty if none follows, cut off where it is longer than any that means something.
   std::string word() {
+    constexpr std::size_t longest = 32;
     skip();
     std::string word;
-    while (!text_.empty() && is_letter(text_.front())) {
+    while (!text_.empty() && is_letter(text_.front()) && word.size() < longest) {
       word += upper(text_.front());
       text_.remove_prefix(1);
     }
@@ -80,23 +82,28 @@ class Tokens {
   double number() {
     if (!number_follows()) fail("a number");
     double value = 0.0;
+    constexpr std::size_t longest = 1 << 16;
     const char* begin = text_.data() + (text_.front() == '+' ? 1 : 0);
-    const auto [end, error] = std::from_chars(begin, text_.data() + text_.size(), value);
+    const auto [end, error] = std::from_chars(begin, text_.data() + std::min(longest, text_.size()), value);
+    if (end == text_.data() + longest) fail("a number of at most 65536 characters");
     const bool tiny = error == std::errc::result_out_of_range && std::abs(value) < 1.0;
     if ((error != std::errc() && !tiny) || !(std::abs(value) <= largest_coordinate))
       fail("a finite number of at most 1e60");
     text_.remove_prefix(static_cast<std::size_t>(end - text_.data()));
     return std::abs(value) < smallest_coordinate ? 0.0 : value;
   }
-  /// Looks at the deadline now and then.
+  /// Looks at the deadline now and then, and asks for the memory of what small rings follow.
   void look() {
     constexpr std::size_t batch = 1 << 14;
-    if (++looks_ % batch == 0) execution_.check();
+    constexpr std::size_t bytes_an_item = 128;
+    if (++looks_ % batch == 0) execution_.reserve(batch * bytes_an_item);
   }
 
  private:
   void skip() {
-    while (!text_.empty() && is_space(text_.front())) {
+    constexpr std::size_t batch = 1 << 16;
+    for (std::size_t steps = 1; !text_.empty() && is_space(text_.front()); ++steps) {
+      if (steps % batch == 0) execution_.check();
       if (text_.front() == '\n') ++line_;
       text_.remove_prefix(1);
     }
@@ -210,7 +217,7 @@ class Reader {
     if (tokens_.take_word("EMPTY")) return chain;
     list([&] {
       if (chain.points.empty()) chain.line = tokens_.line();
-      chain.points.push_back(position());
+      push_asking(chain.points, position(), execution_);
     });
     return chain;
   }
@@ -238,12 +245,12 @@ class Reader {
       if (outline.points.empty()) {
         outline = std::move(ring);
       } else {
-        holes.push_back(std::move(ring.points));
+        push_asking(holes, std::move(ring.points), execution_);
       }
     });
     if (outline.points.empty()) return;
     if (holes.empty()) {
-      scene_.polygons.push_back({std::move(outline.points), outline.line});
+      push_asking(scene_.polygons, {std::move(outline.points), outline.line}, execution_);
       return;
     }
     if (!add_without_holes(scene_, outline.line, outline.points, holes, execution_)) {
@@ -266,6 +273,7 @@ std::string position_text(Vec2 p) { return fmt::format("{} {}", p.x + 0.0, p.y +
 }  // namespace
 
 bool is_wkt(std::string_view bytes) {
+  bytes = bytes.substr(0, bytes_that_tell);
   if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
   const auto skip = [&] {
     while (!bytes.empty() && is_space(bytes.front())) bytes.remove_prefix(1);

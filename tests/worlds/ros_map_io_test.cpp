@@ -145,6 +145,21 @@ TEST(RosMap, AMissingImageIsAReadErrorThatNamesBoth) {
   }
 }
 
+TEST(RosMap, WhateverItsNameAMapIsReadBackFromWhatIsWritten) {
+  const Fixture fixture("P2 2 1 255\n254 0\n");
+  const OccupancyMap map = fixture.read(yaml_text());
+  for (const std::string name :
+       {"plain-1_a", "a #b",   "a: b", "- a",   "-a",   "a\"b\\c",   "[a",   "'a'",
+        "*a",        "&a",     "%a",   "  a",   "a\tb", "a\x1b[2Jb", "a\nb", "\xc3\xa4 \xf0\x9f\x90\xad",
+        "~a",        "{a, b}", "null", "a\xff", ""}) {
+    SCOPED_TRACE(name);
+    const std::string path = fixture.directory().file(name + ".yaml");
+    write_ros_map(map, path, {});
+    EXPECT_EQ(read_ros_map(InputFile(path, {}), {}).blocked, map.blocked);
+  }
+  EXPECT_NE(fixture.directory().read("plain-1_a.yaml").find("image: plain-1_a.pgm\n"), std::string::npos);
+}
+
 TEST(RosMap, RefusesBadKeysWithFileAndLine) {
   const Fixture fixture("P2 1 1 255\n254\n");
   const auto with = [](const std::string& from, const std::string& to) {
