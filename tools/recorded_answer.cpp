@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "tools/answer_json.hpp"
 #include "worlds/json_bytes.hpp"
+#include "worlds/scene_text.hpp"
 
 namespace warren {
 namespace {
@@ -41,7 +42,7 @@ class AnswerReader {
   bool number(double value);
   bool other(const char* found);
   [[noreturn]] void refuse(std::string_view expected, std::string_view found = {}) const {
-    throw InputError(fmt::format("{}: key \"{}\"", file_, key_), fmt::format("expected {}", expected), found);
+    scene_text::Place{fmt::format("{}: key \"{}\"", file_, key_), 0}.fail(fmt::format("expected {}", expected), found);
   }
   [[noreturn]] void refuse_kind() const { throw InputError(file_, "expected one JSON object: an answer"); }
   bool in(std::string_view name) const { return objects_ == 1 && key_ == name; }
@@ -166,8 +167,7 @@ bool AnswerReader::other(const char* found) {
 }
 
 bool AnswerReader::parse_error(std::size_t position, const std::string& token, const nlohmann::detail::exception&) {
-  constexpr std::size_t longest = 40;
-  throw InputError(file_, fmt::format("this is not JSON from byte {} on", position), token.substr(0, longest));
+  scene_text::Place{file_, 0}.fail(fmt::format("this is not JSON from byte {} on", position), token);
 }
 
 RecordedAnswer AnswerReader::finish() {

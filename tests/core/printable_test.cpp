@@ -44,7 +44,8 @@ TEST(Printable, WhatMovesCursorsOrTurnsDirectionsStandsAsItsBytes) {
 }
 
 TEST(Printable, LettersOfAllScriptsStandAsTheyAre) {
-  const std::string text = "a \\x1b ~ \xc3\xa4 \xe6\xbc\xa2 \xd7\x90 \xd8\xa8 \xe0\xa4\x95\xe2\x80\x8d \xf0\x9f\x90\xad";
+  const std::string text =
+      "a \\x1b ~ \xc3\xa4 \xe6\xbc\xa2 \xd7\x90 \xd8\xa8 \xe0\xa4\x95\xe2\x80\x8d \xf0\x9f\x90\xad";
   EXPECT_EQ(printable(text), text);
 }
 

@@ -89,10 +89,11 @@ TEST(PrintableOutput, WordsOfFilesDoNotReachTheTerminalAsTheyAre) {
     expect_harmless_run({"info", folder.write(file.name, file.bytes)}, file.code);
   }
   const std::string world = folder.write("w.scene", small_world);
-  for (const std::string& answer :
-       {R"({"path": [[1, 1], [8, 8]], "contact": "\u001b[2J\u009b"})",
-        R"({"path": [[1, 1], [8, 8]], "robot": "\u001b[2J\u009b"})",
-        R"({"path": [[1, 1], [8, 8]], "world": {"hash": "\u001b[2J\u202e"}})", R"({"path": [)" + nasty + "]}"}) {
+  const std::vector<std::string> answers{R"({"path": [[1, 1], [8, 8]], "contact": "\u001b[2J\u009b"})",
+                                         R"({"path": [[1, 1], [8, 8]], "robot": "\u001b[2J\u009b"})",
+                                         R"({"path": [[1, 1], [8, 8]], "world": {"hash": "\u001b[2J\u202e"}})",
+                                         R"({"path": [)" + nasty + "]}"};
+  for (const std::string& answer : answers) {
     expect_harmless_run({"verify", world, folder.write("answer.json", answer)}, 65);
   }
   expect_harmless_run({"bench-scen", folder.write("q.scen", "version 0\n0 " + nasty + ".map 0 0 1 0 1\n")}, 66);
