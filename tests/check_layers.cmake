@@ -95,7 +95,7 @@ endfunction()
 
 # The judges share plain data with what they judge, and loops over cores; no index, no predicate, no motion. What they
 # stand on, however many includes away, is theirs alone or one of these.
-set(shared_with_judges "^(parallel/|core/(bitmap|error|page_pool|raw_vector|rng|se2|stop_reason|types|wall_set)[.]|worlds/(dh_table|occupancy_map|scene)[.])")
+set(shared_with_judges "^(parallel/|core/(bitmap|error|page_pool|printable|raw_vector|rng|se2|stop_reason|types|wall_set)[.]|worlds/(dh_table|occupancy_map|scene)[.])")
 function(check_judges)
   reach("^worlds/verify" judges)
   reach("^(spatial|planners)/|^worlds/[a-z0-9_]*_world[.]" judged)
