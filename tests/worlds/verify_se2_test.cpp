@@ -59,6 +59,25 @@ TEST(VerifySe2, GoesTheShorterWayThroughTheWrap) {
   EXPECT_TRUE(verify_se2(corridor(), bar, tilted, {}, {}).verified);
 }
 
+TEST(VerifySe2, HalfATurnMustBeFreeBothWaysRound) {
+  const std::vector<Vec2> arm = {{0, -0.1}, {2, -0.1}, {2, 0.1}, {0, 0.1}};
+  const std::vector<Se2> path = {{0, 0, 0}, {0, 0, pi}};
+  Scene scene;
+  scene.bounds = Box{{-5, -5}, {5, 5}};
+  EXPECT_TRUE(verify_se2(scene, arm, path, {}, {}).verified);
+  for (const double y : {-1.5, 1.5}) {
+    scene.walls = WallSet::narrowest(std::vector<Segment>{{{-0.1, y}, {0.1, y}}});
+    EXPECT_FALSE(verify_se2(scene, arm, path, {}, {}).verified) << y;
+  }
+}
+
+TEST(VerifySe2, WithoutBoundsTheReferencePointStaysInTheObstaclesBox) {
+  Scene scene;
+  scene.walls = WallSet::narrowest(std::vector<Segment>{{{0, 0}, {10, 0}}, {{0, 10}, {10, 10}}});
+  EXPECT_TRUE(verify_se2(scene, bar, std::vector<Se2>{{5, 5, 0}, {9.5, 5, 0}}, {}, {}).verified);
+  EXPECT_FALSE(verify_se2(scene, bar, std::vector<Se2>{{5, 5, 0}, {12, 5, 0}}, {}, {}).verified);
+}
+
 TEST(VerifySe2, SeesWhatAStraightLegSweepsOver) {
   Scene scene;
   scene.bounds = Box{{-10, -10}, {10, 10}};
