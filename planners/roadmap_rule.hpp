@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "core/world.hpp"
+#include "parallel/execution.hpp"
 #include "planners/roadmap_options.hpp"
 
 namespace warren {
