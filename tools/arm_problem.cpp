@@ -74,10 +74,6 @@ DhTable table_of(const RobotSpec& robot, const Execution& execution) {
 }
 
 ArmProblem arm_problem(const Scene& scene, const ProblemOptions& options, const Execution& execution) {
-  if (scene.walls.size() > 0 || !scene.polygons.empty() || scene.map || scene.bounds) {
-    throw InputError(scene.source,
-                     "an arm plans among spheres and boxes; walls, polygons, bounds and maps have no height");
-  }
   if (options.contact == Contact::allowed) {
     throw UsageError("--contact: an arm keeps off the obstacles, so 'allowed' would change nothing");
   }

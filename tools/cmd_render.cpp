@@ -11,6 +11,7 @@
 #include "tools/output_conflicts.hpp"
 #include "tools/output_files.hpp"
 #include "tools/picture.hpp"
+#include "tools/plannable.hpp"
 #include "tools/problem.hpp"
 #include "tools/recorded_answer.hpp"
 #include "tools/run_options.hpp"
@@ -84,6 +85,7 @@ int render(const Arguments& arguments) {
   RecordedAnswer answer;
   if (answer_file) answer = read_answer(*answer_file, run.execution());
   Scene scene = load_world(arguments.operand(0), arguments, run.execution(), seconds);
+  if (answer_file) check_plannable(scene, answer.problem);
   add_map_walls(scene, run.execution());
   if (answer_file) check_same_world(answer, *answer_file, scene, run.execution());
   std::vector<PictureLayer> layers;

@@ -33,6 +33,14 @@ Solution<Vec2> plan_for_point(const PlaneObstacles& obstacles, const FixedAngleP
   return solution;
 }
 
+/// Is there any place where the body, at the start's angle, has its room in the bounds?
+bool fits_in_bounds(const Scene& scene, const FixedAngleProblem& problem, double room) {
+  if (!scene.bounds) return true;
+  Box body;
+  for (const Vec2 p : problem.outline) body.include(placed({0.0, 0.0, problem.start.theta}, p));
+  return body.width() + 2.0 * room < scene.bounds->width() && body.height() + 2.0 * room < scene.bounds->height();
+}
+
 }  // namespace
 
 Solution<Se2> plan_at_fixed_angle(const Scene& scene, const FixedAngleProblem& problem, const Execution& execution,
@@ -40,6 +48,10 @@ Solution<Se2> plan_at_fixed_angle(const Scene& scene, const FixedAngleProblem& p
   const double hair = 1e-10 * size_of(scene, problem.outline);
   const std::size_t disc_corners = problem.clearance > 0.0 ? 32 : 4;
   Solution<Se2> solution;
+  if (!fits_in_bounds(scene, problem, 2.0 * (problem.clearance + hair))) {
+    solution.outcome = Outcome::start_blocked;
+    return solution;
+  }
   PlaneObstacles obstacles;
   {
     const StageTimer timer(execution, "index", solution.seconds.index);

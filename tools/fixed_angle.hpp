@@ -15,6 +15,7 @@
 #include "parallel/execution.hpp"
 #include "planners/cell_planner.hpp"
 #include "tools/picture.hpp"
+#include "tools/solve_kind.hpp"
 #include "worlds/scene.hpp"
 
 namespace warren {
@@ -28,8 +29,12 @@ struct FixedAngleProblem {
 };
 
 /// All poses of the path have the start's angle. `drawing`, where given, receives what blocks the reference point, and
-/// the cells. Never throws Stopped; InputError where the body doesn't fit in the bounds at this angle.
+/// the cells. Never throws Stopped. A body that doesn't fit in the bounds at this angle starts blocked.
 Solution<Se2> plan_at_fixed_angle(const Scene& scene, const FixedAngleProblem& problem, const Execution& execution,
                                   Drawing* drawing);
+
+/// The planners that don't turn a polygon, in scenes: on maps, whose cells all touch, they have none. Defined in
+/// tools/solve_turning.cpp.
+SolveKind fixed_angle_kind();
 
 }  // namespace warren

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Joins CarWorld with the planners that take it: a car, with Dubins or Reeds-Shepp curves, among walls, polygons and
-// bounds. Dubins curves have a direction: their roadmaps are planners/one_way_prm.hpp's. The answer's path has a pose
-// wherever the steering or the gear changes, and one a quarter turn, so each leg is a straight or an arc that its two
-// poses tell wholly.
+// bounds, or among the cells of a map. Dubins curves have a direction: their roadmaps are planners/one_way_prm.hpp's.
+// The answer's path has a pose wherever the steering or the gear changes, and one a quarter turn, so each leg is a
+// straight or an arc that its two poses tell wholly.
 #include <optional>
 
 #include "core/error.hpp"
@@ -18,7 +18,6 @@
 #include "tools/tree_options.hpp"
 #include "tools/verified_answer.hpp"
 #include "worlds/car_world.hpp"
-#include "worlds/plane_obstacles.hpp"
 #include "worlds/verify_car.hpp"
 
 namespace warren {
@@ -113,12 +112,13 @@ class CarSolve {
 template <class Curve>
 void CarSolve<Curve>::index() {
   const StageTimer timer(execution(), "index", answer_.seconds.index);
-  check_polygons(scene(), execution());
   const RobotSpec& robot = problem_.robot;
-  world_.emplace(scene(), CarOptions{.turning_radius = robot.turning_radius,
-                                     .radius = robot.radius,
-                                     .outline = robot.outline,
-                                     .clearance = problem_.clearance});
+  world_.emplace(scene(),
+                 CarOptions{.turning_radius = robot.turning_radius,
+                            .radius = robot.radius,
+                            .outline = robot.outline,
+                            .clearance = problem_.clearance},
+                 execution());
 }
 
 template <class Curve>
@@ -212,7 +212,7 @@ constexpr PlannerChoice car_planners[] = {
     {PlannerKind::lazy_prm,
      "--sampler --samples --neighbours --radius --search --queue --lazy --optimise --steering --turning-radius"}};
 
-bool fits_car(const Scene& scene, const RobotSpec& robot) { return robot.kind == RobotKind::car && !has_solids(scene); }
+bool fits_car(const Scene&, const RobotSpec& robot) { return robot.kind == RobotKind::car; }
 
 PlannerKind usual_car_planner(const Arguments&, const Scene&, const ProblemOptions&) {
   return PlannerKind::rrt_connect;

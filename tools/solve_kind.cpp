@@ -5,13 +5,14 @@
 
 #include <algorithm>
 #include <optional>
+#include <stdexcept>
 
 #include "core/error.hpp"
+#include "tools/fixed_angle.hpp"
+#include "tools/plannable.hpp"
 
 namespace warren {
 namespace {
-
-constexpr std::string_view no_planner = "{}: {} needs a planner that this version does not have; it has those for {}";
 
 bool lists(std::string_view words, std::string_view word) {
   for (std::size_t at = words.find(word); at != std::string_view::npos; at = words.find(word, at + 1)) {
@@ -118,29 +119,11 @@ std::vector<const SolveKind*> fitting_kinds(const Scene& scene, const RobotSpec&
   return fitting;
 }
 
-std::string solved_problems() {
-  std::vector<std::string_view> problems;
-  for (const SolveKind& kind : solve_kinds()) {
-    if (!kind.planners.empty()) problems.push_back(kind.problem);
-  }
-  return listed(problems);
-}
-
-[[noreturn]] void refuse_problem(const std::vector<const SolveKind*>& fitting, const Scene& scene,
-                                 const ProblemOptions& problem) {
-  const std::string where = problem.robot ? "--robot" : scene.source;
-  const std::string what = fitting.empty()
-                               ? fmt::format("a {} in such a world", kind_name(robot_of(scene, problem).kind))
-                               : std::string{fitting.front()->problem};
-  throw UsageError(fmt::format(no_planner, where, what, solved_problems()));
-}
-
-/// The first that fits and has planners.
-const SolveKind& first_kind(const std::vector<const SolveKind*>& fitting, const Scene& scene,
-                            const ProblemOptions& problem) {
+/// Every body has planners in every world that check_plannable takes.
+const SolveKind& first_kind(const std::vector<const SolveKind*>& fitting) {
   const auto found =
       std::find_if(fitting.begin(), fitting.end(), [](const SolveKind* kind) { return !kind->planners.empty(); });
-  if (found == fitting.end()) refuse_problem(fitting, scene, problem);
+  if (found == fitting.end()) throw std::logic_error("no planner fits a world that is planned in");
   return **found;
 }
 
@@ -161,8 +144,9 @@ void check_corridors(const Arguments& arguments, const Scene& scene) {
 }  // namespace
 
 const std::vector<SolveKind>& solve_kinds() {
-  static const std::vector<SolveKind> kinds{occupancy_kind(),    walls_kind(), plane_kind(), turning_kind(),
-                                            turning_axis_kind(), car_kind(),   arm_kind(),   lattice_kind()};
+  static const std::vector<SolveKind> kinds{occupancy_kind(), walls_kind(),       plane_kind(),
+                                            turning_kind(),   fixed_angle_kind(), turning_axis_kind(),
+                                            car_kind(),       arm_kind(),         lattice_kind()};
   return kinds;
 }
 
@@ -184,8 +168,9 @@ void check_solver_options(const Arguments& arguments) {
 }
 
 ChosenSolver choose_solver(const Arguments& arguments, const Scene& scene, const ProblemOptions& problem) {
+  check_plannable(scene, problem);
   const std::vector<const SolveKind*> fitting = fitting_kinds(scene, robot_of(scene, problem));
-  const SolveKind& first = first_kind(fitting, scene, problem);
+  const SolveKind& first = first_kind(fitting);
   const std::optional<PlannerKind> asked = planner_asked(arguments);
   ChosenSolver chosen{&first, asked ? *asked : first.usual_planner(arguments, scene, problem)};
   const auto has_it = [&](const SolveKind* kind) { return choice_in(*kind, chosen.planner) != nullptr; };
@@ -198,10 +183,11 @@ ChosenSolver choose_solver(const Arguments& arguments, const Scene& scene, const
 }
 
 const SolveKind& verifying_kind(const Scene& scene, const ProblemOptions& problem) {
+  check_plannable(scene, problem);
   const std::vector<const SolveKind*> fitting = fitting_kinds(scene, robot_of(scene, problem));
   const auto found =
       std::find_if(fitting.begin(), fitting.end(), [](const SolveKind* kind) { return kind->verify != nullptr; });
-  if (found == fitting.end()) refuse_problem(fitting, scene, problem);
+  if (found == fitting.end()) throw std::logic_error("no judge fits a world that is planned in");
   return **found;
 }
 

@@ -33,7 +33,7 @@ constexpr PlannerChoice lattice_planners[] = {
 
 bool fits_lattice(const Scene& scene, const RobotSpec& robot) {
   const bool fits = robot.kind == RobotKind::point || robot.kind == RobotKind::disc || robot.kind == RobotKind::polygon;
-  return fits && (!scene.map || robot.kind == RobotKind::polygon) && !has_solids(scene);
+  return fits && (!scene.map || robot.kind == RobotKind::polygon);
 }
 
 PlannerKind usual_lattice_planner(const Arguments&, const Scene&, const ProblemOptions&) { return PlannerKind::grid; }

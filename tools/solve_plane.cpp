@@ -24,8 +24,7 @@ constexpr PlannerChoice plane_planners[] = {{PlannerKind::prm, plane_roadmap_opt
                                             {PlannerKind::voronoi, "--objective --search --queue"}};
 
 bool fits_plane(const Scene& scene, const RobotSpec& robot) {
-  const bool plain = robot.kind == RobotKind::point || robot.kind == RobotKind::disc;
-  return plain && !has_solids(scene);
+  return !scene.map && (robot.kind == RobotKind::point || robot.kind == RobotKind::disc);
 }
 
 /// A point may touch what it goes around, unless the contrary is asked for; who keeps a distance needs room.

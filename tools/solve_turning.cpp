@@ -18,7 +18,6 @@
 #include "tools/sweep_drawing.hpp"
 #include "tools/tree_options.hpp"
 #include "tools/verified_answer.hpp"
-#include "worlds/plane_obstacles.hpp"
 #include "worlds/se2_world.hpp"
 #include "worlds/verify_se2.hpp"
 
@@ -107,8 +106,7 @@ class TurningSolve {
 
 void TurningSolve::index() {
   const StageTimer timer(execution(), "index", answer_.seconds.index);
-  check_polygons(scene(), execution());
-  world_.emplace(scene(), problem_.robot.outline, Se2Options{.clearance = problem_.clearance});
+  world_.emplace(scene(), problem_.robot.outline, Se2Options{.clearance = problem_.clearance}, execution());
 }
 
 Solution<Se2> TurningSolve::plan() {
@@ -206,12 +204,18 @@ void TurningSolve::draw(Drawing& drawing) const {
 constexpr PlannerChoice turning_planners[] = {{PlannerKind::rrt_connect, rrt_connect_options},
                                               {PlannerKind::rrt, rrt_options},
                                               {PlannerKind::prm, pose_roadmap_option_names},
-                                              {PlannerKind::lazy_prm, pose_lazy_option_names},
-                                              {PlannerKind::visibility, ""},
-                                              {PlannerKind::cells, "--doors --search --queue"}};
+                                              {PlannerKind::lazy_prm, pose_lazy_option_names}};
+constexpr PlannerChoice fixed_angle_planners[] = {{PlannerKind::visibility, ""},
+                                                  {PlannerKind::cells, "--doors --search --queue"}};
 
-bool fits_turning(const Scene& scene, const RobotSpec& robot) {
-  return robot.kind == RobotKind::polygon && !has_solids(scene);
+bool fits_turning(const Scene&, const RobotSpec& robot) { return robot.kind == RobotKind::polygon; }
+
+bool fits_fixed_angle(const Scene& scene, const RobotSpec& robot) {
+  return robot.kind == RobotKind::polygon && !scene.map;
+}
+
+PlannerKind usual_fixed_angle_planner(const Arguments&, const Scene&, const ProblemOptions&) {
+  return PlannerKind::visibility;
 }
 
 PlannerKind usual_turning_planner(const Arguments&, const Scene&, const ProblemOptions&) {
@@ -237,6 +241,17 @@ Verdict recheck_turning(const Scene& scene, const ProblemOptions& options, const
 SolveKind turning_kind() {
   return {"a polygon that turns", fits_turning,  turning_planners, tree_option_specs(),
           usual_turning_planner,  solve_turning, nullptr,          recheck_turning};
+}
+
+SolveKind fixed_angle_kind() {
+  return {"a polygon at a fixed angle",
+          fits_fixed_angle,
+          fixed_angle_planners,
+          {},
+          usual_fixed_angle_planner,
+          solve_turning,
+          nullptr,
+          nullptr};
 }
 
 }  // namespace warren

@@ -21,9 +21,7 @@ namespace {
 
 constexpr PlannerChoice turning_axis_planners[] = {{PlannerKind::voronoi, "--objective --search --queue"}};
 
-bool fits_turning(const Scene& scene, const RobotSpec& robot) {
-  return robot.kind == RobotKind::polygon && scene.spheres.empty();
-}
+bool fits_turning(const Scene&, const RobotSpec& robot) { return robot.kind == RobotKind::polygon; }
 
 PlannerKind usual_turning_axis_planner(const Arguments&, const Scene&, const ProblemOptions&) {
   return PlannerKind::voronoi;

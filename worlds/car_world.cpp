@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "worlds/confined_pose.hpp"
+#include "worlds/plane_obstacles.hpp"
 
 namespace warren {
 namespace {
@@ -20,9 +21,9 @@ double not_negative(const char* name, double value) {
   throw InputError(name, "must be a number from 0 to 1e60", std::to_string(value));
 }
 
-std::vector<Vec2> outline_of(const CarOptions& options) {
+std::vector<Vec2> outline_of(const CarOptions& options, const Execution& execution) {
   if (options.outline.empty()) return {Vec2{}};
-  if (options.outline.size() < 3) throw InputError("robot", "a polygon needs three corners or more");
+  check_body(options.outline, "robot", execution);
   return options.outline;
 }
 
@@ -72,12 +73,12 @@ class BodyTravel {
 
 }  // namespace
 
-CarBody::CarBody(const Scene& scene, const CarOptions& options)
-    : outline_(outline_of(options)),
+CarBody::CarBody(const Scene& scene, const CarOptions& options, const Execution& execution)
+    : outline_(outline_of(options, execution)),
       turning_radius_(positive_size("robot: turning radius", options.turning_radius)),
       reach_(planning_reach(options)),
       resolution_(positive_size("resolution", options.resolution.value_or(usual_resolution(options)))),
-      tree_(scene, outline_radius(outline_) + reach_) {
+      tree_(scene, outline_radius(outline_) + reach_, execution) {
   if (!options.outline.empty()) {
     for (const int side : {-1, 1}) {
       const Vec2 center{0.0, side * turning_radius_};

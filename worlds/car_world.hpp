@@ -46,8 +46,9 @@ class CarBody {
     std::uint64_t refused = 0;  ///< motions that were neither proved free nor blocked
   };
 
-  /// Throws InputError for options out of range and for a scene without anything that confines the car.
-  CarBody(const Scene& scene, const CarOptions& options);
+  /// Throws InputError for options out of range, outlines of the car and of obstacles that are no simple polygons, and
+  /// a scene without anything that confines the car. Copies a map. Throws Stopped.
+  CarBody(const Scene& scene, const CarOptions& options, const Execution& execution = {});
 
   Query make_query() const { return {Footprint(outline_.size())}; }
   /// Poses at which the body is in the bounds, if it can be there at that angle.
@@ -89,7 +90,8 @@ class CarWorld {
   using State = Se2;
   using Query = CarBody::Query;
 
-  CarWorld(const Scene& scene, const CarOptions& options) : body_(scene, options) {}
+  CarWorld(const Scene& scene, const CarOptions& options, const Execution& execution = {})
+      : body_(scene, options, execution) {}
 
   Query make_query() const { return body_.make_query(); }
   State at_unit(const std::array<double, 3>& u) const { return body_.at_unit(u); }

@@ -10,6 +10,7 @@
 
 #include "parallel/execution.hpp"
 #include "worlds/place_marking.hpp"
+#include "worlds/plane_obstacles.hpp"
 
 namespace warren {
 namespace {
@@ -111,8 +112,9 @@ void Footprint::finish() {
   for (std::size_t i = 0; i < sides_.size(); ++i) inverse_squares_[i] = inverse_square(sides_[i]);
 }
 
-ObstacleTree::ObstacleTree(const Scene& scene, double reach)
+ObstacleTree::ObstacleTree(const Scene& scene, double reach, const Execution& execution)
     : bounds_(scene.bounds), box_(warren::obstacle_box(scene)) {
+  check_polygons(scene, execution);
   constexpr double relative = 1e-14;
   const double inner = largest_coordinate_of(box_);
   rounding_ = relative * (std::max(inner, bounds_ ? largest_coordinate_of(*bounds_) : 0.0) + reach);

@@ -14,6 +14,7 @@
 
 #include "core/place_grid.hpp"
 #include "core/types.hpp"
+#include "parallel/execution.hpp"
 #include "spatial/box_tree.hpp"
 #include "worlds/scene.hpp"
 
@@ -60,8 +61,9 @@ struct Move {
 /// Immutable after construction; any number of threads may query.
 class ObstacleTree {
  public:
-  /// Copies walls, polygons and bounds. `reach`: no body will be further than so much outside the world's box.
-  ObstacleTree(const Scene& scene, double reach);
+  /// Copies walls, polygons and bounds. `reach`: no body will be further than so much outside the world's box. Throws
+  /// InputError for a polygon that is not simple, Stopped.
+  ObstacleTree(const Scene& scene, double reach, const Execution& execution = {});
 
   /// A lower bound of the distance between the body and the nearest obstacle, within 1e-13 of the coordinates' size;
   /// <= 0 where they touch or overlap, or the body is not wholly in the bounds. Where the distance exceeds `enough`

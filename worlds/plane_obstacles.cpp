@@ -44,17 +44,18 @@ bool has_area(std::span<const Vec2> corners) {
 
 std::string text_of(Vec2 p) { return fmt::format("{} {}", p.x, p.y); }
 
-void check_outline(const Scene& scene, std::size_t polygon, std::span<const Vec2> corners, const Execution& execution) {
+/// place(): names the polygon. No two corners in a row are equal.
+template <class Place>
+void check_outline(std::span<const Vec2> corners, const Place& place, const Execution& execution) {
   if (corners.size() < 3) {
-    throw InputError(place_of_polygon(scene, polygon), "a polygon needs at least three different corners",
-                     std::to_string(corners.size()));
+    throw InputError(place(), "a polygon needs at least three different corners", std::to_string(corners.size()));
   }
   if (!has_area(corners)) {
-    throw InputError(place_of_polygon(scene, polygon), "this polygon has no area: all its corners lie on one line");
+    throw InputError(place(), "this polygon has no area: all its corners lie on one line");
   }
   const auto contact = self_contact(corners, execution);
   if (!contact) return;
-  throw InputError(place_of_polygon(scene, polygon),
+  throw InputError(place(),
                    fmt::format("a polygon's outline must not cross or touch itself; the sides from {} and from {} meet",
                                text_of(corners[contact->first]), text_of(corners[contact->second])));
 }
@@ -69,7 +70,8 @@ PolygonSet checked_outlines(const Scene& scene, Range range, const Execution& ex
     }
     set.first.push_back(static_cast<std::uint32_t>(set.corners.size()));
     const std::span<Vec2> outline = std::span(set.corners).subspan(set.first[set.first.size() - 2]);
-    check_outline(scene, i, outline, execution);
+    check_outline(
+        std::span<const Vec2>(outline), [&] { return place_of_polygon(scene, i); }, execution);
     if (runs_clockwise(outline)) std::reverse(outline.begin(), outline.end());
   }
   return set;
@@ -100,6 +102,13 @@ std::string place_of_polygon(const Scene& scene, std::size_t polygon) {
 }
 
 void check_polygons(const Scene& scene, const Execution& execution) { checked_parts(scene, execution, false); }
+
+void check_body(std::span<const Vec2> outline, const std::string& where, const Execution& execution) {
+  std::vector<Vec2> corners;
+  append_distinct(corners, {outline.begin(), outline.end()});
+  check_outline(
+      std::span<const Vec2>(corners), [&] { return where; }, execution);
+}
 
 PlaneObstacles plane_obstacles(const Scene& scene, const Execution& execution) {
   PlaneObstacles obstacles;

@@ -6,6 +6,7 @@
 // O(n log n) for n corners, in parallel over the polygons.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,9 @@ namespace warren {
 
 /// Throws InputError naming file and line for a polygon that is not simple, Stopped.
 void check_polygons(const Scene& scene, const Execution& execution);
+
+/// Throws InputError naming `where` for the outline of a body that is no simple polygon, Stopped.
+void check_body(std::span<const Vec2> outline, const std::string& where, const Execution& execution);
 
 /// Polygons in the scene's order, walls, bounds. Throws as check_polygons does, and for 2^32 corners.
 PlaneObstacles plane_obstacles(const Scene& scene, const Execution& execution);

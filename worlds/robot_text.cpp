@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "worlds/asked_growth.hpp"
+#include "worlds/plane_obstacles.hpp"
 
 namespace warren {
 namespace {
@@ -41,6 +42,7 @@ class RobotReader {
     } else {
       refuse_usage(kind.empty() ? "nothing" : kind);
     }
+    if (!robot.outline.empty()) check_body(robot.outline, fields_.place().text(), execution_);
     return robot;
   }
 

@@ -214,8 +214,8 @@ const std::array<SceneReader::Item, SceneReader::item_count> SceneReader::items 
 }};
 
 void SceneReader::check_whole() const {
-  if (scene_.walls.size() == 0 && scene_.polygons.empty() && scene_.spheres.empty() && scene_.boxes.empty() &&
-      !scene_.bounds) {
+  const bool has_lines = std::any_of(first_lines_.begin(), first_lines_.end(), [](std::size_t n) { return n > 0; });
+  if (scene_.walls.size() == 0 && !has_lines) {
     Place{file_.name(), last_line_}.fail("the file ends without any wall, polygon, sphere, box or bounds");
   }
   if (scene_.robot) {

@@ -7,12 +7,13 @@
 #include "core/error.hpp"
 #include "worlds/confined_pose.hpp"
 #include "worlds/convex_pieces.hpp"
+#include "worlds/plane_obstacles.hpp"
 
 namespace warren {
 namespace {
 
-double radius_of(std::span<const Vec2> outline) {
-  if (outline.size() < 3) throw InputError("robot", "a polygon needs three corners or more");
+double radius_of(std::span<const Vec2> outline, const Execution& execution) {
+  check_body(outline, "robot", execution);
   double radius = 0.0;
   for (const Vec2 p : outline) radius = std::max(radius, norm(p));
   return radius;
@@ -33,11 +34,11 @@ double checked_clearance(double clearance) {
 Se2World::Se2World(const Scene& scene, std::span<const Vec2> outline, const Se2Options& options,
                    const Execution& execution)
     : outline_(outline.begin(), outline.end()),
-      radius_(positive("robot: radius", radius_of(outline))),
+      radius_(positive("robot: radius", radius_of(outline, execution))),
       angle_weight_(positive("angle weight", options.angle_weight.value_or(radius_))),
       resolution_(positive("resolution", options.resolution.value_or(1e-4 * radius_))),
       planning_clearance_(checked_clearance(options.clearance) * (1.0 + 1e-9)),
-      tree_(scene, radius_ + planning_clearance_) {
+      tree_(scene, radius_ + planning_clearance_, execution) {
   box_ = scene.bounds ? *scene.bounds : tree_.obstacle_box();
   if (box_.empty()) throw InputError("world", "has neither obstacles nor bounds: nothing confines the robot");
   if (!scene.map) return;

@@ -48,9 +48,9 @@ class Se2World {
     std::uint64_t refused = 0;  ///< motions that were neither proved free nor blocked
   };
 
-  /// Throws InputError for options out of range, an outline of fewer than three corners, and a scene without anything
-  /// that confines the body. Without bounds the box of the obstacles confines the reference point.
-  /// Copies a map. Throws Stopped only for maps.
+  /// Throws InputError for options out of range, outlines of the body and of obstacles that are no simple polygons, and
+  /// a scene without anything that confines the body. Without bounds the box of the obstacles confines the reference
+  /// point. Copies a map. Throws Stopped.
   Se2World(const Scene& scene, std::span<const Vec2> outline, const Se2Options& options,
            const Execution& execution = {});
 

@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/minkowski.hpp"
 #include "core/se2.hpp"
+#include "worlds/plane_obstacles.hpp"
 
 namespace warren {
 namespace {
@@ -38,6 +39,8 @@ Box shrunk(const Box& bounds, const std::vector<std::vector<Vec2>>& mirrored) {
 
 PlaneObstacles translation_obstacles(const Scene& scene, std::span<const Vec2> outline, double theta, double room,
                                      std::size_t disc_corners) {
+  check_body(outline, "robot", {});
+  check_polygons(scene, {});
   const std::vector<std::vector<Vec2>> body = mirrored_pieces(outline, theta, room, disc_corners);
   PlaneObstacles obstacles;
   const auto add_sums = [&](std::span<const Vec2> piece) {

@@ -306,7 +306,7 @@ TEST(Polygons, PlannersRefuseWhatTheyWouldIgnore) {
 TEST(Polygons, BodiesAndWorldsWithoutAPlannerAreSaidToHaveNone) {
   const Folder folder;
   const std::string spheres = folder.write("s.scene", "sphere 0 0 0 1\nstart 1 1\ngoal 2 2\n");
-  check({{"solve", spheres}, 2, "needs a planner that this version does not have"});
+  check({{"solve", spheres}, 2, "spheres and boxes take an arm"});
   check({{"solve", "maze:5x5", "--planner", "nonsense"}, 2, "is none of"});
 }
 

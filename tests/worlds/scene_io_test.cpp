@@ -86,6 +86,13 @@ TEST(SceneText, TakesWallsAsTheyAre) {
   EXPECT_EQ(scene.walls.segment(4), (Segment{{0.25, 0.25}, {2, 2}}));
 }
 
+TEST(SceneText, OfARobotAloneIsFreeSpace) {
+  const TemporaryDirectory directory;
+  const Scene scene = read(directory, "robot puma560 radius 0.05\nstart 0 0 0 0 0 0\n");
+  EXPECT_TRUE(scene.robot.has_value());
+  EXPECT_EQ(scene.walls.size(), 0U);
+}
+
 struct BadScene {
   const char* name;
   std::string content;
@@ -97,7 +104,6 @@ TEST(SceneText, RefusesBadInputInOneLineThatNamesFileAndLine) {
   const BadScene cases[] = {
       {"empty", "", ":1: the file is empty"},
       {"comments only", "# nothing\n\n", ":2: the file ends without any wall, polygon, sphere, box or bounds"},
-      {"start only", "start 1 1\ngoal 2 2\n", ":2: the file ends without any wall"},
       {"three numbers", "0 0 1 1\n1 2 3\n", ":2: expected `wall X1 Y1 X2 Y2` (found: 3 numbers)"},
       {"one number", "17", ":1: expected `wall X1 Y1 X2 Y2` (found: 1 number)"},
       {"five numbers", "1 2 3 4 5\n", ":1: expected `wall X1 Y1 X2 Y2` (found: 5 numbers)"},

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <sstream>
+
+#include "tests/matrix/matrix_worlds.hpp"
+
+namespace warren::test {
+namespace {
+
+constexpr double link_radius = 0.04;
+constexpr double tool_length = 0.1;
+
+std::string text_of(const Ring& outline) {
+  std::ostringstream text;
+  text << "polygon";
+  for (const PlanePoint p : outline) text << ' ' << p.x << ' ' << p.y;
+  return text.str();
+}
+
+MatrixBody polygon_body(const std::string& where, const Ring& outline) {
+  return {"polygon_" + where, "polygon", text_of(outline), {.outline = outline}};
+}
+
+Ring scaled(Ring ring, double scale) {
+  for (PlanePoint& p : ring) p = {scale * p.x, scale * p.y};
+  return ring;
+}
+
+MatrixBody car_body(const std::string& where, const PlaneBody& shape, double tightest_turn, bool reverses) {
+  PlaneBody body = shape;
+  body.drives = true;
+  body.reverses = reverses;
+  body.turning_radius = tightest_turn;
+  std::ostringstream text;
+  text << "car ";
+  if (shape.outline.empty()) {
+    text << "radius " << shape.radius;
+  } else {
+    text << text_of(shape.outline);
+  }
+  text << " turning " << tightest_turn << " steering " << (reverses ? "reeds-shepp" : "dubins");
+  return {(reverses ? "reeds_shepp_" : "dubins_") + where, "car", text.str(), body};
+}
+
+/// Three joints that lift, swing and stretch.
+ArmBody short_arm() {
+  constexpr double half_turn = 3.0;
+  constexpr double right = 1.5707963267948966;
+  return {.joints = {{0.2, 0.0, right, -half_turn, half_turn},
+                     {0.0, 0.4, 0.0, -half_turn, half_turn, 0.1},
+                     {0.0, 0.3, 0.0, -half_turn, half_turn}},
+          .tool = 0.0,
+          .radius = link_radius};
+}
+
+}  // namespace
+
+std::vector<double> arm_start() { return {-0.9, 0.3, -0.5, 0.0, 0.0, 0.0}; }
+std::vector<double> arm_goal() { return {0.9, 0.4, -0.7, 0.0, 0.0, 0.0}; }
+
+std::pair<std::string, std::string> arm_file() {
+  std::ostringstream text;
+  text.precision(17);
+  text << "convention standard\nangles radians\n";
+  for (const ArmJoint& j : short_arm().joints) {
+    text << "joint " << j.d << ' ' << j.a << ' ' << j.alpha << ' ' << j.low << ' ' << j.high << ' ' << j.offset << '\n';
+  }
+  return {"three.dh", text.str()};
+}
+
+std::vector<MatrixBody> matrix_bodies(double scale) {
+  const Ring around = scaled({{-0.2, -0.15}, {0.3, -0.15}, {0.3, 0.05}, {0.05, 0.05}, {0.05, 0.2}, {-0.2, 0.2}}, scale);
+  const Ring ahead = scaled({{0.0, -0.1}, {0.4, -0.1}, {0.4, 0.1}, {0.0, 0.1}}, scale);
+  const Ring beyond = scaled({{0.1, -0.08}, {0.4, -0.08}, {0.35, 0.08}, {0.1, 0.08}}, scale);
+  const double turn = 0.3 * scale;
+  std::vector<MatrixBody> bodies{{"point", "point", "point", {}},
+                                 {"disc", "disc", "disc 0.2", {.radius = 0.2}},
+                                 polygon_body("around", around),
+                                 polygon_body("ahead", ahead),
+                                 polygon_body("beyond", beyond)};
+  for (const bool reverses : {false, true}) {
+    bodies.push_back(car_body("around", {.outline = around}, turn, reverses));
+    bodies.push_back(car_body("ahead", {.outline = ahead}, turn, reverses));
+    bodies.push_back(car_body("beyond", {.outline = beyond}, turn, reverses));
+    bodies.push_back(car_body("disc", {.radius = 0.15 * scale}, turn, reverses));
+  }
+  bodies.push_back({"puma", "arm", "puma560 radius 0.04 tool 0.1", {}, puma560_arm(link_radius, tool_length)});
+  bodies.push_back({"arm_file", "arm", "arm FOLDER/three.dh radius 0.04", {}, short_arm()});
+  return bodies;
+}
+
+}  // namespace warren::test

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Every planner, with and without --optimise, for every body in every world: where planners.table says yes, the program
+// answers, its judge agrees, and so does the matrix's own; where it says no, all verbs refuse, and say what would do.
+// One test a world, so that they run side by side. WARREN_MATRIX_SHARE: under sanitizers, which take ten times as long,
+// only every so many-th field is asked, drawn by its name.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <sstream>
+
+#include "tests/matrix/matrix_worlds.hpp"
+#include "tests/matrix/planner_table.hpp"
+#include "tests/matrix/program_answer.hpp"
+#include "tests/paths.hpp"
+#include "tests/tools/process.hpp"
+
+namespace warren::test {
+namespace {
+
+std::string table_file() { return source_dir() + "/tests/matrix/planners.table"; }
+
+TEST(PlannerTable, IsWhatReadmeShows) {
+  std::ostringstream readme;
+  readme << std::ifstream(source_dir() + "/README.md").rdbuf();
+  const std::string table = PlannerTable::read(table_file()).markdown();
+  EXPECT_NE(readme.str().find("\n" + table + "\n"), std::string::npos) << "README.md shall show this table:\n" << table;
+}
+
+/// FNV-1a: the same fields in every build.
+bool is_drawn(const std::string& field) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const char c : field) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
+  return (hash >> 32U) % WARREN_MATRIX_SHARE == 0;
+}
+
+std::string list_of(const std::vector<double>& numbers) {
+  std::ostringstream text;
+  text.precision(17);
+  for (std::size_t i = 0; i < numbers.size(); ++i) text << (i == 0 ? "" : ",") << numbers[i];
+  return text.str();
+}
+
+class Matrix : public testing::TestWithParam<MatrixWorld> {
+ protected:
+  Matrix() : table_(PlannerTable::read(table_file())) {
+    for (const auto& [name, text] : world().files) folder_.write(name, text);
+    const auto [name, text] = arm_file();
+    folder_.write(name, text);
+  }
+
+  void ask_everything();
+
+ private:
+  static const MatrixWorld& world() { return GetParam(); }
+  std::string world_file() const { return folder_.path(world().files.front().first); }
+  static double clearance_of(const MatrixBody& body) { return body.kind == "point" ? 0.0 : world().clearance; }
+  static bool keeps_angle(const std::string& planner) { return planner == "visibility" || planner == "cells"; }
+
+  std::string robot_of(const MatrixBody& body) const;
+  std::vector<std::vector<double>> ends_of(const MatrixBody& body, bool turns) const;
+  std::vector<std::string> question_of(const MatrixBody& body, bool turns) const;
+  static std::vector<std::string> raster_of(const MatrixBody& body);
+  std::optional<std::string> wrong_with(const MatrixBody& body, const std::vector<std::vector<double>>& ends,
+                                        bool may_touch, const ProgramAnswer& answer) const;
+
+  void ask_planner(const MatrixBody& body, const PlannerRow& planner, const PlannerField* field, bool optimise);
+  void ask_judges(const MatrixBody& body, const std::string& planner, const ProgramAnswer& answer);
+  void ask_all_at_once(const MatrixBody& body, const BodyColumn& column);
+  void ask_in_vain(const MatrixBody& body);
+  static void expect_refusal(const std::vector<std::string>& arguments, const std::string& named);
+
+  Folder folder_;
+  PlannerTable table_;
+};
+
+std::string Matrix::robot_of(const MatrixBody& body) const {
+  std::string robot = body.robot;
+  const std::string place = "FOLDER";
+  const std::size_t at = robot.find(place);
+  if (at != std::string::npos) robot.replace(at, place.size() + 1, folder_.path(""));
+  return robot;
+}
+
+/// Start and goal; `turns`: may their headings differ?
+std::vector<std::vector<double>> Matrix::ends_of(const MatrixBody& body, bool turns) const {
+  if (body.arm) return {arm_start(), arm_goal()};
+  const auto& [start, goal] = std::pair{world().start, world().goal};
+  const bool heads = body.kind == "polygon" || body.kind == "car";
+  if (!heads) return {{start[0], start[1]}, {goal[0], goal[1]}};
+  return {{start[0], start[1], start[2]}, {goal[0], goal[1], turns ? goal[2] : start[2]}};
+}
+
+std::vector<std::string> Matrix::question_of(const MatrixBody& body, bool turns) const {
+  const std::vector<std::vector<double>> ends = ends_of(body, turns);
+  std::ostringstream clearance;
+  clearance << clearance_of(body);
+  return {"--robot",
+          robot_of(body),
+          "--start=" + list_of(ends[0]),
+          "--goal=" + list_of(ends[1]),
+          "--clearance",
+          clearance.str(),
+          "--threads",
+          "1"};
+}
+
+/// A coarse one: the usual ones take seconds.
+std::vector<std::string> Matrix::raster_of(const MatrixBody& body) {
+  std::vector<std::string> words;
+  if (world().kind == "plane") words = {"--cell", "0.1"};
+  if (body.kind == "polygon") words.insert(words.end(), {"--angles", "24"});
+  return words;
+}
+
+std::optional<std::string> Matrix::wrong_with(const MatrixBody& body, const std::vector<std::vector<double>>& ends,
+                                              bool may_touch, const ProgramAnswer& answer) const {
+  if (body.arm) return wrong_with_path(world().space, *body.arm, {ends[0], ends[1], clearance_of(body)}, answer.path);
+  PlaneQuestion question{.clearance = clearance_of(body), .may_touch = may_touch};
+  std::copy(ends[0].begin(), ends[0].end(), question.start.begin());
+  std::copy(ends[1].begin(), ends[1].end(), question.goal.begin());
+  return wrong_with_path(world().plane, body.plane, question, answer.path);
+}
+
+void Matrix::expect_refusal(const std::vector<std::string>& arguments, const std::string& named) {
+  SCOPED_TRACE(shown(arguments));
+  const Outcome outcome = run(arguments);
+  EXPECT_EQ(outcome.code, 2) << outcome.err << outcome.out;
+  EXPECT_NE(outcome.err.find(named), std::string::npos) << "'" << named << "' is not in: " << outcome.err;
+}
+
+/// One field of the table: solve, verify, and the matrix's own look at every place of the path.
+void Matrix::ask_planner(const MatrixBody& body, const PlannerRow& planner, const PlannerField* field, bool optimise) {
+  const std::string name = world().name + "/" + body.name + "/" + planner.name + (optimise ? "/optimise" : "");
+  if (!is_drawn(name)) return;
+  SCOPED_TRACE(name);
+  const bool turns = !keeps_angle(planner.name);
+  std::vector<std::string> arguments{"solve", world_file(), "--planner", planner.name};
+  for (const std::string& word : question_of(body, turns)) arguments.push_back(word);
+  if (optimise) arguments.emplace_back("--optimise");
+  if (field == nullptr) {
+    std::vector<std::string> compare{"compare", world_file(), "--planners", planner.name, "--seeds", "1"};
+    compare.insert(compare.end(), arguments.begin() + 4, arguments.end());
+    if (!optimise) expect_refusal(compare, "prm");
+    return expect_refusal(arguments, "prm");
+  }
+  if (optimise && !field->optimises) return expect_refusal(arguments, "--optimise");
+  if (planner.name == "grid") {
+    for (const std::string& word : raster_of(body)) arguments.push_back(word);
+  }
+  const std::string file = folder_.path("answer.json");
+  for (const char* word : {"--quiet", "--budget", "30s", "--json"}) arguments.emplace_back(word);
+  arguments.push_back(file);
+  SCOPED_TRACE(shown(arguments));
+  const Outcome outcome = run(arguments);
+  ASSERT_TRUE(outcome.code == 0 || outcome.code == 1) << "exit code " << outcome.code << ": " << outcome.err;
+  const ProgramAnswer answer = read_program_answer(folder_.read("answer.json"));
+  EXPECT_EQ(outcome.code == 0, answer.status == "solved");
+  EXPECT_EQ(answer.verified, answer.status == "solved");
+  EXPECT_NE(answer.status, "stopped");
+  if (answer.status != "solved") {
+    EXPECT_TRUE(answer.path.empty());
+    return;
+  }
+  ask_judges(body, planner.name, answer);
+}
+
+/// The program's judge, and the matrix's own.
+void Matrix::ask_judges(const MatrixBody& body, const std::string& planner, const ProgramAnswer& answer) {
+  const Outcome verdict = run({"verify", world_file(), folder_.path("answer.json")});
+  EXPECT_EQ(verdict.code, 0) << "verify: " << verdict.err << verdict.out;
+  const bool may_touch = planner == "visibility" || planner == "cells";
+  const auto wrong = wrong_with(body, ends_of(body, !keeps_angle(planner)), may_touch, answer);
+  EXPECT_FALSE(wrong.has_value()) << *wrong;
+}
+
+/// Those that solve it, side by side and without being named; a picture of what they find; and that some do find it.
+void Matrix::ask_all_at_once(const MatrixBody& body, const BodyColumn& column) {
+  const std::string name = world().name + "/" + body.name;
+  if (!is_drawn(name)) return;
+  SCOPED_TRACE(name);
+  std::string planners;
+  for (const PlannerRow& planner : table_.planners()) {
+    if (PlannerTable::field(planner, column) != nullptr) planners += (planners.empty() ? "" : ",") + planner.name;
+  }
+  std::vector<std::string> question = question_of(body, false);
+  const auto ask = [&](std::vector<std::string> arguments, const std::vector<std::string>& more) {
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    SCOPED_TRACE(shown(arguments));
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+  };
+  const std::string answer = folder_.path("usual.json");
+  const std::string picture = folder_.path("picture.svg");
+  ask({"solve", world_file(), "--budget", "30s", "--json", answer, "--svg", picture}, question);
+  ask({"verify", world_file(), answer}, {});
+  ask({"render", world_file(), "--answer", answer, "-o", picture}, {});
+  if (planners.ends_with("grid")) {
+    for (const std::string& word : raster_of(body)) question.push_back(word);
+  }
+  ask({"compare", world_file(), "--planners", planners, "--seeds", "1", "--budget", "30s"}, question);
+}
+
+/// A body that nobody solves in such a world: all verbs say so alike.
+void Matrix::ask_in_vain(const MatrixBody& body) {
+  const std::string& named = table_.refusal(body.kind, world().kind);
+  const auto ask = [&](std::vector<std::string> arguments, bool with_question) {
+    if (!is_drawn(world().name + "/" + body.name + "/" + arguments[0] + arguments.back())) return;
+    if (with_question) {
+      for (const std::string& word : question_of(body, true)) arguments.push_back(word);
+    }
+    expect_refusal(arguments, named);
+  };
+  const std::string answer = folder_.write("answer.json", smallest_answer(robot_of(body), ends_of(body, true)));
+  ask({"verify", world_file(), answer}, false);
+  ask({"render", world_file(), "-o", folder_.path("picture.svg"), "--answer", answer}, false);
+  ask({"solve", world_file()}, true);
+  ask({"solve", world_file(), "--optimise"}, true);
+  for (const PlannerRow& planner : table_.planners()) {
+    ask({"solve", world_file(), "--planner", planner.name}, true);
+    ask({"compare", world_file(), "--seeds", "1", "--planners", planner.name}, true);
+  }
+}
+
+void Matrix::ask_everything() {
+  for (const MatrixBody& body : matrix_bodies(world().body_scale)) {
+    const BodyColumn* column = table_.column_of(body.kind, world().kind);
+    if (column == nullptr) {
+      ask_in_vain(body);
+      continue;
+    }
+    for (const PlannerRow& planner : table_.planners()) {
+      const PlannerField* field = PlannerTable::field(planner, *column);
+      ask_planner(body, planner, field, false);
+      ask_planner(body, planner, field, true);
+    }
+    ask_all_at_once(body, *column);
+  }
+}
+
+TEST_P(Matrix, AnswersEveryFieldAsTheTableSays) { ask_everything(); }
+
+INSTANTIATE_TEST_SUITE_P(Worlds, Matrix, testing::ValuesIn(matrix_worlds()),
+                         [](const testing::TestParamInfo<MatrixWorld>& world) { return world.param.name; });
+
+}  // namespace
+}  // namespace warren::test

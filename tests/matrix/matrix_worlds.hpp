@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The worlds and bodies of the matrix: each small, so that thousands of answers take a minute. What a file says and
+// what the matrix's own judge looks at are written from the same lists.
+#pragma once
+
+#include <optional>
+#include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/matrix/arm_check.hpp"
+#include "tests/matrix/plane_check.hpp"
+
+namespace warren::test {
+
+struct MatrixWorld {
+  std::string name;
+  std::string kind;  ///< plane, map, space, mixed or empty: a word of planners.table
+  PlaneObstacles plane;
+  SpaceObstacles space;
+  std::array<double, 3> start{};  ///< of bodies in the plane; points and discs leave the heading out
+  std::array<double, 3> goal{};
+  double clearance = 0.0;                                    ///< of all bodies but a point
+  double body_scale = 1.0;                                   ///< bodies of the plane that turn are drawn so large
+  std::vector<std::pair<std::string, std::string>> files{};  ///< names and texts; the first is the world
+};
+
+/// For failures of tests.
+inline void PrintTo(const MatrixWorld& world, std::ostream* out) { *out << world.name; }
+
+struct MatrixBody {
+  std::string name;
+  std::string kind;   ///< point, disc, polygon, car or arm: a word of planners.table
+  std::string robot;  ///< as `--robot` takes it; FOLDER stands for where the world's files lie
+  PlaneBody plane;
+  std::optional<ArmBody> arm{};
+};
+
+/// What arms are asked everywhere.
+std::vector<double> arm_start();
+std::vector<double> arm_goal();
+/// The table of the arm that has a file, for each world's folder: its name and text.
+std::pair<std::string, std::string> arm_file();
+
+std::vector<MatrixWorld> matrix_worlds();
+/// `scale`: of those that turn, and of their tightest turns.
+std::vector<MatrixBody> matrix_bodies(double scale);
+
+}  // namespace warren::test

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the matrix reads of an answer: its status and its path, straight from the text.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace warren::test {
+
+struct ProgramAnswer {
+  std::string status;
+  bool verified = false;
+  std::vector<std::vector<double>> path;
+};
+
+/// Throws std::runtime_error for a text that has no status or no path.
+ProgramAnswer read_program_answer(const std::string& json);
+/// The smallest answer that `verify` and `render` take: a body and its path.
+std::string smallest_answer(const std::string& robot, const std::vector<std::vector<double>>& path);
+
+}  // namespace warren::test

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/plannable.hpp"
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "tools/arm_problem.hpp"
+
+namespace warren {
+namespace {
+
+/// Is there anything that only bodies of the plane can meet?
+bool is_flat(const Scene& scene) {
+  return scene.walls.size() > 0 || !scene.polygons.empty() || scene.bounds || scene.map;
+}
+
+}  // namespace
+
+void check_plannable(const Scene& scene, const ProblemOptions& problem) {
+  const RobotSpec robot = robot_of(scene, problem);
+  const std::string where = problem.robot ? fmt::format("--robot: in {}, ", scene.source) : scene.source + ": ";
+  if (is_arm(robot)) {
+    if (!is_flat(scene)) return;
+    throw UsageError(
+        fmt::format("{}an arm plans among spheres and boxes; walls, polygons, bounds and maps have no "
+                    "height: they take a point, disc, polygon or car",
+                    where));
+  }
+  if (has_solids(scene)) {
+    throw UsageError(
+        fmt::format("{}a {} plans among walls, polygons and bounds or on a map; spheres and boxes take an "
+                    "arm (puma560, arm)",
+                    where, kind_name(robot.kind)));
+  }
+  if (is_flat(scene)) return;
+  throw UsageError(fmt::format("{}nothing confines the {}: the world needs bounds, walls, polygons or a map", where,
+                               kind_name(robot.kind)));
+}
+
+}  // namespace warren
