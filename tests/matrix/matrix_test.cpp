@@ -61,7 +61,12 @@ class Matrix : public testing::TestWithParam<MatrixWorld> {
   std::vector<std::string> question_of(const MatrixBody& body, bool turns) const;
   static std::vector<std::string> raster_of(const MatrixBody& body);
   std::optional<std::string> wrong_with(const MatrixBody& body, const std::vector<std::vector<double>>& ends,
-                                        bool may_touch, const ProgramAnswer& answer) const;
+                                        double clearance, bool may_touch,
+                                        const std::vector<std::vector<double>>& path) const;
+
+  void check_ends(const MatrixBody& body, const std::vector<std::vector<double>>& ends, bool may_touch,
+                  const std::string& status) const;
+  static std::vector<std::string> limits_of(const std::string& planner);
 
   void ask_planner(const MatrixBody& body, const PlannerRow& planner, const PlannerField* field, bool optimise);
   void ask_judges(const MatrixBody& body, const std::string& planner, const ProgramAnswer& answer);
@@ -113,12 +118,13 @@ std::vector<std::string> Matrix::raster_of(const MatrixBody& body) {
 }
 
 std::optional<std::string> Matrix::wrong_with(const MatrixBody& body, const std::vector<std::vector<double>>& ends,
-                                              bool may_touch, const ProgramAnswer& answer) const {
-  if (body.arm) return wrong_with_path(world().space, *body.arm, {ends[0], ends[1], clearance_of(body)}, answer.path);
-  PlaneQuestion question{.clearance = clearance_of(body), .may_touch = may_touch};
+                                              double clearance, bool may_touch,
+                                              const std::vector<std::vector<double>>& path) const {
+  if (body.arm) return wrong_with_path(world().space, *body.arm, {ends[0], ends[1], clearance}, path);
+  PlaneQuestion question{.clearance = clearance, .may_touch = may_touch};
   std::copy(ends[0].begin(), ends[0].end(), question.start.begin());
   std::copy(ends[1].begin(), ends[1].end(), question.goal.begin());
-  return wrong_with_path(world().plane, body.plane, question, answer.path);
+  return wrong_with_path(world().plane, body.plane, question, path);
 }
 
 void Matrix::expect_refusal(const std::vector<std::string>& arguments, const std::string& named) {
@@ -126,6 +132,35 @@ void Matrix::expect_refusal(const std::vector<std::string>& arguments, const std
   const Outcome outcome = run(arguments);
   EXPECT_EQ(outcome.code, 2) << outcome.err << outcome.out;
   EXPECT_NE(outcome.err.find(named), std::string::npos) << "'" << named << "' is not in: " << outcome.err;
+}
+
+/// A blocked end is called blocked, the start first, and a free one is not. What just touches may be either.
+void Matrix::check_ends(const MatrixBody& body, const std::vector<std::vector<double>>& ends, bool may_touch,
+                        const std::string& status) const {
+  constexpr double hair = 1e-6;
+  const auto is_blocked = [&](const std::vector<double>& end) {
+    return wrong_with(body, {end, end}, clearance_of(body), may_touch, {end}).has_value();
+  };
+  const auto is_free = [&](const std::vector<double>& end) {
+    return !wrong_with(body, {end, end}, clearance_of(body) + hair, false, {end}).has_value();
+  };
+  if (is_blocked(ends[0])) {
+    EXPECT_EQ(status, "start_blocked");
+    return;
+  }
+  EXPECT_FALSE(status == "start_blocked" && is_free(ends[0])) << "the start is free";
+  EXPECT_FALSE(status == "goal_blocked" && is_free(ends[1])) << "the goal is free";
+  if (is_blocked(ends[1]) && status != "start_blocked") {
+    EXPECT_EQ(status, "goal_blocked");
+  }
+}
+
+/// In a strange world there may be no way: nobody shall look for it long.
+std::vector<std::string> Matrix::limits_of(const std::string& planner) {
+  if (!world().is_strange) return {};
+  if (planner == "prm" || planner == "lazy-prm") return {"--samples", "300"};
+  if (planner == "rrt" || planner == "rrt-connect") return {"--nodes", "2000"};
+  return {};
 }
 
 /// One field of the table: solve, verify, and the matrix's own look at every place of the path.
@@ -147,6 +182,7 @@ void Matrix::ask_planner(const MatrixBody& body, const PlannerRow& planner, cons
   if (planner.name == "grid") {
     for (const std::string& word : raster_of(body)) arguments.push_back(word);
   }
+  for (const std::string& word : limits_of(planner.name)) arguments.push_back(word);
   const std::string file = folder_.path("answer.json");
   for (const char* word : {"--quiet", "--budget", "30s", "--json"}) arguments.emplace_back(word);
   arguments.push_back(file);
@@ -157,6 +193,8 @@ void Matrix::ask_planner(const MatrixBody& body, const PlannerRow& planner, cons
   EXPECT_EQ(outcome.code == 0, answer.status == "solved");
   EXPECT_EQ(answer.verified, answer.status == "solved");
   EXPECT_NE(answer.status, "stopped");
+  const bool may_touch = body.kind == "point" && keeps_angle(planner.name);
+  check_ends(body, ends_of(body, turns), may_touch, answer.status);
   if (answer.status != "solved") {
     EXPECT_TRUE(answer.path.empty());
     return;
@@ -168,8 +206,8 @@ void Matrix::ask_planner(const MatrixBody& body, const PlannerRow& planner, cons
 void Matrix::ask_judges(const MatrixBody& body, const std::string& planner, const ProgramAnswer& answer) {
   const Outcome verdict = run({"verify", world_file(), folder_.path("answer.json")});
   EXPECT_EQ(verdict.code, 0) << "verify: " << verdict.err << verdict.out;
-  const bool may_touch = planner == "visibility" || planner == "cells";
-  const auto wrong = wrong_with(body, ends_of(body, !keeps_angle(planner)), may_touch, answer);
+  const bool may_touch = body.kind == "point" && keeps_angle(planner);
+  const auto wrong = wrong_with(body, ends_of(body, !keeps_angle(planner)), clearance_of(body), may_touch, answer.path);
   EXPECT_FALSE(wrong.has_value()) << *wrong;
 }
 
@@ -233,7 +271,7 @@ void Matrix::ask_everything() {
       ask_planner(body, planner, field, false);
       ask_planner(body, planner, field, true);
     }
-    ask_all_at_once(body, *column);
+    if (!world().is_strange) ask_all_at_once(body, *column);
   }
 }
 

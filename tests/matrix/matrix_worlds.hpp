@@ -3,6 +3,7 @@
 // what the matrix's own judge looks at are written from the same lists.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <ostream>
 #include <string>
@@ -21,8 +22,9 @@ struct MatrixWorld {
   SpaceObstacles space;
   std::array<double, 3> start{};  ///< of bodies in the plane; points and discs leave the heading out
   std::array<double, 3> goal{};
-  double clearance = 0.0;                                    ///< of all bodies but a point
-  double body_scale = 1.0;                                   ///< bodies of the plane that turn are drawn so large
+  double clearance = 0.0;   ///< of all bodies but a point
+  double body_scale = 1.0;  ///< bodies of the plane that turn are drawn so large
+  bool is_strange = false;  ///< drawn by a seed: ends may be blocked, and no planner need find a way
   std::vector<std::pair<std::string, std::string>> files{};  ///< names and texts; the first is the world
 };
 
@@ -43,7 +45,10 @@ std::vector<double> arm_goal();
 /// The table of the arm that has a file, for each world's folder: its name and text.
 std::pair<std::string, std::string> arm_file();
 
+/// The listed ones, and some strange ones: as many as the environment's WARREN_MATRIX_SEEDS says, for a long run.
 std::vector<MatrixWorld> matrix_worlds();
+/// A pure function of the seed.
+MatrixWorld strange_world(std::uint64_t seed);
 /// `scale`: of those that turn, and of their tightest turns.
 std::vector<MatrixBody> matrix_bodies(double scale);
 

@@ -71,7 +71,6 @@ class Leg {
   /// How far a car would have to slip: 0 for a straight and an arc.
   double aside() const { return aside_; }
   bool is_arc() const { return arc_; }
-  double radius() const { return radius_; }
 
   Pose at(double t) const {
     const double theta = a_.theta + t * turn_;
@@ -180,7 +179,8 @@ class PathCheck {
 std::optional<std::string> PathCheck::wrong_with_driving(const Leg& leg) const {
   if (leg.aside() > rounding) return "a leg is neither a straight nor an arc";
   if (!leg.is_arc() && std::abs(leg.turn()) > rounding) return "a car turns on the spot";
-  if (leg.is_arc() && leg.radius() < body_.turning_radius * (1.0 - rounding)) return "an arc is too tight";
+  const double least = body_.turning_radius * std::abs(leg.turn());
+  if (leg.is_arc() && leg.length() < least - rounding) return "an arc is too tight";
   if (!body_.reverses && !leg.ahead() && leg.length() > rounding) return "a car that can't drives backwards";
   return std::nullopt;
 }
