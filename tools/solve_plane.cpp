@@ -23,8 +23,8 @@ constexpr PlannerChoice plane_planners[] = {{PlannerKind::prm, plane_roadmap_opt
                                             {PlannerKind::cells, "--doors --search --queue"},
                                             {PlannerKind::voronoi, "--objective --search --queue"}};
 
-bool fits_plane(const Scene& scene, const RobotSpec& robot) {
-  return !scene.map && (robot.kind == RobotKind::point || robot.kind == RobotKind::disc);
+bool fits_plane(const Scene&, const RobotSpec& robot) {
+  return robot.kind == RobotKind::point || robot.kind == RobotKind::disc;
 }
 
 /// A point may touch what it goes around, unless the contrary is asked for; who keeps a distance needs room.

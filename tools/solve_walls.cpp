@@ -110,7 +110,7 @@ constexpr PlannerChoice walls_planners[] = {{PlannerKind::prm, shared_options},
 
 bool fits_walls(const Scene& scene, const RobotSpec& robot) {
   const bool plain = robot.kind == RobotKind::point || robot.kind == RobotKind::disc;
-  return plain && scene.polygons.empty() && !scene.map;
+  return plain && scene.polygons.empty();
 }
 
 PlannerKind usual_walls_planner(const Arguments& arguments, const Scene& scene, const ProblemOptions&) {

@@ -10,7 +10,6 @@ namespace {
 
 constexpr double width = 8.0;
 constexpr double height = 6.0;
-constexpr std::uint64_t few_seeds = 6;
 const Ring whole{{0, 0}, {width, 0}, {width, height}, {0, height}};
 
 MatrixWorld plane_world(const std::string& name) {
@@ -148,7 +147,7 @@ std::vector<MatrixWorld> matrix_worlds() {
       mixed_world(),
       empty_world()};
   const char* seeds = std::getenv("WARREN_MATRIX_SEEDS");
-  const std::uint64_t count = seeds == nullptr ? few_seeds : std::strtoull(seeds, nullptr, 10);
+  const std::uint64_t count = seeds == nullptr ? 0 : std::strtoull(seeds, nullptr, 10);
   for (std::uint64_t seed = 1; seed <= count; ++seed) worlds.push_back(strange_world(seed));
   return worlds;
 }

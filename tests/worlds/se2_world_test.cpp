@@ -261,7 +261,7 @@ TEST(Se2World, RefusesOptionsThatMakeNoSense) {
     }
     return std::string("nothing");
   };
-  EXPECT_NE(message(scene, {{0, 0}, {1, 0}}, {}).find("three corners"), std::string::npos);
+  EXPECT_NE(message(scene, {{0, 0}, {1, 0}}, {}).find("three different corners"), std::string::npos);
   EXPECT_NE(message(scene, kite, {.clearance = -1.0}).find("clearance"), std::string::npos);
   EXPECT_NE(message(scene, kite, {.angle_weight = 0.0}).find("angle weight"), std::string::npos);
   EXPECT_NE(message(scene, kite, {.resolution = -0.5}).find("resolution"), std::string::npos);
