@@ -83,7 +83,7 @@ Scene map_with_a_block() {
   scene.map.emplace();
   scene.map->blocked = Bitmap(3, 3);
   scene.map->blocked.set(1, 1);
-  add_map_walls(scene);
+  add_map_walls(scene, {});
   return scene;
 }
 
