@@ -100,7 +100,7 @@ def solve_cases(w, full):
     polygons, many = w.polygons(pick(20000, 2000)), pick(100_000, 20_000)
     cases = [[maze], [maze, "--optimise"], [maze, "--pipeline", "plain"], [maze, "--planner", "lazy-prm"]]
     cases += [[far, "--sampler", "uniform", "--planner", planner] for planner in ("prm", "lazy-prm")]
-    cases += [[far, "--sampler", "uniform", "--pipeline", "tiled"]] if full else []
+    cases += [[far, "--planner", "prm", "--sampler", "uniform", "--pipeline", "tiled"]] if full else []
     cases += [[far, "--clearance", "0", "--planner", planner] for planner in ("visibility", "cells", "voronoi", "grid")]
     cases += [[far, "--planner", "prm", "--sampler", "uniform", "--queue", queue]
               for queue in ("lazy-heap", "sorted-array", "resorted-array")]
