@@ -40,7 +40,8 @@ TEST(NearPieces, HoldEveryPieceThatARayMeetsFirst) {
       obstacles.walls.push_back({a, a + Vec2{length * (u(2) - 0.5), length * (u(3) - 0.5)}});
     }
     const PlanePieces pieces(obstacles, {});
-    NearPieces near(pieces);
+    const Execution execution;
+    NearPieces near(pieces, execution);
     for (std::uint64_t i = 100; i < 120; ++i) {
       const Vec2 eye{10.0 * uniform(seed, i, 0), 10.0 * uniform(seed, i, 1)};
       const auto found = near.look(eye, std::vector<PlaceRange>{all_round});
