@@ -22,7 +22,7 @@ using test::disjoint_polygons;
 using test::GridWorld;
 using test::length_of;
 using test::obstacles_of;
-using test::scene_of;
+using test::scene_around;
 
 /// Plans and lets the path be judged: it keeps the clearance; with clearance 0 it touches nothing.
 Solution<Vec2> checked_plan(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal, const MedialAxisOptions& options,
@@ -32,7 +32,7 @@ Solution<Vec2> checked_plan(const PlaneObstacles& obstacles, Vec2 start, Vec2 go
   EXPECT_EQ(solution.path.front(), start);
   EXPECT_EQ(solution.path.back(), goal);
   const VerifyOptions judging{.clearance = options.clearance, .contact = Contact::blocked};
-  const Verification v = verify_path(scene_of(obstacles), solution.path, judging, {});
+  const Verification v = verify_path(scene_around(obstacles, solution.path), solution.path, judging, {});
   EXPECT_TRUE(v.verified) << v.first_violation->obstacle << " at " << v.first_violation->distance;
   if (min_clearance != nullptr) *min_clearance = v.min_clearance;
   return solution;

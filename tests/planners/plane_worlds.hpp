@@ -56,9 +56,20 @@ inline PlaneObstacles obstacles_of(const Scene& scene) {
   return obstacles;
 }
 
+/// The world that a path is judged in. Planners may roam where there is nothing at all, which judges refuse: there it
+/// gets bounds far around the path.
+inline Scene scene_around(const PlaneObstacles& obstacles, const Path<Vec2>& path) {
+  Scene scene = scene_of(obstacles);
+  if (scene.walls.size() > 0 || !scene.polygons.empty() || scene.bounds) return scene;
+  Box box;
+  for (const Vec2 p : path) box.include(p);
+  scene.bounds = box.grown(1.0 + box.width() + box.height());
+  return scene;
+}
+
 /// The judge's word for a point's path that may touch.
 inline Verification judged(const PlaneObstacles& obstacles, const Path<Vec2>& path) {
-  return verify_path(scene_of(obstacles), path, {.contact = Contact::allowed}, {});
+  return verify_path(scene_around(obstacles, path), path, {.contact = Contact::allowed}, {});
 }
 
 inline double length_of(const Path<Vec2>& path) {
