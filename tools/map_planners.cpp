@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "planners/grid_search.hpp"
 #include "spatial/distance_field.hpp"
+#include "tools/settled_ends.hpp"
 #include "tools/verified_answer.hpp"
 #include "worlds/moving_ai_io.hpp"
 #include "worlds/verify_map.hpp"
@@ -24,6 +25,15 @@ Bitmap closed_cells(const OccupancyMap& map, Vec2 start) {
 
 bool stands_free_on_map(const OccupancyMap& map, const WallProblem& problem, Vec2 p, const Execution& execution) {
   return verify_on_map(map, std::span(&p, 1), {.clearance = problem.reach()}, execution).verified;
+}
+
+Outcome settled_on_map(Outcome outcome, const OccupancyMap& map, const WallProblem& problem,
+                       const Execution& execution) {
+  const auto start = cell_at(map, problem.start);
+  const bool on_water = start && !map.water.empty() && map.water.test(start->x, start->y);  // its goal may be, too
+  return settled_ends(
+      outcome, [&] { return stands_free_on_map(map, problem, problem.start, execution); },
+      [&] { return on_water || stands_free_on_map(map, problem, problem.goal, execution); });
 }
 
 bool provably_apart(const OccupancyMap& map, const Bitmap& closed, const WallProblem& problem,
@@ -74,8 +84,10 @@ void verify_solved_on_map(Answer& answer, const OccupancyMap& map, const WallPro
   if (!verification.verified) {
     const Violation violation = verification.first_violation.value_or(Violation{});
     const bool at_an_end = violation.leg == 0 || violation.leg + 2 == answer.path.size();
-    if (!over_cells || problem.reach() == 0.0 || !at_an_end) fail_verification(answer, violation);
-    answer.outcome = Outcome::not_connected;
+    // What only rounding keeps off a cell that it touches is blocked.
+    answer.outcome = settled_on_map(Outcome::start_blocked, map, problem, execution);
+    const bool may_miss = over_cells && problem.reach() > 0.0 && at_an_end;
+    if (answer.outcome == Outcome::not_connected && !may_miss) fail_verification(answer, violation);
     answer.path.clear();
     return;
   }

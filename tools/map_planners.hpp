@@ -28,6 +28,9 @@ Bitmap closed_cells(const OccupancyMap& map, Vec2 start);
 
 /// Does the robot fit there, as the verification sees it?
 bool stands_free_on_map(const OccupancyMap& map, const WallProblem& problem, Vec2 p, const Execution& execution);
+/// What is said of the ends where one is called blocked (tools/settled_ends.hpp): by the verification.
+Outcome settled_on_map(Outcome outcome, const OccupancyMap& map, const WallProblem& problem,
+                       const Execution& execution);
 
 /// Is it proved that no path leads from start to goal? A point between closed cells goes where cells with a common side
 /// are free. A disc's middle is nowhere where the middle of the cell is nearer than the radius less half a diagonal;

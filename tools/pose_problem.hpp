@@ -21,6 +21,7 @@
 #include "tools/answer.hpp"
 #include "tools/problem.hpp"
 #include "tools/recorded_answer.hpp"
+#include "tools/settled_ends.hpp"
 #include "tools/solve_kind.hpp"
 
 namespace warren {
@@ -100,11 +101,12 @@ Solution<Se2> plan_pose_trees(const W& world, PlannerKind kind, const PoseProble
 /// stands_free(pose): by the verification.
 template <class StandsFree>
 void settle_blocked_poses(Answer& answer, const PoseProblem& problem, const StandsFree& stands_free) {
-  bool doubtful = answer.outcome == Outcome::start_blocked && stands_free(problem.start);
-  if (answer.outcome == Outcome::goal_blocked) {
-    for (const Se2& pose : poses_of(problem.goal)) doubtful = doubtful || stands_free(pose);
-  }
-  if (doubtful) answer.outcome = Outcome::not_connected;
+  answer.outcome = settled_ends(
+      answer.outcome, [&] { return stands_free(problem.start); },
+      [&] {
+        const std::vector<Se2> goals = poses_of(problem.goal);
+        return std::any_of(goals.begin(), goals.end(), stands_free);
+      });
 }
 
 inline constexpr std::string_view pose_roadmap_option_names =

@@ -19,6 +19,7 @@
 #include "tools/arm_drawing.hpp"
 #include "tools/arm_problem.hpp"
 #include "tools/option_values.hpp"
+#include "tools/settled_ends.hpp"
 #include "tools/solve_kind.hpp"
 #include "tools/tree_options.hpp"
 #include "tools/verified_answer.hpp"
@@ -192,10 +193,9 @@ void ArmSolve::take(Solution<JointState> solution) {
 
 /// Planning keeps a little more room than it must, so an arm that fits exactly is no blocked one: nobody proved that.
 void ArmSolve::settle_blocked_ends() {
-  const bool start = answer_.outcome == Outcome::start_blocked && stands_free(problem_.start);
-  const bool goal = answer_.outcome == Outcome::goal_blocked &&
-                    std::any_of(goals_.begin(), goals_.end(), [&](const JointState& q) { return stands_free(q); });
-  if (start || goal) answer_.outcome = Outcome::not_connected;
+  answer_.outcome = settled_ends(
+      answer_.outcome, [&] { return stands_free(problem_.start); },
+      [&] { return std::any_of(goals_.begin(), goals_.end(), [&](const JointState& q) { return stands_free(q); }); });
 }
 
 bool ArmSolve::stands_free(const JointState& q) const {

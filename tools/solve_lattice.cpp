@@ -18,6 +18,7 @@
 #include "tools/grid_options.hpp"
 #include "tools/lattice_ends.hpp"
 #include "tools/option_values.hpp"
+#include "tools/settled_ends.hpp"
 #include "tools/solve_kind.hpp"
 #include "tools/sweep_drawing.hpp"
 #include "tools/verified_answer.hpp"
@@ -193,16 +194,16 @@ class LatticeSolve {
     const std::vector<LayerEnd> goals = ends_at("--goal", goal_pose(), any_heading());
     const LayerPath path = layer_search(layers_, starts, goals, search_, request_.execution);
     answer_.counters.expanded = path.expanded;
-    answer_.outcome = !path.start_free                     ? blocked(Outcome::start_blocked, start_pose(), false)
-                      : !path.goal_free                    ? blocked(Outcome::goal_blocked, goal_pose(), any_heading())
-                      : path.status == SearchStatus::found ? Outcome::solved
-                                                           : Outcome::not_connected;
+    const Outcome found = !path.start_free                     ? Outcome::start_blocked
+                          : !path.goal_free                    ? Outcome::goal_blocked
+                          : path.status == SearchStatus::found ? Outcome::solved
+                                                               : Outcome::not_connected;
+    const bool is_report = layer_options_.kind == LayerKind::report004;  // its discs say what is blocked
+    answer_.outcome = is_report ? found
+                                : settled_ends(
+                                      found, [&] { return stands_free(start_pose(), false); },
+                                      [&] { return stands_free(goal_pose(), any_heading()); });
     if (answer_.outcome == Outcome::solved) take(path);
-  }
-  /// An end that no state is joined to may still be free: nobody proved that it is blocked.
-  Outcome blocked(Outcome outcome, const Se2& pose, bool any_heading) const {
-    const bool is_report = layer_options_.kind == LayerKind::report004;
-    return !is_report && stands_free(pose, any_heading) ? Outcome::not_connected : outcome;
   }
 
   void take(const LayerPath& path) {

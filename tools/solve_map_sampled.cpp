@@ -33,7 +33,7 @@ class SampledMapSolve {
     index();
     bound_growth();
     take_solution(answer_, is_roadmap_planner(request_.planner) ? plan_roadmap() : plan_trees());
-    settle_blocked_ends();
+    answer_.outcome = settled_on_map(answer_.outcome, map_, problem_, request_.execution);
     if (answer_.outcome == Outcome::solved && request_.arguments.has("--optimise")) optimise();
     verify_solved_on_map(answer_, map_, problem_, false, request_.execution);
     if (request_.drawing != nullptr) request_.drawing->roadmap = in_the_plane(roadmaps_, request_.execution);
@@ -49,7 +49,6 @@ class SampledMapSolve {
   Solution<Vec2> plan_trees();
   std::vector<std::vector<Vec2>> stops() const;
   Roadmap<Vec2>* kept() { return request_.drawing != nullptr ? &roadmaps_.emplace_back() : nullptr; }
-  void settle_blocked_ends();
   void optimise();
 
   const SolveRequest& request_;
@@ -143,14 +142,6 @@ Solution<Vec2> SampledMapSolve::plan_trees() {
     return planner(*world_, start, goals, tree_options_, request_.execution, kept());
   };
   return plan_through<Vec2>(problem_.start, stops(), plan);
-}
-
-/// Planning keeps a little more room than it must, so a body that fits exactly is no blocked one: nobody proved that.
-void SampledMapSolve::settle_blocked_ends() {
-  const bool start = answer_.outcome == Outcome::start_blocked;
-  if (!start && answer_.outcome != Outcome::goal_blocked) return;
-  const Vec2 end = start ? problem_.start : problem_.goal;
-  if (stands_free_on_map(map_, problem_, end, request_.execution)) answer_.outcome = Outcome::not_connected;
 }
 
 void SampledMapSolve::optimise() {

@@ -40,7 +40,7 @@ class SkeletonSolve {
     std::vector<std::pair<Cell, Cell>> steps;
     take(plan_on_skeleton(closed_cells(map_, problem_.start), *start, *goal, options_, request_.execution,
                           request_.drawing != nullptr ? &steps : nullptr));
-    settle_blocked_ends();
+    settle_ends();
     if (request_.drawing != nullptr) request_.drawing->layers.push_back(drawn(map_, steps));
     verify_solved_on_map(answer_, map_, problem_, true, request_.execution);
   }
@@ -65,12 +65,11 @@ class SkeletonSolve {
     take_solution(answer_, std::move(solution));
   }
 
-  /// A body may fit where it stands and not at the middle of the cell: nobody proved that it is blocked.
-  void settle_blocked_ends() {
-    const bool start = answer_.outcome == Outcome::start_blocked;
-    if (!start && answer_.outcome != Outcome::goal_blocked) return;
-    const Vec2 end = start ? problem_.start : problem_.goal;
-    if (stands_free_on_map(map_, problem_, end, request_.execution)) answer_.outcome = Outcome::not_connected;
+  /// The skeleton was asked about the middles of the cells: where it has no way, the ends themselves may be blocked.
+  void settle_ends() {
+    const bool no_way = answer_.outcome == Outcome::not_connected;
+    answer_.outcome =
+        settled_on_map(no_way ? Outcome::start_blocked : answer_.outcome, map_, problem_, request_.execution);
   }
 
   const SolveRequest& request_;

@@ -5,6 +5,7 @@
 
 #include <stdexcept>
 
+#include "tools/settled_ends.hpp"
 #include "worlds/verify.hpp"
 
 namespace warren {
@@ -52,9 +53,9 @@ void take_solution(Answer& answer, Solution<Vec2> solution) {
 }
 
 void settle_blocked_ends(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution) {
-  const bool start = answer.outcome == Outcome::start_blocked && stands_free(scene, problem, problem.start, execution);
-  const bool goal = answer.outcome == Outcome::goal_blocked && stands_free(scene, problem, problem.goal, execution);
-  if (start || goal) answer.outcome = Outcome::not_connected;
+  answer.outcome = settled_ends(
+      answer.outcome, [&] { return stands_free(scene, problem, problem.start, execution); },
+      [&] { return stands_free(scene, problem, problem.goal, execution); });
 }
 
 void claim_nothing(Answer& answer) {

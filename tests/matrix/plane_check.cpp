@@ -212,7 +212,7 @@ std::optional<std::string> PathCheck::wrong_with_disc(const Pose& pose) {
   if (room == 0.0 && touched_.passes(p)) return "a wall is passed";
   const auto is_near = [&](double distance) {
     if (room > 0.0) return distance < room - rounding;
-    return !question_.may_touch && distance <= 0.0;
+    return !question_.may_touch && !obstacles_.rounded && distance <= 0.0;
   };
   for (const PlaneLine& wall : obstacles_.walls) {
     if (is_near(distance_of(p, wall))) return "a wall is too near";

@@ -18,6 +18,7 @@ namespace warren::test {
 struct PlaneObstacles {
   std::vector<PlaneLine> walls{};
   std::vector<Region> regions{};
+  bool rounded = false;  ///< a map's cells, whose borders are where they are up to rounding: touching can't be told
   Ring rim{};  ///< convex, counter-clockwise: the body stays inside; empty: the reference point stays in the obstacles'
                ///< box
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Worlds drawn by a seed, on a coarse raster so that they are full of what is rare otherwise: walls of no length, ends
 // that meet, sides in line, gaps as wide as the body, ends of the path that are blocked, headings beyond a turn.
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -48,8 +49,8 @@ void add_obstacle(Draw& draw, PlanePoint slot, PlaneObstacles& plane) {
       break;
     }
     case 3: {
-      const double right = p.x + 0.25 + 0.25 * draw.below(3);
-      const double high = p.y + 0.25 + 0.25 * draw.below(3);
+      const double right = std::min(p.x + 0.25 + 0.25 * draw.below(3), slot.x + 2.0);
+      const double high = std::min(p.y + 0.25 + 0.25 * draw.below(3), slot.y + 2.0);
       plane.regions.push_back({{p, {right, p.y}, {right, high}, {p.x, high}}});
       break;
     }

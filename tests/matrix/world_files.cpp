@@ -70,7 +70,7 @@ std::string geojson_of(const MatrixWorld& world) {
 }
 
 PlaneObstacles cells_of(const MapRows& rows, const MapPlace& place) {
-  PlaneObstacles plane;
+  PlaneObstacles plane{.rounded = true};
   const auto square = [&](double x, double y, double w, double h) {
     return Ring{place.at(x, y), place.at(x + w, y), place.at(x + w, y + h), place.at(x, y + h)};
   };
