@@ -46,6 +46,7 @@ constexpr std::size_t legs_of(std::size_t states) { return states > 1 ? states -
 Violation elsewhere(std::string_view which, std::span<const double> wanted, double distance, std::size_t leg);
 
 /// Start before all legs, the goal after them. Leaves it to the caller to measure the path.
-Verification verdict_on(const LegReport& legs, std::optional<Violation> start, std::optional<Violation> goal);
+Verification verdict_on(const LegReport& legs, const std::optional<Violation>& start,
+                        const std::optional<Violation>& goal);
 
 }  // namespace warren
