@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "tests/matrix/matrix_worlds.hpp"
+#include "tests/matrix/world_files.hpp"
 
 namespace warren::test {
 namespace {
@@ -10,15 +11,8 @@ namespace {
 constexpr double link_radius = 0.04;
 constexpr double tool_length = 0.1;
 
-std::string text_of(const Ring& outline) {
-  std::ostringstream text;
-  text << "polygon";
-  for (const PlanePoint p : outline) text << ' ' << p.x << ' ' << p.y;
-  return text.str();
-}
-
 MatrixBody polygon_body(const std::string& where, const Ring& outline) {
-  return {"polygon_" + where, "polygon", text_of(outline), {.outline = outline}};
+  return {"polygon_" + where, "polygon", polygon_text(outline), {.outline = outline}};
 }
 
 Ring scaled(Ring ring, double scale) {
@@ -36,7 +30,7 @@ MatrixBody car_body(const std::string& where, const PlaneBody& shape, double tig
   if (shape.outline.empty()) {
     text << "radius " << shape.radius;
   } else {
-    text << text_of(shape.outline);
+    text << polygon_text(shape.outline);
   }
   text << " turning " << tightest_turn << " steering " << (reverses ? "reeds-shepp" : "dubins");
   return {(reverses ? "reeds_shepp_" : "dubins_") + where, "car", text.str(), body};

@@ -29,7 +29,7 @@ struct MatrixWorld {
 };
 
 /// For failures of tests.
-inline void PrintTo(const MatrixWorld& world, std::ostream* out) { *out << world.name; }
+inline std::ostream& operator<<(std::ostream& out, const MatrixWorld& world) { return out << world.name; }
 
 struct MatrixBody {
   std::string name;

@@ -5,13 +5,15 @@
 #include <sstream>
 
 namespace warren::test {
-namespace {
 
-std::string text_of(const Ring& ring) {
+std::string polygon_text(const Ring& ring) {
   std::ostringstream text;
+  text << "polygon";
   for (const PlanePoint p : ring) text << ' ' << p.x << ' ' << p.y;
   return text.str();
 }
+
+namespace {
 
 std::string json_of(const Ring& ring) {
   std::ostringstream text;
@@ -40,7 +42,7 @@ std::string scene_of(const MatrixWorld& world) {
     text << "bounds " << low.x << ' ' << low.y << ' ' << high.x << ' ' << high.y << '\n';
   }
   for (const auto& [a, b] : world.plane.walls) text << a.x << ' ' << a.y << ' ' << b.x << ' ' << b.y << '\n';
-  for (const Region& region : world.plane.regions) text << "polygon" << text_of(region.front()) << '\n';
+  for (const Region& region : world.plane.regions) text << polygon_text(region.front()) << '\n';
   for (const auto& [x, y, z, r] : world.space.spheres) {
     text << "sphere " << x << ' ' << y << ' ' << z << ' ' << r << '\n';
   }

@@ -9,6 +9,8 @@
 
 namespace warren::test {
 
+/// "polygon X Y …", as a scene says an outline.
+std::string polygon_text(const Ring& ring);
 /// Everything that a world holds, as a scene; its regions are polygons without holes.
 std::string scene_of(const MatrixWorld& world);
 /// Its regions and bounds as GeoJSON, which can say holes.

@@ -169,7 +169,8 @@ ExactAnswer answer_by_definition(const PlaneProblem& problem) {
   const rational::Plane plane(closed, {start, goal});
   ExactAnswer answer;
   answer.has_overlaps = rational::Plane(obstacles).has_overlaps();
-  const auto reaches_out = [&](Vec2 p) { return obstacles.bounds && !obstacles.bounds->contains(p); };
+  const std::optional<Box>& bounds = obstacles.bounds;
+  const auto reaches_out = [&](Vec2 p) { return bounds && !bounds->contains(p); };
   for (const Vec2 p : obstacles.polygons.corners) answer.has_overlaps = answer.has_overlaps || reaches_out(p);
   for (const Segment& wall : obstacles.walls) {
     answer.has_overlaps = answer.has_overlaps || reaches_out(wall.a) || reaches_out(wall.b);
