@@ -47,11 +47,6 @@ Json stages_json(const StageTimes& seconds) {
   return stages;
 }
 
-std::string_view stop_name(StopReason reason) {
-  constexpr std::string_view names[] = {"budget", "memory", "SIGINT", "SIGTERM"};
-  return names[static_cast<std::size_t>(reason)];
-}
-
 void add_outcome(Json& json, const Answer& answer) {
   json["schema"] = "warren.answer/1";
   json["warren_version"] = WARREN_VERSION;
@@ -169,6 +164,22 @@ std::string refuted_head(const RefutedPath& refuted) {
 }
 
 }  // namespace
+
+std::string_view stop_name(StopReason reason) {
+  switch (reason) {
+    case StopReason::time:
+      return "budget";
+    case StopReason::memory:
+      return "memory";
+    case StopReason::interrupt:
+      return "SIGINT";
+    case StopReason::terminate:
+      return "SIGTERM";
+    case StopReason::hang_up:
+      return "SIGHUP";
+  }
+  return "";
+}
 
 std::string violation_json(const Violation& violation) {
   return fmt::format(R"({{"leg": {}, "distance": {}, "obstacle": {}}})", violation.leg, json_number(violation.distance),

@@ -17,6 +17,9 @@ namespace warren {
 void write_answer_json(const Answer& answer, const Execution& execution,
                        const std::function<void(std::string_view)>& write);
 
+/// What `stopped_by` says: "budget", "memory", or a signal's name.
+std::string_view stop_name(StopReason reason);
+
 /// A text as a JSON string, quotes included; bytes that are not UTF-8 become U+FFFD.
 std::string json_string(std::string_view text);
 /// {"leg", "distance", "obstacle"}.

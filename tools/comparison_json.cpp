@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "tools/answer_json.hpp"
 #include "tools/comparison_report.hpp"
 #include "tools/machine.hpp"
 #include "tools/queue_crossings.hpp"
@@ -95,11 +96,6 @@ Json crossings_json(const Comparison& comparison) {
                     {"ratios", std::move(ratios)}});
   }
   return json;
-}
-
-std::string_view stop_name(StopReason reason) {
-  constexpr std::string_view names[] = {"budget", "memory", "SIGINT", "SIGTERM"};
-  return names[static_cast<std::size_t>(reason)];
 }
 
 }  // namespace

@@ -42,20 +42,30 @@ struct Description {
 
 constexpr std::size_t most_yaml_bytes = std::size_t{1} << 20;
 
-/// The text as yaml-cpp takes it, 2 KiB at a time: each time the deadline is looked at, and the memory asked for that
-/// its tree needs for them.
+/// The text as yaml-cpp takes it, 2 KiB at a time: for each block the deadline is looked at, and the memory asked for
+/// that its tree needs. For the first one that is done before the library begins: it loses what it holds where its
+/// constructor, which takes that block, is left by an exception.
 class PolledText : public std::stringbuf {
  public:
-  PolledText(const std::string& text, const Execution& execution) : std::stringbuf(text), execution_(execution) {}
+  PolledText(const std::string& text, const Execution& execution) : std::stringbuf(text), execution_(execution) {
+    ask_for(first_block_bytes);
+  }
 
  private:
-  std::streamsize xsgetn(char* to, std::streamsize count) override {
+  static constexpr std::streamsize first_block_bytes = 2048;
+
+  void ask_for(std::streamsize bytes) const {
     constexpr std::size_t tree_bytes_a_byte = 256;  // measured: 236
-    execution_.reserve(tree_bytes_a_byte * static_cast<std::size_t>(count));
+    execution_.reserve(tree_bytes_a_byte * static_cast<std::size_t>(bytes));
+  }
+  std::streamsize xsgetn(char* to, std::streamsize count) override {
+    if (!is_first_) ask_for(count);
+    is_first_ = false;
     return std::stringbuf::xsgetn(to, count);
   }
 
   const Execution& execution_;
+  bool is_first_ = true;
 };
 
 /// Reads the keys; each error names file, line and what was expected.

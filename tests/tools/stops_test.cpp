@@ -32,15 +32,22 @@ const std::vector<std::string> long_run{"solve", "maze:20000x20000", "--json", "
 void wait_until_it_works() { std::this_thread::sleep_for(std::chrono::milliseconds(300)); }
 
 TEST(Stops, SignalsEndItWithTheirCodeAndPartialFigures) {
-  const std::pair<int, int> signals[] = {{SIGHUP, 129}, {SIGINT, 130}, {SIGTERM, 143}};
-  for (const auto& [number, code] : signals) {
-    SCOPED_TRACE(number);
+  struct Stop {
+    int number;
+    int code;
+    std::string_view name;
+  };
+  for (const auto& [number, code, name] :
+       {Stop{SIGHUP, 129, "SIGHUP"}, Stop{SIGINT, 130, "SIGINT"}, Stop{SIGTERM, 143, "SIGTERM"}}) {
+    SCOPED_TRACE(name);
     Process process(long_run);
     wait_until_it_works();
     process.send(number);
     const Outcome outcome = process.wait();
     EXPECT_EQ(outcome.code, code) << outcome.err;
-    EXPECT_EQ(nlohmann::json::parse(outcome.out)["status"], "stopped");
+    const auto answer = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(answer["status"], "stopped");
+    EXPECT_EQ(answer["stopped_by"], name);
   }
 }
 
