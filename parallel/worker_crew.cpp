@@ -22,15 +22,39 @@ void look_out(const Waits& waits) {
 
 }  // namespace
 
-void SharedLoop::work() noexcept {
-  for (std::size_t chunk = next_++; chunk < chunks_; chunk = next_++) {
+SharedLoop::SharedLoop(std::size_t chunks, unsigned threads, const void* body, void (*call)(const void*, std::size_t))
+    : chunks_(chunks),
+      threads_(threads),
+      body_(body),
+      call_(call),
+      share_count_(std::min({chunks, std::size_t{threads}, most_shares})) {
+  std::size_t rest = chunks;
+  for (std::size_t i = share_count_; i > 0; --i) {
+    shares_[i - 1].end = rest;
+    rest -= rest / i;
+    shares_[i - 1].next = rest;
+  }
+}
+
+void SharedLoop::work(std::size_t thread) noexcept {
+  for (std::size_t i = 0; i < share_count_; ++i) work_on(shares_[(thread + i) % share_count_]);
+}
+
+void SharedLoop::work_on(Share& share) noexcept {
+  while (!failed_.load(std::memory_order_relaxed)) {
+    const std::size_t chunk = share.next++;
+    if (chunk >= share.end) return;
     try {
       call_(body_, chunk);
     } catch (...) {
       if (!failed_.exchange(true)) error_ = std::current_exception();
-      next_ = chunks_;
     }
   }
+}
+
+bool SharedLoop::has_chunks() const {
+  const auto end = shares_.begin() + static_cast<std::ptrdiff_t>(share_count_);
+  return !failed_ && std::any_of(shares_.begin(), end, [](const Share& share) { return share.has_chunks(); });
 }
 
 void SharedLoop::rethrow() const {
@@ -57,7 +81,7 @@ WorkerCrew::~WorkerCrew() {
 
 void WorkerCrew::run(SharedLoop& loop) {
   open(loop);
-  loop.work();
+  loop.work(0);
   close(loop);
   loop.rethrow();
 }
@@ -122,7 +146,7 @@ void WorkerCrew::help(std::size_t index) {
     }
     ++loop->inside_;
     lock.unlock();
-    loop->work();
+    loop->work(index + 1);
     lock.lock();
     if (--loop->inside_ == 0) loop->left_.notify_one();
   }

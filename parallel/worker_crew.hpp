@@ -5,8 +5,12 @@
 // threads, where nobody can catch what they throw. The same speed, measured with tools/bench.)
 // Whoever runs dry looks for another loop for some tens of microseconds, for the next one often comes at once, and
 // sleeps then.
+// Each thread begins in a share of its own, and helps with the others' where that is done: chunks drawn from one row
+// for all made neighbours work side by side, in the same cache lines where each writes its slot (a quarter of the time
+// of sampling mazes on two cores).
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <condition_variable>
 #include <cstddef>
@@ -20,32 +24,42 @@
 
 namespace warren {
 
-/// Chunks 0 .. chunks - 1, each given to one thread; whoever takes part draws the next one. Lives on its caller's
-/// stack.
+/// Chunks 0 .. chunks - 1, each given to one thread. Lives on its caller's stack.
 class SharedLoop {
  public:
-  SharedLoop(std::size_t chunks, unsigned threads, const void* body, void (*call)(const void*, std::size_t))
-      : chunks_(chunks), threads_(threads), body_(body), call_(call) {}
+  SharedLoop(std::size_t chunks, unsigned threads, const void* body, void (*call)(const void*, std::size_t));
 
-  /// Runs chunks until none is left; the first exception ends the loop.
-  void work() noexcept;
-  bool has_chunks() const { return next_.load(std::memory_order_relaxed) < chunks_; }
+  /// Runs chunks until none is left, those of the thread's own share first; the first exception ends the loop.
+  /// thread: 0 for the caller, then the helpers.
+  void work(std::size_t thread) noexcept;
+  bool has_chunks() const;
   /// Call when all have left: throws what a chunk threw.
   void rethrow() const;
 
  private:
   friend class WorkerCrew;
 
+  static constexpr std::size_t most_shares = 16;
+  /// In a cache line of its own.
+  struct alignas(64) Share {
+    std::atomic<std::size_t> next{0};  // each value is handed to one thread
+    std::size_t end = 0;
+    bool has_chunks() const { return next.load(std::memory_order_relaxed) < end; }
+  };
+
+  void work_on(Share& share) noexcept;
+
   const std::size_t chunks_;
   const unsigned threads_;
   const void* body_;
   void (*call_)(const void*, std::size_t);
-  std::atomic<std::size_t> next_{0};  // each value is handed to one thread
-  std::atomic<bool> failed_{false};   // whoever sets it writes error_
-  std::exception_ptr error_;          // read when nobody is inside
-  std::atomic<unsigned> inside_{0};   // helpers; written under the crew's mutex
-  std::condition_variable left_;      // inside_ became 0
-  SharedLoop* next_loop_ = nullptr;   // under the crew's mutex
+  const std::size_t share_count_;
+  std::array<Share, most_shares> shares_;
+  std::atomic<bool> failed_{false};  // whoever sets it writes error_
+  std::exception_ptr error_;         // read when nobody is inside
+  std::atomic<unsigned> inside_{0};  // helpers; written under the crew's mutex
+  std::condition_variable left_;     // inside_ became 0
+  SharedLoop* next_loop_ = nullptr;  // under the crew's mutex
 };
 
 class WorkerCrew {

@@ -116,6 +116,22 @@ TEST(ForChunks, TwoBodiesRunAtTheSameTimeOnTwoThreads) {
   EXPECT_EQ(arrived, 2);
 }
 
+TEST(ForChunks, EachThreadBeginsFarFromTheOthers) {
+  std::atomic<unsigned> arrived{0};
+  std::mutex mutex;
+  std::set<std::size_t> first;
+  for_chunks(90, 1, on(3), [&](Range r) {
+    if (arrived >= 3) return;
+    {
+      const std::lock_guard lock(mutex);
+      first.insert(r.first);
+    }
+    ++arrived;
+    while (arrived < 3) std::this_thread::yield();
+  });
+  EXPECT_EQ(first, (std::set<std::size_t>{0, 30, 60}));
+}
+
 TEST(ForChunks, StopsAtTheDeadline) {
   const Deadline over(0.0);
   for (const unsigned threads : thread_counts) {
