@@ -69,7 +69,11 @@ class CompareCommand {
     compare(run);
     run.end();
     write_outputs();
-    if (!run.quiet() && !standard_output_taken_) print_text(comparison_summary(comparison_, run.palette()));
+    if (!run.quiet() && !standard_output_taken_) {
+      print_text(comparison_summary(comparison_, run.palette()));
+    } else if (comparison_.stopped) {
+      say_stopped(*comparison_.stopped);
+    }
     return exit_code();
   }
 

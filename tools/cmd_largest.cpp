@@ -127,6 +127,8 @@ int largest(const Arguments& arguments) {
   if (!svg.empty()) write_file(svg, largest_plot(options, result), Execution{});
   if (!run.quiet() && json != "-" && svg != "-") {
     print_text(largest_summary(options, result, run.palette()));
+  } else if (result.signal) {
+    say_stopped(*result.signal);
   }
   return exit_code(result);
 }

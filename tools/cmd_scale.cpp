@@ -157,7 +157,11 @@ int scale(const Arguments& arguments) {
   write("--json", [&] { return scaling_json(options, result); });
   write("--csv", [&] { return scaling_csv(result); });
   write("--html", [&] { return scaling_page(result, arguments.command_line()); });
-  if (!run.quiet() && !standard_output_taken) print_text(scaling_summary(result, run.palette()));
+  if (!run.quiet() && !standard_output_taken) {
+    print_text(scaling_summary(result, run.palette()));
+  } else if (result.signal) {
+    say_stopped(*result.signal);
+  }
   return exit_code(result);
 }
 

@@ -60,7 +60,7 @@ class SolveCommand {
     if (!run.quiet() && !takes_standard_output()) {
       print_text(fmt::format("{}", summary_of(answer_, run.palette(), written_)));
     } else if (answer_.outcome == Outcome::stopped) {
-      fmt::print(stderr, "warren: stopped: {}\n", text_of(stop_reason()));
+      say_stopped(stop_reason());
     }
     return exit_code();
   }

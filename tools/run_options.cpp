@@ -118,6 +118,8 @@ std::string_view text_of(StopReason reason) {
   }
 }
 
+void say_stopped(StopReason reason) { fmt::print(stderr, "warren: stopped: {}\n", text_of(reason)); }
+
 std::string_view signal_name(StopReason reason) {
   if (reason == StopReason::hang_up) return "SIGHUP";
   return reason == StopReason::terminate ? "SIGTERM" : "SIGINT";

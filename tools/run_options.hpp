@@ -64,6 +64,8 @@ class Run {
 int exit_code_of(StopReason reason);
 /// "the time budget ended", …
 std::string_view text_of(StopReason reason);
+/// Says on standard error what stopped a verb that prints no summary which says so.
+void say_stopped(StopReason reason);
 /// "SIGINT", … of a reason that is a signal.
 std::string_view signal_name(StopReason reason);
 

@@ -51,6 +51,24 @@ TEST(Stops, SignalsEndItWithTheirCodeAndPartialFigures) {
   }
 }
 
+TEST(Stops, QuietStudiesSayInOneLineThatASignalCame) {
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"compare", "maze:3000x3000", "--planners", "prm", "--seeds", "1000"},
+        {"largest", "--budget", "1h", "--start-size", "20000"},
+        {"scale", "--sizes", "3000", "--repeats", "1000"}}) {
+    SCOPED_TRACE(words.front());
+    std::vector<std::string> quiet = words;
+    quiet.emplace_back("--quiet");
+    Process process(quiet);
+    wait_until_it_works();
+    process.send(SIGTERM);
+    const Outcome outcome = process.wait();
+    EXPECT_EQ(outcome.code, 143) << outcome.err;
+    EXPECT_EQ(outcome.err, "warren: stopped: terminated\n");
+    EXPECT_EQ(outcome.out, "");
+  }
+}
+
 TEST(Stops, AKeyPressedTwiceEndsItInOrderToo) {
   Process process(long_run);
   wait_until_it_works();
