@@ -30,6 +30,16 @@ constexpr OptionSpec grid_specs[] = {
 constexpr std::array<std::string_view, 3> diagonal_words{"sqrt2", "unit", "none"};
 constexpr std::array<std::string_view, 4> method_words{"astar", "dijkstra", "bfs", "jump-points"};
 
+/// The world must have room for a cell each way; a world without extent has none for any.
+void refuse_wide_cell(std::string_view text, double cell, const Scene& scene) {
+  const Box box = scene.bounds ? *scene.bounds : obstacle_box(scene);
+  constexpr double rounding = 1e-9;
+  const double side = std::min(box.width(), box.height());
+  if (box.empty() || side == 0.0 || side / cell + rounding >= 1.0) return;
+  throw UsageError(
+      fmt::format("--cell: {} is too large: the world has {:.6g} x {:.6g}", text, box.width(), box.height()));
+}
+
 }  // namespace
 
 std::span<const OptionSpec> grid_option_specs() { return grid_specs; }
@@ -52,7 +62,10 @@ GridSpec grid_spec(const Arguments& arguments, const Scene& scene) {
   constexpr std::uint64_t most_angles = 1'000'000;
   constexpr double cells_a_side = 400.0;
   GridSpec grid = scene.grid.value_or(GridSpec{.cell = scene.map ? scene.map->cell : 0.0, .angles = usual_angles});
-  if (const auto text = arguments.value("--cell")) grid.cell = cell_value(*text, scene);
+  if (const auto text = arguments.value("--cell")) {
+    grid.cell = cell_value(*text, scene);
+    refuse_wide_cell(*text, grid.cell, scene);
+  }
   if (const auto text = arguments.value("--angles")) {
     grid.angles = static_cast<std::uint32_t>(count_value("--angles", *text, 1, most_angles));
   }

@@ -62,6 +62,17 @@ TEST(Lattice, StepsAndTurnsCostWhatIsSaid) {
   }
 }
 
+TEST(Lattice, ACellWiderThanTheWorldIsAWrongOption) {
+  const Folder folder;
+  const std::string room = folder.write("room.scene", "bounds 0 0 10 4\nstart 1 1\ngoal 9 3\n");
+  EXPECT_EQ(run({"solve", room, "--planner", "grid", "--cell", "4"}).code, 1) << "a cell each way, but no path";
+  const Outcome outcome = run({"solve", room, "--planner", "grid", "--cell", "4.1"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("--cell: 4.1 is too large: the world has 10 x 4"), std::string::npos) << outcome.err;
+  const std::string own = folder.write("own.scene", "bounds 0 0 10 4\ngrid 5 72\nstart 1 1\ngoal 9 3\n");
+  EXPECT_EQ(run({"solve", own, "--planner", "grid"}).code, 65) << "the file's cell";
+}
+
 TEST(Lattice, ABodyThatDoesNotTurnTakesNoOptionsOfTurns) {
   const Folder folder;
   const std::string scene = folder.write("walls.scene", course_scene);
