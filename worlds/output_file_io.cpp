@@ -240,6 +240,8 @@ void OutputFile::commit() {
     check_written();
     if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
     temporary_.clear();
+    discard();  // all is written and in its place: closing can't fail any more
+    return;
   }
   close_file();
 }

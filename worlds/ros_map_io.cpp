@@ -325,8 +325,14 @@ void write_ros_map(const OccupancyMap& map, const std::string& path, const Execu
       fmt::format("image: {}\nresolution: {}\norigin: [{}, {}, {}]\nnegate: 0\noccupied_thresh: 0.65\n"
                   "free_thresh: 0.196\n",
                   yaml_text(name), map.cell, map.origin.x, map.origin.y, map.yaw_rad));
-  write_map_pgm(map, image, UnknownCells::grey, execution);
-  yaml.commit();
+  const bool is_new = ::access(image.c_str(), F_OK) != 0;
+  try {
+    write_map_pgm(map, image, UnknownCells::grey, execution);
+    yaml.commit();
+  } catch (...) {
+    if (is_new) ::unlink(behind_links(image).c_str());  // half a map is none
+    throw;
+  }
 }
 
 }  // namespace warren

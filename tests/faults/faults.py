@@ -114,6 +114,9 @@ class Campaign:
         for path in self.inputs.iterdir():
             if (folder / path.name).read_bytes() != path.read_bytes():
                 return f"{path.name} was changed"
+        missing = [output for output in outputs if not (folder / output).exists()]
+        if name == "convert" and 0 < len(missing) < len(outputs):
+            return f"exit code {run.returncode} leaves half a map, without {missing[0]}"
         for output in outputs:
             there = (folder / output).exists()
             if run.returncode == 0 and not there:
