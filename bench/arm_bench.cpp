@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "bench/bodies.hpp"
-#include "planners/prm.hpp"
+#include "planners/roadmap/prm.hpp"
 
 namespace {
 

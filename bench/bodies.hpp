@@ -9,12 +9,12 @@
 #include <numbers>
 #include <vector>
 
-#include "core/polygon_distance.hpp"
-#include "core/rng.hpp"
-#include "worlds/arm_world.hpp"
-#include "worlds/car_world.hpp"
-#include "worlds/puma560.hpp"
-#include "worlds/se2_world.hpp"
+#include "core/base/rng.hpp"
+#include "core/plane/polygon_distance.hpp"
+#include "worlds/arms/arm_world.hpp"
+#include "worlds/arms/puma560.hpp"
+#include "worlds/poses/car_world.hpp"
+#include "worlds/poses/se2_world.hpp"
 
 namespace warren::bench {
 

@@ -7,9 +7,9 @@
 #include <cstdlib>
 #include <numbers>
 
-#include "core/rng.hpp"
-#include "planners/cell_planner.hpp"
-#include "planners/medial_axis.hpp"
+#include "core/base/rng.hpp"
+#include "planners/axis/medial_axis.hpp"
+#include "planners/cells/cell_planner.hpp"
 
 namespace warren::bench {
 namespace {

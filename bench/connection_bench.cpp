@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "bench/report.hpp"
-#include "core/geometry.hpp"
-#include "planners/connection.hpp"
-#include "planners/milestones.hpp"
-#include "worlds/maze_generator.hpp"
-#include "worlds/maze_world.hpp"
+#include "core/plane/geometry.hpp"
+#include "planners/roadmap/connection.hpp"
+#include "planners/roadmap/milestones.hpp"
+#include "scenes/mazes/maze_generator.hpp"
+#include "worlds/plane/maze_world.hpp"
 
 namespace warren::bench {
 namespace {

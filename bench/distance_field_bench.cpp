@@ -6,8 +6,8 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "core/rng.hpp"
-#include "spatial/distance_field.hpp"
+#include "core/base/rng.hpp"
+#include "spatial/maps/distance_field.hpp"
 
 namespace warren {
 namespace {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "core/rng.hpp"
-#include "planners/grid_search.hpp"
+#include "core/base/rng.hpp"
+#include "planners/grid/grid_search.hpp"
 
 namespace warren {
 namespace {

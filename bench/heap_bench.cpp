@@ -6,8 +6,8 @@
 
 #include "bench/report.hpp"
 #include "bench/test_graphs.hpp"
-#include "core/search.hpp"
-#include "core/search_queues.hpp"
+#include "core/search/search.hpp"
+#include "core/search/search_queues.hpp"
 
 namespace warren::bench {
 namespace {

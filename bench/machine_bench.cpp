@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bench/report.hpp"
-#include "core/rng.hpp"
+#include "core/base/rng.hpp"
 
 namespace warren::bench {
 namespace {

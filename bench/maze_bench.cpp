@@ -10,10 +10,10 @@
 #include <string>
 
 #include "bench/report.hpp"
-#include "worlds/maze_generator.hpp"
-#include "worlds/npy_io.hpp"
-#include "worlds/scene_io.hpp"
-#include "worlds/world_io.hpp"
+#include "scenes/formats/npy_io.hpp"
+#include "scenes/formats/read_world_io.hpp"
+#include "scenes/formats/scene_io.hpp"
+#include "scenes/mazes/maze_generator.hpp"
 
 namespace warren::bench {
 namespace {

@@ -14,14 +14,14 @@
 #include <vector>
 
 #include "bench/report.hpp"
-#include "planners/grid_search.hpp"
-#include "planners/lazy_prm.hpp"
-#include "planners/prm.hpp"
-#include "planners/skeleton_planner.hpp"
-#include "worlds/grid_world.hpp"
-#include "worlds/maze_generator.hpp"
-#include "worlds/maze_image_io.hpp"
-#include "worlds/pgm_io.hpp"
+#include "planners/grid/grid_search.hpp"
+#include "planners/grid/skeleton_planner.hpp"
+#include "planners/roadmap/lazy_prm.hpp"
+#include "planners/roadmap/prm.hpp"
+#include "scenes/formats/maze_image_io.hpp"
+#include "scenes/images/pgm_io.hpp"
+#include "scenes/mazes/maze_generator.hpp"
+#include "worlds/plane/grid_world.hpp"
 
 namespace warren::bench {
 namespace {

@@ -14,9 +14,9 @@
 #include <numeric>
 
 #include "bench/report.hpp"
-#include "core/rng.hpp"
+#include "core/base/rng.hpp"
 #include "parallel/sort.hpp"
-#include "spatial/neighbours.hpp"
+#include "spatial/points/neighbours.hpp"
 
 namespace warren::bench {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "bench/report.hpp"
 #include "bench/test_graphs.hpp"
-#include "core/search.hpp"
+#include "core/search/search.hpp"
 #include "parallel/bidirectional_search.hpp"
 #include "parallel/reduce_graph.hpp"
 

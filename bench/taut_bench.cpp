@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "bench/report.hpp"
-#include "core/rng.hpp"
-#include "planners/taut_path.hpp"
-#include "worlds/maze_generator.hpp"
-#include "worlds/verify.hpp"
+#include "core/base/rng.hpp"
+#include "planners/shorten/taut_path.hpp"
+#include "scenes/mazes/maze_generator.hpp"
+#include "verify/judges/verify_point.hpp"
 
 namespace {
 

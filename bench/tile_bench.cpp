@@ -9,14 +9,14 @@
 #include <vector>
 
 #include "bench/report.hpp"
-#include "core/rng.hpp"
-#include "planners/prm.hpp"
-#include "planners/tile_reduction.hpp"
-#include "planners/tiled_prm.hpp"
-#include "planners/wall_marking.hpp"
-#include "worlds/maze_generator.hpp"
-#include "worlds/maze_world.hpp"
-#include "worlds/verify.hpp"
+#include "core/base/rng.hpp"
+#include "planners/roadmap/prm.hpp"
+#include "planners/tiled/tiled_prm_lattice.hpp"
+#include "planners/tiles/lattice_tile_reduction.hpp"
+#include "planners/tiles/wall_marking.hpp"
+#include "scenes/mazes/maze_generator.hpp"
+#include "verify/judges/verify_point.hpp"
+#include "worlds/plane/maze_world.hpp"
 
 namespace warren::bench {
 namespace {

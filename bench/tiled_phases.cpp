@@ -11,13 +11,13 @@
 #include <cstdlib>
 #include <string>
 
-#include "core/page_pool.hpp"
-#include "core/rng.hpp"
-#include "planners/overlay_search.hpp"
-#include "planners/tiled_prm.hpp"
-#include "planners/wall_marking.hpp"
-#include "worlds/maze_generator.hpp"
-#include "worlds/verify.hpp"
+#include "core/base/page_pool.hpp"
+#include "core/base/rng.hpp"
+#include "planners/tiled/overlay_components.hpp"
+#include "planners/tiled/tiled_prm_lattice.hpp"
+#include "planners/tiles/wall_marking.hpp"
+#include "scenes/mazes/maze_generator.hpp"
+#include "verify/judges/verify_point.hpp"
 
 namespace {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Verification of a shortest path through a lattice maze of unit walls, on one thread and on two. Items are walls; the
 // path is verified first, and one that touches a wall must be refused.
-#include "worlds/verify.hpp"
+#include "verify/judges/verify_point.hpp"
 
 #include <benchmark/benchmark.h>
 
 #include "bench/report.hpp"
-#include "planners/tiled_prm.hpp"
-#include "worlds/maze_generator.hpp"
+#include "planners/tiled/tiled_prm_lattice.hpp"
+#include "scenes/mazes/maze_generator.hpp"
 
 namespace warren::bench {
 namespace {

@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "core/geometry.hpp"
-#include "planners/lazy_visibility.hpp"
-#include "planners/visibility_graph.hpp"
-#include "worlds/plane_obstacles.hpp"
-#include "worlds/polygon_generator.hpp"
-#include "worlds/scene_io.hpp"
+#include "core/plane/geometry.hpp"
+#include "planners/visibility/lazy_visibility.hpp"
+#include "planners/visibility/visibility_graph.hpp"
+#include "scenes/formats/scene_io.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
+#include "scenes/scene/polygon_generator.hpp"
 
 namespace warren::bench {
 namespace {

@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "bench/report.hpp"
-#include "core/geometry.hpp"
-#include "core/rng.hpp"
-#include "spatial/wall_index.hpp"
-#include "worlds/maze_generator.hpp"
+#include "core/base/rng.hpp"
+#include "core/plane/geometry.hpp"
+#include "scenes/mazes/maze_generator.hpp"
+#include "spatial/obstacles/wall_index.hpp"
 
 namespace warren::bench {
 namespace {

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# What `cmake --install` leaves behind: headers, the five libraries, a package for find_package(warren), a file for
-# pkg-config, the licence. Targets: warren::core, warren::parallel, warren::spatial, warren::worlds, warren::planners, and
-# warren::warren, which is all of them. Component "library" is the package without the program.
+# What `cmake --install` leaves behind: headers, a library a folder, a package for find_package(warren), a file for
+# pkg-config, the licence. Targets: warren::core and so on, and warren::warren, which
+# is all of them. Component "library" is the package without the program.
 include(CMakePackageConfigHelpers)
 
-set(warren_libraries core parallel spatial worlds planners)
+set(warren_libraries core parallel spatial scenes worlds verify planners)
 set(warren_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/warren)
 
 add_library(warren_all INTERFACE)

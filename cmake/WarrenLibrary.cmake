@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# warren_library(FOLDER [FOLDER ...]): the folder's sources as library warren_FOLDER, linked to the folders that it may
+# warren_library(FOLDER [FOLDER ...]): the sources in the folder's rooms as library warren_FOLDER, linked to the folders that it may
 # include. Sources are found by pattern: a file belongs to the library of the folder that it lies in, always.
 function(warren_library folder)
-  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp ${PROJECT_SOURCE_DIR}/${folder}/*.hpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp ${PROJECT_SOURCE_DIR}/${folder}/*.hpp)
   add_library(warren_${folder} STATIC ${sources})
   add_library(warren::${folder} ALIAS warren_${folder})
   set_target_properties(warren_${folder} PROPERTIES LINKER_LANGUAGE CXX EXPORT_NAME ${folder})

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lists whose length nobody knows before they are made: --memory is asked before they grow.
+// Lists whose length nobody knows before they are made: memory is asked for before they grow.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
-#include "core/raw_vector.hpp"
+#include "core/base/raw_vector.hpp"
 #include "parallel/execution.hpp"
 
 namespace warren {
@@ -20,6 +23,16 @@ void push_asked(RawVector<T>& list, const T& value, const Execution& execution) 
     list.reserve(room);
   }
   list.push_back(value);
+}
+
+/// Appends. Throws Stopped where the vector is full and the larger block that it moves to would pass the limit; blocks
+/// below 128 KiB are not worth a question, whoever makes many of them asks between them.
+template <class T, class Allocator>
+void push_asked(std::vector<T, Allocator>& to, std::type_identity_t<T> item, const Execution& execution) {
+  constexpr std::size_t small = std::size_t{1} << 16;
+  const std::size_t held = to.capacity() * sizeof(T);
+  if (to.size() == to.capacity() && held >= small) execution.reserve(2 * held);
+  to.push_back(std::move(item));
 }
 
 }  // namespace warren

@@ -17,7 +17,7 @@
 
 #include <span>
 
-#include "core/graph.hpp"
+#include "core/search/graph.hpp"
 #include "parallel/chunks.hpp"
 
 namespace warren {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rounds of core/bidirectional_search.hpp with a thread for each side: the same path, length and counts as on one
-// thread. The first rounds, too short to pay for a thread, run here; then both threads meet at a barrier after each
-// phase and come to the same agreement each by itself. An exception of one side stops both and is rethrown.
+// The rounds of core/search/bidirectional_search.hpp with a thread for each side: the same path, length and counts as
+// on one thread. The first rounds, too short to pay for a thread, run here; then both threads meet at a barrier after
+// each phase and come to the same agreement each by itself. An exception of one side stops both and is rethrown.
 #pragma once
 
 #include <barrier>
 #include <exception>
 #include <thread>
 
-#include "core/bidirectional_search.hpp"
+#include "core/search/bidirectional_search.hpp"
 #include "parallel/execution.hpp"
 
 namespace warren {

@@ -8,7 +8,7 @@
 // components() is the oracle.
 #pragma once
 
-#include "core/graph.hpp"
+#include "core/search/graph.hpp"
 #include "parallel/execution.hpp"
 
 namespace warren {

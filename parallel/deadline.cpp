@@ -13,7 +13,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "core/page_pool.hpp"
+#include "core/base/page_pool.hpp"
 
 namespace warren {
 namespace {

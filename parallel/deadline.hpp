@@ -10,7 +10,7 @@
 #include <limits>
 #include <optional>
 
-#include "core/stop_reason.hpp"
+#include "core/base/stop_reason.hpp"
 
 namespace warren {
 
@@ -52,7 +52,7 @@ class Deadline {
 };
 
 /// Bytes that this process holds now (resident set), and the most it has held, without the pages that the calling
-/// thread keeps and has no use for (core/page_pool.hpp); 0 where the system doesn't tell.
+/// thread keeps and has no use for (core/base/page_pool.hpp); 0 where the system doesn't tell.
 std::size_t resident_bytes();
 std::size_t peak_resident_bytes();
 /// Bytes that this process may hold: the smaller of the machine's memory that is available, less a 16th of it for

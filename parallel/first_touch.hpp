@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <type_traits>
 
-#include "core/page_pool.hpp"
-#include "core/raw_vector.hpp"
+#include "core/base/page_pool.hpp"
+#include "core/base/raw_vector.hpp"
 #include "parallel/chunks.hpp"
 
 namespace warren {

@@ -30,7 +30,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/graph.hpp"
+#include "core/search/graph.hpp"
 #include "parallel/chunks.hpp"
 #include "parallel/components.hpp"
 

@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/raw_vector.hpp"
+#include "core/base/raw_vector.hpp"
 #include "parallel/chunks.hpp"
 #include "parallel/first_touch.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/curve_drawing.hpp"
+#include "pictures/curve_drawing.hpp"
 
 #include <algorithm>
 #include <numbers>

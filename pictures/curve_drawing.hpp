@@ -8,12 +8,12 @@
 #include <span>
 #include <vector>
 
-#include "core/se2.hpp"
-#include "planners/roadmap.hpp"
-#include "tools/picture.hpp"
-#include "tools/state_list.hpp"
-#include "worlds/scene.hpp"
-#include "worlds/steering_curve.hpp"
+#include "core/plane/se2.hpp"
+#include "pictures/picture.hpp"
+#include "planners/roadmap/roadmap.hpp"
+#include "scenes/scene/scene.hpp"
+#include "solve/question/state_list.hpp"
+#include "worlds/poses/steering_curve.hpp"
 
 namespace warren {
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The three views stand as in a technical drawing: from above over the one from the front, the one from the side to
 // the right of it. A sphere is a circle in all of them, a box a rectangle, a capsule a stadium.
-#include "tools/arm_drawing.hpp"
+#include "pictures/draw_arm.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "worlds/arm_world.hpp"
+#include "worlds/arms/arm_world.hpp"
 
 namespace warren {
 namespace {

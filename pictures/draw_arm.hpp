@@ -5,9 +5,9 @@
 
 #include <span>
 
-#include "tools/arm_problem.hpp"
-#include "tools/picture.hpp"
-#include "tools/recorded_answer.hpp"
+#include "pictures/picture.hpp"
+#include "solve/question/question_of_arm.hpp"
+#include "solve/question/read_answer_io.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/cell_drawing.hpp"
+#include "pictures/draw_cells.hpp"
 
 #include <array>
 #include <map>

@@ -5,10 +5,10 @@
 #include <functional>
 #include <string>
 
-#include "core/bitmap.hpp"
-#include "core/types.hpp"
-#include "tools/picture.hpp"
-#include "worlds/occupancy_map.hpp"
+#include "core/base/bitmap.hpp"
+#include "core/base/types.hpp"
+#include "pictures/picture.hpp"
+#include "scenes/scene/occupancy_map.hpp"
 
 namespace warren {
 

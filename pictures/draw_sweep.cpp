@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/sweep_drawing.hpp"
+#include "pictures/draw_sweep.hpp"
 
 #include <algorithm>
 #include <cmath>

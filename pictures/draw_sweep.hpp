@@ -6,11 +6,11 @@
 #include <span>
 #include <vector>
 
-#include "core/se2.hpp"
-#include "core/types.hpp"
-#include "planners/roadmap.hpp"
-#include "tools/picture.hpp"
-#include "tools/state_list.hpp"
+#include "core/base/types.hpp"
+#include "core/plane/se2.hpp"
+#include "pictures/picture.hpp"
+#include "planners/roadmap/roadmap.hpp"
+#include "solve/question/state_list.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/picture.hpp"
+#include "pictures/picture.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "parallel/components.hpp"
-#include "tools/output_files.hpp"
-#include "worlds/output_file_io.hpp"
+#include "scenes/text/output_file_io.hpp"
+#include "tools/screen/output_names.hpp"
 
 namespace warren {
 

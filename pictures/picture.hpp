@@ -11,12 +11,12 @@
 #include <string_view>
 #include <vector>
 
-#include "core/polygon.hpp"
-#include "core/types.hpp"
+#include "core/base/types.hpp"
+#include "core/plane/polygon.hpp"
 #include "parallel/execution.hpp"
-#include "planners/roadmap.hpp"
-#include "tools/svg_animation.hpp"
-#include "worlds/scene.hpp"
+#include "pictures/svg_animation.hpp"
+#include "planners/roadmap/roadmap.hpp"
+#include "scenes/scene/scene.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/plot_svg.hpp"
+#include "pictures/plot_svg.hpp"
 
 #include <fmt/format.h>
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/image.hpp"
-#include "tools/picture.hpp"
+#include "pictures/picture.hpp"
+#include "pictures/raster.hpp"
 
 namespace warren {
 namespace {

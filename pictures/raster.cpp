@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/image.hpp"
+#include "pictures/raster.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "core/geometry.hpp"
-#include "worlds/png_writer_io.hpp"
+#include "core/plane/geometry.hpp"
+#include "scenes/images/png_writer_io.hpp"
 
 namespace warren {
 

@@ -10,10 +10,10 @@
 #include <string_view>
 #include <vector>
 
-#include "core/raw_vector.hpp"
-#include "core/types.hpp"
+#include "core/base/raw_vector.hpp"
+#include "core/base/types.hpp"
 #include "parallel/execution.hpp"
-#include "tools/picture.hpp"
+#include "pictures/picture.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/svg_animation.hpp"
+#include "pictures/svg_animation.hpp"
 
 #include <fmt/format.h>
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/se2.hpp"
+#include "core/plane/se2.hpp"
 
 namespace warren {
 

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <iterator>
 
-#include "tools/picture.hpp"
-#include "tools/plot_svg.hpp"
-#include "worlds/plane_obstacles.hpp"
+#include "pictures/picture.hpp"
+#include "pictures/plot_svg.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
 
 namespace warren {
 namespace {

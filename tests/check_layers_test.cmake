@@ -33,31 +33,31 @@ function(complains path text expected)
   endif()
 endfunction()
 
-passes(worlds/a.hpp "#include \"spatial/kd_tree.hpp\"\n#include <vector>")
+passes(worlds/a.hpp "#include \"spatial/points/kd_tree.hpp\"\n#include <vector>")
 passes(worlds/walls_io.cpp "#include <fstream>\n#include <fmt/format.h>")
-passes(tools/main.cpp "#include \"worlds/scene.hpp\"\n#include <iostream>\nint main() { std::cout << 1; return 0; }")
+passes(tools/main.cpp "#include \"scenes/scene/scene.hpp\"\n#include <iostream>\nint main() { std::cout << 1; return 0; }")
 passes(core/a.cpp "// never std::cout, never exit(1)\nvoid on_exit(); int snprintf(char*);")
 passes(spatial/a.cpp "std::unordered_map<int, int> ids;  // lookups only")
-complains(worlds/a.hpp "#include \"planners/prm.hpp\"" "worlds/ may include")
-complains(planners/a.hpp "#include \"worlds/maze_world.hpp\"" "planners/ may include")
+complains(worlds/a.hpp "#include \"planners/roadmap/prm.hpp\"" "worlds/ may include")
+complains(planners/a.hpp "#include \"worlds/plane/maze_world.hpp\"" "planners/ may include")
 complains(core/a.cpp "#include \"parallel/chunks.hpp\"" "core/ may include")
 complains(spatial/a.cpp "#include \"tools/progress.hpp\"" "spatial/ may include")
 complains(core/a.cpp "#include \"geometry.hpp\"" "core/ may include")
 complains(core/a.cpp "#include \"../worlds/scene.hpp\"" "core/ may include")
-complains(worlds/verify.cpp "#include \"spatial/wall_index.hpp\"" "reached from worlds/verify.cpp: a judge shares nothing"
-          spatial/wall_index.hpp "#pragma once")
-passes(worlds/verify.cpp "#include \"worlds/arcs.hpp\"\n#include \"core/types.hpp\"" worlds/arcs.hpp "#pragma once"
-       core/types.hpp "#pragma once" spatial/kd_tree.hpp "#include \"core/types.hpp\"")
-complains(worlds/verify_a.hpp "#include \"worlds/arcs.hpp\"" "spatial/kd_tree.hpp: reached from worlds/lines.cpp"
+complains(verify/judges/verify_point.cpp "#include \"spatial/obstacles/wall_index.hpp\"" "reached from verify/judges/verify_point.cpp: a judge shares nothing"
+          spatial/obstacles/wall_index.hpp "#pragma once")
+passes(verify/judges/verify_point.cpp "#include \"worlds/arcs.hpp\"\n#include \"core/base/types.hpp\"" worlds/arcs.hpp "#pragma once"
+       core/base/types.hpp "#pragma once" spatial/points/kd_tree.hpp "#include \"core/base/types.hpp\"")
+complains(worlds/verify_a.hpp "#include \"worlds/arcs.hpp\"" "spatial/points/kd_tree.hpp: reached from worlds/lines.cpp"
           worlds/arcs.hpp "#include \"worlds/lines.hpp\"" worlds/lines.hpp "#pragma once"
-          worlds/lines.cpp "#include \"spatial/kd_tree.hpp\"" spatial/kd_tree.hpp "#pragma once")
-complains(worlds/verify_a.hpp "#include \"worlds/arcs.hpp\"" "core/geometry.hpp: reached from worlds/arcs.hpp"
-          worlds/arcs.hpp "#include \"core/geometry.hpp\"" core/geometry.hpp "#pragma once")
+          worlds/lines.cpp "#include \"spatial/points/kd_tree.hpp\"" spatial/points/kd_tree.hpp "#pragma once")
+complains(worlds/verify_a.hpp "#include \"worlds/arcs.hpp\"" "core/plane/geometry.hpp: reached from worlds/arcs.hpp"
+          worlds/arcs.hpp "#include \"core/plane/geometry.hpp\"" core/plane/geometry.hpp "#pragma once")
 complains(worlds/verify_a.cpp "#include \"worlds/arcs.hpp\"" "worlds/motions.hpp: reached from worlds/arcs.hpp"
           worlds/arcs.hpp "#include \"worlds/motions.hpp\"" worlds/motions.hpp "#pragma once"
-          worlds/car_world.cpp "#include \"worlds/motions.hpp\"")
-complains(spatial/wall_index.cpp "#include <nanoflann.hpp>" "rule 'nanoflann'")
-complains(planners/medial_axis.cpp "#include <boost/polygon/voronoi.hpp>" "rule 'boost'")
+          worlds/poses/car_world.cpp "#include \"worlds/motions.hpp\"")
+complains(spatial/obstacles/wall_index.cpp "#include <nanoflann.hpp>" "rule 'nanoflann'")
+complains(planners/axis/medial_axis.cpp "#include <boost/polygon/voronoi.hpp>" "rule 'boost'")
 complains(planners/a.cpp "#include <atomic>" "rule 'threads'")
 complains(planners/a.cpp "auto n = std::thread::hardware_concurrency();" "rule 'cores'")
 complains(worlds/maze.cpp "#include <sstream>" "rule 'streams'")

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/prm.hpp"
-#include "worlds/maze_generator.hpp"
-#include "worlds/maze_world.hpp"
-#include "worlds/verify.hpp"
+#include "planners/roadmap/prm.hpp"
+#include "scenes/mazes/maze_generator.hpp"
+#include "verify/judges/verify_point.hpp"
+#include "worlds/plane/maze_world.hpp"
 
 int main() {
   const warren::Scene maze = warren::maze_scene({.rows = 21, .cols = 31, .seed = 7}, true, {});

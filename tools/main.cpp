@@ -13,18 +13,18 @@
 #include <system_error>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/printable.hpp"
+#include "core/base/error.hpp"
+#include "core/base/printable.hpp"
 #include "parallel/deadline.hpp"
-#include "tools/closest_match.hpp"
-#include "tools/command.hpp"
-#include "tools/exit_code.hpp"
-#include "tools/help.hpp"
-#include "tools/last_words.hpp"
-#include "tools/output_conflicts.hpp"
-#include "tools/run_options.hpp"
-#include "tools/signals.hpp"
-#include "tools/terminal.hpp"
+#include "tools/screen/exit_code.hpp"
+#include "tools/screen/last_words.hpp"
+#include "tools/screen/output_conflicts.hpp"
+#include "tools/screen/run_of_verb.hpp"
+#include "tools/screen/signals.hpp"
+#include "tools/screen/terminal.hpp"
+#include "tools/words/closest_match.hpp"
+#include "tools/words/command.hpp"
+#include "tools/words/help.hpp"
 
 namespace warren {
 

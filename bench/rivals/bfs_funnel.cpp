@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // warren beside what somebody writes who knows that the walls are a maze: cells read back from the walls, breadth-first
-// search, funnel (tools/bfs_funnel.hpp). The same walls for both, from memory to path; the contestants take turns, the
-// least of each counts. In a perfect maze there is one corridor, so warren's lattice path, pulled taut with next to no
-// clearance, must be as long as the funnel's: that is compared, to the millionth part. warren's own path is timed
-// with and without that, and verified outside of the clock.
+// search, funnel (studies/sizes/bfs_funnel_baseline.hpp). The same walls for both, from memory to path; the contestants
+// take turns, the least of each counts. In a perfect maze there is one corridor, so warren's lattice path, pulled taut
+// with next to no clearance, must be as long as the funnel's: that is compared, to the millionth part. warren's own
+// path is timed with and without that, and verified outside of the clock.
 //   rival_bfs_funnel [SIDE [REPEATS [THREADS]]]
 #include <algorithm>
 #include <cmath>
@@ -15,12 +15,12 @@
 #include <vector>
 
 #include "bench/rivals/stopwatch.hpp"
-#include "planners/taut_path.hpp"
-#include "planners/tiled_prm.hpp"
-#include "spatial/wall_index.hpp"
-#include "tools/bfs_funnel.hpp"
-#include "worlds/maze_generator.hpp"
-#include "worlds/verify.hpp"
+#include "planners/shorten/taut_path.hpp"
+#include "planners/tiled/tiled_prm_lattice.hpp"
+#include "scenes/mazes/maze_generator.hpp"
+#include "spatial/obstacles/wall_index.hpp"
+#include "studies/sizes/bfs_funnel_baseline.hpp"
+#include "verify/judges/verify_point.hpp"
 
 namespace warren {
 namespace {

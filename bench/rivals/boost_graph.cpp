@@ -17,7 +17,7 @@
 
 #include "bench/rivals/stopwatch.hpp"
 #include "bench/test_graphs.hpp"
-#include "core/search.hpp"
+#include "core/search/search.hpp"
 
 namespace warren::bench {
 namespace {

@@ -22,9 +22,9 @@
 #include <vector>
 
 #include "bench/rivals/stopwatch.hpp"
-#include "core/rng.hpp"
-#include "spatial/kd_tree.hpp"
-#include "spatial/point_grid.hpp"
+#include "core/base/rng.hpp"
+#include "spatial/points/kd_tree.hpp"
+#include "spatial/points/point_grid.hpp"
 
 namespace warren {
 namespace {

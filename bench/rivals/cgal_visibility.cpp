@@ -20,9 +20,9 @@
 #include <vector>
 
 #include "bench/rivals/stopwatch.hpp"
-#include "planners/visibility_graph.hpp"
-#include "worlds/plane_obstacles.hpp"
-#include "worlds/polygon_generator.hpp"
+#include "planners/visibility/visibility_graph.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
+#include "scenes/scene/polygon_generator.hpp"
 
 namespace warren {
 namespace {

@@ -34,12 +34,12 @@
 #include <vector>
 
 #include "bench/rivals/stopwatch.hpp"
-#include "planners/prm.hpp"
-#include "planners/rrt_connect.hpp"
-#include "worlds/arm_world.hpp"
-#include "worlds/puma560.hpp"
-#include "worlds/verify_arm.hpp"
-#include "worlds/world_io.hpp"
+#include "planners/roadmap/prm.hpp"
+#include "planners/trees/rrt_connect.hpp"
+#include "scenes/formats/read_world_io.hpp"
+#include "verify/judges/verify_arm.hpp"
+#include "worlds/arms/arm_world.hpp"
+#include "worlds/arms/puma560.hpp"
 
 namespace warren {
 namespace {

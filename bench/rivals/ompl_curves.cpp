@@ -12,9 +12,9 @@
 #include <cmath>
 
 #include "bench/rivals/stopwatch.hpp"
-#include "core/rng.hpp"
-#include "worlds/dubins_curve.hpp"
-#include "worlds/reeds_shepp_curve.hpp"
+#include "core/base/rng.hpp"
+#include "worlds/poses/dubins_curve.hpp"
+#include "worlds/poses/reeds_shepp_curve.hpp"
 
 namespace warren {
 namespace {

@@ -20,12 +20,12 @@
 #include <string>
 
 #include "bench/rivals/ompl_prm.hpp"
-#include "planners/lazy_prm.hpp"
-#include "planners/prm.hpp"
-#include "planners/taut_path.hpp"
-#include "planners/tiled_prm.hpp"
-#include "worlds/maze_generator.hpp"
-#include "worlds/verify.hpp"
+#include "planners/roadmap/lazy_prm.hpp"
+#include "planners/roadmap/prm.hpp"
+#include "planners/shorten/taut_path.hpp"
+#include "planners/tiled/tiled_prm_lattice.hpp"
+#include "scenes/mazes/maze_generator.hpp"
+#include "verify/judges/verify_point.hpp"
 
 namespace warren {
 namespace {
@@ -47,7 +47,8 @@ struct Maze {
   Vec2 start;
   Vec2 goal;
   LatticeSize size;
-  double optimum = 0.0;  ///< shortest length with the clearance, at most 0.22 % too long (planners/taut_path.hpp)
+  double optimum =
+      0.0;  ///< shortest length with the clearance, at most 0.22 % too long (planners/shorten/taut_path.hpp)
 };
 
 struct Contestant {

@@ -25,10 +25,10 @@
 #include <vector>
 
 #include "bench/rivals/stopwatch.hpp"
-#include "core/path.hpp"
-#include "core/rng.hpp"
-#include "planners/roadmap_options.hpp"
-#include "worlds/maze_world.hpp"
+#include "core/base/path.hpp"
+#include "core/base/rng.hpp"
+#include "planners/roadmap/roadmap_options.hpp"
+#include "worlds/plane/maze_world.hpp"
 
 namespace warren {
 

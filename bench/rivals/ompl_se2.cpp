@@ -33,10 +33,10 @@
 #include <vector>
 
 #include "bench/rivals/stopwatch.hpp"
-#include "planners/rrt_connect.hpp"
-#include "worlds/car_world.hpp"
-#include "worlds/se2_world.hpp"
-#include "worlds/world_io.hpp"
+#include "planners/trees/rrt_connect.hpp"
+#include "scenes/formats/read_world_io.hpp"
+#include "worlds/poses/car_world.hpp"
+#include "worlds/poses/se2_world.hpp"
 
 namespace warren {
 namespace {

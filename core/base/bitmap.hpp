@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/raw_vector.hpp"
+#include "core/base/raw_vector.hpp"
 
 namespace warren {
 

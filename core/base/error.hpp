@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/printable.hpp"
+#include "core/base/printable.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/page_pool.hpp"
+#include "core/base/page_pool.hpp"
 
 #include <sys/mman.h>
 

@@ -5,12 +5,12 @@
 #include <cstddef>
 #include <ranges>
 
-#include "core/raw_vector.hpp"
+#include "core/base/raw_vector.hpp"
 
 namespace warren {
 
-/// A long one is made of pooled pages (core/page_pool.hpp): where one run follows another, the first touch of fresh
-/// pages took more time than to find the states.
+/// A long one is made of pooled pages (core/base/page_pool.hpp): where one run follows another, the first touch of
+/// fresh pages took more time than to find the states.
 template <class State>
 using Path = RawVector<State>;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/raw_vector.hpp"
+#include "core/base/raw_vector.hpp"
 
-#include "core/page_pool.hpp"
+#include "core/base/page_pool.hpp"
 
 namespace warren {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 #include <string_view>
 
-#include "core/counters.hpp"
-#include "core/path.hpp"
-#include "core/stop_reason.hpp"
+#include "core/base/counters.hpp"
+#include "core/base/path.hpp"
+#include "core/base/stop_reason.hpp"
 
 namespace warren {
 

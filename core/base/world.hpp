@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <span>
 
-#include "core/place_grid.hpp"
-#include "core/rng.hpp"
+#include "core/base/place_grid.hpp"
+#include "core/base/rng.hpp"
 
 namespace warren {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/convex_decomposition.hpp"
+#include "core/plane/convex_decomposition.hpp"
 
 #include <algorithm>
 #include <cstddef>
 
-#include "core/geometry.hpp"
+#include "core/plane/geometry.hpp"
 
 namespace warren {
 namespace {

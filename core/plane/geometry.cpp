@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/geometry.hpp"
+#include "core/plane/geometry.hpp"
 
 #include <array>
 #include <cstddef>

@@ -5,7 +5,7 @@
 // largest_coordinate or c = 0. Distances are plain doubles, relative error below 1e-14 of the coordinate differences.
 #pragma once
 
-#include "core/types.hpp"
+#include "core/base/types.hpp"
 
 namespace warren {
 

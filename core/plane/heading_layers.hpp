@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/bitmap.hpp"
-#include "core/types.hpp"
+#include "core/base/bitmap.hpp"
+#include "core/base/types.hpp"
 
 namespace warren {
 

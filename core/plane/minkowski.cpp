@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/minkowski.hpp"
+#include "core/plane/minkowski.hpp"
 
 #include <cmath>
 #include <numbers>
 
-#include "core/geometry.hpp"
+#include "core/plane/geometry.hpp"
 
 namespace warren {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/polygon_distance.hpp"
+#include "core/plane/polygon_distance.hpp"
 
 #include <limits>
 
-#include "core/geometry.hpp"
+#include "core/plane/geometry.hpp"
 
 namespace warren {
 namespace {

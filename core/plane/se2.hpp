@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/types.hpp"
+#include "core/base/types.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/wall_set.hpp"
+#include "core/plane/wall_set.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -8,8 +8,8 @@
 #include <span>
 #include <variant>
 
-#include "core/raw_vector.hpp"
-#include "core/types.hpp"
+#include "core/base/raw_vector.hpp"
+#include "core/base/types.hpp"
 
 namespace warren {
 

@@ -36,7 +36,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/search.hpp"
+#include "core/search/search.hpp"
 
 namespace warren {
 

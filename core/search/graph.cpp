@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/graph.hpp"
+#include "core/search/graph.hpp"
 
 #include <algorithm>
 #include <limits>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace warren {
 

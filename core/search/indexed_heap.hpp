@@ -9,8 +9,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/raw_vector.hpp"
-#include "core/types.hpp"
+#include "core/base/raw_vector.hpp"
+#include "core/base/types.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/search.hpp"
+#include "core/search/search.hpp"
 
 #include <algorithm>
 

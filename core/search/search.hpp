@@ -16,9 +16,9 @@
 #include <span>
 #include <vector>
 
-#include "core/graph.hpp"
-#include "core/indexed_heap.hpp"
-#include "core/raw_vector.hpp"
+#include "core/base/raw_vector.hpp"
+#include "core/search/graph.hpp"
+#include "core/search/indexed_heap.hpp"
 
 namespace warren {
 

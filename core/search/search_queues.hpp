@@ -17,7 +17,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/indexed_heap.hpp"
+#include "core/search/indexed_heap.hpp"
 
 namespace warren {
 

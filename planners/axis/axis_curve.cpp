@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/axis_curve.hpp"
+#include "planners/axis/axis_curve.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/axis_graph.hpp"
+#include "planners/axis/axis_graph.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -7,7 +7,7 @@
 
 #include "parallel/assemble_graph.hpp"
 #include "parallel/polled_sort.hpp"
-#include "planners/queue_choice.hpp"
+#include "planners/roadmap/queue_choice.hpp"
 
 namespace warren {
 namespace {

@@ -7,11 +7,11 @@
 #include <array>
 #include <vector>
 
-#include "core/graph.hpp"
-#include "core/search.hpp"
-#include "planners/axis_join.hpp"
-#include "planners/medial_axis.hpp"
-#include "planners/roadmap_options.hpp"
+#include "core/search/graph.hpp"
+#include "core/search/search.hpp"
+#include "planners/axis/medial_axis.hpp"
+#include "planners/axis/retraction.hpp"
+#include "planners/roadmap/roadmap_options.hpp"
 
 namespace warren {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/medial_axis.hpp"
+#include "planners/axis/medial_axis.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "core/error.hpp"
-#include "core/geometry.hpp"
-#include "planners/cell_decomposition.hpp"
+#include "core/base/error.hpp"
+#include "core/plane/geometry.hpp"
+#include "planners/cells/cell_decomposition.hpp"
 
 namespace warren {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/medial_axis_planner.hpp"
+#include "planners/axis/medial_axis_planner.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,16 +7,16 @@
 #include <limits>
 #include <string>
 
-#include "core/error.hpp"
-#include "core/geometry.hpp"
-#include "core/wall_set.hpp"
+#include "core/base/error.hpp"
+#include "core/plane/geometry.hpp"
+#include "core/plane/wall_set.hpp"
 #include "parallel/components.hpp"
-#include "planners/axis_graph.hpp"
-#include "planners/axis_join.hpp"
-#include "planners/certain_clearance.hpp"
-#include "planners/separation.hpp"
-#include "planners/stopped_solution.hpp"
-#include "spatial/wall_index.hpp"
+#include "planners/axis/axis_graph.hpp"
+#include "planners/axis/retraction.hpp"
+#include "planners/roadmap/separation.hpp"
+#include "planners/roadmap/stopped_solution.hpp"
+#include "planners/shorten/certain_clearance.hpp"
+#include "spatial/obstacles/wall_index.hpp"
 
 namespace warren {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plans along the medial axis (planners/medial_axis.hpp): start and goal are joined to it straight away from their
+// Plans along the medial axis (planners/axis/medial_axis.hpp): start and goal are joined to it straight away from their
 // nearest obstacles, and the path between follows the axis, as far from all obstacles as it can be. By length: the
 // shortest way over curves that are wide enough. By clearance: of the ways whose narrowest place on the axis is as wide
 // as possible the shortest. Arcs have their exact lengths in the search and become tangents in the path (1e-4 longer).
@@ -9,11 +9,11 @@
 
 #include <optional>
 
-#include "core/polygon.hpp"
-#include "core/solution.hpp"
+#include "core/base/solution.hpp"
+#include "core/plane/polygon.hpp"
 #include "parallel/execution.hpp"
-#include "planners/medial_axis.hpp"
-#include "planners/roadmap_options.hpp"
+#include "planners/axis/medial_axis.hpp"
+#include "planners/roadmap/roadmap_options.hpp"
 
 namespace warren {
 

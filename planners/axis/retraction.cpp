@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/axis_join.hpp"
+#include "planners/axis/retraction.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "core/geometry.hpp"
+#include "core/plane/geometry.hpp"
 
 namespace warren {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <optional>
 
-#include "planners/medial_axis.hpp"
+#include "planners/axis/medial_axis.hpp"
 
 namespace warren {
 

@@ -10,10 +10,10 @@
 #include <span>
 #include <vector>
 
-#include "core/types.hpp"
+#include "core/base/types.hpp"
 #include "parallel/execution.hpp"
-#include "planners/axis_curve.hpp"
-#include "planners/snapped_segments.hpp"
+#include "planners/axis/axis_curve.hpp"
+#include "planners/pieces/snapped_segments.hpp"
 
 namespace warren {
 

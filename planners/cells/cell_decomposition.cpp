@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/cell_decomposition.hpp"
+#include "planners/cells/cell_decomposition.hpp"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
-#include "core/geometry.hpp"
-#include "core/polygon_distance.hpp"
+#include "core/plane/geometry.hpp"
+#include "core/plane/polygon_distance.hpp"
 #include "parallel/assemble_graph.hpp"
-#include "planners/cell_sweep.hpp"
-#include "planners/noded_polygons.hpp"
+#include "planners/cells/cell_sweep.hpp"
+#include "planners/pieces/noded_polygons.hpp"
 
 namespace warren {
 namespace {

@@ -24,10 +24,10 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/graph.hpp"
-#include "core/polygon.hpp"
-#include "core/types.hpp"
+#include "core/base/error.hpp"
+#include "core/base/types.hpp"
+#include "core/plane/polygon.hpp"
+#include "core/search/graph.hpp"
 #include "parallel/execution.hpp"
 
 namespace warren {
@@ -119,8 +119,8 @@ struct CellDecomposition {
 CellDecomposition decompose(const PlaneObstacles& obstacles, std::span<const Vec2> points, const Execution& execution);
 
 /// The same around the union of polygons that may overlap and reach out of the bounds; there are no walls. Corners are
-/// rounded by so little (planners/noded_polygons.hpp), hence for obstacles that were grown by more. The bounds are made
-/// a frame of four polygons. Never throws ObstacleClash.
+/// rounded by so little (planners/pieces/noded_polygons.hpp), hence for obstacles that were grown by more. The bounds
+/// are made a frame of four polygons. Never throws ObstacleClash.
 CellDecomposition decompose_united(const PlaneObstacles& obstacles, std::span<const Vec2> points,
                                    const Execution& execution);
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/cell_planner.hpp"
+#include "planners/cells/cell_planner.hpp"
 
 #include <algorithm>
 #include <array>
 #include <optional>
 
-#include "core/search.hpp"
+#include "core/search/search.hpp"
 #include "parallel/components.hpp"
-#include "planners/cell_separation.hpp"
-#include "planners/queue_choice.hpp"
-#include "planners/stopped_solution.hpp"
-#include "planners/taut_route.hpp"
+#include "planners/cells/cell_separation.hpp"
+#include "planners/cells/polyanya_on_cells.hpp"
+#include "planners/roadmap/queue_choice.hpp"
+#include "planners/roadmap/stopped_solution.hpp"
 
 namespace warren {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plans a point's path through vertical cells (planners/cell_decomposition.hpp): decomposes, searches for a route, and
-// lays a path through its doors.
+// Plans a point's path through vertical cells (planners/cells/cell_decomposition.hpp): decomposes, searches for a
+// route, and lays a path through its doors.
 //
 // Breadth- and depth-first search run over the cells: fewest cells, and some cells. Dijkstra and A* run over the doors'
 // middles: the shortest of all paths that pass doors in their middles, hence never longer than what the other two find
@@ -9,12 +9,12 @@
 // Time: the decomposition's, and O(cells log cells) for the search.
 #pragma once
 
-#include "core/polygon.hpp"
-#include "core/solution.hpp"
+#include "core/base/solution.hpp"
+#include "core/plane/polygon.hpp"
 #include "parallel/execution.hpp"
-#include "planners/cell_decomposition.hpp"
-#include "planners/cell_route.hpp"
-#include "planners/roadmap_options.hpp"
+#include "planners/cells/cell_decomposition.hpp"
+#include "planners/cells/cell_route.hpp"
+#include "planners/roadmap/roadmap_options.hpp"
 
 namespace warren {
 

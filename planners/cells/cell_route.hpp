@@ -14,10 +14,10 @@
 #include <span>
 #include <vector>
 
-#include "core/path.hpp"
-#include "core/types.hpp"
-#include "planners/cell_decomposition.hpp"
-#include "planners/door_points.hpp"
+#include "core/base/path.hpp"
+#include "core/base/types.hpp"
+#include "planners/cells/cell_decomposition.hpp"
+#include "planners/cells/door_points.hpp"
 
 namespace warren {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/cell_separation.hpp"
+#include "planners/cells/cell_separation.hpp"
 
 #include <vector>
 
 #include "parallel/components.hpp"
-#include "planners/door_points.hpp"
-#include "planners/separation.hpp"
+#include "planners/cells/door_points.hpp"
+#include "planners/roadmap/separation.hpp"
 
 namespace warren {
 

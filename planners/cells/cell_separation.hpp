@@ -2,10 +2,10 @@
 // Why no path leads through vertical cells from start to goal: how many cells each can reach, and the gap between them.
 #pragma once
 
-#include "core/graph.hpp"
-#include "core/solution.hpp"
+#include "core/base/solution.hpp"
+#include "core/search/graph.hpp"
 #include "parallel/execution.hpp"
-#include "planners/cell_decomposition.hpp"
+#include "planners/cells/cell_decomposition.hpp"
 
 namespace warren {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/cell_sweep.hpp"
+#include "planners/cells/cell_sweep.hpp"
 
 #include <algorithm>
 #include <cassert>
 
-#include "core/geometry.hpp"
+#include "core/plane/geometry.hpp"
 #include "parallel/polled_sort.hpp"
 
 namespace warren {

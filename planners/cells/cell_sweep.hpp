@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sweep behind planners/cell_decomposition.hpp, whose head says what it computes and assumes.
+// The sweep behind planners/cells/cell_decomposition.hpp, whose head says what it computes and assumes.
 //
 // At a corner the sweep takes the segments that touch it off the line (they end there, or pass through it and go on
 // from there), sorts what goes on to the right by angle, and puts that in their place. Gaps on the left end their
@@ -12,11 +12,11 @@
 #include <span>
 #include <vector>
 
-#include "core/geometry.hpp"
-#include "core/polygon.hpp"
+#include "core/plane/geometry.hpp"
+#include "core/plane/polygon.hpp"
 #include "parallel/execution.hpp"
-#include "planners/cell_decomposition.hpp"
-#include "planners/sweep_order.hpp"
+#include "planners/cells/cell_decomposition.hpp"
+#include "planners/cells/sweep_order.hpp"
 
 namespace warren {
 

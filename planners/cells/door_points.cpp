@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/door_points.hpp"
+#include "planners/cells/door_points.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -10,9 +10,9 @@
 #include <optional>
 #include <vector>
 
-#include "core/types.hpp"
+#include "core/base/types.hpp"
 #include "parallel/execution.hpp"
-#include "planners/cell_decomposition.hpp"
+#include "planners/cells/cell_decomposition.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/sweep_order.hpp"
+#include "planners/cells/sweep_order.hpp"
 
 #include <cassert>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/grid_search.hpp"
+#include "planners/grid/grid_search.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,10 +8,10 @@
 #include <numbers>
 #include <optional>
 
-#include "core/error.hpp"
-#include "core/search_queues.hpp"
-#include "planners/jump_point_search.hpp"
-#include "spatial/free_cells.hpp"
+#include "core/base/error.hpp"
+#include "core/search/search_queues.hpp"
+#include "planners/grid/jump_point_search.hpp"
+#include "spatial/maps/free_cells.hpp"
 
 namespace warren {
 namespace {

@@ -13,8 +13,8 @@
 #include <memory>
 #include <vector>
 
-#include "core/bitmap.hpp"
-#include "core/search.hpp"
+#include "core/base/bitmap.hpp"
+#include "core/search/search.hpp"
 #include "parallel/execution.hpp"
 
 namespace warren {

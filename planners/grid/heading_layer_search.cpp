@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // States are numbered (j width + i) angles + k. Two more numbers stand for what the ends' states are joined to: edges
 // as long as their costs lead from the one, and to the other.
-#include "planners/layer_search.hpp"
+#include "planners/grid/heading_layer_search.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,9 +10,9 @@
 #include <numbers>
 #include <string>
 
-#include "core/error.hpp"
-#include "core/search_queues.hpp"
-#include "spatial/free_cells.hpp"
+#include "core/base/error.hpp"
+#include "core/search/search_queues.hpp"
+#include "spatial/maps/free_cells.hpp"
 
 namespace warren {
 namespace {

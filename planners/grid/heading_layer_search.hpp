@@ -17,10 +17,10 @@
 #include <span>
 #include <vector>
 
-#include "core/heading_layers.hpp"
-#include "core/search.hpp"
+#include "core/plane/heading_layers.hpp"
+#include "core/search/search.hpp"
 #include "parallel/execution.hpp"
-#include "planners/grid_search.hpp"
+#include "planners/grid/grid_search.hpp"
 
 namespace warren {
 

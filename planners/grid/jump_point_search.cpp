@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/jump_point_search.hpp"
+#include "planners/grid/jump_point_search.hpp"
 
 #include <bit>
 
-#include "core/bitmap.hpp"
+#include "core/base/bitmap.hpp"
 
 namespace warren {
 namespace {

@@ -13,9 +13,9 @@
 #include <numbers>
 #include <vector>
 
-#include "core/types.hpp"
+#include "core/base/types.hpp"
 #include "parallel/execution.hpp"
-#include "spatial/free_cells.hpp"
+#include "spatial/maps/free_cells.hpp"
 
 namespace warren {
 

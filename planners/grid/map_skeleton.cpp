@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/map_skeleton.hpp"
+#include "planners/grid/map_skeleton.hpp"
 
 #include <array>
 #include <map>

@@ -11,9 +11,9 @@
 
 #include <span>
 
-#include "core/bitmap.hpp"
+#include "core/base/bitmap.hpp"
 #include "parallel/execution.hpp"
-#include "spatial/distance_field.hpp"
+#include "spatial/maps/distance_field.hpp"
 
 namespace warren {
 

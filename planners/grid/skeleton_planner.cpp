@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/skeleton_planner.hpp"
+#include "planners/grid/skeleton_planner.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,15 +8,15 @@
 #include <limits>
 #include <optional>
 
-#include "core/search.hpp"
+#include "core/search/search.hpp"
 #include "parallel/assemble_graph.hpp"
 #include "parallel/components.hpp"
 #include "parallel/polled_sort.hpp"
-#include "planners/map_skeleton.hpp"
-#include "planners/queue_choice.hpp"
-#include "planners/separation.hpp"
-#include "spatial/distance_field.hpp"
-#include "spatial/free_cells.hpp"
+#include "planners/grid/map_skeleton.hpp"
+#include "planners/roadmap/queue_choice.hpp"
+#include "planners/roadmap/separation.hpp"
+#include "spatial/maps/distance_field.hpp"
+#include "spatial/maps/free_cells.hpp"
 
 namespace warren {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plans along the skeleton of a map (planners/map_skeleton.hpp), which leads from the start's cell to the goal's as far
-// from what is blocked as it can. By length: the shortest way over the skeleton. By clearance: of the ways whose
+// Plans along the skeleton of a map (planners/grid/map_skeleton.hpp), which leads from the start's cell to the goal's
+// as far from what is blocked as it can. By length: the shortest way over the skeleton. By clearance: of the ways whose
 // narrowest cell is as far from what is blocked as possible the shortest. Steps are those of the grid planner: to the
 // side, and across a corner only where both cells beside it are free (Moving AI's rule), so that a body which fits at
 // the middles of cells fits all along the path. Clearances are exact: whole numbers of squared half cells.
@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "core/bitmap.hpp"
-#include "core/solution.hpp"
+#include "core/base/bitmap.hpp"
+#include "core/base/solution.hpp"
 #include "parallel/execution.hpp"
-#include "planners/medial_axis_planner.hpp"
-#include "planners/roadmap_options.hpp"
+#include "planners/axis/medial_axis_planner.hpp"
+#include "planners/roadmap/roadmap_options.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/confined_obstacles.hpp"
+#include "planners/pieces/box_as_bounds.hpp"
 
 #include <algorithm>
 #include <array>

@@ -4,8 +4,8 @@
 // box and a wall that lies on its side: a maze's outline shall not be walked around on the outside.
 #pragma once
 
-#include "core/polygon.hpp"
-#include "core/types.hpp"
+#include "core/base/types.hpp"
+#include "core/plane/polygon.hpp"
 
 namespace warren {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/crossing_cuts.hpp"
+#include "planners/pieces/crossing_cuts.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/geometry.hpp"
+#include "core/plane/geometry.hpp"
 #include "parallel/asked_growth.hpp"
 
 namespace warren {

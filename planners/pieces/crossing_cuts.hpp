@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/raw_vector.hpp"
-#include "core/types.hpp"
+#include "core/base/raw_vector.hpp"
+#include "core/base/types.hpp"
 #include "parallel/execution.hpp"
 
 namespace warren {

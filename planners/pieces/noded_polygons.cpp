@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/noded_polygons.hpp"
+#include "planners/pieces/noded_polygons.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "parallel/polled_sort.hpp"
-#include "planners/crossing_cuts.hpp"
+#include "planners/pieces/crossing_cuts.hpp"
 
 namespace warren {
 namespace {

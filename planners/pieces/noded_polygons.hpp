@@ -10,7 +10,7 @@
 // the outlines. Time: O(n + pairs that come near each other) a round; one thread.
 #pragma once
 
-#include "core/polygon.hpp"
+#include "core/plane/polygon.hpp"
 #include "parallel/execution.hpp"
 
 namespace warren {

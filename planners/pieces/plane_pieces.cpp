@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/plane_pieces.hpp"
+#include "planners/pieces/plane_pieces.hpp"
 
 #include <algorithm>
 #include <numeric>
 
-#include "core/error.hpp"
-#include "core/geometry.hpp"
+#include "core/base/error.hpp"
+#include "core/plane/geometry.hpp"
 #include "parallel/asked_growth.hpp"
 #include "parallel/polled_sort.hpp"
 

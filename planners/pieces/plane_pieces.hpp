@@ -13,10 +13,10 @@
 #include <span>
 #include <vector>
 
-#include "core/polygon.hpp"
-#include "core/raw_vector.hpp"
+#include "core/base/raw_vector.hpp"
+#include "core/plane/polygon.hpp"
 #include "parallel/execution.hpp"
-#include "spatial/segment_grid.hpp"
+#include "spatial/obstacles/segment_grid.hpp"
 
 namespace warren {
 

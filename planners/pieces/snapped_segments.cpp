@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/snapped_segments.hpp"
+#include "planners/pieces/snapped_segments.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
-#include "core/geometry.hpp"
+#include "core/base/error.hpp"
+#include "core/plane/geometry.hpp"
 #include "parallel/polled_sort.hpp"
-#include "planners/crossing_cuts.hpp"
+#include "planners/pieces/crossing_cuts.hpp"
 
 namespace warren {
 namespace {

@@ -11,12 +11,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/counters.hpp"
-#include "core/graph.hpp"
-#include "core/world.hpp"
+#include "core/base/counters.hpp"
+#include "core/base/world.hpp"
+#include "core/search/graph.hpp"
 #include "parallel/chunks.hpp"
-#include "planners/roadmap_rule.hpp"
-#include "planners/state_index.hpp"
+#include "planners/roadmap/roadmap_growth.hpp"
+#include "planners/roadmap/state_index.hpp"
 
 namespace warren {
 

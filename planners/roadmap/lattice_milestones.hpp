@@ -2,8 +2,9 @@
 // The free points of a lattice in tile order, without sorting: columns and rows fall into the cells of the order's
 // frame independently of each other, so strip by strip the points can be written down where they belong. The same
 // milestones in the same order as filtering, joining and sorting the samples gives
-// (tests/planners/lattice_milestones_test.cpp), in a third of the time and a quarter of the memory. One pass marks the
-// free points, a bit each; one counts them strip by strip; one writes. 16 bytes a milestone and a bit a point.
+// (tests/planners/roadmap/lattice_milestones_test.cpp), in a third of the time and a quarter of the memory. One pass
+// marks the free points, a bit each; one counts them strip by strip; one writes. 16 bytes a milestone and a bit a
+// point.
 #pragma once
 
 #include <algorithm>
@@ -11,12 +12,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/raw_vector.hpp"
-#include "core/types.hpp"
-#include "core/world.hpp"
+#include "core/base/raw_vector.hpp"
+#include "core/base/types.hpp"
+#include "core/base/world.hpp"
 #include "parallel/chunks.hpp"
-#include "planners/roadmap_options.hpp"
-#include "spatial/tile_order.hpp"
+#include "planners/roadmap/roadmap_options.hpp"
+#include "spatial/points/tile_order.hpp"
 
 namespace warren {
 namespace detail {

@@ -10,11 +10,11 @@
 #include <span>
 #include <vector>
 
-#include "core/counters.hpp"
-#include "core/graph.hpp"
-#include "core/world.hpp"
-#include "planners/connection.hpp"
-#include "planners/roadmap_rule.hpp"
+#include "core/base/counters.hpp"
+#include "core/base/world.hpp"
+#include "core/search/graph.hpp"
+#include "planners/roadmap/connection.hpp"
+#include "planners/roadmap/roadmap_growth.hpp"
 
 namespace warren {
 

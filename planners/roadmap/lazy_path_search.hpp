@@ -15,9 +15,9 @@
 #include <span>
 #include <vector>
 
-#include "core/graph.hpp"
-#include "core/search_queues.hpp"
-#include "core/world.hpp"
+#include "core/base/world.hpp"
+#include "core/search/graph.hpp"
+#include "core/search/search_queues.hpp"
 #include "parallel/execution.hpp"
 
 namespace warren {

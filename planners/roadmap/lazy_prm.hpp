@@ -14,10 +14,10 @@
 
 #include "parallel/assemble_graph.hpp"
 #include "parallel/polled_sort.hpp"
-#include "planners/lazy_graph.hpp"
-#include "planners/lazy_path_search.hpp"
-#include "planners/meeting_search.hpp"
-#include "planners/prm.hpp"
+#include "planners/roadmap/lazy_graph.hpp"
+#include "planners/roadmap/lazy_path_search.hpp"
+#include "planners/roadmap/prm.hpp"
+#include "planners/roadmap/search_from_both_ends.hpp"
 
 namespace warren {
 

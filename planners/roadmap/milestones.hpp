@@ -12,14 +12,14 @@
 #include <span>
 #include <vector>
 
-#include "core/raw_vector.hpp"
-#include "core/types.hpp"
-#include "core/world.hpp"
+#include "core/base/raw_vector.hpp"
+#include "core/base/types.hpp"
+#include "core/base/world.hpp"
 #include "parallel/chunks.hpp"
-#include "planners/lattice_milestones.hpp"
-#include "planners/roadmap_options.hpp"
-#include "planners/sampler.hpp"
-#include "spatial/tile_order.hpp"
+#include "planners/roadmap/lattice_milestones.hpp"
+#include "planners/roadmap/roadmap_options.hpp"
+#include "planners/roadmap/sampler.hpp"
+#include "spatial/points/tile_order.hpp"
 
 namespace warren {
 

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "planners/prm.hpp"
+#include "planners/roadmap/prm.hpp"
 
 namespace warren {
 

@@ -4,7 +4,7 @@
 // A round draws milestones in tile order, indexes them, checks the candidate edges on all cores, assembles the graph,
 // finds its components (on what the search's reduction leaves of it, where there is one) and, where start and goal are
 // joined, searches it. With samples on auto a round that leaves
-// them apart is followed by a larger one (roadmap_rule.hpp), until a documented cap. Time a round: O(n log n) for n
+// them apart is followed by a larger one (roadmap_growth.hpp), until a documented cap. Time a round: O(n log n) for n
 // milestones with a bounded number of neighbours; memory: 26 bytes a milestone, 16 an edge (plane).
 // The result is a function of world, start, goal and options: the same bits for any thread count.
 #pragma once
@@ -12,19 +12,19 @@
 #include <optional>
 #include <utility>
 
-#include "core/solution.hpp"
-#include "core/world.hpp"
+#include "core/base/solution.hpp"
+#include "core/base/world.hpp"
 #include "parallel/assemble_graph.hpp"
 #include "parallel/components.hpp"
 #include "parallel/execution.hpp"
 #include "parallel/first_touch.hpp"
-#include "planners/connection.hpp"
-#include "planners/milestones.hpp"
-#include "planners/roadmap.hpp"
-#include "planners/roadmap_options.hpp"
-#include "planners/roadmap_search.hpp"
-#include "planners/separation.hpp"
-#include "planners/stopped_solution.hpp"
+#include "planners/roadmap/connection.hpp"
+#include "planners/roadmap/milestones.hpp"
+#include "planners/roadmap/roadmap.hpp"
+#include "planners/roadmap/roadmap_options.hpp"
+#include "planners/roadmap/roadmap_search.hpp"
+#include "planners/roadmap/separation.hpp"
+#include "planners/roadmap/stopped_solution.hpp"
 
 namespace warren {
 

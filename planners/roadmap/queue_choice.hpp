@@ -4,9 +4,9 @@
 
 #include <cstddef>
 
-#include "core/search_queues.hpp"
+#include "core/search/search_queues.hpp"
 #include "parallel/execution.hpp"
-#include "planners/roadmap_options.hpp"
+#include "planners/roadmap/roadmap_options.hpp"
 
 namespace warren {
 

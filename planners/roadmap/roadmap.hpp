@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "core/graph.hpp"
-#include "core/raw_vector.hpp"
+#include "core/base/raw_vector.hpp"
+#include "core/search/graph.hpp"
 
 namespace warren {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/roadmap_rule.hpp"
+#include "planners/roadmap/roadmap_growth.hpp"
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace warren {
 

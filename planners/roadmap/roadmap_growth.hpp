@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <numbers>
 
-#include "core/world.hpp"
+#include "core/base/world.hpp"
 #include "parallel/execution.hpp"
-#include "planners/roadmap_options.hpp"
+#include "planners/roadmap/roadmap_options.hpp"
 
 namespace warren {
 

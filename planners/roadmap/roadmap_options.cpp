@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/roadmap_options.hpp"
+#include "planners/roadmap/roadmap_options.hpp"
 
 #include <cmath>
 #include <string>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace warren {
 

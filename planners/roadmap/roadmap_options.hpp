@@ -5,16 +5,16 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/types.hpp"
+#include "core/base/types.hpp"
 
 namespace warren {
 
 /// uniform: in the plane stratified, one sample drawn uniformly in each of as many equal boxes as there are samples,
 /// which joins mazes with a quarter of the milestones that independent draws need (docs/performance.md); else
 /// independent. lattice: the cell centres of a maze. halton: the Halton sequence, shifted by the seed. random:
-/// independent uniform. gaussian, bridge, mixture: planners/sampler.hpp. corridor: the middles of a map's corridors, by
-/// the distance transform (worlds/corridor_points.hpp); where the world knows none, as random. cell_centres: of a map
-/// (spatial/cell_milestones.hpp), all at once; for worlds without cells as random.
+/// independent uniform. gaussian, bridge, mixture: planners/roadmap/sampler.hpp. corridor: the middles of a map's
+/// corridors, by the distance transform (worlds/rasters/corridor_points.hpp); where the world knows none, as random.
+/// cell_centres: of a map (spatial/points/cell_milestones.hpp), all at once; for worlds without cells as random.
 enum class SamplerKind : std::uint8_t {
   uniform,
   lattice,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/roadmap_search.hpp"
+#include "planners/roadmap/roadmap_search.hpp"
 
 #include <numeric>
 

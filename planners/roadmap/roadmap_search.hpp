@@ -12,14 +12,14 @@
 #include <span>
 #include <vector>
 
-#include "core/graph.hpp"
-#include "core/search.hpp"
-#include "core/world.hpp"
+#include "core/base/world.hpp"
+#include "core/search/graph.hpp"
+#include "core/search/search.hpp"
 #include "parallel/execution.hpp"
 #include "parallel/reduce_graph.hpp"
-#include "planners/meeting_search.hpp"
-#include "planners/queue_choice.hpp"
-#include "planners/roadmap_options.hpp"
+#include "planners/roadmap/queue_choice.hpp"
+#include "planners/roadmap/roadmap_options.hpp"
+#include "planners/roadmap/search_from_both_ends.hpp"
 
 namespace warren {
 

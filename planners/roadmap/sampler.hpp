@@ -16,9 +16,9 @@
 #include <numbers>
 #include <optional>
 
-#include "core/rng.hpp"
-#include "core/world.hpp"
-#include "planners/roadmap_options.hpp"
+#include "core/base/rng.hpp"
+#include "core/base/world.hpp"
+#include "planners/roadmap/roadmap_options.hpp"
 
 namespace warren {
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Searches a roadmap from start and goal at once (NBA*, core/bidirectional_search.hpp), a thread an end. Whether that
-// pays follows from the number of vertices alone, so that path and counters are the same for any number of threads:
-// two threads do not repay their start on small roadmaps. 17 bytes a vertex and end, and the queues.
+// Searches a roadmap from start and goal at once (NBA*, core/search/bidirectional_search.hpp), a thread an end. Whether
+// that pays follows from the number of vertices alone, so that path and counters are the same for any number of
+// threads: two threads do not repay their start on small roadmaps. 17 bytes a vertex and end, and the queues.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <optional>
 
-#include "core/search.hpp"
+#include "core/search/search.hpp"
 #include "parallel/bidirectional_search.hpp"
 #include "parallel/chunks.hpp"
-#include "planners/queue_choice.hpp"
+#include "planners/roadmap/queue_choice.hpp"
 
 namespace warren {
 

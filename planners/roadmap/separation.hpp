@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
-#include "core/graph.hpp"
-#include "core/solution.hpp"
-#include "core/world.hpp"
+#include "core/base/solution.hpp"
+#include "core/base/world.hpp"
+#include "core/search/graph.hpp"
 #include "parallel/chunks.hpp"
-#include "planners/state_index.hpp"
+#include "planners/roadmap/state_index.hpp"
 
 namespace warren {
 

@@ -6,10 +6,10 @@
 #include <span>
 #include <tuple>
 
-#include "core/raw_vector.hpp"
-#include "core/world.hpp"
+#include "core/base/raw_vector.hpp"
+#include "core/base/world.hpp"
 #include "parallel/chunks.hpp"
-#include "spatial/neighbours.hpp"
+#include "spatial/points/neighbours.hpp"
 
 namespace warren {
 

@@ -2,7 +2,7 @@
 // What a planner answers when it was stopped: why, and no path.
 #pragma once
 
-#include "core/solution.hpp"
+#include "core/base/solution.hpp"
 #include "parallel/execution.hpp"
 
 namespace warren {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/certain_clearance.hpp"
+#include "planners/shorten/certain_clearance.hpp"
 
 #include <algorithm>
 

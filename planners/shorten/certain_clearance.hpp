@@ -4,8 +4,8 @@
 // gap along an axis keeps half the gap's width, not a unit in the last place less.
 #pragma once
 
-#include "core/types.hpp"
-#include "spatial/wall_index.hpp"
+#include "core/base/types.hpp"
+#include "spatial/obstacles/wall_index.hpp"
 
 namespace warren {
 

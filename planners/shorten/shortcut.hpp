@@ -14,10 +14,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/counters.hpp"
-#include "core/path.hpp"
-#include "core/rng.hpp"
-#include "core/world.hpp"
+#include "core/base/counters.hpp"
+#include "core/base/path.hpp"
+#include "core/base/rng.hpp"
+#include "core/base/world.hpp"
 #include "parallel/chunks.hpp"
 
 namespace warren {

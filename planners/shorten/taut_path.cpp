@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/taut_path.hpp"
+#include "planners/shorten/taut_path.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
 #include "parallel/chunks.hpp"
-#include "planners/taut_string.hpp"
+#include "planners/shorten/taut_string.hpp"
 
 namespace warren {
 namespace {

@@ -11,10 +11,10 @@
 #include <span>
 #include <vector>
 
-#include "core/path.hpp"
-#include "core/types.hpp"
+#include "core/base/path.hpp"
+#include "core/base/types.hpp"
 #include "parallel/execution.hpp"
-#include "spatial/wall_index.hpp"
+#include "spatial/obstacles/wall_index.hpp"
 
 namespace warren {
 

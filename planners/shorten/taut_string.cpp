@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/taut_string.hpp"
+#include "planners/shorten/taut_string.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -18,9 +18,9 @@
 #include <span>
 #include <vector>
 
-#include "core/types.hpp"
+#include "core/base/types.hpp"
 #include "parallel/execution.hpp"
-#include "spatial/wall_index.hpp"
+#include "spatial/obstacles/wall_index.hpp"
 
 namespace warren {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/overlay_search.hpp"
+#include "planners/tiled/overlay_components.hpp"
 
 #include <algorithm>
 #include <cassert>
 #include <numeric>
 
-#include "core/graph.hpp"
+#include "core/search/graph.hpp"
 #include "parallel/chunks.hpp"
 #include "parallel/first_touch.hpp"
 

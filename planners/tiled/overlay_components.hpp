@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Components of the overlay's core (the vertices that are not peeled), and a path's vertices with all that its chains
-// stand for. The search is planners/step_search.hpp.
+// stand for. The search is planners/tiled/overlay_dijkstra.hpp.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "core/path.hpp"
+#include "core/base/path.hpp"
 #include "parallel/execution.hpp"
-#include "planners/overlay.hpp"
+#include "planners/tiled/tile_overlay.hpp"
 
 namespace warren {
 

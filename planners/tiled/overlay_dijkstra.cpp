@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/step_search.hpp"
+#include "planners/tiled/overlay_dijkstra.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -7,12 +7,12 @@
 // of a side, and only those bring fractions.) A bucket is known before it is emptied, so rows and labels are asked of
 // the memory ahead of time.
 //
-// Rounds, as in core/bidirectional_search.hpp: each side empties buckets until it has settled some thousand vertices,
-// reading nothing of the other; then both compare the labels that they set in the round with the other's. With F and F'
-// the least open labels of both sides and L the best sum of two labels, the search is over when F + F' >= L. Then L is
-// the distance: on a shortest path of length d < F + F' let w be the vertex after the last one that one side has
-// settled; its label is right, and d - d(w) < F', so the other side has settled it: the round in which the later of the
-// two labels was set has compared them.
+// Rounds, as in core/search/bidirectional_search.hpp: each side empties buckets until it has settled some thousand
+// vertices, reading nothing of the other; then both compare the labels that they set in the round with the other's.
+// With F and F' the least open labels of both sides and L the best sum of two labels, the search is over when F + F' >=
+// L. Then L is the distance: on a shortest path of length d < F + F' let w be the vertex after the last one that one
+// side has settled; its label is right, and d - d(w) < F', so the other side has settled it: the round in which the
+// later of the two labels was set has compared them.
 //
 // No estimate of the rest of the way: mazes leave it nothing to prune, and open space, where it would, costs the
 // overlay more than this search. Measured against NBA* with an indexed heap: docs/performance.md.
@@ -23,10 +23,10 @@
 #include <limits>
 #include <vector>
 
-#include "core/bidirectional_search.hpp"
-#include "core/search.hpp"
+#include "core/search/bidirectional_search.hpp"
+#include "core/search/search.hpp"
 #include "parallel/execution.hpp"
-#include "planners/overlay.hpp"
+#include "planners/tiled/tile_overlay.hpp"
 
 namespace warren {
 

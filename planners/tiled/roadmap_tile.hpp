@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/graph.hpp"
+#include "core/search/graph.hpp"
 #include "parallel/reduce_graph.hpp"
-#include "planners/connection.hpp"
+#include "planners/roadmap/connection.hpp"
 
 namespace warren::detail {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/overlay.hpp"
+#include "planners/tiled/tile_overlay.hpp"
 
 #include <algorithm>
 #include <cassert>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
 
 namespace warren {

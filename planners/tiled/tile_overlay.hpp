@@ -15,12 +15,12 @@
 #include <span>
 #include <vector>
 
-#include "core/raw_vector.hpp"
-#include "core/types.hpp"
+#include "core/base/raw_vector.hpp"
+#include "core/base/types.hpp"
 #include "parallel/execution.hpp"
-#include "planners/end_links.hpp"
-#include "planners/tile_grid.hpp"
-#include "planners/tile_reduction.hpp"
+#include "planners/tiles/lattice_end_links.hpp"
+#include "planners/tiles/lattice_tile_reduction.hpp"
+#include "planners/tiles/tile_grid.hpp"
 
 namespace warren {
 

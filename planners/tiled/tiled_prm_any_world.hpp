@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PRM by tiles for any sampler and rule of joining: the roadmap of planners/prm.hpp, of which only what the exact
-// reduction leaves is ever held as a graph.
+// PRM by tiles for any sampler and rule of joining: the roadmap of planners/roadmap/prm.hpp, of which only what the
+// exact reduction leaves is ever held as a graph.
 //
 // Milestones stand in tile order, so a tile is a run of them. First the candidate edges between different tiles are
 // checked: their ends are kept. Then one thread a tile checks the edges inside, peels the dead ends and contracts the
-// chains, all in cache (planners/reduced_tile.hpp), and hands back the keys, the edges between them and what lies on
-// their chains. The keys of all tiles with the edges between tiles, start and goal make the overlay, which is reduced
-// once more where that pays, and searched. The path is as long as the plain pipeline's, on any roadmap; only the gain
-// differs: a maze's lattice leaves few of its vertices, a dense uniform roadmap nearly all of them.
-// Candidates are found twice, each is checked once. Memory: the milestones, their index (and k neighbours each for that
-// rule), the edges between tiles, and the overlay. The same for any number of threads.
+// chains, all in cache (planners/tiled/roadmap_tile.hpp), and hands back the keys, the edges between them and what lies
+// on their chains. The keys of all tiles with the edges between tiles, start and goal make the overlay, which is
+// reduced once more where that pays, and searched. The path is as long as the plain pipeline's, on any roadmap; only
+// the gain differs: a maze's lattice leaves few of its vertices, a dense uniform roadmap nearly all of them. Candidates
+// are found twice, each is checked once. Memory: the milestones, their index (and k neighbours each for that rule), the
+// edges between tiles, and the overlay. The same for any number of threads.
 #pragma once
 
 #include <algorithm>
@@ -18,9 +18,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/error.hpp"
-#include "planners/prm.hpp"
-#include "planners/reduced_tile.hpp"
+#include "core/base/error.hpp"
+#include "planners/roadmap/prm.hpp"
+#include "planners/tiled/roadmap_tile.hpp"
 
 namespace warren {
 

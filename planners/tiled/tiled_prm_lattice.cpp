@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/tiled_prm.hpp"
+#include "planners/tiled/tiled_prm_lattice.hpp"
 
 #include <optional>
 #include <utility>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
-#include "planners/end_links.hpp"
-#include "planners/overlay.hpp"
-#include "planners/overlay_search.hpp"
-#include "planners/step_search.hpp"
-#include "planners/stopped_solution.hpp"
-#include "planners/tile_grid.hpp"
-#include "planners/tile_plane.hpp"
-#include "planners/tile_reduction.hpp"
-#include "planners/tile_separation.hpp"
-#include "planners/wall_marking.hpp"
-#include "planners/wall_partition.hpp"
+#include "planners/roadmap/stopped_solution.hpp"
+#include "planners/tiled/overlay_components.hpp"
+#include "planners/tiled/overlay_dijkstra.hpp"
+#include "planners/tiled/tile_overlay.hpp"
+#include "planners/tiled/tiled_separation.hpp"
+#include "planners/tiles/lattice_end_links.hpp"
+#include "planners/tiles/lattice_tile_reduction.hpp"
+#include "planners/tiles/tile_grid.hpp"
+#include "planners/tiles/tile_plane.hpp"
+#include "planners/tiles/wall_marking.hpp"
+#include "planners/tiles/wall_partition.hpp"
 
 namespace warren {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The lattice roadmap of planners/prm.hpp, every edge checked, fused tile by tile: the way for mazes of hundreds of
-// millions of cells.
+// The lattice roadmap of planners/roadmap/prm.hpp, every edge checked, fused tile by tile: the way for mazes of
+// hundreds of millions of cells.
 //
 //   partition   walls are filed by tile, in streaming passes                              (wall_partition)
 //   tiles       one thread a tile, all in its cache: milestones and edges stand until a    (tile_plane, wall_marking)
@@ -21,11 +21,11 @@
 #include <optional>
 #include <span>
 
-#include "core/solution.hpp"
-#include "core/types.hpp"
-#include "core/wall_set.hpp"
+#include "core/base/solution.hpp"
+#include "core/base/types.hpp"
+#include "core/plane/wall_set.hpp"
 #include "parallel/execution.hpp"
-#include "planners/roadmap_options.hpp"
+#include "planners/roadmap/roadmap_options.hpp"
 
 namespace warren {
 

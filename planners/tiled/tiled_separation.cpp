@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/tile_separation.hpp"
+#include "planners/tiled/tiled_separation.hpp"
 
 #include <utility>
 #include <vector>
 
 #include "parallel/chunks.hpp"
-#include "planners/separation.hpp"
+#include "planners/roadmap/separation.hpp"
 
 namespace warren {
 namespace {

@@ -8,10 +8,10 @@
 #include <functional>
 #include <span>
 
-#include "core/solution.hpp"
+#include "core/base/solution.hpp"
 #include "parallel/execution.hpp"
-#include "planners/overlay.hpp"
-#include "planners/tile_plane.hpp"
+#include "planners/tiled/tile_overlay.hpp"
+#include "planners/tiles/tile_plane.hpp"
 
 namespace warren {
 

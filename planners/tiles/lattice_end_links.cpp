@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/end_links.hpp"
+#include "planners/tiles/lattice_end_links.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "planners/wall_marking.hpp"
+#include "planners/tiles/wall_marking.hpp"
 
 namespace warren {
 namespace {

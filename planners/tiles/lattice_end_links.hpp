@@ -8,10 +8,10 @@
 #include <span>
 #include <vector>
 
-#include "core/types.hpp"
-#include "core/wall_set.hpp"
-#include "planners/tile_grid.hpp"
-#include "planners/wall_partition.hpp"
+#include "core/base/types.hpp"
+#include "core/plane/wall_set.hpp"
+#include "planners/tiles/tile_grid.hpp"
+#include "planners/tiles/wall_partition.hpp"
 
 namespace warren {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/tile_reduction.hpp"
+#include "planners/tiles/lattice_tile_reduction.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cassert>
 #include <cstring>
 
-#include "planners/plane_rows.hpp"
+#include "planners/tiles/tile_row_kernels.hpp"
 
 namespace warren {
 namespace {

@@ -14,7 +14,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "planners/tile_plane.hpp"
+#include "planners/tiles/tile_plane.hpp"
 
 namespace warren {
 

@@ -9,9 +9,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/types.hpp"
-#include "core/wall_set.hpp"
-#include "planners/roadmap_options.hpp"
+#include "core/base/types.hpp"
+#include "core/plane/wall_set.hpp"
+#include "planners/roadmap/roadmap_options.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/tile_plane.hpp"
+#include "planners/tiles/tile_plane.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "planners/tile_grid.hpp"
+#include "planners/tiles/tile_grid.hpp"
 
 namespace warren {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Compilers turn the loops of these functions into vector code of the instruction set of the function that they are
 // inlined in.
-#include "planners/plane_rows.hpp"
+#include "planners/tiles/tile_row_kernels.hpp"
 
-#include "planners/tile_plane.hpp"
+#include "planners/tiles/tile_plane.hpp"
 
 namespace warren {
 namespace {

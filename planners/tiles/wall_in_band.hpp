@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/types.hpp"
+#include "core/base/types.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/wall_marking.hpp"
+#include "planners/tiles/wall_marking.hpp"
 
 #include <emmintrin.h>
 
@@ -9,9 +9,9 @@
 #include <cmath>
 #include <utility>
 
-#include "core/geometry.hpp"
-#include "planners/wall_band.hpp"
-#include "spatial/wall_index.hpp"
+#include "core/plane/geometry.hpp"
+#include "planners/tiles/wall_in_band.hpp"
+#include "spatial/obstacles/wall_index.hpp"
 
 namespace warren {
 namespace {

@@ -3,7 +3,7 @@
 // surroundings hold and clears those that it comes too near to; edges that no wall has cleared are free. So a tile
 // needs no index of its walls, and an edge that is blocked already costs nothing more.
 //
-// Any segment is right: near ones of its candidates are put to the plain predicates (core/geometry.hpp,
+// Any segment is right: near ones of its candidates are put to the plain predicates (core/plane/geometry.hpp,
 // segments_keep_distance), in double and in the world's coordinates. Where milestones repeat from cell to cell, walls
 // of the same shape and the same place relative to their cell block the same edges relative to it: differences of
 // multiples of 1/128 are exact, so the predicate returns the same bits. A NarrowWall therefore first looks for its
@@ -18,9 +18,9 @@
 #include <span>
 #include <vector>
 
-#include "core/types.hpp"
-#include "planners/tile_plane.hpp"
-#include "planners/wall_partition.hpp"
+#include "core/base/types.hpp"
+#include "planners/tiles/tile_plane.hpp"
+#include "planners/tiles/wall_partition.hpp"
 
 namespace warren {
 

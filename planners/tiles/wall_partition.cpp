@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/wall_partition.hpp"
+#include "planners/tiles/wall_partition.hpp"
 
 #include <emmintrin.h>
 
@@ -8,10 +8,10 @@
 #include <cmath>
 #include <limits>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
 #include "parallel/first_touch.hpp"
-#include "planners/wall_band.hpp"
+#include "planners/tiles/wall_in_band.hpp"
 
 namespace warren {
 namespace {

@@ -15,10 +15,10 @@
 #include <cstdint>
 #include <span>
 
-#include "core/raw_vector.hpp"
-#include "core/wall_set.hpp"
+#include "core/base/raw_vector.hpp"
+#include "core/plane/wall_set.hpp"
 #include "parallel/execution.hpp"
-#include "planners/tile_grid.hpp"
+#include "planners/tiles/tile_grid.hpp"
 
 namespace warren {
 

@@ -14,13 +14,13 @@
 #include <span>
 #include <vector>
 
-#include "core/solution.hpp"
-#include "core/world.hpp"
+#include "core/base/solution.hpp"
+#include "core/base/world.hpp"
 #include "parallel/chunks.hpp"
-#include "planners/roadmap.hpp"
-#include "planners/rrt_options.hpp"
-#include "planners/sampler.hpp"
-#include "planners/stopped_solution.hpp"
+#include "planners/roadmap/roadmap.hpp"
+#include "planners/roadmap/sampler.hpp"
+#include "planners/roadmap/stopped_solution.hpp"
+#include "planners/trees/rrt_options.hpp"
 
 namespace warren {
 

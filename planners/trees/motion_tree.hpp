@@ -9,13 +9,13 @@
 #include <span>
 #include <vector>
 
-#include "core/counters.hpp"
-#include "core/path.hpp"
-#include "core/world.hpp"
+#include "core/base/counters.hpp"
+#include "core/base/path.hpp"
+#include "core/base/world.hpp"
 #include "parallel/assemble_graph.hpp"
-#include "planners/roadmap.hpp"
-#include "planners/state_index.hpp"
-#include "spatial/growing_tree.hpp"
+#include "planners/roadmap/roadmap.hpp"
+#include "planners/roadmap/state_index.hpp"
+#include "spatial/points/growing_tree.hpp"
 
 namespace warren {
 

@@ -9,9 +9,9 @@
 #include <span>
 #include <vector>
 
-#include "planners/motion_tree.hpp"
-#include "planners/separation.hpp"
-#include "planners/tree_race.hpp"
+#include "planners/roadmap/separation.hpp"
+#include "planners/trees/independent_trees.hpp"
+#include "planners/trees/motion_tree.hpp"
 
 namespace warren {
 

@@ -6,7 +6,8 @@
 // these is tried before anything is drawn: it needs a dozen motion checks instead of some hundred. It is the same for
 // all seeds; what it finds of motions stays in the trees.
 // Cost a step: a neighbour query, O(log^2 n), and a few motion checks, which dominate. Not asymptotically optimal:
-// pull the path taut with planners/shortcut.hpp. Probabilistically complete; that there is no path is never proved.
+// pull the path taut with planners/shorten/shortcut.hpp. Probabilistically complete; that there is no path is never
+// proved.
 #pragma once
 
 #include <algorithm>
@@ -16,10 +17,10 @@
 #include <utility>
 #include <vector>
 
-#include "planners/motion_tree.hpp"
-#include "planners/place_way.hpp"
-#include "planners/separation.hpp"
-#include "planners/tree_race.hpp"
+#include "planners/roadmap/separation.hpp"
+#include "planners/trees/independent_trees.hpp"
+#include "planners/trees/motion_tree.hpp"
+#include "planners/trees/way_over_places.hpp"
 
 namespace warren {
 

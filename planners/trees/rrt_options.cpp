@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/rrt_options.hpp"
+#include "planners/trees/rrt_options.hpp"
 
 #include <cmath>
 #include <string>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace warren {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/solution.hpp"
+#include "core/base/solution.hpp"
 
 namespace warren {
 

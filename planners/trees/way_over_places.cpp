@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/place_way.hpp"
+#include "planners/trees/way_over_places.hpp"
 
 #include <algorithm>
 #include <array>

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/place_grid.hpp"
+#include "core/base/place_grid.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/lazy_visibility.hpp"
+#include "planners/visibility/lazy_visibility.hpp"
 
 namespace warren {
 

@@ -8,11 +8,11 @@
 
 #include <vector>
 
-#include "core/counters.hpp"
-#include "core/graph.hpp"
-#include "core/search.hpp"
+#include "core/base/counters.hpp"
+#include "core/search/graph.hpp"
+#include "core/search/search.hpp"
 #include "parallel/execution.hpp"
-#include "planners/visible_corners.hpp"
+#include "planners/visibility/visible_corners.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/near_pieces.hpp"
+#include "planners/visibility/pieces_in_sight.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "core/geometry.hpp"
+#include "core/plane/geometry.hpp"
 
 namespace warren {
 namespace {

@@ -13,9 +13,9 @@
 #include <span>
 #include <vector>
 
-#include "core/raw_vector.hpp"
-#include "core/types.hpp"
-#include "planners/plane_pieces.hpp"
+#include "core/base/raw_vector.hpp"
+#include "core/base/types.hpp"
+#include "planners/pieces/plane_pieces.hpp"
 
 namespace warren {
 

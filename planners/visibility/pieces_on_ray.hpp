@@ -10,8 +10,8 @@
 #include <span>
 #include <vector>
 
-#include "core/geometry.hpp"
-#include "core/types.hpp"
+#include "core/base/types.hpp"
+#include "core/plane/geometry.hpp"
 
 namespace warren {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/rotational_sweep.hpp"
+#include "planners/visibility/rotational_sweep.hpp"
 
 #include <utility>
 
 #include "parallel/polled_sort.hpp"
-#include "planners/near_pieces.hpp"
+#include "planners/visibility/pieces_in_sight.hpp"
 
 namespace warren {
 namespace {

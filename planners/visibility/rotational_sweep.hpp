@@ -16,10 +16,10 @@
 #include <span>
 #include <vector>
 
-#include "core/raw_vector.hpp"
-#include "planners/active_pieces.hpp"
-#include "planners/free_sectors.hpp"
-#include "planners/plane_pieces.hpp"
+#include "core/base/raw_vector.hpp"
+#include "planners/pieces/plane_pieces.hpp"
+#include "planners/visibility/pieces_on_ray.hpp"
+#include "planners/visibility/sectors_at_corner.hpp"
 
 namespace warren {
 

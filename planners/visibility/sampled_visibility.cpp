@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/sampled_visibility.hpp"
+#include "planners/visibility/sampled_visibility.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "core/geometry.hpp"
+#include "core/plane/geometry.hpp"
 #include "parallel/chunks.hpp"
 
 namespace warren {

@@ -9,10 +9,10 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/graph.hpp"
-#include "core/types.hpp"
+#include "core/base/types.hpp"
+#include "core/search/graph.hpp"
 #include "parallel/execution.hpp"
-#include "spatial/polygon_index.hpp"
+#include "spatial/obstacles/polygon_index.hpp"
 
 namespace warren {
 

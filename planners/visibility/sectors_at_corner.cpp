@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/free_sectors.hpp"
+#include "planners/visibility/sectors_at_corner.hpp"
 
 #include "parallel/polled_sort.hpp"
 

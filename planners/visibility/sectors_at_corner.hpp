@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/geometry.hpp"
-#include "core/types.hpp"
-#include "planners/plane_pieces.hpp"
+#include "core/base/types.hpp"
+#include "core/plane/geometry.hpp"
+#include "planners/pieces/plane_pieces.hpp"
 
 namespace warren {
 

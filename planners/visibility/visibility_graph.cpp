@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/visibility_graph.hpp"
+#include "planners/visibility/visibility_graph.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <utility>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
 #include "parallel/first_touch.hpp"
 

@@ -14,11 +14,11 @@
 #include <span>
 #include <vector>
 
-#include "core/graph.hpp"
-#include "core/search.hpp"
-#include "core/types.hpp"
+#include "core/base/types.hpp"
+#include "core/search/graph.hpp"
+#include "core/search/search.hpp"
 #include "parallel/execution.hpp"
-#include "planners/visible_corners.hpp"
+#include "planners/visibility/visible_corners.hpp"
 
 namespace warren {
 

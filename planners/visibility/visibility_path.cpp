@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/visibility_path.hpp"
+#include "planners/visibility/visibility_path.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <utility>
 #include <vector>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "parallel/assemble_graph.hpp"
 #include "parallel/components.hpp"
 #include "parallel/polled_sort.hpp"
-#include "planners/confined_obstacles.hpp"
-#include "planners/lazy_visibility.hpp"
-#include "planners/queue_choice.hpp"
-#include "planners/roadmap_search.hpp"
-#include "planners/separation.hpp"
+#include "planners/pieces/box_as_bounds.hpp"
+#include "planners/roadmap/queue_choice.hpp"
+#include "planners/roadmap/roadmap_search.hpp"
+#include "planners/roadmap/separation.hpp"
+#include "planners/visibility/lazy_visibility.hpp"
 
 namespace warren {
 namespace {

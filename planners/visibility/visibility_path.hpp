@@ -3,13 +3,13 @@
 // graph (planners/visibility_graph) or lazily (planners/lazy_visibility).
 #pragma once
 
-#include "core/polygon.hpp"
-#include "core/solution.hpp"
-#include "core/types.hpp"
+#include "core/base/solution.hpp"
+#include "core/base/types.hpp"
+#include "core/plane/polygon.hpp"
 #include "parallel/execution.hpp"
-#include "planners/roadmap.hpp"
-#include "planners/roadmap_options.hpp"
-#include "planners/visibility_graph.hpp"
+#include "planners/roadmap/roadmap.hpp"
+#include "planners/roadmap/roadmap_options.hpp"
+#include "planners/visibility/visibility_graph.hpp"
 
 namespace warren {
 
@@ -29,7 +29,7 @@ struct VisibilityOptions {
 Solution<Vec2> visibility_path(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal, const VisibilityOptions& options,
                                const Execution& execution, Roadmap<Vec2>* keep = nullptr);
 
-/// The same where, without bounds, the obstacles' box confines the point (planners/confined_obstacles.hpp).
+/// The same where, without bounds, the obstacles' box confines the point (planners/pieces/box_as_bounds.hpp).
 Solution<Vec2> confined_visibility_path(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal,
                                         const VisibilityOptions& options, const Execution& execution,
                                         Roadmap<Vec2>* keep = nullptr);

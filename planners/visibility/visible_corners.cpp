@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/visible_corners.hpp"
+#include "planners/visibility/visible_corners.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "core/polygon_distance.hpp"
+#include "core/plane/polygon_distance.hpp"
 #include "parallel/chunks.hpp"
 
 namespace warren {

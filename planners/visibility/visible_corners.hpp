@@ -17,14 +17,14 @@
 #include <span>
 #include <vector>
 
-#include "core/polygon.hpp"
-#include "core/raw_vector.hpp"
-#include "core/types.hpp"
+#include "core/base/raw_vector.hpp"
+#include "core/base/types.hpp"
+#include "core/plane/polygon.hpp"
 #include "parallel/execution.hpp"
-#include "planners/free_sectors.hpp"
-#include "planners/near_pieces.hpp"
-#include "planners/plane_pieces.hpp"
-#include "planners/rotational_sweep.hpp"
+#include "planners/pieces/plane_pieces.hpp"
+#include "planners/visibility/pieces_in_sight.hpp"
+#include "planners/visibility/rotational_sweep.hpp"
+#include "planners/visibility/sectors_at_corner.hpp"
 
 namespace warren {
 

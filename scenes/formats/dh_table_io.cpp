@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/dh_table_io.hpp"
+#include "scenes/formats/dh_table_io.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "worlds/scene_text.hpp"
-#include "worlds/text_lines.hpp"
+#include "scenes/text/scene_text.hpp"
+#include "scenes/text/text_lines.hpp"
 
 namespace warren {
 namespace {

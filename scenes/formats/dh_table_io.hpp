@@ -10,8 +10,8 @@
 #include <string>
 
 #include "parallel/execution.hpp"
-#include "worlds/input_file_io.hpp"
-#include "worlds/serial_chain.hpp"
+#include "scenes/scene/dh_table.hpp"
+#include "scenes/text/input_file_io.hpp"
 
 namespace warren {
 

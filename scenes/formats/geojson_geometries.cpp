@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/geojson_pieces.hpp"
+#include "scenes/formats/geojson_geometries.hpp"
 
 #include <fmt/format.h>
 
 #include <utility>
 
-#include "core/error.hpp"
-#include "worlds/polygon_holes.hpp"
-#include "worlds/scene_text.hpp"
+#include "core/base/error.hpp"
+#include "scenes/scene/holes_cut_open.hpp"
+#include "scenes/text/scene_text.hpp"
 
 namespace warren {
 
@@ -53,7 +53,7 @@ void GeojsonPieces::settle_obstacle(Piece& piece) {
     return;
   }
   if (piece.holes.empty()) {
-    push_asking(scene_.polygons, {std::move(piece.points), piece.line}, execution_);
+    push_asked(scene_.polygons, {std::move(piece.points), piece.line}, execution_);
   } else if (!add_without_holes(scene_, piece.line, piece.points, piece.holes, execution_)) {
     fail_at(piece.line, misplaced_hole);
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What GeoJSON's geometries mean for a world: outlines are obstacles, lines walls, points nothing, unless the feature
 // around them says that they are start, goal or bounds. That is known when the feature ends, so geometries wait here.
-// Polygons with holes are cut (worlds/polygon_holes.hpp).
+// Polygons with holes are cut (scenes/scene/holes_cut_open.hpp).
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "core/types.hpp"
+#include "core/base/types.hpp"
+#include "parallel/asked_growth.hpp"
 #include "parallel/execution.hpp"
-#include "worlds/asked_growth.hpp"
-#include "worlds/scene.hpp"
-#include "worlds/wall_collector.hpp"
+#include "scenes/scene/scene.hpp"
+#include "scenes/text/growing_walls.hpp"
 
 namespace warren {
 
@@ -30,10 +30,10 @@ class GeojsonPieces {
   std::size_t size() const { return waiting_.size(); }
   /// Rings are not closed.
   void add(Kind kind, std::vector<Vec2> points, std::size_t line) {
-    push_asking(waiting_, {kind, std::move(points), line, {}}, execution_);
+    push_asked(waiting_, {kind, std::move(points), line, {}}, execution_);
   }
   /// Of the polygon that was added last.
-  void add_hole(std::vector<Vec2> ring) { push_asking(waiting_.back().holes, std::move(ring), execution_); }
+  void add_hole(std::vector<Vec2> ring) { push_asked(waiting_.back().holes, std::move(ring), execution_); }
   /// Takes those that wait, from the one of that number on, into the world. role: "start", "goal", "bounds", or else
   /// they are obstacles.
   void settle(std::size_t first, const std::string& role);

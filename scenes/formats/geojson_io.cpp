@@ -2,7 +2,7 @@
 // The reader takes the parser's events: an object that has a "type" and "coordinates" is a geometry, whatever the order
 // of its keys; coordinates are collected as chains of points with the depth of their nesting, and interpreted when the
 // object ends.
-#include "worlds/geojson_io.hpp"
+#include "scenes/formats/geojson_io.hpp"
 
 #include <fmt/format.h>
 
@@ -11,11 +11,11 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "core/error.hpp"
-#include "worlds/asked_growth.hpp"
-#include "worlds/geojson_pieces.hpp"
-#include "worlds/json_bytes.hpp"
-#include "worlds/scene_text.hpp"
+#include "core/base/error.hpp"
+#include "parallel/asked_growth.hpp"
+#include "scenes/formats/geojson_geometries.hpp"
+#include "scenes/text/json_bytes.hpp"
+#include "scenes/text/scene_text.hpp"
 
 namespace warren {
 namespace {
@@ -157,7 +157,7 @@ bool Reader::start_array(std::size_t) {
   if (list_depth_ == 0 && c.given) fail("\"coordinates\" stands twice");
   c.given = true;
   if (++list_depth_ > most_nested) fail("\"coordinates\" are nested too deeply");
-  if (list_depth_ == 2) push_asking(c.groups, c.chains.size(), execution_);
+  if (list_depth_ == 2) push_asked(c.groups, c.chains.size(), execution_);
   return true;
 }
 
@@ -186,11 +186,11 @@ void Reader::end_position() {
   if (c.depth != 0 && c.depth != list_depth_) fail("\"coordinates\" are nested unevenly");
   c.depth = list_depth_;
   if (!chain_open_) {
-    push_asking(c.chains, {}, execution_);
-    push_asking(c.lines, line_, execution_);
+    push_asked(c.chains, {}, execution_);
+    push_asked(c.lines, line_, execution_);
     chain_open_ = true;
   }
-  push_asking(c.chains.back(), {position_[0], position_[1]}, execution_);
+  push_asked(c.chains.back(), {position_[0], position_[1]}, execution_);
   position_.clear();
   look();
 }

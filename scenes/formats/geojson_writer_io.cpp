@@ -5,10 +5,10 @@
 #include <string_view>
 #include <vector>
 
-#include "core/error.hpp"
-#include "worlds/geojson_io.hpp"
-#include "worlds/output_file_io.hpp"
-#include "worlds/plane_obstacles.hpp"
+#include "core/base/error.hpp"
+#include "scenes/formats/geojson_io.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
+#include "scenes/text/output_file_io.hpp"
 
 namespace warren {
 namespace {

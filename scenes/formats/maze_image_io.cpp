@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/maze_image_io.hpp"
+#include "scenes/formats/maze_image_io.hpp"
 
 #include <bit>
 #include <numeric>
 #include <optional>
 
-#include "worlds/image_io.hpp"
+#include "scenes/images/image_io.hpp"
 
 namespace warren {
 namespace {

@@ -5,8 +5,8 @@
 #pragma once
 
 #include "parallel/execution.hpp"
-#include "worlds/input_file_io.hpp"
-#include "worlds/occupancy_map.hpp"
+#include "scenes/scene/occupancy_map.hpp"
+#include "scenes/text/input_file_io.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/micromouse_io.hpp"
+#include "scenes/formats/micromouse_io.hpp"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
-#include "worlds/asked_growth.hpp"
-#include "worlds/scene_text.hpp"
-#include "worlds/text_lines.hpp"
+#include "core/base/error.hpp"
+#include "parallel/asked_growth.hpp"
+#include "scenes/text/scene_text.hpp"
+#include "scenes/text/text_lines.hpp"
 
 namespace warren {
 namespace {
@@ -26,7 +26,7 @@ class Picture {
  public:
   Picture(const InputFile& file, const Execution& execution) : name_(file.name()), execution_(execution) {
     TextLines lines(file, execution);
-    while (lines.next()) push_asking(lines_, without_trailing_blanks(lines.line()), execution);
+    while (lines.next()) push_asked(lines_, without_trailing_blanks(lines.line()), execution);
     while (!lines_.empty() && lines_.back().empty()) lines_.pop_back();
     cols_ = (lines_.front().size() - 1) / 4;
     rows_ = (lines_.size() - 1) / 2;
@@ -58,7 +58,7 @@ class Picture {
       add_runs(
           cols_, [&](std::size_t c) { return at(i, 4 * c + 2) == '-'; },
           [&](double from, double to) {
-            push_asking(walls, {{from, line_y(i)}, {to, line_y(i)}}, execution_);
+            push_asked(walls, {{from, line_y(i)}, {to, line_y(i)}}, execution_);
           });
     }
     for (std::size_t c = 0; c <= cols_; ++c) {
@@ -66,7 +66,7 @@ class Picture {
       add_runs(
           rows_, [&](std::size_t r) { return at(lines_.size() - 2 - 2 * r, 4 * c) == '|'; },
           [&](double from, double to) {
-            push_asking(walls, {{x, from}, {x, to}}, execution_);
+            push_asked(walls, {{x, from}, {x, to}}, execution_);
           });
     }
     execution_.reserve(walls.size() * sizeof(DoubleWall));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/moving_ai_io.hpp"
+#include "scenes/formats/moving_ai_io.hpp"
 
 #include <fmt/format.h>
 
@@ -8,11 +8,11 @@
 #include <cmath>
 #include <string_view>
 
-#include "core/error.hpp"
-#include "worlds/asked_growth.hpp"
-#include "worlds/output_file_io.hpp"
-#include "worlds/scene_text.hpp"
-#include "worlds/text_lines.hpp"
+#include "core/base/error.hpp"
+#include "parallel/asked_growth.hpp"
+#include "scenes/text/output_file_io.hpp"
+#include "scenes/text/scene_text.hpp"
+#include "scenes/text/text_lines.hpp"
 
 namespace warren {
 namespace {
@@ -245,7 +245,7 @@ std::vector<Scenario> read_scenarios(const InputFile& file, const Execution& exe
       if (version != 0.0 && version != 1.0) lines.place().fail("expected `version 1` or `version 0`", line);
       has_sizes = version == 1.0;
     } else {
-      push_asking(scenarios, scenario_of(lines, has_sizes), execution);
+      push_asked(scenarios, scenario_of(lines, has_sizes), execution);
     }
     first = false;
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The header is a Python literal, {'descr': '<f4', 'fortran_order': False, 'shape': (28, 4), }, padded so that the
 // numbers begin on a multiple of 64.
-#include "worlds/npy_io.hpp"
+#include "scenes/formats/npy_io.hpp"
 
 #include <fmt/format.h>
 
@@ -14,11 +14,11 @@
 #include <string_view>
 #include <vector>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
-#include "worlds/maze_outline.hpp"
-#include "worlds/output_file_io.hpp"
-#include "worlds/scene_text.hpp"
+#include "scenes/mazes/maze_outline.hpp"
+#include "scenes/text/output_file_io.hpp"
+#include "scenes/text/scene_text.hpp"
 
 namespace warren {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/world_io.hpp"
+#include "scenes/formats/read_world_io.hpp"
 
 #include <fmt/format.h>
 
@@ -7,19 +7,19 @@
 #include <limits>
 #include <set>
 
-#include "core/error.hpp"
-#include "worlds/geojson_io.hpp"
-#include "worlds/image_io.hpp"
-#include "worlds/maze_image_io.hpp"
-#include "worlds/micromouse_io.hpp"
-#include "worlds/moving_ai_io.hpp"
-#include "worlds/npy_io.hpp"
-#include "worlds/pgm_io.hpp"
-#include "worlds/plane_obstacles.hpp"
-#include "worlds/png_writer_io.hpp"
-#include "worlds/ring_list_io.hpp"
-#include "worlds/scene_io.hpp"
-#include "worlds/wkt_io.hpp"
+#include "core/base/error.hpp"
+#include "scenes/formats/geojson_io.hpp"
+#include "scenes/formats/maze_image_io.hpp"
+#include "scenes/formats/micromouse_io.hpp"
+#include "scenes/formats/moving_ai_io.hpp"
+#include "scenes/formats/npy_io.hpp"
+#include "scenes/formats/ring_lists_io.hpp"
+#include "scenes/formats/scene_io.hpp"
+#include "scenes/formats/wkt_io.hpp"
+#include "scenes/images/image_io.hpp"
+#include "scenes/images/pgm_io.hpp"
+#include "scenes/images/png_writer_io.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
 
 namespace warren {
 namespace {

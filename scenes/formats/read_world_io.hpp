@@ -8,10 +8,10 @@
 #include <string_view>
 
 #include "parallel/execution.hpp"
-#include "worlds/input_file_io.hpp"
-#include "worlds/maze_generator.hpp"
-#include "worlds/ros_map_io.hpp"
-#include "worlds/scene.hpp"
+#include "scenes/formats/ros_map_io.hpp"
+#include "scenes/mazes/maze_generator.hpp"
+#include "scenes/scene/scene.hpp"
+#include "scenes/text/input_file_io.hpp"
 
 namespace warren {
 

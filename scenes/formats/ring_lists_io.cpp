@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/ring_list_io.hpp"
+#include "scenes/formats/ring_lists_io.hpp"
 
 #include <fmt/format.h>
 
@@ -10,13 +10,13 @@
 #include <utility>
 #include <vector>
 
-#include "core/error.hpp"
-#include "spatial/polygon_index.hpp"
-#include "worlds/asked_growth.hpp"
-#include "worlds/plane_obstacles.hpp"
-#include "worlds/scene_text.hpp"
-#include "worlds/text_lines.hpp"
-#include "worlds/wall_collector.hpp"
+#include "core/base/error.hpp"
+#include "parallel/asked_growth.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
+#include "scenes/text/growing_walls.hpp"
+#include "scenes/text/scene_text.hpp"
+#include "scenes/text/text_lines.hpp"
+#include "spatial/obstacles/polygon_index.hpp"
 
 namespace warren {
 namespace {
@@ -51,9 +51,9 @@ Rings rings_of_lines(const InputFile& file, const Execution& execution) {
     Fields fields = lines.fields();
     const bool goes_on = std::exchange(open, fields.number_follows());
     if (!open) continue;
-    if (!goes_on) push_asking(rings, {{}, lines.number()}, execution);
+    if (!goes_on) push_asked(rings, {{}, lines.number()}, execution);
     const double x = fields.number();
-    push_asking(rings.back().corners, {x, fields.number()}, execution);
+    push_asked(rings.back().corners, {x, fields.number()}, execution);
     if (!fields.done()) fields.place().fail("expected two numbers a line", lines.line());
   }
   return rings;
@@ -102,11 +102,11 @@ Rings rings_of_polymap(const InputFile& file, const Execution& execution) {
   Rings rings;
   while (rings.size() < count) {
     const std::size_t corners = numbers.count("the number of a ring's corners", 3);
-    push_asking(rings, {{}, numbers.line()}, execution);
+    push_asked(rings, {{}, numbers.line()}, execution);
     for (std::size_t i = 0; i < corners; ++i) {
       if (i % corners_a_look == 0) execution.check();
       const double x = numbers.number();
-      push_asking(rings.back().corners, {x, numbers.number()}, execution);
+      push_asked(rings.back().corners, {x, numbers.number()}, execution);
     }
   }
   if (!numbers.done()) numbers.fail(fmt::format("expected the end after {} rings", count), "more");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A pixel's class depends on the sum of its colours alone (and its alpha), so classes are looked up in a table of all
 // sums: at most 4 x 65535 + 1 entries, made once.
-#include "worlds/ros_map_io.hpp"
+#include "scenes/formats/ros_map_io.hpp"
 
 #include <fmt/format.h>
 #include <pwd.h>
@@ -18,11 +18,11 @@
 #include <string_view>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/printable.hpp"
-#include "worlds/image_io.hpp"
-#include "worlds/output_file_io.hpp"
-#include "worlds/pgm_io.hpp"
+#include "core/base/error.hpp"
+#include "core/base/printable.hpp"
+#include "scenes/images/image_io.hpp"
+#include "scenes/images/pgm_io.hpp"
+#include "scenes/text/output_file_io.hpp"
 
 namespace warren {
 namespace {

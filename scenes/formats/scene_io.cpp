@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The reader: a table of items, each with its usage line and the member that reads it. Contradictions between items are
 // looked for at the end, when all lines are known.
-#include "worlds/scene_io.hpp"
+#include "scenes/formats/scene_io.hpp"
 
 #include <fmt/format.h>
 
@@ -14,13 +14,13 @@
 #include <string_view>
 #include <vector>
 
-#include "core/error.hpp"
-#include "worlds/asked_growth.hpp"
-#include "worlds/maze_generator.hpp"
-#include "worlds/robot_text.hpp"
-#include "worlds/scene_text.hpp"
-#include "worlds/text_lines.hpp"
-#include "worlds/wall_collector.hpp"
+#include "core/base/error.hpp"
+#include "parallel/asked_growth.hpp"
+#include "scenes/mazes/maze_generator.hpp"
+#include "scenes/text/growing_walls.hpp"
+#include "scenes/text/robot_text.hpp"
+#include "scenes/text/scene_text.hpp"
+#include "scenes/text/text_lines.hpp"
 
 namespace warren {
 namespace {
@@ -95,7 +95,7 @@ class SceneReader {
   const std::vector<double>& numbers(Fields& fields, std::size_t least, std::size_t most) {
     numbers_.clear();
     while (!fields.done()) {
-      push_asking(numbers_, fields.number(), execution_);
+      push_asked(numbers_, fields.number(), execution_);
       if (numbers_.size() % numbers_per_look == 0) execution_.check();
     }
     if (numbers_.size() < least || numbers_.size() > most) refuse_count(fields.place(), numbers_.size());
@@ -121,13 +121,11 @@ class SceneReader {
     for (std::size_t i = 0; i < n.size(); i += 2) points.push_back({n[i], n[i + 1]});
     return points;
   }
-  void read_polygon(Fields& fields) {
-    push_asking(scene_.polygons, {corners(fields), fields.place().line}, execution_);
-  }
+  void read_polygon(Fields& fields) { push_asked(scene_.polygons, {corners(fields), fields.place().line}, execution_); }
   void read_sphere(Fields& fields) {
     const std::vector<double>& n = numbers(fields, 4, 4);
     if (n[3] < 0.0) refuse(fields.place(), "the radius must be at least 0", n[3]);
-    push_asking(scene_.spheres, {n[0], n[1], n[2], n[3]}, execution_);
+    push_asked(scene_.spheres, {n[0], n[1], n[2], n[3]}, execution_);
   }
   /// Any two opposite corners.
   void read_box(Fields& fields) {
@@ -137,7 +135,7 @@ class SceneReader {
       box.low[axis] = std::min(n[axis], n[axis + 3]);
       box.high[axis] = std::max(n[axis], n[axis + 3]);
     }
-    push_asking(scene_.boxes, box, execution_);
+    push_asked(scene_.boxes, box, execution_);
   }
   void read_bounds(Fields& fields) {
     const std::vector<double>& n = numbers(fields, 4, 4);

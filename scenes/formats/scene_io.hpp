@@ -7,8 +7,8 @@
 #include <string>
 
 #include "parallel/execution.hpp"
-#include "worlds/input_file_io.hpp"
-#include "worlds/scene.hpp"
+#include "scenes/scene/scene.hpp"
+#include "scenes/text/input_file_io.hpp"
 
 namespace warren {
 

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "parallel/chunks.hpp"
-#include "worlds/output_file_io.hpp"
-#include "worlds/robot_text.hpp"
-#include "worlds/scene_io.hpp"
+#include "scenes/formats/scene_io.hpp"
+#include "scenes/text/output_file_io.hpp"
+#include "scenes/text/robot_text.hpp"
 
 namespace warren {
 namespace {

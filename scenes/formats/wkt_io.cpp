@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/wkt_io.hpp"
+#include "scenes/formats/wkt_io.hpp"
 
 #include <fmt/format.h>
 
@@ -9,13 +9,13 @@
 #include <cmath>
 #include <vector>
 
-#include "core/error.hpp"
-#include "worlds/asked_growth.hpp"
-#include "worlds/output_file_io.hpp"
-#include "worlds/plane_obstacles.hpp"
-#include "worlds/polygon_holes.hpp"
-#include "worlds/scene_text.hpp"
-#include "worlds/wall_collector.hpp"
+#include "core/base/error.hpp"
+#include "parallel/asked_growth.hpp"
+#include "scenes/scene/holes_cut_open.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
+#include "scenes/text/growing_walls.hpp"
+#include "scenes/text/output_file_io.hpp"
+#include "scenes/text/scene_text.hpp"
 
 namespace warren {
 namespace {
@@ -217,7 +217,7 @@ class Reader {
     if (tokens_.take_word("EMPTY")) return chain;
     list([&] {
       if (chain.points.empty()) chain.line = tokens_.line();
-      push_asking(chain.points, position(), execution_);
+      push_asked(chain.points, position(), execution_);
     });
     return chain;
   }
@@ -245,12 +245,12 @@ class Reader {
       if (outline.points.empty()) {
         outline = std::move(ring);
       } else {
-        push_asking(holes, std::move(ring.points), execution_);
+        push_asked(holes, std::move(ring.points), execution_);
       }
     });
     if (outline.points.empty()) return;
     if (holes.empty()) {
-      push_asking(scene_.polygons, {std::move(outline.points), outline.line}, execution_);
+      push_asked(scene_.polygons, {std::move(outline.points), outline.line}, execution_);
       return;
     }
     if (!add_without_holes(scene_, outline.line, outline.points, holes, execution_)) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/image_io.hpp"
+#include "scenes/images/image_io.hpp"
 
-#include "core/error.hpp"
-#include "worlds/pgm_io.hpp"
-#include "worlds/png_io.hpp"
+#include "core/base/error.hpp"
+#include "scenes/images/pgm_io.hpp"
+#include "scenes/images/png_io.hpp"
 
 namespace warren {
 

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "parallel/execution.hpp"
-#include "worlds/input_file_io.hpp"
+#include "scenes/text/input_file_io.hpp"
 
 namespace warren {
 

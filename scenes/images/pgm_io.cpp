@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/pgm_io.hpp"
+#include "scenes/images/pgm_io.hpp"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/error.hpp"
-#include "worlds/output_file_io.hpp"
-#include "worlds/scene_text.hpp"
+#include "core/base/error.hpp"
+#include "scenes/text/output_file_io.hpp"
+#include "scenes/text/scene_text.hpp"
 
 namespace warren {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "worlds/image_io.hpp"
-#include "worlds/occupancy_map.hpp"
+#include "scenes/images/image_io.hpp"
+#include "scenes/scene/occupancy_map.hpp"
 
 namespace warren {
 

@@ -2,7 +2,7 @@
 // libpng reports errors by longjmp, so no object with a destructor lives in a frame that it may leave: buffers stand in
 // PngInput, whose owner calls decode. Interlaced images are taken pass by pass as they come (a pass is a picture of
 // every 8th, 4th, 2nd pixel), which spares the memory of a whole picture.
-#include "worlds/png_io.hpp"
+#include "scenes/images/png_io.hpp"
 
 #include <png.h>
 
@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
-#include "worlds/occupancy_map.hpp"
+#include "core/base/error.hpp"
+#include "scenes/scene/occupancy_map.hpp"
 
 namespace warren {
 namespace {

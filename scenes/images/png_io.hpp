@@ -2,7 +2,7 @@
 // PNG in, by libpng: every colour type, depth and interlacing, row by row.
 #pragma once
 
-#include "worlds/image_io.hpp"
+#include "scenes/images/image_io.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/png_writer_io.hpp"
+#include "scenes/images/png_writer_io.hpp"
 
 #include <png.h>
 
@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "worlds/output_file_io.hpp"
+#include "scenes/text/output_file_io.hpp"
 
 namespace warren {
 namespace {

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "parallel/execution.hpp"
-#include "worlds/occupancy_map.hpp"
+#include "scenes/scene/occupancy_map.hpp"
 
 namespace warren {
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "core/raw_vector.hpp"
+#include "core/base/raw_vector.hpp"
 #include "parallel/chunks.hpp"
 
 namespace warren::maze {

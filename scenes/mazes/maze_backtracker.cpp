@@ -3,7 +3,7 @@
 // one step back. Long winding corridors, few dead ends. Needs no stack: the way back is a direction of two bits in each
 // cell's own byte, so the whole generator lives in 1 byte a cell. Each cell is entered once and left back once:
 // O(cells), 30 to 60 ns each; the walk is local, so caches serve it at any size.
-#include "worlds/maze_carving.hpp"
+#include "scenes/mazes/maze_carving.hpp"
 
 namespace warren::maze {
 

@@ -6,8 +6,8 @@
 // Expected O(cells log cells), 1 to 2 microseconds a cell; 5 bytes a cell.
 #include <algorithm>
 
-#include "worlds/maze_carving.hpp"
-#include "worlds/maze_regions.hpp"
+#include "scenes/mazes/disjoint_regions.hpp"
+#include "scenes/mazes/maze_carving.hpp"
 
 namespace warren::maze {
 namespace {

@@ -8,9 +8,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/rng.hpp"
+#include "core/base/rng.hpp"
 #include "parallel/execution.hpp"
-#include "worlds/maze_generator.hpp"
+#include "scenes/mazes/maze_generator.hpp"
 
 namespace warren::maze {
 

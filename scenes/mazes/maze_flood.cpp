@@ -12,9 +12,9 @@
 #include <span>
 #include <vector>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
-#include "worlds/maze_carving.hpp"
+#include "scenes/mazes/maze_carving.hpp"
 
 namespace warren {
 namespace {

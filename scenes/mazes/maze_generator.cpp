@@ -2,7 +2,7 @@
 // What all maze algorithms share: names, the cells, loops, and the scene around the walls. Loops are chosen by
 // selection sampling (Knuth, TAOCP 2, 3.4.2, algorithm S): one pass over the walls, exactly the number asked for, each
 // subset as likely as any other.
-#include "worlds/maze_generator.hpp"
+#include "scenes/mazes/maze_generator.hpp"
 
 #include <fmt/format.h>
 
@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/rng.hpp"
+#include "core/base/error.hpp"
+#include "core/base/rng.hpp"
 #include "parallel/chunks.hpp"
-#include "worlds/maze_carving.hpp"
+#include "scenes/mazes/maze_carving.hpp"
 
 namespace warren {
 namespace {

@@ -12,9 +12,9 @@
 #include <string_view>
 #include <utility>
 
-#include "core/raw_vector.hpp"
+#include "core/base/raw_vector.hpp"
 #include "parallel/execution.hpp"
-#include "worlds/scene.hpp"
+#include "scenes/scene/scene.hpp"
 
 namespace warren {
 

@@ -4,8 +4,8 @@
 // about 12 bytes a cell besides the cells (two wall numbers and one parent), 24 from 2^31 bytes of cells on.
 #include <limits>
 
-#include "worlds/maze_carving.hpp"
-#include "worlds/maze_regions.hpp"
+#include "scenes/mazes/disjoint_regions.hpp"
+#include "scenes/mazes/maze_carving.hpp"
 
 namespace warren::maze {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/maze_outline.hpp"
+#include "scenes/mazes/maze_outline.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "parallel/chunks.hpp"
-#include "worlds/maze_generator.hpp"
+#include "scenes/mazes/maze_generator.hpp"
 
 namespace warren {
 namespace {

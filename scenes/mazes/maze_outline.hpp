@@ -5,9 +5,9 @@
 
 #include <optional>
 
-#include "core/wall_set.hpp"
+#include "core/plane/wall_set.hpp"
 #include "parallel/execution.hpp"
-#include "worlds/scene.hpp"
+#include "scenes/scene/scene.hpp"
 
 namespace warren {
 

@@ -4,7 +4,7 @@
 // cells, a few times the longer side.
 #include <vector>
 
-#include "worlds/maze_carving.hpp"
+#include "scenes/mazes/maze_carving.hpp"
 
 namespace warren::maze {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "parallel/chunks.hpp"
-#include "worlds/maze_generator.hpp"
+#include "scenes/mazes/maze_generator.hpp"
 
 namespace warren {
 namespace {

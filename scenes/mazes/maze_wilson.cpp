@@ -4,7 +4,7 @@
 // which it was last left, two bits of the cell's byte, so loops erase themselves and 1 byte a cell is all. The root is
 // the middle cell: the tree's law doesn't depend on it, the expected number of steps (4 times the sum of the effective
 // resistances to it, about 10 a cell at 1000 x 1000, growing with the logarithm of the side) is least there.
-#include "worlds/maze_carving.hpp"
+#include "scenes/mazes/maze_carving.hpp"
 
 namespace warren::maze {
 namespace {

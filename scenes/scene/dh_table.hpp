@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A Denavit-Hartenberg table of a serial chain of revolute joints, as plain data: what planners and judges of arms have
-// in common. What it means is said in worlds/serial_chain.hpp.
+// in common. What it means is said in worlds/arms/serial_chain.hpp.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/polygon_holes.hpp"
+#include "scenes/scene/holes_cut_open.hpp"
 
 #include <algorithm>
 #include <cstdint>
 #include <utility>
 
-#include "core/geometry.hpp"
-#include "worlds/plane_obstacles.hpp"
-#include "worlds/ring_sweep.hpp"
+#include "core/plane/geometry.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
+#include "scenes/scene/ring_sweep.hpp"
 
 namespace warren {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/simple_outline.hpp"
+#include "scenes/scene/is_simple_outline.hpp"
 
 #include <cstdint>
 
-#include "worlds/ring_sweep.hpp"
+#include "scenes/scene/ring_sweep.hpp"
 
 namespace warren {
 namespace {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <span>
 
-#include "core/types.hpp"
+#include "core/base/types.hpp"
 #include "parallel/execution.hpp"
 
 namespace warren {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/occupancy_map.hpp"
+#include "scenes/scene/occupancy_map.hpp"
 
 #include <fmt/format.h>
 
 #include <bit>
 #include <cmath>
 
-#include "core/error.hpp"
-#include "core/rng.hpp"
+#include "core/base/error.hpp"
+#include "core/base/rng.hpp"
 
 namespace warren {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/plane_obstacles.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
 
 #include <fmt/format.h>
 
@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/geometry.hpp"
+#include "core/base/error.hpp"
+#include "core/plane/geometry.hpp"
 #include "parallel/chunks.hpp"
-#include "worlds/simple_outline.hpp"
+#include "scenes/scene/is_simple_outline.hpp"
 
 namespace warren {
 namespace {

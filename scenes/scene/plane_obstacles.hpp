@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "core/polygon.hpp"
+#include "core/plane/polygon.hpp"
 #include "parallel/execution.hpp"
-#include "worlds/scene.hpp"
+#include "scenes/scene/scene.hpp"
 
 namespace warren {
 

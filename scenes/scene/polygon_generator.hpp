@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "parallel/execution.hpp"
-#include "worlds/scene.hpp"
+#include "scenes/scene/scene.hpp"
 
 namespace warren {
 

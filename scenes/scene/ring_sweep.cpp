@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/ring_sweep.hpp"
+#include "scenes/scene/ring_sweep.hpp"
 
 namespace warren {
 

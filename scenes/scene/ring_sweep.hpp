@@ -14,10 +14,10 @@
 #include <span>
 #include <vector>
 
-#include "core/geometry.hpp"
-#include "core/types.hpp"
+#include "core/base/types.hpp"
+#include "core/plane/geometry.hpp"
 #include "parallel/execution.hpp"
-#include "worlds/simple_outline.hpp"
+#include "scenes/scene/is_simple_outline.hpp"
 
 namespace warren {
 

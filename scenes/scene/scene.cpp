@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Box and hash of a scene. Walls are hashed as the doubles that they mean (-0 as 0), so floats and doubles agree; each
 // wall costs two 64 x 64 -> 128 bit multiplications in two independent chains, and chunks are folded in their order.
-#include "worlds/scene.hpp"
+#include "scenes/scene/scene.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "core/rng.hpp"
+#include "core/base/rng.hpp"
 #include "parallel/chunks.hpp"
 
 namespace warren {

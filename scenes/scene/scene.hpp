@@ -9,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
-#include "core/types.hpp"
-#include "core/wall_set.hpp"
+#include "core/base/types.hpp"
+#include "core/plane/wall_set.hpp"
 #include "parallel/execution.hpp"
-#include "worlds/occupancy_map.hpp"
+#include "scenes/scene/occupancy_map.hpp"
 
 namespace warren {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/wall_set.hpp"
+#include "core/plane/wall_set.hpp"
 #include "parallel/execution.hpp"
 
 namespace warren {

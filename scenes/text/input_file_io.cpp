@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/input_file_io.hpp"
+#include "scenes/text/input_file_io.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -11,8 +11,8 @@
 #include <cerrno>
 #include <system_error>
 
-#include "core/error.hpp"
-#include "core/printable.hpp"
+#include "core/base/error.hpp"
+#include "core/base/printable.hpp"
 
 namespace warren {
 namespace {

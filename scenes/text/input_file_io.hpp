@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-#include "core/raw_vector.hpp"
+#include "core/base/raw_vector.hpp"
 #include "parallel/execution.hpp"
 #include "parallel/mapped_ranges.hpp"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/json_bytes.hpp"
+#include "scenes/text/json_bytes.hpp"
 
 #include <algorithm>
 
-#include "worlds/scene_text.hpp"
+#include "scenes/text/scene_text.hpp"
 
 namespace warren {
 namespace {

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "parallel/execution.hpp"
-#include "worlds/input_file_io.hpp"
+#include "scenes/text/input_file_io.hpp"
 
 namespace warren {
 

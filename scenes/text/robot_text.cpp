@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/robot_text.hpp"
+#include "scenes/text/robot_text.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <limits>
 #include <vector>
 
-#include "worlds/asked_growth.hpp"
-#include "worlds/plane_obstacles.hpp"
+#include "parallel/asked_growth.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
 
 namespace warren {
 namespace {
@@ -68,7 +68,7 @@ class RobotReader {
   std::vector<double> numbers(std::size_t least, std::size_t most) {
     std::vector<double> read;
     while (!fields_.done()) {
-      push_asking(read, fields_.number(), execution_);
+      push_asked(read, fields_.number(), execution_);
       if (read.size() % numbers_per_look == 0) execution_.check();
     }
     if (read.size() < least || read.size() > most) refuse_count(read.size());
@@ -116,7 +116,7 @@ class RobotReader {
     while (fields_.number_follows()) {
       const double x = fields_.number();
       if (!fields_.number_follows()) refuse_car("an x without its y");
-      push_asking(points, {x, fields_.number()}, execution_);
+      push_asked(points, {x, fields_.number()}, execution_);
       if (points.size() % numbers_per_look == 0) execution_.check();
     }
     if (points.size() < 3) refuse_car(fmt::format("{} corners", points.size()));

@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "parallel/execution.hpp"
-#include "worlds/scene.hpp"
-#include "worlds/scene_text.hpp"
+#include "scenes/scene/scene.hpp"
+#include "scenes/text/scene_text.hpp"
 
 namespace warren {
 

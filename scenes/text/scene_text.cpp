@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/scene_text.hpp"
+#include "scenes/text/scene_text.hpp"
 
 #include <fmt/format.h>
 
@@ -9,9 +9,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/error.hpp"
-#include "core/printable.hpp"
-#include "core/types.hpp"
+#include "core/base/error.hpp"
+#include "core/base/printable.hpp"
+#include "core/base/types.hpp"
 
 namespace warren::scene_text {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/text_lines.hpp"
+#include "scenes/text/text_lines.hpp"
 
 #include <algorithm>
 

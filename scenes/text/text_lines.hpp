@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "parallel/execution.hpp"
-#include "worlds/input_file_io.hpp"
-#include "worlds/scene_text.hpp"
+#include "scenes/text/input_file_io.hpp"
+#include "scenes/text/scene_text.hpp"
 
 namespace warren {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/fixed_angle.hpp"
+#include "solve/kinds/at_fixed_angle.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "planners/visibility_path.hpp"
-#include "tools/plane_planners.hpp"
-#include "worlds/translation_obstacles.hpp"
+#include "planners/visibility/visibility_path.hpp"
+#include "solve/kinds/plane_steps.hpp"
+#include "worlds/plane/obstacles_at_fixed_angle.hpp"
 
 namespace warren {
 namespace {

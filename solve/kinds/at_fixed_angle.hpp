@@ -9,14 +9,14 @@
 #include <optional>
 #include <span>
 
-#include "core/polygon.hpp"
-#include "core/se2.hpp"
-#include "core/solution.hpp"
+#include "core/base/solution.hpp"
+#include "core/plane/polygon.hpp"
+#include "core/plane/se2.hpp"
 #include "parallel/execution.hpp"
-#include "planners/cell_planner.hpp"
-#include "tools/picture.hpp"
-#include "tools/solve_kind.hpp"
-#include "worlds/scene.hpp"
+#include "pictures/picture.hpp"
+#include "planners/cells/cell_planner.hpp"
+#include "scenes/scene/scene.hpp"
+#include "solve/question/kind_of_problem.hpp"
 
 namespace warren {
 
@@ -34,7 +34,7 @@ Solution<Se2> plan_at_fixed_angle(const Scene& scene, const FixedAngleProblem& p
                                   Drawing* drawing);
 
 /// The planners that don't turn a polygon, in scenes: on maps, whose cells all touch, they have none. Defined in
-/// tools/solve_turning.cpp.
+/// solve/kinds/solve_turning.cpp.
 SolveKind fixed_angle_kind();
 
 }  // namespace warren

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/lattice_ends.hpp"
+#include "solve/kinds/ends_on_lattice.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "worlds/map_walls.hpp"
+#include "worlds/rasters/map_borders.hpp"
 
 namespace warren {
 namespace {

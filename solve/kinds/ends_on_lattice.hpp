@@ -9,15 +9,15 @@
 #include <variant>
 #include <vector>
 
-#include "core/heading_layers.hpp"
-#include "core/se2.hpp"
+#include "core/plane/heading_layers.hpp"
+#include "core/plane/se2.hpp"
 #include "parallel/execution.hpp"
-#include "planners/layer_search.hpp"
-#include "tools/problem.hpp"
-#include "worlds/maze_world.hpp"
-#include "worlds/polygon_world.hpp"
-#include "worlds/scene.hpp"
-#include "worlds/se2_world.hpp"
+#include "planners/grid/heading_layer_search.hpp"
+#include "scenes/scene/scene.hpp"
+#include "solve/question/question.hpp"
+#include "worlds/plane/maze_world.hpp"
+#include "worlds/plane/polygon_world.hpp"
+#include "worlds/poses/se2_world.hpp"
 
 namespace warren {
 

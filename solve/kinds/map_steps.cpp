@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/map_planners.hpp"
+#include "solve/kinds/map_steps.hpp"
 
-#include "core/error.hpp"
-#include "planners/grid_search.hpp"
-#include "spatial/distance_field.hpp"
-#include "tools/settled_ends.hpp"
-#include "tools/verified_answer.hpp"
-#include "worlds/moving_ai_io.hpp"
-#include "worlds/verify_map.hpp"
+#include "core/base/error.hpp"
+#include "planners/grid/grid_search.hpp"
+#include "scenes/formats/moving_ai_io.hpp"
+#include "solve/question/settled_ends.hpp"
+#include "solve/question/solve_steps.hpp"
+#include "spatial/maps/distance_field.hpp"
+#include "verify/judges/verify_map.hpp"
 
 namespace warren {
 

@@ -7,12 +7,12 @@
 #include <string_view>
 #include <vector>
 
-#include "core/bitmap.hpp"
-#include "core/path.hpp"
-#include "core/se2.hpp"
-#include "tools/solve_kind.hpp"
-#include "worlds/occupancy_map.hpp"
-#include "worlds/verify.hpp"
+#include "core/base/bitmap.hpp"
+#include "core/base/path.hpp"
+#include "core/plane/se2.hpp"
+#include "scenes/scene/occupancy_map.hpp"
+#include "solve/question/kind_of_problem.hpp"
+#include "verify/judges/verify_point.hpp"
 
 namespace warren {
 
@@ -28,7 +28,7 @@ Bitmap closed_cells(const OccupancyMap& map, Vec2 start);
 
 /// Does the robot fit there, as the verification sees it?
 bool stands_free_on_map(const OccupancyMap& map, const WallProblem& problem, Vec2 p, const Execution& execution);
-/// What is said of the ends where one is called blocked (tools/settled_ends.hpp): by the verification.
+/// What is said of the ends where one is called blocked (solve/question/settled_ends.hpp): by the verification.
 Outcome settled_on_map(Outcome outcome, const OccupancyMap& map, const WallProblem& problem,
                        const Execution& execution);
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/maze_proof.hpp"
+#include "solve/kinds/maze_infeasible.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "worlds/maze_generator.hpp"
+#include "scenes/mazes/maze_generator.hpp"
 
 namespace warren {
 namespace {

@@ -5,9 +5,9 @@
 // since a path could leave by the entrance and come in again by the exit. O(walls + cells).
 #pragma once
 
-#include "core/types.hpp"
+#include "core/base/types.hpp"
 #include "parallel/execution.hpp"
-#include "worlds/scene.hpp"
+#include "scenes/scene/scene.hpp"
 
 namespace warren {
 

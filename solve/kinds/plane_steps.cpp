@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/plane_planners.hpp"
+#include "solve/kinds/plane_steps.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
 
-#include "core/error.hpp"
-#include "planners/cell_decomposition.hpp"
-#include "tools/answer_json.hpp"
-#include "tools/option_values.hpp"
-#include "worlds/plane_obstacles.hpp"
-#include "worlds/polygon_holes.hpp"
+#include "core/base/error.hpp"
+#include "planners/cells/cell_decomposition.hpp"
+#include "scenes/scene/holes_cut_open.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
+#include "solve/question/write_answer_io.hpp"
+#include "tools/words/option_values.hpp"
 
 namespace warren {
 namespace {

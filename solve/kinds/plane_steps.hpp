@@ -8,11 +8,11 @@
 #include <string>
 #include <utility>
 
-#include "core/polygon.hpp"
-#include "core/solution.hpp"
-#include "planners/cell_planner.hpp"
-#include "planners/medial_axis_planner.hpp"
-#include "tools/solve_kind.hpp"
+#include "core/base/solution.hpp"
+#include "core/plane/polygon.hpp"
+#include "planners/axis/medial_axis_planner.hpp"
+#include "planners/cells/cell_planner.hpp"
+#include "solve/question/kind_of_problem.hpp"
 
 namespace warren {
 
@@ -47,7 +47,7 @@ std::pair<std::string, std::string> doors_option(const CellOptions& options);
 /// The doors, which are the borders between cells; floors and ceilings are obstacles anyway.
 PictureLayer doors_of(const CellDecomposition& cells);
 
-/// Runs `plan`, and says it with the file's lines where obstacles clash (planners/cell_decomposition.hpp).
+/// Runs `plan`, and says it with the file's lines where obstacles clash (planners/cells/cell_decomposition.hpp).
 Solution<Vec2> plan_without_clashes(const SolveRequest& request, const std::function<Solution<Vec2>()>& plan);
 
 }  // namespace warren

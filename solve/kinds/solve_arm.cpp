@@ -8,22 +8,22 @@
 #include <algorithm>
 #include <optional>
 
-#include "core/error.hpp"
-#include "planners/guided.hpp"
-#include "planners/lazy_prm.hpp"
-#include "planners/prm.hpp"
-#include "planners/rrt.hpp"
-#include "planners/rrt_connect.hpp"
-#include "planners/shortcut.hpp"
-#include "tools/answer_json.hpp"
-#include "tools/arm_drawing.hpp"
-#include "tools/arm_problem.hpp"
-#include "tools/option_values.hpp"
-#include "tools/settled_ends.hpp"
-#include "tools/solve_kind.hpp"
-#include "tools/tree_options.hpp"
-#include "tools/verified_answer.hpp"
-#include "worlds/arm_world.hpp"
+#include "core/base/error.hpp"
+#include "pictures/draw_arm.hpp"
+#include "planners/roadmap/lazy_prm.hpp"
+#include "planners/roadmap/prm.hpp"
+#include "planners/shorten/shortcut.hpp"
+#include "planners/trees/rrt.hpp"
+#include "planners/trees/rrt_connect.hpp"
+#include "planners/trees/through_way_points.hpp"
+#include "solve/question/kind_of_problem.hpp"
+#include "solve/question/question_of_arm.hpp"
+#include "solve/question/settled_ends.hpp"
+#include "solve/question/solve_steps.hpp"
+#include "solve/question/tree_choice.hpp"
+#include "solve/question/write_answer_io.hpp"
+#include "tools/words/option_values.hpp"
+#include "worlds/arms/arm_world.hpp"
 
 namespace warren {
 namespace {

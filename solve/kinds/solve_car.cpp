@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Joins CarWorld with the planners that take it: a car, with Dubins or Reeds-Shepp curves, among walls, polygons and
-// bounds, or among the cells of a map. Dubins curves have a direction: their roadmaps are planners/one_way_prm.hpp's.
-// The answer's path has a pose wherever the steering or the gear changes, and one a quarter turn, so each leg is a
-// straight or an arc that its two poses tell wholly.
+// bounds, or among the cells of a map. Dubins curves have a direction: their roadmaps are
+// planners/roadmap/one_way_prm.hpp's. The answer's path has a pose wherever the steering or the gear changes, and one a
+// quarter turn, so each leg is a straight or an arc that its two poses tell wholly.
 #include <optional>
 
-#include "core/error.hpp"
-#include "planners/lazy_prm.hpp"
-#include "planners/one_way_prm.hpp"
-#include "planners/prm.hpp"
-#include "planners/shortcut.hpp"
-#include "tools/answer_json.hpp"
-#include "tools/curve_drawing.hpp"
-#include "tools/option_values.hpp"
-#include "tools/pose_problem.hpp"
-#include "tools/solve_kind.hpp"
-#include "tools/tree_options.hpp"
-#include "tools/verified_answer.hpp"
-#include "worlds/car_world.hpp"
-#include "worlds/verify_car.hpp"
+#include "core/base/error.hpp"
+#include "pictures/curve_drawing.hpp"
+#include "planners/roadmap/lazy_prm.hpp"
+#include "planners/roadmap/one_way_prm.hpp"
+#include "planners/roadmap/prm.hpp"
+#include "planners/shorten/shortcut.hpp"
+#include "solve/question/kind_of_problem.hpp"
+#include "solve/question/question_of_pose.hpp"
+#include "solve/question/solve_steps.hpp"
+#include "solve/question/tree_choice.hpp"
+#include "solve/question/write_answer_io.hpp"
+#include "tools/words/option_values.hpp"
+#include "verify/judges/verify_car.hpp"
+#include "worlds/poses/car_world.hpp"
 
 namespace warren {
 namespace {

@@ -3,12 +3,12 @@
 // that there is no path.
 #include <array>
 
-#include "core/error.hpp"
-#include "planners/cell_planner.hpp"
-#include "tools/answer_json.hpp"
-#include "tools/option_values.hpp"
-#include "tools/plane_planners.hpp"
-#include "tools/verified_answer.hpp"
+#include "core/base/error.hpp"
+#include "planners/cells/cell_planner.hpp"
+#include "solve/kinds/plane_steps.hpp"
+#include "solve/question/solve_steps.hpp"
+#include "solve/question/write_answer_io.hpp"
+#include "tools/words/option_values.hpp"
 
 namespace warren {
 namespace {

@@ -10,21 +10,21 @@
 #include <optional>
 #include <set>
 
-#include "core/error.hpp"
-#include "core/se2.hpp"
-#include "planners/layer_search.hpp"
-#include "tools/answer_json.hpp"
-#include "tools/cell_drawing.hpp"
-#include "tools/grid_options.hpp"
-#include "tools/lattice_ends.hpp"
-#include "tools/option_values.hpp"
-#include "tools/settled_ends.hpp"
-#include "tools/solve_kind.hpp"
-#include "tools/sweep_drawing.hpp"
-#include "tools/verified_answer.hpp"
-#include "worlds/map_layers.hpp"
-#include "worlds/orientation_layers.hpp"
-#include "worlds/verify_se2.hpp"
+#include "core/base/error.hpp"
+#include "core/plane/se2.hpp"
+#include "pictures/draw_cells.hpp"
+#include "pictures/draw_sweep.hpp"
+#include "planners/grid/heading_layer_search.hpp"
+#include "solve/kinds/ends_on_lattice.hpp"
+#include "solve/question/grid_choice.hpp"
+#include "solve/question/kind_of_problem.hpp"
+#include "solve/question/settled_ends.hpp"
+#include "solve/question/solve_steps.hpp"
+#include "solve/question/write_answer_io.hpp"
+#include "tools/words/option_values.hpp"
+#include "verify/judges/verify_turning.hpp"
+#include "worlds/rasters/heading_layers_of_map.hpp"
+#include "worlds/rasters/heading_layers_of_scene.hpp"
 
 namespace warren {
 namespace {

@@ -5,16 +5,16 @@
 #include <utility>
 #include <vector>
 
-#include "core/error.hpp"
-#include "planners/grid_search.hpp"
-#include "planners/shortcut.hpp"
-#include "spatial/distance_field.hpp"
-#include "tools/answer_json.hpp"
-#include "tools/grid_options.hpp"
-#include "tools/map_planners.hpp"
-#include "tools/verified_answer.hpp"
-#include "worlds/grid_world.hpp"
-#include "worlds/verify_map.hpp"
+#include "core/base/error.hpp"
+#include "planners/grid/grid_search.hpp"
+#include "planners/shorten/shortcut.hpp"
+#include "solve/kinds/map_steps.hpp"
+#include "solve/question/grid_choice.hpp"
+#include "solve/question/solve_steps.hpp"
+#include "solve/question/write_answer_io.hpp"
+#include "spatial/maps/distance_field.hpp"
+#include "verify/judges/verify_map.hpp"
+#include "worlds/plane/grid_world.hpp"
 
 namespace warren {
 namespace {

@@ -5,18 +5,18 @@
 
 #include <optional>
 
-#include "core/error.hpp"
-#include "planners/guided.hpp"
-#include "planners/lazy_prm.hpp"
-#include "planners/prm.hpp"
-#include "planners/rrt.hpp"
-#include "planners/rrt_connect.hpp"
-#include "planners/shortcut.hpp"
-#include "tools/map_planners.hpp"
-#include "tools/sweep_drawing.hpp"
-#include "tools/tree_options.hpp"
-#include "tools/verified_answer.hpp"
-#include "worlds/grid_world.hpp"
+#include "core/base/error.hpp"
+#include "pictures/draw_sweep.hpp"
+#include "planners/roadmap/lazy_prm.hpp"
+#include "planners/roadmap/prm.hpp"
+#include "planners/shorten/shortcut.hpp"
+#include "planners/trees/rrt.hpp"
+#include "planners/trees/rrt_connect.hpp"
+#include "planners/trees/through_way_points.hpp"
+#include "solve/kinds/map_steps.hpp"
+#include "solve/question/solve_steps.hpp"
+#include "solve/question/tree_choice.hpp"
+#include "worlds/plane/grid_world.hpp"
 
 namespace warren {
 namespace {

@@ -3,11 +3,11 @@
 // can be. min_clearance of the answer is measured on the path by the verification.
 #include <optional>
 
-#include "planners/skeleton_planner.hpp"
-#include "tools/answer_json.hpp"
-#include "tools/map_planners.hpp"
-#include "tools/plane_planners.hpp"
-#include "tools/verified_answer.hpp"
+#include "planners/grid/skeleton_planner.hpp"
+#include "solve/kinds/map_steps.hpp"
+#include "solve/kinds/plane_steps.hpp"
+#include "solve/question/solve_steps.hpp"
+#include "solve/question/write_answer_io.hpp"
 
 namespace warren {
 namespace {

@@ -3,10 +3,10 @@
 // (tools/solve_turning).
 #include <vector>
 
-#include "tools/grid_options.hpp"
-#include "tools/map_planners.hpp"
-#include "tools/plane_planners.hpp"
-#include "tools/tree_options.hpp"
+#include "solve/kinds/map_steps.hpp"
+#include "solve/kinds/plane_steps.hpp"
+#include "solve/question/grid_choice.hpp"
+#include "solve/question/tree_choice.hpp"
 
 namespace warren {
 namespace {

@@ -2,15 +2,15 @@
 // A point or disc among polygons and walls: joins worlds/polygon_world with the planners that sample it.
 #include <optional>
 
-#include "core/error.hpp"
-#include "planners/lazy_prm.hpp"
-#include "planners/prm.hpp"
-#include "planners/taut_path.hpp"
-#include "tools/plane_planners.hpp"
-#include "tools/solve_kind.hpp"
-#include "tools/verified_answer.hpp"
-#include "worlds/plane_obstacles.hpp"
-#include "worlds/polygon_world.hpp"
+#include "core/base/error.hpp"
+#include "planners/roadmap/lazy_prm.hpp"
+#include "planners/roadmap/prm.hpp"
+#include "planners/shorten/taut_path.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
+#include "solve/kinds/plane_steps.hpp"
+#include "solve/question/kind_of_problem.hpp"
+#include "solve/question/solve_steps.hpp"
+#include "worlds/plane/polygon_world.hpp"
 
 namespace warren {
 namespace {

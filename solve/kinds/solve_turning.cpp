@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Joins Se2World with the planners that take it: a polygon that turns among walls, polygons and bounds; what it shares
-// with cars is in tools/pose_problem.hpp. `visibility` and `cells` don't turn the body
-// at all (tools/fixed_angle.hpp).
+// with cars is in solve/question/question_of_pose.hpp. `visibility` and `cells` don't turn the body
+// at all (solve/kinds/at_fixed_angle.hpp).
 #include <fmt/format.h>
 
 #include <optional>
 
-#include "core/error.hpp"
-#include "planners/lazy_prm.hpp"
-#include "planners/prm.hpp"
-#include "planners/shortcut.hpp"
-#include "tools/fixed_angle.hpp"
-#include "tools/map_planners.hpp"
-#include "tools/plane_planners.hpp"
-#include "tools/pose_problem.hpp"
-#include "tools/solve_kind.hpp"
-#include "tools/sweep_drawing.hpp"
-#include "tools/tree_options.hpp"
-#include "tools/verified_answer.hpp"
-#include "worlds/se2_world.hpp"
-#include "worlds/verify_se2.hpp"
+#include "core/base/error.hpp"
+#include "pictures/draw_sweep.hpp"
+#include "planners/roadmap/lazy_prm.hpp"
+#include "planners/roadmap/prm.hpp"
+#include "planners/shorten/shortcut.hpp"
+#include "solve/kinds/at_fixed_angle.hpp"
+#include "solve/kinds/map_steps.hpp"
+#include "solve/kinds/plane_steps.hpp"
+#include "solve/question/kind_of_problem.hpp"
+#include "solve/question/question_of_pose.hpp"
+#include "solve/question/solve_steps.hpp"
+#include "solve/question/tree_choice.hpp"
+#include "verify/judges/verify_turning.hpp"
+#include "worlds/poses/se2_world.hpp"
 
 namespace warren {
 namespace {

@@ -6,15 +6,15 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/error.hpp"
-#include "core/se2.hpp"
-#include "tools/map_planners.hpp"
-#include "tools/plane_planners.hpp"
-#include "tools/pose_problem.hpp"
-#include "tools/sweep_drawing.hpp"
-#include "tools/verified_answer.hpp"
-#include "worlds/plane_obstacles.hpp"
-#include "worlds/verify_se2.hpp"
+#include "core/base/error.hpp"
+#include "core/plane/se2.hpp"
+#include "pictures/draw_sweep.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
+#include "solve/kinds/map_steps.hpp"
+#include "solve/kinds/plane_steps.hpp"
+#include "solve/question/question_of_pose.hpp"
+#include "solve/question/solve_steps.hpp"
+#include "verify/judges/verify_turning.hpp"
 
 namespace warren {
 namespace {

@@ -7,17 +7,17 @@
 #include <algorithm>
 #include <array>
 
-#include "core/error.hpp"
-#include "core/graph.hpp"
-#include "core/search.hpp"
+#include "core/base/error.hpp"
+#include "core/search/graph.hpp"
+#include "core/search/search.hpp"
 #include "parallel/assemble_graph.hpp"
-#include "planners/queue_choice.hpp"
-#include "planners/sampled_visibility.hpp"
-#include "planners/visibility_path.hpp"
-#include "tools/answer_json.hpp"
-#include "tools/option_values.hpp"
-#include "tools/plane_planners.hpp"
-#include "tools/verified_answer.hpp"
+#include "planners/roadmap/queue_choice.hpp"
+#include "planners/visibility/sampled_visibility.hpp"
+#include "planners/visibility/visibility_path.hpp"
+#include "solve/kinds/plane_steps.hpp"
+#include "solve/question/solve_steps.hpp"
+#include "solve/question/write_answer_io.hpp"
+#include "tools/words/option_values.hpp"
 
 namespace warren {
 namespace {

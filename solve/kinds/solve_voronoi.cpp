@@ -3,11 +3,11 @@
 // is measured on the path by the verification.
 #include <fmt/format.h>
 
-#include "core/error.hpp"
-#include "planners/medial_axis_planner.hpp"
-#include "tools/answer_json.hpp"
-#include "tools/plane_planners.hpp"
-#include "tools/verified_answer.hpp"
+#include "core/base/error.hpp"
+#include "planners/axis/medial_axis_planner.hpp"
+#include "solve/kinds/plane_steps.hpp"
+#include "solve/question/solve_steps.hpp"
+#include "solve/question/write_answer_io.hpp"
 
 namespace warren {
 namespace {

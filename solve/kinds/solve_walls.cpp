@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/solve_walls.hpp"
+#include "solve/kinds/solve_walls.hpp"
 
 #include <optional>
 
-#include "core/error.hpp"
-#include "planners/lazy_prm.hpp"
-#include "planners/prm.hpp"
-#include "planners/taut_path.hpp"
-#include "planners/tiled_prm.hpp"
-#include "planners/tiled_roadmap.hpp"
-#include "tools/maze_proof.hpp"
-#include "tools/solve_kind.hpp"
-#include "tools/verified_answer.hpp"
-#include "worlds/maze_world.hpp"
+#include "core/base/error.hpp"
+#include "planners/roadmap/lazy_prm.hpp"
+#include "planners/roadmap/prm.hpp"
+#include "planners/shorten/taut_path.hpp"
+#include "planners/tiled/tiled_prm_any_world.hpp"
+#include "planners/tiled/tiled_prm_lattice.hpp"
+#include "solve/kinds/maze_infeasible.hpp"
+#include "solve/question/kind_of_problem.hpp"
+#include "solve/question/solve_steps.hpp"
+#include "worlds/plane/maze_world.hpp"
 
 namespace warren {
 namespace {

@@ -2,13 +2,13 @@
 // Joins the worlds of walls with the roadmap planners: scene and options in, verified answer out.
 #pragma once
 
-#include "core/types.hpp"
+#include "core/base/types.hpp"
 #include "parallel/execution.hpp"
-#include "planners/roadmap.hpp"
-#include "tools/answer.hpp"
-#include "tools/planner_options.hpp"
-#include "tools/problem.hpp"
-#include "worlds/scene.hpp"
+#include "planners/roadmap/roadmap.hpp"
+#include "scenes/scene/scene.hpp"
+#include "solve/question/answer.hpp"
+#include "solve/question/planner_choice.hpp"
+#include "solve/question/question.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The account of one solve: the answer, what it means, and what it took. Plain data; answer_json.hpp writes it.
+// The account of one solve: the answer, what it means, and what it took. Plain data; write_answer_io.hpp writes it.
 #pragma once
 
 #include <cstdint>
@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "core/path.hpp"
-#include "core/solution.hpp"
+#include "core/base/path.hpp"
+#include "core/base/solution.hpp"
 #include "parallel/deadline.hpp"
-#include "tools/problem.hpp"
-#include "tools/state_list.hpp"
-#include "worlds/verification.hpp"
+#include "solve/question/question.hpp"
+#include "solve/question/state_list.hpp"
+#include "verify/judges/verification.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/grid_options.hpp"
+#include "solve/question/grid_choice.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <array>
 #include <cmath>
 
-#include "core/error.hpp"
-#include "tools/option_values.hpp"
+#include "core/base/error.hpp"
+#include "tools/words/option_values.hpp"
 
 namespace warren {
 namespace {

@@ -5,10 +5,10 @@
 #include <span>
 #include <string_view>
 
-#include "planners/grid_search.hpp"
-#include "tools/arguments.hpp"
-#include "tools/command.hpp"
-#include "worlds/scene.hpp"
+#include "planners/grid/grid_search.hpp"
+#include "scenes/scene/scene.hpp"
+#include "tools/words/arguments.hpp"
+#include "tools/words/command.hpp"
 
 namespace warren {
 

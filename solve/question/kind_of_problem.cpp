@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/solve_kind.hpp"
+#include "solve/question/kind_of_problem.hpp"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <optional>
 #include <stdexcept>
 
-#include "core/error.hpp"
-#include "tools/fixed_angle.hpp"
-#include "tools/plannable.hpp"
+#include "core/base/error.hpp"
+#include "solve/kinds/at_fixed_angle.hpp"
+#include "solve/question/plannable.hpp"
 
 namespace warren {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which problems `solve` and `verify` know, and which planners solve each: one SolveKind a kind of problem, defined in
-// a file of its own, tools/solve_NAME.cpp; the table of all of them is in solve_kind.cpp.
+// a file of its own, tools/solve_NAME.cpp; the table of all of them is in kind_of_problem.cpp.
 //
 // To add a planner to a kind: a line in the `NAME_planners` of its file, naming the options that it takes beyond
 // --planner and --seed (every other planner option is refused, by name, before the planner sees it), and a branch in
@@ -16,15 +16,15 @@
 #include <vector>
 
 #include "parallel/execution.hpp"
-#include "tools/answer.hpp"
-#include "tools/arguments.hpp"
-#include "tools/command.hpp"
-#include "tools/picture.hpp"
-#include "tools/planner_options.hpp"
-#include "tools/problem.hpp"
-#include "tools/recorded_answer.hpp"
-#include "worlds/scene.hpp"
-#include "worlds/verify.hpp"
+#include "pictures/picture.hpp"
+#include "scenes/scene/scene.hpp"
+#include "solve/question/answer.hpp"
+#include "solve/question/planner_choice.hpp"
+#include "solve/question/question.hpp"
+#include "solve/question/read_answer_io.hpp"
+#include "tools/words/arguments.hpp"
+#include "tools/words/command.hpp"
+#include "verify/judges/verify_point.hpp"
 
 namespace warren {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/plannable.hpp"
+#include "solve/question/plannable.hpp"
 
 #include <fmt/format.h>
 
-#include "core/error.hpp"
-#include "tools/arm_problem.hpp"
+#include "core/base/error.hpp"
+#include "solve/question/question_of_arm.hpp"
 
 namespace warren {
 namespace {

@@ -2,8 +2,8 @@
 // Which worlds a body can be planned and judged in at all. All verbs ask here, so that they refuse alike.
 #pragma once
 
-#include "tools/problem.hpp"
-#include "worlds/scene.hpp"
+#include "scenes/scene/scene.hpp"
+#include "solve/question/question.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/planner_options.hpp"
+#include "solve/question/planner_choice.hpp"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <limits>
 #include <optional>
 
-#include "core/error.hpp"
-#include "planners/tiled_prm.hpp"
-#include "tools/answer_json.hpp"
-#include "tools/option_values.hpp"
+#include "core/base/error.hpp"
+#include "planners/tiled/tiled_prm_lattice.hpp"
+#include "solve/question/write_answer_io.hpp"
+#include "tools/words/option_values.hpp"
 
 namespace warren {
 namespace {

@@ -10,15 +10,15 @@
 #include <utility>
 #include <vector>
 
-#include "planners/roadmap_options.hpp"
-#include "tools/arguments.hpp"
-#include "tools/command.hpp"
-#include "tools/problem.hpp"
-#include "worlds/scene.hpp"
+#include "planners/roadmap/roadmap_options.hpp"
+#include "scenes/scene/scene.hpp"
+#include "solve/question/question.hpp"
+#include "tools/words/arguments.hpp"
+#include "tools/words/command.hpp"
 
 namespace warren {
 
-/// All that the formats name; which of them this version has, and for what, solve_kind.hpp tells.
+/// All that the formats name; which of them this version has, and for what, kind_of_problem.hpp tells.
 enum class PlannerKind : std::uint8_t { prm, lazy_prm, visibility, cells, voronoi, rrt, rrt_connect, grid };
 inline constexpr PlannerKind all_planners[] = {PlannerKind::prm,         PlannerKind::lazy_prm, PlannerKind::visibility,
                                                PlannerKind::cells,       PlannerKind::voronoi,  PlannerKind::rrt,

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/problem.hpp"
+#include "solve/question/question.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
 
-#include "core/error.hpp"
-#include "core/se2.hpp"
-#include "tools/option_values.hpp"
-#include "tools/output_conflicts.hpp"
-#include "worlds/robot_text.hpp"
+#include "core/base/error.hpp"
+#include "core/plane/se2.hpp"
+#include "scenes/text/robot_text.hpp"
+#include "tools/screen/output_conflicts.hpp"
+#include "tools/words/option_values.hpp"
 
 namespace warren {
 namespace {

@@ -9,11 +9,11 @@
 #include <string_view>
 #include <vector>
 
-#include "core/types.hpp"
-#include "tools/arguments.hpp"
-#include "tools/command.hpp"
-#include "worlds/scene.hpp"
-#include "worlds/verify.hpp"
+#include "core/base/types.hpp"
+#include "scenes/scene/scene.hpp"
+#include "tools/words/arguments.hpp"
+#include "tools/words/command.hpp"
+#include "verify/judges/verify_point.hpp"
 
 namespace warren {
 

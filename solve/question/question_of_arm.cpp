@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/arm_problem.hpp"
+#include "solve/question/question_of_arm.hpp"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <array>
 #include <numbers>
 
-#include "core/error.hpp"
-#include "worlds/dh_table_io.hpp"
-#include "worlds/puma560.hpp"
+#include "core/base/error.hpp"
+#include "scenes/formats/dh_table_io.hpp"
+#include "worlds/arms/puma560.hpp"
 
 namespace warren {
 namespace {

@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "tools/problem.hpp"
-#include "worlds/scene.hpp"
-#include "worlds/serial_chain.hpp"
-#include "worlds/verify_arm.hpp"
+#include "scenes/scene/scene.hpp"
+#include "solve/question/question.hpp"
+#include "verify/judges/verify_arm.hpp"
+#include "worlds/arms/serial_chain.hpp"
 
 namespace warren {
 

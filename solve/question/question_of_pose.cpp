@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/pose_problem.hpp"
+#include "solve/question/question_of_pose.hpp"
 
 #include <array>
 #include <numbers>
 
-#include "tools/tree_options.hpp"
-#include "tools/verified_answer.hpp"
+#include "solve/question/solve_steps.hpp"
+#include "solve/question/tree_choice.hpp"
 
 namespace warren {
 namespace {

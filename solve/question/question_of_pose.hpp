@@ -11,18 +11,18 @@
 #include <string_view>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/se2.hpp"
-#include "core/solution.hpp"
-#include "core/types.hpp"
-#include "planners/guided.hpp"
-#include "planners/rrt.hpp"
-#include "planners/rrt_connect.hpp"
-#include "tools/answer.hpp"
-#include "tools/problem.hpp"
-#include "tools/recorded_answer.hpp"
-#include "tools/settled_ends.hpp"
-#include "tools/solve_kind.hpp"
+#include "core/base/error.hpp"
+#include "core/base/solution.hpp"
+#include "core/base/types.hpp"
+#include "core/plane/se2.hpp"
+#include "planners/trees/rrt.hpp"
+#include "planners/trees/rrt_connect.hpp"
+#include "planners/trees/through_way_points.hpp"
+#include "solve/question/answer.hpp"
+#include "solve/question/kind_of_problem.hpp"
+#include "solve/question/question.hpp"
+#include "solve/question/read_answer_io.hpp"
+#include "solve/question/settled_ends.hpp"
 
 namespace warren {
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/recorded_answer.hpp"
+#include "solve/question/read_answer_io.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "core/error.hpp"
-#include "tools/answer_json.hpp"
-#include "worlds/json_bytes.hpp"
-#include "worlds/scene_text.hpp"
+#include "core/base/error.hpp"
+#include "scenes/text/json_bytes.hpp"
+#include "scenes/text/scene_text.hpp"
+#include "solve/question/write_answer_io.hpp"
 
 namespace warren {
 namespace {

@@ -8,13 +8,13 @@
 #include <string_view>
 #include <vector>
 
-#include "core/path.hpp"
-#include "core/types.hpp"
+#include "core/base/path.hpp"
+#include "core/base/types.hpp"
 #include "parallel/execution.hpp"
-#include "tools/problem.hpp"
-#include "tools/state_list.hpp"
-#include "worlds/input_file_io.hpp"
-#include "worlds/scene.hpp"
+#include "scenes/scene/scene.hpp"
+#include "scenes/text/input_file_io.hpp"
+#include "solve/question/question.hpp"
+#include "solve/question/state_list.hpp"
 
 namespace warren {
 

@@ -4,7 +4,7 @@
 // the start comes first, and where both stand free nobody has proved anything.
 #pragma once
 
-#include "core/solution.hpp"
+#include "core/base/solution.hpp"
 
 namespace warren {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/verified_answer.hpp"
+#include "solve/question/solve_steps.hpp"
 
 #include <fmt/format.h>
 
 #include <stdexcept>
 
-#include "tools/settled_ends.hpp"
-#include "worlds/verify.hpp"
+#include "solve/question/settled_ends.hpp"
+#include "verify/judges/verify_point.hpp"
 
 namespace warren {
 namespace {

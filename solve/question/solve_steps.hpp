@@ -7,14 +7,14 @@
 #include <new>
 #include <optional>
 
-#include "core/solution.hpp"
+#include "core/base/solution.hpp"
 #include "parallel/execution.hpp"
-#include "tools/answer.hpp"
-#include "tools/planner_options.hpp"
-#include "tools/problem.hpp"
-#include "tools/solve_kind.hpp"
-#include "worlds/scene.hpp"
-#include "worlds/verify.hpp"
+#include "scenes/scene/scene.hpp"
+#include "solve/question/answer.hpp"
+#include "solve/question/kind_of_problem.hpp"
+#include "solve/question/planner_choice.hpp"
+#include "solve/question/question.hpp"
+#include "verify/judges/verify_point.hpp"
 
 namespace warren {
 

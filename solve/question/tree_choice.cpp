@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/tree_options.hpp"
+#include "solve/question/tree_choice.hpp"
 
 #include <fmt/format.h>
 
-#include "core/error.hpp"
-#include "tools/answer_json.hpp"
-#include "tools/option_values.hpp"
-#include "tools/planner_options.hpp"
+#include "core/base/error.hpp"
+#include "solve/question/planner_choice.hpp"
+#include "solve/question/write_answer_io.hpp"
+#include "tools/words/option_values.hpp"
 
 namespace warren {
 namespace {

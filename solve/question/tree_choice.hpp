@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "planners/rrt_options.hpp"
-#include "tools/arguments.hpp"
-#include "tools/command.hpp"
+#include "planners/trees/rrt_options.hpp"
+#include "tools/words/arguments.hpp"
+#include "tools/words/command.hpp"
 
 namespace warren {
 

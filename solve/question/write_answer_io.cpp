@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/answer_json.hpp"
+#include "solve/question/write_answer_io.hpp"
 
 #include <fmt/format.h>
 

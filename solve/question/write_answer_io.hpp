@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "parallel/execution.hpp"
-#include "tools/answer.hpp"
+#include "solve/question/answer.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "spatial/corridor_cells.hpp"
+#include "spatial/maps/corridor_cells.hpp"
 
 #include <algorithm>
 #include <array>

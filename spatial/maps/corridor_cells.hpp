@@ -9,10 +9,10 @@
 
 #include <cstdint>
 
-#include "core/bitmap.hpp"
-#include "core/raw_vector.hpp"
+#include "core/base/bitmap.hpp"
+#include "core/base/raw_vector.hpp"
 #include "parallel/execution.hpp"
-#include "spatial/distance_field.hpp"
+#include "spatial/maps/distance_field.hpp"
 
 namespace warren {
 

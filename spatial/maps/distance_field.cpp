@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Row pass: column u contributes the curve curve(|x - u|) + height(u). The curves are translates of one convex
 // function, so two of them change order once; `last_of_left` is where, in closed form.
-#include "spatial/distance_field.hpp"
+#include "spatial/maps/distance_field.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
 
 namespace warren {

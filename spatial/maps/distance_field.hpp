@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <limits>
 
-#include "core/bitmap.hpp"
-#include "core/raw_vector.hpp"
+#include "core/base/bitmap.hpp"
+#include "core/base/raw_vector.hpp"
 #include "parallel/execution.hpp"
 
 namespace warren {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "spatial/free_cells.hpp"
+#include "spatial/maps/free_cells.hpp"
 
 #include <bit>
 #include <limits>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace warren {
 namespace {

@@ -7,9 +7,9 @@
 #include <array>
 #include <cstdint>
 
-#include "core/bitmap.hpp"
-#include "core/raw_vector.hpp"
-#include "core/types.hpp"
+#include "core/base/bitmap.hpp"
+#include "core/base/raw_vector.hpp"
+#include "core/base/types.hpp"
 #include "parallel/execution.hpp"
 
 namespace warren {

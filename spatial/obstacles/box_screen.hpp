@@ -9,8 +9,8 @@
 #include <limits>
 #include <type_traits>
 
-#include "core/types.hpp"
-#include "core/wall_set.hpp"
+#include "core/base/types.hpp"
+#include "core/plane/wall_set.hpp"
 
 namespace warren {
 

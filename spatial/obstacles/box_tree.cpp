@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "spatial/box_tree.hpp"
+#include "spatial/obstacles/box_tree.hpp"
 
 #include <numeric>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "spatial/motion_bunch.hpp"
+#include "spatial/obstacles/motion_bunch.hpp"
 
 #include <immintrin.h>
 

@@ -15,10 +15,10 @@
 #include <span>
 #include <type_traits>
 
-#include "core/types.hpp"
-#include "core/wall_set.hpp"
-#include "spatial/box_screen.hpp"
-#include "spatial/disc_points.hpp"
+#include "core/base/types.hpp"
+#include "core/plane/wall_set.hpp"
+#include "spatial/obstacles/box_screen.hpp"
+#include "spatial/points/disc_points.hpp"
 
 namespace warren::detail {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "spatial/polygon_index.hpp"
+#include "spatial/obstacles/polygon_index.hpp"
 
 #include <algorithm>
 #include <utility>
 
-#include "core/geometry.hpp"
+#include "core/plane/geometry.hpp"
 #include "parallel/chunks.hpp"
 
 namespace warren {

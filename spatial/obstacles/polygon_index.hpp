@@ -11,10 +11,10 @@
 #include <optional>
 #include <vector>
 
-#include "core/polygon.hpp"
-#include "core/types.hpp"
+#include "core/base/types.hpp"
+#include "core/plane/polygon.hpp"
 #include "parallel/execution.hpp"
-#include "spatial/box_tree.hpp"
+#include "spatial/obstacles/box_tree.hpp"
 
 namespace warren {
 

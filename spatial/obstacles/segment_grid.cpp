@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "spatial/segment_grid.hpp"
+#include "spatial/obstacles/segment_grid.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -10,10 +10,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/raw_vector.hpp"
-#include "core/types.hpp"
-#include "core/wall_set.hpp"
-#include "spatial/box_screen.hpp"
+#include "core/base/raw_vector.hpp"
+#include "core/base/types.hpp"
+#include "core/plane/wall_set.hpp"
+#include "spatial/obstacles/box_screen.hpp"
 
 namespace warren {
 

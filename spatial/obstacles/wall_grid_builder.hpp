@@ -10,7 +10,7 @@
 
 #include "parallel/chunks.hpp"
 #include "parallel/first_touch.hpp"
-#include "spatial/wall_grid.hpp"
+#include "spatial/obstacles/wall_grid.hpp"
 
 namespace warren {
 

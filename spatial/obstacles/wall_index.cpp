@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "spatial/wall_index.hpp"
+#include "spatial/obstacles/wall_index.hpp"
 
 #include <algorithm>
 #include <array>
 
-#include "core/error.hpp"
-#include "core/geometry.hpp"
-#include "spatial/motion_bunch.hpp"
-#include "spatial/wall_grid_builder.hpp"
+#include "core/base/error.hpp"
+#include "core/plane/geometry.hpp"
+#include "spatial/obstacles/motion_bunch.hpp"
+#include "spatial/obstacles/wall_grid_builder.hpp"
 
 namespace warren {
 namespace {

@@ -23,10 +23,10 @@
 #include <variant>
 #include <vector>
 
-#include "core/types.hpp"
-#include "core/wall_set.hpp"
+#include "core/base/types.hpp"
+#include "core/plane/wall_set.hpp"
 #include "parallel/execution.hpp"
-#include "spatial/wall_grid.hpp"
+#include "spatial/obstacles/wall_grid.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "spatial/cell_milestones.hpp"
+#include "spatial/points/cell_milestones.hpp"
 
 #include <bit>
 #include <vector>

@@ -6,7 +6,7 @@
 // O(cells / 64).
 #pragma once
 
-#include "core/bitmap.hpp"
+#include "core/base/bitmap.hpp"
 #include "parallel/execution.hpp"
 
 namespace warren {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "spatial/disc_points.hpp"
+#include "spatial/points/disc_points.hpp"
 
 #include <bit>
 #include <cstring>

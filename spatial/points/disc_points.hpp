@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/types.hpp"
+#include "core/base/types.hpp"
 
 namespace warren::detail {
 

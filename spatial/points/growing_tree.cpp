@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "spatial/growing_tree.hpp"
+#include "spatial/points/growing_tree.hpp"
 
 #include <cmath>
 #include <limits>

@@ -8,7 +8,7 @@
 
 #include <vector>
 
-#include "spatial/kd_tree.hpp"
+#include "spatial/points/kd_tree.hpp"
 
 namespace warren {
 

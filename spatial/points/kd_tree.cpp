@@ -2,7 +2,7 @@
 // nanoflann 1.4.3 works on squares and drops points that tie with the worst one it holds. The result sets below
 // therefore report a worst square that is `slack` larger than the true one, and decide by (distance, id) themselves;
 // the slack also covers the rounding of nanoflann's lower bounds, a few units in the last place.
-#include "spatial/kd_tree.hpp"
+#include "spatial/points/kd_tree.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -10,7 +10,7 @@
 #include <numeric>
 #include <optional>
 
-#include "core/raw_vector.hpp"
+#include "core/base/raw_vector.hpp"
 #include "parallel/sort.hpp"
 
 namespace warren {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "parallel/chunks.hpp"
-#include "spatial/neighbour.hpp"
+#include "spatial/points/neighbour.hpp"
 
 namespace warren {
 

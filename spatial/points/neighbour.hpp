@@ -11,7 +11,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "core/types.hpp"
+#include "core/base/types.hpp"
 
 namespace warren {
 

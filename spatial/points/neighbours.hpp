@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "parallel/chunks.hpp"
-#include "spatial/kd_tree.hpp"
-#include "spatial/point_grid.hpp"
+#include "spatial/points/kd_tree.hpp"
+#include "spatial/points/point_grid.hpp"
 
 namespace warren {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "spatial/point_grid.hpp"
+#include "spatial/points/point_grid.hpp"
 
 #include <algorithm>
 #include <numbers>
 #include <numeric>
 
 #include "parallel/sort.hpp"
-#include "spatial/disc_points.hpp"
+#include "spatial/points/disc_points.hpp"
 
 namespace warren {
 namespace {

@@ -17,11 +17,11 @@
 #include <span>
 #include <vector>
 
-#include "core/raw_vector.hpp"
-#include "core/types.hpp"
+#include "core/base/raw_vector.hpp"
+#include "core/base/types.hpp"
 #include "parallel/chunks.hpp"
-#include "spatial/neighbour.hpp"
-#include "spatial/tile_order.hpp"
+#include "spatial/points/neighbour.hpp"
+#include "spatial/points/tile_order.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "spatial/tile_order.hpp"
+#include "spatial/points/tile_order.hpp"
 
 #include <cmath>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/cells_passed.hpp"
+#include "studies/compare/cells_on_path.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,8 +6,8 @@
 #include <optional>
 #include <span>
 
-#include "core/types.hpp"
-#include "worlds/scene.hpp"
+#include "core/base/types.hpp"
+#include "scenes/scene/scene.hpp"
 
 namespace warren {
 

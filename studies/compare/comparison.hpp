@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contenders, searches or planners, that took turns at the same problem: every run of each, and what the runs say
-// together. Plain data; comparison_report.hpp, comparison_plots.hpp and ompl_log.hpp write it.
+// together. Plain data; comparison_report.hpp, comparison_plots.hpp and comparison_ompl_log.hpp write it.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/solution.hpp"
-#include "tools/statistics.hpp"
+#include "core/base/solution.hpp"
+#include "studies/measure/statistics.hpp"
 
 namespace warren {
 

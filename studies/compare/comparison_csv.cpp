@@ -2,8 +2,8 @@
 // A comparison as CSV (RFC 4180): a line a contender, empty where nothing is known.
 #include <fmt/format.h>
 
-#include "core/printable.hpp"
-#include "tools/comparison_report.hpp"
+#include "core/base/printable.hpp"
+#include "studies/compare/comparison_report.hpp"
 
 namespace warren {
 namespace {

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "tools/answer_json.hpp"
-#include "tools/comparison_report.hpp"
-#include "tools/machine.hpp"
-#include "tools/queue_crossings.hpp"
+#include "solve/question/write_answer_io.hpp"
+#include "studies/compare/comparison_report.hpp"
+#include "studies/compare/queue_crossings.hpp"
+#include "studies/measure/machine_memory.hpp"
 
 namespace warren {
 namespace {

@@ -6,9 +6,9 @@
 #include <array>
 #include <iterator>
 
-#include "core/printable.hpp"
-#include "tools/comparison_report.hpp"
-#include "tools/machine.hpp"
+#include "core/base/printable.hpp"
+#include "studies/compare/comparison_report.hpp"
+#include "studies/measure/machine_memory.hpp"
 
 namespace warren {
 namespace {

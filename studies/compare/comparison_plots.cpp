@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <array>
 
-#include "tools/comparison_report.hpp"
-#include "tools/plot_svg.hpp"
-#include "tools/queue_crossings.hpp"
+#include "pictures/plot_svg.hpp"
+#include "studies/compare/comparison_report.hpp"
+#include "studies/compare/queue_crossings.hpp"
 
 namespace warren {
 namespace {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/comparison_report.hpp"
+#include "studies/compare/comparison_report.hpp"
 
 #include <fmt/format.h>
 
 #include <numbers>
 
-#include "core/printable.hpp"
-#include "tools/human_units.hpp"
-#include "tools/machine.hpp"
-#include "tools/run_options.hpp"
-#include "tools/text_table.hpp"
+#include "core/base/printable.hpp"
+#include "studies/measure/human_units.hpp"
+#include "studies/measure/machine_memory.hpp"
+#include "studies/measure/text_table.hpp"
+#include "tools/screen/run_of_verb.hpp"
 
 namespace warren {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <string>
 
-#include "tools/comparison.hpp"
-#include "tools/terminal.hpp"
+#include "studies/compare/comparison.hpp"
+#include "tools/screen/terminal.hpp"
 
 namespace warren {
 
@@ -36,7 +36,7 @@ struct OmplExperiment {
 };
 
 /// The text format of OMPL's benchmarks (ompl_benchmark_statistics.py and Planner Arena read it), with OMPL's names of
-/// properties (ompl_log.cpp).
+/// properties (comparison_ompl_log.cpp).
 std::string ompl_log(const Comparison& comparison, const OmplExperiment& experiment);
 
 }  // namespace warren

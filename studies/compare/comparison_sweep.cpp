@@ -6,10 +6,10 @@
 #include <cmath>
 #include <set>
 
-#include "tools/comparison_report.hpp"
-#include "tools/human_units.hpp"
-#include "tools/queue_crossings.hpp"
-#include "tools/text_table.hpp"
+#include "studies/compare/comparison_report.hpp"
+#include "studies/compare/queue_crossings.hpp"
+#include "studies/measure/human_units.hpp"
+#include "studies/measure/text_table.hpp"
 
 namespace warren {
 namespace {

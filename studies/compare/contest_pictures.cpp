@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/contest_pictures.hpp"
+#include "studies/compare/contest_pictures.hpp"
 
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -11,12 +11,12 @@
 #include <system_error>
 #include <vector>
 
-#include "core/error.hpp"
-#include "tools/cell_drawing.hpp"
-#include "tools/curve_drawing.hpp"
-#include "tools/picture.hpp"
-#include "tools/solve_kind.hpp"
-#include "tools/world_files.hpp"
+#include "core/base/error.hpp"
+#include "pictures/curve_drawing.hpp"
+#include "pictures/draw_cells.hpp"
+#include "pictures/picture.hpp"
+#include "solve/question/kind_of_problem.hpp"
+#include "tools/screen/world_files.hpp"
 
 namespace warren {
 namespace {

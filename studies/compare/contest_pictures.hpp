@@ -6,9 +6,9 @@
 #include <string>
 
 #include "parallel/execution.hpp"
-#include "tools/comparison.hpp"
-#include "tools/planner_contest.hpp"
-#include "worlds/scene.hpp"
+#include "scenes/scene/scene.hpp"
+#include "studies/compare/comparison.hpp"
+#include "studies/compare/planner_contest.hpp"
 
 namespace warren {
 

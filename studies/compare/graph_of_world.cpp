@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/world_graph.hpp"
+#include "studies/compare/graph_of_world.hpp"
 
 #include <fmt/format.h>
 
-#include "core/error.hpp"
-#include "tools/planner_options.hpp"
-#include "tools/problem.hpp"
-#include "tools/solve_kind.hpp"
+#include "core/base/error.hpp"
+#include "solve/question/kind_of_problem.hpp"
+#include "solve/question/planner_choice.hpp"
+#include "solve/question/question.hpp"
 
 namespace warren {
 namespace {

@@ -4,11 +4,11 @@
 
 #include <string>
 
-#include "core/solution.hpp"
+#include "core/base/solution.hpp"
 #include "parallel/execution.hpp"
-#include "tools/arguments.hpp"
-#include "tools/search_graph.hpp"
-#include "worlds/scene.hpp"
+#include "scenes/scene/scene.hpp"
+#include "studies/searches/search_graph.hpp"
+#include "tools/words/arguments.hpp"
 
 namespace warren {
 

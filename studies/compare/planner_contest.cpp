@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/planner_contest.hpp"
+#include "studies/compare/planner_contest.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "core/error.hpp"
-#include "tools/answer.hpp"
-#include "tools/answer_json.hpp"
-#include "tools/cells_passed.hpp"
-#include "tools/grid_options.hpp"
-#include "tools/problem.hpp"
-#include "tools/signals.hpp"
-#include "tools/solve_kind.hpp"
+#include "core/base/error.hpp"
+#include "solve/question/answer.hpp"
+#include "solve/question/grid_choice.hpp"
+#include "solve/question/kind_of_problem.hpp"
+#include "solve/question/question.hpp"
+#include "solve/question/write_answer_io.hpp"
+#include "studies/compare/cells_on_path.hpp"
+#include "tools/screen/signals.hpp"
 
 namespace warren {
 namespace {

@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "parallel/execution.hpp"
-#include "tools/answer.hpp"
-#include "tools/arguments.hpp"
-#include "tools/command.hpp"
-#include "tools/comparison.hpp"
-#include "tools/picture.hpp"
-#include "worlds/scene.hpp"
+#include "pictures/picture.hpp"
+#include "scenes/scene/scene.hpp"
+#include "solve/question/answer.hpp"
+#include "studies/compare/comparison.hpp"
+#include "tools/words/arguments.hpp"
+#include "tools/words/command.hpp"
 
 namespace warren {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/queue_crossings.hpp"
+#include "studies/compare/queue_crossings.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include "tools/graph_search.hpp"
+#include "studies/searches/graph_search.hpp"
 
 namespace warren {
 namespace {

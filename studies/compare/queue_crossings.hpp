@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "core/types.hpp"
-#include "tools/comparison.hpp"
+#include "core/base/types.hpp"
+#include "studies/compare/comparison.hpp"
 
 namespace warren {
 

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "tools/comparison.hpp"
-#include "tools/search_contest.hpp"
+#include "studies/compare/comparison.hpp"
+#include "studies/compare/search_contest.hpp"
 
 namespace warren {
 

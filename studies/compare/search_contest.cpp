@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/search_contest.hpp"
+#include "studies/compare/search_contest.hpp"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include <memory>
 #include <stdexcept>
 
-#include "tools/planner_options.hpp"
-#include "tools/signals.hpp"
+#include "solve/question/planner_choice.hpp"
+#include "tools/screen/signals.hpp"
 
 namespace warren {
 namespace {

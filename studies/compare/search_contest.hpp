@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "parallel/execution.hpp"
-#include "tools/comparison.hpp"
-#include "tools/graph_search.hpp"
+#include "studies/compare/comparison.hpp"
+#include "studies/searches/graph_search.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/arithmetic_probe.hpp"
+#include "studies/measure/arithmetic_probe.hpp"
 
 #include <algorithm>
 #include <chrono>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/human_units.hpp"
+#include "studies/measure/human_units.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/machine.hpp"
+#include "studies/measure/machine_memory.hpp"
 
 #include <fmt/format.h>
 #include <malloc.h>
@@ -10,10 +10,10 @@
 #include <cstdint>
 #include <fstream>
 
-#include "core/page_pool.hpp"
-#include "core/raw_vector.hpp"
+#include "core/base/page_pool.hpp"
+#include "core/base/raw_vector.hpp"
 #include "parallel/chunks.hpp"
-#include "tools/human_units.hpp"
+#include "studies/measure/human_units.hpp"
 
 namespace warren {
 namespace {

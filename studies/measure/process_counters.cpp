@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/run_counters.hpp"
+#include "studies/measure/process_counters.hpp"
 
 #include <linux/perf_event.h>
 #include <sys/resource.h>

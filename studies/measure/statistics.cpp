@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/statistics.hpp"
+#include "studies/measure/statistics.hpp"
 
 #include <algorithm>
 #include <array>

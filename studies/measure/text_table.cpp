@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/text_table.hpp"
+#include "studies/measure/text_table.hpp"
 
 #include <fmt/format.h>
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/terminal.hpp"
+#include "tools/screen/terminal.hpp"
 
 namespace warren {
 

@@ -9,7 +9,7 @@
 #include <boost/graph/depth_first_search.hpp>
 #include <boost/graph/dijkstra_shortest_paths.hpp>
 
-#include "tools/graph_search.hpp"
+#include "studies/searches/graph_search.hpp"
 
 namespace warren {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Stands in for boost_search.cpp where Boost.Graph was not found when the program was built.
-#include "core/error.hpp"
-#include "tools/graph_search.hpp"
+#include "core/base/error.hpp"
+#include "studies/searches/graph_search.hpp"
 
 namespace warren {
 

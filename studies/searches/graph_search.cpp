@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/graph_search.hpp"
+#include "studies/searches/graph_search.hpp"
 
 #include <algorithm>
 #include <array>
 #include <type_traits>
 
-#include "core/search_queues.hpp"
+#include "core/search/search_queues.hpp"
 
 namespace warren {
 namespace {

@@ -8,9 +8,9 @@
 #include <optional>
 #include <string_view>
 
-#include "core/search.hpp"
-#include "planners/roadmap_options.hpp"
-#include "tools/search_graph.hpp"
+#include "core/search/search.hpp"
+#include "planners/roadmap/roadmap_options.hpp"
+#include "studies/searches/search_graph.hpp"
 
 namespace warren {
 

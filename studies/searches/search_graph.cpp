@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/search_graph.hpp"
+#include "studies/searches/search_graph.hpp"
 
 #include <fmt/format.h>
 
@@ -8,11 +8,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/rng.hpp"
+#include "core/base/rng.hpp"
 #include "parallel/assemble_graph.hpp"
 #include "parallel/components.hpp"
-#include "spatial/point_grid.hpp"
-#include "spatial/tile_order.hpp"
+#include "spatial/points/point_grid.hpp"
+#include "spatial/points/tile_order.hpp"
 
 namespace warren {
 namespace {

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/graph.hpp"
-#include "core/types.hpp"
+#include "core/base/types.hpp"
+#include "core/search/graph.hpp"
 #include "parallel/execution.hpp"
 
 namespace warren {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/bfs_funnel.hpp"
+#include "studies/sizes/bfs_funnel_baseline.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 
-#include "worlds/maze_generator.hpp"
+#include "scenes/mazes/maze_generator.hpp"
 
 namespace warren {
 namespace {

@@ -6,10 +6,10 @@
 // cell, 1 a step and 16 a bend.
 #pragma once
 
-#include "core/path.hpp"
-#include "core/types.hpp"
+#include "core/base/path.hpp"
+#include "core/base/types.hpp"
 #include "parallel/execution.hpp"
-#include "worlds/scene.hpp"
+#include "scenes/scene/scene.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/largest_maze.hpp"
+#include "studies/sizes/largest_maze.hpp"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 #include <cmath>
 #include <new>
 
-#include "core/error.hpp"
-#include "tools/bfs_funnel.hpp"
-#include "tools/human_units.hpp"
+#include "core/base/error.hpp"
+#include "studies/measure/human_units.hpp"
+#include "studies/sizes/bfs_funnel_baseline.hpp"
 
 namespace warren {
 namespace {

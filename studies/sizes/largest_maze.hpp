@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "tools/arguments.hpp"
-#include "tools/machine.hpp"
-#include "tools/maze_trial.hpp"
-#include "tools/run_options.hpp"
-#include "tools/size_search.hpp"
+#include "studies/measure/machine_memory.hpp"
+#include "studies/sizes/largest_size.hpp"
+#include "studies/sizes/maze_trial.hpp"
+#include "tools/screen/run_of_verb.hpp"
+#include "tools/words/arguments.hpp"
 
 namespace warren {
 

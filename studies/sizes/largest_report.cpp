@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/largest_report.hpp"
+#include "studies/sizes/largest_report.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "tools/answer.hpp"
-#include "tools/human_units.hpp"
-#include "tools/plot_svg.hpp"
-#include "worlds/maze_generator.hpp"
+#include "pictures/plot_svg.hpp"
+#include "scenes/mazes/maze_generator.hpp"
+#include "solve/question/answer.hpp"
+#include "studies/measure/human_units.hpp"
 
 namespace warren {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "tools/largest_maze.hpp"
-#include "tools/terminal.hpp"
+#include "studies/sizes/largest_maze.hpp"
+#include "tools/screen/terminal.hpp"
 
 namespace warren {
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/maze_trial.hpp"
+#include "studies/sizes/maze_trial.hpp"
 
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "tools/answer_json.hpp"
-#include "tools/machine.hpp"
-#include "tools/option_values.hpp"
-#include "tools/planner_options.hpp"
-#include "tools/problem.hpp"
-#include "tools/signals.hpp"
-#include "tools/solve_walls.hpp"
+#include "solve/kinds/solve_walls.hpp"
+#include "solve/question/planner_choice.hpp"
+#include "solve/question/question.hpp"
+#include "solve/question/write_answer_io.hpp"
+#include "studies/measure/machine_memory.hpp"
+#include "tools/screen/signals.hpp"
+#include "tools/words/option_values.hpp"
 
 namespace warren {
 namespace {

@@ -10,13 +10,13 @@
 #include <string>
 #include <vector>
 
-#include "core/counters.hpp"
-#include "core/solution.hpp"
+#include "core/base/counters.hpp"
+#include "core/base/solution.hpp"
 #include "parallel/execution.hpp"
-#include "tools/arguments.hpp"
-#include "tools/command.hpp"
-#include "worlds/maze_generator.hpp"
-#include "worlds/scene.hpp"
+#include "scenes/mazes/maze_generator.hpp"
+#include "scenes/scene/scene.hpp"
+#include "tools/words/arguments.hpp"
+#include "tools/words/command.hpp"
 
 namespace warren {
 

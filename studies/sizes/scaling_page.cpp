@@ -7,11 +7,11 @@
 #include <optional>
 #include <set>
 
-#include "tools/human_units.hpp"
-#include "tools/machine.hpp"
-#include "tools/plot_svg.hpp"
-#include "tools/scaling_report.hpp"
-#include "tools/thread_gains.hpp"
+#include "pictures/plot_svg.hpp"
+#include "studies/measure/human_units.hpp"
+#include "studies/measure/machine_memory.hpp"
+#include "studies/sizes/scaling_report.hpp"
+#include "studies/sizes/thread_gains.hpp"
 
 namespace warren {
 namespace {

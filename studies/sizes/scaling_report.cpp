@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/scaling_report.hpp"
+#include "studies/sizes/scaling_report.hpp"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "tools/human_units.hpp"
-#include "tools/machine.hpp"
-#include "tools/thread_gains.hpp"
+#include "studies/measure/human_units.hpp"
+#include "studies/measure/machine_memory.hpp"
+#include "studies/sizes/thread_gains.hpp"
 
 namespace warren {
 namespace {

@@ -5,8 +5,8 @@
 #include <span>
 #include <string>
 
-#include "tools/scaling_study.hpp"
-#include "tools/terminal.hpp"
+#include "studies/sizes/scaling_study.hpp"
+#include "tools/screen/terminal.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/scaling_study.hpp"
+#include "studies/sizes/scaling_study.hpp"
 
 #include <fmt/format.h>
 
@@ -9,9 +9,9 @@
 #include <new>
 #include <tuple>
 
-#include "tools/answer.hpp"
-#include "tools/arithmetic_probe.hpp"
-#include "tools/human_units.hpp"
+#include "solve/question/answer.hpp"
+#include "studies/measure/arithmetic_probe.hpp"
+#include "studies/measure/human_units.hpp"
 
 namespace warren {
 namespace {

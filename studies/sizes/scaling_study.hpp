@@ -13,11 +13,11 @@
 #include <utility>
 #include <vector>
 
-#include "core/types.hpp"
-#include "tools/arguments.hpp"
-#include "tools/maze_trial.hpp"
-#include "tools/run_counters.hpp"
-#include "tools/run_options.hpp"
+#include "core/base/types.hpp"
+#include "studies/measure/process_counters.hpp"
+#include "studies/sizes/maze_trial.hpp"
+#include "tools/screen/run_of_verb.hpp"
+#include "tools/words/arguments.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/thread_gains.hpp"
+#include "studies/sizes/thread_gains.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <map>
 #include <tuple>
 
-#include "tools/statistics.hpp"
+#include "studies/measure/statistics.hpp"
 
 namespace warren {
 namespace {

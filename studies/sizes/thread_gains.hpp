@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What more threads gain, run against run: each run is held against the one of fewest threads of the same repeat, and
-// beside it stands what arithmetic in registers gained in the same moment (tools/arithmetic_probe.hpp).
+// beside it stands what arithmetic in registers gained in the same moment (studies/measure/arithmetic_probe.hpp).
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "tools/scaling_study.hpp"
+#include "studies/sizes/scaling_study.hpp"
 
 namespace warren {
 

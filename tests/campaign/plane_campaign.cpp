@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The long form of tests/planners/plane_contest_test.cpp: `plane_campaign WORLDS SEED` lets all planners that claim the
-// shortest path compete on so many strange worlds, one a seed from SEED on. Worlds on which somebody is wrong are made
-// as small as they stay wrong, and the smallest of them is printed as a scene; then the exit code is 1.
+// The long form of tests/planners/visibility/plane_contest_test.cpp: `plane_campaign WORLDS SEED` lets all planners
+// that claim the shortest path compete on so many strange worlds, one a seed from SEED on. Worlds on which somebody is
+// wrong are made as small as they stay wrong, and the smallest of them is printed as a scene; then the exit code is 1.
 #include <charconv>
 #include <cstdint>
 #include <cstdio>
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "parallel/chunks.hpp"
-#include "tests/planners/plane_contest.hpp"
+#include "tests/planners/visibility/plane_contest.hpp"
 
 namespace warren::test {
 namespace {

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <array>
 
+#include "scenes/formats/maze_image_io.hpp"
+#include "scenes/formats/moving_ai_io.hpp"
+#include "scenes/formats/read_world_io.hpp"
+#include "scenes/formats/ros_map_io.hpp"
 #include "tests/fuzz/fuzz_reader.hpp"
 #include "tests/fuzz/properties.hpp"
 #include "tests/fuzz/scratch_folder.hpp"
-#include "worlds/maze_image_io.hpp"
-#include "worlds/moving_ai_io.hpp"
-#include "worlds/ros_map_io.hpp"
-#include "worlds/world_io.hpp"
 
 namespace warren::fuzz {
 namespace {

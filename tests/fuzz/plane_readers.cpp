@@ -3,17 +3,17 @@
 // what has a writer of its own, by that too.
 #include <array>
 
+#include "scenes/formats/geojson_io.hpp"
+#include "scenes/formats/micromouse_io.hpp"
+#include "scenes/formats/npy_io.hpp"
+#include "scenes/formats/read_world_io.hpp"
+#include "scenes/formats/ring_lists_io.hpp"
+#include "scenes/formats/scene_io.hpp"
+#include "scenes/formats/wkt_io.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
 #include "tests/fuzz/fuzz_reader.hpp"
 #include "tests/fuzz/properties.hpp"
 #include "tests/fuzz/scratch_folder.hpp"
-#include "worlds/geojson_io.hpp"
-#include "worlds/micromouse_io.hpp"
-#include "worlds/npy_io.hpp"
-#include "worlds/plane_obstacles.hpp"
-#include "worlds/ring_list_io.hpp"
-#include "worlds/scene_io.hpp"
-#include "worlds/wkt_io.hpp"
-#include "worlds/world_io.hpp"
 
 namespace warren::fuzz {
 namespace {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "worlds/plane_obstacles.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
 
 namespace warren::fuzz {
 namespace {

@@ -7,10 +7,10 @@
 #include <string_view>
 #include <type_traits>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "parallel/execution.hpp"
-#include "worlds/occupancy_map.hpp"
-#include "worlds/scene.hpp"
+#include "scenes/scene/occupancy_map.hpp"
+#include "scenes/scene/scene.hpp"
 
 namespace warren::fuzz {
 

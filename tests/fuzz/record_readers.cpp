@@ -3,13 +3,13 @@
 #include <array>
 #include <cmath>
 
-#include "core/types.hpp"
+#include "core/base/types.hpp"
+#include "scenes/formats/dh_table_io.hpp"
+#include "scenes/formats/read_world_io.hpp"
+#include "solve/question/question.hpp"
+#include "solve/question/read_answer_io.hpp"
 #include "tests/fuzz/fuzz_reader.hpp"
 #include "tests/fuzz/properties.hpp"
-#include "tools/problem.hpp"
-#include "tools/recorded_answer.hpp"
-#include "worlds/dh_table_io.hpp"
-#include "worlds/world_io.hpp"
 
 namespace warren::fuzz {
 namespace {

@@ -3,10 +3,10 @@
 // judge.
 #include <vector>
 
-#include "planners/lazy_prm.hpp"
-#include "planners/prm.hpp"
-#include "worlds/maze_world.hpp"
-#include "worlds/verify.hpp"
+#include "planners/roadmap/lazy_prm.hpp"
+#include "planners/roadmap/prm.hpp"
+#include "verify/judges/verify_point.hpp"
+#include "worlds/plane/maze_world.hpp"
 
 namespace {
 

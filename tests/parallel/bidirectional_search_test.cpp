@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/search_queues.hpp"
-#include "tests/core/search_graphs.hpp"
+#include "core/search/search_queues.hpp"
+#include "tests/core/search/search_graphs.hpp"
 
 namespace warren {
 namespace {

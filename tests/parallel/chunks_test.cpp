@@ -13,7 +13,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/rng.hpp"
+#include "core/base/rng.hpp"
 #include "parallel/scan.hpp"
 #include "parallel/trace.hpp"
 #include "tests/parallel/on_threads.hpp"

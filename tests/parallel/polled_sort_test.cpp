@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/rng.hpp"
+#include "core/base/rng.hpp"
 #include "parallel/asked_growth.hpp"
 
 namespace warren {

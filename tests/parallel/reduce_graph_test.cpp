@@ -7,10 +7,10 @@
 #include <functional>
 #include <string>
 
-#include "core/error.hpp"
-#include "core/rng.hpp"
-#include "core/search.hpp"
-#include "tests/core/search_graphs.hpp"
+#include "core/base/error.hpp"
+#include "core/base/rng.hpp"
+#include "core/search/search.hpp"
+#include "tests/core/search/search_graphs.hpp"
 #include "tests/parallel/on_threads.hpp"
 
 namespace warren {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "core/rng.hpp"
+#include "core/base/rng.hpp"
 
 namespace warren {
 namespace {

@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "studies/searches/graph_search.hpp"
 #include "tests/paths.hpp"
 #include "tests/tools/process.hpp"
 #include "tests/tools/program.hpp"
-#include "tools/graph_search.hpp"
 
 namespace warren {
 namespace {

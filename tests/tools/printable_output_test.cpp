@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
+#include "scenes/text/input_file_io.hpp"
 #include "tests/tools/process.hpp"
-#include "tools/exit_code.hpp"
-#include "tools/signals.hpp"
-#include "worlds/input_file_io.hpp"
+#include "tools/screen/exit_code.hpp"
+#include "tools/screen/signals.hpp"
 
 namespace warren::test {
 namespace {

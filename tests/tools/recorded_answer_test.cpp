@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/recorded_answer.hpp"
+#include "solve/question/read_answer_io.hpp"
 
 #include <gtest/gtest.h>
 
 #include <csignal>
 #include <limits>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace warren {
 namespace {

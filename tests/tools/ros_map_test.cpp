@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tests/scenes/images/test_images.hpp"
 #include "tests/tools/process.hpp"
-#include "tests/worlds/test_images.hpp"
 
 namespace warren::test {
 namespace {

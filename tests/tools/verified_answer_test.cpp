@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What an answer claims: a path that was verified, or nothing.
-#include "tools/verified_answer.hpp"
+#include "solve/question/solve_steps.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "tools/answer_json.hpp"
-#include "tools/recorded_answer.hpp"
-#include "tools/summary.hpp"
+#include "solve/question/read_answer_io.hpp"
+#include "solve/question/write_answer_io.hpp"
+#include "tools/screen/answer_summary.hpp"
 
 namespace warren {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/summary.hpp"
+#include "tools/screen/answer_summary.hpp"
 
 #include <fmt/format.h>
 
 #include <iterator>
 
-#include "core/printable.hpp"
-#include "tools/human_units.hpp"
-#include "tools/run_options.hpp"
+#include "core/base/printable.hpp"
+#include "studies/measure/human_units.hpp"
+#include "tools/screen/run_of_verb.hpp"
 
 namespace warren {
 namespace {

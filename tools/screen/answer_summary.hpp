@@ -5,8 +5,8 @@
 #include <span>
 #include <string>
 
-#include "tools/answer.hpp"
-#include "tools/terminal.hpp"
+#include "solve/question/answer.hpp"
+#include "tools/screen/terminal.hpp"
 
 namespace warren {
 

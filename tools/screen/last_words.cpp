@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/last_words.hpp"
+#include "tools/screen/last_words.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -9,7 +9,7 @@
 #include <exception>
 #include <new>
 
-#include "tools/exit_code.hpp"
+#include "tools/screen/exit_code.hpp"
 
 namespace warren {
 namespace {

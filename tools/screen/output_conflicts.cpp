@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/output_conflicts.hpp"
+#include "tools/screen/output_conflicts.hpp"
 
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -10,12 +10,12 @@
 #include <string_view>
 #include <vector>
 
-#include "core/error.hpp"
-#include "tools/option_values.hpp"
-#include "tools/output_files.hpp"
-#include "worlds/output_file_io.hpp"
-#include "worlds/ros_map_io.hpp"
-#include "worlds/world_io.hpp"
+#include "core/base/error.hpp"
+#include "scenes/formats/read_world_io.hpp"
+#include "scenes/formats/ros_map_io.hpp"
+#include "scenes/text/output_file_io.hpp"
+#include "tools/screen/output_names.hpp"
+#include "tools/words/option_values.hpp"
 
 namespace warren {
 namespace {

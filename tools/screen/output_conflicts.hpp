@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "tools/arguments.hpp"
+#include "tools/words/arguments.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/output_files.hpp"
+#include "tools/screen/output_names.hpp"
 
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -9,8 +9,8 @@
 #include <cerrno>
 #include <system_error>
 
-#include "core/error.hpp"
-#include "worlds/output_file_io.hpp"
+#include "core/base/error.hpp"
+#include "scenes/text/output_file_io.hpp"
 
 namespace warren {
 namespace {

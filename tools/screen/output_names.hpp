@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "tools/arguments.hpp"
+#include "tools/words/arguments.hpp"
 
 namespace warren {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/progress_bar.hpp"
+#include "tools/screen/progress_bar.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdio>
 
-#include "tools/human_units.hpp"
+#include "studies/measure/human_units.hpp"
 
 namespace warren {
 namespace {

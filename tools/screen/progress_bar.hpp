@@ -11,7 +11,7 @@
 
 #include "parallel/execution.hpp"
 #include "parallel/ticker.hpp"
-#include "tools/terminal.hpp"
+#include "tools/screen/terminal.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/run_options.hpp"
+#include "tools/screen/run_of_verb.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -8,14 +8,14 @@
 #include <cstdio>
 #include <limits>
 
-#include "core/printable.hpp"
-#include "tools/exit_code.hpp"
-#include "tools/last_words.hpp"
-#include "tools/option_values.hpp"
-#include "tools/output_files.hpp"
-#include "tools/signals.hpp"
-#include "tools/trace_json.hpp"
-#include "worlds/output_file_io.hpp"
+#include "core/base/printable.hpp"
+#include "scenes/text/output_file_io.hpp"
+#include "tools/screen/exit_code.hpp"
+#include "tools/screen/last_words.hpp"
+#include "tools/screen/output_names.hpp"
+#include "tools/screen/signals.hpp"
+#include "tools/screen/trace_json.hpp"
+#include "tools/words/option_values.hpp"
 
 namespace warren {
 namespace {

@@ -11,13 +11,13 @@
 #include <string>
 #include <string_view>
 
-#include "core/page_pool.hpp"
+#include "core/base/page_pool.hpp"
 #include "parallel/execution.hpp"
 #include "parallel/trace.hpp"
-#include "tools/arguments.hpp"
-#include "tools/command.hpp"
-#include "tools/progress_bar.hpp"
-#include "tools/terminal.hpp"
+#include "tools/screen/progress_bar.hpp"
+#include "tools/screen/terminal.hpp"
+#include "tools/words/arguments.hpp"
+#include "tools/words/command.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/signals.hpp"
+#include "tools/screen/signals.hpp"
 
 #include <unistd.h>
 
@@ -8,7 +8,7 @@
 #include <ctime>
 
 #include "parallel/mapped_ranges.hpp"
-#include "tools/exit_code.hpp"
+#include "tools/screen/exit_code.hpp"
 
 namespace warren {
 namespace {

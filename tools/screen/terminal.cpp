@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/terminal.hpp"
+#include "tools/screen/terminal.hpp"
 
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "core/printable.hpp"
+#include "core/base/printable.hpp"
 
 namespace warren {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/trace_json.hpp"
+#include "tools/screen/trace_json.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/world_files.hpp"
+#include "tools/screen/world_files.hpp"
 
 #include <fmt/format.h>
 
@@ -7,13 +7,13 @@
 #include <array>
 #include <string_view>
 
-#include "core/error.hpp"
-#include "tools/human_units.hpp"
-#include "tools/option_values.hpp"
-#include "tools/output_conflicts.hpp"
-#include "tools/output_files.hpp"
-#include "tools/picture.hpp"
-#include "worlds/world_io.hpp"
+#include "core/base/error.hpp"
+#include "pictures/picture.hpp"
+#include "scenes/formats/read_world_io.hpp"
+#include "studies/measure/human_units.hpp"
+#include "tools/screen/output_conflicts.hpp"
+#include "tools/screen/output_names.hpp"
+#include "tools/words/option_values.hpp"
 
 namespace warren {
 namespace {

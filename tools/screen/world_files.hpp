@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "core/counters.hpp"
+#include "core/base/counters.hpp"
 #include "parallel/execution.hpp"
-#include "tools/answer.hpp"
-#include "tools/arguments.hpp"
-#include "tools/command.hpp"
-#include "worlds/scene.hpp"
+#include "scenes/scene/scene.hpp"
+#include "solve/question/answer.hpp"
+#include "tools/words/arguments.hpp"
+#include "tools/words/command.hpp"
 
 namespace warren {
 

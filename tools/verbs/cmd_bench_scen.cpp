@@ -11,20 +11,20 @@
 #include <cstdlib>
 #include <optional>
 
-#include "core/error.hpp"
-#include "core/printable.hpp"
+#include "core/base/error.hpp"
+#include "core/base/printable.hpp"
 #include "parallel/chunks.hpp"
-#include "planners/grid_search.hpp"
-#include "tools/answer_json.hpp"
-#include "tools/command.hpp"
-#include "tools/exit_code.hpp"
-#include "tools/human_units.hpp"
-#include "tools/output_conflicts.hpp"
-#include "tools/output_files.hpp"
-#include "tools/run_options.hpp"
-#include "tools/terminal.hpp"
-#include "worlds/moving_ai_io.hpp"
-#include "worlds/output_file_io.hpp"
+#include "planners/grid/grid_search.hpp"
+#include "scenes/formats/moving_ai_io.hpp"
+#include "scenes/text/output_file_io.hpp"
+#include "solve/question/write_answer_io.hpp"
+#include "studies/measure/human_units.hpp"
+#include "tools/screen/exit_code.hpp"
+#include "tools/screen/output_conflicts.hpp"
+#include "tools/screen/output_names.hpp"
+#include "tools/screen/run_of_verb.hpp"
+#include "tools/screen/terminal.hpp"
+#include "tools/words/command.hpp"
 
 namespace warren {
 namespace {

@@ -10,21 +10,21 @@
 #include <chrono>
 #include <cmath>
 
-#include "core/error.hpp"
-#include "tools/command.hpp"
-#include "tools/compare_options.hpp"
-#include "tools/comparison_report.hpp"
-#include "tools/contest_pictures.hpp"
-#include "tools/exit_code.hpp"
-#include "tools/human_units.hpp"
-#include "tools/output_files.hpp"
-#include "tools/run_options.hpp"
-#include "tools/signals.hpp"
-#include "tools/terminal.hpp"
-#include "tools/world_files.hpp"
-#include "tools/world_graph.hpp"
-#include "worlds/map_walls.hpp"
-#include "worlds/output_file_io.hpp"
+#include "core/base/error.hpp"
+#include "scenes/text/output_file_io.hpp"
+#include "studies/compare/comparison_report.hpp"
+#include "studies/compare/contest_pictures.hpp"
+#include "studies/compare/graph_of_world.hpp"
+#include "studies/measure/human_units.hpp"
+#include "tools/screen/exit_code.hpp"
+#include "tools/screen/output_names.hpp"
+#include "tools/screen/run_of_verb.hpp"
+#include "tools/screen/signals.hpp"
+#include "tools/screen/terminal.hpp"
+#include "tools/screen/world_files.hpp"
+#include "tools/verbs/compare_options.hpp"
+#include "tools/words/command.hpp"
+#include "worlds/rasters/map_borders.hpp"
 
 namespace warren {
 namespace {

@@ -2,11 +2,11 @@
 // warren completion bash|zsh|fish: what a shell needs to complete our words, made from the table of commands.
 #include <fmt/format.h>
 
-#include "core/error.hpp"
-#include "tools/command.hpp"
-#include "tools/exit_code.hpp"
-#include "tools/option_values.hpp"
-#include "tools/terminal.hpp"
+#include "core/base/error.hpp"
+#include "tools/screen/exit_code.hpp"
+#include "tools/screen/terminal.hpp"
+#include "tools/words/command.hpp"
+#include "tools/words/option_values.hpp"
 
 namespace warren {
 namespace {

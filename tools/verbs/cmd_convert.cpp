@@ -5,17 +5,17 @@
 #include <optional>
 #include <string>
 
-#include "core/error.hpp"
-#include "tools/command.hpp"
-#include "tools/exit_code.hpp"
-#include "tools/grid_options.hpp"
-#include "tools/output_files.hpp"
-#include "tools/run_options.hpp"
-#include "tools/terminal.hpp"
-#include "tools/world_files.hpp"
-#include "worlds/map_walls.hpp"
-#include "worlds/ros_map_io.hpp"
-#include "worlds/world_io.hpp"
+#include "core/base/error.hpp"
+#include "scenes/formats/read_world_io.hpp"
+#include "scenes/formats/ros_map_io.hpp"
+#include "solve/question/grid_choice.hpp"
+#include "tools/screen/exit_code.hpp"
+#include "tools/screen/output_names.hpp"
+#include "tools/screen/run_of_verb.hpp"
+#include "tools/screen/terminal.hpp"
+#include "tools/screen/world_files.hpp"
+#include "tools/words/command.hpp"
+#include "worlds/rasters/map_borders.hpp"
 
 namespace warren {
 namespace {

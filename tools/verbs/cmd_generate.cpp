@@ -8,17 +8,17 @@
 #include <string>
 #include <string_view>
 
-#include "core/error.hpp"
-#include "tools/command.hpp"
-#include "tools/exit_code.hpp"
-#include "tools/human_units.hpp"
-#include "tools/option_values.hpp"
-#include "tools/run_options.hpp"
-#include "tools/terminal.hpp"
-#include "tools/world_files.hpp"
-#include "worlds/maze_generator.hpp"
-#include "worlds/polygon_generator.hpp"
-#include "worlds/world_io.hpp"
+#include "core/base/error.hpp"
+#include "scenes/formats/read_world_io.hpp"
+#include "scenes/mazes/maze_generator.hpp"
+#include "scenes/scene/polygon_generator.hpp"
+#include "studies/measure/human_units.hpp"
+#include "tools/screen/exit_code.hpp"
+#include "tools/screen/run_of_verb.hpp"
+#include "tools/screen/terminal.hpp"
+#include "tools/screen/world_files.hpp"
+#include "tools/words/command.hpp"
+#include "tools/words/option_values.hpp"
 
 namespace warren {
 namespace {

@@ -4,17 +4,17 @@
 
 #include <iterator>
 
-#include "core/printable.hpp"
-#include "tools/answer_json.hpp"
-#include "tools/command.hpp"
-#include "tools/exit_code.hpp"
-#include "tools/human_units.hpp"
-#include "tools/output_files.hpp"
-#include "tools/problem.hpp"
-#include "tools/run_options.hpp"
-#include "tools/terminal.hpp"
-#include "tools/world_files.hpp"
-#include "worlds/output_file_io.hpp"
+#include "core/base/printable.hpp"
+#include "scenes/text/output_file_io.hpp"
+#include "solve/question/question.hpp"
+#include "solve/question/write_answer_io.hpp"
+#include "studies/measure/human_units.hpp"
+#include "tools/screen/exit_code.hpp"
+#include "tools/screen/output_names.hpp"
+#include "tools/screen/run_of_verb.hpp"
+#include "tools/screen/terminal.hpp"
+#include "tools/screen/world_files.hpp"
+#include "tools/words/command.hpp"
 
 namespace warren {
 namespace {

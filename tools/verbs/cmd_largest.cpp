@@ -7,18 +7,18 @@
 #include <cmath>
 #include <limits>
 
-#include "core/error.hpp"
-#include "tools/command.hpp"
-#include "tools/exit_code.hpp"
-#include "tools/largest_maze.hpp"
-#include "tools/largest_report.hpp"
-#include "tools/option_values.hpp"
-#include "tools/output_files.hpp"
-#include "tools/planner_options.hpp"
-#include "tools/problem.hpp"
-#include "tools/run_options.hpp"
-#include "tools/terminal.hpp"
-#include "worlds/output_file_io.hpp"
+#include "core/base/error.hpp"
+#include "scenes/text/output_file_io.hpp"
+#include "solve/question/planner_choice.hpp"
+#include "solve/question/question.hpp"
+#include "studies/sizes/largest_maze.hpp"
+#include "studies/sizes/largest_report.hpp"
+#include "tools/screen/exit_code.hpp"
+#include "tools/screen/output_names.hpp"
+#include "tools/screen/run_of_verb.hpp"
+#include "tools/screen/terminal.hpp"
+#include "tools/words/command.hpp"
+#include "tools/words/option_values.hpp"
 
 namespace warren {
 namespace {

@@ -7,10 +7,10 @@
 #include <ctime>
 #include <optional>
 
-#include "core/error.hpp"
-#include "tools/command.hpp"
-#include "tools/exit_code.hpp"
-#include "tools/terminal.hpp"
+#include "core/base/error.hpp"
+#include "tools/screen/exit_code.hpp"
+#include "tools/screen/terminal.hpp"
+#include "tools/words/command.hpp"
 
 namespace warren {
 namespace {

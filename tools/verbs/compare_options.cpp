@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/compare_options.hpp"
+#include "tools/verbs/compare_options.hpp"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <array>
 #include <limits>
 
-#include "core/error.hpp"
-#include "tools/option_values.hpp"
-#include "tools/problem.hpp"
-#include "tools/solve_kind.hpp"
+#include "core/base/error.hpp"
+#include "solve/question/kind_of_problem.hpp"
+#include "solve/question/question.hpp"
+#include "tools/words/option_values.hpp"
 
 namespace warren {
 namespace {

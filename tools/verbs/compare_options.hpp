@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "tools/arguments.hpp"
-#include "tools/command.hpp"
-#include "tools/planner_contest.hpp"
-#include "tools/search_contest.hpp"
-#include "tools/size_sweep.hpp"
+#include "studies/compare/planner_contest.hpp"
+#include "studies/compare/random_graph_sweep.hpp"
+#include "studies/compare/search_contest.hpp"
+#include "tools/words/arguments.hpp"
+#include "tools/words/command.hpp"
 
 namespace warren {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/arguments.hpp"
+#include "tools/words/arguments.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "core/error.hpp"
-#include "tools/closest_match.hpp"
-#include "tools/command.hpp"
+#include "core/base/error.hpp"
+#include "tools/words/closest_match.hpp"
+#include "tools/words/command.hpp"
 
 namespace warren {
 namespace {

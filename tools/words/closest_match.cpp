@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/closest_match.hpp"
+#include "tools/words/closest_match.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "tools/arguments.hpp"
+#include "tools/words/arguments.hpp"
 
 namespace warren {
 

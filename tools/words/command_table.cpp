@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The verbs of the program; main.cpp dispatches to them.
-#include "tools/command.hpp"
+#include "tools/words/command.hpp"
 
 namespace warren {
 

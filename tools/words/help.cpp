@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/help.hpp"
+#include "tools/words/help.hpp"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "tools/command.hpp"
+#include "tools/words/command.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/option_values.hpp"
+#include "tools/words/option_values.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <charconv>
 #include <cmath>
 
-#include "core/error.hpp"
-#include "tools/closest_match.hpp"
+#include "core/base/error.hpp"
+#include "tools/words/closest_match.hpp"
 
 namespace warren {
 namespace {

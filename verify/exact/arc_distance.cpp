@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Nearest points are ends of one or the other, or lie on a line through the centre that is square to the segment; or
 // they are one point.
-#include "worlds/arc_distance.hpp"
+#include "verify/exact/arc_distance.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "worlds/exact_segments.hpp"
+#include "verify/exact/exact_segments.hpp"
 
 namespace warren {
 namespace {

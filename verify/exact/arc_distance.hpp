@@ -3,7 +3,7 @@
 // turns about a point, its corners follow arcs, and in the body's eyes so do the corners of what stands around.
 #pragma once
 
-#include "core/types.hpp"
+#include "core/base/types.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/dyadic.hpp"
+#include "verify/exact/dyadic.hpp"
 
 #include <algorithm>
 #include <cmath>

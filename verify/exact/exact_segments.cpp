@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/exact_segments.hpp"
+#include "verify/exact/exact_segments.hpp"
 
-#include "worlds/dyadic.hpp"
+#include "verify/exact/dyadic.hpp"
 
 namespace warren::exact {
 namespace {

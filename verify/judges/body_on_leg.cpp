@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/body_verifier.hpp"
+#include "verify/judges/body_on_leg.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "worlds/exact_segments.hpp"
+#include "verify/exact/exact_segments.hpp"
 
 namespace warren {
 namespace {

@@ -9,13 +9,13 @@
 #include <span>
 #include <vector>
 
-#include "core/se2.hpp"
+#include "core/plane/se2.hpp"
 #include "parallel/execution.hpp"
-#include "worlds/arc_distance.hpp"
-#include "worlds/leg_reports.hpp"
-#include "worlds/obstacles.hpp"
-#include "worlds/path_surroundings.hpp"
-#include "worlds/pose_runs.hpp"
+#include "verify/exact/arc_distance.hpp"
+#include "verify/judges/leg_reports.hpp"
+#include "verify/near/obstacle_sides.hpp"
+#include "verify/near/sides_near_legs.hpp"
+#include "verify/near/straight_runs.hpp"
 
 namespace warren {
 

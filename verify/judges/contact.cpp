@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/contact_walk.hpp"
+#include "verify/judges/contact.hpp"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
-#include "worlds/exact_segments.hpp"
+#include "verify/exact/exact_segments.hpp"
 
 namespace warren {
 namespace {

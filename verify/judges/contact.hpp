@@ -14,9 +14,9 @@
 #include <span>
 #include <vector>
 
-#include "core/types.hpp"
+#include "core/base/types.hpp"
 #include "parallel/execution.hpp"
-#include "worlds/obstacles.hpp"
+#include "verify/near/obstacle_sides.hpp"
 
 namespace warren {
 

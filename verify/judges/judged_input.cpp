@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/judged_input.hpp"
+#include "verify/judges/judged_input.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
 
 namespace warren {
@@ -67,7 +67,7 @@ bool runs_along_blocked(const OccupancyMap& map, const Segment& wall) {
   return true;
 }
 
-/// Walls beside a map are its borders and no obstacles more (worlds/map_walls.hpp).
+/// Walls beside a map are its borders and no obstacles more (worlds/rasters/map_borders.hpp).
 void check_walls_of_map(const Scene& scene, const Execution& execution) {
   constexpr std::size_t grain = std::size_t{1} << 12;
   Execution quiet = execution;

@@ -6,9 +6,9 @@
 #include <span>
 #include <string_view>
 
-#include "core/se2.hpp"
+#include "core/plane/se2.hpp"
 #include "parallel/execution.hpp"
-#include "worlds/scene.hpp"
+#include "scenes/scene/scene.hpp"
 
 namespace warren {
 

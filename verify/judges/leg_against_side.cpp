@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/verify_comparison.hpp"
+#include "verify/judges/leg_against_side.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "worlds/exact_segments.hpp"
+#include "verify/exact/exact_segments.hpp"
 
 namespace warren {
 

@@ -9,11 +9,11 @@
 #include <limits>
 #include <vector>
 
-#include "core/types.hpp"
-#include "worlds/contact_walk.hpp"
-#include "worlds/leg_boxes.hpp"
-#include "worlds/leg_index.hpp"
-#include "worlds/verify.hpp"
+#include "core/base/types.hpp"
+#include "verify/judges/contact.hpp"
+#include "verify/judges/verify_point.hpp"
+#include "verify/near/leg_boxes.hpp"
+#include "verify/near/leg_index.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/leg_reports.hpp"
+#include "verify/judges/leg_reports.hpp"
 
 #include <fmt/format.h>
 

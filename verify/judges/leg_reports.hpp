@@ -12,7 +12,7 @@
 
 #include "parallel/chunks.hpp"
 #include "parallel/execution.hpp"
-#include "worlds/verification.hpp"
+#include "verify/judges/verification.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/verify_obstacles.hpp"
+#include "verify/judges/legs_against_scene.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "parallel/chunks.hpp"
-#include "worlds/leg_boxes.hpp"
-#include "worlds/leg_index.hpp"
-#include "worlds/path_boxes.hpp"
-#include "worlds/path_screen.hpp"
+#include "verify/near/leg_boxes.hpp"
+#include "verify/near/leg_index.hpp"
+#include "verify/near/path_cells.hpp"
+#include "verify/near/path_screen.hpp"
 
 namespace warren {
 namespace {

@@ -6,11 +6,11 @@
 #pragma once
 
 #include "parallel/execution.hpp"
-#include "worlds/leg_boxes.hpp"
-#include "worlds/obstacles.hpp"
-#include "worlds/scene.hpp"
-#include "worlds/verify.hpp"
-#include "worlds/verify_comparison.hpp"
+#include "scenes/scene/scene.hpp"
+#include "verify/judges/leg_against_side.hpp"
+#include "verify/judges/verify_point.hpp"
+#include "verify/near/leg_boxes.hpp"
+#include "verify/near/obstacle_sides.hpp"
 
 namespace warren {
 

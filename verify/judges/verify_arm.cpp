@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/verify_arm.hpp"
+#include "verify/judges/verify_arm.hpp"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 #include <cmath>
 #include <vector>
 
-#include "core/error.hpp"
-#include "worlds/judged_input.hpp"
-#include "worlds/leg_reports.hpp"
+#include "core/base/error.hpp"
+#include "verify/judges/judged_input.hpp"
+#include "verify/judges/leg_reports.hpp"
 
 namespace warren {
 namespace {

@@ -13,9 +13,9 @@
 #include <span>
 
 #include "parallel/execution.hpp"
-#include "worlds/dh_table.hpp"
-#include "worlds/scene.hpp"
-#include "worlds/verification.hpp"
+#include "scenes/scene/dh_table.hpp"
+#include "scenes/scene/scene.hpp"
+#include "verify/judges/verification.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/verify_car.hpp"
+#include "verify/judges/verify_car.hpp"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/error.hpp"
-#include "worlds/body_verifier.hpp"
-#include "worlds/judged_input.hpp"
-#include "worlds/pose_runs.hpp"
+#include "core/base/error.hpp"
+#include "verify/judges/body_on_leg.hpp"
+#include "verify/judges/judged_input.hpp"
+#include "verify/near/straight_runs.hpp"
 
 namespace warren {
 namespace {

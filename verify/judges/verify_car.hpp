@@ -5,21 +5,21 @@
 // radius, forwards or backwards. A leg whose poses contradict that, that turns tighter than the turning radius, or that
 // goes backwards where the car can't, is refused.
 //
-// The whole body is judged (worlds/body_verifier.hpp): at each pose neither lies in an obstacle nor an obstacle in it,
-// and nothing lies across it. On a leg the body turns about a point (or goes straight), so its corners follow arcs, and
-// in its eyes the corners of the obstacles do: from there on the least distance is a minimum over arcs and sides in
-// closed form (worlds/arc_distance.hpp). No halving, no sampling. O(obstacles) once, but for maps, then
+// The whole body is judged (verify/judges/body_on_leg.hpp): at each pose neither lies in an obstacle nor an obstacle in
+// it, and nothing lies across it. On a leg the body turns about a point (or goes straight), so its corners follow arcs,
+// and in its eyes the corners of the obstacles do: from there on the least distance is a minimum over arcs and sides in
+// closed form (verify/exact/arc_distance.hpp). No halving, no sampling. O(obstacles) once, but for maps, then
 // O(legs * sides near them * corners).
 #pragma once
 
 #include <span>
 #include <vector>
 
-#include "core/se2.hpp"
+#include "core/plane/se2.hpp"
 #include "parallel/execution.hpp"
-#include "worlds/scene.hpp"
-#include "worlds/verification.hpp"
-#include "worlds/verify_se2.hpp"
+#include "scenes/scene/scene.hpp"
+#include "verify/judges/verification.hpp"
+#include "verify/judges/verify_turning.hpp"
 
 namespace warren {
 

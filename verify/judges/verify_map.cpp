@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // All lengths are in cells until they are reported. A window of cells around a leg grows until it holds a blocked one
 // or reaches as far as the least distance met so far, so a path far from everything is not compared with everything.
-#include "worlds/verify_map.hpp"
+#include "verify/judges/verify_map.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
-#include "worlds/exact_segments.hpp"
-#include "worlds/judged_input.hpp"
-#include "worlds/leg_reports.hpp"
+#include "core/base/error.hpp"
+#include "verify/exact/exact_segments.hpp"
+#include "verify/judges/judged_input.hpp"
+#include "verify/judges/leg_reports.hpp"
 
 namespace warren {
 namespace {

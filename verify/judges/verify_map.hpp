@@ -7,8 +7,8 @@
 #include <span>
 
 #include "parallel/execution.hpp"
-#include "worlds/occupancy_map.hpp"
-#include "worlds/verify.hpp"
+#include "scenes/scene/occupancy_map.hpp"
+#include "verify/judges/verify_point.hpp"
 
 namespace warren {
 

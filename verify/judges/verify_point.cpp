@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/verify.hpp"
+#include "verify/judges/verify_point.hpp"
 
 #include <fmt/format.h>
 
@@ -8,17 +8,17 @@
 #include <cmath>
 #include <vector>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
-#include "worlds/contact_walk.hpp"
-#include "worlds/exact_segments.hpp"
-#include "worlds/judged_input.hpp"
-#include "worlds/leg_boxes.hpp"
-#include "worlds/leg_reports.hpp"
-#include "worlds/obstacles.hpp"
-#include "worlds/verify_comparison.hpp"
-#include "worlds/verify_map.hpp"
-#include "worlds/verify_obstacles.hpp"
+#include "verify/exact/exact_segments.hpp"
+#include "verify/judges/contact.hpp"
+#include "verify/judges/judged_input.hpp"
+#include "verify/judges/leg_against_side.hpp"
+#include "verify/judges/leg_reports.hpp"
+#include "verify/judges/legs_against_scene.hpp"
+#include "verify/judges/verify_map.hpp"
+#include "verify/near/leg_boxes.hpp"
+#include "verify/near/obstacle_sides.hpp"
 
 namespace warren {
 namespace {

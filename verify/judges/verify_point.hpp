@@ -10,10 +10,10 @@
 #include <optional>
 #include <span>
 
-#include "core/types.hpp"
+#include "core/base/types.hpp"
 #include "parallel/execution.hpp"
-#include "worlds/scene.hpp"
-#include "worlds/verification.hpp"
+#include "scenes/scene/scene.hpp"
+#include "verify/judges/verification.hpp"
 
 namespace warren {
 

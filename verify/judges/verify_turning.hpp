@@ -13,10 +13,10 @@
 #include <optional>
 #include <span>
 
-#include "core/se2.hpp"
+#include "core/plane/se2.hpp"
 #include "parallel/execution.hpp"
-#include "worlds/scene.hpp"
-#include "worlds/verification.hpp"
+#include "scenes/scene/scene.hpp"
+#include "verify/judges/verification.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/leg_boxes.hpp"
+#include "verify/near/leg_boxes.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/leg_index.hpp"
+#include "verify/near/leg_index.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -19,10 +19,10 @@
 #include <span>
 #include <vector>
 
-#include "core/raw_vector.hpp"
-#include "core/types.hpp"
+#include "core/base/raw_vector.hpp"
+#include "core/base/types.hpp"
 #include "parallel/execution.hpp"
-#include "worlds/leg_boxes.hpp"
+#include "verify/near/leg_boxes.hpp"
 
 namespace warren {
 

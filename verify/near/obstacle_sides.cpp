@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/obstacles.hpp"
+#include "verify/near/obstacle_sides.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "worlds/exact_segments.hpp"
+#include "verify/exact/exact_segments.hpp"
 
 namespace warren {
 namespace {

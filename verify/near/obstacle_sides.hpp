@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "core/types.hpp"
-#include "worlds/scene.hpp"
+#include "core/base/types.hpp"
+#include "scenes/scene/scene.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/path_boxes.hpp"
+#include "verify/near/path_cells.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -18,10 +18,10 @@
 #include <cstring>
 #include <span>
 
-#include "core/raw_vector.hpp"
-#include "core/types.hpp"
+#include "core/base/raw_vector.hpp"
+#include "core/base/types.hpp"
 #include "parallel/execution.hpp"
-#include "worlds/leg_boxes.hpp"
+#include "verify/near/leg_boxes.hpp"
 
 namespace warren {
 

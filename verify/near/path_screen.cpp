@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/path_screen.hpp"
+#include "verify/near/path_screen.hpp"
 
 #include <algorithm>
 #include <array>

@@ -25,11 +25,11 @@
 #include <span>
 #include <vector>
 
-#include "core/raw_vector.hpp"
-#include "core/types.hpp"
-#include "core/wall_set.hpp"
+#include "core/base/raw_vector.hpp"
+#include "core/base/types.hpp"
+#include "core/plane/wall_set.hpp"
 #include "parallel/execution.hpp"
-#include "worlds/leg_boxes.hpp"
+#include "verify/near/leg_boxes.hpp"
 
 namespace warren {
 

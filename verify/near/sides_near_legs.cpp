@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/path_surroundings.hpp"
+#include "verify/near/sides_near_legs.hpp"
 
 #include <fmt/format.h>
 

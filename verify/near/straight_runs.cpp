@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/pose_runs.hpp"
+#include "verify/near/straight_runs.hpp"
 
 #include <algorithm>
 #include <cmath>

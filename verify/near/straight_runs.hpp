@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "core/se2.hpp"
+#include "core/plane/se2.hpp"
 #include "parallel/execution.hpp"
 
 namespace warren {

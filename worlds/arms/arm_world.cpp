@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/arm_world.hpp"
+#include "worlds/arms/arm_world.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <limits>
 #include <string>
 
-#include "core/error.hpp"
-#include "core/types.hpp"
+#include "core/base/error.hpp"
+#include "core/base/types.hpp"
 
 namespace warren {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // An arm of revolute joints among spheres and boxes: capsules on its links, joint limits, and, if asked for, no link
 // against another. Between two states every joint turns evenly; the whole motion is certified free
-// (worlds/certified_motion.hpp), link by link.
+// (worlds/poses/certified_motion.hpp), link by link.
 //
 // A capsule is the set of balls around its spine; when the arm moves, take each ball to move without turning. So a
 // point of the body travels as far as a point p of a spine, and that is at most the sum over the joints of
@@ -26,12 +26,12 @@
 #include <optional>
 #include <vector>
 
-#include "core/path.hpp"
-#include "core/world.hpp"
-#include "worlds/certified_motion.hpp"
-#include "worlds/scene.hpp"
-#include "worlds/serial_chain.hpp"
-#include "worlds/solid_index.hpp"
+#include "core/base/path.hpp"
+#include "core/base/world.hpp"
+#include "scenes/scene/scene.hpp"
+#include "worlds/arms/serial_chain.hpp"
+#include "worlds/arms/solid_index.hpp"
+#include "worlds/poses/certified_motion.hpp"
 
 namespace warren {
 

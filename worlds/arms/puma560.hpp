@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "worlds/serial_chain.hpp"
+#include "worlds/arms/serial_chain.hpp"
 
 namespace warren {
 

@@ -2,13 +2,13 @@
 // Reaches: behind joint j the chain is the rigid pieces S_i = a_i x_i + d_(i+1) z_i, fixed in frame i and of length
 // sqrt(a_i^2 + d_(i+1)^2), since x_i is square to z_i; their sum bounds the distance from the axis. While no twist has
 // turned z away from the axis, a piece's part along z changes no distance from it and is left out.
-#include "worlds/serial_chain.hpp"
+#include "worlds/arms/serial_chain.hpp"
 
 #include <cmath>
 #include <string>
 
-#include "core/error.hpp"
-#include "core/types.hpp"
+#include "core/base/error.hpp"
+#include "core/base/types.hpp"
 
 namespace warren {
 namespace {

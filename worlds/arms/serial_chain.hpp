@@ -13,7 +13,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "worlds/dh_table.hpp"
+#include "scenes/scene/dh_table.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/solid_distance.hpp"
+#include "worlds/arms/solid_distance.hpp"
 
 namespace warren {
 namespace {

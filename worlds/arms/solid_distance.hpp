@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "worlds/scene.hpp"
-#include "worlds/serial_chain.hpp"
+#include "scenes/scene/scene.hpp"
+#include "worlds/arms/serial_chain.hpp"
 
 namespace warren {
 

@@ -10,9 +10,9 @@
 #include <span>
 #include <vector>
 
-#include "spatial/box_tree.hpp"
-#include "worlds/scene.hpp"
-#include "worlds/solid_distance.hpp"
+#include "scenes/scene/scene.hpp"
+#include "spatial/obstacles/box_tree.hpp"
+#include "worlds/arms/solid_distance.hpp"
 
 namespace warren {
 

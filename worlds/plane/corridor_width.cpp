@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/free_width.hpp"
+#include "worlds/plane/corridor_width.hpp"
 
 namespace warren {
 

@@ -8,9 +8,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/types.hpp"
+#include "core/base/types.hpp"
 #include "parallel/execution.hpp"
-#include "spatial/wall_index.hpp"
+#include "spatial/obstacles/wall_index.hpp"
 
 namespace warren {
 

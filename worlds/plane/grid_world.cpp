@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/grid_world.hpp"
+#include "worlds/plane/grid_world.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <string>
 
-#include "core/error.hpp"
-#include "core/geometry.hpp"
+#include "core/base/error.hpp"
+#include "core/plane/geometry.hpp"
 
 namespace warren {
 namespace {
@@ -104,7 +104,7 @@ bool GridWorld::row_is_free(const Segment& leg, std::int64_t row) const {
 }
 
 double GridWorld::suggested_samples(const Execution& execution) const {
-  constexpr double samples_a_square = 4.5;  // as among walls: worlds/maze_world.cpp
+  constexpr double samples_a_square = 4.5;  // as among walls: worlds/plane/maze_world.cpp
   constexpr double fewest = 500.0;
   if (!field_) return static_cast<double>(map_.free);
   const double squares = 0.5 * CorridorCells(*field_, reach_, execution).weight();

@@ -8,13 +8,13 @@
 #include <array>
 #include <optional>
 
-#include "core/types.hpp"
-#include "core/world.hpp"
+#include "core/base/types.hpp"
+#include "core/base/world.hpp"
 #include "parallel/execution.hpp"
-#include "spatial/cell_milestones.hpp"
-#include "spatial/distance_field.hpp"
-#include "worlds/corridor_points.hpp"
-#include "worlds/occupancy_map.hpp"
+#include "scenes/scene/occupancy_map.hpp"
+#include "spatial/maps/distance_field.hpp"
+#include "spatial/points/cell_milestones.hpp"
+#include "worlds/rasters/corridor_points.hpp"
 
 namespace warren {
 

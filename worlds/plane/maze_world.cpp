@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/maze_world.hpp"
+#include "worlds/plane/maze_world.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -7,9 +7,9 @@
 #include <string>
 #include <utility>
 
-#include "core/error.hpp"
-#include "core/geometry.hpp"
-#include "worlds/free_width.hpp"
+#include "core/base/error.hpp"
+#include "core/plane/geometry.hpp"
+#include "worlds/plane/corridor_width.hpp"
 
 namespace warren {
 namespace {

@@ -8,11 +8,11 @@
 #include <cstdint>
 #include <span>
 
-#include "core/types.hpp"
-#include "core/world.hpp"
+#include "core/base/types.hpp"
+#include "core/base/world.hpp"
 #include "parallel/execution.hpp"
-#include "spatial/wall_index.hpp"
-#include "worlds/scene.hpp"
+#include "scenes/scene/scene.hpp"
+#include "spatial/obstacles/wall_index.hpp"
 
 namespace warren {
 

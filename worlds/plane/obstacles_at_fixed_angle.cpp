@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/translation_obstacles.hpp"
+#include "worlds/plane/obstacles_at_fixed_angle.hpp"
 
 #include <vector>
 
-#include "core/convex_decomposition.hpp"
-#include "core/error.hpp"
-#include "core/minkowski.hpp"
-#include "core/se2.hpp"
-#include "worlds/plane_obstacles.hpp"
+#include "core/base/error.hpp"
+#include "core/plane/convex_decomposition.hpp"
+#include "core/plane/minkowski.hpp"
+#include "core/plane/se2.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
 
 namespace warren {
 namespace {

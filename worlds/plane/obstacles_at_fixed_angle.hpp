@@ -6,9 +6,9 @@
 
 #include <span>
 
-#include "core/polygon.hpp"
-#include "core/types.hpp"
-#include "worlds/scene.hpp"
+#include "core/base/types.hpp"
+#include "core/plane/polygon.hpp"
+#include "scenes/scene/scene.hpp"
 
 namespace warren {
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/polygon_world.hpp"
+#include "worlds/plane/polygon_world.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
 
-#include "core/error.hpp"
-#include "worlds/free_width.hpp"
-#include "worlds/plane_obstacles.hpp"
+#include "core/base/error.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
+#include "worlds/plane/corridor_width.hpp"
 
 namespace warren {
 namespace {

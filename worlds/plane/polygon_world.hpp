@@ -11,12 +11,12 @@
 #include <array>
 #include <cstdint>
 
-#include "core/types.hpp"
-#include "core/world.hpp"
+#include "core/base/types.hpp"
+#include "core/base/world.hpp"
 #include "parallel/execution.hpp"
-#include "spatial/polygon_index.hpp"
-#include "spatial/wall_index.hpp"
-#include "worlds/scene.hpp"
+#include "scenes/scene/scene.hpp"
+#include "spatial/obstacles/polygon_index.hpp"
+#include "spatial/obstacles/wall_index.hpp"
 
 namespace warren {
 

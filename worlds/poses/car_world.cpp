@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/car_world.hpp"
+#include "worlds/poses/car_world.hpp"
 
 #include <algorithm>
 #include <string>
 
-#include "core/error.hpp"
-#include "worlds/confined_pose.hpp"
-#include "worlds/plane_obstacles.hpp"
+#include "core/base/error.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
+#include "worlds/poses/pose_in_bounds.hpp"
 
 namespace warren {
 namespace {

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A car among polygons, walls and bounds: poses (x, y, theta), and between two of them the shortest curve that its
-// steering can drive (worlds/dubins_curve.hpp forwards only, worlds/reeds_shepp_curve.hpp both ways). Its body is a
-// disc around the reference point or a polygon; the turning radius of the reference point is a number of its own.
+// steering can drive (worlds/poses/dubins_curve.hpp forwards only, worlds/poses/reeds_shepp_curve.hpp both ways). Its
+// body is a disc around the reference point or a polygon; the turning radius of the reference point is a number of its
+// own.
 //
-// Every motion is certified free all along (worlds/certified_motion.hpp): on a straight piece each point of the body
-// goes as far as the reference point, on an arc farther by the ratio of its distance from the turning centre to the
-// turning radius (of a disc, which looks the same however it is turned, the middle alone counts). Without bounds the
-// reference point stays in the obstacles' box, on the curve too. On a map the body moves among the borders between free
-// and blocked cells, which the scene has as walls (worlds/map_walls.hpp): as it touches none of them, it is among free
-// cells wholly or not at all.
-// The metric is the curve's length; for Dubins curves it has a direction. The chord in (x, y, rho cos theta, rho sin
-// theta), shortened by sqrt(2), never exceeds it.
+// Every motion is certified free all along (worlds/poses/certified_motion.hpp): on a straight piece each point of the
+// body goes as far as the reference point, on an arc farther by the ratio of its distance from the turning centre to
+// the turning radius (of a disc, which looks the same however it is turned, the middle alone counts). Without bounds
+// the reference point stays in the obstacles' box, on the curve too. On a map the body moves among the borders between
+// free and blocked cells, which the scene has as walls (worlds/rasters/map_borders.hpp): as it touches none of them, it
+// is among free cells wholly or not at all. The metric is the curve's length; for Dubins curves it has a direction. The
+// chord in (x, y, rho cos theta, rho sin theta), shortened by sqrt(2), never exceeds it.
 #pragma once
 
 #include <array>
@@ -19,14 +19,14 @@
 #include <span>
 #include <vector>
 
-#include "core/se2.hpp"
-#include "core/world.hpp"
-#include "worlds/certified_motion.hpp"
-#include "worlds/dubins_curve.hpp"
-#include "worlds/obstacle_tree.hpp"
-#include "worlds/reeds_shepp_curve.hpp"
-#include "worlds/scene.hpp"
-#include "worlds/steering_curve.hpp"
+#include "core/base/world.hpp"
+#include "core/plane/se2.hpp"
+#include "scenes/scene/scene.hpp"
+#include "worlds/poses/certified_motion.hpp"
+#include "worlds/poses/dubins_curve.hpp"
+#include "worlds/poses/obstacle_tree.hpp"
+#include "worlds/poses/reeds_shepp_curve.hpp"
+#include "worlds/poses/steering_curve.hpp"
 
 namespace warren {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // In turning radii, from the origin with heading 0 to (x, y, phi). A car that turns left circles around (0, 1) at its
 // begin and around (x - sin phi, y + cos phi) at its end; to the right around (x + sin phi, y - cos phi).
-#include "worlds/dubins_curve.hpp"
+#include "worlds/poses/dubins_curve.hpp"
 
 #include <algorithm>
 #include <array>

@@ -10,7 +10,7 @@
 // goal. So a rest of a shortest curve is as long as it was on the whole, and planners may cut curves anywhere.
 #pragma once
 
-#include "worlds/steering_curve.hpp"
+#include "worlds/poses/steering_curve.hpp"
 
 namespace warren {
 

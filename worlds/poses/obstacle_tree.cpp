@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Doubles throughout, so nothing is exact here; but where two sides cross and the signs say otherwise by rounding, an
 // end of one is within the rounding of the other, and the distance of that end tells.
-#include "worlds/obstacle_tree.hpp"
+#include "worlds/poses/obstacle_tree.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,8 +9,8 @@
 #include <limits>
 
 #include "parallel/execution.hpp"
-#include "worlds/place_marking.hpp"
-#include "worlds/plane_obstacles.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
+#include "worlds/rasters/blocked_places.hpp"
 
 namespace warren {
 namespace {

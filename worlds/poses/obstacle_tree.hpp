@@ -12,11 +12,11 @@
 #include <span>
 #include <vector>
 
-#include "core/place_grid.hpp"
-#include "core/types.hpp"
+#include "core/base/place_grid.hpp"
+#include "core/base/types.hpp"
 #include "parallel/execution.hpp"
-#include "spatial/box_tree.hpp"
-#include "worlds/scene.hpp"
+#include "scenes/scene/scene.hpp"
+#include "spatial/obstacles/box_tree.hpp"
 
 namespace warren {
 
@@ -78,7 +78,7 @@ class ObstacleTree {
   /// Convex obstacles, and sides of the others.
   std::size_t piece_count() const { return convex_.size() + sides_.size(); }
   /// Takes the bits of places away at which a convex body, mirrored at its reference point, would come nearer than
-  /// `reach` to an obstacle (worlds/place_marking.hpp); of polygons that aren't convex, to a side.
+  /// `reach` to an obstacle (worlds/rasters/blocked_places.hpp); of polygons that aren't convex, to a side.
   void take_blocked_places(std::span<const Vec2> mirrored_body, double reach, PlaceGrid& free) const;
 
   const std::optional<Box>& bounds() const { return bounds_; }

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <span>
 
-#include "core/se2.hpp"
-#include "core/types.hpp"
+#include "core/base/types.hpp"
+#include "core/plane/se2.hpp"
 
 namespace warren {
 

@@ -10,7 +10,7 @@
 //   L t R -q S u R v        i (u - 2) e^(it)
 //   L t R -q S u L -q R v   (-2 + i (u - 4)) e^(it)
 // whose absolute value gives u or a and whose argument gives t; v makes the heading right.
-#include "worlds/reeds_shepp_curve.hpp"
+#include "worlds/poses/reeds_shepp_curve.hpp"
 
 #include <algorithm>
 #include <cmath>

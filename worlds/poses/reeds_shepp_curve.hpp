@@ -10,7 +10,7 @@
 // forms. The length is a metric, and continuous. bench/steering_bench.cpp: below 1 us a pair.
 #pragma once
 
-#include "worlds/steering_curve.hpp"
+#include "worlds/poses/steering_curve.hpp"
 
 namespace warren {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/se2_world.hpp"
+#include "worlds/poses/se2_world.hpp"
 
 #include <algorithm>
 #include <string>
 
-#include "core/error.hpp"
-#include "worlds/confined_pose.hpp"
-#include "worlds/convex_pieces.hpp"
-#include "worlds/plane_obstacles.hpp"
+#include "core/base/error.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
+#include "worlds/poses/pose_in_bounds.hpp"
+#include "worlds/rasters/convex_pieces.hpp"
 
 namespace warren {
 namespace {

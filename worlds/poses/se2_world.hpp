@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A polygon that moves and turns among polygons, walls and bounds: SE(2), the poses (x, y, theta). The body may be
 // convex or not and need not hold its reference point. Between two poses the reference point goes straight while the
-// body turns evenly the shorter way; the whole motion is certified free (worlds/certified_motion.hpp): a piece of it is
-// where the body is farther from an obstacle than any point of it goes, or where a line along the obstacle's side stays
-// between the two. Of the second only what comes nearer counts: a corner c that turns by w a unit of time and goes by v
-// is within v t of where it was up to t^2 w^2 |c| / 2, so ways past an obstacle cost little.
+// body turns evenly the shorter way; the whole motion is certified free (worlds/poses/certified_motion.hpp): a piece of
+// it is where the body is farther from an obstacle than any point of it goes, or where a line along the obstacle's side
+// stays between the two. Of the second only what comes nearer counts: a corner c that turns by w a unit of time and
+// goes by v is within v t of where it was up to t^2 w^2 |c| / 2, so ways past an obstacle cost little.
 //
 // Metric: sqrt(dx^2 + dy^2 + (w dtheta)^2) with the turn the shorter way; w is a length, by default the body's radius
 // (its farthest corner from the reference point), so that a unit of either moves no point further than a unit. It is
@@ -12,8 +12,8 @@
 // Planning widens the clearance by the factor 1 + 1e-9 plus rounding, so that a verification can't fail by rounding.
 //
 // On a map the body moves among the borders between free and blocked cells, which the scene has as walls
-// (worlds/map_walls.hpp). A body that touches none of them is wholly among free cells or wholly among blocked ones:
-// one of its corners tells which.
+// (worlds/rasters/map_borders.hpp). A body that touches none of them is wholly among free cells or wholly among blocked
+// ones: one of its corners tells which.
 #pragma once
 
 #include <array>
@@ -22,13 +22,13 @@
 #include <span>
 #include <vector>
 
-#include "core/se2.hpp"
-#include "core/world.hpp"
+#include "core/base/world.hpp"
+#include "core/plane/se2.hpp"
 #include "parallel/execution.hpp"
-#include "worlds/certified_motion.hpp"
-#include "worlds/corridor_points.hpp"
-#include "worlds/obstacle_tree.hpp"
-#include "worlds/scene.hpp"
+#include "scenes/scene/scene.hpp"
+#include "worlds/poses/certified_motion.hpp"
+#include "worlds/poses/obstacle_tree.hpp"
+#include "worlds/rasters/corridor_points.hpp"
 
 namespace warren {
 

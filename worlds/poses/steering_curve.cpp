@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/steering_curve.hpp"
+#include "worlds/poses/steering_curve.hpp"
 
 #include <algorithm>
 #include <cmath>

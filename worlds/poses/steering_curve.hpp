@@ -2,15 +2,15 @@
 // A curve that a car drives: up to five pieces, each straight or an arc of the turning radius, forwards or backwards.
 // A SteeringWord is the recipe, in units of the turning radius; a SteeringCurve puts it between two poses, with the
 // poses between the pieces computed once, so that a pose on the way costs one sine and one cosine. Which word is the
-// shortest: worlds/dubins_curve.hpp, worlds/reeds_shepp_curve.hpp.
+// shortest: worlds/poses/dubins_curve.hpp, worlds/poses/reeds_shepp_curve.hpp.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <span>
 
-#include "core/se2.hpp"
-#include "core/types.hpp"
+#include "core/base/types.hpp"
+#include "core/plane/se2.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/place_marking.hpp"
+#include "worlds/rasters/blocked_places.hpp"
 
 #include <algorithm>
 #include <array>

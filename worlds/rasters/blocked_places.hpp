@@ -7,8 +7,8 @@
 
 #include <span>
 
-#include "core/place_grid.hpp"
-#include "core/types.hpp"
+#include "core/base/place_grid.hpp"
+#include "core/base/types.hpp"
 
 namespace warren {
 

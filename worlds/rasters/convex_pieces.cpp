@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/convex_pieces.hpp"
+#include "worlds/rasters/convex_pieces.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "core/geometry.hpp"
+#include "core/plane/geometry.hpp"
 
 namespace warren {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/corridor_points.hpp"
+#include "worlds/rasters/corridor_points.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "core/rng.hpp"
-#include "spatial/free_cells.hpp"
+#include "core/base/rng.hpp"
+#include "spatial/maps/free_cells.hpp"
 
 namespace warren {
 namespace {

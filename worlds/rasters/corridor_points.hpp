@@ -7,10 +7,10 @@
 
 #include <cstdint>
 
-#include "core/types.hpp"
+#include "core/base/types.hpp"
 #include "parallel/execution.hpp"
-#include "spatial/corridor_cells.hpp"
-#include "worlds/occupancy_map.hpp"
+#include "scenes/scene/occupancy_map.hpp"
+#include "spatial/maps/corridor_cells.hpp"
 
 namespace warren {
 

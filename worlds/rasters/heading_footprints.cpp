@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/layer_jobs.hpp"
+#include "worlds/rasters/heading_footprints.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "core/se2.hpp"
+#include "core/plane/se2.hpp"
 
 namespace warren {
 namespace {

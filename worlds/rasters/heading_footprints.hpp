@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "core/heading_layers.hpp"
-#include "core/types.hpp"
-#include "worlds/convex_pieces.hpp"
+#include "core/base/types.hpp"
+#include "core/plane/heading_layers.hpp"
+#include "worlds/rasters/convex_pieces.hpp"
 
 namespace warren {
 

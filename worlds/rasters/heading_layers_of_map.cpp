@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/map_layers.hpp"
+#include "worlds/rasters/heading_layers_of_map.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/minkowski.hpp"
+#include "core/base/error.hpp"
+#include "core/plane/minkowski.hpp"
 #include "parallel/chunks.hpp"
-#include "worlds/lattice_marking.hpp"
-#include "worlds/layer_jobs.hpp"
+#include "worlds/rasters/heading_footprints.hpp"
+#include "worlds/rasters/polygons_on_lattice.hpp"
 
 namespace warren {
 namespace {

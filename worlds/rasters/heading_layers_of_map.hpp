@@ -9,9 +9,9 @@
 
 #include <span>
 
-#include "core/heading_layers.hpp"
+#include "core/plane/heading_layers.hpp"
 #include "parallel/execution.hpp"
-#include "worlds/occupancy_map.hpp"
+#include "scenes/scene/occupancy_map.hpp"
 
 namespace warren {
 

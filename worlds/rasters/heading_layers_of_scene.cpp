@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/orientation_layers.hpp"
+#include "worlds/rasters/heading_layers_of_scene.hpp"
 
 #include <fmt/format.h>
 
@@ -8,13 +8,13 @@
 #include <map>
 #include <numbers>
 
-#include "core/error.hpp"
-#include "core/se2.hpp"
+#include "core/base/error.hpp"
+#include "core/plane/se2.hpp"
 #include "parallel/chunks.hpp"
-#include "spatial/distance_field.hpp"
-#include "worlds/convex_pieces.hpp"
-#include "worlds/lattice_marking.hpp"
-#include "worlds/layer_jobs.hpp"
+#include "spatial/maps/distance_field.hpp"
+#include "worlds/rasters/convex_pieces.hpp"
+#include "worlds/rasters/heading_footprints.hpp"
+#include "worlds/rasters/polygons_on_lattice.hpp"
 
 namespace warren {
 namespace {

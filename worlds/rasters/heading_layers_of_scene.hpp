@@ -8,9 +8,9 @@
 // projection, rounded up to cells; steps and turns between all free states. It is neither safe nor complete.
 #pragma once
 
-#include "core/heading_layers.hpp"
+#include "core/plane/heading_layers.hpp"
 #include "parallel/execution.hpp"
-#include "worlds/scene.hpp"
+#include "scenes/scene/scene.hpp"
 
 namespace warren {
 

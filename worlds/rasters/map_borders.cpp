@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/map_walls.hpp"
+#include "worlds/rasters/map_borders.hpp"
 
 #include <bit>
 #include <cmath>
 #include <string>
 
-#include "core/error.hpp"
-#include "spatial/free_cells.hpp"
-#include "worlds/convex_pieces.hpp"
-#include "worlds/lattice_marking.hpp"
+#include "core/base/error.hpp"
+#include "spatial/maps/free_cells.hpp"
+#include "worlds/rasters/convex_pieces.hpp"
+#include "worlds/rasters/polygons_on_lattice.hpp"
 
 namespace warren {
 namespace {

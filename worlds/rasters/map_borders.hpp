@@ -5,9 +5,9 @@
 
 #include <vector>
 
-#include "core/types.hpp"
-#include "worlds/occupancy_map.hpp"
-#include "worlds/scene.hpp"
+#include "core/base/types.hpp"
+#include "scenes/scene/occupancy_map.hpp"
+#include "scenes/scene/scene.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/lattice_marking.hpp"
+#include "worlds/rasters/polygons_on_lattice.hpp"
 
 #include <algorithm>
 #include <cmath>

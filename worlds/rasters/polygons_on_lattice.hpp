@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/bitmap.hpp"
-#include "core/types.hpp"
+#include "core/base/bitmap.hpp"
+#include "core/base/types.hpp"
 #include "parallel/execution.hpp"
 
 namespace warren {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/page_pool.hpp"
+#include "core/base/page_pool.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstdint>
 #include <vector>
 
-#include "core/raw_vector.hpp"
-#include "core/rng.hpp"
+#include "core/base/raw_vector.hpp"
+#include "core/base/rng.hpp"
 
 namespace warren {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/raw_vector.hpp"
+#include "core/base/raw_vector.hpp"
 
 #include <gtest/gtest.h>
 

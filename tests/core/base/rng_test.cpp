@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/rng.hpp"
+#include "core/base/rng.hpp"
 
 #include <gtest/gtest.h>
 

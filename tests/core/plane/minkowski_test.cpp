@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/minkowski.hpp"
+#include "core/plane/minkowski.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <numbers>
 #include <vector>
 
-#include "core/convex_decomposition.hpp"
-#include "core/geometry.hpp"
-#include "core/polygon_distance.hpp"
-#include "core/rng.hpp"
+#include "core/base/rng.hpp"
+#include "core/plane/convex_decomposition.hpp"
+#include "core/plane/geometry.hpp"
+#include "core/plane/polygon_distance.hpp"
 
 namespace warren {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/wall_set.hpp"
+#include "core/plane/wall_set.hpp"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/rng.hpp"
-#include "core/solution.hpp"
+#include "core/base/error.hpp"
+#include "core/base/rng.hpp"
+#include "core/base/solution.hpp"
 
 namespace warren {
 namespace {

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/graph.hpp"
-#include "core/rng.hpp"
+#include "core/base/rng.hpp"
+#include "core/search/graph.hpp"
 
 namespace warren::test {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/search.hpp"
+#include "core/search/search.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <set>
 #include <string>
 
-#include "core/rng.hpp"
-#include "core/search_queues.hpp"
-#include "tests/core/search_graphs.hpp"
+#include "core/base/rng.hpp"
+#include "core/search/search_queues.hpp"
+#include "tests/core/search/search_graphs.hpp"
 
 namespace warren {
 namespace {

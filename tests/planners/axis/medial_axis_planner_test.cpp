@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/medial_axis_planner.hpp"
+#include "planners/axis/medial_axis_planner.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,11 +8,11 @@
 #include <limits>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/geometry.hpp"
-#include "planners/certain_clearance.hpp"
-#include "tests/planners/plane_worlds.hpp"
-#include "worlds/maze_generator.hpp"
+#include "core/base/error.hpp"
+#include "core/plane/geometry.hpp"
+#include "planners/shorten/certain_clearance.hpp"
+#include "scenes/mazes/maze_generator.hpp"
+#include "tests/planners/visibility/plane_worlds.hpp"
 
 namespace warren {
 namespace {

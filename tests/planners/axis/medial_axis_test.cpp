@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/medial_axis.hpp"
+#include "planners/axis/medial_axis.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <map>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/geometry.hpp"
-#include "core/graph.hpp"
-#include "tests/planners/plane_worlds.hpp"
+#include "core/base/error.hpp"
+#include "core/plane/geometry.hpp"
+#include "core/search/graph.hpp"
+#include "tests/planners/visibility/plane_worlds.hpp"
 
 namespace warren {
 namespace {

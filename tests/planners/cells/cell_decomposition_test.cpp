@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/cell_decomposition.hpp"
+#include "planners/cells/cell_decomposition.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "core/geometry.hpp"
+#include "core/plane/geometry.hpp"
+#include "scenes/formats/read_world_io.hpp"
 #include "tests/paths.hpp"
-#include "tests/planners/plane_worlds.hpp"
-#include "worlds/world_io.hpp"
+#include "tests/planners/visibility/plane_worlds.hpp"
 
 namespace warren {
 namespace {

@@ -8,8 +8,8 @@
 #include <limits>
 #include <vector>
 
-#include "core/geometry.hpp"
-#include "tests/planners/cell_plans.hpp"
+#include "core/plane/geometry.hpp"
+#include "tests/planners/cells/cell_plans.hpp"
 
 namespace warren {
 namespace {

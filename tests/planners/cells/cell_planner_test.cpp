@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/cell_planner.hpp"
+#include "planners/cells/cell_planner.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@
 #include <limits>
 #include <vector>
 
-#include "core/geometry.hpp"
-#include "planners/confined_obstacles.hpp"
-#include "planners/visibility_path.hpp"
-#include "tests/planners/cell_plans.hpp"
-#include "tests/planners/degenerate_worlds.hpp"
+#include "core/plane/geometry.hpp"
+#include "planners/pieces/box_as_bounds.hpp"
+#include "planners/visibility/visibility_path.hpp"
+#include "tests/planners/cells/cell_plans.hpp"
+#include "tests/planners/visibility/degenerate_worlds.hpp"
 
 namespace warren {
 namespace {

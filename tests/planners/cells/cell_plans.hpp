@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "planners/cell_planner.hpp"
-#include "tests/planners/plane_worlds.hpp"
+#include "planners/cells/cell_planner.hpp"
+#include "tests/planners/visibility/plane_worlds.hpp"
 
 namespace warren::test {
 

@@ -7,10 +7,10 @@
 #include <numbers>
 #include <vector>
 
-#include "planners/cell_planner.hpp"
-#include "planners/noded_polygons.hpp"
-#include "planners/visibility_path.hpp"
-#include "tests/planners/plane_worlds.hpp"
+#include "planners/cells/cell_planner.hpp"
+#include "planners/pieces/noded_polygons.hpp"
+#include "planners/visibility/visibility_path.hpp"
+#include "tests/planners/visibility/plane_worlds.hpp"
 
 namespace warren {
 namespace {

@@ -10,9 +10,9 @@
 #include <tuple>
 #include <vector>
 
-#include "core/bitmap.hpp"
-#include "core/rng.hpp"
-#include "planners/grid_search.hpp"
+#include "core/base/bitmap.hpp"
+#include "core/base/rng.hpp"
+#include "planners/grid/grid_search.hpp"
 
 namespace warren::grid_oracle {
 

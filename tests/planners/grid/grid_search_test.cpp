@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/grid_search.hpp"
+#include "planners/grid/grid_search.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/error.hpp"
-#include "tests/planners/grid_oracle.hpp"
+#include "core/base/error.hpp"
+#include "tests/planners/grid/grid_oracle.hpp"
 
 namespace warren {
 namespace {

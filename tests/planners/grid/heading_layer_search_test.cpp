@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/layer_search.hpp"
+#include "planners/grid/heading_layer_search.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,10 @@
 #include <set>
 #include <tuple>
 
-#include "core/error.hpp"
-#include "tests/planners/grid_oracle.hpp"
-#include "worlds/orientation_layers.hpp"
-#include "worlds/verify_se2.hpp"
+#include "core/base/error.hpp"
+#include "tests/planners/grid/grid_oracle.hpp"
+#include "verify/judges/verify_turning.hpp"
+#include "worlds/rasters/heading_layers_of_scene.hpp"
 
 namespace warren {
 namespace {

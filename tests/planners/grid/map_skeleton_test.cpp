@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/map_skeleton.hpp"
+#include "planners/grid/map_skeleton.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <cstdlib>
 #include <vector>
 
-#include "core/rng.hpp"
-#include "planners/skeleton_planner.hpp"
-#include "tests/planners/grid_oracle.hpp"
+#include "core/base/rng.hpp"
+#include "planners/grid/skeleton_planner.hpp"
+#include "tests/planners/grid/grid_oracle.hpp"
 
 namespace warren {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/confined_obstacles.hpp"
+#include "planners/pieces/box_as_bounds.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "core/polygon_distance.hpp"
+#include "core/plane/polygon_distance.hpp"
 
 namespace warren {
 namespace {

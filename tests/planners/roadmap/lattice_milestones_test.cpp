@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/lattice_milestones.hpp"
+#include "planners/roadmap/lattice_milestones.hpp"
 
 #include <gtest/gtest.h>
 
-#include "core/rng.hpp"
-#include "planners/milestones.hpp"
+#include "core/base/rng.hpp"
+#include "planners/roadmap/milestones.hpp"
 
 namespace warren {
 namespace {

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/one_way_prm.hpp"
+#include "planners/roadmap/one_way_prm.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numeric>
 
-#include "planners/lazy_prm.hpp"
-#include "planners/rrt.hpp"
-#include "planners/rrt_connect.hpp"
-#include "planners/shortcut.hpp"
-#include "tests/worlds/body_scenes.hpp"
-#include "worlds/car_world.hpp"
-#include "worlds/verify_car.hpp"
+#include "planners/roadmap/lazy_prm.hpp"
+#include "planners/shorten/shortcut.hpp"
+#include "planners/trees/rrt.hpp"
+#include "planners/trees/rrt_connect.hpp"
+#include "tests/worlds/poses/body_scenes.hpp"
+#include "verify/judges/verify_car.hpp"
+#include "worlds/poses/car_world.hpp"
 
 namespace warren {
 namespace {

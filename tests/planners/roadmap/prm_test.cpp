@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/prm.hpp"
+#include "planners/roadmap/prm.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,12 +8,12 @@
 #include <string>
 #include <tuple>
 
-#include "core/error.hpp"
-#include "core/geometry.hpp"
-#include "planners/lazy_prm.hpp"
-#include "tests/planners/plane_worlds.hpp"
-#include "worlds/maze_generator.hpp"
-#include "worlds/maze_world.hpp"
+#include "core/base/error.hpp"
+#include "core/plane/geometry.hpp"
+#include "planners/roadmap/lazy_prm.hpp"
+#include "scenes/mazes/maze_generator.hpp"
+#include "tests/planners/visibility/plane_worlds.hpp"
+#include "worlds/plane/maze_world.hpp"
 
 namespace warren {
 namespace {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How many samples worlds that are much longer than broad need, and how far milestones are joined there.
-#include "planners/roadmap_rule.hpp"
+#include "planners/roadmap/roadmap_growth.hpp"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "planners/lazy_prm.hpp"
-#include "tests/planners/plane_worlds.hpp"
-#include "worlds/maze_world.hpp"
+#include "planners/roadmap/lazy_prm.hpp"
+#include "tests/planners/visibility/plane_worlds.hpp"
+#include "worlds/plane/maze_world.hpp"
 
 namespace warren {
 namespace {

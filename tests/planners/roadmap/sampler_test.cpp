@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/sampler.hpp"
+#include "planners/roadmap/sampler.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/error.hpp"
-#include "planners/milestones.hpp"
-#include "worlds/maze_generator.hpp"
-#include "worlds/maze_world.hpp"
+#include "core/base/error.hpp"
+#include "planners/roadmap/milestones.hpp"
+#include "scenes/mazes/maze_generator.hpp"
+#include "worlds/plane/maze_world.hpp"
 
 namespace warren {
 namespace {

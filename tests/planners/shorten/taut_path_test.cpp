@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/taut_path.hpp"
+#include "planners/shorten/taut_path.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,11 +11,11 @@
 #include <queue>
 #include <vector>
 
-#include "core/geometry.hpp"
-#include "core/rng.hpp"
-#include "tests/planners/plane_worlds.hpp"
-#include "worlds/maze_generator.hpp"
-#include "worlds/verify.hpp"
+#include "core/base/rng.hpp"
+#include "core/plane/geometry.hpp"
+#include "scenes/mazes/maze_generator.hpp"
+#include "tests/planners/visibility/plane_worlds.hpp"
+#include "verify/judges/verify_point.hpp"
 
 namespace warren {
 namespace {

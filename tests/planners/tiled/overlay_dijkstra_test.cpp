@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The oracle relaxes the edges of a random overlay until nothing changes.
-#include "planners/step_search.hpp"
+#include "planners/tiled/overlay_dijkstra.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/rng.hpp"
+#include "core/base/rng.hpp"
 #include "parallel/deadline.hpp"
 
 namespace warren {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The oracle is the plain pipeline: prm over the same world with the same options.
-#include "planners/tiled_roadmap.hpp"
+#include "planners/tiled/tiled_prm_any_world.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
-#include "tests/planners/plane_worlds.hpp"
-#include "worlds/maze_generator.hpp"
-#include "worlds/maze_world.hpp"
-#include "worlds/verify.hpp"
+#include "core/base/error.hpp"
+#include "scenes/mazes/maze_generator.hpp"
+#include "tests/planners/visibility/plane_worlds.hpp"
+#include "verify/judges/verify_point.hpp"
+#include "worlds/plane/maze_world.hpp"
 
 namespace warren {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The oracle is the plain pipeline: prm over MazeWorld, with its own index, neighbours, graph and search.
-#include "planners/tiled_prm.hpp"
+#include "planners/tiled/tiled_prm_lattice.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,15 +8,15 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/geometry.hpp"
-#include "core/rng.hpp"
-#include "planners/prm.hpp"
-#include "planners/wall_partition.hpp"
-#include "tests/planners/plane_worlds.hpp"
-#include "worlds/maze_generator.hpp"
-#include "worlds/maze_world.hpp"
-#include "worlds/verify.hpp"
+#include "core/base/error.hpp"
+#include "core/base/rng.hpp"
+#include "core/plane/geometry.hpp"
+#include "planners/roadmap/prm.hpp"
+#include "planners/tiles/wall_partition.hpp"
+#include "scenes/mazes/maze_generator.hpp"
+#include "tests/planners/visibility/plane_worlds.hpp"
+#include "verify/judges/verify_point.hpp"
+#include "worlds/plane/maze_world.hpp"
 
 namespace warren {
 namespace {

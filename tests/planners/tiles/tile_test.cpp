@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "core/geometry.hpp"
-#include "core/rng.hpp"
-#include "planners/plane_rows.hpp"
-#include "planners/tile_reduction.hpp"
-#include "planners/wall_marking.hpp"
-#include "planners/wall_partition.hpp"
-#include "spatial/wall_index.hpp"
+#include "core/base/rng.hpp"
+#include "core/plane/geometry.hpp"
+#include "planners/tiles/lattice_tile_reduction.hpp"
+#include "planners/tiles/tile_row_kernels.hpp"
+#include "planners/tiles/wall_marking.hpp"
+#include "planners/tiles/wall_partition.hpp"
+#include "spatial/obstacles/wall_index.hpp"
 
 namespace warren {
 namespace {

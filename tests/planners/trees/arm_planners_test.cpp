@@ -6,17 +6,17 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "core/error.hpp"
-#include "planners/lazy_prm.hpp"
-#include "planners/prm.hpp"
-#include "planners/rrt.hpp"
-#include "planners/rrt_connect.hpp"
-#include "planners/shortcut.hpp"
+#include "core/base/error.hpp"
+#include "planners/roadmap/lazy_prm.hpp"
+#include "planners/roadmap/prm.hpp"
+#include "planners/shorten/shortcut.hpp"
+#include "planners/trees/rrt.hpp"
+#include "planners/trees/rrt_connect.hpp"
+#include "scenes/formats/read_world_io.hpp"
 #include "tests/paths.hpp"
-#include "worlds/arm_world.hpp"
-#include "worlds/puma560.hpp"
-#include "worlds/verify_arm.hpp"
-#include "worlds/world_io.hpp"
+#include "verify/judges/verify_arm.hpp"
+#include "worlds/arms/arm_world.hpp"
+#include "worlds/arms/puma560.hpp"
 
 namespace warren {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/rrt.hpp"
+#include "planners/trees/rrt.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,17 +7,17 @@
 #include <set>
 #include <string>
 
-#include "core/error.hpp"
-#include "planners/lazy_prm.hpp"
-#include "planners/prm.hpp"
-#include "planners/rrt_connect.hpp"
-#include "planners/shortcut.hpp"
-#include "tests/worlds/body_scenes.hpp"
-#include "worlds/maze_generator.hpp"
-#include "worlds/maze_world.hpp"
-#include "worlds/se2_world.hpp"
-#include "worlds/verify.hpp"
-#include "worlds/verify_se2.hpp"
+#include "core/base/error.hpp"
+#include "planners/roadmap/lazy_prm.hpp"
+#include "planners/roadmap/prm.hpp"
+#include "planners/shorten/shortcut.hpp"
+#include "planners/trees/rrt_connect.hpp"
+#include "scenes/mazes/maze_generator.hpp"
+#include "tests/worlds/poses/body_scenes.hpp"
+#include "verify/judges/verify_point.hpp"
+#include "verify/judges/verify_turning.hpp"
+#include "worlds/plane/maze_world.hpp"
+#include "worlds/poses/se2_world.hpp"
 
 namespace warren {
 namespace {

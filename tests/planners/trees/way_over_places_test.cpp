@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/place_way.hpp"
+#include "planners/trees/way_over_places.hpp"
 
 #include <gtest/gtest.h>
 
 #include <queue>
 #include <vector>
 
-#include "core/rng.hpp"
+#include "core/base/rng.hpp"
 
 namespace warren {
 namespace {

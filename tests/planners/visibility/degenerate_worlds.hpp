@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/geometry.hpp"
-#include "core/polygon.hpp"
-#include "core/rng.hpp"
+#include "core/base/rng.hpp"
+#include "core/plane/geometry.hpp"
+#include "core/plane/polygon.hpp"
 
 namespace warren {
 

@@ -9,14 +9,14 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
-#include "planners/cell_planner.hpp"
-#include "planners/confined_obstacles.hpp"
-#include "planners/visibility_path.hpp"
-#include "tests/planners/degenerate_worlds.hpp"
-#include "tests/planners/plane_worlds.hpp"
-#include "tests/planners/rational_plane.hpp"
-#include "worlds/plane_obstacles.hpp"
+#include "core/base/error.hpp"
+#include "planners/cells/cell_planner.hpp"
+#include "planners/pieces/box_as_bounds.hpp"
+#include "planners/visibility/visibility_path.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
+#include "tests/planners/visibility/degenerate_worlds.hpp"
+#include "tests/planners/visibility/plane_worlds.hpp"
+#include "tests/planners/visibility/rational_plane.hpp"
 
 namespace warren {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tests/planners/plane_contest.hpp"
+#include "tests/planners/visibility/plane_contest.hpp"
 
 #include <fmt/format.h>
 
@@ -11,11 +11,11 @@
 #include <utility>
 #include <vector>
 
-#include "core/error.hpp"
-#include "planners/cell_planner.hpp"
-#include "planners/visibility_path.hpp"
-#include "tests/planners/rational_plane.hpp"
-#include "worlds/plane_obstacles.hpp"
+#include "core/base/error.hpp"
+#include "planners/cells/cell_planner.hpp"
+#include "planners/visibility/visibility_path.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
+#include "tests/planners/visibility/rational_plane.hpp"
 
 namespace warren::test {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "core/solution.hpp"
-#include "tests/planners/strange_worlds.hpp"
+#include "core/base/solution.hpp"
+#include "tests/planners/visibility/strange_worlds.hpp"
 
 namespace warren::test {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Everybody who claims the shortest path finds it, by exact rationals, in worlds as strangers make them; the long form
 // is tools/campaign. And the worlds in which somebody once did not.
-#include "tests/planners/plane_contest.hpp"
+#include "tests/planners/visibility/plane_contest.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,12 +8,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/geometry.hpp"
-#include "core/polygon.hpp"
-#include "core/rng.hpp"
-#include "core/solution.hpp"
-#include "worlds/scene.hpp"
-#include "worlds/verify.hpp"
+#include "core/base/rng.hpp"
+#include "core/base/solution.hpp"
+#include "core/plane/geometry.hpp"
+#include "core/plane/polygon.hpp"
+#include "scenes/scene/scene.hpp"
+#include "verify/judges/verify_point.hpp"
 
 namespace warren::test {
 

@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/polygon.hpp"
+#include "core/plane/polygon.hpp"
 
 namespace warren::rational {
 

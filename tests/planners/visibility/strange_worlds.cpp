@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tests/planners/strange_worlds.hpp"
+#include "tests/planners/visibility/strange_worlds.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "core/error.hpp"
-#include "planners/confined_obstacles.hpp"
-#include "tests/planners/rational_plane.hpp"
-#include "worlds/plane_obstacles.hpp"
+#include "core/base/error.hpp"
+#include "planners/pieces/box_as_bounds.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
+#include "tests/planners/visibility/rational_plane.hpp"
 
 namespace warren::test {
 namespace {

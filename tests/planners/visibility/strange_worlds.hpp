@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/polygon.hpp"
-#include "tests/planners/plane_worlds.hpp"
+#include "core/plane/polygon.hpp"
+#include "tests/planners/visibility/plane_worlds.hpp"
 
 namespace warren::test {
 

@@ -8,11 +8,11 @@
 #include <filesystem>
 #include <string>
 
-#include "planners/lazy_visibility.hpp"
-#include "planners/visibility_path.hpp"
+#include "planners/visibility/lazy_visibility.hpp"
+#include "planners/visibility/visibility_path.hpp"
+#include "scenes/formats/scene_io.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
 #include "tests/paths.hpp"
-#include "worlds/plane_obstacles.hpp"
-#include "worlds/scene_io.hpp"
 
 namespace warren {
 namespace {

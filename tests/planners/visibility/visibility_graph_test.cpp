@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/visibility_graph.hpp"
+#include "planners/visibility/visibility_graph.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,13 +10,13 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
-#include "planners/lazy_visibility.hpp"
-#include "planners/visibility_path.hpp"
-#include "tests/planners/degenerate_worlds.hpp"
-#include "tests/planners/plane_worlds.hpp"
-#include "tests/planners/visibility_oracle.hpp"
-#include "worlds/verify.hpp"
+#include "core/base/error.hpp"
+#include "planners/visibility/lazy_visibility.hpp"
+#include "planners/visibility/visibility_path.hpp"
+#include "tests/planners/visibility/degenerate_worlds.hpp"
+#include "tests/planners/visibility/plane_worlds.hpp"
+#include "tests/planners/visibility/visibility_oracle.hpp"
+#include "verify/judges/verify_point.hpp"
 
 namespace warren {
 namespace {

@@ -15,7 +15,7 @@
 #include <tuple>
 #include <vector>
 
-#include "core/polygon.hpp"
+#include "core/plane/polygon.hpp"
 
 namespace warren::oracle {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/dh_table_io.hpp"
+#include "scenes/formats/dh_table_io.hpp"
 
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
-#include "tests/worlds/arm_oracle.hpp"
-#include "tests/worlds/temporary_directory.hpp"
-#include "worlds/puma560.hpp"
+#include "core/base/error.hpp"
+#include "tests/scenes/text/temporary_directory.hpp"
+#include "tests/worlds/arms/arm_oracle.hpp"
+#include "worlds/arms/puma560.hpp"
 
 namespace warren {
 namespace {

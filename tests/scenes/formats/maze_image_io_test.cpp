@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/maze_image_io.hpp"
+#include "scenes/formats/maze_image_io.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "core/error.hpp"
-#include "tests/worlds/temporary_directory.hpp"
-#include "tests/worlds/test_images.hpp"
+#include "core/base/error.hpp"
+#include "tests/scenes/images/test_images.hpp"
+#include "tests/scenes/text/temporary_directory.hpp"
 
 namespace warren {
 namespace {

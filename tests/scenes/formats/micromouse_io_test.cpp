@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/micromouse_io.hpp"
+#include "scenes/formats/micromouse_io.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <string>
 
-#include "core/error.hpp"
-#include "tests/worlds/temporary_directory.hpp"
-#include "worlds/world_io.hpp"
+#include "core/base/error.hpp"
+#include "scenes/formats/read_world_io.hpp"
+#include "tests/scenes/text/temporary_directory.hpp"
 
 namespace warren {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/moving_ai_io.hpp"
+#include "scenes/formats/moving_ai_io.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "core/error.hpp"
-#include "tests/worlds/temporary_directory.hpp"
+#include "core/base/error.hpp"
+#include "tests/scenes/text/temporary_directory.hpp"
 
 namespace warren {
 namespace {

@@ -5,15 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/polygon_distance.hpp"
-#include "tests/worlds/temporary_directory.hpp"
-#include "worlds/geojson_io.hpp"
-#include "worlds/plane_obstacles.hpp"
-#include "worlds/polygon_generator.hpp"
-#include "worlds/ring_list_io.hpp"
-#include "worlds/wkt_io.hpp"
-#include "worlds/world_io.hpp"
+#include "core/base/error.hpp"
+#include "core/plane/polygon_distance.hpp"
+#include "scenes/formats/geojson_io.hpp"
+#include "scenes/formats/read_world_io.hpp"
+#include "scenes/formats/ring_lists_io.hpp"
+#include "scenes/formats/wkt_io.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
+#include "scenes/scene/polygon_generator.hpp"
+#include "tests/scenes/text/temporary_directory.hpp"
 
 namespace warren {
 namespace {

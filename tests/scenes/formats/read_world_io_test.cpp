@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/world_io.hpp"
+#include "scenes/formats/read_world_io.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 
 #include <string>
 
-#include "core/error.hpp"
-#include "tests/worlds/temporary_directory.hpp"
+#include "core/base/error.hpp"
+#include "tests/scenes/text/temporary_directory.hpp"
 
 namespace warren {
 namespace {

@@ -10,18 +10,18 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
-#include "tests/worlds/test_images.hpp"
-#include "worlds/dh_table_io.hpp"
-#include "worlds/geojson_io.hpp"
-#include "worlds/maze_image_io.hpp"
-#include "worlds/micromouse_io.hpp"
-#include "worlds/moving_ai_io.hpp"
-#include "worlds/npy_io.hpp"
-#include "worlds/ring_list_io.hpp"
-#include "worlds/ros_map_io.hpp"
-#include "worlds/scene_io.hpp"
-#include "worlds/wkt_io.hpp"
+#include "core/base/error.hpp"
+#include "scenes/formats/dh_table_io.hpp"
+#include "scenes/formats/geojson_io.hpp"
+#include "scenes/formats/maze_image_io.hpp"
+#include "scenes/formats/micromouse_io.hpp"
+#include "scenes/formats/moving_ai_io.hpp"
+#include "scenes/formats/npy_io.hpp"
+#include "scenes/formats/ring_lists_io.hpp"
+#include "scenes/formats/ros_map_io.hpp"
+#include "scenes/formats/scene_io.hpp"
+#include "scenes/formats/wkt_io.hpp"
+#include "tests/scenes/images/test_images.hpp"
 
 namespace warren {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/scene_io.hpp"
+#include "scenes/formats/scene_io.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/rng.hpp"
-#include "tests/worlds/temporary_directory.hpp"
-#include "worlds/maze_generator.hpp"
+#include "core/base/error.hpp"
+#include "core/base/rng.hpp"
+#include "scenes/mazes/maze_generator.hpp"
+#include "tests/scenes/text/temporary_directory.hpp"
 
 namespace warren {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/maze_generator.hpp"
+#include "scenes/mazes/maze_generator.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
-#include "tests/worlds/mazes.hpp"
+#include "core/base/error.hpp"
+#include "tests/scenes/mazes/mazes.hpp"
 
 namespace warren {
 namespace {

@@ -8,9 +8,9 @@
 #include <tuple>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/rng.hpp"
-#include "tests/worlds/mazes.hpp"
+#include "core/base/error.hpp"
+#include "core/base/rng.hpp"
+#include "tests/scenes/mazes/mazes.hpp"
 
 namespace warren {
 namespace {

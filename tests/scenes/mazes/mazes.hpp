@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "worlds/maze_generator.hpp"
+#include "scenes/mazes/maze_generator.hpp"
 
 namespace warren::mazes {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/polygon_holes.hpp"
+#include "scenes/scene/holes_cut_open.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,11 +8,11 @@
 #include <cstdint>
 #include <numbers>
 
-#include "core/error.hpp"
-#include "core/geometry.hpp"
-#include "core/polygon_distance.hpp"
-#include "core/rng.hpp"
-#include "worlds/plane_obstacles.hpp"
+#include "core/base/error.hpp"
+#include "core/base/rng.hpp"
+#include "core/plane/geometry.hpp"
+#include "core/plane/polygon_distance.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
 
 namespace warren {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The sweep against all pairs of sides in plain integers, on small grids where contacts of every kind are common.
-#include "worlds/simple_outline.hpp"
+#include "scenes/scene/is_simple_outline.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/rng.hpp"
+#include "core/base/rng.hpp"
 
 namespace warren {
 namespace {

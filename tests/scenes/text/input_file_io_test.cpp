@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/input_file_io.hpp"
+#include "scenes/text/input_file_io.hpp"
 
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
-#include "tests/worlds/temporary_directory.hpp"
+#include "core/base/error.hpp"
+#include "tests/scenes/text/temporary_directory.hpp"
 
 namespace warren {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/output_file_io.hpp"
+#include "scenes/text/output_file_io.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 #include <filesystem>
 #include <string>
 
-#include "core/error.hpp"
-#include "tests/worlds/temporary_directory.hpp"
+#include "core/base/error.hpp"
+#include "tests/scenes/text/temporary_directory.hpp"
 
 namespace warren {
 namespace {

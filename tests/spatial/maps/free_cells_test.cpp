@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "spatial/free_cells.hpp"
+#include "spatial/maps/free_cells.hpp"
 
 #include <gtest/gtest.h>
 
-#include "core/rng.hpp"
+#include "core/base/rng.hpp"
 
 namespace warren {
 namespace {

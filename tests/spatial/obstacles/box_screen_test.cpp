@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "spatial/box_screen.hpp"
+#include "spatial/obstacles/box_screen.hpp"
 
 #include <gtest/gtest.h>
 
-#include "core/rng.hpp"
+#include "core/base/rng.hpp"
 
 namespace warren {
 namespace {

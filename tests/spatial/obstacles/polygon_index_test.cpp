@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Points among polygons, against plain integer arithmetic: small grids, so that points on sides and corners, corners at
 // equal heights, and shared sides are common.
-#include "spatial/polygon_index.hpp"
+#include "spatial/obstacles/polygon_index.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/rng.hpp"
+#include "core/base/rng.hpp"
 
 namespace warren {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "spatial/wall_index.hpp"
+#include "spatial/obstacles/wall_index.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "core/geometry.hpp"
-#include "core/rng.hpp"
-#include "spatial/motion_bunch.hpp"
+#include "core/base/rng.hpp"
+#include "core/plane/geometry.hpp"
+#include "spatial/obstacles/motion_bunch.hpp"
 
 namespace warren {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "spatial/kd_tree.hpp"
+#include "spatial/points/kd_tree.hpp"
 
 #include <gtest/gtest.h>
 
-#include "spatial/neighbours.hpp"
-#include "tests/spatial/point_sets.hpp"
+#include "spatial/points/neighbours.hpp"
+#include "tests/spatial/points/point_sets.hpp"
 
 namespace warren {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "spatial/point_grid.hpp"
+#include "spatial/points/point_grid.hpp"
 
 #include <gtest/gtest.h>
 
-#include "tests/spatial/point_sets.hpp"
+#include "tests/spatial/points/point_sets.hpp"
 
 namespace warren {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/rng.hpp"
-#include "spatial/neighbour.hpp"
+#include "core/base/rng.hpp"
+#include "spatial/points/neighbour.hpp"
 
 namespace warren::test {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/comparison_report.hpp"
+#include "studies/compare/comparison_report.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "tools/human_units.hpp"
-#include "tools/text_table.hpp"
+#include "studies/measure/human_units.hpp"
+#include "studies/measure/text_table.hpp"
 
 namespace warren {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/queue_crossings.hpp"
+#include "studies/compare/queue_crossings.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/search_contest.hpp"
+#include "studies/compare/search_contest.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <limits>
 #include <set>
 
-#include "tools/search_graph.hpp"
+#include "studies/searches/search_graph.hpp"
 
 namespace warren {
 namespace {

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Oracles: the independent verifier says that the path is one, and taut_path, which works on any walls and knows no
 // cells, that it can't be shorter.
-#include "tools/bfs_funnel.hpp"
+#include "studies/sizes/bfs_funnel_baseline.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 
-#include "planners/taut_path.hpp"
-#include "spatial/wall_index.hpp"
-#include "worlds/maze_generator.hpp"
-#include "worlds/verify.hpp"
+#include "planners/shorten/taut_path.hpp"
+#include "scenes/mazes/maze_generator.hpp"
+#include "spatial/obstacles/wall_index.hpp"
+#include "verify/judges/verify_point.hpp"
 
 namespace warren {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/size_search.hpp"
+#include "studies/sizes/largest_size.hpp"
 
 #include <gtest/gtest.h>
 

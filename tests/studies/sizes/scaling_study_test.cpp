@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/scaling_study.hpp"
+#include "studies/sizes/scaling_study.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/thread_gains.hpp"
+#include "studies/sizes/thread_gains.hpp"
 
 #include <gtest/gtest.h>
 
-#include "tools/arithmetic_probe.hpp"
+#include "studies/measure/arithmetic_probe.hpp"
 
 namespace warren {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/arc_distance.hpp"
+#include "verify/exact/arc_distance.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/rng.hpp"
+#include "core/base/rng.hpp"
 
 namespace warren {
 namespace {

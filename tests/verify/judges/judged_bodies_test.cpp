@@ -6,11 +6,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/rng.hpp"
-#include "tests/worlds/body_oracle.hpp"
-#include "tests/worlds/body_scenes.hpp"
-#include "worlds/verify_car.hpp"
-#include "worlds/verify_se2.hpp"
+#include "core/base/rng.hpp"
+#include "tests/worlds/poses/body_oracle.hpp"
+#include "tests/worlds/poses/body_scenes.hpp"
+#include "verify/judges/verify_car.hpp"
+#include "verify/judges/verify_turning.hpp"
 
 namespace warren {
 namespace {

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/judged_input.hpp"
+#include "verify/judges/judged_input.hpp"
 
 #include <gtest/gtest.h>
 
 #include <functional>
 #include <string>
 
-#include "core/error.hpp"
-#include "worlds/map_walls.hpp"
-#include "worlds/puma560.hpp"
-#include "worlds/verify.hpp"
-#include "worlds/verify_arm.hpp"
-#include "worlds/verify_car.hpp"
-#include "worlds/verify_se2.hpp"
+#include "core/base/error.hpp"
+#include "verify/judges/verify_arm.hpp"
+#include "verify/judges/verify_car.hpp"
+#include "verify/judges/verify_point.hpp"
+#include "verify/judges/verify_turning.hpp"
+#include "worlds/arms/puma560.hpp"
+#include "worlds/rasters/map_borders.hpp"
 
 namespace warren {
 namespace {

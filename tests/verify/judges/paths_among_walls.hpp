@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/rng.hpp"
-#include "worlds/verify.hpp"
+#include "core/base/rng.hpp"
+#include "verify/judges/verify_point.hpp"
 
 namespace warren::paths_among_walls {
 

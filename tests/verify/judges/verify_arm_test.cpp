@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/verify_arm.hpp"
+#include "verify/judges/verify_arm.hpp"
 
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
-#include "tests/worlds/arm_oracle.hpp"
-#include "worlds/arm_world.hpp"
-#include "worlds/puma560.hpp"
+#include "core/base/error.hpp"
+#include "tests/worlds/arms/arm_oracle.hpp"
+#include "worlds/arms/arm_world.hpp"
+#include "worlds/arms/puma560.hpp"
 
 namespace warren {
 namespace {

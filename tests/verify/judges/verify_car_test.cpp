@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/verify_car.hpp"
+#include "verify/judges/verify_car.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <string>
 
-#include "core/error.hpp"
-#include "core/polygon_distance.hpp"
-#include "tests/worlds/body_scenes.hpp"
-#include "worlds/car_world.hpp"
+#include "core/base/error.hpp"
+#include "core/plane/polygon_distance.hpp"
+#include "tests/worlds/poses/body_scenes.hpp"
+#include "worlds/poses/car_world.hpp"
 
 namespace warren {
 namespace {

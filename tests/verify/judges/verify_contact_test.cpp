@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "tests/worlds/paths_among_walls.hpp"
+#include "tests/verify/judges/paths_among_walls.hpp"
 
 namespace warren {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/verify.hpp"
+#include "verify/judges/verify_point.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <cmath>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/rng.hpp"
-#include "tests/worlds/paths_among_walls.hpp"
-#include "worlds/exact_segments.hpp"
+#include "core/base/error.hpp"
+#include "core/base/rng.hpp"
+#include "tests/verify/judges/paths_among_walls.hpp"
+#include "verify/exact/exact_segments.hpp"
 
 namespace warren {
 namespace {

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "core/rng.hpp"
-#include "worlds/verify.hpp"
+#include "core/base/rng.hpp"
+#include "verify/judges/verify_point.hpp"
 
 namespace warren {
 namespace {

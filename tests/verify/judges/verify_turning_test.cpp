@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/verify_se2.hpp"
+#include "verify/judges/verify_turning.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "core/error.hpp"
-#include "core/polygon_distance.hpp"
-#include "core/rng.hpp"
-#include "tests/worlds/body_scenes.hpp"
-#include "worlds/se2_world.hpp"
+#include "core/base/error.hpp"
+#include "core/base/rng.hpp"
+#include "core/plane/polygon_distance.hpp"
+#include "tests/worlds/poses/body_scenes.hpp"
+#include "worlds/poses/se2_world.hpp"
 
 namespace warren {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/path_boxes.hpp"
+#include "verify/near/path_cells.hpp"
 
 #include <gtest/gtest.h>
 
-#include "tests/worlds/near_walls.hpp"
+#include "tests/worlds/plane/near_walls.hpp"
 
 namespace warren {
 namespace {

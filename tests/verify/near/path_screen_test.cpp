@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/path_screen.hpp"
+#include "verify/near/path_screen.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <vector>
 
-#include "core/rng.hpp"
-#include "tests/worlds/near_walls.hpp"
+#include "core/base/rng.hpp"
+#include "tests/worlds/plane/near_walls.hpp"
 
 namespace warren {
 namespace {

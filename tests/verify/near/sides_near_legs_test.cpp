@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/path_surroundings.hpp"
+#include "verify/near/sides_near_legs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <set>
 #include <tuple>
 
-#include "core/rng.hpp"
-#include "worlds/verify_se2.hpp"
+#include "core/base/rng.hpp"
+#include "verify/judges/verify_turning.hpp"
 
 namespace warren {
 namespace {

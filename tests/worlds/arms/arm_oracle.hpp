@@ -11,9 +11,9 @@
 #include <numbers>
 #include <vector>
 
-#include "core/rng.hpp"
-#include "worlds/scene.hpp"
-#include "worlds/serial_chain.hpp"
+#include "core/base/rng.hpp"
+#include "scenes/scene/scene.hpp"
+#include "worlds/arms/serial_chain.hpp"
 
 namespace warren::arm_oracle {
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/arm_world.hpp"
+#include "worlds/arms/arm_world.hpp"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <limits>
 
-#include "core/error.hpp"
-#include "tests/worlds/arm_oracle.hpp"
-#include "worlds/puma560.hpp"
-#include "worlds/world_io.hpp"
+#include "core/base/error.hpp"
+#include "scenes/formats/read_world_io.hpp"
+#include "tests/worlds/arms/arm_oracle.hpp"
+#include "worlds/arms/puma560.hpp"
 
 namespace warren {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/puma560.hpp"
+#include "worlds/arms/puma560.hpp"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "core/error.hpp"
-#include "tests/worlds/arm_oracle.hpp"
+#include "core/base/error.hpp"
+#include "tests/worlds/arms/arm_oracle.hpp"
 
 namespace warren {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/serial_chain.hpp"
+#include "worlds/arms/serial_chain.hpp"
 
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
-#include "tests/worlds/arm_oracle.hpp"
-#include "worlds/puma560.hpp"
+#include "core/base/error.hpp"
+#include "tests/worlds/arms/arm_oracle.hpp"
+#include "worlds/arms/puma560.hpp"
 
 namespace warren {
 namespace {

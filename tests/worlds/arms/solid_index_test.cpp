@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/solid_index.hpp"
+#include "worlds/arms/solid_index.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "core/error.hpp"
-#include "tests/worlds/arm_oracle.hpp"
+#include "core/base/error.hpp"
+#include "tests/worlds/arms/arm_oracle.hpp"
 
 namespace warren {
 namespace {

@@ -2,12 +2,12 @@
 // What every world of polygons assumes of them, it checks, whoever made the scene.
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
-#include "worlds/car_world.hpp"
-#include "worlds/map_walls.hpp"
-#include "worlds/obstacle_tree.hpp"
-#include "worlds/se2_world.hpp"
-#include "worlds/translation_obstacles.hpp"
+#include "core/base/error.hpp"
+#include "worlds/plane/obstacles_at_fixed_angle.hpp"
+#include "worlds/poses/car_world.hpp"
+#include "worlds/poses/obstacle_tree.hpp"
+#include "worlds/poses/se2_world.hpp"
+#include "worlds/rasters/map_borders.hpp"
 
 namespace warren {
 namespace {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/grid_world.hpp"
+#include "worlds/plane/grid_world.hpp"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 
-#include "core/error.hpp"
-#include "core/rng.hpp"
-#include "worlds/verify_map.hpp"
+#include "core/base/error.hpp"
+#include "core/base/rng.hpp"
+#include "verify/judges/verify_map.hpp"
 
 namespace warren {
 namespace {

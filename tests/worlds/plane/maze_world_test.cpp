@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/maze_world.hpp"
+#include "worlds/plane/maze_world.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <vector>
 
-#include "core/geometry.hpp"
-#include "core/rng.hpp"
-#include "worlds/maze_generator.hpp"
+#include "core/base/rng.hpp"
+#include "core/plane/geometry.hpp"
+#include "scenes/mazes/maze_generator.hpp"
 
 namespace warren {
 namespace {

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "core/rng.hpp"
-#include "core/types.hpp"
+#include "core/base/rng.hpp"
+#include "core/base/types.hpp"
 
 namespace warren::test_screens {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/translation_obstacles.hpp"
+#include "worlds/plane/obstacles_at_fixed_angle.hpp"
 
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
-#include "core/polygon_distance.hpp"
-#include "tests/worlds/body_scenes.hpp"
+#include "core/base/error.hpp"
+#include "core/plane/polygon_distance.hpp"
+#include "tests/worlds/poses/body_scenes.hpp"
 
 namespace warren {
 namespace {

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Polygon worlds, checked by the verifier's geometry, which shares nothing with theirs.
-#include "worlds/polygon_world.hpp"
+#include "worlds/plane/polygon_world.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/error.hpp"
-#include "core/rng.hpp"
-#include "worlds/exact_segments.hpp"
-#include "worlds/obstacles.hpp"
-#include "worlds/plane_obstacles.hpp"
-#include "worlds/polygon_generator.hpp"
+#include "core/base/error.hpp"
+#include "core/base/rng.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
+#include "scenes/scene/polygon_generator.hpp"
+#include "verify/exact/exact_segments.hpp"
+#include "verify/near/obstacle_sides.hpp"
 
 namespace warren {
 namespace {

@@ -8,10 +8,10 @@
 #include <limits>
 #include <vector>
 
-#include "core/se2.hpp"
-#include "core/types.hpp"
-#include "tests/worlds/body_scenes.hpp"
-#include "worlds/scene.hpp"
+#include "core/base/types.hpp"
+#include "core/plane/se2.hpp"
+#include "scenes/scene/scene.hpp"
+#include "tests/worlds/poses/body_scenes.hpp"
 
 namespace warren::body_oracle {
 

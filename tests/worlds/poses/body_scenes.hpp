@@ -7,9 +7,9 @@
 #include <numbers>
 #include <vector>
 
-#include "core/rng.hpp"
-#include "core/se2.hpp"
-#include "worlds/scene.hpp"
+#include "core/base/rng.hpp"
+#include "core/plane/se2.hpp"
+#include "scenes/scene/scene.hpp"
 
 namespace warren::body_scenes {
 

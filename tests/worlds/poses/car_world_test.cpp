@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/car_world.hpp"
+#include "worlds/poses/car_world.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "core/error.hpp"
-#include "core/polygon_distance.hpp"
-#include "tests/worlds/body_scenes.hpp"
+#include "core/base/error.hpp"
+#include "core/plane/polygon_distance.hpp"
+#include "tests/worlds/poses/body_scenes.hpp"
 
 namespace warren {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/se2_world.hpp"
+#include "worlds/poses/se2_world.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@
 #include <limits>
 #include <string>
 
-#include "core/error.hpp"
-#include "core/polygon_distance.hpp"
-#include "tests/worlds/body_scenes.hpp"
-#include "worlds/map_walls.hpp"
-#include "worlds/verify_se2.hpp"
+#include "core/base/error.hpp"
+#include "core/plane/polygon_distance.hpp"
+#include "tests/worlds/poses/body_scenes.hpp"
+#include "verify/judges/verify_turning.hpp"
+#include "worlds/rasters/map_borders.hpp"
 
 namespace warren {
 namespace {

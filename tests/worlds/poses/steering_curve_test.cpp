@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/steering_curve.hpp"
+#include "worlds/poses/steering_curve.hpp"
 
 #include <gtest/gtest.h>
 
-#include "tests/worlds/body_scenes.hpp"
-#include "tests/worlds/steering_words.hpp"
-#include "worlds/dubins_curve.hpp"
-#include "worlds/reeds_shepp_curve.hpp"
+#include "tests/worlds/poses/body_scenes.hpp"
+#include "tests/worlds/poses/steering_words.hpp"
+#include "worlds/poses/dubins_curve.hpp"
+#include "worlds/poses/reeds_shepp_curve.hpp"
 
 namespace warren {
 namespace {

@@ -11,9 +11,9 @@
 #include <numbers>
 #include <vector>
 
-#include "core/rng.hpp"
-#include "core/se2.hpp"
-#include "worlds/steering_curve.hpp"
+#include "core/base/rng.hpp"
+#include "core/plane/se2.hpp"
+#include "worlds/poses/steering_curve.hpp"
 
 namespace warren::steering_words {
 

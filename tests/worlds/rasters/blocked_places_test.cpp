@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/place_marking.hpp"
+#include "worlds/rasters/blocked_places.hpp"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "core/rng.hpp"
-#include "tests/worlds/body_scenes.hpp"
-#include "worlds/convex_pieces.hpp"
-#include "worlds/se2_world.hpp"
+#include "core/base/rng.hpp"
+#include "tests/worlds/poses/body_scenes.hpp"
+#include "worlds/poses/se2_world.hpp"
+#include "worlds/rasters/convex_pieces.hpp"
 
 namespace warren {
 namespace {

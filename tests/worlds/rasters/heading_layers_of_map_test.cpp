@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/map_layers.hpp"
+#include "worlds/rasters/heading_layers_of_map.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "core/error.hpp"
-#include "core/rng.hpp"
-#include "core/se2.hpp"
-#include "worlds/map_walls.hpp"
-#include "worlds/scene.hpp"
-#include "worlds/verify_se2.hpp"
+#include "core/base/error.hpp"
+#include "core/base/rng.hpp"
+#include "core/plane/se2.hpp"
+#include "scenes/scene/scene.hpp"
+#include "verify/judges/verify_turning.hpp"
+#include "worlds/rasters/map_borders.hpp"
 
 namespace warren {
 namespace {

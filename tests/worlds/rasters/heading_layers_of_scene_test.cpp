@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/orientation_layers.hpp"
+#include "worlds/rasters/heading_layers_of_scene.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/rng.hpp"
-#include "worlds/convex_pieces.hpp"
-#include "worlds/lattice_marking.hpp"
-#include "worlds/verify.hpp"
-#include "worlds/verify_se2.hpp"
+#include "core/base/rng.hpp"
+#include "verify/judges/verify_point.hpp"
+#include "verify/judges/verify_turning.hpp"
+#include "worlds/rasters/convex_pieces.hpp"
+#include "worlds/rasters/polygons_on_lattice.hpp"
 
 namespace warren {
 namespace {
