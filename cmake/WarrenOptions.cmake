@@ -23,7 +23,7 @@ if(WARREN_WERROR)
   add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Wnull-dereference -Werror)
   # Between the files of a batch, names may shadow each other; each file by itself is looked at in the other builds.
   if(CMAKE_UNITY_BUILD)
-    add_compile_options(-Wno-shadow)
+    add_compile_options(-Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   endif()
   # g++ says it only when asked; clang++ says it, but not of files in batches.
   add_compile_options($<$<CXX_COMPILER_ID:GNU>:-Wunused-const-variable=1>)

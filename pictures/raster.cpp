@@ -30,13 +30,13 @@ void Image::blend(std::size_t x, std::size_t y, double alpha, Rgb color) {
 
 namespace {
 
-struct Interval {
+struct PixelRun {
   double low;
   double high;
 };
 
 /// A little more than where the points at height y lie that are at most r from the line through a and b.
-Interval reach_in_row(Vec2 a, Vec2 b, double y, double r) {
+PixelRun reach_in_row(Vec2 a, Vec2 b, double y, double r) {
   constexpr double everything = 1e9;
   const Vec2 along = b - a;
   if (std::abs(along.y) <= 1e-6 * std::abs(along.x) || along.y == 0.0) return {-everything, everything};

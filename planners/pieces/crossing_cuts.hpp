@@ -14,6 +14,9 @@
 
 namespace warren {
 
+/// How far rounding to the nearest point of a grid moves a point at most, in units of the grid.
+inline constexpr double rounding_units = 0.7072;
+
 /// A segment between integers (of at most 2^45, held as doubles).
 struct IntegerPiece {
   Vec2 a, b;

@@ -13,7 +13,6 @@ namespace {
 
 constexpr double largest_integer = 0x1.0p45;
 constexpr int most_rounds = 24;
-constexpr double rounding = 0.7072;  // of both coordinates, in units
 
 double unit_for(std::span<const Vec2> corners) {
   double largest = 0.0;
@@ -78,14 +77,14 @@ PolygonSet with_cuts(const PolygonSet& polygons, const std::vector<IntegerPiece>
 NodedPolygons node_polygons(const PolygonSet& polygons, const Execution& execution) {
   if (polygons.corners.size() >= std::size_t{1} << 31) throw InputError("union", "expected fewer than 2^31 sides");
   const double unit = unit_for(polygons.corners);
-  NodedPolygons result{rounded(polygons, unit), rounding * unit};
+  NodedPolygons result{rounded(polygons, unit), rounding_units * unit};
   for (int round = 0;; ++round) {
     const std::vector<IntegerPiece> sides = sides_of(result.polygons);
     execution.reserve(sides.size() * (sizeof(IntegerPiece) + sizeof(Vec2)));
     CrossingCuts found = find_cuts(sides, execution);
     if (found.cuts.empty()) break;
     if (round == most_rounds) throw InputError("union", "outlines cross too often within a rounding unit");
-    if (found.crossed) result.error += rounding * unit;
+    if (found.crossed) result.error += rounding_units * unit;
     result.polygons = with_cuts(result.polygons, sides, found.cuts, execution);
   }
   for (Vec2& corner : result.polygons.corners) corner = unit * corner;  // exact: a power of two

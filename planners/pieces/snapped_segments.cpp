@@ -15,7 +15,6 @@ namespace {
 constexpr double largest_integer = 0x1.0p29;
 constexpr int most_rounds = 24;
 constexpr std::size_t pieces_per_poll = 1 << 14;
-constexpr double rounding = 0.7072;  // of both coordinates, in units
 
 SnapGrid grid_of(std::span<const Segment> segments) {
   Box box;
@@ -87,13 +86,13 @@ SnappedSegments snap_segments(std::span<const Segment> segments, const Execution
     is_exact = is_exact && result.grid.at(a.x, a.y) == segments[i].a && result.grid.at(b.x, b.y) == segments[i].b;
     pieces.push_back({a, b, static_cast<std::uint32_t>(i)});
   }
-  result.error = is_exact ? 0.0 : rounding * result.grid.unit;
+  result.error = is_exact ? 0.0 : rounding_units * result.grid.unit;
   for (int round = 0;; ++round) {
     tidy(pieces, execution);
     CrossingCuts found = find_cuts(pieces, execution);
     if (found.cuts.empty()) break;
     if (round == most_rounds) throw InputError("medial axis", "obstacles cross too often within a rounding unit");
-    if (found.crossed) result.error += rounding * result.grid.unit;
+    if (found.crossed) result.error += rounding_units * result.grid.unit;
     pieces = split(pieces, found.cuts, execution);
   }
   result.segments.reserve(pieces.size());

@@ -11,14 +11,14 @@
 
 namespace warren {
 
-struct Interval {
+struct BandInterval {
   double low;
   double high;
 };
 
 /// Contains the x of every point of the wall with low <= y <= high (there must be one); widened by the rounding error,
 /// never beyond the wall's box.
-inline Interval x_range_in_band(const Segment& wall, double low, double high) noexcept {
+inline BandInterval x_range_in_band(const Segment& wall, double low, double high) noexcept {
   const Box box = box_of(wall);
   if (box.min.y >= low && box.max.y <= high) return {box.min.x, box.max.x};
   const Vec2 along = wall.b - wall.a;

@@ -142,7 +142,7 @@ void WallMarker::mark_one(const Segment& wall, TilePlane& plane) const {
   const int last_row = to(box.max.y + reach - origin.y, plane.height());
   for (int row = from(box.min.y - reach - origin.y - 1, plane.height()); row <= last_row; ++row) {
     const double low = origin.y + row - reach;
-    const Interval x = x_range_in_band(wall, low, low + 1 + 2 * reach);
+    const BandInterval x = x_range_in_band(wall, low, low + 1 + 2 * reach);
     const int last_col = to(x.high + reach - origin.x, plane.width());
     for (int col = from(x.low - reach - origin.x - 1, plane.width()); col <= last_col; ++col) {
       std::uint8_t* at = plane.at(col, row);

@@ -133,7 +133,7 @@ class Filer {
     const std::size_t last_row = index(box.max.y, grid_.tile_rows);
     for (std::size_t row = index(box.min.y, grid_.tile_rows); row <= last_row; ++row) {
       const double low = 0.5 + static_cast<double>(row * grid_.side());
-      const Interval x = x_range_in_band(w, low - halo_, low + grid_.side() + halo_);
+      const BandInterval x = x_range_in_band(w, low - halo_, low + grid_.side() + halo_);
       if (x.high + halo_ < 0.5 || x.low - halo_ > grid_.area().max.x) continue;
       const std::size_t last_col = index(x.high + halo_, grid_.tile_cols);
       for (std::size_t col = index(x.low - halo_, grid_.tile_cols); col <= last_col; ++col) {

@@ -3,6 +3,10 @@
 // wall costs two 64 x 64 -> 128 bit multiplications in two independent chains, and chunks are folded in their order.
 #include "scenes/scene/scene.hpp"
 
+#include <string>
+
+#include "core/base/error.hpp"
+
 #include <fmt/format.h>
 
 #include <bit>
@@ -147,6 +151,11 @@ std::vector<Segment> bounds_walls(const Scene& scene) {
   const auto [low, high] = *scene.bounds;
   const Vec2 corners[] = {low, {high.x, low.y}, high, {low.x, high.y}};
   return {{corners[0], corners[1]}, {corners[1], corners[2]}, {corners[2], corners[3]}, {corners[3], corners[0]}};
+}
+
+double checked_clearance(double clearance) {
+  if (clearance >= 0.0 && clearance <= largest_coordinate) return clearance;
+  throw InputError("clearance", "must be a number from 0 to 1e60", std::to_string(clearance));
 }
 
 }  // namespace warren

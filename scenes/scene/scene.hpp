@@ -103,4 +103,7 @@ Box obstacle_box(const Scene& scene, const Execution& execution = {});
 /// The four sides of the bounds as walls; none without bounds.
 std::vector<Segment> bounds_walls(const Scene& scene);
 
+/// The clearance, if it is one that a body can keep: throws InputError where it is not from 0 to largest_coordinate.
+double checked_clearance(double clearance);
+
 }  // namespace warren

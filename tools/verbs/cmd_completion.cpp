@@ -23,7 +23,7 @@ std::string names_of_options(const Command& command) {
   return names;
 }
 
-std::string quoted(std::string_view text) {  // inside single quotes of a shell
+std::string for_shell(std::string_view text) {  // inside single quotes of a shell
   std::string out;
   for (const char c : text) out += c == '\'' ? std::string{"'\\''"} : std::string(1, c);
   return out;
@@ -71,7 +71,7 @@ std::string zsh_completion() {
       "  if (( CURRENT == 2 )); then\n"
       "    local -a verbs=(\n";
   for (const Command& command : command_table()) {
-    text += fmt::format("      '{}:{}'\n", command.name, quoted(command.summary));
+    text += fmt::format("      '{}:{}'\n", command.name, for_shell(command.summary));
   }
   text += "    )\n    _describe command verbs\n    return\n  fi\n  case ${words[2]} in\n";
   for (const Command& command : command_table()) {
@@ -82,8 +82,8 @@ std::string zsh_completion() {
         help += c == '[' || c == ']' || c == ':' ? std::string{"\\"} + c : std::string(1, c);
       const bool takes = !option.value.empty();
       const std::string values = option.choices.empty() ? "_files" : fmt::format("({})", option.choices);
-      text += fmt::format("        '{}{}[{}]{}' \\\n", option.name, takes ? "=" : "", quoted(help),
-                          takes ? fmt::format(":{}:{}", quoted(option.value), values) : "");
+      text += fmt::format("        '{}{}[{}]{}' \\\n", option.name, takes ? "=" : "", for_shell(help),
+                          takes ? fmt::format(":{}:{}", for_shell(option.value), values) : "");
     }
     text += "        '*:file:_files'\n      ;;\n";
   }
@@ -94,7 +94,7 @@ std::string fish_completion() {
   std::string text = "# fish completion for warren; install in vendor_completions.d/warren.fish\n";
   for (const Command& command : command_table()) {
     text += fmt::format("complete -c warren -n __fish_use_subcommand -a {} -d '{}'\n", command.name,
-                        quoted(command.summary));
+                        for_shell(command.summary));
   }
   for (const Command& command : command_table()) {
     for (const OptionSpec& option : command.options) {
@@ -102,7 +102,7 @@ std::string fish_completion() {
           "complete -c warren -n '__fish_seen_subcommand_from {}' -l {}{}{}{} -d '{}'\n", command.name,
           option.name.substr(2), option.short_name.empty() ? "" : fmt::format(" -s {}", option.short_name.substr(1)),
           option.value.empty() ? "" : " -r", option.choices.empty() ? "" : fmt::format(" -f -a '{}'", option.choices),
-          quoted(option.help));
+          for_shell(option.help));
     }
   }
   return text;

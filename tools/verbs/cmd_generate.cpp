@@ -12,6 +12,7 @@
 #include "scenes/formats/read_world_io.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "scenes/scene/polygon_generator.hpp"
+#include "solve/question/planner_choice.hpp"
 #include "studies/measure/human_units.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/run_of_verb.hpp"
@@ -43,11 +44,6 @@ void refuse_options(const Arguments& arguments, std::span<const std::string_view
   for (const std::string_view option : options) {
     if (arguments.has(option)) throw UsageError(fmt::format("{}: an option of {}", option, of));
   }
-}
-
-std::uint64_t seed_of(const Arguments& arguments) {
-  const auto seed = arguments.value("--seed");
-  return seed ? count_value("--seed", *seed, 0, std::numeric_limits<std::uint64_t>::max()) : 1;
 }
 
 MazeOptions maze_options(const Arguments& arguments) {

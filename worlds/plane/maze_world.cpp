@@ -16,13 +16,6 @@ namespace {
 
 static_assert(bunch_size <= WallIndex::most_motions);
 
-double checked_clearance(double clearance) {
-  if (!(clearance >= 0.0) || clearance > largest_coordinate) {
-    throw InputError("clearance", "must be a number from 0 to 1e60", std::to_string(clearance));
-  }
-  return clearance;
-}
-
 /// Calls test(x) for the set bits of the points in [low, high], and clears those for which it is false.
 template <class Test>
 void filter_points(double low, double high, std::span<std::uint64_t> bits, const Test& test) {

@@ -13,13 +13,6 @@
 namespace warren {
 namespace {
 
-double checked_clearance(double clearance) {
-  if (!(clearance >= 0.0) || clearance > largest_coordinate) {
-    throw InputError("clearance", "must be a number from 0 to 1e60", std::to_string(clearance));
-  }
-  return clearance;
-}
-
 /// The sides of polygons and bounds, as further walls.
 std::vector<Segment> all_sides(const PolygonIndex& polygons, const Scene& scene, const Execution& execution) {
   const std::size_t count = polygons.polygons().corners.size();

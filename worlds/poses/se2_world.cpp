@@ -24,11 +24,6 @@ double positive(const char* name, double value) {
   throw InputError(name, "must be a number above 0, up to 1e60", std::to_string(value));
 }
 
-double checked_clearance(double clearance) {
-  if (clearance >= 0.0 && clearance <= largest_coordinate) return clearance;
-  throw InputError("clearance", "must be a number from 0 to 1e60", std::to_string(clearance));
-}
-
 }  // namespace
 
 Se2World::Se2World(const Scene& scene, std::span<const Vec2> outline, const Se2Options& options,

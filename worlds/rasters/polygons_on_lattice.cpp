@@ -8,7 +8,7 @@
 namespace warren {
 namespace {
 
-struct Interval {
+struct RowInterval {
   double from = std::numeric_limits<double>::infinity();
   double to = -std::numeric_limits<double>::infinity();
   void include(double x) {
@@ -19,7 +19,7 @@ struct Interval {
 };
 
 /// Adds where the segment meets the line at height y.
-void include_segment(Vec2 a, Vec2 b, double y, Interval& interval) {
+void include_segment(Vec2 a, Vec2 b, double y, RowInterval& interval) {
   if (a.y > b.y) std::swap(a, b);
   if (y < a.y || y > b.y) return;
   if (a.y == b.y) {
@@ -30,7 +30,7 @@ void include_segment(Vec2 a, Vec2 b, double y, Interval& interval) {
   }
 }
 
-void include_disc(Vec2 centre, double radius, double y, Interval& interval) {
+void include_disc(Vec2 centre, double radius, double y, RowInterval& interval) {
   const double dy = y - centre.y;
   if (std::abs(dy) > radius) return;
   const double half = std::sqrt(radius * radius - dy * dy);
@@ -40,8 +40,8 @@ void include_disc(Vec2 centre, double radius, double y, Interval& interval) {
 
 /// The line at height y within the convex polygon widened by radius: of discs around its corners and of its sides moved
 /// outwards, which together have the same outline.
-Interval slice(std::span<const Vec2> convex, double radius, double y) {
-  Interval interval;
+RowInterval slice(std::span<const Vec2> convex, double radius, double y) {
+  RowInterval interval;
   for (std::size_t i = 0; i < convex.size(); ++i) {
     const Vec2 a = convex[i];
     const Vec2 b = convex[(i + 1) % convex.size()];
@@ -85,7 +85,7 @@ void LatticeMarking::mark_near(std::span<const Vec2> convex, double radius) {
   const double last = std::min<double>(marked_.height() - 1.0, std::floor((box.max.y + rounding_ - origin_.y) / cell_));
   for (double j = first; j <= last; ++j) {
     const auto row = static_cast<std::int64_t>(j);
-    const Interval interval = slice(convex, radius, std::clamp(row_y(row), box.min.y, box.max.y));
+    const RowInterval interval = slice(convex, radius, std::clamp(row_y(row), box.min.y, box.max.y));
     if (!interval.empty()) mark_run(row, interval.from, interval.to);
   }
 }
