@@ -11,13 +11,13 @@
 namespace warren {
 namespace {
 
-DhTable read(const std::string& text) {
+DhTable read_table(const std::string& text) {
   const TemporaryDirectory directory;
   return read_dh_table(InputFile(directory.write("arm.dh", text), {}), {});
 }
 
 TEST(DhTable, ReadsThePumaAsItIsBuiltIn) {
-  const DhTable table = read(R"(# Puma 560
+  const DhTable table = read_table(R"(# Puma 560
 convention standard
 angles degrees
 joint 0       0      90  -160 160
@@ -41,7 +41,7 @@ tool 0 0 0.1
 }
 
 TEST(DhTable, TakesRadiansOffsetsAndTheOtherConvention) {
-  const DhTable table = read("joint 1 2 0.5 -1 1 0.25\nconvention modified");
+  const DhTable table = read_table("joint 1 2 0.5 -1 1 0.25\nconvention modified");
   ASSERT_EQ(table.joints.size(), 1U);
   EXPECT_EQ(table.convention, DhConvention::modified);
   EXPECT_EQ(table.joints[0].d, 1.0);
@@ -73,7 +73,7 @@ TEST(DhTable, RefusesBadInputInOneLineThatNamesFileAndLine) {
   for (const Case& c : cases) {
     SCOPED_TRACE(c.text);
     try {
-      read(c.text);
+      read_table(c.text);
       ADD_FAILURE() << "was taken";
     } catch (const InputError& error) {
       EXPECT_NE(std::string(error.what()).find(c.says), std::string::npos) << error.what();

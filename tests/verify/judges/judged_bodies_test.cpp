@@ -34,7 +34,7 @@ Scene random_map(std::uint64_t seed, double yaw) {
 }
 
 /// Four kinds of scenes, each about 10 wide.
-Scene scene_of(std::uint64_t seed) {
+Scene scene_of_seed(std::uint64_t seed) {
   if (seed % 4 == 0) return random_map(seed, 0.0);
   if (seed % 4 == 1) return random_map(seed, 0.4);
   Scene scene = body_scenes::scattered(seed, 3, 3);
@@ -107,7 +107,7 @@ TEST(JudgedBodies, CarsOfAnyBodyAreJudgedAsDenseSamplesAre) {
   int free = 0;
   int met = 0;
   for (std::uint64_t seed = 1; seed <= 48; ++seed) {
-    const Scene scene = scene_of(seed);
+    const Scene scene = scene_of_seed(seed);
     for (std::uint64_t i = 0; i < 6; ++i) {
       SCOPED_TRACE(testing::Message() << "seed " << seed << " motion " << i);
       const bool is_disc = i == 5;
@@ -133,7 +133,7 @@ TEST(JudgedBodies, TurningBodiesAreJudgedAsDenseSamplesAre) {
   int free = 0;
   int met = 0;
   for (std::uint64_t seed = 101; seed <= 132; ++seed) {
-    const Scene scene = scene_of(seed);
+    const Scene scene = scene_of_seed(seed);
     for (std::uint64_t i = 0; i < 6; ++i) {
       SCOPED_TRACE(testing::Message() << "seed " << seed << " motion " << i);
       const std::vector<Vec2> outline = outline_of(seed, i);

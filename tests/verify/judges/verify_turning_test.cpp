@@ -18,7 +18,7 @@ using body_scenes::corners_at;
 using body_scenes::hook;
 using body_scenes::kite;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 const std::vector<Vec2> bar = {{-1, -0.1}, {1, -0.1}, {1, 0.1}, {-1, 0.1}};
 
 /// A corridor along y = 0, 1 wide, from x = -5 to 5, with a wide room at each end.

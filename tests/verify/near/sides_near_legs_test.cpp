@@ -14,7 +14,7 @@ namespace warren {
 namespace {
 
 /// 300 short walls, some long ones, a few polygons.
-Scene scattered(std::uint64_t seed) {
+Scene scattered_sides(std::uint64_t seed) {
   Scene scene;
   std::vector<Segment> walls;
   for (std::uint64_t i = 0; i < 320; ++i) {
@@ -63,7 +63,7 @@ std::vector<Box> random_boxes(std::uint64_t seed, double width, double height) {
 TEST(PathSurroundings, HoldEverySideThatMeetsABox) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     SCOPED_TRACE(seed);
-    const Scene scene = scattered(seed);
+    const Scene scene = scattered_sides(seed);
     const Obstacles obstacles(scene);
     PathSurroundings around(scene, obstacles, {});
     const std::vector<Box> boxes = random_boxes(seed, 100, 60);

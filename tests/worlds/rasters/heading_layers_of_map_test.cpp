@@ -15,7 +15,7 @@
 namespace warren {
 namespace {
 
-OccupancyMap random_map(std::uint64_t seed) {
+OccupancyMap map_of_rooms(std::uint64_t seed) {
   OccupancyMap map;
   map.blocked = Bitmap(seed % 3 == 0 ? 70 : 17, 13);  // over a word's border, too
   for (std::uint32_t y = 0; y < map.height(); ++y) {
@@ -70,7 +70,7 @@ class Oracle {
 TEST(MapLayers, EqualTheVerificationOfEveryStandStepAndTurn) {
   for (std::uint64_t seed = 0; seed < 24; ++seed) {
     SCOPED_TRACE(seed);
-    const OccupancyMap map = random_map(seed);
+    const OccupancyMap map = map_of_rooms(seed);
     const std::vector<Vec2> body = body_of(seed, map.cell);
     const double clearance = seed % 5 == 0 ? 0.217 * map.cell : 0.0;
     const HeadingLayers layers = map_layers(map, body, seed % 2 == 0 ? 12 : 7, clearance, {});

@@ -14,7 +14,7 @@
 namespace warren {
 namespace {
 
-OccupancyMap random_map(std::uint64_t seed) {
+OccupancyMap speckled_map(std::uint64_t seed) {
   OccupancyMap map;
   const std::uint64_t columns = seed % 6 == 5 ? 64 : 1 + random_bits(seed, 0, 0) % 140;  // a row of whole words, too
   const auto width = static_cast<std::uint32_t>(columns);
@@ -49,7 +49,7 @@ std::multiset<UnitSide> unit_sides(const OccupancyMap& map) {
 TEST(BorderWalls, AreTheBordersOfFreeCellsInLongestRuns) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     SCOPED_TRACE(seed);
-    const OccupancyMap map = random_map(seed);
+    const OccupancyMap map = speckled_map(seed);
     std::multiset<UnitSide> covered;
     std::set<std::tuple<double, double, bool>> begins;
     std::set<std::tuple<double, double, bool>> ends;
