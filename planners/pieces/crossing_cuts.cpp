@@ -20,15 +20,21 @@ class PieceGrid {
     const double side = std::max({box_.width(), box_.height(), 1.0});
     columns_ = static_cast<std::size_t>(std::clamp(std::sqrt(static_cast<double>(pieces.size())), 1.0, 4096.0));
     square_ = side / static_cast<double>(columns_) * (1.0 + 1e-12);
-    first_.assign(columns_ * columns_ + 1, 0);
+    const std::size_t squares = columns_ * columns_;
+    execution.reserve((2 * squares + 1) * sizeof(std::size_t));
+    assign_polled(first_, squares + 1, std::size_t{0}, [&] { execution.check(); });
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       if (i % pieces_per_poll == 0) execution.check();
       for_each_square(pieces[i], [&](std::size_t s) { ++first_[s + 1]; });
     }
-    for (std::size_t s = 1; s < first_.size(); ++s) first_[s] += first_[s - 1];
+    RawVector<std::size_t> next(squares);
+    for (std::size_t s = 0; s < squares; ++s) {
+      if (s % pieces_per_poll == 0) execution.check();
+      next[s] = first_[s];
+      first_[s + 1] += first_[s];
+    }
     execution.reserve(first_.back() * sizeof(std::uint32_t));
     filed_.resize(first_.back());
-    std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       if (i % pieces_per_poll == 0) execution.check();
       for_each_square(pieces[i], [&](std::size_t s) { filed_[next[s]++] = static_cast<std::uint32_t>(i); });
@@ -79,8 +85,8 @@ class PieceGrid {
   Box box_;
   std::size_t columns_ = 1;
   double square_ = 1.0;
-  std::vector<std::size_t> first_;
-  std::vector<std::uint32_t> filed_;
+  RawVector<std::size_t> first_;
+  RawVector<std::uint32_t> filed_;
 };
 
 Vec2 rounded_crossing(const IntegerPiece& p, const IntegerPiece& q) {
