@@ -85,6 +85,7 @@ VoronoiDiagram voronoi_diagram(std::span<const SnappedSegment> segments, const E
   const ConstructionScope scope(execution);
   Builder builder;
   for (const SnappedSegment& s : segments) {
+    poll_sometimes();
     if (s.x1 == s.x2 && s.y1 == s.y2) {
       builder.insert_point(s.x1, s.y1);
     } else {
