@@ -4,7 +4,7 @@
 # is all of them. Component "library" is the package without the program.
 include(CMakePackageConfigHelpers)
 
-set(warren_libraries core parallel spatial scenes worlds verify planners)
+set(warren_libraries core parallel spatial scenes worlds verify planners solve pictures)
 set(warren_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/warren)
 
 add_library(warren_all INTERFACE)
@@ -13,10 +13,21 @@ set_target_properties(warren_all PROPERTIES EXPORT_NAME warren)
 foreach(folder IN LISTS warren_libraries)
   target_link_libraries(warren_all INTERFACE warren_${folder})
   install(TARGETS warren_${folder} EXPORT warren ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/warren COMPONENT library
-          FILES_MATCHING PATTERN *.hpp)
 endforeach()
 install(TARGETS warren_all EXPORT warren COMPONENT library)
+
+# Headers as others include them, <warren/...>: for programs of this build, examples above all, and for the package.
+list(JOIN warren_libraries " " warren_folders)
+set(warren_headers ${PROJECT_BINARY_DIR}/include)
+add_custom_target(warren_headers
+  COMMAND ${CMAKE_COMMAND} -DFROM=${PROJECT_SOURCE_DIR} -DTO=${warren_headers} -DFOLDERS=${warren_folders}
+          -P ${CMAKE_CURRENT_LIST_DIR}/public_headers.cmake VERBATIM)
+add_dependencies(warren_all warren_headers)
+target_include_directories(warren_all INTERFACE $<BUILD_INTERFACE:${warren_headers}>)
+install(CODE "execute_process(COMMAND ${CMAKE_COMMAND} -DFROM=${PROJECT_SOURCE_DIR} -DTO=${warren_headers}
+  \"-DFOLDERS=${warren_folders}\" -P ${CMAKE_CURRENT_LIST_DIR}/public_headers.cmake COMMAND_ERROR_IS_FATAL ANY)"
+  COMPONENT library)
+install(DIRECTORY ${warren_headers}/warren DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT library)
 install(EXPORT warren NAMESPACE warren:: FILE warrenTargets.cmake DESTINATION ${warren_package_dir} COMPONENT library)
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/warrenConfig.cmake.in ${PROJECT_BINARY_DIR}/warrenConfig.cmake

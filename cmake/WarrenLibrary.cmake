@@ -7,7 +7,7 @@ function(warren_library folder)
   add_library(warren::${folder} ALIAS warren_${folder})
   set_target_properties(warren_${folder} PROPERTIES LINKER_LANGUAGE CXX EXPORT_NAME ${folder})
   target_include_directories(warren_${folder} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
-                                                     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/warren>)
+                                                     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_compile_features(warren_${folder} PUBLIC cxx_std_20)
   foreach(below IN LISTS ARGN)
     target_link_libraries(warren_${folder} PUBLIC warren_${below})

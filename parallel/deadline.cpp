@@ -56,6 +56,13 @@ Deadline::Deadline(double seconds, std::size_t memory_bytes, const SignalFlag* s
   }
 }
 
+Deadline::Deadline(const Deadline* whole, double seconds) : Deadline(seconds) {
+  if (whole == nullptr) return;
+  memory_bytes_ = whole->memory_bytes_;
+  signal_ = whole->signal_;
+  if (whole->end_ && (!end_ || *whole->end_ < *end_)) end_ = whole->end_;
+}
+
 std::optional<StopReason> Deadline::reached() const noexcept {
   if (signal_ != nullptr) {
     const int number = signal_->load(std::memory_order_relaxed);

@@ -10,12 +10,15 @@
 #include <limits>
 #include <optional>
 
+#include "core/base/error.hpp"
 #include "core/base/stop_reason.hpp"
 
 namespace warren {
 
-/// Thrown where a budget ended or a signal came. Not an error: carries no text.
-struct Stopped {
+/// Thrown where a budget ended or a signal came. Whoever solves makes it an answer; what() is the reason's name.
+struct Stopped : Error {
+  explicit Stopped(StopReason why) noexcept : reason(why) {}
+  const char* what() const noexcept override { return name_of(reason).data(); }
   StopReason reason;
 };
 
@@ -31,6 +34,9 @@ class Deadline {
   /// seconds from now (infinity: no limit), bytes that the process may hold in all, a flag that a signal sets.
   explicit Deadline(double seconds, std::size_t memory_bytes = std::numeric_limits<std::size_t>::max(),
                     const SignalFlag* signal = nullptr);
+  /// A part of what runs under `whole` (nullptr: no limit): it ends so many seconds from now (infinity: with the
+  /// whole), or with the whole, and has its memory and its signal.
+  Deadline(const Deadline* whole, double seconds);
 
   /// Why to stop, if it is time to.
   std::optional<StopReason> reached() const noexcept;

@@ -46,24 +46,21 @@ std::vector<Vec2> stadium(Vec2 a, Vec2 b, double radius) {
 
 class ArmDrawing {
  public:
-  ArmDrawing(const Scene& scene, const ArmProblem& problem, std::span<const JointState> path)
-      : scene_(scene), problem_(problem), chain_(problem.table), links_(links_of(chain_)) {
-    path_.assign(path.begin(), path.end());
-    if (path_.empty()) path_.push_back(problem.start);
+  ArmDrawing(const Scene& scene, const DhTable& table, double radius, std::span<const JointState> path)
+      : scene_(scene), radius_(radius), chain_(table), links_(links_of(chain_)), path_(path) {
     measure();
     lay_out();
   }
 
-  Drawing draw() {
-    Drawing drawing;
-    drawing.stage.emplace();
-    drawing.stage->source = scene_.source;
-    for (const View& view : views_) add_obstacles(view, *drawing.stage);
-    drawing.stage->walls = WallSet::narrowest(frames());
-    drawing.layers = {axes(), sweep(), arm_at("start", path_.front(), colors::start),
-                      arm_at("goal", path_.back(), colors::goal), trace()};
-    if (path_.size() == 1) drawing.layers.erase(drawing.layers.begin() + 3);
-    return drawing;
+  ArmViews draw() const {
+    ArmViews views;
+    views.stage.source = scene_.source;
+    for (const View& view : views_) add_obstacles(view, views.stage);
+    views.stage.walls = WallSet::narrowest(frames());
+    views.layers = {axes(), sweep(), arm_at("start", path_.front(), colors::start),
+                    arm_at("goal", path_.back(), colors::goal), trace()};
+    if (path_.size() == 1) views.layers.erase(views.layers.begin() + 3);
+    return views;
   }
 
  private:
@@ -93,10 +90,10 @@ class ArmDrawing {
   PictureLayer trace() const;
 
   const Scene& scene_;
-  const ArmProblem& problem_;
+  double radius_;
   SerialChain chain_;
   std::vector<ArmLink> links_;
-  Path<JointState> path_;
+  std::span<const JointState> path_;
   Vec3 low_ = Vec3::Zero();
   Vec3 high_ = Vec3::Zero();
   double room_ = 1.0;  // around each view
@@ -130,7 +127,7 @@ std::vector<JointState> ArmDrawing::pieces(double length) const {
 }
 
 void ArmDrawing::measure() {
-  include(Vec3::Zero(), problem_.robot.radius);
+  include(Vec3::Zero(), radius_);
   for (const Sphere& s : scene_.spheres) include({s.x, s.y, s.z}, s.radius);
   for (const auto& [low, high] : scene_.boxes) {
     include({low[0], low[1], low[2]}, 0.0);
@@ -139,7 +136,7 @@ void ArmDrawing::measure() {
   constexpr double pieces_a_path = 60.0;
   for (const JointState& q : pieces(std::max(joint_length() / pieces_a_path, 1e-3))) {
     const ChainPosture at = posture(q);
-    for (const ArmLink& link : links_) include(at.points[link.to], problem_.robot.radius);
+    for (const ArmLink& link : links_) include(at.points[link.to], radius_);
   }
 }
 
@@ -213,7 +210,7 @@ PictureLayer ArmDrawing::sweep() const {
     const ChainPosture at = posture(q);
     for (const View& view : views_) {
       for (const ArmLink& link : links_) {
-        layer.lines.add(stadium(view.at(at.points[link.from]), view.at(at.points[link.to]), problem_.robot.radius));
+        layer.lines.add(stadium(view.at(at.points[link.from]), view.at(at.points[link.to]), radius_));
       }
     }
   }
@@ -245,19 +242,8 @@ PictureLayer ArmDrawing::trace() const {
 
 }  // namespace
 
-Drawing arm_drawing(const Scene& scene, const ArmProblem& problem, std::span<const JointState> path) {
-  return ArmDrawing(scene, problem, path).draw();
-}
-
-Drawing recorded_arm_drawing(const Scene& scene, const RecordedAnswer& answer, const Execution& execution) {
-  if (!answer.path.empty()) check_state_width(answer, most_joints, "an arm");
-  ArmProblem problem;
-  problem.robot = robot_of(scene, answer.problem);
-  problem.table = table_of(problem.robot, execution);
-  problem.start = joint_state(answer.problem.start.empty() ? scene.start : answer.problem.start);
-  Path<JointState> path;
-  for (std::size_t i = 0; i < answer.states.size(); ++i) path.push_back(joint_state(answer.states[i]));
-  return arm_drawing(scene, problem, path);
+ArmViews arm_views(const Scene& scene, const DhTable& table, double radius, std::span<const JointState> path) {
+  return ArmDrawing(scene, table, radius, path).draw();
 }
 
 }  // namespace warren

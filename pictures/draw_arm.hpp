@@ -4,17 +4,20 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "pictures/picture.hpp"
-#include "solve/question/question_of_arm.hpp"
-#include "solve/question/read_answer_io.hpp"
+#include "scenes/scene/dh_table.hpp"
+#include "scenes/scene/scene.hpp"
 
 namespace warren {
 
-/// A drawing that is shown instead of the world. An empty path shows the arm at its start.
-Drawing arm_drawing(const Scene& scene, const ArmProblem& problem, std::span<const JointState> path);
+struct ArmViews {
+  Scene stage;  ///< shown instead of the world
+  std::vector<PictureLayer> layers;
+};
 
-/// The same for the path of an answer, which may be none. Throws InputError for states that are no arm's.
-Drawing recorded_arm_drawing(const Scene& scene, const RecordedAnswer& answer, const Execution& execution);
+/// radius: of the links. A path of one state shows the arm as it stands; none is empty.
+ArmViews arm_views(const Scene& scene, const DhTable& table, double radius, std::span<const JointState> path);
 
 }  // namespace warren

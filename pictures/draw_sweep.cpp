@@ -52,12 +52,6 @@ Roadmap<Vec2> joined_in_the_plane(const std::vector<Roadmap<State>>& roadmaps, c
 
 }  // namespace
 
-std::vector<Se2> poses_of(const StateList& states) {
-  std::vector<Se2> poses;
-  for (std::size_t i = 0; i < states.size(); ++i) poses.push_back({states[i][0], states[i][1], states[i][2]});
-  return poses;
-}
-
 PictureLayer sweep_of(std::span<const Se2> path, std::span<const Vec2> outline) {
   constexpr double most = 400.0;
   PictureLayer layer{"sweep", colors::second_layer, widths::edge, {}, true};

@@ -10,7 +10,6 @@
 #include "core/plane/se2.hpp"
 #include "pictures/picture.hpp"
 #include "planners/roadmap/roadmap.hpp"
-#include "solve/question/state_list.hpp"
 
 namespace warren {
 
@@ -21,8 +20,5 @@ PictureLayer sweep_of(std::span<const Se2> path, std::span<const Vec2> outline);
 /// The positions of the states of several roadmaps, one after the other, with their edges. Throws Stopped.
 Roadmap<Vec2> in_the_plane(const std::vector<Roadmap<Se2>>& roadmaps, const Execution& execution);
 Roadmap<Vec2> in_the_plane(const std::vector<Roadmap<Vec2>>& roadmaps, const Execution& execution);
-
-/// Of states of three numbers.
-std::vector<Se2> poses_of(const StateList& states);
 
 }  // namespace warren

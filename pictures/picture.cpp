@@ -8,7 +8,6 @@
 
 #include "parallel/components.hpp"
 #include "scenes/text/output_file_io.hpp"
-#include "tools/screen/output_names.hpp"
 
 namespace warren {
 
@@ -72,6 +71,15 @@ std::vector<std::uint8_t> component_colors(const Graph& graph, const Execution& 
   std::transform(parts.label.begin(), parts.label.end(), color.begin(),
                  [&](VertexId label) { return color_of_label[label]; });
   return color;
+}
+
+std::string ending_of(const std::string& file) {
+  const std::size_t dot = file.rfind('.');
+  if (dot == std::string::npos || file.find('/', dot) != std::string::npos) return {};
+  std::string ending = file.substr(dot);
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return ending;
 }
 
 void write_picture(const std::string& file, const Picture& picture, const Execution& execution) {

@@ -48,14 +48,6 @@ std::vector<Vec2> without_arcs(std::span<const Vec2> points, std::span<const dou
 /// Radius of the arc that turns by `turn` over a chord.
 double arc_radius(Vec2 from, Vec2 to, double turn);
 
-/// What a planner leaves for a picture.
-struct Drawing {
-  Roadmap<Vec2> roadmap;
-  std::vector<PictureLayer> layers;  ///< drawn in their order, under walls and path
-  std::vector<PictureLayer> pages;   ///< what deserves a picture of its own each, without the path
-  std::optional<Scene> stage = {};   ///< shown instead of the world: views of a world that is not plane
-};
-
 /// Refers to what it shows; all of it must outlive the picture.
 struct Picture {
   const Scene& scene;
@@ -129,6 +121,9 @@ void write_html(const Picture& picture, const Execution& execution, const Write&
 /// The same picture in pixels, at most 4096 a side: what is smaller than a pixel becomes a shade, the path stays
 /// strong.
 void write_png(const Picture& picture, const Execution& execution, const Write& write);
+
+/// ".svg" of "a.SVG", in lower case; "" where there is none.
+std::string ending_of(const std::string& file);
 
 /// By the file's ending: .png, .html, and SVG for all others. Throws WriteError, Stopped.
 void write_picture(const std::string& file, const Picture& picture, const Execution& execution);

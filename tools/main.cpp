@@ -99,7 +99,7 @@ int run_program(std::span<const std::string> words) {
     if (std::ferror(stdout) != 0) throw WriteError("standard output", "it did not take all");
     return code;
   } catch (const UsageError& error) {
-    return complain(exit_code::usage, error.what() + usage_hint(words));
+    return complain(exit_code::usage, error.spelled("--", '-') + usage_hint(words));
   } catch (const InputError& error) {
     return complain(exit_code::bad_data, error.what());
   } catch (const ReadError& error) {

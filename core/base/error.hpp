@@ -4,6 +4,7 @@
 // names and words of files stand in it.
 #pragma once
 
+#include <exception>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -12,39 +13,62 @@
 
 namespace warren {
 
+/// The base of all that the library throws, but for std::bad_alloc and bugs (std::logic_error).
+class Error : public std::exception {};
+
+/// An error with its line.
+class TextError : public Error {
+ public:
+  explicit TextError(std::string_view text) : text_(printable(text)) {}
+  const char* what() const noexcept override { return text_.what(); }
+
+ private:
+  std::runtime_error text_;  // its copies share the text, so that they can't fail
+};
+
 /// Input that contradicts its format or its stated range. `where` names the place (file:line, option, parameter).
-class InputError : public std::runtime_error {
+class InputError : public TextError {
  public:
   InputError(std::string_view where, std::string_view what, std::string_view value = {})
-      : std::runtime_error(text(where, what, value)) {}
+      : TextError(text(where, what, value)) {}
 
  private:
   static std::string text(std::string_view where, std::string_view what, std::string_view value) {
     std::string line{where};
     line.append(": ").append(what);
     if (!value.empty()) line.append(" (found: ").append(value).append(")");
-    return printable(line);
+    return line;
   }
 };
 
 /// An input that can't be opened or read at all.
-class ReadError : public std::runtime_error {
+class ReadError : public TextError {
  public:
   ReadError(std::string_view where, std::string_view why)
-      : std::runtime_error(printable(std::string{where} + ": can't be read: " + std::string{why})) {}
+      : TextError(std::string{where} + ": can't be read: " + std::string{why}) {}
 };
 
 /// An output that can't be written; nothing half-written stays.
-class WriteError : public std::runtime_error {
+class WriteError : public TextError {
  public:
   WriteError(std::string_view where, std::string_view why)
-      : std::runtime_error(printable(std::string{where} + ": can't be written: " + std::string{why})) {}
+      : TextError(std::string{where} + ": can't be written: " + std::string{why}) {}
 };
 
-/// A command line that contradicts itself or names something unknown.
-class UsageError : public std::runtime_error {
+/// A question, an option or a command line that contradicts itself, the world, or names something unknown. Where the
+/// text names an option it says @option, since each caller spells it in his own way.
+class UsageError : public TextError {
  public:
-  explicit UsageError(std::string_view what) : std::runtime_error(printable(what)) {}
+  explicit UsageError(std::string_view text) : TextError(spelled(text, "", '_')), written_(std::string{text}) {}
+  /// The line with "--goal-bias" for @goal_bias, or whatever prefix and hyphen are.
+  std::string spelled(std::string_view prefix, char hyphen) const {
+    return printable(spelled(written_.what(), prefix, hyphen));
+  }
+
+ private:
+  static std::string spelled(std::string_view text, std::string_view prefix, char hyphen);
+
+  std::runtime_error written_;
 };
 
 }  // namespace warren

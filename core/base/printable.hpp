@@ -15,4 +15,7 @@ namespace warren {
 /// character. The same text again if it is made printable twice. Linear in what is shown.
 std::string printable(std::string_view text, std::size_t longest = std::string_view::npos);
 
+/// Bytes of the UTF-8 character that the text, which is not empty, begins with; 0 where it begins with none.
+std::size_t utf8_bytes(std::string_view text);
+
 }  // namespace warren

@@ -2,12 +2,14 @@
 // What a planner returns: an answer, the path that goes with it, and the account of the work.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <string>
 #include <string_view>
 
 #include "core/base/counters.hpp"
+#include "core/base/enum_names.hpp"
 #include "core/base/path.hpp"
 #include "core/base/stop_reason.hpp"
 
@@ -16,10 +18,9 @@ namespace warren {
 /// How a plan ended. An answer, never an error.
 enum class Outcome : std::uint8_t { solved, start_blocked, goal_blocked, not_connected, infeasible, stopped };
 
-constexpr std::string_view name_of(Outcome outcome) {
-  constexpr std::string_view names[] = {"solved",        "start_blocked", "goal_blocked",
-                                        "not_connected", "infeasible",    "stopped"};
-  return names[static_cast<std::size_t>(outcome)];
+constexpr auto enum_names(Outcome) {
+  return std::array<std::string_view, 6>{"solved",        "start_blocked", "goal_blocked",
+                                         "not_connected", "infeasible",    "stopped"};
 }
 
 /// Size of the roadmap that gave the answer.

@@ -7,8 +7,11 @@
 // clearance.
 #pragma once
 
+#include <array>
 #include <optional>
+#include <string_view>
 
+#include "core/base/enum_names.hpp"
 #include "core/base/solution.hpp"
 #include "core/plane/polygon.hpp"
 #include "parallel/execution.hpp"
@@ -18,6 +21,7 @@
 namespace warren {
 
 enum class AxisObjective : std::uint8_t { length, clearance };
+constexpr auto enum_names(AxisObjective) { return std::array<std::string_view, 2>{"length", "clearance"}; }
 
 struct MedialAxisOptions {
   double clearance = 0.0;  ///< a disc of this radius; world units, >= 0 and finite

@@ -9,6 +9,10 @@
 // Time: the decomposition's, and O(cells log cells) for the search.
 #pragma once
 
+#include <array>
+#include <string_view>
+
+#include "core/base/enum_names.hpp"
 #include "core/base/solution.hpp"
 #include "core/plane/polygon.hpp"
 #include "parallel/execution.hpp"
@@ -20,6 +24,7 @@ namespace warren {
 
 /// Where a path passes from cell to cell: in the middle of the door, or where the shortest one does.
 enum class DoorKind : std::uint8_t { midpoint, funnel };
+constexpr auto enum_names(DoorKind) { return std::array<std::string_view, 2>{"midpoint", "funnel"}; }
 
 struct CellOptions {
   DoorKind doors = DoorKind::midpoint;

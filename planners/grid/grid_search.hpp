@@ -9,11 +9,14 @@
 // for breadth-first search.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "core/base/bitmap.hpp"
+#include "core/base/enum_names.hpp"
 #include "core/search/search.hpp"
 #include "parallel/execution.hpp"
 
@@ -21,9 +24,13 @@ namespace warren {
 
 /// What a diagonal step costs; none: sides only. A step to the side costs 1.
 enum class Diagonal : std::uint8_t { sqrt2, unit, none };
+constexpr auto enum_names(Diagonal) { return std::array<std::string_view, 3>{"sqrt2", "unit", "none"}; }
 
 /// bfs minimises steps. jump_points: the same lengths as astar, only with Diagonal::sqrt2.
 enum class GridMethod : std::uint8_t { astar, dijkstra, bfs, jump_points };
+constexpr auto enum_names(GridMethod) {
+  return std::array<std::string_view, 4>{"astar", "dijkstra", "bfs", "jump-points"};
+}
 
 struct GridSearchOptions {
   Diagonal diagonal = Diagonal::sqrt2;

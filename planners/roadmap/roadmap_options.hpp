@@ -2,9 +2,12 @@
 // How a roadmap is built and searched: the options that prm and lazy_prm share, as plain aggregates.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
+#include "core/base/enum_names.hpp"
 #include "core/base/types.hpp"
 
 namespace warren {
@@ -26,6 +29,10 @@ enum class SamplerKind : std::uint8_t {
   corridor,
   cell_centres
 };
+constexpr auto enum_names(SamplerKind) {
+  return std::array<std::string_view, 9>{"uniform", "lattice", "halton",   "random",      "gaussian",
+                                         "bridge",  "mixture", "corridor", "cell-centres"};
+}
 /// Does this kind take all its places at once, so that there is no number of samples to choose?
 constexpr bool takes_all_places(SamplerKind kind) {
   return kind == SamplerKind::lattice || kind == SamplerKind::cell_centres;
@@ -34,10 +41,15 @@ constexpr bool takes_all_places(SamplerKind kind) {
 /// the radius follows the number of samples so that paths approach the shortest ones.
 enum class StarRule : std::uint8_t { none, neighbours, radius };
 enum class SearchKind : std::uint8_t { astar, dijkstra, bfs, dfs };
+constexpr auto enum_names(SearchKind) { return std::array<std::string_view, 4>{"astar", "dijkstra", "bfs", "dfs"}; }
 enum class QueueKind : std::uint8_t { heap, lazy_heap, sorted_array, resorted_array };
+constexpr auto enum_names(QueueKind) {
+  return std::array<std::string_view, 4>{"heap", "lazy-heap", "sorted-array", "resorted-array"};
+}
 /// path: Bohlin and Kavraki 2000, check the edges of the path found, drop the bad ones, repair, repeat.
 /// expansion: check an edge when the search first wants to use it.
 enum class LazyCheck : std::uint8_t { expansion, path };
+constexpr auto enum_names(LazyCheck) { return std::array<std::string_view, 2>{"expansion", "path"}; }
 
 /// Cell centres (1..cols) x (1..rows): what SamplerKind::lattice needs to know.
 struct LatticeSize {

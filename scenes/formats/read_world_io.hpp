@@ -28,13 +28,14 @@ MazeOptions parse_maze_source(std::string_view source);
 /// Reads or generates a world of walls, polygons and spheres, or a map (Scene::map); a maze has unit walls in the
 /// course's order. Throws UsageError, ReadError, InputError (also for polygons that are not simple), Stopped.
 /// `rules` are for the maps of map_server alone.
-Scene read_world(const std::string& source, const Execution& execution, MapServerRules rules = MapServerRules::nav2);
+Scene read_world(const std::string& source, const Execution& execution = {},
+                 MapServerRules rules = MapServerRules::nav2);
 /// The same for a file that is open already.
 Scene read_scene(const InputFile& file, const Execution& execution, MapServerRules rules = MapServerRules::nav2);
 
 /// Writes .npy, .geojson, .wkt, or for .walls, .scene, .txt and "-" scene text. Throws UsageError for other
 /// endings, InputError for what the format can't hold, WriteError, Stopped.
-void write_scene(const Scene& scene, const std::string& path, const Execution& execution);
+void write_scene(const Scene& scene, const std::string& path, const Execution& execution = {});
 
 /// Is this the ending of a map: .map (Moving AI), .yaml (map server, with a .pgm beside it) or .pgm?
 bool is_map_ending(std::string_view path);

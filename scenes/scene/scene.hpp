@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/enum_names.hpp"
 #include "core/base/types.hpp"
 #include "core/plane/wall_set.hpp"
 #include "parallel/execution.hpp"
@@ -43,19 +44,20 @@ struct MazeHint {
 
 /// arm: a serial chain whose table is in a file.
 enum class RobotKind : std::uint8_t { point, disc, polygon, car, puma560, arm };
+constexpr auto enum_names(RobotKind) {
+  return std::array<std::string_view, 6>{"point", "disc", "polygon", "car", "puma560", "arm"};
+}
 
 /// How a car drives: dubins, forwards only; reeds_shepp, backwards too.
 enum class SteeringKind : std::uint8_t { dubins, reeds_shepp };
-constexpr std::string_view name_of(SteeringKind steering) {
-  return steering == SteeringKind::dubins ? "dubins" : "reeds-shepp";
-}
+constexpr auto enum_names(SteeringKind) { return std::array<std::string_view, 2>{"dubins", "reeds-shepp"}; }
 
 struct RobotSpec {
   RobotKind kind = RobotKind::point;
-  double radius = 0.0;          ///< disc, car, links of puma560 and arm; >= 0
-  double turning_radius = 0.0;  ///< car; > 0
-  double tool = 0.0;            ///< puma560, arm: tool length; >= 0
-  std::vector<Vec2> outline;    ///< polygon, around the reference point; a car's too: empty where it is a disc
+  double radius = 0.0;             ///< disc, car, links of puma560 and arm; >= 0
+  double turning_radius = 0.0;     ///< car; > 0
+  double tool = 0.0;               ///< puma560, arm: tool length; >= 0
+  std::vector<Vec2> outline = {};  ///< polygon, around the reference point; a car's too: empty where it is a disc
   SteeringKind steering = SteeringKind::dubins;  ///< car
   std::string limits = {};                       ///< puma560: the name of its joint limits; empty: the classic ones
   std::string table = {};                        ///< arm: the file of its Denavit-Hartenberg table

@@ -4,16 +4,16 @@
 #include "core/base/error.hpp"
 #include "planners/grid/grid_search.hpp"
 #include "scenes/formats/moving_ai_io.hpp"
-#include "solve/question/settled_ends.hpp"
-#include "solve/question/solve_steps.hpp"
+#include "solve/steps/settled_ends.hpp"
+#include "solve/steps/solve_steps.hpp"
 #include "spatial/maps/distance_field.hpp"
 #include "verify/judges/verify_map.hpp"
 
 namespace warren {
 
-WallProblem map_problem(const Scene& scene, const ProblemOptions& options) {
+WallProblem map_problem(const Scene& scene, const Question& options) {
   if (options.contact == Contact::allowed) {
-    throw UsageError("--contact: a blocked cell is a closed square, which no path on a map touches");
+    throw UsageError("@contact: a blocked cell is a closed square, which no path on a map touches");
   }
   return wall_problem(scene, options);
 }
@@ -27,13 +27,16 @@ bool stands_free_on_map(const OccupancyMap& map, const WallProblem& problem, Vec
   return verify_on_map(map, std::span(&p, 1), {.clearance = problem.reach()}, execution).verified;
 }
 
+bool starts_on_water(const OccupancyMap& map, Vec2 start) {
+  const auto cell = cell_at(map, start);
+  return cell && !map.water.empty() && map.water.test(cell->x, cell->y);
+}
+
 Outcome settled_on_map(Outcome outcome, const OccupancyMap& map, const WallProblem& problem,
                        const Execution& execution) {
-  const auto start = cell_at(map, problem.start);
-  const bool on_water = start && !map.water.empty() && map.water.test(start->x, start->y);  // its goal may be, too
   return settled_ends(
       outcome, [&] { return stands_free_on_map(map, problem, problem.start, execution); },
-      [&] { return on_water || stands_free_on_map(map, problem, problem.goal, execution); });
+      [&] { return starts_on_water(map, problem.start) || stands_free_on_map(map, problem, problem.goal, execution); });
 }
 
 bool provably_apart(const OccupancyMap& map, const Bitmap& closed, const WallProblem& problem,
@@ -47,10 +50,14 @@ bool provably_apart(const OccupancyMap& map, const Bitmap& closed, const WallPro
   return !cells_connect(blocked_for_disc(closed, radius, execution), *start, *goal, true, execution);
 }
 
-bool provably_apart(const OccupancyMap& map, std::span<const Vec2> outline, const Se2& start, const Se2& goal,
+bool provably_apart(const OccupancyMap& map, const RobotSpec& robot, const Se2& start, const Se2& goal,
                     const Execution& execution) {
-  const auto from = cell_at(map, placed(start, outline.front()));
-  const auto to = cell_at(map, placed(goal, outline.front()));
+  if (robot.outline.empty()) {
+    const WallProblem disc{.robot = robot, .start = start.position(), .goal = goal.position()};
+    return provably_apart(map, map.blocked, disc, execution);
+  }
+  const auto from = cell_at(map, placed(start, robot.outline.front()));
+  const auto to = cell_at(map, placed(goal, robot.outline.front()));
   return from && to && !cells_connect(map.blocked, *from, *to, false, execution);
 }
 

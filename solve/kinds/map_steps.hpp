@@ -11,7 +11,7 @@
 #include "core/base/path.hpp"
 #include "core/plane/se2.hpp"
 #include "scenes/scene/occupancy_map.hpp"
-#include "solve/question/kind_of_problem.hpp"
+#include "solve/steps/kind_of_problem.hpp"
 #include "verify/judges/verify_point.hpp"
 
 namespace warren {
@@ -21,14 +21,16 @@ Answer solve_on_skeleton(const SolveRequest& request);      ///< voronoi
 Answer solve_sampled_on_map(const SolveRequest& request);   ///< prm, lazy-prm, rrt, rrt-connect
 
 /// Throws UsageError where contact is to be allowed, and as wall_problem does.
-WallProblem map_problem(const Scene& scene, const ProblemOptions& options);
+WallProblem map_problem(const Scene& scene, const Question& options);
 
 /// The cells that the robot may not enter, among them the water if it starts on land.
 Bitmap closed_cells(const OccupancyMap& map, Vec2 start);
 
 /// Does the robot fit there, as the verification sees it?
 bool stands_free_on_map(const OccupancyMap& map, const WallProblem& problem, Vec2 p, const Execution& execution);
-/// What is said of the ends where one is called blocked (solve/question/settled_ends.hpp): by the verification.
+/// Then its goal may lie there, too.
+bool starts_on_water(const OccupancyMap& map, Vec2 start);
+/// What is said of the ends where one is called blocked (solve/steps/settled_ends.hpp): by the verification.
 Outcome settled_on_map(Outcome outcome, const OccupancyMap& map, const WallProblem& problem,
                        const Execution& execution);
 
@@ -38,13 +40,10 @@ Outcome settled_on_map(Outcome outcome, const OccupancyMap& map, const WallProbl
 bool provably_apart(const OccupancyMap& map, const Bitmap& closed, const WallProblem& problem,
                     const Execution& execution);
 
-/// The same for a body that turns, by its first corner, a point: no motion takes it from where one pose has it to where
-/// the other has it.
-bool provably_apart(const OccupancyMap& map, std::span<const Vec2> outline, const Se2& start, const Se2& goal,
+/// The same for a body that turns: a car that is a disc by its disc, an outline by its first corner, a point: no motion
+/// takes it from where one pose has it to where the other has it.
+bool provably_apart(const OccupancyMap& map, const RobotSpec& robot, const Se2& start, const Se2& goal,
                     const Execution& execution);
-
-/// Nodes of a tree that has no way to go, unless options say how many: it need not fill what it can reach.
-inline constexpr std::uint64_t nodes_where_apart = 1000;
 
 /// From the start over the middles of the cells where the path turns to the goal; each cell is a neighbour of the one
 /// before.

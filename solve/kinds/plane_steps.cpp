@@ -9,24 +9,9 @@
 #include "planners/cells/cell_decomposition.hpp"
 #include "scenes/scene/holes_cut_open.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
-#include "solve/question/write_answer_io.hpp"
-#include "tools/words/option_values.hpp"
 
 namespace warren {
 namespace {
-
-constexpr OptionSpec plane_planner_specs[] = {
-    {"--full", "", "visibility: all visible edges instead of those that shortest paths take"},
-    {"--sampled-edges", "D",
-     "visibility: test edges at points D apart instead of exactly, and say which edges are wrong"},
-    {"--doors", "NAME",
-     "cells: pass from cell to cell in the door's middle, or where the shortest path does (default: midpoint)",
-     "midpoint funnel"},
-    {"--objective", "NAME", "voronoi: the shortest path, or the widest and then the shortest (default: length)",
-     "length clearance"},
-};
-
-constexpr std::array<std::string_view, 2> objective_words{"length", "clearance"};
 
 std::string obstacle_text(const Scene& scene, std::size_t number) {
   if (number == ObstacleClash::bounds) return "the bounds";
@@ -37,33 +22,24 @@ std::string obstacle_text(const Scene& scene, std::size_t number) {
 
 }  // namespace
 
-std::span<const OptionSpec> plane_option_specs() { return plane_planner_specs; }
-
-AxisObjective axis_objective(const Arguments& arguments) {
-  const auto text = arguments.value("--objective");
-  return text ? static_cast<AxisObjective>(choice_value("--objective", *text, objective_words)) : AxisObjective::length;
-}
-
-std::string_view name_of(AxisObjective objective) { return objective_words[static_cast<std::size_t>(objective)]; }
-
 WallProblem touching_problem(const SolveRequest& request) {
   const std::string_view planner = name_of(request.planner);
   if (request.scene.map) {
     throw UsageError(fmt::format(
-        "--planner: paths of {} may touch what is blocked, but a map's blocked cells are closed; take grid, prm or "
+        "@planner: paths of {} may touch what is blocked, but a map's blocked cells are closed; take grid, prm or "
         "lazy-prm",
         planner));
   }
-  const WallProblem problem = wall_problem(request.scene, request.problem, Contact::allowed);
+  const WallProblem problem = wall_problem(request.scene, request.question, Contact::allowed);
   if (problem.reach() > 0.0) {
     throw UsageError(fmt::format(
-        "--planner: {} plans for a point, which may touch obstacles; a disc or a clearance of {} needs prm, lazy-prm "
-        "or voronoi, or --clearance 0 and --robot point",
+        "@planner: {} plans for a point, which may touch obstacles; a disc or a clearance of {} needs prm, lazy-prm "
+        "or voronoi, or @clearance 0 and @robot point",
         planner, problem.reach()));
   }
   if (problem.contact == Contact::blocked) {
     throw UsageError(
-        fmt::format("--contact: paths of {} may touch obstacles; prm, lazy-prm and voronoi keep off them", planner));
+        fmt::format("@contact: paths of {} may touch obstacles; prm, lazy-prm and voronoi keep off them", planner));
   }
   return problem;
 }
@@ -82,7 +58,7 @@ void describe_plane_planner(Answer& answer, const SolveRequest& request, const W
   answer.planner = name_of(request.planner);
   answer.search = name_of(search.search);
   answer.seed = search.seed;
-  if (const auto queue = request.arguments.value("--queue")) answer.options.emplace_back("queue", json_string(*queue));
+  if (request.options.queue) answer.options.push_back({"queue", std::string(name_of(*request.options.queue))});
 }
 
 PlaneObstacles indexed_obstacles(const SolveRequest& request, Answer& answer) {

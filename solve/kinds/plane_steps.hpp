@@ -12,20 +12,14 @@
 #include "core/plane/polygon.hpp"
 #include "planners/axis/medial_axis_planner.hpp"
 #include "planners/cells/cell_planner.hpp"
-#include "solve/question/kind_of_problem.hpp"
+#include "solve/answer/by_products.hpp"
+#include "solve/steps/kind_of_problem.hpp"
 
 namespace warren {
 
 Answer solve_by_visibility(const SolveRequest& request);
 Answer solve_by_cells(const SolveRequest& request);
 Answer solve_on_medial_axis(const SolveRequest& request);
-
-/// --full --sampled-edges --doors --objective
-std::span<const OptionSpec> plane_option_specs();
-
-/// --objective: length where nothing is said. Throws UsageError.
-AxisObjective axis_objective(const Arguments& arguments);
-std::string_view name_of(AxisObjective objective);
 
 /// The problem of a planner that plans for a point which may touch obstacles. Throws UsageError for bodies and
 /// clearances that it can't keep, and where contact is to be blocked.
@@ -41,11 +35,11 @@ void describe_plane_planner(Answer& answer, const SolveRequest& request, const W
 /// The scene's obstacles for planners; the time is that of the stage `index`.
 PlaneObstacles indexed_obstacles(const SolveRequest& request, Answer& answer);
 
-/// --doors of cells, and how an answer repeats it.
-CellOptions cell_options(const Arguments& arguments, const SearchChoice& search);
-std::pair<std::string, std::string> doors_option(const CellOptions& options);
+/// How cells are passed, and how an answer repeats it.
+CellOptions cell_options(const SolveOptions& options, const SearchChoice& search);
+NamedFigure doors_option(const CellOptions& options);
 /// The doors, which are the borders between cells; floors and ceilings are obstacles anyway.
-PictureLayer doors_of(const CellDecomposition& cells);
+NamedLines doors_of(const CellDecomposition& cells);
 
 /// Runs `plan`, and says it with the file's lines where obstacles clash (planners/cells/cell_decomposition.hpp).
 Solution<Vec2> plan_without_clashes(const SolveRequest& request, const std::function<Solution<Vec2>()>& plan);

@@ -12,16 +12,12 @@
 
 #include "core/base/error.hpp"
 #include "core/plane/se2.hpp"
-#include "pictures/draw_cells.hpp"
-#include "pictures/draw_sweep.hpp"
 #include "planners/grid/heading_layer_search.hpp"
 #include "solve/kinds/ends_on_lattice.hpp"
 #include "solve/question/grid_choice.hpp"
-#include "solve/question/kind_of_problem.hpp"
-#include "solve/question/settled_ends.hpp"
-#include "solve/question/solve_steps.hpp"
-#include "solve/question/write_answer_io.hpp"
-#include "tools/words/option_values.hpp"
+#include "solve/steps/kind_of_problem.hpp"
+#include "solve/steps/settled_ends.hpp"
+#include "solve/steps/solve_steps.hpp"
 #include "verify/judges/verify_turning.hpp"
 #include "worlds/rasters/heading_layers_of_map.hpp"
 #include "worlds/rasters/heading_layers_of_scene.hpp"
@@ -30,57 +26,56 @@ namespace warren {
 namespace {
 
 constexpr PlannerChoice lattice_planners[] = {
-    {PlannerKind::grid, "--cell --angles --face-motion --step-cost --turn-cost --diagonal --layers"}};
+    {PlannerKind::grid, OptionSet{Option::cell, Option::angles, Option::face_motion, Option::step_cost,
+                                  Option::turn_cost, Option::diagonal, Option::layers}}};
 
 bool fits_lattice(const Scene& scene, const RobotSpec& robot) {
   const bool fits = robot.kind == RobotKind::point || robot.kind == RobotKind::disc || robot.kind == RobotKind::polygon;
   return fits && (!scene.map || robot.kind == RobotKind::polygon);
 }
 
-PlannerKind usual_lattice_planner(const Arguments&, const Scene&, const ProblemOptions&) { return PlannerKind::grid; }
+PlannerKind usual_lattice_planner(const SolveOptions&, const Scene&, const Question&) { return PlannerKind::grid; }
 
-Problem problem_of(const Scene& scene, const ProblemOptions& options) {
-  if (options.contact == Contact::allowed) throw UsageError("--contact: grid keeps off walls and polygons");
+Problem problem_of(const Scene& scene, const Question& options) {
+  if (options.contact == Contact::allowed) throw UsageError("@contact: grid keeps off walls and polygons");
   Problem problem;
   problem.robot = robot_of(scene, options);
-  problem.start = state_or_heading("--start", options.start, scene.start);
-  problem.goal = state_or_heading("--goal", options.goal, scene.goal);
+  problem.start = state_or_heading("@start", options.start, scene.start);
+  problem.goal = state_or_heading("@goal", options.goal, scene.goal);
   problem.clearance = clearance_of(scene, options);
   if (problem.robot.kind != RobotKind::polygon) {
     problem.start.resize(2);
     problem.goal.resize(2);
   } else {
-    check_heading("--start", problem.start);
-    check_heading("--goal", problem.goal);
+    check_heading("@start", problem.start);
+    check_heading("@goal", problem.goal);
     problem.start.resize(3, 0.0);
   }
   return problem;
 }
 
 /// What only a body that turns takes.
-void refuse_turns(const Arguments& arguments) {
-  for (const char* option : {"--angles", "--face-motion", "--turn-cost"}) {
-    if (arguments.has(option)) throw UsageError(fmt::format("{}: a point and a disc do not turn", option));
+void refuse_turns(const SolveOptions& options) {
+  for (const Option option : {Option::angles, Option::face_motion, Option::turn_cost}) {
+    if (!given(options).has(option)) continue;
+    throw UsageError(fmt::format("@{}: a point and a disc do not turn", name_of(option)));
   }
 }
 
 LayerOptions layer_options(const SolveRequest& request, const Problem& problem) {
   LayerOptions options;
-  if (problem.robot.kind != RobotKind::polygon) refuse_turns(request.arguments);
+  if (problem.robot.kind != RobotKind::polygon) refuse_turns(request.options);
   options.clearance = problem.clearance;
-  if (request.scene.map && request.arguments.has("--cell")) {
-    throw UsageError("--cell: on a map the grid's positions are the middles of its cells");
+  if (request.scene.map && request.options.grid.cell) {
+    throw UsageError("@cell: on a map the grid's positions are the middles of its cells");
   }
-  if (request.scene.map && request.arguments.has("--layers")) {
-    throw UsageError("--layers: those of a map are exact; report 004's are for walls");
+  if (request.scene.map && request.options.grid.layers) {
+    throw UsageError("@layers: those of a map are exact; report 004's are for walls");
   }
-  options.grid = grid_spec(request.arguments, request.scene);
-  if (const auto text = request.arguments.value("--layers")) {
-    constexpr std::array<std::string_view, 2> words{"exact", "report004"};
-    options.kind = static_cast<LayerKind>(choice_value("--layers", *text, words));
-  }
+  options.grid = grid_spec(request.options.grid, request.scene);
+  options.kind = request.options.grid.layers.value_or(LayerKind::exact);
   if (options.kind == LayerKind::report004 && options.clearance > 0.0) {
-    throw UsageError("--clearance: the layers of report 004 know none; exact ones do");
+    throw UsageError("@clearance: the layers of report 004 know none; exact ones do");
   }
   return options;
 }
@@ -90,10 +85,10 @@ class LatticeSolve {
  public:
   LatticeSolve(const SolveRequest& request, const Problem& problem)
       : request_(request), problem_(problem), layer_options_(layer_options(request, problem)), frame_(request.scene) {
-    search_.diagonal = diagonal_option(request.arguments);
-    search_.face_motion = request.arguments.has("--face-motion");
-    search_.step_cost = cost_option("--step-cost");
-    search_.turn_cost = cost_option("--turn-cost");
+    search_.diagonal = request.options.grid.diagonal.value_or(Diagonal::sqrt2);
+    search_.face_motion = request.options.grid.face_motion;
+    search_.step_cost = request.options.grid.step_cost.value_or(1.0);
+    search_.turn_cost = request.options.grid.turn_cost.value_or(1.0);
     answer_.problem = problem;
     answer_.planner = name_of(PlannerKind::grid);
     answer_.search = name_of(GridMethod::astar);
@@ -105,44 +100,37 @@ class LatticeSolve {
       const StageTimer timer(request_.execution, "index", answer_.seconds.index);
       layers_ = layers();
     }
-    answer_.figures.emplace_back("states", std::to_string(layers_.states()));
-    answer_.figures.emplace_back("free_states", std::to_string(layers_.free_states()));
+    answer_.figures.push_back({"states", std::uint64_t{layers_.states()}});
+    answer_.figures.push_back({"free_states", std::uint64_t{layers_.free_states()}});
     describe_layers();
     search();
     if (answer_.outcome == Outcome::solved) verify();
-    if (request_.drawing != nullptr) draw(*request_.drawing);
+    if (request_.keep != nullptr) keep_headings(*request_.keep);
   }
   Answer& answer() { return answer_; }
 
  private:
   bool turns() const { return problem_.robot.kind == RobotKind::polygon; }
 
-  double cost_option(std::string_view name) const {
-    const auto text = request_.arguments.value(name);
-    return text ? positive_value(name, *text) : 1.0;
-  }
-
   void describe_options() {
-    const auto add = [&](const char* name, std::string value) { answer_.options.emplace_back(name, std::move(value)); };
-    add("cell", json_number(layer_options_.grid.cell));
-    if (turns()) add("angles", std::to_string(layer_options_.grid.angles));
-    add("diagonal", json_string(name_of(search_.diagonal)));
-    if (search_.face_motion) add("face_motion", "true");
-    if (search_.step_cost != 1.0) add("step_cost", json_number(search_.step_cost));
-    if (search_.turn_cost != 1.0) add("turn_cost", json_number(search_.turn_cost));
-    if (layer_options_.kind == LayerKind::report004) add("layers", "\"report004\"");
+    const auto add = [&](const char* name, auto value) { answer_.options.push_back({name, Figure(std::move(value))}); };
+    add("cell", layer_options_.grid.cell);
+    if (turns()) add("angles", std::uint64_t{layer_options_.grid.angles});
+    add("diagonal", std::string(name_of(search_.diagonal)));
+    if (search_.face_motion) add("face_motion", true);
+    if (search_.step_cost != 1.0) add("step_cost", search_.step_cost);
+    if (search_.turn_cost != 1.0) add("turn_cost", search_.turn_cost);
+    if (layer_options_.kind == LayerKind::report004) add("layers", std::string("report004"));
   }
 
   /// Free states heading by heading, and how many headings differ.
   void describe_layers() {
     if (!turns()) return;
-    std::string free;
-    for (std::uint32_t k = 0; k < layers_.angles; ++k) {
-      free += (k == 0 ? "[" : ", ") + std::to_string(layers_.free_at(k));
-    }
-    answer_.figures.emplace_back("free_at_headings", free + "]");
+    std::vector<std::uint64_t> free;
+    for (std::uint32_t k = 0; k < layers_.angles; ++k) free.push_back(layers_.free_at(k));
+    answer_.figures.push_back({"free_at_headings", std::move(free)});
     const std::set<std::uint32_t> distinct(layers_.standing.begin(), layers_.standing.end());
-    answer_.figures.emplace_back("distinct_layers", std::to_string(distinct.size()));
+    answer_.figures.push_back({"distinct_layers", std::uint64_t{distinct.size()}});
   }
 
   HeadingLayers layers() const {
@@ -190,8 +178,8 @@ class LatticeSolve {
 
   void search() {
     const StageTimer timer(request_.execution, "search", answer_.seconds.search, layers_.states());
-    const std::vector<LayerEnd> starts = ends_at("--start", start_pose(), false);
-    const std::vector<LayerEnd> goals = ends_at("--goal", goal_pose(), any_heading());
+    const std::vector<LayerEnd> starts = ends_at("@start", start_pose(), false);
+    const std::vector<LayerEnd> goals = ends_at("@goal", goal_pose(), any_heading());
     const LayerPath path = layer_search(layers_, starts, goals, search_, request_.execution);
     answer_.counters.expanded = path.expanded;
     const Outcome found = !path.start_free                     ? Outcome::start_blocked
@@ -208,9 +196,7 @@ class LatticeSolve {
 
   void take(const LayerPath& path) {
     answer_.cost = path.cost;
-    const auto figure = [&](const char* name, std::uint64_t n) {
-      answer_.path_figures.emplace_back(name, std::to_string(n));
-    };
+    const auto figure = [&](const char* name, std::uint64_t n) { answer_.path_figures.push_back({name, n}); };
     figure("cells", path.steps + 1);
     figure("moves", path.steps);
     figure("diagonal_moves", path.diagonals);
@@ -274,16 +260,15 @@ class LatticeSolve {
     answer_.min_clearance = verification.min_clearance;
   }
 
-  /// The body along the path; and the layers of some headings, which course reports show, each on a page of its own.
-  void draw(Drawing& drawing) const {
+  /// The layers of some headings, which course reports show.
+  void keep_headings(ByProducts& keep) const {
     if (!turns()) return;
-    if (!poses_.empty()) drawing.layers.push_back(sweep_of(poses_, problem_.robot.outline));
     for (const std::uint32_t degrees : {0U, 45U, 90U}) {
       const std::uint64_t heading = std::uint64_t{degrees} * layers_.angles;
       if (heading % 360 != 0 || heading / 360 >= layers_.angles) continue;
       const Bitmap& blocked = layers_.bitmaps[layers_.standing[heading / 360]];
-      const auto at = [&](Vec2 p) { return layers_.origin + layers_.cell * (p - Vec2{0.5, 0.5}); };
-      drawing.pages.push_back(cells_layer(fmt::format("layer_{}", degrees), blocked, at, request_.execution));
+      const Vec2 corner = layers_.origin - layers_.cell * Vec2{0.5, 0.5};
+      keep.headings.push_back({static_cast<double>(degrees), blocked, corner, layers_.cell});
     }
   }
 
@@ -298,7 +283,7 @@ class LatticeSolve {
 };
 
 Answer solve_lattice(const SolveRequest& request) {
-  LatticeSolve solve(request, problem_of(request.scene, request.problem));
+  LatticeSolve solve(request, problem_of(request.scene, request.question));
   answer_within_limits(solve.answer(), [&] { solve.run(); });
   return std::move(solve.answer());
 }
@@ -306,8 +291,13 @@ Answer solve_lattice(const SolveRequest& request) {
 }  // namespace
 
 SolveKind lattice_kind() {
-  return {"a body on a grid in a scene", fits_lattice,  lattice_planners, grid_option_specs(),
-          usual_lattice_planner,         solve_lattice, nullptr,          nullptr};
+  return {"a body on a grid in a scene",
+          fits_lattice,
+          lattice_planners,
+          usual_lattice_planner,
+          solve_lattice,
+          nullptr,
+          nullptr};
 }
 
 }  // namespace warren

@@ -10,8 +10,7 @@
 #include "planners/shorten/shortcut.hpp"
 #include "solve/kinds/map_steps.hpp"
 #include "solve/question/grid_choice.hpp"
-#include "solve/question/solve_steps.hpp"
-#include "solve/question/write_answer_io.hpp"
+#include "solve/steps/solve_steps.hpp"
 #include "spatial/maps/distance_field.hpp"
 #include "verify/judges/verify_map.hpp"
 #include "worlds/plane/grid_world.hpp"
@@ -24,18 +23,18 @@ class CellSolve {
  public:
   CellSolve(const SolveRequest& request, const WallProblem& problem)
       : request_(request), map_(*request.scene.map), problem_(problem) {
-    grid_.diagonal = diagonal_option(request.arguments);
-    grid_.method = method_option(request.arguments,
-                                 grid_.diagonal == Diagonal::sqrt2 ? GridMethod::jump_points : GridMethod::astar);
+    grid_.diagonal = request.options.grid.diagonal.value_or(Diagonal::sqrt2);
+    grid_.method =
+        grid_method(request.options, grid_.diagonal == Diagonal::sqrt2 ? GridMethod::jump_points : GridMethod::astar);
     if (grid_.method == GridMethod::jump_points && grid_.diagonal != Diagonal::sqrt2) {
-      throw UsageError("--search: jump points need --diagonal sqrt2");
+      throw UsageError("@search: jump points need @diagonal sqrt2");
     }
     answer_.problem = problem.general();
     answer_.planner = name_of(PlannerKind::grid);
-    answer_.seed = seed_of(request.arguments);
-    if (request.arguments.has("--optimise")) answer_.options.emplace_back("optimise", "true");
-    if (request.arguments.has("--diagonal")) {
-      answer_.options.emplace_back("diagonal", json_string(name_of(grid_.diagonal)));
+    answer_.seed = request.options.seed;
+    if (request.options.optimise) answer_.options.push_back({"optimise", true});
+    if (request.options.grid.diagonal) {
+      answer_.options.push_back({"diagonal", std::string(name_of(grid_.diagonal))});
     }
   }
 
@@ -47,7 +46,7 @@ class CellSolve {
     index();
     search(cells_joined_to(problem_.start, *start), cells_joined_to(problem_.goal, *goal));
     if (answer_.outcome != Outcome::solved) return prove();
-    if (request_.arguments.has("--optimise")) optimise();
+    if (request_.options.optimise) optimise();
     verify_solved_on_map(answer_, map_, problem_, true, request_.execution);
   }
   Answer& answer() { return answer_; }
@@ -105,7 +104,7 @@ class CellSolve {
 
   void search(const std::vector<Cell>& starts, const std::vector<Cell>& goals) {
     const StageTimer timer(request_.execution, "search", answer_.seconds.search);
-    const bool asked = request_.arguments.has("--search") || grid_.diagonal == Diagonal::none;
+    const bool asked = request_.options.search || grid_.diagonal == Diagonal::none;
     if (!asked && !has_diagonal_steps(blocked())) grid_.method = GridMethod::bfs;  // mazes: as short, and faster
     answer_.search = name_of(grid_.method);
     GridSearch cells(blocked());
@@ -121,7 +120,7 @@ class CellSolve {
   void take(const GridPath& path) {
     answer_.outcome = Outcome::solved;
     answer_.cost = path.cost;
-    answer_.path_figures.emplace_back("cells", std::to_string(path.cells.size()));
+    answer_.path_figures.push_back({"cells", std::uint64_t{path.cells.size()}});
     answer_.path = path_over_cells(map_, problem_.start, path.cells, problem_.goal);
   }
 
@@ -153,7 +152,7 @@ class CellSolve {
 }  // namespace
 
 Answer solve_by_cells_of_map(const SolveRequest& request) {
-  CellSolve solve(request, map_problem(request.scene, request.problem));
+  CellSolve solve(request, map_problem(request.scene, request.question));
   answer_within_limits(solve.answer(), [&] { solve.run(); });
   return std::move(solve.answer());
 }

@@ -6,16 +6,15 @@
 #include "planners/grid/skeleton_planner.hpp"
 #include "solve/kinds/map_steps.hpp"
 #include "solve/kinds/plane_steps.hpp"
-#include "solve/question/solve_steps.hpp"
-#include "solve/question/write_answer_io.hpp"
+#include "solve/steps/solve_steps.hpp"
 
 namespace warren {
 namespace {
 
-PictureLayer drawn(const OccupancyMap& map, const std::vector<std::pair<Cell, Cell>>& steps) {
-  PictureLayer layer{"medial_axis", colors::layer, widths::search_tree, {}};
-  for (const auto& [from, to] : steps) layer.lines.add(std::array{cell_centre(map, from), cell_centre(map, to)});
-  return layer;
+NamedLines lines_of(const OccupancyMap& map, const std::vector<std::pair<Cell, Cell>>& steps) {
+  NamedLines lines{"medial_axis", {}};
+  for (const auto& [from, to] : steps) lines.lines.add(std::array{cell_centre(map, from), cell_centre(map, to)});
+  return lines;
 }
 
 /// One solve: the steps share the question and fill in the answer.
@@ -23,13 +22,13 @@ class SkeletonSolve {
  public:
   SkeletonSolve(const SolveRequest& request, const WallProblem& problem)
       : request_(request), map_(*request.scene.map), problem_(problem) {
-    const SearchChoice search = search_choice(request.arguments);
+    const SearchChoice search = search_choice(request.options);
     options_.radius = problem.reach() / map_.cell;
-    options_.objective = axis_objective(request.arguments);
+    options_.objective = request.options.axis.objective.value_or(AxisObjective::length);
     options_.search = search.search;
     options_.queue = search.queue;
     describe_plane_planner(answer_, request, problem, search);
-    answer_.options.emplace_back("objective", json_string(name_of(options_.objective)));
+    answer_.options.push_back({"objective", std::string(name_of(options_.objective))});
   }
 
   void run() {
@@ -39,9 +38,9 @@ class SkeletonSolve {
     if (!goal) return end(Outcome::goal_blocked);
     std::vector<std::pair<Cell, Cell>> steps;
     take(plan_on_skeleton(closed_cells(map_, problem_.start), *start, *goal, options_, request_.execution,
-                          request_.drawing != nullptr ? &steps : nullptr));
+                          request_.keep != nullptr ? &steps : nullptr));
     settle_ends();
-    if (request_.drawing != nullptr) request_.drawing->layers.push_back(drawn(map_, steps));
+    if (request_.keep != nullptr) request_.keep->lines.push_back(lines_of(map_, steps));
     verify_solved_on_map(answer_, map_, problem_, true, request_.execution);
   }
   Answer& answer() { return answer_; }
@@ -59,8 +58,8 @@ class SkeletonSolve {
     solution.seconds = plan.seconds;
     if (plan.outcome == Outcome::solved) {
       solution.path = path_over_cells(map_, problem_.start, plan.cells, problem_.goal);
-      answer_.path_figures.emplace_back("cells", std::to_string(plan.cells.size()));
-      answer_.path_figures.emplace_back("axis_clearance", json_number(plan.clearance * map_.cell));
+      answer_.path_figures.push_back({"cells", std::uint64_t{plan.cells.size()}});
+      answer_.path_figures.push_back({"axis_clearance", plan.clearance * map_.cell});
     }
     take_solution(answer_, std::move(solution));
   }
@@ -82,7 +81,7 @@ class SkeletonSolve {
 }  // namespace
 
 Answer solve_on_skeleton(const SolveRequest& request) {
-  SkeletonSolve solve(request, map_problem(request.scene, request.problem));
+  SkeletonSolve solve(request, map_problem(request.scene, request.question));
   answer_within_limits(solve.answer(), [&] { solve.run(); });
   return std::move(solve.answer());
 }

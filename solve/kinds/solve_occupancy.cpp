@@ -11,22 +11,21 @@
 namespace warren {
 namespace {
 
-constexpr std::string_view occupancy_roadmap_options =
-    "--sampler --samples --neighbours --radius --search --queue --optimise";
-constexpr std::string_view lazy_options =
-    "--sampler --samples --neighbours --radius --search --queue --lazy --optimise";
-constexpr PlannerChoice occupancy_planners[] = {{PlannerKind::grid, "--search --diagonal --optimise"},
-                                                {PlannerKind::prm, occupancy_roadmap_options},
-                                                {PlannerKind::lazy_prm, lazy_options},
-                                                {PlannerKind::rrt, rrt_options},
-                                                {PlannerKind::rrt_connect, rrt_connect_options},
-                                                {PlannerKind::voronoi, "--objective --search --queue"}};
+constexpr OptionSet occupancy_roadmap_options = prm_takes;
+constexpr OptionSet lazy_options = lazy_prm_takes;
+constexpr PlannerChoice occupancy_planners[] = {
+    {PlannerKind::grid, OptionSet{Option::search, Option::diagonal, Option::optimise}},
+    {PlannerKind::prm, occupancy_roadmap_options},
+    {PlannerKind::lazy_prm, lazy_options},
+    {PlannerKind::rrt, rrt_options},
+    {PlannerKind::rrt_connect, rrt_connect_options},
+    {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue}}};
 
 bool fits_occupancy(const Scene& scene, const RobotSpec& robot) {
   return scene.map && (robot.kind == RobotKind::point || robot.kind == RobotKind::disc);
 }
 
-PlannerKind usual_occupancy_planner(const Arguments&, const Scene&, const ProblemOptions&) { return PlannerKind::grid; }
+PlannerKind usual_occupancy_planner(const SolveOptions&, const Scene&, const Question&) { return PlannerKind::grid; }
 
 Answer solve_occupancy(const SolveRequest& request) {
   switch (request.planner) {
@@ -39,12 +38,12 @@ Answer solve_occupancy(const SolveRequest& request) {
   }
 }
 
-Verdict recheck_occupancy(const Scene& scene, const ProblemOptions& options, const RecordedAnswer& answer,
+Verdict recheck_occupancy(const Scene& scene, const Question& question, const RecordedAnswer& answer,
                           const Execution& execution) {
   check_state_width(answer, 2, "a point or disc");
-  const WallProblem problem = map_problem(scene, options);
+  const WallProblem problem = map_problem(scene, question);
   Verdict verdict{verify_map_path(*scene.map, problem, answer.path, execution), problem.general()};
-  verdict.verification.min_clearance -= problem.robot.radius;
+  verdict.min_clearance -= problem.robot.radius;
   return verdict;
 }
 
@@ -54,7 +53,6 @@ SolveKind occupancy_kind() {
   return {"a point or disc on an occupancy map",
           fits_occupancy,
           occupancy_planners,
-          grid_option_specs(),
           usual_occupancy_planner,
           solve_occupancy,
           nullptr,

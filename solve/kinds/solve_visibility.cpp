@@ -15,9 +15,7 @@
 #include "planners/visibility/sampled_visibility.hpp"
 #include "planners/visibility/visibility_path.hpp"
 #include "solve/kinds/plane_steps.hpp"
-#include "solve/question/solve_steps.hpp"
-#include "solve/question/write_answer_io.hpp"
-#include "tools/words/option_values.hpp"
+#include "solve/steps/solve_steps.hpp"
 
 namespace warren {
 namespace {
@@ -38,22 +36,23 @@ std::size_t corner_count(const Scene& scene) {
 }
 
 VisibilityRequest options_of(const SolveRequest& request, const SearchChoice& search) {
-  const Arguments& arguments = request.arguments;
+  const VisibilityFields& fields = request.options.visibility;
   VisibilityRequest asked;
   asked.options.search = search.search;
   asked.options.queue = search.queue;
-  if (arguments.has("--full")) asked.options.edges = VisibilityEdges::full;
-  if (const auto step = arguments.value("--sampled-edges")) {
-    asked.sample_step = positive_value("--sampled-edges", *step);
-    if (arguments.has("--full")) throw UsageError("--full: --sampled-edges makes a graph of its own, of all edges");
+  if (fields.full) asked.options.edges = VisibilityEdges::full;
+  asked.sample_step = fields.sampled_edges;
+  if (asked.sample_step && fields.full) {
+    throw UsageError("@full: @sampled_edges makes a graph of its own, of all edges");
   }
   const bool plain = asked.options.edges == VisibilityEdges::reduced && search.search == SearchKind::astar &&
                      search.queue == QueueKind::heap && !asked.sample_step;
-  if (arguments.has("--lazy")) {
-    if (!arguments.value("--lazy")->empty()) throw UsageError("--lazy: takes no value with visibility");
-    if (!plain)
+  if (request.options.roadmap.lazy) throw UsageError("@lazy: takes no value with visibility");
+  if (fields.lazy) {
+    if (!plain) {
       throw UsageError(
-          "--lazy: finds edges as A* needs them; --full, --sampled-edges, --search and --queue need all of them");
+          "@lazy: finds edges as A* needs them; @full, @sampled_edges, @search and @queue need all of them");
+    }
     asked.options.lazy = true;
   } else {
     asked.options.lazy = plain && corner_count(request.scene) > most_corners_at_once;
@@ -88,7 +87,7 @@ class SampledVisibilitySolve {
     answer.roadmap = {points_.size(), edges_.size(), 0};
     search(answer);
     tell_wrong_edges(polygons, answer);
-    if (request_.drawing != nullptr) draw(*request_.drawing);
+    if (request_.keep != nullptr) keep_edges(*request_.keep);
     judge(answer);
   }
 
@@ -125,25 +124,22 @@ class SampledVisibilitySolve {
     constexpr std::size_t places = 4096;
     const Box& box = polygons.box();
     const double rounding = 1e-12 * std::max(box.width(), box.height());
-    std::string text;
     for (const Edge& edge : edges_) {
       request_.execution.check();
       const double depth = depth_inside(polygons, {points_[edge.from], points_[edge.to]}, places);
       if (depth <= rounding) continue;
-      wrong_.push_back(edge);
-      text += fmt::format("{}{{\"edge\": [{}, {}], \"depth\": {}}}", text.empty() ? "" : ", ", edge.from, edge.to,
-                          json_number(depth));
+      wrong_.push_back({edge.from, edge.to, depth});
     }
-    answer.figures.emplace_back("wrong_edges", "[" + text + "]");
+    answer.figures.push_back({"wrong_edges", wrong_});
   }
 
-  void draw(Drawing& drawing) const {
-    PictureLayer all{"visibility", colors::layer, widths::edge, {}};
+  void keep_edges(ByProducts& keep) const {
+    NamedLines all{"visibility", {}};
     for (const Edge& edge : edges_) all.lines.add(std::array{points_[edge.from], points_[edge.to]});
-    PictureLayer wrong{"wrong_edges", colors::wrong, widths::path, {}};
-    for (const Edge& edge : wrong_) wrong.lines.add(std::array{points_[edge.from], points_[edge.to]});
-    drawing.layers.push_back(std::move(all));
-    drawing.layers.push_back(std::move(wrong));
+    NamedLines wrong{"wrong_edges", {}};
+    for (const WrongEdge& edge : wrong_) wrong.lines.add(std::array{points_[edge.from], points_[edge.to]});
+    keep.lines.push_back(std::move(all));
+    keep.lines.push_back(std::move(wrong));
   }
 
   void judge(Answer& answer) const {
@@ -151,7 +147,7 @@ class SampledVisibilitySolve {
     const StageTimer timer(request_.execution, "verify", answer.seconds.verify);
     const RecordedAnswer found{
         .problem = {}, .world_hash = {}, .length = {}, .file = {}, .path = answer.path, .states = {}};
-    const Verification judged = verify_plane_answer(request_.scene, problem_, found, request_.execution).verification;
+    const Verification judged = verify_plane_answer(request_.scene, problem_, found, request_.execution);
     if (!judged.verified) return refute(answer, judged);
     answer.verified = true;
     answer.length = judged.length;
@@ -163,7 +159,7 @@ class SampledVisibilitySolve {
   const VisibilityRequest& asked_;
   std::vector<Vec2> points_;  // corners in the file's order, start, goal
   std::vector<Edge> edges_;
-  std::vector<Edge> wrong_;
+  std::vector<WrongEdge> wrong_;
 };
 
 /// One solve.
@@ -175,7 +171,7 @@ class VisibilitySolve {
   void run(Answer& answer) {
     const PlaneObstacles obstacles = indexed_obstacles(request_, answer);
     if (stand_on_seams(request_, problem_, answer)) return;
-    Roadmap<Vec2>* keep = request_.drawing != nullptr ? &request_.drawing->roadmap : nullptr;
+    Roadmap<Vec2>* keep = request_.keep != nullptr ? &request_.keep->roadmap : nullptr;
     take_solution(answer, confined_visibility_path(obstacles, problem_.start, problem_.goal, asked_.options,
                                                    request_.execution, keep));
     if (answer.outcome == Outcome::not_connected) answer.outcome = Outcome::infeasible;  // the graph misses no path
@@ -193,13 +189,13 @@ class VisibilitySolve {
 
 Answer solve_by_visibility(const SolveRequest& request) {
   const WallProblem problem = touching_problem(request);
-  const SearchChoice search = search_choice(request.arguments);
+  const SearchChoice search = search_choice(request.options);
   const VisibilityRequest asked = options_of(request, search);
   Answer answer;
   describe_plane_planner(answer, request, problem, search);
-  if (asked.options.edges == VisibilityEdges::full) answer.options.emplace_back("full", "true");
-  if (asked.options.lazy) answer.options.emplace_back("lazy", "true");
-  if (asked.sample_step) answer.options.emplace_back("sampled_edges", json_number(*asked.sample_step));
+  if (asked.options.edges == VisibilityEdges::full) answer.options.push_back({"full", true});
+  if (asked.options.lazy) answer.options.push_back({"lazy", true});
+  if (asked.sample_step) answer.options.push_back({"sampled_edges", *asked.sample_step});
   answer_within_limits(answer, [&] {
     if (asked.sample_step) return SampledVisibilitySolve(request, problem, asked).run(answer);
     VisibilitySolve(request, problem, asked).run(answer);

@@ -6,8 +6,7 @@
 #include "core/base/error.hpp"
 #include "planners/axis/medial_axis_planner.hpp"
 #include "solve/kinds/plane_steps.hpp"
-#include "solve/question/solve_steps.hpp"
-#include "solve/question/write_answer_io.hpp"
+#include "solve/steps/solve_steps.hpp"
 
 namespace warren {
 namespace {
@@ -18,19 +17,19 @@ MedialAxisOptions options_of(const SolveRequest& request, const WallProblem& pro
   options.clearance = problem.reach() * planning_room;
   options.search = search.search;
   options.queue = search.queue;
-  options.objective = axis_objective(request.arguments);
+  options.objective = request.options.axis.objective.value_or(AxisObjective::length);
   return options;
 }
 
-void draw(const MedialAxis& axis, Drawing& drawing) {
-  PictureLayer layer{"medial_axis", colors::layer, widths::search_tree, {}};
+NamedLines lines_of(const MedialAxis& axis) {
+  NamedLines lines{"medial_axis", {}};
   std::vector<Vec2> points;
   for (const AxisEdge& edge : axis.edges()) {
     points.assign(1, axis.vertices()[edge.from]);
     axis.curve(edge).append_polyline(points);
-    layer.lines.add(points);
+    lines.lines.add(points);
   }
-  drawing.layers.push_back(std::move(layer));
+  return lines;
 }
 
 /// A box without area has no middle: said with the file's name.
@@ -44,15 +43,12 @@ void check_box(const Scene& scene) {
 }  // namespace
 
 Answer solve_on_medial_axis(const SolveRequest& request) {
-  if (request.problem.contact == Contact::allowed) {
-    throw UsageError("--contact: voronoi keeps off the obstacles, so 'allowed' would change nothing");
-  }
-  const WallProblem problem = wall_problem(request.scene, request.problem);
-  const SearchChoice search = search_choice(request.arguments);
+  const WallProblem problem = keeping_off(request.scene, request.question, "voronoi keeps off the obstacles");
+  const SearchChoice search = search_choice(request.options);
   const MedialAxisOptions options = options_of(request, problem, search);
   Answer answer;
   describe_plane_planner(answer, request, problem, search);
-  answer.options.emplace_back("objective", json_string(name_of(options.objective)));
+  answer.options.push_back({"objective", std::string(name_of(options.objective))});
   answer_within_limits(answer, [&] {
     check_box(request.scene);
     const PlaneObstacles obstacles = indexed_obstacles(request, answer);
@@ -63,10 +59,10 @@ Answer solve_on_medial_axis(const SolveRequest& request) {
                   }));
     settle_blocked_ends(answer, request.scene, problem, request.execution);
     if (answer.outcome == Outcome::solved) {
-      answer.path_figures.emplace_back("axis_length", json_number(plan.axis_length));
-      answer.path_figures.emplace_back("axis_clearance", json_number(plan.axis_clearance));
+      answer.path_figures.push_back({"axis_length", plan.axis_length});
+      answer.path_figures.push_back({"axis_clearance", plan.axis_clearance});
     }
-    if (request.drawing != nullptr && plan.axis) draw(*plan.axis, *request.drawing);
+    if (request.keep != nullptr && plan.axis) request.keep->lines.push_back(lines_of(*plan.axis));
     verify_solved(answer, request.scene, problem, request.execution);
   });
   return answer;

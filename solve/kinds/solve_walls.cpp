@@ -10,8 +10,8 @@
 #include "planners/tiled/tiled_prm_any_world.hpp"
 #include "planners/tiled/tiled_prm_lattice.hpp"
 #include "solve/kinds/maze_infeasible.hpp"
-#include "solve/question/kind_of_problem.hpp"
-#include "solve/question/solve_steps.hpp"
+#include "solve/steps/kind_of_problem.hpp"
+#include "solve/steps/solve_steps.hpp"
 #include "worlds/plane/maze_world.hpp"
 
 namespace warren {
@@ -103,8 +103,7 @@ void WallSolve::optimise() {
   answer_.path = taut_path(world.walls(), answer_.path, world.planning_clearance(), execution_);
 }
 
-constexpr std::string_view shared_options =
-    "--sampler --samples --neighbours --radius --search --queue --lazy --pipeline --optimise";
+constexpr OptionSet shared_options = prm_takes | OptionSet{Option::lazy, Option::pipeline};
 constexpr PlannerChoice walls_planners[] = {{PlannerKind::prm, shared_options},
                                             {PlannerKind::lazy_prm, shared_options}};
 
@@ -113,38 +112,35 @@ bool fits_walls(const Scene& scene, const RobotSpec& robot) {
   return plain && scene.polygons.empty();
 }
 
-PlannerKind usual_walls_planner(const Arguments& arguments, const Scene& scene, const ProblemOptions&) {
-  return usual_roadmap_planner(arguments, scene);
+PlannerKind usual_walls_planner(const SolveOptions& options, const Scene& scene, const Question&) {
+  return usual_roadmap_planner(options, scene);
 }
 
-WallProblem problem_of(const Scene& scene, const ProblemOptions& options) {
-  if (options.contact == Contact::allowed) {
-    throw UsageError("--contact: prm and lazy-prm keep off the walls, so 'allowed' would change nothing");
-  }
-  return wall_problem(scene, options);
+WallProblem problem_of(const SolveRequest& request) {
+  return keeping_off(request.scene, request.question, "prm and lazy-prm keep off the walls");
 }
 
 Answer solve_walls(const SolveRequest& request) {
-  const WallProblem problem = problem_of(request.scene, request.problem);
-  const PlannerOptions options = planner_options(request.arguments, request.scene, problem);
-  Roadmap<Vec2>* keep = request.drawing != nullptr ? &request.drawing->roadmap : nullptr;
+  const WallProblem problem = problem_of(request);
+  const PlannerOptions options = planner_options(request.options, request.scene, problem);
+  Roadmap<Vec2>* keep = request.keep != nullptr ? &request.keep->roadmap : nullptr;
   return solve_walls(request.scene, problem, options, request.execution, keep);
 }
 
 constexpr std::uint64_t most_drawn = 40'000;  // cells or samples: beyond, a picture's edges would merge
 
 /// Tiles keep no roadmap.
-void draw(const SolveRequest& request) {
-  const WallProblem problem = problem_of(request.scene, request.problem);
-  const PlannerOptions options = planner_options(request.arguments, request.scene, problem);
+void make_roadmap(const SolveRequest& request) {
+  const WallProblem problem = problem_of(request);
+  const PlannerOptions options = planner_options(request.options, request.scene, problem);
   if (options.planner != PlannerKind::prm || options.pipeline != PipelineKind::tiled) return;
   if (!options.fused && options.roadmap.samples.value_or(0) > most_drawn) return;
-  draw_roadmap(request.scene, problem, options, request.execution, request.drawing->roadmap);
+  draw_roadmap(request.scene, problem, options, request.execution, request.keep->roadmap);
 }
 
-Verdict recheck_walls(const Scene& scene, const ProblemOptions& options, const RecordedAnswer& answer,
+Verdict recheck_walls(const Scene& scene, const Question& question, const RecordedAnswer& answer,
                       const Execution& execution) {
-  return verify_plane_answer(scene, wall_problem(scene, options), answer, execution);
+  return verify_plane_answer(scene, wall_problem(scene, question), answer, execution);
 }
 
 }  // namespace
@@ -165,8 +161,13 @@ void draw_roadmap(const Scene& scene, const WallProblem& problem, const PlannerO
 }
 
 SolveKind walls_kind() {
-  return {"a point or disc among walls", fits_walls,  walls_planners, {},
-          usual_walls_planner,           solve_walls, draw,           recheck_walls};
+  return {"a point or disc among walls",
+          fits_walls,
+          walls_planners,
+          usual_walls_planner,
+          solve_walls,
+          make_roadmap,
+          recheck_walls};
 }
 
 }  // namespace warren

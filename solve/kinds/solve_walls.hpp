@@ -6,7 +6,7 @@
 #include "parallel/execution.hpp"
 #include "planners/roadmap/roadmap.hpp"
 #include "scenes/scene/scene.hpp"
-#include "solve/question/answer.hpp"
+#include "solve/answer/answer.hpp"
 #include "solve/question/planner_choice.hpp"
 #include "solve/question/question.hpp"
 

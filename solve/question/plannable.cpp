@@ -16,9 +16,9 @@ bool is_flat(const Scene& scene) {
 
 }  // namespace
 
-void check_plannable(const Scene& scene, const ProblemOptions& problem) {
+void check_plannable(const Scene& scene, const Question& problem) {
   const RobotSpec robot = robot_of(scene, problem);
-  const std::string where = problem.robot ? fmt::format("--robot: in {}, ", scene.source) : scene.source + ": ";
+  const std::string where = problem.robot ? fmt::format("@robot: in {}, ", scene.source) : scene.source + ": ";
   if (is_arm(robot)) {
     if (!is_flat(scene)) return;
     throw UsageError(
@@ -30,11 +30,11 @@ void check_plannable(const Scene& scene, const ProblemOptions& problem) {
     throw UsageError(
         fmt::format("{}a {} plans among walls, polygons and bounds or on a map; spheres and boxes take an "
                     "arm (puma560, arm)",
-                    where, kind_name(robot.kind)));
+                    where, name_of(robot.kind)));
   }
   if (is_flat(scene)) return;
   throw UsageError(fmt::format("{}nothing confines the {}: the world needs bounds, walls, polygons or a map", where,
-                               kind_name(robot.kind)));
+                               name_of(robot.kind)));
 }
 
 }  // namespace warren

@@ -9,6 +9,6 @@ namespace warren {
 
 /// Arms plan among spheres and boxes or in free space; all others among walls, polygons, bounds or on a map; nobody
 /// where both are mixed, and no body of the plane where nothing confines it. Throws UsageError, saying what would do.
-void check_plannable(const Scene& scene, const ProblemOptions& problem);
+void check_plannable(const Scene& scene, const Question& problem);
 
 }  // namespace warren

@@ -3,31 +3,17 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
+#include <cmath>
 
 #include "core/base/error.hpp"
 #include "core/plane/se2.hpp"
 #include "scenes/text/robot_text.hpp"
-#include "tools/screen/output_conflicts.hpp"
-#include "tools/words/option_values.hpp"
 
 namespace warren {
 namespace {
 
-constexpr std::array<std::string_view, 2> contact_words{"blocked", "allowed"};
 constexpr double clearance_in_mazes = 0.1;
-
-constexpr OptionSpec problem_specs[] = {
-    {"--robot", "\"BODY\"",
-     "the moving body: \"point\", \"disc RADIUS\" or \"polygon X Y X Y ...\" (default: the file's, else point)"},
-    {"--start", "X,Y[,THETA]", "where the path begins (default: the file's)"},
-    {"--goal", "X,Y[,THETA]", "where the path ends (default: the file's)"},
-    {"--clearance", "R",
-     "room kept around the body all along the path (default: the file's, else 0.1 in mazes, else 0)"},
-    {"--contact", "WORD",
-     "with clearance 0: may the path touch an obstacle? (default: allowed for visibility and cells, else blocked)",
-     "blocked allowed"},
-};
 
 Vec2 plane_state(std::string_view option, const std::vector<double>& given, const std::vector<double>& in_file) {
   const std::vector<double>& state = given.empty() ? in_file : given;
@@ -53,17 +39,7 @@ std::string car_text(const RobotSpec& robot) {
                                                 : fmt::format("{} steering {}", turning, name_of(robot.steering));
 }
 
-RobotSpec robot_option(std::string_view text) {
-  try {
-    return robot_value("--robot", text);
-  } catch (const InputError& error) {
-    throw UsageError(error.what());
-  }
-}
-
 }  // namespace
-
-std::span<const OptionSpec> problem_option_specs() { return problem_specs; }
 
 RobotSpec robot_value(const std::string& where, std::string_view text) {
   scene_text::Fields fields(text, {where, 0});
@@ -88,48 +64,51 @@ std::string robot_text(const RobotSpec& robot) {
   return outline_text(robot.outline);
 }
 
-RobotSpec robot_of(const Scene& scene, const ProblemOptions& options) {
+RobotSpec robot_of(const Scene& scene, const Question& options) {
   return options.robot ? *options.robot : scene.robot.value_or(RobotSpec{});
 }
 
-double clearance_of(const Scene& scene, const ProblemOptions& options) {
+double clearance_of(const Scene& scene, const Question& options) {
   if (options.clearance) return *options.clearance;
   if (scene.clearance) return *scene.clearance;
   return scene.maze ? clearance_in_mazes : 0.0;
 }
 
-ProblemOptions problem_options(const Arguments& arguments) {
-  ProblemOptions options;
-  if (const auto text = arguments.value("--robot")) options.robot = robot_option(*text);
-  if (options.robot) check_not_written(arguments, options.robot->table);
-  if (const auto text = arguments.value("--start")) options.start = state_value("--start", *text);
-  if (const auto text = arguments.value("--goal")) options.goal = state_value("--goal", *text);
-  if (const auto text = arguments.value("--clearance")) {
-    options.clearance = number_value("--clearance", *text, 0.0, largest_coordinate);
+void Question::validate() const {
+  const auto is_coordinate = [](double x) { return std::abs(x) <= largest_coordinate; };
+  for (const auto& [name, state] : {std::pair{"start", &start}, std::pair{"goal", &goal}}) {
+    if (std::all_of(state->begin(), state->end(), is_coordinate)) continue;
+    throw UsageError(fmt::format("@{}: coordinates are numbers of at most 1e60", name));
   }
-  if (const auto text = arguments.value("--contact")) {
-    options.contact = static_cast<Contact>(choice_value("--contact", *text, contact_words));
+  if (clearance && !(*clearance >= 0.0 && *clearance <= largest_coordinate)) {
+    throw UsageError(fmt::format("@clearance: must be a number from 0 to 1e60 (found: {})", *clearance));
   }
-  return options;
 }
 
-WallProblem wall_problem(const Scene& scene, const ProblemOptions& options, Contact usual) {
+WallProblem wall_problem(const Scene& scene, const Question& options, Contact usual) {
   WallProblem problem;
   problem.robot = robot_of(scene, options);
   if (problem.robot.kind != RobotKind::point && problem.robot.kind != RobotKind::disc) {
-    throw UsageError(fmt::format("{}: expected a point or disc", options.robot ? "--robot" : scene.source));
+    throw UsageError(fmt::format("{}: expected a point or disc", options.robot ? "@robot" : scene.source));
   }
-  problem.start = plane_state("--start", options.start, scene.start);
-  problem.goal = plane_state("--goal", options.goal, scene.goal);
+  problem.start = plane_state("@start", options.start, scene.start);
+  problem.goal = plane_state("@goal", options.goal, scene.goal);
   problem.clearance = clearance_of(scene, options);
   problem.contact = options.contact.value_or(problem.reach() > 0.0 ? Contact::blocked : usual);
   if (problem.contact == Contact::allowed && problem.reach() > 0.0) {
     throw UsageError(
-        fmt::format("--contact: a body that keeps {} from every wall never touches one; 'allowed' needs "
-                    "--clearance 0 and a point",
+        fmt::format("@contact: a body that keeps {} from every wall never touches one; 'allowed' needs "
+                    "@clearance 0 and a point",
                     problem.reach()));
   }
   return problem;
+}
+
+WallProblem keeping_off(const Scene& scene, const Question& question, std::string_view how) {
+  if (question.contact == Contact::allowed) {
+    throw UsageError(fmt::format("@contact: {}, so 'allowed' would change nothing", how));
+  }
+  return wall_problem(scene, question);
 }
 
 std::vector<double> state_or_heading(std::string_view option, const std::vector<double>& given,
@@ -143,6 +122,11 @@ std::vector<double> state_or_heading(std::string_view option, const std::vector<
 void check_heading(std::string_view option, const std::vector<double>& state) {
   if (state.size() != 3 || std::abs(state[2]) <= largest_heading) return;
   throw UsageError(fmt::format("{}: a heading is at most {} rad (found: {})", option, largest_heading, state[2]));
+}
+
+std::optional<Vec2> plane_point(const std::vector<double>& state) {
+  if (state.size() < 2) return std::nullopt;
+  return Vec2{state[0], state[1]};
 }
 
 }  // namespace warren

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The question that is asked of a world: which body, from where to where, with how much room. Options come
-// first, then (for `verify`) what the answer says, then the world file, then the documented defaults.
+// The question that is asked of a world: which body, from where to where, with how much room; and the problem that it
+// makes with what the world's file says and the documented defaults.
 #pragma once
 
 #include <optional>
@@ -11,26 +11,24 @@
 
 #include "core/base/types.hpp"
 #include "scenes/scene/scene.hpp"
-#include "tools/words/arguments.hpp"
-#include "tools/words/command.hpp"
 #include "verify/judges/verify_point.hpp"
 
 namespace warren {
 
-/// --robot --start --goal --clearance --contact
-std::span<const OptionSpec> problem_option_specs();
+/// What is asked of a world: what is not said here is as the world's file says, and else as documented. A state is X, Y
+/// of a point or disc; X, Y, THETA (radians) of a body that turns, whose goal may lack THETA: any heading; six joint
+/// angles of an arm (radians), whose goal may be the three coordinates of a place of its tool.
+struct Question {
+  std::optional<RobotSpec> robot = {};  ///< none: the file's, else a point
+  std::vector<double> start = {};       ///< empty: the file's
+  std::vector<double> goal = {};        ///< empty: the file's
+  std::optional<double> clearance =
+      {};  ///< room around the body, 0 .. 1e60; none: the file's, else 0.1 in mazes, else 0
+  std::optional<Contact> contact = {};  ///< may the path touch obstacles? none: where the planner's paths may
 
-/// What is said about the problem outside the world file; nothing where nothing is said.
-struct ProblemOptions {
-  std::optional<RobotSpec> robot;
-  std::vector<double> start;
-  std::vector<double> goal;
-  std::optional<double> clearance;
-  std::optional<Contact> contact;
+  /// Throws UsageError for values that no problem can have.
+  void validate() const;
 };
-
-/// Throws UsageError for values that no problem can have.
-ProblemOptions problem_options(const Arguments& arguments);
 
 /// Any body among anything.
 struct Problem {
@@ -55,14 +53,18 @@ struct WallProblem {
 };
 
 /// The body that is asked about: the options', else the file's, else a point.
-RobotSpec robot_of(const Scene& scene, const ProblemOptions& options);
+RobotSpec robot_of(const Scene& scene, const Question& options);
 /// Room around the body: the options', else the file's, else 0.1 in mazes, else 0.
-double clearance_of(const Scene& scene, const ProblemOptions& options);
+double clearance_of(const Scene& scene, const Question& options);
 
 /// The problem of a point or disc. A heading in the file (of a body that was overridden) means nothing to them. Throws
 /// UsageError where start or goal are missing or have the wrong size, where contact contradicts the clearance, and
 /// where the body is another. `usual` is the contact that nobody asked for.
-WallProblem wall_problem(const Scene& scene, const ProblemOptions& options, Contact usual = Contact::blocked);
+WallProblem wall_problem(const Scene& scene, const Question& options, Contact usual = Contact::blocked);
+
+/// wall_problem for a planner that keeps off the obstacles, as `how` says; throws UsageError where the path is to be
+/// allowed to touch them.
+WallProblem keeping_off(const Scene& scene, const Question& question, std::string_view how);
 
 /// X,Y or X,Y,THETA: what was given, else the file's. Throws UsageError where there is none, or of another size.
 std::vector<double> state_or_heading(std::string_view option, const std::vector<double>& given,
@@ -76,10 +78,7 @@ std::string robot_text(const RobotSpec& robot);
 /// Reads what robot_text writes; throws InputError for others, naming `where`.
 RobotSpec robot_value(const std::string& where, std::string_view text);
 
-constexpr std::string_view kind_name(RobotKind kind) {
-  constexpr std::string_view names[] = {"point", "disc", "polygon", "car", "puma560", "arm"};
-  return names[static_cast<std::size_t>(kind)];
-}
-constexpr std::string_view name_of(Contact contact) { return contact == Contact::allowed ? "allowed" : "blocked"; }
+/// Where a state stands in the plane; none where there is no state.
+std::optional<Vec2> plane_point(const std::vector<double>& state);
 
 }  // namespace warren

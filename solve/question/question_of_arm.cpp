@@ -73,14 +73,14 @@ DhTable table_of(const RobotSpec& robot, const Execution& execution) {
   return table;
 }
 
-ArmProblem arm_problem(const Scene& scene, const ProblemOptions& options, const Execution& execution) {
+ArmProblem arm_problem(const Scene& scene, const Question& options, const Execution& execution) {
   if (options.contact == Contact::allowed) {
-    throw UsageError("--contact: an arm keeps off the obstacles, so 'allowed' would change nothing");
+    throw UsageError("@contact: an arm keeps off the obstacles, so 'allowed' would change nothing");
   }
   ArmProblem problem;
   problem.robot = robot_of(scene, options);
-  problem.start = joint_state(state_of("--start", options.start, scene.start, false));
-  problem.goal = state_of("--goal", options.goal, scene.goal, true);
+  problem.start = joint_state(state_of("@start", options.start, scene.start, false));
+  problem.goal = state_of("@goal", options.goal, scene.goal, true);
   problem.clearance = clearance_of(scene, options);
   problem.table = table_of(problem.robot, execution);
   return problem;
@@ -89,7 +89,7 @@ ArmProblem arm_problem(const Scene& scene, const ProblemOptions& options, const 
 std::vector<JointState> goal_states(const ArmProblem& problem, const SerialChain& chain) {
   if (!problem.any_posture()) return {problem.goal_state()};
   if (!has_puma560_shape(chain)) {
-    throw UsageError("--goal: a place of the tool takes an arm of the Puma 560's shape; this one takes joint angles");
+    throw UsageError("@goal: a place of the tool takes an arm of the Puma 560's shape; this one takes joint angles");
   }
   std::vector<JointState> states;
   for (const auto& wrist : wrists_to_try(problem, chain)) {

@@ -32,7 +32,7 @@ bool is_arm(const RobotSpec& robot);
 DhTable table_of(const RobotSpec& robot, const Execution& execution);
 
 /// Throws UsageError where start or goal are missing or have the wrong size.
-ArmProblem arm_problem(const Scene& scene, const ProblemOptions& options, const Execution& execution);
+ArmProblem arm_problem(const Scene& scene, const Question& options, const Execution& execution);
 
 /// The states with the tool at the goal's place, all branches within the limits, for the start's wrist first and then
 /// for wrists turned by eighths; the goal's one state where it has six angles. Throws UsageError for a place and an arm

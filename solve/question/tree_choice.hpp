@@ -2,32 +2,25 @@
 // How rrt and rrt-connect are told what to do, whatever the body.
 #pragma once
 
-#include <span>
-#include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "planners/trees/rrt_options.hpp"
-#include "tools/words/arguments.hpp"
-#include "tools/words/command.hpp"
+#include "solve/question/figure.hpp"
+#include "solve/question/solve_options.hpp"
 
 namespace warren {
 
-/// --step --goal-bias --nodes --trees --via
-std::span<const OptionSpec> tree_option_specs();
+/// What each planner of trees takes.
+inline constexpr OptionSet rrt_connect_options{Option::sampler, Option::step, Option::nodes,
+                                               Option::trees,   Option::via,  Option::optimise};
+inline constexpr OptionSet rrt_options = rrt_connect_options | OptionSet{Option::goal_bias};
 
-/// The names of those that each planner takes, with --sampler and --optimise.
-inline constexpr std::string_view rrt_connect_options = "--sampler --step --nodes --trees --via --optimise";
-inline constexpr std::string_view rrt_options = "--sampler --step --goal-bias --nodes --trees --via --optimise";
-
-/// Throws UsageError for values out of range.
-RrtOptions tree_options(const Arguments& arguments);
+/// Throws UsageError for samplers that trees have no use for.
+RrtOptions tree_options(const SolveOptions& options);
 /// What the answer calls the trees' sampler.
 std::string_view sampler_name(const RrtOptions& options);
-/// The way-points of --via, in order: 2, 3 or 6 numbers each.
-std::vector<std::vector<double>> way_points(const Arguments& arguments);
-/// What was given, as Answer::options repeats it: name and value as JSON.
-std::vector<std::pair<std::string, std::string>> given_tree_options(const Arguments& arguments);
+/// What was asked for, as Answer::options repeats it.
+std::vector<NamedFigure> given_tree_options(const SolveOptions& options);
 
 }  // namespace warren

@@ -2,8 +2,11 @@
 #include "studies/compare/comparison.hpp"
 
 #include <numeric>
+#include <stdexcept>
+#include <variant>
 
 #include "core/base/rng.hpp"
+#include "solve/answer/write_answer_io.hpp"
 
 namespace warren {
 namespace {
@@ -46,6 +49,14 @@ ComparisonRow row_of(const Contender& contender) {
       distribution(contender, [](const ComparedRun& r) { return std::optional(static_cast<double>(r.expanded)); });
   row.time_s = distribution(contender, [](const ComparedRun& r) { return std::optional(r.time_s); });
   return row;
+}
+
+std::vector<std::pair<std::string, std::string>> json_options(const std::vector<NamedFigure>& options) {
+  std::vector<std::pair<std::string, std::string>> texts;
+  for (const auto& [name, value] : options) {
+    texts.emplace_back(name, figure_json(value));
+  }
+  return texts;
 }
 
 std::string name_of(const Contender& contender, bool with_planner) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/solution.hpp"
+#include "solve/question/figure.hpp"
 #include "studies/measure/statistics.hpp"
 
 namespace warren {
@@ -72,6 +73,9 @@ struct ComparisonRow {
   std::optional<Distribution> search_s;       ///< of the solved runs
 };
 ComparisonRow row_of(const Contender& contender);
+
+/// Options of an answer as Contender has them.
+std::vector<std::pair<std::string, std::string>> json_options(const std::vector<NamedFigure>& options);
 
 /// "astar, sorted-array", "prm, bfs"; `with_planner` where searches of one graph are not all there is.
 std::string name_of(const Contender& contender, bool with_planner);

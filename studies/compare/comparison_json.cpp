@@ -3,7 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "solve/question/write_answer_io.hpp"
+#include "solve/answer/write_answer_io.hpp"
 #include "studies/compare/comparison_report.hpp"
 #include "studies/compare/queue_crossings.hpp"
 #include "studies/measure/machine_memory.hpp"
@@ -105,7 +105,7 @@ std::string comparison_json(const Comparison& comparison) {
   const Machine machine = this_machine();
   json["machine"] = {{"cpu", machine.cpu}, {"cores", machine.cores}, {"memory_bytes", machine.memory_bytes}};
   if (comparison.clock_s > 0.0) json["clock_s"] = comparison.clock_s;
-  if (comparison.stopped) json["stopped_by"] = stop_name(*comparison.stopped);
+  if (comparison.stopped) json["stopped_by"] = name_of(*comparison.stopped);
   json["rows"] = Json::array();
   for (const Contender& c : comparison.contenders) json["rows"].push_back(row_json(comparison, c));
   if (Json crossings = crossings_json(comparison); !crossings.empty()) json["crossings"] = std::move(crossings);

@@ -6,10 +6,9 @@
 #include <numbers>
 
 #include "core/base/printable.hpp"
-#include "studies/measure/human_units.hpp"
+#include "scenes/text/human_units.hpp"
 #include "studies/measure/machine_memory.hpp"
 #include "studies/measure/text_table.hpp"
-#include "tools/screen/run_of_verb.hpp"
 
 namespace warren {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "studies/compare/comparison.hpp"
-#include "tools/screen/terminal.hpp"
+#include "studies/measure/palette.hpp"
 
 namespace warren {
 

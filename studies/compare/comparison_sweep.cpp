@@ -6,9 +6,9 @@
 #include <cmath>
 #include <set>
 
+#include "scenes/text/human_units.hpp"
 #include "studies/compare/comparison_report.hpp"
 #include "studies/compare/queue_crossings.hpp"
-#include "studies/measure/human_units.hpp"
 #include "studies/measure/text_table.hpp"
 
 namespace warren {

@@ -9,14 +9,11 @@
 #include <cerrno>
 #include <set>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "pictures/curve_drawing.hpp"
-#include "pictures/draw_cells.hpp"
-#include "pictures/picture.hpp"
-#include "solve/question/kind_of_problem.hpp"
-#include "tools/screen/world_files.hpp"
+#include "pictures/draw_answer.hpp"
 
 namespace warren {
 namespace {
@@ -56,20 +53,20 @@ class ContestPictures {
                   const Execution& execution)
       : scene_(scene), options_(options), folder_(folder), execution_(execution) {}
 
-  void draw(const Contender& contender, const PlannerWords& words) {
+  void draw(const Contender& contender, const SolveOptions& options) {
     const ComparedRun* run = median_run(contender);
-    Drawing drawing;
     const std::uint64_t seed = run != nullptr ? run->seed : options_.first_seed;
-    const Answer answer = solve_contender(scene_, words, seed, execution_, &drawing);
+    ByProducts made;
+    const Answer answer = solve_contender(scene_, options_.question, options, seed, execution_, &made);
+    const Drawing drawing = drawing_of(scene_, answer, std::move(made), execution_);
     const std::string said = options_text(contender);
-    const std::string name = unused(file_name(contender.planner + " " + said));
     const std::string title = fmt::format("{}, {}{}seed {}: {}", scene_.source, contender.planner,
                                           said.empty() ? ", " : ", " + said + ", ", seed, name_of(answer.outcome));
-    const std::vector<double> turns = path_turns(answer.problem.robot, answer.states);
-    write(name, title, drawing.layers, {answer.path, turns, &drawing.roadmap});
-    for (const PictureLayer& page : drawing.pages) {
-      const std::string page_name = file_name(contender.planner) + "_" + page.id;
-      if (names_.insert(page_name).second) write(page_name, scene_.source + ": " + page.id, std::span(&page, 1), {});
+    write(unused(file_name(contender.planner + " " + said)), title, picture_of(scene_, drawing));
+    for (const DrawingPage& page : drawing.pages) {
+      const std::string name = file_name(contender.planner) + "_" + page.id;
+      if (!names_.insert(name).second) continue;
+      write(name, scene_.source + ": " + page.id, picture_of(scene_, drawing, page));
     }
   }
 
@@ -79,26 +76,9 @@ class ContestPictures {
     for (int i = 2; !names_.insert(name).second; ++i) name = fmt::format("{}_{}", wanted, i);
     return name;
   }
-  struct Shown {
-    std::span<const Vec2> path = {};
-    std::span<const double> turns = {};
-    const Roadmap<Vec2>* roadmap = nullptr;
-  };
-  void write(const std::string& name, const std::string& title, std::span<const PictureLayer> own,
-             const Shown& shown) const {
-    std::vector<PictureLayer> layers;
-    if (scene_.map) layers.push_back(map_layer(*scene_.map, execution_));
-    layers.insert(layers.end(), own.begin(), own.end());
-    const Picture picture{
-        .scene = scene_,
-        .roadmap = shown.roadmap != nullptr && !shown.roadmap->states.empty() ? shown.roadmap : nullptr,
-        .layers = layers,
-        .path = shown.path,
-        .path_turns = shown.turns,
-        .start = plane_point(scene_.start),
-        .goal = plane_point(scene_.goal),
-        .title = title,
-        .description = description_of(scene_)};
+  void write(const std::string& name, const std::string& title, Picture picture) const {
+    picture.title = title;
+    picture.description = description_of(scene_);
     write_picture(folder_ + "/" + name + ".svg", picture, execution_);
   }
 

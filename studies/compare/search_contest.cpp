@@ -9,8 +9,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "solve/question/planner_choice.hpp"
-#include "tools/screen/signals.hpp"
+#include "planners/roadmap/roadmap_options.hpp"
 
 namespace warren {
 namespace {
@@ -99,9 +98,7 @@ void SearchContest::enter() {
 /// Throws Stopped at a signal; a budget that ends gives Outcome::stopped.
 ComparedRun SearchContest::run_once(Entrant& entrant) const {
   execution_.check();
-  const std::size_t memory =
-      execution_.deadline != nullptr ? execution_.deadline->memory_bytes() : std::numeric_limits<std::size_t>::max();
-  const Deadline deadline(options_.budget_s, memory, &signal_flag());
+  const Deadline deadline(execution_.deadline, options_.budget_s);
   Execution within = execution_;
   within.deadline = &deadline;
   const auto begin = Clock::now();

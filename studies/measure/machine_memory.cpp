@@ -13,7 +13,7 @@
 #include "core/base/page_pool.hpp"
 #include "core/base/raw_vector.hpp"
 #include "parallel/chunks.hpp"
-#include "studies/measure/human_units.hpp"
+#include "scenes/text/human_units.hpp"
 
 namespace warren {
 namespace {

@@ -2,12 +2,14 @@
 #include "studies/measure/statistics.hpp"
 
 #include <algorithm>
-#include <array>
+#include <boost/math/distributions/binomial.hpp>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
 namespace warren {
 namespace {
 
+constexpr double tail = 0.025;                   // beyond either end of an interval
 constexpr double normal_95 = 1.959963984540054;  // the 97.5 % point of the normal distribution
 
 /// Sum of the values in ascending order, small ones first.
@@ -23,20 +25,6 @@ Interval mean_interval(std::span<const double> values, double mean) {
   const auto n = static_cast<double>(values.size());
   const double half_width = student_t(values.size() - 1) * std::sqrt(squares / (n - 1.0) / n);
   return {mean - half_width, mean + half_width};
-}
-
-/// The largest r such that at most 2.5 % of binomial(count, 1/2) lie below r.
-std::size_t exact_rank(std::size_t count) {
-  constexpr double tail = 0.025;
-  double chance = std::pow(0.5, static_cast<double>(count));
-  double below = 0.0;
-  std::size_t rank = 0;
-  while (below + chance <= tail) {
-    below += chance;
-    chance *= static_cast<double>(count - rank) / static_cast<double>(rank + 1);
-    ++rank;
-  }
-  return rank;
 }
 
 }  // namespace
@@ -55,25 +43,14 @@ double median_of(std::span<const double> values) {
 }
 
 double student_t(std::uint64_t degrees) {
-  constexpr std::array<double, 8> first{12.70620, 4.302653, 3.182446, 2.776445, 2.570582, 2.446912, 2.364624, 2.306004};
-  if (degrees <= first.size()) return first[degrees - 1];
-  const auto n = static_cast<double>(degrees);
-  const double z = normal_95;
-  const double z3 = z * z * z;
-  const double z5 = z3 * z * z;
-  const double z7 = z5 * z * z;
-  return z + (z3 + z) / (4.0 * n) + (5.0 * z5 + 16.0 * z3 + 3.0 * z) / (96.0 * n * n) +
-         (3.0 * z7 + 19.0 * z5 + 17.0 * z3 - 15.0 * z) / (384.0 * n * n * n);
+  return boost::math::quantile(boost::math::students_t(static_cast<double>(degrees)), 1.0 - tail);
 }
 
 std::optional<std::pair<std::size_t, std::size_t>> median_ranks(std::size_t count) {
   constexpr std::size_t fewest = 6;
-  constexpr std::size_t most_exact = 1000;
   if (count < fewest) return std::nullopt;
-  const auto n = static_cast<double>(count);
-  const std::size_t rank = count <= most_exact
-                               ? exact_rank(count) - 1
-                               : static_cast<std::size_t>(std::floor(0.5 * (n - normal_95 * std::sqrt(n)))) - 1;
+  const boost::math::binomial below_median(static_cast<double>(count), 0.5);  // how many values are
+  const auto rank = static_cast<std::size_t>(boost::math::quantile(below_median, tail));
   return std::pair{rank, count - 1 - rank};
 }
 

@@ -43,11 +43,11 @@ double median_of(std::span<const double> values);
 /// Where the chance of success lies: Wilson's score interval (1927), 95 %, within [0, 1]. trials >= 1.
 Interval wilson_interval(std::uint64_t successes, std::uint64_t trials);
 
-/// The 97.5 % point of Student's t with so many degrees of freedom, >= 1; to 1e-3.
+/// The 97.5 % point of Student's t with so many degrees of freedom, >= 1.
 double student_t(std::uint64_t degrees);
 
 /// Ranks (from 0) of the two sorted values that enclose the median of any distribution with at least 95 %; none of
-/// fewer than six values. Exact to 1000 values, from the normal approximation (one rank wider at most) beyond. O(√n).
+/// fewer than six values.
 std::optional<std::pair<std::size_t, std::size_t>> median_ranks(std::size_t count);
 
 }  // namespace warren

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/screen/terminal.hpp"
+#include "studies/measure/palette.hpp"
 
 namespace warren {
 

@@ -8,7 +8,7 @@ namespace warren {
 bool has_boost_graph() { return false; }
 
 std::unique_ptr<GraphSearch> boost_search(const SearchGraph&, SearchKind) {
-  throw UsageError("--peer: this program was built without Boost.Graph (install libboost-dev and build it again)");
+  throw UsageError("@peer: this program was built without Boost.Graph (install libboost-dev and build it again)");
 }
 
 }  // namespace warren

@@ -2,7 +2,6 @@
 #include "studies/searches/graph_search.hpp"
 
 #include <algorithm>
-#include <array>
 #include <type_traits>
 
 #include "core/search/search_queues.hpp"
@@ -105,13 +104,6 @@ std::unique_ptr<GraphSearch> best_first_search(const SearchGraph& graph, SearchK
 }
 
 }  // namespace
-
-std::string_view name_of(QueuePolicy queue) {
-  constexpr std::array<std::string_view, 5> names{"heap", "lazy-heap", "sorted-array", "resorted-array", "linear-scan"};
-  return names[static_cast<std::size_t>(queue)];
-}
-
-std::string_view name_of(SearchLibrary library) { return library == SearchLibrary::boost ? "boost" : "warren"; }
 
 std::unique_ptr<GraphSearch> graph_search(const SearchGraph& graph, const SearchVariant& variant) {
   if (variant.library == SearchLibrary::boost) return boost_search(graph, variant.search);

@@ -3,11 +3,13 @@
 // when the goal is settled. Virtual once a search, never inside it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string_view>
 
+#include "core/base/enum_names.hpp"
 #include "core/search/search.hpp"
 #include "planners/roadmap/roadmap_options.hpp"
 #include "studies/searches/search_graph.hpp"
@@ -16,12 +18,13 @@ namespace warren {
 
 /// QueueKind, and the unordered array that is searched for its least entry, which no planner offers.
 enum class QueuePolicy : std::uint8_t { heap, lazy_heap, sorted_array, resorted_array, linear_scan };
+constexpr auto enum_names(QueuePolicy) {
+  return std::array<std::string_view, 5>{"heap", "lazy-heap", "sorted-array", "resorted-array", "linear-scan"};
+}
 
 /// Whose search: ours, or Boost.Graph's with the queue that it brings along.
 enum class SearchLibrary : std::uint8_t { warren, boost };
-
-std::string_view name_of(QueuePolicy queue);
-std::string_view name_of(SearchLibrary library);
+constexpr auto enum_names(SearchLibrary) { return std::array<std::string_view, 2>{"warren", "boost"}; }
 
 struct SearchVariant {
   SearchKind search = SearchKind::astar;

@@ -9,7 +9,7 @@
 #include <new>
 
 #include "core/base/error.hpp"
-#include "studies/measure/human_units.hpp"
+#include "scenes/text/human_units.hpp"
 #include "studies/sizes/bfs_funnel_baseline.hpp"
 
 namespace warren {
@@ -22,8 +22,9 @@ std::uint32_t extent(double cells) {
 /// One search: sizes come from size_search, mazes and runs from maze_trial.
 class LargestSearch {
  public:
-  LargestSearch(const LargestOptions& options, const Arguments& how, const Run& run, const Execution& execution)
-      : options_(options), how_(how), run_(run), execution_(execution) {}
+  LargestSearch(const LargestOptions& options, const Execution& execution,
+                const std::function<void(std::string_view)>& note)
+      : options_(options), execution_(execution), note_(note) {}
 
   void search();
   LargestResult& result() { return result_; }
@@ -41,9 +42,8 @@ class LargestSearch {
   void say(const MazeTrial& t) const;
 
   const LargestOptions& options_;
-  const Arguments& how_;
-  const Run& run_;
   const Execution& execution_;
+  const std::function<void(std::string_view)>& note_;
   LargestResult result_;
   WarmMemory warm_;
   double bytes_a_cell_ = 0.0;  // of the last run that came to its end
@@ -111,8 +111,8 @@ bool LargestSearch::has_memory_for(const MazeOptions& maze) {
   const auto expected = static_cast<std::size_t>(bytes_a_cell_ * cells);
   if (expected > execution_.deadline->memory_bytes()) {
     result_.unbegun.push_back({maze.rows, maze.cols, expected});
-    run_.note(fmt::format("{:>6} x {:<6} not begun: it would need {}", maze.rows, maze.cols,
-                          human_bytes(static_cast<double>(expected))));
+    note_(fmt::format("{:>6} x {:<6} not begun: it would need {}", maze.rows, maze.cols,
+                      human_bytes(static_cast<double>(expected))));
     return false;
   }
   warm_.prepare(expected, execution_);
@@ -125,7 +125,7 @@ std::optional<MazeTrial> LargestSearch::trial(const MazeOptions& maze, bool last
   try {
     double generate_s = 0.0;
     const Scene scene = generate_trial(maze, execution_, generate_s);
-    MazeTrial ran = solve_trial(scene, maze, how_, options_.budget_s, execution_);
+    MazeTrial ran = solve_trial(scene, maze, options_.question, options_.planner, options_.budget_s, execution_);
     ran.generate_s = generate_s;
     if (ran.outcome == Outcome::solved) bytes_a_cell_ = static_cast<double>(ran.peak_memory_bytes) / ran.cells();
     result_.trials.push_back(ran);
@@ -137,7 +137,7 @@ std::optional<MazeTrial> LargestSearch::trial(const MazeOptions& maze, bool last
   } catch (const std::bad_alloc&) {
   }
   result_.unbegun.push_back({maze.rows, maze.cols, execution_.deadline->memory_bytes()});
-  run_.note(fmt::format("{:>6} x {:<6} too little memory to generate it", maze.rows, maze.cols));
+  note_(fmt::format("{:>6} x {:<6} too little memory to generate it", maze.rows, maze.cols));
   return std::nullopt;
 }
 
@@ -159,9 +159,9 @@ void LargestSearch::measure_bar(const Scene& scene) {
 void LargestSearch::say(const MazeTrial& t) const {
   const std::string_view verdict =
       t.outcome == Outcome::solved ? (within_budget(t) ? "within the budget" : "over the budget") : verdict_of(t);
-  run_.note(fmt::format("{:>6} x {:<6} seed {}: {:>8}, {:>6.1f} ns a cell, {:>8}; {}", t.rows, t.cols, t.seed,
-                        human_seconds(t.solve_s), t.solve_s * 1e9 / t.cells(),
-                        human_bytes(static_cast<double>(t.peak_memory_bytes)), verdict));
+  note_(fmt::format("{:>6} x {:<6} seed {}: {:>8}, {:>6.1f} ns a cell, {:>8}; {}", t.rows, t.cols, t.seed,
+                    human_seconds(t.solve_s), t.solve_s * 1e9 / t.cells(),
+                    human_bytes(static_cast<double>(t.peak_memory_bytes)), verdict));
 }
 
 }  // namespace
@@ -175,9 +175,9 @@ const MazeTrial& median_trial(const LargestResult& result) {
   return **middle;
 }
 
-LargestResult find_largest(const LargestOptions& options, const Arguments& how, const Run& run,
-                           const Execution& execution) {
-  LargestSearch search(options, how, run, execution);
+LargestResult find_largest(const LargestOptions& options, const Execution& execution,
+                           const std::function<void(std::string_view)>& note) {
+  LargestSearch search(options, execution, note);
   try {
     search.search();
   } catch (const Stopped& stopped) {

@@ -4,15 +4,14 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "studies/measure/machine_memory.hpp"
 #include "studies/sizes/largest_size.hpp"
 #include "studies/sizes/maze_trial.hpp"
-#include "tools/screen/run_of_verb.hpp"
-#include "tools/words/arguments.hpp"
 
 namespace warren {
 
@@ -24,6 +23,8 @@ struct LargestOptions {
   double shape_cols = 1.0;  ///< > 0
   MazeOptions maze;         ///< algorithm, loops, and the first seed
   std::uint64_t seeds = 3;  ///< mazes at the last size; >= 1
+  Question question;        ///< start and goal are the mazes'
+  SolveOptions planner;     ///< prm or lazy-prm; the seed is the maze's
 };
 
 struct UnbegunSize {
@@ -50,8 +51,9 @@ struct LargestResult {
 /// The run of median solve_s (the upper one of two). best is not empty.
 const MazeTrial& median_trial(const LargestResult& result);
 
-/// Searches and says each trial on standard error. Signals end it with what there is; never throws Stopped.
-LargestResult find_largest(const LargestOptions& options, const Arguments& how, const Run& run,
-                           const Execution& execution);
+/// Searches, and tells `note` a line a trial. The execution has a deadline, whose memory is the limit; its signal ends
+/// the search with what there is. Never throws Stopped; throws UsageError for what can't be asked of mazes.
+LargestResult find_largest(const LargestOptions& options, const Execution& execution,
+                           const std::function<void(std::string_view)>& note);
 
 }  // namespace warren

@@ -8,8 +8,8 @@
 
 #include "pictures/plot_svg.hpp"
 #include "scenes/mazes/maze_generator.hpp"
-#include "solve/question/answer.hpp"
-#include "studies/measure/human_units.hpp"
+#include "scenes/text/human_units.hpp"
+#include "solve/answer/answer.hpp"
 
 namespace warren {
 namespace {
@@ -168,7 +168,7 @@ std::string largest_json(const LargestOptions& options, const LargestResult& res
   json["bfs_funnel_length"] = result.bar ? Json(result.bar->length) : Json(nullptr);
   json["algorithm"] = name_of(options.maze.algorithm);
   json["loops"] = options.maze.loops;
-  if (result.signal) json["stopped_by"] = signal_name(*result.signal);
+  if (result.signal) json["stopped_by"] = name_of(*result.signal);
   add_figures(json, result);
   const MemoryTouch& touch = result.touch;
   json["first_touch"] = {{"bytes", touch.bytes}, {"cold_s", touch.cold_s}, {"warm_s", touch.warm_s}};

@@ -4,8 +4,8 @@
 
 #include <string>
 
+#include "studies/measure/palette.hpp"
 #include "studies/sizes/largest_maze.hpp"
-#include "tools/screen/terminal.hpp"
 
 namespace warren {
 

@@ -1,68 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "studies/sizes/maze_trial.hpp"
 
-#include <algorithm>
-#include <array>
 #include <nlohmann/json.hpp>
 
+#include "solve/answer/write_answer_io.hpp"
 #include "solve/kinds/solve_walls.hpp"
 #include "solve/question/planner_choice.hpp"
 #include "solve/question/question.hpp"
-#include "solve/question/write_answer_io.hpp"
 #include "studies/measure/machine_memory.hpp"
-#include "tools/screen/signals.hpp"
-#include "tools/words/option_values.hpp"
 
 namespace warren {
-namespace {
-
-constexpr OptionSpec maze_specs[] = {
-    {"--algorithm", "NAME", "how the mazes are made (default: backtracker)", "backtracker kruskal prim wilson course"},
-    {"--loops", "F", "fraction of the remaining walls taken out, 0 to 1 (default: 0)"},
-};
-
-template <std::size_t N>
-bool is_one_of(std::string_view name, const std::array<std::string_view, N>& names) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-}  // namespace
-
-std::span<const OptionSpec> trial_maze_specs() { return maze_specs; }
-
-MazeOptions trial_maze(const Arguments& arguments) {
-  MazeOptions options;
-  if (const auto loops = arguments.value("--loops")) options.loops = number_value("--loops", *loops, 0.0, 1.0);
-  if (const auto name = arguments.value("--algorithm")) {
-    constexpr std::string_view words[] = {"backtracker", "kruskal", "prim", "wilson", "course"};
-    options.algorithm = static_cast<MazeAlgorithm>(choice_value("--algorithm", *name, words));
-  }
-  return options;
-}
-
-std::vector<OptionSpec> trial_solve_specs(std::span<const std::string_view> without) {
-  constexpr std::array<std::string_view, 2> places{"--start", "--goal"};
-  std::vector<OptionSpec> specs;
-  add_options(specs, planner_option_specs());
-  add_options(specs, problem_option_specs());
-  std::erase_if(specs, [&](const OptionSpec& option) {
-    return is_one_of(option.name, places) || std::find(without.begin(), without.end(), option.name) != without.end();
-  });
-  return specs;
-}
-
 Scene generate_trial(const MazeOptions& maze, const Execution& execution, double& seconds) {
   const StageTimer timer(execution, "generate", seconds);
   return maze_scene(maze, false, execution);
 }
 
-MazeTrial solve_trial(const Scene& scene, const MazeOptions& maze, const Arguments& how, double budget_s,
-                      const Execution& execution) {
-  const WallProblem problem = wall_problem(scene, problem_options(how));
-  PlannerOptions planner = planner_options(how, scene, problem);
+MazeTrial solve_trial(const Scene& scene, const MazeOptions& maze, const Question& question,
+                      const SolveOptions& options, double budget_s, const Execution& execution) {
+  const WallProblem problem = wall_problem(scene, question);
+  PlannerOptions planner = planner_options(options, scene, problem);
   planner.roadmap.seed = maze.seed;
   restart_peak_memory();
-  const Deadline deadline(budget_s, execution.deadline->memory_bytes(), &signal_flag());
+  const Deadline deadline(execution.deadline, budget_s);
   Execution within = execution;
   within.deadline = &deadline;
   const Answer answer = solve_walls(scene, problem, planner, within, nullptr);

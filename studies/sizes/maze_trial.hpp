@@ -6,26 +6,17 @@
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
-#include <span>
 #include <string>
-#include <vector>
 
 #include "core/base/counters.hpp"
 #include "core/base/solution.hpp"
 #include "parallel/execution.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "scenes/scene/scene.hpp"
-#include "tools/words/arguments.hpp"
-#include "tools/words/command.hpp"
+#include "solve/question/question.hpp"
+#include "solve/question/solve_options.hpp"
 
 namespace warren {
-
-/// --algorithm --loops
-std::span<const OptionSpec> trial_maze_specs();
-/// Algorithm and loops from the options, all else as it is by default.
-MazeOptions trial_maze(const Arguments& arguments);
-/// The options of `solve` that a trial takes, but for those named: planner's, and of the problem what is not a place.
-std::vector<OptionSpec> trial_solve_specs(std::span<const std::string_view> without);
 
 /// An outcome with its figures.
 struct MazeTrial {
@@ -52,10 +43,10 @@ struct MazeTrial {
 /// Makes the maze; `seconds` receives the time. Throws Stopped.
 Scene generate_trial(const MazeOptions& maze, const Execution& execution, double& seconds);
 
-/// Solves it with the planner of `how` (options of `solve`), the maze's seed, and at most budget_s of solve_s; the
-/// memory limit is the execution's. Throws Stopped only for signals; other stops are outcomes.
-MazeTrial solve_trial(const Scene& scene, const MazeOptions& maze, const Arguments& how, double budget_s,
-                      const Execution& execution);
+/// Solves it by prm or lazy-prm, as `options` say, with the maze's seed, and at most budget_s of solve_s; the memory
+/// limit is the execution's. Throws Stopped only for signals; other stops are outcomes. Throws UsageError.
+MazeTrial solve_trial(const Scene& scene, const MazeOptions& maze, const Question& question,
+                      const SolveOptions& options, double budget_s, const Execution& execution);
 
 /// "prm, tiled, lattice sampler"
 std::string planner_text(const MazeTrial& trial);

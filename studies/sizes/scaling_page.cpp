@@ -8,7 +8,7 @@
 #include <set>
 
 #include "pictures/plot_svg.hpp"
-#include "studies/measure/human_units.hpp"
+#include "scenes/text/human_units.hpp"
 #include "studies/measure/machine_memory.hpp"
 #include "studies/sizes/scaling_report.hpp"
 #include "studies/sizes/thread_gains.hpp"

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "studies/measure/human_units.hpp"
+#include "scenes/text/human_units.hpp"
 #include "studies/measure/machine_memory.hpp"
 #include "studies/sizes/thread_gains.hpp"
 
@@ -112,7 +112,7 @@ std::string scaling_json(const ScalingOptions& options, const ScalingResult& res
   const bool counted = result.no_hardware_counts.empty();
   json["hardware_counts"] = counted ? Json(RunCounts::hardware_names) : Json(nullptr);
   if (!counted) json["no_hardware_counts"] = result.no_hardware_counts;
-  if (result.signal) json["stopped_by"] = signal_name(*result.signal);
+  if (result.signal) json["stopped_by"] = name_of(*result.signal);
   json["runs"] = Json::array();
   for (const ScalingRun& run : result.runs) {
     Json entry = trial_json(run.trial);

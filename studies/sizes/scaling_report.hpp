@@ -5,8 +5,8 @@
 #include <span>
 #include <string>
 
+#include "studies/measure/palette.hpp"
 #include "studies/sizes/scaling_study.hpp"
-#include "tools/screen/terminal.hpp"
 
 namespace warren {
 

@@ -9,9 +9,10 @@
 #include <new>
 #include <tuple>
 
-#include "solve/question/answer.hpp"
+#include "scenes/text/human_units.hpp"
+#include "solve/answer/answer.hpp"
 #include "studies/measure/arithmetic_probe.hpp"
-#include "studies/measure/human_units.hpp"
+#include "studies/measure/statistics.hpp"
 
 namespace warren {
 namespace {
@@ -19,7 +20,9 @@ namespace {
 /// One study: mazes outside, runs inside.
 class ScalingStudy {
  public:
-  ScalingStudy(const ScalingOptions& options, const Run& run) : options_(options), run_(run) {
+  ScalingStudy(const ScalingOptions& options, const Execution& execution,
+               const std::function<void(std::string_view)>& note)
+      : options_(options), execution_(execution), note_(note) {
     result_.no_hardware_counts = counters_.refusal();
   }
 
@@ -37,7 +40,8 @@ class ScalingStudy {
   void say(const MazeOptions& maze, std::size_t first_run) const;
 
   const ScalingOptions& options_;
-  const Run& run_;
+  const Execution& execution_;
+  const std::function<void(std::string_view)>& note_;
   const RunCounters counters_;  // made before any thread that works
   ScalingResult result_;
 };
@@ -57,24 +61,24 @@ void ScalingStudy::run_maze(std::uint32_t rows, std::uint32_t cols, std::uint64_
 
 std::optional<Scene> ScalingStudy::generated(const MazeOptions& maze, double& seconds) {
   try {
-    return generate_trial(maze, run_.execution(), seconds);
+    return generate_trial(maze, execution_, seconds);
   } catch (const Stopped& stopped) {
     if (stopped.reason != StopReason::memory) throw;
   } catch (const std::bad_alloc&) {
   }
   result_.ungenerated.emplace_back(maze.rows, maze.cols);
-  run_.note(fmt::format("{:>6} x {:<6} too little memory to generate it", maze.rows, maze.cols));
+  note_(fmt::format("{:>6} x {:<6} too little memory to generate it", maze.rows, maze.cols));
   return std::nullopt;
 }
 
 void ScalingStudy::run_once(const Scene& scene, const MazeOptions& maze, double generate_s, unsigned repeat) {
-  for (const Arguments& planner : options_.planners) {
+  for (const SolveOptions& planner : options_.planners) {
     for (const unsigned threads : options_.threads) {
-      Execution execution = run_.execution();
+      Execution execution = execution_;
       execution.threads = threads;
       const double arithmetic_before = arithmetic_per_second(execution);
       const RunCounts before = counters_.read();
-      MazeTrial trial = solve_trial(scene, maze, planner, options_.budget_s, execution);
+      MazeTrial trial = solve_trial(scene, maze, options_.question, planner, options_.budget_s, execution);
       const RunCounts counts = counters_.read() - before;
       trial.generate_s = generate_s;
       result_.runs.push_back({std::move(trial), repeat, counts});
@@ -89,9 +93,9 @@ void ScalingStudy::say(const MazeOptions& maze, std::size_t first_run) const {
     const MazeTrial& t = result_.runs[i].trial;
     if (t.verified && (fastest == nullptr || t.solve_s < fastest->solve_s)) fastest = &t;
   }
-  run_.note(fmt::format("{:>6} x {:<6} seed {}: {} runs, {}", maze.rows, maze.cols, maze.seed,
-                        result_.runs.size() - first_run,
-                        fastest == nullptr ? "none solved" : "fastest " + human_seconds(fastest->solve_s)));
+  note_(fmt::format("{:>6} x {:<6} seed {}: {} runs, {}", maze.rows, maze.cols, maze.seed,
+                    result_.runs.size() - first_run,
+                    fastest == nullptr ? "none solved" : "fastest " + human_seconds(fastest->solve_s)));
 }
 
 /// What a row has in common.
@@ -105,12 +109,6 @@ void take_least(StageTimes& least, const StageTimes& other) {
         &StageTimes::reduce, &StageTimes::search, &StageTimes::optimise, &StageTimes::verify}) {
     least.*stage = std::min(least.*stage, other.*stage);
   }
-}
-
-double median_of(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
 
 ScalingRow row_of(const std::vector<const ScalingRun*>& runs) {
@@ -154,8 +152,9 @@ void add_speed_ups(std::vector<ScalingRow>& rows) {
 
 }  // namespace
 
-ScalingResult run_scaling_study(const ScalingOptions& options, const Run& run) {
-  ScalingStudy study(options, run);
+ScalingResult run_scaling_study(const ScalingOptions& options, const Execution& execution,
+                                const std::function<void(std::string_view)>& note) {
+  ScalingStudy study(options, execution, note);
   try {
     study.run_all();
   } catch (const Stopped& stopped) {

@@ -7,24 +7,25 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "core/base/types.hpp"
 #include "studies/measure/process_counters.hpp"
 #include "studies/sizes/maze_trial.hpp"
-#include "tools/screen/run_of_verb.hpp"
-#include "tools/words/arguments.hpp"
 
 namespace warren {
 
 struct ScalingOptions {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> sizes;  ///< rows, cols; ascending cells
   std::vector<unsigned> threads;                               ///< ascending
-  std::vector<Arguments> planners;                             ///< options of `solve`
+  Question question;                                           ///< start and goal are the mazes'
+  std::vector<SolveOptions> planners;                          ///< prm or lazy-prm; seeds are the mazes'
   std::vector<std::uint64_t> seeds;                            ///< of maze and sampling
   unsigned repeats = 3;                                        ///< >= 1
   double budget_s = 0.0;                                       ///< of each run's solve_s; infinity: none
@@ -45,8 +46,10 @@ struct ScalingResult {
   std::string no_hardware_counts;  ///< why the processor's counts are absent; empty: they are there
 };
 
-/// Runs the study and says each maze on standard error. Signals end it with what there is; never throws Stopped.
-ScalingResult run_scaling_study(const ScalingOptions& options, const Run& run);
+/// Runs the study, and tells `note` a line a maze. The execution has a deadline, whose memory is the limit; its signal
+/// ends the study with what there is. Never throws Stopped; throws UsageError for what can't be asked of mazes.
+ScalingResult run_scaling_study(const ScalingOptions& options, const Execution& execution,
+                                const std::function<void(std::string_view)>& note);
 
 /// All runs of one size, planner and thread count that were solved.
 struct ScalingRow {

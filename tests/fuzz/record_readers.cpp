@@ -6,8 +6,8 @@
 #include "core/base/types.hpp"
 #include "scenes/formats/dh_table_io.hpp"
 #include "scenes/formats/read_world_io.hpp"
+#include "solve/answer/read_answer_io.hpp"
 #include "solve/question/question.hpp"
-#include "solve/question/read_answer_io.hpp"
 #include "tests/fuzz/fuzz_reader.hpp"
 #include "tests/fuzz/properties.hpp"
 

@@ -3,10 +3,10 @@
 // judge.
 #include <vector>
 
-#include "planners/roadmap/lazy_prm.hpp"
-#include "planners/roadmap/prm.hpp"
-#include "verify/judges/verify_point.hpp"
-#include "worlds/plane/maze_world.hpp"
+#include <warren/planners/roadmap/lazy_prm.hpp>
+#include <warren/planners/roadmap/prm.hpp>
+#include <warren/verify/judges/verify_point.hpp>
+#include <warren/worlds/plane/maze_world.hpp>
 
 namespace {
 

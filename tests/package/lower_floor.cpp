@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Uses warren::core alone: do two segments cross?
-#include "core/plane/geometry.hpp"
+#include <warren/core/plane/geometry.hpp>
 
 int main() {
   const warren::Segment rising{{0.0, 0.0}, {1.0, 1.0}};

@@ -78,6 +78,21 @@ TEST(Deadline, NamesTheSignalThatCame) {
   EXPECT_EQ(deadline.reached(), StopReason::hang_up);
 }
 
+TEST(Deadline, OfAPartEndsByItselfOrWithTheWhole) {
+  SignalFlag flag{0};
+  const Deadline whole(forever, 12345, &flag);
+  const Deadline part(&whole, forever);
+  EXPECT_FALSE(part.reached());
+  EXPECT_EQ(part.memory_bytes(), 12345U);
+  EXPECT_EQ(Deadline(&whole, 0.0).reached(), StopReason::time);
+  EXPECT_FALSE(whole.reached()) << "a part's time is its own";
+  flag = SIGINT;
+  EXPECT_EQ(part.reached(), StopReason::interrupt);
+  const Deadline over(0.0);
+  EXPECT_EQ(Deadline(&over, 1000.0).reached(), StopReason::time);
+  EXPECT_FALSE(Deadline(nullptr, 1000.0).reached());
+}
+
 TEST(Memory, FiguresAreInAPlausibleOrder) {
   EXPECT_GT(resident_bytes(), 0U);
   EXPECT_GE(peak_resident_bytes(), resident_bytes() / 2);

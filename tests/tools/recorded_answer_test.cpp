@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solve/question/read_answer_io.hpp"
+#include "solve/answer/read_answer_io.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/screen/trace_json.hpp"
+#include "studies/measure/trace_json.hpp"
 
 #include <gtest/gtest.h>
 

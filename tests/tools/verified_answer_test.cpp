@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What an answer claims: a path that was verified, or nothing.
-#include "solve/question/solve_steps.hpp"
+#include "solve/steps/solve_steps.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "solve/question/read_answer_io.hpp"
-#include "solve/question/write_answer_io.hpp"
+#include "solve/answer/read_answer_io.hpp"
+#include "solve/answer/write_answer_io.hpp"
 #include "tools/screen/answer_summary.hpp"
 
 namespace warren {
@@ -28,8 +28,8 @@ Answer solved() {
   answer.raw_length = 6.0;
   answer.cost = 7.0;
   answer.turn_rad = 1.0;
-  answer.path_figures.emplace_back("axis_length", "5.5");
-  answer.figures.emplace_back("free_states", "12");
+  answer.path_figures.push_back({"axis_length", 5.5});
+  answer.figures.push_back({"free_states", std::uint64_t{12}});
   answer.path = {{0, 0}, {3, 4}};
   answer.world.source = "a.scene";
   answer.world.kind = "walls";

@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "core/base/printable.hpp"
-#include "studies/measure/human_units.hpp"
+#include "scenes/text/human_units.hpp"
 #include "tools/screen/run_of_verb.hpp"
 
 namespace warren {

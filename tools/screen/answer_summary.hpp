@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "solve/question/answer.hpp"
+#include "solve/answer/answer.hpp"
 #include "tools/screen/terminal.hpp"
 
 namespace warren {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "pictures/picture.hpp"
 #include "scenes/formats/read_world_io.hpp"
 #include "scenes/formats/ros_map_io.hpp"
 #include "scenes/text/output_file_io.hpp"
@@ -106,7 +107,7 @@ void check_standard_output(const std::vector<NamedFile>& outputs) {
 /// Is that the name of a picture that `compare --pictures` may write? They begin with the planner's.
 bool is_picture_name(const Arguments& arguments, std::string_view name) {
   if (!name.ends_with(".svg")) return false;
-  for (const std::string& planner : list_value("--planners", arguments.value("--planners").value_or("none"))) {
+  for (const std::string& planner : given_list(arguments, "--planners")) {
     if (!name.starts_with(planner) || name.size() == planner.size()) continue;
     const char next = name[planner.size()];
     if (next == '.' || next == '_') return true;
@@ -157,6 +158,10 @@ void check_not_written(const Arguments& arguments, const std::string& input) {
       throw UsageError(fmt::format("{}: {} would overwrite {}, which is read", output.option, output.path, input));
     }
   }
+}
+
+void check_not_written(const Arguments& arguments, const std::optional<RobotSpec>& robot) {
+  if (robot) check_not_written(arguments, robot->table);
 }
 
 }  // namespace warren

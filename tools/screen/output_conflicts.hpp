@@ -3,8 +3,10 @@
 // followed), what is not there yet as the name in its folder: "m.scene" is "./m.scene" and every link to it.
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "scenes/scene/scene.hpp"
 #include "tools/words/arguments.hpp"
 
 namespace warren {
@@ -13,7 +15,9 @@ namespace warren {
 /// where standard output is to take two.
 void check_outputs(const Arguments& arguments);
 
-/// The same for a file that the command line does not name: a map's image, an arm's table. Empty: no file.
+/// The same for a file that the command line does not name such as a map's image. Empty: no file.
 void check_not_written(const Arguments& arguments, const std::string& input);
+/// The same for an arm's table.
+void check_not_written(const Arguments& arguments, const std::optional<RobotSpec>& robot);
 
 }  // namespace warren

@@ -5,11 +5,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <system_error>
 
 #include "core/base/error.hpp"
+#include "pictures/picture.hpp"
 #include "scenes/text/output_file_io.hpp"
 
 namespace warren {
@@ -53,13 +53,14 @@ std::optional<std::string> output_file(const Arguments& arguments, std::string_v
   return file;
 }
 
-std::string ending_of(const std::string& path) {
-  const std::size_t dot = path.rfind('.');
-  if (dot == std::string::npos || path.find('/', dot) != std::string::npos) return {};
-  std::string ending = path.substr(dot);
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return ending;
+bool check_reports(const Arguments& arguments, std::initializer_list<std::string_view> options) {
+  bool taken = false;
+  for (const std::string_view option : options) taken = output_file(arguments, option) == "-" || taken;
+  return taken;
+}
+
+void write_report(const Arguments& arguments, std::string_view option, const std::function<std::string()>& text) {
+  if (const auto file = arguments.value(option)) write_file(*file, text(), Execution{});
 }
 
 }  // namespace warren

@@ -2,6 +2,8 @@
 // Names of output files: what their endings say, and whether they can be written, asked before a long computation.
 #pragma once
 
+#include <functional>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,10 +22,13 @@ void check_picture_ending(std::string_view option, const std::string& file, std:
 /// The file that an option names, if it is given; check_writable has been asked.
 std::optional<std::string> output_file(const Arguments& arguments, std::string_view option);
 
+/// Throws WriteError unless each file that these options name can be written; does one of them take standard output?
+bool check_reports(const Arguments& arguments, std::initializer_list<std::string_view> options);
+
+/// Writes what `text` makes to the file that an option names, if it is given; whatever has stopped meanwhile.
+void write_report(const Arguments& arguments, std::string_view option, const std::function<std::string()>& text);
+
 /// "a" of "a/b.svg"; "." of "b.svg".
 std::string folder_of(const std::string& path);
-
-/// ".svg" of "a.SVG", in lower case; "" where there is none.
-std::string ending_of(const std::string& path);
 
 }  // namespace warren

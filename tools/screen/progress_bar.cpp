@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "studies/measure/human_units.hpp"
+#include "scenes/text/human_units.hpp"
 
 namespace warren {
 namespace {

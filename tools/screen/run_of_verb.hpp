@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -25,11 +26,11 @@ namespace warren {
 std::span<const OptionSpec> run_option_specs();
 
 /// How many threads one word of --threads asks for; throws UsageError.
-unsigned threads_value(std::string_view text);
+unsigned threads_value(std::string_view option, std::string_view text);
 
-/// What --budget and --threads are about: the whole command, or each of the runs that the verb makes (which then deals
-/// them out itself).
-enum class RunScope : std::uint8_t { whole_command, each_run };
+/// What --budget is about: the whole command, or each of the runs that the verb makes (which then deals it out itself);
+/// with each_run_and_threads --threads is dealt out, too.
+enum class RunScope : std::uint8_t { whole_command, each_run, each_run_and_threads };
 
 /// One run of a verb: the clock starts with it. Not movable: Execution points into it.
 class Run {
@@ -44,6 +45,10 @@ class Run {
   unsigned threads() const { return thread_count(execution_.threads); }
   /// Says one line on standard error, above the bar; nothing with --quiet or --progress none.
   void note(std::string_view line) const;
+  /// Prints the summary; where --quiet or an output forbids that, says on standard error what stopped the verb, if
+  /// anything did.
+  void conclude(bool standard_output_taken, std::optional<StopReason> stopped,
+                const std::function<std::string()>& summary) const;
   /// Ends the progress bar and writes the trace, if one was asked for; further calls do nothing.
   void end();
 
@@ -62,11 +67,5 @@ class Run {
 
 /// 124 for a budget, 129, 130 and 143 for signals.
 int exit_code_of(StopReason reason);
-/// "the time budget ended", …
-std::string_view text_of(StopReason reason);
-/// Says on standard error what stopped a verb that prints no summary which says so.
-void say_stopped(StopReason reason);
-/// "SIGINT", … of a reason that is a signal.
-std::string_view signal_name(StopReason reason);
 
 }  // namespace warren

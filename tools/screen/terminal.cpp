@@ -6,8 +6,7 @@
 
 #include <cstdio>
 #include <cstdlib>
-
-#include "core/base/printable.hpp"
+#include <string>
 
 namespace warren {
 namespace {
@@ -44,10 +43,5 @@ std::size_t terminal_width() {
 }
 
 void print_text(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); }
-
-std::string Palette::painted(std::string_view code, std::string_view text) const {
-  if (!on_) return printable(text);
-  return "\x1b[" + std::string{code} + "m" + printable(text) + "\x1b[0m";
-}
 
 }  // namespace warren

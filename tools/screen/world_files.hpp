@@ -2,15 +2,12 @@
 // Worlds in and out as the verbs need them: read or generated with its time taken, written in any format by ending.
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "core/base/counters.hpp"
 #include "parallel/execution.hpp"
 #include "scenes/scene/scene.hpp"
-#include "solve/question/answer.hpp"
 #include "tools/words/arguments.hpp"
 #include "tools/words/command.hpp"
 
@@ -30,13 +27,5 @@ void write_world(const Scene& scene, const std::string& file, const std::string&
 
 /// Throws UsageError unless `file` has an ending that write_world knows, WriteError unless it can be written.
 void check_world_file(const std::string& file);
-
-WorldAccount account_of(const Scene& scene, const Execution& execution);
-
-/// Where a state stands in the plane; none where there is no state.
-std::optional<Vec2> plane_point(const std::vector<double>& state);
-
-/// "41 x 41 maze, 1604 walls": what a person wants to know first.
-std::string description_of(const Scene& scene);
 
 }  // namespace warren

@@ -5,21 +5,17 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
 
 #include "core/base/error.hpp"
-#include "scenes/text/output_file_io.hpp"
 #include "studies/compare/comparison_report.hpp"
 #include "studies/compare/contest_pictures.hpp"
 #include "studies/compare/graph_of_world.hpp"
-#include "studies/measure/human_units.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_names.hpp"
 #include "tools/screen/run_of_verb.hpp"
-#include "tools/screen/signals.hpp"
 #include "tools/screen/terminal.hpp"
 #include "tools/screen/world_files.hpp"
 #include "tools/verbs/compare_options.hpp"
@@ -36,15 +32,10 @@ constexpr OptionSpec output_specs[] = {
     {"--svg", "FILE", "plot times against size, or the share solved against time; - is standard output"},
     {"--log", "FILE", "write every run as OMPL's benchmarks do; - is standard output"},
 };
-constexpr std::array<const char*, 4> output_options{"--json", "--csv", "--svg", "--log"};
 
 /// Throws unless every output can be written; says whether one of them takes standard output.
-bool check_reports(const Arguments& arguments) {
-  bool taken = false;
-  for (const char* option : output_options) {
-    const auto file = output_file(arguments, option);
-    taken = taken || file == "-";
-  }
+bool check_outputs_of_compare(const Arguments& arguments) {
+  const bool taken = check_reports(arguments, {"--json", "--csv", "--svg", "--log"});
   check_picture_ending("--svg", arguments.value("--svg").value_or(""), ".svg");
   if (const auto folder = arguments.value("--pictures")) make_folder(*folder);
   if (arguments.has("--log") && arguments.has("--sizes")) {
@@ -59,21 +50,17 @@ class CompareCommand {
   explicit CompareCommand(const Arguments& arguments)
       : arguments_(arguments),
         options_(compare_options(arguments)),
-        standard_output_taken_(check_reports(arguments)),
+        standard_output_taken_(check_outputs_of_compare(arguments)),
         begin_(std::chrono::system_clock::now()) {}
 
   int run() {
     Run run(arguments_, RunScope::each_run);
     execution_ = run.execution();
-    if (const auto threads = arguments_.value("--threads")) execution_.threads = threads_value(*threads);
     compare(run);
     run.end();
     write_outputs();
-    if (!run.quiet() && !standard_output_taken_) {
-      print_text(comparison_summary(comparison_, run.palette()));
-    } else if (comparison_.stopped) {
-      say_stopped(*comparison_.stopped);
-    }
+    run.conclude(standard_output_taken_, comparison_.stopped,
+                 [&] { return comparison_summary(comparison_, run.palette()); });
     return exit_code();
   }
 
@@ -82,7 +69,7 @@ class CompareCommand {
   void compare_on_world(const Run& run);
   void compare_searches(const Scene& scene, const Run& run);
   bool needs_map_walls(const Scene& scene) const;
-  std::string graph_planner(const Scene& scene) const;
+  SolveOptions graph_options(const Scene& scene) const;
   void write_outputs() const;
   OmplExperiment experiment() const;
   int exit_code() const;
@@ -120,28 +107,30 @@ void CompareCommand::compare_on_world(const Run& run) {
 
 /// Bodies that turn plan among a map's borders, and pictures show them.
 bool CompareCommand::needs_map_walls(const Scene& scene) const {
-  const auto turns = [&](const PlannerWords& words) {
-    const RobotKind body = robot_of(scene, problem_options(solve_arguments(words))).kind;
-    return body != RobotKind::point && body != RobotKind::disc;
-  };
-  const std::vector<PlannerWords>& all = options_.planners->contenders;
-  return !options_.planners->pictures.empty() || std::any_of(all.begin(), all.end(), turns);
+  const RobotKind body = robot_of(scene, options_.planners->question).kind;
+  return !options_.planners->pictures.empty() || (body != RobotKind::point && body != RobotKind::disc);
 }
 
-/// Chosen as `solve` chooses, by the world and the options.
-std::string CompareCommand::graph_planner(const Scene& scene) const {
-  if (!options_.graph.empty()) return options_.graph;
-  return usual_graph_planner(scene, solve_arguments(words_without_planner(options_.graph_deal)));
+/// The planner that was asked for, else the one that `solve` would take, with those of the options that it takes.
+SolveOptions CompareCommand::graph_options(const Scene& scene) const {
+  PlannerDeal deal = options_.graph_deal;
+  if (!options_.graph) {
+    SolveOptions all = deal.common;
+    if (!deal.samplers.empty()) all.sampler = deal.samplers.front();
+    if (!deal.samples.empty()) all.roadmap.samples = deal.samples.front();
+    deal.planners = {usual_graph_planner(scene, deal.question, all)};
+  }
+  SolveOptions graph = deal_planners(deal).front();
+  if (graph.planner == PlannerKind::prm) graph.roadmap.pipeline = PipelineKind::plain;  // tiles leave no roadmap
+  return graph;
 }
 
 void CompareCommand::compare_searches(const Scene& scene, const Run& run) {
-  PlannerDeal deal = options_.graph_deal;
-  deal.planners = {graph_planner(scene)};
-  if (deal.planners.front() == "prm") deal.common.emplace_back("--pipeline", "plain");  // tiles leave no roadmap
-  const Deadline deadline(options_.budget_s, execution_.deadline->memory_bytes(), &signal_flag());
+  const SolveOptions graph = graph_options(scene);
+  const Deadline deadline(execution_.deadline, options_.budget_s);
   Execution within = execution_;
   within.deadline = &deadline;
-  const WorldGraph made = world_graph(scene, solve_arguments(deal_planners(deal).front()), within);
+  const WorldGraph made = world_graph(scene, options_.graph_deal.question, graph, within);
   if (made.graph.at.empty()) {
     no_graph_ = made.outcome;
     comparison_.notes.push_back(fmt::format("{}: {}", scene.source, name_of(made.outcome)));
@@ -153,13 +142,10 @@ void CompareCommand::compare_searches(const Scene& scene, const Run& run) {
 }
 
 void CompareCommand::write_outputs() const {
-  const auto write = [&](std::string_view option, const auto& text) {
-    if (const auto file = arguments_.value(option)) write_file(*file, text(), Execution{});
-  };
-  write("--json", [&] { return comparison_json(comparison_); });
-  write("--csv", [&] { return comparison_csv(comparison_); });
-  write("--svg", [&] { return comparison_svg(comparison_); });
-  write("--log", [&] { return ompl_log(comparison_, experiment()); });
+  write_report(arguments_, "--json", [&] { return comparison_json(comparison_); });
+  write_report(arguments_, "--csv", [&] { return comparison_csv(comparison_); });
+  write_report(arguments_, "--svg", [&] { return comparison_svg(comparison_); });
+  write_report(arguments_, "--log", [&] { return ompl_log(comparison_, experiment()); });
 }
 
 OmplExperiment CompareCommand::experiment() const {
@@ -198,9 +184,7 @@ Command compare_command() {
   add_options(command.options, compare_option_specs());
   add_options(command.options, world_option_specs());
   add_options(command.options, output_specs);
-  for (const OptionSpec& option : run_option_specs()) {
-    if (option.name != "--budget") command.options.push_back(option);
-  }
+  add_options(command.options, run_option_specs(), {"--budget"});
   command.run = [](const Arguments& arguments) { return CompareCommand(arguments).run(); };
   return command;
 }

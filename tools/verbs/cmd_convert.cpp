@@ -8,6 +8,7 @@
 #include "core/base/error.hpp"
 #include "scenes/formats/read_world_io.hpp"
 #include "scenes/formats/ros_map_io.hpp"
+#include "solve/answer/world_account.hpp"
 #include "solve/question/grid_choice.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_names.hpp"
@@ -15,6 +16,7 @@
 #include "tools/screen/terminal.hpp"
 #include "tools/screen/world_files.hpp"
 #include "tools/words/command.hpp"
+#include "tools/words/option_values.hpp"
 #include "worlds/rasters/map_borders.hpp"
 
 namespace warren {
@@ -45,8 +47,8 @@ bool becomes_map(const Scene& scene, std::string_view file, const Arguments& arg
 
 void write_any(Scene& scene, const std::string& file, const Arguments& arguments, const Execution& execution) {
   if (becomes_map(scene, file, arguments)) {
-    const auto text = arguments.value("--cell");
-    const auto cell = text ? std::optional(cell_value(*text, scene)) : std::nullopt;
+    const auto cell = given_value(arguments, "--cell", positive_value);
+    if (cell) check_cell(*cell, scene);
     return write_map(map_for(scene, cell, execution), file, execution);
   }
   add_map_walls(scene, execution);
@@ -73,7 +75,7 @@ int convert(const Arguments& arguments) {
   Scene scene = load_world(arguments.operand(0), arguments, run.execution(), seconds);
   {
     const StageTimer timer(run.execution(), "write", write_seconds);
-    write_any(scene, std::string{*file}, arguments, run.execution());
+    write_any(scene, *file, arguments, run.execution());
   }
   run.end();
   if (!run.quiet() && *file != "-")

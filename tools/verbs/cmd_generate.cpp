@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <functional>
-#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,14 +11,16 @@
 #include "scenes/formats/read_world_io.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "scenes/scene/polygon_generator.hpp"
-#include "solve/question/planner_choice.hpp"
-#include "studies/measure/human_units.hpp"
+#include "scenes/text/human_units.hpp"
+#include "solve/answer/world_account.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/terminal.hpp"
 #include "tools/screen/world_files.hpp"
 #include "tools/words/command.hpp"
+#include "tools/words/maze_words.hpp"
 #include "tools/words/option_values.hpp"
+#include "tools/words/planner_words.hpp"
 
 namespace warren {
 namespace {
@@ -53,24 +54,17 @@ MazeOptions maze_options(const Arguments& arguments) {
     throw UsageError("expected ROWSxCOLS (found: '" + arguments.operand(1) +
                      "'); seed, algorithm and loops are options");
   }
-  options.seed = seed_of(arguments);
-  if (const auto loops = arguments.value("--loops")) options.loops = number_value("--loops", *loops, 0.0, 1.0);
-  if (const auto name = arguments.value("--algorithm")) {
-    constexpr std::string_view words[] = {"backtracker", "kruskal", "prim", "wilson", "course"};
-    options.algorithm = static_cast<MazeAlgorithm>(choice_value("--algorithm", *name, words));
-  }
-  return options;
+  options.seed = seed_word(arguments);
+  return maze_words(arguments, options);
 }
 
 PolygonOptions polygon_options(const Arguments& arguments) {
-  constexpr std::uint64_t most = std::uint64_t{1} << 30;
+  constexpr std::uint32_t most = 1U << 30;
   refuse_options(arguments, maze_only, "generate maze");
   PolygonOptions options;
   options.count = count_value("COUNT", arguments.operand(1), 1, most);
-  options.seed = seed_of(arguments);
-  if (const auto corners = arguments.value("--corners")) {
-    options.corners = static_cast<std::uint32_t>(count_value("--corners", *corners, 3, most));
-  }
+  options.seed = seed_word(arguments);
+  options.corners = given_count(arguments, "--corners", 3, most);
   try {
     options.validate();
   } catch (const InputError& error) {

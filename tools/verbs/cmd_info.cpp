@@ -2,13 +2,12 @@
 // warren info: what is in this file.
 #include <fmt/format.h>
 
-#include <iterator>
-
 #include "core/base/printable.hpp"
+#include "scenes/text/human_units.hpp"
 #include "scenes/text/output_file_io.hpp"
+#include "solve/answer/world_account.hpp"
+#include "solve/answer/write_answer_io.hpp"
 #include "solve/question/question.hpp"
-#include "solve/question/write_answer_io.hpp"
-#include "studies/measure/human_units.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_names.hpp"
 #include "tools/screen/run_of_verb.hpp"
@@ -30,34 +29,29 @@ struct Fact {
   std::string json;
 };
 
-std::string state_text(const std::vector<double>& state) { return fmt::format("{}", fmt::join(state, ", ")); }
-
-std::string state_json(const std::vector<double>& state) {
+std::string numbers_json(const std::vector<double>& numbers) {
   std::string text = "[";
-  for (const double value : state) text += (text.size() > 1 ? ", " : "") + json_number(value);
+  for (const double value : numbers) text += (text.size() > 1 ? ", " : "") + json_number(value);
   return text + "]";
 }
 
-Fact box_fact(const char* name, const Box& box) {
-  const std::vector<double> corners{box.min.x, box.min.y, box.max.x, box.max.y};
-  return {name, fmt::format("{} to {}, {} to {}", box.min.x, box.max.x, box.min.y, box.max.y), state_json(corners)};
-}
-
-Fact count_fact(const char* name, std::size_t count) { return {name, grouped(count), std::to_string(count)}; }
-
-std::string_view format_name(MapFormat format) {
-  constexpr std::string_view names[] = {"Moving AI map", "map server", "image"};
-  return names[static_cast<std::size_t>(format)];
-}
-
+Fact text_fact(const char* name, const std::string& text) { return {name, text, json_string(text)}; }
 Fact number_fact(const char* name, double number) { return {name, fmt::format("{}", number), json_number(number)}; }
+Fact count_fact(const char* name, std::size_t count) { return {name, grouped(count), std::to_string(count)}; }
+Fact state_fact(const char* name, const std::vector<double>& state) {
+  return {name, fmt::format("{}", fmt::join(state, ", ")), numbers_json(state)};
+}
+Fact box_fact(const char* name, const Box& box) {
+  return {name, fmt::format("{} to {}, {} to {}", box.min.x, box.max.x, box.min.y, box.max.y),
+          numbers_json({box.min.x, box.min.y, box.max.x, box.max.y})};
+}
 
 std::vector<Fact> map_facts(const Scene& scene, const WorldAccount& world, const Execution& execution) {
+  constexpr const char* formats[] = {"Moving AI map", "map server", "image"};
   const OccupancyMap& map = *scene.map;
-  const std::string format{format_name(map.format)};
-  std::vector<Fact> facts{{"source", world.source, json_string(world.source)},
-                          {"kind", world.kind, json_string(world.kind)},
-                          {"format", format, json_string(format)},
+  std::vector<Fact> facts{text_fact("source", world.source),
+                          text_fact("kind", world.kind),
+                          text_fact("format", formats[static_cast<std::size_t>(map.format)]),
                           count_fact("width", map.width()),
                           count_fact("height", map.height()),
                           count_fact("free", map.free),
@@ -66,24 +60,20 @@ std::vector<Fact> map_facts(const Scene& scene, const WorldAccount& world, const
     facts.push_back(count_fact("unknown", map.unknown_count));
     facts.push_back(count_fact("between", map.between));
     facts.push_back({"origin", fmt::format("{}, {}, yaw {}", map.origin.x, map.origin.y, map.yaw_rad),
-                     state_json({map.origin.x, map.origin.y, map.yaw_rad})});
+                     numbers_json({map.origin.x, map.origin.y, map.yaw_rad})});
   }
   if (!map.water.empty()) facts.push_back(count_fact("water", map.water.count()));
   facts.push_back(number_fact("resolution", map.cell));
   facts.push_back(box_fact("box", obstacle_box(scene, execution)));
-  facts.push_back({"hash", world.hash, json_string(world.hash)});
+  facts.push_back(text_fact("hash", world.hash));
   return facts;
 }
 
 std::vector<Fact> obstacle_facts(const Scene& scene, const WorldAccount& world, const Execution& execution) {
   if (scene.map) return map_facts(scene, world, execution);
-  std::vector<Fact> facts{{"source", world.source, json_string(world.source)},
-                          {"kind", world.kind, json_string(world.kind)},
+  std::vector<Fact> facts{text_fact("source", world.source), text_fact("kind", world.kind),
                           count_fact("walls", scene.walls.size())};
-  if (scene.walls.size() > 0) {
-    const bool floats = scene.walls.holds_floats();
-    facts.push_back({"held as", floats ? "float" : "double", floats ? "\"float\"" : "\"double\""});
-  }
+  if (scene.walls.size() > 0) facts.push_back(text_fact("held as", scene.walls.holds_floats() ? "float" : "double"));
   if (!scene.polygons.empty()) {
     facts.push_back(count_fact("polygons", scene.polygons.size()));
     std::size_t corners = 0;
@@ -94,7 +84,7 @@ std::vector<Fact> obstacle_facts(const Scene& scene, const WorldAccount& world, 
   if (!scene.boxes.empty()) facts.push_back(count_fact("boxes", scene.boxes.size()));
   if (const Box box = obstacle_box(scene, execution); !box.empty()) facts.push_back(box_fact("box", box));
   if (scene.bounds) facts.push_back(box_fact("bounds", *scene.bounds));
-  facts.push_back({"hash", world.hash, json_string(world.hash)});
+  facts.push_back(text_fact("hash", world.hash));
   return facts;
 }
 
@@ -103,11 +93,10 @@ void add_problem_facts(const Scene& scene, std::vector<Fact>& facts) {
     facts.push_back({"maze", fmt::format("{} rows, {} columns", scene.maze->rows, scene.maze->cols),
                      fmt::format("[{}, {}]", scene.maze->rows, scene.maze->cols)});
   }
-  if (scene.clearance)
-    facts.push_back({"clearance", fmt::format("{}", *scene.clearance), json_number(*scene.clearance)});
-  if (scene.robot) facts.push_back({"robot", robot_text(*scene.robot), json_string(robot_text(*scene.robot))});
-  if (!scene.start.empty()) facts.push_back({"start", state_text(scene.start), state_json(scene.start)});
-  if (!scene.goal.empty()) facts.push_back({"goal", state_text(scene.goal), state_json(scene.goal)});
+  if (scene.clearance) facts.push_back(number_fact("clearance", *scene.clearance));
+  if (scene.robot) facts.push_back(text_fact("robot", robot_text(*scene.robot)));
+  if (!scene.start.empty()) facts.push_back(state_fact("start", scene.start));
+  if (!scene.goal.empty()) facts.push_back(state_fact("goal", scene.goal));
   if (scene.grid) {
     facts.push_back({"grid", fmt::format("cell {}, {} angles", scene.grid->cell, scene.grid->angles),
                      fmt::format("[{}, {}]", json_number(scene.grid->cell), scene.grid->angles)});

@@ -3,14 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
 #include "core/base/error.hpp"
-#include "scenes/text/output_file_io.hpp"
 #include "solve/question/planner_choice.hpp"
-#include "solve/question/question.hpp"
 #include "studies/sizes/largest_maze.hpp"
 #include "studies/sizes/largest_report.hpp"
 #include "tools/screen/exit_code.hpp"
@@ -18,7 +15,10 @@
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/terminal.hpp"
 #include "tools/words/command.hpp"
+#include "tools/words/maze_words.hpp"
 #include "tools/words/option_values.hpp"
+#include "tools/words/planner_words.hpp"
+#include "tools/words/question_words.hpp"
 
 namespace warren {
 namespace {
@@ -40,14 +40,9 @@ constexpr OptionSpec search_specs[] = {
 };
 
 /// "5" or "5%".
-double step_value(std::string text) {
-  if (text.ends_with('%')) text.pop_back();
-  return number_value("--step", text, 0.01, 100.0) / 100.0;
-}
-
-std::uint32_t side_value(const Arguments& arguments, std::string_view option, double most, double usual) {
-  const auto text = arguments.value(option);
-  return static_cast<std::uint32_t>(text ? count_value(option, *text, 1, static_cast<std::uint64_t>(most)) : usual);
+double share_value(std::string_view option, std::string_view text) {
+  if (text.ends_with('%')) text.remove_suffix(1);
+  return number_value(option, text, 0.01, 100.0) / 100.0;
 }
 
 SizeSearch size_search(const Arguments& arguments, double shape_rows, double shape_cols) {
@@ -56,49 +51,42 @@ SizeSearch size_search(const Arguments& arguments, double shape_rows, double sha
   // Rounding the rows and columns of a shape may add half a row: stay a little under the limit.
   const double limit = std::floor(std::sqrt(most_cells) - 1.0 - lean);
   if (limit < 1.0) throw UsageError("--rows, --cols: too far apart for any maze");
-  search.most = side_value(arguments, "--max-size", limit, limit);
+  const auto largest_side = static_cast<std::uint32_t>(limit);
+  search.most = given_count(arguments, "--max-size", 1, largest_side).value_or(largest_side);
   search.least = static_cast<std::uint32_t>(std::min(std::ceil(lean), limit));
   if (search.most < search.least) {
     throw UsageError(
         fmt::format("--max-size: with these --rows and --cols at least {} (found: {})", search.least, search.most));
   }
-  search.start = side_value(arguments, "--start-size", limit, std::clamp(128U, search.least, search.most));
+  search.start =
+      given_count(arguments, "--start-size", 1, largest_side).value_or(std::clamp(128U, search.least, search.most));
   if (search.start < search.least || search.start > search.most) {
     throw UsageError(fmt::format("--start-size: expected {} to {}, as --max-size and the shape say (found: {})",
                                  search.least, search.most, search.start));
   }
-  if (const auto step = arguments.value("--step")) search.step = step_value(*step);
+  search.step = given_value(arguments, "--step", share_value).value_or(search.step);
   return search;
 }
 
 LargestOptions largest_options(const Arguments& arguments) {
   constexpr double most_shape = 1e6;
   constexpr std::uint64_t most_seeds = 1000;
+  constexpr std::uint64_t last_seed = std::numeric_limits<std::uint64_t>::max() - most_seeds;
   const auto shape = [&](std::string_view option) {
-    const auto text = arguments.value(option);
-    return text ? number_value(option, *text, 1.0 / most_shape, most_shape) : 1.0;
+    return given_value(arguments, option, number_value, 1.0 / most_shape, most_shape).value_or(1.0);
   };
   LargestOptions options;
-  const auto budget = arguments.value("--budget");
-  options.budget_s = budget ? duration_value("--budget", *budget) : default_budget_s;
+  options.budget_s = given_value(arguments, "--budget", duration_value).value_or(default_budget_s);
   options.shape_rows = shape("--rows");
   options.shape_cols = shape("--cols");
   options.sizes = size_search(arguments, options.shape_rows, options.shape_cols);
-  options.maze = trial_maze(arguments);
-  if (const auto seeds = arguments.value("--seeds")) options.seeds = count_value("--seeds", *seeds, 1, most_seeds);
-  if (const auto seed = arguments.value("--seed")) {
-    options.maze.seed = count_value("--seed", *seed, 0, std::numeric_limits<std::uint64_t>::max() - most_seeds);
-  }
+  options.maze = maze_words(arguments);
+  options.seeds = given_value(arguments, "--seeds", count_value, std::uint64_t{1}, most_seeds).value_or(options.seeds);
+  options.maze.seed = given_value(arguments, "--seed", count_value, std::uint64_t{0}, last_seed).value_or(1);
+  options.planner = roadmap_words(arguments);
+  check_planner_options(options.planner);
+  options.question = question_words(arguments);
   return options;
-}
-
-void check_report_files(const Arguments& arguments) {
-  for (const char* option : {"--json", "--svg", "--trace"}) {
-    const auto file = arguments.value(option);
-    if (!file) continue;
-    check_writable(*file);
-  }
-  check_picture_ending("--svg", arguments.value("--svg").value_or(""), ".svg");
 }
 
 int exit_code(const LargestResult& result) {
@@ -113,37 +101,26 @@ int exit_code(const LargestResult& result) {
 
 int largest(const Arguments& arguments) {
   const LargestOptions options = largest_options(arguments);
-  check_planner_options(arguments);
-  problem_options(arguments);  // refuses impossible values now, not after a maze was made
-  check_report_files(arguments);
+  const bool standard_output_taken = check_reports(arguments, {"--json", "--svg"});
+  check_picture_ending("--svg", arguments.value("--svg").value_or(""), ".svg");
   Run run(arguments, RunScope::each_run);
-  Execution execution = run.execution();
-  if (const auto threads = arguments.value("--threads")) execution.threads = threads_value(*threads);
-  const LargestResult result = find_largest(options, arguments, run, execution);
+  const LargestResult result = find_largest(options, run.execution(), [&](std::string_view line) { run.note(line); });
   run.end();
-  const std::string json = arguments.value("--json").value_or("");
-  const std::string svg = arguments.value("--svg").value_or("");
-  if (!json.empty()) write_file(json, largest_json(options, result), Execution{});
-  if (!svg.empty()) write_file(svg, largest_plot(options, result), Execution{});
-  if (!run.quiet() && json != "-" && svg != "-") {
-    print_text(largest_summary(options, result, run.palette()));
-  } else if (result.signal) {
-    say_stopped(*result.signal);
-  }
+  write_report(arguments, "--json", [&] { return largest_json(options, result); });
+  write_report(arguments, "--svg", [&] { return largest_plot(options, result); });
+  run.conclude(standard_output_taken, result.signal, [&] { return largest_summary(options, result, run.palette()); });
   return exit_code(result);
 }
 
 }  // namespace
 
 Command largest_command() {
-  constexpr std::array<std::string_view, 1> own{"--seed"};
   Command command{"largest", "", "find the largest maze that is solved within a budget", {}, largest};
   add_options(command.options, search_specs);
-  add_options(command.options, trial_maze_specs());
-  add_options(command.options, trial_solve_specs(own));
-  for (const OptionSpec& option : run_option_specs()) {
-    if (option.name != "--budget") command.options.push_back(option);
-  }
+  add_options(command.options, maze_option_specs());
+  add_options(command.options, roadmap_option_specs(), {"--seed"});
+  add_options(command.options, question_option_specs(), {"--start", "--goal"});
+  add_options(command.options, run_option_specs(), {"--budget"});
   return command;
 }
 

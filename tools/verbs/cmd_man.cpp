@@ -5,12 +5,13 @@
 
 #include <cstdlib>
 #include <ctime>
-#include <optional>
+#include <span>
+#include <utility>
 
-#include "core/base/error.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/terminal.hpp"
 #include "tools/words/command.hpp"
+#include "tools/words/help.hpp"
 
 namespace warren {
 namespace {
@@ -37,16 +38,16 @@ std::string page_date() {
   return fmt::format("{:%Y-%m-%d}", fmt::gmtime(when));
 }
 
-void add_command(std::string& page, const Command& command) {
-  page += fmt::format(".SS warren {} {}\n{}.\n", command.name, escaped(command.operands), escaped(command.summary));
-  for (const OptionSpec& option : command.options) {
-    const std::string short_name =
-        option.short_name.empty() ? "" : fmt::format("\\fB{}\\fR, ", escaped(option.short_name));
-    page += fmt::format(".TP\n{}\\fB{}\\fR{}\n{}", short_name, escaped(option.name),
-                        option.value.empty() ? "" : fmt::format(" \\fI{}\\fR", escaped(option.value)),
-                        escaped(option.help));
-    page += option.choices.empty() ? ".\n" : fmt::format(".\nOne of: {}.\n", escaped(option.choices));
-  }
+std::string command_section(const Command& command) {
+  return fmt::format(".SS warren {} {}\n{}.\n", command.name, escaped(command.operands), escaped(command.summary));
+}
+
+std::string option_section(const Command&, const OptionSpec& option) {
+  const std::string_view name = option.short_name;
+  return fmt::format(
+      ".TP\n{}\\fB{}\\fR{}\n{}.\n{}", name.empty() ? "" : fmt::format("\\fB{}\\fR, ", escaped(name)),
+      escaped(option.name), option.value.empty() ? "" : fmt::format(" \\fI{}\\fR", escaped(option.value)),
+      escaped(option.help), option.choices.empty() ? "" : fmt::format("One of: {}.\n", escaped(option.choices)));
 }
 
 constexpr std::string_view description = R"(.SH DESCRIPTION
@@ -58,45 +59,30 @@ Results are the same for any number of threads.
 \fBmaze:\fIROWS\fBx\fICOLS\fR[\fB,seed=\fIN\fR][\fB,algorithm=\fINAME\fR][\fB,loops=\fIF\fR].
 )";
 
-constexpr std::string_view tail = R"(.SH EXIT STATUS
-.TP
-\fB0\fR
-success; for solve, a path that was verified.
-.TP
-\fB1\fR
-no path (the status says which kind), or verify refutes the answer.
-.TP
-\fB2\fR
-usage.
-.TP
-\fB65\fR
-bad data in an input file.
-.TP
-\fB66\fR
-an input can't be read.
-.TP
-\fB70\fR
-internal error: please report it.
-.TP
-\fB73\fR
-an output can't be written.
-.TP
-\fB124\fR
-the time or memory budget ran out.
-.TP
-\fB129, 130, 143\fR
-SIGHUP, SIGINT, SIGTERM.
-.SH ENVIRONMENT
-.TP
-\fBNO_COLOR\fR, \fBCLICOLOR_FORCE\fR, \fBFORCE_COLOR\fR, \fBTERM\fR
-Whether output is coloured; \fB\-\-color\fR wins.
-.TP
-\fBCOLUMNS\fR
-Width of the progress bar's line.
-.TP
-\fBSOURCE_DATE_EPOCH\fR
-Date of the manual page that \fBwarren man\fR prints.
-.SH FILES
+/// What a paragraph tells, and its text.
+constexpr std::pair<std::string_view, std::string_view> exit_codes[] = {
+    {"0", "success; for solve, a path that was verified."},
+    {"1", "no path (the status says which kind), or verify refutes the answer."},
+    {"2", "usage."},
+    {"65", "bad data in an input file."},
+    {"66", "an input can't be read."},
+    {"70", "internal error: please report it."},
+    {"73", "an output can't be written."},
+    {"124", "the time or memory budget ran out."},
+    {"129, 130, 143", "SIGHUP, SIGINT, SIGTERM."}};
+constexpr std::pair<std::string_view, std::string_view> variables[] = {
+    {"NO_COLOR\\fR, \\fBCLICOLOR_FORCE\\fR, \\fBFORCE_COLOR\\fR, \\fBTERM",
+     "Whether output is coloured; \\fB\\-\\-color\\fR wins."},
+    {"COLUMNS", "Width of the progress bar's line."},
+    {"SOURCE_DATE_EPOCH", "Date of the manual page that \\fBwarren man\\fR prints."}};
+
+std::string paragraphs(std::span<const std::pair<std::string_view, std::string_view>> all) {
+  std::string text;
+  for (const auto& [head, body] : all) text += fmt::format(".TP\n\\fB{}\\fR\n{}\n", head, body);
+  return text;
+}
+
+constexpr std::string_view tail = R"(.SH FILES
 Scenes are text, one item a line: \fIX1 Y1 X2 Y2\fR is a wall, further lines start with a word such as \fBstart\fR,
 \fBgoal\fR, \fBclearance\fR, \fBmaze\fR, \fBbounds\fR or \fBrobot\fR. See file_formats.md in the documentation.
 .SH EXAMPLES
@@ -113,13 +99,12 @@ warren verify maze:41x41 maze.json
 int man(const Arguments&) {
   std::string page = fmt::format(".TH WARREN 1 {} \"warren {}\" \"User Commands\"\n", page_date(), WARREN_VERSION);
   page += ".SH NAME\nwarren \\- motion planning by roadmaps\n.SH SYNOPSIS\n";
-  for (const Command& command : command_table()) {
-    page += fmt::format(".B warren {}\n.I {}\n[options]\n.br\n", command.name, escaped(command.operands));
-  }
-  page += description;
-  page += ".SH OPTIONS\n";
-  for (const Command& command : command_table()) add_command(page, command);
-  page += tail;
+  page += text_of_commands([](const Command& c) {
+    return fmt::format(".B warren {}\n.I {}\n[options]\n.br\n", c.name, escaped(c.operands));
+  });
+  page.append(description).append(".SH OPTIONS\n").append(text_of_commands(command_section, option_section));
+  page.append(".SH EXIT STATUS\n").append(paragraphs(exit_codes));
+  page.append(".SH ENVIRONMENT\n").append(paragraphs(variables)).append(tail);
   print_text(page);
   return exit_code::success;
 }

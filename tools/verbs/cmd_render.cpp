@@ -3,14 +3,10 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
-#include "pictures/curve_drawing.hpp"
-#include "pictures/draw_arm.hpp"
-#include "pictures/draw_cells.hpp"
-#include "pictures/draw_sweep.hpp"
-#include "pictures/picture.hpp"
+#include "pictures/draw_answer.hpp"
+#include "solve/answer/read_answer_io.hpp"
+#include "solve/answer/world_account.hpp"
 #include "solve/question/plannable.hpp"
-#include "solve/question/question.hpp"
-#include "solve/question/read_answer_io.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_conflicts.hpp"
 #include "tools/screen/output_names.hpp"
@@ -29,12 +25,6 @@ constexpr OptionSpec render_specs[] = {
     {"--animate", "", "with --answer: the body moves along the path (.svg and .html)"},
 };
 
-std::optional<Vec2> point_of(const std::vector<double>& answer, const std::vector<double>& scene) {
-  const std::vector<double>& state = answer.empty() ? scene : answer;
-  if (state.size() < 2) return std::nullopt;
-  return Vec2{state[0], state[1]};
-}
-
 std::string picture_file(const Arguments& arguments) {
   const auto file = arguments.value("--output");
   if (!file) throw UsageError("-o FILE is missing");
@@ -44,27 +34,6 @@ std::string picture_file(const Arguments& arguments) {
   }
   check_writable(*file);
   return *file;
-}
-
-/// The body of an answer, for --animate. A point is shown as a small disc.
-MovingBody moving_body(const RobotSpec& robot, const RecordedAnswer& answer, std::span<const double> turns) {
-  constexpr double point_share = 1.0 / 120.0;
-  MovingBody body{.outline = robot.outline, .radius = robot.radius, .heads = robot.kind == RobotKind::car};
-  if (answer.state_width() == 3) {
-    body.poses = poses_of(answer.states);
-  } else if (answer.state_width() == 2) {
-    for (const Vec2 p : answer.path) body.poses.push_back({p.x, p.y, 0.0});
-  } else {
-    throw UsageError("--animate: draws bodies of the plane, not an arm");
-  }
-  const std::vector<double> straight(body.poses.size(), 0.0);
-  body.lengths = leg_lengths(body.poses, turns.empty() ? straight : turns);
-  if (body.outline.empty() && body.radius == 0.0) {
-    Box box;
-    for (const Vec2 p : answer.path) box.include(p);
-    body.radius = point_share * std::max(box.width(), box.height());
-  }
-  return body;
 }
 
 void check_animation(const Arguments& arguments, const std::string& file) {
@@ -85,45 +54,24 @@ int render(const Arguments& arguments) {
   RecordedAnswer answer;
   if (answer_file) answer = read_answer(*answer_file, run.execution());
   Scene scene = load_world(arguments.operand(0), arguments, run.execution(), seconds);
+  check_not_written(arguments, answer.problem.robot);
   if (answer_file) check_plannable(scene, answer.problem);
   add_map_walls(scene, run.execution());
   if (answer_file) check_same_world(answer, *answer_file, scene, run.execution());
-  std::vector<PictureLayer> layers;
-  if (scene.map) layers.push_back(map_layer(*scene.map, run.execution()));
-  const RobotSpec robot = robot_of(scene, answer.problem);
-  check_not_written(arguments, robot.table);
-  if (robot.kind == RobotKind::polygon && answer.state_width() == 3) {
-    layers.push_back(sweep_of(poses_of(answer.states), robot.outline));
-  }
-  if (robot.kind == RobotKind::car && answer.state_width() == 3) {
-    layers.push_back(car_sweep(poses_of(answer.states), robot));
-  }
-  const std::vector<double> turns = path_turns(robot, answer.states);
-  std::optional<MovingBody> body;
-  if (arguments.has("--animate")) body = moving_body(robot, answer, turns);
-  std::optional<Scene> stage;  // views of an arm's world
-  if (is_arm(robot)) {
-    Drawing views = recorded_arm_drawing(scene, answer, run.execution());
-    stage = std::move(views.stage);
-    layers = std::move(views.layers);
-  }
-  const Picture picture{.scene = stage ? *stage : scene,
-                        .layers = layers,
-                        .path = stage ? std::span<const Vec2>() : std::span<const Vec2>(answer.path),
-                        .path_turns = turns,
-                        .start = stage ? std::nullopt : point_of(answer.problem.start, scene.start),
-                        .goal = stage ? std::nullopt : point_of(answer.problem.goal, scene.goal),
-                        .title = scene.source,
-                        .description = description_of(scene) + ": " + arguments.command_line(),
-                        .moving = body ? &*body : nullptr};
+  Drawing drawing = drawing_of(scene, answer, run.execution());
+  if (arguments.has("--animate")) animate(drawing, robot_of(scene, answer.problem), answer);
+  Picture picture = picture_of(scene, drawing);
+  picture.title = scene.source;
+  picture.description = description_of(scene) + ": " + arguments.command_line();
   double draw_seconds = 0.0;
   {
     const StageTimer timer(run.execution(), "draw", draw_seconds);
     write_picture(file, picture, run.execution());
   }
   run.end();
-  if (!run.quiet() && file != "-")
+  if (!run.quiet() && file != "-") {
     print_text(fmt::format("{}: {}\n", run.palette().strong(file), description_of(scene)));
+  }
   return exit_code::success;
 }
 

@@ -5,23 +5,25 @@
 #include <filesystem>
 #include <new>
 #include <optional>
+#include <utility>
 
 #include "core/base/error.hpp"
-#include "pictures/curve_drawing.hpp"
-#include "pictures/draw_cells.hpp"
-#include "pictures/picture.hpp"
+#include "pictures/draw_answer.hpp"
 #include "scenes/text/output_file_io.hpp"
-#include "solve/question/kind_of_problem.hpp"
-#include "solve/question/question.hpp"
-#include "solve/question/solve_steps.hpp"
-#include "solve/question/write_answer_io.hpp"
+#include "solve/answer/write_answer_io.hpp"
+#include "solve/solve.hpp"
+#include "solve/steps/kind_of_problem.hpp"
+#include "solve/steps/solve_steps.hpp"
 #include "tools/screen/answer_summary.hpp"
 #include "tools/screen/exit_code.hpp"
+#include "tools/screen/output_conflicts.hpp"
 #include "tools/screen/output_names.hpp"
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/terminal.hpp"
 #include "tools/screen/world_files.hpp"
 #include "tools/words/command.hpp"
+#include "tools/words/planner_words.hpp"
+#include "tools/words/question_words.hpp"
 #include "worlds/rasters/map_borders.hpp"
 
 namespace warren {
@@ -47,8 +49,10 @@ class SolveCommand {
       : arguments_(arguments),
         json_(output_file(arguments, "--json").value_or("")),
         svg_(output_file(arguments, "--svg").value_or("")),
-        problem_(problem_options(arguments)) {
-    check_solver_options(arguments);
+        question_(question_words(arguments)),
+        options_(solve_words(arguments)) {
+    check_not_written(arguments, question_.robot);
+    check_solver_options(options_);
     check_picture_ending("--svg", svg_, ".svg .png .html");
   }
 
@@ -57,21 +61,14 @@ class SolveCommand {
     answer(run);
     run.end();
     write_outputs(run);
-    if (!run.quiet() && !takes_standard_output()) {
-      print_text(fmt::format("{}", summary_of(answer_, run.palette(), written_)));
-    } else if (answer_.outcome == Outcome::stopped) {
-      say_stopped(stop_reason());
-    }
+    const auto stopped = answer_.outcome == Outcome::stopped ? std::optional(stop_reason()) : std::nullopt;
+    run.conclude(takes_standard_output(), stopped, [&] { return summary_of(answer_, run.palette(), written_); });
     return exit_code();
   }
 
  private:
   bool takes_standard_output() const;
   void answer(const Run& run);
-  void solve(const Run& run);
-  SolveRequest request(const Execution& execution) {
-    return {arguments_, scene_, problem_, solver_->planner, execution, svg_.empty() ? nullptr : &drawing_};
-  }
   void write_outputs(const Run& run);
   void write_finished(const Execution& execution);
   void write_stopped(const Execution& execution);
@@ -84,10 +81,10 @@ class SolveCommand {
   const Arguments& arguments_;
   std::string json_;
   std::string svg_;
-  ProblemOptions problem_;
+  Question question_;
+  SolveOptions options_;
   Scene scene_;
-  std::optional<ChosenSolver> solver_;
-  Drawing drawing_;
+  ByProducts by_products_;
   Answer answer_;
   std::vector<std::string> written_;
   bool json_said_ = false;  ///< some of it is where it can't be taken back
@@ -101,7 +98,7 @@ void SolveCommand::answer(const Run& run) {
   StageTimes before;
   try {
     scene_ = load_world(arguments_.operand(0), arguments_, run.execution(), before);
-    solve(run);
+    answer_ = solve_within(scene_, question_, options_, run.execution(), svg_.empty() ? nullptr : &by_products_);
   } catch (const Stopped& stopped) {
     answer_.stop_reason = stopped.reason;
   } catch (const std::bad_alloc&) {
@@ -112,17 +109,6 @@ void SolveCommand::answer(const Run& run) {
   answer_.seconds.generate = before.generate;
   answer_.threads = run.threads();
   answer_.peak_memory_bytes = peak_resident_bytes();
-}
-
-void SolveCommand::solve(const Run& run) {
-  solver_ = choose_solver(arguments_, scene_, problem_);
-  WorldAccount world = account_of(scene_, run.execution());
-  const RobotKind body = robot_of(scene_, problem_).kind;
-  const bool by_cells = solver_->planner == PlannerKind::grid || solver_->planner == PlannerKind::voronoi;
-  const bool on_cells = by_cells || body == RobotKind::point || body == RobotKind::disc;
-  if (scene_.map && !on_cells) add_map_walls(scene_, run.execution());  // what the others plan among
-  answer_ = solver_->kind->solve(request(run.execution()));
-  answer_.world = std::move(world);
 }
 
 /// What is on disk says the same as the exit code: a stop while something is written makes it a stopped answer.
@@ -177,24 +163,13 @@ void SolveCommand::take_back_answer(StopReason reason) {
 }
 
 void SolveCommand::draw(const Execution& execution) {
+  make_by_products(scene_, question_, options_, execution, by_products_);
   add_map_walls(scene_, execution);
-  if (solver_->kind->draw != nullptr) solver_->kind->draw(request(execution));
-  if (scene_.map) drawing_.layers.insert(drawing_.layers.begin(), map_layer(*scene_.map, execution));
-  const bool has_roadmap = is_roadmap_planner(solver_->planner) || !drawing_.roadmap.states.empty();
-  const StateList& states = answer_.refuted ? answer_.refuted->states : answer_.states;
-  const std::span<const Vec2> path = answer_.refuted ? answer_.refuted->path : answer_.path;
-  const std::vector<double> turns = path_turns(answer_.problem.robot, states);
-  const bool plane = !drawing_.stage;
-  const Picture picture{.scene = plane ? scene_ : *drawing_.stage,
-                        .roadmap = has_roadmap && plane ? &drawing_.roadmap : nullptr,
-                        .layers = drawing_.layers,
-                        .path = plane ? path : std::span<const Vec2>(),
-                        .path_turns = turns,
-                        .start = plane ? plane_point(answer_.problem.start) : std::nullopt,
-                        .goal = plane ? plane_point(answer_.problem.goal) : std::nullopt,
-                        .title = fmt::format("{}: {}", scene_.source, name_of(answer_.outcome)),
-                        .description = fmt::format("{}. {}, seed {}: {}", description_of(scene_), answer_.planner,
-                                                   answer_.seed, arguments_.command_line())};
+  const Drawing drawing = drawing_of(scene_, answer_, std::move(by_products_), execution);
+  Picture picture = picture_of(scene_, drawing);
+  picture.title = fmt::format("{}: {}", scene_.source, name_of(answer_.outcome));
+  picture.description = fmt::format("{}. {}, seed {}: {}", description_of(scene_), answer_.planner, answer_.seed,
+                                    arguments_.command_line());
   write_picture(svg_, picture, execution);
 }
 
@@ -207,8 +182,8 @@ int SolveCommand::exit_code() const {
 
 Command solve_command() {
   Command command{"solve", "WORLD", "find a path, verify it, print a summary", {}, {}};
-  add_options(command.options, solver_option_specs());
-  add_options(command.options, problem_option_specs());
+  add_options(command.options, solve_option_specs());
+  add_options(command.options, question_option_specs());
   add_options(command.options, world_option_specs());
   add_options(command.options, output_specs);
   add_options(command.options, run_option_specs());

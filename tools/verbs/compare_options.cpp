@@ -8,16 +8,15 @@
 #include <limits>
 
 #include "core/base/error.hpp"
-#include "solve/question/kind_of_problem.hpp"
-#include "solve/question/question.hpp"
+#include "solve/steps/kind_of_problem.hpp"
+#include "tools/screen/output_conflicts.hpp"
 #include "tools/words/option_values.hpp"
+#include "tools/words/planner_words.hpp"
+#include "tools/words/question_words.hpp"
 
 namespace warren {
 namespace {
 
-constexpr std::array<std::string_view, 4> search_words{"astar", "dijkstra", "bfs", "dfs"};
-constexpr std::array<std::string_view, 5> queue_words{"heap", "lazy-heap", "sorted-array", "resorted-array",
-                                                      "linear-scan"};
 constexpr std::array<std::string_view, 1> peer_words{"boost"};
 constexpr std::uint64_t most_runs = 1'000'000;
 constexpr std::uint64_t usual_seeds = 10;
@@ -47,44 +46,25 @@ constexpr OptionSpec own_specs[] = {
      "with --planners: draw each planner's path of median length, the body along it, and the layers of the grid"},
 };
 
-/// Of all planners of this version, blank-separated.
-std::string_view planner_names() { return solver_option_specs().front().choices; }
-
 /// Options of `solve` that are dealt out by lists, and the lists' names.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 4> lists{
-    {{"--search", "--searches"}, {"--queue", "--queues"}, {"--sampler", "--samplers"}, {"--samples", "--samples"}}};
-/// Options of `solve` that a graph, or the searches of it, would ignore.
-constexpr std::array<std::string_view, 3> not_of_graphs{"--optimise", "--pipeline", "--lazy"};
-
-template <std::size_t N>
-bool is_one_of(std::string_view name, const std::array<std::string_view, N>& names) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
+constexpr std::array<std::pair<std::string_view, std::string_view>, 3> lists{
+    {{"--search", "--searches"}, {"--queue", "--queues"}, {"--sampler", "--samplers"}}};
 
 /// The options of `solve` that compare takes as they are.
 std::vector<OptionSpec> passed_specs() {
-  std::vector<OptionSpec> specs = solver_option_specs();
-  add_options(specs, problem_option_specs());
-  std::erase_if(specs, [](const OptionSpec& spec) {
-    const auto is_list = [&](const auto& list) { return spec.name == list.second; };
-    return spec.name == "--planner" || spec.name == "--seed" || std::any_of(lists.begin(), lists.end(), is_list);
-  });
+  std::vector<OptionSpec> specs;
+  add_options(specs, solve_option_specs(), {"--planner", "--seed", "--samples"});
+  add_options(specs, question_option_specs());
   return specs;
 }
 
-std::vector<std::string> words_of(const Arguments& arguments, std::string_view option) {
-  const auto text = arguments.value(option);
-  return text ? list_value(option, *text) : std::vector<std::string>{};
-}
-
 std::uint64_t count_or(const Arguments& arguments, std::string_view option, std::uint64_t usual) {
-  const auto text = arguments.value(option);
-  return text ? count_value(option, *text, 1, most_runs) : usual;
+  return given_value(arguments, option, count_value, std::uint64_t{1}, most_runs).value_or(usual);
 }
 
 std::uint64_t first_seed(const Arguments& arguments) {
-  const auto text = arguments.value("--seed");
-  return text ? count_value("--seed", *text, 0, std::numeric_limits<std::uint64_t>::max() - most_runs) : 1;
+  constexpr std::uint64_t last = std::numeric_limits<std::uint64_t>::max() - most_runs;
+  return given_value(arguments, "--seed", count_value, std::uint64_t{0}, last).value_or(1);
 }
 
 /// Throws where one of these is given; `why` says what takes them.
@@ -94,31 +74,36 @@ void refuse(const Arguments& arguments, std::initializer_list<std::string_view> 
   }
 }
 
-/// What is passed on to a `solve`; lists[i] becomes its singular, --searches and --queues only where `with_searches`.
-PlannerDeal deal_of(const Arguments& arguments, bool with_searches) {
+/// What is passed on to a `solve`; searches and queues are dealt out only to planners.
+PlannerDeal deal_of(const Arguments& arguments, std::vector<PlannerKind> planners, bool with_searches) {
+  for (const auto& [option, list] : lists) {
+    if (arguments.has(list)) refuse(arguments, {option}, fmt::format("{} gives it, too", list));
+  }
   PlannerDeal deal;
-  for (const auto& [singular, list] : lists) {
-    if (singular != list && arguments.has(list)) refuse(arguments, {singular}, fmt::format("{} gives it, too", list));
+  deal.planners = std::move(planners);
+  deal.question = question_words(arguments);
+  check_not_written(arguments, deal.question.robot);
+  deal.common = solve_words(arguments.without({"--samples", "--seed"}));
+  if (with_searches) {
+    const auto read = [](std::string_view option, std::string_view word) { return search_value(option, word); };
+    deal.searches = given_values(arguments, "--searches", "--search", read);
+    deal.queues = given_values(arguments, "--queues", "--queue", choice_value<QueueKind>);
   }
-  for (const OptionSpec& spec : passed_specs()) {
-    if (const auto value = arguments.value(spec.name)) deal.common.emplace_back(spec.name, *value);
-  }
-  for (const auto& [singular, list] : lists) {
-    const bool of_searches = singular == "--search" || singular == "--queue";
-    if (!of_searches || with_searches) deal.lists.emplace_back(singular, words_of(arguments, list));
-  }
+  deal.samplers = given_values(arguments, "--samplers", "--sampler", choice_value<SamplerKind>);
+  deal.samples = given_values(arguments, "--samples", "--samples", samples_value);
   return deal;
 }
 
-PlannerContestOptions planner_options_of(const Arguments& arguments) {
+PlannerContestOptions contest_options(const Arguments& arguments) {
   refuse(arguments, {"--sizes", "--degree", "--peer", "--graph"},
          "compares searches, and --planners compares planners; give one of the two");
   if (arguments.has("--trials") && arguments.has("--seeds")) {
     throw UsageError("--trials: with --planners the same as --seeds; give one of the two");
   }
-  PlannerDeal deal = deal_of(arguments, true);
-  deal.planners = words_of(arguments, "--planners");
+  const auto planners = given_values(arguments, "--planners", "--planner", choice_value<PlannerKind>);
+  const PlannerDeal deal = deal_of(arguments, planners, true);
   PlannerContestOptions options;
+  options.question = deal.question;
   options.contenders = deal_planners(deal);
   options.pictures = arguments.value("--pictures").value_or("");
   options.first_seed = first_seed(arguments);
@@ -126,43 +111,33 @@ PlannerContestOptions planner_options_of(const Arguments& arguments) {
   return options;
 }
 
-std::vector<std::uint64_t> choices(const Arguments& arguments, std::string_view option,
-                                   std::span<const std::string_view> words, std::vector<std::uint64_t> usual) {
-  const std::vector<std::string> given = words_of(arguments, option);
-  if (given.empty()) return usual;
-  std::vector<std::uint64_t> chosen;
-  for (const std::string& word : given) chosen.push_back(choice_value(option, word, words));
-  return chosen;
+template <class E>
+std::vector<E> choices(const Arguments& arguments, std::string_view list, std::vector<E> usual) {
+  const std::vector<E> given = given_values(arguments, list, list, choice_value<E>);
+  return given.empty() ? usual : given;
 }
 
 std::vector<SearchVariant> variants_of(const Arguments& arguments) {
-  const auto searches = choices(arguments, "--searches", search_words, {2, 3, 1, 0});
-  const auto queues = choices(arguments, "--queues", queue_words, {0, 1, 2, 3, 4});
+  const auto searches = choices<SearchKind>(
+      arguments, "--searches", {SearchKind::bfs, SearchKind::dfs, SearchKind::dijkstra, SearchKind::astar});
+  const auto queues = choices<QueuePolicy>(arguments, "--queues",
+                                           {QueuePolicy::heap, QueuePolicy::lazy_heap, QueuePolicy::sorted_array,
+                                            QueuePolicy::resorted_array, QueuePolicy::linear_scan});
   const auto peer = arguments.value("--peer");
   if (peer) choice_value("--peer", *peer, peer_words);
   std::vector<SearchVariant> variants;
   bool any_queue = false;
-  for (const std::uint64_t search : searches) {
-    const auto kind = static_cast<SearchKind>(search);
-    any_queue = any_queue || has_queue(kind);
-    if (!has_queue(kind)) variants.push_back({kind, std::nullopt, SearchLibrary::warren});
-    for (const std::uint64_t queue : queues) {
-      if (has_queue(kind)) variants.push_back({kind, static_cast<QueuePolicy>(queue), SearchLibrary::warren});
+  for (const SearchKind search : searches) {
+    any_queue = any_queue || has_queue(search);
+    if (!has_queue(search)) variants.push_back({search, std::nullopt, SearchLibrary::warren});
+    for (const QueuePolicy queue : queues) {
+      if (has_queue(search)) variants.push_back({search, queue, SearchLibrary::warren});
     }
-    if (peer) variants.push_back({kind, std::nullopt, SearchLibrary::boost});
+    if (peer) variants.push_back({search, std::nullopt, SearchLibrary::boost});
   }
   if (!any_queue) refuse(arguments, {"--queues"}, "bfs and dfs have no priority queue; astar and dijkstra take one");
   if (peer && !has_boost_graph()) graph_search({}, {SearchKind::bfs, std::nullopt, SearchLibrary::boost});  // says so
   return variants;
-}
-
-SearchContestOptions search_options(const Arguments& arguments) {
-  SearchContestOptions options;
-  options.variants = variants_of(arguments);
-  if (const auto trials = arguments.value("--trials")) {
-    options.trials = auto_or_count_value("--trials", *trials, 1, most_runs);
-  }
-  return options;
 }
 
 std::optional<SizeSweepOptions> sweep_options(const Arguments& arguments) {
@@ -174,11 +149,11 @@ std::optional<SizeSweepOptions> sweep_options(const Arguments& arguments) {
     return std::nullopt;
   }
   SizeSweepOptions options;
-  for (const std::string& word : words_of(arguments, "--sizes")) {
-    options.sizes.push_back(static_cast<std::uint32_t>(count_value("--sizes", word, 2, most_size)));
-  }
+  options.sizes = given_values(arguments, "--sizes", "--sizes", [](std::string_view option, std::string_view word) {
+    return static_cast<std::uint32_t>(count_value(option, word, 2, most_size));
+  });
   std::sort(options.sizes.begin(), options.sizes.end());
-  if (const auto text = arguments.value("--degree")) options.degree = number_value("--degree", *text, 0.1, most_degree);
+  options.degree = given_value(arguments, "--degree", number_value, 0.1, most_degree).value_or(options.degree);
   options.seeds = count_or(arguments, "--seeds", usual_graphs);
   options.first_seed = first_seed(arguments);
   return options;
@@ -191,35 +166,19 @@ void refuse_world_options(const Arguments& arguments) {
   refuse(arguments, {"--graph", "--samplers", "--samples", "--map-rules"}, why);
 }
 
-std::vector<std::string_view> blank_separated(std::string_view text) {
-  std::vector<std::string_view> words;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find(' ', at), text.size());
-    words.push_back(text.substr(at, end - at));
-    at = end + 1;
-  }
-  return words;
-}
-
 /// Options of the world's graph; checked for the planners that may make it, so far as that needs no world.
 void take_graph_options(const Arguments& arguments, CompareOptions& options) {
-  for (const std::string_view option : not_of_graphs) {
-    refuse(arguments, {option}, "changes no graph; --planners compares planners with it");
-  }
+  refuse(arguments, {"--optimise", "--pipeline", "--lazy"}, "changes no graph; --planners compares planners with it");
   refuse(arguments, {"--search"}, "searches are compared; say --searches");
   refuse(arguments, {"--queue"}, "queues are compared; say --queues");
-  std::vector<std::string_view> words = blank_separated(planner_names());
-  if (const auto graph = arguments.value("--graph")) {
-    options.graph = words[choice_value("--graph", *graph, words)];
-    words = {options.graph};
-  }
-  options.graph_deal = deal_of(arguments, false);
-  for (const auto& [option, values] : options.graph_deal.lists) {
-    if (values.size() > 1) throw UsageError(fmt::format("{}: searches run on one graph; give one value", option));
-  }
-  options.graph_deal.planners.assign(words.begin(), words.end());
-  if (const auto seed = arguments.value("--seed")) options.graph_deal.common.emplace_back("--seed", *seed);
-  deal_planners(options.graph_deal);
+  options.graph = given_choice<PlannerKind>(arguments, "--graph");
+  PlannerDeal& deal = options.graph_deal;
+  deal = deal_of(arguments, options.graph ? std::vector{*options.graph} : planners_there_are(), false);
+  constexpr std::string_view one = "{}: searches run on one graph; give one value";
+  if (deal.samplers.size() > 1) throw UsageError(fmt::format(one, "--sampler"));
+  if (deal.samples.size() > 1) throw UsageError(fmt::format(one, "--samples"));
+  deal.common.seed = first_seed(arguments);
+  deal_planners(deal);
 }
 
 }  // namespace
@@ -239,15 +198,16 @@ CompareOptions compare_options(const Arguments& arguments) {
   if (!options.world && (arguments.has("--planners") || !arguments.has("--sizes"))) {
     throw UsageError("WORLD is missing; only --sizes, on random graphs, needs none");
   }
-  if (const auto budget = arguments.value("--budget")) options.budget_s = duration_value("--budget", *budget);
+  options.budget_s = given_value(arguments, "--budget", duration_value).value_or(options.budget_s);
   first_seed(arguments);
   if (arguments.has("--planners")) {
-    options.planners = planner_options_of(arguments);
+    options.planners = contest_options(arguments);
     options.planners->budget_s = options.budget_s;
     return options;
   }
   refuse(arguments, {"--pictures"}, "draws the paths of --planners");
-  options.searches = search_options(arguments);
+  options.searches.variants = variants_of(arguments);
+  options.searches.trials = given_value(arguments, "--trials", auto_or_count_value, std::uint64_t{1}, most_runs);
   options.searches.budget_s = options.budget_s;
   options.sweep = sweep_options(arguments);
   if (options.sweep) options.sweep->contest = options.searches;

@@ -3,11 +3,13 @@
 // random graphs of many sizes, or on both. Options that the comparison asked for would ignore are refused.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "studies/compare/planner_contest.hpp"
+#include "studies/compare/planner_deal.hpp"
 #include "studies/compare/random_graph_sweep.hpp"
 #include "studies/compare/search_contest.hpp"
 #include "tools/words/arguments.hpp"
@@ -20,8 +22,8 @@ struct CompareOptions {
   std::optional<PlannerContestOptions> planners;  ///< planners are compared; else searches
   SearchContestOptions searches;
   std::optional<SizeSweepOptions> sweep;
-  std::string graph;       ///< the planner whose graph is searched; "": the world's usual one
-  PlannerDeal graph_deal;  ///< options of that planner; its planners are all that may make the graph
+  std::optional<PlannerKind> graph;  ///< the planner whose graph is searched; none: the world's usual one
+  PlannerDeal graph_deal;            ///< options of that planner; its planners are all that may make the graph
   double budget_s = std::numeric_limits<double>::infinity();  ///< of each run
 };
 

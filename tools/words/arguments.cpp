@@ -108,4 +108,12 @@ std::optional<std::string> Arguments::value(std::string_view option) const {
   return std::nullopt;
 }
 
+Arguments Arguments::without(std::initializer_list<std::string_view> options) const {
+  Arguments others = *this;
+  std::erase_if(others.options_, [&](const auto& given) {
+    return std::find(options.begin(), options.end(), given.first) != options.end();
+  });
+  return others;
+}
+
 }  // namespace warren

@@ -4,6 +4,7 @@
 // of forty lines instead of a library, since help, completions, manual page and suggestions need the table anyway.
 #pragma once
 
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,6 +25,8 @@ class Arguments {
   bool has(std::string_view option) const;
   /// What was given with the option: empty for a flag, and where a value that may be missing is.
   std::optional<std::string> value(std::string_view option) const;
+  /// These words, but for some options.
+  Arguments without(std::initializer_list<std::string_view> options) const;
   const std::string& operand(std::size_t i) const { return operands_[i]; }
   std::size_t operand_count() const { return operands_.size(); }  ///< fewer than the command's where some are optional
   /// The command line as it was given, for the pictures' descriptions.

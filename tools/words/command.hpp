@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <initializer_list>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -35,8 +36,9 @@ struct Command {
   std::vector<std::pair<std::string_view, std::string_view>> foreign = {};
 };
 
-/// Appends options that several verbs share.
-void add_options(std::vector<OptionSpec>& to, std::span<const OptionSpec> more);
+/// Appends options that several verbs share, but for those named.
+void add_options(std::vector<OptionSpec>& to, std::span<const OptionSpec> more,
+                 std::initializer_list<std::string_view> without = {});
 
 // The verbs, one a file cmd_NAME.cpp.
 Command bench_scen_command();

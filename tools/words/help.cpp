@@ -17,16 +17,18 @@ std::string left_column(const OptionSpec& option) {
 
 }  // namespace
 
-void add_options(std::vector<OptionSpec>& to, std::span<const OptionSpec> more) {
-  to.insert(to.end(), more.begin(), more.end());
+void add_options(std::vector<OptionSpec>& to, std::span<const OptionSpec> more,
+                 std::initializer_list<std::string_view> without) {
+  for (const OptionSpec& option : more) {
+    if (std::find(without.begin(), without.end(), option.name) == without.end()) to.push_back(option);
+  }
 }
 
 std::string program_help() {
-  std::string text = "warren: motion planning by roadmaps; every path that it prints was verified\n\nUsage:\n";
-  for (const Command& command : command_table()) {
-    text += fmt::format("  {:<44} {}\n", fmt::format("warren {} {}", command.name, command.operands), command.summary);
-  }
-  return text +
+  return "warren: motion planning by roadmaps; every path that it prints was verified\n\nUsage:\n" +
+         text_of_commands([](const Command& c) {
+           return fmt::format("  {:<44} {}\n", fmt::format("warren {} {}", c.name, c.operands), c.summary);
+         }) +
          "\nWORLD is a file, - for standard input, or maze:ROWSxCOLS[,seed=N][,algorithm=NAME][,loops=F].\n"
          "'warren COMMAND --help' lists a command's options. Example:\n\n"
          "  warren solve maze:41x41 --svg maze.svg --json maze.json\n\n"
@@ -44,6 +46,18 @@ std::string command_help(const Command& command) {
     if (!option.choices.empty()) text += fmt::format("  {:<{}}  one of: {}\n", "", width, option.choices);
   }
   return text + fmt::format("  {:<{}}  {}\n", "--help", width, "this text");
+}
+
+std::string text_of_commands(const std::function<std::string(const Command&)>& head,
+                             const std::function<std::string(const Command&, const OptionSpec&)>& line,
+                             std::string_view foot) {
+  std::string text;
+  for (const Command& command : command_table()) {
+    text += head(command);
+    for (const OptionSpec& option : command.options) text += line ? line(command, option) : "";
+    text += foot;
+  }
+  return text;
 }
 
 std::string version_text() {

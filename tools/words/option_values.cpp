@@ -32,6 +32,13 @@ std::optional<double> quantity_in(std::string_view text, std::span<const Unit> u
   return std::nullopt;
 }
 
+std::optional<std::uint64_t> count_in(std::string_view text, std::uint64_t low, std::uint64_t high) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool is_count = error == std::errc{} && end == text.data() + text.size();
+  return is_count && value >= low && value <= high ? std::optional(value) : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<double> number_in(std::string_view text) {
@@ -60,22 +67,16 @@ double positive_value(std::string_view option, std::string_view text) {
 }
 
 std::uint64_t count_value(std::string_view option, std::string_view text, std::uint64_t low, std::uint64_t high) {
-  std::uint64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || value < low || value > high) {
-    refuse(option, fmt::format("a whole number from {} to {}", low, high), text);
-  }
-  return value;
+  const auto value = count_in(text, low, high);
+  if (!value) refuse(option, fmt::format("a whole number from {} to {}", low, high), text);
+  return *value;
 }
 
 std::optional<std::uint64_t> auto_or_count_value(std::string_view option, std::string_view text, std::uint64_t low,
                                                  std::uint64_t high) {
   if (text == "auto") return std::nullopt;
-  std::uint64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || value < low || value > high) {
-    refuse(option, fmt::format("auto, or a whole number from {} to {}", low, high), text);
-  }
+  const auto value = count_in(text, low, high);
+  if (!value) refuse(option, fmt::format("auto, or a whole number from {} to {}", low, high), text);
   return value;
 }
 
@@ -132,6 +133,18 @@ std::size_t choice_value(std::string_view option, std::string_view text, std::sp
   }
   constexpr std::size_t typing_error = 3;
   throw UsageError(fmt::format("{}: '{}' is none of {}{}", option, text, list, suggestion(text, words, typing_error)));
+}
+
+std::optional<std::uint32_t> given_count(const Arguments& arguments, std::string_view option, std::uint32_t low,
+                                         std::uint32_t high) {
+  const auto text = arguments.value(option);
+  if (!text) return std::nullopt;
+  return static_cast<std::uint32_t>(count_value(option, *text, low, high));
+}
+
+std::vector<std::string> given_list(const Arguments& arguments, std::string_view option) {
+  const auto text = arguments.value(option);
+  return text ? list_value(option, *text) : std::vector<std::string>{};
 }
 
 }  // namespace warren

@@ -10,7 +10,9 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/enum_names.hpp"
 #include "core/base/types.hpp"
+#include "tools/words/arguments.hpp"
 
 namespace warren {
 
@@ -36,5 +38,36 @@ std::vector<double> state_value(std::string_view option, std::string_view text);
 std::vector<std::string> list_value(std::string_view option, std::string_view text);
 /// One of the words; a misspelt one is told the closest.
 std::size_t choice_value(std::string_view option, std::string_view text, std::span<const std::string_view> words);
+/// The enumerator of that name; a misspelt one is told the closest.
+template <NamedEnum E>
+E choice_value(std::string_view option, std::string_view text) {
+  const auto words = enum_names(E{});
+  return static_cast<E>(choice_value(option, text, words));
+}
+
+/// What `read`, one of the functions above, makes of an option's value; nothing where the option is not given.
+template <class Read, class... Limits>
+auto given_value(const Arguments& arguments, std::string_view option, const Read& read, Limits... limits) {
+  const auto text = arguments.value(option);
+  return text ? std::optional(read(option, *text, limits...)) : std::nullopt;
+}
+/// A whole number in [low, high], which 32 bits hold.
+std::optional<std::uint32_t> given_count(const Arguments& arguments, std::string_view option, std::uint32_t low,
+                                         std::uint32_t high);
+template <NamedEnum E>
+std::optional<E> given_choice(const Arguments& arguments, std::string_view option) {
+  const auto text = arguments.value(option);
+  return text ? std::optional(choice_value<E>(option, *text)) : std::nullopt;
+}
+/// The words of a list; none where the option is not given.
+std::vector<std::string> given_list(const Arguments& arguments, std::string_view option);
+
+/// What `read` makes of each word of a list; `option` is what errors name.
+template <class Read>
+auto given_values(const Arguments& arguments, std::string_view list, std::string_view option, const Read& read) {
+  std::vector<decltype(read(option, list))> values;
+  for (const std::string& word : given_list(arguments, list)) values.push_back(read(option, word));
+  return values;
+}
 
 }  // namespace warren

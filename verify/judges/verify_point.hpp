@@ -6,10 +6,13 @@
 // sample of them; a second pass only where no wall comes within some leg lengths of the path.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 
+#include "core/base/enum_names.hpp"
 #include "core/base/types.hpp"
 #include "parallel/execution.hpp"
 #include "scenes/scene/scene.hpp"
@@ -18,6 +21,7 @@
 namespace warren {
 
 enum class Contact : std::uint8_t { blocked, allowed };
+constexpr auto enum_names(Contact) { return std::array<std::string_view, 2>{"blocked", "allowed"}; }
 
 struct VerifyOptions {
   double clearance = 0.0;              ///< every point of the path stays at least so far from every wall; >= 0, finite

@@ -103,4 +103,50 @@ Box SteeringCurve::box() const noexcept {
   return box;
 }
 
+void append_joints(std::vector<Se2>& poses, const SteeringCurve& curve) {
+  constexpr double most_rad = 0.5 * std::numbers::pi * (1.0 + 1e-9);
+  double begin = 0.0;
+  for (std::size_t i = 0; i < curve.piece_count(); ++i) {
+    const SteeringPiece& piece = curve.piece(i);
+    const double parts =
+        piece.steer == Steer::straight ? 1.0 : std::max(1.0, std::ceil(std::abs(piece.length) / most_rad));
+    for (double part = 1.0; part < parts; part += 1.0) {
+      poses.push_back(curve.at(begin + curve.piece_length(i) * part / parts));
+    }
+    begin += curve.piece_length(i);
+    Se2 joint = curve.joint(i + 1);
+    if (i + 1 < curve.piece_count()) joint.theta = wrapped_angle(joint.theta);
+    poses.push_back(joint);
+  }
+}
+
+std::vector<double> leg_turns(std::span<const Se2> poses) {
+  std::vector<double> turns(poses.size(), 0.0);
+  for (std::size_t i = 1; i < poses.size(); ++i) turns[i] = turn_between(poses[i - 1].theta, poses[i].theta);
+  return turns;
+}
+
+std::vector<double> leg_lengths(std::span<const Se2> poses, std::span<const double> turns) {
+  std::vector<double> lengths(poses.size(), 0.0);
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    const double chord = distance(poses[i - 1].position(), poses[i].position());
+    const double half = 0.5 * turns[i];
+    lengths[i] = half == 0.0 ? chord : chord * half / std::sin(half);
+  }
+  return lengths;
+}
+
+Se2 pose_on_leg(const Se2& a, const Se2& b, double t) {
+  constexpr double no_turn = 1e-9;
+  if (t <= 0.0) return a;
+  if (t >= 1.0) return b;
+  const double turn = turn_between(a.theta, b.theta);
+  if (std::abs(turn) < no_turn) return interpolate(a, b, t);
+  // A part of an arc is a chord along the heading halfway, as the whole is.
+  const double share = std::sin(0.5 * t * turn) / std::sin(0.5 * turn);
+  const Rotation back(0.5 * (t - 1.0) * turn);
+  const Vec2 p = a.position() + share * back(b.position() - a.position());
+  return {p.x, p.y, wrapped_angle(a.theta + t * turn)};
+}
+
 }  // namespace warren

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "core/base/types.hpp"
 #include "core/plane/se2.hpp"
@@ -71,5 +72,18 @@ class SteeringCurve {
   double radius_;
   double length_ = 0.0;
 };
+
+/// Appends the poses at which the steering or the gear changes, and so many in longer arcs that none turns by more than
+/// a quarter; the curve's begin is there already.
+void append_joints(std::vector<Se2>& poses, const SteeringCurve& curve);
+
+/// The turn of the leg that ends at each pose, anticlockwise, at most a half turn; 0 at the first, and of a straight.
+std::vector<double> leg_turns(std::span<const Se2> poses);
+
+/// The length of the leg that ends at each pose, straight or an arc that turns so; 0 at the first.
+std::vector<double> leg_lengths(std::span<const Se2> poses, std::span<const double> turns);
+
+/// The pose at the share t of the leg from a to b, which is straight or an arc.
+Se2 pose_on_leg(const Se2& a, const Se2& b, double t);
 
 }  // namespace warren

@@ -8,6 +8,10 @@
 // projection, rounded up to cells; steps and turns between all free states. It is neither safe nor complete.
 #pragma once
 
+#include <array>
+#include <string_view>
+
+#include "core/base/enum_names.hpp"
 #include "core/plane/heading_layers.hpp"
 #include "parallel/execution.hpp"
 #include "scenes/scene/scene.hpp"
@@ -15,6 +19,7 @@
 namespace warren {
 
 enum class LayerKind : std::uint8_t { exact, report004 };
+constexpr auto enum_names(LayerKind) { return std::array<std::string_view, 2>{"exact", "report004"}; }
 
 struct LayerOptions {
   GridSpec grid;

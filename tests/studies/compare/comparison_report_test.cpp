@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "studies/measure/human_units.hpp"
+#include "scenes/text/human_units.hpp"
 #include "studies/measure/text_table.hpp"
 
 namespace warren {

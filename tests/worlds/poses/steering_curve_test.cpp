@@ -205,5 +205,30 @@ TEST(SteeringCurve, ExtremesOfScaleEndAtTheGoal) {
   EXPECT_NEAR(dubins({1, 2, 3}, {1, 2, 3 + 2 * pi}, 1.0), 0.0, 1e-12);
 }
 
+TEST(SteeringCurve, ItsJointsAreLegsThatTellTheCurveWholly) {
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    SCOPED_TRACE(i);
+    const Se2 a = random_pose(7, 2 * i);
+    const Se2 b = random_pose(7, 2 * i + 1);
+    constexpr double rho = 0.7;
+    const SteeringCurve curve(a, b, ReedsSheppCurve::shortest(a, b, rho), rho);
+    std::vector<Se2> poses{a};
+    append_joints(poses, curve);
+    EXPECT_EQ(poses.back(), b);
+    const std::vector<double> turns = leg_turns(poses);
+    const std::vector<double> lengths = leg_lengths(poses, turns);
+    double length = 0.0;
+    for (std::size_t leg = 1; leg < poses.size(); ++leg) {
+      EXPECT_LE(std::abs(turns[leg]), 0.5 * pi * (1.0 + 1e-8));
+      const Se2 middle = pose_on_leg(poses[leg - 1], poses[leg], 0.5);
+      const Se2 driven = curve.at(length + 0.5 * lengths[leg]);
+      EXPECT_NEAR(distance(middle.position(), driven.position()), 0.0, 1e-6);
+      EXPECT_NEAR(turn_between(middle.theta, driven.theta), 0.0, 1e-6);
+      length += lengths[leg];
+    }
+    EXPECT_NEAR(length, curve.length(), 1e-6);
+  }
+}
+
 }  // namespace
 }  // namespace warren

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pictures/draw_answer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "pictures/draw_arm.hpp"
+#include "pictures/draw_car.hpp"
+#include "pictures/draw_cells.hpp"
+#include "pictures/draw_sweep.hpp"
+#include "solve/question/question_of_arm.hpp"
+#include "solve/question/solve_options.hpp"
+#include "worlds/poses/steering_curve.hpp"
+#include "worlds/rasters/map_borders.hpp"
+
+namespace warren {
+namespace {
+
+PictureLayer layer_of(NamedLines lines) {
+  const bool is_wrong = lines.name == "wrong_edges";
+  const double width = is_wrong ? widths::path : lines.name == "medial_axis" ? widths::search_tree : widths::edge;
+  return {lines.name, is_wrong ? colors::wrong : colors::layer, width, std::move(lines.lines), lines.closed};
+}
+
+DrawingPage page_of(const HeadingCells& heading, const std::vector<PictureLayer>& ground, const Execution& execution) {
+  const std::string id = fmt::format("layer_{:.0f}", heading.heading_degrees);
+  const auto at = [&](Vec2 p) { return heading.origin + heading.cell * p; };
+  DrawingPage page{id, ground};
+  page.layers.push_back(cells_layer(id, heading.blocked, at, execution));
+  return page;
+}
+
+/// The body along its path, where it is one that turns.
+void add_sweep(Drawing& drawing, const RobotSpec& robot, const StateList& states) {
+  if (robot.kind == RobotKind::polygon && !states.empty()) {
+    drawing.layers.push_back(sweep_of(poses_of(states), robot.outline));
+  }
+  if (robot.kind == RobotKind::car) {
+    const std::vector<Se2> poses = poses_of(states);
+    drawing.layers.push_back(car_sweep(poses, robot));
+    drawing.path_turns = leg_turns(poses);
+  }
+}
+
+/// Takes what is drawn of roadmaps and trees.
+void add_roadmap(Drawing& drawing, const Answer& answer, ByProducts& made, const Execution& execution) {
+  const RobotSpec& robot = answer.problem.robot;
+  Roadmap<Vec2> roadmap;
+  if (robot.kind == RobotKind::car) {
+    CarCurves curves = car_curves(made.pose_roadmaps, robot, execution);
+    drawing.layers.push_back(std::move(curves.edges));
+    drawing.layers.push_back(std::move(curves.trees));
+    roadmap.graph = Graph::from_edges(curves.milestones.size(), {});
+    roadmap.states = std::move(curves.milestones);
+  } else if (!made.pose_roadmaps.empty()) {
+    roadmap = in_the_plane(made.pose_roadmaps, execution);
+  } else if (!made.trees.empty()) {
+    roadmap = in_the_plane(made.trees, execution);
+  } else {
+    roadmap = std::move(made.roadmap);
+  }
+  const auto planner = enum_named<PlannerKind>(answer.planner);
+  const bool is_shown = (planner && is_roadmap_planner(*planner)) || !roadmap.states.empty();
+  if (is_shown) drawing.roadmap = std::move(roadmap);
+}
+
+std::vector<PictureLayer> ground_of(const Scene& scene, const Execution& execution) {
+  std::vector<PictureLayer> ground;
+  if (scene.map) ground.push_back(map_layer(*scene.map, execution));
+  return ground;
+}
+
+/// Three views instead of the world.
+Drawing drawing_of_arm(const Scene& scene, const RobotSpec& robot, const JointState& start, const StateList& states,
+                       const Execution& execution) {
+  Path<JointState> path;
+  for (std::size_t i = 0; i < states.size(); ++i) path.push_back(joint_state(states[i]));
+  if (path.empty()) path.push_back(start);
+  ArmViews views = arm_views(scene, table_of(robot, execution), robot.radius, path);
+  return {.layers = std::move(views.layers), .stage = std::move(views.stage)};
+}
+
+const std::vector<double>& first_given(const std::vector<double>& state, const std::vector<double>& otherwise) {
+  return state.empty() ? otherwise : state;
+}
+
+}  // namespace
+
+Drawing drawing_of(const Scene& scene, const Answer& answer, ByProducts made, const Execution& execution) {
+  const Problem& problem = answer.problem;
+  const StateList& states = answer.refuted ? answer.refuted->states : answer.states;
+  if (is_arm(problem.robot)) {
+    return drawing_of_arm(scene, problem.robot, joint_state(problem.start), states, execution);
+  }
+  Drawing drawing{.layers = ground_of(scene, execution),
+                  .path = answer.refuted ? answer.refuted->path : answer.path,
+                  .start = plane_point(problem.start),
+                  .goal = plane_point(problem.goal)};
+  for (const HeadingCells& heading : made.headings) {
+    drawing.pages.push_back(page_of(heading, drawing.layers, execution));
+  }
+  for (NamedLines& lines : made.lines) drawing.layers.push_back(layer_of(std::move(lines)));
+  add_roadmap(drawing, answer, made, execution);
+  add_sweep(drawing, problem.robot, states);
+  return drawing;
+}
+
+Drawing drawing_of(const Scene& scene, const RecordedAnswer& answer, const Execution& execution) {
+  const RobotSpec robot = robot_of(scene, answer.problem);
+  const std::vector<double>& start = first_given(answer.problem.start, scene.start);
+  if (is_arm(robot)) {
+    if (!answer.path.empty()) check_state_width(answer, most_joints, "an arm");
+    return drawing_of_arm(scene, robot, joint_state(start), answer.states, execution);
+  }
+  Drawing drawing{.layers = ground_of(scene, execution),
+                  .path = answer.path,
+                  .start = plane_point(start),
+                  .goal = plane_point(first_given(answer.problem.goal, scene.goal))};
+  if (answer.state_width() == 3) add_sweep(drawing, robot, answer.states);
+  return drawing;
+}
+
+void animate(Drawing& drawing, const RobotSpec& robot, const RecordedAnswer& answer) {
+  constexpr double point_share = 1.0 / 120.0;
+  MovingBody body{.outline = robot.outline, .radius = robot.radius, .heads = robot.kind == RobotKind::car};
+  if (answer.state_width() == 3) {
+    body.poses = poses_of(answer.states);
+  } else if (answer.state_width() == 2) {
+    for (const Vec2 p : answer.path) body.poses.push_back({p.x, p.y, 0.0});
+  } else {
+    throw UsageError("@animate: draws bodies of the plane, not an arm");
+  }
+  const std::vector<double> straight(body.poses.size(), 0.0);
+  body.lengths = leg_lengths(body.poses, drawing.path_turns.empty() ? straight : drawing.path_turns);
+  if (body.outline.empty() && body.radius == 0.0) {
+    Box box;
+    for (const Vec2 p : answer.path) box.include(p);
+    body.radius = point_share * std::max(box.width(), box.height());
+  }
+  drawing.moving = std::move(body);
+}
+
+Picture picture_of(const Scene& scene, const Drawing& drawing) {
+  return {.scene = drawing.stage ? *drawing.stage : scene,
+          .roadmap = drawing.roadmap ? &*drawing.roadmap : nullptr,
+          .layers = drawing.layers,
+          .path = drawing.path,
+          .path_turns = drawing.path_turns,
+          .start = drawing.start,
+          .goal = drawing.goal,
+          .moving = drawing.moving ? &*drawing.moving : nullptr};
+}
+
+Picture picture_of(const Scene& scene, const Drawing& drawing, const DrawingPage& page) {
+  return {.scene = scene, .layers = page.layers, .start = drawing.start, .goal = drawing.goal};
+}
+
+void write_picture(const std::string& file, const Scene& scene, const Answer& answer, ByProducts made,
+                   const Execution& execution) {
+  std::optional<Scene> bordered;
+  if (scene.map && scene.walls.size() == 0) {
+    bordered = scene;
+    add_map_walls(*bordered, execution);
+  }
+  const Scene& shown = bordered ? *bordered : scene;
+  const Drawing drawing = drawing_of(shown, answer, std::move(made), execution);
+  Picture picture = picture_of(shown, drawing);
+  picture.title = fmt::format("{}: {}", scene.source, name_of(answer.outcome));
+  picture.description = fmt::format("{}. {}, seed {}", description_of(scene), answer.planner, answer.seed);
+  write_picture(file, picture, execution);
+}
+
+}  // namespace warren

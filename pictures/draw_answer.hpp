@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a picture shows of an answer: the path, the body along it, and what the planner made on its way. The only place
+// that knows by-products and pictures; `solve`, `render` and `compare` draw by it, and so can any program.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/path.hpp"
+#include "core/base/types.hpp"
+#include "parallel/execution.hpp"
+#include "pictures/picture.hpp"
+#include "pictures/svg_animation.hpp"
+#include "planners/roadmap/roadmap.hpp"
+#include "scenes/scene/scene.hpp"
+#include "solve/answer/answer.hpp"
+#include "solve/answer/by_products.hpp"
+#include "solve/answer/read_answer_io.hpp"
+
+namespace warren {
+
+/// A further picture of an answer: the same world with other layers, without roadmap and path.
+struct DrawingPage {
+  std::string id;
+  std::vector<PictureLayer> layers;
+};
+
+/// A world with an answer on it, ready to be drawn. Owns all but the scene.
+struct Drawing {
+  std::optional<Roadmap<Vec2>> roadmap = {};
+  std::vector<PictureLayer> layers = {};  ///< in the order in which they are drawn
+  std::vector<DrawingPage> pages = {};    ///< what deserves a picture of its own each
+  std::optional<Scene> stage = {};        ///< shown instead of the world: views of a world that is not plane
+  Path<Vec2> path = {};
+  std::vector<double> path_turns = {};  ///< as Picture::path_turns
+  std::optional<Vec2> start = {};
+  std::optional<Vec2> goal = {};
+  std::optional<MovingBody> moving = {};  ///< none unless animate() was asked for it
+};
+
+/// An answer, and what its planner made. A refuted path is drawn as any other. Throws Stopped; what it throws for a
+/// table of an arm, solving has thrown before.
+Drawing drawing_of(const Scene& scene, const Answer& answer, ByProducts made, const Execution& execution);
+
+/// The same of an answer that was read from a file: path and body. Throws InputError for states that are no arm's.
+Drawing drawing_of(const Scene& scene, const RecordedAnswer& answer, const Execution& execution);
+
+/// Lets the body move along the path, in pictures that can (SVG, HTML); a point is shown as a small disc. Throws
+/// UsageError for an arm.
+void animate(Drawing& drawing, const RobotSpec& robot, const RecordedAnswer& answer);
+
+/// Refers to both; of a map, the walls shown are those that add_map_walls() gave the scene. Title and description are
+/// left to the caller.
+Picture picture_of(const Scene& scene, const Drawing& drawing);
+Picture picture_of(const Scene& scene, const Drawing& drawing, const DrawingPage& page);
+
+/// The picture of an answer in one go, in the format that the file's ending says, with the borders of a map's cells.
+/// Throws WriteError, Stopped.
+void write_picture(const std::string& file, const Scene& scene, const Answer& answer, ByProducts made = {},
+                   const Execution& execution = {});
+
+}  // namespace warren

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scenes/text/json_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/printable.hpp"
+
+namespace warren {
+namespace {
+
+/// What JSON writes for a character below 0x20, and for those that end or begin something.
+void append_escaped(std::string& text, char c) {
+  switch (c) {
+    case '"':
+    case '\\':
+      text += '\\';
+      text += c;
+      return;
+    case '\b':
+      text += "\\b";
+      return;
+    case '\f':
+      text += "\\f";
+      return;
+    case '\n':
+      text += "\\n";
+      return;
+    case '\r':
+      text += "\\r";
+      return;
+    case '\t':
+      text += "\\t";
+      return;
+    default:
+      text += fmt::format("\\u{:04x}", static_cast<unsigned>(static_cast<unsigned char>(c)));
+  }
+}
+
+bool is_plain(char c) { return static_cast<unsigned char>(c) >= 0x20 && c != '"' && c != '\\'; }
+
+}  // namespace
+
+std::string json_string(std::string_view text) {
+  std::string json = "\"";
+  while (!text.empty()) {
+    const std::size_t bytes = utf8_bytes(text);
+    if (bytes == 0) {
+      json += "\xef\xbf\xbd";
+    } else if (bytes == 1 && !is_plain(text.front())) {
+      append_escaped(json, text.front());
+    } else {
+      json.append(text.substr(0, bytes));
+    }
+    text.remove_prefix(std::max<std::size_t>(1, bytes));
+  }
+  return json + "\"";
+}
+
+std::string json_number(double value) {
+  if (!std::isfinite(value)) return "null";
+  std::string text = fmt::format("{}", value);
+  if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  return text;
+}
+
+}  // namespace warren

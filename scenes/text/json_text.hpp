@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// JSON as text, piece by piece: values, and objects whose keys keep their order. Where memory is out, each call throws
+// and leaves nothing behind; a tree of values (nlohmann's) ends the program there.
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace warren {
+
+/// A text as a JSON string, quotes included; bytes that are not UTF-8 become U+FFFD.
+std::string json_string(std::string_view text);
+/// A finite number as JSON, "1.0" rather than "1"; null for others. It reads back as the same double.
+std::string json_number(double value);
+
+inline std::string json_of(std::same_as<bool> auto value) { return value ? "true" : "false"; }
+inline std::string json_of(double value) { return json_number(value); }
+inline std::string json_of(std::uint64_t value) { return std::to_string(value); }
+inline std::string json_of(std::uint32_t value) { return std::to_string(value); }
+inline std::string json_of(std::string_view text) { return json_string(text); }
+
+/// "[1.0,2.0]"
+template <class T>
+std::string json_list(std::span<const T> values) {
+  std::string text = "[";
+  for (const T& value : values) text.append(text.size() > 1 ? "," : "").append(json_of(value));
+  return text + "]";
+}
+
+/// An object as text. Keys are plain words, each added once.
+class JsonObject {
+ public:
+  /// `between` goes before each key but the first.
+  explicit JsonObject(std::string_view between = ",", std::string_view colon = ":")
+      : between_(between), colon_(colon) {}
+
+  /// value is JSON already.
+  void add_json(std::string_view name, std::string_view value) {
+    text_.append(text_.size() > 1 ? between_ : "").append("\"").append(name).append("\"").append(colon_).append(value);
+  }
+  template <class T>
+  void add(std::string_view name, const T& value) {
+    add_json(name, json_of(value));
+  }
+  /// null where there is none.
+  template <class T>
+  void add_or_null(std::string_view name, bool is_there, const T& value) {
+    add_json(name, is_there ? json_of(value) : "null");
+  }
+  /// With its closing brace.
+  std::string closed() const { return text_ + "}"; }
+  /// Without, for one who goes on.
+  const std::string& open() const { return text_; }
+
+ private:
+  std::string between_;
+  std::string colon_;
+  std::string text_ = "{";
+};
+
+}  // namespace warren

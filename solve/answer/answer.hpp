@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The account of one solve: the answer, what it means, and what it took. Plain data; write_answer_io.hpp writes it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/path.hpp"
+#include "core/base/solution.hpp"
+#include "parallel/deadline.hpp"
+#include "solve/answer/state_list.hpp"
+#include "solve/answer/world_account.hpp"
+#include "solve/question/figure.hpp"
+#include "solve/question/question.hpp"
+#include "verify/judges/verification.hpp"
+
+namespace warren {
+
+/// Size of a decomposition.
+struct CellCount {
+  std::uint64_t cells = 0;
+  std::uint64_t adjacencies = 0;
+};
+
+/// A path of a method that promises nothing, as its verification refuted it: what studies of such methods show.
+struct RefutedPath {
+  Violation violation;
+  double length = 0.0;
+  std::optional<double> cost;
+  Path<Vec2> path;
+  StateList states;
+};
+
+struct Answer {
+  Outcome outcome = Outcome::stopped;
+  std::optional<StopReason> stop_reason;  ///< only for stopped
+  bool verified = false;
+  std::optional<RefutedPath> refuted;  ///< the answer says nothing else of that path
+  double length = 0.0;                 ///< only where verified, as all that is said of the path
+  double min_clearance = 0.0;          ///< room around the body along the path
+  std::optional<double> raw_length;
+  bool optimal = false;            ///< proved: no shorter path exists
+  std::optional<double> cost;      ///< in the planner's own units, where that is not the length
+  std::optional<double> turn_rad;  ///< all turning along the path, of bodies that turn
+  Problem problem;
+  WorldAccount world;
+  std::string planner;
+  std::string pipeline;  ///< plain or tiled; only for prm
+  std::string sampler;   ///< empty: the planner has none
+  std::string search;    ///< empty: the planner has none
+  std::uint64_t seed = 1;
+  unsigned threads = 1;
+  std::vector<NamedFigure> options;  ///< those that were given, and those that were chosen where that tells something
+  RoadmapSize roadmap;
+  std::optional<CellCount> cells;
+  std::vector<NamedFigure> figures;       ///< the planner's own keys
+  std::vector<NamedFigure> path_figures;  ///< those that tell of the path
+  Separation separation;                  ///< only for not_connected
+  Counters counters;
+  StageTimes seconds;
+  double solve_s = 0.0;
+  std::size_t peak_memory_bytes = 0;
+  Path<Vec2> path;   ///< of the reference point in the plane, as pictures show it; a point's or disc's states
+  StateList states;  ///< start to goal, where a state is more than a point of the plane; else empty
+};
+
+/// Stages with the names that JSON and summary give them, in the order of the work.
+std::vector<std::pair<const char*, double>> named_stages(const StageTimes& seconds);
+
+}  // namespace warren

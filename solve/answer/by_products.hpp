@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a planner made on its way to the answer, for pictures and for those who look into a planner: asked for, since it
+// costs memory. Plain data; how it is drawn is pictures/'s.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/base/bitmap.hpp"
+#include "core/base/types.hpp"
+#include "core/plane/polygon.hpp"
+#include "core/plane/se2.hpp"
+#include "planners/roadmap/roadmap.hpp"
+
+namespace warren {
+
+/// Chains of points, or closed outlines: "cells" the doors between them, "medial_axis", "visibility", "wrong_edges",
+/// "blocked": the obstacles of the reference point at a fixed angle.
+struct NamedLines {
+  std::string name;
+  PolygonSet lines;
+  bool closed = false;
+};
+
+/// Cells where the body's reference point may not be, at one heading of a lattice.
+struct HeadingCells {
+  double heading_degrees = 0.0;
+  Bitmap blocked;
+  Vec2 origin;  ///< lower left corner of cell (0, 0)
+  double cell = 0.0;
+};
+
+struct ByProducts {
+  Roadmap<Vec2> roadmap;                    ///< of points and discs
+  std::vector<Roadmap<Vec2>> trees;         ///< of points and discs: the trees of each leg of a path
+  std::vector<Roadmap<Se2>> pose_roadmaps;  ///< of turning bodies and cars: the roadmap, or the trees of each leg
+  std::vector<NamedLines> lines;
+  std::vector<HeadingCells> headings;
+};
+
+}  // namespace warren

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An answer read back from JSON: ours or anybody's that has a "path". Strict JSON, read in one pass without a tree, so
+// a path of millions of points takes its own memory only.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/path.hpp"
+#include "core/base/types.hpp"
+#include "parallel/execution.hpp"
+#include "scenes/scene/scene.hpp"
+#include "scenes/text/input_file_io.hpp"
+#include "solve/answer/state_list.hpp"
+#include "solve/question/question.hpp"
+
+namespace warren {
+
+struct RecordedAnswer {
+  Question problem;  ///< what the answer says of the problem
+  std::optional<std::string> world_hash;
+  std::optional<double> length;
+  std::string file;  ///< where it stands, for messages
+  Path<Vec2> path;   ///< where a state has two numbers
+  StateList states;  ///< where a state has three or six; then `path` is their first two
+
+  std::size_t state_width() const { return states.empty() ? 2 : states.width; }
+};
+
+/// "-" is standard input. Throws ReadError, InputError naming file and key, Stopped.
+RecordedAnswer read_answer(const std::string& file, const Execution& execution);
+/// The same for a file that is open already.
+RecordedAnswer read_answer(const InputFile& input, const Execution& execution);
+
+/// Throws InputError unless each state of the path has so many numbers; `body` is whose they are.
+void check_state_width(const RecordedAnswer& answer, std::size_t width, std::string_view body);
+
+/// Throws InputError if the answer names the hash of another world.
+void check_same_world(const RecordedAnswer& answer, const std::string& file, const Scene& scene,
+                      const Execution& execution);
+
+}  // namespace warren

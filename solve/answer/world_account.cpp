@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/answer/world_account.hpp"
+
+#include <fmt/format.h>
+
+#include "scenes/formats/scene_io.hpp"
+#include "scenes/text/human_units.hpp"
+
+namespace warren {
+
+WorldAccount account_of(const Scene& scene, const Execution& execution) {
+  if (scene.map) return {scene.source, "map", 0, 0, scene_hash(scene, execution), 0, 0};
+  const bool plane = scene.walls.size() > 0 || !has_solids(scene);
+  const char* kind = scene.maze ? "maze" : !scene.polygons.empty() ? "polygons" : plane ? "walls" : "solids";
+  return {scene.source,
+          kind,
+          scene.walls.size(),
+          scene.polygons.size(),
+          scene_hash(scene, execution),
+          scene.spheres.size(),
+          scene.boxes.size()};
+}
+
+std::string description_of(const Scene& scene) {
+  if (scene.map) {
+    return fmt::format("map of {} x {} cells, {} free", scene.map->width(), scene.map->height(),
+                       grouped(scene.map->free));
+  }
+  std::string text = scene.maze ? fmt::format("{} x {} maze, ", scene.maze->rows, scene.maze->cols) : "";
+  const auto counted = [](std::size_t count, const char* one, const char* many) {
+    return fmt::format("{} {}", grouped(count), count == 1 ? one : many);
+  };
+  if (!scene.polygons.empty()) text += counted(scene.polygons.size(), "polygon", "polygons");
+  if (!scene.polygons.empty() && scene.walls.size() > 0) text += ", ";
+  const bool nothing_else = scene.polygons.empty() && !has_solids(scene);
+  if (nothing_else || scene.walls.size() > 0) text += counted(scene.walls.size(), "wall", "walls");
+  const auto add_solids = [&](std::size_t count, const char* one, const char* many) {
+    if (count > 0) text += (text.empty() ? "" : ", ") + counted(count, one, many);
+  };
+  add_solids(scene.spheres.size(), "sphere", "spheres");
+  add_solids(scene.boxes.size(), "box", "boxes");
+  return text;
+}
+
+}  // namespace warren

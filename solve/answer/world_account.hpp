@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which world was solved, in figures and in words.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "parallel/execution.hpp"
+#include "scenes/scene/scene.hpp"
+
+namespace warren {
+
+struct WorldAccount {
+  std::string source;  ///< as it was asked for
+  std::string kind;    ///< "map"; "maze" where the scene has the hint, else "walls", "polygons" where there are any,
+                       ///< "solids" where there is nothing else
+  std::uint64_t walls = 0;
+  std::uint64_t polygons = 0;
+  std::string hash;
+  std::uint64_t spheres = 0;
+  std::uint64_t boxes = 0;
+};
+
+/// Throws Stopped. O(size of the scene), for the hash.
+WorldAccount account_of(const Scene& scene, const Execution& execution);
+
+/// "41 x 41 maze, 1,604 walls": what a person wants to know first.
+std::string description_of(const Scene& scene);
+
+}  // namespace warren

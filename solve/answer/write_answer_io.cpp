@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/answer/write_answer_io.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <span>
+#include <string_view>
+#include <type_traits>
+#include <variant>
+
+namespace warren {
+namespace {
+
+/// Nothing is said with null.
+void add_text(JsonObject& json, std::string_view key, const std::string& text) {
+  json.add_or_null(key, !text.empty(), text);
+}
+
+void add_state(JsonObject& json, std::string_view key, const std::vector<double>& state) {
+  json.add_json(key, state.empty() ? "null" : json_list(std::span(state)));
+}
+
+std::string world_json(const WorldAccount& world) {
+  JsonObject json;
+  json.add("source", world.source);
+  json.add("kind", world.kind);
+  json.add("walls", world.walls);
+  if (world.polygons > 0) json.add("polygons", world.polygons);
+  if (world.spheres > 0) json.add("spheres", world.spheres);
+  if (world.boxes > 0) json.add("boxes", world.boxes);
+  json.add("hash", world.hash);
+  return json.closed();
+}
+
+std::string json_of(const WrongEdge& wrong) {
+  JsonObject json;
+  json.add_json("edge", json_list(std::span<const std::uint32_t>(std::array{wrong.from, wrong.to})));
+  json.add("depth", wrong.depth);
+  return json.closed();
+}
+
+std::string wrong_edges_json(const std::vector<WrongEdge>& edges) {
+  std::string text = "[";
+  for (const WrongEdge& edge : edges) text.append(text.size() > 1 ? "," : "").append(json_of(edge));
+  return text + "]";
+}
+
+std::string options_json(const Answer& answer) {
+  JsonObject options;
+  for (const NamedFigure& option : answer.options) options.add_json(option.name, figure_json(option.value));
+  return options.closed();
+}
+
+std::string counters_json(const Counters& counters) {
+  JsonObject json;
+  json.add("samples", counters.samples);
+  json.add("neighbour_queries", counters.neighbour_queries);
+  json.add("edges_checked", counters.edges_checked);
+  json.add("expanded", counters.expanded);
+  json.add("rounds", counters.rounds);
+  json.add("refused", counters.refused);
+  return json.closed();
+}
+
+std::string stages_json(const StageTimes& seconds) {
+  JsonObject stages;
+  for (const auto& [name, value] : named_stages(seconds)) stages.add(name, value);
+  return stages.closed();
+}
+
+std::string roadmap_json(const Answer& answer) {
+  JsonObject json;
+  json.add("milestones", answer.roadmap.milestones);
+  json.add("edges", answer.roadmap.edges);
+  json.add("components", answer.roadmap.components);
+  if (answer.cells) {
+    json.add("cells", answer.cells->cells);
+    json.add("adjacencies", answer.cells->adjacencies);
+  }
+  return json.closed();
+}
+
+std::string separation_json(const Separation& separation) {
+  JsonObject json;
+  json.add("start_size", separation.start_size);
+  json.add("goal_size", separation.goal_size);
+  json.add("nearest_gap", separation.nearest_gap);
+  return json.closed();
+}
+
+void add_outcome(JsonObject& json, const Answer& answer) {
+  json.add("schema", "warren.answer/1");
+  json.add("warren_version", WARREN_VERSION);
+  json.add("status", answer.refuted ? "refuted" : name_of(answer.outcome));
+  if (answer.stop_reason) json.add("stopped_by", name_of(*answer.stop_reason));
+  json.add("verified", answer.verified);
+  json.add_or_null("length", answer.verified, answer.length);
+  json.add_or_null("min_clearance", answer.verified, answer.min_clearance);
+  json.add_or_null("raw_length", answer.raw_length.has_value(), answer.raw_length.value_or(0.0));
+  if (answer.optimal) json.add("optimal", true);
+  if (answer.cost) json.add("cost", *answer.cost);
+  if (answer.turn_rad) json.add("turn_rad", *answer.turn_rad);
+}
+
+/// A world that was never read leaves the problem open.
+void add_open_problem(JsonObject& json, const Answer& answer) {
+  for (const char* key : {"start", "goal", "clearance", "contact", "sampler"}) json.add_json(key, "null");
+  JsonObject world;
+  world.add("source", answer.world.source);
+  json.add_json("world", world.closed());
+}
+
+void add_problem(JsonObject& json, const Answer& answer) {
+  if (answer.world.kind.empty()) return add_open_problem(json, answer);
+  add_state(json, "start", answer.problem.start);
+  add_state(json, "goal", answer.problem.goal);
+  json.add("robot", robot_text(answer.problem.robot));
+  json.add("clearance", answer.problem.clearance);
+  json.add("contact", name_of(answer.problem.contact));
+  add_text(json, "sampler", answer.sampler);
+  json.add_json("world", world_json(answer.world));
+}
+
+void add_work(JsonObject& json, const Answer& answer) {
+  add_text(json, "planner", answer.planner);
+  if (!answer.pipeline.empty()) json.add("pipeline", answer.pipeline);
+  add_text(json, "search", answer.search);
+  json.add("seed", answer.seed);
+  json.add("threads", std::uint64_t{answer.threads});
+  json.add_json("options", options_json(answer));
+  json.add_json("roadmap", roadmap_json(answer));
+  for (const auto* figures : {&answer.figures, &answer.path_figures}) {
+    for (const NamedFigure& figure : *figures) json.add_json(figure.name, figure_json(figure.value));
+  }
+  if (answer.outcome == Outcome::not_connected && !answer.refuted) {
+    json.add_json("components", separation_json(answer.separation));
+  }
+  json.add_json("counters", counters_json(answer.counters));
+  json.add_json("stages_s", stages_json(answer.seconds));
+  json.add("solve_s", answer.solve_s);
+  json.add("peak_memory_bytes", std::uint64_t{answer.peak_memory_bytes});
+}
+
+/// state(i, text) appends the numbers of the i-th of `count` states. Writes the list alone.
+template <class State>
+void write_path(std::size_t count, const State& state, const Execution& execution,
+                const std::function<void(std::string_view)>& write) {
+  constexpr std::size_t piece = 1 << 14;
+  std::string text = "[";
+  for (std::size_t i = 0; i < count; ++i) {
+    text.append(i == 0 ? "[" : ", [");
+    state(i, text);
+    text.append("]");
+    if (i % piece == piece - 1) {
+      execution.check();
+      write(text);
+      text.clear();
+    }
+  }
+  write(text + "]");
+}
+
+/// All but the path.
+std::string json_head(const Answer& answer) {
+  JsonObject json(",\n ", ": ");
+  add_outcome(json, answer);
+  add_problem(json, answer);
+  add_work(json, answer);
+  return json.open() + ",\n ";
+}
+
+/// The states, or the points where a state is no more.
+void write_states(const Path<Vec2>& path, const StateList& states, const Execution& execution,
+                  const std::function<void(std::string_view)>& write) {
+  const auto append_point = [&](std::size_t i, std::string& text) {
+    text.append(json_number(path[i].x)).append(", ").append(json_number(path[i].y));
+  };
+  const auto append_state = [&](std::size_t i, std::string& text) {
+    for (std::size_t k = 0; k < states.width; ++k) {
+      text.append(k == 0 ? "" : ", ").append(json_number(states[i][k]));
+    }
+  };
+  if (states.empty()) {
+    write_path(path.size(), append_point, execution, write);
+  } else {
+    write_path(states.size(), append_state, execution, write);
+  }
+}
+
+/// The same of a refuted one.
+std::string refuted_head(const RefutedPath& refuted) {
+  std::string text = fmt::format("\"length\": {}", json_number(refuted.length));
+  if (refuted.cost) text += fmt::format(", \"cost\": {}", json_number(*refuted.cost));
+  return text + fmt::format(R"(, "first_violation": {})", violation_json(refuted.violation));
+}
+
+}  // namespace
+
+std::string violation_json(const Violation& violation) {
+  return fmt::format(R"({{"leg": {}, "distance": {}, "obstacle": {}}})", violation.leg, json_number(violation.distance),
+                     json_string(violation.obstacle));
+}
+
+std::vector<std::pair<const char*, double>> named_stages(const StageTimes& s) {
+  constexpr double always = -1.0;  // shown even if nothing was done there
+  struct Stage {
+    const char* name;
+    double seconds;
+    double only_above;
+  };
+  std::vector<std::pair<const char*, double>> named;
+  for (const Stage& stage :
+       {Stage{"read", s.read, 0.0}, Stage{"generate", s.generate, 0.0}, Stage{"index", s.index, always},
+        Stage{"sample", s.sample, always}, Stage{"neighbours", s.neighbours, always},
+        Stage{"connect", s.connect, always}, Stage{"graph", s.graph, always}, Stage{"reduce", s.reduce, 0.0},
+        Stage{"search", s.search, always}, Stage{"optimise", s.optimise, 0.0}, Stage{"verify", s.verify, always}}) {
+    if (stage.seconds > stage.only_above) named.emplace_back(stage.name, stage.seconds);
+  }
+  return named;
+}
+
+std::string figure_json(const Figure& figure) {
+  const auto text_of = [](const auto& value) {
+    using Value = std::decay_t<decltype(value)>;
+    if constexpr (std::is_same_v<Value, std::vector<WrongEdge>>) {
+      return wrong_edges_json(value);
+    } else if constexpr (std::is_same_v<Value, std::vector<std::uint64_t>>) {
+      return json_list(std::span(value));
+    } else {
+      return json_of(value);
+    }
+  };
+  return std::visit(text_of, figure);
+}
+
+void write_answer_json(const Answer& answer, const Execution& execution,
+                       const std::function<void(std::string_view)>& write) {
+  write(json_head(answer));
+  if (answer.refuted) {
+    write(fmt::format("\"refuted\": {{{}, \"path\": ", refuted_head(*answer.refuted)));
+    write_states(answer.refuted->path, answer.refuted->states, execution, write);
+    write("},\n ");
+  }
+  write("\"path\": ");
+  write_states(answer.path, answer.states, execution, write);
+  write("}\n");
+}
+
+}  // namespace warren

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What turning polygons and cars have in common as bodies of SampledSolve: their states are poses (x, y, theta), and a
+// goal X,Y without a heading is met in any: as 16 poses, evenly turned, of which roadmaps try the roomiest first.
+#pragma once
+
+#include <algorithm>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "planners/shorten/shortcut.hpp"
+#include "solve/kinds/map_steps.hpp"
+#include "solve/steps/question_of_pose.hpp"
+#include "solve/steps/sampled_solve.hpp"
+#include "verify/judges/verify_turning.hpp"
+
+namespace warren {
+
+class PoseBody : public UsualBody {
+ public:
+  PoseBody(const SolveRequest& request, PoseProblem problem)
+      : scene_(request.scene), execution_(request.execution), problem_(std::move(problem)) {}
+
+  Problem problem() const { return problem_.general(); }
+  Se2 start() const { return problem_.start; }
+  template <class World>
+  std::vector<Se2> goals(const World&) const {
+    return poses_of(problem_.goal);
+  }
+  static std::vector<Se2> stop_at(const std::vector<double>& point) {
+    if (point.size() > 3) throw UsageError("@via: a turning body takes X,Y or X,Y,THETA");
+    check_heading("@via", point);
+    return poses_of(point);
+  }
+  static SamplerKind choose_sampler(const SolveOptions& options, const RoadmapOptions& roadmap) {
+    check_pose_sampler(options.sampler);
+    return roadmap.sampler == SamplerKind::lattice ? SamplerKind::uniform : roadmap.sampler;
+  }
+  template <class World>
+  static std::vector<Se2> best_first(const World& world, const std::vector<Se2>& goals) {
+    if (goals.size() < 2) return goals;
+    auto query = world.make_query();
+    std::vector<std::pair<double, Se2>> by_room;
+    for (const Se2& goal : goals) by_room.emplace_back(world.clearance(goal, largest_coordinate, query), goal);
+    std::stable_sort(by_room.begin(), by_room.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::vector<Se2> sorted;
+    for (const auto& [room, goal] : by_room) sorted.push_back(goal);
+    return sorted;
+  }
+  template <class World>
+  bool provably_apart(const World&, const std::vector<Se2>& goals) const {
+    return std::all_of(goals.begin(), goals.end(), [&](const Se2& goal) {
+      return warren::provably_apart(*scene_.map, problem_.robot, problem_.start, goal, execution_);
+    });
+  }
+
+ protected:
+  const Scene& scene() const { return scene_; }
+  const Execution& execution() const { return execution_; }
+  const PoseProblem& question() const { return problem_; }
+  PoseVerifyOptions verify_options() const {
+    return {.clearance = problem_.clearance,
+            .start = problem_.start,
+            .goal = problem_.goal_pose(),
+            .any_heading = problem_.any_heading()};
+  }
+  template <class World, class Length>
+  Path<Se2> shortcut(const World& world, Path<Se2> path, const Length& length, Answer& answer) const {
+    return shortcut_path(world, std::move(path), length, {.seed = answer.seed}, execution_, answer.counters);
+  }
+
+ private:
+  const Scene& scene_;
+  const Execution& execution_;
+  PoseProblem problem_;
+};
+
+}  // namespace warren

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/question/limits.hpp"
+
+#include <limits>
+
+#include "core/base/error.hpp"
+#include "parallel/ticker.hpp"
+
+namespace warren {
+namespace {
+
+double seconds_of(const Limits& limits) {
+  if (!limits.budget) return std::numeric_limits<double>::infinity();
+  const double seconds = std::chrono::duration<double>(*limits.budget).count();
+  if (!(seconds > 0.0)) throw UsageError("@budget: must be longer than nothing");
+  return seconds;
+}
+
+}  // namespace
+
+struct LimitedExecution::Reporter {
+  Reporter(const Progress& progress, const std::function<void(const ProgressReport&)>& report)
+      : ticker(std::chrono::milliseconds(100), std::chrono::milliseconds(100), [&progress, report] {
+          const char* stage = progress.stage();
+          if (stage != nullptr) report({stage, progress.done(), progress.total()});
+        }) {}
+  Ticker ticker;
+};
+
+LimitedExecution::LimitedExecution(const Limits& limits)
+    : deadline_(seconds_of(limits), limits.memory.value_or(available_bytes()), limits.cancel) {
+  execution_.threads = limits.threads;
+  execution_.deadline = &deadline_;
+  if (!limits.progress) return;
+  execution_.progress = &progress_;
+  reporter_ = std::make_unique<Reporter>(progress_, limits.progress);
+}
+
+LimitedExecution::~LimitedExecution() = default;
+
+}  // namespace warren

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How much a call may take: threads, time, memory; and who may stop it and is told how far it is. None of it changes an
+// answer, but that a stop is one.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include "parallel/execution.hpp"
+
+namespace warren {
+
+/// How far a call is.
+struct ProgressReport {
+  std::string_view stage;  ///< "sample", "connect", "search", …
+  std::uint64_t done = 0;
+  std::uint64_t total = 0;  ///< 0: not known
+};
+
+struct Limits {
+  unsigned threads = 0;                                      ///< 0: one a core that this process may use
+  std::optional<std::chrono::nanoseconds> budget = {};       ///< from the call on, > 0; none: no end
+  std::optional<std::size_t> memory = {};                    ///< bytes that the process may hold; none: all there is
+  const SignalFlag* cancel = nullptr;                        ///< stops the call as soon as it is not 0
+  std::function<void(const ProgressReport&)> progress = {};  ///< called ten times a second, on another thread
+};
+
+/// The execution that keeps limits; the budget begins with it. Not movable: the execution points into it.
+class LimitedExecution {
+ public:
+  explicit LimitedExecution(const Limits& limits);
+  ~LimitedExecution();
+  LimitedExecution(const LimitedExecution&) = delete;
+  LimitedExecution& operator=(const LimitedExecution&) = delete;
+
+  const Execution& execution() const { return execution_; }
+
+ private:
+  Deadline deadline_;
+  Progress progress_;
+  Execution execution_;
+  struct Reporter;
+  std::unique_ptr<Reporter> reporter_;  // last: it ends before what it looks at
+};
+
+}  // namespace warren

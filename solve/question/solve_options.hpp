@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How a question shall be solved: the planner, and all options of all planners, each in the part where it belongs. What
+// is not said is chosen where it is used, so that the shortest call is the fastest and the most honest one. A planner
+// refuses what it would ignore, by the table of kind_of_problem.hpp.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "core/base/enum_names.hpp"
+#include "planners/axis/medial_axis_planner.hpp"
+#include "planners/cells/cell_planner.hpp"
+#include "planners/grid/grid_search.hpp"
+#include "planners/roadmap/roadmap_options.hpp"
+#include "scenes/scene/scene.hpp"
+#include "worlds/rasters/heading_layers_of_scene.hpp"
+
+namespace warren {
+
+/// prm: every edge of a roadmap is checked; lazy_prm: those that a search reaches. visibility, cells: a point among
+/// obstacles, exactly. voronoi: as far from all obstacles as can be. rrt, rrt_connect: trees. grid: cells or a lattice.
+enum class PlannerKind : std::uint8_t { prm, lazy_prm, visibility, cells, voronoi, rrt, rrt_connect, grid };
+constexpr auto enum_names(PlannerKind) {
+  return std::array<std::string_view, 8>{"prm",     "lazy-prm", "visibility",  "cells",
+                                         "voronoi", "rrt",      "rrt-connect", "grid"};
+}
+inline constexpr PlannerKind all_planners[] = {PlannerKind::prm,         PlannerKind::lazy_prm, PlannerKind::visibility,
+                                               PlannerKind::cells,       PlannerKind::voronoi,  PlannerKind::rrt,
+                                               PlannerKind::rrt_connect, PlannerKind::grid};
+constexpr bool is_roadmap_planner(PlannerKind planner) {
+  return planner == PlannerKind::prm || planner == PlannerKind::lazy_prm;
+}
+
+/// How prm works: stage by stage over the whole world, or tile by tile with all stages of a tile in cache.
+enum class PipelineKind : std::uint8_t { plain, tiled };
+constexpr auto enum_names(PipelineKind) { return std::array<std::string_view, 2>{"plain", "tiled"}; }
+
+/// How a graph or a grid is searched; dfs is for roadmaps alone, jump_points for grids.
+enum class SearchMethod : std::uint8_t { astar, dijkstra, bfs, dfs, jump_points };
+constexpr auto enum_names(SearchMethod) {
+  return std::array<std::string_view, 5>{"astar", "dijkstra", "bfs", "dfs", "jump-points"};
+}
+
+/// prm and lazy_prm; pipeline is prm's, lazy is lazy_prm's, attach is for arms.
+struct RoadmapFields {
+  std::optional<std::uint64_t> samples = {};     ///< states drawn, 1 .. 2^31; none: grow until start and goal connect
+  std::optional<std::uint32_t> neighbours = {};  ///< join each milestone to its k nearest, 1 .. 4096; none: by rule
+  std::optional<double> radius = {};             ///< join milestones at most so far apart, > 0; instead of neighbours
+  StarRule star = StarRule::none;                ///< join by a rule of PRM* instead of either
+  std::optional<LazyCheck> lazy = {};            ///< when an edge is checked; none: when the search expands it
+  std::optional<PipelineKind> pipeline = {};     ///< none: tiled on a lattice where all rules are the usual ones
+  std::optional<GrowingAttach> attach = {};      ///< how start and goal are joined; none: as far as the k nearest
+};
+
+/// rrt and rrt_connect.
+struct TreeFields {
+  std::optional<double> step = {};            ///< longest motion, in the body's metric, > 0; none: by world
+  std::optional<double> goal_bias = {};       ///< share of rrt's samples that are the goal, 0 .. 1; none: 0.05
+  std::optional<std::uint64_t> nodes = {};    ///< a tree of so many gives up, 2 .. 2^31; none: 100,000
+  std::optional<std::uint32_t> trees = {};    ///< grown independently at once, 1 .. 4096; none: 1
+  std::vector<std::vector<double>> via = {};  ///< way-points in their order: 2, 3 or 6 numbers each
+};
+
+/// grid in a scene, and of a body that turns.
+struct GridFields {
+  std::optional<double> cell = {};           ///< distance of positions, > 0; none: the file's, else a 400th of the side
+  std::optional<std::uint32_t> angles = {};  ///< headings, 1 .. 1,000,000; none: the file's, else 72
+  bool face_motion = false;                  ///< the body moves only where it faces
+  std::optional<double> step_cost = {};      ///< of a step to the side, > 0; none: 1
+  std::optional<double> turn_cost = {};      ///< of a turn to the next heading, > 0; none: 1
+  std::optional<Diagonal> diagonal = {};     ///< what a diagonal step costs; none: sqrt2
+  std::optional<LayerKind> layers = {};      ///< none: exact
+};
+
+struct CellFields {
+  std::optional<DoorKind> doors = {};  ///< where doors are passed; none: in their middles
+};
+
+struct AxisFields {
+  std::optional<AxisObjective> objective = {};  ///< none: length
+};
+
+struct VisibilityFields {
+  bool full = false;                         ///< all visible edges instead of those that shortest paths take
+  bool lazy = false;                         ///< find edges as A* needs them
+  std::optional<double> sampled_edges = {};  ///< test edges at points so far apart instead of exactly, > 0
+};
+
+/// What of the scene's car is to be otherwise.
+struct CarFields {
+  std::optional<SteeringKind> steering = {};
+  std::optional<double> turning_radius = {};  ///< > 0
+};
+
+struct SolveOptions {
+  std::optional<PlannerKind> planner = {};  ///< none: the usual one of the problem
+  std::uint64_t seed = 1;                   ///< of all that is random: any value
+  bool optimise = false;                    ///< pull the path taut after the search
+  std::optional<SamplerKind> sampler = {};  ///< of roadmaps and trees; none: by planner and world
+  std::optional<SearchMethod> search = {};  ///< none: A*; jump points or breadth first on maps where they are as good
+  std::optional<QueueKind> queue = {};      ///< of astar and dijkstra; none: heap
+  RoadmapFields roadmap = {};
+  TreeFields trees = {};
+  GridFields grid = {};
+  CellFields cells = {};
+  AxisFields axis = {};
+  VisibilityFields visibility = {};
+  CarFields car = {};
+
+  /// Throws UsageError for values outside their ranges and for options that contradict each other, whatever the world.
+  void validate() const;
+};
+
+/// All options that some planner would ignore, by which tables say who takes what.
+enum class Option : std::uint8_t {
+  sampler,
+  samples,
+  neighbours,
+  radius,
+  search,
+  queue,
+  lazy,
+  pipeline,
+  optimise,
+  cell,
+  angles,
+  face_motion,
+  step_cost,
+  turn_cost,
+  diagonal,
+  layers,
+  full,
+  sampled_edges,
+  doors,
+  objective,
+  step,
+  goal_bias,
+  nodes,
+  trees,
+  via,
+  steering,
+  turning_radius,
+  attach
+};
+constexpr auto enum_names(Option) {
+  return std::array<std::string_view, 28>{
+      "sampler",   "samples",  "neighbours", "radius",        "search",      "queue",          "lazy",
+      "pipeline",  "optimise", "cell",       "angles",        "face_motion", "step_cost",      "turn_cost",
+      "diagonal",  "layers",   "full",       "sampled_edges", "doors",       "objective",      "step",
+      "goal_bias", "nodes",    "trees",      "via",           "steering",    "turning_radius", "attach"};
+}
+inline constexpr std::size_t option_count = enum_names(Option{}).size();
+
+/// Which of the options are given.
+class OptionSet {
+ public:
+  constexpr OptionSet(std::initializer_list<Option> options = {}) {
+    for (const Option option : options) bits_ |= bit(option);
+  }
+  constexpr bool has(Option option) const { return (bits_ & bit(option)) != 0; }
+  constexpr OptionSet operator|(OptionSet more) const {
+    more.bits_ |= bits_;
+    return more;
+  }
+  friend constexpr bool operator==(OptionSet, OptionSet) = default;
+
+ private:
+  static constexpr std::uint32_t bit(Option option) { return std::uint32_t{1} << static_cast<unsigned>(option); }
+  std::uint32_t bits_ = 0;
+};
+OptionSet given(const SolveOptions& options);
+
+}  // namespace warren

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/solve.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "solve/steps/kind_of_problem.hpp"
+#include "worlds/rasters/map_borders.hpp"
+
+namespace warren {
+namespace {
+
+/// Bodies that are planned among walls see a map as the borders of its cells; the others look at the cells.
+bool wants_borders(const Scene& scene, const Question& question, PlannerKind planner) {
+  if (!scene.map || scene.walls.size() > 0) return false;
+  if (planner == PlannerKind::grid || planner == PlannerKind::voronoi) return false;
+  const RobotKind body = robot_of(scene, question).kind;
+  return body != RobotKind::point && body != RobotKind::disc;
+}
+
+/// The scene as it is planned in: itself, or a copy with the map's borders.
+class PlannedScene {
+ public:
+  PlannedScene(const Scene& scene, const Question& question, PlannerKind planner, const Execution& execution)
+      : scene_(scene) {
+    if (!wants_borders(scene, question, planner)) return;
+    copy_ = scene;
+    add_map_walls(*copy_, execution);
+  }
+  const Scene& get() const { return copy_ ? *copy_ : scene_; }
+
+ private:
+  const Scene& scene_;
+  std::optional<Scene> copy_;
+};
+
+/// What the question says, and where it says nothing what the answer says; the world's word and the defaults come after
+/// both.
+Question merged(Question question, const Question& answer) {
+  if (!question.robot) question.robot = answer.robot;
+  if (question.start.empty()) question.start = answer.start;
+  if (question.goal.empty()) question.goal = answer.goal;
+  if (!question.clearance) question.clearance = answer.clearance;
+  if (!question.contact) question.contact = answer.contact;
+  return question;
+}
+
+/// The length that an answer claims is a part of what is verified.
+void check_length(Verdict& verdict, const RecordedAnswer& answer) {
+  constexpr double rounding = 1e-9;
+  if (!verdict.verified || !answer.length) return;
+  if (std::abs(*answer.length - verdict.length) <= rounding * verdict.length) return;
+  verdict.verified = false;
+  verdict.first_violation =
+      Violation{.leg = 0, .distance = 0.0, .obstacle = fmt::format("length: the answer says {}", *answer.length)};
+}
+
+RecordedAnswer recorded(const Answer& answer) {
+  const Problem& problem = answer.problem;
+  RecordedAnswer record;
+  record.problem = {.robot = problem.robot,
+                    .start = problem.start,
+                    .goal = problem.goal,
+                    .clearance = problem.clearance,
+                    .contact = problem.contact};
+  record.world_hash = answer.world.hash;
+  record.length = answer.length;
+  record.file = "answer";
+  record.path = answer.path;
+  record.states = answer.states;
+  return record;
+}
+
+}  // namespace
+
+Answer solve_within(const Scene& scene, const Question& question, const SolveOptions& options,
+                    const Execution& execution, ByProducts* keep) {
+  question.validate();
+  options.validate();
+  check_solver_options(options);
+  Answer answer;
+  answer.world.source = scene.source;
+  try {
+    const ChosenSolver solver = choose_solver(options, scene, question);
+    WorldAccount world = account_of(scene, execution);
+    const PlannedScene planned(scene, question, solver.planner, execution);
+    answer = solver.kind->solve({options, planned.get(), question, solver.planner, execution, keep});
+    answer.world = std::move(world);
+  } catch (const Stopped& stopped) {
+    answer.stop_reason = stopped.reason;
+  } catch (const std::bad_alloc&) {
+    answer.stop_reason = StopReason::memory;
+  }
+  answer.threads = thread_count(execution.threads);
+  answer.peak_memory_bytes = peak_resident_bytes();
+  return answer;
+}
+
+Verdict verify_within(const Scene& scene, const Question& question, const RecordedAnswer& answer,
+                      const Execution& execution) {
+  question.validate();
+  check_same_world(answer, answer.file, scene, execution);
+  const Question asked = merged(question, answer.problem);
+  Verdict verdict = verifying_kind(scene, asked).verify(scene, asked, answer, execution);
+  check_length(verdict, answer);
+  return verdict;
+}
+
+void make_by_products(const Scene& scene, const Question& question, const SolveOptions& options,
+                      const Execution& execution, ByProducts& keep) {
+  const ChosenSolver solver = choose_solver(options, scene, question);
+  if (solver.kind->make_by_products == nullptr) return;
+  solver.kind->make_by_products({options, scene, question, solver.planner, execution, &keep});
+}
+
+Answer solve(const Scene& scene, const Question& question, const SolveOptions& options, const Limits& limits,
+             ByProducts* keep) {
+  const LimitedExecution limited(limits);
+  return solve_within(scene, question, options, limited.execution(), keep);
+}
+
+Verdict verify(const Scene& scene, const Answer& answer, const Limits& limits) {
+  const LimitedExecution limited(limits);
+  return verify_within(scene, {}, recorded(answer), limited.execution());
+}
+
+Verdict verify(const Scene& scene, const RecordedAnswer& answer, const Question& question, const Limits& limits) {
+  const LimitedExecution limited(limits);
+  return verify_within(scene, question, answer, limited.execution());
+}
+
+}  // namespace warren

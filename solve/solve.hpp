@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A question in, a verified answer out: solve() for every kind of problem, and verify() for answers of anybody. What a
+// program links for; the other headers are the parts that this one joins.
+#pragma once
+
+#include "parallel/execution.hpp"
+#include "scenes/scene/scene.hpp"
+#include "solve/answer/answer.hpp"
+#include "solve/answer/by_products.hpp"
+#include "solve/answer/read_answer_io.hpp"
+#include "solve/answer/verdict.hpp"
+#include "solve/question/limits.hpp"
+#include "solve/question/question.hpp"
+#include "solve/question/solve_options.hpp"
+
+namespace warren {
+
+/// Finds a path and verifies it, by code that shares nothing with the planner. What neither question nor options say is
+/// as the world's file says, and else what is fastest and most honest for the problem. No path is an answer, and so is
+/// a stop: see Answer::outcome. `keep`, where given, receives what the planner made on its way. The answer is the same
+/// for any number of threads. Throws UsageError for what can't be asked of this world, InputError for a world that
+/// contradicts itself. Any number of threads may call at once.
+Answer solve(const Scene& scene, const Question& question = {}, const SolveOptions& options = {},
+             const Limits& limits = {}, ByProducts* keep = nullptr);
+
+/// Judges the path of an answer against every obstacle of the scene, for the whole body and the whole question. Throws
+/// UsageError, InputError for states that are none of this body, Stopped.
+Verdict verify(const Scene& scene, const Answer& answer, const Limits& limits = {});
+/// The same for an answer that was read from a file; what the question says goes before what the file says.
+Verdict verify(const Scene& scene, const RecordedAnswer& answer, const Question& question = {},
+               const Limits& limits = {});
+
+/// As above, with an execution that goes on: its deadline is running already.
+Answer solve_within(const Scene& scene, const Question& question, const SolveOptions& options,
+                    const Execution& execution, ByProducts* keep = nullptr);
+Verdict verify_within(const Scene& scene, const Question& question, const RecordedAnswer& answer,
+                      const Execution& execution);
+
+/// Adds the by-products that solving leaves out because they cost: the roadmap of tiles. Throws Stopped.
+void make_by_products(const Scene& scene, const Question& question, const SolveOptions& options,
+                      const Execution& execution, ByProducts& keep);
+
+}  // namespace warren

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which problems `solve` and `verify` know, and which planners solve each: one SolveKind a kind of problem, defined in
+// a file of its own, solve/kinds/solve_NAME.cpp; the table of all of them is in kind_of_problem.cpp.
+//
+// To add a planner to a kind: a line in the `NAME_planners` of its file with the options that it takes beyond planner
+// and seed (every other one is refused, by name, before the planner sees it), and a branch in its solve_NAME(). An
+// option that nobody had yet: solve_options.hpp. To add a kind: its file, its declaration below, its line in the table.
+// Several kinds may fit a world (walls are plane obstacles too): the first in the table that has the planner solves it,
+// and the first that has any planner is asked for the default.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "parallel/execution.hpp"
+#include "scenes/scene/scene.hpp"
+#include "solve/answer/answer.hpp"
+#include "solve/answer/by_products.hpp"
+#include "solve/answer/read_answer_io.hpp"
+#include "solve/answer/verdict.hpp"
+#include "solve/question/planner_choice.hpp"
+#include "solve/question/question.hpp"
+#include "solve/question/solve_options.hpp"
+
+namespace warren {
+
+/// One planner of a kind, and the options that it takes.
+struct PlannerChoice {
+  PlannerKind planner;
+  OptionSet options;
+};
+
+/// Everything that a solve is given. Refers to what it names.
+struct SolveRequest {
+  const SolveOptions& options;
+  const Scene& scene;
+  const Question& question;
+  PlannerKind planner;
+  const Execution& execution;
+  ByProducts* keep = nullptr;  ///< receives what the planner makes beyond the path; nullptr: nothing is kept
+};
+
+struct SolveKind {
+  std::string_view problem;  ///< "a point or disc among walls"
+  bool (*fits)(const Scene& scene, const RobotSpec& robot);
+  std::span<const PlannerChoice> planners;  ///< empty: this version has none
+  /// The planner that is taken where none is asked for.
+  PlannerKind (*usual_planner)(const SolveOptions& options, const Scene& scene, const Question& question);
+  /// Solves from the world in memory to the path verified. Throws UsageError, InputError for what can't be asked; a
+  /// stop is an answer. Fills in all of Answer but world, threads and peak memory.
+  Answer (*solve)(const SolveRequest& request);
+  /// Makes the by-products that solve() leaves out because they cost; nullptr: there are none such. Throws Stopped.
+  void (*make_by_products)(const SolveRequest& request);
+  /// Re-checks an answer; nullptr: another kind that fits does. Throws InputError where its states are none of this
+  /// kind.
+  Verdict (*verify)(const Scene& scene, const Question& question, const RecordedAnswer& answer,
+                    const Execution& execution);
+};
+
+// The kinds, one a file solve_NAME.cpp.
+SolveKind walls_kind();
+SolveKind plane_kind();
+SolveKind turning_kind();
+SolveKind fixed_angle_kind();
+SolveKind turning_axis_kind();
+SolveKind car_kind();
+SolveKind arm_kind();
+SolveKind occupancy_kind();
+SolveKind lattice_kind();
+
+const std::vector<SolveKind>& solve_kinds();
+
+/// The planner that shall solve a problem, and the kind it belongs to.
+struct ChosenSolver {
+  const SolveKind* kind;
+  PlannerKind planner;
+};
+
+/// Checks what needs no world: is the planner that is asked for one of this version, and does it take the options?
+/// Throws UsageError.
+void check_solver_options(const SolveOptions& options);
+/// Throws UsageError where no planner of this version solves the problem, or not the one that is asked for, or where
+/// the planner would ignore an option.
+ChosenSolver choose_solver(const SolveOptions& options, const Scene& scene, const Question& question);
+/// The kind that verifies answers for this world and body; throws UsageError where this version has none.
+const SolveKind& verifying_kind(const Scene& scene, const Question& question);
+
+/// Does the planner take the option for some kind of problem?
+bool planner_takes(PlannerKind planner, Option option);
+
+/// The planners that solve some kind of problem, in their order.
+std::vector<PlannerKind> planners_there_are();
+
+}  // namespace warren

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the kinds share whose states are poses (x, y, theta), turning polygons and cars: the question, its options, and
+// how the planners are asked. A goal X,Y without a heading is met in any: trees have it as 16 goals, evenly turned;
+// roadmaps take the one of these that has the most room.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/base/solution.hpp"
+#include "core/base/types.hpp"
+#include "core/plane/se2.hpp"
+#include "solve/answer/answer.hpp"
+#include "solve/answer/read_answer_io.hpp"
+#include "solve/question/question.hpp"
+#include "solve/steps/kind_of_problem.hpp"
+#include "solve/steps/settled_ends.hpp"
+
+namespace warren {
+
+struct PoseProblem {
+  RobotSpec robot;
+  Se2 start;
+  std::vector<double> goal;  ///< 2 or 3 numbers
+  double clearance = 0.0;
+
+  bool any_heading() const { return goal.size() == 2; }
+  Se2 goal_pose() const { return {goal[0], goal[1], any_heading() ? 0.0 : goal[2]}; }
+  Problem general() const { return {robot, {start.x, start.y, start.theta}, goal, clearance, Contact::blocked}; }
+};
+
+/// `body`: "a turning body", for messages. Throws UsageError where start or goal are missing or have the wrong size,
+/// and for contact that is allowed.
+PoseProblem pose_problem(const Scene& scene, const Question& options, std::string_view body);
+
+/// The poses that will do for a state of 2 or 3 numbers.
+std::vector<Se2> poses_of(const std::vector<double>& state);
+/// The path of an answer whose states have three numbers; throws InputError for others.
+std::vector<Se2> recorded_poses(const RecordedAnswer& answer, std::string_view body);
+
+/// Throws UsageError for samplers that only points and discs have.
+void check_pose_sampler(std::optional<SamplerKind> sampler);
+
+/// The path, as the answer gives it.
+void record_poses(Answer& answer, std::span<const Se2> path);
+
+/// Planning keeps a little more room than it must, so a body that fits exactly is no blocked one: nobody proved that.
+/// stands_free(pose): by the verification.
+template <class StandsFree>
+void settle_blocked_poses(Answer& answer, const PoseProblem& problem, const StandsFree& stands_free) {
+  answer.outcome = settled_ends(
+      answer.outcome, [&] { return stands_free(problem.start); },
+      [&] {
+        const std::vector<Se2> goals = poses_of(problem.goal);
+        return std::any_of(goals.begin(), goals.end(), stands_free);
+      });
+}
+
+}  // namespace warren

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One solve by a planner that samples, whatever the body: index, plan, settle what is said of blocked ends, shorten,
+// verify. Roadmaps try the states that will do as the goal one after the other, the best first, until one is reached;
+// trees have all of them as goals at once. What can't be reached at all, where that is proved, bounds the growth. Where
+// there is no path, the answer's `cause` says why.
+//
+// A Body is what differs:
+//   World, and State = World::State
+//   has_trees                              does rrt take its world?
+//   problem()                              as the answer repeats it
+//   start(), goals(world)                  all states that will do as the goal
+//   best_first(world, goals)               in the order in which roadmaps try them
+//   stop_at(numbers)                       the states that will do at a way-point; throws UsageError for other numbers
+//   choose_sampler(options)                what is asked for, or what suits; throws UsageError for what is not for it
+//   add_options(answer)                    what else was asked for
+//   index(world, sampler)                  emplaces the world
+//   provably_apart(world, goals)           is it proved that no path leads to any of the goals?
+//   start_stands_free(), goal_stands_free(state)   by the verification
+//   length(world, a, b)                    of a motion: what shortening shortens
+//   shortened(world, path, answer)         the path made shorter
+//   judge(world, path, answer)             verifies; fills in the path and what is said of it
+//   cause_of_blocked(world, outcome, goals)
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "planners/roadmap/lazy_prm.hpp"
+#include "planners/roadmap/one_way_prm.hpp"
+#include "planners/roadmap/prm.hpp"
+#include "planners/trees/rrt.hpp"
+#include "planners/trees/rrt_connect.hpp"
+#include "planners/trees/through_way_points.hpp"
+#include "solve/question/planner_choice.hpp"
+#include "solve/question/tree_choice.hpp"
+#include "solve/steps/kind_of_problem.hpp"
+#include "solve/steps/settled_ends.hpp"
+#include "solve/steps/solve_steps.hpp"
+
+namespace warren {
+
+/// Nodes of a tree that has no way to go, unless options say how many: it need not fill what it can reach.
+inline constexpr std::uint64_t nodes_where_apart = 1000;
+
+template <class Body>
+class SampledSolve {
+ public:
+  using World = typename Body::World;
+  using State = typename World::State;
+
+  /// Throws UsageError. Refers to the request.
+  SampledSolve(const SolveRequest& request, Body body) : request_(request), body_(std::move(body)) {
+    answer_.problem = body_.problem();
+    answer_.planner = name_of(request.planner);
+    by_roadmap() ? describe_roadmap() : describe_trees();
+    body_.add_options(answer_);
+  }
+
+  Answer run() {
+    answer_within_limits(answer_, [this] {
+      index();
+      if (goals_.empty()) {
+        answer_.outcome = Outcome::goal_blocked;
+      } else {
+        bound_growth();
+        by_roadmap() ? plan_roadmaps() : plan_trees();
+        settle_ends();
+      }
+      finish();
+    });
+    return std::move(answer_);
+  }
+
+ private:
+  const Execution& execution() const { return request_.execution; }
+  bool by_roadmap() const { return is_roadmap_planner(request_.planner); }
+  void describe_roadmap();
+  void describe_trees();
+  void index();
+  void bound_growth();
+  void plan_roadmaps();
+  Solution<State> plan_roadmap(const State& goal);
+  void plan_trees();
+  Solution<State> grow_trees(const State& start, std::span<const State> goals);
+  std::vector<std::vector<State>> stops() const;
+  Roadmap<State>* kept();
+  void take(Solution<State> solution);
+  void settle_ends();
+  void finish();
+  std::string_view cause() const;
+
+  const SolveRequest& request_;
+  Body body_;
+  RoadmapOptions roadmap_options_;  // of prm and lazy-prm
+  RrtOptions tree_options_;         // of the others
+  std::optional<World> world_;
+  std::vector<State> goals_;
+  bool apart_ = false;  // proved: no goal can be reached
+  Path<State> path_;
+  Answer answer_;
+};
+
+template <class Body>
+void SampledSolve<Body>::describe_roadmap() {
+  const PlannerOptions options = planner_options(request_.options, request_.scene, WallProblem{});
+  roadmap_options_ = options.roadmap;
+  roadmap_options_.sampler = body_.choose_sampler(request_.options, roadmap_options_);
+  roadmap_options_.attach = body_.attach(request_.options);
+  if (body_.names_pipeline && request_.planner == PlannerKind::prm) answer_.pipeline = name_of(PipelineKind::plain);
+  answer_.sampler = name_of(roadmap_options_.sampler);
+  answer_.search = name_of(roadmap_options_.search);
+  answer_.seed = roadmap_options_.seed;
+  answer_.options = options.given;
+}
+
+template <class Body>
+void SampledSolve<Body>::describe_trees() {
+  tree_options_ = tree_options(request_.options);
+  if (!tree_options_.sampler) tree_options_.sampler = body_.tree_sampler;
+  for (const std::vector<double>& point : request_.options.trees.via) body_.stop_at(point);  // refused before the work
+  answer_.sampler = sampler_name(tree_options_);
+  answer_.seed = tree_options_.seed;
+  answer_.options = given_tree_options(request_.options);
+}
+
+template <class Body>
+void SampledSolve<Body>::index() {
+  const StageTimer timer(execution(), "index", answer_.seconds.index);
+  body_.index(world_, roadmap_options_.sampler);
+  goals_ = body_.goals(*world_);
+}
+
+/// What grows until start and goal connect, where they never can: a roadmap for one round and trees for a few nodes.
+template <class Body>
+void SampledSolve<Body>::bound_growth() {
+  const bool grows = by_roadmap() ? !roadmap_options_.samples && !takes_all_places(roadmap_options_.sampler)
+                                  : !request_.options.trees.nodes;
+  if (!grows || !request_.scene.map) return;
+  const StageTimer timer(execution(), "proof", answer_.seconds.search);
+  if (!body_.provably_apart(*world_, goals_)) return;
+  apart_ = true;
+  if (by_roadmap()) {
+    roadmap_options_.samples = first_samples(*world_, roadmap_options_, execution());
+  } else {
+    tree_options_.nodes = nodes_where_apart;
+  }
+}
+
+/// The counts are those of all goals that were tried.
+template <class Body>
+void SampledSolve<Body>::plan_roadmaps() {
+  const std::vector<State> in_order = body_.best_first(*world_, goals_);
+  std::vector<State> goals = detail::free_states(*world_, std::span<const State>(in_order));
+  if (goals.empty()) goals.push_back(in_order.front());
+  Counters before;
+  for (const State& goal : goals) {
+    take(plan_roadmap(goal));
+    answer_.counters += before;
+    before = answer_.counters;
+    if (answer_.outcome != Outcome::not_connected || apart_) break;
+  }
+}
+
+template <class Body>
+Solution<typename SampledSolve<Body>::State> SampledSolve<Body>::plan_roadmap(const State& goal) {
+  const bool lazy = request_.planner == PlannerKind::lazy_prm;
+  if constexpr (requires { requires World::one_way; }) {
+    return one_way_prm(*world_, body_.start(), goal, roadmap_options_, lazy, execution(), kept());
+  } else {
+    const auto planner = lazy ? lazy_prm<World> : prm<World>;
+    return planner(*world_, body_.start(), goal, roadmap_options_, execution(), kept());
+  }
+}
+
+template <class Body>
+void SampledSolve<Body>::plan_trees() {
+  const auto plan = [&](const State& start, std::span<const State> goals, std::size_t) {
+    return grow_trees(start, goals);
+  };
+  take(plan_through<State>(body_.start(), stops(), plan));
+}
+
+template <class Body>
+Solution<typename SampledSolve<Body>::State> SampledSolve<Body>::grow_trees(const State& start,
+                                                                            std::span<const State> goals) {
+  if constexpr (Body::has_trees) {
+    const auto planner = request_.planner == PlannerKind::rrt ? rrt<World> : rrt_connect<World>;
+    return planner(*world_, start, goals, tree_options_, execution(), kept());
+  } else {
+    throw std::logic_error("this body has no trees");
+  }
+}
+
+/// Way-points and goal, each as the states that will do.
+template <class Body>
+std::vector<std::vector<typename SampledSolve<Body>::State>> SampledSolve<Body>::stops() const {
+  std::vector<std::vector<State>> stops;
+  for (const std::vector<double>& point : request_.options.trees.via) {
+    const std::vector<State> states = body_.stop_at(point);
+    stops.push_back(detail::free_states(*world_, std::span<const State>(states)));
+    if (!stops.back().empty()) continue;
+    throw UsageError(fmt::format("@via: the {} does not fit at way-point {}", Body::noun, stops.size()));
+  }
+  stops.push_back(goals_);
+  return stops;
+}
+
+/// A roadmap takes the place of the one before; trees stand beside each other.
+template <class Body>
+Roadmap<typename SampledSolve<Body>::State>* SampledSolve<Body>::kept() {
+  if (request_.keep == nullptr) return nullptr;
+  if constexpr (std::is_same_v<State, Vec2>) {
+    return by_roadmap() ? &request_.keep->roadmap : &request_.keep->trees.emplace_back();
+  } else if constexpr (std::is_same_v<State, Se2>) {
+    if (by_roadmap()) request_.keep->pose_roadmaps.clear();
+    return &request_.keep->pose_roadmaps.emplace_back();
+  } else {
+    return nullptr;
+  }
+}
+
+template <class Body>
+void SampledSolve<Body>::take(Solution<State> solution) {
+  path_ = std::move(solution.path);
+  take_account(answer_, solution);
+}
+
+template <class Body>
+void SampledSolve<Body>::settle_ends() {
+  answer_.outcome = settled_ends(
+      answer_.outcome, [this] { return body_.start_stands_free(); },
+      [this] {
+        return std::any_of(goals_.begin(), goals_.end(),
+                           [this](const State& goal) { return body_.goal_stands_free(goal); });
+      });
+}
+
+template <class Body>
+void SampledSolve<Body>::finish() {
+  if (answer_.outcome == Outcome::stopped) return;
+  if (answer_.outcome != Outcome::solved) {
+    answer_.figures.push_back({"cause", std::string(cause())});
+    return;
+  }
+  if (request_.options.optimise) {
+    const StageTimer timer(execution(), "optimise", answer_.seconds.optimise, path_.size());
+    answer_.raw_length =
+        path_length(path_, [this](const State& a, const State& b) { return body_.length(*world_, a, b); });
+    path_ = body_.shortened(*world_, std::move(path_), answer_);
+  }
+  body_.judge(*world_, std::move(path_), answer_);
+}
+
+/// Why there is no path, one word a cause.
+template <class Body>
+std::string_view SampledSolve<Body>::cause() const {
+  if (answer_.outcome == Outcome::start_blocked || answer_.outcome == Outcome::goal_blocked) {
+    return body_.cause_of_blocked(*world_, answer_.outcome, goals_);
+  }
+  if (by_roadmap() && answer_.roadmap.milestones <= 2) return "no_free_sample";
+  if (answer_.separation.start_size <= 1) return "start_unconnected";
+  return answer_.separation.goal_size <= 1 ? "goal_unconnected" : "different_components";
+}
+
+/// What most bodies have in common.
+struct UsualBody {
+  static constexpr bool has_trees = true;
+  static constexpr bool names_pipeline = false;
+  static constexpr std::string_view noun = "body";
+  static constexpr std::optional<SamplerKind> tree_sampler = std::nullopt;
+
+  static void add_options(Answer&) {}
+  template <class World, class State>
+  static std::vector<State> best_first(const World&, const std::vector<State>& goals) {
+    return goals;
+  }
+  static std::optional<GrowingAttach> attach(const SolveOptions&) { return std::nullopt; }
+  template <class World, class Goals>
+  static std::string_view cause_of_blocked(const World&, Outcome outcome, const Goals&) {
+    return outcome == Outcome::start_blocked ? "start_in_collision" : "goal_in_collision";
+  }
+};
+
+}  // namespace warren

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/steps/solve_steps.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "solve/steps/settled_ends.hpp"
+#include "verify/judges/verify_point.hpp"
+
+namespace warren {
+namespace {
+
+void add(StageTimes& to, const StageTimes& more) {
+  to.index += more.index;
+  to.sample += more.sample;
+  to.neighbours += more.neighbours;
+  to.connect += more.connect;
+  to.graph += more.graph;
+  to.reduce += more.reduce;
+  to.search += more.search;
+}
+
+VerifyOptions verify_options(const WallProblem& problem) {
+  return {.clearance = problem.reach(), .contact = problem.contact, .start = problem.start, .goal = problem.goal};
+}
+
+}  // namespace
+
+void describe_roadmap_planner(Answer& answer, const WallProblem& problem, const PlannerOptions& options) {
+  answer.problem = problem.general();
+  answer.planner = name_of(options.planner);
+  if (options.planner == PlannerKind::prm) answer.pipeline = name_of(options.pipeline);
+  answer.sampler = name_of(options.roadmap.sampler);
+  answer.search = name_of(options.roadmap.search);
+  answer.seed = options.roadmap.seed;
+  answer.options = options.given;
+}
+
+void take_account(Answer& answer, Outcome outcome, StopReason stop_reason, const RoadmapSize& roadmap,
+                  const Separation& separation, const Counters& counters, const StageTimes& seconds) {
+  answer.outcome = outcome;
+  answer.roadmap = roadmap;
+  answer.separation = separation;
+  answer.counters = counters;
+  if (outcome == Outcome::stopped) answer.stop_reason = stop_reason;
+  add(answer.seconds, seconds);
+}
+
+void take_solution(Answer& answer, Solution<Vec2> solution) {
+  answer.path = std::move(solution.path);
+  take_account(answer, solution);
+}
+
+bool stands_free(const Scene& scene, const WallProblem& problem, Vec2 p, const Execution& execution) {
+  const VerifyOptions options{.clearance = problem.reach(), .contact = problem.contact};
+  return verify_path(scene, std::span(&p, 1), options, execution).verified;
+}
+
+void settle_blocked_ends(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution) {
+  answer.outcome = settled_ends(
+      answer.outcome, [&] { return stands_free(scene, problem, problem.start, execution); },
+      [&] { return stands_free(scene, problem, problem.goal, execution); });
+}
+
+void claim_nothing(Answer& answer) {
+  answer.verified = false;
+  answer.optimal = false;
+  answer.length = 0.0;
+  answer.min_clearance = 0.0;
+  answer.raw_length.reset();
+  answer.cost.reset();
+  answer.turn_rad.reset();
+  answer.path_figures.clear();
+  answer.path.clear();
+  answer.states = {};
+}
+
+void refute(Answer& answer, const Verification& found) {
+  answer.refuted = RefutedPath{.violation = found.first_violation.value_or(Violation{}),
+                               .length = found.length,
+                               .cost = answer.cost,
+                               .path = std::move(answer.path),
+                               .states = std::move(answer.states)};
+  answer.outcome = Outcome::not_connected;
+  claim_nothing(answer);
+}
+
+void fail_verification(const Answer& answer, const std::optional<Violation>& found) {
+  const Violation violation = found.value_or(Violation{});
+  throw std::logic_error(fmt::format("the path of {} fails its verification at leg {}: {} is {} away", answer.planner,
+                                     violation.leg, violation.obstacle, violation.distance));
+}
+
+void verify_solved(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution) {
+  if (answer.outcome != Outcome::solved) return;
+  const StageTimer timer(execution, "verify", answer.seconds.verify, answer.path.size() + scene.walls.size());
+  const Verification verification = verify_path(scene, answer.path, verify_options(problem), execution);
+  if (!verification.verified) fail_verification(answer, verification.first_violation);
+  answer.verified = true;
+  answer.length = verification.length;
+  answer.min_clearance = verification.min_clearance - problem.robot.radius;
+}
+
+Verdict verify_plane_answer(const Scene& scene, const WallProblem& problem, const RecordedAnswer& answer,
+                            const Execution& execution) {
+  check_state_width(answer, 2, "a point or disc");
+  Verdict verdict{verify_path(scene, answer.path, verify_options(problem), execution), problem.general()};
+  verdict.min_clearance -= problem.robot.radius;
+  return verdict;
+}
+
+}  // namespace warren

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From what a planner found to what the program answers, for points and discs of the plane: the solution is taken over,
+// its path verified, and a stop is made an answer.
+#pragma once
+
+#include <chrono>
+#include <new>
+#include <optional>
+
+#include "core/base/solution.hpp"
+#include "parallel/execution.hpp"
+#include "scenes/scene/scene.hpp"
+#include "solve/answer/answer.hpp"
+#include "solve/question/planner_choice.hpp"
+#include "solve/question/question.hpp"
+#include "solve/steps/kind_of_problem.hpp"
+#include "verify/judges/verify_point.hpp"
+
+namespace warren {
+
+/// Problem, planner and options, as the answer repeats them; for planners that build roadmaps of samples.
+void describe_roadmap_planner(Answer& answer, const WallProblem& problem, const PlannerOptions& options);
+
+/// Outcome, path, sizes, counters and times of a solution.
+void take_solution(Answer& answer, Solution<Vec2> solution);
+
+/// The same without the path, for states of any kind.
+void take_account(Answer& answer, Outcome outcome, StopReason stop_reason, const RoadmapSize& roadmap,
+                  const Separation& separation, const Counters& counters, const StageTimes& seconds);
+template <class State>
+void take_account(Answer& answer, const Solution<State>& s) {
+  take_account(answer, s.outcome, s.stop_reason, s.roadmap, s.separation, s.counters, s.seconds);
+}
+
+/// Does the body fit there, as the verification sees it?
+bool stands_free(const Scene& scene, const WallProblem& problem, Vec2 p, const Execution& execution);
+
+/// Planning keeps 1e-9 more room than it must, so a body that fits exactly is no blocked one: nobody proved that.
+void settle_blocked_ends(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution);
+
+/// Forgets all that an answer says of a path: only what a judge has verified is claimed.
+void claim_nothing(Answer& answer);
+
+/// The path of a method that promises nothing has failed its verification: it is told as refuted, and as nothing else.
+void refute(Answer& answer, const Verification& found);
+
+/// A planner's path that its judge refuses is a bug: throws std::logic_error with what the judge found.
+[[noreturn]] void fail_verification(const Answer& answer, const std::optional<Violation>& found);
+
+/// Verifies the path of a solved answer and fills in length and clearance. A path that fails is a bug: throws
+/// std::logic_error.
+void verify_solved(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution);
+
+/// verify_path for the problem: all of it, or of one point only.
+Verdict verify_plane_answer(const Scene& scene, const WallProblem& problem, const RecordedAnswer& answer,
+                            const Execution& execution);
+
+/// Runs `solve`, which fills in `answer`; its seconds are solve_s, and whatever stops it is an answer. One that is not
+/// verified claims nothing.
+template <class Solve>
+void answer_within_limits(Answer& answer, const Solve& solve) {
+  const auto begin = std::chrono::steady_clock::now();
+  const auto stop = [&](StopReason reason) {
+    answer.outcome = Outcome::stopped;
+    answer.stop_reason = reason;
+    answer.refuted.reset();
+    claim_nothing(answer);
+  };
+  try {
+    solve();
+  } catch (const Stopped& stopped) {
+    stop(stopped.reason);
+  } catch (const std::bad_alloc&) {
+    stop(StopReason::memory);
+  }
+  if (!answer.verified) claim_nothing(answer);
+  answer.solve_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+}  // namespace warren

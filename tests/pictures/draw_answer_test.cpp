@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pictures/draw_answer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "scenes/mazes/maze_generator.hpp"
+#include "solve/solve.hpp"
+
+namespace warren {
+namespace {
+
+std::vector<std::string> ids_of(const std::vector<PictureLayer>& layers) {
+  std::vector<std::string> ids;
+  for (const PictureLayer& layer : layers) ids.push_back(layer.id);
+  return ids;
+}
+
+Scene room_with_a_block() {
+  Scene scene;
+  scene.polygons = {{{{3, 3}, {5, 3}, {5, 6}, {3, 6}}}};
+  scene.bounds = {{{0, 0}, {10, 10}}};
+  scene.start = {1, 5};
+  scene.goal = {9, 5};
+  return scene;
+}
+
+Drawing drawn(const Scene& scene, const SolveOptions& options) {
+  ByProducts made;
+  const Answer answer = solve(scene, {}, options, {}, &made);
+  EXPECT_TRUE(answer.verified);
+  return drawing_of(scene, answer, std::move(made), {});
+}
+
+TEST(DrawAnswer, ShowsWhatEachPlannerOfThePlaneMade) {
+  const Scene scene = room_with_a_block();
+  EXPECT_EQ(ids_of(drawn(scene, {.planner = PlannerKind::cells}).layers), std::vector<std::string>{"cells"});
+  EXPECT_EQ(ids_of(drawn(scene, {.planner = PlannerKind::voronoi}).layers), std::vector<std::string>{"medial_axis"});
+  const Drawing sampled = drawn(scene, {.planner = PlannerKind::visibility, .visibility = {.sampled_edges = 0.01}});
+  EXPECT_EQ(ids_of(sampled.layers), (std::vector<std::string>{"visibility", "wrong_edges"}));
+  const Drawing roadmap = drawn(scene, {.planner = PlannerKind::prm});
+  ASSERT_TRUE(roadmap.roadmap);
+  EXPECT_GT(roadmap.roadmap->states.size(), 2U);
+  EXPECT_TRUE(roadmap.layers.empty());
+  EXPECT_EQ(roadmap.start, (Vec2{1, 5}));
+  EXPECT_EQ(roadmap.goal, (Vec2{9, 5}));
+  EXPECT_GE(roadmap.path.size(), 2U);
+}
+
+TEST(DrawAnswer, ShowsTheBodyAlongThePath) {
+  Scene scene = room_with_a_block();
+  scene.robot = RobotSpec{.kind = RobotKind::polygon, .outline = {{-0.5, -0.1}, {0.5, -0.1}, {0.5, 0.1}, {-0.5, 0.1}}};
+  scene.start.push_back(0.0);
+  scene.goal.push_back(1.0);
+  const Drawing trees = drawn(scene, {.planner = PlannerKind::rrt_connect});
+  EXPECT_EQ(ids_of(trees.layers), std::vector<std::string>{"sweep"});
+  EXPECT_TRUE(trees.roadmap);
+  EXPECT_TRUE(trees.path_turns.empty());
+  const Drawing grid = drawn(scene, {.planner = PlannerKind::grid, .grid = {.cell = 0.5, .angles = 8}});
+  EXPECT_EQ(ids_of(grid.layers), std::vector<std::string>{"sweep"});
+  ASSERT_EQ(grid.pages.size(), 3U) << "0, 45 and 90 degrees";
+  EXPECT_EQ(grid.pages[1].id, "layer_45");
+  EXPECT_EQ(ids_of(grid.pages[1].layers), std::vector<std::string>{"layer_45"});
+  scene.goal.back() = 0.0;
+  const Drawing fixed = drawn(scene, {.planner = PlannerKind::cells});
+  EXPECT_EQ(ids_of(fixed.layers), (std::vector<std::string>{"cells", "blocked", "sweep"}));
+}
+
+TEST(DrawAnswer, DrawsCarsInCurves) {
+  Scene scene = room_with_a_block();
+  scene.robot = RobotSpec{.kind = RobotKind::car, .radius = 0.2};
+  scene.robot->turning_radius = 0.7;
+  scene.start.push_back(0.0);
+  scene.goal.push_back(1.0);
+  const Drawing drawing = drawn(scene, {});
+  EXPECT_EQ(ids_of(drawing.layers), (std::vector<std::string>{"edges", "search_tree", "sweep"}));
+  EXPECT_EQ(drawing.path_turns.size(), drawing.path.size());
+  ASSERT_TRUE(drawing.roadmap);
+  EXPECT_EQ(drawing.roadmap->graph.vertex_count(), drawing.roadmap->states.size());
+}
+
+TEST(DrawAnswer, ShowsAnArmFromThreeSides) {
+  Scene scene;
+  scene.spheres = {{0.8, 0.2, -0.75, 0.1}};
+  scene.robot = RobotSpec{.kind = RobotKind::puma560, .radius = 0.05};
+  scene.start = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  scene.goal = {0.3, -0.2, -0.3, 0.0, 0.2, 0.0};
+  const Drawing drawing = drawn(scene, {});
+  ASSERT_TRUE(drawing.stage);
+  EXPECT_EQ(drawing.stage->polygons.size(), 3U);
+  EXPECT_TRUE(drawing.path.empty());
+  EXPECT_FALSE(drawing.start);
+  EXPECT_EQ(ids_of(drawing.layers),
+            (std::vector<std::string>{"axes", "sweep", "arm_at_start", "arm_at_goal", "trace"}));
+  RecordedAnswer none;
+  EXPECT_EQ(drawing_of(scene, none, {}).layers.size(), 4U) << "one posture: no goal";
+  Drawing still = drawing_of(scene, none, {});
+  none.states = {.width = 6, .numbers = std::vector<double>(6, 0.0)};
+  EXPECT_THROW(animate(still, *scene.robot, none), UsageError);
+}
+
+TEST(DrawAnswer, ARefutedPathIsDrawnAsAnyOther) {
+  const Scene scene = room_with_a_block();
+  Answer answer;
+  answer.planner = "visibility";
+  answer.refuted.emplace();
+  answer.refuted->path = {{1, 5}, {9, 5}};
+  const Drawing drawing = drawing_of(scene, answer, {}, {});
+  EXPECT_EQ(drawing.path.size(), 2U);
+  EXPECT_FALSE(drawing.roadmap);
+}
+
+TEST(DrawAnswer, APictureIsTheWorldsOrTheStages) {
+  const Scene scene = room_with_a_block();
+  Drawing drawing = drawing_of(scene, RecordedAnswer{}, {});
+  EXPECT_EQ(&picture_of(scene, drawing).scene, &scene);
+  EXPECT_EQ(picture_of(scene, drawing).start, (Vec2{1, 5})) << "the file's, where the answer says nothing";
+  drawing.stage.emplace();
+  EXPECT_EQ(&picture_of(scene, drawing).scene, &*drawing.stage);
+}
+
+}  // namespace
+}  // namespace warren

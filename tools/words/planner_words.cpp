@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/words/planner_words.hpp"
+
+#include <limits>
+
+#include "core/base/error.hpp"
+#include "solve/steps/kind_of_problem.hpp"
+#include "tools/words/option_values.hpp"
+
+namespace warren {
+namespace {
+
+constexpr OptionSpec roadmap_specs[] = {
+    {"--planner", "NAME",
+     "prm checks every edge, lazy-prm only those that a search reaches (default: prm with lattice)", "prm lazy-prm"},
+    {"--sampler", "NAME",
+     "where milestones come from (default: lattice in mazes, cell-centres on maps of corridors a cell wide, else "
+     "uniform)",
+     "uniform lattice halton random gaussian bridge mixture corridor cell-centres"},
+    {"--samples", "N|auto", "states drawn; auto grows until start and goal connect (default: auto)"},
+    {"--neighbours", "K|auto|star", "join each milestone to its K nearest; star: by the rule of PRM* (default: auto)"},
+    {"--radius", "R|auto|star",
+     "join milestones at most so far apart, instead of the K nearest; star: by the rule of PRM* (default: auto)"},
+    {"--search", "NAME", "how the roadmap is searched (default: astar)", "astar dijkstra bfs dfs"},
+    {"--queue", "NAME", "the queue of astar and dijkstra (default: heap)",
+     "heap lazy-heap sorted-array resorted-array"},
+    {"--lazy",
+     "[WHEN]",
+     "lazy-prm checks an edge when the search expands it, or when it lies on the path found "
+     "(default: expansion)",
+     "expansion path",
+     {},
+     true},
+    {"--pipeline", "NAME",
+     "how prm works: stage by stage, or tile by tile in cache (default: tiled on a lattice "
+     "where the rules of joining and searching are the usual ones)",
+     "plain tiled"},
+    {"--optimise", "", "pull the path taut after the search"},
+    {"--seed", "N", "seed of the sampling; never alters the world (default: 1)"},
+};
+
+constexpr OptionSpec polygon_planner_specs[] = {
+    {"--full", "", "visibility: all visible edges instead of those that shortest paths take"},
+    {"--sampled-edges", "D",
+     "visibility: test edges at points D apart instead of exactly, and say which edges are wrong"},
+    {"--doors", "NAME",
+     "cells: pass from cell to cell in the door's middle, or where the shortest path does (default: midpoint)",
+     "midpoint funnel"},
+    {"--objective", "NAME", "voronoi: the shortest path, or the widest and then the shortest (default: length)",
+     "length clearance"},
+};
+
+constexpr OptionSpec body_specs[] = {
+    {"--steering", "WORD", "a car's curves: forwards only, or backwards too (default: the file's, else dubins)",
+     "dubins reeds-shepp"},
+    {"--turning-radius", "RHO", "a car's, > 0 (default: the file's)"},
+    {"--attach", "R[,STEP]",
+     "arms: join start and goal to a roadmap within R, and while that fails within STEP more, 10 times in all "
+     "(default: as far as the K nearest, and half of that)"},
+};
+
+StarRule star_rule(const Arguments& arguments) {
+  const bool neighbours = arguments.value("--neighbours") == "star";
+  const bool radius = arguments.value("--radius") == "star";
+  if (neighbours && radius) throw UsageError("--radius: one rule of PRM* joins milestones, by neighbours or by radius");
+  return neighbours ? StarRule::neighbours : radius ? StarRule::radius : StarRule::none;
+}
+
+RoadmapFields roadmap_fields(const Arguments& arguments) {
+  constexpr std::uint64_t most_neighbours = 4096;
+  constexpr std::uint64_t least = 1;
+  RoadmapFields roadmap;
+  roadmap.samples = given_value(arguments, "--samples", samples_value);
+  roadmap.star = star_rule(arguments);
+  if (roadmap.star != StarRule::neighbours) {
+    const auto count = given_value(arguments, "--neighbours", auto_or_count_value, least, most_neighbours);
+    if (count) roadmap.neighbours = static_cast<std::uint32_t>(*count);
+  }
+  if (const auto text = arguments.value("--radius"); text && *text != "auto" && *text != "star") {
+    roadmap.radius = positive_value("--radius", *text);
+  }
+  const auto lazy = arguments.value("--lazy");
+  if (lazy && !lazy->empty()) roadmap.lazy = choice_value<LazyCheck>("--lazy", *lazy);
+  roadmap.pipeline = given_choice<PipelineKind>(arguments, "--pipeline");
+  return roadmap;
+}
+
+GrowingAttach attach_value(std::string_view option, std::string_view text) {
+  GrowingAttach attach;
+  const std::size_t comma = text.find(',');
+  attach.radius = positive_value(option, text.substr(0, comma));
+  if (comma != std::string_view::npos) attach.step = positive_value(option, text.substr(comma + 1));
+  return attach;
+}
+
+}  // namespace
+
+std::span<const OptionSpec> roadmap_option_specs() { return roadmap_specs; }
+
+std::uint64_t seed_value(std::string_view option, std::string_view text) {
+  return count_value(option, text, 0, std::numeric_limits<std::uint64_t>::max());
+}
+
+std::uint64_t seed_word(const Arguments& arguments) { return given_value(arguments, "--seed", seed_value).value_or(1); }
+
+std::optional<std::uint64_t> samples_value(std::string_view option, std::string_view text) {
+  constexpr std::uint64_t most_samples = std::uint64_t{1} << 31;
+  return auto_or_count_value(option, text, 1, most_samples);
+}
+
+SearchMethod search_value(std::string_view option, std::string_view text, std::optional<PlannerKind> planner) {
+  if (const auto method = enum_named<SearchMethod>(text)) return *method;
+  if (planner == PlannerKind::grid) choice_value<GridMethod>(option, text);  // says which there are
+  return static_cast<SearchMethod>(choice_value<SearchKind>(option, text));
+}
+
+SolveOptions roadmap_words(const Arguments& arguments) {
+  SolveOptions options;
+  options.planner = given_choice<PlannerKind>(arguments, "--planner");
+  options.roadmap = roadmap_fields(arguments);
+  options.search = given_value(arguments, "--search", search_value, options.planner);
+  options.queue = given_choice<QueueKind>(arguments, "--queue");
+  options.seed = seed_word(arguments);
+  options.visibility.lazy = arguments.value("--lazy") == "";
+  options.sampler = given_choice<SamplerKind>(arguments, "--sampler");
+  options.optimise = arguments.has("--optimise");
+  return options;
+}
+
+SolveOptions solve_words(const Arguments& arguments) {
+  SolveOptions options = roadmap_words(arguments);
+  options.roadmap.attach = given_value(arguments, "--attach", attach_value);
+  options.trees = tree_words(arguments);
+  options.grid = grid_words(arguments);
+  options.cells.doors = given_choice<DoorKind>(arguments, "--doors");
+  options.axis.objective = given_choice<AxisObjective>(arguments, "--objective");
+  options.visibility.full = arguments.has("--full");
+  options.visibility.sampled_edges = given_value(arguments, "--sampled-edges", positive_value);
+  options.car.steering = given_choice<SteeringKind>(arguments, "--steering");
+  options.car.turning_radius = given_value(arguments, "--turning-radius", positive_value);
+  return options;
+}
+
+std::string_view planner_names() {
+  static const std::string names = [] {
+    std::string words;
+    for (const PlannerKind planner : planners_there_are()) {
+      words.append(words.empty() ? "" : " ").append(name_of(planner));
+    }
+    return words;
+  }();
+  return names;
+}
+
+std::vector<OptionSpec> solve_option_specs() {
+  std::vector<OptionSpec> specs;
+  add_options(specs, roadmap_specs);
+  specs.front().choices = planner_names();
+  add_options(specs, grid_option_specs());
+  add_options(specs, polygon_planner_specs);
+  add_options(specs, tree_option_specs());
+  add_options(specs, body_specs);
+  return specs;
+}
+
+}  // namespace warren

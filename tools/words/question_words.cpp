@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/words/question_words.hpp"
+
+#include "core/base/error.hpp"
+#include "tools/words/option_values.hpp"
+
+namespace warren {
+namespace {
+
+constexpr OptionSpec question_specs[] = {
+    {"--robot", "\"BODY\"",
+     "the moving body: \"point\", \"disc RADIUS\" or \"polygon X Y X Y ...\" (default: the file's, else point)"},
+    {"--start", "X,Y[,THETA]", "where the path begins (default: the file's)"},
+    {"--goal", "X,Y[,THETA]", "where the path ends (default: the file's)"},
+    {"--clearance", "R",
+     "room kept around the body all along the path (default: the file's, else 0.1 in mazes, else 0)"},
+    {"--contact", "WORD",
+     "with clearance 0: may the path touch an obstacle? (default: allowed for visibility and cells, else blocked)",
+     "blocked allowed"},
+};
+
+RobotSpec robot_option(std::string_view option, std::string_view text) {
+  try {
+    return robot_value(std::string{option}, text);
+  } catch (const InputError& error) {
+    throw UsageError(error.what());
+  }
+}
+
+}  // namespace
+
+std::span<const OptionSpec> question_option_specs() { return question_specs; }
+
+Question question_words(const Arguments& arguments) {
+  Question question;
+  question.robot = given_value(arguments, "--robot", robot_option);
+  if (const auto text = arguments.value("--start")) question.start = state_value("--start", *text);
+  if (const auto text = arguments.value("--goal")) question.goal = state_value("--goal", *text);
+  question.clearance = given_value(arguments, "--clearance", number_value, 0.0, largest_coordinate);
+  question.contact = given_choice<Contact>(arguments, "--contact");
+  return question;
+}
+
+}  // namespace warren
