@@ -99,6 +99,12 @@ only(options "#include <CLI" "${above}")
 only(json "#include <nlohmann" "${above}|^studies/|^(scenes|solve)/[a-z]*/[a-z_]*_io[.]cpp$")
 only(judges "#include <(gtest|gmock)/" "^tests/")
 only(stopwatches "#include <benchmark/" "^bench/")
+# The library's own bits, other ones with FMA than without: what is computed with goes through one file, tests and pictures
+# don't matter.
+set(portable "[^.>_a-zA-Z0-9:]|[^a-z]::|std::")
+set(inexact "a?sinh?|a?cosh?|a?tanh?|atan2|sincos|hypot|exp2?|expm1|log2?|log10|log1p|pow|cbrt|tgamma|lgamma|erfc?|polar|arg|lerp")
+only(trigonometry "(${portable})(${inexact})[(]" "^core/base/trigonometry[.][ch]pp$|^(pictures|studies|bench|tests)/")
+only(eigen_angles "AngleAxis|Rotation2D|eulerAngles|angularDistance|[.]slerp[(]" "^(bench|tests)/")
 # Where a table is only looked up, the line says so: its order differs between libraries, so nobody may walk through it.
 only(unordered_tables_unless_lookups_only "unordered_(map|set|multimap|multiset)<[^\n]*" "${above}")
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/trigonometry.hpp"
 #include "core/plane/geometry.hpp"
 
 namespace warren {
@@ -61,11 +62,12 @@ std::vector<Vec2> minkowski_sum(std::span<const Vec2> a, std::span<const Vec2> b
 
 std::vector<Vec2> polygon_around_disc(double radius, std::size_t corners) {
   const double step = 2.0 * std::numbers::pi / static_cast<double>(corners);
-  const double reach = radius / std::cos(0.5 * step);
+  const double reach = radius / portable::cos(0.5 * step);
   std::vector<Vec2> polygon;
   for (std::size_t i = 0; i < corners; ++i) {
     const double angle = (static_cast<double>(i) + 0.5) * step;
-    polygon.push_back({reach * std::cos(angle), reach * std::sin(angle)});
+    const auto [sine, cosine] = portable::sin_and_cos(angle);
+    polygon.push_back({reach * cosine, reach * sine});
   }
   return polygon;
 }

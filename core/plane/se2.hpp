@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/trigonometry.hpp"
 #include "core/base/types.hpp"
 
 namespace warren {
@@ -32,10 +33,12 @@ inline double wrapped_angle(double theta) { return std::remainder(theta, 2.0 * s
 /// A rotation, its sine and cosine taken once.
 class Rotation {
  public:
-  explicit Rotation(double theta) : cosine_(std::cos(theta)), sine_(std::sin(theta)) {}
+  explicit Rotation(double theta) : Rotation(portable::sin_and_cos(theta)) {}
   Vec2 operator()(Vec2 p) const { return {cosine_ * p.x - sine_ * p.y, sine_ * p.x + cosine_ * p.y}; }
 
  private:
+  explicit Rotation(const portable::SineAndCosine& of) : cosine_(of.cosine), sine_(of.sine) {}
+
   double cosine_;
   double sine_;
 };

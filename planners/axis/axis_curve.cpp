@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/trigonometry.hpp"
+
 namespace warren {
 namespace {
 
@@ -62,12 +64,12 @@ double AxisCurve::length() const {
   if (focal_ == 0.0) return std::abs(last_ - first_);
   const auto from_apex = [&](double t) {
     const double slope = t / focal_;
-    return 0.5 * (t * std::sqrt(1.0 + slope * slope) + focal_ * std::asinh(slope));
+    return 0.5 * (t * std::sqrt(1.0 + slope * slope) + focal_ * portable::asinh(slope));
   };
   return std::abs(from_apex(last_) - from_apex(first_));
 }
 
-double AxisCurve::slope_angle(double parameter) const { return std::atan(parameter / focal_); }
+double AxisCurve::slope_angle(double parameter) const { return portable::atan(parameter / focal_); }
 
 void AxisCurve::append_polyline(std::vector<Vec2>& path) const {
   if (focal_ > 0.0) {
@@ -76,7 +78,7 @@ void AxisCurve::append_polyline(std::vector<Vec2>& path) const {
       const double count = std::max(1.0, std::ceil(std::abs(turn) / largest_turn));
       double touches = t0;
       for (double i = 1.0; i <= count; i += 1.0) {
-        const double next = i == count ? t1 : focal_ * std::tan(slope_angle(t0) + turn * (i / count));
+        const double next = i == count ? t1 : focal_ * portable::tan(slope_angle(t0) + turn * (i / count));
         const double height = 0.5 * (touches / focal_ * next + focal_);  // where the tangents of both meet
         path.push_back(origin_ + (0.5 * (touches + next)) * along_ + height * upwards_);
         touches = next;

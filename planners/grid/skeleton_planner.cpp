@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/base/trigonometry.hpp"
 #include "core/search/search.hpp"
 #include "parallel/assemble_graph.hpp"
 #include "parallel/components.hpp"
@@ -224,7 +225,7 @@ SearchResult SkeletonPlan::found(const Graph& graph) const {
   const bool informed = options_.search == SearchKind::astar;
   const auto estimate = [&](VertexId v) {
     const Cell c = cells_->cell(v);
-    return informed ? std::hypot(static_cast<double>(c.x) - goal_.x, static_cast<double>(c.y) - goal_.y) : 0.0;
+    return informed ? portable::hypot(static_cast<double>(c.x) - goal_.x, static_cast<double>(c.y) - goal_.y) : 0.0;
   };
   return with_queue(options_.queue, graph.vertex_count(), execution_, [&](auto& queue) {
     return best_first(start(), goal(), neighbours, estimate, queue, state, should_stop);

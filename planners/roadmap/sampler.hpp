@@ -17,6 +17,7 @@
 #include <optional>
 
 #include "core/base/rng.hpp"
+#include "core/base/trigonometry.hpp"
 #include "core/base/world.hpp"
 #include "planners/roadmap/roadmap_options.hpp"
 
@@ -55,8 +56,8 @@ inline constexpr double bridge_spread = 0.1;
 
 /// A standard normal deviate: Box, Muller, Ann. Math. Statist. 29 (1958).
 inline double normal(std::uint64_t seed, std::uint64_t index, std::uint64_t axis) {
-  const double radius = std::sqrt(-2.0 * std::log1p(-uniform(seed, index, 2 * axis)));
-  return radius * std::cos(2.0 * std::numbers::pi * uniform(seed, index, 2 * axis + 1));
+  const double radius = std::sqrt(-2.0 * portable::log(1.0 - uniform(seed, index, 2 * axis)));
+  return radius * portable::cos(2.0 * std::numbers::pi * uniform(seed, index, 2 * axis + 1));
 }
 
 /// Into [0, 1), mirrored at the ends; x within a few units of it.

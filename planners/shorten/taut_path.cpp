@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/base/trigonometry.hpp"
 #include "parallel/chunks.hpp"
 #include "planners/shorten/taut_string.hpp"
 
@@ -119,9 +120,9 @@ class Pulling {
     const double half = 0.5 * arc / count;
     for (double i = 0.0; i < count; i += 1.0) {
       const double angle = stop.turn * (2.0 * i + 1.0) * half;
-      const double stretch = 1.0 / std::cos(half);
-      const Vec2 to{std::cos(angle) * spoke.x - std::sin(angle) * spoke.y,
-                    std::sin(angle) * spoke.x + std::cos(angle) * spoke.y};
+      const double stretch = 1.0 / portable::cos(half);
+      const auto [sine, cosine] = portable::sin_and_cos(angle);
+      const Vec2 to{cosine * spoke.x - sine * spoke.y, sine * spoke.x + cosine * spoke.y};
       points.push_back(inside_box(stop.center + stretch * to));
     }
   }

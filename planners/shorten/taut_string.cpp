@@ -5,12 +5,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/trigonometry.hpp"
+
 namespace warren {
 namespace {
 
 constexpr double backwards = -1e-10;  // radians: a bend that is less than this the wrong way counts as straight
 
-double turn_between(Vec2 u, Vec2 v) { return std::atan2(cross(u, v), dot(u, v)); }
+double turn_between(Vec2 u, Vec2 v) { return portable::atan2(cross(u, v), dot(u, v)); }
 
 bool is_disc(const TautString::Stop& stop) { return stop.turn != 0.0; }
 
@@ -108,7 +110,7 @@ bool TautString::is_inside(Vec2 end, const Fall& fall) const {
 /// reach it.
 Vec2 TautString::corner(const Stop& b, const Bend& bend) const {
   if (!is_disc(b)) return b.center;
-  const double back = radius_ * std::tan(0.5 * std::abs(bend.turn));
+  const double back = radius_ * portable::tan(0.5 * std::abs(bend.turn));
   const double room = std::min(distance(bend.in.from, bend.in.to), distance(bend.out.from, bend.out.to));
   return back < room ? bend.in.to - back * bend.in.direction : bend.in.to;
 }

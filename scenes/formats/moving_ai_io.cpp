@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
+#include <string>
 #include <string_view>
 
 #include "core/base/error.hpp"
@@ -173,13 +175,23 @@ void write_moving_ai_map(const OccupancyMap& map, const std::string& path, const
 
 namespace {
 
+/// The power of ten of the first digit of a number > 0.
+int first_digit_of(double value) {
+  const std::string digits = fmt::format("{:.17e}", value);  // exact as far as a double goes
+  int exponent = 0;
+  const std::size_t sign = digits.find('e') + 1;
+  const std::size_t from = sign + (digits[sign] == '+' ? 1 : 0);
+  std::from_chars(digits.data() + from, digits.data() + digits.size(), exponent);
+  return exponent;
+}
+
 /// Half a unit of the last digit of a number >= 0 as it is written. Where it is whole, writers of six digits have left
 /// out the zeros behind the point.
 double half_unit_of(std::string_view digits, double value) {
   constexpr int usual_digits = 6;
   const std::size_t mantissa_end = std::min(digits.find_first_of("eE"), digits.size());
   const std::size_t point = std::min(digits.find('.'), mantissa_end);
-  int last = value > 0.0 ? static_cast<int>(std::floor(std::log10(value))) - (usual_digits - 1) : -usual_digits;
+  int last = value > 0.0 ? first_digit_of(value) - (usual_digits - 1) : -usual_digits;
   if (point < mantissa_end) {
     int exponent = 0;
     const std::size_t sign = mantissa_end + 1 < digits.size() && digits[mantissa_end + 1] == '+' ? 1 : 0;
@@ -189,7 +201,10 @@ double half_unit_of(std::string_view digits, double value) {
     constexpr int beyond_all = 1000;  // of a double
     last = std::clamp(exponent, -beyond_all, beyond_all) - static_cast<int>(mantissa_end - point - 1);
   }
-  return 0.5 * std::pow(10.0, last);
+  const std::string half = fmt::format("5e{}", last - 1);
+  double result = last > 0 ? std::numeric_limits<double>::infinity() : 0.0;  // kept where it is beyond all doubles
+  std::from_chars(half.data(), half.data() + half.size(), result);
+  return result;
 }
 
 Scenario scenario_of(const TextLines& lines, bool has_sizes) {

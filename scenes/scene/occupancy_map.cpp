@@ -8,14 +8,14 @@
 
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
+#include "core/base/trigonometry.hpp"
 
 namespace warren {
 namespace {
 
 Vec2 turned(Vec2 p, double angle_rad) {
   if (angle_rad == 0.0) return p;
-  const double c = std::cos(angle_rad);
-  const double s = std::sin(angle_rad);
+  const auto [s, c] = portable::sin_and_cos(angle_rad);
   return {c * p.x - s * p.y, s * p.x + c * p.y};
 }
 

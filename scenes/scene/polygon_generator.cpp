@@ -8,6 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
+#include "core/base/trigonometry.hpp"
 #include "parallel/chunks.hpp"
 
 namespace warren {
@@ -32,7 +33,10 @@ class Dice {
 /// Corners around a middle, within radius 1.
 using Shape = std::vector<Vec2>;
 
-Vec2 at_angle(double angle, double radius) { return {radius * std::cos(angle), radius * std::sin(angle)}; }
+Vec2 at_angle(double angle, double radius) {
+  const auto [sine, cosine] = portable::sin_and_cos(angle);
+  return {radius * cosine, radius * sine};
+}
 
 /// One angle in each of n equal parts of a turn: apart enough for rounding, never half a turn apart but in triangles.
 double angle_of(std::size_t i, std::size_t n, Dice& dice) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/trigonometry.hpp"
 #include "verify/exact/exact_segments.hpp"
 
 namespace warren {
@@ -16,7 +17,7 @@ namespace {
 bool sweeps(const Arc& arc, Vec2 direction) {
   const Vec2 first = arc.from - arc.center;
   double angle =
-      std::atan2(first.x * direction.y - first.y * direction.x, first.x * direction.x + first.y * direction.y);
+      portable::atan2(first.x * direction.y - first.y * direction.x, first.x * direction.x + first.y * direction.y);
   if (arc.turn < 0.0) angle = -angle;
   if (angle < 0.0) angle += 2.0 * std::numbers::pi;
   return angle <= std::abs(arc.turn);
@@ -35,8 +36,7 @@ bool crosses(const Arc& arc, const Segment& s, Vec2 along, double foot, double h
 }  // namespace
 
 Vec2 Arc::at(double angle) const {
-  const double c = std::cos(angle);
-  const double s = std::sin(angle);
+  const auto [s, c] = portable::sin_and_cos(angle);
   const Vec2 v = from - center;
   return center + Vec2{c * v.x - s * v.y, s * v.x + c * v.y};
 }
@@ -44,10 +44,10 @@ Vec2 Arc::at(double angle) const {
 double distance(const Arc& arc, const Segment& s) noexcept {
   const Vec2 last = arc.at(arc.turn);
   double least = std::min(exact::distance({arc.from, arc.from}, s), exact::distance({last, last}, s));
-  const double radius = std::hypot(arc.from.x - arc.center.x, arc.from.y - arc.center.y);
+  const double radius = portable::hypot(arc.from.x - arc.center.x, arc.from.y - arc.center.y);
   for (const Vec2 end : {s.a, s.b}) {
     const Vec2 off = end - arc.center;
-    if (sweeps(arc, off)) least = std::min(least, std::abs(std::hypot(off.x, off.y) - radius));
+    if (sweeps(arc, off)) least = std::min(least, std::abs(portable::hypot(off.x, off.y) - radius));
   }
   const Vec2 along = s.b - s.a;
   const double square = along.x * along.x + along.y * along.y;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/trigonometry.hpp"
 #include "verify/exact/exact_segments.hpp"
 
 namespace warren {
@@ -16,7 +17,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// The way of the reference point about the point that the body turns about.
 Arc arc_of(const Leg& leg) {
   const Vec2 aside{-leg.way.y, leg.way.x};
-  return {leg.a.position() + 0.5 * leg.way + (0.5 / std::tan(0.5 * leg.turn)) * aside, leg.a.position(), leg.turn};
+  return {leg.a.position() + 0.5 * leg.way + (0.5 / portable::tan(0.5 * leg.turn)) * aside, leg.a.position(), leg.turn};
 }
 
 }  // namespace
@@ -31,7 +32,7 @@ BodyVerifier::BodyVerifier(const Scene& scene, std::span<const Vec2> outline, do
       execution_(execution),
       confines_(scene.bounds),
       map_(scene.map ? &*scene.map : nullptr) {
-  for (const Vec2 p : outline_) radius_ = std::max(radius_, std::hypot(p.x, p.y));
+  for (const Vec2 p : outline_) radius_ = std::max(radius_, portable::hypot(p.x, p.y));
   bend_ = 1e-15 * surroundings_.largest_coordinate();
   rounding_ = 2e-14 * (surroundings_.largest_coordinate() + 2.0 * radius_ + clearance) + 4.0 * bend_;
   finest_ = 1e-9 * radius_;
@@ -50,9 +51,9 @@ std::vector<Box> BodyVerifier::boxes_of(const Leg& leg) const {
   const bool bends = leg.is_arc && leg.turn != 0.0;
   const Arc arc = bends ? arc_of(leg) : Arc{};
   const double radius = bends ? distance(arc.center, arc.from) : 0.0;
-  const double length = bends ? radius * std::abs(leg.turn) : std::hypot(leg.way.x, leg.way.y);
+  const double length = bends ? radius * std::abs(leg.turn) : portable::hypot(leg.way.x, leg.way.y);
   const double parts = std::clamp(std::ceil(length / (4.0 * around)), 1.0, most_parts);
-  const double bulge = radius * (1.0 - std::cos(0.5 * leg.turn / parts)) * (1.0 + 1e-9);  // over a part's chord
+  const double bulge = radius * (1.0 - portable::cos(0.5 * leg.turn / parts)) * (1.0 + 1e-9);  // over a part's chord
   const double margin = around + bulge + leg.blur;
   const auto at = [&](double part) {
     return bends ? arc.at(leg.turn * part / parts) : leg.a.position() + (part / parts) * leg.way;
@@ -89,8 +90,7 @@ bool BodyVerifier::looks_everywhere(std::span<const Se2> path) const {
 
 std::vector<Vec2> BodyVerifier::corners_at(const Leg& leg, double t) const {
   const double theta = leg.a.theta + t * leg.turn;
-  const double c = std::cos(theta);
-  const double s = std::sin(theta);
+  const auto [s, c] = portable::sin_and_cos(theta);
   std::vector<Vec2> corners;
   corners.reserve(outline_.size());
   for (const Vec2 p : outline_) {
@@ -226,7 +226,7 @@ void BodyVerifier::check_piece(const Leg& leg, double middle, double half, const
   constexpr std::size_t most_looks = 2'000'000;  // some seconds
   execution_.check();
   const bool weary = ++report.looks > most_looks;
-  const double whole = std::hypot(leg.way.x, leg.way.y) + radius_ * std::abs(leg.turn);
+  const double whole = portable::hypot(leg.way.x, leg.way.y) + radius_ * std::abs(leg.turn);
   const double way = half * whole * (1.0 + 1e-12);
   const std::vector<Near> near = nearest_at(leg, middle, way, sides, among);
   if (near.empty() || report.violation) return;

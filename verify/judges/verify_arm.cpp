@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/base/trigonometry.hpp"
 #include "verify/judges/judged_input.hpp"
 #include "verify/judges/leg_reports.hpp"
 
@@ -30,10 +31,8 @@ Matrix product(const Matrix& a, const Matrix& b) {
 
 /// The four factors of a table's row, multiplied out.
 Matrix step_of(const DhJoint& joint, DhConvention convention, double q) {
-  const double c = std::cos(q + joint.offset_rad);
-  const double s = std::sin(q + joint.offset_rad);
-  const double ca = std::cos(joint.alpha_rad);
-  const double sa = std::sin(joint.alpha_rad);
+  const auto [s, c] = portable::sin_and_cos(q + joint.offset_rad);
+  const auto [sa, ca] = portable::sin_and_cos(joint.alpha_rad);
   const Matrix turn{{{c, -s, 0, 0}, {s, c, 0, 0}, {0, 0, 1, joint.d}, {0, 0, 0, 1}}};
   const Matrix twist{{{1, 0, 0, joint.a}, {0, ca, -sa, 0}, {0, sa, ca, 0}, {0, 0, 0, 1}}};
   return convention == DhConvention::standard ? product(turn, twist) : product(twist, turn);
@@ -45,7 +44,7 @@ double product(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1
 Point crossed(const Point& a, const Point& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-double size_of(const Point& a) { return std::hypot(a[0], a[1], a[2]); }
+double size_of(const Point& a) { return portable::hypot(a[0], a[1], a[2]); }
 
 struct Segment3 {
   Point a;
@@ -162,7 +161,7 @@ class ArmVerifier {
 };
 
 void ArmVerifier::measure_links() {
-  for (const DhJoint& joint : table_.joints) length_.push_back(std::hypot(joint.a, joint.d));
+  for (const DhJoint& joint : table_.joints) length_.push_back(portable::hypot(joint.a, joint.d));
   length_.push_back(table_.tool.translation().norm());
   for (const double length : length_) reach_ += length;
   std::size_t from = 0;
@@ -304,7 +303,10 @@ double joint_length(std::span<const JointState> path) {
   double sum = 0.0;
   for (std::size_t i = 1; i < path.size(); ++i) {
     double square = 0.0;
-    for (std::size_t j = 0; j < path[i].size(); ++j) square += std::pow(path[i][j] - path[i - 1][j], 2.0);
+    for (std::size_t j = 0; j < path[i].size(); ++j) {
+      const double turn = path[i][j] - path[i - 1][j];
+      square += turn * turn;
+    }
     sum += std::sqrt(square);
   }
   return sum;

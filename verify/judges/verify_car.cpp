@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/base/error.hpp"
+#include "core/base/trigonometry.hpp"
 #include "verify/judges/body_on_leg.hpp"
 #include "verify/judges/judged_input.hpp"
 #include "verify/near/straight_runs.hpp"
@@ -28,9 +29,10 @@ struct CarLeg {
   CarLeg(const Se2& from, const Se2& to, double turn_rad)
       : a(from), chord{to.x - from.x, to.y - from.y}, turn(turn_rad) {
     const double middle = from.theta + 0.5 * turn;
-    ahead = chord.x * std::cos(middle) + chord.y * std::sin(middle);
-    aside = chord.y * std::cos(middle) - chord.x * std::sin(middle);
-    const double half_sine = std::sin(0.5 * std::abs(turn));
+    const auto [sine, cosine] = portable::sin_and_cos(middle);
+    ahead = chord.x * cosine + chord.y * sine;
+    aside = chord.y * cosine - chord.x * sine;
+    const double half_sine = portable::sin(0.5 * std::abs(turn));
     length = half_sine > 0.0 ? std::abs(ahead) * 0.5 * std::abs(turn) / half_sine : std::abs(ahead);
     if (half_sine > 0.0) radius = 0.5 * std::abs(ahead) / half_sine;
   }

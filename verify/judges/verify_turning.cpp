@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/base/trigonometry.hpp"
 #include "verify/judges/body_on_leg.hpp"
 #include "verify/judges/judged_input.hpp"
 #include "verify/near/straight_runs.hpp"
@@ -102,7 +103,7 @@ Verification verify_se2(const Scene& scene, std::span<const Vec2> outline, std::
   legs.least = std::max(legs.least, 0.0);
   Verification result = verdict_on(legs, wrong_start(path, options), wrong_goal(path, options));
   for (std::size_t i = 1; i < path.size(); ++i) {
-    result.length += std::hypot(path[i].x - path[i - 1].x, path[i].y - path[i - 1].y);
+    result.length += portable::hypot(path[i].x - path[i - 1].x, path[i].y - path[i - 1].y);
     result.turn_rad += std::abs(shorter_turn(path[i - 1].theta, path[i].theta));
   }
   return result;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/trigonometry.hpp"
+
 namespace warren {
 namespace {
 
@@ -44,7 +46,7 @@ double shorter_turn(double a, double b) {
 }
 
 bool is_there(const Se2& pose, const Se2& wanted, bool any_heading, double tolerance) {
-  if (std::hypot(pose.x - wanted.x, pose.y - wanted.y) > tolerance) return false;
+  if (portable::hypot(pose.x - wanted.x, pose.y - wanted.y) > tolerance) return false;
   return any_heading || std::abs(shorter_turn(pose.theta, wanted.theta)) <= tolerance;
 }
 

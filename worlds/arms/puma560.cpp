@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/trigonometry.hpp"
 
 namespace warren {
 namespace {
@@ -54,6 +55,12 @@ std::optional<double> root_of(double square, double scale) {
   return std::sqrt(std::max(square, 0.0));
 }
 
+double angle_of(Complex z) { return portable::atan2(z.imag(), z.real()); }
+Complex turned_by(double angle) {
+  const auto [sine, cosine] = portable::sin_and_cos(angle);
+  return {cosine, sine};
+}
+
 /// The first three angles for which a point that is fixed in frame 3 comes to a place.
 class ShoulderAndElbow {
  public:
@@ -69,7 +76,7 @@ class ShoulderAndElbow {
     std::vector<Angles> found;
     if (!ahead) return found;
     for (const double forward : both_signs(*ahead)) {
-      const double first = std::atan2(place.y(), place.x()) - std::atan2(-side_, forward);
+      const double first = portable::atan2(place.y(), place.x()) - portable::atan2(-side_, forward);
       add_elbows(first, {forward, place.z()}, scale, found);
     }
     return found;
@@ -81,15 +88,15 @@ class ShoulderAndElbow {
   }
   /// target: in the arm's plane, ahead and up.
   void add_elbows(double first, Complex target, double scale, std::vector<Angles>& found) const {
-    const double twice = 2.0 * upper_arm_ * std::abs(forearm_);
+    const double twice = 2.0 * upper_arm_ * portable::hypot(forearm_.real(), forearm_.imag());
     if (twice == 0.0) return;
     const double cosine = (std::norm(target) - upper_arm_ * upper_arm_ - std::norm(forearm_)) / twice;
     const auto sine = root_of(1.0 - cosine * cosine, scale / twice);
     if (!sine) return;
-    for (const double bend : both_signs(std::atan2(*sine, cosine))) {
-      const double third = bend - std::arg(forearm_);
-      const Complex reached = upper_arm_ + std::polar(1.0, third) * forearm_;
-      found.push_back({first, std::arg(target) - std::arg(reached), third});
+    for (const double bend : both_signs(portable::atan2(*sine, cosine))) {
+      const double third = bend - angle_of(forearm_);
+      const Complex reached = upper_arm_ + turned_by(third) * forearm_;
+      found.push_back({first, angle_of(target) - angle_of(reached), third});
     }
   }
 
@@ -101,16 +108,16 @@ class ShoulderAndElbow {
 /// The last three angles: turn is the tool's, seen from frame 3.
 std::vector<Angles> wrists_for(const Eigen::Matrix3d& turn) {
   constexpr double straight = 1e-9;
-  const double sine = std::hypot(turn(0, 2), turn(1, 2));
+  const double sine = portable::hypot(turn(0, 2), turn(1, 2));
   if (sine < straight) {
     // Joints 4 and 6 turn about one line: all of it by joint 6.
     const bool ahead = turn(2, 2) > 0.0;
-    return {{0.0, ahead ? 0.0 : std::numbers::pi, std::atan2(turn(1, 0), turn(1, 1))}};
+    return {{0.0, ahead ? 0.0 : std::numbers::pi, portable::atan2(turn(1, 0), turn(1, 1))}};
   }
   std::vector<Angles> wrists;
   for (const double s : {1.0, -1.0}) {
-    wrists.push_back({std::atan2(-s * turn(1, 2), -s * turn(0, 2)), std::atan2(s * sine, turn(2, 2)),
-                      std::atan2(-s * turn(2, 1), s * turn(2, 0))});
+    wrists.push_back({portable::atan2(-s * turn(1, 2), -s * turn(0, 2)), portable::atan2(s * sine, turn(2, 2)),
+                      portable::atan2(-s * turn(2, 1), s * turn(2, 0))});
   }
   return wrists;
 }

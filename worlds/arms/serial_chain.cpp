@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/base/error.hpp"
+#include "core/base/trigonometry.hpp"
 #include "core/base/types.hpp"
 
 namespace warren {
@@ -37,8 +38,10 @@ bool keeps_axis(double sin_alpha) { return std::abs(sin_alpha) < 1e-15; }
 std::array<double, 2> twist_of(double alpha) {
   const double quarters = alpha / 1.5707963267948966;
   const double nearest = std::round(quarters);
-  if (std::abs(quarters - nearest) > 1e-15 * std::max(1.0, std::abs(quarters)))
-    return {std::cos(alpha), std::sin(alpha)};
+  if (std::abs(quarters - nearest) > 1e-15 * std::max(1.0, std::abs(quarters))) {
+    const auto [sine, cosine] = portable::sin_and_cos(alpha);
+    return {cosine, sine};
+  }
   constexpr std::array<std::array<double, 2>, 4> exact{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
   return exact[static_cast<std::size_t>(static_cast<std::int64_t>(nearest) & 3)];
 }
@@ -50,7 +53,8 @@ struct Cursor {
   Vec3 y = Vec3::UnitY();
   Vec3 z = Vec3::UnitZ();
 
-  void turn(double cosine, double sine) {
+  void turn(const portable::SineAndCosine& angle) {
+    const auto [sine, cosine] = angle;
     const Vec3 turned = cosine * x + sine * y;
     y = cosine * y - sine * x;
     x = turned;
@@ -103,8 +107,7 @@ Eigen::Isometry3d SerialChain::frame(const JointState& q, std::size_t number) co
   slide(base_);
   if (modified_ && number == 0) at = {};
   for (std::size_t i = 0; i < number; ++i) {
-    const double angle = q[i] + steps_[i].offset;
-    at.turn(std::cos(angle), std::sin(angle));
+    at.turn(portable::sin_and_cos(q[i] + steps_[i].offset));
     at.p += steps_[i].d * at.z;
     if (!modified_ || i + 1 < number) slide(steps_[i]);
   }
@@ -126,10 +129,7 @@ void SerialChain::place(const JointState& q, ChainPosture& posture) const {
     const Step& step = steps_[i];
     posture.axes[i] = at.z;
     posture.on_axes[i] = at.p;
-    if (moving_[i]) {
-      const double angle = q[i] + step.offset;
-      at.turn(std::cos(angle), std::sin(angle));
-    }
+    if (moving_[i]) at.turn(portable::sin_and_cos(q[i] + step.offset));
     at.p += step.d * at.z;
     if (modified_) posture.points[i + 1] = at.p;
     if (modified_ && i + 1 == n) break;  // the last frame has no more twist
@@ -153,11 +153,11 @@ double SerialChain::reach_of(std::size_t joint, std::size_t point) const {
     if (last && modified_) break;  // the origin stands before a and alpha
     parallel = parallel && keeps_axis(step.sin_alpha);
     const double d = last || parallel ? 0.0 : steps_[i + 1].d;
-    sum += std::hypot(step.a, d);
+    sum += portable::hypot(step.a, d);
   }
   if (point <= n) return sum;
   const Vec3 tool = table_.tool.translation();
-  return sum + (parallel ? std::hypot(tool.x(), tool.y()) : tool.norm());
+  return sum + (parallel ? portable::hypot(tool.x(), tool.y()) : tool.norm());
 }
 
 void SerialChain::find_reaches() {
@@ -169,7 +169,7 @@ void SerialChain::find_reaches() {
     }
   }
   whole_reach_ = std::abs(base_.a) + table_.tool.translation().norm();
-  for (const Step& step : steps_) whole_reach_ += std::hypot(step.a, step.d);
+  for (const Step& step : steps_) whole_reach_ += portable::hypot(step.a, step.d);
 }
 
 }  // namespace warren

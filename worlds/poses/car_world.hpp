@@ -19,6 +19,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/trigonometry.hpp"
 #include "core/base/world.hpp"
 #include "core/plane/se2.hpp"
 #include "scenes/scene/scene.hpp"
@@ -110,7 +111,8 @@ class CarWorld {
   std::array<double, 4> embed(const State& a) const {
     const double turn = body_.turning_radius() * std::numbers::sqrt2 * 0.5;
     const double shrink = std::numbers::sqrt2 * 0.5;
-    return {shrink * a.x, shrink * a.y, turn * std::cos(a.theta), turn * std::sin(a.theta)};
+    const auto [sine, cosine] = portable::sin_and_cos(a.theta);
+    return {shrink * a.x, shrink * a.y, turn * cosine, turn * sine};
   }
 
   SteeringCurve curve(const State& a, const State& b) const {

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/trigonometry.hpp"
+
 namespace warren {
 namespace {
 
@@ -57,8 +59,7 @@ struct Candidate {
 class Candidates {
  public:
   explicit Candidates(const Se2& goal) : goal_(goal) {
-    const double s = std::sin(goal.theta);
-    const double c = std::cos(goal.theta);
+    const auto [s, c] = portable::sin_and_cos(goal.theta);
     add(false, goal.y, goal.theta, s, c);
     add(true, -goal.y, -goal.theta, -s, c);
   }
@@ -90,7 +91,7 @@ void Candidates::add(bool mirrored, double y, double phi, double s, double c) {
   const Vec2 to_left{x - s, y + c - 1.0};  // from the first circle's centre to the last one's
   const Vec2 to_right{x + s, y - c - 1.0};
   const double left_distance = norm(to_left);
-  const double left_angle = std::atan2(to_left.y, to_left.x);
+  const double left_angle = portable::atan2(to_left.y, to_left.x);
   constexpr double one_circle = 1e-9;
   constexpr double touching = 1e-11;
   add({Shape::lsl, mirrored, phi, 0.0, left_distance, 0.0}, left_distance > one_circle ? left_angle : 0.0);
@@ -98,10 +99,10 @@ void Candidates::add(bool mirrored, double y, double phi, double s, double c) {
   if (straight_sq >= -touching) {  // circles that touch: two arcs and nothing between
     const double straight = std::sqrt(std::max(straight_sq, 0.0));
     add({Shape::lsr, mirrored, phi, 0.0, straight, 0.0},
-        std::atan2(to_right.y, to_right.x) + std::atan2(2.0, straight));
+        portable::atan2(to_right.y, to_right.x) + portable::atan2(2.0, straight));
   }
   if (left_distance <= 4.0 + touching) {
-    const double middle = full_turn - 2.0 * std::asin(std::min(0.25 * left_distance, 1.0));
+    const double middle = full_turn - 2.0 * portable::asin(std::min(0.25 * left_distance, 1.0));
     add({Shape::lrl, mirrored, phi, 0.0, middle, 0.0}, left_angle + 0.5 * middle);
   }
 }

@@ -17,6 +17,8 @@
 #include <limits>
 #include <numbers>
 
+#include "core/base/trigonometry.hpp"
+
 namespace warren {
 namespace {
 
@@ -55,7 +57,7 @@ double wrapped(double angle) {
 struct Polar {
   double size;
   double angle;
-  explicit Polar(Vec2 v) : size(norm(v)), angle(std::atan2(v.y, v.x)) {}
+  explicit Polar(Vec2 v) : size(norm(v)), angle(portable::atan2(v.y, v.x)) {}
   /// Of the vector with its x the other way.
   void reverse() { angle = std::copysign(std::numbers::pi, angle) - angle; }
 };
@@ -111,8 +113,7 @@ SteeringWord word_of(const Solved& w) {
 class Enumeration {
  public:
   Enumeration(const Se2& goal, double longer_than) : longer_than_(longer_than) {
-    const double s = std::sin(goal.theta);
-    const double c = std::cos(goal.theta);
+    const auto [s, c] = portable::sin_and_cos(goal.theta);
     for (const bool mirrored : {false, true}) {
       const double side = mirrored ? -1.0 : 1.0;
       Frame frame({mirrored, false, false}, {goal.x, side * goal.y}, side * goal.theta, side * s, c);
@@ -171,12 +172,12 @@ void Enumeration::solve_all(const Frame& f) {
   if (f.to_right.size >= 2.0 - touching) {
     const double straight = root(f.to_right.size * f.to_right.size - 4.0);
     if (worth(straight)) {
-      const double first = wrapped(f.to_right.angle + std::atan2(2.0, straight));
+      const double first = wrapped(f.to_right.angle + portable::atan2(2.0, straight));
       take(f, Shape::lsr, first, straight, wrapped(first - f.phi), straight);
     }
   }
   if (f.to_left.size <= 4.0 + touching) {
-    const double arc = 2.0 * std::asin(std::min(0.25 * f.to_left.size, 1.0));
+    const double arc = 2.0 * portable::asin(std::min(0.25 * f.to_left.size, 1.0));
     if (worth(arc)) {
       const double first = wrapped(f.to_left.angle - 0.5 * arc + std::numbers::pi);
       take(f, Shape::lrl, first, -arc, wrapped(f.phi - first - arc), arc);
@@ -190,7 +191,7 @@ void Enumeration::solve_all(const Frame& f) {
 void Enumeration::solve_four_arcs(const Frame& f) {
   const double out_cosine = 0.25 * (2.0 + f.to_right.size);
   if (out_cosine <= 1.0 + touching) {
-    const double arc = std::acos(std::min(out_cosine, 1.0));
+    const double arc = portable::acos(std::min(out_cosine, 1.0));
     if (worth(2.0 * arc)) {
       const double first = wrapped(f.to_right.angle + arc + quarter);
       take(f, Shape::lrlr_out, first, arc, wrapped(first - 2.0 * arc - f.phi), 2.0 * arc);
@@ -198,9 +199,9 @@ void Enumeration::solve_four_arcs(const Frame& f) {
   }
   const double in_cosine = (20.0 - f.to_right.size * f.to_right.size) / 16.0;
   if (in_cosine >= -1.0 && in_cosine <= 1.0 + touching) {
-    const double arc = std::acos(std::min(in_cosine, 1.0));
+    const double arc = portable::acos(std::min(in_cosine, 1.0));
     if (worth(2.0 * arc)) {
-      const double first = wrapped(f.to_right.angle + quarter + std::atan2(std::sin(arc), 2.0 - in_cosine));
+      const double first = wrapped(f.to_right.angle + quarter + portable::atan2(portable::sin(arc), 2.0 - in_cosine));
       take(f, Shape::lrlr_in, first, -arc, wrapped(first - f.phi), 2.0 * arc);
     }
   }
@@ -211,7 +212,7 @@ void Enumeration::solve_quarter(const Frame& f) {
     const double across = root(f.to_left.size * f.to_left.size - 4.0);
     const double straight = 2.0 - across;
     if (worth(quarter + std::abs(straight))) {
-      const double first = wrapped(f.to_left.angle + std::atan2(across, -2.0));
+      const double first = wrapped(f.to_left.angle + portable::atan2(across, -2.0));
       take(f, Shape::lrsl, first, straight, wrapped(f.phi - first - quarter), quarter + std::abs(straight));
     }
   }
@@ -227,7 +228,7 @@ void Enumeration::solve_two_quarters(const Frame& f) {
   const double across = root(f.to_right.size * f.to_right.size - 4.0);
   const double straight = 4.0 - across;
   if (!worth(2.0 * quarter + std::abs(straight))) return;
-  const double first = wrapped(f.to_right.angle + std::atan2(across, -2.0));
+  const double first = wrapped(f.to_right.angle + portable::atan2(across, -2.0));
   take(f, Shape::lrslr, first, straight, wrapped(first - f.phi), 2.0 * quarter + std::abs(straight));
 }
 

@@ -22,6 +22,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/trigonometry.hpp"
 #include "core/base/world.hpp"
 #include "core/plane/se2.hpp"
 #include "parallel/execution.hpp"
@@ -69,7 +70,8 @@ class Se2World {
   /// the uniform one where the scene is no map.
   State corridor_state(std::uint64_t seed, std::uint64_t index) const;
   std::array<double, 4> embed(const State& a) const {
-    return {a.x, a.y, angle_weight_ * std::cos(a.theta), angle_weight_ * std::sin(a.theta)};
+    const auto [sine, cosine] = portable::sin_and_cos(a.theta);
+    return {a.x, a.y, angle_weight_ * cosine, angle_weight_ * sine};
   }
 
   /// Lower bound of the distance to the nearest obstacle less the clearance; <= 0: not free. More than `enough` counts

@@ -5,25 +5,26 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/trigonometry.hpp"
+
 namespace warren {
 namespace {
 
 /// The pose after driving the way `length` (signed) from `from`, in units of which the turning radius has `radius`.
 Se2 driven(const Se2& from, Steer steer, double length, double radius) {
-  const double c = std::cos(from.theta);
-  const double s = std::sin(from.theta);
+  const auto [s, c] = portable::sin_and_cos(from.theta);
   if (steer == Steer::straight) return {from.x + length * c, from.y + length * s, from.theta};
   const double side = static_cast<double>(steer);
   const double theta = from.theta + side * length / radius;
   const double r = side * radius;
-  return {from.x + r * (std::sin(theta) - s), from.y + r * (c - std::cos(theta)), theta};
+  const auto [sine, cosine] = portable::sin_and_cos(theta);
+  return {from.x + r * (sine - s), from.y + r * (c - cosine), theta};
 }
 
 }  // namespace
 
 Se2 seen_from(const Se2& a, const Se2& b, double turning_radius) noexcept {
-  const double c = std::cos(a.theta);
-  const double s = std::sin(a.theta);
+  const auto [s, c] = portable::sin_and_cos(a.theta);
   const double dx = (b.x - a.x) / turning_radius;
   const double dy = (b.y - a.y) / turning_radius;
   return {c * dx + s * dy, c * dy - s * dx, turn_between(a.theta, b.theta)};
@@ -45,7 +46,8 @@ bool ends_at(const SteeringWord& word, const Se2& goal) noexcept {
     }
     const double side = static_cast<double>(piece.steer);
     theta += side * piece.length;
-    const Vec2 next{std::cos(theta), std::sin(theta)};
+    const auto [sine, cosine] = portable::sin_and_cos(theta);
+    const Vec2 next{cosine, sine};
     at = at + side * Vec2{next.y - ahead.y, ahead.x - next.x};
     ahead = next;
   }
@@ -93,11 +95,12 @@ Box SteeringCurve::box() const noexcept {
     const double side = static_cast<double>(pieces_[i].steer);
     const double from = joints_[i].theta;
     const double to = from + side * pieces_[i].length;
-    const Vec2 center = joints_[i].position() + side * radius_ * Vec2{-std::sin(from), std::cos(from)};
+    const auto [s, c] = portable::sin_and_cos(from);
+    const Vec2 center = joints_[i].position() + side * radius_ * Vec2{-s, c};
     const double last = std::floor(std::max(from, to) / quarter);
     for (double k = std::ceil(std::min(from, to) / quarter); k <= last; k += 1.0) {
-      const double theta = k * quarter;
-      box.include(center + side * radius_ * Vec2{std::sin(theta), -std::cos(theta)});
+      const auto [sine, cosine] = portable::sin_and_cos(k * quarter);
+      box.include(center + side * radius_ * Vec2{sine, -cosine});
     }
   }
   return box;
@@ -131,7 +134,7 @@ std::vector<double> leg_lengths(std::span<const Se2> poses, std::span<const doub
   for (std::size_t i = 1; i < poses.size(); ++i) {
     const double chord = distance(poses[i - 1].position(), poses[i].position());
     const double half = 0.5 * turns[i];
-    lengths[i] = half == 0.0 ? chord : chord * half / std::sin(half);
+    lengths[i] = half == 0.0 ? chord : chord * half / portable::sin(half);
   }
   return lengths;
 }
@@ -143,7 +146,7 @@ Se2 pose_on_leg(const Se2& a, const Se2& b, double t) {
   const double turn = turn_between(a.theta, b.theta);
   if (std::abs(turn) < no_turn) return interpolate(a, b, t);
   // A part of an arc is a chord along the heading halfway, as the whole is.
-  const double share = std::sin(0.5 * t * turn) / std::sin(0.5 * turn);
+  const double share = portable::sin(0.5 * t * turn) / portable::sin(0.5 * turn);
   const Rotation back(0.5 * (t - 1.0) * turn);
   const Vec2 p = a.position() + share * back(b.position() - a.position());
   return {p.x, p.y, wrapped_angle(a.theta + t * turn)};

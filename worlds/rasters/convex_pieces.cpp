@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/trigonometry.hpp"
 #include "core/plane/geometry.hpp"
 
 namespace warren {
@@ -54,13 +55,16 @@ std::vector<ConvexPiece> triangles_of(std::vector<Vec2> ring) {
 }
 
 Vec2 rotated(Vec2 p, double c, double s) { return {c * p.x - s * p.y, s * p.x + c * p.y}; }
-Vec2 rotated(Vec2 p, double angle_rad) { return rotated(p, std::cos(angle_rad), std::sin(angle_rad)); }
+Vec2 rotated(Vec2 p, double angle_rad) {
+  const auto [sine, cosine] = portable::sin_and_cos(angle_rad);
+  return rotated(p, cosine, sine);
+}
 
 /// The arc that p runs through, within its tangents: both ends and the corners between, `parts` of them.
 void add_arc(Vec2 p, double angle_rad, int parts, std::vector<Vec2>& to) {
   const double part = angle_rad / parts;
   to.push_back(p);
-  for (int i = 0; i < parts; ++i) to.push_back((1.0 / std::cos(part / 2)) * rotated(p, (i + 0.5) * part));
+  for (int i = 0; i < parts; ++i) to.push_back((1.0 / portable::cos(part / 2)) * rotated(p, (i + 0.5) * part));
   to.push_back(rotated(p, angle_rad));
 }
 
@@ -162,8 +166,7 @@ ConvexPiece turned(std::span<const Vec2> outline, std::uint32_t k, std::uint32_t
   const std::uint32_t quarter = quarters ? k / (n / 4) : 0;
   const std::uint32_t rest = quarters ? k % (n / 4) : k;
   const double angle_rad = 2.0 * std::numbers::pi * rest / n;
-  const double c = rest == 0 ? 1.0 : std::cos(angle_rad);
-  const double s = rest == 0 ? 0.0 : std::sin(angle_rad);
+  const auto [s, c] = portable::sin_and_cos(angle_rad);
   ConvexPiece result;
   result.reserve(outline.size());
   for (Vec2 p : outline) {
