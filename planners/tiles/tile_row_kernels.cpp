@@ -52,7 +52,7 @@ void peel_any(const PlaneRow& r) { peel(r.row, r.above, r.below, r.found, r.widt
 void dead_ends_any(const PlaneRow& r) { find_dead_ends(r.row, r.found, r.width); }
 void keys_any(const PlaneRow& r) { find_keys(r.row, r.found, r.width); }
 
-#if defined(__x86_64__)
+#if defined(__x86_64__) && !defined(WARREN_PLAIN)
 [[gnu::target("avx2")]] void peel_avx2(const PlaneRow& r) { peel(r.row, r.above, r.below, r.found, r.width); }
 [[gnu::target("avx2")]] void dead_ends_avx2(const PlaneRow& r) { find_dead_ends(r.row, r.found, r.width); }
 [[gnu::target("avx2")]] void keys_avx2(const PlaneRow& r) { find_keys(r.row, r.found, r.width); }
@@ -71,7 +71,7 @@ void keys_any(const PlaneRow& r) { find_keys(r.row, r.found, r.width); }
 PlaneRowVariants plane_row_variants() {
   PlaneRowVariants variants{};
   variants.list[variants.count++] = {"baseline", peel_any, dead_ends_any, keys_any};
-#if defined(__x86_64__)
+#if defined(__x86_64__) && !defined(WARREN_PLAIN)
   if (__builtin_cpu_supports("avx2")) {
     variants.list[variants.count++] = {"AVX2", peel_avx2, dead_ends_avx2, keys_avx2};
   }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planners/tiles/wall_marking.hpp"
 
-#include <emmintrin.h>
-
 #include <algorithm>
 #include <bit>
 #include <cassert>
@@ -11,6 +9,7 @@
 
 #include "core/plane/geometry.hpp"
 #include "planners/tiles/wall_in_band.hpp"
+#include "planners/tiles/wall_steps.hpp"
 #include "spatial/obstacles/wall_index.hpp"
 
 namespace warren {
@@ -66,19 +65,11 @@ void WallMarker::mark_narrow(std::span<const NarrowWall> walls, TilePlane& plane
   const int middle = static_cast<int>(plane.grid().side() / 2);
   std::uint8_t* const origin = plane.at(middle, middle);
   const auto stride = static_cast<std::int16_t>(plane.stride());
-  const __m128i to_place = _mm_set_epi16(0, 0, stride, 1, 0, 0, stride, 1);
-  for (std::size_t i = 0; i < walls.size(); i += 2) {  // two at a time; the last one, if single, twice
-    const auto* at = reinterpret_cast<const __m128i*>(walls.data() + i);
+  for (std::size_t i = 0; i < walls.size(); i += 2) {
     const bool single = i + 1 == walls.size();
-    const __m128i ends = single ? _mm_unpacklo_epi64(_mm_loadl_epi64(at), _mm_loadl_epi64(at)) : _mm_loadu_si128(at);
-    const __m128i cell = _mm_srai_epi16(_mm_min_epi16(ends, _mm_shuffle_epi32(ends, 0xB1)), narrow_bits);
-    const __m128i key = _mm_sub_epi16(ends, _mm_slli_epi16(cell, narrow_bits));
-    const __m128i place = _mm_madd_epi16(cell, to_place);
-    const auto key_of = [](__m128i v) { return static_cast<std::uint64_t>(_mm_cvtsi128_si64(v)); };
-    mark_shape(key_of(key), walls[i], origin + _mm_cvtsi128_si32(place), plane);
-    if (single) break;
-    mark_shape(key_of(_mm_unpackhi_epi64(key, key)), walls[i + 1],
-               origin + _mm_cvtsi128_si32(_mm_unpackhi_epi64(place, place)), plane);
+    const auto [one, other] = detail::wall_shapes(walls.data() + i, single, stride);
+    mark_shape(one.key, walls[i], origin + one.place, plane);
+    if (!single) mark_shape(other.key, walls[i + 1], origin + other.place, plane);
   }
 }
 

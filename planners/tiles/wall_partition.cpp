@@ -1,73 +1,45 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planners/tiles/wall_partition.hpp"
 
-#include <emmintrin.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
 #include "parallel/first_touch.hpp"
 #include "planners/tiles/wall_in_band.hpp"
+#include "planners/tiles/wall_steps.hpp"
 
 namespace warren {
 namespace {
 
-/// A wall's coordinates in steps of 1/128; exact says whether they are whole and below 2^30.
-struct Units {
-  __m128i steps;  // x1 y1 x2 y2
-  bool exact;
-};
-
-Units units_of(const FloatWall& w) {
-  const __m128 limit = _mm_set1_ps(0x1p30F);
-  const __m128 scaled = _mm_mul_ps(_mm_loadu_ps(&w.x1), _mm_set1_ps(narrow_unit));
-  const __m128 clamped = _mm_max_ps(_mm_min_ps(scaled, limit), _mm_sub_ps(_mm_setzero_ps(), limit));
-  const __m128i steps = _mm_cvtps_epi32(clamped);
-  return {steps, _mm_movemask_ps(_mm_cmpeq_ps(_mm_cvtepi32_ps(steps), scaled)) == 15};
-}
-
-Units units_of(const DoubleWall& w) {
-  const __m128d limit = _mm_set1_pd(0x1p30);
-  const auto half = [&](const double* at, int& whole) {
-    const __m128d scaled = _mm_mul_pd(_mm_loadu_pd(at), _mm_set1_pd(narrow_unit));
-    const __m128d clamped = _mm_max_pd(_mm_min_pd(scaled, limit), _mm_sub_pd(_mm_setzero_pd(), limit));
-    const __m128i steps = _mm_cvtpd_epi32(clamped);
-    whole += _mm_movemask_pd(_mm_cmpeq_pd(_mm_cvtepi32_pd(steps), scaled));
-    return steps;
-  };
-  int whole = 0;
-  const __m128i low = half(&w.x1, whole);
-  const __m128i high = half(&w.x2, whole);
-  return {_mm_unpacklo_epi64(low, high), whole == 6};
-}
+using detail::TileCorner;
+using detail::WallSteps;
 
 /// The box of the walls that it has been shown.
 class GrowingBox {
  public:
   void include(const FloatWall& w) {
-    const __m128 ends = _mm_loadu_ps(&w.x1);
-    low_ = _mm_min_ps(low_, ends);
-    high_ = _mm_max_ps(high_, ends);
+    Four ends;
+    std::memcpy(&ends, &w, sizeof ends);
+    low_ = low_ < ends ? low_ : ends;
+    high_ = high_ > ends ? high_ : ends;
   }
   void include(const DoubleWall& w) { doubles_.include(box_of(w.segment())); }
   Box box() const {
     Box box = doubles_;
-    alignas(16) float low[4];
-    alignas(16) float high[4];
-    _mm_store_ps(low, low_);
-    _mm_store_ps(high, high_);
-    box.include({{std::min(low[0], low[2]), std::min(low[1], low[3])},
-                 {std::max(high[0], high[2]), std::max(high[1], high[3])}});
+    box.include({{std::min(low_[0], low_[2]), std::min(low_[1], low_[3])},
+                 {std::max(high_[0], high_[2]), std::max(high_[1], high_[3])}});
     return box;
   }
 
  private:
-  __m128 low_ = _mm_set1_ps(std::numeric_limits<float>::infinity());
-  __m128 high_ = _mm_set1_ps(-std::numeric_limits<float>::infinity());
+  using Four = float __attribute__((vector_size(16)));
+  Four low_ = Four{} + std::numeric_limits<float>::infinity();
+  Four high_ = Four{} - std::numeric_limits<float>::infinity();
   Box doubles_;
 };
 
@@ -77,49 +49,35 @@ class Filer {
   Filer(const TileGrid& grid, double halo)
       : grid_(grid),
         halo_(halo),
-        shift_(_mm_cvtsi32_si128(static_cast<int>(narrow_bits + grid.side_log2))),
-        halo_steps_(_mm_set1_epi32(static_cast<int>(std::ceil(halo * narrow_unit)))),
+        tile_log2_(static_cast<int>(narrow_bits + grid.side_log2)),
+        halo_steps_(static_cast<std::int32_t>(std::ceil(halo * narrow_unit))),
         narrow_fits_(std::max(grid.cols, grid.rows) <= (1U << 22)) {}
 
   /// Calls narrow(tile, steps) or wide(tile) for each tile that w goes to, ascending.
   template <class T, class Narrow, class Wide>
   void file(const WallOf<T>& w, const Narrow& narrow, const Wide& wide) const {
-    const Units units = units_of(w);
-    const __m128i swapped = _mm_shuffle_epi32(units.steps, 0x4E);
-    const __m128i greater = _mm_cmpgt_epi32(units.steps, swapped);
-    const __m128i low = _mm_or_si128(_mm_and_si128(greater, swapped), _mm_andnot_si128(greater, units.steps));
-    const __m128i high = _mm_or_si128(_mm_and_si128(greater, units.steps), _mm_andnot_si128(greater, swapped));
-    const __m128i longest = _mm_set1_epi32(64 * narrow_unit);
-    const bool is_short = _mm_movemask_epi8(_mm_cmpgt_epi32(_mm_sub_epi32(high, low), longest)) == 0;
-    if (!units.exact || !is_short || !narrow_fits_) return file_wide(w.segment(), wide);
-    const __m128i origin = _mm_set1_epi32(narrow_unit / 2);
-    const Corner first = corner(_mm_sub_epi32(low, _mm_add_epi32(origin, halo_steps_)));
-    const Corner last = corner(_mm_add_epi32(_mm_sub_epi32(high, origin), halo_steps_));
+    const WallSteps steps(w);
+    if (!steps.exact() || !steps.is_short(64 * narrow_unit) || !narrow_fits_) return file_wide(w.segment(), wide);
+    constexpr std::int32_t origin = narrow_unit / 2;
+    const TileCorner first = steps.first(origin + halo_steps_, tile_log2_);
+    const TileCorner last = steps.last(halo_steps_ - origin, tile_log2_);
     if (first.col == last.col && first.row == last.row) {
       if (inside(first.col, grid_.tile_cols) && inside(first.row, grid_.tile_rows)) {
-        narrow(tile(first.col, first.row), units.steps);
+        narrow(tile(first.col, first.row), steps);
       }
       return;
     }
     const std::int32_t end_col = std::min(last.col + 1, static_cast<std::int32_t>(grid_.tile_cols));
     const std::int32_t end_row = std::min(last.row + 1, static_cast<std::int32_t>(grid_.tile_rows));
     for (std::int32_t row = std::max(first.row, 0); row < end_row; ++row) {
-      for (std::int32_t col = std::max(first.col, 0); col < end_col; ++col) narrow(tile(col, row), units.steps);
+      for (std::int32_t col = std::max(first.col, 0); col < end_col; ++col) narrow(tile(col, row), steps);
     }
   }
 
  private:
-  struct Corner {
-    std::int32_t col;
-    std::int32_t row;
-  };
   static bool inside(std::int32_t i, std::uint32_t count) { return static_cast<std::uint32_t>(i) < count; }
   std::size_t tile(std::int32_t col, std::int32_t row) const {
     return static_cast<std::size_t>(row) * grid_.tile_cols + static_cast<std::size_t>(col);
-  }
-  Corner corner(__m128i steps) const {
-    const auto both = static_cast<std::uint64_t>(_mm_cvtsi128_si64(_mm_sra_epi32(steps, shift_)));
-    return {static_cast<std::int32_t>(both), static_cast<std::int32_t>(both >> 32)};
   }
 
   template <class Wide>
@@ -144,8 +102,8 @@ class Filer {
 
   const TileGrid& grid_;
   const double halo_;
-  const __m128i shift_;
-  const __m128i halo_steps_;
+  const int tile_log2_;  // in steps
+  const std::int32_t halo_steps_;
   const bool narrow_fits_;
 };
 
@@ -211,7 +169,7 @@ Counted count(std::span<const WallOf<T>> walls, const Filer& filer, std::size_t 
     for (std::size_t i = r.first; i < r.last; ++i) {
       box.include(walls[i]);
       filer.file(
-          walls[i], [&](std::size_t tile, __m128i) { ++narrow[tile]; },
+          walls[i], [&](std::size_t tile, const WallSteps&) { ++narrow[tile]; },
           [&](std::size_t tile) {
             ++wide[tile];
             any_wide = true;
@@ -248,11 +206,7 @@ void scatter(std::span<const WallOf<T>> walls, const Filer& filer, const TileGri
     for (std::size_t i = r.first; i < r.last; ++i) {
       filer.file(
           walls[i],
-          [&](std::size_t tile, __m128i steps) {
-            const __m128i local = _mm_sub_epi32(steps, _mm_set1_epi64x(static_cast<long long>(middle[tile])));
-            auto* to = reinterpret_cast<__m128i*>(narrow_walls + narrow[tile]++);
-            _mm_storel_epi64(to, _mm_packs_epi32(local, local));
-          },
+          [&](std::size_t tile, const WallSteps& steps) { narrow_walls[narrow[tile]++] = steps.from(middle[tile]); },
           [&](std::size_t tile) { wide_walls[wide[tile]++] = walls[i]; });
     }
   });

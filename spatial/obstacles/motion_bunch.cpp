@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "spatial/obstacles/motion_bunch.hpp"
 
+#if defined(__x86_64__) && !defined(WARREN_PLAIN)
 #include <immintrin.h>
+#endif
 
 #include <algorithm>
 #include <cstring>
@@ -84,6 +86,8 @@ void MotionBunch<T>::sift_baseline(std::span<const WallOf<T>> walls) noexcept {
   sift_with<16>(walls);
 }
 
+#if defined(__x86_64__) && !defined(WARREN_PLAIN)
+
 template <class T>
 [[gnu::target("avx2")]] void MotionBunch<T>::sift_avx2(std::span<const WallOf<T>> walls) noexcept {
   sift_with<32>(walls);
@@ -153,6 +157,15 @@ void MotionBunch<T>::sift(std::span<const WallOf<T>> walls, InstructionSet set) 
       return sift_avx512(walls);
   }
 }
+
+#else
+
+template <class T>
+void MotionBunch<T>::sift(std::span<const WallOf<T>> walls, InstructionSet /*set*/) noexcept {
+  sift_baseline(walls);
+}
+
+#endif
 
 template class MotionBunch<float>;
 template class MotionBunch<double>;

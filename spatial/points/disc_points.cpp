@@ -36,18 +36,26 @@ void count_baseline(const std::int32_t* key, std::size_t count, std::int32_t* ra
   count_smaller<Lanes4>(key, count, rank);
 }
 
+#if defined(__x86_64__) && !defined(WARREN_PLAIN)
 [[gnu::target("avx2")]] void count_avx2(const std::int32_t* key, std::size_t count, std::int32_t* rank) {
   count_smaller<Lanes8>(key, count, rank);
 }
+#else
+void count_avx2(const std::int32_t* key, std::size_t count, std::int32_t* rank) { count_baseline(key, count, rank); }
+#endif
 
 }  // namespace
 
 InstructionSet best_instruction_set() noexcept {
+#if defined(__x86_64__) && !defined(WARREN_PLAIN)
   static const InstructionSet best = [] {
     if (__builtin_cpu_supports("avx512f") != 0) return InstructionSet::avx512;
     return __builtin_cpu_supports("avx2") != 0 ? InstructionSet::avx2 : InstructionSet::baseline;
   }();
   return best;
+#else
+  return InstructionSet::baseline;
+#endif
 }
 
 std::size_t DiscPoints::sort_roughly(std::size_t k, double scale, InstructionSet set) noexcept {

@@ -7,8 +7,6 @@
 // KdTree there (neighbours.hpp chooses).
 #pragma once
 
-#include <emmintrin.h>
-
 #include <array>
 #include <bit>
 #include <cmath>
@@ -20,6 +18,7 @@
 #include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
 #include "parallel/chunks.hpp"
+#include "spatial/points/near_bits.hpp"
 #include "spatial/points/neighbour.hpp"
 #include "spatial/points/tile_order.hpp"
 
@@ -213,17 +212,7 @@ class PointGrid::CellCandidates {
   /// Bit i is set if the squared distance of candidate from + i is <= square, for up to 64 of them.
   std::uint64_t near_bits(std::uint32_t from, Vec2 p, double square) const {
     const std::uint32_t count = std::min(count_ - from, 64U);
-    const __m128d px = _mm_set1_pd(p.x);
-    const __m128d py = _mm_set1_pd(p.y);
-    std::uint64_t bits = 0;
-    for (std::uint32_t i = 0; i < count; i += 2) {  // one too many where they are odd, which x_ and y_ have room for
-      const __m128d dx = _mm_sub_pd(_mm_loadu_pd(&x_[from + i]), px);
-      const __m128d dy = _mm_sub_pd(_mm_loadu_pd(&y_[from + i]), py);
-      const __m128d sum = _mm_add_pd(_mm_mul_pd(dx, dx), _mm_mul_pd(dy, dy));
-      const int near = _mm_movemask_pd(_mm_cmple_pd(sum, _mm_set1_pd(square)));
-      bits |= static_cast<std::uint64_t>(near) << i;
-    }
-    return bits & (~std::uint64_t{0} >> (64 - count));
+    return detail::near_bits(&x_[from], &y_[from], count, p, square);
   }
 
   const PointGrid& grid_;
