@@ -16,13 +16,14 @@ set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_OPTIMIZE_DEPENDENCIES ON)  # a library's sources are compiled before the libraries below it are linked
 
 # Every machine computes the same bits: no contraction into fused operations, no fast-math.
 add_compile_options(-ffp-contract=off -fno-fast-math)
 # Warnings are the developers' business: at -O3 the compiler also warns of paths in the libraries' headers that don't exist.
 if(WARREN_WERROR)
   add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Wnull-dereference -Werror)
-  # Between the files of a batch, names may shadow each other; each file by itself is looked at in the other builds.
+  # Between the files of a batch, names may shadow each other; `tools/check alone` looks at each file by itself.
   if(CMAKE_UNITY_BUILD)
     add_compile_options(-Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   endif()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# warren_unity(TARGET): with CMAKE_UNITY_BUILD (presets tidy and tsan), the target's sources are compiled in batches of
-# about ten, because most of a file's time there goes to the system's headers. A file's batch is drawn by its name alone:
+# warren_unity(TARGET): with CMAKE_UNITY_BUILD (all presets), the target's sources are compiled in batches of about ten,
+# because most of a file's time goes to the system's headers: half of the time from nothing. A file's batch is drawn by its name alone:
 # related files, whose private names tend to be alike, lie apart, and a new file moves no other one (but for a doubling
 # of the batches). Two files of a batch can't give one name to two things: the better name for one of them mends it.
 function(warren_unity target)
