@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <string>
 
+#include "scenes/text/palette.hpp"
 #include "studies/compare/comparison.hpp"
-#include "studies/measure/palette.hpp"
 
 namespace warren {
 

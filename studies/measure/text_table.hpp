@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/measure/palette.hpp"
+#include "scenes/text/palette.hpp"
 
 namespace warren {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "studies/measure/palette.hpp"
+#include "scenes/text/palette.hpp"
 #include "studies/sizes/largest_maze.hpp"
 
 namespace warren {

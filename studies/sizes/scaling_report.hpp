@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "studies/measure/palette.hpp"
+#include "scenes/text/palette.hpp"
 #include "studies/sizes/scaling_study.hpp"
 
 namespace warren {

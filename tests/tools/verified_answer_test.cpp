@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "pictures/answer_summary.hpp"
 #include "solve/answer/read_answer_io.hpp"
 #include "solve/answer/write_answer_io.hpp"
-#include "tools/screen/answer_summary.hpp"
 
 namespace warren {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "studies/measure/palette.hpp"  // IWYU pragma: export
+#include "scenes/text/palette.hpp"  // IWYU pragma: export
 
 namespace warren {
 

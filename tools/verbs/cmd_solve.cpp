@@ -8,13 +8,13 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "pictures/answer_summary.hpp"
 #include "pictures/draw_answer.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "solve/answer/write_answer_io.hpp"
 #include "solve/solve.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 #include "solve/steps/solve_steps.hpp"
-#include "tools/screen/answer_summary.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_conflicts.hpp"
 #include "tools/screen/output_names.hpp"

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What `solve` tells a person: the answer first, then what it took, then where things were written.
+// An answer as a few lines for a person: the answer first, then what it took, then where things were written.
 #pragma once
 
 #include <span>
 #include <string>
 
+#include "scenes/text/palette.hpp"
 #include "solve/answer/answer.hpp"
-#include "tools/screen/terminal.hpp"
 
 namespace warren {
 
+/// Each line with its newline; Palette(false) for text without colours.
 std::string summary_of(const Answer& answer, const Palette& palette, std::span<const std::string> files_written);
 
 }  // namespace warren

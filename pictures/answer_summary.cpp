@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/screen/answer_summary.hpp"
+#include "pictures/answer_summary.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,6 @@
 
 #include "core/base/printable.hpp"
 #include "scenes/text/human_units.hpp"
-#include "tools/screen/run_of_verb.hpp"
 
 namespace warren {
 namespace {

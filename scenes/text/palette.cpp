@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "studies/measure/palette.hpp"
+#include "scenes/text/palette.hpp"
 
 #include "core/base/printable.hpp"
 
