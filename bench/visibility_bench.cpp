@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Visibility graphs: the sweep beside checking every pair against every side, linking start and goal, the search alone,
 // and a lazy query. Worlds of disjoint polygons from a seed; range(0): polygons (7.5 corners each). The search alone in
-// the report's dense world too, where that is found beside the sources.
+// the dense world of tests/data too, whose figures are known.
 #include <benchmark/benchmark.h>
 
 #include <cstdlib>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -111,8 +110,7 @@ void bm_search(benchmark::State& state) {
 
 /// range(0): 0 Dijkstra, 1 A*.
 void bm_search_dense(benchmark::State& state) {
-  const std::string path = std::string(WARREN_SHARED_DIR) + "/worlds/vg-dense.scene";
-  if (!std::filesystem::exists(path)) return state.SkipWithError("the report's world is not here");
+  const std::string path = WARREN_SOURCE_DIR "/tests/data/dense.scene";
   time_search(state, World(read_scene_text(InputFile(path, {}), {})), VisibilityEdges::full, state.range(0) == 1);
 }
 

@@ -4,7 +4,6 @@
 namespace warren::test {
 
 std::string source_dir() { return WARREN_SOURCE_DIR; }
-std::string shared_dir() { return WARREN_SHARED_DIR; }
 std::string program() { return WARREN_PROGRAM; }
 
 }  // namespace warren::test

@@ -8,7 +8,6 @@
 namespace warren::test {
 
 std::string source_dir();  ///< the root of the tree
-std::string shared_dir();  ///< the folder of worlds beside it, which a lone clone doesn't have
 std::string program();     ///< the program `warren` of this build
 
 }  // namespace warren::test

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Polygon worlds through the program: made, converted, drawn, solved, verified, refused. Worlds of other people's data
-// are read where they stand, and skipped where they don't.
+// Polygon worlds through the program: made, converted, drawn, solved, verified, refused. The figures of the worlds in
+// tests/data were computed as visibility_figures_test.cpp says.
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -121,46 +121,39 @@ TEST(Polygons, ImpossibleWordsOfGenerateAreUsageErrors) {
   check({{"generate", "spheres", "5", "-o", "/tmp/x.scene"}, 2, "maze or polygons"});
 }
 
-/// A world of the shared folder; empty where it is absent.
-std::string shared_world(const std::string& name) {
-  const std::string path = test::shared_dir() + "/worlds/" + name;
-  return std::filesystem::exists(path) ? path : std::string();
-}
+const std::string sparse = source_dir() + "/tests/data/sparse.scene";
+const std::string dense = source_dir() + "/tests/data/dense.scene";
 
-TEST(Polygons, TheReportsWorldsHaveTheirShortestPaths) {
-  const std::string sparse = shared_world("vg-sparse.scene");
-  const std::string dense = shared_world("vg-dense.scene");
-  if (sparse.empty() || dense.empty()) GTEST_SKIP() << "the shared worlds are not here";
+TEST(Polygons, KnownWorldsHaveTheirShortestPaths) {
   const Json answer = json_of({"solve", sparse});
   EXPECT_EQ(answer["planner"], "visibility");
   EXPECT_EQ(answer["contact"], "allowed");
   EXPECT_EQ(answer["optimal"], true);
   EXPECT_EQ(answer["verified"], true);
   EXPECT_TRUE(answer["sampler"].is_null());
-  EXPECT_NEAR(answer["length"], 1.012888384, 1e-9);
-  EXPECT_EQ(answer["roadmap"]["edges"], 31);
-  EXPECT_EQ(json_of({"solve", sparse, "--full"})["roadmap"]["edges"], 43);
+  EXPECT_NEAR(answer["length"], 0.984660989043, 1e-9);
+  EXPECT_EQ(answer["roadmap"]["edges"], 30);
+  EXPECT_EQ(json_of({"solve", sparse, "--full"})["roadmap"]["edges"], 44);
   for (const char* how : {"--full", "--lazy", "--search=dijkstra", "--queue=sorted-array"}) {
-    EXPECT_NEAR(json_of({"solve", dense, how})["length"], 1.193397743, 1e-9) << how;
+    EXPECT_NEAR(json_of({"solve", dense, how})["length"], 0.826491095336, 1e-9) << how;
   }
   const Json bfs = json_of({"solve", dense, "--full", "--search", "bfs"});
-  EXPECT_NEAR(bfs["length"], 2.029231, 1e-6);
+  EXPECT_NEAR(bfs["length"], 1.281945865151, 1e-9);
   EXPECT_FALSE(bfs.contains("optimal"));
 }
 
+// Corners come within 0.01 of lines of sight, so that edges looked at every 0.01 cut them off.
 TEST(Polygons, SampledEdgesAreToldWhereTheyAreWrong) {
-  const std::string dense = shared_world("vg-dense.scene");
-  if (dense.empty()) GTEST_SKIP() << "the shared worlds are not here";
   const Json answer = json_of({"solve", dense, "--sampled-edges", "0.01"}, 1);
   EXPECT_EQ(answer["status"], "refuted");
   EXPECT_EQ(answer["verified"], false);
   EXPECT_TRUE(answer["length"].is_null());
   EXPECT_EQ(answer["path"], Json::array());
-  EXPECT_NEAR(answer["refuted"]["length"], 1.187952, 1e-6);
-  EXPECT_EQ(answer["roadmap"]["edges"], 271);
+  EXPECT_NEAR(answer["refuted"]["length"], 0.826484515350, 1e-9);
+  EXPECT_EQ(answer["roadmap"]["edges"], 232);
   Json edges = Json::array();
   for (const Json& wrong : answer["wrong_edges"]) edges.push_back(wrong["edge"]);
-  EXPECT_EQ(edges, Json::parse("[[1, 35], [15, 28], [20, 52]]"));
+  EXPECT_EQ(edges, Json::parse("[[0, 28], [0, 31], [0, 37], [8, 39], [11, 16], [18, 36], [18, 38], [31, 41]]"));
   EXPECT_FALSE(answer["refuted"]["first_violation"].is_null());
   EXPECT_GT(answer["refuted"]["path"].size(), 2U);
 }

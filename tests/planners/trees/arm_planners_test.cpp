@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Planners on arms: the study's scene and its sibling with nine spheres where their files are at hand, else worlds from
-// seeds. Every path is judged by worlds/verify_arm.
+// Planners on arms: the study's scene, one with nine spheres, and worlds from seeds. Every path is judged by
+// worlds/verify_arm.
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "core/base/error.hpp"
 #include "planners/roadmap/lazy_prm.hpp"
@@ -101,13 +100,12 @@ TEST(ArmPlanners, FindVerifiedPathsTheSameForAnyNumberOfThreads) {
   }
 }
 
+constexpr const char* nine_spheres = "tests/data/nine-spheres.scene";
+
 class StudyScene : public ::testing::TestWithParam<const char*> {
  protected:
-  /// Data of other people's, which no copy of this repository holds.
   void SetUp() override {
-    const std::string file = test::shared_dir() + "/worlds/" + GetParam();
-    if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not here";
-    question_.scene = read_world(file, {});
+    question_.scene = read_world(test::source_dir() + "/" + GetParam(), {});
     std::copy_n(question_.scene.start.begin(), most_joints, question_.start.begin());
     std::copy_n(question_.scene.goal.begin(), most_joints, question_.goal.begin());
     world_.emplace(question_.scene, SerialChain(question_.table), ArmOptions{});
@@ -128,12 +126,12 @@ TEST_P(StudyScene, AHundredSamplesSolveItForEachOfAHundredSeeds) {
     expect_verified(question_, shorter);
     lengths.push_back(path_length(shorter, joint_distance));
   }
-  if (GetParam() != std::string("puma-nine.scene")) return;
-  constexpr double best_known = 4.041;
+  if (GetParam() != std::string(nine_spheres)) return;
+  constexpr double best_known = 3.752;  // of 350 paths: prm's and rrt-connect's, made shorter
   std::sort(lengths.begin(), lengths.end());
   EXPECT_LE(lengths.front(), 1.05 * best_known);
   EXPECT_LE(lengths[lengths.size() / 2], 1.15 * best_known);
-  EXPECT_GE(lengths.front(), 4.023);  // the straight line
+  EXPECT_GT(lengths.front(), joint_distance(question_.start, question_.goal));  // the straight line, which is blocked
 }
 
 TEST_P(StudyScene, ThePathsEndsAreAttachedWithinARadiusThatGrows) {
@@ -152,7 +150,7 @@ TEST_P(StudyScene, ThePathsEndsAreAttachedWithinARadiusThatGrows) {
   EXPECT_THROW(prm(*world_, question_.start, question_.goal, options, {}), InputError);
 }
 
-INSTANTIATE_TEST_SUITE_P(Puma, StudyScene, ::testing::Values("puma-seed.scene", "puma-nine.scene"));
+INSTANTIATE_TEST_SUITE_P(Puma, StudyScene, ::testing::Values("examples/worlds/puma-seed.scene", nine_spheres));
 
 }  // namespace
 }  // namespace warren
