@@ -45,6 +45,7 @@ Command bench_scen_command();
 Command compare_command();
 Command completion_command();
 Command convert_command();
+Command example_command();
 Command generate_command();
 Command info_command();
 Command largest_command();

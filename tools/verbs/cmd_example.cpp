@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// warren example: writes a world of examples/worlds, which the program has in it, where one stands, and says the
+// command that shows it. What there is to see stands in the table of the folder's README.md alone.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "scenes/text/input_file_io.hpp"
+#include "scenes/text/output_file_io.hpp"
+#include "tools/screen/exit_code.hpp"
+#include "tools/screen/output_names.hpp"
+#include "tools/screen/terminal.hpp"
+#include "tools/verbs/example_files.hpp"
+#include "tools/words/command.hpp"
+#include "tools/words/option_values.hpp"
+
+namespace warren {
+namespace {
+
+constexpr OptionSpec example_specs[] = {{"--output", "FOLDER", "where to (default: where you are)", {}, "-o"}};
+
+/// A row of the table.
+struct Example {
+  std::string_view name;  ///< "flat"
+  std::vector<std::string_view> files;
+  std::string_view sight;    ///< what to see
+  std::string_view command;  ///< that shows it
+};
+
+std::string_view bytes_of(std::string_view name) {
+  const auto files = example_files();
+  return std::find_if(files.begin(), files.end(), [&](const ExampleFile& file) { return file.name == name; })->bytes;
+}
+
+/// What stands between backquotes.
+std::vector<std::string_view> quoted(std::string_view text) {
+  std::vector<std::string_view> parts;
+  for (std::size_t begin = text.find('`'); begin != text.npos; begin = text.find('`')) {
+    const std::size_t end = text.find('`', begin + 1);
+    parts.push_back(text.substr(begin + 1, end - begin - 1));
+    text.remove_prefix(end + 1);
+  }
+  return parts;
+}
+
+std::vector<Example> examples() {
+  std::vector<Example> all;
+  std::string_view table = bytes_of("README.md");
+  while (!table.empty()) {
+    const std::string_view row = table.substr(0, table.find('\n'));
+    table.remove_prefix(row.size() + 1);
+    if (!row.starts_with("| `")) continue;
+    const std::size_t bar = row.find(" | ");
+    const std::string_view says = row.substr(bar + 3);
+    const auto files = quoted(row.substr(0, bar));
+    all.push_back({files[0].substr(0, files[0].find('.')), files, says.substr(0, says.find(": `")), quoted(says)[0]});
+  }
+  return all;
+}
+
+std::string list_of(const std::vector<Example>& all) {
+  std::string text;
+  for (const Example& example : all) text += fmt::format("{:<12} {}\n", example.name, example.sight);
+  return text + "'warren example NAME' writes one of them where you are.\n";
+}
+
+/// Is the file there as it shall be? Throws UsageError where another stands in its place.
+bool is_there(const std::string& file, std::string_view bytes) {
+  check_writable(file);
+  if (!std::filesystem::exists(file)) return false;
+  if (std::filesystem::is_regular_file(file) && InputFile(file, {}).bytes() == bytes) return true;
+  throw UsageError(fmt::format("{}: is there already, and is another file; -o FOLDER writes elsewhere", file));
+}
+
+int write_example(const Example& example, const std::string& folder) {
+  std::vector<std::pair<std::string, std::string_view>> missing;
+  for (const std::string_view name : example.files) {
+    const std::string file = folder.empty() ? std::string{name} : fmt::format("{}/{}", folder, name);
+    if (!is_there(file, bytes_of(name))) missing.emplace_back(file, bytes_of(name));
+  }
+  for (const auto& [file, bytes] : missing) write_file(file, bytes, {});
+  print_text(fmt::format("{}: {}\ntry{}: {}\n", fmt::join(example.files, ", "), example.sight,
+                         folder.empty() ? "" : " in " + folder, example.command));
+  return exit_code::success;
+}
+
+int example(const Arguments& arguments) {
+  const std::vector<Example> all = examples();
+  if (arguments.operand_count() == 0) {
+    print_text(list_of(all));
+    return exit_code::success;
+  }
+  std::vector<std::string_view> names;
+  for (const Example& each : all) names.push_back(each.name);
+  return write_example(all[choice_value("NAME", arguments.operand(0), names)],
+                       arguments.value("--output").value_or(""));
+}
+
+}  // namespace
+
+Command example_command() {
+  Command command{"example", "[NAME]", "write a world to try things on, or list them", {}, example};
+  add_options(command.options, example_specs);
+  return command;
+}
+
+}  // namespace warren
