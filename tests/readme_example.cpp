@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/roadmap/prm.hpp"
-#include "scenes/mazes/maze_generator.hpp"
-#include "verify/judges/verify_point.hpp"
-#include "worlds/plane/maze_world.hpp"
+#include <iostream>
+#include <warren/warren.hpp>
 
 int main() {
-  const warren::Scene maze = warren::maze_scene({.rows = 21, .cols = 31, .seed = 7}, true, {});
-  const warren::Vec2 start{0.5, 1.0}, goal{31.5, 21.0};
-  const warren::MazeWorld world(maze, 0.1, {});  // a disc of radius 0.1 among the maze's walls
-  const auto answer = warren::prm(world, start, goal, {}, {});
-  const auto judged = warren::verify_path(maze, answer.path, {.clearance = 0.1, .start = start, .goal = goal}, {});
-  return judged.verified ? 0 : 1;
+  const warren::Scene maze = warren::read_world("maze:21x31,seed=7");  // or a file of any format
+  const warren::Answer answer = warren::solve(maze, {.clearance = 0.2}, {.optimise = true}, {.threads = 2});
+  const warren::Verdict verdict = warren::verify(maze, answer);  // solve() has done it; anybody may again
+  std::cout << answer.planner << ": length " << verdict.length << ", off the walls " << verdict.min_clearance << '\n';
+  warren::write_picture("maze.svg", maze, answer);
+  return verdict.verified ? 0 : 1;
 }
