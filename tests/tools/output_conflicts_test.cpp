@@ -99,6 +99,7 @@ TEST_F(OutputConflicts, NorFilesThatItsInputNames) {
   refused("convert @m.pgm -o @m.yaml", said);  // whose image would be m.pgm
   refused("solve @m.yaml --start 0.5,1.5 --goal 2.5,1.5 --json @m.pgm", said);
   refused("solve @arm.scene --json @arm.txt", said);
+  refused("compare @arm.scene --planners prm --json @arm.txt", said);
   const std::vector<std::string> by_option{
       "solve", path("w.scene"), "--robot", "arm " + path("arm.txt") + " radius 0.1", "--json", path("./arm.txt")};
   check({by_option, 2, said});
