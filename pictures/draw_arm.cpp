@@ -25,7 +25,7 @@ std::vector<Vec2> circle(Vec2 centre, double radius) {
   std::vector<Vec2> points;
   for (int i = 0; i < corners; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / corners;
-    points.push_back(centre + Vec2{radius * std::cos(angle), radius * std::sin(angle)});
+    points.push_back(centre + Vec2{radius * portable::cos(angle), radius * portable::sin(angle)});
   }
   return points;
 }
@@ -33,12 +33,12 @@ std::vector<Vec2> circle(Vec2 centre, double radius) {
 /// The outline of a capsule seen from far.
 std::vector<Vec2> stadium(Vec2 a, Vec2 b, double radius) {
   constexpr int half = 12;
-  const double heading = a == b ? 0.0 : std::atan2(b.y - a.y, b.x - a.x);
+  const double heading = a == b ? 0.0 : portable::atan2(b.y - a.y, b.x - a.x);
   std::vector<Vec2> points;
   for (const auto& [end, turn] : {std::pair{b, -0.5}, std::pair{a, 0.5}}) {
     for (int i = 0; i <= half; ++i) {
       const double angle = heading + std::numbers::pi * (turn + static_cast<double>(i) / half);
-      points.push_back(end + Vec2{radius * std::cos(angle), radius * std::sin(angle)});
+      points.push_back(end + Vec2{radius * portable::cos(angle), radius * portable::sin(angle)});
     }
   }
   return points;

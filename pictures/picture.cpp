@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/base/trigonometry.hpp"
 #include "parallel/components.hpp"
 #include "scenes/text/output_file_io.hpp"
 
@@ -26,7 +27,9 @@ Canvas canvas_of(const Picture& picture, const Execution& execution) {
   return canvas;
 }
 
-double arc_radius(Vec2 from, Vec2 to, double turn) { return 0.5 * distance(from, to) / std::abs(std::sin(0.5 * turn)); }
+double arc_radius(Vec2 from, Vec2 to, double turn) {
+  return 0.5 * distance(from, to) / std::abs(portable::sin(0.5 * turn));
+}
 
 std::vector<Vec2> without_arcs(std::span<const Vec2> points, std::span<const double> turns) {
   constexpr double step_rad = std::numbers::pi / 45.0;
@@ -37,12 +40,12 @@ std::vector<Vec2> without_arcs(std::span<const Vec2> points, std::span<const dou
     if (parts > 1.0) {
       // Left of the chord by the arc's height over it, where the arc turns left.
       const Vec2 chord = points[i] - points[i - 1];
-      const double half_cotangent = 0.5 / std::tan(0.5 * turn);
+      const double half_cotangent = 0.5 / portable::tan(0.5 * turn);
       const Vec2 center = points[i - 1] + 0.5 * chord + half_cotangent * Vec2{-chord.y, chord.x};
       const Vec2 from = points[i - 1] - center;
       for (double part = 1.0; part < parts; part += 1.0) {
-        const double c = std::cos(turn * part / parts);
-        const double s = std::sin(turn * part / parts);
+        const double c = portable::cos(turn * part / parts);
+        const double s = portable::sin(turn * part / parts);
         chain.push_back(center + Vec2{c * from.x - s * from.y, s * from.x + c * from.y});
       }
     }
