@@ -10,12 +10,14 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <istream>
 #include <numeric>
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -88,7 +90,7 @@ class DescriptionReader {
 
   Description read() const {
     Description d;
-    d.image = value<std::string>("image", "the name of an image");
+    d.image = converted<std::string>(needed("image"), "image", "the name of an image");
     if (d.image.empty()) fail(root_["image"], "`image` must be the name of an image");
     d.resolution = positive("resolution");
     d.origin = origin();
@@ -112,9 +114,16 @@ class DescriptionReader {
     if (!node) throw InputError(name_, fmt::format("the key `{}` is missing: a map server needs it", key));
     return node;
   }
-  template <class T>
-  T value(const char* key, std::string_view expected) const {
-    return converted<T>(needed(key), key, expected);
+  /// yaml-cpp's own conversion takes memory that has run out for a wrong number.
+  double number(const YAML::Node& node, const char* key, std::string_view expected) const {
+    const std::string_view text = node.IsScalar() ? std::string_view(node.Scalar()) : std::string_view();
+    const char* const first = text.data() + (text.starts_with('+') ? 1 : 0);
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(first, text.data() + text.size(), value);
+    if (text.empty() || error != std::errc() || end != text.data() + text.size()) {
+      fail(node, fmt::format("`{}` must be {}", key, expected));
+    }
+    return value;
   }
   template <class T>
   T converted(const YAML::Node& node, const char* key, std::string_view expected) const {
@@ -125,16 +134,16 @@ class DescriptionReader {
     }
   }
   double positive(const char* key) const {
-    const auto number = value<double>(key, "a number above 0");
-    if (!(number > smallest_coordinate && number < largest_coordinate)) {
+    const double value = number(needed(key), key, "a number above 0");
+    if (!(value > smallest_coordinate && value < largest_coordinate)) {
       fail(root_[key], fmt::format("`{}` must be a number above 0", key));
     }
-    return number;
+    return value;
   }
   double fraction(const char* key) const {
-    const auto number = value<double>(key, "a number from 0 to 1");
-    if (!(number >= 0.0 && number <= 1.0)) fail(root_[key], fmt::format("`{}` must be a number from 0 to 1", key));
-    return number;
+    const double value = number(needed(key), key, "a number from 0 to 1");
+    if (!(value >= 0.0 && value <= 1.0)) fail(root_[key], fmt::format("`{}` must be a number from 0 to 1", key));
+    return value;
   }
   std::array<double, 3> origin() const {
     constexpr std::string_view expected = "three numbers, [x, y, yaw]";
@@ -142,7 +151,7 @@ class DescriptionReader {
     if (!node.IsSequence() || node.size() != 3) fail(node, fmt::format("`origin` must be {}", expected));
     std::array<double, 3> numbers{};
     for (std::size_t i = 0; i < numbers.size(); ++i) {
-      numbers[i] = converted<double>(node[i], "origin", expected);
+      numbers[i] = number(node[i], "origin", expected);
       if (!(std::abs(numbers[i]) <= largest_coordinate)) fail(node[i], fmt::format("`origin` must be {}", expected));
     }
     return numbers;
