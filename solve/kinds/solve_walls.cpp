@@ -2,6 +2,8 @@
 #include "solve/kinds/solve_walls.hpp"
 
 #include <optional>
+#include <string>
+#include <string_view>
 
 #include "core/base/error.hpp"
 #include "planners/roadmap/lazy_prm.hpp"
@@ -29,6 +31,7 @@ class WallSolve {
     plan(keep);
     settle_blocked_ends(answer_, scene_, problem_, execution_);
     if (answer_.outcome == Outcome::not_connected) proved_infeasible();
+    tell_cause();
     if (options_.optimise && answer_.outcome == Outcome::solved) optimise();
     verify_solved(answer_, scene_, problem_, execution_);
   }
@@ -41,6 +44,7 @@ class WallSolve {
   bool grows() const;
   bool ends_are_free(const MazeWorld& world) const;
   bool proved_infeasible();
+  void tell_cause();
   void optimise();
 
   const Scene& scene_;
@@ -94,6 +98,14 @@ bool WallSolve::proved_infeasible() {
   if (!proves_infeasible(scene_, problem_.start, problem_.goal, execution_)) return false;
   answer_.outcome = Outcome::infeasible;
   return true;
+}
+
+/// As SampledSolve says it of other bodies.
+void WallSolve::tell_cause() {
+  const auto tell = [&](std::string_view cause) { answer_.figures.push_back({"cause", std::string(cause)}); };
+  if (answer_.outcome == Outcome::start_blocked) tell("start_in_collision");
+  if (answer_.outcome == Outcome::goal_blocked) tell("goal_in_collision");
+  if (answer_.outcome == Outcome::not_connected) tell(cause_of_separation(answer_, true));
 }
 
 void WallSolve::optimise() {

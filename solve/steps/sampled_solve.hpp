@@ -267,9 +267,7 @@ std::string_view SampledSolve<Body>::cause() const {
   if (answer_.outcome == Outcome::start_blocked || answer_.outcome == Outcome::goal_blocked) {
     return body_.cause_of_blocked(*world_, answer_.outcome, goals_);
   }
-  if (by_roadmap() && answer_.roadmap.milestones <= 2) return "no_free_sample";
-  if (answer_.separation.start_size <= 1) return "start_unconnected";
-  return answer_.separation.goal_size <= 1 ? "goal_unconnected" : "different_components";
+  return cause_of_separation(answer_, by_roadmap());
 }
 
 /// What most bodies have in common.

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <new>
 #include <optional>
+#include <string_view>
 
 #include "core/base/solution.hpp"
 #include "parallel/execution.hpp"
@@ -37,6 +38,9 @@ bool stands_free(const Scene& scene, const WallProblem& problem, Vec2 p, const E
 
 /// Planning keeps 1e-9 more room than it must, so a body that fits exactly is no blocked one: nobody proved that.
 void settle_blocked_ends(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution);
+
+/// Why a roadmap or trees do not join start and goal, one word a cause.
+std::string_view cause_of_separation(const Answer& answer, bool by_roadmap);
 
 /// Forgets all that an answer says of a path: only what a judge has verified is claimed.
 void claim_nothing(Answer& answer);
