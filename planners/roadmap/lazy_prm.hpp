@@ -16,7 +16,9 @@
 #include "parallel/polled_sort.hpp"
 #include "planners/roadmap/lazy_graph.hpp"
 #include "planners/roadmap/lazy_path_search.hpp"
-#include "planners/roadmap/prm.hpp"
+#include "planners/roadmap/plan_in_rounds.hpp"
+#include "planners/roadmap/queue_choice.hpp"
+#include "planners/roadmap/roadmap_search.hpp"
 #include "planners/roadmap/search_from_both_ends.hpp"
 
 namespace warren {
@@ -32,29 +34,32 @@ struct alignas(apart) LazyEnd {
 };
 
 template <World W>
-class LazyPlan {
+class LazyPlan : public Rounds<W> {
  public:
   using State = typename W::State;
   LazyPlan(const W& world, const State& start, const State& goal, const RoadmapOptions& options,
            const Execution& execution, bool keep)
-      : world_(world), start_(start), goal_(goal), options_(options), execution_(execution), keep_(keep) {}
+      : Rounds<W>(world, start, goal, options, execution), keep_(keep) {}
 
   bool round(std::uint64_t samples) {
-    ++solution_.counters.rounds;
-    solution_.counters.samples += samples;
-    draw(samples);
+    this->draw(samples);
+    index_ = this->index_milestones();
+    rule_ = this->rule_for(samples);
     attach_ends();
-    const RawVector<VertexId> path = options_.lazy == LazyCheck::path ? search_paths() : search_expanding();
-    if (path.empty()) return false;
-    solution_.outcome = Outcome::solved;
-    for (const VertexId v : path) solution_.path.push_back(states_[v]);
-    return true;
+    return this->take(options_.lazy == LazyCheck::path ? search_paths() : search_expanding());
   }
   void finish(Roadmap<State>* keep);
-  Solution<State>& solution() { return solution_; }
 
  private:
-  void draw(std::uint64_t samples);
+  using Rounds<W>::execution_;
+  using Rounds<W>::options_;
+  using Rounds<W>::solution_;
+  using Rounds<W>::states_;
+  using Rounds<W>::world_;
+  using Rounds<W>::start_vertex;
+  using Rounds<W>::goal_vertex;
+  using Rounds<W>::milestones;
+
   void attach_ends();
   RawVector<VertexId> search_expanding();
   RawVector<VertexId> search_from_both_ends();
@@ -67,45 +72,20 @@ class LazyPlan {
     const bool informed = options_.search == SearchKind::astar && to != no_vertex;
     return [this, informed, to](VertexId v) { return informed ? world_.distance(states_[v], states_[to]) : 0.0; };
   }
-  Separation separation();
-  VertexId start_vertex() const { return static_cast<VertexId>(states_.size() - 2); }
-  VertexId goal_vertex() const { return static_cast<VertexId>(states_.size() - 1); }
-  std::span<const State> milestones() const { return {states_.data(), states_.size() - 2}; }
-
-  const W& world_;
-  const State start_;
-  const State goal_;
-  const RoadmapOptions& options_;
-  const Execution& execution_;
   bool keep_;
   ConnectionRule rule_;
-  RawVector<State> states_;
   StateIndex<W> index_;
   RawVector<Edge> end_edges_;
   Graph candidates_;  ///< unchecked; only where the strategy or the rule needs them
   std::vector<Edge> free_edges_;
   std::vector<Edge> tree_;
-  Solution<State> solution_;
 };
-
-template <World W>
-void LazyPlan<W>::draw(std::uint64_t samples) {
-  {
-    const StageTimer timer(execution_, "sample", solution_.seconds.sample, samples);
-    states_ = draw_milestones(world_, options_, samples, execution_);
-    states_.push_back(start_);
-    states_.push_back(goal_);
-  }
-  const StageTimer timer(execution_, "neighbours", solution_.seconds.neighbours, states_.size());
-  index_ = index_of_states(world_, milestones(), execution_);
-  rule_ = connection_rule_for(world_, options_, samples);
-  solution_.roadmap = {states_.size(), 0, 0};
-}
 
 template <World W>
 void LazyPlan<W>::attach_ends() {
   const StageTimer timer(execution_, "connect", solution_.seconds.connect);
-  end_edges_ = attach_start_and_goal(world_, milestones(), index_, rule_, start_, goal_, solution_.counters);
+  end_edges_ =
+      attach_start_and_goal(world_, milestones(), index_, rule_, this->start_, this->goal_, solution_.counters);
   solution_.roadmap.edges = end_edges_.size();
   candidates_ = Graph();
   if (options_.lazy == LazyCheck::expansion && rule_.neighbours == 0) return;
@@ -189,25 +169,15 @@ RawVector<VertexId> LazyPlan<W>::search_paths() {
   return path;
 }
 
-/// Explores all that start and goal can reach, to tell how far they are apart.
-template <World W>
-Separation LazyPlan<W>::separation() {
-  SearchState from_start;
-  SearchState from_goal;
-  expand_from(start_vertex(), no_vertex, from_start, nullptr);
-  expand_from(goal_vertex(), no_vertex, from_goal, nullptr);
-  Components reached;
-  assign_polled(reached.label, states_.size(), no_vertex, [&] { execution_.check(); });
-  for (VertexId v = 0; v < states_.size(); ++v) {
-    if (from_start.reached(v)) reached.label[v] = start_vertex();
-    if (from_goal.reached(v)) reached.label[v] = goal_vertex();
-  }
-  return separation_of(world_, std::span<const State>(states_), reached, start_vertex(), goal_vertex(), execution_);
-}
-
 template <World W>
 void LazyPlan<W>::finish(Roadmap<State>* keep) {
-  if (solution_.outcome == Outcome::not_connected && !states_.empty()) solution_.separation = separation();
+  if (this->is_apart()) {  // explores all that start and goal can reach
+    SearchState from_start;
+    SearchState from_goal;
+    expand_from(start_vertex(), no_vertex, from_start, nullptr);
+    expand_from(goal_vertex(), no_vertex, from_goal, nullptr);
+    this->tell_separation(from_start, from_goal);
+  }
   if (keep == nullptr) return;
   polled_sort(free_edges_.begin(), free_edges_.end(), execution_);
   free_edges_.erase(std::unique(free_edges_.begin(), free_edges_.end()), free_edges_.end());

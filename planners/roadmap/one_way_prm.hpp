@@ -14,32 +14,40 @@
 #include <utility>
 #include <vector>
 
-#include "planners/roadmap/prm.hpp"
+#include "planners/roadmap/plan_in_rounds.hpp"
+#include "planners/roadmap/queue_choice.hpp"
+#include "planners/roadmap/roadmap_search.hpp"
 
 namespace warren {
 
 namespace detail {
 
 template <World W>
-class OneWayPlan {
+class OneWayPlan : public Rounds<W> {
  public:
   using State = typename W::State;
   OneWayPlan(const W& world, const State& start, const State& goal, const RoadmapOptions& options, bool lazy,
              const Execution& execution, bool keep)
-      : world_(world), start_(start), goal_(goal), options_(options), execution_(execution), lazy_(lazy), keep_(keep) {}
+      : Rounds<W>(world, start, goal, options, execution), lazy_(lazy), keep_(keep) {}
 
   bool round(std::uint64_t samples) {
-    ++solution_.counters.rounds;
-    solution_.counters.samples += samples;
-    draw(samples);
+    this->draw(samples);
+    index_ = this->index_milestones();
     find_candidates(samples);
     if (!lazy_) check_all();
     return search();
   }
   void finish(Roadmap<State>* keep);
-  Solution<State>& solution() { return solution_; }
 
  private:
+  using Rounds<W>::execution_;
+  using Rounds<W>::options_;
+  using Rounds<W>::solution_;
+  using Rounds<W>::states_;
+  using Rounds<W>::world_;
+  using Rounds<W>::start_vertex;
+  using Rounds<W>::goal_vertex;
+
   static constexpr std::uint64_t checks_per_poll = 64;
   enum class Check : std::uint8_t { unknown, free, blocked };
   /// An edge from a vertex.
@@ -50,7 +58,6 @@ class OneWayPlan {
   };
   using Ways = std::vector<Way>;
 
-  void draw(std::uint64_t samples);
   void find_candidates(std::uint64_t samples);
   Ways nearest(VertexId v, const ConnectionRule& rule, bool incoming, std::vector<Neighbour>& near) const;
   void attach_goal(const ConnectionRule& rule);
@@ -66,33 +73,14 @@ class OneWayPlan {
   SearchResult search_best();
   SearchResult search_plainly();
   Graph free_graph(bool reversed) const;
-  Separation separation() const;
-  VertexId start_vertex() const { return static_cast<VertexId>(states_.size() - 2); }
-  VertexId goal_vertex() const { return static_cast<VertexId>(states_.size() - 1); }
-  std::span<const State> milestones() const { return {states_.data(), states_.size() - 2}; }
+  void explore(const Graph& graph, VertexId from, SearchState& state) const;
 
-  const W& world_;
-  const State start_;
-  const State goal_;
-  const RoadmapOptions& options_;
-  const Execution& execution_;
   bool lazy_;
   bool keep_;
-  RawVector<State> states_;
   StateIndex<W> index_;
   std::vector<Ways> ways_;  // from each vertex, ascending by vertex
   std::vector<Edge> tree_;
-  Solution<State> solution_;
 };
-
-template <World W>
-void OneWayPlan<W>::draw(std::uint64_t samples) {
-  const StageTimer timer(execution_, "sample", solution_.seconds.sample, samples);
-  states_ = draw_milestones(world_, options_, samples, execution_);
-  states_.push_back(start_);
-  states_.push_back(goal_);
-  solution_.roadmap = {states_.size(), 0, 0};
-}
 
 /// The candidate edges from v, or (incoming) those to v with their begins as `to`, nearest first.
 template <World W>
@@ -121,12 +109,8 @@ auto OneWayPlan<W>::nearest(VertexId v, const ConnectionRule& rule, bool incomin
 template <World W>
 void OneWayPlan<W>::find_candidates(std::uint64_t samples) {
   constexpr std::size_t grain = 64;
-  {
-    const StageTimer timer(execution_, "neighbours", solution_.seconds.neighbours, milestones().size());
-    index_ = index_of_states(world_, milestones(), execution_);
-  }
-  const StageTimer timer(execution_, "connect", solution_.seconds.connect, milestones().size());
-  const ConnectionRule rule = connection_rule_for(world_, options_, samples);
+  const StageTimer timer(execution_, "connect", solution_.seconds.connect, this->milestones().size());
+  const ConnectionRule rule = this->rule_for(samples);
   const std::size_t begins = states_.size() - 1;  // nothing leads on from the goal
   ways_.assign(states_.size(), {});
   for_chunks(begins, grain, execution_, [&](Range r) {
@@ -147,7 +131,7 @@ void OneWayPlan<W>::attach_goal(const ConnectionRule& rule) {
   for (const Way& way : nearest(goal_vertex(), rule, true, near)) {
     ways_[way.to].push_back({way.length, goal_vertex()});
   }
-  const double length = world_.distance(start_, goal_);
+  const double length = world_.distance(this->start_, this->goal_);
   if (length <= direct_reach(rule)) ways_[start_vertex()].push_back({length, goal_vertex()});
 }
 
@@ -180,9 +164,7 @@ bool OneWayPlan<W>::search() {
     solution_.roadmap.edges += static_cast<std::uint64_t>(
         std::count_if(ways.begin(), ways.end(), [](const Way& way) { return way.state == Check::free; }));
   }
-  solution_.outcome = found.status == SearchStatus::found ? Outcome::solved : Outcome::not_connected;
-  for (const VertexId v : found.path) solution_.path.push_back(states_[v]);
-  return found.status == SearchStatus::found;
+  return this->take(found.path);
 }
 
 template <World W>
@@ -197,7 +179,9 @@ SearchResult OneWayPlan<W>::search_best() {
     }
   };
   const bool informed = options_.search == SearchKind::astar;
-  const auto estimate = [&](VertexId v) { return informed ? world_.distance(states_[v], goal_) : 0.0; };
+  const auto estimate = [&](VertexId v) {
+    return informed ? world_.distance(states_[v], states_[goal_vertex()]) : 0.0;
+  };
   const auto should_stop = [&] { return execution_.should_stop(); };
   const SearchResult found = with_queue(options_.queue, states_.size(), execution_, [&](auto& queue) {
     return best_first(start_vertex(), goal_vertex(), neighbours, estimate, queue, state, should_stop);
@@ -243,30 +227,23 @@ Graph OneWayPlan<W>::free_graph(bool reversed) const {
   return {std::move(offsets), std::move(targets)};
 }
 
-/// What start can reach, and what can reach the goal.
+/// Reaches all that can be reached.
 template <World W>
-Separation OneWayPlan<W>::separation() const {
-  Components reached;
-  assign_polled(reached.label, states_.size(), no_vertex, [&] { execution_.check(); });
-  const auto mark = [&](const Graph& graph, VertexId from, VertexId to) {
-    SearchState state;
-    state.resize(states_.size(), [&] { execution_.check(); });
-    breadth_first(graph, from, to, state, [&] { return execution_.should_stop(); });
-    execution_.check();
-    for (VertexId v = 0; v < states_.size(); ++v) {
-      if (state.reached(v)) reached.label[v] = from;
-    }
-  };
-  mark(free_graph(false), start_vertex(), goal_vertex());
-  mark(free_graph(true), goal_vertex(), start_vertex());
-  return separation_of(world_, std::span<const State>(states_), reached, start_vertex(), goal_vertex(), execution_);
+void OneWayPlan<W>::explore(const Graph& graph, VertexId from, SearchState& state) const {
+  state.resize(states_.size(), [&] { execution_.check(); });
+  breadth_first(graph, from, no_vertex, state, [&] { return execution_.should_stop(); });
+  execution_.check();
 }
 
 template <World W>
 void OneWayPlan<W>::finish(Roadmap<State>* keep) {
-  if (solution_.outcome == Outcome::not_connected && !states_.empty()) {
+  if (this->is_apart()) {
     check_all();
-    solution_.separation = separation();
+    SearchState from_start;
+    SearchState to_goal;
+    explore(free_graph(false), start_vertex(), from_start);
+    explore(free_graph(true), goal_vertex(), to_goal);
+    this->tell_separation(from_start, to_goal);
   }
   if (keep == nullptr) return;
   *keep = {RawVector<State>(), free_graph(false), std::move(tree_)};

@@ -1,9 +1,110 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planners/roadmap/roadmap_search.hpp"
 
+#include <array>
 #include <numeric>
+#include <span>
+
+#include "planners/roadmap/queue_choice.hpp"
+#include "planners/roadmap/search_from_both_ends.hpp"
 
 namespace warren {
+namespace {
+
+/// The edges of a graph, as a search asks for them.
+struct GraphEdges {
+  const Graph& graph;
+  const VertexDistance& length;
+  template <class Visit>
+  void operator()(VertexId v, const Visit& visit) const {
+    const std::span<const VertexId> row = graph.neighbours(v);
+    if (!graph.has_lengths()) {
+      for (const VertexId w : row) visit(w, length(v, w));
+      return;
+    }
+    const std::span<const double> lengths = graph.lengths(v);
+    for (std::size_t i = 0; i < row.size(); ++i) visit(row[i], lengths[i]);
+  }
+  void fetch(VertexId v) const { __builtin_prefetch(graph.neighbours(v).data()); }
+  template <class Visit>
+  void for_each_target(VertexId v, const Visit& visit) const {
+    for (const VertexId w : graph.neighbours(v)) visit(w);
+  }
+};
+
+/// A* or Dijkstra. estimate_to(root) gives a consistent estimate of the way to start or goal.
+template <class EstimateTo>
+SearchResult search_best(const Graph& graph, VertexId start, VertexId goal, const EstimateTo& estimate_to,
+                         const RoadmapSearch& asked) {
+  const GraphEdges neighbours{graph, asked.length};
+  const Execution& execution = asked.execution;
+  const std::size_t n = graph.vertex_count();
+  execution.reserve(n * 36);
+  std::array<SearchState, 2> states;
+  SearchResult found;
+  if (n >= fewest_for_both_ends) {
+    found = search_from_both_ends<GraphEdges>(asked.queue, n, {start, goal}, {neighbours, neighbours}, estimate_to,
+                                              {&states[0], &states[1]}, execution);
+  } else {
+    states[0].resize(n, [&] { execution.check(); });
+    found = with_queue(asked.queue, n, execution, [&](auto& queue) {
+      return best_first(start, goal, neighbours, estimate_to(goal), queue, states[0],
+                        [&] { return execution.should_stop(); });
+    });
+  }
+  if (found.status == SearchStatus::stopped) execution.check();
+  if (asked.tree != nullptr) *asked.tree = search_trees(states[0], states[1]);
+  return found;
+}
+
+/// estimate_to() of search_best, of graph and reduced graph alike: vertex_of(v) is the vertex that asked knows.
+template <class VertexOf>
+auto estimates(const RoadmapSearch& asked, const VertexOf& vertex_of) {
+  return [&asked, &vertex_of](VertexId root) {
+    const bool informed = asked.search == SearchKind::astar && root != no_vertex;
+    const VertexId to = informed ? vertex_of(root) : no_vertex;
+    return [&asked, &vertex_of, to](VertexId v) { return to != no_vertex ? asked.estimate(vertex_of(v), to) : 0.0; };
+  };
+}
+
+/// A search tree over keys as the tree over the vertices on their chains.
+template <class Reduced>
+std::vector<Edge> expanded_tree(const Reduced& reduced, const std::vector<Edge>& keys, const Execution& execution) {
+  std::vector<Edge> tree;
+  for (const Edge& e : keys) {
+    const RawVector<VertexId> chain = reduced.expand(std::array{e.from, e.to}, execution);
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i) tree.push_back({chain[i], chain[i + 1]});
+  }
+  return tree;
+}
+
+template <class Reduced>
+SearchResult search_keys(const Reduced& reduced, const RoadmapSearch& asked) {
+  const auto vertex_of = [&](VertexId key) { return reduced.vertex_of(key); };
+  SearchResult found = search_best(reduced.graph(), reduced.key_of(asked.start), reduced.key_of(asked.goal),
+                                   estimates(asked, vertex_of), asked);
+  found.path = reduced.expand(found.path, asked.execution);
+  if (asked.tree != nullptr) *asked.tree = expanded_tree(reduced, *asked.tree, asked.execution);
+  return found;
+}
+
+/// Breadth or depth first.
+SearchResult search_blindly(const Graph& graph, const RoadmapSearch& asked) {
+  const Execution& execution = asked.execution;
+  const auto should_stop = [&] { return execution.should_stop(); };
+  SearchState state;
+  state.resize(graph.vertex_count(), [&] { execution.check(); });
+  SearchResult found = asked.search == SearchKind::bfs
+                           ? breadth_first(graph, asked.start, asked.goal, state, should_stop)
+                           : depth_first(graph, asked.start, asked.goal, state, should_stop);
+  if (found.status == SearchStatus::stopped) execution.check();
+  if (asked.tree != nullptr) *asked.tree = search_tree(state);
+  return found;
+}
+
+bool is_blind(SearchKind search) { return search == SearchKind::bfs || search == SearchKind::dfs; }
+
+}  // namespace
 
 std::vector<Edge> search_tree(const SearchState& state) {
   std::vector<Edge> tree;
@@ -21,8 +122,6 @@ std::vector<Edge> search_trees(const SearchState& forward, const SearchState& ba
   return tree;
 }
 
-namespace detail {
-
 bool is_stringy(const Graph& graph, const Execution& execution) {
   constexpr std::size_t grain = std::size_t{1} << 16;
   const std::size_t n = graph.vertex_count();
@@ -37,16 +136,24 @@ bool is_stringy(const Graph& graph, const Execution& execution) {
   return 2 * std::accumulate(counts.begin(), counts.end(), std::size_t{0}) >= n;
 }
 
-std::vector<Edge> expanded_tree(const TwiceReducedGraphView& reduced, const std::vector<Edge>& keys,
-                                const Execution& execution) {
-  std::vector<Edge> tree;
-  for (const Edge& e : keys) {
-    const RawVector<VertexId> chain = reduced.expand(std::array{e.from, e.to}, execution);
-    for (std::size_t i = 0; i + 1 < chain.size(); ++i) tree.push_back({chain[i], chain[i + 1]});
-  }
-  return tree;
+std::optional<TwiceReducedGraphView> reduced_for_search(const Graph& graph, const RoadmapSearch& asked) {
+  if (is_blind(asked.search)) return std::nullopt;
+  if (graph.vertex_count() < fewest_for_both_ends || !is_stringy(graph, asked.execution)) return std::nullopt;
+  return TwiceReducedGraphView(graph, std::array{asked.start, asked.goal}, asked.length, asked.execution);
 }
 
-}  // namespace detail
+SearchResult search_roadmap(const Graph& graph, const RoadmapSearch& asked) {
+  if (is_blind(asked.search)) return search_blindly(graph, asked);
+  const auto itself = [](VertexId v) { return v; };
+  return search_best(graph, asked.start, asked.goal, estimates(asked, itself), asked);
+}
+
+SearchResult search_roadmap(const ReducedGraphView& reduced, const RoadmapSearch& asked) {
+  return search_keys(reduced, asked);
+}
+
+SearchResult search_roadmap(const TwiceReducedGraphView& reduced, const RoadmapSearch& asked) {
+  return search_keys(reduced, asked);
+}
 
 }  // namespace warren

@@ -20,6 +20,7 @@
 
 #include "core/base/error.hpp"
 #include "planners/roadmap/prm.hpp"
+#include "planners/roadmap/search_from_both_ends.hpp"
 #include "planners/tiled/roadmap_tile.hpp"
 
 namespace warren {
@@ -28,37 +29,35 @@ namespace detail {
 
 /// One plan: what its rounds share.
 template <World W>
-class TiledRoadmapPlan {
+class TiledRoadmapPlan : public Rounds<W> {
  public:
   using State = typename W::State;
   /// An overlay of at least `fewest_to_reduce` vertices is reduced again where that pays.
   TiledRoadmapPlan(const W& world, const State& start, const State& goal, const RoadmapOptions& options,
                    const Execution& execution, std::size_t fewest_to_reduce = fewest_for_both_ends)
-      : world_(world),
-        start_(start),
-        goal_(goal),
-        options_(options),
-        execution_(execution),
-        fewest_to_reduce_(fewest_to_reduce) {}
+      : Rounds<W>(world, start, goal, options, execution), fewest_to_reduce_(fewest_to_reduce) {}
 
   /// Builds and searches a roadmap with so many samples; true when the answer is final.
   bool round(std::uint64_t samples) {
     samples_ = samples;
-    ++solution_.counters.rounds;
-    solution_.counters.samples += samples;
-    draw();
+    release();
+    this->draw(samples);
     connect();
     assemble();
     return joined() && search();
   }
   void finish(Roadmap<State>*);
-  Solution<State>& solution() { return solution_; }
 
  private:
+  using Rounds<W>::execution_;
+  using Rounds<W>::options_;
+  using Rounds<W>::solution_;
+  using Rounds<W>::states_;
+  using Rounds<W>::world_;
+
   static constexpr std::size_t tile_size = reduce_grain;
 
   void release();
-  void draw();
   void connect();
   void check_between_tiles(const StateIndex<W>& index, const NearestLists& lists, const ConnectionRule& rule);
   void reduce_tiles(const StateIndex<W>& index, const NearestLists& lists, const ConnectionRule& rule);
@@ -95,14 +94,8 @@ class TiledRoadmapPlan {
     return chain != nullptr ? chain->length : world_.distance(states_[vertex_of(a)], states_[vertex_of(b)]);
   }
 
-  const W& world_;
-  const State start_;
-  const State goal_;
-  const RoadmapOptions& options_;
-  const Execution& execution_;
   const std::size_t fewest_to_reduce_;
   std::uint64_t samples_ = 0;
-  RawVector<State> states_;                // milestones, start, goal
   std::vector<RawVector<Edge>> crossing_;  // free edges between tiles, by the tile that checked them
   RawVector<Edge> end_edges_;              // of start and goal
   RawVector<std::uint8_t> is_kept_;        // of each milestone: has an edge out of its tile
@@ -111,7 +104,6 @@ class TiledRoadmapPlan {
   RawVector<VertexId> vertices_;     // of the overlay: their milestones; start and goal after all of these
   bool any_chain_ = false;
   Graph overlay_;  // with lengths where there are chains
-  Solution<State> solution_;
 };
 
 /// What the last round has left.
@@ -127,25 +119,11 @@ void TiledRoadmapPlan<W>::release() {
 }
 
 template <World W>
-void TiledRoadmapPlan<W>::draw() {
-  const StageTimer timer(execution_, "sample", solution_.seconds.sample, samples_);
-  release();
-  states_ = draw_milestones(world_, options_, samples_, execution_);
-  states_.push_back(start_);
-  states_.push_back(goal_);
-  solution_.roadmap = {states_.size(), 0, 0};
-}
-
-template <World W>
 void TiledRoadmapPlan<W>::connect() {
-  const std::span<const State> milestones(states_.data(), milestone_count());
-  StateIndex<W> index;
-  {
-    const StageTimer timer(execution_, "neighbours", solution_.seconds.neighbours, milestones.size());
-    index = index_of_states(world_, milestones, execution_);
-  }
+  const std::span<const State> milestones = this->milestones();
+  const StateIndex<W> index = this->index_milestones();
   const StageTimer timer(execution_, "connect", solution_.seconds.connect, 2 * milestones.size());
-  const ConnectionRule rule = connection_rule_for(world_, options_, samples_);
+  const ConnectionRule rule = this->rule_for(samples_);
   NearestLists lists;
   if (rule.neighbours > 0) {
     Execution quiet = execution_;
@@ -156,7 +134,7 @@ void TiledRoadmapPlan<W>::connect() {
   execution_.reserve(milestones.size());
   is_kept_.assign(milestones.size(), 0);
   check_between_tiles(index, lists, rule);
-  end_edges_ = attach_start_and_goal(world_, milestones, index, rule, start_, goal_, solution_.counters);
+  end_edges_ = attach_start_and_goal(world_, milestones, index, rule, this->start_, this->goal_, solution_.counters);
   for (const Edge& edge : end_edges_) {
     if (edge.from < milestones.size()) is_kept_[edge.from] = 1;
   }
@@ -295,46 +273,30 @@ bool TiledRoadmapPlan<W>::joined() {
 template <World W>
 bool TiledRoadmapPlan<W>::search() {
   const StageTimer timer(execution_, "search", solution_.seconds.search);
-  const bool informed = options_.search == SearchKind::astar;
-  const auto estimate = [&](VertexId v, VertexId root) {
-    return informed ? world_.distance(states_[vertex_of(v)], states_[vertex_of(root)]) : 0.0;
-  };
   const auto length = [this](VertexId v, VertexId w) { return length_between(v, w); };
-  std::optional<ReducedGraphView> reduced;
-  if (overlay_.vertex_count() >= fewest_to_reduce_ && is_stringy(overlay_, execution_)) {
-    reduced.emplace(reduce_graph(overlay_, std::array{start_key(), goal_key()}, length, execution_));
-  }
-  const Graph& graph = reduced ? reduced->graph() : overlay_;
-  const auto overlay_key = [&](VertexId v) { return reduced && v != no_vertex ? reduced->vertex_of(v) : v; };
-  const auto neighbours = [&](VertexId v, const auto& visit) {
-    const std::span<const VertexId> row = graph.neighbours(v);
-    if (!graph.has_lengths()) {
-      for (const VertexId w : row) visit(w, length(v, w));
-      return;
-    }
-    const std::span<const double> lengths = graph.lengths(v);
-    for (std::size_t i = 0; i < row.size(); ++i) visit(row[i], lengths[i]);
+  const auto distance = [this](VertexId v, VertexId w) {
+    return world_.distance(states_[vertex_of(v)], states_[vertex_of(w)]);
   };
-  const auto estimate_to = [&](VertexId root) {
-    return
-        [&, root = overlay_key(root)](VertexId v) { return root == no_vertex ? 0.0 : estimate(overlay_key(v), root); };
-  };
-  const auto key = [&](VertexId v) { return reduced ? reduced->key_of(v) : v; };
-  SearchResult found = search_best(graph.vertex_count(), key(start_key()), key(goal_key()), neighbours, estimate_to,
-                                   options_.queue, execution_, nullptr);
+  const RoadmapSearch asked{.start = start_key(),
+                            .goal = goal_key(),
+                            .length = VertexDistance(length),
+                            .estimate = VertexDistance(distance),
+                            .search = options_.search,
+                            .queue = options_.queue,
+                            .execution = execution_};
+  const bool reduces = overlay_.vertex_count() >= fewest_to_reduce_ && is_stringy(overlay_, execution_);
+  const SearchResult found =
+      reduces
+          ? search_roadmap(reduce_graph(overlay_, std::array{start_key(), goal_key()}, asked.length, execution_), asked)
+          : search_roadmap(overlay_, asked);
   solution_.counters.expanded += found.expanded;
-  if (found.status == SearchStatus::stopped) execution_.check();
   if (found.status != SearchStatus::found) return false;
-  if (reduced) found.path = reduced->expand(found.path, execution_);
   RawVector<VertexId> path{vertex_of(found.path.front())};
   for (std::size_t i = 1; i < found.path.size(); ++i) {
     if (i % 1024 == 0) execution_.check();
     append(found.path[i - 1], found.path[i], path);
   }
-  reserve_touched(solution_.path, path.size(), execution_);
-  for (const VertexId v : path) solution_.path.push_back(states_[v]);
-  solution_.outcome = Outcome::solved;
-  return true;
+  return this->take(path);
 }
 
 /// The vertices of an edge of the overlay, without its first.
@@ -356,7 +318,7 @@ void TiledRoadmapPlan<W>::finish(Roadmap<State>*) {
   if (solution_.outcome != Outcome::not_connected) return;
   const StageTimer timer(execution_, "connect", solution_.seconds.connect);
   release();
-  PrmPlan<W> plain(world_, start_, goal_, options_, execution_, false);
+  PrmPlan<W> plain(world_, this->start_, this->goal_, options_, execution_, false);
   plain.round(samples_);
   plain.finish(nullptr);
   solution_.separation = plain.solution().separation;

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What all planners that draw samples in rounds share: prm, lazy_prm, one_way_prm and prm_in_tiles. A round draws
+// milestones in tile order, start and goal after them, and looks for a path; with samples on auto a round that leaves
+// start and goal apart is followed by a larger one (roadmap_growth.hpp), until a documented cap.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "core/base/solution.hpp"
+#include "core/base/world.hpp"
+#include "core/search/graph.hpp"
+#include "core/search/search.hpp"
+#include "parallel/execution.hpp"
+#include "parallel/first_touch.hpp"
+#include "planners/roadmap/connection.hpp"
+#include "planners/roadmap/milestones.hpp"
+#include "planners/roadmap/roadmap.hpp"
+#include "planners/roadmap/roadmap_growth.hpp"
+#include "planners/roadmap/roadmap_options.hpp"
+#include "planners/roadmap/separation.hpp"
+#include "planners/roadmap/stopped_solution.hpp"
+
+namespace warren::detail {
+
+/// The question, the vertices of the round, and the answer so far. Vertices: milestones, start, goal.
+template <World W>
+class Rounds {
+ public:
+  using State = typename W::State;
+  Rounds(const W& world, const State& start, const State& goal, const RoadmapOptions& options,
+         const Execution& execution)
+      : world_(world), start_(start), goal_(goal), options_(options), execution_(execution) {}
+
+  Solution<State>& solution() { return solution_; }
+
+ protected:
+  /// Begins a round.
+  void draw(std::uint64_t samples) {
+    ++solution_.counters.rounds;
+    solution_.counters.samples += samples;
+    const StageTimer timer(execution_, "sample", solution_.seconds.sample, samples);
+    states_ = draw_milestones(world_, options_, samples, execution_);
+    states_.push_back(start_);
+    states_.push_back(goal_);
+    solution_.roadmap = {states_.size(), 0, 0};
+  }
+  StateIndex<W> index_milestones() {
+    const StageTimer timer(execution_, "neighbours", solution_.seconds.neighbours, milestones().size());
+    return index_of_states(world_, milestones(), execution_);
+  }
+  ConnectionRule rule_for(std::uint64_t samples) const { return connection_rule_for(world_, options_, samples); }
+
+  std::span<const State> milestones() const { return {states_.data(), states_.size() - 2}; }
+  VertexId start_vertex() const { return static_cast<VertexId>(states_.size() - 2); }
+  VertexId goal_vertex() const { return static_cast<VertexId>(states_.size() - 1); }
+
+  /// The path of a search, or none: true when it is final.
+  bool take(const RawVector<VertexId>& path) {
+    solution_.outcome = path.empty() ? Outcome::not_connected : Outcome::solved;
+    if (path.empty()) return false;
+    reserve_touched(solution_.path, path.size(), execution_);
+    for (const VertexId v : path) solution_.path.push_back(states_[v]);
+    return true;
+  }
+
+  bool is_apart() const { return solution_.outcome == Outcome::not_connected && !states_.empty(); }
+  void tell_separation(const Components& components) {
+    solution_.separation =
+        separation_of(world_, std::span<const State>(states_), components, start_vertex(), goal_vertex(), execution_);
+  }
+  /// Between what start has reached and what has reached the goal.
+  void tell_separation(const SearchState& from_start, const SearchState& from_goal) {
+    Components reached;
+    assign_polled(reached.label, states_.size(), no_vertex, [&] { execution_.check(); });
+    for (VertexId v = 0; v < states_.size(); ++v) {
+      if (from_start.reached(v)) reached.label[v] = start_vertex();
+      if (from_goal.reached(v)) reached.label[v] = goal_vertex();
+    }
+    tell_separation(reached);
+  }
+
+  const W& world_;
+  const State start_;
+  const State goal_;
+  const RoadmapOptions& options_;
+  const Execution& execution_;
+  RawVector<State> states_;
+  Solution<State> solution_;
+};
+
+/// start_blocked, goal_blocked, or nothing.
+template <World W>
+std::optional<Outcome> blocked_end(const W& world, const typename W::State& start, const typename W::State& goal) {
+  auto query = world.make_query();
+  if (!world.is_free(start, query)) return Outcome::start_blocked;
+  if (!world.is_free(goal, query)) return Outcome::goal_blocked;
+  return std::nullopt;
+}
+
+/// Runs rounds of growing size until one gives the final answer, the samples end, or the deadline comes.
+/// plan.round(samples) is true when the answer is final; plan.finish(keep) ends the last round.
+template <World W, class Plan>
+Solution<typename W::State> plan_in_rounds(const W& world, const typename W::State& start,
+                                           const typename W::State& goal, const RoadmapOptions& options,
+                                           const Execution& execution, Roadmap<typename W::State>* keep, Plan& plan) {
+  options.validate();
+  Solution<typename W::State>& solution = plan.solution();
+  if (const auto blocked = blocked_end(world, start, goal)) {
+    solution.outcome = *blocked;
+    return std::move(solution);
+  }
+  try {
+    execution.check();
+    const std::uint64_t usual = usual_samples(world, options, execution);
+    for (std::uint64_t samples = first_samples(world, options, execution); samples != 0;
+         samples = next_samples(options, usual, samples)) {
+      if (plan.round(samples)) break;
+    }
+    plan.finish(keep);
+  } catch (const Stopped& stopped) {
+    mark_stopped(solution, stopped);
+  }
+  return std::move(solution);
+}
+
+}  // namespace warren::detail
