@@ -79,8 +79,9 @@ Path<Vec2> path_over_cells(const OccupancyMap& map, Vec2 start, std::span<const 
 
 Verification verify_map_path(const OccupancyMap& map, const WallProblem& problem, std::span<const Vec2> path,
                              const Execution& execution) {
-  return verify_on_map(map, path, {.clearance = problem.reach(), .start = problem.start, .goal = problem.goal},
-                       execution);
+  const VerifyOptions options{
+      .radius = problem.robot.radius, .clearance = problem.clearance, .start = problem.start, .goal = problem.goal};
+  return verify_on_map(map, path, options, execution);
 }
 
 void verify_solved_on_map(Answer& answer, const OccupancyMap& map, const WallProblem& problem, bool over_cells,
@@ -100,7 +101,7 @@ void verify_solved_on_map(Answer& answer, const OccupancyMap& map, const WallPro
   }
   answer.verified = true;
   answer.length = verification.length;
-  answer.min_clearance = verification.min_clearance - problem.robot.radius;
+  answer.min_clearance = verification.min_clearance;
 }
 
 }  // namespace warren

@@ -241,10 +241,8 @@ class LatticeSolve {
     }
     std::vector<Vec2> path;
     for (const Se2& pose : poses) path.push_back(pose.position());
-    const VerifyOptions options{.clearance = problem_.clearance + problem_.robot.radius};
-    Verification verification = verify_path(request_.scene, path, options, request_.execution);
-    verification.min_clearance -= problem_.robot.radius;
-    return verification;
+    const VerifyOptions options{.radius = problem_.robot.radius, .clearance = problem_.clearance};
+    return verify_path(request_.scene, path, options, request_.execution);
   }
 
   void verify() {

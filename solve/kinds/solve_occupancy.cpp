@@ -42,9 +42,7 @@ Verdict recheck_occupancy(const Scene& scene, const Question& question, const Re
                           const Execution& execution) {
   check_state_width(answer, 2, "a point or disc");
   const WallProblem problem = map_problem(scene, question);
-  Verdict verdict{verify_map_path(*scene.map, problem, answer.path, execution), problem.general()};
-  verdict.min_clearance -= problem.robot.radius;
-  return verdict;
+  return {verify_map_path(*scene.map, problem, answer.path, execution), problem.general()};
 }
 
 }  // namespace

@@ -22,7 +22,11 @@ void add(StageTimes& to, const StageTimes& more) {
 }
 
 VerifyOptions verify_options(const WallProblem& problem) {
-  return {.clearance = problem.reach(), .contact = problem.contact, .start = problem.start, .goal = problem.goal};
+  return {.radius = problem.robot.radius,
+          .clearance = problem.clearance,
+          .contact = problem.contact,
+          .start = problem.start,
+          .goal = problem.goal};
 }
 
 }  // namespace
@@ -53,7 +57,8 @@ void take_solution(Answer& answer, Solution<Vec2> solution) {
 }
 
 bool stands_free(const Scene& scene, const WallProblem& problem, Vec2 p, const Execution& execution) {
-  const VerifyOptions options{.clearance = problem.reach(), .contact = problem.contact};
+  const VerifyOptions options{
+      .radius = problem.robot.radius, .clearance = problem.clearance, .contact = problem.contact};
   return verify_path(scene, std::span(&p, 1), options, execution).verified;
 }
 
@@ -105,15 +110,13 @@ void verify_solved(Answer& answer, const Scene& scene, const WallProblem& proble
   if (!verification.verified) fail_verification(answer, verification.first_violation);
   answer.verified = true;
   answer.length = verification.length;
-  answer.min_clearance = verification.min_clearance - problem.robot.radius;
+  answer.min_clearance = verification.min_clearance;
 }
 
 Verdict verify_plane_answer(const Scene& scene, const WallProblem& problem, const RecordedAnswer& answer,
                             const Execution& execution) {
   check_state_width(answer, 2, "a point or disc");
-  Verdict verdict{verify_path(scene, answer.path, verify_options(problem), execution), problem.general()};
-  verdict.min_clearance -= problem.robot.radius;
-  return verdict;
+  return {verify_path(scene, answer.path, verify_options(problem), execution), problem.general()};
 }
 
 }  // namespace warren

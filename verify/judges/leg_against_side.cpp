@@ -72,7 +72,7 @@ void Comparison::compare(const Segment& obstacle, const Box& box, std::size_t nu
 }
 
 void Comparison::compare(const Segment& s, std::size_t leg, const Segment& obstacle, std::size_t number) {
-  const double r = options_.clearance;
+  const double r = options_.reach();
   const double d = exact::distance(s, obstacle);
   if (d < tally_.least) {
     tally_.least = d;
@@ -91,7 +91,7 @@ void Comparison::compare(const Segment& s, std::size_t leg, const Segment& obsta
 bool Comparison::is_doubtful(double d, const Segment& s, const Segment& obstacle) const {
   Box both = box_of(s);
   both.include(box_of(obstacle));
-  return d <= options_.clearance + 1e-14 * std::max(both.width(), both.height());
+  return d <= options_.reach() + 1e-14 * std::max(both.width(), both.height());
 }
 
 void Comparison::touch(const Segment& s, std::size_t leg, const Segment& obstacle, std::size_t number) {
@@ -105,7 +105,7 @@ void Comparison::forbid(std::size_t leg, std::size_t number) {
 }
 
 void Comparison::narrow() {
-  const double r = options_.clearance;
+  const double r = options_.reach();
   const double least = std::min(at_most_, tally_.least);
   near_sq_ = std::max(least * least, r * r * (1.0 + 1e-12));
 }

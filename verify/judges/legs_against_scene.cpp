@@ -35,10 +35,10 @@ class ObstaclePass {
 
   Tally run() {
     const double bound = least_of_some();
-    const double reach = std::max(bound, options_.clearance);
+    const double reach = std::max(bound, options_.reach());
     PathScreen screen(legs_, {obstacles_.size(), 2.0 * half_wall_}, execution_);
     if (!(reach <= 4.0 * screen.cell())) return compare_unscreened();
-    screen.set_reach(bound, options_.clearance);
+    screen.set_reach(bound, options_.reach());
     const PathScreen::Rest rest = screened(screen, bound);
     Tally tally = compare(rest.doubtful, reach);
     tally.box = rest.box;
@@ -125,7 +125,7 @@ class ObstaclePass {
     std::optional<PathBoxes> boxes;  // pays where the path doesn't keep to the cells' lines
     if (expected_rest(screen) > legs_.leg_count() / 2 + verify_grain) {
       boxes.emplace(legs_, 2.0 * half_wall_, execution_);
-      boxes->set_reach(bound, options_.clearance);
+      boxes->set_reach(bound, options_.reach());
     }
     PathScreen::Rest all = scene_.walls.visit([&](auto walls) {
       return screened(screen, boxes, walls.size(), 0, [walls](Range r) { return walls.subspan(r.first, r.size()); });
@@ -187,14 +187,14 @@ class ObstaclePass {
   }
 
   Tally compare_unscreened() const {
-    LegIndex index(legs_, {options_.clearance, obstacles_.size(), half_wall_}, execution_);
+    LegIndex index(legs_, {options_.reach(), obstacles_.size(), half_wall_}, execution_);
     const double widest = 4.0 * index.cell();
     double bound = infinity;  // a distance that some wall has: nothing beyond it matters for the least one
     if (scene_.walls.size() > 8 * sample_stride) {
       index.set_reach(widest, execution_);
       bound = sampled_least(index, widest);
     }
-    const double reach = std::max(options_.clearance, std::min(bound, widest));
+    const double reach = std::max(options_.reach(), std::min(bound, widest));
     index.set_reach(reach, execution_);
     Tally tally = walls_against_path(index, reach);
     tally.join(sides_against_path(index, reach));

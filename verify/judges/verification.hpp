@@ -19,8 +19,8 @@ struct Violation {
 struct Verification {
   bool verified = false;
   double length = 0.0;  ///< Euclidean; of a car's curve; of arms in joint space: radians
-  /// Least distance to any obstacle, infinite where there is none: of the reference point of points and discs, around
-  /// the body of all others. Each judge says how sharp it is.
+  /// Least distance of the body to any obstacle, infinite where there is none; below 0 where a disc overlaps one. Each
+  /// judge says how sharp it is.
   double min_clearance = std::numeric_limits<double>::infinity();
   std::optional<Violation> first_violation;  ///< on the smallest leg
   double turn_rad = 0.0;                     ///< sum of the turns; 0 for bodies without a heading

@@ -95,6 +95,7 @@ void check(std::span<const Vec2> path, const VerifyOptions& options) {
       throw InputError("path", "has a point that is not finite");
     }
   }
+  check_not_negative("radius", options.radius);
   check_not_negative("clearance", options.clearance);
   check_not_negative("tolerance", options.tolerance);
   if (options.contact == Contact::allowed) {
@@ -110,7 +111,7 @@ Verification verify_on_map(const OccupancyMap& map, std::span<const Vec2> path, 
   const auto first_cell = cell_at(map, path.front());
   const Closed closed(map, first_cell && !map.water.empty() && map.water.test(first_cell->x, first_cell->y));
   constexpr double rounding = 1e-9;  // of coordinates turned into cells
-  const double needed = options.clearance / map.cell * (1.0 - rounding);
+  const double needed = options.reach() / map.cell * (1.0 - rounding);
   const auto leg_at = [&](std::size_t i) { return Segment{path[i], path[std::min(i + 1, path.size() - 1)]}; };
   constexpr std::size_t legs_a_chunk = 256;
   LegReport legs = report_legs(legs_of(path.size()), legs_a_chunk, execution, [&](Range r) {
@@ -127,6 +128,7 @@ Verification verify_on_map(const OccupancyMap& map, std::span<const Vec2> path, 
   });
   legs.least *= map.cell;
   Verification result = verdict_on(legs, wrong_start(path, options), wrong_goal(path, options));
+  result.min_clearance -= options.radius;
   for (std::size_t i = 0; i < legs_of(path.size()); ++i) result.length += distance(leg_at(i).a, leg_at(i).b);
   return result;
 }

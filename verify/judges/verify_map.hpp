@@ -12,10 +12,10 @@
 
 namespace warren {
 
-/// A point or disc; `clearance` of the options is the distance that the reference point keeps (0: it touches no blocked
-/// square); contact can't be allowed. A leg costs the cells within its clearance, and those within the least distance
-/// met so far. Water is free to a path that begins on water and blocked to all others. At least one point, all finite
-/// (InputError otherwise). The same for any number of threads; throws Stopped.
+/// A point or disc; with a reach of 0 it touches no blocked square; contact can't be allowed. A leg costs the cells
+/// within its clearance, and those within the least distance met so far. Water is free to a path that begins on water
+/// and blocked to all others. At least one point, all finite (InputError otherwise). The same for any number of
+/// threads; throws Stopped.
 Verification verify_on_map(const OccupancyMap& map, std::span<const Vec2> path, const VerifyOptions& options,
                            const Execution& execution);
 

@@ -136,6 +136,7 @@ void check_input(std::span<const Vec2> path, const VerifyOptions& options, const
   if (const std::size_t i = first_misfit(path, execution); i < path.size()) {
     throw InputError(fmt::format("path point {}", i), "expected finite coordinates of at most 1e60");
   }
+  check_not_negative("radius", options.radius);
   check_not_negative("clearance", options.clearance);
   check_not_negative("tolerance", options.tolerance);
 }
@@ -158,9 +159,11 @@ Verification verify_path(const Scene& scene, std::span<const Vec2> path, const V
   check_input(path, options, execution);
   check_plane_scene(scene, execution);
   if (scene.map) return verify_on_map(*scene.map, path, options, execution);
-  if (path.size() > 1) return Verifier(scene, path, options, execution).run();
   const Vec2 twice[] = {path.front(), path.front()};
-  return Verifier(scene, twice, options, execution).run();
+  const std::span<const Vec2> legs = path.size() > 1 ? path : std::span<const Vec2>(twice);
+  Verification verdict = Verifier(scene, legs, options, execution).run();
+  verdict.min_clearance -= options.radius;
+  return verdict;
 }
 
 }  // namespace warren

@@ -24,11 +24,15 @@ enum class Contact : std::uint8_t { blocked, allowed };
 constexpr auto enum_names(Contact) { return std::array<std::string_view, 2>{"blocked", "allowed"}; }
 
 struct VerifyOptions {
-  double clearance = 0.0;              ///< every point of the path stays at least so far from every wall; >= 0, finite
-  Contact contact = Contact::blocked;  ///< with clearance 0: touching counts as blocked, or only crossing
+  double radius = 0.0;                 ///< of the disc; 0: a point; >= 0, finite
+  double clearance = 0.0;              ///< room around the body all along the path; >= 0, finite
+  Contact contact = Contact::blocked;  ///< with reach 0: touching counts as blocked, or only crossing
   std::optional<Vec2> start = {};      ///< where the path must begin; nullopt: anywhere
   std::optional<Vec2> goal = {};       ///< where it must end
   double tolerance = 0.0;              ///< distance from start and goal that still counts as there; >= 0
+
+  /// What the reference point keeps from every obstacle.
+  double reach() const { return clearance + radius; }
 };
 
 /// Point or disc among the scene's walls, polygons and bounds; on a map by its cells (worlds/verify_map), where contact
