@@ -3,19 +3,14 @@
 
 namespace warren {
 
-double free_width(const WallIndex& index, const Box& box, const Segment& wall, double side,
-                  const Execution& execution) {
-  const Vec2 along = wall.b - wall.a;
-  const double length = norm(along);
-  if (length == 0.0) return 0.0;
-  const Vec2 middle = 0.5 * (wall.a + wall.b);
-  const Vec2 normal = (side / length) * Vec2{-along.y, along.x};
+namespace {
+
+/// From `from`, a step off the wall, along the unit vector `normal`.
+double look(const WallIndex& index, const Box& box, Vec2 from, Vec2 normal, double step, const Execution& execution) {
   const double farthest = box.width() + box.height();
-  const double breadth = std::min(box.width(), box.height());
-  const double step = 1e-3 * std::min(length, breadth > 0.0 ? breadth : farthest);
   const auto blocked = [&](double t) {
     execution.check();
-    return index.blocks(middle + step * normal, middle + t * normal);
+    return index.blocks(from + step * normal, from + t * normal);
   };
   double far = 2.0 * step;
   while (far < farthest && !blocked(far)) far *= 2.0;
@@ -26,6 +21,22 @@ double free_width(const WallIndex& index, const Box& box, const Segment& wall, d
     (blocked(t) ? far : near) = t;
   }
   return far;
+}
+
+}  // namespace
+
+double free_width(const WallIndex& index, const Box& box, const Segment& wall, double side,
+                  const Execution& execution) {
+  const Vec2 along = wall.b - wall.a;
+  const double length = norm(along);
+  if (length == 0.0) return 0.0;
+  const Vec2 normal = (side / length) * Vec2{-along.y, along.x};
+  const double breadth = std::min(box.width(), box.height());
+  const double step = 1e-3 * std::min(length, breadth > 0.0 ? breadth : box.width() + box.height());
+  const double width = look(index, box, 0.5 * (wall.a + wall.b), normal, step, execution);
+  if (width == 0.0 || width > 2.0 * step) return width;
+  constexpr double aside = 0.381966;  // a wall that ends in the middle of this one is not across the way
+  return look(index, box, wall.a + aside * along, normal, step, execution);
 }
 
 double samples_for_width(double width, double area, double clearance) {

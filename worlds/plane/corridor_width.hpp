@@ -14,8 +14,9 @@
 
 namespace warren {
 
-/// How far one sees from the middle of a wall, square to it (side = 1: to its left, -1: right), before the next wall,
-/// to a percent; 0 where nothing is in the way within the box. Throws Stopped: a look among crowded walls takes long.
+/// How far one sees from the middle of a wall (or beside it, where another wall ends there), square to it (side = 1: to
+/// its left, -1: right), before the next wall, to a percent; 0 where nothing is in the way within the box. Throws
+/// Stopped: a look among crowded walls takes long.
 double free_width(const WallIndex& index, const Box& box, const Segment& wall, double side, const Execution& execution);
 
 /// 4.5 samples for each square as wide as what the clearance leaves of `width`.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -104,6 +105,15 @@ TEST(MazeWorld, ChecksBunchesOfMotionsAsEachAlone) {
         ASSERT_EQ((free >> i & 1U) != 0, world.is_free_motion(motions[i].from, motions[i].to, query));
       }
     }
+  }
+}
+
+TEST(MazeWorld, AWallThatEndsInTheMiddleOfAnotherIsNoNarrowWay) {
+  Scene scene;
+  scene.bounds = Box{{0, 0}, {10, 10}};
+  for (const double x : {5.0, 4.5}) {  // the bounds are walls, too
+    scene.walls = WallSet::narrowest(std::array{Segment{{x, 0}, {x, 10}}});
+    EXPECT_LE(MazeWorld(scene, 0.0, Execution{1}).suggested_samples({}), 1000.0);
   }
 }
 
