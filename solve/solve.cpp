@@ -119,7 +119,13 @@ void make_by_products(const Scene& scene, const Question& question, const SolveO
 Answer solve(const Scene& scene, const Question& question, const SolveOptions& options, const Limits& limits,
              ByProducts* keep) {
   const LimitedExecution limited(limits);
-  return solve_within(scene, question, options, limited.execution(), keep);
+  Answer answer = solve_within(scene, question, options, limited.execution(), keep);
+  if (keep == nullptr || answer.outcome == Outcome::stopped) return answer;
+  try {
+    make_by_products(scene, question, options, limited.execution(), *keep);
+  } catch (const Stopped&) {  // the answer came in time
+  }
+  return answer;
 }
 
 Verdict verify(const Scene& scene, const Answer& answer, const Limits& limits) {

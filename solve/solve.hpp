@@ -17,9 +17,9 @@ namespace warren {
 
 /// Finds a path and verifies it, by code that shares nothing with the planner. What neither question nor options say is
 /// as the world's file says, and else what is fastest and most honest for the problem. No path is an answer, and so is
-/// a stop: see Answer::outcome. `keep`, where given, receives what the planner made on its way. The answer is the same
-/// for any number of threads. Throws UsageError for what can't be asked of this world, InputError for a world that
-/// contradicts itself. Any number of threads may call at once.
+/// a stop: see Answer::outcome. `keep`, where given, receives what the planner made on its way; what of it the limits
+/// don't allow is missing there. The answer is the same for any number of threads. Throws UsageError for what can't be
+/// asked of this world, InputError for a world that contradicts itself. Any number of threads may call at once.
 Answer solve(const Scene& scene, const Question& question = {}, const SolveOptions& options = {},
              const Limits& limits = {}, ByProducts* keep = nullptr);
 

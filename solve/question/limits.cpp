@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solve/question/limits.hpp"
 
+#include <fmt/format.h>
+
 #include <limits>
 
 #include "core/base/error.hpp"
@@ -16,6 +18,13 @@ double seconds_of(const Limits& limits) {
   return seconds;
 }
 
+unsigned threads_of(const Limits& limits) {
+  if (limits.threads > most_threads) {
+    throw UsageError(fmt::format("@threads: must be at most {} (found: {})", most_threads, limits.threads));
+  }
+  return limits.threads;
+}
+
 }  // namespace
 
 struct LimitedExecution::Reporter {
@@ -29,7 +38,7 @@ struct LimitedExecution::Reporter {
 
 LimitedExecution::LimitedExecution(const Limits& limits)
     : deadline_(seconds_of(limits), limits.memory.value_or(available_bytes()), limits.cancel) {
-  execution_.threads = limits.threads;
+  execution_.threads = threads_of(limits);
   execution_.deadline = &deadline_;
   if (!limits.progress) return;
   execution_.progress = &progress_;

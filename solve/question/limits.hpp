@@ -11,6 +11,7 @@
 #include <optional>
 #include <string_view>
 
+#include "core/base/page_pool.hpp"
 #include "parallel/execution.hpp"
 
 namespace warren {
@@ -22,15 +23,18 @@ struct ProgressReport {
   std::uint64_t total = 0;  ///< 0: not known
 };
 
+inline constexpr unsigned most_threads = 1024;
+
 struct Limits {
-  unsigned threads = 0;                                      ///< 0: one a core that this process may use
+  unsigned threads = 0;                                      ///< <= 1024; 0: one a core that this process may use
   std::optional<std::chrono::nanoseconds> budget = {};       ///< from the call on, > 0; none: no end
   std::optional<std::size_t> memory = {};                    ///< bytes that the process may hold; none: all there is
   const SignalFlag* cancel = nullptr;                        ///< stops the call as soon as it is not 0
   std::function<void(const ProgressReport&)> progress = {};  ///< called ten times a second, on another thread
 };
 
-/// The execution that keeps limits; the budget begins with it. Not movable: the execution points into it.
+/// The execution that keeps limits; the budget begins with it. Not movable: the execution points into it. Throws
+/// UsageError for limits that nobody can keep.
 class LimitedExecution {
  public:
   explicit LimitedExecution(const Limits& limits);
@@ -41,6 +45,7 @@ class LimitedExecution {
   const Execution& execution() const { return execution_; }
 
  private:
+  PagePool pages_;  // what one stage leaves is warm for the next
   Deadline deadline_;
   Progress progress_;
   Execution execution_;

@@ -9,6 +9,7 @@
 
 #include "core/base/printable.hpp"
 #include "scenes/text/output_file_io.hpp"
+#include "solve/question/limits.hpp"
 #include "studies/measure/trace_json.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/last_words.hpp"
@@ -42,7 +43,6 @@ Deadline deadline_of(const Arguments& arguments, RunScope scope) {
 std::span<const OptionSpec> run_option_specs() { return run_specs; }
 
 unsigned threads_value(std::string_view option, std::string_view text) {
-  constexpr std::uint64_t most_threads = 1024;
   return static_cast<unsigned>(count_value(option, text, 1, most_threads));
 }
 
