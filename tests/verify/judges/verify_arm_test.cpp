@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.hpp"
+#include "tests/seeds.hpp"
 #include "tests/worlds/arms/arm_oracle.hpp"
 #include "worlds/arms/arm_world.hpp"
 #include "worlds/arms/puma560.hpp"
@@ -29,7 +30,7 @@ double sampled_clearance(const Scene& scene, const DhTable& table, double radius
 TEST(VerifyArm, AgreesWithDenseSamplingAndNeverPromisesMoreClearanceThanThereIs) {
   int verified = 0;
   int refuted = 0;
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::seeds(20); ++seed) {
     SCOPED_TRACE(seed);
     Scene scene = scattered_spheres(seed, 8);
     add_boxes(scene, seed, 2);
@@ -58,7 +59,7 @@ TEST(VerifyArm, AgreesWithDenseSamplingAndNeverPromisesMoreClearanceThanThereIs)
 
 TEST(VerifyArm, PassesEveryMotionThatThePlannersAccept) {
   int accepted = 0;
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::seeds(20); ++seed) {
     SCOPED_TRACE(seed);
     Scene scene = scattered_spheres(seed, 5);
     add_boxes(scene, seed, 3);

@@ -8,6 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
 #include "core/plane/polygon_distance.hpp"
+#include "tests/seeds.hpp"
 #include "tests/worlds/poses/body_scenes.hpp"
 #include "worlds/poses/se2_world.hpp"
 
@@ -126,7 +127,7 @@ TEST(VerifySe2, SeesBodiesInPolygonsOutsideTheBoundsAndWallsInTheBody) {
 /// to spare is accepted. Least distances against sampled ones.
 TEST(VerifySe2, AgreesWithTheFastWorldAndWithSampledDistances) {
   int free = 0;
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::seeds(20); ++seed) {
     SCOPED_TRACE(seed);
     const Scene scene = body_scenes::scattered(seed);
     const auto& outline = seed % 2 == 0 ? kite : hook;
@@ -166,7 +167,7 @@ TEST(VerifySe2, AgreesWithTheFastWorldAndWithSampledDistances) {
 /// A path of many short legs, judged in runs, against each of its legs judged alone.
 TEST(VerifySe2, LongRunsOfShortLegsAreJudgedAsEachLegAlone) {
   int refuted = 0;
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::seeds(20); ++seed) {
     SCOPED_TRACE(seed);
     const Scene scene = body_scenes::scattered(seed);
     SequentialRng rng(seed);

@@ -8,6 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "scenes/formats/read_world_io.hpp"
+#include "tests/seeds.hpp"
 #include "tests/worlds/arms/arm_oracle.hpp"
 #include "worlds/arms/puma560.hpp"
 
@@ -38,7 +39,7 @@ Setting setting(std::uint64_t seed) {
 bool has_length(const DhTable& table) { return !links_of(SerialChain(table)).empty(); }
 
 TEST(ArmWorld, ClearanceIsTheDistanceOfTheCapsules) {
-  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::seeds(24); ++seed) {
     SCOPED_TRACE(seed);
     const Setting s = setting(seed);
     if (!has_length(s.table)) continue;
@@ -72,7 +73,7 @@ JointState other_state(const DhTable& table, const JointState& a, std::uint64_t 
 
 TEST(ArmWorld, NoPointOfTheBodyGoesFartherThanItsTravel) {
   constexpr int steps = 500;
-  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::seeds(24); ++seed) {
     SCOPED_TRACE(seed);
     const Setting s = setting(seed);
     if (!has_length(s.table)) continue;
@@ -110,7 +111,7 @@ TEST(ArmWorld, AcceptedMotionsAreFreeAndFewFreeOnesAreRefused) {
   int free_by_margin = 0;
   int refused = 0;
   int accepted = 0;
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::seeds(20); ++seed) {
     SCOPED_TRACE(seed);
     Setting s = setting(seed);
     s.scene.boxes.clear();
@@ -190,7 +191,7 @@ TEST(ArmWorld, SearchFindsMotionsThatTenSamplesAcceptAndNoneThatItAcceptsItself)
 }
 
 TEST(ArmWorld, SelfCollisionKeepsLinksApartThatAreNoNeighbours) {
-  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::seeds(12); ++seed) {
     SCOPED_TRACE(seed);
     Setting s = setting(seed);
     if (!has_length(s.table)) continue;

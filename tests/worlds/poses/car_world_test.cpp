@@ -7,6 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "core/plane/polygon_distance.hpp"
+#include "tests/seeds.hpp"
 #include "tests/worlds/poses/body_scenes.hpp"
 
 namespace warren {
@@ -47,7 +48,7 @@ double room(const Scene& scene, const CarOptions& car, const Se2& pose) {
 
 TEST(CarWorld, ClearanceEqualsBruteForce) {
   int free = 0;
-  for (std::uint64_t seed = 1; seed <= 25; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::seeds(25); ++seed) {
     SCOPED_TRACE(seed);
     const Scene scene = scattered(seed);
     for (const CarOptions& car : {disc(), hooked()}) {
@@ -76,7 +77,7 @@ template <class Curve>
 void expect_certificates_to_hold(const CarOptions& car) {
   int accepted = 0;
   int blocked = 0;
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::seeds(20); ++seed) {
     SCOPED_TRACE(seed);
     const Scene scene = scattered(seed, 5, 3);
     const CarWorld<Curve> world(scene, car);
@@ -117,7 +118,7 @@ TEST(CarWorld, CertificatesHoldForPolygonsOnReedsSheppCurves) {
 TEST(CarWorld, NoPointOfTheBodyGoesFartherThanItsPace) {
   const Scene scene = scattered(1);
   const CarWorld<ReedsSheppCurve> world(scene, hooked());
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::seeds(20); ++seed) {
     SCOPED_TRACE(seed);
     const SteeringCurve curve = world.curve(random_pose(seed, 0), random_pose(seed, 1));
     double begin = 0.0;

@@ -9,6 +9,7 @@
 
 #include "core/base/error.hpp"
 #include "core/plane/polygon_distance.hpp"
+#include "tests/seeds.hpp"
 #include "tests/worlds/poses/body_scenes.hpp"
 #include "verify/judges/verify_turning.hpp"
 #include "worlds/rasters/map_borders.hpp"
@@ -37,7 +38,7 @@ double plain_clearance(const Scene& scene, const std::vector<Vec2>& outline, con
 }
 
 TEST(Se2World, ClearanceIsTheDistanceToTheNearestObstacle) {
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::seeds(20); ++seed) {
     SCOPED_TRACE(seed);
     const Scene scene = scattered(seed, seed % 5 == 0 ? 60 : 12);
     for (const auto& outline : {kite, hook}) {
@@ -154,7 +155,7 @@ TEST(Se2World, TouchingIsBlockedAndClearanceIsKept) {
 
 /// 1000 accepted motions, 100 places each against everything: none collides.
 TEST(Se2World, AcceptedMotionsAreFreeEverywhere) {
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::seeds(20); ++seed) {
     SCOPED_TRACE(seed);
     const Scene scene = scattered(seed);
     const auto& outline = seed % 2 == 0 ? kite : hook;
@@ -182,7 +183,7 @@ TEST(Se2World, AcceptedMotionsAreFreeEverywhere) {
 /// What keeps a hundredth of the body's radius is accepted, always; what collides at a sampled place never.
 TEST(Se2World, RefusesNothingThatHasAHundredthOfTheRadiusToSpare) {
   int spared = 0;
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::seeds(20); ++seed) {
     SCOPED_TRACE(seed);
     const Scene scene = scattered(seed);
     const Se2World world(scene, kite, {});
