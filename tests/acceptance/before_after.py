@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """before_after.py OLD NEW: hundreds of commands, run by two programs: exit codes, messages, answers and pictures must be
-the same, but for times, threads' names of machines and memory. Not part of the checks: for redesigns that change no
-answer. Exit code 0: all alike."""
+the same, but for times and memory. Not part of the checks: for redesigns that change no answer. Exit code 0: all
+alike."""
 import itertools
 import pathlib
 import re
