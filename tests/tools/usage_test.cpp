@@ -169,6 +169,12 @@ TEST(Usage, EveryOptionOfSolveIsInHelpManualAndCompletions) {
   }
 }
 
+TEST(Usage, CompletionsKnowTheExamples) {
+  for (const char* shell : {"bash", "fish", "zsh"}) {
+    EXPECT_NE(run({"completion", shell}).out.find("parking-lot poly-easy"), std::string::npos) << shell;
+  }
+}
+
 TEST(Usage, AnIgnoredOptionIsToldWithTheProblemThatItIsNotFor) {
   const Folder folder;
   const std::string turning = folder.write(

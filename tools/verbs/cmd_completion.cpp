@@ -4,6 +4,7 @@
 
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/terminal.hpp"
+#include "tools/verbs/example_files.hpp"
 #include "tools/words/command.hpp"
 #include "tools/words/help.hpp"
 #include "tools/words/option_values.hpp"
@@ -17,9 +18,26 @@ std::string for_shell(std::string_view text) {  // inside single quotes of a she
   return out;
 }
 
+/// The words that a verb takes where others take files; none.
+std::string operand_words(const Command& command) {
+  if (command.name == "completion") return "bash zsh fish";
+  if (command.name != "example") return {};
+  std::string words;
+  for (const ExampleFile& file : example_files()) {
+    const std::string_view name = file.name.substr(0, file.name.find('.'));
+    if (file.name == "README.md" || words.find(name) != std::string::npos) continue;
+    words.append(words.empty() ? "" : " ").append(name);
+  }
+  return words;
+}
+
 std::string bash_completion() {
   const auto choices = [](const Command& c, const OptionSpec& o) {
     return o.choices.empty() ? "" : fmt::format("      '{} {}') words='{}' ;;\n", c.name, o.name, o.choices);
+  };
+  const auto operands = [](const Command& c) {
+    const std::string words = operand_words(c);
+    return words.empty() ? "" : fmt::format("      '{0} {0}') words='{1}' ;;\n", c.name, words);
   };
   return "# bash completion for warren; install as /usr/share/bash-completion/completions/warren\n"
          "_warren() {\n"
@@ -30,8 +48,8 @@ std::string bash_completion() {
          "--help --version\"\n"
          "  else\n"
          "    case \"${COMP_WORDS[1]} $before\" in\n" +
-         text_of_commands([](const Command&) { return ""; }, choices) +
-         "      'completion completion') words='bash zsh fish' ;;\n    esac\n"
+         text_of_commands([](const Command&) { return ""; }, choices) + text_of_commands(operands) +
+         "    esac\n"
          "    if [[ -z $words && $word == -* ]]; then\n"
          "      case ${COMP_WORDS[1]} in\n" +
          text_of_commands([](const Command& c) { return fmt::format("        {}) words='--help", c.name); },
@@ -58,7 +76,9 @@ std::string zsh_option(const Command&, const OptionSpec& option) {
 std::string zsh_completion() {
   const auto verb = [](const Command& c) { return fmt::format("      '{}:{}'\n", c.name, for_shell(c.summary)); };
   const auto head = [](const Command& c) {
-    return fmt::format("    {})\n      shift words; (( CURRENT-- ))\n      _arguments \\\n", c.name);
+    const std::string words = operand_words(c);
+    return fmt::format("    {})\n      shift words; (( CURRENT-- ))\n      _arguments \\\n", c.name) +
+           (words.empty() ? "" : fmt::format("        '1:word:({})' \\\n", words));
   };
   return "#compdef warren\n"
          "# zsh completion for warren; install as _warren in a folder of $fpath\n"
@@ -71,7 +91,11 @@ std::string zsh_completion() {
 
 std::string fish_completion() {
   const auto verb = [](const Command& c) {
-    return fmt::format("complete -c warren -n __fish_use_subcommand -a {} -d '{}'\n", c.name, for_shell(c.summary));
+    const std::string words = operand_words(c);
+    return fmt::format("complete -c warren -n __fish_use_subcommand -a {} -d '{}'\n", c.name, for_shell(c.summary)) +
+           (words.empty()
+                ? ""
+                : fmt::format("complete -c warren -n '__fish_seen_subcommand_from {}' -f -a '{}'\n", c.name, words));
   };
   const auto option = [](const Command& c, const OptionSpec& o) {
     return fmt::format("complete -c warren -n '__fish_seen_subcommand_from {}' -l {}{}{}{} -d '{}'\n", c.name,

@@ -126,7 +126,7 @@ TEST(VerifySe2, SeesBodiesInPolygonsOutsideTheBoundsAndWallsInTheBody) {
 /// Verdicts against the fast world on random motions: whatever that accepts is verified, and what is verified with room
 /// to spare is accepted. Least distances against sampled ones.
 TEST(VerifySe2, AgreesWithTheFastWorldAndWithSampledDistances) {
-  int free = 0;
+  std::uint64_t free = 0;
   for (std::uint64_t seed = 1; seed <= test::seeds(20); ++seed) {
     SCOPED_TRACE(seed);
     const Scene scene = body_scenes::scattered(seed);
@@ -161,12 +161,12 @@ TEST(VerifySe2, AgreesWithTheFastWorldAndWithSampledDistances) {
       EXPECT_GE(v.min_clearance, sampled - world.travel(a, b) / 400.0 - 1e-3 * world.radius());
     }
   }
-  EXPECT_GT(free, 100);
+  EXPECT_GT(free, test::seeds(100));
 }
 
 /// A path of many short legs, judged in runs, against each of its legs judged alone.
 TEST(VerifySe2, LongRunsOfShortLegsAreJudgedAsEachLegAlone) {
-  int refuted = 0;
+  std::uint64_t refuted = 0;
   for (std::uint64_t seed = 1; seed <= test::seeds(20); ++seed) {
     SCOPED_TRACE(seed);
     const Scene scene = body_scenes::scattered(seed);
@@ -198,7 +198,7 @@ TEST(VerifySe2, LongRunsOfShortLegsAreJudgedAsEachLegAlone) {
     ASSERT_TRUE(whole.first_violation);
     EXPECT_EQ(whole.first_violation->leg, *first);
   }
-  EXPECT_GT(refuted, 3);
+  EXPECT_GT(refuted, test::seeds(3));
   EXPECT_LT(refuted, 20);
 }
 

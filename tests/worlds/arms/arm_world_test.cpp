@@ -110,7 +110,7 @@ bool sampled_free(const Setting& s, const JointState& a, const JointState& b, in
 TEST(ArmWorld, AcceptedMotionsAreFreeAndFewFreeOnesAreRefused) {
   int free_by_margin = 0;
   int refused = 0;
-  int accepted = 0;
+  std::uint64_t accepted = 0;
   for (std::uint64_t seed = 1; seed <= test::seeds(20); ++seed) {
     SCOPED_TRACE(seed);
     Setting s = setting(seed);
@@ -131,7 +131,7 @@ TEST(ArmWorld, AcceptedMotionsAreFreeAndFewFreeOnesAreRefused) {
       free_by_margin += verdict == MotionVerdict::free ? 1 : 0;
     }
   }
-  EXPECT_GT(accepted, 200);
+  EXPECT_GT(accepted, test::seeds(200));
   EXPECT_EQ(refused, 0) << "of " << free_by_margin;
 }
 
@@ -175,9 +175,9 @@ TEST(ArmWorld, BlocksMotionsThatTenSamplesAccept) {
 TEST(ArmWorld, SearchFindsMotionsThatTenSamplesAcceptAndNoneThatItAcceptsItself) {
   const Setting s = study_setting();
   const ArmWorld world(s.scene, SerialChain(s.table), s.options);
-  int accepted_by_study = 0;
-  int wrongly = 0;
-  for (std::uint64_t i = 0; i < 120; ++i) {
+  std::uint64_t accepted_by_study = 0;
+  std::uint64_t wrongly = 0;
+  for (std::uint64_t i = 0; i < test::seeds(120); ++i) {
     for (std::uint64_t k = i + 1; k < i + 6; ++k) {
       if (!study_accepts(s, study_state(i), study_state(k))) continue;
       ++accepted_by_study;
@@ -186,8 +186,8 @@ TEST(ArmWorld, SearchFindsMotionsThatTenSamplesAcceptAndNoneThatItAcceptsItself)
       EXPECT_NE(world.judge_motion(study_state(i), study_state(k)), MotionVerdict::free) << i << ' ' << k;
     }
   }
-  EXPECT_GT(accepted_by_study, 300);
-  EXPECT_GT(wrongly, 5);
+  EXPECT_GT(accepted_by_study, test::seeds(300));
+  EXPECT_GT(wrongly, test::seeds(5));
 }
 
 TEST(ArmWorld, SelfCollisionKeepsLinksApartThatAreNoNeighbours) {

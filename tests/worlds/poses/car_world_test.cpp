@@ -47,7 +47,7 @@ double room(const Scene& scene, const CarOptions& car, const Se2& pose) {
 }
 
 TEST(CarWorld, ClearanceEqualsBruteForce) {
-  int free = 0;
+  std::uint64_t free = 0;
   for (std::uint64_t seed = 1; seed <= test::seeds(25); ++seed) {
     SCOPED_TRACE(seed);
     const Scene scene = scattered(seed);
@@ -69,14 +69,14 @@ TEST(CarWorld, ClearanceEqualsBruteForce) {
       }
     }
   }
-  EXPECT_GT(free, 300);
+  EXPECT_GT(free, test::seeds(300));
 }
 
 /// A certified motion is free wherever one looks; a blocked one is blocked somewhere.
 template <class Curve>
 void expect_certificates_to_hold(const CarOptions& car) {
-  int accepted = 0;
-  int blocked = 0;
+  std::uint64_t accepted = 0;
+  std::uint64_t blocked = 0;
   for (std::uint64_t seed = 1; seed <= test::seeds(20); ++seed) {
     SCOPED_TRACE(seed);
     const Scene scene = scattered(seed, 5, 3);
@@ -103,8 +103,8 @@ void expect_certificates_to_hold(const CarOptions& car) {
       EXPECT_EQ(world.is_free_motion(a, b, query), verdict == MotionVerdict::free);
     }
   }
-  EXPECT_GT(accepted, 5);
-  EXPECT_GT(blocked, 50);
+  EXPECT_GT(accepted, test::seeds(5));
+  EXPECT_GT(blocked, test::seeds(50));
 }
 
 TEST(CarWorld, CertificatesHoldForDiscsOnDubinsCurves) { expect_certificates_to_hold<DubinsCurve>(disc()); }
