@@ -82,6 +82,19 @@ class Process {
   }
   void send(int signal) const { ::kill(child_, signal); }
 
+  /// Waits until it has computed for so long, or has ended: on a busy machine a sleep says nothing about that.
+  void wait_until_it_computed_for(std::chrono::milliseconds time) const {
+    clockid_t clock{};
+    timespec used{};
+    while (::clock_getcpuclockid(child_, &clock) == 0 && ::clock_gettime(clock, &used) == 0 &&
+           std::chrono::seconds(used.tv_sec) + std::chrono::nanoseconds(used.tv_nsec) < time) {
+      siginfo_t ended{};
+      if (::waitid(P_PID, static_cast<id_t>(child_), &ended, WEXITED | WNOHANG | WNOWAIT) != 0 || ended.si_pid != 0)
+        return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+
   Outcome wait() {
     constexpr auto patience = std::chrono::seconds(120);  // sanitizers on a busy machine
     const auto end = std::chrono::steady_clock::now() + patience;

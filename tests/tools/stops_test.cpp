@@ -29,7 +29,7 @@ class FileSizeLimit {
 
 const std::vector<std::string> long_run{"solve", "maze:20000x20000", "--json", "-", "--memory", "64GiB"};
 
-void wait_until_it_works() { std::this_thread::sleep_for(std::chrono::milliseconds(300)); }
+void wait_until_it_works(const Process& process) { process.wait_until_it_computed_for(std::chrono::milliseconds(300)); }
 
 TEST(Stops, SignalsEndItWithTheirCodeAndPartialFigures) {
   struct Stop {
@@ -41,7 +41,7 @@ TEST(Stops, SignalsEndItWithTheirCodeAndPartialFigures) {
        {Stop{SIGHUP, 129, "SIGHUP"}, Stop{SIGINT, 130, "SIGINT"}, Stop{SIGTERM, 143, "SIGTERM"}}) {
     SCOPED_TRACE(name);
     Process process(long_run);
-    wait_until_it_works();
+    wait_until_it_works(process);
     process.send(number);
     const Outcome outcome = process.wait();
     EXPECT_EQ(outcome.code, code) << outcome.err;
@@ -54,13 +54,13 @@ TEST(Stops, SignalsEndItWithTheirCodeAndPartialFigures) {
 TEST(Stops, QuietStudiesSayInOneLineThatASignalCame) {
   for (const std::vector<std::string>& words :
        {std::vector<std::string>{"compare", "maze:3000x3000", "--planners", "prm", "--seeds", "1000"},
-        {"largest", "--budget", "1h", "--start-size", "20000"},
+        {"largest", "--budget", "1h", "--start-size", "4000"},
         {"scale", "--sizes", "3000", "--repeats", "1000"}}) {
     SCOPED_TRACE(words.front());
     std::vector<std::string> quiet = words;
     quiet.emplace_back("--quiet");
     Process process(quiet);
-    wait_until_it_works();
+    wait_until_it_works(process);
     process.send(SIGTERM);
     const Outcome outcome = process.wait();
     EXPECT_EQ(outcome.code, 143) << outcome.err;
@@ -71,7 +71,7 @@ TEST(Stops, QuietStudiesSayInOneLineThatASignalCame) {
 
 TEST(Stops, AKeyPressedTwiceEndsItInOrderToo) {
   Process process(long_run);
-  wait_until_it_works();
+  wait_until_it_works(process);
   for (int i = 0; i < 3; ++i) process.send(SIGINT);
   const Outcome outcome = process.wait();
   EXPECT_EQ(outcome.code, 130) << outcome.err;
@@ -82,9 +82,9 @@ TEST(Stops, AHangUpThatIsIgnoredStaysIgnored) {
   const auto before = std::signal(SIGHUP, SIG_IGN);  // as under nohup
   Process process(long_run);
   std::signal(SIGHUP, before);
-  wait_until_it_works();
+  wait_until_it_works(process);
   process.send(SIGHUP);
-  wait_until_it_works();
+  wait_until_it_works(process);
   process.send(SIGTERM);
   EXPECT_EQ(process.wait().code, 143);
 }
