@@ -4,7 +4,7 @@
 # is all of them. Component "library" is the package without the program.
 include(CMakePackageConfigHelpers)
 
-set(warren_libraries core parallel spatial scenes worlds verify planners solve pictures)
+set(warren_libraries core parallel spatial scenes worlds verify planners roadmaps solve pictures)
 set(warren_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/warren)
 
 add_library(warren_all INTERFACE)

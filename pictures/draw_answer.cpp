@@ -48,7 +48,7 @@ void add_sweep(Drawing& drawing, const RobotSpec& robot, const StateList& states
 /// Takes what is drawn of roadmaps and trees.
 void add_roadmap(Drawing& drawing, const Answer& answer, ByProducts& made, const Execution& execution) {
   const RobotSpec& robot = answer.problem.robot;
-  Roadmap<Vec2> roadmap;
+  PlannedRoadmap<Vec2> roadmap;
   if (robot.kind == RobotKind::car) {
     CarCurves curves = car_curves(made.pose_roadmaps, robot, execution);
     drawing.layers.push_back(std::move(curves.edges));

@@ -12,7 +12,7 @@
 #include "parallel/execution.hpp"
 #include "pictures/picture.hpp"
 #include "pictures/svg_animation.hpp"
-#include "planners/roadmap/roadmap.hpp"
+#include "planners/roadmap/planned_roadmap.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/answer/by_products.hpp"
@@ -28,7 +28,7 @@ struct DrawingPage {
 
 /// A world with an answer on it, ready to be drawn. Owns all but the scene.
 struct Drawing {
-  std::optional<Roadmap<Vec2>> roadmap = {};
+  std::optional<PlannedRoadmap<Vec2>> roadmap = {};
   std::vector<PictureLayer> layers = {};  ///< in the order in which they are drawn
   std::vector<DrawingPage> pages = {};    ///< what deserves a picture of its own each
   std::optional<Scene> stage = {};        ///< shown instead of the world: views of a world that is not plane

@@ -50,7 +50,7 @@ void add_curve(PictureLayer& layer, const SteeringCurve& curve) {
 
 /// Each free motion once; where the car can't reverse, in its direction: an edge leads from the vertex in whose row it
 /// stands.
-std::vector<Edge> motions_of(const Roadmap<Se2>& roadmap, const RobotSpec& car) {
+std::vector<Edge> motions_of(const PlannedRoadmap<Se2>& roadmap, const RobotSpec& car) {
   if (!roadmap.motions.empty()) return roadmap.motions;
   std::vector<Edge> motions;
   for (VertexId v = 0; v < roadmap.graph.vertex_count(); ++v) {
@@ -63,7 +63,7 @@ std::vector<Edge> motions_of(const Roadmap<Se2>& roadmap, const RobotSpec& car) 
 
 }  // namespace
 
-CarCurves car_curves(std::span<const Roadmap<Se2>> roadmaps, const RobotSpec& car, const Execution& execution) {
+CarCurves car_curves(std::span<const PlannedRoadmap<Se2>> roadmaps, const RobotSpec& car, const Execution& execution) {
   CarCurves curves{.edges = {"edges", colors::components[0], widths::edge, {}},
                    .trees = {"search_tree", colors::search_tree, widths::search_tree, {}},
                    .milestones = {}};
@@ -72,7 +72,7 @@ CarCurves car_curves(std::span<const Roadmap<Se2>> roadmaps, const RobotSpec& ca
     if (++drawn % 256 == 0) execution.check();
     add_curve(layer, curve_between(a, b, car));
   };
-  for (const Roadmap<Se2>& roadmap : roadmaps) {
+  for (const PlannedRoadmap<Se2>& roadmap : roadmaps) {
     const RawVector<Se2>& states = roadmap.states;
     for (const Edge& motion : motions_of(roadmap, car)) add(curves.edges, states[motion.from], states[motion.to]);
     for (const Edge& edge : roadmap.search_tree) {

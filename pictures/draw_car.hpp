@@ -9,7 +9,7 @@
 #include "core/plane/se2.hpp"
 #include "parallel/execution.hpp"
 #include "pictures/picture.hpp"
-#include "planners/roadmap/roadmap.hpp"
+#include "planners/roadmap/planned_roadmap.hpp"
 #include "scenes/scene/scene.hpp"
 
 namespace warren {
@@ -22,7 +22,7 @@ struct CarCurves {
 };
 
 /// Every motion of the roadmaps as the curve that the car drives. Throws Stopped.
-CarCurves car_curves(std::span<const Roadmap<Se2>> roadmaps, const RobotSpec& car, const Execution& execution);
+CarCurves car_curves(std::span<const PlannedRoadmap<Se2>> roadmaps, const RobotSpec& car, const Execution& execution);
 
 /// The body along a path whose legs are straights and arcs, about a third of its size apart, at most 400 of them.
 PictureLayer car_sweep(std::span<const Se2> poses, const RobotSpec& car);

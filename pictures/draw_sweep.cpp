@@ -30,10 +30,10 @@ Vec2 position_of(const Se2& state) { return state.position(); }
 Vec2 position_of(Vec2 state) { return state; }
 
 template <class State>
-Roadmap<Vec2> joined_in_the_plane(const std::vector<Roadmap<State>>& roadmaps, const Execution& execution) {
-  Roadmap<Vec2> plane;
+PlannedRoadmap<Vec2> joined_in_the_plane(const std::vector<PlannedRoadmap<State>>& roadmaps, const Execution& execution) {
+  PlannedRoadmap<Vec2> plane;
   std::vector<Edge> edges;
-  for (const Roadmap<State>& roadmap : roadmaps) {
+  for (const PlannedRoadmap<State>& roadmap : roadmaps) {
     const auto first = static_cast<VertexId>(plane.states.size());
     for (const State& state : roadmap.states) plane.states.push_back(position_of(state));
     for (VertexId v = 0; v < roadmap.graph.vertex_count(); ++v) {
@@ -70,10 +70,10 @@ PictureLayer sweep_of(std::span<const Se2> path, std::span<const Vec2> outline) 
   return layer;
 }
 
-Roadmap<Vec2> in_the_plane(const std::vector<Roadmap<Se2>>& roadmaps, const Execution& execution) {
+PlannedRoadmap<Vec2> in_the_plane(const std::vector<PlannedRoadmap<Se2>>& roadmaps, const Execution& execution) {
   return joined_in_the_plane(roadmaps, execution);
 }
-Roadmap<Vec2> in_the_plane(const std::vector<Roadmap<Vec2>>& roadmaps, const Execution& execution) {
+PlannedRoadmap<Vec2> in_the_plane(const std::vector<PlannedRoadmap<Vec2>>& roadmaps, const Execution& execution) {
   return joined_in_the_plane(roadmaps, execution);
 }
 

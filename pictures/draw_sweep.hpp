@@ -9,7 +9,7 @@
 #include "core/base/types.hpp"
 #include "core/plane/se2.hpp"
 #include "pictures/picture.hpp"
-#include "planners/roadmap/roadmap.hpp"
+#include "planners/roadmap/planned_roadmap.hpp"
 
 namespace warren {
 
@@ -18,7 +18,7 @@ namespace warren {
 PictureLayer sweep_of(std::span<const Se2> path, std::span<const Vec2> outline);
 
 /// The positions of the states of several roadmaps, one after the other, with their edges. Throws Stopped.
-Roadmap<Vec2> in_the_plane(const std::vector<Roadmap<Se2>>& roadmaps, const Execution& execution);
-Roadmap<Vec2> in_the_plane(const std::vector<Roadmap<Vec2>>& roadmaps, const Execution& execution);
+PlannedRoadmap<Vec2> in_the_plane(const std::vector<PlannedRoadmap<Se2>>& roadmaps, const Execution& execution);
+PlannedRoadmap<Vec2> in_the_plane(const std::vector<PlannedRoadmap<Vec2>>& roadmaps, const Execution& execution);
 
 }  // namespace warren

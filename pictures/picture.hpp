@@ -15,7 +15,7 @@
 #include "core/plane/polygon.hpp"
 #include "parallel/execution.hpp"
 #include "pictures/svg_animation.hpp"
-#include "planners/roadmap/roadmap.hpp"
+#include "planners/roadmap/planned_roadmap.hpp"
 #include "scenes/scene/scene.hpp"
 
 namespace warren {
@@ -51,7 +51,7 @@ double arc_radius(Vec2 from, Vec2 to, double turn);
 /// Refers to what it shows; all of it must outlive the picture.
 struct Picture {
   const Scene& scene;
-  const Roadmap<Vec2>* roadmap = nullptr;  ///< nullptr: none
+  const PlannedRoadmap<Vec2>* roadmap = nullptr;  ///< nullptr: none
   std::span<const PictureLayer> layers = {};
   std::span<const Vec2> path = {};
   std::span<const double> path_turns = {};  ///< as PictureLayer::turns

@@ -117,7 +117,7 @@ void PngPainter::walls() {
 }
 
 void PngPainter::roadmap() {
-  const Roadmap<Vec2>& roadmap = *picture_.roadmap;
+  const PlannedRoadmap<Vec2>& roadmap = *picture_.roadmap;
   const std::vector<std::uint8_t> color = component_colors(roadmap.graph, execution_);
   if (color.size() != roadmap.states.size()) return;  // stopped before the graph was made
   for (VertexId v = 0; v < color.size(); ++v) {

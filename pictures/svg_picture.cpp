@@ -248,7 +248,7 @@ void SvgWriter::roadmap() {
 }
 
 void SvgWriter::edges(const std::vector<std::uint8_t>& color) {
-  const Roadmap<Vec2>& roadmap = *picture_.roadmap;
+  const PlannedRoadmap<Vec2>& roadmap = *picture_.roadmap;
   open_layer("edges", colors::components[0], widths::edge);
   for (std::size_t c = 0; c < colors::components.size(); ++c) {
     const std::string head = fmt::format("\n<path stroke=\"{}\" d=\"", hex(colors::components[c]));
@@ -270,7 +270,7 @@ void SvgWriter::edges(const std::vector<std::uint8_t>& color) {
 
 /// A subpath of length zero with round caps is a dot.
 void SvgWriter::milestones(const std::vector<std::uint8_t>& color) {
-  const Roadmap<Vec2>& roadmap = *picture_.roadmap;
+  const PlannedRoadmap<Vec2>& roadmap = *picture_.roadmap;
   open_layer("milestones", colors::components[0], widths::milestone);
   for (std::size_t c = 0; c < colors::components.size(); ++c) {
     const std::string head = fmt::format("\n<path stroke=\"{}\" d=\"", hex(colors::components[c]));
@@ -287,7 +287,7 @@ void SvgWriter::milestones(const std::vector<std::uint8_t>& color) {
 }
 
 void SvgWriter::search_tree() {
-  const Roadmap<Vec2>& roadmap = *picture_.roadmap;
+  const PlannedRoadmap<Vec2>& roadmap = *picture_.roadmap;
   open_layer("search_tree", colors::search_tree, widths::search_tree);
   text_ += "<path d=\"";
   for (const Edge& edge : roadmap.search_tree) {

@@ -60,7 +60,7 @@ struct Contestant {
 };
 
 using Planner = Solution<Vec2> (*)(const MazeWorld&, const Vec2&, const Vec2&, const RoadmapOptions&, const Execution&,
-                                   Roadmap<Vec2>*);
+                                   PlannedRoadmap<Vec2>*);
 
 Execution one_thread() {
   Execution execution;

@@ -48,7 +48,7 @@ class LazyPlan : public Rounds<W> {
     attach_ends();
     return this->take(options_.lazy == LazyCheck::path ? search_paths() : search_expanding());
   }
-  void finish(Roadmap<State>* keep);
+  void finish(PlannedRoadmap<State>* keep);
 
  private:
   using Rounds<W>::execution_;
@@ -170,7 +170,7 @@ RawVector<VertexId> LazyPlan<W>::search_paths() {
 }
 
 template <World W>
-void LazyPlan<W>::finish(Roadmap<State>* keep) {
+void LazyPlan<W>::finish(PlannedRoadmap<State>* keep) {
   if (this->is_apart()) {  // explores all that start and goal can reach
     SearchState from_start;
     SearchState from_goal;
@@ -192,7 +192,7 @@ void LazyPlan<W>::finish(Roadmap<State>* keep) {
 template <World W>
 Solution<typename W::State> lazy_prm(const W& world, const typename W::State& start, const typename W::State& goal,
                                      const RoadmapOptions& options, const Execution& execution,
-                                     Roadmap<typename W::State>* keep = nullptr) {
+                                     PlannedRoadmap<typename W::State>* keep = nullptr) {
   detail::LazyPlan<W> plan(world, start, goal, options, execution, keep != nullptr);
   return detail::plan_in_rounds(world, start, goal, options, execution, keep, plan);
 }

@@ -37,7 +37,7 @@ class OneWayPlan : public Rounds<W> {
     if (!lazy_) check_all();
     return search();
   }
-  void finish(Roadmap<State>* keep);
+  void finish(PlannedRoadmap<State>* keep);
 
  private:
   using Rounds<W>::execution_;
@@ -236,7 +236,7 @@ void OneWayPlan<W>::explore(const Graph& graph, VertexId from, SearchState& stat
 }
 
 template <World W>
-void OneWayPlan<W>::finish(Roadmap<State>* keep) {
+void OneWayPlan<W>::finish(PlannedRoadmap<State>* keep) {
   if (this->is_apart()) {
     check_all();
     SearchState from_start;
@@ -258,7 +258,7 @@ void OneWayPlan<W>::finish(Roadmap<State>* keep) {
 template <World W>
 Solution<typename W::State> one_way_prm(const W& world, const typename W::State& start, const typename W::State& goal,
                                         const RoadmapOptions& options, bool lazy, const Execution& execution,
-                                        Roadmap<typename W::State>* keep = nullptr) {
+                                        PlannedRoadmap<typename W::State>* keep = nullptr) {
   detail::OneWayPlan<W> plan(world, start, goal, options, lazy, execution, keep != nullptr);
   return detail::plan_in_rounds(world, start, goal, options, execution, keep, plan);
 }

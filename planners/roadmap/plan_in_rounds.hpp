@@ -16,7 +16,7 @@
 #include "parallel/first_touch.hpp"
 #include "planners/roadmap/connection.hpp"
 #include "planners/roadmap/milestones.hpp"
-#include "planners/roadmap/roadmap.hpp"
+#include "planners/roadmap/planned_roadmap.hpp"
 #include "planners/roadmap/roadmap_growth.hpp"
 #include "planners/roadmap/roadmap_options.hpp"
 #include "planners/roadmap/separation.hpp"
@@ -104,7 +104,7 @@ std::optional<Outcome> blocked_end(const W& world, const typename W::State& star
 template <World W, class Plan>
 Solution<typename W::State> plan_in_rounds(const W& world, const typename W::State& start,
                                            const typename W::State& goal, const RoadmapOptions& options,
-                                           const Execution& execution, Roadmap<typename W::State>* keep, Plan& plan) {
+                                           const Execution& execution, PlannedRoadmap<typename W::State>* keep, Plan& plan) {
   options.validate();
   Solution<typename W::State>& solution = plan.solution();
   if (const auto blocked = blocked_end(world, start, goal)) {

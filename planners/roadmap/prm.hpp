@@ -38,7 +38,7 @@ class PrmPlan : public Rounds<W> {
     assemble(connect(samples));
     return search();
   }
-  void finish(Roadmap<State>* keep);
+  void finish(PlannedRoadmap<State>* keep);
 
  private:
   using Rounds<W>::execution_;
@@ -112,7 +112,7 @@ bool PrmPlan<W>::search() {
 }
 
 template <World W>
-void PrmPlan<W>::finish(Roadmap<State>* keep) {
+void PrmPlan<W>::finish(PlannedRoadmap<State>* keep) {
   if (this->is_apart()) {
     if (reduced_) components_ = components(graph_, execution_);
     this->tell_separation(components_);
@@ -127,7 +127,7 @@ void PrmPlan<W>::finish(Roadmap<State>* keep) {
 template <World W>
 Solution<typename W::State> prm(const W& world, const typename W::State& start, const typename W::State& goal,
                                 const RoadmapOptions& options, const Execution& execution,
-                                Roadmap<typename W::State>* keep = nullptr) {
+                                PlannedRoadmap<typename W::State>* keep = nullptr) {
   detail::PrmPlan<W> plan(world, start, goal, options, execution, keep != nullptr);
   return detail::plan_in_rounds(world, start, goal, options, execution, keep, plan);
 }

@@ -46,7 +46,7 @@ class TiledRoadmapPlan : public Rounds<W> {
     assemble();
     return joined() && search();
   }
-  void finish(Roadmap<State>*);
+  void finish(PlannedRoadmap<State>*);
 
  private:
   using Rounds<W>::execution_;
@@ -314,7 +314,7 @@ void TiledRoadmapPlan<W>::append(VertexId from, VertexId to, RawVector<VertexId>
 /// Tiles keep no roadmap to ask how far apart its parts are: an answer without a path is not hurried, so the last round
 /// is made again in the plain way.
 template <World W>
-void TiledRoadmapPlan<W>::finish(Roadmap<State>*) {
+void TiledRoadmapPlan<W>::finish(PlannedRoadmap<State>*) {
   if (solution_.outcome != Outcome::not_connected) return;
   const StageTimer timer(execution_, "connect", solution_.seconds.connect);
   release();

@@ -17,7 +17,7 @@
 #include "core/base/solution.hpp"
 #include "core/base/world.hpp"
 #include "parallel/chunks.hpp"
-#include "planners/roadmap/roadmap.hpp"
+#include "planners/roadmap/planned_roadmap.hpp"
 #include "planners/roadmap/sampler.hpp"
 #include "planners/roadmap/stopped_solution.hpp"
 #include "planners/trees/rrt_options.hpp"
@@ -80,7 +80,7 @@ std::vector<typename W::State> free_states(const W& world, std::span<const typen
 template <class Search, SteerableWorld W>
 Solution<typename W::State> race_trees(const W& world, const typename W::State& start,
                                        std::span<const typename W::State> goals, const RrtOptions& options,
-                                       const Execution& execution, Roadmap<typename W::State>* keep) {
+                                       const Execution& execution, PlannedRoadmap<typename W::State>* keep) {
   options.validate();
   Solution<typename W::State> solution;
   const auto free_goals = free_states(world, goals);

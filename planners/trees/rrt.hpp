@@ -44,7 +44,7 @@ class RrtSearch {
   bool arrived() const { return last_ != no_vertex; }
   bool gave_up() const { return tree_.size() >= options_->nodes || counters_.samples >= most_steps(); }
   const Counters& counters() const { return counters_; }
-  void finish(Solution<State>& solution, Roadmap<State>* keep, const Execution& execution) const;
+  void finish(Solution<State>& solution, PlannedRoadmap<State>* keep, const Execution& execution) const;
 
  private:
   /// A tree that is shut in on all sides never gets its nodes.
@@ -90,7 +90,7 @@ void RrtSearch<W>::take_step() {
 }
 
 template <SteerableWorld W>
-void RrtSearch<W>::finish(Solution<State>& solution, Roadmap<State>* keep, const Execution& execution) const {
+void RrtSearch<W>::finish(Solution<State>& solution, PlannedRoadmap<State>* keep, const Execution& execution) const {
   solution.roadmap = {tree_.size(), tree_.size() - 1, 1};
   if (arrived()) {
     solution.path = tree_.way_to_root(last_);
@@ -111,7 +111,7 @@ void RrtSearch<W>::finish(Solution<State>& solution, Roadmap<State>* keep, const
 template <SteerableWorld W>
 Solution<typename W::State> rrt(const W& world, const typename W::State& start,
                                 std::span<const typename W::State> goals, const RrtOptions& options,
-                                const Execution& execution, Roadmap<typename W::State>* keep = nullptr) {
+                                const Execution& execution, PlannedRoadmap<typename W::State>* keep = nullptr) {
   return detail::race_trees<detail::RrtSearch<W>>(world, start, goals, options, execution, keep);
 }
 

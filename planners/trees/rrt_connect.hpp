@@ -57,7 +57,7 @@ class RrtConnectSearch {
   bool arrived() const { return arrived_; }
   bool gave_up() const { return node_count() >= options_->nodes || counters_.samples >= most_steps(); }
   const Counters& counters() const { return counters_; }
-  void finish(Solution<State>& solution, Roadmap<State>* keep, const Execution& execution) const;
+  void finish(Solution<State>& solution, PlannedRoadmap<State>* keep, const Execution& execution) const;
 
  private:
   /// Trees that are shut in on all sides never get their nodes.
@@ -165,7 +165,7 @@ void RrtConnectSearch<W>::take_step() {
 }
 
 template <SteerableWorld W>
-void RrtConnectSearch<W>::finish(Solution<State>& solution, Roadmap<State>* keep, const Execution& execution) const {
+void RrtConnectSearch<W>::finish(Solution<State>& solution, PlannedRoadmap<State>* keep, const Execution& execution) const {
   solution.roadmap = {node_count(), node_count() - 1, arrived_ ? 1U : 2U};
   if (arrived_) {
     solution.path = trees_[0].way_to_root(meeting_[0]);
@@ -192,7 +192,7 @@ void RrtConnectSearch<W>::finish(Solution<State>& solution, Roadmap<State>* keep
 template <SteerableWorld W>
 Solution<typename W::State> rrt_connect(const W& world, const typename W::State& start,
                                         std::span<const typename W::State> goals, const RrtOptions& options,
-                                        const Execution& execution, Roadmap<typename W::State>* keep = nullptr) {
+                                        const Execution& execution, PlannedRoadmap<typename W::State>* keep = nullptr) {
   return detail::race_trees<detail::RrtConnectSearch<W>>(world, start, goals, options, execution, keep);
 }
 

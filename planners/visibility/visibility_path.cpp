@@ -23,7 +23,7 @@ namespace {
 class VisibilityPlan {
  public:
   VisibilityPlan(const Box& box, Vec2 start, Vec2 goal, const VisibilityOptions& options, const Execution& execution,
-                 Roadmap<Vec2>* keep)
+                 PlannedRoadmap<Vec2>* keep)
       : box_(box), start_(start), goal_(goal), options_(options), execution_(execution), keep_(keep) {}
 
   void run(const PlaneObstacles& obstacles) {
@@ -128,8 +128,8 @@ class VisibilityPlan {
   const Vec2 goal_;
   const VisibilityOptions& options_;
   const Execution& execution_;
-  Roadmap<Vec2>* keep_;
-  Roadmap<Vec2> roadmap_;
+  PlannedRoadmap<Vec2>* keep_;
+  PlannedRoadmap<Vec2> roadmap_;
   Solution<Vec2> solution_;
 };
 
@@ -140,7 +140,7 @@ Box whole_plane() {
 }
 
 Solution<Vec2> plan_within(const PlaneObstacles& obstacles, const Box& box, Vec2 start, Vec2 goal,
-                           const VisibilityOptions& options, const Execution& execution, Roadmap<Vec2>* keep) {
+                           const VisibilityOptions& options, const Execution& execution, PlannedRoadmap<Vec2>* keep) {
   options.validate();
   VisibilityPlan plan(box, start, goal, options, execution, keep);
   try {
@@ -160,13 +160,13 @@ void VisibilityOptions::validate() const {
 }
 
 Solution<Vec2> visibility_path(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal, const VisibilityOptions& options,
-                               const Execution& execution, Roadmap<Vec2>* keep) {
+                               const Execution& execution, PlannedRoadmap<Vec2>* keep) {
   return plan_within(obstacles, whole_plane(), start, goal, options, execution, keep);
 }
 
 Solution<Vec2> confined_visibility_path(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal,
                                         const VisibilityOptions& options, const Execution& execution,
-                                        Roadmap<Vec2>* keep) {
+                                        PlannedRoadmap<Vec2>* keep) {
   const Box box = box_around(obstacles);
   return plan_within(confined(obstacles), box.empty() ? whole_plane() : box, start, goal, options, execution, keep);
 }

@@ -7,7 +7,7 @@
 #include "core/base/types.hpp"
 #include "core/plane/polygon.hpp"
 #include "parallel/execution.hpp"
-#include "planners/roadmap/roadmap.hpp"
+#include "planners/roadmap/planned_roadmap.hpp"
 #include "planners/roadmap/roadmap_options.hpp"
 #include "planners/visibility/visibility_graph.hpp"
 
@@ -27,11 +27,11 @@ struct VisibilityOptions {
 /// not_connected: no path exists. Never throws Stopped: a deadline or a memory limit gives Outcome::stopped.
 /// `keep`, where given, receives the graph with start and goal (lazy: the edges that were found).
 Solution<Vec2> visibility_path(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal, const VisibilityOptions& options,
-                               const Execution& execution, Roadmap<Vec2>* keep = nullptr);
+                               const Execution& execution, PlannedRoadmap<Vec2>* keep = nullptr);
 
 /// The same where, without bounds, the obstacles' box confines the point (planners/pieces/box_as_bounds.hpp).
 Solution<Vec2> confined_visibility_path(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal,
                                         const VisibilityOptions& options, const Execution& execution,
-                                        Roadmap<Vec2>* keep = nullptr);
+                                        PlannedRoadmap<Vec2>* keep = nullptr);
 
 }  // namespace warren

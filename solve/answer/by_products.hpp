@@ -11,7 +11,7 @@
 #include "core/base/types.hpp"
 #include "core/plane/polygon.hpp"
 #include "core/plane/se2.hpp"
-#include "planners/roadmap/roadmap.hpp"
+#include "planners/roadmap/planned_roadmap.hpp"
 
 namespace warren {
 
@@ -32,9 +32,9 @@ struct HeadingCells {
 };
 
 struct ByProducts {
-  Roadmap<Vec2> roadmap;                    ///< of points and discs
-  std::vector<Roadmap<Vec2>> trees;         ///< of points and discs: the trees of each leg of a path
-  std::vector<Roadmap<Se2>> pose_roadmaps;  ///< of turning bodies and cars: the roadmap, or the trees of each leg
+  PlannedRoadmap<Vec2> roadmap;                    ///< of points and discs
+  std::vector<PlannedRoadmap<Vec2>> trees;         ///< of points and discs: the trees of each leg of a path
+  std::vector<PlannedRoadmap<Se2>> pose_roadmaps;  ///< of turning bodies and cars: the roadmap, or the trees of each leg
   std::vector<NamedLines> lines;
   std::vector<HeadingCells> headings;
 };

@@ -171,7 +171,7 @@ class VisibilitySolve {
   void run(Answer& answer) {
     const PlaneObstacles obstacles = indexed_obstacles(request_, answer);
     if (stand_on_seams(request_, problem_, answer)) return;
-    Roadmap<Vec2>* keep = request_.keep != nullptr ? &request_.keep->roadmap : nullptr;
+    PlannedRoadmap<Vec2>* keep = request_.keep != nullptr ? &request_.keep->roadmap : nullptr;
     take_solution(answer, confined_visibility_path(obstacles, problem_.start, problem_.goal, asked_.options,
                                                    request_.execution, keep));
     if (answer.outcome == Outcome::not_connected) answer.outcome = Outcome::infeasible;  // the graph misses no path

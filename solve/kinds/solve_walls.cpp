@@ -27,7 +27,7 @@ class WallSolve {
     describe_roadmap_planner(answer_, problem, options);
   }
 
-  void run(Roadmap<Vec2>* keep) {
+  void run(PlannedRoadmap<Vec2>* keep) {
     plan(keep);
     settle_blocked_ends(answer_, scene_, problem_, execution_);
     if (answer_.outcome == Outcome::not_connected) proved_infeasible();
@@ -39,7 +39,7 @@ class WallSolve {
 
  private:
   const MazeWorld& indexed_world();
-  void plan(Roadmap<Vec2>* keep);
+  void plan(PlannedRoadmap<Vec2>* keep);
   Solution<Vec2> plan_tiles();
   bool grows() const;
   bool ends_are_free(const MazeWorld& world) const;
@@ -63,7 +63,7 @@ const MazeWorld& WallSolve::indexed_world() {
   return *world_;
 }
 
-void WallSolve::plan(Roadmap<Vec2>* keep) {
+void WallSolve::plan(PlannedRoadmap<Vec2>* keep) {
   if (options_.pipeline == PipelineKind::tiled && options_.fused) {
     take_solution(answer_, plan_tiles());
     return;
@@ -135,7 +135,7 @@ WallProblem problem_of(const SolveRequest& request) {
 Answer solve_walls(const SolveRequest& request) {
   const WallProblem problem = problem_of(request);
   const PlannerOptions options = planner_options(request.options, request.scene, problem);
-  Roadmap<Vec2>* keep = request.keep != nullptr ? &request.keep->roadmap : nullptr;
+  PlannedRoadmap<Vec2>* keep = request.keep != nullptr ? &request.keep->roadmap : nullptr;
   return solve_walls(request.scene, problem, options, request.execution, keep);
 }
 
@@ -158,14 +158,14 @@ Verdict recheck_walls(const Scene& scene, const Question& question, const Record
 }  // namespace
 
 Answer solve_walls(const Scene& scene, const WallProblem& problem, const PlannerOptions& options,
-                   const Execution& execution, Roadmap<Vec2>* keep) {
+                   const Execution& execution, PlannedRoadmap<Vec2>* keep) {
   WallSolve solve(scene, problem, options, execution);
   answer_within_limits(solve.answer(), [&] { solve.run(keep); });
   return std::move(solve.answer());
 }
 
 void draw_roadmap(const Scene& scene, const WallProblem& problem, const PlannerOptions& options,
-                  const Execution& execution, Roadmap<Vec2>& roadmap) {
+                  const Execution& execution, PlannedRoadmap<Vec2>& roadmap) {
   const LatticeSize size = options.roadmap.lattice;
   if (std::uint64_t{size.rows} * size.cols > most_drawn) return;
   const MazeWorld world(scene, problem.reach(), execution);

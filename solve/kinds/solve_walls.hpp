@@ -4,7 +4,7 @@
 
 #include "core/base/types.hpp"
 #include "parallel/execution.hpp"
-#include "planners/roadmap/roadmap.hpp"
+#include "planners/roadmap/planned_roadmap.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/question/planner_choice.hpp"
@@ -16,11 +16,11 @@ namespace warren {
 /// verification is a bug and throws std::logic_error. `keep` receives the roadmap for pictures; nullptr: not wanted.
 /// Fills in what belongs to the work; world and threads are the caller's.
 Answer solve_walls(const Scene& scene, const WallProblem& problem, const PlannerOptions& options,
-                   const Execution& execution, Roadmap<Vec2>* keep);
+                   const Execution& execution, PlannedRoadmap<Vec2>* keep);
 
 /// The roadmap of the tiled pipeline, for a picture: tiles keep none, so the plain stages build it again, for mazes
 /// whose edges can be told apart in a picture.
 void draw_roadmap(const Scene& scene, const WallProblem& problem, const PlannerOptions& options,
-                  const Execution& execution, Roadmap<Vec2>& roadmap);
+                  const Execution& execution, PlannedRoadmap<Vec2>& roadmap);
 
 }  // namespace warren

@@ -93,7 +93,7 @@ class SampledSolve {
   void plan_trees();
   Solution<State> grow_trees(const State& start, std::span<const State> goals);
   std::vector<std::vector<State>> stops() const;
-  Roadmap<State>* kept();
+  PlannedRoadmap<State>* kept();
   void take(Solution<State> solution);
   void settle_ends();
   void finish();
@@ -217,7 +217,7 @@ std::vector<std::vector<typename SampledSolve<Body>::State>> SampledSolve<Body>:
 
 /// A roadmap takes the place of the one before; trees stand beside each other.
 template <class Body>
-Roadmap<typename SampledSolve<Body>::State>* SampledSolve<Body>::kept() {
+PlannedRoadmap<typename SampledSolve<Body>::State>* SampledSolve<Body>::kept() {
   if (request_.keep == nullptr) return nullptr;
   if constexpr (std::is_same_v<State, Vec2>) {
     return by_roadmap() ? &request_.keep->roadmap : &request_.keep->trees.emplace_back();

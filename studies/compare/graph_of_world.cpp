@@ -22,7 +22,7 @@ WorldGraph roadmap_graph(SolveRequest request, const ChosenSolver& solver) {
   WorldGraph made;
   made.outcome = answer.outcome;
   const bool has_trees = !made_too.trees.empty();
-  const Roadmap<Vec2> roadmap =
+  const PlannedRoadmap<Vec2> roadmap =
       has_trees ? in_the_plane(made_too.trees, request.execution) : std::move(made_too.roadmap);
   if (roadmap.states.empty()) {
     if (answer.outcome != Outcome::solved) return made;

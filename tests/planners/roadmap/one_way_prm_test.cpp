@@ -106,7 +106,7 @@ TEST(OneWayPrm, ThePathIsTheShortestOfItsRoadmap) {
   const Forwards world(slalom(), car);
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     SCOPED_TRACE(seed);
-    Roadmap<Se2> roadmap;
+    PlannedRoadmap<Se2> roadmap;
     const auto solution = one_way_prm(world, start, goal, {.samples = 400, .seed = seed}, false, {}, &roadmap);
     if (solution.outcome != Outcome::solved) continue;
     const std::size_t n = roadmap.states.size();
@@ -153,7 +153,7 @@ void expect_trees_to_solve() {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE(seed);
     for (const auto planner : {rrt<W>, rrt_connect<W>}) {
-      Roadmap<Se2> trees;
+      PlannedRoadmap<Se2> trees;
       const auto solution = planner(world, start, std::span(&goal, 1), {.seed = seed}, {}, &trees);
       ASSERT_EQ(solution.outcome, Outcome::solved);
       expect_verified(scene, world, solution.path);

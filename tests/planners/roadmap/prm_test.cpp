@@ -73,7 +73,7 @@ void expect_clear(const Scene& scene, const Path<Vec2>& path) {
 }
 
 using Planner = Solution<Vec2> (*)(const MazeWorld&, const Vec2&, const Vec2&, const RoadmapOptions&, const Execution&,
-                                   Roadmap<Vec2>*);
+                                   PlannedRoadmap<Vec2>*);
 struct NamedPlanner {
   const char* name;
   Planner plan;
@@ -163,7 +163,7 @@ TEST(Prm, ResultAndCountersAreTheSameForAnyNumberOfThreads) {
 }
 
 /// Each parent joined to its vertex, and one a vertex; all of the path in the tree.
-void expect_tree(const Roadmap<Vec2>& roadmap, const Path<Vec2>& path) {
+void expect_tree(const PlannedRoadmap<Vec2>& roadmap, const Path<Vec2>& path) {
   std::vector<int> parents(roadmap.states.size(), 0);
   std::set<std::pair<double, double>> in_tree;
   for (const Edge& e : roadmap.search_tree) {
@@ -178,7 +178,7 @@ void expect_tree(const Roadmap<Vec2>& roadmap, const Path<Vec2>& path) {
 TEST(Prm, LazySearchFromBothEndsFindsThePathOfTheEagerOneOnAnyNumberOfThreads) {
   const Scene scene = maze(100, 100, 5, 0.05);
   const MazeWorld world(scene, clearance, {});
-  const auto plan = [&](Planner planner, const RoadmapOptions& options, unsigned threads, Roadmap<Vec2>* keep) {
+  const auto plan = [&](Planner planner, const RoadmapOptions& options, unsigned threads, PlannedRoadmap<Vec2>* keep) {
     return planner(world, start_of(scene), goal_of(scene), options, Execution{threads}, keep);
   };
   for (const bool by_nearest : {false, true}) {
@@ -189,7 +189,7 @@ TEST(Prm, LazySearchFromBothEndsFindsThePathOfTheEagerOneOnAnyNumberOfThreads) {
       if (by_nearest) options.neighbours = 16;
       const auto eager = plan(prm<MazeWorld>, options, 1, nullptr);
       ASSERT_EQ(eager.outcome, Outcome::solved);
-      Roadmap<Vec2> roadmap;
+      PlannedRoadmap<Vec2> roadmap;
       const auto one = plan(lazy_prm<MazeWorld>, options, 1, &roadmap);
       ASSERT_EQ(one.outcome, Outcome::solved);
       ASSERT_GE(one.roadmap.milestones, fewest_for_both_ends);
@@ -212,7 +212,7 @@ TEST(Prm, LargeLatticesAreReducedWithoutChangingTheAnswer) {
       const Scene scene = maze(230, 250, 3, loops);
       RoadmapOptions options = lattice_options(scene);
       options.search = search;
-      Roadmap<Vec2> roadmap;
+      PlannedRoadmap<Vec2> roadmap;
       const auto plan = [&](unsigned threads) {
         const Execution execution{threads};
         const MazeWorld world(scene, clearance, execution);
@@ -289,7 +289,7 @@ TEST(Prm, TellsHowFarStartAndGoalAreApart) {
 TEST(Prm, KnowsTheComponentsOfWhatItReduces) {
   const Scene scene = walled_off(230, 250);
   const MazeWorld world(scene, clearance, {});
-  Roadmap<Vec2> roadmap;
+  PlannedRoadmap<Vec2> roadmap;
   const auto solution = prm(world, start_of(scene), goal_of(scene), lattice_options(scene), {}, &roadmap);
   EXPECT_EQ(solution.outcome, Outcome::not_connected);
   ASSERT_GE(solution.roadmap.milestones, fewest_for_both_ends);
@@ -336,7 +336,7 @@ TEST(Prm, KeepsTheRoadmapWhereAsked) {
     SCOPED_TRACE(planner.name);
     RoadmapOptions options = lattice_options(scene);
     options.lazy = planner.lazy;
-    Roadmap<Vec2> roadmap;
+    PlannedRoadmap<Vec2> roadmap;
     const auto solution = planner.plan(world, start_of(scene), goal_of(scene), options, {}, &roadmap);
     ASSERT_EQ(roadmap.states.size(), 51U);
     EXPECT_EQ(roadmap.graph.vertex_count(), 51U);

@@ -55,7 +55,7 @@ constexpr Se2 easy_goal{3.86, 0.23, 0};
 double plane_length(const Se2& a, const Se2& b) { return distance(a.position(), b.position()); }
 
 using Planner = Solution<Se2> (*)(const Se2World&, const Se2&, std::span<const Se2>, const RrtOptions&,
-                                  const Execution&, Roadmap<Se2>*);
+                                  const Execution&, PlannedRoadmap<Se2>*);
 struct NamedPlanner {
   const char* name;
   Planner plan;
@@ -239,7 +239,7 @@ TEST(Rrt, GivesUpWhereThereIsNoWay) {
   const Se2 goal{8, 5, 0};
   for (const NamedPlanner& planner : planners) {
     SCOPED_TRACE(planner.name);
-    Roadmap<Se2> keep;
+    PlannedRoadmap<Se2> keep;
     const auto solution = planner.plan(world, {2, 5, 0}, std::span(&goal, 1), {.nodes = 300, .trees = 2}, {}, &keep);
     EXPECT_EQ(solution.outcome, Outcome::not_connected);
     EXPECT_TRUE(solution.path.empty());

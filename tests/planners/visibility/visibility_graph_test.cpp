@@ -274,7 +274,7 @@ TEST(VisibilityPath, KeepsTheGraphForPictures) {
   const Vec2 ring[] = {{0, 0}, {2, 0}, {2, 2}, {0, 2}};
   world.polygons.add(ring);
   for (const VisibilityOptions& options : {with(VisibilityEdges::full), lazily()}) {
-    Roadmap<Vec2> keep;
+    PlannedRoadmap<Vec2> keep;
     const Solution<Vec2> solution = visibility_path(world, {-1, 1}, {3, 1}, options, {}, &keep);
     ASSERT_EQ(keep.states.size(), 6);
     EXPECT_EQ(keep.graph.vertex_count(), 6);

@@ -11,7 +11,7 @@
 namespace warren {
 
 template <class State>
-struct Roadmap {
+struct PlannedRoadmap {
   RawVector<State> states;         ///< milestones, then start, then goal
   Graph graph;                     ///< free edges; lazy planners: the edges that were checked and found free
   std::vector<Edge> search_tree;   ///< (vertex, parent) of every vertex that the search reached
