@@ -36,4 +36,8 @@ endif()
 if(WARREN_SANITIZE)
   add_compile_options(-fsanitize=${WARREN_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${WARREN_SANITIZE})
+  # What the address sanitizer sees as well, and no build needs: a tenth of the compilation.
+  if(WARREN_SANITIZE MATCHES undefined)
+    add_compile_options(-fno-sanitize=null,vptr,object-size)
+  endif()
 endif()
