@@ -41,6 +41,10 @@ class Graph {
     return {targets_.data() + offsets_[v], targets_.data() + offsets_[v + 1]};
   }
   std::size_t degree(VertexId v) const { return offsets_[v + 1] - offsets_[v]; }
+  /// The edge ends of all rows, one row after the other: those of v are first_end(v) .. first_end(v) + degree(v) - 1.
+  std::size_t first_end(VertexId v) const { return offsets_[v]; }
+  std::span<const EdgeEnd> offsets() const { return offsets_; }
+  std::span<const VertexId> targets() const { return targets_; }
   bool has_lengths() const { return !lengths_.empty(); }
   /// Lengths of the edges to neighbours(v), in the same order; only if has_lengths().
   std::span<const double> lengths(VertexId v) const {

@@ -4,16 +4,15 @@
 // search decides. Otherwise as prm and lazy_prm: milestones in tile order, rounds of growing size, the same answer for
 // any number of threads.
 //
-// Which edges: from each milestone those to its k nearest, and from the k nearest to the goal; nearest by the world's
-// metric, in the edge's direction. The metric may be far above the distance of the embedding (a car gets sideways by
-// a loop), so the k are chosen among the 4 k nearest of the embedding. Radius rule: what is within the radius by the
-// metric. Lazy: an edge is checked when the search would use it. Cost a round: n (4 k distances and k motion checks).
+// Which edges: from each milestone those to its nearest, and from the nearest to the goal (one_way_candidates.hpp).
+// Lazy: an edge is checked when the search would use it. Cost a round: n (4 k distances and k motion checks).
 #pragma once
 
 #include <algorithm>
 #include <utility>
 #include <vector>
 
+#include "planners/roadmap/one_way_candidates.hpp"
 #include "planners/roadmap/plan_in_rounds.hpp"
 #include "planners/roadmap/queue_choice.hpp"
 #include "planners/roadmap/roadmap_search.hpp"
@@ -59,7 +58,7 @@ class OneWayPlan : public Rounds<W> {
   using Ways = std::vector<Way>;
 
   void find_candidates(std::uint64_t samples);
-  Ways nearest(VertexId v, const ConnectionRule& rule, bool incoming, std::vector<Neighbour>& near) const;
+  Ways nearest(VertexId v, const ConnectionRule& rule, Heading heading, std::vector<Neighbour>& near) const;
   void attach_goal(const ConnectionRule& rule);
   bool is_free(VertexId from, Way& way, typename W::Query& query, Counters& counters) const {
     if (way.state == Check::unknown) {
@@ -82,27 +81,15 @@ class OneWayPlan : public Rounds<W> {
   std::vector<Edge> tree_;
 };
 
-/// The candidate edges from v, or (incoming) those to v with their begins as `to`, nearest first.
 template <World W>
-auto OneWayPlan<W>::nearest(VertexId v, const ConnectionRule& rule, bool incoming, std::vector<Neighbour>& near) const
+auto OneWayPlan<W>::nearest(VertexId v, const ConnectionRule& rule, Heading heading, std::vector<Neighbour>& near) const
     -> Ways {
-  constexpr std::size_t wider = 4;
   const VertexId except = v < index_.size() ? v : no_vertex;
-  const auto at = embedded(world_, states_[v]);
-  if (rule.neighbours > 0) {
-    index_.nearest(at, wider * rule.neighbours, except, near);
-  } else {
-    index_.within(at, SearchRadius(rule.radius), except, near);
-  }
   Ways ways;
-  for (const Neighbour& n : near) {
-    const double length =
-        incoming ? world_.distance(states_[n.id], states_[v]) : world_.distance(states_[v], states_[n.id]);
-    if (rule.neighbours > 0 || length <= rule.radius) ways.push_back({length, n.id});
+  for (const OneWayCandidate& c :
+       one_way_candidates<W>(world_, states_, index_, rule, states_[v], except, heading, near)) {
+    ways.push_back({c.length, c.to});
   }
-  std::sort(ways.begin(), ways.end(),
-            [](const Way& a, const Way& b) { return a.length != b.length ? a.length < b.length : a.to < b.to; });
-  if (rule.neighbours > 0 && ways.size() > rule.neighbours) ways.resize(rule.neighbours);
   return ways;
 }
 
@@ -115,7 +102,8 @@ void OneWayPlan<W>::find_candidates(std::uint64_t samples) {
   ways_.assign(states_.size(), {});
   for_chunks(begins, grain, execution_, [&](Range r) {
     std::vector<Neighbour> near;
-    for (std::size_t v = r.first; v < r.last; ++v) ways_[v] = nearest(static_cast<VertexId>(v), rule, false, near);
+    for (std::size_t v = r.first; v < r.last; ++v)
+      ways_[v] = nearest(static_cast<VertexId>(v), rule, Heading::out, near);
   });
   solution_.counters.neighbour_queries += begins + 1;
   attach_goal(rule);
@@ -128,7 +116,7 @@ void OneWayPlan<W>::find_candidates(std::uint64_t samples) {
 template <World W>
 void OneWayPlan<W>::attach_goal(const ConnectionRule& rule) {
   std::vector<Neighbour> near;
-  for (const Way& way : nearest(goal_vertex(), rule, true, near)) {
+  for (const Way& way : nearest(goal_vertex(), rule, Heading::in, near)) {
     ways_[way.to].push_back({way.length, goal_vertex()});
   }
   const double length = world_.distance(this->start_, this->goal_);

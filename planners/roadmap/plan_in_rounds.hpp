@@ -104,7 +104,8 @@ std::optional<Outcome> blocked_end(const W& world, const typename W::State& star
 template <World W, class Plan>
 Solution<typename W::State> plan_in_rounds(const W& world, const typename W::State& start,
                                            const typename W::State& goal, const RoadmapOptions& options,
-                                           const Execution& execution, PlannedRoadmap<typename W::State>* keep, Plan& plan) {
+                                           const Execution& execution, PlannedRoadmap<typename W::State>* keep,
+                                           Plan& plan) {
   options.validate();
   Solution<typename W::State>& solution = plan.solution();
   if (const auto blocked = blocked_end(world, start, goal)) {

@@ -7,8 +7,8 @@
 #include <span>
 
 #include "core/base/types.hpp"
+#include "core/search/edge_states.hpp"
 #include "core/search/graph.hpp"
-#include "roadmaps/graph/edge_states.hpp"
 
 namespace warren {
 

@@ -1,0 +1,466 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A question to a roadmap that was built without one (build_roadmap.hpp): start and goal are attached as prm attaches
+// them, and the search is that of the planner which the roadmap is for, so the answer is the planner's own: the same
+// path, length and number of expanded vertices. What is not known of an edge is asked of the world when the search
+// wants it, and kept for the next question.
+//
+// Any number of threads may ask at once, each with a scratch of its own; what they learn is the same whatever their
+// order. Cost: two neighbour queries and one search; nothing is copied, but where large roadmaps are stringy
+// (is_stringy) or are searched blindly: then the free edges are.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/base/solution.hpp"
+#include "core/base/world.hpp"
+#include "parallel/components.hpp"
+#include "parallel/shared_edge_states.hpp"
+#include "planners/roadmap/build_roadmap.hpp"
+#include "planners/roadmap/plan_in_rounds.hpp"
+#include "planners/roadmap/planned_roadmap.hpp"
+#include "planners/roadmap/queue_choice.hpp"
+#include "planners/roadmap/roadmap_search.hpp"
+#include "planners/roadmap/search_from_both_ends.hpp"
+
+namespace warren {
+
+/// What one thread asks with: kept from one question to the next, it costs what a question touches.
+struct AskScratch {
+  std::array<SearchState, 2> states;
+};
+
+/// A roadmap ready to be asked. Refers to the world.
+template <World W>
+class AskedRoadmap {
+ public:
+  using State = typename W::State;
+
+  /// lazy: the roadmap is lazy_prm's, whose searches run so. Throws Stopped.
+  AskedRoadmap(const W& world, RawVector<State> states, Graph candidates, std::span<const std::uint64_t> edge_states,
+               const ConnectionRule& rule, bool lazy, const Execution& execution)
+      : world_(world),
+        states_(std::move(states)),
+        candidates_(std::move(candidates)),
+        known_(edge_states),
+        rule_(rule),
+        lazy_(lazy),
+        index_(index_of_states(world, std::span<const State>(states_), execution)) {
+    if (lazy_) return;
+    const Graph free = free_part(candidates_, edge_states, execution);
+    stringy_ = warren::is_stringy(free, execution);
+    free_edges_ = edge_directions<W>() == EdgeDirections::one ? free.targets().size() : free.edge_count();
+    components_ = components(free, execution);
+  }
+
+  std::span<const State> states() const { return states_; }
+  const Graph& candidates() const { return candidates_; }
+  /// All that was learnt so far; while nobody asks.
+  std::span<const std::uint64_t> edge_states() const { return known_.words(); }
+  bool is_lazy() const { return lazy_; }
+  /// Of the free edges; lazy: not known.
+  bool is_stringy() const { return stringy_; }
+  std::uint64_t free_edges() const { return free_edges_; }
+  const Components& component_labels() const { return components_; }
+  const W& world() const { return world_; }
+  const StateIndex<W>& index() const { return index_; }
+  const ConnectionRule& rule() const { return rule_; }
+  const SharedEdgeStates& known() const { return known_; }
+
+ private:
+  const W& world_;
+  RawVector<State> states_;
+  Graph candidates_;
+  SharedEdgeStates known_;
+  ConnectionRule rule_;
+  bool lazy_;
+  StateIndex<W> index_;
+  bool stringy_ = false;
+  std::uint64_t free_edges_ = 0;
+  Components components_;  // by free edges; empty where lazy
+};
+
+namespace detail {
+
+/// The neighbours that a search sees: those of the roadmap, and start and goal as two vertices more. One a thread.
+template <World W>
+class AskedNeighbours {
+ public:
+  using State = typename W::State;
+  AskedNeighbours(const AskedRoadmap<W>& roadmap, const std::array<State, 2>& ends, std::span<const Edge> end_edges,
+                  std::vector<Edge>* used, const Execution& execution)
+      : roadmap_(&roadmap),
+        ends_(&ends),
+        end_edges_(end_edges),
+        used_(used),
+        execution_(&execution),
+        query_(roadmap.world().make_query()) {}
+
+  const State& state(VertexId v) const {
+    const std::size_t n = roadmap_->states().size();
+    return v < n ? roadmap_->states()[v] : (*ends_)[v - n];
+  }
+  double distance(VertexId v, VertexId w) const { return roadmap_->world().distance(state(v), state(w)); }
+
+  template <class Visit>
+  void operator()(VertexId v, const Visit& visit) {
+    if (v < roadmap_->states().size()) {
+      std::size_t end = roadmap_->candidates().first_end(v);
+      for (const VertexId w : roadmap_->candidates().neighbours(v)) visit_if_free(v, w, end++, visit);
+    }
+    for (const Edge& e : end_edges_) {
+      if (e.from == v) visit(e.to, distance(v, e.to));
+      if (e.to == v && !one_way) visit(e.from, distance(v, e.from));
+    }
+  }
+  Counters counters() const {
+    Counters all = counters_;
+    all.refused = refused_motions(query_);
+    return all;
+  }
+  std::uint64_t free_edges() const { return free_edges_; }
+
+ private:
+  static constexpr bool one_way = edge_directions<W>() == EdgeDirections::one;
+  static constexpr std::uint64_t checks_per_poll = 64;
+
+  template <class Visit>
+  void visit_if_free(VertexId v, VertexId w, std::size_t end, const Visit& visit) {
+    const EdgeState known = roadmap_->known()[end];
+    if (known == EdgeState::blocked || !visit.wants(w, 0.0)) return;
+    const double length = distance(v, w);
+    if (!visit.wants(w, length)) return;
+    if (known == EdgeState::unchecked && !asked(v, w, end)) return;
+    ++free_edges_;
+    if (used_ != nullptr) used_->push_back(one_way ? Edge{v, w} : Edge{std::min(v, w), std::max(v, w)});
+    visit(w, length);
+  }
+  /// Asks the world; remembers at both ends.
+  bool asked(VertexId v, VertexId w, std::size_t end) {
+    if (++counters_.edges_checked % checks_per_poll == 0) execution_->check();
+    const VertexId from = one_way ? v : std::min(v, w);
+    const VertexId to = one_way ? w : std::max(v, w);
+    const bool free = roadmap_->world().is_free_motion(state(from), state(to), query_);
+    const EdgeState answer = free ? EdgeState::free : EdgeState::blocked;
+    roadmap_->known().learn(end, answer);
+    if (!one_way) roadmap_->known().learn(end_of_edge(roadmap_->candidates(), w, v), answer);
+    return free;
+  }
+
+  const AskedRoadmap<W>* roadmap_;
+  const std::array<State, 2>* ends_;
+  std::span<const Edge> end_edges_;
+  std::vector<Edge>* used_;
+  const Execution* execution_;
+  typename W::Query query_;
+  Counters counters_;
+  std::uint64_t free_edges_ = 0;
+};
+
+/// One question.
+template <World W>
+class Ask {
+ public:
+  using State = typename W::State;
+  Ask(const AskedRoadmap<W>& roadmap, const State& start, const State& goal, const RoadmapOptions& options,
+      const Execution& execution, AskScratch& scratch, bool keep)
+      : roadmap_(roadmap),
+        world_(roadmap.world()),
+        ends_{start, goal},
+        options_(options),
+        execution_(execution),
+        scratch_(scratch),
+        keep_(keep) {}
+
+  Solution<State> run(PlannedRoadmap<State>* keep) {
+    if (const auto blocked = blocked_end(world_, ends_[0], ends_[1])) {
+      solution_.outcome = *blocked;
+      return std::move(solution_);
+    }
+    try {
+      execution_.check();
+      attach_ends();
+      search();
+      if (solution_.outcome == Outcome::not_connected) tell_separation();
+      if (keep != nullptr) *keep = kept();
+    } catch (const Stopped& stopped) {
+      mark_stopped(solution_, stopped);
+    }
+    return std::move(solution_);
+  }
+
+ private:
+  static constexpr bool one_way = edge_directions<W>() == EdgeDirections::one;
+  VertexId start_vertex() const { return static_cast<VertexId>(roadmap_.states().size()); }
+  VertexId goal_vertex() const { return start_vertex() + 1; }
+  std::size_t vertex_count() const { return roadmap_.states().size() + 2; }
+  bool blind() const { return options_.search == SearchKind::bfs || options_.search == SearchKind::dfs; }
+  AskedNeighbours<W> neighbours(std::vector<Edge>* used) const {
+    return {roadmap_, ends_, end_edges_, used, execution_};
+  }
+  auto estimate_to(VertexId to) const {
+    const bool informed = options_.search == SearchKind::astar && to != no_vertex;
+    const AskedNeighbours<W> places = neighbours(nullptr);
+    return [informed, to, places](VertexId v) { return informed ? places.distance(v, to) : 0.0; };
+  }
+
+  void attach_ends();
+  void attach_one_way(std::size_t end, Heading heading);
+  void search();
+  SearchResult search_plainly(VertexId from, VertexId to, SearchState& state);
+  SearchResult search_both_ends();
+  SearchResult search_copy();
+  std::optional<bool> known_to_be_joined();
+  void learn_around_ends();
+  void tell_separation();
+  void count(const AskedNeighbours<W>& seen) {
+    solution_.counters += seen.counters();
+    if (roadmap_.is_lazy()) solution_.roadmap.edges += seen.free_edges();
+  }
+  Graph free_graph() const;
+  RawVector<State> all_states() const;
+  PlannedRoadmap<State> kept() const;
+
+  const AskedRoadmap<W>& roadmap_;
+  const W& world_;
+  const std::array<State, 2> ends_;
+  const RoadmapOptions& options_;
+  const Execution& execution_;
+  AskScratch& scratch_;
+  bool keep_;
+  RawVector<Edge> end_edges_;
+  std::vector<Edge> used_;
+  std::vector<Edge> tree_;
+  Solution<State> solution_;
+};
+
+template <World W>
+void Ask<W>::attach_ends() {
+  const StageTimer timer(execution_, "connect", solution_.seconds.connect);
+  if constexpr (one_way) {
+    attach_one_way(0, Heading::out);
+    attach_one_way(1, Heading::in);
+    auto query = world_.make_query();
+    if (world_.distance(ends_[0], ends_[1]) <= direct_reach(roadmap_.rule())) {
+      ++solution_.counters.edges_checked;
+      if (world_.is_free_motion(ends_[0], ends_[1], query)) end_edges_.push_back({start_vertex(), goal_vertex()});
+      solution_.counters.refused += refused_motions(query);
+    }
+  } else {
+    end_edges_ = attach_start_and_goal(world_, roadmap_.states(), roadmap_.index(), roadmap_.rule(), ends_[0], ends_[1],
+                                       solution_.counters);
+  }
+  solution_.roadmap = {vertex_count(), roadmap_.free_edges() + end_edges_.size(), 0};
+}
+
+template <World W>
+void Ask<W>::attach_one_way(std::size_t end, Heading heading) {
+  auto query = world_.make_query();
+  std::vector<Neighbour> near;
+  const State& here = ends_[end];
+  const auto vertex = static_cast<VertexId>(start_vertex() + end);
+  ++solution_.counters.neighbour_queries;
+  for (const OneWayCandidate& c : one_way_candidates<W>(world_, roadmap_.states(), roadmap_.index(), roadmap_.rule(),
+                                                        here, no_vertex, heading, near)) {
+    const State& there = roadmap_.states()[c.to];
+    ++solution_.counters.edges_checked;
+    const bool out = heading == Heading::out;
+    if (!(out ? world_.is_free_motion(here, there, query) : world_.is_free_motion(there, here, query))) continue;
+    end_edges_.push_back(out ? Edge{vertex, c.to} : Edge{c.to, vertex});
+  }
+  solution_.counters.refused += refused_motions(query);
+}
+
+/// Are start and goal joined? Nothing where that is not known before the search. Counts the components, start and goal
+/// among them.
+template <World W>
+std::optional<bool> Ask<W>::known_to_be_joined() {
+  if (roadmap_.is_lazy() || one_way) return std::nullopt;
+  std::array<std::vector<VertexId>, 2> joined_to;
+  bool direct = false;
+  for (const Edge& e : end_edges_) {
+    if (e.from == start_vertex()) {
+      direct = true;
+    } else {
+      joined_to[e.to - start_vertex()].push_back(roadmap_.component_labels().label[e.from]);
+    }
+  }
+  for (auto& labels : joined_to) {
+    std::sort(labels.begin(), labels.end());
+    labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+  }
+  std::vector<VertexId> shared;
+  std::set_intersection(joined_to[0].begin(), joined_to[0].end(), joined_to[1].begin(), joined_to[1].end(),
+                        std::back_inserter(shared));
+  const bool joined = direct || !shared.empty();
+  solution_.roadmap.components =
+      roadmap_.component_labels().count + (joined ? 1 : 2) + shared.size() - joined_to[0].size() - joined_to[1].size();
+  return joined;
+}
+
+template <World W>
+void Ask<W>::search() {
+  solution_.outcome = Outcome::not_connected;
+  if (known_to_be_joined() == false) return;
+  const StageTimer timer(execution_, "search", solution_.seconds.search);
+  const bool large = !one_way && vertex_count() >= fewest_for_both_ends;
+  SearchResult found;
+  if (blind() || (large && roadmap_.is_stringy())) {
+    found = search_copy();
+  } else if (large) {
+    found = search_both_ends();
+  } else {
+    found = search_plainly(start_vertex(), goal_vertex(), scratch_.states[0]);
+    if (keep_) tree_ = search_tree(scratch_.states[0]);
+  }
+  solution_.counters.expanded += found.expanded;
+  if (found.path.empty()) return;
+  solution_.outcome = Outcome::solved;
+  const AskedNeighbours<W> places = neighbours(nullptr);
+  for (const VertexId v : found.path) solution_.path.push_back(places.state(v));
+}
+
+template <World W>
+SearchResult Ask<W>::search_plainly(VertexId from, VertexId to, SearchState& state) {
+  state.resize(vertex_count(), [&] { execution_.check(); });
+  AskedNeighbours<W> seen = neighbours(keep_ ? &used_ : nullptr);
+  const auto estimate = estimate_to(to);
+  const auto should_stop = [&] { return execution_.should_stop(); };
+  const auto next = [&](VertexId v, const auto& visit) { seen(v, visit); };
+  const SearchResult found = with_queue(options_.queue, vertex_count(), execution_, [&](auto& queue) {
+    return best_first(from, to, next, estimate, queue, state, should_stop);
+  });
+  if (found.status == SearchStatus::stopped) execution_.check();
+  count(seen);
+  return found;
+}
+
+template <World W>
+SearchResult Ask<W>::search_both_ends() {
+  std::array<std::vector<Edge>, 2> used;
+  std::array<AskedNeighbours<W>, 2> seen{neighbours(keep_ ? &used[0] : nullptr),
+                                         neighbours(keep_ ? &used[1] : nullptr)};
+  const auto next_in = [](AskedNeighbours<W>& side) {
+    return [&side](VertexId v, const auto& visit) { side(v, visit); };
+  };
+  const SearchResult found = warren::search_from_both_ends<decltype(next_in(seen[0]))>(
+      options_.queue, vertex_count(), {start_vertex(), goal_vertex()}, {next_in(seen[0]), next_in(seen[1])},
+      [this](VertexId to) { return estimate_to(to); }, {&scratch_.states[0], &scratch_.states[1]}, execution_);
+  for (std::size_t side = 0; side < seen.size(); ++side) {
+    count(seen[side]);
+    used_.insert(used_.end(), used[side].begin(), used[side].end());
+  }
+  if (keep_) tree_ = search_trees(scratch_.states[0], scratch_.states[1]);
+  return found;
+}
+
+/// On a copy of what is free, as the planner searches it.
+template <World W>
+SearchResult Ask<W>::search_copy() {
+  const Graph graph = free_graph();
+  const AskedNeighbours<W> places = neighbours(nullptr);
+  const auto distance = [&](VertexId v, VertexId w) { return places.distance(v, w); };
+  const RoadmapSearch asked{.start = start_vertex(),
+                            .goal = goal_vertex(),
+                            .length = VertexDistance(distance),
+                            .estimate = VertexDistance(distance),
+                            .search = options_.search,
+                            .queue = options_.queue,
+                            .execution = execution_,
+                            .tree = keep_ ? &tree_ : nullptr};
+  if (const auto reduced = reduced_for_search(graph, asked)) return search_roadmap(*reduced, asked);
+  return search_roadmap(graph, asked);
+}
+
+/// The free edges, those of start and goal among them; all of them are asked about first where they lead one way.
+template <World W>
+Graph Ask<W>::free_graph() const {
+  const Graph& all = roadmap_.candidates();
+  RawVector<EdgeEnd> offsets(vertex_count() + 1);
+  RawVector<VertexId> targets;
+  execution_.reserve((all.targets().size() + 2 * end_edges_.size()) * sizeof(VertexId));
+  targets.reserve(all.targets().size() + 2 * end_edges_.size());
+  std::vector<Edge> sorted;
+  for (const Edge& e : end_edges_) {
+    sorted.push_back(e);
+    if (!one_way) sorted.push_back({e.to, e.from});
+  }
+  std::sort(sorted.begin(), sorted.end());
+  auto next = sorted.begin();
+  for (VertexId v = 0; v < vertex_count(); ++v) {
+    offsets[v] = static_cast<EdgeEnd>(targets.size());
+    std::size_t end = v < start_vertex() ? all.first_end(v) : 0;
+    if (v < start_vertex()) {
+      for (const VertexId w : all.neighbours(v)) {
+        if (roadmap_.known()[end++] == EdgeState::free) targets.push_back(w);
+      }
+    }
+    for (; next != sorted.end() && next->from == v; ++next) targets.push_back(next->to);
+  }
+  offsets[vertex_count()] = static_cast<EdgeEnd>(targets.size());
+  return {std::move(offsets), std::move(targets)};
+}
+
+template <World W>
+RawVector<typename W::State> Ask<W>::all_states() const {
+  RawVector<State> states(roadmap_.states().begin(), roadmap_.states().end());
+  states.insert(states.end(), ends_.begin(), ends_.end());
+  return states;
+}
+
+/// Asks the world about all edges that start or the goal can reach; about all that there are where they lead one way.
+template <World W>
+void Ask<W>::learn_around_ends() {
+  if constexpr (one_way) {
+    const auto states = check_edges(world_, roadmap_.states(), roadmap_.candidates(), EdgeDirections::one, execution_,
+                                    solution_.counters);
+    for (std::size_t end = 0; end < roadmap_.candidates().targets().size(); ++end) {
+      roadmap_.known().learn(end, edge_state(states, end));
+    }
+  } else {
+    for (std::size_t end = 0; end < 2; ++end) {
+      const auto from = static_cast<VertexId>(start_vertex() + end);
+      solution_.counters.expanded += search_plainly(from, no_vertex, scratch_.states[end]).expanded;
+    }
+  }
+}
+
+/// Between the components of start and goal. Where edges lead one way: between what start reaches and what reaches the
+/// goal.
+template <World W>
+void Ask<W>::tell_separation() {
+  if (roadmap_.is_lazy()) learn_around_ends();
+  const Graph graph = free_graph();
+  const Components parts =
+      one_way ? reached_and_reaching(graph, start_vertex(), goal_vertex(), execution_) : components(graph, execution_);
+  const RawVector<State> states = all_states();
+  solution_.separation =
+      separation_of(world_, std::span<const State>(states), parts, start_vertex(), goal_vertex(), execution_);
+}
+
+template <World W>
+PlannedRoadmap<typename W::State> Ask<W>::kept() const {
+  PlannedRoadmap<State> kept;
+  kept.states = all_states();
+  kept.graph = free_graph();
+  kept.search_tree = tree_;
+  return kept;
+}
+
+}  // namespace detail
+
+/// Never throws Stopped: a deadline or a memory limit gives Outcome::stopped. `options`: how it is searched, by which
+/// queue; all else is the roadmap's. `keep`, where given, receives the roadmap with start and goal, and the search
+/// tree.
+template <World W>
+Solution<typename W::State> ask_roadmap(const AskedRoadmap<W>& roadmap, const typename W::State& start,
+                                        const typename W::State& goal, const RoadmapOptions& options,
+                                        const Execution& execution, AskScratch& scratch,
+                                        PlannedRoadmap<typename W::State>* keep = nullptr) {
+  return detail::Ask<W>(roadmap, start, goal, options, execution, scratch, keep != nullptr).run(keep);
+}
+
+}  // namespace warren

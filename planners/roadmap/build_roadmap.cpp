@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planners/roadmap/build_roadmap.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "core/search/search.hpp"
+
+namespace warren {
+
+namespace {
+
+/// Each edge in the row of its end.
+Graph reversed(const Graph& graph, const Execution& execution) {
+  const std::size_t n = graph.vertex_count();
+  execution.reserve((n + 1) * 2 * sizeof(EdgeEnd) + graph.targets().size() * sizeof(VertexId));
+  RawVector<EdgeEnd> offsets(n + 1);
+  std::fill(offsets.begin(), offsets.end(), EdgeEnd{0});
+  for (const VertexId w : graph.targets()) ++offsets[w + 1];
+  for (std::size_t v = 0; v < n; ++v) offsets[v + 1] += offsets[v];
+  RawVector<EdgeEnd> next(offsets.begin(), offsets.end() - 1);
+  RawVector<VertexId> targets(graph.targets().size());
+  for (VertexId v = 0; v < n; ++v) {
+    for (const VertexId w : graph.neighbours(v)) targets[next[w]++] = v;
+  }
+  return {std::move(offsets), std::move(targets)};
+}
+
+}  // namespace
+
+Components reached_and_reaching(const Graph& graph, VertexId from, VertexId to, const Execution& execution) {
+  Components parts;
+  parts.label.assign(graph.vertex_count(), no_vertex);
+  const auto mark = [&](const Graph& along, VertexId root) {
+    SearchState state;
+    state.resize(along.vertex_count(), [&] { execution.check(); });
+    breadth_first(along, root, no_vertex, state, [&] { return execution.should_stop(); });
+    execution.check();
+    for (VertexId v = 0; v < along.vertex_count(); ++v) {
+      if (state.reached(v)) parts.label[v] = root;
+    }
+  };
+  mark(graph, from);
+  mark(reversed(graph, execution), to);
+  return parts;
+}
+
+RawVector<std::uint64_t> unchecked_edges(const Graph& candidates) {
+  RawVector<std::uint64_t> words(edge_state_words(candidates.targets().size()));
+  std::fill(words.begin(), words.end(), std::uint64_t{0});
+  return words;
+}
+
+Graph one_way_graph(std::size_t vertex_count, const EdgeParts& edges, const Execution& execution) {
+  const std::uint64_t ends = detail::total_edges(edges);
+  if (ends >= std::numeric_limits<EdgeEnd>::max())
+    throw InputError("roadmap", "more than 2^32 - 1 edges; ask for fewer samples or neighbours");
+  execution.reserve((vertex_count + 1) * sizeof(EdgeEnd) + ends * sizeof(VertexId));
+  RawVector<EdgeEnd> offsets(vertex_count + 1);
+  std::fill(offsets.begin(), offsets.end(), EdgeEnd{0});
+  RawVector<VertexId> targets;
+  targets.reserve(ends);
+  for (const RawVector<Edge>& part : edges) {
+    execution.check();
+    for (const Edge& e : part) {
+      ++offsets[e.from + 1];
+      targets.push_back(e.to);
+    }
+  }
+  for (std::size_t v = 0; v < vertex_count; ++v) {
+    offsets[v + 1] += offsets[v];
+    std::sort(targets.begin() + offsets[v], targets.begin() + offsets[v + 1]);
+  }
+  return {std::move(offsets), std::move(targets)};
+}
+
+Graph free_part(const Graph& candidates, std::span<const std::uint64_t> edge_states, const Execution& execution) {
+  constexpr std::size_t polled = std::size_t{1} << 16;
+  execution.reserve((candidates.vertex_count() + 1) * sizeof(EdgeEnd) + candidates.targets().size() * sizeof(VertexId));
+  RawVector<EdgeEnd> offsets(candidates.vertex_count() + 1);
+  RawVector<VertexId> targets;
+  targets.reserve(candidates.targets().size());
+  for (VertexId v = 0; v < candidates.vertex_count(); ++v) {
+    if (v % polled == 0) execution.check();
+    offsets[v] = static_cast<EdgeEnd>(targets.size());
+    std::size_t end = candidates.first_end(v);
+    for (const VertexId w : candidates.neighbours(v)) {
+      if (edge_state(edge_states, end++) == EdgeState::free) targets.push_back(w);
+    }
+  }
+  offsets[candidates.vertex_count()] = static_cast<EdgeEnd>(targets.size());
+  return {std::move(offsets), std::move(targets)};
+}
+
+}  // namespace warren

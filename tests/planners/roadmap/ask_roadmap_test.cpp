@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A roadmap that was built without a question answers as the planner does that builds one for each.
+#include "planners/roadmap/ask_roadmap.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "planners/roadmap/lazy_prm.hpp"
+#include "planners/roadmap/one_way_prm.hpp"
+#include "planners/roadmap/prm.hpp"
+#include "scenes/mazes/maze_generator.hpp"
+#include "tests/worlds/poses/body_scenes.hpp"
+#include "worlds/plane/maze_world.hpp"
+#include "worlds/poses/car_world.hpp"
+
+namespace warren {
+namespace {
+
+Scene maze(double loops, std::uint32_t side = 12) {
+  return maze_scene({side, side, 3, MazeAlgorithm::backtracker, loops}, false, {});
+}
+
+template <World W>
+AskedRoadmap<W> asked(const W& world, const RoadmapOptions& options, bool lazy, unsigned threads = 2) {
+  Execution execution;
+  execution.threads = threads;
+  BuiltRoadmap<typename W::State> built = build_roadmap(world, options, lazy, execution);
+  return {world, std::move(built.states), std::move(built.candidates), built.edge_states, built.rule, lazy, execution};
+}
+
+template <World W>
+Solution<typename W::State> planned(const W& world, const typename W::State& start, const typename W::State& goal,
+                                    const RoadmapOptions& options, bool lazy) {
+  if constexpr (edge_directions<W>() == EdgeDirections::one) {
+    return one_way_prm(world, start, goal, options, lazy, {});
+  } else {
+    return lazy ? lazy_prm(world, start, goal, options, {}) : prm(world, start, goal, options, {});
+  }
+}
+
+/// Asks about all pairs of the states; the counts of edges depend on what was known, all else does not.
+template <World W>
+std::size_t expect_the_planners_answers(const W& world, const std::vector<typename W::State>& states,
+                                        const RoadmapOptions& options, bool lazy) {
+  const AskedRoadmap<W> roadmap = asked(world, options, lazy);
+  AskScratch scratch;
+  std::size_t solved = 0;
+  for (const auto& start : states) {
+    for (const auto& goal : states) {
+      const auto expected = planned(world, start, goal, options, lazy);
+      const auto answer = ask_roadmap(roadmap, start, goal, options, {}, scratch);
+      EXPECT_EQ(answer.outcome, expected.outcome);
+      EXPECT_TRUE(std::equal(answer.path.begin(), answer.path.end(), expected.path.begin(), expected.path.end()));
+      EXPECT_EQ(answer.counters.expanded, expected.counters.expanded);
+      EXPECT_EQ(answer.roadmap.milestones, expected.roadmap.milestones);
+      if (!lazy) {
+        EXPECT_EQ(answer.roadmap.components, expected.roadmap.components);
+      }
+      if (!lazy && edge_directions<W>() == EdgeDirections::both) {
+        EXPECT_EQ(answer.roadmap.edges, expected.roadmap.edges);
+      }
+      EXPECT_EQ(answer.separation.start_size, expected.separation.start_size);
+      EXPECT_EQ(answer.separation.goal_size, expected.separation.goal_size);
+      solved += answer.outcome == Outcome::solved ? 1 : 0;
+    }
+  }
+  return solved;
+}
+
+/// Two of them are blocked.
+std::vector<Vec2> some_places() { return {{1, 1}, {12, 12}, {3.2, 7.1}, {6.5, 6.1}, {10.9, 2}, {0.5, 0.5}}; }
+
+TEST(AskRoadmap, AnswersAsThePlannerDoesInMazes) {
+  for (const double loops : {0.0, 0.2}) {
+    const Scene scene = maze(loops);
+    const MazeWorld world(scene, 0.1, {});
+    for (const bool lazy : {false, true}) {
+      for (const std::uint64_t samples : {400, 4000}) {
+        SCOPED_TRACE(std::to_string(loops) + (lazy ? " lazy " : " ") + std::to_string(samples));
+        RoadmapOptions options;
+        options.samples = samples;
+        const std::size_t solved = expect_the_planners_answers(world, some_places(), options, lazy);
+        EXPECT_GE(solved, samples == 4000 ? 16U : 4U);
+      }
+    }
+  }
+}
+
+TEST(AskRoadmap, AnswersByEverySearchAndRule) {
+  const Scene scene = maze(0.2);
+  const MazeWorld world(scene, 0.1, {});
+  RoadmapOptions options;
+  options.samples = 3000;
+  for (const SearchKind search : {SearchKind::astar, SearchKind::dijkstra, SearchKind::bfs, SearchKind::dfs}) {
+    options.search = search;
+    expect_the_planners_answers(world, some_places(), options, false);
+  }
+  options.search = SearchKind::astar;
+  options.neighbours = 7;
+  expect_the_planners_answers(world, some_places(), options, false);
+  expect_the_planners_answers(world, some_places(), options, true);
+}
+
+TEST(AskRoadmap, AnswersOnTheLattice) {
+  const Scene scene = maze(0.1);
+  const MazeWorld world(scene, 0.1, {});
+  RoadmapOptions options;
+  options.sampler = SamplerKind::lattice;
+  options.lattice = {scene.maze->rows, scene.maze->cols};
+  EXPECT_EQ(expect_the_planners_answers(world, some_places(), options, false), 16U);
+}
+
+TEST(AskRoadmap, AnswersFromBothEndsWhereItIsLarge) {
+  const Scene scene = maze(0.2, 60);
+  const MazeWorld world(scene, 0.1, {});
+  RoadmapOptions options;
+  options.samples = 90'000;
+  for (const bool lazy : {false, true}) expect_the_planners_answers(world, {{1, 1}, {60, 60}, {30, 10}}, options, lazy);
+}
+
+TEST(AskRoadmap, AnswersForCarsThatOnlyDriveForwards) {
+  Scene scene;
+  scene.bounds = Box{{0, 0}, {12, 6}};
+  scene.walls = WallSet::narrowest(std::vector<Segment>{{{3, 0}, {3, 3.5}}, {{6, 6}, {6, 2.5}}, {{9, 0}, {9, 3.5}}});
+  const CarWorld<DubinsCurve> world(scene, CarOptions{.turning_radius = 0.7, .radius = 0.2}, {});
+  RoadmapOptions options;
+  for (const std::uint64_t samples : {60, 600}) {
+    options.samples = samples;
+    for (const bool lazy : {false, true}) {
+      expect_the_planners_answers(world, {{1, 1, 0}, {11, 1, 0}, {11, 1, 3}, {5, 5, 1}}, options, lazy);
+    }
+  }
+}
+
+TEST(AskRoadmap, IsTheSameForAnyNumberOfThreads) {
+  const Scene scene = maze(0.1);
+  const MazeWorld world(scene, 0.1, {});
+  const RoadmapOptions options;  // grows
+  const AskedRoadmap<MazeWorld> one = asked(world, options, false, 1);
+  for (const unsigned threads : {2U, 3U, 8U}) {
+    const AskedRoadmap<MazeWorld> more = asked(world, options, false, threads);
+    EXPECT_TRUE(std::equal(one.states().begin(), one.states().end(), more.states().begin(), more.states().end()));
+    EXPECT_TRUE(std::ranges::equal(one.candidates().targets(), more.candidates().targets()));
+    EXPECT_TRUE(std::ranges::equal(one.edge_states(), more.edge_states()));
+  }
+}
+
+TEST(AskRoadmap, GrowsUntilWhatIsJoinedStaysJoined) {
+  const Scene scene = maze(0.0, 15);
+  const MazeWorld world(scene, 0.1, {});
+  std::size_t joined = 0;
+  std::size_t asked_for = 0;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    RoadmapOptions options;
+    options.seed = seed;
+    const AskedRoadmap<MazeWorld> roadmap = asked(world, options, false);
+    AskScratch scratch;
+    for (std::uint64_t i = 0; i < 20; ++i) {
+      const Vec2 start = uniform_state(world, 1000 + seed, 2 * i);
+      const Vec2 goal = uniform_state(world, 1000 + seed, 2 * i + 1);
+      const auto answer = ask_roadmap(roadmap, start, goal, options, {}, scratch);
+      if (answer.outcome == Outcome::start_blocked || answer.outcome == Outcome::goal_blocked) continue;
+      ++asked_for;
+      joined += answer.outcome == Outcome::solved ? 1 : 0;
+    }
+  }
+  EXPECT_GE(asked_for, 40U);
+  EXPECT_GE(joined, asked_for - 2);  // of a perfect maze, where every cell can be reached
+}
+
+TEST(AskRoadmap, LearnsWhatItHasAskedTheWorld) {
+  const Scene scene = maze(0.2);
+  const MazeWorld world(scene, 0.1, {});
+  RoadmapOptions options;
+  options.samples = 3000;
+  const AskedRoadmap<MazeWorld> roadmap = asked(world, options, true);
+  AskScratch scratch;
+  const auto first = ask_roadmap(roadmap, {1, 1}, {12, 12}, options, {}, scratch);
+  const auto second = ask_roadmap(roadmap, {1, 1}, {12, 12}, options, {}, scratch);
+  EXPECT_EQ(first.outcome, Outcome::solved);
+  EXPECT_GT(first.counters.edges_checked, second.counters.edges_checked + 100);
+  Counters counters;
+  const auto checked = check_edges(world, roadmap.states(), roadmap.candidates(), EdgeDirections::both, {}, counters);
+  for (std::size_t end = 0; end < roadmap.candidates().targets().size(); ++end) {
+    const EdgeState known = edge_state(roadmap.edge_states(), end);
+    if (known == EdgeState::unchecked) continue;
+    EXPECT_EQ(known, edge_state(checked, end));
+  }
+}
+
+}  // namespace
+}  // namespace warren
