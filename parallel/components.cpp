@@ -4,51 +4,15 @@
 #include <algorithm>
 #include <atomic>
 #include <numeric>
-#include <utility>
 #include <vector>
 
 #include "parallel/chunks.hpp"
+#include "parallel/union_forest.hpp"
 
 namespace warren {
 namespace {
 
 constexpr std::size_t component_grain = std::size_t{1} << 14;
-
-/// Parents of the forest. Invariants: parent[v] <= v, and a vertex that is no root never becomes one again. Only these
-/// numbers pass between threads, no other memory depends on them, so relaxed order is enough.
-class Forest {
- public:
-  explicit Forest(RawVector<VertexId>& parent) : parent_(parent) {}
-
-  VertexId parent(VertexId v) const { return std::atomic_ref(parent_[v]).load(std::memory_order_relaxed); }
-  VertexId root(VertexId v) const {
-    for (VertexId p = parent(v); p != v; p = parent(v)) {
-      const VertexId above = parent(p);
-      if (above == p) return p;
-      std::atomic_ref(parent_[v]).store(above, std::memory_order_relaxed);  // path halving: an ancestor stays one
-      v = above;
-    }
-    return v;
-  }
-  /// The root without writing on the way: another vertex may hold its final label already.
-  VertexId root_of(VertexId v) const {
-    for (VertexId p = parent(v); p != v; p = parent(v)) v = p;
-    return v;
-  }
-  void join(VertexId a, VertexId b) const {
-    for (;;) {
-      a = root(a);
-      b = root(b);
-      if (a == b) return;
-      if (a < b) std::swap(a, b);
-      VertexId expected = a;  // fails when another thread has hung this root meanwhile: look again
-      if (std::atomic_ref(parent_[a]).compare_exchange_strong(expected, b, std::memory_order_relaxed)) return;
-    }
-  }
-
- private:
-  RawVector<VertexId>& parent_;
-};
 
 void join_inside(const Graph& graph, Range block, RawVector<VertexId>& parent) {
   const auto root = [&parent](VertexId v) {
@@ -74,7 +38,7 @@ Components components(const Graph& graph, const Execution& execution) {
   Components result;
   execution.reserve(n * sizeof(VertexId));
   result.label.resize(n);
-  const Forest forest(result.label);
+  const UnionForest forest(result.label);
   Execution quiet = execution;
   quiet.progress = nullptr;
   for_chunks(n, component_grain, execution, [&](Range r) { join_inside(graph, r, result.label); });
