@@ -84,6 +84,7 @@ endfunction()
 set(above "^(tools|bench|tests)/")
 set(texts "^(scenes|worlds|verify|solve|pictures|studies)/")
 only(nanoflann "#include <nanoflann" "^(spatial/points/kd_tree[.]cpp$|bench/|tests/)")
+only(xxhash "#include <xxh" "^roadmaps/file/checksum[.]cpp$")
 only(boost "#include <boost/" "${above}|^studies/searches/boost_search[.]cpp$|^studies/measure/statistics[.]cpp$|^planners/axis/voronoi_diagram[.]cpp$")
 only(threads "#include <(thread|mutex|shared_mutex|atomic|barrier|latch|semaphore|condition_variable|future|stop_token)>"
      "^(parallel|tests)/")

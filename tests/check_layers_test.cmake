@@ -64,6 +64,7 @@ complains(verify/judges/verify_a.cpp "#include \"verify/near/arcs.hpp\"" "scenes
           verify/near/arcs.hpp "#include \"scenes/scene/motions.hpp\"" scenes/scene/motions.hpp "#pragma once"
           worlds/poses/car_world.cpp "#include \"scenes/scene/motions.hpp\"")
 complains(spatial/obstacles/wall_index.cpp "#include <nanoflann.hpp>" "rule 'nanoflann'")
+complains(roadmaps/file/roadmap_file.cpp "#include <xxhash.h>" "rule 'xxhash'")
 complains(planners/axis/medial_axis.cpp "#include <boost/polygon/voronoi.hpp>" "rule 'boost'")
 complains(planners/grid/a.cpp "#include <atomic>" "rule 'threads'")
 complains(planners/grid/a.cpp "auto n = std::thread::hardware_concurrency();" "rule 'cores'")
