@@ -8,34 +8,10 @@
 #include <utility>
 
 #include "solve/steps/kind_of_problem.hpp"
-#include "worlds/rasters/map_borders.hpp"
+#include "solve/steps/planned_scene.hpp"
 
 namespace warren {
 namespace {
-
-/// Bodies that are planned among walls see a map as the borders of its cells; the others look at the cells.
-bool wants_borders(const Scene& scene, const Question& question, PlannerKind planner) {
-  if (!scene.map || scene.walls.size() > 0) return false;
-  if (planner == PlannerKind::grid || planner == PlannerKind::voronoi) return false;
-  const RobotKind body = robot_of(scene, question).kind;
-  return body != RobotKind::point && body != RobotKind::disc;
-}
-
-/// The scene as it is planned in: itself, or a copy with the map's borders.
-class PlannedScene {
- public:
-  PlannedScene(const Scene& scene, const Question& question, PlannerKind planner, const Execution& execution)
-      : scene_(scene) {
-    if (!wants_borders(scene, question, planner)) return;
-    copy_ = scene;
-    add_map_walls(*copy_, execution);
-  }
-  const Scene& get() const { return copy_ ? *copy_ : scene_; }
-
- private:
-  const Scene& scene_;
-  std::optional<Scene> copy_;
-};
 
 /// What the question says, and where it says nothing what the answer says; the world's word and the defaults come after
 /// both.

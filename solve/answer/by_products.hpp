@@ -32,9 +32,10 @@ struct HeadingCells {
 };
 
 struct ByProducts {
-  PlannedRoadmap<Vec2> roadmap;                    ///< of points and discs
-  std::vector<PlannedRoadmap<Vec2>> trees;         ///< of points and discs: the trees of each leg of a path
-  std::vector<PlannedRoadmap<Se2>> pose_roadmaps;  ///< of turning bodies and cars: the roadmap, or the trees of each leg
+  PlannedRoadmap<Vec2> roadmap;             ///< of points and discs
+  std::vector<PlannedRoadmap<Vec2>> trees;  ///< of points and discs: the trees of each leg of a path
+  std::vector<PlannedRoadmap<Se2>>
+      pose_roadmaps;  ///< of turning bodies and cars: the roadmap, or the trees of each leg
   std::vector<NamedLines> lines;
   std::vector<HeadingCells> headings;
 };

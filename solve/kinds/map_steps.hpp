@@ -18,7 +18,10 @@ namespace warren {
 
 Answer solve_by_cells_of_map(const SolveRequest& request);  ///< grid
 Answer solve_on_skeleton(const SolveRequest& request);      ///< voronoi
-Answer solve_sampled_on_map(const SolveRequest& request);   ///< prm, lazy-prm, rrt, rrt-connect
+Answer solve_sampled_on_map(const SolveRequest& request);
+BuiltArrays build_on_map(const SolveRequest& request);
+std::unique_ptr<RoadmapSession> open_on_map(const SolveRequest& request, const RoadmapArrays& arrays,
+                                            const ConnectionRule& rule);  ///< prm, lazy-prm, rrt, rrt-connect
 
 /// Throws UsageError where contact is to be allowed, and as wall_problem does.
 WallProblem map_problem(const Scene& scene, const Question& options);

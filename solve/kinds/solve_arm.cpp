@@ -15,6 +15,7 @@
 #include "solve/question/question_of_arm.hpp"
 #include "solve/question/tree_choice.hpp"
 #include "solve/steps/kind_of_problem.hpp"
+#include "solve/steps/sampled_roadmap.hpp"
 #include "solve/steps/sampled_solve.hpp"
 #include "solve/steps/solve_steps.hpp"
 #include "worlds/arms/arm_world.hpp"
@@ -150,6 +151,9 @@ Verdict recheck_arm(const Scene& scene, const Question& question, const Recorded
 
 }  // namespace
 
-SolveKind arm_kind() { return {"an arm", fits_arm, arm_planners, usual_arm_planner, solve_arm, nullptr, recheck_arm}; }
+SolveKind arm_kind() {
+  return {"an arm", fits_arm,    arm_planners,       usual_arm_planner, solve_arm,
+          nullptr,  recheck_arm, build_sampled<Arm>, open_sampled<Arm>};
+}
 
 }  // namespace warren

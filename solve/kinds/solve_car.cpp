@@ -14,6 +14,7 @@
 #include "solve/question/tree_choice.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 #include "solve/steps/question_of_pose.hpp"
+#include "solve/steps/sampled_roadmap.hpp"
 #include "solve/steps/sampled_solve.hpp"
 #include "solve/steps/solve_steps.hpp"
 #include "verify/judges/verify_car.hpp"
@@ -44,8 +45,9 @@ class Car : public PoseBody {
  public:
   using World = CarWorld<Curve>;
 
-  Car(const SolveRequest& request, PoseProblem problem)
-      : PoseBody(request, std::move(problem)), asked_(request.options.car) {}
+  explicit Car(const SolveRequest& request)
+      : PoseBody(request, car_problem(request.scene, request.question, request.options.car)),
+        asked_(request.options.car) {}
 
   void add_options(Answer& answer) const {
     if (asked_.steering) answer.options.push_back({"steering", std::string(name_of(*asked_.steering))});
@@ -103,12 +105,24 @@ bool fits_car(const Scene&, const RobotSpec& robot) { return robot.kind == Robot
 
 PlannerKind usual_car_planner(const SolveOptions&, const Scene&, const Question&) { return PlannerKind::rrt_connect; }
 
+bool only_forwards(const SolveRequest& request) {
+  return car_problem(request.scene, request.question, request.options.car).robot.steering == SteeringKind::dubins;
+}
+
 Answer solve_car(const SolveRequest& request) {
-  PoseProblem problem = car_problem(request.scene, request.question, request.options.car);
-  if (problem.robot.steering == SteeringKind::dubins) {
-    return SampledSolve(request, Car<DubinsCurve>(request, std::move(problem))).run();
-  }
-  return SampledSolve(request, Car<ReedsSheppCurve>(request, std::move(problem))).run();
+  if (only_forwards(request)) return SampledSolve(request, Car<DubinsCurve>(request)).run();
+  return SampledSolve(request, Car<ReedsSheppCurve>(request)).run();
+}
+
+BuiltArrays build_for_car(const SolveRequest& request) {
+  const auto build = only_forwards(request) ? build_sampled<Car<DubinsCurve>> : build_sampled<Car<ReedsSheppCurve>>;
+  return build(request);
+}
+
+std::unique_ptr<RoadmapSession> open_for_car(const SolveRequest& request, const RoadmapArrays& arrays,
+                                             const ConnectionRule& rule) {
+  const auto open = only_forwards(request) ? open_sampled<Car<DubinsCurve>> : open_sampled<Car<ReedsSheppCurve>>;
+  return open(request, arrays, rule);
 }
 
 Verdict recheck_car(const Scene& scene, const Question& question, const RecordedAnswer& answer,
@@ -126,7 +140,8 @@ Verdict recheck_car(const Scene& scene, const Question& question, const Recorded
 }  // namespace
 
 SolveKind car_kind() {
-  return {body_words, fits_car, car_planners, usual_car_planner, solve_car, nullptr, recheck_car};
+  return {body_words, fits_car,    car_planners,  usual_car_planner, solve_car,
+          nullptr,    recheck_car, build_for_car, open_for_car};
 }
 
 }  // namespace warren

@@ -9,6 +9,7 @@
 #include "planners/shorten/shortcut.hpp"
 #include "solve/kinds/map_steps.hpp"
 #include "solve/question/tree_choice.hpp"
+#include "solve/steps/sampled_roadmap.hpp"
 #include "solve/steps/sampled_solve.hpp"
 #include "solve/steps/solve_steps.hpp"
 #include "worlds/plane/grid_world.hpp"
@@ -76,5 +77,12 @@ void BodyOnMap::index(std::optional<World>& world, SamplerKind sampler) const {
 }  // namespace
 
 Answer solve_sampled_on_map(const SolveRequest& request) { return SampledSolve(request, BodyOnMap(request)).run(); }
+
+BuiltArrays build_on_map(const SolveRequest& request) { return build_sampled<BodyOnMap>(request); }
+
+std::unique_ptr<RoadmapSession> open_on_map(const SolveRequest& request, const RoadmapArrays& arrays,
+                                            const ConnectionRule& rule) {
+  return open_sampled<BodyOnMap>(request, arrays, rule);
+}
 
 }  // namespace warren

@@ -54,7 +54,9 @@ SolveKind occupancy_kind() {
           usual_occupancy_planner,
           solve_occupancy,
           nullptr,
-          recheck_occupancy};
+          recheck_occupancy,
+          build_on_map,
+          open_on_map};
 }
 
 }  // namespace warren

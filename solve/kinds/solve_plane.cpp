@@ -7,6 +7,7 @@
 #include "scenes/scene/plane_obstacles.hpp"
 #include "solve/kinds/plane_steps.hpp"
 #include "solve/steps/kind_of_problem.hpp"
+#include "solve/steps/sampled_roadmap.hpp"
 #include "solve/steps/sampled_solve.hpp"
 #include "solve/steps/solve_steps.hpp"
 #include "worlds/plane/polygon_world.hpp"
@@ -97,7 +98,9 @@ SolveKind plane_kind() {
           usual_plane_planner,
           solve_plane,
           nullptr,
-          recheck_plane};
+          recheck_plane,
+          build_sampled<PointAmongPolygons>,
+          open_sampled<PointAmongPolygons>};
 }
 
 }  // namespace warren

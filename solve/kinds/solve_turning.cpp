@@ -7,6 +7,7 @@
 #include "solve/kinds/pose_body.hpp"
 #include "solve/kinds/turning_judge.hpp"
 #include "solve/steps/kind_of_problem.hpp"
+#include "solve/steps/sampled_roadmap.hpp"
 #include "solve/steps/sampled_solve.hpp"
 #include "worlds/poses/se2_world.hpp"
 
@@ -51,8 +52,15 @@ Answer solve_turning(const SolveRequest& request) { return SampledSolve(request,
 }  // namespace
 
 SolveKind turning_kind() {
-  return {"a polygon that turns", fits_turning, turning_planners, usual_turning_planner,
-          solve_turning,          nullptr,      recheck_turning};
+  return {"a polygon that turns",
+          fits_turning,
+          turning_planners,
+          usual_turning_planner,
+          solve_turning,
+          nullptr,
+          recheck_turning,
+          build_sampled<TurningPolygon>,
+          open_sampled<TurningPolygon>};
 }
 
 }  // namespace warren

@@ -13,7 +13,9 @@
 #include "planners/tiled/tiled_prm_lattice.hpp"
 #include "solve/kinds/maze_infeasible.hpp"
 #include "solve/steps/kind_of_problem.hpp"
+#include "solve/steps/sampled_roadmap.hpp"
 #include "solve/steps/solve_steps.hpp"
+#include "solve/steps/usual_body.hpp"
 #include "worlds/plane/maze_world.hpp"
 
 namespace warren {
@@ -22,8 +24,9 @@ namespace {
 /// One solve: the steps share the question and fill in the answer.
 class WallSolve {
  public:
-  WallSolve(const Scene& scene, const WallProblem& problem, const PlannerOptions& options, const Execution& execution)
-      : scene_(scene), problem_(problem), options_(options), execution_(execution) {
+  WallSolve(const Scene& scene, const WallProblem& problem, const PlannerOptions& options, const Execution& execution,
+            const RoadmapAsked& asked)
+      : scene_(scene), problem_(problem), options_(options), execution_(execution), asked_(asked) {
     describe_roadmap_planner(answer_, problem, options);
   }
 
@@ -51,11 +54,13 @@ class WallSolve {
   const WallProblem& problem_;
   const PlannerOptions& options_;
   const Execution& execution_;
+  RoadmapAsked asked_;
   std::optional<MazeWorld> world_;  // tiles need none; made where it is first asked for
   Answer answer_;
 };
 
 const MazeWorld& WallSolve::indexed_world() {
+  if (asked_.session != nullptr) return *static_cast<const SessionIn<MazeWorld>&>(*asked_.session).world;
   if (!world_) {
     const StageTimer timer(execution_, "index", answer_.seconds.index, scene_.walls.size());
     world_.emplace(scene_, problem_.reach(), execution_);
@@ -64,6 +69,12 @@ const MazeWorld& WallSolve::indexed_world() {
 }
 
 void WallSolve::plan(PlannedRoadmap<Vec2>* keep) {
+  if (asked_.session != nullptr) {
+    const auto& session = static_cast<const SessionIn<MazeWorld>&>(*asked_.session);
+    take_solution(answer_, ask_roadmap(*session.roadmap, problem_.start, problem_.goal, options_.roadmap, execution_,
+                                       *asked_.scratch, keep));
+    return;
+  }
   if (options_.pipeline == PipelineKind::tiled && options_.fused) {
     take_solution(answer_, plan_tiles());
     return;
@@ -115,6 +126,24 @@ void WallSolve::optimise() {
   answer_.path = taut_path(world.walls(), answer_.path, world.planning_clearance(), execution_);
 }
 
+/// As a body of sampled_roadmap.hpp.
+class PointAmongWalls : public UsualBody {
+ public:
+  using World = MazeWorld;
+  explicit PointAmongWalls(const SolveRequest& request)
+      : scene_(request.scene), execution_(request.execution), reach_(problem_of(request).reach()) {}
+  static SamplerKind choose_sampler(const SolveOptions&, const RoadmapOptions& roadmap) { return roadmap.sampler; }
+  void index(std::optional<World>& world, SamplerKind) const { world.emplace(scene_, reach_, execution_); }
+
+ private:
+  static WallProblem problem_of(const SolveRequest& request) {
+    return keeping_off(request.scene, request.question, "prm and lazy-prm keep off the walls");
+  }
+  const Scene& scene_;
+  const Execution& execution_;
+  double reach_;
+};
+
 constexpr OptionSet shared_options = prm_takes | OptionSet{Option::lazy, Option::pipeline};
 constexpr PlannerChoice walls_planners[] = {{PlannerKind::prm, shared_options},
                                             {PlannerKind::lazy_prm, shared_options}};
@@ -136,7 +165,7 @@ Answer solve_walls(const SolveRequest& request) {
   const WallProblem problem = problem_of(request);
   const PlannerOptions options = planner_options(request.options, request.scene, problem);
   PlannedRoadmap<Vec2>* keep = request.keep != nullptr ? &request.keep->roadmap : nullptr;
-  return solve_walls(request.scene, problem, options, request.execution, keep);
+  return solve_walls(request.scene, problem, options, request.execution, keep, request.asked);
 }
 
 constexpr std::uint64_t most_drawn = 40'000;  // cells or samples: beyond, a picture's edges would merge
@@ -158,8 +187,8 @@ Verdict recheck_walls(const Scene& scene, const Question& question, const Record
 }  // namespace
 
 Answer solve_walls(const Scene& scene, const WallProblem& problem, const PlannerOptions& options,
-                   const Execution& execution, PlannedRoadmap<Vec2>* keep) {
-  WallSolve solve(scene, problem, options, execution);
+                   const Execution& execution, PlannedRoadmap<Vec2>* keep, const RoadmapAsked& asked) {
+  WallSolve solve(scene, problem, options, execution, asked);
   answer_within_limits(solve.answer(), [&] { solve.run(keep); });
   return std::move(solve.answer());
 }
@@ -179,7 +208,9 @@ SolveKind walls_kind() {
           usual_walls_planner,
           solve_walls,
           make_roadmap,
-          recheck_walls};
+          recheck_walls,
+          build_sampled<PointAmongWalls>,
+          open_sampled<PointAmongWalls>};
 }
 
 }  // namespace warren

@@ -9,6 +9,7 @@
 // and the first that has any planner is asked for the default.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -23,6 +24,8 @@
 #include "solve/question/planner_choice.hpp"
 #include "solve/question/question.hpp"
 #include "solve/question/solve_options.hpp"
+#include "solve/roadmaps/roadmap.hpp"
+#include "solve/steps/roadmap_session.hpp"
 
 namespace warren {
 
@@ -40,6 +43,15 @@ struct SolveRequest {
   PlannerKind planner;
   const Execution& execution;
   ByProducts* keep = nullptr;  ///< receives what the planner makes beyond the path; nullptr: nothing is kept
+  RoadmapAsked asked = {};     ///< a roadmap that is there already
+};
+
+/// What SolveKind::build leaves behind.
+struct BuiltArrays {
+  RoadmapArrays arrays;  ///< but for the components
+  std::uint64_t samples = 0;
+  ConnectionRule rule;
+  BuildAccount account;
 };
 
 struct SolveKind {
@@ -57,6 +69,12 @@ struct SolveKind {
   /// kind.
   Verdict (*verify)(const Scene& scene, const Question& question, const RecordedAnswer& answer,
                     const Execution& execution);
+  /// Builds the roadmap of prm or lazy_prm without a question: start and goal of the request are any. nullptr: no
+  /// planner of this kind makes one. Throws as solve(), and Stopped.
+  BuiltArrays (*build)(const SolveRequest& request) = nullptr;
+  /// Makes such a roadmap ready to be asked; solve() takes it as request.asked.
+  std::unique_ptr<RoadmapSession> (*open)(const SolveRequest& request, const RoadmapArrays& arrays,
+                                          const ConnectionRule& rule) = nullptr;
 };
 
 // The kinds, one a file solve_NAME.cpp.

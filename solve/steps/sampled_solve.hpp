@@ -35,6 +35,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "planners/roadmap/ask_roadmap.hpp"
 #include "planners/roadmap/lazy_prm.hpp"
 #include "planners/roadmap/one_way_prm.hpp"
 #include "planners/roadmap/prm.hpp"
@@ -46,6 +47,7 @@
 #include "solve/steps/kind_of_problem.hpp"
 #include "solve/steps/settled_ends.hpp"
 #include "solve/steps/solve_steps.hpp"
+#include "solve/steps/usual_body.hpp"
 
 namespace warren {
 
@@ -103,7 +105,9 @@ class SampledSolve {
   Body body_;
   RoadmapOptions roadmap_options_;  // of prm and lazy-prm
   RrtOptions tree_options_;         // of the others
-  std::optional<World> world_;
+  std::optional<World> own_world_;
+  const World* world_ = nullptr;                // its own, or that of the roadmap that is asked
+  const AskedRoadmap<World>* asked_ = nullptr;  // none: one is planned
   std::vector<State> goals_;
   bool apart_ = false;  // proved: no goal can be reached
   Path<State> path_;
@@ -136,13 +140,21 @@ void SampledSolve<Body>::describe_trees() {
 template <class Body>
 void SampledSolve<Body>::index() {
   const StageTimer timer(execution(), "index", answer_.seconds.index);
-  body_.index(world_, roadmap_options_.sampler);
+  if (request_.asked.session != nullptr) {
+    const auto& session = static_cast<const SessionIn<World>&>(*request_.asked.session);
+    world_ = &*session.world;
+    asked_ = &*session.roadmap;
+  } else {
+    body_.index(own_world_, roadmap_options_.sampler);
+    world_ = &*own_world_;
+  }
   goals_ = body_.goals(*world_);
 }
 
 /// What grows until start and goal connect, where they never can: a roadmap for one round and trees for a few nodes.
 template <class Body>
 void SampledSolve<Body>::bound_growth() {
+  if (asked_ != nullptr) return;
   const bool grows = by_roadmap() ? !roadmap_options_.samples && !takes_all_places(roadmap_options_.sampler)
                                   : !request_.options.trees.nodes;
   if (!grows || !request_.scene.map) return;
@@ -174,6 +186,9 @@ void SampledSolve<Body>::plan_roadmaps() {
 template <class Body>
 Solution<typename SampledSolve<Body>::State> SampledSolve<Body>::plan_roadmap(const State& goal) {
   const bool lazy = request_.planner == PlannerKind::lazy_prm;
+  if (asked_ != nullptr) {
+    return ask_roadmap(*asked_, body_.start(), goal, roadmap_options_, execution(), *request_.asked.scratch, kept());
+  }
   if constexpr (requires { requires World::one_way; }) {
     return one_way_prm(*world_, body_.start(), goal, roadmap_options_, lazy, execution(), kept());
   } else {
@@ -269,24 +284,5 @@ std::string_view SampledSolve<Body>::cause() const {
   }
   return cause_of_separation(answer_, by_roadmap());
 }
-
-/// What most bodies have in common.
-struct UsualBody {
-  static constexpr bool has_trees = true;
-  static constexpr bool names_pipeline = false;
-  static constexpr std::string_view noun = "body";
-  static constexpr std::optional<SamplerKind> tree_sampler = std::nullopt;
-
-  static void add_options(Answer&) {}
-  template <class World, class State>
-  static std::vector<State> best_first(const World&, const std::vector<State>& goals) {
-    return goals;
-  }
-  static std::optional<GrowingAttach> attach(const SolveOptions&) { return std::nullopt; }
-  template <class World, class Goals>
-  static std::string_view cause_of_blocked(const World&, Outcome outcome, const Goals&) {
-    return outcome == Outcome::start_blocked ? "start_in_collision" : "goal_in_collision";
-  }
-};
 
 }  // namespace warren

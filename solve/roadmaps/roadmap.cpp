@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/roadmaps/roadmap.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "roadmaps/graph/free_components.hpp"
+#include "solve/steps/kind_of_problem.hpp"
+#include "solve/steps/planned_scene.hpp"
+
+namespace warren {
+namespace {
+
+/// What says how a roadmap is searched or how its planner works while it searches means nothing to one that is kept.
+void refuse_what_is_asked_later(const SolveOptions& options) {
+  const OptionSet all = given(options);
+  for (const Option option : {Option::search, Option::queue, Option::optimise}) {
+    if (!all.has(option)) continue;
+    throw UsageError(fmt::format("@{}: is for a question; say it when the roadmap is asked", name_of(option)));
+  }
+  for (const Option option : {Option::lazy, Option::pipeline}) {
+    if (!all.has(option)) continue;
+    throw UsageError(fmt::format("@{}: a roadmap that is kept is made in one way; leave it out", name_of(option)));
+  }
+}
+
+/// Any start and goal: what is built does not depend on them.
+Question without_ends(const Scene& scene, Question question) {
+  const std::size_t width = state_size(robot_of(scene, question));
+  question.start.assign(width, 0.0);
+  question.goal.assign(width, 0.0);
+  return question;
+}
+
+ChosenSolver builder_of(const SolveOptions& options, const Scene& scene, const Question& question) {
+  const ChosenSolver solver = choose_solver(options, scene, question);
+  if (solver.kind->build == nullptr || !is_roadmap_planner(solver.planner)) {
+    throw UsageError(fmt::format("@planner: {} makes no roadmap that is kept; prm and lazy-prm do for {}",
+                                 name_of(solver.planner), solver.kind->problem));
+  }
+  if (scene.map && !scene.map->water.empty()) {
+    throw UsageError(
+        fmt::format("{}: on a map with water the free cells follow from the start, so there is no roadmap "
+                    "for all questions",
+                    scene.source));
+  }
+  return solver;
+}
+
+}  // namespace
+
+EdgeCounts count_edges(const RoadmapArrays& arrays, const Execution& execution) {
+  constexpr std::size_t polled = std::size_t{1} << 20;
+  EdgeCounts counts;
+  const std::size_t ends = arrays.candidates.targets().size();
+  for (std::size_t end = 0; end < ends; ++end) {
+    if (end % polled == 0) execution.check();
+    const EdgeState state = edge_state(arrays.edge_states, end);
+    ++(state == EdgeState::free ? counts.free : state == EdgeState::blocked ? counts.blocked : counts.unchecked);
+  }
+  if (arrays.directed) return counts;
+  return {counts.unchecked / 2, counts.free / 2, counts.blocked / 2};
+}
+
+Roadmap build_within(Scene scene, const Question& question, const SolveOptions& options, const Execution& execution,
+                     BuildAccount* account) {
+  question.validate();
+  options.validate();
+  refuse_what_is_asked_later(options);
+  Roadmap roadmap;
+  roadmap.scene = std::move(scene);
+  roadmap.options = options;
+  roadmap.options.planner = options.planner.value_or(PlannerKind::prm);
+  check_solver_options(roadmap.options);
+  const Question asked = without_ends(roadmap.scene, question);
+  const ChosenSolver solver = builder_of(roadmap.options, roadmap.scene, asked);
+  roadmap.robot = robot_of(roadmap.scene, asked);
+  roadmap.clearance = clearance_of(roadmap.scene, asked);
+  roadmap.world_hash = scene_hash(roadmap.scene, execution);
+  const PlannedScene planned(roadmap.scene, asked, solver.planner, execution);
+  BuiltArrays built = solver.kind->build({roadmap.options, planned.get(), asked, solver.planner, execution});
+  roadmap.samples = built.samples;
+  roadmap.rule = built.rule;
+  roadmap.arrays = std::move(built.arrays);
+  roadmap.arrays.component = free_components(roadmap.arrays.parts(), execution);
+  if (account != nullptr) *account = built.account;
+  return roadmap;
+}
+
+Roadmap build(Scene scene, const Question& question, const SolveOptions& options, const Limits& limits) {
+  const LimitedExecution limited(limits);
+  return build_within(std::move(scene), question, options, limited.execution());
+}
+
+}  // namespace warren

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A roadmap as a value: the world and the body that it is for, how it was made, its states, its edges and what is known
+// of each. Built without a question, asked as often as one likes (roadmap_query.hpp), written to a file and read back
+// (roadmap_file_io.hpp). Plain data.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "core/base/counters.hpp"
+#include "core/base/raw_vector.hpp"
+#include "core/search/graph.hpp"
+#include "planners/roadmap/roadmap_growth.hpp"
+#include "roadmaps/graph/roadmap_parts.hpp"
+#include "scenes/scene/scene.hpp"
+#include "solve/question/limits.hpp"
+#include "solve/question/question.hpp"
+#include "solve/question/solve_options.hpp"
+
+namespace warren {
+
+/// States and edges, owned. An edge that leads both ways stands in both its rows.
+struct RoadmapArrays {
+  unsigned dimension = 2;  ///< numbers a state
+  bool directed = false;
+  RawVector<double> states;
+  Graph candidates;
+  RawVector<std::uint64_t> edge_states;
+  RawVector<VertexId> component;
+
+  RoadmapParts parts() const {
+    return {dimension, directed, states, candidates.offsets(), candidates.targets(), edge_states, component};
+  }
+};
+
+struct Roadmap {
+  Scene scene;
+  std::string world_hash;  ///< scene_hash
+  RobotSpec robot;
+  double clearance = 0.0;
+  SolveOptions options;       ///< planner, sampler, seed and what else was asked for; no search
+  std::uint64_t samples = 0;  ///< drawn in the last round
+  ConnectionRule rule;        ///< by which milestones were joined, and start and goal will be
+  RoadmapArrays arrays;
+
+  /// The question that is still open: from where to where.
+  Question question() const { return {.robot = robot, .clearance = clearance}; }
+};
+
+/// How many edges are in which state; an edge that stands twice counts once.
+struct EdgeCounts {
+  std::uint64_t unchecked = 0;
+  std::uint64_t free = 0;
+  std::uint64_t blocked = 0;
+};
+EdgeCounts count_edges(const RoadmapArrays& arrays, const Execution& execution);
+
+/// What building took.
+struct BuildAccount {
+  Counters counters;
+  StageTimes seconds;
+};
+
+/// Builds the roadmap of prm or lazy_prm for any world and body that these solve; start and goal of question and scene
+/// mean nothing. With lazy_prm no edge is checked, unless the samples are left open: then, with either planner, rounds
+/// grow until what is joined stays joined (planners/roadmap/build_roadmap.hpp). Takes the scene. Throws UsageError for
+/// what can't be built and for options that mean nothing to it, InputError, Stopped at a limit.
+Roadmap build(Scene scene, const Question& question = {}, const SolveOptions& options = {}, const Limits& limits = {});
+
+/// The same under an execution.
+Roadmap build_within(Scene scene, const Question& question, const SolveOptions& options, const Execution& execution,
+                     BuildAccount* account = nullptr);
+
+}  // namespace warren

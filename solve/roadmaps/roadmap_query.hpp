@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Questions to a roadmap: from where to where. An answer is that of solve() with the roadmap's own options, verified as
+// that is; what it takes is two neighbour queries, one search and the judge. Made once a roadmap: the world's index and
+// that of the states.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "parallel/execution.hpp"
+#include "planners/roadmap/ask_roadmap.hpp"
+#include "solve/answer/answer.hpp"
+#include "solve/answer/by_products.hpp"
+#include "solve/question/limits.hpp"
+#include "solve/roadmaps/roadmap.hpp"
+#include "solve/steps/roadmap_session.hpp"
+
+namespace warren {
+
+/// What a question may say beside its ends: all else is the roadmap's.
+struct RoadmapSearchFields {
+  std::optional<SearchMethod> search = {};   ///< none: A*
+  std::optional<QueueKind> queue = {};       ///< none: heap
+  std::optional<GrowingAttach> attach = {};  ///< arms alone
+  bool optimise = false;                     ///< pull the path taut after the search
+};
+
+/// Refers to the roadmap. Any number of threads may ask; while they do, learnt() is nobody's.
+class RoadmapQuery {
+ public:
+  explicit RoadmapQuery(const Roadmap& roadmap, const Limits& limits = {});
+  RoadmapQuery(const Roadmap& roadmap, const Execution& execution);
+  ~RoadmapQuery();
+  RoadmapQuery(const RoadmapQuery&) = delete;
+  RoadmapQuery& operator=(const RoadmapQuery&) = delete;
+
+  /// Start and goal as Question has them: 2, 3 or 6 numbers; empty: the world file's. Throws UsageError.
+  Answer ask(const std::vector<double>& start, const std::vector<double>& goal, const RoadmapSearchFields& how = {},
+             const Limits& limits = {}, ByProducts* keep = nullptr) const;
+  /// The same under an execution, with a scratch that the thread keeps from one question to the next.
+  Answer ask_within(const std::vector<double>& start, const std::vector<double>& goal, const RoadmapSearchFields& how,
+                    const Execution& execution, AskScratch& scratch, ByProducts* keep = nullptr) const;
+  /// What all questions so far have learnt of the edges of a lazy roadmap.
+  std::span<const std::uint64_t> edge_states() const;
+
+ private:
+  struct Opened;
+  const Roadmap& roadmap_;
+  std::unique_ptr<Opened> opened_;
+};
+
+}  // namespace warren

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What stands between a kept roadmap and a kind of problem: the world in memory and the roadmap over it, ready to be
+// asked. One type a World; which, only the kind knows that made it.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "planners/roadmap/ask_roadmap.hpp"
+#include "roadmaps/graph/roadmap_parts.hpp"
+
+namespace warren {
+
+/// Any number of threads may ask, each with its scratch.
+struct RoadmapSession {
+  RoadmapSession() = default;
+  virtual ~RoadmapSession() = default;
+  RoadmapSession(const RoadmapSession&) = delete;
+  RoadmapSession& operator=(const RoadmapSession&) = delete;
+  /// What searches have learnt of the edges; while nobody asks.
+  virtual std::span<const std::uint64_t> edge_states() const = 0;
+};
+
+template <World W>
+struct SessionIn : RoadmapSession {
+  std::optional<W> world;
+  std::optional<AskedRoadmap<W>> roadmap;
+  std::span<const std::uint64_t> edge_states() const override { return roadmap->edge_states(); }
+};
+
+/// A session, and the scratch of the thread that asks.
+struct RoadmapAsked {
+  const RoadmapSession* session = nullptr;  ///< nullptr: the roadmap is built for the question
+  AskScratch* scratch = nullptr;
+};
+
+}  // namespace warren
