@@ -34,6 +34,7 @@ class UnionForest {
     return v;
   }
   void join(VertexId a, VertexId b) const {
+    if (parent(a) == parent(b)) return;  // most edges of a graph join what is one tree already
     for (;;) {
       a = root(a);
       b = root(b);

@@ -102,7 +102,7 @@ std::string header_of(const RoadmapFileHeader& header, std::span<const SectionPl
   for (std::size_t i = 0; i < places.size(); ++i) {
     put(bytes, sizeof fixed + i * sizeof(SectionEntry), entry_of(places[i]));
   }
-  std::memcpy(bytes.data() + block_table(places.size()), sums.data(), sums.size_bytes());
+  for (std::size_t i = 0; i < sums.size(); ++i) put(bytes, block_table(places.size()) + i * sizeof sums[i], sums[i]);
   const std::size_t end = bytes.size() - sizeof(std::uint64_t);
   put(bytes, end, checksum(std::as_bytes(std::span(bytes)).first(end)));
   return bytes;
