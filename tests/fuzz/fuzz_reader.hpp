@@ -13,8 +13,9 @@ struct FuzzReader {
   void (*read)(std::string_view bytes);
 };
 
-std::span<const FuzzReader> plane_readers();   ///< walls and polygons: plane_readers.cpp
-std::span<const FuzzReader> map_readers();     ///< cells: map_readers.cpp
-std::span<const FuzzReader> record_readers();  ///< all else: record_readers.cpp
+std::span<const FuzzReader> plane_readers();    ///< walls and polygons: plane_readers.cpp
+std::span<const FuzzReader> map_readers();      ///< cells: map_readers.cpp
+std::span<const FuzzReader> record_readers();   ///< all else: record_readers.cpp
+std::span<const FuzzReader> roadmap_readers();  ///< saved roadmaps: roadmap_readers.cpp
 
 }  // namespace warren::fuzz

@@ -11,7 +11,7 @@ assert magic == b"\x89WRRMAP\n" and major == 1 and mark == 0x01020304 and size =
 sections = {}
 for i in range(count):
     name, kind, flags, offset, elements = struct.unpack_from("<16s4sIQQ", data, 64 + 64 * i)
-    letter = {"u1": "B", "u2": "H", "u4": "I", "u8": "Q", "i4": "i", "i8": "q", "f4": "f", "f8": "d"}[kind[1:3].decode()]
+    letter = dict(u1="B", i1="b", u2="H", i2="h", u4="I", i4="i", u8="Q", i8="q", f4="f", f8="d")[kind[1:3].decode()]
     numbers = struct.unpack_from(f"<{elements}{letter}", data, offset)
     sections[name.rstrip(b"\0").decode()] = {"optional": flags == 1, "numbers": numbers}
 print(json.dumps({"writer": writer.rstrip(b"\0").decode(), "world": world, "recipe": recipe, "sections": sections}))
