@@ -234,10 +234,14 @@ void OutputFile::close_file() {
   if (file != STDOUT_FILENO && ::close(file) != 0) fail(errno);
 }
 
-void OutputFile::commit() {
+void OutputFile::complete() {
   flush();
+  if (!target_.empty()) check_written();
+}
+
+void OutputFile::commit() {
+  complete();
   if (!target_.empty()) {
-    check_written();
     if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
     temporary_.clear();
     discard();  // all is written and in its place: closing can't fail any more

@@ -24,7 +24,10 @@ class OutputFile {
 
   /// Appends bytes; small pieces are collected. Throws WriteError (full disk, closed pipe), Stopped.
   void write(std::string_view bytes);
-  /// Writes what is left, closes and puts the file in its place. Throws WriteError, Stopped. Nothing may follow.
+  /// Writes what is left and asks the file system whether it has it all: for files that belong together, each of them
+  /// before the first commit(). Throws WriteError, Stopped. Only commit() may follow.
+  void complete();
+  /// Completes the file, closes it and puts it in its place. Throws WriteError, Stopped. Nothing may follow.
   void commit();
 
  private:

@@ -43,6 +43,25 @@ TEST(OutputFile, LeavesTheOldFileUntilCommit) {
   EXPECT_EQ(directory.entries(), 1U);
 }
 
+TEST(OutputFile, CompleteFilesWaitForCommit) {
+  const TemporaryDirectory directory;
+  {
+    OutputFile given_up(directory.file("a.txt"), {});
+    given_up.write("never");
+    given_up.complete();
+  }
+  EXPECT_EQ(directory.entries(), 0U);
+  OutputFile file(directory.file("a.txt"), {});
+  file.write("whole");
+  file.complete();
+  EXPECT_FALSE(std::filesystem::exists(directory.file("a.txt")));
+  file.commit();
+  EXPECT_EQ(directory.read("a.txt"), "whole");
+  OutputFile full("/dev/full", {});
+  full.write("no room");
+  EXPECT_THROW(full.complete(), WriteError);
+}
+
 TEST(OutputFile, FollowsLinksAndKeepsPermissions) {
   const TemporaryDirectory directory;
   directory.write("real.txt", "old");
