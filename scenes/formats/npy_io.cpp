@@ -5,9 +5,11 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <bit>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <optional>
@@ -17,6 +19,7 @@
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
 #include "scenes/mazes/maze_outline.hpp"
+#include "scenes/text/npy_header.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "scenes/text/scene_text.hpp"
 
@@ -255,15 +258,8 @@ WallSet walls_of(const InputFile& file, const Header& header, const Execution& e
 }
 
 template <class T>
-std::string header_of(std::size_t walls) {
-  constexpr std::size_t alignment = 64;
-  std::string dictionary =
-      fmt::format("{{'descr': '<f{}', 'fortran_order': False, 'shape': ({}, 4), }}", sizeof(T), walls);
-  const std::size_t unpadded = magic.size() + 4 + dictionary.size() + 1;
-  dictionary.append((alignment - unpadded % alignment) % alignment, ' ').push_back('\n');
-  std::string header{magic};
-  header.append({'\1', '\0', static_cast<char>(dictionary.size() & 0xffU), static_cast<char>(dictionary.size() >> 8U)});
-  return header + dictionary;
+std::string header_of(std::uint64_t walls) {
+  return npy_header(sizeof(T) == sizeof(float) ? "<f4" : "<f8", std::array<std::uint64_t, 2>{walls, 4});
 }
 
 }  // namespace
