@@ -4,11 +4,16 @@
 #include <fmt/format.h>
 
 #include <cassert>
-#include <cmath>
+#include <limits>
 
 #include "core/base/error.hpp"
 
 namespace warren {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
 
 ExportedEdgesView::ExportedEdgesView(const ExportedRoadmapView& roadmap, EdgeWays ways, const Execution& execution)
     : parts_(roadmap.parts),
@@ -48,23 +53,33 @@ void ExportedEdgesView::add(const std::vector<Tally>& tallies) {
   account_.edges = every_end_ && !parts_.directed ? count() / 2 : count();
 }
 
-double ExportedEdgesView::length(const ExportedEdge& edge) const {
+double ExportedEdgesView::length_or_infinity(const ExportedEdge& edge) const {
   const bool turned = !parts_.directed && edge.from > edge.to;  // so that both ways are equally long, to the bit
   const double length = turned ? length_(edge.to, edge.from) : length_(edge.from, edge.to);
-  if (std::isfinite(length) && length >= 0) return length;
+  return length >= 0 ? length : infinity;  // a NaN is no more than 0
+}
+
+double ExportedEdgesView::length(const ExportedEdge& edge) const {
+  const double length = length_or_infinity(edge);
+  if (length < infinity) return length;
   throw InputError(fmt::format("edge {} -> {} of the roadmap", edge.from, edge.to),
                    "the length of an edge that is exported must be a finite number, zero or more",
-                   fmt::format("{}", length));
+                   fmt::format("{}", length_(edge.from, edge.to)));
 }
 
 double ExportedEdgesView::longest(const Execution& execution) const {
   std::vector<double> longest_of(chunk_count(ends(), grain));
   for_chunks(ends(), grain, execution, [&](Range range) {
     double& longest = longest_of[range.first / grain];
-    visit(range, [&](const ExportedEdge& edge) { longest = std::max(longest, length(edge)); });
+    visit(range, [&](const ExportedEdge& edge) { longest = std::max(longest, length_or_infinity(edge)); });
   });
-  const auto largest = std::max_element(longest_of.begin(), longest_of.end());
-  return largest == longest_of.end() ? 0 : *largest;
+  double longest = 0;
+  for (std::size_t block = 0; block < longest_of.size(); ++block) {
+    const Range range{block * grain, std::min(ends(), (block + 1) * grain)};
+    if (longest_of[block] == infinity) visit(range, [&](const ExportedEdge& edge) { length(edge); });  // throws
+    longest = std::max(longest, longest_of[block]);
+  }
+  return longest;
 }
 
 }  // namespace warren

@@ -62,7 +62,7 @@ class ExportedEdgesView {
   std::size_t ends() const { return parts_.to.size(); }
   /// Throws InputError where it is no finite number, zero or more.
   double length(const ExportedEdge& edge) const;
-  /// The largest length; 0 without edges.
+  /// The largest length; 0 without edges. Throws for the first edge that length() throws for.
   double longest(const Execution& execution) const;
 
   /// Calls body(ExportedEdge) for what is written of these ends: one block, as for_chunks with this grain gives them.
@@ -102,6 +102,7 @@ class ExportedEdgesView {
   bool is_written(VertexId from, VertexId to, EdgeState state) const {
     return (every_end_ || from < to) && is_kept(state);
   }
+  double length_or_infinity(const ExportedEdge& edge) const;
   template <class Body>
   void visit_ends(Range ends, const Body& body) const;
   /// The first vertex, not before v, whose ends reach beyond this one.

@@ -106,6 +106,15 @@ TEST(ExportRoadmap, DimacsHasTwoArcsAnEdgeAndWholeNumbers) {
   EXPECT_EQ(dimacs.account, (ExportAccount{4, 1, 1, 1}));
 }
 
+TEST(ExportRoadmap, UndirectedEdgesAreAsLongBothWays) {
+  const TemporaryDirectory directory;
+  const auto rounded_otherwise = [](VertexId v, VertexId w) { return v < w ? 3.0 : 4.0; };
+  const ListedRoadmap pair(2, false, {0, 0, 3, 4}, {{0, 1}});
+  export_roadmap(directory.file("r.gr"), pair.parts(), VertexDistance(rounded_otherwise), {}, {});
+  EXPECT_EQ(directory.read("r.gr"),
+            "c weights are lengths in units of 2^-29\np sp 2 2\na 1 2 1610612736\na 2 1 1610612736\n");
+}
+
 TEST(ExportRoadmap, AnArmsCoordinatesAreAllItsJoints) {
   const ListedRoadmap arm(6, false, {1, 2, 3, 4, 5, 6, 1, 2, 3, 4, 5, 7}, {{0, 1}});
   EXPECT_EQ(exported(arm, ".gr").second,
@@ -295,6 +304,53 @@ TEST(ExportRoadmap, BytesDoNotDependOnThreads) {
       EXPECT_EQ(many.text == one.text && many.second == one.second, true) << ending << " on " << threads;
       EXPECT_EQ(many.account, one.account);
     }
+  }
+}
+
+TEST(ExportRoadmap, RowsOfTheMatrixBeginWhereTheirFirstFreeEdgeStands) {
+  const ListedRoadmap roadmap = uneven();
+  const RoadmapParts parts = roadmap.parts();
+  std::vector<std::int32_t> rows{0};
+  std::vector<std::int32_t> targets;
+  for (VertexId v = 0; v < parts.vertex_count(); ++v) {
+    for (std::size_t end = parts.first[v]; end < parts.first[v + 1]; ++end) {
+      if (parts.state_of_end(end) == EdgeState::free) targets.push_back(static_cast<std::int32_t>(parts.to[end]));
+    }
+    rows.push_back(static_cast<std::int32_t>(targets.size()));
+  }
+  const std::string archive = exported(roadmap, ".npz").text;
+  ASSERT_GT(parts.to.size(), 4 * ExportedEdgesView::grain);
+  EXPECT_TRUE(holds(archive, "indptr", "<i4", {rows.size()}, bytes_of(rows)));
+  EXPECT_TRUE(holds(archive, "indices", "<i4", {targets.size()}, bytes_of(targets)));
+}
+
+/// Edges of some far vertices have infinite lengths.
+TEST(ExportRoadmap, TheFirstWrongLengthIsToldForAnyNumberOfThreads) {
+  constexpr VertexId vertices = 60'000;
+  std::vector<double> states(2 * vertices, 1);
+  std::vector<ListedEdge> edges;
+  for (VertexId v = 0; v + 1 < vertices; ++v) edges.push_back({v, v + 1});
+  for (VertexId v = 20'001; v < vertices; v += 1'500) states[2 * v] = 1e300;
+  const ListedRoadmap roadmap(2, false, std::move(states), std::move(edges));
+  for (const std::string ending : {".csv", ".gr"}) {
+    for (const unsigned threads : {1U, 2U, 8U}) {
+      try {
+        exported(roadmap, ending, {}, {.threads = threads});
+        FAIL() << "no error";
+      } catch (const InputError& error) {
+        EXPECT_EQ(std::string_view(error.what()).substr(0, 23), "edge 20000 -> 20001 of ") << ending;
+      }
+    }
+  }
+}
+
+TEST(ExportRoadmap, ARoadmapWithoutArraysIsEmpty) {
+  const TemporaryDirectory directory;
+  const ListedRoadmap none(2, false, {}, {});
+  for (const std::string ending : {".csv", ".gr", ".graphml", ".npz", ".dot"}) {
+    const std::string name = "r" + ending;
+    EXPECT_EQ(export_roadmap(directory.file(name), RoadmapParts{}, none.length(), {}, {}), ExportAccount{});
+    EXPECT_EQ(directory.read(name), exported(none, ending).text);
   }
 }
 
