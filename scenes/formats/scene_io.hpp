@@ -4,7 +4,9 @@
 // written is the same bit for bit.
 #pragma once
 
+#include <functional>
 #include <string>
+#include <string_view>
 
 #include "parallel/execution.hpp"
 #include "scenes/scene/scene.hpp"
@@ -15,6 +17,9 @@ namespace warren {
 /// Throws InputError naming file and line for whatever contradicts the format, Stopped at the deadline.
 Scene read_scene_text(const InputFile& file, const Execution& execution);
 
+using SceneTextSink = std::function<void(std::string_view)>;
+/// Hands everything that the scene holds to `write`, piece by piece.
+void write_scene_text(const Scene& scene, const SceneTextSink& write, const Execution& execution);
 /// Writes everything that the scene holds; see OutputFile for paths and errors.
 void write_scene_text(const Scene& scene, const std::string& path, const Execution& execution);
 

@@ -145,7 +145,7 @@ void append_wall(std::string& text, const Segment& s) {
 
 /// append(text, item) writes one of `count` items' lines; a batch of chunks at a time, in their order.
 template <class Append>
-void write_items(std::size_t count, std::size_t chunk, OutputFile& file, const Execution& execution,
+void write_items(std::size_t count, std::size_t chunk, const SceneTextSink& write, const Execution& execution,
                  const Append& append) {
   std::vector<std::string> parts(chunks_a_batch);
   for (std::size_t first = 0; first < count; first += chunks_a_batch * chunk) {
@@ -155,24 +155,29 @@ void write_items(std::size_t count, std::size_t chunk, OutputFile& file, const E
       text.clear();
       for (std::size_t i = r.first; i < r.last; ++i) append(text, first + i);
     });
-    for (std::size_t c = 0; c < chunk_count(some, chunk); ++c) file.write(parts[c]);
+    for (std::size_t c = 0; c < chunk_count(some, chunk); ++c) write(parts[c]);
   }
 }
 
 }  // namespace
 
+void write_scene_text(const Scene& scene, const SceneTextSink& write, const Execution& execution) {
+  write(head_of(scene));
+  write_items(scene.polygons.size(), line_grain / 16, write, execution, [&](std::string& text, std::size_t i) {
+    append_points(text, "polygon", scene.polygons[i].corners, execution);
+  });
+  write(solids_of(scene));
+  scene.walls.visit([&](auto walls) {
+    write_items(walls.size(), line_grain, write, execution,
+                [&](std::string& text, std::size_t i) { append_wall(text, walls[i].segment()); });
+  });
+}
+
 void write_scene_text(const Scene& scene, const std::string& path, const Execution& execution) {
   if (execution.progress != nullptr) execution.progress->begin("write", scene.polygons.size() + scene.walls.size());
   OutputFile file(path, execution);
-  file.write(head_of(scene));
-  write_items(scene.polygons.size(), line_grain / 16, file, execution, [&](std::string& text, std::size_t i) {
-    append_points(text, "polygon", scene.polygons[i].corners, execution);
-  });
-  file.write(solids_of(scene));
-  scene.walls.visit([&](auto walls) {
-    write_items(walls.size(), line_grain, file, execution,
-                [&](std::string& text, std::size_t i) { append_wall(text, walls[i].segment()); });
-  });
+  write_scene_text(
+      scene, [&](std::string_view text) { file.write(text); }, execution);
   file.commit();
 }
 

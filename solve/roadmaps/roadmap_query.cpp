@@ -4,6 +4,7 @@
 #include <new>
 #include <utility>
 
+#include "roadmaps/graph/free_components.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 #include "solve/steps/planned_scene.hpp"
 #include "solve/steps/solve_steps.hpp"
@@ -86,5 +87,11 @@ Answer RoadmapQuery::ask_within(const std::vector<double>& start, const std::vec
 }
 
 std::span<const std::uint64_t> RoadmapQuery::edge_states() const { return opened_->session->edge_states(); }
+
+void learn(Roadmap& roadmap, const RoadmapQuery& query, const Execution& execution) {
+  const std::span<const std::uint64_t> known = query.edge_states();
+  roadmap.arrays.edge_states.assign(known.begin(), known.end());
+  roadmap.arrays.component = free_components(roadmap.arrays.parts(), execution);
+}
 
 }  // namespace warren

@@ -50,4 +50,7 @@ class RoadmapQuery {
   std::unique_ptr<Opened> opened_;
 };
 
+/// Takes over what the questions to a roadmap have learnt of its edges. Throws Stopped.
+void learn(Roadmap& roadmap, const RoadmapQuery& query, const Execution& execution);
+
 }  // namespace warren

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/roadmaps/roadmap_file_io.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <utility>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "roadmaps/file/checksum.hpp"
+#include "roadmaps/file/write_roadmap_file.hpp"
+#include "roadmaps/graph/check_parts.hpp"
+#include "solve/roadmaps/roadmap_meta_io.hpp"
+#include "solve/roadmaps/world_sections.hpp"
+
+namespace warren {
+namespace {
+
+constexpr std::array graph_section_names{std::string_view("meta"),       std::string_view("states"),
+                                         std::string_view("edge.first"), std::string_view("edge.to"),
+                                         std::string_view("edge.state"), std::string_view("component")};
+constexpr std::size_t longest_meta = std::size_t{1} << 20;
+
+std::uint64_t hash_number(std::string_view digits) {
+  std::uint64_t number = 0;
+  std::from_chars(digits.data(), digits.data() + digits.size(), number, 16);
+  return number;
+}
+
+std::uint64_t hash_of(std::string_view text) { return checksum(std::as_bytes(std::span(text))); }
+
+void refuse_unknown_sections(const RoadmapFile& file) {
+  std::vector<std::string_view> known(graph_section_names.begin(), graph_section_names.end());
+  known.insert(known.end(), world_section_names.begin(), world_section_names.end());
+  file.refuse_unknown(known);
+}
+
+template <class T>
+RawVector<T> copied(std::span<const T> numbers, const Execution& execution) {
+  execution.reserve(numbers.size_bytes());
+  return {numbers.begin(), numbers.end()};
+}
+
+RoadmapArrays read_arrays(const RoadmapFile& file, const Roadmap& roadmap, const Execution& execution) {
+  RoadmapArrays arrays;
+  arrays.dimension = roadmap.arrays.dimension;
+  arrays.directed = roadmap.arrays.directed;
+  const RoadmapParts parts{.dimension = arrays.dimension,
+                           .directed = arrays.directed,
+                           .states = file.section<double>("states", execution),
+                           .first = file.section<EdgeEnd>("edge.first", execution),
+                           .to = file.section<VertexId>("edge.to", execution),
+                           .edge_states = file.section<std::uint64_t>("edge.state", execution),
+                           .component = file.section<VertexId>("component", execution)};
+  check_parts(parts, file.name(), execution);
+  arrays.states = copied(parts.states, execution);
+  arrays.candidates = Graph(copied(parts.first, execution), copied(parts.to, execution));
+  arrays.edge_states = copied(parts.edge_states, execution);
+  arrays.component = copied(parts.component, execution);
+  return arrays;
+}
+
+Scene world_of(const RoadmapFile& file, std::optional<Scene> given, const std::string& hash,
+               const Execution& execution) {
+  if (!given && !has_world(file)) {
+    throw InputError(file.name(), "has no world inside; name the world that it was built for");
+  }
+  const bool is_given = given.has_value();
+  Scene scene = is_given ? std::move(*given) : read_world_sections(file, execution);
+  const std::string found = scene_hash(scene, execution);
+  if (found == hash) return scene;
+  if (!is_given) throw InputError(file.name(), fmt::format("the world inside is not its own, {}", hash), found);
+  throw InputError(file.name(), fmt::format("was built for the world {}, and {} is another one", hash, scene.source),
+                   found);
+}
+
+}  // namespace
+
+bool is_roadmap_file(std::string_view first_bytes) { return first_bytes.starts_with(roadmap_magic); }
+
+std::string roadmap_meta(const RoadmapFile& file, const Execution& execution) {
+  const SectionPlace* place = file.find("meta");
+  if (place != nullptr && place->elements > longest_meta) {
+    throw InputError(fmt::format("{}: section meta", file.name()), "expected at most 1 MiB");
+  }
+  const auto bytes = file.section<std::byte>("meta", execution);
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+void write_roadmap(const Roadmap& roadmap, const std::string& path, const Execution& execution, bool with_world) {
+  const std::string meta = meta_json(roadmap, execution);
+  const RoadmapParts parts = roadmap.arrays.parts();
+  const WorldSections world(roadmap.scene, execution);
+  std::vector<RoadmapSection> sections{roadmap_section("meta", std::span<const char>(meta))};
+  if (with_world) world.append_to(sections);
+  sections.push_back(roadmap_section("states", parts.states));
+  sections.push_back(roadmap_section("edge.first", parts.first));
+  sections.push_back(roadmap_section("edge.to", parts.to));
+  sections.push_back(roadmap_section("edge.state", parts.edge_states));
+  sections.push_back(roadmap_section("component", parts.component));
+  const RoadmapFileHeader header{.world_hash = hash_number(roadmap.world_hash),
+                                 .recipe_hash = hash_of(recipe_json(roadmap, execution)),
+                                 .writer = "warren " WARREN_VERSION};
+  write_roadmap_file(path, header, sections, execution);
+}
+
+Roadmap read_roadmap(const std::string& path, const Execution& execution, std::optional<Scene> world) {
+  const RoadmapFile file(path, execution);
+  refuse_unknown_sections(file);
+  Roadmap roadmap;
+  read_meta(fmt::format("{}: section meta", file.name()), roadmap_meta(file, execution), roadmap);
+  if (hash_number(roadmap.world_hash) != file.header().world_hash) {
+    throw InputError(file.name(), "header and meta name different worlds");
+  }
+  const std::string source = world ? world->source : roadmap.scene.source;
+  roadmap.scene = world_of(file, std::move(world), roadmap.world_hash, execution);
+  roadmap.scene.source = source;
+  if (file.header().recipe_hash != hash_of(recipe_json(roadmap, execution))) {
+    throw InputError(file.name(), "header and meta name different bodies or options");
+  }
+  roadmap.arrays = read_arrays(file, roadmap, execution);
+  return roadmap;
+}
+
+}  // namespace warren

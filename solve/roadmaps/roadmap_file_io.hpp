@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Roadmaps in files, as docs/file_formats.md describes them: sections of plain numbers, and `meta`, which says in JSON
+// what the roadmap is. The same roadmap gives the same bytes, whatever threads, compiler and machine.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "parallel/execution.hpp"
+#include "roadmaps/file/roadmap_file.hpp"
+#include "solve/roadmaps/roadmap.hpp"
+
+namespace warren {
+
+/// Writes the file beside its place and renames it. `with_world`: whoever asks needs no second file then. Throws
+/// WriteError, Stopped.
+void write_roadmap(const Roadmap& roadmap, const std::string& path, const Execution& execution = {},
+                   bool with_world = true);
+
+/// Reads a whole roadmap and holds all of it against what it promises. `world`: for a file that has none, or to make
+/// sure that it is for this one. Throws ReadError, InputError (cut off, damaged, of another version, world or body, or
+/// without a world where none is given), Stopped.
+Roadmap read_roadmap(const std::string& path, const Execution& execution = {}, std::optional<Scene> world = {});
+
+/// Does the file begin as a .roadmap does?
+bool is_roadmap_file(std::string_view first_bytes);
+
+/// `meta` of the file: one JSON object.
+std::string roadmap_meta(const RoadmapFile& file, const Execution& execution);
+
+}  // namespace warren

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/roadmaps/roadmap_meta_io.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/base/error.hpp"
+#include "roadmaps/file/checksum.hpp"
+#include "scenes/text/input_file_io.hpp"
+#include "scenes/text/json_text.hpp"
+#include "solve/answer/world_account.hpp"
+
+namespace warren {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::string_view schema = "warren.roadmap/1";
+
+template <class T>
+void add_some(JsonObject& object, std::string_view name, const std::optional<T>& value) {
+  if (value) object.add(name, *value);
+}
+
+std::string attach_json(const GrowingAttach& attach) {
+  JsonObject object(", ", ": ");
+  add_some(object, "radius", attach.radius);
+  add_some(object, "step", attach.step);
+  object.add("tries", attach.tries);
+  return object.closed();
+}
+
+std::string rule_json(const ConnectionRule& rule) {
+  JsonObject object(", ", ": ");
+  object.add("radius", rule.radius);
+  object.add("neighbours", rule.neighbours);
+  if (rule.attach) object.add_json("attach", attach_json(*rule.attach));
+  return object.closed();
+}
+
+/// A table in a file is a part of the body: its bytes' hash, 16 hex digits.
+std::string table_hash(const RobotSpec& robot, const Execution& execution) {
+  const InputFile table(robot.table, execution);
+  return fmt::format("{:016x}", checksum(std::as_bytes(std::span(table.bytes()))));
+}
+
+void add_recipe(JsonObject& object, const Roadmap& roadmap, const Execution& execution) {
+  const SolveOptions& o = roadmap.options;
+  object.add("robot", std::string_view(robot_text(roadmap.robot)));
+  if (roadmap.robot.kind == RobotKind::arm) {
+    object.add("table_hash", std::string_view(table_hash(roadmap.robot, execution)));
+  }
+  object.add("clearance", roadmap.clearance);
+  object.add("planner", name_of(o.planner.value_or(PlannerKind::prm)));
+  if (o.sampler) object.add("sampler", name_of(*o.sampler));
+  object.add("seed", o.seed);
+  add_some(object, "samples", o.roadmap.samples);
+  add_some(object, "neighbours", o.roadmap.neighbours);
+  add_some(object, "radius", o.roadmap.radius);
+  if (o.roadmap.star != StarRule::none) {
+    object.add("star", std::string_view(o.roadmap.star == StarRule::radius ? "radius" : "neighbours"));
+  }
+  if (o.roadmap.attach) object.add_json("attach", attach_json(*o.roadmap.attach));
+  if (o.car.steering) object.add("steering", name_of(*o.car.steering));
+  add_some(object, "turning_radius", o.car.turning_radius);
+}
+
+/// Reads one object of meta; every failure names the key.
+class MetaReader {
+ public:
+  MetaReader(const std::string& where, const Json& json) : where_(where), json_(json) {}
+
+  bool has(const char* key) const { return json_.contains(key); }
+  MetaReader object(const char* key) const {
+    const Json& value = at(key);
+    if (!value.is_object()) fail(key, "an object");
+    return {where_, value};
+  }
+  double number(const char* key) const {
+    const Json& value = at(key);
+    if (!value.is_number() || !std::isfinite(value.get<double>())) fail(key, "a number");
+    return value.get<double>();
+  }
+  std::uint64_t whole(const char* key) const {
+    const Json& value = at(key);
+    if (!value.is_number_unsigned()) fail(key, "a whole number");
+    return value.get<std::uint64_t>();
+  }
+  std::uint32_t small(const char* key) const {
+    const std::uint64_t value = whole(key);
+    if (value > 1'000'000'000) fail(key, "a number of at most 10^9");
+    return static_cast<std::uint32_t>(value);
+  }
+  std::string text(const char* key) const {
+    const Json& value = at(key);
+    if (!value.is_string()) fail(key, "a text");
+    return value.get<std::string>();
+  }
+  template <class E>
+  E named(const char* key) const {
+    const auto value = enum_named<E>(text(key));
+    if (!value) fail(key, "a name that this version knows");
+    return *value;
+  }
+  [[noreturn]] void fail(const char* key, std::string_view expected) const {
+    throw InputError(fmt::format("{}: key \"{}\"", where_, key), fmt::format("expected {}", expected));
+  }
+
+ private:
+  const Json& at(const char* key) const {
+    const auto found = json_.find(key);
+    if (found == json_.end()) fail(key, "it to be there");
+    return *found;
+  }
+  const std::string& where_;
+  const Json& json_;
+};
+
+GrowingAttach read_attach(const MetaReader& meta) {
+  GrowingAttach attach;
+  if (meta.has("radius")) attach.radius = meta.number("radius");
+  if (meta.has("step")) attach.step = meta.number("step");
+  attach.tries = meta.small("tries");
+  return attach;
+}
+
+void read_options(const MetaReader& meta, SolveOptions& o) {
+  o.planner = meta.named<PlannerKind>("planner");
+  if (!is_roadmap_planner(*o.planner)) meta.fail("planner", "prm or lazy-prm");
+  if (meta.has("sampler")) o.sampler = meta.named<SamplerKind>("sampler");
+  o.seed = meta.whole("seed");
+  if (meta.has("samples")) o.roadmap.samples = meta.whole("samples");
+  if (meta.has("neighbours")) o.roadmap.neighbours = meta.small("neighbours");
+  if (meta.has("radius")) o.roadmap.radius = meta.number("radius");
+  if (meta.has("star")) {
+    const std::string star = meta.text("star");
+    if (star != "radius" && star != "neighbours") meta.fail("star", "radius or neighbours");
+    o.roadmap.star = star == "radius" ? StarRule::radius : StarRule::neighbours;
+  }
+  if (meta.has("attach")) o.roadmap.attach = read_attach(meta.object("attach"));
+  if (meta.has("steering")) o.car.steering = meta.named<SteeringKind>("steering");
+  if (meta.has("turning_radius")) o.car.turning_radius = meta.number("turning_radius");
+}
+
+ConnectionRule read_rule(const MetaReader& meta) {
+  ConnectionRule rule{meta.number("radius"), meta.small("neighbours")};
+  if (!(rule.radius >= 0.0)) meta.fail("radius", "a number of at least 0");
+  if (meta.has("attach")) rule.attach = read_attach(meta.object("attach"));
+  if (rule.attach && rule.attach->tries == 0) meta.fail("attach", "at least one try");
+  return rule;
+}
+
+Json parsed(const std::string& where, std::string_view text) {
+  try {
+    Json json = Json::parse(text);
+    if (json.is_object()) return json;
+  } catch (const Json::exception&) {  // told below
+  }
+  throw InputError(where, "expected one JSON object");
+}
+
+}  // namespace
+
+std::string recipe_json(const Roadmap& roadmap, const Execution& execution) {
+  JsonObject object(",\n ", ": ");
+  add_recipe(object, roadmap, execution);
+  return object.closed();
+}
+
+std::string meta_json(const Roadmap& roadmap, const Execution& execution) {
+  const EdgeCounts edges = count_edges(roadmap.arrays, execution);
+  const RoadmapParts parts = roadmap.arrays.parts();
+  JsonObject counts(", ", ": ");
+  counts.add("unchecked", edges.unchecked);
+  counts.add("free", edges.free);
+  counts.add("blocked", edges.blocked);
+  std::uint64_t components = 0;
+  for (VertexId v = 0; v < parts.vertex_count(); ++v) components += parts.component[v] == v ? 1 : 0;
+  JsonObject object(",\n ", ": ");
+  object.add("schema", schema);
+  object.add("source", std::string_view(roadmap.scene.source));
+  object.add("world", std::string_view(description_of(roadmap.scene)));
+  object.add("world_hash", std::string_view(roadmap.world_hash));
+  add_recipe(object, roadmap, execution);
+  object.add_json("rule", rule_json(roadmap.rule));
+  object.add("drawn", roadmap.samples);
+  object.add("dimension", roadmap.arrays.dimension);
+  object.add("directed", roadmap.arrays.directed);
+  object.add("states", std::uint64_t{parts.vertex_count()});
+  object.add_json("edges", counts.closed());
+  object.add("components", components);
+  return object.closed() + "\n";
+}
+
+void read_meta(const std::string& where, std::string_view text, Roadmap& roadmap) {
+  const Json json = parsed(where, text);
+  const MetaReader meta(where, json);
+  if (meta.text("schema") != schema) meta.fail("schema", schema);
+  roadmap.scene.source = meta.text("source");
+  roadmap.world_hash = meta.text("world_hash");
+  roadmap.robot = robot_value(fmt::format("{}: key \"robot\"", where), meta.text("robot"));
+  if (roadmap.robot.kind == RobotKind::arm && table_hash(roadmap.robot, {}) != meta.text("table_hash")) {
+    throw InputError(where,
+                     fmt::format("was made for another arm than {} has now; build it anew", roadmap.robot.table));
+  }
+  roadmap.clearance = meta.number("clearance");
+  if (!(roadmap.clearance >= 0.0 && roadmap.clearance <= largest_coordinate)) {
+    meta.fail("clearance", "a number from 0 to 1e60");
+  }
+  read_options(meta, roadmap.options);
+  try {
+    roadmap.options.validate();
+  } catch (const UsageError& error) {
+    throw InputError(where, error.what());
+  }
+  roadmap.rule = read_rule(meta.object("rule"));
+  roadmap.samples = meta.whole("drawn");
+  roadmap.arrays.dimension = meta.small("dimension");
+  roadmap.arrays.directed = json.value("directed", Json(false)) == Json(true);
+}
+
+}  // namespace warren

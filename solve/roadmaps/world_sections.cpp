@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/roadmaps/world_sections.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "scenes/formats/scene_io.hpp"
+#include "scenes/text/input_file_io.hpp"
+
+namespace warren {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+/// All but walls, seams and map.
+Scene without_arrays(const Scene& scene) {
+  Scene rest;
+  rest.polygons = scene.polygons;
+  rest.spheres = scene.spheres;
+  rest.boxes = scene.boxes;
+  rest.bounds = scene.bounds;
+  rest.clearance = scene.clearance;
+  rest.maze = scene.maze;
+  rest.robot = scene.robot;
+  rest.start = scene.start;
+  rest.goal = scene.goal;
+  rest.grid = scene.grid;
+  return rest;
+}
+
+void add_point(std::vector<double>& numbers, const std::optional<Vec2>& point) {
+  numbers.push_back(point ? point->x : none);
+  numbers.push_back(point ? point->y : none);
+}
+
+std::optional<Vec2> point_of(double x, double y) { return x == x && y == y ? std::optional(Vec2{x, y}) : std::nullopt; }
+
+template <class T>
+RawVector<WallOf<T>> walls_of(std::span<const T> numbers, const Execution& execution) {
+  execution.reserve(numbers.size_bytes());
+  RawVector<WallOf<T>> walls(numbers.size() / 4);
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    walls[i] = {numbers[4 * i], numbers[4 * i + 1], numbers[4 * i + 2], numbers[4 * i + 3]};
+  }
+  return walls;
+}
+
+[[noreturn]] void refuse(const RoadmapFile& file, std::string_view section, std::string_view what) {
+  throw InputError(fmt::format("{}: section {}", file.name(), section), what);
+}
+
+/// Coordinates as the readers of worlds take them.
+template <class T>
+void check_walls(const RoadmapFile& file, std::span<const T> numbers) {
+  if (numbers.size() % 4 != 0) refuse(file, "world.walls", "expected four numbers a wall");
+  const auto is_coordinate = [](T x) { return std::abs(static_cast<double>(x)) <= largest_coordinate; };
+  if (std::all_of(numbers.begin(), numbers.end(), is_coordinate)) return;
+  refuse(file, "world.walls", "expected numbers of at most 1e60");
+}
+
+template <class T>
+WallSet read_walls(const RoadmapFile& file, const Execution& execution) {
+  const auto numbers = file.section<T>("world.walls", execution);
+  check_walls(file, numbers);
+  return WallSet(walls_of(numbers, execution));
+}
+
+Bitmap read_bits(const RoadmapFile& file, std::string_view name, std::uint32_t width, std::uint32_t height,
+                 const Execution& execution) {
+  const auto words = file.optional_section<std::uint64_t>(name, execution);
+  if (!words) return {};
+  Bitmap bits = cell_bitmap(width, height, execution);
+  if (words->size() != bits.words().size()) refuse(file, name, "expected a bit for each cell of the map");
+  const std::size_t stride = height == 0 ? 0 : words->size() / height;
+  for (std::uint32_t y = 0; y < height; ++y) {
+    std::copy_n(words->begin() + static_cast<std::ptrdiff_t>(y * stride), stride, bits.row(y).begin());
+    if (width % Bitmap::word_bits == 0) continue;
+    if (bits.row(y).back() >> (width % Bitmap::word_bits) != 0) refuse(file, name, "expected zeros beyond each row");
+  }
+  return bits;
+}
+
+OccupancyMap read_map(const RoadmapFile& file, const Execution& execution) {
+  const auto place = file.section<double>("map.place", execution);
+  const auto size = file.section<std::uint64_t>("map.size", execution);
+  if (place.size() != 8 || size.size() != 7 || size[2] > 2) refuse(file, "map.size", "expected a map's numbers");
+  check_map_size(fmt::format("{}: section map.size", file.name()), size[0], size[1]);
+  OccupancyMap map;
+  map.format = static_cast<MapFormat>(size[2]);
+  const auto width = static_cast<std::uint32_t>(size[0]);
+  const auto height = static_cast<std::uint32_t>(size[1]);
+  map.blocked = read_bits(file, "map.blocked", width, height, execution);
+  if (map.blocked.empty()) refuse(file, "map.blocked", "expected a bit for each cell of the map");
+  map.unknown = read_bits(file, "map.unknown", width, height, execution);
+  map.water = read_bits(file, "map.water", width, height, execution);
+  map.free = size[3];
+  map.occupied = size[4];
+  map.unknown_count = size[5];
+  map.between = size[6];
+  const auto is_coordinate = [](double x) { return std::abs(x) <= largest_coordinate; };
+  if (!(place[0] > 0.0) || !std::all_of(place.begin(), place.begin() + 4, is_coordinate)) {
+    refuse(file, "map.place", "expected a cell above 0 and numbers of at most 1e60");
+  }
+  map.cell = place[0];
+  map.origin = {place[1], place[2]};
+  map.yaw_rad = place[3];
+  map.start = point_of(place[4], place[5]);
+  map.goal = point_of(place[6], place[7]);
+  return map;
+}
+
+}  // namespace
+
+WorldSections::WorldSections(const Scene& scene, const Execution& execution) : scene_(scene) {
+  write_scene_text(
+      without_arrays(scene), [&](std::string_view text) { text_.append(text); }, execution);
+  for (const Segment& s : scene.seams) seams_.insert(seams_.end(), {s.a.x, s.a.y, s.b.x, s.b.y});
+  if (!scene.map) return;
+  const OccupancyMap& map = *scene.map;
+  map_place_ = {map.cell, map.origin.x, map.origin.y, map.yaw_rad};
+  add_point(map_place_, map.start);
+  add_point(map_place_, map.goal);
+  map_size_ = {map.width(),       map.height(), static_cast<std::uint64_t>(map.format), map.free, map.occupied,
+               map.unknown_count, map.between};
+}
+
+void WorldSections::append_to(std::vector<RoadmapSection>& sections) const {
+  sections.push_back(roadmap_section("world.text", std::span<const char>(text_)));
+  scene_.walls.visit([&](auto walls) {
+    using Number = decltype(walls.front().x1);
+    const auto* numbers = walls.empty() ? nullptr : &walls.front().x1;
+    sections.push_back(
+        roadmap_section("world.walls", std::span<const std::remove_cvref_t<Number>>(numbers, 4 * walls.size())));
+  });
+  sections.push_back(roadmap_section("world.seams", std::span<const double>(seams_)));
+  if (!scene_.map) return;
+  sections.push_back(roadmap_section("map.place", std::span<const double>(map_place_)));
+  sections.push_back(roadmap_section("map.size", std::span<const std::uint64_t>(map_size_)));
+  sections.push_back(roadmap_section("map.blocked", scene_.map->blocked.words()));
+  if (!scene_.map->unknown.empty()) sections.push_back(roadmap_section("map.unknown", scene_.map->unknown.words()));
+  if (!scene_.map->water.empty()) sections.push_back(roadmap_section("map.water", scene_.map->water.words()));
+}
+
+bool has_world(const RoadmapFile& file) { return file.find("world.text") != nullptr; }
+
+Scene read_world_sections(const RoadmapFile& file, const Execution& execution) {
+  const auto text = file.section<std::byte>("world.text", execution);
+  const std::string_view words(reinterpret_cast<const char*>(text.data()), text.size());
+  Scene scene;
+  if (!words.empty()) {
+    scene = read_scene_text(InputFile::of_bytes(file.name() + ": section world.text", words), execution);
+  }
+  if (scene.walls.size() != 0) refuse(file, "world.text", "expected walls in section world.walls alone");
+  const SectionPlace* walls = file.find("world.walls");
+  if (walls == nullptr) refuse(file, "world.walls", "expected the walls of the world");
+  scene.walls =
+      walls->type == element_type<float>() ? read_walls<float>(file, execution) : read_walls<double>(file, execution);
+  if (const auto seams = file.optional_section<double>("world.seams", execution)) {
+    for (std::size_t i = 0; i + 3 < seams->size(); i += 4) {
+      scene.seams.push_back({{(*seams)[i], (*seams)[i + 1]}, {(*seams)[i + 2], (*seams)[i + 3]}});
+    }
+  }
+  if (file.find("map.size") != nullptr) scene.map = read_map(file, execution);
+  return scene;
+}
+
+}  // namespace warren
