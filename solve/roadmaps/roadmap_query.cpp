@@ -88,6 +88,8 @@ Answer RoadmapQuery::ask_within(const std::vector<double>& start, const std::vec
 
 std::span<const std::uint64_t> RoadmapQuery::edge_states() const { return opened_->session->edge_states(); }
 
+double RoadmapQuery::distance(VertexId from, VertexId to) const { return opened_->session->distance(from, to); }
+
 void learn(Roadmap& roadmap, const RoadmapQuery& query, const Execution& execution) {
   const std::span<const std::uint64_t> known = query.edge_states();
   roadmap.arrays.edge_states.assign(known.begin(), known.end());

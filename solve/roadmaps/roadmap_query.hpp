@@ -41,6 +41,8 @@ class RoadmapQuery {
   /// The same under an execution, with a scratch that the thread keeps from one question to the next.
   Answer ask_within(const std::vector<double>& start, const std::vector<double>& goal, const RoadmapSearchFields& how,
                     const Execution& execution, AskScratch& scratch, ByProducts* keep = nullptr) const;
+  /// Length of the motion between two of the roadmap's states, in the world's metric.
+  double distance(VertexId from, VertexId to) const;
   /// What all questions so far have learnt of the edges of a lazy roadmap.
   std::span<const std::uint64_t> edge_states() const;
 

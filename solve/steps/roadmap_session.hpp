@@ -19,6 +19,8 @@ struct RoadmapSession {
   RoadmapSession& operator=(const RoadmapSession&) = delete;
   /// What searches have learnt of the edges; while nobody asks.
   virtual std::span<const std::uint64_t> edge_states() const = 0;
+  /// Length of the motion between two states of the roadmap.
+  virtual double distance(VertexId from, VertexId to) const = 0;
 };
 
 template <World W>
@@ -26,6 +28,9 @@ struct SessionIn : RoadmapSession {
   std::optional<W> world;
   std::optional<AskedRoadmap<W>> roadmap;
   std::span<const std::uint64_t> edge_states() const override { return roadmap->edge_states(); }
+  double distance(VertexId from, VertexId to) const override {
+    return world->distance(roadmap->states()[from], roadmap->states()[to]);
+  }
 };
 
 /// A session, and the scratch of the thread that asks.

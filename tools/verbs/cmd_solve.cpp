@@ -1,182 +1,40 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // warren solve: finds a path, verifies it, prints what it took. A stop at any stage still gives an answer.
-#include <fmt/format.h>
-
-#include <filesystem>
-#include <new>
-#include <optional>
 #include <utility>
 
-#include "core/base/error.hpp"
-#include "pictures/answer_summary.hpp"
-#include "pictures/draw_answer.hpp"
-#include "scenes/text/output_file_io.hpp"
-#include "solve/answer/write_answer_io.hpp"
 #include "solve/solve.hpp"
 #include "solve/steps/kind_of_problem.hpp"
-#include "solve/steps/solve_steps.hpp"
-#include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_conflicts.hpp"
-#include "tools/screen/output_names.hpp"
-#include "tools/screen/run_of_verb.hpp"
-#include "tools/screen/terminal.hpp"
 #include "tools/screen/world_files.hpp"
-#include "tools/words/command.hpp"
+#include "tools/verbs/answer_command.hpp"
 #include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"
-#include "worlds/rasters/map_borders.hpp"
 
 namespace warren {
 namespace {
 
-constexpr OptionSpec output_specs[] = {
-    {"--json", "FILE", "write the answer as JSON; - is standard output"},
-    {"--svg", "FILE", "draw walls, roadmap, search and path; .png and .html work too"},
-};
-
-/// A device, a pipe or standard output: what is written there can't be taken back.
-bool is_straight(const std::string& path) {
-  if (path == "-" || path.starts_with("/dev/") || path.starts_with("/proc/")) return true;
-  std::error_code ignored;
-  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
-  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
-}
-
-/// One `warren solve`.
-class SolveCommand {
+class SolveCommand : public AnswerCommand {
  public:
   explicit SolveCommand(const Arguments& arguments)
-      : arguments_(arguments),
-        json_(output_file(arguments, "--json").value_or("")),
-        svg_(output_file(arguments, "--svg").value_or("")),
-        question_(question_words(arguments)),
-        options_(solve_words(arguments)) {
+      : AnswerCommand(arguments), question_(question_words(arguments)), options_(solve_words(arguments)) {
     check_not_written(arguments, question_.robot);
     check_solver_options(options_);
-    check_picture_ending("--svg", svg_, ".svg .png .html");
-  }
-
-  int run() {
-    Run run(arguments_);
-    answer(run);
-    run.end();
-    write_outputs(run);
-    const auto stopped = answer_.outcome == Outcome::stopped ? std::optional(stop_reason()) : std::nullopt;
-    run.conclude(takes_standard_output(), stopped, [&] { return summary_of(answer_, run.palette(), written_); });
-    return exit_code();
   }
 
  private:
-  bool takes_standard_output() const;
-  void answer(const Run& run);
-  void write_outputs(const Run& run);
-  void write_finished(const Execution& execution);
-  void write_stopped(const Execution& execution);
-  void write_json(std::optional<OutputFile>& file, const Execution& execution) const;
-  void take_back_answer(StopReason reason);
-  void draw(const Execution& execution);
-  StopReason stop_reason() const { return answer_.stop_reason.value_or(StopReason::time); }
-  int exit_code() const;
+  Answer find(const Run& run, StageTimes& before, ByProducts* keep) override {
+    scene_ = load_world(arguments_.operand(0), arguments_, run.execution(), before);
+    return solve_within(scene_, question_, options_, run.execution(), keep);
+  }
+  Scene scene_drawn(const Execution& execution, ByProducts& keep) override {
+    make_by_products(scene_, question_, options_, execution, keep);
+    return std::move(scene_);
+  }
 
-  const Arguments& arguments_;
-  std::string json_;
-  std::string svg_;
   Question question_;
   SolveOptions options_;
   Scene scene_;
-  ByProducts by_products_;
-  Answer answer_;
-  std::vector<std::string> written_;
-  bool json_said_ = false;  ///< some of it is where it can't be taken back
 };
-
-bool SolveCommand::takes_standard_output() const {
-  return json_ == "-" || svg_ == "-" || arguments_.value("--trace") == "-";
-}
-
-void SolveCommand::answer(const Run& run) {
-  StageTimes before;
-  try {
-    scene_ = load_world(arguments_.operand(0), arguments_, run.execution(), before);
-    answer_ = solve_within(scene_, question_, options_, run.execution(), svg_.empty() ? nullptr : &by_products_);
-  } catch (const Stopped& stopped) {
-    answer_.stop_reason = stopped.reason;
-  } catch (const std::bad_alloc&) {
-    answer_.stop_reason = StopReason::memory;
-  }
-  answer_.world.source = arguments_.operand(0);
-  answer_.seconds.read = before.read;
-  answer_.seconds.generate = before.generate;
-  answer_.threads = run.threads();
-  answer_.peak_memory_bytes = peak_resident_bytes();
-}
-
-/// What is on disk says the same as the exit code: a stop while something is written makes it a stopped answer.
-void SolveCommand::write_outputs(const Run& run) {
-  try {
-    if (answer_.outcome != Outcome::stopped) return write_finished(run.execution());
-  } catch (const Stopped& stopped) {
-    take_back_answer(stopped.reason);
-  } catch (const std::bad_alloc&) {
-    take_back_answer(StopReason::memory);
-  }
-  write_stopped(run.execution());
-}
-
-/// A JSON file is put into its place when the picture is in its own; what is written straight follows the picture.
-void SolveCommand::write_finished(const Execution& execution) {
-  std::optional<OutputFile> json;
-  const bool json_follows = !json_.empty() && is_straight(json_);
-  if (!json_.empty() && !json_follows) write_json(json, execution);
-  if (!svg_.empty()) draw(execution);
-  json_said_ = json_follows;
-  if (json_follows) write_json(json, execution);
-  if (json) json->commit();
-  for (const std::string& file : {json_, svg_}) {
-    if (!file.empty()) written_.push_back(file);
-  }
-}
-
-void SolveCommand::write_stopped(const Execution& execution) {
-  if (json_.empty() || json_said_) return;
-  Execution unhurried = execution;
-  unhurried.deadline = nullptr;  // what is left to say is short, and must be said
-  std::optional<OutputFile> json;
-  write_json(json, unhurried);
-  json->commit();
-  written_.push_back(json_);
-}
-
-/// Opens the file with the first word: nlohmann ends the program where memory is out.
-void SolveCommand::write_json(std::optional<OutputFile>& file, const Execution& execution) const {
-  write_answer_json(answer_, execution, [&](std::string_view text) {
-    if (!file) file.emplace(json_, execution);
-    file->write(text);
-  });
-}
-
-void SolveCommand::take_back_answer(StopReason reason) {
-  answer_.outcome = Outcome::stopped;
-  answer_.stop_reason = reason;
-  answer_.refuted.reset();
-  claim_nothing(answer_);
-}
-
-void SolveCommand::draw(const Execution& execution) {
-  make_by_products(scene_, question_, options_, execution, by_products_);
-  add_map_walls(scene_, execution);
-  const Drawing drawing = drawing_of(scene_, answer_, std::move(by_products_), execution);
-  Picture picture = picture_of(scene_, drawing);
-  picture.title = fmt::format("{}: {}", scene_.source, name_of(answer_.outcome));
-  picture.description = fmt::format("{}. {}, seed {}: {}", description_of(scene_), answer_.planner, answer_.seed,
-                                    arguments_.command_line());
-  write_picture(svg_, picture, execution);
-}
-
-int SolveCommand::exit_code() const {
-  if (answer_.outcome == Outcome::stopped) return exit_code_of(stop_reason());
-  return answer_.verified ? exit_code::success : exit_code::no_path;
-}
 
 }  // namespace
 
@@ -185,7 +43,7 @@ Command solve_command() {
   add_options(command.options, solve_option_specs());
   add_options(command.options, question_option_specs());
   add_options(command.options, world_option_specs());
-  add_options(command.options, output_specs);
+  add_options(command.options, answer_output_specs());
   add_options(command.options, run_option_specs());
   command.run = [](const Arguments& arguments) { return SolveCommand(arguments).run(); };
   return command;

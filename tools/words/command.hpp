@@ -42,14 +42,17 @@ void add_options(std::vector<OptionSpec>& to, std::span<const OptionSpec> more,
 
 // The verbs, one a file cmd_NAME.cpp.
 Command bench_scen_command();
+Command build_command();
 Command compare_command();
 Command completion_command();
 Command convert_command();
 Command example_command();
+Command export_command();
 Command generate_command();
 Command info_command();
 Command largest_command();
 Command man_command();
+Command query_command();
 Command render_command();
 Command scale_command();
 Command solve_command();

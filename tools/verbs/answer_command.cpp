@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/verbs/answer_command.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <new>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "pictures/answer_summary.hpp"
+#include "pictures/draw_answer.hpp"
+#include "solve/answer/write_answer_io.hpp"
+#include "solve/steps/solve_steps.hpp"
+#include "tools/screen/exit_code.hpp"
+#include "tools/screen/output_names.hpp"
+#include "worlds/rasters/map_borders.hpp"
+
+namespace warren {
+namespace {
+
+constexpr OptionSpec output_specs[] = {
+    {"--json", "FILE", "write the answer as JSON; - is standard output"},
+    {"--svg", "FILE", "draw walls, roadmap, search and path; .png and .html work too"},
+};
+
+/// A device, a pipe or standard output: what is written there can't be taken back.
+bool is_straight(const std::string& path) {
+  if (path == "-" || path.starts_with("/dev/") || path.starts_with("/proc/")) return true;
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
+}
+
+}  // namespace
+
+std::span<const OptionSpec> answer_output_specs() { return output_specs; }
+
+AnswerCommand::AnswerCommand(const Arguments& arguments)
+    : arguments_(arguments),
+      json_(output_file(arguments, "--json").value_or("")),
+      svg_(output_file(arguments, "--svg").value_or("")) {
+  check_picture_ending("--svg", svg_, ".svg .png .html");
+}
+
+int AnswerCommand::run() {
+  Run run(arguments_);
+  answer(run);
+  run.end();
+  write_outputs(run);
+  const auto stopped = answer_.outcome == Outcome::stopped ? std::optional(stop_reason()) : std::nullopt;
+  run.conclude(takes_standard_output(), stopped, [&] { return summary_of(answer_, run.palette(), written_); });
+  return exit_code();
+}
+
+bool AnswerCommand::takes_standard_output() const {
+  return json_ == "-" || svg_ == "-" || arguments_.value("--trace") == "-";
+}
+
+void AnswerCommand::answer(const Run& run) {
+  StageTimes before;
+  try {
+    answer_ = find(run, before, svg_.empty() ? nullptr : &by_products_);
+  } catch (const Stopped& stopped) {
+    answer_.stop_reason = stopped.reason;
+  } catch (const std::bad_alloc&) {
+    answer_.stop_reason = StopReason::memory;
+  }
+  if (answer_.world.source.empty()) answer_.world.source = arguments_.operand(0);
+  answer_.seconds.read = before.read;
+  answer_.seconds.generate = before.generate;
+  answer_.threads = run.threads();
+  answer_.peak_memory_bytes = peak_resident_bytes();
+}
+
+/// What is on disk says the same as the exit code: a stop while something is written makes it a stopped answer.
+void AnswerCommand::write_outputs(const Run& run) {
+  try {
+    if (answer_.outcome != Outcome::stopped) return write_finished(run.execution());
+  } catch (const Stopped& stopped) {
+    take_back_answer(stopped.reason);
+  } catch (const std::bad_alloc&) {
+    take_back_answer(StopReason::memory);
+  }
+  write_stopped(run.execution());
+}
+
+/// A JSON file is put into its place when the picture is in its own; what is written straight follows the picture.
+void AnswerCommand::write_finished(const Execution& execution) {
+  std::optional<OutputFile> json;
+  const bool json_follows = !json_.empty() && is_straight(json_);
+  if (!json_.empty() && !json_follows) write_json(json, execution);
+  if (!svg_.empty()) draw(execution);
+  json_said_ = json_follows;
+  if (json_follows) write_json(json, execution);
+  if (json) json->commit();
+  write_more(execution);
+  for (const std::string& file : {json_, svg_}) {
+    if (!file.empty()) written_.push_back(file);
+  }
+}
+
+void AnswerCommand::write_stopped(const Execution& execution) {
+  if (json_.empty() || json_said_) return;
+  Execution unhurried = execution;
+  unhurried.deadline = nullptr;  // what is left to say is short, and must be said
+  std::optional<OutputFile> json;
+  write_json(json, unhurried);
+  json->commit();
+  written_.push_back(json_);
+}
+
+/// Opens the file with the first word: nlohmann ends the program where memory is out.
+void AnswerCommand::write_json(std::optional<OutputFile>& file, const Execution& execution) const {
+  write_answer_json(answer_, execution, [&](std::string_view text) {
+    if (!file) file.emplace(json_, execution);
+    file->write(text);
+  });
+}
+
+void AnswerCommand::take_back_answer(StopReason reason) {
+  answer_.outcome = Outcome::stopped;
+  answer_.stop_reason = reason;
+  answer_.refuted.reset();
+  claim_nothing(answer_);
+}
+
+void AnswerCommand::draw(const Execution& execution) {
+  Scene scene = scene_drawn(execution, by_products_);
+  add_map_walls(scene, execution);
+  const Drawing drawing = drawing_of(scene, answer_, std::move(by_products_), execution);
+  Picture picture = picture_of(scene, drawing);
+  picture.title = fmt::format("{}: {}", scene.source, name_of(answer_.outcome));
+  picture.description = fmt::format("{}. {}, seed {}: {}", description_of(scene), answer_.planner, answer_.seed,
+                                    arguments_.command_line());
+  write_picture(svg_, picture, execution);
+}
+
+int AnswerCommand::exit_code() const {
+  if (answer_.outcome == Outcome::stopped) return exit_code_of(stop_reason());
+  return answer_.verified ? exit_code::success : exit_code::no_path;
+}
+
+}  // namespace warren

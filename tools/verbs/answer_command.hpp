@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What verbs do that end with one answer: it is found under the limits, written as JSON and drawn, its summary printed.
+// What is on disk says the same as the exit code: a stop while something is written makes it a stopped answer.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scenes/scene/scene.hpp"
+#include "scenes/text/output_file_io.hpp"
+#include "solve/answer/answer.hpp"
+#include "solve/answer/by_products.hpp"
+#include "tools/screen/run_of_verb.hpp"
+#include "tools/words/arguments.hpp"
+#include "tools/words/command.hpp"
+
+namespace warren {
+
+/// --json --svg
+std::span<const OptionSpec> answer_output_specs();
+
+class AnswerCommand {
+ public:
+  /// Throws UsageError, WriteError for outputs that can't be.
+  explicit AnswerCommand(const Arguments& arguments);
+  virtual ~AnswerCommand() = default;
+  AnswerCommand(const AnswerCommand&) = delete;
+  AnswerCommand& operator=(const AnswerCommand&) = delete;
+  /// The exit code.
+  int run();
+
+ protected:
+  /// The answer, for a world with that name; stops may be thrown. `before`: what reading took. `keep`: for a picture.
+  virtual Answer find(const Run& run, StageTimes& before, ByProducts* keep) = 0;
+  /// The world of the picture, which needs it no more, and what find() has left out of `keep`.
+  virtual Scene scene_drawn(const Execution& execution, ByProducts& keep) = 0;
+  /// After the outputs.
+  virtual void write_more(const Execution&) {}
+
+  const Arguments& arguments_;
+
+ private:
+  bool takes_standard_output() const;
+  void answer(const Run& run);
+  void write_outputs(const Run& run);
+  void write_finished(const Execution& execution);
+  void write_stopped(const Execution& execution);
+  void write_json(std::optional<OutputFile>& file, const Execution& execution) const;
+  void take_back_answer(StopReason reason);
+  void draw(const Execution& execution);
+  StopReason stop_reason() const { return answer_.stop_reason.value_or(StopReason::time); }
+  int exit_code() const;
+
+  std::string json_;
+  std::string svg_;
+  ByProducts by_products_;
+  Answer answer_;
+  std::vector<std::string> written_;
+  bool json_said_ = false;  ///< some of it is where it can't be taken back
+};
+
+}  // namespace warren

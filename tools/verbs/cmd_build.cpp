@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// warren build: a roadmap without a question, in a file, for as many questions as one likes.
+#include <fmt/format.h>
+
+#include "core/base/error.hpp"
+#include "scenes/text/human_units.hpp"
+#include "solve/answer/world_account.hpp"
+#include "solve/roadmaps/roadmap_file_io.hpp"
+#include "tools/screen/exit_code.hpp"
+#include "tools/screen/output_conflicts.hpp"
+#include "tools/screen/output_names.hpp"
+#include "tools/screen/run_of_verb.hpp"
+#include "tools/screen/terminal.hpp"
+#include "tools/screen/world_files.hpp"
+#include "tools/words/planner_words.hpp"
+#include "tools/words/question_words.hpp"
+
+namespace warren {
+namespace {
+
+constexpr OptionSpec build_specs[] = {
+    {"--output", "FILE", "where to: a name that ends in .roadmap, or any", {}, "-o"},
+    {"--no-world", "", "leave the world out of the file; who asks names it then"},
+};
+
+int build_roadmap_file(const Arguments& arguments) {
+  const auto file = output_file(arguments, "--output");
+  if (!file) throw UsageError("-o FILE is missing");
+  const Question question = question_words(arguments);
+  const SolveOptions options = solve_words(arguments);
+  check_not_written(arguments, question.robot);
+  Run run(arguments);
+  StageTimes seconds;
+  Scene scene = load_world(arguments.operand(0), arguments, run.execution(), seconds);
+  const Roadmap roadmap = build_within(std::move(scene), question, options, run.execution());
+  write_roadmap(roadmap, *file, run.execution(), !arguments.has("--no-world"));
+  run.end();
+  const EdgeCounts edges = count_edges(roadmap.arrays, run.execution());
+  run.conclude(file == "-", {}, [&] {
+    return fmt::format("{}: {}, {} states, {} edges free, {} blocked, {} unchecked\n", run.palette().strong(*file),
+                       description_of(roadmap.scene), grouped(roadmap.arrays.parts().vertex_count()),
+                       grouped(edges.free), grouped(edges.blocked), grouped(edges.unchecked));
+  });
+  return exit_code::success;
+}
+
+}  // namespace
+
+Command build_command() {
+  Command command{"build", "WORLD", "build a roadmap once, for many questions", {}, build_roadmap_file};
+  add_options(command.options, build_specs);
+  add_options(command.options, solve_option_specs(), {"--search", "--queue", "--optimise", "--lazy", "--pipeline"});
+  add_options(command.options, question_option_specs(), {"--start", "--goal", "--contact"});
+  add_options(command.options, world_option_specs());
+  add_options(command.options, run_option_specs());
+  return command;
+}
+
+}  // namespace warren

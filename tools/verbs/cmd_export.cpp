@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// warren export: a roadmap in the words of other programs, by the ending of the file.
+#include <fmt/format.h>
+
+#include "core/base/error.hpp"
+#include "scenes/text/human_units.hpp"
+#include "solve/roadmaps/export_of_roadmap.hpp"
+#include "solve/roadmaps/roadmap_file_io.hpp"
+#include "tools/screen/exit_code.hpp"
+#include "tools/screen/output_names.hpp"
+#include "tools/screen/run_of_verb.hpp"
+#include "tools/screen/world_files.hpp"
+#include "tools/words/command.hpp"
+
+namespace warren {
+namespace {
+
+constexpr OptionSpec export_specs[] = {
+    {"--output", "FILE", "where to: .geojson .graphml .gr .csv .npz .dot by ending", {}, "-o"},
+    {"--unchecked", "", "edges that nobody has checked, too"},
+    {"--frame", "NAME", "the frame that .geojson names (default: map)"},
+    {"--world", "WORLD", "the world that the roadmap was built for, where its file has none"},
+};
+
+int export_roadmap_file(const Arguments& arguments) {
+  const auto file = output_file(arguments, "--output");
+  if (!file) throw UsageError("-o FILE is missing");
+  for (const std::string& name : files_of_export(*file)) check_writable(name);
+  const ExportOptions options{.with_unchecked = arguments.has("--unchecked"),
+                              .frame = std::string(arguments.value("--frame").value_or("map"))};
+  Run run(arguments);
+  StageTimes seconds;
+  std::optional<Scene> world;
+  if (const auto name = arguments.value("--world")) world = load_world(*name, arguments, run.execution(), seconds);
+  const Roadmap roadmap = read_roadmap(arguments.operand(0), run.execution(), std::move(world));
+  const ExportAccount account = export_of_roadmap(roadmap, *file, options, run.execution());
+  run.end();
+  run.conclude(file == "-", {}, [&] {
+    return fmt::format("{}: {} vertices, {} edges; left out: {} unchecked, {} blocked\n", run.palette().strong(*file),
+                       grouped(account.vertices), grouped(account.edges), grouped(account.unchecked_left_out),
+                       grouped(account.blocked_left_out));
+  });
+  return exit_code::success;
+}
+
+}  // namespace
+
+Command export_command() {
+  Command command{"export", "ROADMAP", "write a roadmap for other programs", {}, export_roadmap_file};
+  add_options(command.options, export_specs);
+  add_options(command.options, world_option_specs());
+  add_options(command.options, run_option_specs());
+  return command;
+}
+
+}  // namespace warren
