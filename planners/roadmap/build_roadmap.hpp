@@ -58,8 +58,9 @@ template <World W>
 class RoadmapBuild {
  public:
   using State = typename W::State;
-  RoadmapBuild(const W& world, const RoadmapOptions& options, bool lazy, const Execution& execution)
-      : world_(world), options_(options), lazy_(lazy), execution_(execution) {}
+  RoadmapBuild(const W& world, const RoadmapOptions& options, bool lazy, const Execution& execution,
+               const KnownMotions<State>& known)
+      : world_(world), options_(options), lazy_(lazy), execution_(execution), known_(known) {}
 
   BuiltRoadmap<State> run() {
     const std::uint64_t usual = usual_samples(world_, options_, execution_);
@@ -87,6 +88,7 @@ class RoadmapBuild {
   const RoadmapOptions& options_;
   bool lazy_;
   const Execution& execution_;
+  const KnownMotions<State>& known_;
   BuiltRoadmap<State> built_;
   StateIndex<W> index_;
 };
@@ -111,7 +113,7 @@ void RoadmapBuild<W>::round(std::uint64_t samples, bool check) {
   const std::span<const State> states(built_.states);
   if (check) {
     built_.edge_states =
-        check_edges(world_, states, built_.candidates, edge_directions<W>(), execution_, built_.counters);
+        check_edges(world_, states, built_.candidates, edge_directions<W>(), execution_, built_.counters, known_);
   } else {
     built_.edge_states = unchecked_edges(built_.candidates);
   }
@@ -198,11 +200,13 @@ std::vector<VertexId> RoadmapBuild<W>::joined_probes() {
 }  // namespace detail
 
 /// Throws Stopped, and InputError for options out of range. `lazy`: no edge is asked about where the samples are said.
+/// `known`: motions that need no asking.
 template <World W>
 BuiltRoadmap<typename W::State> build_roadmap(const W& world, const RoadmapOptions& options, bool lazy,
-                                              const Execution& execution) {
+                                              const Execution& execution,
+                                              const KnownMotions<typename W::State>& known = {}) {
   options.validate();
-  return detail::RoadmapBuild<W>(world, options, lazy, execution).run();
+  return detail::RoadmapBuild<W>(world, options, lazy, execution, known).run();
 }
 
 }  // namespace warren

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,6 +23,10 @@ namespace warren {
 
 enum class EdgeDirections : std::uint8_t { both, one };
 
+/// What is known of a motion without asking the world; nothing: it must be asked. Called by several threads at once.
+template <class State>
+using KnownMotions = std::function<std::optional<bool>(const State& from, const State& to)>;
+
 namespace detail {
 
 /// The edge end of v that leads to w.
@@ -32,8 +38,8 @@ inline std::size_t end_of_edge(const Graph& graph, VertexId v, VertexId w) {
 /// Asks about the edges of one row; `answers` are those of the row's ends.
 template <World W>
 void check_row(const W& world, std::span<const typename W::State> states, const Graph& graph, VertexId v,
-               EdgeDirections directions, std::span<std::uint8_t> answers, typename W::Query& query,
-               std::uint64_t& checked) {
+               EdgeDirections directions, const KnownMotions<typename W::State>& known, std::span<std::uint8_t> answers,
+               typename W::Query& query, std::uint64_t& checked) {
   std::array<Motion<typename W::State>, bunch_size> motions;
   std::array<std::size_t, bunch_size> ends;
   std::size_t count = 0;
@@ -48,6 +54,10 @@ void check_row(const W& world, std::span<const typename W::State> states, const 
   const auto row = graph.neighbours(v);
   for (std::size_t i = 0; i < row.size(); ++i) {
     if (directions == EdgeDirections::both && row[i] < v) continue;
+    if (const auto answer = known ? known(states[v], states[row[i]]) : std::nullopt) {
+      answers[i] = static_cast<std::uint8_t>(*answer ? EdgeState::free : EdgeState::blocked);
+      continue;
+    }
     motions[count] = {states[v], states[row[i]]};
     ends[count++] = i;
     if (count == bunch_size) flush();
@@ -89,7 +99,8 @@ inline RawVector<std::uint64_t> packed(std::span<const std::uint8_t> states, con
 /// The states of all edges, as edge_states.hpp packs them: the same for any number of threads. Throws Stopped.
 template <World W>
 RawVector<std::uint64_t> check_edges(const W& world, std::span<const typename W::State> states, const Graph& graph,
-                                     EdgeDirections directions, const Execution& execution, Counters& counters) {
+                                     EdgeDirections directions, const Execution& execution, Counters& counters,
+                                     const KnownMotions<typename W::State>& known = {}) {
   constexpr std::size_t grain = detail::connection_grain<W>;
   const std::size_t n = graph.vertex_count();
   const std::size_t ends = graph.targets().size();
@@ -102,7 +113,7 @@ RawVector<std::uint64_t> check_edges(const W& world, std::span<const typename W:
     for (std::size_t v = r.first; v < r.last; ++v) {
       const auto vertex = static_cast<VertexId>(v);
       const std::span<std::uint8_t> row(answers.data() + graph.first_end(vertex), graph.degree(vertex));
-      detail::check_row(world, states, graph, vertex, directions, row, query, counts.edges_checked);
+      detail::check_row(world, states, graph, vertex, directions, known, row, query, counts.edges_checked);
     }
     counts.refused = refused_motions(query);
   });

@@ -131,9 +131,10 @@ class PointAmongWalls : public UsualBody {
  public:
   using World = MazeWorld;
   explicit PointAmongWalls(const SolveRequest& request)
-      : scene_(request.scene), execution_(request.execution), reach_(problem_of(request).reach()) {}
+      : scene_(request.scene), execution_(request.execution), problem_(problem_of(request)) {}
+  Problem problem() const { return problem_.general(); }
   static SamplerKind choose_sampler(const SolveOptions&, const RoadmapOptions& roadmap) { return roadmap.sampler; }
-  void index(std::optional<World>& world, SamplerKind) const { world.emplace(scene_, reach_, execution_); }
+  void index(std::optional<World>& world, SamplerKind) const { world.emplace(scene_, problem_.reach(), execution_); }
 
  private:
   static WallProblem problem_of(const SolveRequest& request) {
@@ -141,7 +142,7 @@ class PointAmongWalls : public UsualBody {
   }
   const Scene& scene_;
   const Execution& execution_;
-  double reach_;
+  WallProblem problem_;
 };
 
 constexpr OptionSet shared_options = prm_takes | OptionSet{Option::lazy, Option::pipeline};

@@ -3,10 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "core/base/error.hpp"
 #include "roadmaps/graph/free_components.hpp"
+#include "solve/roadmaps/changed_places.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 #include "solve/steps/planned_scene.hpp"
 
@@ -32,6 +37,26 @@ Question without_ends(const Scene& scene, Question question) {
   question.start.assign(width, 0.0);
   question.goal.assign(width, 0.0);
   return question;
+}
+
+/// Which states only one of the two has.
+void count_states(const RoadmapArrays& before, const RoadmapArrays& now, UpdateAccount& account) {
+  using Numbers = std::vector<double>;
+  const auto sorted = [](const RoadmapArrays& arrays) {
+    std::vector<Numbers> states;
+    const RoadmapParts parts = arrays.parts();
+    for (VertexId v = 0; v < parts.vertex_count(); ++v)
+      states.emplace_back(parts.state(v).begin(), parts.state(v).end());
+    std::sort(states.begin(), states.end());
+    return states;
+  };
+  const std::vector<Numbers> old_states = sorted(before);
+  const std::vector<Numbers> new_states = sorted(now);
+  std::vector<Numbers> both;
+  std::set_intersection(old_states.begin(), old_states.end(), new_states.begin(), new_states.end(),
+                        std::back_inserter(both));
+  account.states_added = new_states.size() - both.size();
+  account.states_dropped = old_states.size() - both.size();
 }
 
 ChosenSolver builder_of(const SolveOptions& options, const Scene& scene, const Question& question) {
@@ -65,7 +90,7 @@ EdgeCounts count_edges(const RoadmapArrays& arrays, const Execution& execution) 
 }
 
 Roadmap build_within(Scene scene, const Question& question, const SolveOptions& options, const Execution& execution,
-                     BuildAccount* account) {
+                     BuildAccount* account, const OldRoadmap* old) {
   question.validate();
   options.validate();
   refuse_what_is_asked_later(options);
@@ -80,13 +105,32 @@ Roadmap build_within(Scene scene, const Question& question, const SolveOptions& 
   roadmap.clearance = clearance_of(roadmap.scene, asked);
   roadmap.world_hash = scene_hash(roadmap.scene, execution);
   const PlannedScene planned(roadmap.scene, asked, solver.planner, execution);
-  BuiltArrays built = solver.kind->build({roadmap.options, planned.get(), asked, solver.planner, execution});
+  BuiltArrays built =
+      solver.kind->build({roadmap.options, planned.get(), asked, solver.planner, execution, nullptr, {}, old});
   roadmap.samples = built.samples;
   roadmap.rule = built.rule;
   roadmap.arrays = std::move(built.arrays);
   roadmap.arrays.component = free_components(roadmap.arrays.parts(), execution);
   if (account != nullptr) *account = built.account;
   return roadmap;
+}
+
+Roadmap update(const Roadmap& roadmap, Scene now, const Execution& execution, UpdateAccount* account) {
+  std::optional<OldRoadmap> old;
+  const bool grows = !roadmap.options.roadmap.samples && roadmap.options.sampler != SamplerKind::lattice;
+  if (!grows && roadmap.robot.kind != RobotKind::puma560 && roadmap.robot.kind != RobotKind::arm) {
+    if (auto places = changed_places(roadmap.scene, now, execution)) old = {&roadmap.arrays, std::move(*places)};
+  }
+  BuildAccount built;
+  Roadmap next =
+      build_within(std::move(now), roadmap.question(), roadmap.options, execution, &built, old ? &*old : nullptr);
+  if (account == nullptr) return next;
+  const EdgeCounts edges = count_edges(next.arrays, execution);
+  account->built_anew = !old;
+  account->edges = edges.free + edges.blocked + edges.unchecked;
+  account->edges_checked = built.counters.edges_checked;
+  count_states(roadmap.arrays, next.arrays, *account);
+  return next;
 }
 
 Roadmap build(Scene scene, const Question& question, const SolveOptions& options, const Limits& limits) {

@@ -56,6 +56,8 @@ struct EdgeCounts {
 };
 EdgeCounts count_edges(const RoadmapArrays& arrays, const Execution& execution);
 
+struct OldRoadmap;
+
 /// What building took.
 struct BuildAccount {
   Counters counters;
@@ -68,8 +70,22 @@ struct BuildAccount {
 /// what can't be built and for options that mean nothing to it, InputError, Stopped at a limit.
 Roadmap build(Scene scene, const Question& question = {}, const SolveOptions& options = {}, const Limits& limits = {});
 
-/// The same under an execution.
+/// The same under an execution. `old`: update's.
 Roadmap build_within(Scene scene, const Question& question, const SolveOptions& options, const Execution& execution,
-                     BuildAccount* account = nullptr);
+                     BuildAccount* account = nullptr, const OldRoadmap* old = nullptr);
+
+/// What update() did.
+struct UpdateAccount {
+  bool built_anew = false;          ///< the change is such that nothing could be taken over
+  std::uint64_t edges = 0;          ///< of the new roadmap
+  std::uint64_t edges_checked = 0;  ///< those that the world was asked about
+  std::uint64_t states_added = 0;
+  std::uint64_t states_dropped = 0;
+};
+
+/// The roadmap that build() makes of a changed world by the same options, bit for bit; motions that keep clear of what
+/// has changed are not asked about again. What searches have learnt of a lazy roadmap is forgotten. Takes the scene.
+/// Throws as build().
+Roadmap update(const Roadmap& roadmap, Scene now, const Execution& execution, UpdateAccount* account = nullptr);
 
 }  // namespace warren

@@ -35,6 +35,12 @@ struct PlannerChoice {
   OptionSet options;
 };
 
+/// A roadmap of the world as it was, and where that has changed since.
+struct OldRoadmap {
+  const RoadmapArrays* arrays;
+  std::vector<Box> places;
+};
+
 /// Everything that a solve is given. Refers to what it names.
 struct SolveRequest {
   const SolveOptions& options;
@@ -42,8 +48,9 @@ struct SolveRequest {
   const Question& question;
   PlannerKind planner;
   const Execution& execution;
-  ByProducts* keep = nullptr;  ///< receives what the planner makes beyond the path; nullptr: nothing is kept
-  RoadmapAsked asked = {};     ///< a roadmap that is there already
+  ByProducts* keep = nullptr;       ///< receives what the planner makes beyond the path; nullptr: nothing is kept
+  RoadmapAsked asked = {};          ///< a roadmap that is there already
+  const OldRoadmap* old = nullptr;  ///< what a build may take over
 };
 
 /// What SolveKind::build leaves behind.

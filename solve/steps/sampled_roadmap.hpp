@@ -2,15 +2,21 @@
 // Builds and opens the roadmaps of one body (sampled_solve.hpp says what a Body is), for questions that come later.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <span>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "core/base/error.hpp"
+#include "core/base/trigonometry.hpp"
 #include "planners/roadmap/build_roadmap.hpp"
 #include "solve/question/planner_choice.hpp"
+#include "solve/roadmaps/changed_places.hpp"
 #include "solve/roadmaps/roadmap.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 #include "solve/steps/roadmap_session.hpp"
@@ -57,6 +63,76 @@ RoadmapOptions roadmap_options_of(const SolveRequest& request, const Body& body)
   return options;
 }
 
+/// How far from its reference point a body of the plane reaches, its clearance included.
+inline double reach_of(const Problem& problem) {
+  double radius = problem.robot.radius;
+  for (const Vec2 corner : problem.robot.outline) radius = std::max(radius, hypot(corner.x, corner.y));
+  return radius + problem.clearance;
+}
+
+/// Where the body may be on its way between two states: the reference point stays within half of the motion's length of
+/// one of them.
+template <World W>
+Box swept_box(const W& world, const typename W::State& from, const typename W::State& to, double reach) {
+  Box box;
+  box.include(Vec2{from.x, from.y});
+  box.include(Vec2{to.x, to.y});
+  return box.grown(0.5 * world.distance(from, to) + reach);
+}
+
+/// Motions of an old roadmap that keep clear of all that has changed since.
+template <World W>
+class OldMotions {
+ public:
+  using State = typename W::State;
+  OldMotions(const W& world, const OldRoadmap& old, double reach) : world_(world), old_(old), reach_(reach) {
+    const RoadmapParts parts = old.arrays->parts();
+    for (VertexId v = 0; v < parts.vertex_count(); ++v) vertices_.emplace_back(key_of(parts.state(v)), v);
+    std::sort(vertices_.begin(), vertices_.end());
+  }
+  std::optional<bool> operator()(const State& from, const State& to) const {
+    const auto v = vertex_of(from);
+    const auto w = vertex_of(to);
+    if (!v || !w || comes_near(old_.places, swept_box(world_, from, to, reach_), margin)) return std::nullopt;
+    const auto row = old_.arrays->candidates.neighbours(*v);
+    const auto found = std::lower_bound(row.begin(), row.end(), *w);
+    if (found == row.end() || *found != *w) return std::nullopt;
+    const std::size_t end = old_.arrays->candidates.first_end(*v) + static_cast<std::size_t>(found - row.begin());
+    const EdgeState state = edge_state(old_.arrays->edge_states, end);
+    return state == EdgeState::unchecked ? std::nullopt : std::optional(state == EdgeState::free);
+  }
+
+ private:
+  static constexpr double margin = 1e-6;  // more than planning keeps beyond what is asked for
+  using Key = std::array<double, 3>;
+  static Key key_of(std::span<const double> numbers) {
+    return {numbers[0], numbers[1], numbers.size() > 2 ? numbers[2] : 0.0};
+  }
+  std::optional<VertexId> vertex_of(const State& state) const {
+    RawVector<double> numbers;
+    add_numbers(state, numbers);
+    const std::pair<Key, VertexId> least{key_of(numbers), 0};
+    const auto found = std::lower_bound(vertices_.begin(), vertices_.end(), least);
+    return found == vertices_.end() || found->first != least.first ? std::nullopt : std::optional(found->second);
+  }
+
+  const W& world_;
+  const OldRoadmap& old_;
+  double reach_;
+  std::vector<std::pair<Key, VertexId>> vertices_;
+};
+
+/// Nothing for arms, which reach everywhere.
+template <World W>
+KnownMotions<typename W::State> known_motions(const W& world, const SolveRequest& request, const Problem& problem) {
+  if constexpr (state_width<typename W::State>() == 6) {
+    return {};
+  } else {
+    if (request.old == nullptr) return {};
+    return OldMotions<W>(world, *request.old, reach_of(problem));
+  }
+}
+
 }  // namespace detail
 
 /// SolveKind::build for a body.
@@ -74,7 +150,8 @@ BuiltArrays build_sampled(const SolveRequest& request) {
     body.index(world, options.sampler);
   }
   const bool lazy = request.planner == PlannerKind::lazy_prm;
-  BuiltRoadmap<State> built = build_roadmap(*world, options, lazy, execution);
+  const auto known = detail::known_motions(*world, request, body.problem());
+  BuiltRoadmap<State> built = build_roadmap(*world, options, lazy, execution, known);
   all.samples = built.samples;
   all.rule = built.rule;
   all.account.counters = built.counters;
