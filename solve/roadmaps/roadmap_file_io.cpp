@@ -42,18 +42,24 @@ RawVector<T> copied(std::span<const T> numbers, const Execution& execution) {
   return {numbers.begin(), numbers.end()};
 }
 
-RoadmapArrays read_arrays(const RoadmapFile& file, const Roadmap& roadmap, const Execution& execution) {
-  RoadmapArrays arrays;
-  arrays.dimension = roadmap.arrays.dimension;
-  arrays.directed = roadmap.arrays.directed;
-  const RoadmapParts parts{.dimension = arrays.dimension,
-                           .directed = arrays.directed,
+/// The file's arrays where they are, checked.
+RoadmapParts checked_parts(const RoadmapFile& file, const Roadmap& roadmap, const Execution& execution) {
+  const RoadmapParts parts{.dimension = roadmap.arrays.dimension,
+                           .directed = roadmap.arrays.directed,
                            .states = file.section<double>("states", execution),
                            .first = file.section<EdgeEnd>("edge.first", execution),
                            .to = file.section<VertexId>("edge.to", execution),
                            .edge_states = file.section<std::uint64_t>("edge.state", execution),
                            .component = file.section<VertexId>("component", execution)};
   check_parts(parts, file.name(), execution);
+  return parts;
+}
+
+RoadmapArrays read_arrays(const RoadmapFile& file, const Roadmap& roadmap, const Execution& execution) {
+  const RoadmapParts parts = checked_parts(file, roadmap, execution);
+  RoadmapArrays arrays;
+  arrays.dimension = parts.dimension;
+  arrays.directed = parts.directed;
   arrays.states = copied(parts.states, execution);
   arrays.candidates = Graph(copied(parts.first, execution), copied(parts.to, execution));
   arrays.edge_states = copied(parts.edge_states, execution);
@@ -73,6 +79,15 @@ Scene world_of(const RoadmapFile& file, std::optional<Scene> given, const std::s
   if (!is_given) throw InputError(file.name(), fmt::format("the world inside is not its own, {}", hash), found);
   throw InputError(file.name(), fmt::format("was built for the world {}, and {} is another one", hash, scene.source),
                    found);
+}
+
+/// All that meta says.
+Roadmap described(const RoadmapFile& file, const Execution& execution) {
+  refuse_unknown_sections(file);
+  Roadmap roadmap;
+  read_meta(fmt::format("{}: section meta", file.name()), roadmap_meta(file, execution), roadmap);
+  if (hash_number(roadmap.world_hash) == file.header().world_hash) return roadmap;
+  throw InputError(file.name(), "header and meta name different worlds");
 }
 
 }  // namespace
@@ -105,14 +120,13 @@ void write_roadmap(const Roadmap& roadmap, const std::string& path, const Execut
   write_roadmap_file(path, header, sections, execution);
 }
 
+void check_roadmap(const RoadmapFile& file, const Execution& execution) {
+  checked_parts(file, described(file, execution), execution);
+}
+
 Roadmap read_roadmap(const std::string& path, const Execution& execution, std::optional<Scene> world) {
   const RoadmapFile file(path, execution);
-  refuse_unknown_sections(file);
-  Roadmap roadmap;
-  read_meta(fmt::format("{}: section meta", file.name()), roadmap_meta(file, execution), roadmap);
-  if (hash_number(roadmap.world_hash) != file.header().world_hash) {
-    throw InputError(file.name(), "header and meta name different worlds");
-  }
+  Roadmap roadmap = described(file, execution);
   const std::string source = world ? world->source : roadmap.scene.source;
   roadmap.scene = world_of(file, std::move(world), roadmap.world_hash, execution);
   roadmap.scene.source = source;

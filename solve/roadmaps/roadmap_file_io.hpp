@@ -25,6 +25,9 @@ Roadmap read_roadmap(const std::string& path, const Execution& execution = {}, s
 /// Does the file begin as a .roadmap does?
 bool is_roadmap_file(std::string_view first_bytes);
 
+/// Holds all of a roadmap but its world against what it promises. Throws InputError, Stopped.
+void check_roadmap(const RoadmapFile& file, const Execution& execution);
+
 /// `meta` of the file: one JSON object.
 std::string roadmap_meta(const RoadmapFile& file, const Execution& execution);
 

@@ -10,7 +10,6 @@
 #include "roadmaps/file/checksum.hpp"
 #include "scenes/text/input_file_io.hpp"
 #include "scenes/text/json_text.hpp"
-#include "solve/answer/world_account.hpp"
 
 namespace warren {
 namespace {
@@ -181,7 +180,6 @@ std::string meta_json(const Roadmap& roadmap, const Execution& execution) {
   JsonObject object(",\n ", ": ");
   object.add("schema", schema);
   object.add("source", std::string_view(roadmap.scene.source));
-  object.add("world", std::string_view(description_of(roadmap.scene)));
   object.add("world_hash", std::string_view(roadmap.world_hash));
   add_recipe(object, roadmap, execution);
   object.add_json("rule", rule_json(roadmap.rule));

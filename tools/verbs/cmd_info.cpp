@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// warren info: what is in this file.
+// warren info: what is in this file, a world or a roadmap.
 #include <fmt/format.h>
 
+#include "core/base/error.hpp"
 #include "core/base/printable.hpp"
-#include "scenes/text/human_units.hpp"
+#include "scenes/text/input_file_io.hpp"
 #include "scenes/text/output_file_io.hpp"
-#include "solve/answer/world_account.hpp"
-#include "solve/answer/write_answer_io.hpp"
-#include "solve/question/question.hpp"
+#include "solve/answer/world_facts.hpp"
+#include "solve/roadmaps/roadmap_file_io.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_names.hpp"
 #include "tools/screen/run_of_verb.hpp"
@@ -20,104 +20,40 @@ namespace {
 
 constexpr OptionSpec info_specs[] = {
     {"--json", "FILE", "write it as JSON; - is standard output"},
+    {"--check", "all", "of a roadmap file: hold all of it against its checksums and what it promises", "all"},
 };
 
-/// Name, text for people, JSON.
-struct Fact {
-  std::string name;
-  std::string text;
-  std::string json;
-};
-
-std::string numbers_json(const std::vector<double>& numbers) {
-  std::string text = "[";
-  for (const double value : numbers) text += (text.size() > 1 ? ", " : "") + json_number(value);
-  return text + "]";
+bool is_roadmap(const std::string& path, const Execution& execution) {
+  if (is_maze_source(path) || path == "-") return false;
+  return is_roadmap_file(InputFile(path, execution).bytes());
 }
 
-Fact text_fact(const char* name, const std::string& text) { return {name, text, json_string(text)}; }
-Fact number_fact(const char* name, double number) { return {name, fmt::format("{}", number), json_number(number)}; }
-Fact count_fact(const char* name, std::size_t count) { return {name, grouped(count), std::to_string(count)}; }
-Fact state_fact(const char* name, const std::vector<double>& state) {
-  return {name, fmt::format("{}", fmt::join(state, ", ")), numbers_json(state)};
-}
-Fact box_fact(const char* name, const Box& box) {
-  return {name, fmt::format("{} to {}, {} to {}", box.min.x, box.max.x, box.min.y, box.max.y),
-          numbers_json({box.min.x, box.min.y, box.max.x, box.max.y})};
-}
-
-std::vector<Fact> map_facts(const Scene& scene, const WorldAccount& world, const Execution& execution) {
-  constexpr const char* formats[] = {"Moving AI map", "map server", "image"};
-  const OccupancyMap& map = *scene.map;
-  std::vector<Fact> facts{text_fact("source", world.source),
-                          text_fact("kind", world.kind),
-                          text_fact("format", formats[static_cast<std::size_t>(map.format)]),
-                          count_fact("width", map.width()),
-                          count_fact("height", map.height()),
-                          count_fact("free", map.free),
-                          count_fact("occupied", map.occupied)};
-  if (map.format == MapFormat::ros) {
-    facts.push_back(count_fact("unknown", map.unknown_count));
-    facts.push_back(count_fact("between", map.between));
-    facts.push_back({"origin", fmt::format("{}, {}, yaw {}", map.origin.x, map.origin.y, map.yaw_rad),
-                     numbers_json({map.origin.x, map.origin.y, map.yaw_rad})});
-  }
-  if (!map.water.empty()) facts.push_back(count_fact("water", map.water.count()));
-  facts.push_back(number_fact("resolution", map.cell));
-  facts.push_back(box_fact("box", obstacle_box(scene, execution)));
-  facts.push_back(text_fact("hash", world.hash));
-  return facts;
-}
-
-std::vector<Fact> obstacle_facts(const Scene& scene, const WorldAccount& world, const Execution& execution) {
-  if (scene.map) return map_facts(scene, world, execution);
-  std::vector<Fact> facts{text_fact("source", world.source), text_fact("kind", world.kind),
-                          count_fact("walls", scene.walls.size())};
-  if (scene.walls.size() > 0) facts.push_back(text_fact("held as", scene.walls.holds_floats() ? "float" : "double"));
-  if (!scene.polygons.empty()) {
-    facts.push_back(count_fact("polygons", scene.polygons.size()));
-    std::size_t corners = 0;
-    for (const ScenePolygon& polygon : scene.polygons) corners += polygon.corners.size();
-    facts.push_back(count_fact("corners", corners));
-  }
-  if (!scene.spheres.empty()) facts.push_back(count_fact("spheres", scene.spheres.size()));
-  if (!scene.boxes.empty()) facts.push_back(count_fact("boxes", scene.boxes.size()));
-  if (const Box box = obstacle_box(scene, execution); !box.empty()) facts.push_back(box_fact("box", box));
-  if (scene.bounds) facts.push_back(box_fact("bounds", *scene.bounds));
-  facts.push_back(text_fact("hash", world.hash));
-  return facts;
-}
-
-void add_problem_facts(const Scene& scene, std::vector<Fact>& facts) {
-  if (scene.maze) {
-    facts.push_back({"maze", fmt::format("{} rows, {} columns", scene.maze->rows, scene.maze->cols),
-                     fmt::format("[{}, {}]", scene.maze->rows, scene.maze->cols)});
-  }
-  if (scene.clearance) facts.push_back(number_fact("clearance", *scene.clearance));
-  if (scene.robot) facts.push_back(text_fact("robot", robot_text(*scene.robot)));
-  if (!scene.start.empty()) facts.push_back(state_fact("start", scene.start));
-  if (!scene.goal.empty()) facts.push_back(state_fact("goal", scene.goal));
-  if (scene.grid) {
-    facts.push_back({"grid", fmt::format("cell {}, {} angles", scene.grid->cell, scene.grid->angles),
-                     fmt::format("[{}, {}]", json_number(scene.grid->cell), scene.grid->angles)});
-  }
-}
-
-std::string json_of(const std::vector<Fact>& facts) {
-  std::string text = R"({"schema": "warren.info/1")";
-  for (const Fact& fact : facts) text += ",\n " + json_string(fact.name) + ": " + fact.json;
-  return text + "}\n";
+/// What the roadmap says of itself; --check: after all of it was looked at.
+std::string roadmap_info(const Arguments& arguments, const Execution& execution) {
+  const RoadmapFile file(arguments.operand(0), execution);
+  std::string meta = roadmap_meta(file, execution);
+  if (!arguments.has("--check")) return meta;
+  file.check_all(execution);
+  check_roadmap(file, execution);
+  return meta;
 }
 
 int info(const Arguments& arguments) {
   const auto json = output_file(arguments, "--json");
   Run run(arguments);
+  if (is_roadmap(arguments.operand(0), run.execution())) {
+    const std::string meta = roadmap_info(arguments, run.execution());
+    run.end();
+    if (json) write_file(*json, meta, run.execution());
+    if (!run.quiet() && json != "-") print_text(meta);
+    return exit_code::success;
+  }
+  if (arguments.has("--check")) throw UsageError("--check: is for roadmap files; a world is checked as it is read");
   StageTimes seconds;
   const Scene scene = load_world(arguments.operand(0), arguments, run.execution(), seconds);
-  std::vector<Fact> facts = obstacle_facts(scene, account_of(scene, run.execution()), run.execution());
-  add_problem_facts(scene, facts);
+  const std::vector<Fact> facts = facts_of(scene, run.execution());
   run.end();
-  if (json) write_file(*json, json_of(facts), run.execution());
+  if (json) write_file(*json, facts_json(facts), run.execution());
   if (run.quiet() || json == "-") return exit_code::success;
   for (const Fact& fact : facts)
     print_text(fmt::format("{}{}\n", run.palette().faint(fmt::format("{:<11}", fact.name)), printable(fact.text)));
@@ -127,7 +63,7 @@ int info(const Arguments& arguments) {
 }  // namespace
 
 Command info_command() {
-  Command command{"info", "WORLD", "say what is in a world", {}, info};
+  Command command{"info", "FILE", "say what is in a world or a roadmap", {}, info};
   add_options(command.options, info_specs);
   add_options(command.options, world_option_specs());
   add_options(command.options, run_option_specs());

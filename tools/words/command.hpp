@@ -56,6 +56,7 @@ Command query_command();
 Command render_command();
 Command scale_command();
 Command solve_command();
+Command update_command();
 Command verify_command();
 
 /// All verbs, in the order of --help.
