@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A constant array that is either owned or a view of somebody else's memory, say of a mapped file: what reads it can't
+// tell. Moves keep the elements where they are; copies aren't made by accident.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <type_traits>
+#include <utility>
+
+#include "core/base/raw_vector.hpp"
+
+namespace warren {
+
+/// Of plain elements only. A view must not outlive what it looks at.
+template <class T>
+class ArrayOrView {
+  static_assert(std::is_trivially_copyable_v<T>);
+
+ public:
+  using value_type = T;
+  ArrayOrView() = default;
+  explicit ArrayOrView(RawVector<T> elements) : own_(std::move(elements)), all_(own_) {}
+  explicit ArrayOrView(std::span<const T> elements) : all_(elements) {}
+  ArrayOrView(ArrayOrView&& other) noexcept
+      : own_(std::exchange(other.own_, {})), all_(std::exchange(other.all_, {})) {}
+  ArrayOrView& operator=(ArrayOrView&& other) noexcept {
+    own_ = std::exchange(other.own_, {});
+    all_ = std::exchange(other.all_, {});
+    return *this;
+  }
+  ~ArrayOrView() = default;
+
+  std::size_t size() const { return all_.size(); }
+  bool empty() const { return all_.empty(); }
+  const T* data() const { return all_.data(); }
+  const T& operator[](std::size_t i) const { return all_[i]; }
+  std::span<const T> span() const { return all_; }
+
+ private:
+  RawVector<T> own_;
+  std::span<const T> all_;
+};
+
+}  // namespace warren

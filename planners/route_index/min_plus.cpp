@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Compilers turn the loop into vector code of the instruction set of the function that it is inlined in.
+#include "planners/route_index/min_plus.hpp"
+
+namespace warren {
+namespace {
+
+[[gnu::always_inline]] inline void lessen(std::uint32_t* __restrict least, const std::uint32_t* __restrict rest,
+                                          std::uint32_t first, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t sum = first + rest[i];
+    least[i] = sum < least[i] ? sum : least[i];
+  }
+}
+
+#if defined(__x86_64__) && !defined(WARREN_PLAIN)
+[[gnu::target("avx2")]] void lessen_row_avx2(std::uint32_t* least, const std::uint32_t* rest, std::uint32_t first,
+                                             std::size_t count) {
+  lessen(least, rest, first, count);
+}
+#endif
+
+}  // namespace
+
+void lessen_row_plain(std::uint32_t* least, const std::uint32_t* rest, std::uint32_t first, std::size_t count) {
+  lessen(least, rest, first, count);
+}
+
+LessenRow lessen_row() {
+#if defined(__x86_64__) && !defined(WARREN_PLAIN)
+  static const LessenRow fastest = __builtin_cpu_supports("avx2") != 0 ? lessen_row_avx2 : lessen_row_plain;
+  return fastest;
+#else
+  return lessen_row_plain;
+#endif
+}
+
+}  // namespace warren

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sums of lengths and their least, many at once: what fronts are made of. Integers only, so every instruction set gives
+// the same numbers; which one is used is asked of the processor once.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace warren {
+
+/// No way. Two lengths, and a length and no_way, can be added.
+inline constexpr std::uint32_t no_way = std::uint32_t{1} << 30;
+
+/// least[i] becomes the smaller of itself and first + rest[i], for i < count. The arrays don't overlap.
+using LessenRow = void (*)(std::uint32_t* least, const std::uint32_t* rest, std::uint32_t first, std::size_t count);
+
+/// The fastest of this processor.
+LessenRow lessen_row();
+/// What needs nothing special.
+void lessen_row_plain(std::uint32_t* least, const std::uint32_t* rest, std::uint32_t first, std::size_t count);
+
+}  // namespace warren

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planners/route_index/route_index.hpp"
+
+#include <string>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "parallel/chunks.hpp"
+#include "parallel/scan.hpp"
+#include "planners/route_index/core_graph.hpp"
+#include "planners/route_index/dissection.hpp"
+#include "planners/route_index/peeling.hpp"
+#include "planners/route_index/route_sections.hpp"
+
+namespace warren {
+
+void RouteIndexOptions::validate() const {
+  if (leaf >= 1 && leaf <= most_leaf_junctions) return;
+  throw InputError("leaf", "must be from 1 to " + std::to_string(most_leaf_junctions), std::to_string(leaf));
+}
+
+bool route_index_pays(std::uint64_t junctions, std::uint64_t cells) { return junctions * 10 <= cells * 3; }
+
+RouteIndex::RouteIndex(LatticePassages passages, const RouteIndexOptions& options, const Execution& execution)
+    : passages_(std::move(passages)), places_(passages_.size()) {
+  options.validate();
+  RawVector<std::uint8_t> peeled = peel(passages_, places_, execution);
+  const CoreGraph graph = core_graph(peeled, places_, execution);
+  if (!options.open_space && !route_index_pays(graph.size(), passages_.cell_count())) {
+    throw InputError("route index",
+                     "doesn't pay in open space, where more than 3 of 10 cells are junctions: search the grid",
+                     std::to_string(graph.size()) + " of " + std::to_string(passages_.cell_count()));
+  }
+  RawVector<std::uint64_t> marks = mark_words(peeled, places_, execution);
+  peeled = {};
+  arrays_.pieces = build_pieces(places_, CellMarks(marks.data()), execution);
+  arrays_.fronts = build_fronts(graph, dissect(graph, options.leaf, execution), execution);
+  mark_gates(marks, execution);
+  arrays_.marks = ArrayOrView<std::uint64_t>(std::move(marks));
+}
+
+RouteIndex::RouteIndex(LatticePassages passages, RouteArrays arrays)
+    : passages_(std::move(passages)), places_(passages_.size()), arrays_(std::move(arrays)) {
+  check_route_arrays(places_, arrays_);
+}
+
+void RouteIndex::mark_gates(RawVector<std::uint64_t>& marks, const Execution& execution) {
+  const ArrayOrView<Place>& gate_place = arrays_.fronts.gate_place;
+  if (gate_place.empty()) return;
+  const std::size_t rows = places_.place_count() / 64;
+  execution.reserve((rows + gate_place.size()) * sizeof(std::uint32_t));
+  for (std::size_t rank = 0; rank < gate_place.size(); ++rank) {
+    if (rank % (1U << 16) == 0) execution.check();
+    const Place p = gate_place[rank];
+    marks[std::size_t{p / 64} * mark_word::count + mark_word::low] |= std::uint64_t{1} << p % 64;
+  }
+  RawVector<std::uint32_t> before(rows);
+  for_chunks(rows, 4096, execution, [&](Range r) {
+    for (std::size_t row = r.first; row < r.last; ++row) {
+      const std::uint64_t* const words = marks.data() + row * mark_word::count;
+      before[row] = static_cast<std::uint32_t>(std::popcount(words[mark_word::low] & words[mark_word::core]));
+    }
+  });
+  exclusive_scan(before, execution);
+  RawVector<GateRank> ranks(gate_place.size());
+  const CellMarks all(marks.data());
+  for (std::size_t rank = 0; rank < gate_place.size(); ++rank) {
+    if (rank % (1U << 16) == 0) execution.check();
+    const Place p = gate_place[rank];
+    ranks[before[p / 64] + all.gates_before(p)] = static_cast<GateRank>(rank);
+  }
+  arrays_.gates_before = ArrayOrView<std::uint32_t>(std::move(before));
+  arrays_.gate_rank = ArrayOrView<GateRank>(std::move(ranks));
+}
+
+std::size_t RouteIndex::bytes() const {
+  std::size_t sum = 0;
+  for (const RouteSection& section : route_sections(*this)) sum += section.bytes.size();
+  return sum;
+}
+
+}  // namespace warren

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The route index of a lattice roadmap: made once, it answers the shortest length between any two cells, and the path,
+// exactly, thousands of times faster than a search of the roadmap. For mazes: what is tree is climbed, what has no
+// choice is walked, and only where loops meet is there something to decide.
+//
+//   peeling            which cells are tree, and which way their core is           (planners/route_index/peeling)
+//   pieces             trees cut at the borders of tiles, with heavy paths         (piece_forest)
+//   core graph         junctions of the core, joined by chains                     (core_graph)
+//   dissection         the core cut by few junctions again and again               (planar_region, dissection)
+//   fronts             lengths between the junctions of cuts, the gates            (separator_fronts)
+//
+// All of it is plain arrays, which a file may hold (route_sections.hpp), and the same bytes for any thread count. In
+// open space nearly every cell is a junction and cuts are as long as the lattice is wide: there a search of the grid is
+// better, and the index is refused by counting.
+// Cost for 10^8 cells: see bench/route_index_bench.cpp.
+#pragma once
+
+#include <cstdint>
+
+#include "parallel/execution.hpp"
+#include "planners/route_index/cell_marks.hpp"
+#include "planners/route_index/lattice_passages.hpp"
+#include "planners/route_index/lattice_places.hpp"
+#include "planners/route_index/piece_forest.hpp"
+#include "planners/route_index/separator_fronts.hpp"
+
+namespace warren {
+
+struct RouteIndexOptions {
+  std::uint32_t leaf = 32;  ///< most junctions between cuts that are searched cell by cell, 1 .. most_leaf_junctions
+  bool open_space = false;  ///< build it where it doesn't pay, too
+  void validate() const;
+};
+
+/// Does the index pay? Where no more than 3 of 10 cells are junctions.
+bool route_index_pays(std::uint64_t junctions, std::uint64_t cells);
+
+/// What an index is made of, but for the passages.
+struct RouteArrays {
+  ArrayOrView<std::uint64_t> marks;  ///< of all cells, see cell_marks.hpp
+  PieceArrays pieces;
+  ArrayOrView<std::uint32_t> gates_before;  ///< before each row of 64 places; empty if there is no gate
+  ArrayOrView<GateRank> gate_rank;          ///< of a gate in the order of places
+  FrontArrays fronts;
+};
+
+/// Immutable; any number of threads may read.
+class RouteIndex {
+ public:
+  /// Throws InputError where it doesn't pay and open_space isn't set, and Stopped.
+  RouteIndex(LatticePassages passages, const RouteIndexOptions& options, const Execution& execution);
+  /// From arrays made before, owned or views. Throws InputError where they contradict each other.
+  RouteIndex(LatticePassages passages, RouteArrays arrays);
+
+  const LatticePassages& passages() const { return passages_; }
+  const LatticePlaces& places() const { return places_; }
+  const RouteArrays& arrays() const { return arrays_; }
+  CellMarks marks() const { return CellMarks(arrays_.marks.data()); }
+  PieceForest pieces() const { return {places_, marks(), arrays_.pieces}; }
+  /// The rank of a cell that is a gate.
+  GateRank gate_at(Place p) const { return arrays_.gate_rank[arrays_.gates_before[p / 64] + marks().gates_before(p)]; }
+  /// Of all arrays, passages included.
+  std::size_t bytes() const;
+
+ private:
+  void mark_gates(RawVector<std::uint64_t>& marks, const Execution& execution);
+
+  LatticePassages passages_;
+  LatticePlaces places_;
+  RouteArrays arrays_;
+};
+
+}  // namespace warren

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Questions to a route index: the shortest length between two cells, and a path of that length. Both cells climb to the
+// core; cells of one tree meet in it. In the core both look around up to the gates of their leaf, and the fronts join
+// these, if the other cell wasn't nearer. Exact: the length is that of a breadth-first search of the whole lattice.
+// Cost: microseconds in trees, then the rows of the fronts above both; see bench/route_index_bench.cpp.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/base/raw_vector.hpp"
+#include "planners/route_index/core_search.hpp"
+#include "planners/route_index/front_query.hpp"
+#include "planners/route_index/front_unpacking.hpp"
+#include "planners/route_index/route_index.hpp"
+#include "planners/route_index/tree_routes.hpp"
+
+namespace warren {
+
+/// Scratch of one thread: 8 bytes a gate. Refers to the index, which must outlive it.
+class RouteQuery {
+ public:
+  explicit RouteQuery(const RouteIndex& index)
+      : index_(index), trees_(index), near_start_(index), near_goal_(index), fronts_(index), unpacking_(index) {}
+
+  /// In steps; none where no path joins the cells. Throws InputError for a cell outside the lattice.
+  std::optional<std::uint32_t> length(CellId start, CellId goal);
+  /// The cells of a shortest path, both ends included; empty where there is none.
+  RawVector<CellId> path(CellId start, CellId goal);
+
+ private:
+  Place checked(CellId cell) const;
+  std::uint32_t core_length(Place start, Place goal);
+  std::uint32_t direct_length(Place goal) const;
+  bool append_core_path(Place start, Place goal, RawVector<Place>& cells);
+  static void append_reversed(RawVector<Place>& tail, RawVector<Place>& cells);
+
+  const RouteIndex& index_;
+  TreeRoutes trees_;
+  CoreSearch near_start_;
+  CoreSearch near_goal_;
+  FrontQuery fronts_;
+  FrontUnpacking unpacking_;
+};
+
+}  // namespace warren

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planners/route_index/route_sections.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "core/base/error.hpp"
+#include "planners/route_index/min_plus.hpp"
+
+namespace warren {
+namespace {
+
+/// Calls visit(name, array) for every array of the index but the passages.
+template <class Arrays, class Visit>
+void for_each_array(Arrays& arrays, const Visit& visit) {
+  visit("marks", arrays.marks);
+  visit("exits", arrays.pieces.exits);
+  visit("exit.first", arrays.pieces.first_exit);
+  visit("exit.piece", arrays.pieces.piece);
+  visit("piece.head", arrays.pieces.head);
+  visit("piece.parent", arrays.pieces.parent);
+  visit("piece.depth", arrays.pieces.depth);
+  visit("piece.door", arrays.pieces.door);
+  visit("gates.before", arrays.gates_before);
+  visit("gate.rank", arrays.gate_rank);
+  visit("gate.place", arrays.fronts.gate_place);
+  visit("fronts", arrays.fronts.fronts);
+  visit("front.bounds", arrays.fronts.bounds);
+  visit("front.lengths", arrays.fronts.lengths);
+}
+
+template <class T>
+std::span<const T> elements(std::span<const RouteSection> sections, std::string_view name) {
+  const auto found =
+      std::find_if(sections.begin(), sections.end(), [&](const RouteSection& s) { return s.name == name; });
+  if (found == sections.end()) throw InputError("route index", "a section is missing", name);
+  if (found->bytes.size() % sizeof(T) != 0 || found->element_bytes != sizeof(T)) {
+    throw InputError("route index", "elements of a section need " + std::to_string(sizeof(T)) + " bytes", name);
+  }
+  return {reinterpret_cast<const T*>(found->bytes.data()), found->bytes.size() / sizeof(T)};
+}
+
+void require(bool holds, std::string_view what) {
+  if (!holds) throw InputError("route index", "a section contradicts the others: build the index again", what);
+}
+
+template <class T, class Test>
+bool every(const ArrayOrView<T>& array, const Test& test) {
+  return std::all_of(array.span().begin(), array.span().end(), test);
+}
+
+void check_pieces(const LatticePlaces& places, const PieceArrays& pieces) {
+  const std::size_t count = pieces.head.size();
+  require(pieces.exits.size() == 4 * places.tile_count(), "exits");
+  require(pieces.first_exit.size() == places.tile_count() + 1 && pieces.first_exit[0] == 0, "exit.first");
+  for (std::size_t tile = 0; tile < places.tile_count(); ++tile) {
+    std::uint32_t exits = 0;
+    for (std::size_t d = 0; d < 4; ++d) exits += static_cast<std::uint32_t>(std::popcount(pieces.exits[4 * tile + d]));
+    require(pieces.first_exit[tile + 1] == pieces.first_exit[tile] + exits, "exit.first");
+  }
+  require(pieces.first_exit[places.tile_count()] == count && pieces.piece.size() == count, "exit.piece");
+  require(pieces.parent.size() == count && pieces.depth.size() == count && pieces.door.size() == count, "pieces");
+  for (PieceId p = 0; p < count; ++p) {
+    require(pieces.piece[p] < count && pieces.head[p] <= p && pieces.door[p] < places.place_count(), "pieces");
+    require(pieces.head[pieces.head[p]] == pieces.head[p], "piece.head");
+    require(pieces.parent[p] == no_piece || pieces.parent[p] < p, "piece.parent");
+  }
+}
+
+void check_fronts(const LatticePlaces& places, const FrontArrays& arrays) {
+  const std::size_t gates = arrays.gate_place.size();
+  require(every(arrays.gate_place, [&](Place p) { return p < places.place_count(); }), "gate.place");
+  require(every(arrays.bounds, [&](GateRank rank) { return rank < gates; }), "front.bounds");
+  require(every(arrays.lengths, [](std::uint32_t length) { return length <= 2 * no_way; }), "front.lengths");
+  std::uint64_t first = 0;
+  std::uint64_t bound = 0;
+  std::uint64_t length = 0;
+  for (std::size_t i = 0; i < arrays.fronts.size(); ++i) {
+    const Front& f = arrays.fronts[i];
+    require(f.first == first && f.first_bound == bound && f.first_length == length, "fronts");
+    first += f.gates;
+    bound += f.bounds;
+    length += row_offset(f.gates, f.gates, f.bounds);
+    require(first <= gates && bound <= arrays.bounds.size() && length <= arrays.lengths.size(), "fronts");
+    require(f.parent == no_front || (f.parent > i && f.parent < arrays.fronts.size()), "fronts");
+    require(f.last_child == no_front || f.last_child < i, "fronts");
+    require(f.sibling == no_front || f.sibling < i, "fronts");
+    for (std::uint64_t b = bound - f.bounds; b < bound; ++b) {
+      require(arrays.bounds[b] >= first && (b + 1 == bound || arrays.bounds[b] < arrays.bounds[b + 1]), "front.bounds");
+    }
+  }
+  require(first == gates && bound == arrays.bounds.size() && length == arrays.lengths.size(), "fronts");
+}
+
+}  // namespace
+
+std::vector<RouteSection> route_sections(const RouteIndex& index) {
+  std::vector<RouteSection> sections{
+      {"passages.right", 8, std::as_bytes(index.passages().right_words())},
+      {"passages.up", 8, std::as_bytes(index.passages().up_words())},
+  };
+  for_each_array(index.arrays(), [&]<class T>(std::string_view name, const ArrayOrView<T>& array) {
+    sections.push_back({name, sizeof(T), std::as_bytes(array.span())});
+  });
+  return sections;
+}
+
+RouteIndex route_index_of(LatticeSize size, std::span<const RouteSection> sections) {
+  RouteArrays arrays;
+  for_each_array(arrays, [&]<class T>(std::string_view name, ArrayOrView<T>& array) {
+    array = ArrayOrView<T>(elements<T>(sections, name));
+  });
+  return {LatticePassages(size, elements<std::uint64_t>(sections, "passages.right"),
+                          elements<std::uint64_t>(sections, "passages.up")),
+          std::move(arrays)};
+}
+
+void check_route_arrays(const LatticePlaces& places, const RouteArrays& arrays) {
+  const std::size_t rows = places.place_count() / 64;
+  require(arrays.marks.size() == rows * mark_word::count, "marks");
+  check_pieces(places, arrays.pieces);
+  check_fronts(places, arrays.fronts);
+  const std::size_t gates = arrays.fronts.gate_place.size();
+  require(arrays.gates_before.size() == (gates == 0 ? 0 : rows) && arrays.gate_rank.size() == gates, "gates.before");
+  require(every(arrays.gate_rank, [&](GateRank rank) { return rank < gates; }), "gate.rank");
+  std::uint32_t before = 0;
+  for (std::size_t row = 0; row < rows; ++row) {
+    require(gates == 0 || arrays.gates_before[row] == before, "gates.before");
+    const std::uint64_t* const words = arrays.marks.data() + row * mark_word::count;
+    before += static_cast<std::uint32_t>(std::popcount(words[mark_word::low] & words[mark_word::core]));
+  }
+  require(before == gates, "marks");
+}
+
+}  // namespace warren

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The oracle is a breadth-first search of the whole lattice.
+#include "planners/route_index/route_query.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/base/rng.hpp"
+#include "tests/planners/route_index/lattice_mazes.hpp"
+#include "tests/seeds.hpp"
+
+namespace warren {
+namespace {
+
+using test::flood_lengths;
+using test::maze_passages;
+using test::not_reached;
+
+constexpr MazeAlgorithm algorithms[] = {MazeAlgorithm::backtracker, MazeAlgorithm::kruskal, MazeAlgorithm::prim,
+                                        MazeAlgorithm::wilson, MazeAlgorithm::course};
+
+RouteIndexOptions small_leaves(std::uint32_t leaf) { return {.leaf = leaf, .open_space = true}; }
+
+/// A path of this length, whose cells are neighbours.
+void expect_path(const LatticePassages& passages, const RawVector<CellId>& path, CellId start, CellId goal,
+                 std::uint32_t length) {
+  ASSERT_EQ(path.size(), std::size_t{length} + 1);
+  EXPECT_EQ(path.front(), start);
+  EXPECT_EQ(path.back(), goal);
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    bool joined = false;
+    passages.for_each_neighbour(path[i - 1], [&](CellId next) { joined |= next == path[i]; });
+    ASSERT_TRUE(joined) << "cell " << i << " of the path from " << start << " to " << goal;
+  }
+}
+
+/// Every `goals`-th goal from every `starts`-th start; every `paths`-th path, too.
+void expect_exact(LatticePassages passages, const RouteIndexOptions& options, CellId starts, CellId goals,
+                  CellId paths) {
+  const RouteIndex index(std::move(passages), options, {});
+  RouteQuery query(index);
+  const auto cells = static_cast<CellId>(index.passages().cell_count());
+  for (CellId start = 0; start < cells; start += starts) {
+    const std::vector<std::uint32_t> expected = flood_lengths(index.passages(), start);
+    for (CellId goal = 0; goal < cells; goal += goals) {
+      const std::uint32_t found = query.length(start, goal).value_or(not_reached);
+      ASSERT_EQ(found, expected[goal]) << "from " << start << " to " << goal;
+      if ((start * std::uint64_t{cells} + goal) % paths != 0) continue;
+      const RawVector<CellId> path = query.path(start, goal);
+      if (found == not_reached) {
+        EXPECT_TRUE(path.empty());
+      } else {
+        expect_path(index.passages(), path, start, goal, found);
+      }
+    }
+  }
+}
+
+TEST(RouteQuery, AllPairsOfSmallMazesOfAllKinds) {
+  for (const MazeAlgorithm algorithm : algorithms) {
+    for (const double loops : {0.0, 0.01, 0.1, 0.5, 1.0}) {
+      for (std::uint64_t seed = 1; seed <= test::seeds(4); ++seed) {
+        SCOPED_TRACE(std::string(name_of(algorithm)) + " " + std::to_string(loops) + " " + std::to_string(seed));
+        expect_exact(maze_passages({20, 20, seed, algorithm, loops}), small_leaves(1 + seed % 4), seed == 1 ? 1 : 19, 1,
+                     37);
+      }
+    }
+  }
+}
+
+TEST(RouteQuery, BlockedCellsMakeForestsAndPartsThatDontJoin) {
+  for (const MazeAlgorithm algorithm : algorithms) {
+    for (const double loops : {0.0, 0.1, 1.0}) {
+      for (std::uint64_t seed = 1; seed <= test::seeds(4); ++seed) {
+        SCOPED_TRACE(std::string(name_of(algorithm)) + " " + std::to_string(loops) + " " + std::to_string(seed));
+        const auto blocked = [&](std::uint32_t col, std::uint32_t row) {
+          return uniform(seed, row * 20 + col, 9) < 0.15;
+        };
+        expect_exact(maze_passages({20, 20, seed, algorithm, loops}, blocked), small_leaves(2), 3, 1, 41);
+      }
+    }
+  }
+}
+
+/// Wide enough for trees that cross tiles again and again, and for fronts above fronts.
+TEST(RouteQuery, MazesOfManyTiles) {
+  for (const MazeAlgorithm algorithm : {MazeAlgorithm::backtracker, MazeAlgorithm::kruskal, MazeAlgorithm::wilson}) {
+    for (const double loops : {0.0, 0.001, 0.01, 0.1, 0.5}) {
+      for (std::uint64_t seed = 1; seed <= test::seeds(4); ++seed) {
+        SCOPED_TRACE(std::string(name_of(algorithm)) + " " + std::to_string(loops) + " " + std::to_string(seed));
+        expect_exact(maze_passages({150, 210, seed, algorithm, loops}), small_leaves(seed % 2 == 0 ? 3 : 32), 7919, 13,
+                     211);
+      }
+    }
+  }
+}
+
+TEST(RouteQuery, ASingleCellAndSingleRows) {
+  expect_exact(maze_passages({1, 1, 1, MazeAlgorithm::kruskal, 0.0}), {}, 1, 1, 1);
+  expect_exact(maze_passages({1, 300, 1, MazeAlgorithm::kruskal, 0.0}), {}, 7, 1, 5);
+  expect_exact(maze_passages({300, 1, 1, MazeAlgorithm::kruskal, 0.0}), {}, 7, 1, 5);
+  expect_exact({{3, 5}, LatticePassages::closed({3, 5}, {})}, {}, 1, 1, 1);
+}
+
+/// Two corridors round the rim of a lattice: nothing but a ring, with and without junctions on it.
+TEST(RouteQuery, RingsHaveTwoWays) {
+  for (const std::uint32_t side : {4U, 14U, 40U, 90U}) {
+    SCOPED_TRACE(side);
+    const LatticeSize size{side, side};
+    PassageWords words = LatticePassages::closed(size, {});
+    for (std::uint32_t i = 1; i + 2 < side; ++i) {
+      test::open_right(words, size, i, 1);
+      test::open_right(words, size, i, side - 2);
+      test::open_up(words, size, 1, i);
+      test::open_up(words, size, side - 2, i);
+    }
+    expect_exact({size, std::move(words)}, {}, side, 1, 7);
+  }
+}
+
+TEST(RouteQuery, CellsOutsideTheLatticeAreRefused) {
+  const RouteIndex index(maze_passages({4, 5, 1, MazeAlgorithm::kruskal, 0.0}), {}, {});
+  RouteQuery query(index);
+  try {
+    query.length(3, 20);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "cell: must be below 20 (found: 20)");
+  }
+}
+
+}  // namespace
+}  // namespace warren
