@@ -2,6 +2,7 @@
 #include "planners/route_index/dissection.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 #include <vector>
 
@@ -20,55 +21,96 @@ struct LargeRegion {
   Dissection whole;                   // where it was small enough to be done at once
 };
 
-/// Splits a region into its connected parts, in the order of their first junctions; cut junctions belong to none.
-std::vector<PlanarRegion> connected_parts(const PlanarRegion& region, const RawVector<CutSide>& side,
-                                          const Execution& execution) {
-  constexpr std::uint32_t none = ~std::uint32_t{0};
-  const std::size_t count = region.size();
-  RawVector<std::uint32_t> part(count);
-  std::fill(part.begin(), part.end(), none);
-  RawVector<JunctionId> stack;
-  std::vector<std::uint32_t> sizes;
-  for (JunctionId first = 0; first < count; ++first) {
-    if (side[first] == CutSide::cut || part[first] != none) continue;
-    execution.check();
-    const auto number = static_cast<std::uint32_t>(sizes.size());
-    sizes.push_back(0);
-    part[first] = number;
-    stack.push_back(first);
-    while (!stack.empty()) {
-      const JunctionId v = stack.back();
-      stack.pop_back();
-      ++sizes.back();
-      for (HalfEdge h = 4 * v; h < 4 * v + 4; ++h) {
-        const HalfEdge twin = region.twin[h];
-        if (twin == no_half_edge || part[twin / 4] != none || side[twin / 4] == CutSide::cut) continue;
-        part[twin / 4] = number;
-        stack.push_back(twin / 4);
+/// Splits regions into their connected parts. Scratch of one thread.
+class RegionParts {
+ public:
+  explicit RegionParts(const Execution& execution) : execution_(execution) {}
+
+  /// In the order of their first junctions; cut junctions belong to none.
+  std::vector<PlanarRegion> split(const PlanarRegion& region, const RawVector<CutSide>& side) {
+    number_parts(region, side);
+    std::vector<PlanarRegion> parts(sizes_.size());
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      parts[i].junction.resize(sizes_[i]);
+      parts[i].twin.resize(4 * std::size_t{sizes_[i]});
+      parts[i].slots.resize(sizes_[i]);
+      sizes_[i] = 0;
+    }
+    number_junctions(region);
+    for (JunctionId v = 0; v < region.size(); ++v) {
+      if (v % (1U << 16) == 0) execution_.check();
+      if (part_[v] != none) copy(v, region, parts[part_[v]]);
+    }
+    return parts;
+  }
+
+ private:
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
+
+  void number_parts(const PlanarRegion& region, const RawVector<CutSide>& side);
+  void number_junctions(const PlanarRegion& region);
+  void copy(JunctionId v, const PlanarRegion& region, PlanarRegion& part) const;
+
+  const Execution& execution_;
+  RawVector<std::uint32_t> part_;  // of a junction
+  RawVector<JunctionId> number_;   // in its part
+  RawVector<JunctionId> stack_;
+  std::vector<std::uint32_t> sizes_;
+};
+
+void RegionParts::number_parts(const PlanarRegion& region, const RawVector<CutSide>& side) {
+  part_.assign(region.size(), none);
+  stack_.resize(region.size());
+  sizes_.clear();
+  for (JunctionId first = 0; first < region.size(); ++first) {
+    if (first % (1U << 16) == 0) execution_.check();
+    if (part_[first] != none || side[first] == CutSide::cut) continue;
+    const auto number = static_cast<std::uint32_t>(sizes_.size());
+    std::uint32_t size = 0;
+    std::size_t open = 0;
+    part_[first] = number;
+    stack_[open++] = first;
+    while (open > 0) {
+      const JunctionId v = stack_[--open];
+      if (++size % (1U << 16) == 0) execution_.check();
+      for (unsigned left = region.slots[v]; left != 0; left &= left - 1) {
+        const JunctionId near = region.twin[4 * v + static_cast<HalfEdge>(std::countr_zero(left))] / 4;
+        if (part_[near] != none || side[near] == CutSide::cut) continue;
+        part_[near] = number;
+        stack_[open++] = near;
       }
     }
+    sizes_.push_back(size);
   }
-  std::vector<PlanarRegion> parts(sizes.size());
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    parts[i].junction.reserve(sizes[i]);
-    parts[i].twin.reserve(4 * std::size_t{sizes[i]});
-  }
-  RawVector<JunctionId> number(count);
-  for (JunctionId v = 0; v < count; ++v) {
-    if (part[v] == none) continue;
-    number[v] = static_cast<JunctionId>(parts[part[v]].junction.size());
-    parts[part[v]].junction.push_back(region.junction[v]);
-  }
-  for (JunctionId v = 0; v < count; ++v) {
-    if (part[v] == none) continue;
-    for (HalfEdge h = 4 * v; h < 4 * v + 4; ++h) {
-      const HalfEdge twin = region.twin[h];
-      const bool kept = twin != no_half_edge && part[twin / 4] == part[v];
-      parts[part[v]].twin.push_back(kept ? 4 * number[twin / 4] + twin % 4 : no_half_edge);
-    }
-  }
-  return parts;
 }
+
+void RegionParts::number_junctions(const PlanarRegion& region) {
+  number_.resize(region.size());
+  for (JunctionId v = 0; v < region.size(); ++v) {
+    if (part_[v] != none) number_[v] = sizes_[part_[v]]++;
+  }
+}
+
+void RegionParts::copy(JunctionId v, const PlanarRegion& region, PlanarRegion& part) const {
+  const JunctionId own = number_[v];
+  unsigned slots = 0;
+  for (unsigned left = region.slots[v]; left != 0; left &= left - 1) {
+    const auto slot = static_cast<HalfEdge>(std::countr_zero(left));
+    const HalfEdge twin = region.twin[4 * v + slot];
+    if (part_[twin / 4] != part_[v]) continue;
+    part.twin[4 * own + slot] = 4 * number_[twin / 4] + twin % 4;
+    slots |= 1U << slot;
+  }
+  part.junction[own] = region.junction[v];
+  part.slots[own] = static_cast<std::uint8_t>(slots);
+}
+
+/// What cuts and splits regions: scratch of one thread.
+struct RegionTools {
+  explicit RegionTools(const Execution& execution) : cut(execution), parts(execution) {}
+  RegionCut cut;
+  RegionParts parts;
+};
 
 class Dissector {
  public:
@@ -91,7 +133,7 @@ class Dissector {
   void open_whole();
   void divide(LargeRegion& large) const;
   void number_parts(std::size_t large);
-  void cut_down(PlanarRegion region, RegionCut& cutter, Dissection& into) const;
+  void cut_down(PlanarRegion region, RegionTools& tools, Dissection& into) const;
   static RawVector<JunctionId> cut_members(const PlanarRegion& region, const RawVector<CutSide>& side);
   void list(std::size_t large);
 
@@ -109,20 +151,26 @@ void Dissector::open_whole() {
   whole.junction.resize(graph_.size());
   for (JunctionId v = 0; v < graph_.size(); ++v) whole.junction[v] = v;
   whole.twin = graph_.twin;
+  whole.slots.resize(graph_.size());
+  for (JunctionId v = 0; v < graph_.size(); ++v) {
+    unsigned slots = 0;
+    for (unsigned s = 0; s < 4; ++s) slots |= graph_.twin[4 * v + s] != no_half_edge ? 1U << s : 0U;
+    whole.slots[v] = static_cast<std::uint8_t>(slots);
+  }
   RawVector<CutSide> nothing_cut;
   nothing_cut.assign(graph_.size(), CutSide::outside);
-  for (PlanarRegion& part : connected_parts(whole, nothing_cut, execution_)) {
+  for (PlanarRegion& part : RegionParts(execution_).split(whole, nothing_cut)) {
     roots_.push_back(large_.size());
     large_.emplace_back().region = std::move(part);
   }
 }
 
 void Dissector::divide(LargeRegion& large) const {
-  RegionCut cutter(execution_);
-  if (large.region.size() <= task_) return cut_down(std::move(large.region), cutter, large.whole);
-  const RawVector<CutSide>& side = cutter.cut(large.region);
+  RegionTools tools(execution_);
+  if (large.region.size() <= task_) return cut_down(std::move(large.region), tools, large.whole);
+  const RawVector<CutSide>& side = tools.cut.cut(large.region);
   large.members = cut_members(large.region, side);
-  large.parts = connected_parts(large.region, side, execution_);
+  large.parts = tools.parts.split(large.region, side);
   large.region = {};
 }
 
@@ -142,19 +190,20 @@ RawVector<JunctionId> Dissector::cut_members(const PlanarRegion& region, const R
   return members;
 }
 
-void Dissector::cut_down(PlanarRegion region, RegionCut& cutter, Dissection& into) const {
+void Dissector::cut_down(PlanarRegion region, RegionTools& tools,
+                         Dissection& into) const {  // NOLINT(misc-no-recursion)
   const bool is_leaf = region.size() <= leaf_;
   RawVector<JunctionId> members;
   std::uint32_t children = 0;
   if (is_leaf) {
     members = std::move(region.junction);
   } else {
-    const RawVector<CutSide>& side = cutter.cut(region);
+    const RawVector<CutSide>& side = tools.cut.cut(region);
     members = cut_members(region, side);
-    std::vector<PlanarRegion> parts = connected_parts(region, side, execution_);
+    std::vector<PlanarRegion> parts = tools.parts.split(region, side);
     region = {};
     children = static_cast<std::uint32_t>(parts.size());
-    for (PlanarRegion& part : parts) cut_down(std::move(part), cutter, into);
+    for (PlanarRegion& part : parts) cut_down(std::move(part), tools, into);
   }
   into.member.insert(into.member.end(), members.begin(), members.end());
   into.node.push_back({static_cast<std::uint32_t>(members.size()), children, is_leaf ? 1U : 0U});

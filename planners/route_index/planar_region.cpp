@@ -2,24 +2,38 @@
 #include "planners/route_index/planar_region.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cassert>
+#include <vector>
 
 namespace warren {
 
-/// Along the face on the left: at the other end, the first slot to the left of the way back.
-HalfEdge RegionCut::next_around(HalfEdge h) const {
-  const HalfEdge back = region_->twin[h];
-  for (unsigned turn = 3; turn > 0; --turn) {
-    const HalfEdge next = (back & ~HalfEdge{3}) | ((back + turn) & 3U);
-    if (region_->twin[next] != no_half_edge) return next;
+namespace {
+
+/// [slots][slot]: the first slot that isn't empty before `slot`, going round to the right; `slot` itself comes last.
+constexpr std::array<std::array<std::uint8_t, 4>, 16> slot_before = [] {
+  std::array<std::array<std::uint8_t, 4>, 16> table{};
+  for (unsigned slots = 0; slots < 16; ++slots) {
+    for (unsigned slot = 0; slot < 4; ++slot) {
+      unsigned turn = 3;
+      while (turn > 0 && (slots >> ((slot + turn) & 3U) & 1U) == 0) --turn;
+      table[slots][slot] = static_cast<std::uint8_t>((slot + turn) & 3U);
+    }
   }
-  return back;
+  return table;
+}();
+
+}  // namespace
+
+/// The next half-edge along the face on the left, from the one that leads back.
+HalfEdge RegionCut::next_around(HalfEdge back) const {
+  return (back & ~HalfEdge{3}) + slot_before[region_->slots[back / 4]][back & 3U];
 }
 
 const RawVector<CutSide>& RegionCut::cut(const PlanarRegion& region) {
   region_ = &region;
-  trace_faces();
-  search_faces(longest_face());
+  search_faces(trace_faces());
   grow_tree();
   const HalfEdge crossing = best_crossing();
   mark_inside(crossing);
@@ -28,50 +42,53 @@ const RawVector<CutSide>& RegionCut::cut(const PlanarRegion& region) {
   return side_;
 }
 
-void RegionCut::trace_faces() {
-  const std::size_t half_edges = region_->twin.size();
-  face_.assign(half_edges, no_half_edge);
+RegionCut::Face RegionCut::trace_faces() {
+  face_.assign(region_->twin.size(), no_half_edge);
   first_.clear();
-  for (HalfEdge h = 0; h < half_edges; ++h) {
-    poll(h);
-    if (region_->twin[h] == no_half_edge || face_[h] != no_half_edge) continue;
-    const auto face = static_cast<Face>(first_.size());
-    first_.push_back(h);
-    for (HalfEdge at = h; face_[at] == no_half_edge; at = next_around(at)) face_[at] = face;
+  Face longest = 0;
+  std::size_t most = 0;
+  for (JunctionId v = 0; v < region_->size(); ++v) {
+    poll(v);
+    for (unsigned left = region_->slots[v]; left != 0; left &= left - 1) {
+      const HalfEdge h = 4 * v + static_cast<HalfEdge>(std::countr_zero(left));
+      if (face_[h] != no_half_edge) continue;
+      const auto face = static_cast<Face>(first_.size());
+      first_.push_back(h);
+      std::size_t length = 0;
+      for (HalfEdge at = h; face_[at] == no_half_edge; at = next_around(region_->twin[at]), ++length) face_[at] = face;
+      if (length <= most) continue;
+      most = length;
+      longest = face;
+    }
   }
-}
-
-RegionCut::Face RegionCut::longest_face() const {
-  RawVector<std::uint32_t> length(first_.size());
-  std::fill(length.begin(), length.end(), 0U);
-  for (const Face face : face_) {
-    if (face != no_half_edge) ++length[face];
-  }
-  return static_cast<Face>(std::max_element(length.begin(), length.end()) - length.begin());
+  return longest;
 }
 
 void RegionCut::search_faces(Face first) {
   constexpr std::uint32_t unseen = ~std::uint32_t{0};
   distance_.assign(first_.size(), unseen);
   entered_.resize(first_.size());
-  in_search_.assign(face_.size(), 0);
-  queue_.clear();
-  queue_.push_back(first);
+  in_search_.assign(region_->size(), 0);
+  queue_.resize(first_.size());
+  std::size_t end = 0;
+  queue_[end++] = first;
   distance_[first] = 0;
-  for (std::size_t i = 0; i < queue_.size(); ++i) {
+  for (std::size_t i = 0; i < end; ++i) {
     poll(i);
     const Face face = queue_[i];
+    const std::uint32_t next_distance = distance_[face] + 1;
     HalfEdge h = first_[face];
     do {
       const HalfEdge twin = region_->twin[h];
       const Face other = face_[twin];
       if (distance_[other] == unseen) {
-        distance_[other] = distance_[face] + 1;
+        distance_[other] = next_distance;
         entered_[other] = h;
-        in_search_[h] = in_search_[twin] = 1;
-        queue_.push_back(other);
+        in_search_[h / 4] = static_cast<std::uint8_t>(in_search_[h / 4] | 1U << h % 4);
+        in_search_[twin / 4] = static_cast<std::uint8_t>(in_search_[twin / 4] | 1U << twin % 4);
+        queue_[end++] = other;
       }
-      h = next_around(h);
+      h = next_around(twin);
     } while (h != first_[face]);
   }
 }
@@ -79,20 +96,23 @@ void RegionCut::search_faces(Face first) {
 /// The chains that the search didn't take are a tree of all junctions.
 void RegionCut::grow_tree() {
   const std::size_t count = region_->size();
-  above_.assign(count, no_half_edge);
-  order_.clear();
-  order_.push_back(0);
-  for (std::size_t i = 0; i < order_.size(); ++i) {
+  above_.resize(count);
+  above_[0] = no_half_edge;
+  order_.resize(count);
+  std::size_t end = 0;
+  order_[end++] = 0;
+  for (std::size_t i = 0; i < end; ++i) {
     poll(i);
     const JunctionId v = order_[i];
-    for (HalfEdge h = 4 * v; h < 4 * v + 4; ++h) {
-      const HalfEdge twin = region_->twin[h];
-      if (twin == no_half_edge || in_search_[h] != 0 || twin == above_[v]) continue;
-      above_[twin / 4] = h;
-      order_.push_back(twin / 4);
+    const unsigned up = i == 0 ? 0 : 1U << region_->twin[above_[v]] % 4;
+    for (unsigned left = region_->slots[v] & ~in_search_[v] & ~up; left != 0; left &= left - 1) {
+      const HalfEdge h = 4 * v + static_cast<HalfEdge>(std::countr_zero(left));
+      const JunctionId below = region_->twin[h] / 4;
+      above_[below] = h;
+      order_[end++] = below;
     }
   }
-  assert(order_.size() == count);
+  assert(end == count);
   weight_.assign(count, 1);
   for (std::size_t i = count; i-- > 1;) weight_[above_[order_[i]] / 4] += weight_[order_[i]];
 }

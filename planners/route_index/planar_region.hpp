@@ -23,7 +23,8 @@ namespace warren {
 /// A connected part of the map.
 struct PlanarRegion {
   RawVector<JunctionId> junction;  ///< of the whole map
-  RawVector<HalfEdge> twin;        ///< four slots each, within the region
+  RawVector<HalfEdge> twin;        ///< four slots each, within the region; any number where a slot is empty
+  RawVector<std::uint8_t> slots;   ///< a bit for each slot that isn't
 
   std::size_t size() const { return junction.size(); }
 };
@@ -42,9 +43,9 @@ class RegionCut {
  private:
   using Face = std::uint32_t;
 
-  HalfEdge next_around(HalfEdge h) const;
-  void trace_faces();
-  Face longest_face() const;
+  HalfEdge next_around(HalfEdge back) const;
+  /// Returns the longest one.
+  Face trace_faces();
   void search_faces(Face first);
   void grow_tree();
   HalfEdge best_crossing() const;
@@ -61,7 +62,7 @@ class RegionCut {
   RawVector<HalfEdge> first_;          // half-edge of a face
   RawVector<std::uint32_t> distance_;  // of a face: chains between it and the first one
   RawVector<HalfEdge> entered_;        // by which half-edge of the face before a face was entered
-  RawVector<std::uint8_t> in_search_;  // chain of a half-edge is in the search tree
+  RawVector<std::uint8_t> in_search_;  // slots of a junction whose chains are in the search tree
   RawVector<Face> queue_;
   RawVector<HalfEdge> above_;        // half-edge of the junction above that leads to a junction
   RawVector<JunctionId> order_;      // of junctions, parents first

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planners/route_index/wall_passages.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <tuple>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "parallel/chunks.hpp"
+#include "planners/tiles/tile_grid.hpp"
+#include "planners/tiles/tile_plane.hpp"
+#include "planners/tiles/wall_marking.hpp"
+#include "planners/tiles/wall_partition.hpp"
+
+namespace warren {
+namespace {
+
+/// The lowest bits of eight bytes, the first byte's lowest.
+std::uint64_t lowest_bits(std::uint64_t eight) { return (eight & 0x0101010101010101U) * 0x0102040810204080U >> 56; }
+
+/// Bits 0 and 1 of up to 64 bytes, as two words.
+std::pair<std::uint64_t, std::uint64_t> right_and_up(const std::uint8_t* bytes, std::size_t count) {
+  std::array<std::uint8_t, 64> line{};
+  std::memcpy(line.data(), bytes, count);
+  std::uint64_t right = 0;
+  std::uint64_t up = 0;
+  for (unsigned i = 0; i < 64; i += 8) {
+    std::uint64_t eight;
+    std::memcpy(&eight, line.data() + i, 8);
+    right |= lowest_bits(eight) << i;
+    up |= lowest_bits(eight >> 1) << i;
+  }
+  return {right, up};
+}
+
+/// Tiles are whole words wide, so each word belongs to one of them.
+void pack(const TilePlane& plane, const TileGrid& grid, PassageWords& words) {
+  static_assert(plane_bit::right == 1 && plane_bit::up == 2);
+  const std::size_t stride = LatticePassages::words_a_row(grid.cols);
+  const std::uint32_t first_col = grid.first_col(plane.tile());
+  for (int row = 0; row < plane.height(); ++row) {
+    std::size_t word = (grid.first_row(plane.tile()) + static_cast<std::size_t>(row)) * stride + first_col / 64;
+    for (int col = 0; col < plane.width(); col += 64, ++word) {
+      const auto count = static_cast<std::size_t>(std::min(64, plane.width() - col));
+      std::tie(words.right[word], words.up[word]) = right_and_up(plane.at(col, row), count);
+    }
+  }
+}
+
+}  // namespace
+
+LatticePassages wall_passages(const WalledLattice& world, const Execution& execution) {
+  if (!(world.clearance >= 0.0 && world.clearance <= WallMarker::largest_clearance)) {
+    throw InputError("clearance", "must be a number from 0 to 8, in steps of the lattice");
+  }
+  PassageWords words = LatticePassages::closed(world.lattice, execution);
+  const TileGrid grid = TileGrid::of(world.lattice);
+  const double clearance = world.clearance * (1 + 1e-9);
+  const double halo = 1.0 + clearance * (1 + 1e-9) + 0.01;  // an edge's length, its clearance, and rounding
+  const WallPartition partition(world.walls, world.more_walls, grid, halo, execution);
+  const Box box = world.box.value_or(partition.box());
+  for_chunks(grid.count(), 1, execution, [&](Range r) {
+    WallMarker marker(clearance);
+    TilePlane plane(grid, marker.margin());
+    plane.reset(r.first, box);
+    marker.mark(partition.of(r.first), plane);
+    pack(plane, grid, words);
+  });
+  return {world.lattice, std::move(words)};
+}
+
+}  // namespace warren
