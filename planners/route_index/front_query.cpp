@@ -2,7 +2,8 @@
 #include "planners/route_index/front_query.hpp"
 
 #include <algorithm>
-#include <cassert>
+
+#include "core/base/error.hpp"
 
 namespace warren {
 
@@ -165,8 +166,7 @@ FrontStep FrontQuery::step_into(const Half& half, GateRank to) const {
       if (distance + length == half.distance[to]) return {front, f.first + i, to, length};
     }
   }
-  assert(false);  // a reached gate is a seed or was lessened by a row
-  return {no_front, to, to, 0};
+  throw InputError("route index", "its fronts contradict each other: build it again");
 }
 
 }  // namespace warren

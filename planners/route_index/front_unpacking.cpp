@@ -2,7 +2,8 @@
 #include "planners/route_index/front_unpacking.hpp"
 
 #include <algorithm>
-#include <cassert>
+
+#include "core/base/error.hpp"
 
 namespace warren {
 namespace {
@@ -27,7 +28,7 @@ void FrontUnpacking::append(const FrontStep& whole, RawVector<Place>& cells) {
     } else if (search_.search_for(from, to, step.length)) {
       search_.append_way(search_.number_of(to), cells);
     } else {
-      assert(false);
+      throw InputError("route index", "its fronts contradict its passages: build it again");
     }
   }
 }

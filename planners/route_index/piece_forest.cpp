@@ -43,7 +43,6 @@ class PieceBuilder {
       visit(i);
     }
   }
-  std::uint64_t exits_of(std::uint32_t tile, unsigned direction) const;
   void find_exits();
   void follow_exits(std::size_t count);
   void sort_children_first();
@@ -62,18 +61,6 @@ class PieceBuilder {
   RawVector<PieceId> head_;  // by number
 };
 
-std::uint64_t PieceBuilder::exits_of(std::uint32_t tile, unsigned direction) const {
-  constexpr unsigned last = LatticePlaces::side - 1;
-  const std::array<Place, 4> corner{last, last * LatticePlaces::side, 0, 0};
-  const Place along = (direction & 1U) == 0 ? LatticePlaces::side : 1;
-  Place at = tile * LatticePlaces::tile_places + corner[direction];
-  std::uint64_t exits = 0;
-  for (unsigned i = 0; i <= last; ++i, at += along) {
-    exits |= std::uint64_t{!marks_.is_core(at) && marks_.direction(at) == direction} << i;
-  }
-  return exits;
-}
-
 void PieceBuilder::find_exits() {
   const std::size_t tiles = places_.tile_count();
   RawVector<std::uint64_t> exits(4 * tiles);
@@ -83,7 +70,7 @@ void PieceBuilder::find_exits() {
     for (std::size_t tile = r.first; tile < r.last; ++tile) {
       first[tile] = 0;
       for (unsigned d = 0; d < 4; ++d) {
-        const std::uint64_t word = exits_of(static_cast<std::uint32_t>(tile), d);
+        const std::uint64_t word = exits_of(marks_, static_cast<std::uint32_t>(tile), d);
         exits[4 * tile + d] = word;
         first[tile] += static_cast<std::uint32_t>(std::popcount(word));
       }
@@ -197,9 +184,21 @@ PieceArrays PieceBuilder::renumbered() {
 
 }  // namespace
 
+std::uint64_t exits_of(CellMarks marks, std::uint32_t tile, unsigned direction) {
+  constexpr unsigned last = LatticePlaces::side - 1;
+  const std::array<Place, 4> corner{last, last * LatticePlaces::side, 0, 0};
+  const Place along = (direction & 1U) == 0 ? LatticePlaces::side : 1;
+  Place at = tile * LatticePlaces::tile_places + corner[direction];
+  std::uint64_t exits = 0;
+  for (unsigned i = 0; i <= last; ++i, at += along) {
+    exits |= std::uint64_t{!marks.is_core(at) && marks.direction(at) == direction} << i;
+  }
+  return exits;
+}
+
 Climb PieceForest::climb(Place from) const {
   Climb climb{from, 0, false};
-  while (!marks_.is_core(climb.last)) {
+  while (!marks_.is_core(climb.last) && climb.steps < LatticePlaces::tile_places) {
     const unsigned direction = marks_.direction(climb.last);
     if (LatticePlaces::leaves_tile(climb.last, direction)) return climb;
     climb.last = places_.step_inside(climb.last, direction);

@@ -34,6 +34,9 @@ struct PieceArrays {
   ArrayOrView<Place> door;                ///< of a piece: the cell that its exit leads to
 };
 
+/// Which cells along a side of a tile point over it.
+std::uint64_t exits_of(CellMarks marks, std::uint32_t tile, unsigned direction);
+
 /// Where a climb in a tile ended.
 struct Climb {
   Place last;           ///< in the tile
@@ -47,6 +50,7 @@ class PieceForest {
   PieceForest(const LatticePlaces& places, CellMarks marks, const PieceArrays& arrays)
       : places_(places), marks_(marks), arrays_(arrays) {}
 
+  /// Ends after as many steps as a tile has cells at the latest, whatever the marks are.
   Climb climb(Place from) const;
   /// The piece whose exit a climb ended at.
   PieceId piece_at(Place exit) const;

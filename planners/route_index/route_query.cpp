@@ -42,13 +42,13 @@ RawVector<CellId> RouteQuery::path(CellId start, CellId goal) {
   const CoreEntry from = trees_.core_entry(a);
   const CoreEntry to = trees_.core_entry(b);
   const bool one_tree = from.core == to.core;
-  const Place meeting = one_tree ? trees_.meeting(a, b).at : from.core;
+  const TreeMeeting meeting = one_tree ? trees_.meeting(a, b) : TreeMeeting{from.core, 0};
   RawVector<Place> cells;
-  trees_.append_climb(a, meeting, cells);
-  cells.push_back(meeting);
+  trees_.append_climb(a, from.steps - meeting.depth, cells);
+  cells.push_back(meeting.at);
   if (!one_tree && !append_core_path(from.core, to.core, cells)) return {};
   RawVector<Place> tail;
-  trees_.append_climb(b, one_tree ? meeting : to.core, tail);
+  trees_.append_climb(b, to.steps - meeting.depth, tail);
   append_reversed(tail, cells);
   for (Place& cell : cells) cell = index_.places().cell_of(cell);
   return cells;

@@ -49,6 +49,19 @@ bool every(const ArrayOrView<T>& array, const Test& test) {
   return std::all_of(array.span().begin(), array.span().end(), test);
 }
 
+/// Exits are those that the marks say, and none leaves the lattice.
+void check_exits(const LatticePlaces& places, CellMarks marks, const ArrayOrView<std::uint64_t>& exits) {
+  for (std::uint32_t tile = 0; tile < places.tile_count(); ++tile) {
+    const std::uint32_t col = tile % places.tile_cols();
+    const std::uint32_t row = tile / places.tile_cols();
+    const bool at_rim[] = {col + 1 == places.tile_cols(), row + 1 == places.tile_rows(), col == 0, row == 0};
+    for (unsigned d = 0; d < 4; ++d) {
+      const std::uint64_t word = exits[4 * std::size_t{tile} + d];
+      require(word == exits_of(marks, tile, d) && (!at_rim[d] || word == 0), "exits");
+    }
+  }
+}
+
 void check_pieces(const LatticePlaces& places, const PieceArrays& pieces) {
   const std::size_t count = pieces.head.size();
   require(pieces.exits.size() == 4 * places.tile_count(), "exits");
@@ -71,7 +84,7 @@ void check_fronts(const LatticePlaces& places, const FrontArrays& arrays) {
   const std::size_t gates = arrays.gate_place.size();
   require(every(arrays.gate_place, [&](Place p) { return p < places.place_count(); }), "gate.place");
   require(every(arrays.bounds, [&](GateRank rank) { return rank < gates; }), "front.bounds");
-  require(every(arrays.lengths, [](std::uint32_t length) { return length <= 2 * no_way; }), "front.lengths");
+  require(every(arrays.lengths, [](std::uint32_t length) { return length >= 1 && length <= no_way; }), "front.lengths");
   std::uint64_t first = 0;
   std::uint64_t bound = 0;
   std::uint64_t length = 0;
@@ -119,6 +132,7 @@ void check_route_arrays(const LatticePlaces& places, const RouteArrays& arrays) 
   const std::size_t rows = places.place_count() / 64;
   require(arrays.marks.size() == rows * mark_word::count, "marks");
   check_pieces(places, arrays.pieces);
+  check_exits(places, CellMarks(arrays.marks.data()), arrays.pieces.exits);
   check_fronts(places, arrays.fronts);
   const std::size_t gates = arrays.fronts.gate_place.size();
   require(arrays.gates_before.size() == (gates == 0 ? 0 : rows) && arrays.gate_rank.size() == gates, "gates.before");

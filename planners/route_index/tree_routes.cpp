@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planners/route_index/tree_routes.hpp"
 
+#include <algorithm>
+
 namespace warren {
 
 CoreEntry TreeRoutes::core_entry(Place from) const {
@@ -52,15 +54,19 @@ TreeMeeting TreeRoutes::meeting_in_tile(Place a, Place b) const {
   const auto up = [&](Place p) { return places_.step_inside(p, marks_.direction(p)); };
   for (; left_a > left_b; --left_a) a = up(a);
   for (; left_b > left_a; --left_b) b = up(b);
-  for (; a != b; --left_a) {
+  for (; a != b && left_a > 0; --left_a) {
     a = up(a);
     b = up(b);
   }
   return {a, left_a + (end.at_core ? 0 : pieces_.depth(pieces_.piece_at(end.last)))};
 }
 
-void TreeRoutes::append_climb(Place from, Place to, RawVector<Place>& cells) const {
-  for (; from != to; from = places_.step(from, marks_.direction(from))) cells.push_back(from);
+void TreeRoutes::append_climb(Place from, std::uint32_t steps, RawVector<Place>& cells) const {
+  const std::size_t most = std::min<std::size_t>(steps, places_.place_count());
+  for (std::size_t i = 0; i < most && !marks_.is_core(from); ++i) {
+    cells.push_back(from);
+    from = places_.step(from, marks_.direction(from));
+  }
 }
 
 }  // namespace warren

@@ -31,8 +31,8 @@ class TreeRoutes {
   CoreEntry core_entry(Place from) const;
   /// Both hang off the same cell of the core.
   TreeMeeting meeting(Place a, Place b) const;
-  /// Appends the cells from `from`, included, to `to`, not included, which is on its way to the core.
-  void append_climb(Place from, Place to, RawVector<Place>& cells) const;
+  /// Appends a cell and those after it on its way to the core, as many as steps.
+  void append_climb(Place from, std::uint32_t steps, RawVector<Place>& cells) const;
 
  private:
   PieceId piece_of(Place from) const;

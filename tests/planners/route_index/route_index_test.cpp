@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planners/route_index/route_index.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/base/rng.hpp"
+#include "parallel/deadline.hpp"
+#include "planners/route_index/route_query.hpp"
+#include "planners/route_index/route_sections.hpp"
+#include "tests/planners/route_index/lattice_mazes.hpp"
+
+namespace warren {
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+MazeOptions loopy(std::uint32_t side) {
+  return {.rows = side, .cols = side + 30, .seed = 5, .algorithm = MazeAlgorithm::backtracker, .loops = 0.1};
+}
+
+std::map<std::string, Bytes> bytes_of(const RouteIndex& index) {
+  std::map<std::string, Bytes> bytes;
+  for (const RouteSection& s : route_sections(index))
+    bytes[std::string(s.name)] = Bytes(s.bytes.begin(), s.bytes.end());
+  return bytes;
+}
+
+TEST(RouteIndex, AllBytesAreTheSameForAnyNumberOfThreads) {
+  for (const double loops : {0.0, 0.02, 0.1}) {
+    MazeOptions maze = loopy(600);
+    maze.loops = loops;
+    const auto expected = bytes_of(RouteIndex(test::maze_passages(maze), {}, {.threads = 1}));
+    for (const unsigned threads : {2U, 3U, 8U}) {
+      const auto found = bytes_of(RouteIndex(test::maze_passages(maze), {}, {.threads = threads}));
+      for (const auto& [name, bytes] : expected) {
+        EXPECT_TRUE(found.at(name) == bytes) << name << " on " << threads << " threads, loops " << loops;
+      }
+    }
+  }
+}
+
+TEST(RouteIndex, OpenSpaceIsRefusedByCountingJunctions) {
+  const MazeOptions open{.rows = 20, .cols = 20, .seed = 1, .algorithm = MazeAlgorithm::kruskal, .loops = 1.0};
+  try {
+    const RouteIndex index(test::maze_passages(open), {}, {});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("(found: 397 of 400)"), std::string::npos) << error.what();
+  }
+  EXPECT_TRUE(route_index_pays(3, 10));
+  EXPECT_FALSE(route_index_pays(31, 100));
+}
+
+TEST(RouteIndex, LeavesOutOfRangeAreRefused) {
+  EXPECT_THROW(RouteIndexOptions{.leaf = 0}.validate(), InputError);
+  EXPECT_THROW(RouteIndexOptions{.leaf = most_leaf_junctions + 1}.validate(), InputError);
+}
+
+TEST(RouteIndex, ADeadlineStopsTheBuilding) {
+  const Deadline over(0.0);
+  EXPECT_THROW(RouteIndex(test::maze_passages(loopy(100)), {}, {.deadline = &over}), Stopped);
+}
+
+/// Sections with bytes of their own, aligned as a mapped file's are.
+struct Copies {
+  std::vector<std::vector<std::uint64_t>> words;
+  std::vector<RouteSection> sections;
+  explicit Copies(const RouteIndex& index) : sections(route_sections(index)) {
+    for (RouteSection& s : sections) {
+      words.emplace_back((s.bytes.size() + 7) / 8);
+      if (!s.bytes.empty()) std::memcpy(words.back().data(), s.bytes.data(), s.bytes.size());
+      s.bytes = std::as_bytes(std::span(words.back())).first(s.bytes.size());
+    }
+  }
+  std::size_t number(std::string_view name) const {
+    for (std::size_t i = 0; i < sections.size(); ++i) {
+      if (sections[i].name == name) return i;
+    }
+    return sections.size();
+  }
+};
+
+TEST(RouteSections, AnIndexOfViewsAnswersTheSame) {
+  for (const double loops : {0.0, 0.1}) {
+    MazeOptions maze = loopy(150);
+    maze.loops = loops;
+    const RouteIndex built(test::maze_passages(maze), {}, {});
+    const Copies copies(built);
+    const RouteIndex viewed = route_index_of({maze.rows, maze.cols}, copies.sections);
+    EXPECT_EQ(viewed.bytes(), built.bytes());
+    RouteQuery expected(built);
+    RouteQuery found(viewed);
+    for (CellId a = 0; a < maze.rows * maze.cols; a += 373) {
+      for (CellId b = 0; b < maze.rows * maze.cols; b += 911) {
+        ASSERT_EQ(found.length(a, b), expected.length(a, b)) << a << ' ' << b;
+      }
+      EXPECT_EQ(found.path(a, 7), expected.path(a, 7));
+    }
+  }
+}
+
+TEST(RouteSections, AMissingSectionIsNamed) {
+  const RouteIndex built(test::maze_passages(loopy(70)), {}, {});
+  for (const RouteSection& gone : route_sections(built)) {
+    std::vector<RouteSection> rest;
+    for (const RouteSection& s : route_sections(built)) {
+      if (s.name != gone.name) rest.push_back(s);
+    }
+    try {
+      route_index_of({70, 100}, rest);
+      ADD_FAILURE() << gone.name;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(gone.name), std::string::npos) << error.what();
+    }
+  }
+}
+
+/// Any number in any array may be wrong: it is refused, or answers are wrong and nothing else is.
+TEST(RouteSections, WrongNumbersAreRefusedOrHarmless) {
+  const RouteIndex built(test::maze_passages(loopy(70)), {}, {});
+  std::size_t refused = 0;
+  std::size_t taken = 0;
+  for (std::size_t section = 0; section < route_sections(built).size(); ++section) {
+    for (std::uint64_t i = 0; i < 60; ++i) {
+      Copies copies(built);
+      if (copies.words[section].empty()) continue;
+      std::uint64_t& word = copies.words[section][random_bits(section, i, 0) % copies.words[section].size()];
+      word ^= std::uint64_t{1} << random_bits(section, i, 1) % 64;
+      try {
+        const RouteIndex index = route_index_of({70, 100}, copies.sections);
+        RouteQuery query(index);
+        for (CellId a = 0; a < 7000; a += 71) query.path(a, (a * 31) % 7000);
+        ++taken;
+      } catch (const InputError& error) {
+        ASSERT_EQ(std::string(error.what()).find("cell:"), std::string::npos);
+        ++refused;
+      }
+    }
+  }
+  EXPECT_GT(refused, 100U);
+  EXPECT_GT(taken, 100U);
+}
+
+}  // namespace
+}  // namespace warren
