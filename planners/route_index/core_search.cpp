@@ -33,9 +33,14 @@ void CoreSearch::search(Place start) {
 bool CoreSearch::search_for(Place start, Place goal, std::uint32_t most_steps) {
   begin(start);
   const CellMarks marks = index_.marks();
-  for (std::uint32_t i = 0; i < seen_.size() && seen_[i].steps <= most_steps; ++i) {
-    if (seen_[i].place == goal) return true;
-    if (i == 0 || !marks.is_gate(seen_[i].place)) expand(i);
+  const std::uint32_t col = index_.places().col(goal);
+  const std::uint32_t row = index_.places().row(goal);
+  const auto apart = [](std::uint32_t a, std::uint32_t b) { return a < b ? b - a : a - b; };
+  for (std::uint32_t i = 0; i < seen_.size(); ++i) {
+    const SeenCell& cell = seen_[i];
+    if (cell.place == goal) return cell.steps <= most_steps;
+    const std::uint64_t at_least = std::uint64_t{cell.steps} + apart(cell.col, col) + apart(cell.row, row);
+    if (at_least <= most_steps && (i == 0 || !marks.is_gate(cell.place))) expand(i);
   }
   return false;
 }

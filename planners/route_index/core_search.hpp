@@ -36,7 +36,7 @@ class CoreSearch {
   /// Everything that is reached from `start` without passing a gate. A start that is a gate is only itself.
   void search(Place start);
   /// From a gate, or any other cell, past no further gate, until the goal is reached; false if it isn't in so many
-  /// steps.
+  /// steps. Cells that are too far from it, as if there were no walls, are left out.
   bool search_for(Place start, Place goal, std::uint32_t most_steps);
 
   std::span<const SeenGate> gates() const { return gates_; }

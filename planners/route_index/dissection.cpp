@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/page_pool.hpp"
 #include "parallel/chunks.hpp"
 #include "planners/route_index/planar_region.hpp"
 
@@ -166,6 +167,7 @@ void Dissector::open_whole() {
 }
 
 void Dissector::divide(LargeRegion& large) const {
+  const PagePool pages;  // what is cut leaves room for its parts
   RegionTools tools(execution_);
   if (large.region.size() <= task_) return cut_down(std::move(large.region), tools, large.whole);
   const RawVector<CutSide>& side = tools.cut.cut(large.region);

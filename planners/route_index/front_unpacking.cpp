@@ -8,7 +8,7 @@
 namespace warren {
 namespace {
 
-constexpr std::uint32_t few_steps = 48;  // a search so far costs less than looking through the fronts below
+constexpr std::uint32_t few_steps = 12;  // a search so far costs less than looking through the fronts below
 
 }  // namespace
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planners/route_index/route_index.hpp"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/page_pool.hpp"
 #include "parallel/chunks.hpp"
 #include "parallel/scan.hpp"
 #include "planners/route_index/core_graph.hpp"
@@ -14,27 +16,39 @@
 
 namespace warren {
 
-void RouteIndexOptions::validate() const {
-  if (leaf >= 1 && leaf <= most_leaf_junctions) return;
-  throw InputError("leaf", "must be from 1 to " + std::to_string(most_leaf_junctions), std::to_string(leaf));
+namespace {
+
+/// About 200 cells: a search of them takes a few microseconds, and larger leaves save little memory.
+std::size_t leaf_size(const CoreGraph& graph) {
+  const std::uint64_t junctions = 200 * graph.size() / std::max<std::uint64_t>(1, graph.core_cells);
+  return std::clamp<std::uint64_t>(junctions, 4, 32);
 }
 
-bool route_index_pays(std::uint64_t junctions, std::uint64_t cells) { return junctions * 10 <= cells * 3; }
+}  // namespace
+
+void RouteIndexOptions::validate() const {
+  if (leaf <= most_leaf_junctions) return;
+  throw InputError("leaf", "must be at most " + std::to_string(most_leaf_junctions), std::to_string(leaf));
+}
+
+bool route_index_pays(std::uint64_t junctions, std::uint64_t cells) { return junctions * 10 <= cells * 4; }
 
 RouteIndex::RouteIndex(LatticePassages passages, const RouteIndexOptions& options, const Execution& execution)
     : passages_(std::move(passages)), places_(passages_.size()) {
   options.validate();
+  const PagePool pages;  // what one stage leaves is warm for the next
   RawVector<std::uint8_t> peeled = peel(passages_, places_, execution);
   const CoreGraph graph = core_graph(peeled, places_, execution);
   if (!options.open_space && !route_index_pays(graph.size(), passages_.cell_count())) {
     throw InputError("route index",
-                     "doesn't pay in open space, where more than 3 of 10 cells are junctions: search the grid",
+                     "doesn't pay in open space, where more than 4 of 10 cells are junctions: search the grid",
                      std::to_string(graph.size()) + " of " + std::to_string(passages_.cell_count()));
   }
   RawVector<std::uint64_t> marks = mark_words(peeled, places_, execution);
   peeled = {};
   arrays_.pieces = build_pieces(places_, CellMarks(marks.data()), execution);
-  arrays_.fronts = build_fronts(graph, dissect(graph, options.leaf, execution), execution);
+  arrays_.fronts =
+      build_fronts(graph, dissect(graph, options.leaf == 0 ? leaf_size(graph) : options.leaf, execution), execution);
   mark_gates(marks, execution);
   arrays_.marks = ArrayOrView<std::uint64_t>(std::move(marks));
 }

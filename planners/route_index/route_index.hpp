@@ -27,12 +27,14 @@
 namespace warren {
 
 struct RouteIndexOptions {
-  std::uint32_t leaf = 32;  ///< most junctions between cuts that are searched cell by cell, 1 .. most_leaf_junctions
+  std::uint32_t leaf =
+      0;  ///< most junctions between cuts that are searched cell by cell, to most_leaf_junctions; 0: by counting
   bool open_space = false;  ///< build it where it doesn't pay, too
   void validate() const;
 };
 
-/// Does the index pay? Where no more than 3 of 10 cells are junctions.
+/// Does the index pay? Where no more than 4 of 10 cells are junctions: mazes of which up to a
+/// fifth of the walls left are taken out.
 bool route_index_pays(std::uint64_t junctions, std::uint64_t cells);
 
 /// What an index is made of, but for the passages.
