@@ -17,7 +17,8 @@ std::uint64_t front_column(const FrontArrays& fronts, const Front& f, GateRank r
   return f.gates + static_cast<std::uint64_t>(at - bounds.begin());
 }
 
-FrontQuery::FrontQuery(const RouteIndex& index) : index_(index), fronts_(index.arrays().fronts), lessen_(lessen_row()) {
+FrontQuery::FrontQuery(const RouteIndex& index)
+    : index_(index), fronts_(index.arrays().fronts), lessen_(lessen_row()), lessen_short_(lessen_row_short()) {
   forward_.distance.assign(fronts_.gate_place.size(), no_way);
   backward_.distance.assign(fronts_.gate_place.size(), no_way);
 }
@@ -96,10 +97,18 @@ void FrontQuery::settle_both(FrontId front) {
 void FrontQuery::lessen_by(const Front& f, std::uint32_t gate, Half& half, RawVector<std::uint32_t>& bounds) const {
   const std::uint32_t distance = half.distance[f.first + gate];
   if (distance >= best_) return;
-  const std::uint32_t* const row = fronts_.lengths.data() + f.first_length + row_offset(gate, f.gates, f.bounds);
-  const std::uint32_t later = f.gates - gate - 1;
-  lessen_(half.distance.data() + f.first + gate + 1, row, distance, later);
-  lessen_(bounds.data(), row + later, distance, f.bounds);
+  const std::uint64_t row = f.first_length() + row_offset(gate, f.gates, f.bounds);
+  std::uint32_t* const later = half.distance.data() + f.first + gate + 1;
+  const std::uint32_t count = f.gates - gate - 1;
+  if (f.is_short()) {
+    const std::uint16_t* const lengths = fronts_.short_lengths.data() + row;
+    lessen_short_(later, lengths, distance, count);
+    lessen_short_(bounds.data(), lengths + count, distance, f.bounds);
+  } else {
+    const std::uint32_t* const lengths = fronts_.lengths.data() + row;
+    lessen_(later, lengths, distance, count);
+    lessen_(bounds.data(), lengths + count, distance, f.bounds);
+  }
 }
 
 void FrontQuery::load_bounds(const Front& f, const Half& half, RawVector<std::uint32_t>& bounds) const {

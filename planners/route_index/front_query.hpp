@@ -66,6 +66,7 @@ class FrontQuery {
   const RouteIndex& index_;
   const FrontArrays& fronts_;
   const LessenRow lessen_;
+  const LessenRowShort lessen_short_;
   Half forward_;
   Half backward_;
   RawVector<std::uint32_t> bounds_;
@@ -76,7 +77,9 @@ class FrontQuery {
 
 /// Entry of a front for gate i of it and column j > i: its gates, then its bounds.
 inline std::uint32_t front_entry(const FrontArrays& fronts, const Front& f, std::uint64_t i, std::uint64_t j) {
-  return fronts.lengths[f.first_length + row_offset(i, f.gates, f.bounds) + (j - i - 1)];
+  const std::uint64_t at = f.first_length() + row_offset(i, f.gates, f.bounds) + (j - i - 1);
+  if (!f.is_short()) return fronts.lengths[at];
+  return fronts.short_lengths[at] == no_short_way ? no_way : fronts.short_lengths[at];
 }
 
 /// Column of a gate or a bound of a front, its width if it is neither.

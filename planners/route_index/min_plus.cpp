@@ -13,7 +13,20 @@ namespace {
   }
 }
 
+[[gnu::always_inline]] inline void lessen_short(std::uint32_t* __restrict least, const std::uint16_t* __restrict rest,
+                                                std::uint32_t first, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t length = rest[i];
+    const std::uint32_t sum = length == no_short_way ? no_way : first + length;
+    least[i] = sum < least[i] ? sum : least[i];
+  }
+}
+
 #if defined(__x86_64__) && !defined(WARREN_PLAIN)
+[[gnu::target("avx2")]] void lessen_row_short_avx2(std::uint32_t* least, const std::uint16_t* rest, std::uint32_t first,
+                                                   std::size_t count) {
+  lessen_short(least, rest, first, count);
+}
 [[gnu::target("avx2")]] void lessen_row_avx2(std::uint32_t* least, const std::uint32_t* rest, std::uint32_t first,
                                              std::size_t count) {
   lessen(least, rest, first, count);
@@ -24,6 +37,20 @@ namespace {
 
 void lessen_row_plain(std::uint32_t* least, const std::uint32_t* rest, std::uint32_t first, std::size_t count) {
   lessen(least, rest, first, count);
+}
+
+void lessen_row_short_plain(std::uint32_t* least, const std::uint16_t* rest, std::uint32_t first, std::size_t count) {
+  lessen_short(least, rest, first, count);
+}
+
+LessenRowShort lessen_row_short() {
+#if defined(__x86_64__) && !defined(WARREN_PLAIN)
+  static const LessenRowShort fastest =
+      __builtin_cpu_supports("avx2") != 0 ? lessen_row_short_avx2 : lessen_row_short_plain;
+  return fastest;
+#else
+  return lessen_row_short_plain;
+#endif
 }
 
 LessenRow lessen_row() {

@@ -11,12 +11,21 @@ namespace warren {
 /// No way. Two lengths, and a length and no_way, can be added.
 inline constexpr std::uint32_t no_way = std::uint32_t{1} << 30;
 
+/// No way among short lengths.
+inline constexpr std::uint16_t no_short_way = 0xffff;
+
 /// least[i] becomes the smaller of itself and first + rest[i], for i < count. The arrays don't overlap.
 using LessenRow = void (*)(std::uint32_t* least, const std::uint32_t* rest, std::uint32_t first, std::size_t count);
 
 /// The fastest of this processor.
 LessenRow lessen_row();
+/// The same of short lengths; no_short_way lessens nothing that is at most no_way.
+using LessenRowShort = void (*)(std::uint32_t* least, const std::uint16_t* rest, std::uint32_t first,
+                                std::size_t count);
+LessenRowShort lessen_row_short();
+
 /// What needs nothing special.
+void lessen_row_short_plain(std::uint32_t* least, const std::uint16_t* rest, std::uint32_t first, std::size_t count);
 void lessen_row_plain(std::uint32_t* least, const std::uint32_t* rest, std::uint32_t first, std::size_t count);
 
 }  // namespace warren

@@ -27,6 +27,7 @@ void for_each_array(Arrays& arrays, const Visit& visit) {
   visit("fronts", arrays.fronts.fronts);
   visit("front.bounds", arrays.fronts.bounds);
   visit("front.lengths", arrays.fronts.lengths);
+  visit("front.shorts", arrays.fronts.short_lengths);
 }
 
 template <class T>
@@ -85,16 +86,20 @@ void check_fronts(const LatticePlaces& places, const FrontArrays& arrays) {
   require(every(arrays.gate_place, [&](Place p) { return p < places.place_count(); }), "gate.place");
   require(every(arrays.bounds, [&](GateRank rank) { return rank < gates; }), "front.bounds");
   require(every(arrays.lengths, [](std::uint32_t length) { return length >= 1 && length <= no_way; }), "front.lengths");
+  require(every(arrays.short_lengths, [](std::uint16_t length) { return length >= 1; }), "front.shorts");
   std::uint64_t first = 0;
   std::uint64_t bound = 0;
-  std::uint64_t length = 0;
+  std::uint64_t wide = 0;
+  std::uint64_t narrow = 0;
   for (std::size_t i = 0; i < arrays.fronts.size(); ++i) {
     const Front& f = arrays.fronts[i];
-    require(f.first == first && f.first_bound == bound && f.first_length == length, "fronts");
+    std::uint64_t& length = f.is_short() ? narrow : wide;
+    require(f.first == first && f.first_bound == bound && f.first_length() == length, "fronts");
     first += f.gates;
     bound += f.bounds;
     length += row_offset(f.gates, f.gates, f.bounds);
-    require(first <= gates && bound <= arrays.bounds.size() && length <= arrays.lengths.size(), "fronts");
+    require(first <= gates && bound <= arrays.bounds.size() && wide <= arrays.lengths.size(), "fronts");
+    require(narrow <= arrays.short_lengths.size(), "fronts");
     require(f.parent == no_front || (f.parent > i && f.parent < arrays.fronts.size()), "fronts");
     require(f.last_child == no_front || f.last_child < i, "fronts");
     require(f.sibling == no_front || f.sibling < i, "fronts");
@@ -102,7 +107,8 @@ void check_fronts(const LatticePlaces& places, const FrontArrays& arrays) {
       require(arrays.bounds[b] >= first && (b + 1 == bound || arrays.bounds[b] < arrays.bounds[b + 1]), "front.bounds");
     }
   }
-  require(first == gates && bound == arrays.bounds.size() && length == arrays.lengths.size(), "fronts");
+  require(first == gates && bound == arrays.bounds.size() && wide == arrays.lengths.size(), "fronts");
+  require(narrow == arrays.short_lengths.size(), "fronts");
 }
 
 }  // namespace

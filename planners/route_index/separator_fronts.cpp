@@ -2,6 +2,7 @@
 #include "planners/route_index/separator_fronts.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "parallel/chunks.hpp"
@@ -16,6 +17,7 @@ struct FrontPart {
   RawVector<Front> fronts;
   RawVector<GateRank> bounds;
   RawVector<std::uint32_t> lengths;
+  RawVector<std::uint16_t> short_lengths;
 };
 
 /// A node's place in the arrays of the dissection.
@@ -181,11 +183,25 @@ void FrontBuilder::add_child(const BoundLengths& child, std::size_t node, std::s
 void FrontBuilder::store(std::size_t node, std::span<const GateRank> bounds, const FrontMatrix& matrix,
                          FrontPart& part) const {
   const std::uint32_t gates = dissection_.node[node].members;
-  part.fronts.push_back({part.bounds.size(), part.lengths.size(), place_[node].first_rank, gates,
+  bool fits = true;
+  for (std::size_t i = 0; i < gates; ++i) {
+    fits = fits && std::all_of(matrix.row(i) + 1, matrix.row(i) + (matrix.size() - i),
+                               [](std::uint32_t length) { return length < no_short_way || length == no_way; });
+  }
+  const std::uint64_t rows = fits ? 2 * part.short_lengths.size() + 1 : 2 * part.lengths.size();
+  part.fronts.push_back({part.bounds.size(), rows, place_[node].first_rank, gates,
                          static_cast<std::uint32_t>(bounds.size()), no_front, no_front, no_front});
   part.bounds.insert(part.bounds.end(), bounds.begin(), bounds.end());
   for (std::size_t i = 0; i < gates; ++i) {
-    part.lengths.insert(part.lengths.end(), matrix.row(i) + 1, matrix.row(i) + (matrix.size() - i));
+    const std::uint32_t* const first = matrix.row(i) + 1;
+    const std::uint32_t* const last = matrix.row(i) + (matrix.size() - i);
+    if (fits) {
+      std::transform(first, last, std::back_inserter(part.short_lengths), [](std::uint32_t length) {
+        return length == no_way ? no_short_way : static_cast<std::uint16_t>(length);
+      });
+    } else {
+      part.lengths.insert(part.lengths.end(), first, last);
+    }
   }
 }
 
@@ -195,16 +211,17 @@ FrontArrays FrontBuilder::join(std::vector<FrontPart>& parts, std::vector<std::v
   const auto append = [&all](FrontPart part) {
     for (Front front : part.fronts) {
       front.first_bound += all.bounds.size();
-      front.first_length += all.lengths.size();
+      front.rows += 2 * (front.is_short() ? all.short_lengths.size() : all.lengths.size());
       all.fronts.push_back(front);
     }
     all.bounds.insert(all.bounds.end(), part.bounds.begin(), part.bounds.end());
     all.lengths.insert(all.lengths.end(), part.lengths.begin(), part.lengths.end());
+    all.short_lengths.insert(all.short_lengths.end(), part.short_lengths.begin(), part.short_lengths.end());
   };
   std::size_t entries = 0;
-  for (const FrontPart& part : parts) entries += part.lengths.size();
-  execution_.reserve(entries * sizeof(std::uint32_t) * 5 / 4);
-  all.lengths.reserve(entries * 5 / 4);
+  for (const FrontPart& part : parts) entries += part.short_lengths.size();
+  execution_.reserve(entries * sizeof(std::uint16_t) * 3 / 2);
+  all.short_lengths.reserve(entries * 3 / 2);
   LeafElimination leaves(graph_, rank_);
   std::vector<BoundLengths> open;
   std::size_t task = 0;
@@ -222,7 +239,8 @@ FrontArrays FrontBuilder::join(std::vector<FrontPart>& parts, std::vector<std::v
   }
   link(all.fronts, all.bounds);
   return {ArrayOrView<Front>(std::move(all.fronts)), ArrayOrView<GateRank>(std::move(all.bounds)),
-          ArrayOrView<std::uint32_t>(std::move(all.lengths)), ArrayOrView<Place>(std::move(gate_place_))};
+          ArrayOrView<std::uint32_t>(std::move(all.lengths)), ArrayOrView<std::uint16_t>(std::move(all.short_lengths)),
+          ArrayOrView<Place>(std::move(gate_place_))};
 }
 
 void FrontBuilder::link(RawVector<Front>& fronts, const RawVector<GateRank>& bounds) {

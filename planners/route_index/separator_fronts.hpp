@@ -6,8 +6,9 @@
 // its bounds, the gates of upper cuts that a way through the node's region alone can lead to. Row i of a front holds
 // the least length from its i-th gate to each later gate of it and to each bound, over ways whose cells between are
 // below: of leaves, of lower fronts, or of earlier gates of this one. Cuts are minimal, so nearly all pairs have such
-// ways, and rows are kept without gaps: no list of heads an entry, and whole words of lengths are added at once.
-// A shortest way between any two gates climbs from front to parent, then down again; both halves read rows only.
+// ways, and rows are kept without gaps: no list of heads an entry, and whole words of lengths are added at once. Where
+// all lengths of a front are below 2^16 - 1, they are kept in two bytes each: a question's time is that of reading
+// rows. A shortest way between any two gates climbs from front to parent, then down again; both halves read rows only.
 //
 // To build, each node hands its parent the lengths between its bounds by ways through itself. Leaves of some dozens
 // of junctions are eliminated by least degree and not stored: they are searched cell by cell when asked.
@@ -30,14 +31,18 @@ using FrontId = std::uint32_t;
 inline constexpr FrontId no_front = ~FrontId{0};
 
 struct Front {
-  std::uint64_t first_bound;   ///< in bounds
-  std::uint64_t first_length;  ///< in lengths: row i has gates - 1 - i + bounds of them
-  GateRank first;              ///< its gates are first .. first + gates - 1
+  std::uint64_t first_bound;  ///< in bounds
+  std::uint64_t rows;         ///< twice where its rows begin, plus 1 where they are of short lengths
+  GateRank first;             ///< its gates are first .. first + gates - 1
   std::uint32_t gates;
   std::uint32_t bounds;
   FrontId parent;      ///< of its lowest bound, no_front if there is none; larger than its own number
   FrontId last_child;  ///< the child with the largest number, no_front if there is none
   FrontId sibling;     ///< the parent's next smaller child
+
+  bool is_short() const { return (rows & 1U) != 0; }
+  /// In short_lengths or lengths: row i has gates - 1 - i + bounds of them.
+  std::uint64_t first_length() const { return rows / 2; }
 };
 
 /// Where row i of a front with so many gates and bounds begins.
@@ -49,8 +54,9 @@ constexpr std::uint64_t row_offset(std::uint64_t i, std::uint64_t gates, std::ui
 struct FrontArrays {
   ArrayOrView<Front> fronts;           ///< ascending by their first gates
   ArrayOrView<GateRank> bounds;        ///< ascending in each front
-  ArrayOrView<std::uint32_t> lengths;  ///< no_way where there is none
-  ArrayOrView<Place> gate_place;       ///< of a gate
+  ArrayOrView<std::uint32_t> lengths;  ///< of fronts with a length of 2^16 - 1 or more; no_way where there is none
+  ArrayOrView<std::uint16_t> short_lengths;  ///< of the others; no_short_way where there is none
+  ArrayOrView<Place> gate_place;             ///< of a gate
 };
 
 /// Throws Stopped.

@@ -121,6 +121,25 @@ TEST(RouteQuery, RingsHaveTwoWays) {
   }
 }
 
+/// One ring through all cells, up and down column pairs and back along the lowest row: half of it is longer than two
+/// bytes say.
+TEST(RouteQuery, LongWaysBetweenGates) {
+  const LatticeSize size{400, 400};
+  PassageWords words = LatticePassages::closed(size, {});
+  for (std::uint32_t col = 0; col < size.cols; ++col) {
+    if (col + 1 < size.cols) test::open_right(words, size, col, 0);
+    for (std::uint32_t row = 1; row + 1 < size.rows; ++row) test::open_up(words, size, col, row);
+    if (col % 2 == 0) test::open_right(words, size, col, size.rows - 1);
+    if (col % 2 == 1 && col + 1 < size.cols) test::open_right(words, size, col, 1);
+  }
+  test::open_up(words, size, 0, 0);
+  test::open_up(words, size, size.cols - 1, 0);
+  const RouteIndex index({size, {words.right, words.up}}, small_leaves(1), {});
+  EXPECT_FALSE(index.arrays().fronts.lengths.empty());
+  EXPECT_FALSE(index.arrays().fronts.short_lengths.empty());
+  expect_exact({size, std::move(words)}, small_leaves(1), 39989, 37, 4001);
+}
+
 TEST(RouteQuery, CellsOutsideTheLatticeAreRefused) {
   const RouteIndex index(maze_passages({4, 5, 1, MazeAlgorithm::kruskal, 0.0}), {}, {});
   RouteQuery query(index);
