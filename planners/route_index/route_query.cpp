@@ -14,14 +14,10 @@ Place RouteQuery::checked(CellId cell) const {
 }
 
 std::optional<std::uint32_t> RouteQuery::length(CellId start, CellId goal) {
-  const Place a = checked(start);
-  const Place b = checked(goal);
-  const CoreEntry from = trees_.core_entry(a);
-  const CoreEntry to = trees_.core_entry(b);
-  if (from.core == to.core) return from.steps + to.steps - 2 * trees_.meeting(a, b).depth;
-  const std::uint32_t between = core_length(from.core, to.core);
+  const TreeJoin join = trees_.join(checked(start), checked(goal));
+  const std::uint32_t between = join.in_tree() ? 0 : core_length(join.start_core, join.goal_core);
   if (between >= no_way) return std::nullopt;
-  return from.steps + between + to.steps;
+  return join.start_steps + between + join.goal_steps;
 }
 
 std::uint32_t RouteQuery::core_length(Place start, Place goal) {
@@ -39,16 +35,13 @@ std::uint32_t RouteQuery::direct_length(Place goal) const {
 RawVector<CellId> RouteQuery::path(CellId start, CellId goal) {
   const Place a = checked(start);
   const Place b = checked(goal);
-  const CoreEntry from = trees_.core_entry(a);
-  const CoreEntry to = trees_.core_entry(b);
-  const bool one_tree = from.core == to.core;
-  const TreeMeeting meeting = one_tree ? trees_.meeting(a, b) : TreeMeeting{from.core, 0};
+  const TreeJoin join = trees_.join(a, b);
   RawVector<Place> cells;
-  trees_.append_climb(a, from.steps - meeting.depth, cells);
-  cells.push_back(meeting.at);
-  if (!one_tree && !append_core_path(from.core, to.core, cells)) return {};
+  trees_.append_climb(a, join.start_steps, cells);
+  cells.push_back(join.start_core);
+  if (!join.in_tree() && !append_core_path(join.start_core, join.goal_core, cells)) return {};
   RawVector<Place> tail;
-  trees_.append_climb(b, to.steps - meeting.depth, tail);
+  trees_.append_climb(b, join.goal_steps, tail);
   append_reversed(tail, cells);
   for (Place& cell : cells) cell = index_.places().cell_of(cell);
   return cells;

@@ -5,52 +5,60 @@
 
 namespace warren {
 
-CoreEntry TreeRoutes::core_entry(Place from) const {
-  const Climb first = pieces_.climb(from);
-  if (first.at_core) return {first.last, first.steps};
-  const PieceId piece = pieces_.piece_at(first.last);
-  PieceId root = pieces_.head(piece);
-  while (pieces_.parent(root) != no_piece) root = pieces_.head(pieces_.parent(root));
-  return {pieces_.climb(pieces_.door(root)).last, first.steps + pieces_.depth(piece)};
+TreeRoutes::Climber TreeRoutes::climber(Place from) const {
+  const Climb up = pieces_.climb(from);
+  if (up.at_core) return {from, no_piece, up, 0, up.steps};
+  const PieceId piece = pieces_.piece_at(up.last);
+  return {from, piece, up, 0, up.steps + pieces_.depth(piece)};
 }
 
-PieceId TreeRoutes::piece_of(Place from) const {
-  const Climb climb = pieces_.climb(from);
-  return climb.at_core ? no_piece : pieces_.piece_at(climb.last);
+/// By the exit of a piece that is on its way.
+void TreeRoutes::leave(Climber& climber, PieceId by) const {
+  climber.at = pieces_.door(by);
+  climber.steps = climber.depth - pieces_.depth(by) + 1;
+  climber.piece = pieces_.parent(by);
 }
 
 /// While they are in pieces of different paths, the one with the larger number, which hangs off the other's path or
-/// off another one, leaves its path; cells below all pieces count as one.
-TreeMeeting TreeRoutes::meeting(Place a, Place b) const {
-  PieceId piece_a = piece_of(a);
-  PieceId piece_b = piece_of(b);
+/// off another one, leaves its path by the head; what has left all pieces waits for the other.
+void TreeRoutes::climb_to_one_piece(Climber& start, Climber& goal) const {
   const auto head = [&](PieceId p) { return p == no_piece ? no_piece : pieces_.head(p); };
-  const auto leave = [&](Place& cell, PieceId& piece, PieceId by) {
-    cell = pieces_.door(by);
-    piece = pieces_.parent(by);
-  };
-  while (head(piece_a) != head(piece_b)) {
-    const bool a_leaves = piece_b == no_piece || (piece_a != no_piece && piece_a > piece_b);
-    if (a_leaves) {
-      leave(a, piece_a, head(piece_a));
+  PieceId start_head = head(start.piece);
+  PieceId goal_head = head(goal.piece);
+  while (start_head != goal_head) {
+    if (goal_head == no_piece || (start_head != no_piece && start.piece > goal.piece)) {
+      leave(start, start_head);
+      start_head = head(start.piece);
     } else {
-      leave(b, piece_b, head(piece_b));
+      leave(goal, goal_head);
+      goal_head = head(goal.piece);
     }
   }
-  if (piece_a != piece_b) {
-    if (piece_a > piece_b) {
-      leave(a, piece_a, piece_b + 1);
-    } else {
-      leave(b, piece_b, piece_a + 1);
-    }
+  if (start.piece == goal.piece) return;
+  if (start.piece > goal.piece) {
+    leave(start, goal.piece + 1);
+  } else {
+    leave(goal, start.piece + 1);
   }
-  return meeting_in_tile(a, b);
 }
 
-TreeMeeting TreeRoutes::meeting_in_tile(Place a, Place b) const {
-  const Climb end = pieces_.climb(a);
-  std::uint32_t left_a = end.steps;
-  std::uint32_t left_b = pieces_.climb(b).steps;
+TreeJoin TreeRoutes::join(Place start, Place goal) const {
+  Climber from = climber(start);
+  Climber to = climber(goal);
+  climb_to_one_piece(from, to);
+  for (Climber* climber : {&from, &to}) {
+    if (climber->steps > 0) climber->up = pieces_.climb(climber->at);
+  }
+  if (from.up.last == to.up.last) return meet_in_tile(from, to);
+  return {from.steps + from.up.steps, to.steps + to.up.steps, from.up.last, to.up.last};
+}
+
+/// Both ways end at the same cell of the tile.
+TreeJoin TreeRoutes::meet_in_tile(const Climber& start, const Climber& goal) const {
+  Place a = start.at;
+  Place b = goal.at;
+  std::uint32_t left_a = start.up.steps;
+  std::uint32_t left_b = goal.up.steps;
   const auto up = [&](Place p) { return places_.step_inside(p, marks_.direction(p)); };
   for (; left_a > left_b; --left_a) a = up(a);
   for (; left_b > left_a; --left_b) b = up(b);
@@ -58,7 +66,7 @@ TreeMeeting TreeRoutes::meeting_in_tile(Place a, Place b) const {
     a = up(a);
     b = up(b);
   }
-  return {a, left_a + (end.at_core ? 0 : pieces_.depth(pieces_.piece_at(end.last)))};
+  return {start.steps + start.up.steps - left_a, goal.steps + goal.up.steps - left_a, a, a};
 }
 
 void TreeRoutes::append_climb(Place from, std::uint32_t steps, RawVector<Place>& cells) const {

@@ -10,16 +10,14 @@
 
 namespace warren {
 
-/// The cell of the core that a cell hangs off, and the steps to it.
-struct CoreEntry {
-  Place core;
-  std::uint32_t steps;
-};
+/// How two cells get to each other, as far as trees go.
+struct TreeJoin {
+  std::uint32_t start_steps;  ///< to the cell where both ways join, or to the core
+  std::uint32_t goal_steps;
+  Place start_core;  ///< where each way ends; the same cell where both join in a tree or at one cell of the core
+  Place goal_core;
 
-/// Where the ways of two cells to their core join, and the steps from there to the core.
-struct TreeMeeting {
-  Place at;
-  std::uint32_t depth;
+  bool in_tree() const { return start_core == goal_core; }
 };
 
 /// Looks at the index; any number of threads may.
@@ -28,15 +26,23 @@ class TreeRoutes {
   explicit TreeRoutes(const RouteIndex& index)
       : places_(index.places()), marks_(index.marks()), pieces_(index.pieces()) {}
 
-  CoreEntry core_entry(Place from) const;
-  /// Both hang off the same cell of the core.
-  TreeMeeting meeting(Place a, Place b) const;
+  TreeJoin join(Place start, Place goal) const;
   /// Appends a cell and those after it on its way to the core, as many as steps.
   void append_climb(Place from, std::uint32_t steps, RawVector<Place>& cells) const;
 
  private:
-  PieceId piece_of(Place from) const;
-  TreeMeeting meeting_in_tile(Place a, Place b) const;
+  /// A cell on its way to the core: it stands in a piece, or in none where the core is in its tile.
+  struct Climber {
+    Place at;
+    PieceId piece;
+    Climb up;             // from `at`, in its tile
+    std::uint32_t steps;  // from where it began to `at`
+    std::uint32_t depth;  // of where it began, if there in a piece: steps to the core
+  };
+  Climber climber(Place from) const;
+  void leave(Climber& climber, PieceId by) const;
+  void climb_to_one_piece(Climber& start, Climber& goal) const;
+  TreeJoin meet_in_tile(const Climber& start, const Climber& goal) const;
 
   const LatticePlaces& places_;
   CellMarks marks_;
