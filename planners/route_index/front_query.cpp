@@ -18,7 +18,7 @@ std::uint64_t front_column(const FrontArrays& fronts, const Front& f, GateRank r
 }
 
 FrontQuery::FrontQuery(const RouteIndex& index)
-    : index_(index), fronts_(index.arrays().fronts), lessen_(lessen_row()), lessen_short_(lessen_row_short()) {
+    : fronts_(index.arrays().fronts), lessen_(lessen_row()), lessen_short_(lessen_row_short()) {
   forward_.distance.assign(fronts_.gate_place.size(), no_way);
   backward_.distance.assign(fronts_.gate_place.size(), no_way);
 }
