@@ -12,6 +12,7 @@
 
 #include "core/base/rng.hpp"
 #include "planners/route_index/core_graph.hpp"
+#include "planners/route_index/core_reduction.hpp"
 #include "planners/route_index/dissection.hpp"
 #include "planners/route_index/peeling.hpp"
 #include "planners/route_index/route_query.hpp"
@@ -59,8 +60,10 @@ void print_stages(const LatticePassages& passages, const Execution& execution) {
   phases.end("marks");
   const PieceArrays pieces = build_pieces(places, CellMarks(marks.data()), execution);
   phases.end("pieces");
-  const CoreGraph graph = core_graph(peeled, places, execution);
+  CoreGraph graph = core_graph(peeled, places, execution);
   phases.end("core");
+  reduce_core(graph, execution);
+  phases.end("reduce");
   const Dissection dissection = dissect(graph, 32, execution);
   phases.end("dissect");
   const FrontArrays fronts = build_fronts(graph, dissection, execution);

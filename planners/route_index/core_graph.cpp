@@ -17,10 +17,9 @@ constexpr std::size_t row_grain = 1024;
 constexpr std::size_t junction_grain = 4096;
 
 bool is_junction(Place p, unsigned byte) {
-  constexpr Place post = 15 | 15 * LatticePlaces::side;
   if ((byte & peel_bit::peeled) != 0) return false;
   const int edges = std::popcount(byte & peel_bit::edges);
-  return edges > 2 || (edges == 2 && (p & post) == 0);
+  return edges > 2 || (edges == 2 && is_post(p));
 }
 
 class CoreWalk {

@@ -29,6 +29,9 @@ struct CoreGraph {
   std::size_t size() const { return place.size(); }
 };
 
+/// Is the place on the grid of posts, every 16th column in every 16th row?
+constexpr bool is_post(Place p) { return (p & (15U | 15U * LatticePlaces::side)) == 0; }
+
 /// peeled: planners/route_index/peeling.hpp. Throws Stopped, and InputError where there are 2^30 junctions or more.
 CoreGraph core_graph(const RawVector<std::uint8_t>& peeled, const LatticePlaces& places, const Execution& execution);
 

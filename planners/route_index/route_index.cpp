@@ -10,6 +10,7 @@
 #include "parallel/chunks.hpp"
 #include "parallel/scan.hpp"
 #include "planners/route_index/core_graph.hpp"
+#include "planners/route_index/core_reduction.hpp"
 #include "planners/route_index/dissection.hpp"
 #include "planners/route_index/peeling.hpp"
 #include "planners/route_index/route_sections.hpp"
@@ -31,18 +32,20 @@ void RouteIndexOptions::validate() const {
   throw InputError("leaf", "must be at most " + std::to_string(most_leaf_junctions), std::to_string(leaf));
 }
 
-bool route_index_pays(std::uint64_t junctions, std::uint64_t cells) { return junctions * 10 <= cells * 4; }
+bool route_index_pays(std::uint64_t junctions, std::uint64_t cells) { return junctions * 10 <= cells * 3; }
 
 RouteIndex::RouteIndex(LatticePassages passages, const RouteIndexOptions& options, const Execution& execution)
     : passages_(std::move(passages)), places_(passages_.size()) {
   options.validate();
   const PagePool pages;  // what one stage leaves is warm for the next
   RawVector<std::uint8_t> peeled = peel(passages_, places_, execution);
-  const CoreGraph graph = core_graph(peeled, places_, execution);
+  CoreGraph graph = core_graph(peeled, places_, execution);
+  reduce_core(graph, execution);
   if (!options.open_space && !route_index_pays(graph.size(), passages_.cell_count())) {
-    throw InputError("route index",
-                     "doesn't pay in open space, where more than 4 of 10 cells are junctions: search the grid",
-                     std::to_string(graph.size()) + " of " + std::to_string(passages_.cell_count()));
+    throw InputError(
+        "route index",
+        "doesn't pay in open space, where more than 3 of 10 cells are junctions with a choice: search the grid",
+        std::to_string(graph.size()) + " of " + std::to_string(passages_.cell_count()));
   }
   RawVector<std::uint64_t> marks = mark_words(peeled, places_, execution);
   peeled = {};

@@ -6,6 +6,7 @@
 //   peeling            which cells are tree, and which way their core is           (planners/route_index/peeling)
 //   pieces             trees cut at the borders of tiles, with heavy paths         (piece_forest)
 //   core graph         junctions of the core, joined by chains                     (core_graph)
+//   reduction          junctions without choice leave it                         (core_reduction)
 //   dissection         the core cut by few junctions again and again               (planar_region, dissection)
 //   fronts             lengths between the junctions of cuts, the gates            (separator_fronts)
 //
@@ -33,7 +34,7 @@ struct RouteIndexOptions {
   void validate() const;
 };
 
-/// Does the index pay? Where no more than 4 of 10 cells are junctions: mazes of which up to a
+/// Does the index pay? Where no more than 3 of 10 cells are junctions with a choice: mazes of which up to a
 /// fifth of the walls left are taken out.
 bool route_index_pays(std::uint64_t junctions, std::uint64_t cells);
 

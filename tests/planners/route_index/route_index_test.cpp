@@ -53,8 +53,8 @@ TEST(RouteIndex, OpenSpaceIsRefusedByCountingJunctions) {
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("(found: 397 of 400)"), std::string::npos) << error.what();
   }
-  EXPECT_TRUE(route_index_pays(4, 10));
-  EXPECT_FALSE(route_index_pays(41, 100));
+  EXPECT_TRUE(route_index_pays(3, 10));
+  EXPECT_FALSE(route_index_pays(31, 100));
 }
 
 TEST(RouteIndex, LeavesOutOfRangeAreRefused) {
