@@ -82,7 +82,7 @@ TEST(WallPassages, TheIndexAnswersWhatTheTiledPlannerDoes) {
     RouteQuery query(index);
     const auto length = query.length(0, 150 * 150 - 1);
     ASSERT_TRUE(length);
-    EXPECT_EQ(static_cast<double>(*length), path_length(plan.path, distance));
+    EXPECT_EQ(static_cast<double>(*length), path_length(plan.path, MazeWorld::distance));
   }
 }
 
