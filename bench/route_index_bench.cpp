@@ -11,7 +11,7 @@
 #include "bench/report.hpp"
 #include "core/base/rng.hpp"
 #include "planners/route_index/route_query.hpp"
-#include "planners/route_index/wall_passages.hpp"
+#include "planners/route_trees/wall_passages.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 
 namespace warren::bench {

@@ -13,13 +13,13 @@
 
 #include "core/base/page_pool.hpp"
 #include "core/base/rng.hpp"
-#include "planners/route_index/core_graph.hpp"
-#include "planners/route_index/core_reduction.hpp"
-#include "planners/route_index/dissection.hpp"
-#include "planners/route_index/peeling.hpp"
+#include "planners/route_cuts/core_graph.hpp"
+#include "planners/route_cuts/core_reduction.hpp"
+#include "planners/route_cuts/dissection.hpp"
+#include "planners/route_trees/peeling.hpp"
 #include "planners/route_index/route_query.hpp"
 #include "planners/route_index/route_sections.hpp"
-#include "planners/route_index/wall_passages.hpp"
+#include "planners/route_trees/wall_passages.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 
 namespace {

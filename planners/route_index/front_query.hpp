@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/base/raw_vector.hpp"
+#include "planners/route_cuts/min_plus.hpp"
 #include "planners/route_index/core_search.hpp"
-#include "planners/route_index/min_plus.hpp"
 #include "planners/route_index/route_index.hpp"
 
 namespace warren {

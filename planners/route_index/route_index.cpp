@@ -9,11 +9,11 @@
 #include "core/base/page_pool.hpp"
 #include "parallel/chunks.hpp"
 #include "parallel/scan.hpp"
-#include "planners/route_index/core_graph.hpp"
-#include "planners/route_index/core_reduction.hpp"
-#include "planners/route_index/dissection.hpp"
-#include "planners/route_index/peeling.hpp"
+#include "planners/route_cuts/core_graph.hpp"
+#include "planners/route_cuts/core_reduction.hpp"
+#include "planners/route_cuts/dissection.hpp"
 #include "planners/route_index/route_sections.hpp"
+#include "planners/route_trees/peeling.hpp"
 
 namespace warren {
 

@@ -3,7 +3,7 @@
 // exactly, thousands of times faster than a search of the roadmap. For mazes: what is tree is climbed, what has no
 // choice is walked, and only where loops meet is there something to decide.
 //
-//   peeling            which cells are tree, and which way their core is           (planners/route_index/peeling)
+//   peeling            which cells are tree, and which way their core is           (planners/route_trees/peeling)
 //   pieces             trees cut at the borders of tiles, with heavy paths         (piece_forest)
 //   core graph         junctions of the core, joined by chains                     (core_graph)
 //   reduction          junctions without choice leave it                         (core_reduction)
@@ -25,11 +25,11 @@
 #include <cstdint>
 
 #include "parallel/execution.hpp"
-#include "planners/route_index/cell_marks.hpp"
-#include "planners/route_index/lattice_passages.hpp"
-#include "planners/route_index/lattice_places.hpp"
-#include "planners/route_index/piece_forest.hpp"
-#include "planners/route_index/separator_fronts.hpp"
+#include "planners/route_cuts/separator_fronts.hpp"
+#include "planners/route_trees/cell_marks.hpp"
+#include "planners/route_trees/lattice_passages.hpp"
+#include "planners/route_trees/lattice_places.hpp"
+#include "planners/route_trees/piece_forest.hpp"
 
 namespace warren {
 

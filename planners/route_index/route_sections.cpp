@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/base/error.hpp"
-#include "planners/route_index/min_plus.hpp"
+#include "planners/route_cuts/min_plus.hpp"
 
 namespace warren {
 namespace {

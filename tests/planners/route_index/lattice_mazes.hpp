@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "planners/route_index/lattice_passages.hpp"
+#include "planners/route_trees/lattice_passages.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 
 namespace warren::test {

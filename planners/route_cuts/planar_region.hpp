@@ -16,7 +16,7 @@
 #include <cstdint>
 
 #include "core/base/raw_vector.hpp"
-#include "planners/route_index/core_graph.hpp"
+#include "planners/route_cuts/core_graph.hpp"
 
 namespace warren {
 

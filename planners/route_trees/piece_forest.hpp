@@ -15,8 +15,8 @@
 #include <cstdint>
 
 #include "parallel/execution.hpp"
-#include "planners/route_index/array_or_view.hpp"
-#include "planners/route_index/cell_marks.hpp"
+#include "planners/route_trees/array_or_view.hpp"
+#include "planners/route_trees/cell_marks.hpp"
 
 namespace warren {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/route_index/separator_fronts.hpp"
+#include "planners/route_cuts/separator_fronts.hpp"
 
 #include <algorithm>
 #include <iterator>
 #include <utility>
 
 #include "parallel/chunks.hpp"
-#include "planners/route_index/leaf_elimination.hpp"
-#include "planners/route_index/min_plus.hpp"
+#include "planners/route_cuts/leaf_elimination.hpp"
+#include "planners/route_cuts/min_plus.hpp"
 
 namespace warren {
 namespace {

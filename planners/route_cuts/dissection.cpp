@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/route_index/dissection.hpp"
+#include "planners/route_cuts/dissection.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -8,7 +8,7 @@
 
 #include "core/base/page_pool.hpp"
 #include "parallel/chunks.hpp"
-#include "planners/route_index/planar_region.hpp"
+#include "planners/route_cuts/planar_region.hpp"
 
 namespace warren {
 namespace {

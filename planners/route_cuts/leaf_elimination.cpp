@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/route_index/leaf_elimination.hpp"
+#include "planners/route_cuts/leaf_elimination.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -13,7 +13,7 @@
 #include "core/base/raw_vector.hpp"
 #include "parallel/execution.hpp"
 #include "planners/roadmap/roadmap_options.hpp"
-#include "planners/route_index/array_or_view.hpp"
+#include "planners/route_trees/array_or_view.hpp"
 
 namespace warren {
 

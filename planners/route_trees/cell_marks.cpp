@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/route_index/cell_marks.hpp"
+#include "planners/route_trees/cell_marks.hpp"
 
 #include "parallel/chunks.hpp"
-#include "planners/route_index/peeling.hpp"
+#include "planners/route_trees/peeling.hpp"
 
 namespace warren {
 

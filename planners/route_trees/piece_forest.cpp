@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/route_index/piece_forest.hpp"
+#include "planners/route_trees/piece_forest.hpp"
 
 #include <bit>
 #include <utility>

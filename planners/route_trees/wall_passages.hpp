@@ -11,7 +11,7 @@
 #include "core/base/types.hpp"
 #include "core/plane/wall_set.hpp"
 #include "parallel/execution.hpp"
-#include "planners/route_index/lattice_passages.hpp"
+#include "planners/route_trees/lattice_passages.hpp"
 
 namespace warren {
 

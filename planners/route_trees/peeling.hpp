@@ -14,7 +14,7 @@
 
 #include "core/base/raw_vector.hpp"
 #include "parallel/execution.hpp"
-#include "planners/route_index/lattice_places.hpp"
+#include "planners/route_trees/lattice_places.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/route_index/core_reduction.hpp"
+#include "planners/route_cuts/core_reduction.hpp"
 
 #include <array>
 

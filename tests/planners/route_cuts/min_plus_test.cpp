@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The oracle is the sum itself, one by one.
-#include "planners/route_index/min_plus.hpp"
+#include "planners/route_cuts/min_plus.hpp"
 
 #include <gtest/gtest.h>
 

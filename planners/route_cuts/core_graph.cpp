@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/route_index/core_graph.hpp"
+#include "planners/route_cuts/core_graph.hpp"
 
 #include <array>
 #include <bit>
@@ -7,7 +7,7 @@
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
 #include "parallel/scan.hpp"
-#include "planners/route_index/peeling.hpp"
+#include "planners/route_trees/peeling.hpp"
 
 namespace warren {
 namespace {

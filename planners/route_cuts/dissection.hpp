@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nested dissection of the core: the map is cut in two by few junctions (planners/route_index/planar_region.hpp), the
+// Nested dissection of the core: the map is cut in two by few junctions (planners/route_cuts/planar_region.hpp), the
 // parts again, until they have no more than a leaf's junctions. Nodes are the cuts and the leaves, listed children
 // first; a node's junctions have chains to its own, to those of its descendants and of its ancestors only.
 //
@@ -12,7 +12,7 @@
 
 #include "core/base/raw_vector.hpp"
 #include "parallel/execution.hpp"
-#include "planners/route_index/core_graph.hpp"
+#include "planners/route_cuts/core_graph.hpp"
 
 namespace warren {
 

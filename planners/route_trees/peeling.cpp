@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/route_index/peeling.hpp"
+#include "planners/route_trees/peeling.hpp"
 
 #include <algorithm>
 #include <array>

@@ -12,7 +12,7 @@
 
 #include "core/base/raw_vector.hpp"
 #include "parallel/execution.hpp"
-#include "planners/route_index/lattice_places.hpp"
+#include "planners/route_trees/lattice_places.hpp"
 
 namespace warren {
 
@@ -32,7 +32,7 @@ struct CoreGraph {
 /// Is the place on the grid of posts, every 16th column in every 16th row?
 constexpr bool is_post(Place p) { return (p & (15U | 15U * LatticePlaces::side)) == 0; }
 
-/// peeled: planners/route_index/peeling.hpp. Throws Stopped, and InputError where there are 2^30 junctions or more.
+/// peeled: planners/route_trees/peeling.hpp. Throws Stopped, and InputError where there are 2^30 junctions or more.
 CoreGraph core_graph(const RawVector<std::uint8_t>& peeled, const LatticePlaces& places, const Execution& execution);
 
 }  // namespace warren

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/route_index/front_matrix.hpp"
+#include "planners/route_cuts/front_matrix.hpp"
 
 #include <algorithm>
 
 #include "parallel/chunks.hpp"
-#include "planners/route_index/min_plus.hpp"
+#include "planners/route_cuts/min_plus.hpp"
 
 namespace warren {
 namespace {

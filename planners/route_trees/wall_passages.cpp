@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/route_index/wall_passages.hpp"
+#include "planners/route_trees/wall_passages.hpp"
 
 #include <algorithm>
 #include <array>

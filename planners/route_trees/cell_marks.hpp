@@ -9,8 +9,8 @@
 
 #include "core/base/raw_vector.hpp"
 #include "parallel/execution.hpp"
-#include "planners/route_index/array_or_view.hpp"
-#include "planners/route_index/lattice_places.hpp"
+#include "planners/route_trees/array_or_view.hpp"
+#include "planners/route_trees/lattice_places.hpp"
 
 namespace warren {
 
@@ -50,7 +50,7 @@ class CellMarks {
   const std::uint64_t* words_;
 };
 
-/// The words for peeled bytes (planners/route_index/peeling.hpp); no gates yet. Throws Stopped.
+/// The words for peeled bytes (planners/route_trees/peeling.hpp); no gates yet. Throws Stopped.
 RawVector<std::uint64_t> mark_words(const RawVector<std::uint8_t>& peeled, const LatticePlaces& places,
                                     const Execution& execution);
 

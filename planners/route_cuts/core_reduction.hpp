@@ -9,7 +9,7 @@
 #pragma once
 
 #include "parallel/execution.hpp"
-#include "planners/route_index/core_graph.hpp"
+#include "planners/route_cuts/core_graph.hpp"
 
 namespace warren {
 

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "planners/route_index/lattice_passages.hpp"
+#include "planners/route_trees/lattice_passages.hpp"
 
 namespace warren {
 

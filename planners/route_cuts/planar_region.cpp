@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/route_index/planar_region.hpp"
+#include "planners/route_cuts/planar_region.hpp"
 
 #include <algorithm>
 #include <array>

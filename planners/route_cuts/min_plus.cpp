@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Compilers turn the loop into vector code of the instruction set of the function that it is inlined in.
-#include "planners/route_index/min_plus.hpp"
+#include "planners/route_cuts/min_plus.hpp"
 
 namespace warren {
 namespace {

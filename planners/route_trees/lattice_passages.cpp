@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/route_index/lattice_passages.hpp"
+#include "planners/route_trees/lattice_passages.hpp"
 
 #include <algorithm>
 #include <string>

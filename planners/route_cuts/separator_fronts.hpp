@@ -20,8 +20,8 @@
 
 #include "core/base/raw_vector.hpp"
 #include "parallel/execution.hpp"
-#include "planners/route_index/array_or_view.hpp"
-#include "planners/route_index/dissection.hpp"
+#include "planners/route_cuts/dissection.hpp"
+#include "planners/route_trees/array_or_view.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/route_index/lattice_passages.hpp"
+#include "planners/route_trees/lattice_passages.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "planners/route_index/lattice_places.hpp"
+#include "planners/route_trees/lattice_places.hpp"
 #include "tests/planners/route_index/lattice_mazes.hpp"
 
 namespace warren {

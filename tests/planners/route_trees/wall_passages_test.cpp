@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The oracle is the world of the plain planner, asked motion by motion; the number of edges is the tiled planner's.
-#include "planners/route_index/wall_passages.hpp"
+#include "planners/route_trees/wall_passages.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,9 +9,9 @@
 #include <span>
 #include <vector>
 
-#include "planners/route_index/dissection.hpp"
-#include "planners/route_index/front_matrix.hpp"
-#include "planners/route_index/separator_fronts.hpp"
+#include "planners/route_cuts/dissection.hpp"
+#include "planners/route_cuts/front_matrix.hpp"
+#include "planners/route_cuts/separator_fronts.hpp"
 
 namespace warren {
 
