@@ -16,9 +16,9 @@
 #include "planners/route_cuts/core_graph.hpp"
 #include "planners/route_cuts/core_reduction.hpp"
 #include "planners/route_cuts/dissection.hpp"
-#include "planners/route_trees/peeling.hpp"
 #include "planners/route_index/route_query.hpp"
 #include "planners/route_index/route_sections.hpp"
+#include "planners/route_trees/peeling.hpp"
 #include "planners/route_trees/wall_passages.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 

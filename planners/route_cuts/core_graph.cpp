@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t row_grain = 1024;
 constexpr std::size_t junction_grain = 4096;
 
-bool is_junction(Place p, unsigned byte) {
+bool is_junction(LatticePlace p, unsigned byte) {
   if ((byte & peel_bit::peeled) != 0) return false;
   const int edges = std::popcount(byte & peel_bit::edges);
   return edges > 2 || (edges == 2 && is_post(p));
@@ -40,7 +40,7 @@ class CoreWalk {
   void walk(JunctionId from, unsigned direction);
   void drop_useless();
   bool is_useless(JunctionId v, unsigned slot) const;
-  JunctionId junction_at(Place p) const {
+  JunctionId junction_at(LatticePlace p) const {
     const std::uint64_t below = (std::uint64_t{1} << p % 64) - 1;
     return first_[p / 64] + static_cast<JunctionId>(std::popcount(bits_[p / 64] & below));
   }
@@ -64,7 +64,7 @@ void CoreWalk::find_junctions() {
       std::uint64_t bits = 0;
       for (std::size_t i = 0; i < 64; ++i) {
         const std::size_t p = row * 64 + i;
-        bits |= std::uint64_t{is_junction(static_cast<Place>(p), peeled_[p])} << i;
+        bits |= std::uint64_t{is_junction(static_cast<LatticePlace>(p), peeled_[p])} << i;
         cells[r.first / row_grain] += (peeled_[p] & peel_bit::edges) != 0 ? 1U : 0U;
       }
       bits_[row] = bits;
@@ -87,7 +87,7 @@ void CoreWalk::walk_chains() {
     for (std::size_t row = r.first; row < r.last; ++row) {
       JunctionId v = first_[row];
       for (std::uint64_t left = bits_[row]; left != 0; left &= left - 1, ++v) {
-        graph_.place[v] = static_cast<Place>(row * 64 + static_cast<std::size_t>(std::countr_zero(left)));
+        graph_.place[v] = static_cast<LatticePlace>(row * 64 + static_cast<std::size_t>(std::countr_zero(left)));
         for (unsigned d = 0; d < 4; ++d) walk(v, d);
       }
     }
@@ -97,7 +97,7 @@ void CoreWalk::walk_chains() {
 /// To the next junction. An edge of a core cell that isn't in the nibble leads to a tree.
 void CoreWalk::walk(JunctionId from, unsigned direction) {
   const HalfEdge slot = 4 * from + direction;
-  Place at = graph_.place[from];
+  LatticePlace at = graph_.place[from];
   graph_.twin[slot] = no_half_edge;
   if ((peeled_[at] >> direction & 1U) == 0) return;
   std::uint32_t length = 0;

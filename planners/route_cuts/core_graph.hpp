@@ -21,7 +21,7 @@ using HalfEdge = std::uint32_t;
 inline constexpr HalfEdge no_half_edge = ~HalfEdge{0};
 
 struct CoreGraph {
-  RawVector<Place> place;           ///< of a junction, ascending
+  RawVector<LatticePlace> place;    ///< of a junction, ascending
   RawVector<HalfEdge> twin;         ///< of a half-edge, no_half_edge where the slot is empty
   RawVector<std::uint32_t> length;  ///< of its chain, in steps
   std::uint64_t core_cells = 0;
@@ -30,7 +30,7 @@ struct CoreGraph {
 };
 
 /// Is the place on the grid of posts, every 16th column in every 16th row?
-constexpr bool is_post(Place p) { return (p & (15U | 15U * LatticePlaces::side)) == 0; }
+constexpr bool is_post(LatticePlace p) { return (p & (15U | 15U * LatticePlaces::side)) == 0; }
 
 /// peeled: planners/route_trees/peeling.hpp. Throws Stopped, and InputError where there are 2^30 junctions or more.
 CoreGraph core_graph(const RawVector<std::uint8_t>& peeled, const LatticePlaces& places, const Execution& execution);

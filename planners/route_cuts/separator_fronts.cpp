@@ -68,7 +68,7 @@ class FrontBuilder {
   const Dissection& dissection_;
   const Execution& execution_;
   RawVector<GateRank> rank_;  // of a junction
-  RawVector<Place> gate_place_;
+  RawVector<LatticePlace> gate_place_;
   std::vector<NodePlace> place_;
   std::vector<std::size_t> tasks_;  // nodes whose whole region one thread does, ascending
 };
@@ -240,7 +240,7 @@ FrontArrays FrontBuilder::join(std::vector<FrontPart>& parts, std::vector<std::v
   link(all.fronts, all.bounds);
   return {ArrayOrView<Front>(std::move(all.fronts)), ArrayOrView<GateRank>(std::move(all.bounds)),
           ArrayOrView<std::uint32_t>(std::move(all.lengths)), ArrayOrView<std::uint16_t>(std::move(all.short_lengths)),
-          ArrayOrView<Place>(std::move(gate_place_))};
+          ArrayOrView<LatticePlace>(std::move(gate_place_))};
 }
 
 void FrontBuilder::link(RawVector<Front>& fronts, const RawVector<GateRank>& bounds) {

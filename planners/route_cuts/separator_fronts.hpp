@@ -56,7 +56,7 @@ struct FrontArrays {
   ArrayOrView<GateRank> bounds;        ///< ascending in each front
   ArrayOrView<std::uint32_t> lengths;  ///< of fronts with a length of 2^16 - 1 or more; no_way where there is none
   ArrayOrView<std::uint16_t> short_lengths;  ///< of the others; no_short_way where there is none
-  ArrayOrView<Place> gate_place;             ///< of a gate
+  ArrayOrView<LatticePlace> gate_place;      ///< of a gate
 };
 
 /// Throws Stopped.

@@ -7,7 +7,7 @@
 
 namespace warren {
 
-void CoreSearch::begin(Place start) {
+void CoreSearch::begin(LatticePlace start) {
   if (++search_ == 0) {  // after 2^32 searches
     std::fill(slots_.begin(), slots_.end(), Slot{});
     search_ = 1;
@@ -18,7 +18,7 @@ void CoreSearch::begin(Place start) {
   enter(start, 0);
 }
 
-void CoreSearch::search(Place start) {
+void CoreSearch::search(LatticePlace start) {
   begin(start);
   const CellMarks marks = index_.marks();
   for (std::uint32_t i = 0; i < seen_.size(); ++i) {
@@ -30,7 +30,7 @@ void CoreSearch::search(Place start) {
   }
 }
 
-bool CoreSearch::search_for(Place start, Place goal, std::uint32_t most_steps) {
+bool CoreSearch::search_for(LatticePlace start, LatticePlace goal, std::uint32_t most_steps) {
   begin(start);
   const CellMarks marks = index_.marks();
   const std::uint32_t col = index_.places().col(goal);
@@ -51,14 +51,14 @@ void CoreSearch::expand(std::uint32_t number) {
   const SeenCell at = seen_[number];
   for (unsigned open = index_.passages().open_at(at.col, at.row); open != 0; open &= open - 1) {
     const auto d = static_cast<unsigned>(std::countr_zero(open));
-    const Place next = index_.places().step(at.place, d);
+    const LatticePlace next = index_.places().step(at.place, d);
     if (next == seen_[at.from].place || !index_.marks().is_core(next)) continue;
     if (!enter(next, static_cast<std::uint32_t>(seen_.size()))) continue;
     seen_.push_back({next, at.col + right[d], at.row + up[d], at.steps + 1, number});
   }
 }
 
-bool CoreSearch::enter(Place p, std::uint32_t number) {
+bool CoreSearch::enter(LatticePlace p, std::uint32_t number) {
   if (2 * seen_.size() > slots_.size()) grow();
   std::size_t slot = slot_of(p);
   for (; slots_[slot].search == search_; slot = (slot + 1) & (slots_.size() - 1)) {
@@ -68,7 +68,7 @@ bool CoreSearch::enter(Place p, std::uint32_t number) {
   return true;
 }
 
-std::uint32_t CoreSearch::number_of(Place p) const {
+std::uint32_t CoreSearch::number_of(LatticePlace p) const {
   for (std::size_t slot = slot_of(p); slots_[slot].search == search_; slot = (slot + 1) & (slots_.size() - 1)) {
     if (seen_[slots_[slot].number].place == p) return slots_[slot].number;
   }
@@ -84,7 +84,7 @@ void CoreSearch::grow() {
   }
 }
 
-void CoreSearch::append_way(std::uint32_t to, RawVector<Place>& cells) const {
+void CoreSearch::append_way(std::uint32_t to, RawVector<LatticePlace>& cells) const {
   const std::size_t first = cells.size();
   for (; to != 0; to = seen_[to].from) cells.push_back(seen_[to].place);
   std::reverse(cells.begin() + static_cast<std::ptrdiff_t>(first), cells.end());

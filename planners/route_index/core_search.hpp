@@ -14,7 +14,7 @@ namespace warren {
 
 /// A cell that was seen. Steps and the cell it was seen from.
 struct SeenCell {
-  Place place;
+  LatticePlace place;
   std::uint32_t col;
   std::uint32_t row;
   std::uint32_t steps;
@@ -34,24 +34,26 @@ class CoreSearch {
   explicit CoreSearch(const RouteIndex& index) : index_(index), slots_(1024) {}
 
   /// Everything that is reached from `start` without passing a gate. A start that is a gate is only itself.
-  void search(Place start);
+  void search(LatticePlace start);
   /// From a gate, or any other cell, past no further gate, until the goal is reached; false if it isn't in so many
   /// steps. Cells that are too far from it, as if there were no walls, are left out.
-  bool search_for(Place start, Place goal, std::uint32_t most_steps);
+  bool search_for(LatticePlace start, LatticePlace goal, std::uint32_t most_steps);
 
   std::span<const SeenGate> gates() const { return gates_; }
   /// Number of a seen cell, or none.
   static constexpr std::uint32_t none = ~std::uint32_t{0};
-  std::uint32_t number_of(Place p) const;
+  std::uint32_t number_of(LatticePlace p) const;
   const SeenCell& seen(std::uint32_t number) const { return seen_[number]; }
   /// Appends the cells on the way from the start, not included, to a seen cell, included.
-  void append_way(std::uint32_t to, RawVector<Place>& cells) const;
+  void append_way(std::uint32_t to, RawVector<LatticePlace>& cells) const;
 
  private:
-  void begin(Place start);
+  void begin(LatticePlace start);
   void expand(std::uint32_t number);
-  bool enter(Place p, std::uint32_t number);
-  std::size_t slot_of(Place p) const { return (p * std::uint64_t{0x9e3779b97f4a7c15U} >> 32) & (slots_.size() - 1); }
+  bool enter(LatticePlace p, std::uint32_t number);
+  std::size_t slot_of(LatticePlace p) const {
+    return (p * std::uint64_t{0x9e3779b97f4a7c15U} >> 32) & (slots_.size() - 1);
+  }
   void grow();
 
   const RouteIndex& index_;

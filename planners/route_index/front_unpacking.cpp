@@ -12,13 +12,13 @@ constexpr std::uint32_t few_steps = 12;  // a search so far costs less than look
 
 }  // namespace
 
-void FrontUnpacking::append(const FrontStep& whole, RawVector<Place>& cells) {
+void FrontUnpacking::append(const FrontStep& whole, RawVector<LatticePlace>& cells) {
   todo_.assign(1, whole);
   while (!todo_.empty()) {
     const FrontStep step = todo_.back();
     todo_.pop_back();
-    const Place from = fronts_.gate_place[step.from];
-    const Place to = fronts_.gate_place[step.to];
+    const LatticePlace from = fronts_.gate_place[step.from];
+    const LatticePlace to = fronts_.gate_place[step.to];
     if (step.length <= few_steps && search_.search_for(from, to, step.length)) {
       search_.append_way(search_.number_of(to), cells);
     } else if (const std::optional<Middle> middle = middle_of(step)) {

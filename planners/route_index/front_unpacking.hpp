@@ -21,7 +21,7 @@ class FrontUnpacking {
   explicit FrontUnpacking(const RouteIndex& index) : fronts_(index.arrays().fronts), search_(index) {}
 
   /// Appends the cells of the way, its first one not included.
-  void append(const FrontStep& step, RawVector<Place>& cells);
+  void append(const FrontStep& step, RawVector<LatticePlace>& cells);
 
  private:
   struct Middle {

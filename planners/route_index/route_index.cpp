@@ -62,13 +62,13 @@ RouteIndex::RouteIndex(LatticePassages passages, RouteArrays arrays)
 }
 
 void RouteIndex::mark_gates(RawVector<std::uint64_t>& marks, const Execution& execution) {
-  const ArrayOrView<Place>& gate_place = arrays_.fronts.gate_place;
+  const ArrayOrView<LatticePlace>& gate_place = arrays_.fronts.gate_place;
   if (gate_place.empty()) return;
   const std::size_t rows = places_.place_count() / 64;
   execution.reserve((rows + gate_place.size()) * sizeof(std::uint32_t));
   for (std::size_t rank = 0; rank < gate_place.size(); ++rank) {
     if (rank % (1U << 16) == 0) execution.check();
-    const Place p = gate_place[rank];
+    const LatticePlace p = gate_place[rank];
     marks[std::size_t{p / 64} * mark_word::count + mark_word::low] |= std::uint64_t{1} << p % 64;
   }
   RawVector<std::uint32_t> before(rows);
@@ -83,7 +83,7 @@ void RouteIndex::mark_gates(RawVector<std::uint64_t>& marks, const Execution& ex
   const CellMarks all(marks.data());
   for (std::size_t rank = 0; rank < gate_place.size(); ++rank) {
     if (rank % (1U << 16) == 0) execution.check();
-    const Place p = gate_place[rank];
+    const LatticePlace p = gate_place[rank];
     ranks[before[p / 64] + all.gates_before(p)] = static_cast<GateRank>(rank);
   }
   arrays_.gates_before = ArrayOrView<std::uint32_t>(std::move(before));

@@ -67,7 +67,9 @@ class RouteIndex {
   CellMarks marks() const { return CellMarks(arrays_.marks.data()); }
   PieceForest pieces() const { return {places_, marks(), arrays_.pieces}; }
   /// The rank of a cell that is a gate.
-  GateRank gate_at(Place p) const { return arrays_.gate_rank[arrays_.gates_before[p / 64] + marks().gates_before(p)]; }
+  GateRank gate_at(LatticePlace p) const {
+    return arrays_.gate_rank[arrays_.gates_before[p / 64] + marks().gates_before(p)];
+  }
   /// Of all arrays, passages included.
   std::size_t bytes() const;
 

@@ -8,7 +8,7 @@
 
 namespace warren {
 
-Place RouteQuery::checked(CellId cell) const {
+LatticePlace RouteQuery::checked(CellId cell) const {
   if (cell < index_.passages().cell_count()) return index_.places().place_of(cell);
   throw InputError("cell", "must be below " + std::to_string(index_.passages().cell_count()), std::to_string(cell));
 }
@@ -20,39 +20,39 @@ std::optional<std::uint32_t> RouteQuery::length(CellId start, CellId goal) {
   return join.start_steps + between + join.goal_steps;
 }
 
-std::uint32_t RouteQuery::core_length(Place start, Place goal) {
+std::uint32_t RouteQuery::core_length(LatticePlace start, LatticePlace goal) {
   near_start_.search(start);
   near_goal_.search(goal);
   return fronts_.length(near_start_.gates(), near_goal_.gates(), direct_length(goal));
 }
 
 /// By no gate but the two ends, or no_way.
-std::uint32_t RouteQuery::direct_length(Place goal) const {
+std::uint32_t RouteQuery::direct_length(LatticePlace goal) const {
   const std::uint32_t seen = near_start_.number_of(goal);
   return seen == CoreSearch::none ? no_way : near_start_.seen(seen).steps;
 }
 
 RawVector<CellId> RouteQuery::path(CellId start, CellId goal) {
-  const Place a = checked(start);
-  const Place b = checked(goal);
+  const LatticePlace a = checked(start);
+  const LatticePlace b = checked(goal);
   const TreeJoin join = trees_.join(a, b);
-  RawVector<Place> cells;
+  RawVector<LatticePlace> cells;
   trees_.append_climb(a, join.start_steps, cells);
   cells.push_back(join.start_core);
   if (!join.in_tree() && !append_core_path(join.start_core, join.goal_core, cells)) return {};
-  RawVector<Place> tail;
+  RawVector<LatticePlace> tail;
   trees_.append_climb(b, join.goal_steps, tail);
   append_reversed(tail, cells);
-  for (Place& cell : cells) cell = index_.places().cell_of(cell);
+  for (LatticePlace& cell : cells) cell = index_.places().cell_of(cell);
   return cells;
 }
 
-void RouteQuery::append_reversed(RawVector<Place>& tail, RawVector<Place>& cells) {
+void RouteQuery::append_reversed(RawVector<LatticePlace>& tail, RawVector<LatticePlace>& cells) {
   cells.insert(cells.end(), tail.rbegin(), tail.rend());
 }
 
 /// The first cell stands already.
-bool RouteQuery::append_core_path(Place start, Place goal, RawVector<Place>& cells) {
+bool RouteQuery::append_core_path(LatticePlace start, LatticePlace goal, RawVector<LatticePlace>& cells) {
   near_start_.search(start);
   near_goal_.search(goal);
   const std::uint32_t direct = direct_length(goal);
@@ -64,7 +64,7 @@ bool RouteQuery::append_core_path(Place start, Place goal, RawVector<Place>& cel
   }
   near_start_.append_way(near_start_.gates()[way.first].seen, cells);
   for (const FrontStep& step : way.steps) unpacking_.append(step, cells);
-  RawVector<Place> tail;
+  RawVector<LatticePlace> tail;
   tail.push_back(goal);
   near_goal_.append_way(near_goal_.gates()[way.last].seen, tail);
   tail.pop_back();  // the gate, which stands already; or the goal, where it is the gate

@@ -29,11 +29,11 @@ class RouteQuery {
   RawVector<CellId> path(CellId start, CellId goal);
 
  private:
-  Place checked(CellId cell) const;
-  std::uint32_t core_length(Place start, Place goal);
-  std::uint32_t direct_length(Place goal) const;
-  bool append_core_path(Place start, Place goal, RawVector<Place>& cells);
-  static void append_reversed(RawVector<Place>& tail, RawVector<Place>& cells);
+  LatticePlace checked(CellId cell) const;
+  std::uint32_t core_length(LatticePlace start, LatticePlace goal);
+  std::uint32_t direct_length(LatticePlace goal) const;
+  bool append_core_path(LatticePlace start, LatticePlace goal, RawVector<LatticePlace>& cells);
+  static void append_reversed(RawVector<LatticePlace>& tail, RawVector<LatticePlace>& cells);
 
   const RouteIndex& index_;
   TreeRoutes trees_;

@@ -83,7 +83,7 @@ void check_pieces(const LatticePlaces& places, const PieceArrays& pieces) {
 
 void check_fronts(const LatticePlaces& places, const FrontArrays& arrays) {
   const std::size_t gates = arrays.gate_place.size();
-  require(every(arrays.gate_place, [&](Place p) { return p < places.place_count(); }), "gate.place");
+  require(every(arrays.gate_place, [&](LatticePlace p) { return p < places.place_count(); }), "gate.place");
   require(every(arrays.bounds, [&](GateRank rank) { return rank < gates; }), "front.bounds");
   require(every(arrays.lengths, [](std::uint32_t length) { return length >= 1 && length <= no_way; }), "front.lengths");
   require(every(arrays.short_lengths, [](std::uint16_t length) { return length >= 1; }), "front.shorts");
@@ -122,6 +122,15 @@ std::vector<RouteSection> route_sections(const RouteIndex& index) {
     sections.push_back({name, sizeof(T), std::as_bytes(array.span())});
   });
   return sections;
+}
+
+std::vector<RouteSection> route_section_kinds() {
+  std::vector<RouteSection> kinds{{"passages.right", 8, {}}, {"passages.up", 8, {}}};
+  const RouteArrays none;
+  for_each_array(none, [&]<class T>(std::string_view name, const ArrayOrView<T>&) {
+    kinds.push_back({name, sizeof(T), {}});
+  });
+  return kinds;
 }
 
 RouteIndex route_index_of(LatticeSize size, std::span<const RouteSection> sections) {

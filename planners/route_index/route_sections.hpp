@@ -21,6 +21,9 @@ struct RouteSection {
 /// All arrays, in a fixed order; they live as long as the index.
 std::vector<RouteSection> route_sections(const RouteIndex& index);
 
+/// Their names and widths alone, without bytes.
+std::vector<RouteSection> route_section_kinds();
+
 /// An index that looks at the sections' bytes, which must outlive it and be aligned to 8 bytes. Sections with other
 /// names are left alone. Throws InputError for one that is missing, has half an element, or contradicts another.
 RouteIndex route_index_of(LatticeSize size, std::span<const RouteSection> sections);

@@ -5,7 +5,7 @@
 
 namespace warren {
 
-TreeRoutes::Climber TreeRoutes::climber(Place from) const {
+TreeRoutes::Climber TreeRoutes::climber(LatticePlace from) const {
   const Climb up = pieces_.climb(from);
   if (up.at_core) return {from, no_piece, up, 0, up.steps};
   const PieceId piece = pieces_.piece_at(up.last);
@@ -42,7 +42,7 @@ void TreeRoutes::climb_to_one_piece(Climber& start, Climber& goal) const {
   }
 }
 
-TreeJoin TreeRoutes::join(Place start, Place goal) const {
+TreeJoin TreeRoutes::join(LatticePlace start, LatticePlace goal) const {
   Climber from = climber(start);
   Climber to = climber(goal);
   climb_to_one_piece(from, to);
@@ -55,11 +55,11 @@ TreeJoin TreeRoutes::join(Place start, Place goal) const {
 
 /// Both ways end at the same cell of the tile.
 TreeJoin TreeRoutes::meet_in_tile(const Climber& start, const Climber& goal) const {
-  Place a = start.at;
-  Place b = goal.at;
+  LatticePlace a = start.at;
+  LatticePlace b = goal.at;
   std::uint32_t left_a = start.up.steps;
   std::uint32_t left_b = goal.up.steps;
-  const auto up = [&](Place p) { return places_.step_inside(p, marks_.direction(p)); };
+  const auto up = [&](LatticePlace p) { return places_.step_inside(p, marks_.direction(p)); };
   for (; left_a > left_b; --left_a) a = up(a);
   for (; left_b > left_a; --left_b) b = up(b);
   for (; a != b && left_a > 0; --left_a) {
@@ -69,7 +69,7 @@ TreeJoin TreeRoutes::meet_in_tile(const Climber& start, const Climber& goal) con
   return {start.steps + start.up.steps - left_a, goal.steps + goal.up.steps - left_a, a, a};
 }
 
-void TreeRoutes::append_climb(Place from, std::uint32_t steps, RawVector<Place>& cells) const {
+void TreeRoutes::append_climb(LatticePlace from, std::uint32_t steps, RawVector<LatticePlace>& cells) const {
   const std::size_t most = std::min<std::size_t>(steps, places_.place_count());
   for (std::size_t i = 0; i < most && !marks_.is_core(from); ++i) {
     cells.push_back(from);

@@ -14,8 +14,8 @@ namespace warren {
 struct TreeJoin {
   std::uint32_t start_steps;  ///< to the cell where both ways join, or to the core
   std::uint32_t goal_steps;
-  Place start_core;  ///< where each way ends; the same cell where both join in a tree or at one cell of the core
-  Place goal_core;
+  LatticePlace start_core;  ///< where each way ends; the same cell where both join in a tree or at one cell of the core
+  LatticePlace goal_core;
 
   bool in_tree() const { return start_core == goal_core; }
 };
@@ -26,20 +26,20 @@ class TreeRoutes {
   explicit TreeRoutes(const RouteIndex& index)
       : places_(index.places()), marks_(index.marks()), pieces_(index.pieces()) {}
 
-  TreeJoin join(Place start, Place goal) const;
+  TreeJoin join(LatticePlace start, LatticePlace goal) const;
   /// Appends a cell and those after it on its way to the core, as many as steps.
-  void append_climb(Place from, std::uint32_t steps, RawVector<Place>& cells) const;
+  void append_climb(LatticePlace from, std::uint32_t steps, RawVector<LatticePlace>& cells) const;
 
  private:
   /// A cell on its way to the core: it stands in a piece, or in none where the core is in its tile.
   struct Climber {
-    Place at;
+    LatticePlace at;
     PieceId piece;
     Climb up;             // from `at`, in its tile
     std::uint32_t steps;  // from where it began to `at`
     std::uint32_t depth;  // of where it began, if there in a piece: steps to the core
   };
-  Climber climber(Place from) const;
+  Climber climber(LatticePlace from) const;
   void leave(Climber& climber, PieceId by) const;
   void climb_to_one_piece(Climber& start, Climber& goal) const;
   TreeJoin meet_in_tile(const Climber& start, const Climber& goal) const;

@@ -27,25 +27,25 @@ class CellMarks {
  public:
   explicit CellMarks(const std::uint64_t* words) : words_(words) {}
 
-  bool is_core(Place p) const { return bit(p, mark_word::core); }
-  bool is_gate(Place p) const { return is_core(p) && bit(p, mark_word::low); }
+  bool is_core(LatticePlace p) const { return bit(p, mark_word::core); }
+  bool is_gate(LatticePlace p) const { return is_core(p) && bit(p, mark_word::low); }
   /// Of a cell outside the core.
-  unsigned direction(Place p) const {
+  unsigned direction(LatticePlace p) const {
     const std::uint64_t* const row = row_of(p);
     const unsigned at = p % 64;
     return static_cast<unsigned>(row[mark_word::low] >> at & 1U) |
            static_cast<unsigned>(row[mark_word::high] >> at & 1U) << 1;
   }
   /// Gates in the row of the tile before the place.
-  std::uint32_t gates_before(Place p) const {
+  std::uint32_t gates_before(LatticePlace p) const {
     const std::uint64_t* const row = row_of(p);
     const std::uint64_t below = (std::uint64_t{1} << p % 64) - 1;
     return static_cast<std::uint32_t>(std::popcount(row[mark_word::low] & row[mark_word::core] & below));
   }
 
  private:
-  const std::uint64_t* row_of(Place p) const { return words_ + std::size_t{p / 64} * mark_word::count; }
-  bool bit(Place p, std::size_t word) const { return (row_of(p)[word] >> p % 64 & 1U) != 0; }
+  const std::uint64_t* row_of(LatticePlace p) const { return words_ + std::size_t{p / 64} * mark_word::count; }
+  bool bit(LatticePlace p, std::size_t word) const { return (row_of(p)[word] >> p % 64 & 1U) != 0; }
 
   const std::uint64_t* words_;
 };

@@ -39,7 +39,7 @@ class Peeling {
     for_chunks(places_.tile_count(), 16, execution_, [&](Range r) {
       for (std::size_t tile = r.first; tile < r.last; ++tile) {
         load(static_cast<std::uint32_t>(tile));
-        peel_tile(static_cast<Place>(tile * LatticePlaces::tile_places));
+        peel_tile(static_cast<LatticePlace>(tile * LatticePlaces::tile_places));
       }
     });
     for (std::uint32_t side = growth; side / growth < most_tiles(); side *= growth) peel_squares(side);
@@ -52,10 +52,10 @@ class Peeling {
   std::uint32_t most_tiles() const { return std::max(places_.tile_cols(), places_.tile_rows()); }
   void load(std::uint32_t tile);
   void load_row(std::uint8_t* at, std::uint32_t col, std::uint32_t row) const;
-  void peel_tile(Place first);
+  void peel_tile(LatticePlace first);
   void peel_squares(std::uint32_t side);
   void peel_border(std::uint32_t tile, unsigned direction, const TileSquare& square);
-  void follow(Place at, const TileSquare& square);
+  void follow(LatticePlace at, const TileSquare& square);
   bool leaves(std::uint32_t tile, unsigned direction, const TileSquare& square) const;
 
   const LatticePassages& passages_;
@@ -86,10 +86,10 @@ void Peeling::load_row(std::uint8_t* at, std::uint32_t col, std::uint32_t row) c
 }
 
 /// Dead ends of a tile whose way goes on in it.
-void Peeling::peel_tile(Place first) {
+void Peeling::peel_tile(LatticePlace first) {
   std::uint8_t* const tile = bytes_.data() + first;
-  for (Place start = 0; start < LatticePlaces::tile_places; ++start) {
-    Place at = start;
+  for (LatticePlace start = 0; start < LatticePlaces::tile_places; ++start) {
+    LatticePlace at = start;
     for (unsigned open = tile[at]; std::has_single_bit(open); open = tile[at]) {
       const auto direction = static_cast<unsigned>(std::countr_zero(open));
       if (direction > 3 || LatticePlaces::leaves_tile(at, direction)) break;
@@ -125,9 +125,9 @@ void Peeling::peel_squares(std::uint32_t side) {
 
 void Peeling::peel_border(std::uint32_t tile, unsigned direction, const TileSquare& square) {
   const unsigned last = LatticePlaces::side - 1;
-  const std::array<Place, 4> corner{last, last * LatticePlaces::side, 0, 0};
-  const Place along = (direction & 1U) == 0 ? LatticePlaces::side : 1;
-  Place at = tile * LatticePlaces::tile_places + corner[direction];
+  const std::array<LatticePlace, 4> corner{last, last * LatticePlaces::side, 0, 0};
+  const LatticePlace along = (direction & 1U) == 0 ? LatticePlaces::side : 1;
+  LatticePlace at = tile * LatticePlaces::tile_places + corner[direction];
   for (unsigned i = 0; i <= last; ++i, at += along) {
     if (bytes_[at] == 1U << direction) follow(at, square);
   }
@@ -148,7 +148,7 @@ bool Peeling::leaves(std::uint32_t tile, unsigned direction, const TileSquare& s
   }
 }
 
-void Peeling::follow(Place at, const TileSquare& square) {
+void Peeling::follow(LatticePlace at, const TileSquare& square) {
   constexpr unsigned borders_a_poll = 1024;
   unsigned borders = 0;
   for (unsigned open = bytes_[at]; std::has_single_bit(open) && open <= peel_bit::edges; open = bytes_[at]) {

@@ -33,7 +33,7 @@ class PieceBuilder {
   struct Exit {
     PieceId parent;
     std::uint32_t length;  // steps from its cell to the parent's exit, or to the core
-    Place door;
+    LatticePlace door;
   };
 
   template <class Visit>
@@ -91,13 +91,13 @@ void PieceBuilder::follow_exits(std::size_t count) {
     std::uint32_t exit = arrays_.first_exit[r.first];
     for (std::size_t side = 4 * r.first; side < 4 * r.last; ++side) {
       for (std::uint64_t left = arrays_.exits[side]; left != 0; left &= left - 1) {
-        const auto along = static_cast<Place>(std::countr_zero(left));
+        const auto along = static_cast<LatticePlace>(std::countr_zero(left));
         const auto direction = static_cast<unsigned>(side % 4);
         constexpr unsigned last = LatticePlaces::side - 1;
-        const std::array<Place, 4> cell{along * LatticePlaces::side + last, last * LatticePlaces::side + along,
-                                        along * LatticePlaces::side, along};
-        const Place at = static_cast<Place>(side / 4) * LatticePlaces::tile_places + cell[direction];
-        const Place door = places_.step(at, direction);
+        const std::array<LatticePlace, 4> cell{along * LatticePlaces::side + last, last * LatticePlaces::side + along,
+                                               along * LatticePlaces::side, along};
+        const LatticePlace at = static_cast<LatticePlace>(side / 4) * LatticePlaces::tile_places + cell[direction];
+        const LatticePlace door = places_.step(at, direction);
         const Climb up = forest.climb(door);
         exits_[exit++] = {up.at_core ? no_piece : forest.piece_at(up.last), 1 + up.steps, door};
       }
@@ -166,7 +166,7 @@ PieceArrays PieceBuilder::renumbered() {
   const std::size_t count = exits_.size();
   RawVector<PieceId> parent(count);
   RawVector<std::uint32_t> depth(count);
-  RawVector<Place> door(count);
+  RawVector<LatticePlace> door(count);
   for_each_poll(count, [&](std::size_t i) {
     const Exit& exit = exits_[order_[count - 1 - i]];
     const PieceId here = number_[order_[count - 1 - i]];
@@ -178,7 +178,7 @@ PieceArrays PieceBuilder::renumbered() {
   arrays_.head = ArrayOrView<PieceId>(std::move(head_));
   arrays_.parent = ArrayOrView<PieceId>(std::move(parent));
   arrays_.depth = ArrayOrView<std::uint32_t>(std::move(depth));
-  arrays_.door = ArrayOrView<Place>(std::move(door));
+  arrays_.door = ArrayOrView<LatticePlace>(std::move(door));
   return std::move(arrays_);
 }
 
@@ -186,9 +186,9 @@ PieceArrays PieceBuilder::renumbered() {
 
 std::uint64_t exits_of(CellMarks marks, std::uint32_t tile, unsigned direction) {
   constexpr unsigned last = LatticePlaces::side - 1;
-  const std::array<Place, 4> corner{last, last * LatticePlaces::side, 0, 0};
-  const Place along = (direction & 1U) == 0 ? LatticePlaces::side : 1;
-  Place at = tile * LatticePlaces::tile_places + corner[direction];
+  const std::array<LatticePlace, 4> corner{last, last * LatticePlaces::side, 0, 0};
+  const LatticePlace along = (direction & 1U) == 0 ? LatticePlaces::side : 1;
+  LatticePlace at = tile * LatticePlaces::tile_places + corner[direction];
   std::uint64_t exits = 0;
   for (unsigned i = 0; i <= last; ++i, at += along) {
     exits |= std::uint64_t{!marks.is_core(at) && marks.direction(at) == direction} << i;
@@ -196,7 +196,7 @@ std::uint64_t exits_of(CellMarks marks, std::uint32_t tile, unsigned direction) 
   return exits;
 }
 
-Climb PieceForest::climb(Place from) const {
+Climb PieceForest::climb(LatticePlace from) const {
   Climb climb{from, 0, false};
   while (!marks_.is_core(climb.last) && climb.steps < LatticePlaces::tile_places) {
     const unsigned direction = marks_.direction(climb.last);
@@ -208,7 +208,7 @@ Climb PieceForest::climb(Place from) const {
   return climb;
 }
 
-PieceId PieceForest::piece_at(Place exit) const {
+PieceId PieceForest::piece_at(LatticePlace exit) const {
   const std::size_t tile = LatticePlaces::tile_of(exit);
   const unsigned direction = marks_.direction(exit);
   std::uint32_t number = arrays_.first_exit[tile];

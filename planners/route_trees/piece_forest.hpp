@@ -31,7 +31,7 @@ struct PieceArrays {
   ArrayOrView<PieceId> head;              ///< of a piece: the first of its path
   ArrayOrView<PieceId> parent;            ///< of a piece
   ArrayOrView<std::uint32_t> depth;       ///< of a piece: steps from its exit's cell to the core
-  ArrayOrView<Place> door;                ///< of a piece: the cell that its exit leads to
+  ArrayOrView<LatticePlace> door;         ///< of a piece: the cell that its exit leads to
 };
 
 /// Which cells along a side of a tile point over it.
@@ -39,7 +39,7 @@ std::uint64_t exits_of(CellMarks marks, std::uint32_t tile, unsigned direction);
 
 /// Where a climb in a tile ended.
 struct Climb {
-  Place last;           ///< in the tile
+  LatticePlace last;    ///< in the tile
   std::uint32_t steps;  ///< to it
   bool at_core;         ///< or at an exit
 };
@@ -51,14 +51,14 @@ class PieceForest {
       : places_(places), marks_(marks), arrays_(arrays) {}
 
   /// Ends after as many steps as a tile has cells at the latest, whatever the marks are.
-  Climb climb(Place from) const;
+  Climb climb(LatticePlace from) const;
   /// The piece whose exit a climb ended at.
-  PieceId piece_at(Place exit) const;
+  PieceId piece_at(LatticePlace exit) const;
 
   PieceId head(PieceId p) const { return arrays_.head[p]; }
   PieceId parent(PieceId p) const { return arrays_.parent[p]; }
   std::uint32_t depth(PieceId p) const { return arrays_.depth[p]; }
-  Place door(PieceId p) const { return arrays_.door[p]; }
+  LatticePlace door(PieceId p) const { return arrays_.door[p]; }
 
  private:
   const LatticePlaces& places_;

@@ -43,10 +43,11 @@ class Batch {
     one_thread_.progress = nullptr;
   }
 
-  void answer(const BatchQuestion& question, AskScratch& scratch, AnsweredChunk& chunk) const {
+  void answer(const BatchQuestion& question, QuestionScratch& scratch, AnsweredChunk& chunk) const {
     std::string error = question.error;
     if (error.empty()) {
       try {
+        if (options_.lengths_only) return add_length(question, scratch, chunk);
         const Answer answer = query_.ask_within(question.start, question.goal, options_.how, one_thread_, scratch);
         if (answer.outcome == Outcome::stopped) throw Stopped(answer.stop_reason.value_or(StopReason::time));
         chunk.solved += answer.outcome == Outcome::solved ? 1 : 0;
@@ -66,22 +67,29 @@ class Batch {
   }
 
  private:
+  void add_length(const BatchQuestion& question, QuestionScratch& scratch, AnsweredChunk& chunk) const {
+    const LengthAnswer answer = query_.length_within(question.start, question.goal, options_.how, one_thread_, scratch);
+    const bool solved = answer.outcome == Outcome::solved;
+    chunk.solved += solved ? 1 : 0;
+    const std::string length = solved ? json_number(answer.length) : options_.csv ? "" : "null";
+    const std::string status(name_of(answer.outcome));
+    chunk.text += options_.csv
+                      ? question.id + "," + status + "," + length + "\n"
+                      : "{\"id\":" + question.id + ",\"status\":\"" + status + "\",\"length\":" + length + "}\n";
+  }
   std::string json_line(const BatchQuestion& question, const Answer& answer) const {
     JsonObject object;
     object.add_json("id", question.id);
     object.add("status", name_of(answer.outcome));
     object.add_or_null("length", answer.verified, answer.length);
-    if (!options_.lengths_only) {
-      object.add("verified", answer.verified);
-      object.add_json("path", path_json(answer));
-    }
+    object.add("verified", answer.verified);
+    object.add_json("path", path_json(answer));
     return object.closed() + "\n";
   }
   std::string csv_line(const BatchQuestion& question, const Answer& answer) const {
     std::string line = question.id + "," + std::string(name_of(answer.outcome)) + ",";
     if (answer.verified) line += json_number(answer.length);
-    if (!options_.lengths_only) line += answer.verified ? ",true" : ",false";
-    return line + "\n";
+    return line + (answer.verified ? ",true\n" : ",false\n");
   }
 
   const RoadmapQuery& query_;
@@ -98,7 +106,7 @@ BatchAccount ask_batch(const RoadmapQuery& query, const InputFile& questions, co
   BatchAccount account;
   write(batch.header());
   std::vector<BatchQuestion> some;
-  std::vector<AskScratch> scratch(thread_count(execution.threads));
+  std::vector<QuestionScratch> scratch(thread_count(execution.threads));
   while (reader.next(block, some)) {
     const std::size_t share = (some.size() + scratch.size() - 1) / scratch.size();
     std::vector<AnsweredChunk> chunks(chunk_count(some.size(), share));

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -39,8 +40,20 @@ Question without_ends(const Scene& scene, Question question) {
   return question;
 }
 
+EdgeCounts edges_of(const LatticePassages& passages) {
+  const auto bits_in = [](std::span<const std::uint64_t> words) {
+    std::uint64_t bits = 0;
+    for (const std::uint64_t word : words) bits += static_cast<std::uint64_t>(std::popcount(word));
+    return bits;
+  };
+  const auto [rows, cols] = passages.size();
+  const std::uint64_t free = bits_in(passages.right_words()) + bits_in(passages.up_words());
+  const std::uint64_t all = std::uint64_t{rows} * (cols - 1) + std::uint64_t{cols} * (rows - 1);
+  return {0, free, all - free};
+}
+
 /// Which states only one of the two has.
-void count_states(const RoadmapArrays& before, const RoadmapArrays& now, UpdateAccount& account) {
+void compare_states(const RoadmapArrays& before, const RoadmapArrays& now, UpdateAccount& account) {
   using Numbers = std::vector<double>;
   const auto sorted = [](const RoadmapArrays& arrays) {
     std::vector<Numbers> states;
@@ -76,7 +89,9 @@ ChosenSolver builder_of(const SolveOptions& options, const Scene& scene, const Q
 
 }  // namespace
 
-EdgeCounts count_edges(const RoadmapArrays& arrays, const Execution& execution) {
+EdgeCounts count_edges(const Roadmap& roadmap, const Execution& execution) {
+  if (roadmap.lattice != nullptr) return edges_of(roadmap.lattice->passages());
+  const RoadmapArrays& arrays = roadmap.arrays;
   constexpr std::size_t polled = std::size_t{1} << 20;
   EdgeCounts counts;
   const std::size_t ends = arrays.candidates.targets().size();
@@ -89,8 +104,12 @@ EdgeCounts count_edges(const RoadmapArrays& arrays, const Execution& execution) 
   return {counts.unchecked / 2, counts.free / 2, counts.blocked / 2};
 }
 
+std::uint64_t count_states(const Roadmap& roadmap) {
+  return roadmap.lattice != nullptr ? roadmap.lattice->passages().cell_count() : roadmap.arrays.parts().vertex_count();
+}
+
 Roadmap build_within(Scene scene, const Question& question, const SolveOptions& options, const Execution& execution,
-                     BuildAccount* account, const OldRoadmap* old) {
+                     IndexChoice index, BuildAccount* account, const OldRoadmap* old) {
   question.validate();
   options.validate();
   refuse_what_is_asked_later(options);
@@ -104,6 +123,12 @@ Roadmap build_within(Scene scene, const Question& question, const SolveOptions& 
   roadmap.robot = robot_of(roadmap.scene, asked);
   roadmap.clearance = clearance_of(roadmap.scene, asked);
   roadmap.world_hash = scene_hash(roadmap.scene, execution);
+  if (index == IndexChoice::auto_) roadmap.lattice = lattice_index(roadmap.scene, asked, roadmap.options, execution);
+  if (roadmap.lattice != nullptr) {
+    roadmap.samples = roadmap.lattice->passages().cell_count();
+    roadmap.rule = {1.0, 0};
+    return roadmap;
+  }
   const PlannedScene planned(roadmap.scene, asked, solver.planner, execution);
   BuiltArrays built =
       solver.kind->build({roadmap.options, planned.get(), asked, solver.planner, execution, nullptr, {}, old});
@@ -118,24 +143,27 @@ Roadmap build_within(Scene scene, const Question& question, const SolveOptions& 
 Roadmap update(const Roadmap& roadmap, Scene now, const Execution& execution, UpdateAccount* account) {
   std::optional<OldRoadmap> old;
   const bool grows = !roadmap.options.roadmap.samples && roadmap.options.sampler != SamplerKind::lattice;
-  if (!grows && roadmap.robot.kind != RobotKind::puma560 && roadmap.robot.kind != RobotKind::arm) {
+  if (!grows && roadmap.lattice == nullptr && roadmap.robot.kind != RobotKind::puma560 &&
+      roadmap.robot.kind != RobotKind::arm) {
     if (auto places = changed_places(roadmap.scene, now, execution)) old = {&roadmap.arrays, std::move(*places)};
   }
   BuildAccount built;
-  Roadmap next =
-      build_within(std::move(now), roadmap.question(), roadmap.options, execution, &built, old ? &*old : nullptr);
+  const IndexChoice index = roadmap.lattice != nullptr ? IndexChoice::auto_ : IndexChoice::none;
+  Roadmap next = build_within(std::move(now), roadmap.question(), roadmap.options, execution, index, &built,
+                              old ? &*old : nullptr);
   if (account == nullptr) return next;
-  const EdgeCounts edges = count_edges(next.arrays, execution);
+  const EdgeCounts edges = count_edges(next, execution);
   account->built_anew = !old;
   account->edges = edges.free + edges.blocked + edges.unchecked;
   account->edges_checked = built.counters.edges_checked;
-  count_states(roadmap.arrays, next.arrays, *account);
+  compare_states(roadmap.arrays, next.arrays, *account);
   return next;
 }
 
-Roadmap build(Scene scene, const Question& question, const SolveOptions& options, const Limits& limits) {
+Roadmap build(Scene scene, const Question& question, const SolveOptions& options, const Limits& limits,
+              IndexChoice index) {
   const LimitedExecution limited(limits);
-  return build_within(std::move(scene), question, options, limited.execution());
+  return build_within(std::move(scene), question, options, limited.execution(), index);
 }
 
 }  // namespace warren

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -12,11 +13,14 @@
 #include "core/base/raw_vector.hpp"
 #include "core/search/graph.hpp"
 #include "planners/roadmap/roadmap_growth.hpp"
+#include "planners/route_index/route_index.hpp"
+#include "roadmaps/file/roadmap_file.hpp"
 #include "roadmaps/graph/roadmap_parts.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/question/limits.hpp"
 #include "solve/question/question.hpp"
 #include "solve/question/solve_options.hpp"
+#include "solve/roadmaps/lattice_roadmap.hpp"
 
 namespace warren {
 
@@ -43,6 +47,8 @@ struct Roadmap {
   std::uint64_t samples = 0;  ///< drawn in the last round
   ConnectionRule rule;        ///< by which milestones were joined, and start and goal will be
   RoadmapArrays arrays;
+  std::unique_ptr<RoadmapFile> file = {};    ///< what the lattice looks at, where it was read
+  std::unique_ptr<RouteIndex> lattice = {};  ///< instead of arrays
 
   /// The question that is still open: from where to where.
   Question question() const { return {.robot = robot, .clearance = clearance}; }
@@ -54,7 +60,9 @@ struct EdgeCounts {
   std::uint64_t free = 0;
   std::uint64_t blocked = 0;
 };
-EdgeCounts count_edges(const RoadmapArrays& arrays, const Execution& execution);
+EdgeCounts count_edges(const Roadmap& roadmap, const Execution& execution);
+/// States of the roadmap.
+std::uint64_t count_states(const Roadmap& roadmap);
 
 struct OldRoadmap;
 
@@ -68,11 +76,13 @@ struct BuildAccount {
 /// mean nothing. With lazy_prm no edge is checked, unless the samples are left open: then, with either planner, rounds
 /// grow until what is joined stays joined (planners/roadmap/build_roadmap.hpp). Takes the scene. Throws UsageError for
 /// what can't be built and for options that mean nothing to it, InputError, Stopped at a limit.
-Roadmap build(Scene scene, const Question& question = {}, const SolveOptions& options = {}, const Limits& limits = {});
+Roadmap build(Scene scene, const Question& question = {}, const SolveOptions& options = {}, const Limits& limits = {},
+              IndexChoice index = IndexChoice::auto_);
 
 /// The same under an execution. `old`: update's.
 Roadmap build_within(Scene scene, const Question& question, const SolveOptions& options, const Execution& execution,
-                     BuildAccount* account = nullptr, const OldRoadmap* old = nullptr);
+                     IndexChoice index = IndexChoice::auto_, BuildAccount* account = nullptr,
+                     const OldRoadmap* old = nullptr);
 
 /// What update() did.
 struct UpdateAccount {

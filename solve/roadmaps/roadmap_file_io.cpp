@@ -11,6 +11,7 @@
 #include "roadmaps/file/checksum.hpp"
 #include "roadmaps/file/write_roadmap_file.hpp"
 #include "roadmaps/graph/check_parts.hpp"
+#include "solve/roadmaps/lattice_sections.hpp"
 #include "solve/roadmaps/roadmap_meta_io.hpp"
 #include "solve/roadmaps/world_sections.hpp"
 
@@ -33,6 +34,9 @@ std::uint64_t hash_of(std::string_view text) { return checksum(std::as_bytes(std
 void refuse_unknown_sections(const RoadmapFile& file) {
   std::vector<std::string_view> known(graph_section_names.begin(), graph_section_names.end());
   known.insert(known.end(), world_section_names.begin(), world_section_names.end());
+  for (const SectionPlace& place : file.sections()) {
+    if (is_lattice_section(place.name)) known.push_back(place.name);
+  }
   file.refuse_unknown(known);
 }
 
@@ -81,6 +85,18 @@ Scene world_of(const RoadmapFile& file, std::optional<Scene> given, const std::s
                    found);
 }
 
+void append_graph(const RoadmapParts& parts, std::vector<RoadmapSection>& sections) {
+  sections.push_back(roadmap_section("states", parts.states));
+  sections.push_back(roadmap_section("edge.first", parts.first));
+  sections.push_back(roadmap_section("edge.to", parts.to));
+  sections.push_back(roadmap_section("edge.state", parts.edge_states));
+  sections.push_back(roadmap_section("component", parts.component));
+}
+
+LatticeSize lattice_of(const RoadmapFile& file, const Execution& execution) {
+  return lattice_in_meta(fmt::format("{}: section meta", file.name()), roadmap_meta(file, execution));
+}
+
 /// All that meta says.
 Roadmap described(const RoadmapFile& file, const Execution& execution) {
   refuse_unknown_sections(file);
@@ -88,6 +104,14 @@ Roadmap described(const RoadmapFile& file, const Execution& execution) {
   read_meta(fmt::format("{}: section meta", file.name()), roadmap_meta(file, execution), roadmap);
   if (hash_number(roadmap.world_hash) == file.header().world_hash) return roadmap;
   throw InputError(file.name(), "header and meta name different worlds");
+}
+
+/// The lattice is that of the maze.
+void check_lattice_of(const Roadmap& roadmap) {
+  const auto& maze = roadmap.scene.maze;
+  const LatticeSize size = roadmap.lattice->passages().size();
+  if (maze && maze->rows == size.rows && maze->cols == size.cols) return;
+  throw InputError(roadmap.file->name(), "its lattice is none of its world");
 }
 
 }  // namespace
@@ -109,11 +133,7 @@ void write_roadmap(const Roadmap& roadmap, const std::string& path, const Execut
   const WorldSections world(roadmap.scene, execution);
   std::vector<RoadmapSection> sections{roadmap_section("meta", std::span<const char>(meta))};
   if (with_world) world.append_to(sections);
-  sections.push_back(roadmap_section("states", parts.states));
-  sections.push_back(roadmap_section("edge.first", parts.first));
-  sections.push_back(roadmap_section("edge.to", parts.to));
-  sections.push_back(roadmap_section("edge.state", parts.edge_states));
-  sections.push_back(roadmap_section("component", parts.component));
+  roadmap.lattice != nullptr ? append_lattice_sections(*roadmap.lattice, sections) : append_graph(parts, sections);
   const RoadmapFileHeader header{.world_hash = hash_number(roadmap.world_hash),
                                  .recipe_hash = hash_of(recipe_json(roadmap, execution)),
                                  .writer = "warren " WARREN_VERSION};
@@ -121,11 +141,14 @@ void write_roadmap(const Roadmap& roadmap, const std::string& path, const Execut
 }
 
 void check_roadmap(const RoadmapFile& file, const Execution& execution) {
-  checked_parts(file, described(file, execution), execution);
+  const Roadmap roadmap = described(file, execution);
+  has_lattice(file) ? void(read_lattice(file, lattice_of(file, execution), execution))
+                    : void(checked_parts(file, roadmap, execution));
 }
 
 Roadmap read_roadmap(const std::string& path, const Execution& execution, std::optional<Scene> world) {
-  const RoadmapFile file(path, execution);
+  auto opened = std::make_unique<RoadmapFile>(path, execution);
+  const RoadmapFile& file = *opened;
   Roadmap roadmap = described(file, execution);
   const std::string source = world ? world->source : roadmap.scene.source;
   roadmap.scene = world_of(file, std::move(world), roadmap.world_hash, execution);
@@ -133,7 +156,13 @@ Roadmap read_roadmap(const std::string& path, const Execution& execution, std::o
   if (file.header().recipe_hash != hash_of(recipe_json(roadmap, execution))) {
     throw InputError(file.name(), "header and meta name different bodies or options");
   }
-  roadmap.arrays = read_arrays(file, roadmap, execution);
+  if (!has_lattice(file)) {
+    roadmap.arrays = read_arrays(file, roadmap, execution);
+    return roadmap;
+  }
+  roadmap.lattice = read_lattice(file, lattice_of(file, execution), execution);
+  roadmap.file = std::move(opened);
+  check_lattice_of(roadmap);
   return roadmap;
 }
 

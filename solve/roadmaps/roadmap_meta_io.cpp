@@ -45,6 +45,12 @@ std::string table_hash(const RobotSpec& robot, const Execution& execution) {
   return fmt::format("{:016x}", checksum(std::as_bytes(std::span(table.bytes()))));
 }
 
+std::uint64_t component_count(const RoadmapArrays& arrays) {
+  std::uint64_t count = 0;
+  for (VertexId v = 0; v < arrays.component.size(); ++v) count += arrays.component[v] == v ? 1 : 0;
+  return count;
+}
+
 void add_recipe(JsonObject& object, const Roadmap& roadmap, const Execution& execution) {
   const SolveOptions& o = roadmap.options;
   object.add("robot", std::string_view(robot_text(roadmap.robot)));
@@ -169,14 +175,11 @@ std::string recipe_json(const Roadmap& roadmap, const Execution& execution) {
 }
 
 std::string meta_json(const Roadmap& roadmap, const Execution& execution) {
-  const EdgeCounts edges = count_edges(roadmap.arrays, execution);
-  const RoadmapParts parts = roadmap.arrays.parts();
+  const EdgeCounts edges = count_edges(roadmap, execution);
   JsonObject counts(", ", ": ");
   counts.add("unchecked", edges.unchecked);
   counts.add("free", edges.free);
   counts.add("blocked", edges.blocked);
-  std::uint64_t components = 0;
-  for (VertexId v = 0; v < parts.vertex_count(); ++v) components += parts.component[v] == v ? 1 : 0;
   JsonObject object(",\n ", ": ");
   object.add("schema", schema);
   object.add("source", std::string_view(roadmap.scene.source));
@@ -186,10 +189,28 @@ std::string meta_json(const Roadmap& roadmap, const Execution& execution) {
   object.add("drawn", roadmap.samples);
   object.add("dimension", roadmap.arrays.dimension);
   object.add("directed", roadmap.arrays.directed);
-  object.add("states", std::uint64_t{parts.vertex_count()});
+  object.add("states", count_states(roadmap));
   object.add_json("edges", counts.closed());
-  object.add("components", components);
+  if (roadmap.lattice != nullptr) {
+    const LatticeSize size = roadmap.lattice->passages().size();
+    object.add_json("lattice", json_list(std::span<const std::uint32_t>(std::array{size.rows, size.cols})));
+  } else {
+    object.add("components", component_count(roadmap.arrays));
+  }
   return object.closed() + "\n";
+}
+
+LatticeSize lattice_in_meta(const std::string& where, std::string_view text) {
+  const Json json = parsed(where, text);
+  const auto found = json.find("lattice");
+  if (found == json.end()) return {};
+  const bool two =
+      found->is_array() && found->size() == 2 && (*found)[0].is_number_unsigned() && (*found)[1].is_number_unsigned();
+  constexpr std::uint64_t most = 0xffffffff;
+  if (!two || (*found)[0].get<std::uint64_t>() > most || (*found)[1].get<std::uint64_t>() > most) {
+    throw InputError(where + ": key \"lattice\"", "expected rows and columns");
+  }
+  return {(*found)[0].get<std::uint32_t>(), (*found)[1].get<std::uint32_t>()};
 }
 
 void read_meta(const std::string& where, std::string_view text, Roadmap& roadmap) {

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solve/roadmaps/roadmap_query.hpp"
 
+#include <fmt/format.h>
+
 #include <new>
 #include <utility>
 
+#include "core/base/error.hpp"
+#include "planners/shorten/taut_path.hpp"
 #include "roadmaps/graph/free_components.hpp"
+#include "solve/question/planner_choice.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 #include "solve/steps/planned_scene.hpp"
 #include "solve/steps/solve_steps.hpp"
+#include "worlds/plane/maze_world.hpp"
 
 namespace warren {
 namespace {
@@ -17,6 +23,23 @@ Question question_of(const Roadmap& roadmap, const std::vector<double>& start, c
   question.start = start;
   question.goal = goal;
   return question;
+}
+
+/// An index is not searched.
+void refuse_search(const RoadmapSearchFields& how) {
+  if (how.search || how.queue || how.attach) {
+    throw UsageError(fmt::format("@{}: this roadmap is asked by its index; build it with @index none to search it",
+                                 how.search  ? "search"
+                                 : how.queue ? "queue"
+                                             : "attach"));
+  }
+}
+
+void shorten(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution) {
+  const StageTimer timer(execution, "optimise", answer.seconds.optimise, answer.path.size());
+  const MazeWorld world(scene, problem.reach(), execution);
+  answer.raw_length = path_length(answer.path, MazeWorld::distance);
+  answer.path = taut_path(world.walls(), answer.path, world.planning_clearance(), execution);
 }
 
 std::vector<double> anywhere(const Roadmap& roadmap) { return std::vector<double>(state_size(roadmap.robot), 0.0); }
@@ -29,8 +52,10 @@ struct RoadmapQuery::Opened {
         solver(choose_solver(roadmap.options, roadmap.scene, any)),
         planned(roadmap.scene, any, solver.planner, execution),
         world(account_of(roadmap.scene, execution)),
-        session(solver.kind->open({roadmap.options, planned.get(), any, solver.planner, execution}, roadmap.arrays,
-                                  roadmap.rule)) {}
+        session(roadmap.lattice != nullptr
+                    ? nullptr
+                    : solver.kind->open({roadmap.options, planned.get(), any, solver.planner, execution},
+                                        roadmap.arrays, roadmap.rule)) {}
   Question any;
   ChosenSolver solver;
   PlannedScene planned;
@@ -49,15 +74,16 @@ RoadmapQuery::~RoadmapQuery() = default;
 Answer RoadmapQuery::ask(const std::vector<double>& start, const std::vector<double>& goal,
                          const RoadmapSearchFields& how, const Limits& limits, ByProducts* keep) const {
   const LimitedExecution limited(limits);
-  AskScratch scratch;
+  QuestionScratch scratch;
   return ask_within(start, goal, how, limited.execution(), scratch, keep);
 }
 
 Answer RoadmapQuery::ask_within(const std::vector<double>& start, const std::vector<double>& goal,
-                                const RoadmapSearchFields& how, const Execution& execution, AskScratch& scratch,
+                                const RoadmapSearchFields& how, const Execution& execution, QuestionScratch& scratch,
                                 ByProducts* keep) const {
   const Question question = question_of(roadmap_, start, goal);
   question.validate();
+  if (roadmap_.lattice != nullptr) return ask_lattice(question, how, execution, scratch);
   SolveOptions options = roadmap_.options;
   options.search = how.search;
   options.queue = how.queue;
@@ -74,7 +100,7 @@ Answer RoadmapQuery::ask_within(const std::vector<double>& start, const std::vec
                                  solver.planner,
                                  execution,
                                  keep,
-                                 {opened_->session.get(), &scratch}});
+                                 {opened_->session.get(), &scratch.search}});
   } catch (const Stopped& stopped) {
     answer.stop_reason = stopped.reason;
   } catch (const std::bad_alloc&) {
@@ -86,11 +112,56 @@ Answer RoadmapQuery::ask_within(const std::vector<double>& start, const std::vec
   return answer;
 }
 
+Answer RoadmapQuery::ask_lattice(const Question& question, const RoadmapSearchFields& how, const Execution& execution,
+                                 QuestionScratch& scratch) const {
+  refuse_search(how);
+  const WallProblem problem = wall_problem(roadmap_.scene, question);
+  Answer answer;
+  describe_roadmap_planner(answer, problem, planner_options(roadmap_.options, roadmap_.scene, problem));
+  answer.search.clear();
+  answer.figures.push_back({"index", std::string("route")});
+  if (!scratch.route) scratch.route.emplace(*roadmap_.lattice);
+  answer_within_limits(answer, [&] {
+    {
+      const StageTimer timer(execution, "search", answer.seconds.search);
+      const LatticeQuestion asked(roadmap_.scene, problem, *roadmap_.lattice, *scratch.route, execution);
+      answer.outcome = asked.outcome();
+      answer.roadmap.milestones = count_states(roadmap_) + 2;
+      if (answer.outcome == Outcome::solved) answer.path = asked.path();
+    }
+    settle_blocked_ends(answer, roadmap_.scene, problem, execution);
+    if (how.optimise && answer.outcome == Outcome::solved) shorten(answer, roadmap_.scene, problem, execution);
+    verify_solved(answer, roadmap_.scene, problem, execution);
+  });
+  answer.world = opened_->world;
+  answer.threads = thread_count(execution.threads);
+  answer.peak_memory_bytes = peak_resident_bytes();
+  return answer;
+}
+
+LengthAnswer RoadmapQuery::length_within(const std::vector<double>& start, const std::vector<double>& goal,
+                                         const RoadmapSearchFields& how, const Execution& execution,
+                                         QuestionScratch& scratch) const {
+  if (roadmap_.lattice == nullptr || how.optimise) {
+    const Answer answer = ask_within(start, goal, how, execution, scratch);
+    if (answer.outcome == Outcome::stopped) throw Stopped(answer.stop_reason.value_or(StopReason::time));
+    return {answer.outcome, answer.length};
+  }
+  refuse_search(how);
+  const Question question = question_of(roadmap_, start, goal);
+  question.validate();
+  if (!scratch.route) scratch.route.emplace(*roadmap_.lattice);
+  const WallProblem problem = wall_problem(roadmap_.scene, question);
+  const LatticeQuestion asked(roadmap_.scene, problem, *roadmap_.lattice, *scratch.route, execution);
+  return {asked.outcome(), asked.length()};
+}
+
 std::span<const std::uint64_t> RoadmapQuery::edge_states() const { return opened_->session->edge_states(); }
 
 double RoadmapQuery::distance(VertexId from, VertexId to) const { return opened_->session->distance(from, to); }
 
 void learn(Roadmap& roadmap, const RoadmapQuery& query, const Execution& execution) {
+  if (roadmap.lattice != nullptr) return;  // all its edges are known
   const std::span<const std::uint64_t> known = query.edge_states();
   roadmap.arrays.edge_states.assign(known.begin(), known.end());
   roadmap.arrays.component = free_components(roadmap.arrays.parts(), execution);

@@ -26,6 +26,17 @@ struct RoadmapSearchFields {
   bool optimise = false;                     ///< pull the path taut after the search
 };
 
+/// What one thread keeps from one question to the next.
+struct QuestionScratch {
+  AskScratch search;
+  std::optional<RouteQuery> route;
+};
+
+struct LengthAnswer {
+  Outcome outcome = Outcome::not_connected;
+  double length = 0.0;  ///< only for solved
+};
+
 /// Refers to the roadmap. Any number of threads may ask; while they do, learnt() is nobody's.
 class RoadmapQuery {
  public:
@@ -40,7 +51,11 @@ class RoadmapQuery {
              const Limits& limits = {}, ByProducts* keep = nullptr) const;
   /// The same under an execution, with a scratch that the thread keeps from one question to the next.
   Answer ask_within(const std::vector<double>& start, const std::vector<double>& goal, const RoadmapSearchFields& how,
-                    const Execution& execution, AskScratch& scratch, ByProducts* keep = nullptr) const;
+                    const Execution& execution, QuestionScratch& scratch, ByProducts* keep = nullptr) const;
+  /// The same without the path where an index tells the length alone. Throws UsageError, Stopped.
+  LengthAnswer length_within(const std::vector<double>& start, const std::vector<double>& goal,
+                             const RoadmapSearchFields& how, const Execution& execution,
+                             QuestionScratch& scratch) const;
   /// Length of the motion between two of the roadmap's states, in the world's metric.
   double distance(VertexId from, VertexId to) const;
   /// What all questions so far have learnt of the edges of a lazy roadmap.
@@ -48,6 +63,8 @@ class RoadmapQuery {
 
  private:
   struct Opened;
+  Answer ask_lattice(const Question& question, const RoadmapSearchFields& how, const Execution& execution,
+                     QuestionScratch& scratch) const;
   const Roadmap& roadmap_;
   std::unique_ptr<Opened> opened_;
 };

@@ -12,6 +12,7 @@
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/terminal.hpp"
 #include "tools/screen/world_files.hpp"
+#include "tools/words/option_values.hpp"
 #include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"
 
@@ -20,6 +21,8 @@ namespace {
 
 constexpr OptionSpec build_specs[] = {
     {"--output", "FILE", "where to: a name that ends in .roadmap, or any", {}, "-o"},
+    {"--index", "NAME", "of a large maze's lattice: answers without a search, where that pays (default: auto)",
+     "auto none"},
     {"--no-world", "", "leave the world out of the file; who asks names it then"},
 };
 
@@ -28,18 +31,19 @@ int build_roadmap_file(const Arguments& arguments) {
   if (!file) throw UsageError("-o FILE is missing");
   const Question question = question_words(arguments);
   const SolveOptions options = solve_words(arguments);
+  const auto index = given_choice<IndexChoice>(arguments, "--index").value_or(IndexChoice::auto_);
   check_not_written(arguments, question.robot);
   Run run(arguments);
   StageTimes seconds;
   Scene scene = load_world(arguments.operand(0), arguments, run.execution(), seconds);
-  const Roadmap roadmap = build_within(std::move(scene), question, options, run.execution());
+  const Roadmap roadmap = build_within(std::move(scene), question, options, run.execution(), index);
   write_roadmap(roadmap, *file, run.execution(), !arguments.has("--no-world"));
   run.end();
-  const EdgeCounts edges = count_edges(roadmap.arrays, run.execution());
+  const EdgeCounts edges = count_edges(roadmap, run.execution());
   run.conclude(file == "-", {}, [&] {
     return fmt::format("{}: {}, {} states, {} edges free, {} blocked, {} unchecked\n", run.palette().strong(*file),
-                       description_of(roadmap.scene), grouped(roadmap.arrays.parts().vertex_count()),
-                       grouped(edges.free), grouped(edges.blocked), grouped(edges.unchecked));
+                       description_of(roadmap.scene), grouped(count_states(roadmap)), grouped(edges.free),
+                       grouped(edges.blocked), grouped(edges.unchecked));
   });
   return exit_code::success;
 }

@@ -53,7 +53,7 @@ class QueryCommand : public AnswerCommand {
   Answer find(const Run& run, StageTimes& before, ByProducts* keep) override {
     roadmap_ = read_asked(arguments_, run.execution(), before);
     const RoadmapQuery query(roadmap_, run.execution());
-    AskScratch scratch;
+    QuestionScratch scratch;
     Answer answer = query.ask_within(question_.start, question_.goal, how_, run.execution(), scratch, keep);
     if (keep_file_) learn(roadmap_, query, run.execution());
     return answer;

@@ -76,7 +76,7 @@ TEST(LatticePlaces, StepsAndCellsAgreeWithRowsAndColumns) {
   const LatticePlaces places(size);
   std::vector<bool> taken(places.place_count());
   for (CellId cell = 0; cell < size.rows * size.cols; ++cell) {
-    const Place p = places.place_of(cell);
+    const LatticePlace p = places.place_of(cell);
     ASSERT_LT(p, places.place_count());
     EXPECT_FALSE(taken[p]);
     taken[p] = true;

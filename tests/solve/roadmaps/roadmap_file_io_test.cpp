@@ -126,13 +126,13 @@ TEST_F(RoadmapFileIo, EveryFlippedBitOfASmallFileIsRefused) {
 
 TEST_F(RoadmapFileIo, ALazyRoadmapKeepsWhatItLearnt) {
   Roadmap built = build(read_world("maze:9x9,seed=2,loops=0.1"), {}, few(900, PlannerKind::lazy_prm));
-  EXPECT_EQ(count_edges(built.arrays, {}).free, 0U);
+  EXPECT_EQ(count_edges(built, {}).free, 0U);
   {
     const RoadmapQuery query(built);
     EXPECT_TRUE(query.ask({}, {}).verified);
     learn(built, query, {});
   }
-  EXPECT_GT(count_edges(built.arrays, {}).free, 10U);
+  EXPECT_GT(count_edges(built, {}).free, 10U);
   write_roadmap(built, place("learnt.roadmap"));
   const Roadmap read = read_roadmap(place("learnt.roadmap"));
   const Answer answer = RoadmapQuery(read).ask({}, {});

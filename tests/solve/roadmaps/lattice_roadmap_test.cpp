@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Large lattices are asked by their route index: the lengths of solve(), without a search.
+#include "solve/roadmaps/lattice_roadmap.hpp"
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <random>
+#include <string>
+
+#include "core/base/error.hpp"
+#include "scenes/formats/read_world_io.hpp"
+#include "solve/roadmaps/roadmap_file_io.hpp"
+#include "solve/roadmaps/roadmap_query.hpp"
+#include "solve/solve.hpp"
+
+namespace warren {
+namespace {
+
+Roadmap indexed(const std::string& source, const Question& question = {}) {
+  Roadmap roadmap = build(read_world(source), question);
+  EXPECT_NE(roadmap.lattice, nullptr) << source;
+  return roadmap;
+}
+
+TEST(LatticeRoadmap, AnswersAsSolveDoesWhereverTheEndsAre) {
+  std::mt19937 random(3);
+  const auto place = [&](bool on_lattice) {
+    const double x = 1.0 + static_cast<double>(random() % 255);
+    const double y = 1.0 + static_cast<double>(random() % 255);
+    if (on_lattice) return std::vector<double>{x, y};
+    return std::vector<double>{x + 0.001 * static_cast<double>(random() % 1000), y + 0.3};
+  };
+  for (const std::string& source : {std::string("maze:256x256,seed=2"), std::string("maze:256x256,algorithm=wilson"),
+                                    std::string("maze:256x256,loops=0.1,algorithm=kruskal")}) {
+    const Roadmap roadmap = indexed(source);
+    const RoadmapQuery query(roadmap);
+    EXPECT_EQ(query.ask({}, {}).length, solve(roadmap.scene).length);  // from opening to opening
+    for (int i = 0; i < 12; ++i) {
+      const std::vector<double> start = place(i % 3 != 1);
+      const std::vector<double> goal = place(i % 3 != 2);
+      SCOPED_TRACE(source + " " + std::to_string(i));
+      const Answer expected = solve(roadmap.scene, {.start = start, .goal = goal});
+      const Answer answer = query.ask(start, goal);
+      EXPECT_EQ(answer.outcome, expected.outcome);
+      EXPECT_EQ(answer.verified, expected.verified);
+      EXPECT_NEAR(answer.length, expected.length, 1e-9 * expected.length);
+      QuestionScratch scratch;
+      const LengthAnswer length = query.length_within(start, goal, {}, {}, scratch);
+      EXPECT_EQ(length.outcome, expected.outcome);
+      EXPECT_NEAR(length.length, expected.length, 1e-9 * expected.length);
+    }
+  }
+}
+
+TEST(LatticeRoadmap, BlockedAndUnreachableEndsAreTold) {
+  Scene scene = read_world("maze:256x256,seed=2");
+  std::vector<Segment> walls;
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) walls.push_back(scene.walls.segment(i));
+  for (const Segment side : {Segment{{9.5, 9.5}, {10.5, 9.5}},
+                             {{10.5, 9.5}, {10.5, 10.5}},
+                             {{10.5, 10.5}, {9.5, 10.5}},
+                             {{9.5, 10.5}, {9.5, 9.5}}}) {
+    walls.push_back(side);  // the cell (10, 10) is walled in
+  }
+  scene.walls = WallSet::narrowest(walls);
+  const Roadmap roadmap = build(std::move(scene));
+  ASSERT_NE(roadmap.lattice, nullptr);
+  const RoadmapQuery query(roadmap);
+  EXPECT_EQ(query.ask({10, 10}, {1, 1}).outcome, Outcome::not_connected);
+  EXPECT_EQ(query.ask({10, 9.5}, {1, 1}).outcome, Outcome::start_blocked);
+  EXPECT_EQ(query.ask({1, 1}, {10, 9.55}).outcome, Outcome::goal_blocked);
+  EXPECT_EQ(query.ask({10, 10}, {10.2, 10.2}).outcome, Outcome::solved);
+}
+
+TEST(LatticeRoadmap, IsReadBackFromItsFileWithTheSameBytes) {
+  const Roadmap roadmap = indexed("maze:256x256,loops=0.05");
+  const std::string file =
+      (std::filesystem::temp_directory_path() / ("warren_lattice_" + std::to_string(::getpid()))).string();
+  write_roadmap(roadmap, file);
+  {
+    const Roadmap read = read_roadmap(file);
+    ASSERT_NE(read.lattice, nullptr);
+    const Answer answer = RoadmapQuery(read).ask({}, {});
+    EXPECT_TRUE(answer.verified);
+    EXPECT_EQ(answer.path, RoadmapQuery(roadmap).ask({}, {}).path);
+    write_roadmap(read, file + "2");
+    EXPECT_EQ(std::filesystem::file_size(file), std::filesystem::file_size(file + "2"));
+  }
+  std::filesystem::remove(file);
+  std::filesystem::remove(file + "2");
+}
+
+TEST(LatticeRoadmap, ASearchIsRefusedWhereNothingIsSearched) {
+  const Roadmap roadmap = indexed("maze:256x256");
+  const RoadmapQuery query(roadmap);
+  EXPECT_THROW(query.ask({}, {}, {.search = SearchMethod::dijkstra}), UsageError);
+  EXPECT_EQ(query.ask({}, {}, {.optimise = true}).verified, true);
+}
+
+TEST(LatticeRoadmap, SmallLatticesAndOpenSpaceAreSearched) {
+  EXPECT_EQ(build(read_world("maze:41x41")).lattice, nullptr);
+  EXPECT_EQ(build(read_world("maze:256x256,loops=1")).lattice, nullptr);
+  EXPECT_EQ(build(read_world("maze:256x256"), {}, {}, {}, IndexChoice::none).lattice, nullptr);
+}
+
+}  // namespace
+}  // namespace warren
