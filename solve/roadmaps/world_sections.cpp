@@ -10,6 +10,7 @@
 #include "core/base/error.hpp"
 #include "scenes/formats/scene_io.hpp"
 #include "scenes/text/input_file_io.hpp"
+#include "solve/roadmaps/maze_bits.hpp"
 
 namespace warren {
 namespace {
@@ -118,6 +119,7 @@ OccupancyMap read_map(const RoadmapFile& file, const Execution& execution) {
 WorldSections::WorldSections(const Scene& scene, const Execution& execution) : scene_(scene) {
   write_scene_text(
       without_arrays(scene), [&](std::string_view text) { text_.append(text); }, execution);
+  maze_ = maze_bits(scene, execution);
   for (const Segment& s : scene.seams) seams_.insert(seams_.end(), {s.a.x, s.a.y, s.b.x, s.b.y});
   if (!scene.map) return;
   const OccupancyMap& map = *scene.map;
@@ -130,12 +132,11 @@ WorldSections::WorldSections(const Scene& scene, const Execution& execution) : s
 
 void WorldSections::append_to(std::vector<RoadmapSection>& sections) const {
   sections.push_back(roadmap_section("world.text", std::span<const char>(text_)));
-  scene_.walls.visit([&](auto walls) {
-    using Number = decltype(walls.front().x1);
-    const auto* numbers = walls.empty() ? nullptr : &walls.front().x1;
-    sections.push_back(
-        roadmap_section("world.walls", std::span<const std::remove_cvref_t<Number>>(numbers, 4 * walls.size())));
-  });
+  if (maze_) {
+    sections.push_back(roadmap_section("maze.walls", std::span<const std::uint64_t>(*maze_)));
+  } else {
+    append_walls(sections);
+  }
   sections.push_back(roadmap_section("world.seams", std::span<const double>(seams_)));
   if (!scene_.map) return;
   sections.push_back(roadmap_section("map.place", std::span<const double>(map_place_)));
@@ -143,6 +144,15 @@ void WorldSections::append_to(std::vector<RoadmapSection>& sections) const {
   sections.push_back(roadmap_section("map.blocked", scene_.map->blocked.words()));
   if (!scene_.map->unknown.empty()) sections.push_back(roadmap_section("map.unknown", scene_.map->unknown.words()));
   if (!scene_.map->water.empty()) sections.push_back(roadmap_section("map.water", scene_.map->water.words()));
+}
+
+void WorldSections::append_walls(std::vector<RoadmapSection>& sections) const {
+  scene_.walls.visit([&](auto walls) {
+    using Number = decltype(walls.front().x1);
+    const auto* numbers = walls.empty() ? nullptr : &walls.front().x1;
+    sections.push_back(
+        roadmap_section("world.walls", std::span<const std::remove_cvref_t<Number>>(numbers, 4 * walls.size())));
+  });
 }
 
 bool has_world(const RoadmapFile& file) { return file.find("world.text") != nullptr; }
@@ -155,10 +165,15 @@ Scene read_world_sections(const RoadmapFile& file, const Execution& execution) {
     scene = read_scene_text(InputFile::of_bytes(file.name() + ": section world.text", words), execution);
   }
   if (scene.walls.size() != 0) refuse(file, "world.text", "expected walls in section world.walls alone");
-  const SectionPlace* walls = file.find("world.walls");
-  if (walls == nullptr) refuse(file, "world.walls", "expected the walls of the world");
-  scene.walls =
-      walls->type == element_type<float>() ? read_walls<float>(file, execution) : read_walls<double>(file, execution);
+  if (scene.maze && file.find("maze.walls") != nullptr) {
+    scene.walls = walls_of_maze_bits(file.name() + ": section maze.walls", *scene.maze,
+                                     file.section<std::uint64_t>("maze.walls", execution), execution);
+  } else {
+    const SectionPlace* walls = file.find("world.walls");
+    if (walls == nullptr) refuse(file, "world.walls", "expected the walls of the world");
+    scene.walls =
+        walls->type == element_type<float>() ? read_walls<float>(file, execution) : read_walls<double>(file, execution);
+  }
   if (const auto seams = file.optional_section<double>("world.seams", execution)) {
     for (std::size_t i = 0; i + 3 < seams->size(); i += 4) {
       scene.seams.push_back({{(*seams)[i], (*seams)[i + 1]}, {(*seams)[i + 2], (*seams)[i + 3]}});

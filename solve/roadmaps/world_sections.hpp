@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,18 +27,21 @@ class WorldSections {
   void append_to(std::vector<RoadmapSection>& sections) const;
 
  private:
+  void append_walls(std::vector<RoadmapSection>& sections) const;
+
   const Scene& scene_;
   std::string text_;
+  std::optional<RawVector<std::uint64_t>> maze_;
   RawVector<double> seams_;
   std::vector<double> map_place_;
   std::vector<std::uint64_t> map_size_;
 };
 
 /// The names that WorldSections gives its sections.
-inline constexpr std::array world_section_names{std::string_view("world.text"),  std::string_view("world.walls"),
-                                                std::string_view("world.seams"), std::string_view("map.place"),
-                                                std::string_view("map.size"),    std::string_view("map.blocked"),
-                                                std::string_view("map.unknown"), std::string_view("map.water")};
+inline constexpr std::array world_section_names{
+    std::string_view("world.text"),  std::string_view("maze.walls"),  std::string_view("world.walls"),
+    std::string_view("world.seams"), std::string_view("map.place"),   std::string_view("map.size"),
+    std::string_view("map.blocked"), std::string_view("map.unknown"), std::string_view("map.water")};
 
 /// Is there a world in the file?
 bool has_world(const RoadmapFile& file);
