@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All that a program needs that asks for paths: worlds read and made, questions, answers, pictures of them. Installed
-// as <warren/warren.hpp>.
+// All that a program needs that asks for paths: worlds read and made, questions, answers, pictures of them; roadmaps
+// that are kept and asked again. Installed as <warren/warren.hpp>.
 #pragma once
 
-#include "core/base/error.hpp"                 // IWYU pragma: export
-#include "pictures/draw_answer.hpp"            // IWYU pragma: export
-#include "scenes/formats/read_world_io.hpp"    // IWYU pragma: export
-#include "scenes/mazes/maze_generator.hpp"     // IWYU pragma: export
-#include "scenes/scene/polygon_generator.hpp"  // IWYU pragma: export
-#include "solve/answer/read_answer_io.hpp"     // IWYU pragma: export
-#include "solve/answer/write_answer_io.hpp"    // IWYU pragma: export
-#include "solve/solve.hpp"                     // IWYU pragma: export
+#include "core/base/error.hpp"                   // IWYU pragma: export
+#include "pictures/draw_answer.hpp"              // IWYU pragma: export
+#include "scenes/formats/read_world_io.hpp"      // IWYU pragma: export
+#include "scenes/mazes/maze_generator.hpp"       // IWYU pragma: export
+#include "scenes/scene/polygon_generator.hpp"    // IWYU pragma: export
+#include "solve/answer/read_answer_io.hpp"       // IWYU pragma: export
+#include "solve/answer/write_answer_io.hpp"      // IWYU pragma: export
+#include "solve/roadmaps/export_of_roadmap.hpp"  // IWYU pragma: export
+#include "solve/roadmaps/roadmap_file_io.hpp"    // IWYU pragma: export
+#include "solve/roadmaps/roadmap_query.hpp"      // IWYU pragma: export
+#include "solve/solve.hpp"                       // IWYU pragma: export
