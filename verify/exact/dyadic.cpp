@@ -80,6 +80,13 @@ Dyadic::Dyadic(double value) {
       {static_cast<std::uint32_t>(low), static_cast<std::uint32_t>(high), static_cast<std::uint32_t>(high >> 32)});
 }
 
+double Dyadic::rounded() const {
+  const std::size_t parts = std::min<std::size_t>(limbs_.size(), 3);  // 65 bits or more, where there are as many
+  double value = 0.0;
+  for (std::size_t i = 1; i <= parts; ++i) value = 0x1p32 * value + limbs_[limbs_.size() - i];
+  return sign_ * std::ldexp(value, 32 * (exponent_ + static_cast<int>(limbs_.size() - parts)));
+}
+
 Dyadic::Limbs Dyadic::limbs_from(int exponent) const {
   Limbs limbs(static_cast<std::size_t>(exponent_ - exponent));
   limbs.insert(limbs.end(), limbs_.begin(), limbs_.end());

@@ -17,6 +17,8 @@ class Dyadic {
 
   /// +1, 0 or -1.
   int sign() const { return sign_; }
+  /// As a double, to some roundings; within the range of doubles.
+  double rounded() const;
 
   friend Dyadic operator+(const Dyadic& a, const Dyadic& b);
   friend Dyadic operator-(const Dyadic& a, const Dyadic& b);

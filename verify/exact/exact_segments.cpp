@@ -51,14 +51,24 @@ bool exactly_closer(Vec2 p, const Segment& s, double r) {
   return (area * area - r_sq * length_sq).sign() < 0;
 }
 
+/// Cross product of a -> b and a -> p to a billionth of itself: where all but a millionth cancels, without rounding.
+double area_between(Vec2 a, Vec2 b, Vec2 p) noexcept {
+  constexpr double most_cancelled = 1e-6;
+  const double left = (b.x - a.x) * (p.y - a.y);
+  const double right = (b.y - a.y) * (p.x - a.x);
+  const double area = left - right;
+  if (std::abs(area) > most_cancelled * (std::abs(left) + std::abs(right))) return area;
+  return cross(between(a, b), between(a, p)).rounded();
+}
+
 double distance_sq(Vec2 p, const Segment& s) noexcept {
   const Vec2 along = s.b - s.a;
   const Vec2 to_p = p - s.a;
+  const Vec2 to_b = s.b - p;
   const double length_sq = dot(along, along);
-  const double t = dot(along, to_p);
-  if (t <= 0.0 || length_sq == 0.0) return dot(to_p, to_p);
-  if (t >= length_sq) return dot(p - s.b, p - s.b);
-  const double area = cross(along, to_p);
+  if (dot(along, to_p) <= 0.0 || length_sq == 0.0) return dot(to_p, to_p);
+  if (dot(along, to_b) <= 0.0) return dot(to_b, to_b);
+  const double area = area_between(s.a, s.b, p);
   return area * (area / length_sq);  // in this order nothing underflows for the smallest coordinates
 }
 
@@ -111,7 +121,8 @@ bool cross_inside(const Segment& s, const Segment& t) noexcept {
 double distance(const Segment& s, const Segment& t) noexcept {
   if (is_flat(s) && is_flat(t)) return std::sqrt(gap_sq(box_of(s), box_of(t)));  // each is its own box
   if (touch(s, t)) return 0.0;
-  return std::sqrt(std::min({distance_sq(s.a, t), distance_sq(s.b, t), distance_sq(t.a, s), distance_sq(t.b, s)}));
+  const double ends_sq = std::min({distance_sq(s.a, t), distance_sq(s.b, t), distance_sq(t.a, s), distance_sq(t.b, s)});
+  return std::sqrt(std::max(ends_sq, gap_sq(box_of(s), box_of(t))));
 }
 
 bool closer_than(const Segment& s, const Segment& t, double r) noexcept {

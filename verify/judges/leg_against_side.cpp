@@ -46,6 +46,16 @@ void Comparison::with_all_legs(const Segment& obstacle, std::size_t number) {
   compare(obstacle, box_of(obstacle), number, 0, legs_.leg_count() - 1);
 }
 
+bool Comparison::skips(std::size_t leg, const Box& obstacles) const {
+  const Segment s = legs_.leg(leg);
+  return too_far(box_of(s), obstacles) || beside(s, obstacles);
+}
+
+void Comparison::with_leg(std::size_t leg, const Segment& obstacle, std::size_t number) {
+  const Segment s = legs_.leg(leg);
+  if (!too_far(box_of(s), box_of(obstacle))) compare(s, leg, obstacle, number);
+}
+
 bool Comparison::too_far(const Box& a, const Box& b) const {
   const double gap = exact::gap_sq(a, b);
   return gap >= near_sq_ && gap > 0.0;
@@ -54,11 +64,14 @@ bool Comparison::too_far(const Box& a, const Box& b) const {
 /// Does the whole box lie farther from the obstacle's line than is of interest?
 bool Comparison::beside(const Segment& obstacle, const Box& box) const {
   const Vec2 along = obstacle.b - obstacle.a;
-  const Vec2 to = 0.5 * (box.min + box.max) - obstacle.a;
+  const Vec2 low = box.min - obstacle.a;  // the box's middle itself would be rounded as its coordinates are
+  const Vec2 high = box.max - obstacle.a;
+  const Vec2 to = 0.5 * (low + high);
   const double spread = 0.5 * (std::abs(along.x) * box.height() + std::abs(along.y) * box.width());
-  const double error = 1e-15 * (std::abs(along.x * to.y) + std::abs(along.y * to.x) + spread);
+  const Vec2 most{std::abs(low.x) + std::abs(high.x), std::abs(low.y) + std::abs(high.y)};
+  const double error = 1e-15 * (std::abs(along.x) * most.y + std::abs(along.y) * most.x);
   const double room = std::abs(cross(along, to)) - spread - 8.0 * error;
-  return room > 0.0 && room * room > near_sq_ * dot(along, along) * (1.0 + 1e-12);
+  return room > 0.0 && room * room > near_sq_ * dot(along, along) * (1.0 + 4.0 * exact::distance_error);
 }
 
 void Comparison::compare(const Segment& obstacle, const Box& box, std::size_t number, std::size_t first,

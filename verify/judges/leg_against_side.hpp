@@ -40,6 +40,9 @@ class Comparison {
   void with_near_legs(const LegIndex& index, const Segment& obstacle, std::size_t number);
   /// By the boxes of legs: about log(legs), plus what is near; O(legs) at worst.
   void with_all_legs(const Segment& obstacle, std::size_t number);
+  /// Is all that lies in the box too far from the leg to matter?
+  bool skips(std::size_t leg, const Box& obstacles) const;
+  void with_leg(std::size_t leg, const Segment& obstacle, std::size_t number);
   Tally take() { return std::move(tally_); }
 
  private:

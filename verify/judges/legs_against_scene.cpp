@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "parallel/chunks.hpp"
+#include "verify/exact/exact_segments.hpp"
 #include "verify/near/leg_boxes.hpp"
 #include "verify/near/leg_index.hpp"
 #include "verify/near/path_cells.hpp"
@@ -38,8 +39,11 @@ class ObstaclePass {
     const double reach = std::max(bound, options_.reach());
     PathScreen screen(legs_, {obstacles_.size(), 2.0 * half_wall_}, execution_);
     if (!(reach <= 4.0 * screen.cell())) return compare_unscreened();
-    screen.set_reach(bound, options_.reach());
-    const PathScreen::Rest rest = screened(screen, bound);
+    // What the screens drop is as far as they are told from a leg or its box; between the two, only a leg almost along
+    // an axis may be taken to be nearer than it is.
+    const double far = legs_.has_skew() ? bound * (1.0 + 4.0 * exact::distance_error) : bound;
+    screen.set_reach(far, options_.reach());
+    const PathScreen::Rest rest = screened(screen, far);
     Tally tally = compare(rest.doubtful, reach);
     tally.box = rest.box;
     tally.least = std::min(tally.least, bound);

@@ -27,6 +27,8 @@ class LegBoxes {
   Segment leg(std::size_t i) const { return {path_[i], path_[i + 1]}; }
   Box box() const { return levels_.back().front(); }  ///< of the whole path
   double length() const { return length_; }           ///< of the path: sums of 8192 legs in a row, added up
+  /// Does some leg run along an axis but for a millionth of its length?
+  bool has_skew() const { return has_skew_; }
 
   /// Calls visit(leg) for legs first .. last, leaving out blocks of them where skip(box of the block) is true.
   template <class Skip, class Visit>
@@ -39,6 +41,7 @@ class LegBoxes {
 
   std::span<const Vec2> path_;
   double length_ = 0.0;
+  bool has_skew_ = false;
   std::vector<RawVector<Box>> levels_;  ///< levels_[k][i]: of legs i * 8^(k+1) and the 8^(k+1) - 1 after it
 };
 

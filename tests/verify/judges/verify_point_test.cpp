@@ -118,6 +118,31 @@ TEST(Verify, AgreesWithBruteForceInIntegers) {
   EXPECT_GT(solved, 10);  // else nothing but refusals was compared
 }
 
+/// There the middle of two coordinates is rounded; the oracle sees the same near the origin.
+TEST(Verify, AgreesWithBruteForceFarFromTheOrigin) {
+  constexpr Vec2 off{0x1p52, 0x1p52};
+  int solved = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    SCOPED_TRACE(seed);
+    std::vector<Segment> walls;
+    for (std::uint64_t i = 0; i < 6; ++i)
+      walls.push_back({random_point(seed, 2 * i, 60.0), random_point(seed, 2 * i + 1, 60.0)});
+    walls = with_far_box(walls, -200.0, 200.0);
+    std::vector<Vec2> path = random_path(seed + 500, 90, 8.0, 3.0);
+    for (Vec2& p : path) p = p + random_point(seed, 99, 50.0);
+    std::vector<Segment> far_walls;
+    for (const Segment& wall : walls) far_walls.push_back({wall.a + off, wall.b + off});
+    std::vector<Vec2> far_path;
+    for (const Vec2 p : path) far_path.push_back(p + off);
+    for (const double r : {0.0, 1.0, 5.0}) {
+      const Verification v = verified(scene_of(far_walls), far_path, r);
+      expect_same(v, by_brute_force(walls, path, static_cast<Int>(r)), walls);
+      solved += v.verified ? 1 : 0;
+    }
+  }
+  EXPECT_GT(solved, 10);
+}
+
 TEST(Verify, FindsTheFirstViolationOfAPathThatStaysLong) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     SCOPED_TRACE(seed);
