@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -15,9 +17,11 @@
 #include "verify/judges/judged_input.hpp"
 #include "verify/judges/leg_against_side.hpp"
 #include "verify/judges/leg_reports.hpp"
+#include "verify/judges/legs_against_index.hpp"
 #include "verify/judges/legs_against_scene.hpp"
 #include "verify/judges/verify_map.hpp"
 #include "verify/near/leg_boxes.hpp"
+#include "verify/near/obstacle_index.hpp"
 #include "verify/near/obstacle_sides.hpp"
 
 namespace warren {
@@ -29,16 +33,20 @@ constexpr std::size_t box_number = std::numeric_limits<std::size_t>::max() - 2;
 /// One verification in progress: the path's legs among the scene's obstacles.
 class Verifier {
  public:
-  Verifier(const Scene& scene, std::span<const Vec2> path, const VerifyOptions& options, const Execution& execution)
+  Verifier(const Scene& scene, const ObstacleIndex* index, std::span<const Vec2> path, const VerifyOptions& options,
+           const Execution& execution)
       : scene_(scene),
+        index_(index),
         path_(path),
         options_(options),
         execution_(execution),
         legs_(path, execution),
-        obstacles_(scene) {}
+        own_obstacles_(index == nullptr ? std::optional<Obstacles>(scene) : std::nullopt),
+        obstacles_(index == nullptr ? *own_obstacles_ : index->obstacles()) {}
 
   Verification run() {
-    Tally tally = compare_obstacles(scene_, obstacles_, legs_, options_, execution_);
+    Tally tally = index_ == nullptr ? compare_obstacles(scene_, obstacles_, legs_, options_, execution_)
+                                    : compare_indexed(*index_, legs_, options_, execution_);
     check_contacts(tally);
     check_insides(tally);
     check_box(tally);
@@ -66,14 +74,28 @@ class Verifier {
 
   /// Who starts outside a polygon and never passes its sides stays outside.
   void check_insides(Tally& tally) const {
-    for (std::size_t ring = 0; ring < obstacles_.rings().size(); ++ring) {
-      if (ring % 1024 == 0) execution_.check();
-      if (obstacles_.rings()[ring].polygon == Ring::none) continue;
-      if (!strictly_inside(obstacles_.rings()[ring], path_.front())) continue;
-      tally.least = 0.0;
-      tally.violation = std::min(tally.violation, LegContact{0, obstacles_.first_side(ring)});
-      return;
+    const std::optional<std::size_t> ring = first_ring_around_start();
+    if (!ring) return;
+    tally.least = 0.0;
+    tally.violation = std::min(tally.violation, LegContact{0, obstacles_.first_side(*ring)});
+  }
+
+  std::optional<std::size_t> first_ring_around_start() const {
+    const Vec2 start = path_.front();
+    std::optional<std::size_t> first;
+    const auto ask = [&](std::size_t ring) {
+      if ((first && *first < ring) || obstacles_.rings()[ring].polygon == Ring::none) return;
+      if (strictly_inside(obstacles_.rings()[ring], start)) first = ring;
+    };
+    if (index_ != nullptr) {
+      index_->rings().for_each([&](const Box& box) { return !box.contains(start); }, ask);
+      return first;
     }
+    for (std::size_t ring = 0; ring < obstacles_.rings().size() && !first; ++ring) {
+      if (ring % 1024 == 0) execution_.check();
+      ask(ring);
+    }
+    return first;
   }
 
   void check_box(Tally& tally) {
@@ -90,7 +112,10 @@ class Verifier {
   Violation describe(const Tally& tally) const {
     const auto [leg, number] = tally.violation;
     if (number == box_number) {
-      return {leg, 0.0, fmt::format("box: {} {} {} {}", box_.min.x, box_.min.y, box_.max.x, box_.max.y)};
+      const auto unsigned_zero = [](double x) { return x + 0.0; };  // which zero is the least, depends on the order
+      return {leg, 0.0,
+              fmt::format("box: {} {} {} {}", unsigned_zero(box_.min.x), unsigned_zero(box_.min.y),
+                          unsigned_zero(box_.max.x), unsigned_zero(box_.max.y))};
     }
     const double d = tally.least == 0.0 && leg == 0 && is_inside(number)
                          ? 0.0
@@ -106,11 +131,13 @@ class Verifier {
   }
 
   const Scene& scene_;
+  const ObstacleIndex* index_;
   std::span<const Vec2> path_;
   const VerifyOptions& options_;
   const Execution& execution_;
   const LegBoxes legs_;
-  Obstacles obstacles_;
+  const std::optional<Obstacles> own_obstacles_;
+  const Obstacles& obstacles_;
   Box box_;
 };
 
@@ -155,13 +182,14 @@ std::optional<Violation> wrong_goal(std::span<const Vec2> path, const VerifyOpti
 }
 
 Verification verify_path(const Scene& scene, std::span<const Vec2> path, const VerifyOptions& options,
-                         const Execution& execution) {
+                         const Execution& execution, const ObstacleIndex* index) {
+  assert(index == nullptr || &index->scene() == &scene);
   check_input(path, options, execution);
   check_plane_scene(scene, execution);
   if (scene.map) return verify_on_map(*scene.map, path, options, execution);
   const Vec2 twice[] = {path.front(), path.front()};
   const std::span<const Vec2> legs = path.size() > 1 ? path : std::span<const Vec2>(twice);
-  Verification verdict = Verifier(scene, legs, options, execution).run();
+  Verification verdict = Verifier(scene, index, legs, options, execution).run();
   verdict.min_clearance -= options.radius;
   return verdict;
 }

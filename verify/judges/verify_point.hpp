@@ -20,6 +20,8 @@
 
 namespace warren {
 
+class ObstacleIndex;  // verify/near/obstacle_index.hpp
+
 enum class Contact : std::uint8_t { blocked, allowed };
 constexpr auto enum_names(Contact) { return std::array<std::string_view, 2>{"blocked", "allowed"}; }
 
@@ -39,9 +41,10 @@ struct VerifyOptions {
 /// can't be allowed. Throws InputError for scenes that hold anything else, or nothing (worlds/judged_input). The path
 /// has at least one point, all finite, fewer than 500 million (InputError otherwise); a single point is a leg of length
 /// zero. The points must lie in the box of walls and polygons, or in the bounds. The result is the same for any number
-/// of threads.
+/// of threads, with an index of this scene and without: with it a verdict takes what the path does, not the scene. Of a
+/// map there is none: its cells are looked up anyway.
 Verification verify_path(const Scene& scene, std::span<const Vec2> path, const VerifyOptions& options,
-                         const Execution& execution);
+                         const Execution& execution, const ObstacleIndex* index = nullptr);
 
 /// What the ends of a path of points say that begins or ends elsewhere; nothing where they are as asked for.
 std::optional<Violation> wrong_start(std::span<const Vec2> path, const VerifyOptions& options);
