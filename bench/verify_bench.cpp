@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Verification of a shortest path through a lattice maze of unit walls, on one thread and on two. Items are walls; the
-// path is verified first, and one that touches a wall must be refused.
+// path is verified first, and one that touches a wall must be refused. Of a hundred legs of it, by a pass over all
+// walls and by an index of them: items are points.
 #include "verify/judges/verify_point.hpp"
 
 #include <benchmark/benchmark.h>
@@ -8,6 +9,7 @@
 #include "bench/report.hpp"
 #include "planners/tiled/tiled_prm_lattice.hpp"
 #include "scenes/mazes/maze_generator.hpp"
+#include "verify/near/obstacle_index.hpp"
 
 namespace warren::bench {
 namespace {
@@ -56,6 +58,43 @@ void bm_verify_path(benchmark::State& state) {
   report(state, c.scene.walls.size(), c.scene.walls.bytes() + c.path.size() * sizeof(Vec2));
 }
 
+/// A hundred legs of the path: what a roadmap is asked again and again.
+struct ShortCase {
+  const VerifyCase& maze;
+  Path<Vec2> path;
+  VerifyOptions options;
+
+  explicit ShortCase(const VerifyCase& whole) : maze(whole), options{.clearance = 0.1} {
+    const auto middle = whole.path.begin() + static_cast<std::ptrdiff_t>(whole.path.size() / 2);
+    path.assign(middle, middle + 101);
+  }
+};
+
+void bm_verify_short_path(benchmark::State& state) {
+  const ShortCase c(case_of(state.range(0), state.range(1)));
+  const Execution execution{.threads = 1};
+  for (auto _ : state) benchmark::DoNotOptimize(verify_path(c.maze.scene, c.path, c.options, execution).verified);
+  report(state, c.path.size(), c.path.size() * sizeof(Vec2));
+}
+
+void bm_verify_short_path_by_index(benchmark::State& state) {
+  const ShortCase c(case_of(state.range(0), state.range(1)));
+  const Execution execution{.threads = 1};
+  const ObstacleIndex index(c.maze.scene, execution);
+  const Verification pass = verify_path(c.maze.scene, c.path, c.options, execution);
+  const Verification indexed = verify_path(c.maze.scene, c.path, c.options, execution, &index);
+  check(indexed.verified && indexed.min_clearance == pass.min_clearance, "verify_path by the index");
+  for (auto _ : state)
+    benchmark::DoNotOptimize(verify_path(c.maze.scene, c.path, c.options, execution, &index).verified);
+  report(state, c.path.size(), c.path.size() * sizeof(Vec2));
+}
+
+void bm_index_obstacles(benchmark::State& state) {
+  const VerifyCase& c = case_of(state.range(0), state.range(1));
+  for (auto _ : state) benchmark::DoNotOptimize(ObstacleIndex(c.scene, {.threads = 1}).sides().size());
+  report(state, c.scene.walls.size(), c.scene.walls.bytes());
+}
+
 constexpr auto backtracker = static_cast<std::int64_t>(MazeAlgorithm::backtracker);
 constexpr auto kruskal = static_cast<std::int64_t>(MazeAlgorithm::kruskal);
 BENCHMARK(bm_verify_path)
@@ -64,6 +103,9 @@ BENCHMARK(bm_verify_path)
     ->ArgsProduct({{backtracker}, {1000, 2000}, {1, 2}})
     ->Args({kruskal, 1000, 1})
     ->Apply(over_threads);
+BENCHMARK(bm_verify_short_path)->ArgNames({"algorithm", "side"})->Args({backtracker, 1000});
+BENCHMARK(bm_verify_short_path_by_index)->ArgNames({"algorithm", "side"})->Args({backtracker, 1000});
+BENCHMARK(bm_index_obstacles)->ArgNames({"algorithm", "side"})->Args({backtracker, 1000});
 
 }  // namespace
 }  // namespace warren::bench

@@ -40,10 +40,12 @@ class PointAmongPolygons : public UsualBody {
   using World = PolygonWorld;
   static constexpr bool has_trees = false;
   static constexpr bool names_pipeline = true;
+  static constexpr bool judged_by_index = true;
 
   explicit PointAmongPolygons(const SolveRequest& request)
       : scene_(request.scene),
         execution_(request.execution),
+        judged_(request.asked.judged()),
         problem_(keeping_off(request.scene, request.question, "prm and lazy-prm keep off the walls")) {}
 
   Problem problem() const { return problem_.general(); }
@@ -53,20 +55,21 @@ class PointAmongPolygons : public UsualBody {
   static SamplerKind choose_sampler(const SolveOptions&, const RoadmapOptions& roadmap) { return roadmap.sampler; }
   void index(std::optional<World>& world, SamplerKind) const { world.emplace(scene_, problem_.reach(), execution_); }
   static bool provably_apart(const World&, const std::vector<Vec2>&) { return false; }
-  bool start_stands_free() const { return stands_free(scene_, problem_, problem_.start, execution_); }
-  bool goal_stands_free(Vec2 goal) const { return stands_free(scene_, problem_, goal, execution_); }
+  bool start_stands_free() const { return stands_free(scene_, problem_, problem_.start, execution_, judged_); }
+  bool goal_stands_free(Vec2 goal) const { return stands_free(scene_, problem_, goal, execution_, judged_); }
   static double length(const World&, Vec2 a, Vec2 b) { return World::distance(a, b); }
   Path<Vec2> shortened(const World& world, const Path<Vec2>& path, Answer&) const {
     return taut_path(world.sides(), path, world.planning_clearance(), execution_);
   }
   void judge(const World&, Path<Vec2> path, Answer& answer) const {
     answer.path = std::move(path);
-    verify_solved(answer, scene_, problem_, execution_);
+    verify_solved(answer, scene_, problem_, execution_, judged_);
   }
 
  private:
   const Scene& scene_;
   const Execution& execution_;
+  const ObstacleIndex* judged_;
   WallProblem problem_;
 };
 

@@ -32,11 +32,11 @@ class WallSolve {
 
   void run(PlannedRoadmap<Vec2>* keep) {
     plan(keep);
-    settle_blocked_ends(answer_, scene_, problem_, execution_);
+    settle_blocked_ends(answer_, scene_, problem_, execution_, asked_.judged());
     if (answer_.outcome == Outcome::not_connected) proved_infeasible();
     tell_cause();
     if (options_.optimise && answer_.outcome == Outcome::solved) optimise();
-    verify_solved(answer_, scene_, problem_, execution_);
+    verify_solved(answer_, scene_, problem_, execution_, asked_.judged());
   }
   Answer& answer() { return answer_; }
 
@@ -130,6 +130,8 @@ void WallSolve::optimise() {
 class PointAmongWalls : public UsualBody {
  public:
   using World = MazeWorld;
+  static constexpr bool judged_by_index = true;
+
   explicit PointAmongWalls(const SolveRequest& request)
       : scene_(request.scene), execution_(request.execution), problem_(problem_of(request)) {}
   Problem problem() const { return problem_.general(); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What stands between a kept roadmap and a kind of problem: the world in memory and the roadmap over it, ready to be
-// asked. One type a World; which, only the kind knows that made it.
+// asked, and what the judge keeps of the scene. One type a World; which, only the kind knows that made it.
 #pragma once
 
 #include <memory>
@@ -8,6 +8,7 @@
 
 #include "planners/roadmap/ask_roadmap.hpp"
 #include "roadmaps/graph/roadmap_parts.hpp"
+#include "verify/near/obstacle_index.hpp"
 
 namespace warren {
 
@@ -21,6 +22,8 @@ struct RoadmapSession {
   virtual std::span<const std::uint64_t> edge_states() const = 0;
   /// Length of the motion between two states of the roadmap.
   virtual double distance(VertexId from, VertexId to) const = 0;
+
+  std::optional<ObstacleIndex> judged;  ///< of the scene, where the judge takes one
 };
 
 template <World W>
@@ -37,6 +40,8 @@ struct SessionIn : RoadmapSession {
 struct RoadmapAsked {
   const RoadmapSession* session = nullptr;  ///< nullptr: the roadmap is built for the question
   AskScratch* scratch = nullptr;
+
+  const ObstacleIndex* judged() const { return session != nullptr && session->judged ? &*session->judged : nullptr; }
 };
 
 }  // namespace warren

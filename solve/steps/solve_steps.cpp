@@ -56,16 +56,18 @@ void take_solution(Answer& answer, Solution<Vec2> solution) {
   take_account(answer, solution);
 }
 
-bool stands_free(const Scene& scene, const WallProblem& problem, Vec2 p, const Execution& execution) {
+bool stands_free(const Scene& scene, const WallProblem& problem, Vec2 p, const Execution& execution,
+                 const ObstacleIndex* judged) {
   const VerifyOptions options{
       .radius = problem.robot.radius, .clearance = problem.clearance, .contact = problem.contact};
-  return verify_path(scene, std::span(&p, 1), options, execution).verified;
+  return verify_path(scene, std::span(&p, 1), options, execution, judged).verified;
 }
 
-void settle_blocked_ends(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution) {
+void settle_blocked_ends(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution,
+                         const ObstacleIndex* judged) {
   answer.outcome = settled_ends(
-      answer.outcome, [&] { return stands_free(scene, problem, problem.start, execution); },
-      [&] { return stands_free(scene, problem, problem.goal, execution); });
+      answer.outcome, [&] { return stands_free(scene, problem, problem.start, execution, judged); },
+      [&] { return stands_free(scene, problem, problem.goal, execution, judged); });
 }
 
 std::string_view cause_of_separation(const Answer& answer, bool by_roadmap) {
@@ -103,10 +105,11 @@ void fail_verification(const Answer& answer, const std::optional<Violation>& fou
                                      violation.leg, violation.obstacle, violation.distance));
 }
 
-void verify_solved(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution) {
+void verify_solved(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution,
+                   const ObstacleIndex* judged) {
   if (answer.outcome != Outcome::solved) return;
   const StageTimer timer(execution, "verify", answer.seconds.verify, answer.path.size() + scene.walls.size());
-  const Verification verification = verify_path(scene, answer.path, verify_options(problem), execution);
+  const Verification verification = verify_path(scene, answer.path, verify_options(problem), execution, judged);
   if (!verification.verified) fail_verification(answer, verification.first_violation);
   answer.verified = true;
   answer.length = verification.length;

@@ -33,11 +33,13 @@ void take_account(Answer& answer, const Solution<State>& s) {
   take_account(answer, s.outcome, s.stop_reason, s.roadmap, s.separation, s.counters, s.seconds);
 }
 
-/// Does the body fit there, as the verification sees it?
-bool stands_free(const Scene& scene, const WallProblem& problem, Vec2 p, const Execution& execution);
+/// Does the body fit there, as the verification sees it? `judged`, here and below: of the scene, or nullptr.
+bool stands_free(const Scene& scene, const WallProblem& problem, Vec2 p, const Execution& execution,
+                 const ObstacleIndex* judged = nullptr);
 
 /// Planning keeps 1e-9 more room than it must, so a body that fits exactly is no blocked one: nobody proved that.
-void settle_blocked_ends(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution);
+void settle_blocked_ends(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution,
+                         const ObstacleIndex* judged = nullptr);
 
 /// Why a roadmap or trees do not join start and goal, one word a cause.
 std::string_view cause_of_separation(const Answer& answer, bool by_roadmap);
@@ -53,7 +55,8 @@ void refute(Answer& answer, const Verification& found);
 
 /// Verifies the path of a solved answer and fills in length and clearance. A path that fails is a bug: throws
 /// std::logic_error.
-void verify_solved(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution);
+void verify_solved(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution,
+                   const ObstacleIndex* judged = nullptr);
 
 /// verify_path for the problem: all of it, or of one point only.
 Verdict verify_plane_answer(const Scene& scene, const WallProblem& problem, const RecordedAnswer& answer,

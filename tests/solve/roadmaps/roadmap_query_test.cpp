@@ -31,7 +31,7 @@ std::vector<Case> cases() {
   return {
       {"walls", world_file("walls.scene"), {}, 800, {}},
       {"maze", "maze:9x9,seed=2,loops=0.1", {}, 2000, {{3, 4}, {9, 9}, {0.5, 0.5}}},
-      {"polygons", world_file("town.geojson"), {.robot = disc, .start = {1.5, 1.5}, .goal = {9.5, 8.5}}, 600, {{5, 5}}},
+      {"polygons", world_file("town.geojson"), {.robot = disc, .start = {1.5, 1.5}, .goal = {9.5, 8.5}}, 600, {{5, 5}, {0.1, 0.1}, {4, 6}}},
       {"turning", world_file("poly-easy.scene"), {}, 1500, {}},
       {"car", world_file("car-20.scene"), {}, 400, {}},
       {"parking", world_file("parking-lot.scene"), {}, 500, {}},
@@ -48,6 +48,7 @@ void expect_same(const Answer& answer, const Answer& expected) {
   EXPECT_EQ(answer.outcome, expected.outcome);
   EXPECT_EQ(answer.verified, expected.verified);
   EXPECT_EQ(answer.length, expected.length);
+  EXPECT_EQ(answer.min_clearance, expected.min_clearance);
   EXPECT_EQ(answer.path, expected.path);
   EXPECT_EQ(answer.states.numbers, expected.states.numbers);
   EXPECT_EQ(answer.counters.expanded, expected.counters.expanded);
