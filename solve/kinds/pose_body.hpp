@@ -19,8 +19,13 @@ namespace warren {
 
 class PoseBody : public UsualBody {
  public:
+  static constexpr bool judged_by_index = true;
+
   PoseBody(const SolveRequest& request, PoseProblem problem)
-      : scene_(request.scene), execution_(request.execution), problem_(std::move(problem)) {}
+      : scene_(request.scene),
+        execution_(request.execution),
+        judged_(request.asked.judged()),
+        problem_(std::move(problem)) {}
 
   Problem problem() const { return problem_.general(); }
   Se2 start() const { return problem_.start; }
@@ -58,6 +63,7 @@ class PoseBody : public UsualBody {
  protected:
   const Scene& scene() const { return scene_; }
   const Execution& execution() const { return execution_; }
+  const ObstacleIndex* judged() const { return judged_; }
   const PoseProblem& question() const { return problem_; }
   PoseVerifyOptions verify_options() const {
     return {.clearance = problem_.clearance,
@@ -73,6 +79,7 @@ class PoseBody : public UsualBody {
  private:
   const Scene& scene_;
   const Execution& execution_;
+  const ObstacleIndex* judged_;
   PoseProblem problem_;
 };
 

@@ -64,7 +64,8 @@ class Car : public PoseBody {
   bool start_stands_free() const { return goal_stands_free(question().start); }
   bool goal_stands_free(const Se2& pose) const {
     const PoseVerifyOptions options{.clearance = question().clearance};
-    return verify_car(scene(), verified_car(question().robot), std::span(&pose, 1), options, execution()).verified;
+    return verify_car(scene(), verified_car(question().robot), std::span(&pose, 1), options, execution(), judged())
+        .verified;
   }
   static double length(const World& world, const Se2& a, const Se2& b) { return world.distance(a, b); }
   Path<Se2> shortened(const World& world, Path<Se2> path, Answer& answer) const {
@@ -83,7 +84,7 @@ void Car<Curve>::judge(const World& world, const Path<Se2>& path, Answer& answer
   for (std::size_t i = 1; i < path.size(); ++i) append_joints(poses, world.curve(path[i - 1], path[i]));
   const StageTimer timer(execution(), "verify", answer.seconds.verify, poses.size());
   const Verification found =
-      verify_car(scene(), verified_car(question().robot), poses, this->verify_options(), execution());
+      verify_car(scene(), verified_car(question().robot), poses, this->verify_options(), execution(), judged());
   if (!found.verified) fail_verification(answer, found.first_violation);
   answer.verified = true;
   answer.length = found.length;

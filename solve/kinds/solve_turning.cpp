@@ -25,14 +25,16 @@ class TurningPolygon : public PoseBody {
     world.emplace(scene(), question().robot.outline, Se2Options{.clearance = question().clearance}, execution());
   }
   bool start_stands_free() const { return goal_stands_free(question().start); }
-  bool goal_stands_free(const Se2& pose) const { return turning_stands_free(scene(), question(), pose, execution()); }
+  bool goal_stands_free(const Se2& pose) const {
+    return turning_stands_free(scene(), question(), pose, execution(), judged());
+  }
   static double length(const World&, const Se2& a, const Se2& b) { return distance(a.position(), b.position()); }
   Path<Se2> shortened(const World& world, Path<Se2> path, Answer& answer) const {
     const auto plane_length = [&](const Se2& a, const Se2& b) { return length(world, a, b); };
     return shortcut(world, std::move(path), plane_length, answer);
   }
   void judge(const World&, const Path<Se2>& path, Answer& answer) const {
-    judge_turning(scene(), question(), path, execution(), answer);
+    judge_turning(scene(), question(), path, execution(), answer, judged());
   }
 };
 

@@ -32,16 +32,18 @@ Path<Se2> without_half_turns(const Path<Se2>& path) {
 
 }  // namespace
 
-bool turning_stands_free(const Scene& scene, const PoseProblem& problem, const Se2& pose, const Execution& execution) {
+bool turning_stands_free(const Scene& scene, const PoseProblem& problem, const Se2& pose, const Execution& execution,
+                         const ObstacleIndex* judged) {
   const PoseVerifyOptions options{.clearance = problem.clearance};
-  return verify_se2(scene, problem.robot.outline, std::span(&pose, 1), options, execution).verified;
+  return verify_se2(scene, problem.robot.outline, std::span(&pose, 1), options, execution, judged).verified;
 }
 
 void judge_turning(const Scene& scene, const PoseProblem& problem, const Path<Se2>& path, const Execution& execution,
-                   Answer& answer) {
+                   Answer& answer, const ObstacleIndex* judged) {
   const Path<Se2> poses = without_half_turns(path);
   const StageTimer timer(execution, "verify", answer.seconds.verify, poses.size());
-  const Verification found = verify_se2(scene, problem.robot.outline, poses, verify_options(problem), execution);
+  const Verification found =
+      verify_se2(scene, problem.robot.outline, poses, verify_options(problem), execution, judged);
   if (!found.verified) fail_verification(answer, found.first_violation);
   answer.verified = true;
   answer.length = found.length;

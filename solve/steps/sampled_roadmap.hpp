@@ -181,7 +181,7 @@ std::unique_ptr<RoadmapSession> open_sampled(const SolveRequest& request, const 
   const Body body(request);
   auto session = std::make_unique<SessionIn<World>>();
   body.index(session->world, detail::roadmap_options_of(request, body).sampler);
-  if constexpr (Body::judged_by_index) session->judged.emplace(request.scene, request.execution);
+  if (Body::judged_by_index && !request.scene.map) session->judged.emplace(request.scene, request.execution);
   const std::span<const double> numbers(arrays.states);
   RawVector<State> states;
   request.execution.reserve(arrays.states.size() * sizeof(double));

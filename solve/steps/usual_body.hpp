@@ -16,7 +16,7 @@ namespace warren {
 struct UsualBody {
   static constexpr bool has_trees = true;
   static constexpr bool names_pipeline = false;
-  static constexpr bool judged_by_index = false;  ///< is its judge that of points and discs among walls and polygons?
+  static constexpr bool judged_by_index = false;  ///< does its judge take an ObstacleIndex?
   static constexpr std::string_view noun = "body";
   static constexpr std::optional<SamplerKind> tree_sampler = std::nullopt;
 

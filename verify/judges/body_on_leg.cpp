@@ -23,9 +23,11 @@ Arc arc_of(const Leg& leg) {
 }  // namespace
 
 BodyVerifier::BodyVerifier(const Scene& scene, std::span<const Vec2> outline, double clearance, double poses_off,
-                           const Execution& execution)
-    : obstacles_(scene),
-      surroundings_(scene, obstacles_, execution),
+                           const Execution& execution, const ObstacleIndex* index)
+    : index_(index),
+      own_obstacles_(index == nullptr ? std::optional<Obstacles>(scene) : std::nullopt),
+      obstacles_(index == nullptr ? *own_obstacles_ : index->obstacles()),
+      surroundings_(scene, obstacles_, index, execution),
       outline_(outline),
       clearance_(clearance),
       poses_off_(poses_off),
@@ -37,6 +39,7 @@ BodyVerifier::BodyVerifier(const Scene& scene, std::span<const Vec2> outline, do
   rounding_ = 2e-14 * (surroundings_.largest_coordinate() + 2.0 * radius_ + clearance) + 4.0 * bend_;
   finest_ = 1e-9 * radius_;
   close_ = 1e-3 * radius_;
+  if (index_ != nullptr) return;
   for (const Ring& ring : obstacles_.rings()) {
     Box box;
     for (const Vec2 p : ring.corners) box.include(p);
@@ -273,14 +276,28 @@ LegReport BodyVerifier::check_pose(const Se2& pose, std::size_t number) const {
   } else if (!surroundings_.box().grown(poses_off_).contains({pose.x, pose.y})) {
     return bad(fmt::format("box: {} {} is outside the box of the obstacles", pose.x, pose.y));
   }
-  for (std::size_t i = 0; i < ring_boxes_.size(); ++i) {
-    const Ring& ring = obstacles_.rings()[i];
-    if (ring.polygon == Ring::none || !ring_boxes_[i].contains(corners.front()) ||
-        !strictly_inside(ring, corners.front()))
-      continue;
-    return bad(fmt::format("polygon {}: holds {} {}", ring.polygon, corners.front().x, corners.front().y));
+  if (const auto polygon = polygon_around(corners.front())) {
+    return bad(fmt::format("polygon {}: holds {} {}", *polygon, corners.front().x, corners.front().y));
   }
   return {};
+}
+
+std::optional<std::size_t> BodyVerifier::polygon_around(Vec2 p) const {
+  std::optional<std::size_t> first;  // a ring
+  const auto ask = [&](std::size_t i) {
+    const Ring& ring = obstacles_.rings()[i];
+    if ((first && *first < i) || ring.polygon == Ring::none) return;
+    if (strictly_inside(ring, p)) first = i;
+  };
+  if (index_ != nullptr) {
+    index_->rings().for_each([&](const Box& box) { return !box.contains(p); }, ask);
+  } else {
+    for (std::size_t i = 0; i < ring_boxes_.size() && !first; ++i) {
+      if (ring_boxes_[i].contains(p)) ask(i);
+    }
+  }
+  if (!first) return std::nullopt;
+  return obstacles_.rings()[*first].polygon;
 }
 
 }  // namespace warren

@@ -28,7 +28,7 @@ class BodyVerifier {
   /// outline: of a disc its middle alone, and then `clearance` includes its radius. poses_off: how far poses may stand
   /// off the box of the obstacles, where nothing else confines them.
   BodyVerifier(const Scene& scene, std::span<const Vec2> outline, double clearance, double poses_off,
-               const Execution& execution);
+               const Execution& execution, const ObstacleIndex* index);
 
   /// What all legs come to: report_of(i, sides) says it of the i-th, with scratch for its sides, once or several times:
   /// at first with the obstacles up to `reach` away, then with ever more until the least distance is known.
@@ -66,6 +66,8 @@ class BodyVerifier {
   /// Notes a distance, which is known but for `rounding`, if it is the least.
   void note(double distance, double rounding, const NearSide& side, std::size_t number, LegReport& report) const;
   bool leaves_box(const Arc& way) const;
+  /// The first polygon that holds p in its inside.
+  std::optional<std::size_t> polygon_around(Vec2 p) const;
   double distance_to_sweep(const std::vector<Vec2>& corners, Vec2 way, const Segment& s) const;
   double distance_to_arcs(const std::vector<Vec2>& corners, const Arc& way, const Segment& s) const;
   std::vector<Vec2> corners_at(const Leg& leg, double t) const;
@@ -78,7 +80,9 @@ class BodyVerifier {
   void check_piece(const Leg& leg, double middle, double half, const Sides& sides, const std::vector<Near>& among,
                    std::size_t number, LegReport& report) const;
 
-  Obstacles obstacles_;
+  const ObstacleIndex* index_;  // nullptr: all obstacles are passed over
+  std::optional<Obstacles> own_obstacles_;
+  const Obstacles& obstacles_;
   PathSurroundings surroundings_;
   std::span<const Vec2> outline_;
   double clearance_;

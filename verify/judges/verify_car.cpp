@@ -49,11 +49,11 @@ CarLeg leg_between(const Se2& a, const Se2& b) {
 class CarVerifier {
  public:
   CarVerifier(const Scene& scene, const VerifiedCar& car, std::span<const Se2> path, const PoseVerifyOptions& options,
-              const Execution& execution)
+              const Execution& execution, const ObstacleIndex* index)
       : car_(car),
         path_(path),
         outline_(car.outline.empty() ? std::vector<Vec2>{Vec2{}} : car.outline),
-        body_(scene, outline_, options.clearance + car.radius, small * car.turning_radius, execution) {
+        body_(scene, outline_, options.clearance + car.radius, small * car.turning_radius, execution, index) {
     for (const Vec2 p : outline_) size_ = std::max(size_, norm(p));
     execution.reserve(legs_of(path.size()) * (sizeof(CarLeg) + sizeof(Leg)));
     double largest = 0.0;
@@ -151,13 +151,13 @@ void check_car(const VerifiedCar& car) {
 }  // namespace
 
 Verification verify_car(const Scene& scene, const VerifiedCar& car, std::span<const Se2> path,
-                        const PoseVerifyOptions& options, const Execution& execution) {
+                        const PoseVerifyOptions& options, const Execution& execution, const ObstacleIndex* index) {
   check_car(car);
   check_poses(path);
   check_not_negative("clearance", options.clearance);
   check_not_negative("tolerance", options.tolerance);
   check_plane_scene(scene, execution);
-  CarVerifier verifier(scene, car, path, options, execution);
+  CarVerifier verifier(scene, car, path, options, execution, index);
   LegReport legs = verifier.check();
   legs.least = std::max(legs.least, 0.0) - car.radius;
   Verification result = verdict_on(legs, wrong_start(path, options), wrong_goal(path, options));

@@ -23,6 +23,8 @@
 
 namespace warren {
 
+class ObstacleIndex;  // verify/near/obstacle_index.hpp
+
 /// What drives.
 struct VerifiedCar {
   double turning_radius = 1.0;     ///< > 0
@@ -36,8 +38,10 @@ struct VerifiedCar {
 /// turn at most; where a car that reverses could drive half a turn either way, both must be free. Poses may be off by
 /// some 1e-9 turning radii. The path has at least one pose, all finite (InputError otherwise); a single pose is a leg
 /// of length zero. min_clearance is around the body: a lower bound, sharp up to rounding; where the path is not free,
-/// the least met. The same for any number of threads.
+/// the least met. The same for any number of threads, with an index of this scene and without; it is for scenes that
+/// are no maps.
 Verification verify_car(const Scene& scene, const VerifiedCar& car, std::span<const Se2> path,
-                        const PoseVerifyOptions& options, const Execution& execution);
+                        const PoseVerifyOptions& options, const Execution& execution,
+                        const ObstacleIndex* index = nullptr);
 
 }  // namespace warren

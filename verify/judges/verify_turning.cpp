@@ -91,14 +91,14 @@ std::optional<Violation> wrong_goal(std::span<const Se2> path, const PoseVerifyO
 }
 
 Verification verify_se2(const Scene& scene, std::span<const Vec2> outline, std::span<const Se2> path,
-                        const PoseVerifyOptions& options, const Execution& execution) {
+                        const PoseVerifyOptions& options, const Execution& execution, const ObstacleIndex* index) {
   if (outline.empty()) throw InputError("robot", "a polygon needs three corners or more");
   check_outline(outline);
   check_poses(path);
   check_not_negative("clearance", options.clearance);
   check_not_negative("tolerance", options.tolerance);
   check_plane_scene(scene, execution);
-  BodyVerifier body(scene, outline, options.clearance, 0.0, execution);
+  BodyVerifier body(scene, outline, options.clearance, 0.0, execution, index);
   LegReport legs = PathCheck(body, path, execution).check(std::max(body.least_reach(), 1e-9));  // it may have no extent
   legs.least = std::max(legs.least, 0.0);
   Verification result = verdict_on(legs, wrong_start(path, options), wrong_goal(path, options));

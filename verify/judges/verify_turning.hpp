@@ -20,6 +20,8 @@
 
 namespace warren {
 
+class ObstacleIndex;  // verify/near/obstacle_index.hpp
+
 struct PoseVerifyOptions {
   double clearance = 0.0;         ///< room around the body all along the path; >= 0; 0: touching is blocked
   std::optional<Se2> start = {};  ///< where the path must begin; nullopt: anywhere
@@ -34,9 +36,11 @@ struct PoseVerifyOptions {
 /// path has at least one pose, all finite (InputError otherwise); a single pose is a leg of length zero. A turning leg
 /// that runs within some millionths of the body's radius of an obstacle, beyond the clearance, may count as not free.
 /// min_clearance is of the body along the path: a lower bound, within a thousandth of the body's radius; where the path
-/// is not free, the least distance met. The same for any number of threads.
+/// is not free, the least distance met. The same for any number of threads, with an index of this scene and without; it
+/// is for scenes that are no maps.
 Verification verify_se2(const Scene& scene, std::span<const Vec2> outline, std::span<const Se2> path,
-                        const PoseVerifyOptions& options, const Execution& execution);
+                        const PoseVerifyOptions& options, const Execution& execution,
+                        const ObstacleIndex* index = nullptr);
 
 /// What the ends of a path of poses say that begins or ends elsewhere; nothing where they are as asked for.
 std::optional<Violation> wrong_start(std::span<const Se2> path, const PoseVerifyOptions& options);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "verify/near/obstacle_index.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/base/error.hpp"
@@ -41,6 +43,11 @@ ObstacleIndex::ObstacleIndex(const Scene& scene, const Execution& execution)
           numbered(obstacles_.size()), [&](std::size_t i) { return box_of(obstacles_.segment(i)); }, execution),
       rings_(
           obstacles_.rings().size(), [&](std::size_t i) { return box_of_ring(obstacles_.rings()[i]); }, execution),
-      box_(box_of_all(obstacles_, execution)) {}
+      box_(box_of_all(obstacles_, execution)) {
+  Box all = box_;
+  if (scene.bounds) all.include(*scene.bounds);
+  if (all.empty()) return;
+  for (const double x : {all.min.x, all.min.y, all.max.x, all.max.y}) largest_ = std::max(largest_, std::abs(x));
+}
 
 }  // namespace warren

@@ -29,8 +29,14 @@ double largest_of(const Segment& s) {
 
 }  // namespace
 
-PathSurroundings::PathSurroundings(const Scene& scene, const Obstacles& obstacles, const Execution& execution)
-    : scene_(scene), obstacles_(obstacles) {
+PathSurroundings::PathSurroundings(const Scene& scene, const Obstacles& obstacles, const ObstacleIndex* index,
+                                   const Execution& execution)
+    : scene_(scene), obstacles_(obstacles), index_(scene.map ? nullptr : index) {
+  if (index_ != nullptr) {
+    box_ = index_->box();
+    largest_ = index_->largest_coordinate();
+    return;
+  }
   struct Part {
     Box box;
     double largest = 0.0;
@@ -111,15 +117,57 @@ bool PathSurroundings::is_marked(const Range& range) const {
 void PathSurroundings::file(std::span<const Box> boxes, const Execution& execution) {
   if (scene_.map || boxes.empty()) return;
   lay_grid(boxes);
+  if (index_ != nullptr) {
+    if (const auto numbers = may_be_marked(boxes, execution)) {
+      sift(
+          numbers->size(), [&](std::size_t i) { return (*numbers)[i]; }, execution);
+      return file_in_cells(execution);
+    }
+  }
+  sift(
+      obstacles_.size(), [](std::size_t i) { return i; }, execution);
+  file_in_cells(execution);
+}
+
+/// Numbers of the obstacles whose cells share one with a box, by the index; nothing where a pass over all is as good. A
+/// block's cells hold those of its members, so none is missed.
+std::optional<std::vector<std::size_t>> PathSurroundings::may_be_marked(std::span<const Box> boxes,
+                                                                        const Execution& execution) const {
+  constexpr std::size_t numbers_a_poll = 4096;
+  std::vector<Range> ranges;
+  for (const Box& box : boxes) ranges.push_back(range_of(box));
+  std::sort(ranges.begin(), ranges.end());
+  ranges.erase(std::unique(ranges.begin(), ranges.end()), ranges.end());
+  std::vector<std::size_t> numbers;
+  for (const Range& range : ranges) {
+    execution.check();
+    const auto skip = [&](const Box& box) {
+      const Range cells = range_of(box);
+      return cells.first_x > cells.last_x || !cells.overlaps(range) || numbers.size() >= obstacles_.size();
+    };
+    index_->sides().for_each(skip, [&](std::size_t number) {
+      if (numbers.size() % numbers_a_poll == 0) execution.reserve(numbers_a_poll * sizeof(std::size_t));  // and polls
+      numbers.push_back(number);
+    });
+  }
+  if (numbers.size() >= obstacles_.size()) return std::nullopt;
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  return numbers;
+}
+
+/// Keeps those of `count` obstacles that meet marked cells, and all that lie across many.
+template <class Number>
+void PathSurroundings::sift(std::size_t count, const Number& number, const Execution& execution) {
   struct Part {
     std::vector<NearSide> near;
     std::vector<NearSide> far_across;
   };
-  std::vector<Part> parts(chunk_count(obstacles_.size(), surroundings_grain));
-  for_chunks(obstacles_.size(), surroundings_grain, execution, [&](warren::Range r) {
+  std::vector<Part> parts(chunk_count(count, surroundings_grain));
+  for_chunks(count, surroundings_grain, execution, [&](warren::Range r) {
     Part& part = parts[r.first / surroundings_grain];
     for (std::size_t i = r.first; i < r.last; ++i) {
-      const NearSide side{obstacles_.segment(i), i};
+      const NearSide side{obstacles_.segment(number(i)), number(i)};
       const Range range = range_of(box_of_ends(side.segment));
       if (range.first_x > range.last_x) continue;
       if (range.count() > most_cells_a_side) {
@@ -135,7 +183,6 @@ void PathSurroundings::file(std::span<const Box> boxes, const Execution& executi
     near_.insert(near_.end(), part.near.begin(), part.near.end());
     long_.insert(long_.end(), part.far_across.begin(), part.far_across.end());
   }
-  file_in_cells(execution);
 }
 
 void PathSurroundings::file_in_cells(const Execution& execution) {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "core/base/types.hpp"
 #include "parallel/execution.hpp"
 #include "scenes/scene/scene.hpp"
+#include "verify/near/obstacle_index.hpp"
 #include "verify/near/obstacle_sides.hpp"
 
 namespace warren {
@@ -28,8 +30,10 @@ struct NearSide {
 /// Refers to scene and obstacles, which must outlive it. Any number of threads may gather.
 class PathSurroundings {
  public:
-  /// One pass over all obstacles. On a map its walls are not looked at. Throws Stopped.
-  PathSurroundings(const Scene& scene, const Obstacles& obstacles, const Execution& execution);
+  /// One pass over all obstacles; none with their index, which must outlive it. On a map its walls are not looked at.
+  /// Throws Stopped.
+  PathSurroundings(const Scene& scene, const Obstacles& obstacles, const ObstacleIndex* index,
+                   const Execution& execution);
 
   /// Of all walls and polygons, or of the map.
   const Box& box() const { return box_; }
@@ -44,6 +48,10 @@ class PathSurroundings {
  private:
   struct Range {  // of the grid's cells, both ends included; empty where first_x > last_x
     std::uint32_t first_x, first_y, last_x, last_y;
+    bool overlaps(const Range& o) const {
+      return first_x <= o.last_x && o.first_x <= last_x && first_y <= o.last_y && o.first_y <= last_y;
+    }
+    friend auto operator<=>(const Range&, const Range&) = default;
     std::uint64_t count() const { return std::uint64_t{last_x - first_x + 1} * (last_y - first_y + 1); }
   };
   void lay_grid(std::span<const Box> boxes);
@@ -51,6 +59,9 @@ class PathSurroundings {
   bool is_marked(const Range& range) const;
   template <class Visit>
   void for_each_cell(const Range& range, const Visit& visit) const;
+  std::optional<std::vector<std::size_t>> may_be_marked(std::span<const Box> boxes, const Execution& execution) const;
+  template <class Number>
+  void sift(std::size_t count, const Number& number, const Execution& execution);
   void file_in_cells(const Execution& execution);
   struct MapPart;
   void gather_from_map(const Box& box, std::vector<NearSide>& sides) const;
@@ -60,6 +71,7 @@ class PathSurroundings {
 
   const Scene& scene_;
   const Obstacles& obstacles_;
+  const ObstacleIndex* index_;
   Box box_;
   double largest_ = 0.0;
   Box grid_;  // of the boxes

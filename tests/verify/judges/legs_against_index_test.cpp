@@ -7,13 +7,13 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
+#include "tests/verify/judges/same_verdicts.hpp"
 #include "verify/exact/exact_segments.hpp"
 #include "verify/judges/verify_point.hpp"
 #include "verify/near/obstacle_index.hpp"
@@ -128,19 +128,6 @@ VerifyOptions random_options(const std::vector<Vec2>& path, Dice& dice) {
   if (dice.one_in(2.0)) options.start = path.front();
   if (dice.one_in(10.0)) options.goal = path.front();
   return options;
-}
-
-std::uint64_t bits(double x) { return std::bit_cast<std::uint64_t>(x); }
-
-void expect_same(const Verification& a, const Verification& b) {
-  EXPECT_EQ(a.verified, b.verified);
-  EXPECT_EQ(bits(a.length), bits(b.length));
-  EXPECT_EQ(bits(a.min_clearance), bits(b.min_clearance)) << a.min_clearance << " and " << b.min_clearance;
-  ASSERT_EQ(a.first_violation.has_value(), b.first_violation.has_value());
-  if (!a.first_violation) return;
-  EXPECT_EQ(a.first_violation->leg, b.first_violation->leg);
-  EXPECT_EQ(bits(a.first_violation->distance), bits(b.first_violation->distance));
-  EXPECT_EQ(a.first_violation->obstacle, b.first_violation->obstacle);
 }
 
 /// The least of all pairs' distances.
