@@ -11,7 +11,7 @@ ExportAccount export_of_roadmap(const Roadmap& roadmap, const std::string& path,
   if (roadmap.lattice != nullptr) {
     throw UsageError("this roadmap is held as an index, without states and edges; build it with @index none");
   }
-  const RoadmapQuery query(roadmap, execution);
+  const RoadmapQuery query(roadmap, execution, Questions::one);
   const auto length = [&](VertexId v, VertexId w) { return query.distance(v, w); };
   return export_roadmap(path, roadmap.arrays.parts(), VertexDistance(length), options, execution);
 }

@@ -25,6 +25,9 @@ Question question_of(const Roadmap& roadmap, const std::vector<double>& start, c
   return question;
 }
 
+/// Above, the judge's index would take longer to make than some hundred passes over the walls.
+constexpr std::size_t most_indexed_walls = std::size_t{1} << 23;
+
 /// An index is not searched.
 void refuse_search(const RoadmapSearchFields& how) {
   if (how.search || how.queue || how.attach) {
@@ -47,27 +50,35 @@ std::vector<double> anywhere(const Roadmap& roadmap) { return std::vector<double
 }  // namespace
 
 struct RoadmapQuery::Opened {
-  Opened(const Roadmap& roadmap, const Execution& execution)
+  Opened(const Roadmap& roadmap, const Execution& execution, Questions questions)
       : any(question_of(roadmap, anywhere(roadmap), anywhere(roadmap))),
         solver(choose_solver(roadmap.options, roadmap.scene, any)),
         planned(roadmap.scene, any, solver.planner, execution),
         world(account_of(roadmap.scene, execution)),
         session(roadmap.lattice != nullptr
                     ? nullptr
-                    : solver.kind->open({roadmap.options, planned.get(), any, solver.planner, execution},
-                                        roadmap.arrays, roadmap.rule)) {}
+                    : solver.kind->open(request_of(roadmap, execution, questions), roadmap.arrays, roadmap.rule)) {
+    const bool judges_many = roadmap.lattice != nullptr && questions == Questions::many;
+    if (judges_many && roadmap.scene.walls.size() <= most_indexed_walls) judged.emplace(roadmap.scene, execution);
+  }
+  SolveRequest request_of(const Roadmap& roadmap, const Execution& execution, Questions questions) const {
+    SolveRequest request{roadmap.options, planned.get(), any, solver.planner, execution};
+    request.many = questions != Questions::one;
+    return request;
+  }
   Question any;
   ChosenSolver solver;
   PlannedScene planned;
   WorldAccount world;
   std::unique_ptr<RoadmapSession> session;
+  std::optional<ObstacleIndex> judged;  ///< of a lattice
 };
 
 RoadmapQuery::RoadmapQuery(const Roadmap& roadmap, const Limits& limits)
     : RoadmapQuery(roadmap, LimitedExecution(limits).execution()) {}
 
-RoadmapQuery::RoadmapQuery(const Roadmap& roadmap, const Execution& execution)
-    : roadmap_(roadmap), opened_(std::make_unique<Opened>(roadmap, execution)) {}
+RoadmapQuery::RoadmapQuery(const Roadmap& roadmap, const Execution& execution, Questions questions)
+    : roadmap_(roadmap), opened_(std::make_unique<Opened>(roadmap, execution, questions)) {}
 
 RoadmapQuery::~RoadmapQuery() = default;
 
@@ -129,9 +140,10 @@ Answer RoadmapQuery::ask_lattice(const Question& question, const RoadmapSearchFi
       answer.roadmap.milestones = count_states(roadmap_) + 2;
       if (answer.outcome == Outcome::solved) answer.path = asked.path();
     }
-    settle_blocked_ends(answer, roadmap_.scene, problem, execution);
+    const ObstacleIndex* judged = opened_->judged ? &*opened_->judged : nullptr;
+    settle_blocked_ends(answer, roadmap_.scene, problem, execution, judged);
     if (how.optimise && answer.outcome == Outcome::solved) shorten(answer, roadmap_.scene, problem, execution);
-    verify_solved(answer, roadmap_.scene, problem, execution);
+    verify_solved(answer, roadmap_.scene, problem, execution, judged);
   });
   answer.world = opened_->world;
   answer.threads = thread_count(execution.threads);

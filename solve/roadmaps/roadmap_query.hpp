@@ -37,11 +37,15 @@ struct LengthAnswer {
   double length = 0.0;  ///< only for solved
 };
 
+/// What will be asked: one path, whose judge then passes over all obstacles; many paths, for which the judge makes an
+/// index of its own first; lengths alone.
+enum class Questions : std::uint8_t { one, many, lengths };
+
 /// Refers to the roadmap. Any number of threads may ask; while they do, learnt() is nobody's.
 class RoadmapQuery {
  public:
   explicit RoadmapQuery(const Roadmap& roadmap, const Limits& limits = {});
-  RoadmapQuery(const Roadmap& roadmap, const Execution& execution);
+  RoadmapQuery(const Roadmap& roadmap, const Execution& execution, Questions questions = Questions::many);
   ~RoadmapQuery();
   RoadmapQuery(const RoadmapQuery&) = delete;
   RoadmapQuery& operator=(const RoadmapQuery&) = delete;

@@ -51,6 +51,7 @@ struct SolveRequest {
   ByProducts* keep = nullptr;       ///< receives what the planner makes beyond the path; nullptr: nothing is kept
   RoadmapAsked asked = {};          ///< a roadmap that is there already
   const OldRoadmap* old = nullptr;  ///< what a build may take over
+  bool many = true;                 ///< open(): will there be more than one question?
 };
 
 /// What SolveKind::build leaves behind.

@@ -181,7 +181,8 @@ std::unique_ptr<RoadmapSession> open_sampled(const SolveRequest& request, const 
   const Body body(request);
   auto session = std::make_unique<SessionIn<World>>();
   body.index(session->world, detail::roadmap_options_of(request, body).sampler);
-  if (Body::judged_by_index && !request.scene.map) session->judged.emplace(request.scene, request.execution);
+  if (request.many && Body::judged_by_index && !request.scene.map)
+    session->judged.emplace(request.scene, request.execution);
   const std::span<const double> numbers(arrays.states);
   RawVector<State> states;
   request.execution.reserve(arrays.states.size() * sizeof(double));

@@ -52,7 +52,7 @@ class QueryCommand : public AnswerCommand {
  private:
   Answer find(const Run& run, StageTimes& before, ByProducts* keep) override {
     roadmap_ = read_asked(arguments_, run.execution(), before);
-    const RoadmapQuery query(roadmap_, run.execution());
+    const RoadmapQuery query(roadmap_, run.execution(), Questions::one);
     QuestionScratch scratch;
     Answer answer = query.ask_within(question_.start, question_.goal, how_, run.execution(), scratch, keep);
     if (keep_file_) learn(roadmap_, query, run.execution());
@@ -78,7 +78,8 @@ int ask_lines(const Arguments& arguments, const std::string& file) {
   Run run(arguments);
   StageTimes seconds;
   Roadmap roadmap = read_asked(arguments, run.execution(), seconds);
-  const auto query = std::make_unique<RoadmapQuery>(roadmap, run.execution());
+  const auto query = std::make_unique<RoadmapQuery>(roadmap, run.execution(),
+                                                    options.lengths_only ? Questions::lengths : Questions::many);
   const InputFile questions(file, run.execution());
   const BatchAccount account = ask_batch(*query, questions, options, run.execution(), print_text);
   if (keep_file) {
