@@ -10,6 +10,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/raw_vector.hpp"
+#include "core/plane/se2.hpp"
 #include "parallel/chunks.hpp"
 #include "parallel/union_forest.hpp"
 
@@ -83,8 +84,18 @@ class PartsCheck {
       const auto is_bad = [](double x) { return !(std::abs(x) <= largest_coordinate); };
       return all ? r.last : r.first + index_of(part, is_bad);
     });
-    if (bad == states.size()) return;
-    fail("states[" + number(bad) + "]", "expected a finite number of at most 1e60", std::to_string(states[bad]));
+    if (bad != states.size()) {
+      fail("states[" + number(bad) + "]", "expected a finite number of at most 1e60", std::to_string(states[bad]));
+    }
+    if (parts_.dimension == 3) check_headings();
+  }
+  void check_headings() const {
+    const std::size_t n = parts_.vertex_count();
+    const std::size_t bad =
+        first_that(n, execution_, [&](std::size_t v) { return std::abs(parts_.states[3 * v + 2]) > largest_heading; });
+    if (bad == n) return;
+    fail("states[" + number(3 * bad + 2) + "]", "expected a heading of at most 1000 rad",
+         std::to_string(parts_.states[3 * bad + 2]));
   }
   template <class T, class IsBad>
   static std::size_t index_of(std::span<const T> part, const IsBad& is_bad) {

@@ -11,6 +11,7 @@
 #include "roadmaps/file/checksum.hpp"
 #include "roadmaps/file/write_roadmap_file.hpp"
 #include "roadmaps/graph/check_parts.hpp"
+#include "solve/question/plannable.hpp"
 #include "solve/roadmaps/lattice_sections.hpp"
 #include "solve/roadmaps/roadmap_meta_io.hpp"
 #include "solve/roadmaps/world_sections.hpp"
@@ -106,6 +107,15 @@ Roadmap described(const RoadmapFile& file, const Execution& execution) {
   throw InputError(file.name(), "header and meta name different worlds");
 }
 
+/// The body can be in the world.
+void check_world_of(const Roadmap& roadmap, const std::string& name) {
+  try {
+    check_plannable(roadmap.scene, roadmap.question());
+  } catch (const UsageError& error) {
+    throw InputError(name, error.what());
+  }
+}
+
 /// The lattice is that of the maze.
 void check_lattice_of(const Roadmap& roadmap) {
   const auto& maze = roadmap.scene.maze;
@@ -156,6 +166,7 @@ Roadmap read_roadmap(const std::string& path, const Execution& execution, std::o
   if (file.header().recipe_hash != hash_of(recipe_json(roadmap, execution))) {
     throw InputError(file.name(), "header and meta name different bodies or options");
   }
+  check_world_of(roadmap, file.name());
   if (!has_lattice(file)) {
     roadmap.arrays = read_arrays(file, roadmap, execution);
     return roadmap;

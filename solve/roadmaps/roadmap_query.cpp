@@ -38,6 +38,12 @@ void refuse_search(const RoadmapSearchFields& how) {
   }
 }
 
+/// Who says that an edge is free which is not: the roadmap, for its world has been looked at by nobody else.
+[[noreturn]] void refuse_roadmap(const Roadmap& roadmap, const RefutedPathError& error) {
+  throw InputError(fmt::format("the roadmap of {}", roadmap.scene.source),
+                   fmt::format("leads through an obstacle; build it anew: {}", error.what()));
+}
+
 void shorten(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution) {
   const StageTimer timer(execution, "optimise", answer.seconds.optimise, answer.path.size());
   const MazeWorld world(scene, problem.reach(), execution);
@@ -116,6 +122,8 @@ Answer RoadmapQuery::ask_within(const std::vector<double>& start, const std::vec
     answer.stop_reason = stopped.reason;
   } catch (const std::bad_alloc&) {
     answer.stop_reason = StopReason::memory;
+  } catch (const RefutedPathError& error) {
+    refuse_roadmap(roadmap_, error);
   }
   answer.world = opened_->world;
   answer.threads = thread_count(execution.threads);
@@ -132,19 +140,23 @@ Answer RoadmapQuery::ask_lattice(const Question& question, const RoadmapSearchFi
   answer.search.clear();
   answer.figures.push_back({"index", std::string("route")});
   if (!scratch.route) scratch.route.emplace(*roadmap_.lattice);
-  answer_within_limits(answer, [&] {
-    {
-      const StageTimer timer(execution, "search", answer.seconds.search);
-      const LatticeQuestion asked(roadmap_.scene, problem, *roadmap_.lattice, *scratch.route, execution);
-      answer.outcome = asked.outcome();
-      answer.roadmap.milestones = count_states(roadmap_) + 2;
-      if (answer.outcome == Outcome::solved) answer.path = asked.path();
-    }
-    const ObstacleIndex* judged = opened_->judged ? &*opened_->judged : nullptr;
-    settle_blocked_ends(answer, roadmap_.scene, problem, execution, judged);
-    if (how.optimise && answer.outcome == Outcome::solved) shorten(answer, roadmap_.scene, problem, execution);
-    verify_solved(answer, roadmap_.scene, problem, execution, judged);
-  });
+  try {
+    answer_within_limits(answer, [&] {
+      {
+        const StageTimer timer(execution, "search", answer.seconds.search);
+        const LatticeQuestion asked(roadmap_.scene, problem, *roadmap_.lattice, *scratch.route, execution);
+        answer.outcome = asked.outcome();
+        answer.roadmap.milestones = count_states(roadmap_) + 2;
+        if (answer.outcome == Outcome::solved) answer.path = asked.path();
+      }
+      const ObstacleIndex* judged = opened_->judged ? &*opened_->judged : nullptr;
+      settle_blocked_ends(answer, roadmap_.scene, problem, execution, judged);
+      if (how.optimise && answer.outcome == Outcome::solved) shorten(answer, roadmap_.scene, problem, execution);
+      verify_solved(answer, roadmap_.scene, problem, execution, judged);
+    });
+  } catch (const RefutedPathError& error) {
+    refuse_roadmap(roadmap_, error);
+  }
   answer.world = opened_->world;
   answer.threads = thread_count(execution.threads);
   answer.peak_memory_bytes = peak_resident_bytes();

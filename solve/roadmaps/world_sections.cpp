@@ -56,17 +56,17 @@ RawVector<WallOf<T>> walls_of(std::span<const T> numbers, const Execution& execu
 
 /// Coordinates as the readers of worlds take them.
 template <class T>
-void check_walls(const RoadmapFile& file, std::span<const T> numbers) {
-  if (numbers.size() % 4 != 0) refuse(file, "world.walls", "expected four numbers a wall");
+void check_walls(const RoadmapFile& file, std::string_view section, std::span<const T> numbers) {
+  if (numbers.size() % 4 != 0) refuse(file, section, "expected four numbers a wall");
   const auto is_coordinate = [](T x) { return std::abs(static_cast<double>(x)) <= largest_coordinate; };
   if (std::all_of(numbers.begin(), numbers.end(), is_coordinate)) return;
-  refuse(file, "world.walls", "expected numbers of at most 1e60");
+  refuse(file, section, "expected numbers of at most 1e60");
 }
 
 template <class T>
 WallSet read_walls(const RoadmapFile& file, const Execution& execution) {
   const auto numbers = file.section<T>("world.walls", execution);
-  check_walls(file, numbers);
+  check_walls(file, "world.walls", numbers);
   return WallSet(walls_of(numbers, execution));
 }
 
@@ -175,6 +175,7 @@ Scene read_world_sections(const RoadmapFile& file, const Execution& execution) {
         walls->type == element_type<float>() ? read_walls<float>(file, execution) : read_walls<double>(file, execution);
   }
   if (const auto seams = file.optional_section<double>("world.seams", execution)) {
+    check_walls(file, "world.seams", *seams);
     for (std::size_t i = 0; i + 3 < seams->size(); i += 4) {
       scene.seams.push_back({{(*seams)[i], (*seams)[i + 1]}, {(*seams)[i + 2], (*seams)[i + 3]}});
     }

@@ -101,7 +101,7 @@ void refute(Answer& answer, const Verification& found) {
 
 void fail_verification(const Answer& answer, const std::optional<Violation>& found) {
   const Violation violation = found.value_or(Violation{});
-  throw std::logic_error(fmt::format("the path of {} fails its verification at leg {}: {} is {} away", answer.planner,
+  throw RefutedPathError(fmt::format("the path of {} fails its verification at leg {}: {} is {} away", answer.planner,
                                      violation.leg, violation.obstacle, violation.distance));
 }
 

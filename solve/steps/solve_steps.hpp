@@ -6,6 +6,7 @@
 #include <chrono>
 #include <new>
 #include <optional>
+#include <stdexcept>
 #include <string_view>
 
 #include "core/base/solution.hpp"
@@ -50,7 +51,12 @@ void claim_nothing(Answer& answer);
 /// The path of a method that promises nothing has failed its verification: it is told as refuted, and as nothing else.
 void refute(Answer& answer, const Verification& found);
 
-/// A planner's path that its judge refuses is a bug: throws std::logic_error with what the judge found.
+/// A path that its judge refuses.
+struct RefutedPathError : std::logic_error {
+  using std::logic_error::logic_error;
+};
+
+/// A planner's path that its judge refuses is a bug: throws RefutedPathError with what the judge found.
 [[noreturn]] void fail_verification(const Answer& answer, const std::optional<Violation>& found);
 
 /// Verifies the path of a solved answer and fills in length and clearance. A path that fails is a bug: throws

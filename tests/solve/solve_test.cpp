@@ -49,6 +49,18 @@ TEST(Solve, APointAmongPolygonsTakesTheShortestPath) {
   EXPECT_EQ(answer.planner, "visibility");
 }
 
+TEST(Solve, ABodyMayBeAsSmallAsNumbersAre) {
+  Scene scene;
+  scene.bounds = Box{{0, 0}, {10, 10}};
+  scene.walls = WallSet::narrowest(std::vector<Segment>{{{2, 2}, {2, 8}}, {{4, 3}, {9, 3}}});
+  for (const double size : {1e-90, 1e-10}) {
+    const RobotSpec robot{.kind = RobotKind::polygon, .outline = {{0, 0}, {size, 0}, {0, size}}};
+    SolveOptions options{.planner = PlannerKind::prm};
+    options.roadmap.samples = 100;
+    EXPECT_TRUE(solve(scene, {.robot = robot, .start = {1, 1, 0}, .goal = {9, 9}}, options).verified) << size;
+  }
+}
+
 TEST(Solve, AnyNumberOfThreadsGivesTheSameAnswer) {
   const Scene maze = read_world("maze:61x61,seed=3");
   const Answer one = solve(maze, {}, {.optimise = true}, {.threads = 1});

@@ -227,6 +227,7 @@ std::vector<BodyVerifier::Near> BodyVerifier::nearest_at(const Leg& leg, double 
 void BodyVerifier::check_piece(const Leg& leg, double middle, double half, const Sides& sides,
                                const std::vector<Near>& among, std::size_t number, LegReport& report) const {
   constexpr std::size_t most_looks = 2'000'000;  // some seconds
+  constexpr std::size_t enough_looks = 200'000;  // for the least distance; beyond, being apart is enough
   execution_.check();
   const bool weary = ++report.looks > most_looks;
   const double whole = portable::hypot(leg.way.x, leg.way.y) + radius_ * std::abs(leg.turn);
@@ -237,7 +238,7 @@ void BodyVerifier::check_piece(const Leg& leg, double middle, double half, const
   const Near nearest = *std::min_element(near.begin(), near.end(), less);
   const double proved = nearest.distance - way - rounding_;
   report.met = std::min(report.met, nearest.distance);
-  const bool settled = proved >= report.met - close_ || way < finest_;
+  const bool settled = proved >= report.met - close_ || way < finest_ || report.looks > enough_looks;
   if (proved > clearance_ && settled) {
     report.least = std::min(report.least, proved);
     return;

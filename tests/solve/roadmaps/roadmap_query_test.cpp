@@ -28,20 +28,23 @@ struct Case {
 std::vector<Case> cases() {
   const RobotSpec disc{.kind = RobotKind::disc, .radius = 0.05};
   const std::vector<Vec2> outline{{-0.2, -0.1}, {0.3, -0.1}, {0.3, 0.1}, {-0.2, 0.1}};
-  return {
-      {"walls", world_file("walls.scene"), {}, 800, {}},
-      {"maze", "maze:9x9,seed=2,loops=0.1", {}, 2000, {{3, 4}, {9, 9}, {0.5, 0.5}}},
-      {"polygons", world_file("town.geojson"), {.robot = disc, .start = {1.5, 1.5}, .goal = {9.5, 8.5}}, 600, {{5, 5}, {0.1, 0.1}, {4, 6}}},
-      {"turning", world_file("poly-easy.scene"), {}, 1500, {}},
-      {"car", world_file("car-20.scene"), {}, 400, {}},
-      {"parking", world_file("parking-lot.scene"), {}, 500, {}},
-      {"arm", world_file("puma-seed.scene"), {}, 400, {}},
-      {"map", world_file("flat.yaml"), {.robot = disc, .start = {1, 1}, .goal = {3, 1}}, 500, {}},
-      {"body on a map",
-       world_file("flat.yaml"),
-       {.robot = RobotSpec{.kind = RobotKind::polygon, .outline = outline}, .start = {1, 1, 0}, .goal = {3, 1, 0}},
-       500,
-       {}}};
+  return {{"walls", world_file("walls.scene"), {}, 800, {}},
+          {"maze", "maze:9x9,seed=2,loops=0.1", {}, 2000, {{3, 4}, {9, 9}, {0.5, 0.5}}},
+          {"polygons",
+           world_file("town.geojson"),
+           {.robot = disc, .start = {1.5, 1.5}, .goal = {9.5, 8.5}},
+           600,
+           {{5, 5}, {0.1, 0.1}, {4, 6}}},
+          {"turning", world_file("poly-easy.scene"), {}, 1500, {}},
+          {"car", world_file("car-20.scene"), {}, 400, {}},
+          {"parking", world_file("parking-lot.scene"), {}, 500, {}},
+          {"arm", world_file("puma-seed.scene"), {}, 400, {}},
+          {"map", world_file("flat.yaml"), {.robot = disc, .start = {1, 1}, .goal = {3, 1}}, 500, {}},
+          {"body on a map",
+           world_file("flat.yaml"),
+           {.robot = RobotSpec{.kind = RobotKind::polygon, .outline = outline}, .start = {1, 1, 0}, .goal = {3, 1, 0}},
+           500,
+           {}}};
 }
 
 void expect_same(const Answer& answer, const Answer& expected) {
@@ -95,6 +98,19 @@ TEST(RoadmapQuery, AnswersOnTheLatticeAsThePlainStagesDo) {
     const Answer answer = query.ask(scene.start, goal);
     expect_same(answer, solve(scene, {.goal = goal}, plain));
     EXPECT_EQ(answer.length, solve(scene, {.goal = goal}).length);
+  }
+}
+
+TEST(RoadmapQuery, ARoadmapThatCallsBlockedEdgesFreeIsFoundOut) {
+  for (const PlannerKind planner : {PlannerKind::prm, PlannerKind::lazy_prm}) {
+    SolveOptions options{.planner = planner};
+    options.roadmap.samples = 400;
+    Roadmap roadmap = build(read_world("maze:9x9,seed=2"), {}, options);
+    for (std::size_t end = 0; end < roadmap.arrays.candidates.targets().size(); ++end) {
+      set_edge_state(roadmap.arrays.edge_states, end, EdgeState::free);
+    }
+    const RoadmapQuery query(roadmap);
+    EXPECT_THROW(query.ask({}, {}), InputError);
   }
 }
 
