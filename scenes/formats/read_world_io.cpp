@@ -33,6 +33,9 @@ bool names_image(std::string_view bytes) {
   return head.starts_with("image:") || head.find("\nimage:") != std::string_view::npos;
 }
 
+/// As a .roadmap file begins, which is no world though one may be inside (roadmaps/file/file_layout.hpp).
+constexpr std::string_view roadmap_begin = "\x89WRRMAP\n";
+
 /// Cuts `text` at the first `mark`; the rest is empty if there is none.
 std::string_view cut(std::string_view& text, char mark) {
   const std::size_t at = text.find(mark);
@@ -177,6 +180,9 @@ Scene read_unchecked(const InputFile& file, const Execution& execution, MapServe
 }  // namespace
 
 Scene read_scene(const InputFile& file, const Execution& execution, MapServerRules rules) {
+  if (file.bytes().starts_with(roadmap_begin)) {
+    throw InputError(file.name(), "is a roadmap where a world is expected; ask it by `warren query`");
+  }
   Scene scene = read_unchecked(file, execution, rules);
   check_polygons(scene, execution);
   return scene;

@@ -71,6 +71,9 @@ std::vector<double> numbers_of(const Json& json, const char* key) {
 }  // namespace
 
 BatchQuestions::BatchQuestions(const InputFile& file) : file_(file), rest_(file.bytes()) {
+  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";  // as spreadsheets put before CSV
+  if (rest_.starts_with(byte_order_mark)) rest_.remove_prefix(byte_order_mark.size());
+  const std::string_view all = rest_;
   std::string_view line = trimmed(take_line());
   if (line.starts_with("start_") || line.starts_with("goal_")) {
     read_header(line);
@@ -78,7 +81,7 @@ BatchQuestions::BatchQuestions(const InputFile& file) : file_(file), rest_(file.
     throw InputError(file.name() + ":1", "expected the header start_x,start_y,goal_x,goal_y of a CSV, or JSON lines",
                      line.substr(0, 40));
   } else {
-    rest_ = file.bytes();
+    rest_ = all;
   }
 }
 
@@ -97,7 +100,11 @@ void BatchQuestions::read_header(std::string_view line) {
     if (!(is_goal || name.starts_with("start_")) || !place) {
       throw InputError(file_.name() + ":1", "expected columns such as start_x, start_y, start_theta or goal_1", name);
     }
-    columns_.push_back({is_goal, *place});
+    const Column column{is_goal, *place};
+    if (std::find(columns_.begin(), columns_.end(), column) != columns_.end()) {
+      throw InputError(file_.name() + ":1", "expected each column once", name);
+    }
+    columns_.push_back(column);
   }
 }
 

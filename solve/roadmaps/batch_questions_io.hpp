@@ -33,6 +33,7 @@ class BatchQuestions {
   struct Column {
     bool is_goal;
     std::size_t place;
+    bool operator==(const Column&) const = default;
   };
   std::string_view take_line();
   void read_header(std::string_view line);

@@ -12,6 +12,7 @@
 
 #include "core/base/error.hpp"
 #include "pictures/picture.hpp"
+#include "roadmaps/exports/export_roadmap.hpp"
 #include "scenes/formats/read_world_io.hpp"
 #include "scenes/formats/ros_map_io.hpp"
 #include "scenes/text/output_file_io.hpp"
@@ -22,9 +23,9 @@ namespace warren {
 namespace {
 
 /// Of all verbs: the options whose values are files that are written, and that are read. Operands are read.
-constexpr std::array<std::string_view, 8> output_options{"--json", "--svg", "--png",   "--html",
-                                                         "--csv",  "--log", "--trace", "--output"};
-constexpr std::array<std::string_view, 2> input_options{"--answer", "--map"};
+constexpr std::array<std::string_view, 10> output_options{"--json", "--svg",   "--png",    "--html", "--csv",
+                                                          "--log",  "--trace", "--output", "--keep", "--report"};
+constexpr std::array<std::string_view, 4> input_options{"--answer", "--map", "--batch", "--world"};
 
 /// Where a file is, or will be: two are the same file exactly if their places are equal.
 struct Place {
@@ -77,16 +78,20 @@ std::vector<NamedFile> outputs_of(const Arguments& arguments) {
   std::vector<NamedFile> files;
   for (const std::string_view option : output_options) {
     const auto path = arguments.value(option);
-    if (!path) continue;
+    if (!path || path->empty()) continue;  // as a flag, --csv names no file
     files.push_back({std::string{option}, is_standard_output(*path) ? "-" : *path});
-    if (option == "--output" && ending_of(*path) == ".yaml") files.push_back({"its image", map_image_of(*path)});
+    if (option != "--output") continue;
+    const std::string ending = ending_of(*path);
+    if (ending == ".yaml") files.push_back({"its image", map_image_of(*path)});
+    if (ending == ".gr" || ending == ".csv") files.push_back({"its second file", files_of_export(*path).back()});
   }
+  if (arguments.has("--batch")) files.push_back({"the answers to --batch", "-"});
   return files;
 }
 
 std::vector<NamedFile> inputs_of(const Arguments& arguments) {
   std::vector<NamedFile> files;
-  for (std::size_t i = 0; i < arguments.operand_count(); ++i) files.push_back({"", arguments.operand(i)});
+  for (std::size_t i = 0; i < arguments.operand_count(); ++i) files.push_back({"an operand", arguments.operand(i)});
   for (const std::string_view option : input_options) {
     if (const auto path = arguments.value(option)) files.push_back({std::string{option}, *path});
   }
@@ -101,6 +106,17 @@ void check_standard_output(const std::vector<NamedFile>& outputs) {
       throw UsageError(fmt::format("standard output takes one of them: {} or {}", taker, output.option));
     }
     taker = output.option;
+  }
+}
+
+void check_standard_input(const std::vector<NamedFile>& inputs) {
+  std::string taker;
+  for (const NamedFile& input : inputs) {
+    if (input.path != "-") continue;
+    if (!taker.empty()) {
+      throw UsageError(fmt::format("{} and {} can't both come from standard input", taker, input.option));
+    }
+    taker = input.option;
   }
 }
 
@@ -145,6 +161,7 @@ void check_outputs(const Arguments& arguments) {
     }
   }
   const std::vector<NamedFile> inputs = inputs_of(arguments);
+  check_standard_input(inputs);
   for (const NamedFile& input : inputs) check_not_written(arguments, input.path);
   files.insert(files.end(), inputs.begin(), inputs.end());
   check_pictures(arguments, files);

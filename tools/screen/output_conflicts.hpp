@@ -12,7 +12,7 @@
 namespace warren {
 
 /// Throws UsageError where an output that the command line names is one of its inputs or another of its outputs, or
-/// where standard output is to take two.
+/// where standard output is to take two or standard input to give two.
 void check_outputs(const Arguments& arguments);
 
 /// The same for a file that the command line does not name such as a map's image. Empty: no file.

@@ -54,7 +54,7 @@ int AnswerCommand::run() {
 }
 
 bool AnswerCommand::takes_standard_output() const {
-  return json_ == "-" || svg_ == "-" || arguments_.value("--trace") == "-";
+  return json_ == "-" || svg_ == "-" || arguments_.value("--trace") == "-" || arguments_.value("--keep") == "-";
 }
 
 void AnswerCommand::answer(const Run& run) {

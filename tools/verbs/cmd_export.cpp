@@ -5,9 +5,9 @@
 #include "core/base/error.hpp"
 #include "scenes/text/human_units.hpp"
 #include "solve/roadmaps/export_of_roadmap.hpp"
-#include "solve/roadmaps/roadmap_file_io.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_names.hpp"
+#include "tools/screen/roadmap_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/world_files.hpp"
 #include "tools/words/command.hpp"
@@ -19,10 +19,11 @@ constexpr OptionSpec export_specs[] = {
     {"--output", "FILE", "where to: .geojson .graphml .gr .csv .npz .dot by ending", {}, "-o"},
     {"--unchecked", "", "edges that nobody has checked, too"},
     {"--frame", "NAME", "the frame that .geojson names (default: map)"},
-    {"--world", "WORLD", "the world that the roadmap was built for, where its file has none"},
+    roadmap_world_option,
 };
 
 int export_roadmap_file(const Arguments& arguments) {
+  check_rules_of_maps(arguments);
   const auto file = output_file(arguments, "--output");
   if (!file) throw UsageError("-o FILE is missing");
   for (const std::string& name : files_of_export(*file)) check_writable(name);
@@ -30,9 +31,7 @@ int export_roadmap_file(const Arguments& arguments) {
                               .frame = std::string(arguments.value("--frame").value_or("map"))};
   Run run(arguments);
   StageTimes seconds;
-  std::optional<Scene> world;
-  if (const auto name = arguments.value("--world")) world = load_world(*name, arguments, run.execution(), seconds);
-  const Roadmap roadmap = read_roadmap(arguments.operand(0), run.execution(), std::move(world));
+  const Roadmap roadmap = load_roadmap(arguments, run.execution(), seconds);
   const ExportAccount account = export_of_roadmap(roadmap, *file, options, run.execution());
   run.end();
   run.conclude(file == "-", {}, [&] {

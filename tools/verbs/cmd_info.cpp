@@ -8,6 +8,7 @@
 #include "scenes/text/output_file_io.hpp"
 #include "solve/answer/world_facts.hpp"
 #include "solve/roadmaps/roadmap_file_io.hpp"
+#include "solve/roadmaps/world_sections.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_names.hpp"
 #include "tools/screen/run_of_verb.hpp"
@@ -34,7 +35,11 @@ std::string roadmap_info(const Arguments& arguments, const Execution& execution)
   std::string meta = roadmap_meta(file, execution);
   if (!arguments.has("--check")) return meta;
   file.check_all(execution);
-  check_roadmap(file, execution);
+  if (has_world(file)) {
+    read_roadmap(arguments.operand(0), execution);
+  } else {
+    check_roadmap(file, execution);
+  }
   return meta;
 }
 

@@ -12,6 +12,7 @@
 #include "solve/roadmaps/roadmap_file_io.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_names.hpp"
+#include "tools/screen/roadmap_files.hpp"
 #include "tools/screen/terminal.hpp"
 #include "tools/screen/world_files.hpp"
 #include "tools/verbs/answer_command.hpp"
@@ -25,16 +26,9 @@ constexpr OptionSpec query_specs[] = {
     {"--batch", "FILE", "ask each line of this file, CSV or JSON lines; - is standard input"},
     {"--lengths-only", "", "with --batch: answers without their paths"},
     {"--csv", "", "with --batch: answers as CSV instead of JSON lines"},
-    {"--world", "WORLD", "the world that the roadmap was built for, where its file has none"},
+    roadmap_world_option,
     {"--keep", "FILE", "write the roadmap with what this question has learnt of its edges"},
 };
-
-Roadmap read_asked(const Arguments& arguments, const Execution& execution, StageTimes& seconds) {
-  std::optional<Scene> world;
-  if (const auto name = arguments.value("--world")) world = load_world(*name, arguments, execution, seconds);
-  const StageTimer timer(execution, "read", seconds.read);
-  return read_roadmap(arguments.operand(0), execution, std::move(world));
-}
 
 RoadmapSearchFields how_to_search(const Arguments& arguments) {
   const SolveOptions words = solve_words(arguments);
@@ -51,7 +45,7 @@ class QueryCommand : public AnswerCommand {
 
  private:
   Answer find(const Run& run, StageTimes& before, ByProducts* keep) override {
-    roadmap_ = read_asked(arguments_, run.execution(), before);
+    roadmap_ = load_roadmap(arguments_, run.execution(), before);
     const RoadmapQuery query(roadmap_, run.execution(), Questions::one);
     QuestionScratch scratch;
     Answer answer = query.ask_within(question_.start, question_.goal, how_, run.execution(), scratch, keep);
@@ -77,7 +71,7 @@ int ask_lines(const Arguments& arguments, const std::string& file) {
   const auto keep_file = output_file(arguments, "--keep");
   Run run(arguments);
   StageTimes seconds;
-  Roadmap roadmap = read_asked(arguments, run.execution(), seconds);
+  Roadmap roadmap = load_roadmap(arguments, run.execution(), seconds);
   const auto query = std::make_unique<RoadmapQuery>(roadmap, run.execution(),
                                                     options.lengths_only ? Questions::lengths : Questions::many);
   const InputFile questions(file, run.execution());
@@ -93,6 +87,7 @@ int ask_lines(const Arguments& arguments, const std::string& file) {
 }
 
 int query_roadmap(const Arguments& arguments) {
+  check_rules_of_maps(arguments);
   if (const auto file = arguments.value("--batch")) return ask_lines(arguments, std::string(*file));
   for (const std::string_view option : {"--lengths-only", "--csv"}) {
     if (arguments.has(option)) throw UsageError(fmt::format("{}: needs --batch FILE, many questions", option));

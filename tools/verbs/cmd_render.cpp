@@ -46,9 +46,6 @@ int render(const Arguments& arguments) {
   const std::string file = picture_file(arguments);
   const auto answer_file = arguments.value("--answer");
   check_animation(arguments, file);
-  if (answer_file == "-" && arguments.operand(0) == "-") {
-    throw UsageError("WORLD and --answer can't both come from standard input");
-  }
   Run run(arguments);
   StageTimes seconds;
   RecordedAnswer answer;

@@ -8,6 +8,7 @@
 #include "solve/roadmaps/roadmap_file_io.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_names.hpp"
+#include "tools/screen/roadmap_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/world_files.hpp"
 #include "tools/words/command.hpp"
@@ -18,6 +19,7 @@ namespace {
 constexpr OptionSpec update_specs[] = {
     {"--output", "FILE", "where the new roadmap goes", {}, "-o"},
     {"--report", "FILE", "write as JSON what was checked again; - is standard output"},
+    roadmap_world_option,
 };
 
 std::string report_of(const UpdateAccount& a) {
@@ -33,7 +35,7 @@ int update_roadmap(const Arguments& arguments) {
   const auto report = output_file(arguments, "--report");
   Run run(arguments);
   StageTimes seconds;
-  const Roadmap old = read_roadmap(arguments.operand(0), run.execution());
+  const Roadmap old = load_roadmap(arguments, run.execution(), seconds);
   Scene now = load_world(arguments.operand(1), arguments, run.execution(), seconds);
   UpdateAccount account;
   const Roadmap next = update(old, std::move(now), run.execution(), &account);

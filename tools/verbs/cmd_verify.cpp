@@ -49,9 +49,6 @@ int verify_answer(const Arguments& arguments) {
   const auto json = output_file(arguments, "--json");
   const Question question = question_words(arguments);
   check_not_written(arguments, question.robot);
-  if (arguments.operand(0) == "-" && arguments.operand(1) == "-") {
-    throw UsageError("WORLD and ANSWER.json can't both come from standard input");
-  }
   Run run(arguments);
   StageTimes seconds;
   const RecordedAnswer answer = read_answer(arguments.operand(1), run.execution());

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Roadmaps in as the verbs need them: ROADMAP, the first operand, and by --world the world of a file that has none.
+#pragma once
+
+#include "core/base/counters.hpp"
+#include "parallel/execution.hpp"
+#include "solve/roadmaps/roadmap.hpp"
+#include "tools/words/arguments.hpp"
+#include "tools/words/command.hpp"
+
+namespace warren {
+
+inline constexpr OptionSpec roadmap_world_option{"--world", "WORLD",
+                                                 "the world that the roadmap was built for, where its file has none"};
+
+/// Throws UsageError for --map-rules where no --world is named that they could be for.
+void check_rules_of_maps(const Arguments& arguments);
+
+/// Adds the time to seconds. Throws as read_roadmap and load_world do, InputError for a world where a roadmap is
+/// expected, and UsageError where an output is the table of the roadmap's arm.
+Roadmap load_roadmap(const Arguments& arguments, const Execution& execution, StageTimes& seconds);
+
+}  // namespace warren
