@@ -72,6 +72,14 @@ void compare_states(const RoadmapArrays& before, const RoadmapArrays& now, Updat
   account.states_dropped = old_states.size() - both.size();
 }
 
+/// Was the number of samples found by growing? A lattice has as many as its maze has cells.
+bool grows(const Roadmap& roadmap) {
+  const SolveOptions& options = roadmap.options;
+  if (options.roadmap.samples || options.sampler == SamplerKind::lattice) return false;
+  const bool is_round = roadmap.robot.kind == RobotKind::point || roadmap.robot.kind == RobotKind::disc;
+  return options.sampler || !roadmap.scene.maze || !is_round;
+}
+
 ChosenSolver builder_of(const SolveOptions& options, const Scene& scene, const Question& question) {
   const ChosenSolver solver = choose_solver(options, scene, question);
   if (solver.kind->build == nullptr || !is_roadmap_planner(solver.planner)) {
@@ -142,8 +150,7 @@ Roadmap build_within(Scene scene, const Question& question, const SolveOptions& 
 
 Roadmap update(const Roadmap& roadmap, Scene now, const Execution& execution, UpdateAccount* account) {
   std::optional<OldRoadmap> old;
-  const bool grows = !roadmap.options.roadmap.samples && roadmap.options.sampler != SamplerKind::lattice;
-  if (!grows && roadmap.lattice == nullptr && roadmap.robot.kind != RobotKind::puma560 &&
+  if (!grows(roadmap) && roadmap.lattice == nullptr && roadmap.robot.kind != RobotKind::puma560 &&
       roadmap.robot.kind != RobotKind::arm) {
     if (auto places = changed_places(roadmap.scene, now, execution)) old = {&roadmap.arrays, std::move(*places)};
   }

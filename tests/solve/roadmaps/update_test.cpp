@@ -99,6 +99,21 @@ TEST(Update, BuildsAnewWhereTheFrameHasChanged) {
   EXPECT_EQ(account.edges_checked, account.edges);
 }
 
+TEST(Update, OfALatticeAsksAboutItsChange) {
+  const Scene scene = read_world("maze:15x17,seed=2");
+  const Roadmap roadmap = build(scene);
+  Scene next = scene;
+  std::vector<Segment> walls;
+  for (std::size_t i = 0; i + 1 < scene.walls.size(); ++i) walls.push_back(scene.walls.segment(i));
+  next.walls = WallSet::narrowest(walls);
+  UpdateAccount account;
+  EXPECT_TRUE(same_bits(update(roadmap, next, {}, &account), build(next)));
+  EXPECT_FALSE(account.built_anew);
+  EXPECT_GT(account.edges_checked, 0U);
+  EXPECT_LT(account.edges_checked, 20U);
+  EXPECT_EQ(account.states_added + account.states_dropped, 0U);
+}
+
 TEST(Update, OfTheSameWorldAsksNothing) {
   const Scene scene = read_world("maze:7x9,seed=2");
   SolveOptions options;
