@@ -27,11 +27,13 @@ TEST(PlannerTable, IsWhatReadmeShows) {
 }
 
 /// FNV-1a: the same fields in every build.
-bool is_drawn(const std::string& field) {
+std::uint64_t hash_of(const std::string& field) {
   std::uint64_t hash = 14695981039346656037ULL;
   for (const char c : field) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
-  return (hash >> 32U) % WARREN_MATRIX_SHARE == 0;
+  return hash;
 }
+
+bool is_drawn(const std::string& field) { return (hash_of(field) >> 32U) % WARREN_MATRIX_SHARE == 0; }
 
 std::string list_of(const std::vector<double>& numbers) {
   std::ostringstream text;
@@ -70,6 +72,7 @@ class Matrix : public testing::TestWithParam<MatrixWorld> {
   static std::vector<std::string> limits_of(const std::string& planner);
 
   void ask_planner(const MatrixBody& body, const PlannerRow& planner, const PlannerField* field, bool optimise);
+  void ask_kept_roadmap(const MatrixBody& body, const std::string& planner);
   void ask_judges(const MatrixBody& body, const std::string& planner, const ProgramAnswer& answer);
   void ask_all_at_once(const MatrixBody& body, const BodyColumn& column);
   void ask_in_vain(const MatrixBody& body);
@@ -210,6 +213,43 @@ void Matrix::ask_planner(const MatrixBody& body, const PlannerRow& planner, cons
   ask_judges(body, planner.name, answer);
 }
 
+/// A roadmap that is built and then asked answers as solve does, and an update to the same world asks about nothing.
+/// One field in four, drawn by its name.
+void Matrix::ask_kept_roadmap(const MatrixBody& body, const std::string& planner) {
+  const std::string name = world().name + "/" + body.name + "/" + planner + "/kept";
+  if ((planner != "prm" && planner != "lazy-prm") || !is_drawn(name) || hash_of(name) % 4 != 0) return;
+  const std::vector<std::string> question = question_of(body, true);
+  const std::vector<std::string> ends(question.begin() + 2, question.begin() + 4);
+  std::vector<std::string> build{"build", world_file(), "--planner", planner, "--samples", "200"};
+  for (const std::string& word : question) {
+    if (word != ends[0] && word != ends[1]) build.push_back(word);
+  }
+  std::vector<std::string> solve = build;
+  solve[0] = "solve";
+  solve.insert(solve.end(), {ends[0], ends[1], "--json", folder_.path("solved.json")});
+  const std::string roadmap = folder_.path("kept.roadmap");
+  build.insert(build.end(), {"-o", roadmap});
+  SCOPED_TRACE(shown(build));
+  const Outcome built = ask(build);
+  ASSERT_EQ(built.code, 0) << built.err;
+  const Outcome solved = ask(solve);
+  const Outcome asked = ask({"query", roadmap, ends[0], ends[1], "--json", folder_.path("asked.json")});
+  EXPECT_EQ(asked.code, solved.code) << asked.err << solved.err;
+  const ProgramAnswer expected = read_program_answer(folder_.read("solved.json"));
+  const ProgramAnswer answer = read_program_answer(folder_.read("asked.json"));
+  EXPECT_EQ(answer.status, expected.status);
+  EXPECT_EQ(answer.verified, expected.verified);
+  EXPECT_EQ(answer.length, expected.length);
+  EXPECT_EQ(answer.path, expected.path);
+  const Outcome updated =
+      ask({"update", roadmap, world_file(), "-o", folder_.path("updated.roadmap"), "--report", "-"});
+  EXPECT_EQ(updated.code, 0) << updated.err;
+  const bool anew = updated.out.find("\"mode\": \"built\"") != std::string::npos;
+  EXPECT_EQ(anew, body.arm.has_value()) << updated.out;
+  EXPECT_TRUE(anew || updated.out.find("\"edges_checked\": 0,") != std::string::npos) << updated.out;
+  EXPECT_TRUE(folder_.read("updated.roadmap") == folder_.read("kept.roadmap")) << "another roadmap of the same world";
+}
+
 /// The program's judge, and the matrix's own.
 void Matrix::ask_judges(const MatrixBody& body, const std::string& planner, const ProgramAnswer& answer) {
   const Outcome verdict = ask({"verify", world_file(), folder_.path("answer.json")});
@@ -278,6 +318,7 @@ void Matrix::ask_everything() {
       const PlannerField* field = PlannerTable::field(planner, *column);
       ask_planner(body, planner, field, false);
       ask_planner(body, planner, field, true);
+      if (field != nullptr) ask_kept_roadmap(body, planner.name);
     }
     if (!world().is_strange) ask_all_at_once(body, *column);
   }

@@ -23,6 +23,8 @@ ProgramAnswer read_program_answer(const std::string& json) {
   const std::string status = value_of(json, "status");
   answer.status = status.substr(1, status.find('"', 1) - 1);
   answer.verified = std::string(value_of(json, "verified")).starts_with("true");
+  const std::string length = value_of(json, "length");
+  answer.length = length.substr(0, length.find(','));
   int depth = 0;
   for (const char* c = value_of(json, "path"); *c != '\0';) {
     if (*c == '[') {

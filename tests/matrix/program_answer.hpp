@@ -10,6 +10,7 @@ namespace warren::test {
 struct ProgramAnswer {
   std::string status;
   bool verified = false;
+  std::string length;  ///< as it stands there
   std::vector<std::vector<double>> path;
 };
 
