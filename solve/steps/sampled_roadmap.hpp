@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/base/trigonometry.hpp"
 #include "planners/roadmap/build_roadmap.hpp"
 #include "solve/question/planner_choice.hpp"
 #include "solve/roadmaps/changed_places.hpp"
@@ -65,7 +66,7 @@ RoadmapOptions roadmap_options_of(const SolveRequest& request, const Body& body)
 /// How far from its reference point a body of the plane reaches, its clearance included.
 inline double reach_of(const Problem& problem) {
   double radius = problem.robot.radius;
-  for (const Vec2 corner : problem.robot.outline) radius = std::max(radius, norm(corner));
+  for (const Vec2 corner : problem.robot.outline) radius = std::max(radius, portable::hypot(corner.x, corner.y));
   return radius + problem.clearance;
 }
 

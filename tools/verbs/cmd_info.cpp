@@ -4,6 +4,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/printable.hpp"
+#include "scenes/formats/read_world_io.hpp"
 #include "scenes/text/input_file_io.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "solve/answer/world_facts.hpp"
