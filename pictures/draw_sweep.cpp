@@ -30,7 +30,8 @@ Vec2 position_of(const Se2& state) { return state.position(); }
 Vec2 position_of(Vec2 state) { return state; }
 
 template <class State>
-PlannedRoadmap<Vec2> joined_in_the_plane(const std::vector<PlannedRoadmap<State>>& roadmaps, const Execution& execution) {
+PlannedRoadmap<Vec2> joined_in_the_plane(const std::vector<PlannedRoadmap<State>>& roadmaps,
+                                         const Execution& execution) {
   PlannedRoadmap<Vec2> plane;
   std::vector<Edge> edges;
   for (const PlannedRoadmap<State>& roadmap : roadmaps) {

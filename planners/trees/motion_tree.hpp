@@ -103,7 +103,8 @@ class MotionTree {
 /// The trees as a roadmap, one after the other; the first root of the first tree and of the last stand once more as
 /// start and goal. Throws Stopped.
 template <SteerableWorld W>
-void keep_trees(std::span<const MotionTree<W>> trees, PlannedRoadmap<typename W::State>& roadmap, const Execution& execution) {
+void keep_trees(std::span<const MotionTree<W>> trees, PlannedRoadmap<typename W::State>& roadmap,
+                const Execution& execution) {
   std::vector<Edge> edges;
   roadmap.states.clear();
   roadmap.motions.clear();

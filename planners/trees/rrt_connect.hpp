@@ -165,7 +165,8 @@ void RrtConnectSearch<W>::take_step() {
 }
 
 template <SteerableWorld W>
-void RrtConnectSearch<W>::finish(Solution<State>& solution, PlannedRoadmap<State>* keep, const Execution& execution) const {
+void RrtConnectSearch<W>::finish(Solution<State>& solution, PlannedRoadmap<State>* keep,
+                                 const Execution& execution) const {
   solution.roadmap = {node_count(), node_count() - 1, arrived_ ? 1U : 2U};
   if (arrived_) {
     solution.path = trees_[0].way_to_root(meeting_[0]);
