@@ -60,12 +60,13 @@ void expect_exact(LatticePassages passages, const RouteIndexOptions& options, Ce
 }
 
 TEST(RouteQuery, AllPairsOfSmallMazesOfAllKinds) {
+  constexpr std::uint32_t every_start = test::seeds(4) == 4 ? 1 : 7;  // with sanitizers every seventh
   for (const MazeAlgorithm algorithm : algorithms) {
     for (const double loops : {0.0, 0.01, 0.1, 0.5, 1.0}) {
       for (std::uint64_t seed = 1; seed <= test::seeds(4); ++seed) {
         SCOPED_TRACE(std::string(name_of(algorithm)) + " " + std::to_string(loops) + " " + std::to_string(seed));
-        expect_exact(maze_passages({20, 20, seed, algorithm, loops}), small_leaves(1 + seed % 4), seed == 1 ? 1 : 19, 1,
-                     37);
+        expect_exact(maze_passages({20, 20, seed, algorithm, loops}), small_leaves(1 + seed % 4),
+                     seed == 1 ? every_start : 19, 1, 37);
       }
     }
   }
@@ -91,7 +92,7 @@ TEST(RouteQuery, MazesOfManyTiles) {
     for (const double loops : {0.0, 0.001, 0.01, 0.1, 0.5}) {
       for (std::uint64_t seed = 1; seed <= test::seeds(4); ++seed) {
         SCOPED_TRACE(std::string(name_of(algorithm)) + " " + std::to_string(loops) + " " + std::to_string(seed));
-        expect_exact(maze_passages({150, 210, seed, algorithm, loops}), small_leaves(seed % 2 == 0 ? 3 : 32), 7919, 13,
+        expect_exact(maze_passages({150, 210, seed, algorithm, loops}), small_leaves(seed % 2 == 0 ? 3 : 32), 7919, 53,
                      211);
       }
     }
@@ -137,7 +138,7 @@ TEST(RouteQuery, LongWaysBetweenGates) {
   const RouteIndex index({size, {words.right, words.up}}, small_leaves(1), {});
   EXPECT_FALSE(index.arrays().fronts.lengths.empty());
   EXPECT_FALSE(index.arrays().fronts.short_lengths.empty());
-  expect_exact({size, std::move(words)}, small_leaves(1), 39989, 37, 4001);
+  expect_exact({size, std::move(words)}, small_leaves(1), 39989, 211, 4001);
 }
 
 TEST(RouteQuery, CellsOutsideTheLatticeAreRefused) {
