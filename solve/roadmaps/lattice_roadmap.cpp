@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "planners/roadmap/milestones.hpp"
 #include "planners/route_trees/wall_passages.hpp"
 #include "planners/tiled/tiled_prm_lattice.hpp"
 #include "solve/question/planner_choice.hpp"

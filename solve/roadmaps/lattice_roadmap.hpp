@@ -20,8 +20,8 @@
 
 namespace warren {
 
-/// auto_: where the lattice is large and the index pays; none: never.
-enum class IndexChoice : std::uint8_t { auto_, none };
+/// where_it_pays ("auto"): of large lattices that are no open space; none: never.
+enum class IndexChoice : std::uint8_t { where_it_pays, none };
 constexpr auto enum_names(IndexChoice) { return std::array<std::string_view, 2>{"auto", "none"}; }
 
 /// Lattices below are searched in less time than a person notices, and their roadmap is one that all can read.

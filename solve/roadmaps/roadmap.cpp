@@ -131,7 +131,8 @@ Roadmap build_within(Scene scene, const Question& question, const SolveOptions& 
   roadmap.robot = robot_of(roadmap.scene, asked);
   roadmap.clearance = clearance_of(roadmap.scene, asked);
   roadmap.world_hash = scene_hash(roadmap.scene, execution);
-  if (index == IndexChoice::auto_) roadmap.lattice = lattice_index(roadmap.scene, asked, roadmap.options, execution);
+  if (index == IndexChoice::where_it_pays)
+    roadmap.lattice = lattice_index(roadmap.scene, asked, roadmap.options, execution);
   if (roadmap.lattice != nullptr) {
     roadmap.samples = roadmap.lattice->passages().cell_count();
     roadmap.rule = {1.0, 0};
@@ -155,7 +156,7 @@ Roadmap update(const Roadmap& roadmap, Scene now, const Execution& execution, Up
     if (auto places = changed_places(roadmap.scene, now, execution)) old = {&roadmap.arrays, std::move(*places)};
   }
   BuildAccount built;
-  const IndexChoice index = roadmap.lattice != nullptr ? IndexChoice::auto_ : IndexChoice::none;
+  const IndexChoice index = roadmap.lattice != nullptr ? IndexChoice::where_it_pays : IndexChoice::none;
   Roadmap next = build_within(std::move(now), roadmap.question(), roadmap.options, execution, index, &built,
                               old ? &*old : nullptr);
   if (account == nullptr) return next;

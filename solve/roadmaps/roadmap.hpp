@@ -77,11 +77,11 @@ struct BuildAccount {
 /// grow until what is joined stays joined (planners/roadmap/build_roadmap.hpp). Takes the scene. Throws UsageError for
 /// what can't be built and for options that mean nothing to it, InputError, Stopped at a limit.
 Roadmap build(Scene scene, const Question& question = {}, const SolveOptions& options = {}, const Limits& limits = {},
-              IndexChoice index = IndexChoice::auto_);
+              IndexChoice index = IndexChoice::where_it_pays);
 
 /// The same under an execution. `old`: update's.
 Roadmap build_within(Scene scene, const Question& question, const SolveOptions& options, const Execution& execution,
-                     IndexChoice index = IndexChoice::auto_, BuildAccount* account = nullptr,
+                     IndexChoice index = IndexChoice::where_it_pays, BuildAccount* account = nullptr,
                      const OldRoadmap* old = nullptr);
 
 /// What update() did.

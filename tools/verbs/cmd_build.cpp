@@ -31,7 +31,7 @@ int build_roadmap_file(const Arguments& arguments) {
   if (!file) throw UsageError("-o FILE is missing");
   const Question question = question_words(arguments);
   const SolveOptions options = solve_words(arguments);
-  const auto index = given_choice<IndexChoice>(arguments, "--index").value_or(IndexChoice::auto_);
+  const auto index = given_choice<IndexChoice>(arguments, "--index").value_or(IndexChoice::where_it_pays);
   check_not_written(arguments, question.robot);
   Run run(arguments);
   StageTimes seconds;
