@@ -12,6 +12,7 @@
 
 #include "core/base/error.hpp"
 #include "scenes/formats/read_world_io.hpp"
+#include "solve/roadmaps/export_of_roadmap.hpp"
 #include "solve/roadmaps/roadmap_file_io.hpp"
 #include "solve/roadmaps/roadmap_query.hpp"
 #include "solve/solve.hpp"
@@ -91,6 +92,18 @@ TEST(LatticeRoadmap, IsReadBackFromItsFileWithTheSameBytes) {
   }
   std::filesystem::remove(file);
   std::filesystem::remove(file + "2");
+}
+
+TEST(LatticeRoadmap, IsExportedAsTheGraphThatItStandsFor) {
+  const std::string folder = std::filesystem::temp_directory_path().string();
+  const std::string name = folder + "/warren_lattice_" + std::to_string(::getpid());
+  const Scene scene = read_world("maze:256x256,loops=0.05");
+  const ExportAccount of_index = export_of_roadmap(build(scene), name + "a.csv");
+  const ExportAccount of_graph = export_of_roadmap(build(scene, {}, {}, {}, IndexChoice::none), name + "b.csv");
+  EXPECT_EQ(of_index.edges, of_graph.edges);
+  EXPECT_EQ(of_index.vertices, of_graph.vertices);
+  EXPECT_EQ(of_index.blocked_left_out, of_graph.blocked_left_out);
+  for (const char* file : {"a.csv", "a.edges.csv", "b.csv", "b.edges.csv"}) std::filesystem::remove(name + file);
 }
 
 TEST(LatticeRoadmap, ASearchIsRefusedWhereNothingIsSearched) {
