@@ -28,6 +28,8 @@ class WallSolve {
             const RoadmapAsked& asked)
       : scene_(scene), problem_(problem), options_(options), execution_(execution), asked_(asked) {
     describe_roadmap_planner(answer_, problem, options);
+    if (asked.session != nullptr && options.planner == PlannerKind::prm)
+      answer_.pipeline = name_of(PipelineKind::plain);
   }
 
   void run(PlannedRoadmap<Vec2>* keep) {

@@ -73,8 +73,12 @@ std::vector<double> numbers_of(const Json& json, const char* key) {
 BatchQuestions::BatchQuestions(const InputFile& file) : file_(file), rest_(file.bytes()) {
   constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";  // as spreadsheets put before CSV
   if (rest_.starts_with(byte_order_mark)) rest_.remove_prefix(byte_order_mark.size());
-  const std::string_view all = rest_;
+  std::string_view all = rest_;
   std::string_view line = trimmed(take_line());
+  while (line.empty() && !rest_.empty()) {
+    all = rest_;
+    line = trimmed(take_line());
+  }
   if (line.starts_with("start_") || line.starts_with("goal_")) {
     read_header(line);
   } else if (!line.empty() && !line.starts_with("{")) {
@@ -125,6 +129,10 @@ bool BatchQuestions::next(std::size_t most, std::vector<BatchQuestion>& some) {
 
 BatchQuestion BatchQuestions::read_csv(std::string_view line) const {
   BatchQuestion question{std::to_string(count_), {}, {}, {}};
+  if (static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) + 1 != columns_.size()) {
+    question.error = fmt::format("expected {} fields", columns_.size());
+    return question;
+  }
   for (const Column& column : columns_) {
     const std::string_view field = take_field(line);
     const auto number = field.empty() ? std::optional(empty_field) : number_of(field);
@@ -136,7 +144,6 @@ BatchQuestion BatchQuestions::read_csv(std::string_view line) const {
     if (state.size() <= column.place) state.resize(column.place + 1, empty_field);
     state[column.place] = *number;
   }
-  if (!line.empty()) question.error = fmt::format("expected {} fields", columns_.size());
   if (!take_state(question.start) || !take_state(question.goal)) question.error = "a number is missing";
   return question;
 }

@@ -138,6 +138,7 @@ Answer RoadmapQuery::ask_lattice(const Question& question, const RoadmapSearchFi
   Answer answer;
   describe_roadmap_planner(answer, problem, planner_options(roadmap_.options, roadmap_.scene, problem));
   answer.search.clear();
+  answer.pipeline.clear();
   answer.figures.push_back({"index", std::string("route")});
   if (!scratch.route) scratch.route.emplace(*roadmap_.lattice);
   try {

@@ -56,7 +56,7 @@ TEST_F(RoadmapBatch, AnswersEachLineInItsOrder) {
   EXPECT_EQ(lines[0]["path"].front(), Json::parse("[1, 1]"));
   EXPECT_EQ(lines[0]["path"].back(), Json::parse("[5, 5]"));
   EXPECT_EQ(lines[2]["error"], "expected a number (found: x)");
-  EXPECT_EQ(lines[3]["error"], "goal: a point or disc takes X,Y (found: 1 numbers)");
+  EXPECT_EQ(lines[3]["error"], "expected 4 fields");
   EXPECT_EQ(lines[4]["error"], "expected 4 fields");
   EXPECT_EQ(lines[5]["error"], "a number is missing");
   EXPECT_EQ(lines[6]["status"], "start_blocked");

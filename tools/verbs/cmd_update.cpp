@@ -2,6 +2,8 @@
 // warren update: the roadmap of a world that has changed, from the one of the world as it was.
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "core/base/error.hpp"
 #include "scenes/text/human_units.hpp"
 #include "scenes/text/output_file_io.hpp"
@@ -39,8 +41,14 @@ int update_roadmap(const Arguments& arguments) {
   Scene now = load_world(arguments.operand(1), arguments, run.execution(), seconds);
   UpdateAccount account;
   const Roadmap next = update(old, std::move(now), run.execution(), &account);
+  std::optional<OutputFile> told;  // whole before the roadmap takes its place
+  if (report) {
+    told.emplace(*report, run.execution());
+    told->write(report_of(account));
+    told->complete();
+  }
   write_roadmap(next, *file, run.execution());
-  if (report) write_file(*report, report_of(account), run.execution());
+  if (told) told->commit();
   run.end();
   run.conclude(file == "-" || report == "-", {}, [&] {
     return fmt::format("{}: {}, {} edges, {} checked; {} states new, {} gone\n", run.palette().strong(*file),

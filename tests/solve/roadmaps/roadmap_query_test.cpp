@@ -57,6 +57,7 @@ void expect_same(const Answer& answer, const Answer& expected) {
   EXPECT_EQ(answer.counters.expanded, expected.counters.expanded);
   EXPECT_EQ(answer.roadmap.milestones, expected.roadmap.milestones);
   EXPECT_EQ(answer.planner, expected.planner);
+  EXPECT_EQ(answer.pipeline, expected.pipeline);
   EXPECT_EQ(answer.world.hash, expected.world.hash);
 }
 
