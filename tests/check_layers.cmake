@@ -73,6 +73,7 @@ room(tools/screen ${all} tools/words)
 room(tools/verbs ${all} tools/words tools/screen)
 room(tools ${all} tools)
 room(bench ${all})
+room(bench/roadmaps ${all} bench)
 room(bench/rivals ${all} bench)
 room(tests ${all} bench tools)
 

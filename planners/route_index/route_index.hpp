@@ -13,7 +13,7 @@
 // All of it is plain arrays, which a file may hold (route_sections.hpp), and the same bytes for any thread count. In
 // open space nearly every cell is a junction and cuts are as long as the lattice is wide: there a search of the grid is
 // better, and the index is refused by counting.
-// A backtracker's maze of 10^8 cells on two busy cores (bench/route_phases.cpp; passages in memory before):
+// A backtracker's maze of 10^8 cells on two busy cores (bench/roadmaps/route_phases.cpp; passages in memory before):
 //   walls left that are taken out        none     1 %    10 %
 //   seconds to build                      1.6     3.0      32
 //   bytes a cell, passages included      0.95    1.07    2.89

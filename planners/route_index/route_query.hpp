@@ -2,7 +2,7 @@
 // Questions to a route index: the shortest length between two cells, and a path of that length. Both cells climb to the
 // core; cells of one tree meet in it. In the core both look around up to the gates of their leaf, and the fronts join
 // these, if the other cell wasn't nearer. Exact: the length is that of a breadth-first search of the whole lattice.
-// Cost: microseconds in trees, then the rows of the fronts above both; see bench/route_index_bench.cpp.
+// Cost: microseconds in trees, then the rows of the fronts above both; see bench/roadmaps/route_index_bench.cpp.
 #pragma once
 
 #include <cstdint>
