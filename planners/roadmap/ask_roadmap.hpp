@@ -391,6 +391,7 @@ Graph Ask<W>::free_graph() const {
   std::sort(sorted.begin(), sorted.end());
   auto next = sorted.begin();
   for (VertexId v = 0; v < vertex_count(); ++v) {
+    if (v % (1U << 14) == 0) execution_.check();
     offsets[v] = static_cast<EdgeEnd>(targets.size());
     std::size_t end = v < start_vertex() ? all.first_end(v) : 0;
     if (v < start_vertex()) {

@@ -12,17 +12,23 @@ namespace warren {
 
 namespace {
 
+constexpr std::size_t polled_vertices = std::size_t{1} << 14;
+
 /// Each edge in the row of its end.
 Graph reversed(const Graph& graph, const Execution& execution) {
   const std::size_t n = graph.vertex_count();
   execution.reserve((n + 1) * 2 * sizeof(EdgeEnd) + graph.targets().size() * sizeof(VertexId));
   RawVector<EdgeEnd> offsets(n + 1);
   std::fill(offsets.begin(), offsets.end(), EdgeEnd{0});
-  for (const VertexId w : graph.targets()) ++offsets[w + 1];
+  for (VertexId v = 0; v < n; ++v) {
+    if (v % polled_vertices == 0) execution.check();
+    for (const VertexId w : graph.neighbours(v)) ++offsets[w + 1];
+  }
   for (std::size_t v = 0; v < n; ++v) offsets[v + 1] += offsets[v];
   RawVector<EdgeEnd> next(offsets.begin(), offsets.end() - 1);
   RawVector<VertexId> targets(graph.targets().size());
   for (VertexId v = 0; v < n; ++v) {
+    if (v % polled_vertices == 0) execution.check();
     for (const VertexId w : graph.neighbours(v)) targets[next[w]++] = v;
   }
   return {std::move(offsets), std::move(targets)};
@@ -70,6 +76,7 @@ Graph one_way_graph(std::size_t vertex_count, const EdgeParts& edges, const Exec
     }
   }
   for (std::size_t v = 0; v < vertex_count; ++v) {
+    if (v % polled_vertices == 0) execution.check();
     offsets[v + 1] += offsets[v];
     std::sort(targets.begin() + offsets[v], targets.begin() + offsets[v + 1]);
   }
@@ -77,13 +84,12 @@ Graph one_way_graph(std::size_t vertex_count, const EdgeParts& edges, const Exec
 }
 
 Graph free_part(const Graph& candidates, std::span<const std::uint64_t> edge_states, const Execution& execution) {
-  constexpr std::size_t polled = std::size_t{1} << 16;
   execution.reserve((candidates.vertex_count() + 1) * sizeof(EdgeEnd) + candidates.targets().size() * sizeof(VertexId));
   RawVector<EdgeEnd> offsets(candidates.vertex_count() + 1);
   RawVector<VertexId> targets;
   targets.reserve(candidates.targets().size());
   for (VertexId v = 0; v < candidates.vertex_count(); ++v) {
-    if (v % polled == 0) execution.check();
+    if (v % polled_vertices == 0) execution.check();
     offsets[v] = static_cast<EdgeEnd>(targets.size());
     std::size_t end = candidates.first_end(v);
     for (const VertexId w : candidates.neighbours(v)) {

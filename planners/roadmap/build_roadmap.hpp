@@ -178,7 +178,10 @@ std::vector<VertexId> RoadmapBuild<W>::joined_probes() {
   const Graph free = free_part(built_.candidates, built_.edge_states, execution_);
   const auto n = static_cast<VertexId>(built_.states.size());
   std::vector<RawVector<Edge>> edges(probes + 1);
+  execution_.reserve(free.targets().size() * sizeof(Edge));
+  edges[0].reserve(free.targets().size());
   for (VertexId v = 0; v < n; ++v) {
+    if (v % (1U << 14) == 0) execution_.check();
     for (const VertexId w : free.neighbours(v)) edges[0].push_back({v, w});
   }
   for_chunks(probes, 1, execution_, [&](Range r) {

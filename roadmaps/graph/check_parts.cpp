@@ -12,7 +12,7 @@
 #include "core/base/raw_vector.hpp"
 #include "core/plane/se2.hpp"
 #include "parallel/chunks.hpp"
-#include "parallel/union_forest.hpp"
+#include "roadmaps/graph/free_components.hpp"
 
 namespace warren {
 namespace {
@@ -214,28 +214,13 @@ class PartsCheck {
 
   void check_components() const {
     const std::size_t n = parts_.vertex_count();
-    execution_.reserve(n * sizeof(VertexId));
-    RawVector<VertexId> parent(n);
-    for_chunks(n, parts_grain, execution_, [&](Range r) {
-      for (std::size_t v = r.first; v < r.last; ++v) parent[v] = static_cast<VertexId>(v);
-    });
-    const UnionForest forest(parent);
-    for_chunks(n, parts_grain, execution_, [&](Range r) {
-      for (std::size_t v = r.first; v < r.last; ++v) join_row(static_cast<VertexId>(v), forest);
-    });
-    const std::size_t bad = first_that(
-        n, execution_, [&](std::size_t v) { return forest.root(static_cast<VertexId>(v)) != parts_.component[v]; });
+    const RawVector<VertexId> expected = free_components(parts_, execution_);
+    const std::size_t bad =
+        first_that(n, execution_, [&](std::size_t v) { return expected[v] != parts_.component[v]; });
     if (bad == n) return;
     fail("component[" + number(bad) + "]",
-         "expected the smallest vertex that free edges lead to, " + number(forest.root(static_cast<VertexId>(bad))),
+         "expected the smallest vertex that free edges lead to, " + number(expected[bad]),
          number(parts_.component[bad]));
-  }
-  void join_row(VertexId v, const UnionForest& forest) const {
-    const std::size_t last = parts_.directed ? parts_.first[v + 1] : upper_begin(v);
-    for (std::size_t end = parts_.first[v]; end < last; ++end) {
-      poll(end);
-      if (parts_.state_of_end(end) == EdgeState::free) forest.join(v, parts_.to[end]);
-    }
   }
 
   const RoadmapParts& parts_;

@@ -32,7 +32,10 @@ RoadmapArrays arrays_of(const LatticePassages& passages, const Execution& execut
   }
   offsets.push_back(static_cast<EdgeEnd>(targets.size()));
   arrays.edge_states.assign(edge_state_words(targets.size()), 0);
-  for (std::size_t end = 0; end < targets.size(); ++end) set_edge_state(arrays.edge_states, end, EdgeState::free);
+  for (std::size_t end = 0; end < targets.size(); ++end) {
+    if (end % polled == 0) execution.check();
+    set_edge_state(arrays.edge_states, end, EdgeState::free);
+  }
   arrays.candidates = Graph(std::move(offsets), std::move(targets));
   arrays.component = free_components(arrays.parts(), execution);
   return arrays;

@@ -2,6 +2,7 @@
 #include "solve/roadmaps/maze_bits.hpp"
 
 #include <algorithm>
+#include <vector>
 
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
@@ -27,6 +28,7 @@ void for_each_cell(const Cells& cells, std::size_t word, const Visit& visit) {
 }
 
 RawVector<std::uint64_t> packed(const MazeCells& cells, const Execution& execution) {
+  execution.reserve(words_for(cells.cell_count()) * sizeof(std::uint64_t));
   RawVector<std::uint64_t> words(words_for(cells.cell_count()));
   for_chunks(words.size(), grain, execution, [&](Range r) {
     for (std::size_t w = r.first; w < r.last; ++w) {
@@ -39,13 +41,13 @@ RawVector<std::uint64_t> packed(const MazeCells& cells, const Execution& executi
   return words;
 }
 
-bool same_walls(const WallSet& a, const WallSet& b) {
-  return a.holds_floats() == b.holds_floats() && a.size() == b.size() && a.visit([&](auto left) {
-    return b.visit([&](auto right) {
-      return std::equal(left.begin(), left.end(), right.begin(), right.end(),
-                        [](const auto& x, const auto& y) { return x.segment() == y.segment(); });
-    });
+bool same_walls(const WallSet& a, const WallSet& b, const Execution& execution) {
+  if (a.holds_floats() != b.holds_floats() || a.size() != b.size()) return false;
+  std::vector<std::uint8_t> same(chunk_count(a.size(), grain), 1);
+  for_chunks(a.size(), grain, execution, [&](Range r) {
+    for (std::size_t i = r.first; i < r.last; ++i) same[r.first / grain] &= a.segment(i) == b.segment(i) ? 1 : 0;
   });
+  return std::find(same.begin(), same.end(), 0) == same.end();
 }
 
 }  // namespace
@@ -53,7 +55,7 @@ bool same_walls(const WallSet& a, const WallSet& b) {
 std::optional<RawVector<std::uint64_t>> maze_bits(const Scene& scene, const Execution& execution) {
   if (!scene.maze || first_wall_off_grid(scene.walls, *scene.maze, execution)) return std::nullopt;
   const MazeCells cells = cells_of_walls(scene.walls, *scene.maze, execution);
-  if (!same_walls(maze_walls(cells, false, execution), scene.walls)) return std::nullopt;
+  if (!same_walls(maze_walls(cells, false, execution), scene.walls, execution)) return std::nullopt;
   return packed(cells, execution);
 }
 

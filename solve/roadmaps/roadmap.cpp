@@ -4,13 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
-#include <iterator>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "parallel/polled_sort.hpp"
 #include "roadmaps/graph/free_components.hpp"
 #include "solve/roadmaps/changed_places.hpp"
 #include "solve/steps/kind_of_problem.hpp"
@@ -52,24 +53,41 @@ EdgeCounts edges_of(const LatticePassages& passages) {
   return {0, free, all - free};
 }
 
-/// Which states only one of the two has.
-void compare_states(const RoadmapArrays& before, const RoadmapArrays& now, UpdateAccount& account) {
-  using Numbers = std::vector<double>;
-  const auto sorted = [](const RoadmapArrays& arrays) {
-    std::vector<Numbers> states;
-    const RoadmapParts parts = arrays.parts();
-    for (VertexId v = 0; v < parts.vertex_count(); ++v)
-      states.emplace_back(parts.state(v).begin(), parts.state(v).end());
-    std::sort(states.begin(), states.end());
-    return states;
-  };
-  const std::vector<Numbers> old_states = sorted(before);
-  const std::vector<Numbers> new_states = sorted(now);
-  std::vector<Numbers> both;
-  std::set_intersection(old_states.begin(), old_states.end(), new_states.begin(), new_states.end(),
-                        std::back_inserter(both));
-  account.states_added = new_states.size() - both.size();
-  account.states_dropped = old_states.size() - both.size();
+/// All six numbers that a state can have, zeros for those that it lacks.
+using StateKey = std::array<double, 6>;
+
+std::vector<StateKey> sorted_states(const RoadmapParts& parts, const Execution& execution) {
+  constexpr std::size_t polled = std::size_t{1} << 16;
+  execution.reserve(parts.vertex_count() * sizeof(StateKey));
+  std::vector<StateKey> states(parts.vertex_count());
+  for (VertexId v = 0; v < states.size(); ++v) {
+    if (v % polled == 0) execution.check();
+    states[v].fill(0.0);
+    std::copy(parts.state(v).begin(), parts.state(v).end(), states[v].begin());
+  }
+  polled_sort(states.begin(), states.end(), execution);
+  return states;
+}
+
+/// How many states only one of the two has.
+void compare_states(const RoadmapParts& before, const RoadmapParts& now, const Execution& execution,
+                    UpdateAccount& account) {
+  constexpr std::size_t polled = std::size_t{1} << 16;
+  const std::vector<StateKey> old_states = sorted_states(before, execution);
+  const std::vector<StateKey> new_states = sorted_states(now, execution);
+  std::size_t i = 0;
+  std::size_t k = 0;
+  std::uint64_t both = 0;
+  for (std::size_t steps = 0; i < old_states.size() && k < new_states.size(); ++steps) {
+    if (steps % polled == 0) execution.check();
+    if (old_states[i] == new_states[k]) {
+      ++both, ++i, ++k;
+    } else {
+      ++(old_states[i] < new_states[k] ? i : k);
+    }
+  }
+  account.states_added = new_states.size() - both;
+  account.states_dropped = old_states.size() - both;
 }
 
 /// Was the number of samples found by growing? A lattice has as many as its maze has cells.
@@ -78,6 +96,14 @@ bool grows(const Roadmap& roadmap) {
   if (options.roadmap.samples || options.sampler == SamplerKind::lattice) return false;
   const bool is_round = roadmap.robot.kind == RobotKind::point || roadmap.robot.kind == RobotKind::disc;
   return options.sampler || !roadmap.scene.maze || !is_round;
+}
+
+/// Two lattices share the smaller one's rows and columns.
+void compare_lattices(LatticeSize before, LatticeSize now, UpdateAccount& account) {
+  const auto cells = [](std::uint64_t rows, std::uint64_t cols) { return rows * cols; };
+  const std::uint64_t both = cells(std::min(before.rows, now.rows), std::min(before.cols, now.cols));
+  account.states_added = cells(now.rows, now.cols) - both;
+  account.states_dropped = cells(before.rows, before.cols) - both;
 }
 
 ChosenSolver builder_of(const SolveOptions& options, const Scene& scene, const Question& question) {
@@ -164,7 +190,15 @@ Roadmap update(const Roadmap& roadmap, Scene now, const Execution& execution, Up
   account->built_anew = !old;
   account->edges = edges.free + edges.blocked + edges.unchecked;
   account->edges_checked = built.counters.edges_checked;
-  compare_states(roadmap.arrays, next.arrays, *account);
+  if (next.lattice != nullptr) {
+    account->edges_checked = account->edges;  // the index is made of all of them
+  }
+  if (roadmap.scene.maze && next.scene.maze && (roadmap.lattice != nullptr || next.lattice != nullptr)) {
+    const auto size = [](const MazeHint& maze) { return LatticeSize{maze.rows, maze.cols}; };
+    compare_lattices(size(*roadmap.scene.maze), size(*next.scene.maze), *account);
+  } else {
+    compare_states(roadmap.arrays.parts(), next.arrays.parts(), execution, *account);
+  }
   return next;
 }
 

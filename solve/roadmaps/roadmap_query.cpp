@@ -25,6 +25,14 @@ Question question_of(const Roadmap& roadmap, const std::vector<double>& start, c
   return question;
 }
 
+/// The answer with what does not depend on the question.
+Answer signed_by(Answer answer, const WorldAccount& world, const Execution& execution) {
+  answer.world = world;
+  answer.threads = thread_count(execution.threads);
+  answer.peak_memory_bytes = peak_resident_bytes();
+  return answer;
+}
+
 /// Above, the judge's index would take longer to make than some hundred passes over the walls.
 constexpr std::size_t most_indexed_walls = std::size_t{1} << 23;
 
@@ -125,10 +133,7 @@ Answer RoadmapQuery::ask_within(const std::vector<double>& start, const std::vec
   } catch (const RefutedPathError& error) {
     refuse_roadmap(roadmap_, error);
   }
-  answer.world = opened_->world;
-  answer.threads = thread_count(execution.threads);
-  answer.peak_memory_bytes = peak_resident_bytes();
-  return answer;
+  return signed_by(std::move(answer), opened_->world, execution);
 }
 
 Answer RoadmapQuery::ask_lattice(const Question& question, const RoadmapSearchFields& how, const Execution& execution,
@@ -158,10 +163,7 @@ Answer RoadmapQuery::ask_lattice(const Question& question, const RoadmapSearchFi
   } catch (const RefutedPathError& error) {
     refuse_roadmap(roadmap_, error);
   }
-  answer.world = opened_->world;
-  answer.threads = thread_count(execution.threads);
-  answer.peak_memory_bytes = peak_resident_bytes();
-  return answer;
+  return signed_by(std::move(answer), opened_->world, execution);
 }
 
 LengthAnswer RoadmapQuery::length_within(const std::vector<double>& start, const std::vector<double>& goal,

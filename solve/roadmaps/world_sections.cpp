@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "parallel/chunks.hpp"
 #include "scenes/formats/scene_io.hpp"
 #include "scenes/text/input_file_io.hpp"
 #include "solve/roadmaps/maze_bits.hpp"
@@ -15,6 +16,7 @@
 namespace warren {
 namespace {
 
+constexpr std::size_t wall_grain = std::size_t{1} << 16;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// All but walls, seams and map.
@@ -44,9 +46,10 @@ template <class T>
 RawVector<WallOf<T>> walls_of(std::span<const T> numbers, const Execution& execution) {
   execution.reserve(numbers.size_bytes());
   RawVector<WallOf<T>> walls(numbers.size() / 4);
-  for (std::size_t i = 0; i < walls.size(); ++i) {
-    walls[i] = {numbers[4 * i], numbers[4 * i + 1], numbers[4 * i + 2], numbers[4 * i + 3]};
-  }
+  for_chunks(walls.size(), wall_grain, execution, [&](Range r) {
+    for (std::size_t i = r.first; i < r.last; ++i)
+      walls[i] = {numbers[4 * i], numbers[4 * i + 1], numbers[4 * i + 2], numbers[4 * i + 3]};
+  });
   return walls;
 }
 
@@ -56,17 +59,23 @@ RawVector<WallOf<T>> walls_of(std::span<const T> numbers, const Execution& execu
 
 /// Coordinates as the readers of worlds take them.
 template <class T>
-void check_walls(const RoadmapFile& file, std::string_view section, std::span<const T> numbers) {
+void check_walls(const RoadmapFile& file, std::string_view section, std::span<const T> numbers,
+                 const Execution& execution) {
   if (numbers.size() % 4 != 0) refuse(file, section, "expected four numbers a wall");
-  const auto is_coordinate = [](T x) { return std::abs(static_cast<double>(x)) <= largest_coordinate; };
-  if (std::all_of(numbers.begin(), numbers.end(), is_coordinate)) return;
+  std::vector<std::uint8_t> good(chunk_count(numbers.size(), wall_grain), 1);
+  for_chunks(numbers.size(), wall_grain, execution, [&](Range r) {
+    const auto part = numbers.subspan(r.first, r.size());
+    const auto is_coordinate = [](T x) { return std::abs(static_cast<double>(x)) <= largest_coordinate; };
+    good[r.first / wall_grain] = std::all_of(part.begin(), part.end(), is_coordinate) ? 1 : 0;
+  });
+  if (std::find(good.begin(), good.end(), 0) == good.end()) return;
   refuse(file, section, "expected numbers of at most 1e60");
 }
 
 template <class T>
 WallSet read_walls(const RoadmapFile& file, const Execution& execution) {
   const auto numbers = file.section<T>("world.walls", execution);
-  check_walls(file, "world.walls", numbers);
+  check_walls(file, "world.walls", numbers, execution);
   return WallSet(walls_of(numbers, execution));
 }
 
@@ -175,7 +184,7 @@ Scene read_world_sections(const RoadmapFile& file, const Execution& execution) {
         walls->type == element_type<float>() ? read_walls<float>(file, execution) : read_walls<double>(file, execution);
   }
   if (const auto seams = file.optional_section<double>("world.seams", execution)) {
-    check_walls(file, "world.seams", *seams);
+    check_walls(file, "world.seams", *seams, execution);
     for (std::size_t i = 0; i + 3 < seams->size(); i += 4) {
       scene.seams.push_back({{(*seams)[i], (*seams)[i + 1]}, {(*seams)[i + 2], (*seams)[i + 3]}});
     }

@@ -14,6 +14,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/trigonometry.hpp"
+#include "parallel/polled_sort.hpp"
 #include "planners/roadmap/build_roadmap.hpp"
 #include "solve/question/planner_choice.hpp"
 #include "solve/roadmaps/changed_places.hpp"
@@ -63,6 +64,12 @@ RoadmapOptions roadmap_options_of(const SolveRequest& request, const Body& body)
   return options;
 }
 
+/// Looks at the deadline once in a while.
+inline void poll(std::size_t step, const Execution& execution) {
+  constexpr std::size_t polled = std::size_t{1} << 12;
+  if (step % polled == 0) execution.check();
+}
+
 /// How far from its reference point a body of the plane reaches, its clearance included.
 inline double reach_of(const Problem& problem) {
   double radius = problem.robot.radius;
@@ -85,10 +92,16 @@ template <World W>
 class OldMotions {
  public:
   using State = typename W::State;
-  OldMotions(const W& world, const OldRoadmap& old, double reach) : world_(world), old_(old), reach_(reach) {
+  OldMotions(const W& world, const OldRoadmap& old, double reach, const Execution& execution)
+      : world_(world), old_(old), reach_(reach) {
     const RoadmapParts parts = old.arrays->parts();
-    for (VertexId v = 0; v < parts.vertex_count(); ++v) vertices_.emplace_back(key_of(parts.state(v)), v);
-    std::sort(vertices_.begin(), vertices_.end());
+    execution.reserve(parts.vertex_count() * sizeof(vertices_.front()));
+    vertices_.reserve(parts.vertex_count());
+    for (VertexId v = 0; v < parts.vertex_count(); ++v) {
+      poll(v, execution);
+      vertices_.emplace_back(key_of(parts.state(v)), v);
+    }
+    polled_sort(vertices_.begin(), vertices_.end(), execution);
   }
   std::optional<bool> operator()(const State& from, const State& to) const {
     const auto v = vertex_of(from);
@@ -129,7 +142,7 @@ KnownMotions<typename W::State> known_motions(const W& world, const SolveRequest
     return {};
   } else {
     if (request.old == nullptr) return {};
-    return OldMotions<W>(world, *request.old, reach_of(problem));
+    return OldMotions<W>(world, *request.old, reach_of(problem), request.execution);
   }
 }
 
@@ -163,7 +176,10 @@ BuiltArrays build_sampled(const SolveRequest& request) {
   arrays.directed = edge_directions<World>() == EdgeDirections::one;
   execution.reserve(built.states.size() * arrays.dimension * sizeof(double));
   arrays.states.reserve(built.states.size() * arrays.dimension);
-  for (const State& state : built.states) detail::add_numbers(state, arrays.states);
+  for (const State& state : built.states) {
+    detail::poll(arrays.states.size(), execution);
+    detail::add_numbers(state, arrays.states);
+  }
   arrays.candidates = std::move(built.candidates);
   arrays.edge_states = std::move(built.edge_states);
   return all;
@@ -188,8 +204,10 @@ std::unique_ptr<RoadmapSession> open_sampled(const SolveRequest& request, const 
   RawVector<State> states;
   request.execution.reserve(arrays.states.size() * sizeof(double));
   states.reserve(numbers.size() / width);
-  for (std::size_t i = 0; i < numbers.size(); i += width)
+  for (std::size_t i = 0; i < numbers.size(); i += width) {
+    detail::poll(i / width, request.execution);
     states.push_back(detail::state_of<State>(numbers.subspan(i, width)));
+  }
   session->roadmap.emplace(*session->world, std::move(states), arrays.candidates, arrays.edge_states, rule,
                            request.planner == PlannerKind::lazy_prm, request.execution);
   return session;

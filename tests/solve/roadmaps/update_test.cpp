@@ -125,5 +125,18 @@ TEST(Update, OfTheSameWorldAsksNothing) {
   EXPECT_EQ(account.states_added + account.states_dropped, 0U);
 }
 
+TEST(Update, AnIndexedLatticeIsMadeAnewAndSaysSo) {
+  const Roadmap roadmap = build(read_world("maze:256x256,seed=2"));
+  ASSERT_NE(roadmap.lattice, nullptr);
+  UpdateAccount account;
+  const Roadmap larger = update(roadmap, read_world("maze:257x300,seed=2"), {}, &account);
+  ASSERT_NE(larger.lattice, nullptr);
+  EXPECT_TRUE(account.built_anew);
+  EXPECT_EQ(account.edges_checked, account.edges);
+  EXPECT_EQ(account.edges, 2U * 257 * 300 - 257 - 300);
+  EXPECT_EQ(account.states_added, 257U * 300 - 256 * 256);
+  EXPECT_EQ(account.states_dropped, 0U);
+}
+
 }  // namespace
 }  // namespace warren
