@@ -44,8 +44,10 @@ ExportAccount write_roadmap_csv(const ExportedRoadmapView& roadmap, const std::s
   write_edge_table(edges, edge_file, execution);
   vertex_file.complete();
   edge_file.complete();
+  FirstOfTwoFiles first(vertex_path);
   vertex_file.commit();
   edge_file.commit();
+  first.keep();
   return edges.account();
 }
 

@@ -67,8 +67,10 @@ ExportAccount write_roadmap_dimacs(const ExportedRoadmapView& roadmap, const std
   write_coordinates(roadmap.parts, coordinate_file, execution);
   arc_file.complete();
   coordinate_file.complete();
+  FirstOfTwoFiles first(arc_path);
   arc_file.commit();
   coordinate_file.commit();
+  first.keep();
   return edges.account();
 }
 

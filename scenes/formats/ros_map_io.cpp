@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 #include <pwd.h>
-#include <unistd.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
@@ -334,14 +333,10 @@ void write_ros_map(const OccupancyMap& map, const std::string& path, const Execu
       fmt::format("image: {}\nresolution: {}\norigin: [{}, {}, {}]\nnegate: 0\noccupied_thresh: 0.65\n"
                   "free_thresh: 0.196\n",
                   yaml_text(name), map.cell, map.origin.x, map.origin.y, map.yaw_rad));
-  const bool is_new = ::access(image.c_str(), F_OK) != 0;
-  try {
-    write_map_pgm(map, image, UnknownCells::grey, execution);
-    yaml.commit();
-  } catch (...) {
-    if (is_new) ::unlink(behind_links(image).c_str());  // half a map is none
-    throw;
-  }
+  FirstOfTwoFiles first(image);
+  write_map_pgm(map, image, UnknownCells::grey, execution);
+  yaml.commit();
+  first.keep();
 }
 
 }  // namespace warren

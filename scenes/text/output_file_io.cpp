@@ -252,6 +252,14 @@ void OutputFile::commit() {
 
 void OutputFile::fail(int error) const { throw WriteError(name_, std::generic_category().message(error)); }
 
+FirstOfTwoFiles::FirstOfTwoFiles(const std::string& path) {
+  if (path != "-" && ::access(path.c_str(), F_OK) != 0) path_ = behind_links(path);
+}
+
+FirstOfTwoFiles::~FirstOfTwoFiles() {
+  if (!path_.empty()) ::unlink(path_.c_str());
+}
+
 void write_file(const std::string& path, std::string_view bytes, const Execution& execution) {
   OutputFile file(path, execution);
   file.write(bytes);

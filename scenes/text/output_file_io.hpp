@@ -49,6 +49,22 @@ class OutputFile {
   int file_ = -1;
 };
 
+/// Takes back the first of two files that belong together, if it was not there before and the second fails: half of
+/// them is none. Made before the first is written.
+class FirstOfTwoFiles {
+ public:
+  explicit FirstOfTwoFiles(const std::string& path);
+  /// Removes the file, unless there was one before or keep() was called.
+  ~FirstOfTwoFiles();
+  FirstOfTwoFiles(const FirstOfTwoFiles&) = delete;
+  FirstOfTwoFiles& operator=(const FirstOfTwoFiles&) = delete;
+  /// Both are in their places.
+  void keep() { path_.clear(); }
+
+ private:
+  std::string path_;  // empty: stays
+};
+
 /// Writes a whole file at once.
 void write_file(const std::string& path, std::string_view bytes, const Execution& execution);
 

@@ -157,6 +157,28 @@ def file_cases(w, full):
     return cases
 
 
+def roadmap_cases(w, full):
+    """Roadmaps that are kept: built, asked, updated, exported and looked through."""
+    side = 600 if full else 150
+    maze, polygons = f"maze:{side}x{side}", w.polygons(20000 if full else 2000)
+    turning, arm = w.posts(5000 if full else 500, "polygon -0.6 -0.1 0.6 -0.1 0.6 0.1 -0.6 0.1"), w.boxes(500)
+    many = 400_000 if full else 40_000
+    few = many // 40
+    cases = [(["build", world, "--planner", planner, "--samples", samples], {"-o": "out.roadmap"})
+             for world, samples in ((maze, many), (polygons, many), (turning, few), (arm, few))
+             for planner in ("prm", "lazy-prm")]
+    cases += [(["build", f"maze:{2000 if full else 500}x{2000 if full else 500},loops=0.1"], {"-o": "out.roadmap"})]
+    kept = w.made(f"kept-{many}.roadmap", "build", maze, "--samples", many)
+    lines = ["start_x,start_y,goal_x,goal_y"] + [f"{1 + i % side},{1 + i * 7 % side},{side},{1 + i % 9}"
+                                                 for i in range(20_000)]
+    cases += [(["query", kept], {"--json": "answer.json", "--keep": "out.roadmap"}),
+              (["query", kept, "--batch", w.written(f"batch-{side}.csv", lines)], {}),
+              (["update", kept, f"{maze},seed=2"], {"-o": "out.roadmap", "--report": "out.json"}),
+              (["info", kept, "--check", "all"], {"--json": "info.json"})]
+    cases += [(["export", kept], {"-o": name}) for name in ("out.geojson", "out.graphml", "out.npz", "out.gr")]
+    return cases
+
+
 def study_cases(w, full):
     """Their --budget is each run's, so only signals stop them."""
     polygons, maze = w.polygons(20000 if full else 1000), f"maze:{600 if full else 200}x{600 if full else 200}"

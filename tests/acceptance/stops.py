@@ -119,7 +119,8 @@ class Stop:
         if not self.came_too_late and self.code != CODES[self.kind]:
             raise Failure(f"exit code {self.code}, not {CODES[self.kind]}: {self.shown()}\n{self.said[-300:]}")
         left = sorted(os.listdir(self.folder))
-        strangers = [name for name in left if name not in self.outputs.values()]
+        twins = [name[:-3] + ".co" for name in left if name.endswith(".gr")]  # what belongs together comes together
+        strangers = [name for name in left if name not in [*self.outputs.values(), *twins]]
         if strangers:
             raise Failure(f"left {strangers}: {self.shown()}")
         for option, name in self.outputs.items():
@@ -224,7 +225,8 @@ def main():
     program, table, failures = Program(options.program, folder), [], []
     worlds, dice = stop_cases.Worlds(program, folder, options.full), random.Random(options.seed)
     cases = [case for list_cases in (stop_cases.solve_cases, stop_cases.picture_cases, stop_cases.file_cases,
-                                     stop_cases.study_cases) for case in list_cases(worlds, options.full)]
+                                     stop_cases.roadmap_cases, stop_cases.study_cases)
+             for case in list_cases(worlds, options.full)]
     for case in cases:
         if options.only not in " ".join(map(str, case[0])):
             continue

@@ -37,12 +37,18 @@ RUNS = [
     ("convert to a picture", "convert w.scene -o w.png", ["w.png"]),
     ("compare", "compare w.scene --planners prm,lazy-prm --seeds 1 --json c.json --csv c.csv --log c.log --threads 1",
      ["c.json", "c.csv", "c.log"]),
+    ("build", "build w.scene --samples 60 -o r.roadmap --threads 1", ["r.roadmap"]),
+    ("query", "query kept.roadmap --json a.json --svg a.svg --keep k.roadmap --threads 1",
+     ["a.json", "a.svg", "k.roadmap"]),
+    ("update", "update kept.roadmap w.scene -o u.roadmap --report u.json --threads 1", ["u.roadmap", "u.json"]),
+    ("export", "export kept.roadmap -o x.gr", ["x.gr", "x.co"]),
 ]
 TIMES = re.compile(r'"(stages_s|solve_s|peak_memory_bytes|threads|time_s|seconds|machine|memory_bytes)')
 
 
 def prepare(program: str, folder: Path) -> None:
-    for words in ("generate maze 5x5 -o w.scene", "generate maze 60x60 -o big.npy"):
+    for words in ("generate maze 5x5 -o w.scene", "generate maze 60x60 -o big.npy",
+                  "build w.scene --samples 60 --planner lazy-prm -o kept.roadmap"):
         subprocess.run([program, *words.split()], cwd=folder, check=True, stdout=subprocess.DEVNULL)
     (folder / "m.pgm").write_text("P2\n3 3\n255\n0 0 0\n255 255 255\n0 0 0\n")
     (folder / "m.yaml").write_text("image: m.pgm\n" + ROS_KEYS)
@@ -105,7 +111,8 @@ class Campaign:
         said = run.stderr.decode(errors="replace").strip()
         if run.returncode not in HONEST:
             return f"exit code {run.returncode}: {said}"
-        is_answer = run.returncode == 124 and ("solve" in name or "compare" in name)  # which says that it was stopped
+        tells = "solve" in name or "compare" in name or name == "query"
+        is_answer = run.returncode == 124 and tells  # which says that it was stopped
         if run.returncode != 0 and not is_answer and (not said.startswith("warren: ") or "\n" in said):
             return f"exit code {run.returncode} with other than one line: {said!r}"
         for path in folder.iterdir():
@@ -115,8 +122,8 @@ class Campaign:
             if (folder / path.name).read_bytes() != path.read_bytes():
                 return f"{path.name} was changed"
         missing = [output for output in outputs if not (folder / output).exists()]
-        if name == "convert" and 0 < len(missing) < len(outputs):
-            return f"exit code {run.returncode} leaves half a map, without {missing[0]}"
+        if name in ("convert", "update", "export") and 0 < len(missing) < len(outputs):
+            return f"exit code {run.returncode} leaves half of what belongs together, without {missing[0]}"
         for output in outputs:
             there = (folder / output).exists()
             if run.returncode == 0 and not there:

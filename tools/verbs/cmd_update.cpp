@@ -47,8 +47,10 @@ int update_roadmap(const Arguments& arguments) {
     told->write(report_of(account));
     told->complete();
   }
+  FirstOfTwoFiles first(*file);
   write_roadmap(next, *file, run.execution());
   if (told) told->commit();
+  first.keep();
   run.end();
   run.conclude(file == "-" || report == "-", {}, [&] {
     return fmt::format("{}: {}, {} edges, {} checked; {} states new, {} gone\n", run.palette().strong(*file),
