@@ -3,6 +3,8 @@
 // bounds, or among the cells of a map. Dubins curves have a direction: their roadmaps are
 // planners/roadmap/one_way_prm.hpp's. The answer's path has a pose wherever the steering or the gear changes, and one a
 // quarter turn, so each leg is a straight or an arc that its two poses tell wholly.
+#include <fmt/format.h>
+
 #include <optional>
 #include <span>
 #include <string>
@@ -10,6 +12,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "planners/shorten/redrive.hpp"
 #include "solve/kinds/pose_body.hpp"
 #include "solve/question/tree_choice.hpp"
 #include "solve/steps/kind_of_problem.hpp"
@@ -19,6 +22,7 @@
 #include "solve/steps/solve_steps.hpp"
 #include "verify/judges/verify_car.hpp"
 #include "worlds/poses/car_world.hpp"
+#include "worlds/poses/priced_car.hpp"
 
 namespace warren {
 namespace {
@@ -47,11 +51,19 @@ class Car : public PoseBody {
 
   explicit Car(const SolveRequest& request)
       : PoseBody(request, car_problem(request.scene, request.question, request.options.car)),
-        asked_(request.options.car) {}
+        asked_(request.options.car) {
+    if (!asked_.cusp_cost && !asked_.reverse_cost) return;
+    const std::string_view option = name_of(asked_.cusp_cost ? Option::cusp_cost : Option::reverse_cost);
+    if (!request.options.optimise)
+      throw UsageError(fmt::format("@{} prices what @optimise drives: ask for it", option));
+    if (Curve::one_way) throw UsageError(fmt::format("@{}: a car with @steering dubins has one gear", option));
+  }
 
   void add_options(Answer& answer) const {
     if (asked_.steering) answer.options.push_back({"steering", std::string(name_of(*asked_.steering))});
     if (asked_.turning_radius) answer.options.push_back({"turning_radius", *asked_.turning_radius});
+    if (asked_.cusp_cost) answer.options.push_back({"cusp_cost", *asked_.cusp_cost});
+    if (asked_.reverse_cost) answer.options.push_back({"reverse_cost", *asked_.reverse_cost});
   }
   void index(std::optional<World>& world, SamplerKind) const {
     const RobotSpec& robot = question().robot;
@@ -70,11 +82,22 @@ class Car : public PoseBody {
   static double length(const World& world, const Se2& a, const Se2& b) { return world.distance(a, b); }
   Path<Se2> shortened(const World& world, Path<Se2> path, Answer& answer) const {
     const auto curve_length = [&](const Se2& a, const Se2& b) { return length(world, a, b); };
-    return shortcut(world, std::move(path), curve_length, answer);
+    path = shortcut(world, std::move(path), curve_length, answer);
+    if constexpr (!Curve::one_way) path = redriven(world, std::move(path), answer);
+    return path;
   }
   void judge(const World& world, const Path<Se2>& path, Answer& answer) const;
 
  private:
+  /// With fewer changes of gear, and less of it backwards, as their prices have it.
+  Path<Se2> redriven(const World& world, Path<Se2> path, Answer& answer) const {
+    const DrivingPrice price{asked_.cusp_cost.value_or(question().robot.turning_radius),
+                             asked_.reverse_cost.value_or(1.0)};
+    if (price.cusp == 0.0 && price.reverse == 1.0) return path;
+    return redriven_path(PricedCar(world.body(), price), std::move(path), {.seed = answer.seed}, execution(),
+                         answer.counters);
+  }
+
   CarFields asked_;
 };
 
@@ -96,7 +119,7 @@ void Car<Curve>::judge(const World& world, const Path<Se2>& path, Answer& answer
   record_poses(answer, poses);
 }
 
-constexpr OptionSet curve_options{Option::steering, Option::turning_radius};
+constexpr OptionSet curve_options{Option::steering, Option::turning_radius, Option::cusp_cost, Option::reverse_cost};
 constexpr PlannerChoice car_planners[] = {{PlannerKind::rrt_connect, rrt_connect_options | curve_options},
                                           {PlannerKind::rrt, rrt_options | curve_options},
                                           {PlannerKind::prm, prm_takes | curve_options},

@@ -60,6 +60,8 @@ void SolveOptions::validate() const {
   check_positive(Option::turn_cost, grid.turn_cost);
   check_positive(Option::sampled_edges, visibility.sampled_edges);
   check_positive(Option::turning_radius, car.turning_radius);
+  check_range(Option::cusp_cost, car.cusp_cost, 0.0, largest_coordinate);
+  check_range(Option::reverse_cost, car.reverse_cost, 1.0, largest_coordinate);
 }
 
 OptionSet given(const SolveOptions& o) {
@@ -94,6 +96,8 @@ OptionSet given(const SolveOptions& o) {
   add(Option::via, !o.trees.via.empty());
   add(Option::steering, o.car.steering.has_value());
   add(Option::turning_radius, o.car.turning_radius.has_value());
+  add(Option::cusp_cost, o.car.cusp_cost.has_value());
+  add(Option::reverse_cost, o.car.reverse_cost.has_value());
   add(Option::attach, o.roadmap.attach.has_value());
   return set;
 }

@@ -95,6 +95,8 @@ struct VisibilityFields {
 struct CarFields {
   std::optional<SteeringKind> steering = {};
   std::optional<double> turning_radius = {};  ///< > 0
+  std::optional<double> cusp_cost = {};     ///< optimise: of a change of gear, as length, >= 0; none: a turning radius
+  std::optional<double> reverse_cost = {};  ///< optimise: of a unit of length driven backwards, >= 1; none: 1
 };
 
 struct SolveOptions {
@@ -145,14 +147,16 @@ enum class Option : std::uint8_t {
   via,
   steering,
   turning_radius,
+  cusp_cost,
+  reverse_cost,
   attach
 };
 constexpr auto enum_names(Option) {
-  return std::array<std::string_view, 28>{
-      "sampler",   "samples",  "neighbours", "radius",        "search",      "queue",          "lazy",
-      "pipeline",  "optimise", "cell",       "angles",        "face_motion", "step_cost",      "turn_cost",
-      "diagonal",  "layers",   "full",       "sampled_edges", "doors",       "objective",      "step",
-      "goal_bias", "nodes",    "trees",      "via",           "steering",    "turning_radius", "attach"};
+  return std::array<std::string_view, 30>{
+      "sampler",  "samples",       "neighbours",     "radius",      "search",       "queue",     "lazy",     "pipeline",
+      "optimise", "cell",          "angles",         "face_motion", "step_cost",    "turn_cost", "diagonal", "layers",
+      "full",     "sampled_edges", "doors",          "objective",   "step",         "goal_bias", "nodes",    "trees",
+      "via",      "steering",      "turning_radius", "cusp_cost",   "reverse_cost", "attach"};
 }
 inline constexpr std::size_t option_count = enum_names(Option{}).size();
 
@@ -170,8 +174,8 @@ class OptionSet {
   friend constexpr bool operator==(OptionSet, OptionSet) = default;
 
  private:
-  static constexpr std::uint32_t bit(Option option) { return std::uint32_t{1} << static_cast<unsigned>(option); }
-  std::uint32_t bits_ = 0;
+  static constexpr std::uint64_t bit(Option option) { return std::uint64_t{1} << static_cast<unsigned>(option); }
+  std::uint64_t bits_ = 0;
 };
 OptionSet given(const SolveOptions& options);
 

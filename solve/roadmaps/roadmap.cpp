@@ -23,7 +23,8 @@ namespace {
 /// What says how a roadmap is searched or how its planner works while it searches means nothing to one that is kept.
 void refuse_what_is_asked_later(const SolveOptions& options) {
   const OptionSet all = given(options);
-  for (const Option option : {Option::search, Option::queue, Option::optimise}) {
+  for (const Option option :
+       {Option::search, Option::queue, Option::optimise, Option::cusp_cost, Option::reverse_cost}) {
     if (!all.has(option)) continue;
     throw UsageError(fmt::format("@{}: is for a question; say it when the roadmap is asked", name_of(option)));
   }

@@ -113,6 +113,8 @@ Answer RoadmapQuery::ask_within(const std::vector<double>& start, const std::vec
   options.search = how.search;
   options.queue = how.queue;
   options.optimise = how.optimise;
+  options.car.cusp_cost = how.cusp_cost;
+  options.car.reverse_cost = how.reverse_cost;
   if (how.attach) options.roadmap.attach = how.attach;
   options.validate();
   check_solver_options(options);

@@ -24,6 +24,8 @@ struct RoadmapSearchFields {
   std::optional<QueueKind> queue = {};       ///< none: heap
   std::optional<GrowingAttach> attach = {};  ///< arms alone
   bool optimise = false;                     ///< pull the path taut after the search
+  std::optional<double> cusp_cost = {};      ///< as CarFields has them, with optimise
+  std::optional<double> reverse_cost = {};
 };
 
 /// What one thread keeps from one question to the next.

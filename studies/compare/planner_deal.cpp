@@ -61,6 +61,8 @@ constexpr std::array<Copy, option_count> copies{
     part<&SolveOptions::trees, &TreeFields::via>,
     part<&SolveOptions::car, &CarFields::steering>,
     part<&SolveOptions::car, &CarFields::turning_radius>,
+    part<&SolveOptions::car, &CarFields::cusp_cost>,
+    part<&SolveOptions::car, &CarFields::reverse_cost>,
     part<&SolveOptions::roadmap, &RoadmapFields::attach>,
 };
 

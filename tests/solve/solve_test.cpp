@@ -116,6 +116,38 @@ TEST(Solve, AGoalWithoutHeadingMayBeReachedWithAny) {
   }
 }
 
+std::uint64_t cusps_of(const Answer& answer) {
+  return std::get<std::uint64_t>(*figure_named(answer.path_figures, "cusps"));
+}
+
+TEST(Solve, CarsThatOptimiseChangeGearWhereTheyMust) {
+  for (const char* name : {"parking.scene", "parking-lot.scene"}) {
+    const Scene street = example(name);
+    for (const std::uint64_t seed : {1, 2}) {
+      const Answer answer = solve(street, {}, {.seed = seed, .optimise = true});
+      ASSERT_EQ(answer.outcome, Outcome::solved) << name;
+      EXPECT_TRUE(answer.verified);
+      EXPECT_LE(cusps_of(answer), 3) << name << ", seed " << seed;
+    }
+  }
+}
+
+TEST(Solve, PricesOfDrivingAreWeighedAgainstLength) {
+  const Scene street = example("parking-lot.scene");
+  const auto driven = [&](double cusp, double reverse) {
+    return solve(street, {}, {.optimise = true, .car = {.cusp_cost = cusp, .reverse_cost = reverse}});
+  };
+  const Answer shortest = driven(0.0, 1.0);
+  const Answer steady = driven(10.0, 1.0);
+  EXPECT_LT(cusps_of(steady), cusps_of(shortest));
+  EXPECT_LE(steady.length + 10.0 * static_cast<double>(cusps_of(steady)),
+            shortest.length + 10.0 * static_cast<double>(cusps_of(shortest)));
+  EXPECT_THROW(solve(street, {}, {.car = {.cusp_cost = 1.0}}), UsageError) << "nothing is optimised";
+  EXPECT_THROW(driven(1.0, 0.5), UsageError);
+  EXPECT_THROW(solve(example("car-20.scene"), {}, {.optimise = true, .car = {.reverse_cost = 2.0}}), UsageError)
+      << "it never drives backwards";
+}
+
 TEST(Solve, RefusesByNameWhatThePlannerWouldIgnore) {
   const Scene scene = example("poly-easy.scene");
   const SolveOptions options{.planner = PlannerKind::visibility, .trees = {.goal_bias = 0.5}};

@@ -53,7 +53,8 @@ int build_roadmap_file(const Arguments& arguments) {
 Command build_command() {
   Command command{"build", "WORLD", "build a roadmap once, for many questions", {}, build_roadmap_file};
   add_options(command.options, build_specs);
-  add_options(command.options, solve_option_specs(), {"--search", "--queue", "--optimise", "--lazy", "--pipeline"});
+  add_options(command.options, solve_option_specs(),
+              {"--search", "--queue", "--optimise", "--cusp-cost", "--reverse-cost", "--lazy", "--pipeline"});
   add_options(command.options, question_option_specs(), {"--start", "--goal", "--contact"});
   add_options(command.options, world_option_specs());
   add_options(command.options, run_option_specs());

@@ -2,8 +2,10 @@
 // warren query: asks a roadmap from a file, once or for each line of a batch. The file is never written.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "core/base/error.hpp"
@@ -32,7 +34,7 @@ constexpr OptionSpec query_specs[] = {
 
 RoadmapSearchFields how_to_search(const Arguments& arguments) {
   const SolveOptions words = solve_words(arguments);
-  return {words.search, words.queue, words.roadmap.attach, words.optimise};
+  return {words.search, words.queue, words.roadmap.attach, words.optimise, words.car.cusp_cost, words.car.reverse_cost};
 }
 
 class QueryCommand : public AnswerCommand {
@@ -101,9 +103,9 @@ Command query_command() {
   Command command{"query", "ROADMAP", "ask a roadmap for a path, or for many", {}, query_roadmap};
   add_options(command.options, query_specs);
   for (const OptionSpec& spec : solve_option_specs()) {
-    if (spec.name == "--search" || spec.name == "--queue" || spec.name == "--optimise" || spec.name == "--attach") {
-      command.options.push_back(spec);
-    }
+    constexpr std::string_view asked[] = {"--search",    "--queue",        "--optimise",
+                                          "--cusp-cost", "--reverse-cost", "--attach"};
+    if (std::find(std::begin(asked), std::end(asked), spec.name) != std::end(asked)) command.options.push_back(spec);
   }
   add_options(command.options, question_option_specs(), {"--robot", "--clearance", "--contact"});
   add_options(command.options, world_option_specs());

@@ -54,6 +54,9 @@ constexpr OptionSpec body_specs[] = {
     {"--steering", "WORD", "a car's curves: forwards only, or backwards too (default: the file's, else dubins)",
      "dubins reeds-shepp"},
     {"--turning-radius", "RHO", "a car's, > 0 (default: the file's)"},
+    {"--cusp-cost", "C",
+     "with --optimise: so much length a car drives to spare a change of gear, >= 0 (default: a turning radius)"},
+    {"--reverse-cost", "F", "with --optimise: what a car's way backwards costs of one forwards, >= 1 (default: 1)"},
     {"--attach", "R[,STEP]",
      "arms: join start and goal to a roadmap within R, and while that fails within STEP more, 10 times in all "
      "(default: as far as the K nearest, and half of that)"},
@@ -138,6 +141,8 @@ SolveOptions solve_words(const Arguments& arguments) {
   options.visibility.sampled_edges = given_value(arguments, "--sampled-edges", positive_value);
   options.car.steering = given_choice<SteeringKind>(arguments, "--steering");
   options.car.turning_radius = given_value(arguments, "--turning-radius", positive_value);
+  options.car.cusp_cost = given_value(arguments, "--cusp-cost", number_value, 0.0, largest_coordinate);
+  options.car.reverse_cost = given_value(arguments, "--reverse-cost", number_value, 1.0, largest_coordinate);
   return options;
 }
 

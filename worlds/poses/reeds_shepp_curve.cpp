@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 
@@ -110,9 +111,40 @@ SteeringWord word_of(const Solved& w) {
 }
 
 /// The shortest of all words that are longer than `longer_than`.
+class Shortest {
+ public:
+  explicit Shortest(double longer_than) : longer_than_(longer_than) {}
+  /// Is it worth to go on with a word that has at least this length?
+  bool worth(double at_least) const { return at_least < best_.length; }
+  void take(const Solved& word) {
+    if (word.length < best_.length && word.length > longer_than_) best_ = word;
+  }
+  const Solved& best() const { return best_; }
+
+ private:
+  double longer_than_;
+  Solved best_;
+};
+
+/// All words up to a length.
+class All {
+ public:
+  All(double longest, const std::function<void(const SteeringWord&)>& visit) : longest_(longest), visit_(visit) {}
+  bool worth(double at_least) const { return at_least <= longest_; }
+  void take(const Solved& word) {
+    if (word.length <= longest_) visit_(word_of(word));
+  }
+
+ private:
+  double longest_;
+  const std::function<void(const SteeringWord&)>& visit_;
+};
+
+/// Hands the words to a goal, as far as they are worth it, to the taker.
+template <class Taker>
 class Enumeration {
  public:
-  Enumeration(const Se2& goal, double longer_than) : longer_than_(longer_than) {
+  Enumeration(const Se2& goal, Taker& taker) : taker_(taker) {
     const auto [s, c] = portable::sin_and_cos(goal.theta);
     for (const bool mirrored : {false, true}) {
       const double side = mirrored ? -1.0 : 1.0;
@@ -128,7 +160,6 @@ class Enumeration {
       }
     }
   }
-  const Solved& best() const { return best_; }
 
  private:
   /// The goal, changed, and the vectors from the first circle (left) to the last one, left or right.
@@ -148,22 +179,20 @@ class Enumeration {
     }
   };
 
-  /// Is it worth to go on with a word that has at least this length?
-  bool worth(double at_least) const { return at_least < best_.length; }
+  bool worth(double at_least) const { return taker_.worth(at_least); }
   void take(const Frame& frame, Shape shape, double first, double middle, double last, double fixed) {
-    const double length = fixed + std::abs(first) + std::abs(last);
-    if (length < best_.length && length > longer_than_) best_ = {length, shape, frame.change, first, middle, last};
+    taker_.take({fixed + std::abs(first) + std::abs(last), shape, frame.change, first, middle, last});
   }
   void solve_all(const Frame& f);
   void solve_four_arcs(const Frame& f);
   void solve_quarter(const Frame& f);
   void solve_two_quarters(const Frame& f);
 
-  double longer_than_;
-  Solved best_;
+  Taker& taker_;
 };
 
-void Enumeration::solve_all(const Frame& f) {
+template <class Taker>
+void Enumeration<Taker>::solve_all(const Frame& f) {
   constexpr double one_circle = 1e-9;
   if (worth(f.to_left.size)) {
     const double first = f.to_left.size > one_circle ? f.to_left.angle : 0.0;
@@ -188,7 +217,8 @@ void Enumeration::solve_all(const Frame& f) {
   solve_two_quarters(f);
 }
 
-void Enumeration::solve_four_arcs(const Frame& f) {
+template <class Taker>
+void Enumeration<Taker>::solve_four_arcs(const Frame& f) {
   const double out_cosine = 0.25 * (2.0 + f.to_right.size);
   if (out_cosine <= 1.0 + touching) {
     const double arc = portable::acos(std::min(out_cosine, 1.0));
@@ -207,7 +237,8 @@ void Enumeration::solve_four_arcs(const Frame& f) {
   }
 }
 
-void Enumeration::solve_quarter(const Frame& f) {
+template <class Taker>
+void Enumeration<Taker>::solve_quarter(const Frame& f) {
   if (f.to_left.size >= 2.0 - touching) {
     const double across = root(f.to_left.size * f.to_left.size - 4.0);
     const double straight = 2.0 - across;
@@ -223,7 +254,8 @@ void Enumeration::solve_quarter(const Frame& f) {
   }
 }
 
-void Enumeration::solve_two_quarters(const Frame& f) {
+template <class Taker>
+void Enumeration<Taker>::solve_two_quarters(const Frame& f) {
   if (f.to_right.size < 2.0 - touching) return;
   const double across = root(f.to_right.size * f.to_right.size - 4.0);
   const double straight = 4.0 - across;
@@ -251,13 +283,17 @@ SteeringWord shortest_onwards(const Se2& a, const Se2& b, double turning_radius)
   const Se2 goal = seen_from(a, b, turning_radius);
   double longer_than = -1.0;
   for (;;) {
-    const Solved solved = Enumeration(goal, longer_than).best();
+    Shortest shortest(longer_than);
+    Enumeration<Shortest>(goal, shortest);
+    const Solved& solved = shortest.best();
     if (!std::isfinite(solved.length)) break;
     const SteeringWord word = word_of(solved);
     if (ends_at(word, goal)) return word;
     longer_than = solved.length;
   }
-  return word_of(Enumeration(goal, -1.0).best());
+  Shortest any(-1.0);
+  Enumeration<Shortest>(goal, any);
+  return word_of(any.best());
 }
 
 }  // namespace
@@ -265,6 +301,12 @@ SteeringWord shortest_onwards(const Se2& a, const Se2& b, double turning_radius)
 SteeringWord ReedsSheppCurve::shortest(const Se2& a, const Se2& b, double turning_radius) noexcept {
   if (a == b) return {};
   return precedes(b, a) ? driven_back(shortest_onwards(b, a, turning_radius)) : shortest_onwards(a, b, turning_radius);
+}
+
+void ReedsSheppCurve::for_each_word(const Se2& a, const Se2& b, double turning_radius, double longest,
+                                    const std::function<void(const SteeringWord&)>& visit) {
+  All all(longest, visit);
+  Enumeration<All>(seen_from(a, b, turning_radius), all);
 }
 
 }  // namespace warren

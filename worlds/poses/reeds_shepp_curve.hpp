@@ -10,6 +10,8 @@
 // forms. The length is a metric, and continuous. bench/steering_bench.cpp: below 1 us a pair.
 #pragma once
 
+#include <functional>
+
 #include "worlds/poses/steering_curve.hpp"
 
 namespace warren {
@@ -21,6 +23,10 @@ struct ReedsSheppCurve {
 
   /// The shortest word from a to b; turning_radius > 0.
   static SteeringWord shortest(const Se2& a, const Se2& b, double turning_radius) noexcept;
+  /// Every word towards b of at most this length, in turning radii, in no order; some of them twice. What is visited
+  /// leads to b only if ends_at(word, seen_from(a, b, turning_radius)).
+  static void for_each_word(const Se2& a, const Se2& b, double turning_radius, double longest,
+                            const std::function<void(const SteeringWord&)>& visit);
 };
 
 }  // namespace warren

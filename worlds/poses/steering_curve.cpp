@@ -58,7 +58,6 @@ bool ends_at(const SteeringWord& word, const Se2& goal) noexcept {
 
 SteeringCurve::SteeringCurve(const Se2& a, const Se2& b, const SteeringWord& word, double turning_radius) noexcept
     : radius_(turning_radius) {
-  constexpr double nothing = 1e-12;
   joints_[0] = a;
   for (const SteeringPiece& piece : word.used()) {
     if (std::abs(piece.length) < nothing) continue;

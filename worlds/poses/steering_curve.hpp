@@ -46,9 +46,10 @@ Se2 after_piece(const Se2& from, const SteeringPiece& piece) noexcept;
 /// Does the word, driven from the origin, end at `goal` up to rounding?
 bool ends_at(const SteeringWord& word, const Se2& goal) noexcept;
 
-/// A word between two poses, in world units. Pieces of no length to speak of (1e-12 radii) are left out.
+/// A word between two poses, in world units. Pieces of no length to speak of are left out.
 class SteeringCurve {
  public:
+  static constexpr double nothing = 1e-12;  ///< turning radii
   /// word: leads from a to b with this turning radius (> 0).
   SteeringCurve(const Se2& a, const Se2& b, const SteeringWord& word, double turning_radius) noexcept;
 

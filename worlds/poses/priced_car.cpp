@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "worlds/poses/priced_car.hpp"
+
+#include <cmath>
+
+#include "worlds/poses/reeds_shepp_curve.hpp"
+
+namespace warren {
+
+struct PricedCar::Recipe {
+  SteeringWord word;
+  double price = 0.0;
+  std::int8_t first_gear = 0;
+  std::int8_t last_gear = 0;
+};
+
+/// Pieces of no length have no gear, as SteeringCurve leaves them out.
+PricedCar::Recipe PricedCar::priced(const SteeringWord& word) const {
+  Recipe recipe{word};
+  for (const SteeringPiece& piece : word.used()) {
+    if (std::abs(piece.length) < SteeringCurve::nothing) continue;
+    const std::int8_t gear = piece.length < 0.0 ? -1 : 1;
+    if (recipe.first_gear == 0) recipe.first_gear = gear;
+    if (recipe.last_gear == -gear) recipe.price += price_.cusp;
+    recipe.last_gear = gear;
+    recipe.price += (gear < 0 ? price_.reverse : 1.0) * car_->turning_radius() * std::abs(piece.length);
+  }
+  return recipe;
+}
+
+PricedCurve PricedCar::shortest(const State& a, const State& b) const {
+  const double radius = car_->turning_radius();
+  const Recipe recipe = priced(ReedsSheppCurve::shortest(a, b, radius));
+  return {{a, b, recipe.word, radius}, recipe.price, recipe.first_gear, recipe.last_gear};
+}
+
+double PricedCar::distance(const State& a, const State& b) const {
+  return car_->turning_radius() * ReedsSheppCurve::shortest(a, b, car_->turning_radius()).length;
+}
+
+std::vector<PricedCurve> PricedCar::ways(const State& a, const State& b, double most) const {
+  const double radius = car_->turning_radius();
+  const Se2 goal = seen_from(a, b, radius);
+  std::array<Recipe, 4> best;
+  for (Recipe& recipe : best) recipe.price = most;
+  ReedsSheppCurve::for_each_word(a, b, radius, most / radius, [&](const SteeringWord& word) {
+    const Recipe recipe = priced(word);
+    Recipe& same = best[(recipe.first_gear > 0 ? 2U : 0U) + (recipe.last_gear > 0 ? 1U : 0U)];
+    if (recipe.first_gear != 0 && recipe.price < same.price && ends_at(word, goal)) same = recipe;
+  });
+  std::vector<PricedCurve> ways;
+  for (const Recipe& recipe : best) {
+    if (recipe.first_gear == 0) continue;
+    ways.push_back({{a, b, recipe.word, radius}, recipe.price, recipe.first_gear, recipe.last_gear});
+  }
+  return ways;
+}
+
+Se2 PricedCar::drawn_near(const State& a, const std::array<double, 4>& u, double scale) const {
+  constexpr double share_driven = 0.6;
+  constexpr double least = 0.02;    // in turning radii
+  constexpr double shifted = 0.15;  // to each side, in turning radii
+  constexpr double turned_rad = 0.25;
+  const double radius = car_->turning_radius();
+  if (u[0] < share_driven) {
+    const auto steer = static_cast<Steer>(static_cast<int>(3.0 * u[1]) - 1);
+    const double length = (u[2] < 0.5 ? -1.0 : 1.0) * (least + scale * u[3] * u[3]);
+    const Se2 to = after_piece({a.x / radius, a.y / radius, a.theta}, {steer, length});
+    return {radius * to.x, radius * to.y, wrapped_angle(to.theta)};
+  }
+  const auto slip = [&](std::size_t i, double size) { return scale * size * (2.0 * u[i] - 1.0); };
+  return {a.x + slip(1, shifted * radius), a.y + slip(2, shifted * radius),
+          wrapped_angle(a.theta + slip(3, turned_rad))};
+}
+
+void PricedCar::append(Path<State>& path, const Way& way) {
+  std::vector<Se2> joints;
+  append_joints(joints, way.curve);
+  path.insert(path.end(), joints.begin(), joints.end());
+}
+
+double PricedCar::price(std::span<const State> path, int gear_before, int gear_after) const {
+  double sum = 0.0;
+  int gear = gear_before;
+  const auto change_to = [&](int next) {
+    if (gear != 0 && next != 0 && gear != next) sum += price_.cusp;
+    if (next != 0) gear = next;
+  };
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const Way way = shortest(path[i - 1], path[i]);
+    change_to(way.first_gear);
+    if (way.last_gear != 0) gear = way.last_gear;
+    sum += way.price;
+  }
+  change_to(gear_after);
+  return sum;
+}
+
+}  // namespace warren
