@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/paths/path_file_io.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <string_view>
+
+#include "core/base/error.hpp"
+#include "core/base/trigonometry.hpp"
+#include "scenes/text/json_text.hpp"
+#include "scenes/text/output_file_io.hpp"
+
+namespace warren {
+namespace {
+
+constexpr std::uint64_t places_a_poll = 1U << 12U;
+
+/// A line of the file.
+struct Row {
+  std::size_t leg = 0;
+  PathState state;
+  double along = 0.0;
+  double time_s = 0.0;
+  double speed = 0.0;
+};
+
+class Rows {
+ public:
+  Rows(const PathLegs& legs, const PathFileOptions& options, const Execution& execution)
+      : legs_(legs), options_(options), execution_(execution) {
+    if (options.limits) timed_.emplace(legs, *options.limits, execution);
+    check_count();
+  }
+
+  std::optional<double> duration_s() const { return timed_ ? std::optional(timed_->duration_s()) : std::nullopt; }
+  std::uint64_t visit(const std::function<void(const Row&)>& row) {
+    visit_ = &row;
+    written_ = 0;
+    options_.every_s ? by_time() : by_way();
+    return written_;
+  }
+
+ private:
+  double parts(std::size_t leg) const {
+    return options_.every ? std::max(1.0, std::ceil(legs_.length(leg) / *options_.every * (1.0 - 1e-12))) : 1.0;
+  }
+  void check_count() const {
+    constexpr double most = 1e9;
+    double places = 0.0;
+    if (options_.every_s) {
+      places = timed_->duration_s() / *options_.every_s;
+    } else {
+      for (std::size_t i = 0; i < legs_.leg_count(); ++i) places += parts(i);
+    }
+    if (places > most) throw UsageError(fmt::format("@every: gives {:.2g} places, more than 1e9", places));
+  }
+  void by_way() {
+    double along = 0.0;
+    if (legs_.leg_count() == 0) tell(0, 0.0, 0.0);
+    for (std::size_t i = 0; i < legs_.leg_count(); ++i) {
+      const double count = parts(i);
+      const double length = legs_.length(i);
+      for (double k = i == 0 ? 0.0 : 1.0; k <= count; k += 1.0) tell(i, k / count, along + length * (k / count));
+      along += length;
+    }
+  }
+  void by_time() {
+    double along = 0.0;  // up to the leg
+    std::size_t leg = 0;
+    for (double k = 0.0;; k += 1.0) {
+      const double t = std::min(k * *options_.every_s, timed_->duration_s());
+      const PathMoment moment = timed_->at(t);
+      for (; leg < moment.leg; ++leg) along += legs_.length(leg);
+      tell_at(moment, t, along + moment.share * legs_.length(leg));
+      if (t >= timed_->duration_s()) return;
+    }
+  }
+  void tell(std::size_t leg, double share, double along) {
+    if (!timed_) return tell_at({leg, share, 0.0}, 0.0, along);
+    double time_s = 0.0;
+    const PathMoment moment = timed_->at_share(leg, share, time_s);
+    tell_at(moment, time_s, along);
+  }
+  void tell_at(const PathMoment& moment, double time_s, double along) {
+    if (++written_ % places_a_poll == 0) execution_.check();
+    (*visit_)({moment.leg, legs_.at(moment.leg, moment.share), along, time_s, moment.speed});
+  }
+
+  const PathLegs& legs_;
+  const PathFileOptions& options_;
+  const Execution& execution_;
+  std::optional<TimedPath> timed_;
+  const std::function<void(const Row&)>* visit_ = nullptr;
+  std::uint64_t written_ = 0;
+};
+
+std::uint64_t write_csv(Rows& rows, const PathLegs& legs, OutputFile& file) {
+  const bool timed = rows.duration_s().has_value();
+  std::string text = timed ? "t,s," : "s,";
+  text += legs.width() == 6 ? "q1,q2,q3,q4,q5,q6" : legs.width() == 3 ? "x,y,theta" : "x,y";
+  file.write(text + (timed ? ",speed\n" : "\n"));
+  return rows.visit([&](const Row& row) {
+    text.clear();
+    const auto out = std::back_inserter(text);
+    if (timed) fmt::format_to(out, "{},", row.time_s);
+    fmt::format_to(out, "{}", row.along);
+    for (const double x : row.state.used()) fmt::format_to(out, ",{}", x);
+    if (timed) fmt::format_to(out, ",{}", row.speed);
+    file.write(text += '\n');
+  });
+}
+
+/// Of what has no heading: that of the way.
+double heading(const PathLegs& legs, const Row& row) {
+  if (legs.width() == 3) return row.state.numbers[2];
+  if (legs.leg_count() == 0) return 0.0;
+  std::size_t leg = row.leg;
+  while (leg > 0 && !(legs.length(leg) > 0.0)) --leg;
+  const PathState from = legs.at(leg, 0.0);
+  const PathState to = legs.at(leg, 1.0);
+  return portable::atan2(to.numbers[1] - from.numbers[1], to.numbers[0] - from.numbers[0]);
+}
+
+std::uint64_t write_yaml(Rows& rows, const PathLegs& legs, const std::string& frame, OutputFile& file) {
+  const std::string named = json_string(frame);
+  const auto header = [&](double time_s) {
+    double seconds = std::floor(time_s);
+    double nanoseconds = std::round((time_s - seconds) * 1e9);
+    if (nanoseconds >= 1e9) seconds += 1.0, nanoseconds = 0.0;
+    return fmt::format("{{stamp: {{sec: {:.0f}, nanosec: {:.0f}}}, frame_id: {}}}", seconds, nanoseconds, named);
+  };
+  file.write(fmt::format("header: {}\nposes:\n", header(0.0)));
+  return rows.visit([&](const Row& row) {
+    const auto [sine, cosine] = portable::sin_and_cos(0.5 * heading(legs, row));
+    file.write(fmt::format(
+        "- header: {}\n  pose: {{position: {{x: {}, y: {}, z: 0.0}}, orientation: {{x: 0.0, y: 0.0, z: {}, w: {}}}}}\n",
+        header(row.time_s), row.state.numbers[0], row.state.numbers[1], sine, cosine));
+  });
+}
+
+std::uint64_t write_geojson_line(Rows& rows, const PathLegs& legs, const Answer& answer, const std::string& frame,
+                                 OutputFile& file) {
+  file.write("{\"type\": \"Feature\",\n \"geometry\": {\"type\": \"LineString\", \"coordinates\": [");
+  std::string_view comma;
+  std::string last;
+  const std::uint64_t places = rows.visit([&](const Row& row) {
+    last = fmt::format("[{}, {}]", row.state.numbers[0], row.state.numbers[1]);
+    file.write(fmt::format("{}\n  {}", comma, last));
+    comma = ",";
+  });
+  if (places == 1) file.write(",\n  " + last);  // a line has two ends
+  file.write(fmt::format("]}},\n \"properties\": {{\"frame\": {}, \"length\": {}, \"planner\": {}", json_string(frame),
+                         answer.length, json_string(answer.planner)));
+  const auto list = [&](std::string_view name, const std::function<double(const Row&)>& number) {
+    file.write(fmt::format(",\n  \"{}\": [", name));
+    comma = "";
+    double end = 0.0;
+    rows.visit([&](const Row& row) {
+      file.write(fmt::format("{}{}", comma, end = number(row)));
+      comma = ", ";
+    });
+    file.write(places == 1 ? fmt::format(", {}]", end) : "]");
+  };
+  if (legs.width() == 3) list("theta", [](const Row& row) { return row.state.numbers[2]; });
+  if (rows.duration_s()) {
+    list("t", [](const Row& row) { return row.time_s; });
+    list("speed", [](const Row& row) { return row.speed; });
+  }
+  file.write("}}\n");
+  return places;
+}
+
+}  // namespace
+
+PathFormat path_format(const std::string& file) {
+  const std::size_t dot = file.rfind('.');
+  const std::string_view ending = dot == std::string::npos ? std::string_view() : std::string_view(file).substr(dot);
+  if (file == "-" || ending == ".csv") return PathFormat::csv;
+  if (ending == ".yaml" || ending == ".yml") return PathFormat::yaml;
+  if (ending == ".geojson") return PathFormat::geojson;
+  throw UsageError(fmt::format("@path: writes .csv, .yaml (nav_msgs/Path) and .geojson by ending (found: {})", file));
+}
+
+PathFileAccount write_path_file(const Answer& answer, const std::string& file, const PathFileOptions& options,
+                                const Execution& execution) {
+  const PathFormat format = path_format(file);
+  const PathLegs legs(answer);
+  if (legs.shape() == LegShape::joints && format != PathFormat::csv) {
+    throw UsageError("@path: the joints of an arm are written as .csv");
+  }
+  Rows rows(legs, options, execution);
+  OutputFile out(file, execution);
+  PathFileAccount account{0, rows.duration_s()};
+  switch (format) {
+    case PathFormat::csv:
+      account.places = write_csv(rows, legs, out);
+      break;
+    case PathFormat::yaml:
+      account.places = write_yaml(rows, legs, options.frame, out);
+      break;
+    case PathFormat::geojson:
+      account.places = write_geojson_line(rows, legs, answer, options.frame, out);
+      break;
+  }
+  out.commit();
+  return account;
+}
+
+}  // namespace warren

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/paths/timed_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace warren {
+namespace {
+
+constexpr std::size_t legs_a_poll = 1U << 14U;
+
+}  // namespace
+
+auto TimedPath::limits_of(std::size_t leg) const -> LegLimits {
+  if (legs_->shape() != LegShape::joints) {
+    return {std::min(limits_.speed, std::sqrt(limits_.lateral_acceleration * legs_->radius(leg))),
+            limits_.acceleration};
+  }
+  const double length = legs_->length(leg);
+  LegLimits least{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  for (std::size_t k = 0; k < legs_->width(); ++k) {
+    const double turn = std::abs(legs_->joint_turn(leg, k));
+    if (turn == 0.0) continue;
+    least.speed = std::min(least.speed, limits_.joint_speed[k] * (length / turn));
+    least.acceleration = std::min(least.acceleration, limits_.joint_acceleration[k] * (length / turn));
+  }
+  return least;
+}
+
+TimedPath::TimedPath(const PathLegs& legs, const TravelLimits& limits, const Execution& execution)
+    : legs_(&legs), limits_(limits) {
+  const std::size_t count = legs.leg_count();
+  execution.reserve(2 * (count + 1) * sizeof(double));
+  speeds_.assign(count + 1, 0.0);
+  times_.assign(count + 1, 0.0);
+  const auto reachable = [](double from, const LegLimits& limit, double length) {
+    return std::sqrt(from * from + 2.0 * limit.acceleration * length);
+  };
+  // Forwards: what acceleration, speed and corners allow. Legs of no length pass on what they are given.
+  double speed = 0.0;
+  std::size_t before = count;  // the last leg that has a length
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i % legs_a_poll == 0) execution.check();
+    const double length = legs.length(i);
+    if (length > 0.0) {
+      const LegLimits limit = limits_of(i);
+      speed = before < count && legs.goes_on(before, i) ? std::min(speed, limit.speed) : 0.0;
+      speeds_[i] = speed;
+      speed = std::min(limit.speed, reachable(speed, limit, length));
+      before = i;
+    }
+    speeds_[i + 1] = speed;
+  }
+  // Backwards: what can be braked down to the stop at the end.
+  speed = 0.0;
+  for (std::size_t i = count; i-- > 0;) {
+    if (i % legs_a_poll == 0) execution.check();
+    const double length = legs.length(i);
+    speeds_[i + 1] = speed;
+    if (length > 0.0) speed = std::min(speeds_[i], reachable(speed, limits_of(i), length));
+  }
+  speeds_[0] = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i % legs_a_poll == 0) execution.check();
+    times_[i + 1] = times_[i] + (legs.length(i) > 0.0 ? ramp(i).duration_s() : 0.0);
+  }
+}
+
+auto TimedPath::ramp(std::size_t leg) const -> Ramp {
+  const double length = legs_->length(leg);
+  const LegLimits limit = limits_of(leg);
+  Ramp r{speeds_[leg], limit.speed, speeds_[leg + 1], 0.0, 0.0, 0.0, limit.acceleration};
+  if (std::isinf(r.rate)) {
+    r.level_s = length / r.top;
+    return r;
+  }
+  r.top = std::min(limit.speed, std::sqrt(r.rate * length + 0.5 * (r.from * r.from + r.to * r.to)));
+  r.top = std::max({r.top, r.from, r.to});
+  r.up_s = (r.top - r.from) / r.rate;
+  r.down_s = (r.top - r.to) / r.rate;
+  const double ramps = 0.5 * (r.up_s * (r.top + r.from) + r.down_s * (r.top + r.to));
+  r.level_s = std::max(0.0, length - ramps) / r.top;
+  return r;
+}
+
+PathMoment TimedPath::at(double t) const {
+  const auto next = std::upper_bound(times_.begin() + 1, times_.end() - 1, t);
+  const auto leg = static_cast<std::size_t>(next - times_.begin()) - 1;
+  const double length = legs_->length(leg);
+  if (!(length > 0.0)) return {leg, 1.0, 0.0};
+  const Ramp r = ramp(leg);
+  double s = std::clamp(t - times_[leg], 0.0, r.duration_s());
+  const double gear = legs_->gear(leg);
+  if (std::isinf(r.rate)) return {leg, std::min(1.0, s / r.level_s), gear * r.top};
+  double way = 0.0;
+  double speed = r.from;
+  const double up = std::min(s, r.up_s);
+  way += up * (r.from + 0.5 * r.rate * up);
+  speed += r.rate * up;
+  s -= up;
+  const double level = std::min(s, r.level_s);
+  way += level * r.top;
+  s -= level;
+  way += s * (r.top - 0.5 * r.rate * s);
+  speed -= r.rate * s;
+  return {leg, std::clamp(way / length, 0.0, 1.0), gear * std::max(0.0, speed)};
+}
+
+PathMoment TimedPath::at_share(std::size_t leg, double share, double& time_s) const {
+  const double length = legs_->length(leg);
+  const double gear = legs_->gear(leg);
+  time_s = times_[leg];
+  if (!(length > 0.0)) return {leg, share, 0.0};
+  const Ramp r = ramp(leg);
+  if (std::isinf(r.rate)) {
+    time_s += share * r.level_s;
+    return {leg, share, gear * r.top};
+  }
+  const double way = share * length;
+  const double up = 0.5 * r.up_s * (r.from + r.top);
+  const double level = r.level_s * r.top;
+  if (way <= up) {
+    const double speed = std::sqrt(r.from * r.from + 2.0 * r.rate * way);
+    time_s += (speed - r.from) / r.rate;
+    return {leg, share, gear * speed};
+  }
+  if (way <= up + level) {
+    time_s += r.up_s + (way - up) / r.top;
+    return {leg, share, gear * r.top};
+  }
+  const double speed = std::sqrt(std::max(0.0, r.to * r.to + 2.0 * r.rate * (length - way)));
+  time_s += r.up_s + r.level_s + (r.top - speed) / r.rate;
+  return {leg, share, gear * speed};
+}
+
+}  // namespace warren
