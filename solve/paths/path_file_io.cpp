@@ -184,17 +184,31 @@ PathFormat path_format(const std::string& file) {
   throw UsageError(fmt::format("@path: writes .csv, .yaml (nav_msgs/Path) and .geojson by ending (found: {})", file));
 }
 
-PathFileAccount write_path_file(const Answer& answer, const std::string& file, const PathFileOptions& options,
-                                const Execution& execution) {
-  const PathFormat format = path_format(file);
-  const PathLegs legs(answer);
-  if (legs.shape() == LegShape::joints && format != PathFormat::csv) {
+void check_path_file(const RobotSpec& robot, const std::string& file, const PathFileOptions& options) {
+  const bool is_arm = robot.kind == RobotKind::puma560 || robot.kind == RobotKind::arm;
+  if (is_arm && path_format(file) != PathFormat::csv) {
     throw UsageError("@path: the joints of an arm are written as .csv");
   }
+  if (options.every_s && !options.limits) {
+    throw UsageError(fmt::format("@every: moments need {}", is_arm ? "@joint_speed" : "@speed"));
+  }
+  if (!options.limits) return;
+  const TravelLimits& limits = *options.limits;
+  if (is_arm && limits.joint_speed.empty()) throw UsageError("@speed: of an arm it is @joint_speed that is limited");
+  if (!is_arm && !limits.joint_speed.empty()) throw UsageError("@joint_speed: this body has no joints; say @speed");
+  if (robot.kind != RobotKind::car && std::isfinite(limits.lateral_acceleration)) {
+    throw UsageError("@lateral_acceleration: is for cars; other bodies stop at corners and drive no arcs");
+  }
+}
+
+PathFileAccount write_path_file(const Answer& answer, const std::string& file, const PathFileOptions& options,
+                                const Execution& execution) {
+  check_path_file(answer.problem.robot, file, options);
+  const PathLegs legs(answer);
   Rows rows(legs, options, execution);
   OutputFile out(file, execution);
   PathFileAccount account{0, rows.duration_s()};
-  switch (format) {
+  switch (path_format(file)) {
     case PathFormat::csv:
       account.places = write_csv(rows, legs, out);
       break;

@@ -30,8 +30,11 @@ struct PathFileAccount {
   std::optional<double> duration_s;
 };
 
-/// answer: has a path. Throws UsageError for a format that the path can't be written in and for more than 1e9 places,
-/// WriteError, Stopped.
+/// Throws UsageError for a format that paths of this body can't be written in, for limits of another body, and for
+/// moments without limits.
+void check_path_file(const RobotSpec& robot, const std::string& file, const PathFileOptions& options);
+
+/// answer: has a path. Throws UsageError as check_path_file does, and for more than 1e9 places; WriteError, Stopped.
 PathFileAccount write_path_file(const Answer& answer, const std::string& file, const PathFileOptions& options,
                                 const Execution& execution);
 

@@ -9,6 +9,12 @@ namespace {
 
 constexpr std::size_t legs_a_poll = 1U << 14U;
 
+/// One number is for all joints.
+double of_joint(const std::vector<double>& limits, std::size_t k) {
+  if (limits.empty()) return std::numeric_limits<double>::infinity();
+  return limits[limits.size() == 1 ? 0 : k];
+}
+
 }  // namespace
 
 auto TimedPath::limits_of(std::size_t leg) const -> LegLimits {
@@ -21,8 +27,8 @@ auto TimedPath::limits_of(std::size_t leg) const -> LegLimits {
   for (std::size_t k = 0; k < legs_->width(); ++k) {
     const double turn = std::abs(legs_->joint_turn(leg, k));
     if (turn == 0.0) continue;
-    least.speed = std::min(least.speed, limits_.joint_speed[k] * (length / turn));
-    least.acceleration = std::min(least.acceleration, limits_.joint_acceleration[k] * (length / turn));
+    least.speed = std::min(least.speed, of_joint(limits_.joint_speed, k) * (length / turn));
+    least.acceleration = std::min(least.acceleration, of_joint(limits_.joint_acceleration, k) * (length / turn));
   }
   return least;
 }

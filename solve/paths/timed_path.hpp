@@ -16,11 +16,12 @@ namespace warren {
 
 /// Numbers > 0; infinite: no limit, so that the body starts and stops at once.
 struct TravelLimits {
-  double speed = 0.0;  ///< of every point of a body that turns, of a car's reference point; length a second
-  double acceleration = std::numeric_limits<double>::infinity();          ///< along the path
+  double speed = std::numeric_limits<double>::infinity();         ///< of every point of a body that turns, of a car's
+                                                                  ///< reference point; length a second
+  double acceleration = std::numeric_limits<double>::infinity();  ///< along the path
   double lateral_acceleration = std::numeric_limits<double>::infinity();  ///< of a car's reference point on arcs
-  std::array<double, 6> joint_speed{};                                    ///< arms alone; rad/s
-  std::array<double, 6> joint_acceleration{};                             ///< rad/s^2
+  std::vector<double> joint_speed = {};         ///< arms alone, instead of speed: of all joints or of each; rad/s
+  std::vector<double> joint_acceleration = {};  ///< rad/s^2; empty: no limit
 };
 
 /// A moment of a timed path.
@@ -33,7 +34,7 @@ struct PathMoment {
 /// Refers to the legs.
 class TimedPath {
  public:
-  /// Throws Stopped.
+  /// limits: some speed is finite. Throws Stopped.
   TimedPath(const PathLegs& legs, const TravelLimits& limits, const Execution& execution);
 
   double duration_s() const { return times_.back(); }

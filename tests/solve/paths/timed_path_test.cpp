@@ -125,7 +125,7 @@ TEST(TimedPath, KeepsItsLimitsAtTenThousandInstants) {
         const PathState to = legs.at(b.leg, b.share);
         if (body.kind == RobotKind::arm) {
           for (std::size_t k = 0; k < 6; ++k) {
-            ASSERT_LE(std::abs(to.numbers[k] - from.numbers[k]), limits.joint_speed[k] * step * (1 + 1e-6) + 1e-12);
+            ASSERT_LE(std::abs(to.numbers[k] - from.numbers[k]), limits.joint_speed.at(k) * step * (1 + 1e-6) + 1e-12);
           }
           continue;
         }
