@@ -2,7 +2,9 @@
 #include "pictures/answer_summary.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <cmath>
 #include <iterator>
 
 #include "core/base/printable.hpp"
@@ -15,6 +17,13 @@ std::string plural(std::uint64_t count, std::string_view one, std::string_view m
   return fmt::format("{} {}", grouped(count), count == 1 ? one : many);
 }
 
+std::string why_blocked(const Answer& answer, std::string_view end) {
+  if (!answer.blocked) return fmt::format("the body does not fit at the {}", end);
+  const std::string& by = answer.blocked->by;
+  const bool is_outside = by.starts_with("outside") || by.starts_with("limits");
+  return (is_outside ? "" : "in the way is ") + printable(by);
+}
+
 std::string headline(const Answer& answer, const Palette& palette) {
   if (answer.refuted) return palette.bad("refuted") + ": the path meets " + answer.refuted->violation.obstacle;
   switch (answer.outcome) {
@@ -23,9 +32,9 @@ std::string headline(const Answer& answer, const Palette& palette) {
     case Outcome::infeasible:
       return palette.bad("infeasible") + ": proved, no path exists";
     case Outcome::start_blocked:
-      return palette.bad("start blocked") + ": the body does not fit at the start";
+      return palette.bad("start blocked") + ": " + why_blocked(answer, "start");
     case Outcome::goal_blocked:
-      return palette.bad("goal blocked") + ": the body does not fit at the goal";
+      return palette.bad("goal blocked") + ": " + why_blocked(answer, "goal");
     case Outcome::not_connected:
       return palette.doubtful("not connected") + ": this roadmap does not join start and goal; another might";
     default:
@@ -36,6 +45,23 @@ std::string headline(const Answer& answer, const Palette& palette) {
 
 void line(std::string& text, const Palette& palette, std::string_view name, std::string_view what) {
   text += fmt::format("  {}{}\n", palette.faint(fmt::format("{:<14}", name)), what);
+}
+
+void add_blocked(std::string& text, const BlockedEnd& blocked, const Palette& palette) {
+  if (!blocked.free_place.empty()) {
+    line(text, palette, "free is",
+         fmt::format("{}, {} away", fmt::join(blocked.free_place, ","), human_number(blocked.distance)));
+  }
+  if (!blocked.hint.empty()) line(text, palette, "hint", printable(blocked.hint));
+}
+
+/// A heading of 90 is as good as any, but hardly meant.
+void add_strange_headings(std::string& text, const Problem& problem, const Palette& palette) {
+  constexpr double a_turn_and_a_bit = 6.3;
+  for (const std::vector<double>* state : {&problem.start, &problem.goal}) {
+    if (state->size() != 3 || std::abs((*state)[2]) <= a_turn_and_a_bit) continue;
+    line(text, palette, "note", fmt::format("a heading of {0} is in radians; degrees are written {0}deg", (*state)[2]));
+  }
 }
 
 std::string world_text(const WorldAccount& world) {
@@ -110,6 +136,8 @@ std::string summary_of(const Answer& answer, const Palette& palette, std::span<c
     line(text, palette, "world", world_text(answer.world));
     line(text, palette, "planner", planner_text(answer));
   }
+  add_strange_headings(text, answer.problem, palette);
+  if (answer.blocked) add_blocked(text, *answer.blocked, palette);
   if (answer.verified) add_path(text, answer, palette);
   add_roadmap(text, answer, palette);
   add_times(text, answer, palette);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "solve/steps/blocked_end.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 #include "solve/steps/planned_scene.hpp"
 
@@ -96,6 +97,7 @@ Answer solve(const Scene& scene, const Question& question, const SolveOptions& o
              ByProducts* keep) {
   const LimitedExecution limited(limits);
   Answer answer = solve_within(scene, question, options, limited.execution(), keep);
+  explain_blocked_end(scene, answer, limited.execution());
   if (keep == nullptr || answer.outcome == Outcome::stopped) return answer;
   try {
     make_by_products(scene, question, options, limited.execution(), *keep);

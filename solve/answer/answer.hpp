@@ -34,10 +34,20 @@ struct RefutedPath {
   StateList states;
 };
 
+/// Why the body does not fit where it shall start or end.
+struct BlockedEnd {
+  bool is_start = true;
+  std::string by;                       ///< what is in the way, as Violation::obstacle
+  std::vector<double> free_place = {};  ///< near it, with the same heading; empty: none was found, or nobody looked
+  double distance = 0.0;                ///< between the two
+  std::string hint = {};                ///< what may have been meant; may be empty
+};
+
 struct Answer {
   Outcome outcome = Outcome::stopped;
   std::optional<StopReason> stop_reason;  ///< only for stopped
   bool verified = false;
+  std::optional<BlockedEnd> blocked;   ///< where solve() was asked, not in studies
   std::optional<RefutedPath> refuted;  ///< the answer says nothing else of that path
   double length = 0.0;                 ///< only where verified, as all that is said of the path
   double min_clearance = 0.0;          ///< room around the body along the path

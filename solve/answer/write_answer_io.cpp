@@ -89,6 +89,20 @@ std::string separation_json(const Separation& separation) {
   return json.closed();
 }
 
+std::string blocked_json(const BlockedEnd& blocked) {
+  JsonObject json;
+  json.add("end", blocked.is_start ? "start" : "goal");
+  json.add("by", blocked.by);
+  if (blocked.free_place.empty()) {
+    json.add_json("free_place", "null");
+  } else {
+    add_state(json, "free_place", blocked.free_place);
+  }
+  json.add_or_null("distance", !blocked.free_place.empty(), blocked.distance);
+  add_text(json, "hint", blocked.hint);
+  return json.closed();
+}
+
 void add_outcome(JsonObject& json, const Answer& answer) {
   json.add("schema", "warren.answer/1");
   json.add("warren_version", WARREN_VERSION);
@@ -98,6 +112,7 @@ void add_outcome(JsonObject& json, const Answer& answer) {
   json.add_or_null("length", answer.verified, answer.length);
   json.add_or_null("min_clearance", answer.verified, answer.min_clearance);
   json.add_or_null("raw_length", answer.raw_length.has_value(), answer.raw_length.value_or(0.0));
+  if (answer.blocked) json.add_json("blocked", blocked_json(*answer.blocked));
   if (answer.optimal) json.add("optimal", true);
   if (answer.cost) json.add("cost", *answer.cost);
   if (answer.turn_rad) json.add("turn_rad", *answer.turn_rad);

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "solve/solve.hpp"
+#include "solve/steps/blocked_end.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 #include "tools/screen/output_conflicts.hpp"
 #include "tools/screen/world_files.hpp"
@@ -24,7 +25,9 @@ class SolveCommand : public AnswerCommand {
  private:
   Answer find(const Run& run, StageTimes& before, ByProducts* keep) override {
     scene_ = load_world(arguments_.operand(0), arguments_, run.execution(), before);
-    return solve_within(scene_, question_, options_, run.execution(), keep);
+    Answer answer = solve_within(scene_, question_, options_, run.execution(), keep);
+    explain_blocked_end(scene_, answer, run.execution());
+    return answer;
   }
   Scene scene_drawn(const Execution& execution, ByProducts& keep) override {
     make_by_products(scene_, question_, options_, execution, keep);

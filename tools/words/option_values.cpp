@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <numbers>
 
 #include "core/base/error.hpp"
 #include "tools/words/closest_match.hpp"
@@ -37,6 +38,13 @@ std::optional<std::uint64_t> count_in(std::string_view text, std::uint64_t low, 
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool is_count = error == std::errc{} && end == text.data() + text.size();
   return is_count && value >= low && value <= high ? std::optional(value) : std::nullopt;
+}
+
+/// An angle may be said in degrees.
+std::optional<double> number_or_degrees(std::string_view text) {
+  if (!text.ends_with("deg")) return number_in(text);
+  const auto degrees = number_in(text.substr(0, text.size() - 3));
+  return degrees ? std::optional(*degrees * (std::numbers::pi / 180.0)) : std::nullopt;
 }
 
 }  // namespace
@@ -96,12 +104,13 @@ std::size_t memory_value(std::string_view option, std::string_view text) {
 }
 
 std::vector<double> state_value(std::string_view option, std::string_view text) {
-  constexpr std::string_view expected = "X,Y (or three or six numbers), each finite and at most 1e60";
+  constexpr std::string_view expected =
+      "X,Y (or three or six numbers; angles in radians, or 90deg), each finite and at most 1e60";
   constexpr std::string_view separators = ", \t";
   std::vector<double> state;
   for (std::size_t at = text.find_first_not_of(separators); at < text.size();) {
     const std::size_t end = std::min(text.find_first_of(separators, at), text.size());
-    const auto number = number_in(text.substr(at, end - at));
+    const auto number = number_or_degrees(text.substr(at, end - at));
     if (!number || std::abs(*number) > largest_coordinate) refuse(option, expected, text);
     state.push_back(*number);
     at = text.find_first_not_of(separators, end);
