@@ -13,10 +13,6 @@
 namespace warren {
 namespace {
 
-std::string plural(std::uint64_t count, std::string_view one, std::string_view many) {
-  return fmt::format("{} {}", grouped(count), count == 1 ? one : many);
-}
-
 std::string why_blocked(const Answer& answer, std::string_view end) {
   if (!answer.blocked) return fmt::format("the body does not fit at the {}", end);
   const std::string& by = answer.blocked->by;
@@ -66,11 +62,11 @@ void add_strange_headings(std::string& text, const Problem& problem, const Palet
 
 std::string world_text(const WorldAccount& world) {
   std::string text = world.kind;
-  if (world.polygons > 0) text += ", " + plural(world.polygons, "polygon", "polygons");
+  if (world.polygons > 0) text += ", " + counted(world.polygons, "polygon", "polygons");
   const bool solids = world.spheres > 0 || world.boxes > 0;
-  if (world.walls > 0 || (world.polygons == 0 && !solids)) text += ", " + plural(world.walls, "wall", "walls");
-  if (world.spheres > 0) text += ", " + plural(world.spheres, "sphere", "spheres");
-  if (world.boxes > 0) text += ", " + plural(world.boxes, "box", "boxes");
+  if (world.walls > 0 || (world.polygons == 0 && !solids)) text += ", " + counted(world.walls, "wall", "walls");
+  if (world.spheres > 0) text += ", " + counted(world.spheres, "sphere", "spheres");
+  if (world.boxes > 0) text += ", " + counted(world.boxes, "box", "boxes");
   return text;
 }
 
@@ -87,7 +83,7 @@ void add_path(std::string& text, const Answer& answer, const Palette& palette) {
   if (answer.raw_length) length += fmt::format(" (before --optimise: {})", human_number(*answer.raw_length));
   if (answer.optimal) length += " (the shortest there is)";
   const std::size_t points = answer.states.empty() ? answer.path.size() : answer.states.size();
-  line(text, palette, "length", length + fmt::format(", {}", plural(points, "point", "points")));
+  line(text, palette, "length", length + fmt::format(", {}", counted(points, "point", "points")));
   if (answer.cost) line(text, palette, "cost", human_number(*answer.cost));
   if (answer.turn_rad) line(text, palette, "turning", human_number(*answer.turn_rad) + " rad");
   line(text, palette, "clearance",
@@ -98,21 +94,21 @@ void add_path(std::string& text, const Answer& answer, const Palette& palette) {
 void add_roadmap(std::string& text, const Answer& answer, const Palette& palette) {
   if (answer.cells) {
     line(text, palette, "cells",
-         fmt::format("{}, {}", plural(answer.cells->cells, "cell", "cells"),
-                     plural(answer.cells->adjacencies, "adjacency", "adjacencies")));
+         fmt::format("{}, {}", counted(answer.cells->cells, "cell", "cells"),
+                     counted(answer.cells->adjacencies, "adjacency", "adjacencies")));
   }
   if (answer.roadmap.milestones == 0) return;
-  std::string what = fmt::format("{}, {}", plural(answer.roadmap.milestones, "milestone", "milestones"),
-                                 plural(answer.roadmap.edges, "edge", "edges"));
-  if (answer.roadmap.components > 0) what += ", " + plural(answer.roadmap.components, "component", "components");
+  std::string what = fmt::format("{}, {}", counted(answer.roadmap.milestones, "milestone", "milestones"),
+                                 counted(answer.roadmap.edges, "edge", "edges"));
+  if (answer.roadmap.components > 0) what += ", " + counted(answer.roadmap.components, "component", "components");
   line(text, palette, "roadmap", what);
   line(text, palette, "work",
-       fmt::format("{} checked, {} expanded, {}", plural(answer.counters.edges_checked, "edge", "edges"),
-                   grouped(answer.counters.expanded), plural(answer.counters.rounds, "round", "rounds")));
+       fmt::format("{} checked, {} expanded, {}", counted(answer.counters.edges_checked, "edge", "edges"),
+                   grouped(answer.counters.expanded), counted(answer.counters.rounds, "round", "rounds")));
   if (answer.outcome != Outcome::not_connected) return;
   line(text, palette, "start, goal",
-       fmt::format("components of {} and {}, {} apart", plural(answer.separation.start_size, "milestone", "milestones"),
-                   plural(answer.separation.goal_size, "milestone", "milestones"),
+       fmt::format("components of {} and {}, {} apart", counted(answer.separation.start_size, "milestone", "milestones"),
+                   counted(answer.separation.goal_size, "milestone", "milestones"),
                    human_number(answer.separation.nearest_gap)));
 }
 
@@ -124,7 +120,7 @@ void add_times(std::string& text, const Answer& answer, const Palette& palette) 
   line(text, palette, "stages", stages);
   line(text, palette, "solve",
        fmt::format("{} on {}, {} at the peak", palette.strong(human_seconds(answer.solve_s)),
-                   plural(answer.threads, "thread", "threads"),
+                   counted(answer.threads, "thread", "threads"),
                    human_bytes(static_cast<double>(answer.peak_memory_bytes))));
 }
 

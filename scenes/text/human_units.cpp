@@ -50,6 +50,10 @@ std::string grouped(std::uint64_t count) {
   return text;
 }
 
+std::string counted(std::uint64_t count, std::string_view one, std::string_view many) {
+  return fmt::format("{} {}", grouped(count), count == 1 ? one : many);
+}
+
 std::string human_number(double value) { return fmt::format("{:.6g}", value); }
 
 }  // namespace warren

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace warren {
 
@@ -12,6 +13,8 @@ std::string human_seconds(double seconds);    ///< 3.2 ms, 0.41 s, 12.3 s, 2 min
 std::string precise_seconds(double seconds);  ///< three digits from nanoseconds on: 512 ns, 3.70 us, 519 us, 1.40 ms
 std::string human_bytes(double bytes);        ///< 8.6 MiB
 std::string grouped(std::uint64_t count);     ///< 1 683 000, by no-break thin groups of three
+/// "1 wall", "1 683 walls"
+std::string counted(std::uint64_t count, std::string_view one, std::string_view many);
 std::string human_number(double value);       ///< up to six significant digits
 
 }  // namespace warren

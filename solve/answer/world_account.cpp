@@ -27,9 +27,6 @@ std::string description_of(const Scene& scene) {
                        grouped(scene.map->free));
   }
   std::string text = scene.maze ? fmt::format("{} x {} maze, ", scene.maze->rows, scene.maze->cols) : "";
-  const auto counted = [](std::size_t count, const char* one, const char* many) {
-    return fmt::format("{} {}", grouped(count), count == 1 ? one : many);
-  };
   if (!scene.polygons.empty()) text += counted(scene.polygons.size(), "polygon", "polygons");
   if (!scene.polygons.empty() && scene.walls.size() > 0) text += ", ";
   const bool nothing_else = scene.polygons.empty() && !has_solids(scene);

@@ -47,6 +47,7 @@ class Batch {
     std::string error = question.error;
     if (error.empty()) {
       try {
+        one_thread_.check();
         if (options_.lengths_only) return add_length(question, scratch, chunk);
         const Answer answer = query_.ask_within(question.start, question.goal, options_.how, one_thread_, scratch);
         if (answer.outcome == Outcome::stopped) throw Stopped(answer.stop_reason.value_or(StopReason::time));
@@ -58,8 +59,8 @@ class Batch {
       }
     }
     ++chunk.wrong;
-    chunk.text += options_.csv ? question.id + (options_.lengths_only ? ",error,\n" : ",error,,\n")
-                               : "{\"id\":" + question.id + ",\"error\":" + json_string(error) + "}\n";
+    chunk.text += options_.csv ? question.csv_id() + (options_.lengths_only ? ",error,\n" : ",error,,\n")
+                               : "{\"id\":" + question.json_id() + ",\"error\":" + json_string(error) + "}\n";
   }
   std::string header() const {
     if (!options_.csv) return {};
@@ -74,12 +75,12 @@ class Batch {
     const std::string length = solved ? json_number(answer.length) : options_.csv ? "" : "null";
     const std::string status(name_of(answer.outcome));
     chunk.text += options_.csv
-                      ? question.id + "," + status + "," + length + "\n"
-                      : "{\"id\":" + question.id + ",\"status\":\"" + status + "\",\"length\":" + length + "}\n";
+                      ? question.csv_id() + "," + status + "," + length + "\n"
+                      : "{\"id\":" + question.json_id() + ",\"status\":\"" + status + "\",\"length\":" + length + "}\n";
   }
   std::string json_line(const BatchQuestion& question, const Answer& answer) const {
     JsonObject object;
-    object.add_json("id", question.id);
+    object.add_json("id", question.json_id());
     object.add("status", name_of(answer.outcome));
     object.add_or_null("length", answer.verified, answer.length);
     object.add("verified", answer.verified);
@@ -87,7 +88,7 @@ class Batch {
     return object.closed() + "\n";
   }
   std::string csv_line(const BatchQuestion& question, const Answer& answer) const {
-    std::string line = question.id + "," + std::string(name_of(answer.outcome)) + ",";
+    std::string line = question.csv_id() + "," + std::string(name_of(answer.outcome)) + ",";
     if (answer.verified) line += json_number(answer.length);
     return line + (answer.verified ? ",true\n" : ",false\n");
   }
@@ -101,7 +102,7 @@ class Batch {
 
 BatchAccount ask_batch(const RoadmapQuery& query, const InputFile& questions, const BatchOptions& options,
                        const Execution& execution, const std::function<void(std::string_view)>& write) {
-  BatchQuestions reader(questions);
+  BatchQuestions reader(questions, BatchLines::questions, query.roadmap(), execution);
   const Batch batch(query, options, execution);
   BatchAccount account;
   write(batch.header());

@@ -62,6 +62,7 @@ class RoadmapQuery {
   LengthAnswer length_within(const std::vector<double>& start, const std::vector<double>& goal,
                              const RoadmapSearchFields& how, const Execution& execution,
                              QuestionScratch& scratch) const;
+  const Roadmap& roadmap() const { return roadmap_; }
   /// Length of the motion between two of the roadmap's states, in the world's metric.
   double distance(VertexId from, VertexId to) const;
   /// What all questions so far have learnt of the edges of a lazy roadmap.

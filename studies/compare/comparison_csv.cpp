@@ -2,19 +2,11 @@
 // A comparison as CSV (RFC 4180): a line a contender, empty where nothing is known.
 #include <fmt/format.h>
 
-#include "core/base/printable.hpp"
+#include "scenes/text/csv_text.hpp"
 #include "studies/compare/comparison_report.hpp"
 
 namespace warren {
 namespace {
-
-std::string csv_field(const std::string& field) {
-  const std::string text = printable(field);
-  if (text.find_first_of(",\"") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string{"\"\""} : std::string(1, c);
-  return quoted + '"';
-}
 
 std::string csv_line(const std::vector<std::string>& fields) {
   std::string line;

@@ -94,6 +94,8 @@ TEST_F(RoadmapBatch, ReadsJsonLinesWithIdsOfTheirOwn) {
   const Outcome outcome = asked(R"({"id": "ä\"", "start": [1, 1], "goal": [5, 5]}
 {"id": 70, "start": [1, 1], "goal": [5, 5]}
 {"start": [1, 1], "goal": "5,5"}
+{"id": 3.5, "strat": [1, 1], "goal": [5, 5]}
+{"id": [], "start": [1, 1], "goal": [5, 5]}
 
 nonsense
 {"id": "six", "start": [1, 1, 0], "goal": [5, 5]}
@@ -102,18 +104,31 @@ nonsense
                                 {"--lengths-only"});
   EXPECT_EQ(outcome.code, 65);
   const std::vector<Json> lines = lines_of(outcome.out);
-  ASSERT_EQ(lines.size(), 7U);
+  ASSERT_EQ(lines.size(), 9U);
   EXPECT_EQ(lines[0]["id"], "ä\"");
   EXPECT_EQ(lines[0]["length"], length_to("1,1", "5,5"));
   EXPECT_EQ(lines[1]["id"], 70);
   EXPECT_EQ(lines[1]["length"], lines[0]["length"]);
   EXPECT_EQ(lines[2], Json::parse(R"({"id": 3, "error": "goal: expected a list of numbers"})"));
-  EXPECT_EQ(lines[3]["id"], 4);
-  EXPECT_EQ(lines[3].size(), 2U);
-  EXPECT_EQ(lines[4]["id"], "six");
-  EXPECT_EQ(lines[4]["error"], "start: a point or disc takes X,Y (found: 3 numbers)");
-  EXPECT_EQ(lines[5]["error"], "goal: expected a list of numbers");
-  EXPECT_EQ(lines[6]["status"], "solved");  // from the world's own start
+  EXPECT_EQ(lines[3], Json::parse(R"({"id": 3.5, "error": "strat: expected the keys id, start, goal"})"));
+  EXPECT_EQ(lines[4], Json::parse(R"({"id": 5, "error": "id: expected a text or a number"})"));
+  EXPECT_EQ(lines[5]["id"], 6);
+  EXPECT_EQ(lines[5].size(), 2U);
+  EXPECT_EQ(lines[6]["id"], "six");
+  EXPECT_EQ(lines[6]["error"], "start: a point or disc takes X,Y (found: 3 numbers)");
+  EXPECT_EQ(lines[7]["error"], "goal: expected a list of numbers");
+  EXPECT_EQ(lines[8]["status"], "solved");  // from the world's own start
+}
+
+TEST_F(RoadmapBatch, IdsAreQuotedAsCsvQuotesThem) {
+  EXPECT_EQ(asked(R"({"id": "a \"b\", c", "goal": [1, 1]}
+{"id": "plain", "goal": [1, 1]}
+{"id": "two\nlines", "goal": [1, 1]}
+{"id": "d,", "goal": [1]})",
+                  {"--csv", "--lengths-only"})
+                .out,
+            "id,status,length\n\"a \"\"b\"\", c\",solved,0.0\nplain,solved,0.0\ntwo\\x0alines,solved,0.0\n"
+            "\"d,\",error,\n");
 }
 
 TEST_F(RoadmapBatch, NothingIsAskedByAnEmptyFile) {
@@ -136,6 +151,26 @@ TEST_F(RoadmapBatch, AHeaderThatSaysNothingIsRefused) {
   refused("start_x,start_y,goal_x,weight\n", "(found: weight)");
   refused("start_x,start_7\n", "(found: start_7)");
   refused("start_x,start_x,goal_x,goal_y\n", "expected each column once (found: start_x)");
+  refused("start_x,start_y,start_theta,goal_x,goal_y\n", "(found: start_theta)");
+  refused("start_1,start_2,goal_1,goal_2\n", "(found: start_1)");
+}
+
+TEST_F(RoadmapBatch, AColumnThatIsMissingIsNamedBeforeAnyAnswer) {
+  const auto refused = [&](const std::string& text, std::string_view said) {
+    const Outcome outcome = asked(text);
+    EXPECT_EQ(outcome.code, 65) << text;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err;
+  };
+  refused("start_x,start_y,goal_x\n1,1,5\n", "questions:1: lacks the column goal_y");
+  refused("\n\nstart_y,goal_x,goal_y\n1,1,5\n", "questions:3: lacks the column start_x");
+  EXPECT_EQ(asked("goal_x,goal_y\n5,5\n").code, 0);  // from the maze's own start
+  build(folder_.write("w.scene", "bounds 0 0 9 9\ngoal 8 8\n"), {"--samples", "50"});
+  refused("goal_x,goal_y\n5,5\n", "lacks the column start_x, for the world has no start");
+  EXPECT_EQ(asked("start_x,start_y\n5,5\n").code, 0);
+  build(source_dir() + "/examples/worlds/car-20.scene", {"--samples", "50"});
+  refused("start_x,start_y,goal_x,goal_y\n", "lacks the column start_theta");
+  EXPECT_EQ(asked("start_x,start_y,start_theta,goal_x,goal_y\n").code, 0);  // any heading
 }
 
 TEST_F(RoadmapBatch, AnEmptyHeadingIsAnyHeading) {

@@ -25,7 +25,7 @@ namespace {
 /// Of all verbs: the options whose values are files that are written, and that are read. Operands are read.
 constexpr std::array<std::string_view, 10> output_options{"--json", "--svg",   "--png",    "--html", "--csv",
                                                           "--log",  "--trace", "--output", "--keep", "--report"};
-constexpr std::array<std::string_view, 4> input_options{"--answer", "--map", "--batch", "--world"};
+constexpr std::array<std::string_view, 5> input_options{"--answer", "--map", "--batch", "--matrix", "--world"};
 
 /// Where a file is, or will be: two are the same file exactly if their places are equal.
 struct Place {
@@ -85,7 +85,9 @@ std::vector<NamedFile> outputs_of(const Arguments& arguments) {
     if (ending == ".yaml") files.push_back({"its image", map_image_of(*path)});
     if (ending == ".gr" || ending == ".csv") files.push_back({"its second file", files_of_export(*path).back()});
   }
-  if (arguments.has("--batch")) files.push_back({"the answers to --batch", "-"});
+  for (const char* many : {"--batch", "--matrix"}) {
+    if (arguments.has(many)) files.push_back({fmt::format("the answers to {}", many), "-"});
+  }
   return files;
 }
 
@@ -93,7 +95,7 @@ std::vector<NamedFile> inputs_of(const Arguments& arguments) {
   std::vector<NamedFile> files;
   for (std::size_t i = 0; i < arguments.operand_count(); ++i) files.push_back({"an operand", arguments.operand(i)});
   for (const std::string_view option : input_options) {
-    if (const auto path = arguments.value(option)) files.push_back({std::string{option}, *path});
+    for (std::string& path : arguments.values(option)) files.push_back({std::string{option}, std::move(path)});
   }
   return files;
 }

@@ -67,10 +67,10 @@ std::string bash_completion() {
 std::string zsh_option(const Command&, const OptionSpec& option) {
   std::string help;  // brackets and colons mean something to _arguments
   for (const char c : option.help) help += c == '[' || c == ']' || c == ':' ? std::string{"\\"} + c : std::string(1, c);
-  const bool takes = !option.value.empty();
   const std::string values = option.choices.empty() ? "_files" : fmt::format("({})", option.choices);
-  return fmt::format("        '{}{}[{}]{}' \\\n", option.name, takes ? "=" : "", for_shell(help),
-                     takes ? fmt::format(":{}:{}", for_shell(option.value), values) : "");
+  std::string taken;
+  for (const std::string& word : words_of(option.value)) taken += fmt::format(":{}:{}", for_shell(word), values);
+  return fmt::format("        '{}{}[{}]{}' \\\n", option.name, taken.empty() ? "" : "=", for_shell(help), taken);
 }
 
 std::string zsh_completion() {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// warren query: asks a roadmap from a file, once or for each line of a batch. The file is never written.
+// warren query: asks a roadmap from a file, once, for each line of a batch, or for a table of lengths. The file is never
+// written.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,10 +8,12 @@
 #include <optional>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "core/base/error.hpp"
 #include "scenes/text/human_units.hpp"
 #include "solve/roadmaps/ask_batch_io.hpp"
+#include "solve/roadmaps/ask_matrix_io.hpp"
 #include "solve/roadmaps/roadmap_file_io.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_names.hpp"
@@ -27,7 +30,8 @@ namespace {
 constexpr OptionSpec query_specs[] = {
     {"--batch", "FILE", "ask each line of this file, CSV or JSON lines; - is standard input"},
     {"--lengths-only", "", "with --batch: answers without their paths"},
-    {"--csv", "", "with --batch: answers as CSV instead of JSON lines"},
+    {"--matrix", "STARTS GOALS", "the length from each of these starts to each of these goals, both CSV or JSON lines"},
+    {"--csv", "", "with --batch or --matrix: answers as CSV instead of JSON lines"},
     roadmap_world_option,
     {"--keep", "FILE", "write the roadmap with what this question has learnt of its edges"},
 };
@@ -65,35 +69,77 @@ class QueryCommand : public AnswerCommand {
   Roadmap roadmap_;
 };
 
-int ask_lines(const Arguments& arguments, const std::string& file) {
-  for (const std::string_view option : {"--start", "--goal", "--json", "--svg"}) {
-    if (arguments.has(option)) throw UsageError(fmt::format("{}: is for one question; --batch has many", option));
+/// A roadmap and the answers to many questions, in lines.
+class ManyQuestions {
+ public:
+  ManyQuestions(const Arguments& arguments, std::string_view of)
+      : arguments_(arguments),
+        options_{how_to_search(arguments), arguments.has("--lengths-only"), arguments.has("--csv")},
+        keep_file_(output_file(arguments, "--keep")) {
+    for (const std::string_view option : {"--start", "--goal", "--json", "--svg"}) {
+      if (arguments.has(option)) throw UsageError(fmt::format("{}: is for one question; {} has many", option, of));
+    }
   }
-  const BatchOptions options{how_to_search(arguments), arguments.has("--lengths-only"), arguments.has("--csv")};
-  const auto keep_file = output_file(arguments, "--keep");
-  Run run(arguments);
-  StageTimes seconds;
-  Roadmap roadmap = load_roadmap(arguments, run.execution(), seconds);
-  const auto query = std::make_unique<RoadmapQuery>(roadmap, run.execution(),
-                                                    options.lengths_only ? Questions::lengths : Questions::many);
-  const InputFile questions(file, run.execution());
-  const BatchAccount account = ask_batch(*query, questions, options, run.execution(), print_text);
-  if (keep_file) {
-    learn(roadmap, *query, run.execution());
-    write_roadmap(roadmap, *keep_file, run.execution());
+  /// ask(query, options, execution) says what it did and how much was wrong.
+  template <class Ask>
+  int run(Questions questions, const Ask& ask) const {
+    Run run(arguments_);
+    StageTimes seconds;
+    Roadmap roadmap = load_roadmap(arguments_, run.execution(), seconds);
+    const auto query = std::make_unique<RoadmapQuery>(roadmap, run.execution(), questions);
+    const auto [said, wrong] = ask(*query, options_, run.execution());
+    if (keep_file_) {
+      learn(roadmap, *query, run.execution());
+      write_roadmap(roadmap, *keep_file_, run.execution());
+    }
+    run.end();
+    run.note(said);
+    return wrong == 0 ? exit_code::success : exit_code::bad_data;
   }
-  run.end();
-  run.note(fmt::format("{} questions, {} solved, {} wrong", grouped(account.questions), grouped(account.solved),
-                       grouped(account.wrong)));
-  return account.wrong == 0 ? exit_code::success : exit_code::bad_data;
+
+ private:
+  const Arguments& arguments_;
+  BatchOptions options_;
+  std::optional<std::string> keep_file_;
+};
+
+int ask_lines(const Arguments& arguments) {
+  const auto questions = arguments.has("--lengths-only") ? Questions::lengths : Questions::many;
+  return ManyQuestions(arguments, "--batch").run(questions, [&](const auto& query, const auto& how, const auto& on) {
+    const InputFile file(*arguments.value("--batch"), on);
+    const BatchAccount account = ask_batch(query, file, how, on, print_text);
+    return std::pair(fmt::format("{}, {} solved, {} wrong", counted(account.questions, "question", "questions"),
+                                 grouped(account.solved), grouped(account.wrong)),
+                     account.wrong);
+  });
+}
+
+int ask_table(const Arguments& arguments) {
+  return ManyQuestions(arguments, "--matrix")
+      .run(Questions::lengths, [&](const auto& query, const auto& how, const auto& on) {
+        const std::vector<std::string> names = arguments.values("--matrix");
+        const InputFile starts(names[0], on);
+        const InputFile goals(names[1], on);
+        const MatrixAccount account = ask_matrix(query, starts, goals, how, on, print_text);
+        return std::pair(fmt::format("{}, {}, {} solved, {} wrong", counted(account.starts, "start", "starts"),
+                                     counted(account.goals, "goal", "goals"), grouped(account.solved),
+                                     grouped(account.wrong)),
+                         account.wrong);
+      });
 }
 
 int query_roadmap(const Arguments& arguments) {
   check_rules_of_maps(arguments);
-  if (const auto file = arguments.value("--batch")) return ask_lines(arguments, std::string(*file));
-  for (const std::string_view option : {"--lengths-only", "--csv"}) {
-    if (arguments.has(option)) throw UsageError(fmt::format("{}: needs --batch FILE, many questions", option));
+  const bool batch = arguments.has("--batch");
+  const bool matrix = arguments.has("--matrix");
+  if (batch && matrix) throw UsageError("--matrix: makes a table of its own; leave out --batch");
+  if (!batch && arguments.has("--lengths-only")) {
+    throw UsageError(matrix ? "--lengths-only: is for --batch; --matrix tells lengths alone"
+                            : "--lengths-only: needs --batch FILE, many questions");
   }
+  if (batch) return ask_lines(arguments);
+  if (matrix) return ask_table(arguments);
+  if (arguments.has("--csv")) throw UsageError("--csv: needs --batch FILE or --matrix STARTS GOALS, many questions");
   return QueryCommand(arguments).run();
 }
 

@@ -30,6 +30,13 @@ const OptionSpec* find_option(const Command& command, std::string_view name) {
   throw UsageError("unknown option " + std::string{name} + suggestion(name, known));
 }
 
+bool is_choice(const OptionSpec& option, std::string_view word) {
+  const std::vector<std::string> choices = words_of(option.choices);
+  return std::find(choices.begin(), choices.end(), word) != choices.end();
+}
+
+}  // namespace
+
 std::vector<std::string> words_of(std::string_view text) {
   std::vector<std::string> words;
   for (std::size_t at = 0; at < text.size();) {
@@ -39,13 +46,6 @@ std::vector<std::string> words_of(std::string_view text) {
   }
   return words;
 }
-
-bool is_choice(const OptionSpec& option, std::string_view word) {
-  const std::vector<std::string> choices = words_of(option.choices);
-  return std::find(choices.begin(), choices.end(), word) != choices.end();
-}
-
-}  // namespace
 
 Arguments::Arguments(const Command& command, std::span<const std::string> words) {
   command_line_ = "warren " + std::string{command.name};
@@ -75,19 +75,23 @@ void Arguments::take_option(const Command& command, std::span<const std::string>
   const OptionSpec* option = find_option(command, name);
   if (option == nullptr) refuse_unknown(command, name);
   if (has(option->name)) throw UsageError(std::string{option->name} + ": given twice");
-  std::string value;
-  if (option->value.empty()) {
-    if (equals != std::string::npos) throw UsageError(std::string{option->name} + ": takes no value");
-  } else if (equals != std::string::npos) {
-    value = word.substr(equals + 1);
-  } else if (option->value_optional) {
-    if (i + 1 < words.size() && is_choice(*option, words[i + 1])) value = words[++i];
-  } else if (i + 1 < words.size()) {
-    value = words[++i];
-  } else {
-    throw UsageError(std::string{option->name} + ": " + std::string{option->value} + " is missing");
+  if (option->value.empty() || option->value_optional) {
+    if (option->value.empty() && equals != std::string::npos) {
+      throw UsageError(std::string{option->name} + ": takes no value");
+    }
+    std::string value = equals != std::string::npos ? word.substr(equals + 1) : "";
+    if (equals == std::string::npos && i + 1 < words.size() && is_choice(*option, words[i + 1])) value = words[++i];
+    options_.emplace_back(option->name, std::move(value));
+    return;
   }
-  options_.emplace_back(option->name, std::move(value));
+  const std::vector<std::string> expected = words_of(option->value);
+  for (std::size_t k = 0; k < expected.size(); ++k) {
+    const bool is_inside = k == 0 && equals != std::string::npos;
+    if (!is_inside && i + 1 == words.size()) {
+      throw UsageError(std::string{option->name} + ": " + expected[k] + " is missing");
+    }
+    options_.emplace_back(option->name, is_inside ? word.substr(equals + 1) : words[++i]);
+  }
 }
 
 void Arguments::check_operands(const Command& command) const {
@@ -106,6 +110,14 @@ std::optional<std::string> Arguments::value(std::string_view option) const {
     if (name == option) return text;
   }
   return std::nullopt;
+}
+
+std::vector<std::string> Arguments::values(std::string_view option) const {
+  std::vector<std::string> all;
+  for (const auto& [name, text] : options_) {
+    if (name == option) all.push_back(text);
+  }
+  return all;
 }
 
 Arguments Arguments::without(std::initializer_list<std::string_view> options) const {

@@ -25,6 +25,8 @@ class Arguments {
   bool has(std::string_view option) const;
   /// What was given with the option: empty for a flag, and where a value that may be missing is.
   std::optional<std::string> value(std::string_view option) const;
+  /// All that was given with it, where it takes several words.
+  std::vector<std::string> values(std::string_view option) const;
   /// These words, but for some options.
   Arguments without(std::initializer_list<std::string_view> options) const;
   const std::string& operand(std::size_t i) const { return operands_[i]; }
@@ -42,5 +44,8 @@ class Arguments {
   std::string command_line_;
   bool wants_help_ = false;
 };
+
+/// Those between the blanks.
+std::vector<std::string> words_of(std::string_view text);
 
 }  // namespace warren

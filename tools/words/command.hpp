@@ -14,7 +14,7 @@
 
 namespace warren {
 
-/// One long option. `value` names what follows it; empty for a flag. `choices` lists the words it takes,
+/// One long option. `value` names what follows it, a word each; empty for a flag. `choices` lists the words it takes,
 /// blank-separated.
 struct OptionSpec {
   std::string_view name;

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A table of lengths: from each of some starts to each of some goals, a line a start (docs/file_formats.md). Each pair
+// is a question of its own: a search for all goals at once could take another of two ways of equal length, and the last
+// digits with it. A place that can't be read is an error in its line or column, the others go on.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string_view>
+
+#include "parallel/execution.hpp"
+#include "scenes/text/input_file_io.hpp"
+#include "solve/roadmaps/ask_batch_io.hpp"
+#include "solve/roadmaps/roadmap_query.hpp"
+
+namespace warren {
+
+struct MatrixAccount {
+  std::uint64_t starts = 0;
+  std::uint64_t goals = 0;
+  std::uint64_t solved = 0;  ///< pairs
+  std::uint64_t wrong = 0;   ///< places that can't be read, and pairs of others that can't be asked
+};
+
+/// Hands the table to `write`, some lines at a time. The same for any number of threads, and the same lengths as
+/// ask_batch. options.lengths_only means nothing. Throws InputError for a CSV whose header says nothing, Stopped: then
+/// what was written are the first lines, whole.
+MatrixAccount ask_matrix(const RoadmapQuery& query, const InputFile& starts, const InputFile& goals,
+                         const BatchOptions& options, const Execution& execution,
+                         const std::function<void(std::string_view)>& write);
+
+}  // namespace warren
