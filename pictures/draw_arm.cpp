@@ -51,7 +51,17 @@ class ArmDrawing {
     measure();
     lay_out();
   }
+  /// In the views of another drawing.
+  ArmDrawing(const Scene& scene, const DhTable& table, double radius, std::span<const JointState> path,
+             const ArmDrawing& frame)
+      : ArmDrawing(scene, table, radius, path) {
+    low_ = frame.low_;
+    high_ = frame.high_;
+    lay_out();
+  }
 
+  /// Where the tool is at these, in each view, instead of its trace.
+  std::vector<PictureLayer> places(std::span<const JointState> states, std::span<const ToolLines> lines) const;
   ArmViews draw() const {
     ArmViews views;
     views.stage.source = scene_.source;
@@ -240,7 +250,36 @@ PictureLayer ArmDrawing::trace() const {
   return layer;
 }
 
+std::vector<PictureLayer> ArmDrawing::places(std::span<const JointState> states,
+                                             std::span<const ToolLines> lines) const {
+  std::vector<Vec3> tools;
+  for (const JointState& q : states) tools.push_back(tool(q));
+  std::vector<PictureLayer> layers;
+  for (const ToolLines& some : lines) {
+    PictureLayer& layer = layers.emplace_back(PictureLayer{some.id, some.color, widths::edge, {}});
+    for (const View& view : views_) {
+      for (const Edge& e : some.edges) layer.lines.add(std::array{view.at(tools[e.from]), view.at(tools[e.to])});
+    }
+  }
+  PictureLayer& dots = layers.emplace_back(PictureLayer{"milestones", colors::outline, widths::milestone, {}});
+  for (const View& view : views_) {
+    for (const Vec3& p : tools) dots.lines.add(std::array{view.at(p), view.at(p)});
+  }
+  return layers;
+}
+
 }  // namespace
+
+ArmViews arm_roadmap_views(const Scene& scene, const DhTable& table, double radius, const JointState& start,
+                           std::span<const JointState> states, std::span<const ToolLines> lines) {
+  std::vector<JointState> seen{start};
+  seen.insert(seen.end(), states.begin(), states.end());
+  const ArmDrawing drawing(scene, table, radius, seen);
+  ArmViews views = ArmDrawing(scene, table, radius, std::span(seen).first(1), drawing).draw();
+  const std::vector<PictureLayer> places = drawing.places(states, lines);
+  views.layers.insert(views.layers.begin() + 1, places.begin(), places.end());
+  return views;
+}
 
 ArmViews arm_views(const Scene& scene, const DhTable& table, double radius, std::span<const JointState> path) {
   return ArmDrawing(scene, table, radius, path).draw();

@@ -17,7 +17,18 @@ struct ArmViews {
   std::vector<PictureLayer> layers;
 };
 
+/// Edges between places of the tool, in one colour.
+struct ToolLines {
+  std::string id;  ///< the layer's
+  Rgb color;
+  std::vector<Edge> edges;
+};
+
 /// radius: of the links. A path of one state shows the arm as it stands; none is empty.
 ArmViews arm_views(const Scene& scene, const DhTable& table, double radius, std::span<const JointState> path);
+
+/// The arm as it stands at `start`, the tool's places at `states` and lines between these.
+ArmViews arm_roadmap_views(const Scene& scene, const DhTable& table, double radius, const JointState& start,
+                           std::span<const JointState> states, std::span<const ToolLines> lines);
 
 }  // namespace warren

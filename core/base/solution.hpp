@@ -28,6 +28,7 @@ struct RoadmapSize {
   std::uint64_t milestones = 0;  ///< start and goal included
   std::uint64_t edges = 0;       ///< undirected; lazy planners: edges that were checked and found free
   std::uint64_t components = 0;  ///< 0 where the planner doesn't compute them (lazy ones)
+  std::uint64_t samples = 0;     ///< drawn in the last round, by planners that draw them in rounds
 };
 
 /// Why start and goal are not joined: sizes of their components, and the shortest distance between a milestone of one

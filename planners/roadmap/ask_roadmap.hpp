@@ -84,6 +84,10 @@ class Ask {
 
   void attach_ends();
   void attach_one_way(std::size_t end, Heading heading);
+  /// Is the motion free? A lazy roadmap leaves that to the search.
+  bool may_be_free(const State& from, const State& to, typename W::Query& query) {
+    return roadmap_.is_lazy() || (++solution_.counters.edges_checked, world_.is_free_motion(from, to, query));
+  }
   void search();
   SearchResult search_plainly(VertexId from, VertexId to, SearchState& state);
   SearchResult search_both_ends();
@@ -119,16 +123,17 @@ void Ask<W>::attach_ends() {
     attach_one_way(0, Heading::out);
     attach_one_way(1, Heading::in);
     auto query = world_.make_query();
-    if (world_.distance(ends_[0], ends_[1]) <= direct_reach(roadmap_.rule())) {
-      ++solution_.counters.edges_checked;
-      if (world_.is_free_motion(ends_[0], ends_[1], query)) end_edges_.push_back({start_vertex(), goal_vertex()});
-      solution_.counters.refused += refused_motions(query);
+    if (world_.distance(ends_[0], ends_[1]) <= direct_reach(roadmap_.rule()) &&
+        may_be_free(ends_[0], ends_[1], query)) {
+      end_edges_.push_back({start_vertex(), goal_vertex()});
     }
+    solution_.counters.refused += refused_motions(query);
   } else {
     end_edges_ = attach_start_and_goal(world_, roadmap_.states(), roadmap_.index(), roadmap_.rule(), ends_[0], ends_[1],
                                        solution_.counters);
   }
-  solution_.roadmap = {vertex_count(), roadmap_.free_edges() + end_edges_.size(), 0};
+  const std::uint64_t known = one_way && roadmap_.is_lazy() ? 0 : end_edges_.size();
+  solution_.roadmap = {vertex_count(), roadmap_.free_edges() + known, 0};
 }
 
 template <World W>
@@ -141,9 +146,8 @@ void Ask<W>::attach_one_way(std::size_t end, Heading heading) {
   for (const OneWayCandidate& c : one_way_candidates<W>(world_, roadmap_.states(), roadmap_.index(), roadmap_.rule(),
                                                         here, no_vertex, heading, near)) {
     const State& there = roadmap_.states()[c.to];
-    ++solution_.counters.edges_checked;
     const bool out = heading == Heading::out;
-    if (!(out ? world_.is_free_motion(here, there, query) : world_.is_free_motion(there, here, query))) continue;
+    if (!(out ? may_be_free(here, there, query) : may_be_free(there, here, query))) continue;
     end_edges_.push_back(out ? Edge{vertex, c.to} : Edge{c.to, vertex});
   }
   solution_.counters.refused += refused_motions(query);
@@ -259,7 +263,11 @@ Graph Ask<W>::free_graph() const {
   execution_.reserve((all.targets().size() + 2 * end_edges_.size()) * sizeof(VertexId));
   targets.reserve(all.targets().size() + 2 * end_edges_.size());
   std::vector<Edge> sorted;
+  const AskedNeighbours<W> places = neighbours(nullptr);
+  auto query = world_.make_query();
   for (const Edge& e : end_edges_) {
+    if (one_way && roadmap_.is_lazy() && !world_.is_free_motion(places.state(e.from), places.state(e.to), query))
+      continue;
     sorted.push_back(e);
     if (!one_way) sorted.push_back({e.to, e.from});
   }

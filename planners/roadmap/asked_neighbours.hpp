@@ -41,8 +41,8 @@ class AskedNeighbours {
       for (const VertexId w : roadmap_->candidates().neighbours(v)) visit_if_free(v, w, end++, visit);
     }
     for (const Edge& e : end_edges_) {
-      if (e.from == v) visit(e.to, distance(v, e.to));
-      if (e.to == v && !one_way) visit(e.from, distance(v, e.from));
+      if (e.from == v) visit_end(v, e.to, visit);
+      if (e.to == v && !one_way) visit_end(v, e.from, visit);
     }
   }
   Counters counters() const {
@@ -65,6 +65,18 @@ class AskedNeighbours {
     if (known == EdgeState::unchecked && !asked(v, w, end)) return;
     ++free_edges_;
     if (used_ != nullptr) used_->push_back(one_way ? Edge{v, w} : Edge{std::min(v, w), std::max(v, w)});
+    visit(w, length);
+  }
+  /// An edge of start or goal. Of lazy roadmaps whose edges lead one way it is asked about here, as one_way_prm does.
+  template <class Visit>
+  void visit_end(VertexId v, VertexId w, const Visit& visit) {
+    const double length = distance(v, w);
+    if (one_way && roadmap_->is_lazy()) {
+      if (!visit.wants(w, length)) return;
+      if (++counters_.edges_checked % checks_per_poll == 0) execution_->check();
+      if (!roadmap_->world().is_free_motion(state(v), state(w), query_)) return;
+      ++free_edges_;
+    }
     visit(w, length);
   }
   /// Asks the world; remembers at both ends.

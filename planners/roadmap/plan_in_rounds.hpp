@@ -44,7 +44,7 @@ class Rounds {
     states_ = draw_milestones(world_, options_, samples, execution_);
     states_.push_back(start_);
     states_.push_back(goal_);
-    solution_.roadmap = {states_.size(), 0, 0};
+    solution_.roadmap = {states_.size(), 0, 0, samples};
   }
   StateIndex<W> index_milestones() {
     const StageTimer timer(execution_, "neighbours", solution_.seconds.neighbours, milestones().size());

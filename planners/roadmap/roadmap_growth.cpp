@@ -34,7 +34,7 @@ ConnectionRule star_rule(StarRule rule, std::uint64_t samples, std::size_t dimen
   if (rule == StarRule::neighbours) {
     return {0.0, static_cast<std::uint32_t>(std::ceil(std::numbers::e * (1.0 + 1.0 / d) * portable::log(n)))};
   }
-  if (!(volume > 0.0)) throw InputError("radius", "this world does not tell its volume: use the rule by neighbours");
+  if (!(volume > 0.0)) throw UsageError("@radius: star: this world doesn't tell its volume; say @neighbours star");
   return {2.0 * root((1.0 + 1.0 / d) * volume / unit_ball(dimension) * portable::log(n) / n, dimension), 0};
 }
 

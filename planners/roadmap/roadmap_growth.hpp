@@ -139,7 +139,7 @@ std::size_t sampled_dimension(const W& world) {
 }
 
 /// k = e (1 + 1/d) ln n, or radius = 2 ((1 + 1/d) V / B ln n / n)^(1/d), with B the volume of the unit ball and V that
-/// of the sampled space, which is not less than the free one's. InputError where the world doesn't tell V.
+/// of the sampled space, which is not less than the free one's. UsageError where the world doesn't tell V.
 ConnectionRule star_rule(StarRule rule, std::uint64_t samples, std::size_t dimension, double volume);
 
 template <World W>

@@ -125,6 +125,13 @@ void write_roadmap_file(const std::string& path, const RoadmapFileHeader& header
                         std::span<const RoadmapSection> sections, const Execution& execution) {
   check_writable(path, header, sections);
   OutputFile file(path, execution);  // first: a place that can't be written is known before the work
+  write_roadmap_file(file, path, header, sections, execution);
+  file.commit();
+}
+
+void write_roadmap_file(OutputFile& file, const std::string& path, const RoadmapFileHeader& header,
+                        std::span<const RoadmapSection> sections, const Execution& execution) {
+  check_writable(path, header, sections);
   const std::vector<SectionPlace> places = places_of(sections);
   const std::string head = header_of(header, places, checksums_of(sections, execution));
   std::size_t bytes = head.size();
@@ -133,7 +140,6 @@ void write_roadmap_file(const std::string& path, const RoadmapFileHeader& header
   file.write(head);
   execution.advance(head.size());
   for (const RoadmapSection& section : sections) write_section(file, section.bytes, execution);
-  file.commit();
 }
 
 }  // namespace warren

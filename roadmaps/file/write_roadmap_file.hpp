@@ -12,6 +12,7 @@
 #include "parallel/execution.hpp"
 #include "roadmaps/file/element_type.hpp"
 #include "roadmaps/file/roadmap_file_header.hpp"
+#include "scenes/text/output_file_io.hpp"
 
 namespace warren {
 
@@ -31,6 +32,9 @@ RoadmapSection roadmap_section(std::string_view name, std::span<const T> element
 /// Writes the file beside its place and renames it. Throws InputError for names that are wrong or stand twice, more
 /// than 64 sections, a writer that doesn't fit; WriteError, Stopped as OutputFile does.
 void write_roadmap_file(const std::string& path, const RoadmapFileHeader& header,
+                        std::span<const RoadmapSection> sections, const Execution& execution);
+/// The same into a file that the caller completes and puts in its place.
+void write_roadmap_file(OutputFile& file, const std::string& path, const RoadmapFileHeader& header,
                         std::span<const RoadmapSection> sections, const Execution& execution);
 
 }  // namespace warren

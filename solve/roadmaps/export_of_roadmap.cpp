@@ -9,9 +9,7 @@
 #include "solve/roadmaps/roadmap_query.hpp"
 
 namespace warren {
-namespace {
 
-/// The states of a lattice and its free edges.
 RoadmapArrays arrays_of(const LatticePassages& passages, const Execution& execution) {
   constexpr std::size_t polled = std::size_t{1} << 16;
   constexpr std::size_t most_ends = 4;
@@ -40,8 +38,6 @@ RoadmapArrays arrays_of(const LatticePassages& passages, const Execution& execut
   arrays.component = free_components(arrays.parts(), execution);
   return arrays;
 }
-
-}  // namespace
 
 ExportAccount export_of_roadmap(const Roadmap& roadmap, const std::string& path, const ExportOptions& options,
                                 const Execution& execution) {

@@ -15,4 +15,7 @@ namespace warren {
 ExportAccount export_of_roadmap(const Roadmap& roadmap, const std::string& path, const ExportOptions& options = {},
                                 const Execution& execution = {});
 
+/// The states of a lattice and its free edges. Throws Stopped.
+RoadmapArrays arrays_of(const LatticePassages& passages, const Execution& execution);
+
 }  // namespace warren

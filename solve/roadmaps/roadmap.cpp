@@ -91,20 +91,16 @@ void compare_states(const RoadmapParts& before, const RoadmapParts& now, const E
   account.states_dropped = old_states.size() - both;
 }
 
-/// Was the number of samples found by growing? A lattice has as many as its maze has cells.
-bool grows(const Roadmap& roadmap) {
-  const SolveOptions& options = roadmap.options;
-  if (options.roadmap.samples || options.sampler == SamplerKind::lattice) return false;
-  const bool is_round = roadmap.robot.kind == RobotKind::point || roadmap.robot.kind == RobotKind::disc;
-  return options.sampler || !roadmap.scene.maze || !is_round;
-}
-
-/// Two lattices share the smaller one's rows and columns.
-void compare_lattices(LatticeSize before, LatticeSize now, UpdateAccount& account) {
-  const auto cells = [](std::uint64_t rows, std::uint64_t cols) { return rows * cols; };
-  const std::uint64_t both = cells(std::min(before.rows, now.rows), std::min(before.cols, now.cols));
-  account.states_added = cells(now.rows, now.cols) - both;
-  account.states_dropped = cells(before.rows, before.cols) - both;
+/// Two lattices share the smaller one's rows and columns; another roadmap shares nothing with a lattice.
+void compare_lattices(const Roadmap& before, const Roadmap& now, UpdateAccount& account) {
+  std::uint64_t both = 0;
+  if (before.scene.maze && now.scene.maze) {
+    const MazeHint& a = *before.scene.maze;
+    const MazeHint& b = *now.scene.maze;
+    both = std::uint64_t{std::min(a.rows, b.rows)} * std::min(a.cols, b.cols);
+  }
+  account.states_added = count_states(now) - both;
+  account.states_dropped = count_states(before) - both;
 }
 
 ChosenSolver builder_of(const SolveOptions& options, const Scene& scene, const Question& question) {
@@ -123,6 +119,12 @@ ChosenSolver builder_of(const SolveOptions& options, const Scene& scene, const Q
 }
 
 }  // namespace
+
+bool grows(const SolveOptions& options, const Scene& scene, const RobotSpec& robot) {
+  if (options.roadmap.samples || options.sampler == SamplerKind::lattice) return false;
+  const bool is_round = robot.kind == RobotKind::point || robot.kind == RobotKind::disc;
+  return options.sampler || !scene.maze || !is_round;
+}
 
 EdgeCounts count_edges(const Roadmap& roadmap, const Execution& execution) {
   if (roadmap.lattice != nullptr) return edges_of(roadmap.lattice->passages());
@@ -143,16 +145,22 @@ std::uint64_t count_states(const Roadmap& roadmap) {
   return roadmap.lattice != nullptr ? roadmap.lattice->passages().cell_count() : roadmap.arrays.parts().vertex_count();
 }
 
-Roadmap build_within(Scene scene, const Question& question, const SolveOptions& options, const Execution& execution,
-                     IndexChoice index, BuildAccount* account, const OldRoadmap* old) {
+void check_buildable(const Scene& scene, const Question& question, const SolveOptions& options) {
   question.validate();
   options.validate();
   refuse_what_is_asked_later(options);
+  check_solver_options(options);
+  builder_of(options, scene, without_ends(scene, question));
+}
+
+Roadmap build_within(Scene scene, const Question& question, const SolveOptions& options, const Execution& execution,
+                     IndexChoice index, BuildAccount* account, const OldRoadmap* old) {
   Roadmap roadmap;
   roadmap.scene = std::move(scene);
+  roadmap.index = index;
   roadmap.options = options;
   roadmap.options.planner = options.planner.value_or(PlannerKind::prm);
-  check_solver_options(roadmap.options);
+  check_buildable(roadmap.scene, question, roadmap.options);
   const Question asked = without_ends(roadmap.scene, question);
   const ChosenSolver solver = builder_of(roadmap.options, roadmap.scene, asked);
   roadmap.robot = robot_of(roadmap.scene, asked);
@@ -178,25 +186,23 @@ Roadmap build_within(Scene scene, const Question& question, const SolveOptions& 
 
 Roadmap update(const Roadmap& roadmap, Scene now, const Execution& execution, UpdateAccount* account) {
   std::optional<OldRoadmap> old;
-  if (!grows(roadmap) && roadmap.lattice == nullptr && roadmap.robot.kind != RobotKind::puma560 &&
-      roadmap.robot.kind != RobotKind::arm) {
+  if (!grows(roadmap.options, roadmap.scene, roadmap.robot) && roadmap.lattice == nullptr &&
+      roadmap.robot.kind != RobotKind::puma560 && roadmap.robot.kind != RobotKind::arm) {
     if (auto places = changed_places(roadmap.scene, now, execution)) old = {&roadmap.arrays, std::move(*places)};
   }
   BuildAccount built;
-  const IndexChoice index = roadmap.lattice != nullptr ? IndexChoice::where_it_pays : IndexChoice::none;
-  Roadmap next = build_within(std::move(now), roadmap.question(), roadmap.options, execution, index, &built,
+  Roadmap next = build_within(std::move(now), roadmap.question(), roadmap.options, execution, roadmap.index, &built,
                               old ? &*old : nullptr);
   if (account == nullptr) return next;
   const EdgeCounts edges = count_edges(next, execution);
-  account->built_anew = !old;
+  account->built_anew = !old || next.lattice != nullptr;
   account->edges = edges.free + edges.blocked + edges.unchecked;
   account->edges_checked = built.counters.edges_checked;
   if (next.lattice != nullptr) {
     account->edges_checked = account->edges;  // the index is made of all of them
   }
-  if (roadmap.scene.maze && next.scene.maze && (roadmap.lattice != nullptr || next.lattice != nullptr)) {
-    const auto size = [](const MazeHint& maze) { return LatticeSize{maze.rows, maze.cols}; };
-    compare_lattices(size(*roadmap.scene.maze), size(*next.scene.maze), *account);
+  if (roadmap.lattice != nullptr || next.lattice != nullptr) {
+    compare_lattices(roadmap, next, *account);
   } else {
     compare_states(roadmap.arrays.parts(), next.arrays.parts(), execution, *account);
   }

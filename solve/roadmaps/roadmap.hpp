@@ -43,9 +43,10 @@ struct Roadmap {
   std::string world_hash;  ///< scene_hash
   RobotSpec robot;
   double clearance = 0.0;
-  SolveOptions options;       ///< planner, sampler, seed and what else was asked for; no search
-  std::uint64_t samples = 0;  ///< drawn in the last round
-  ConnectionRule rule;        ///< by which milestones were joined, and start and goal will be
+  SolveOptions options;                            ///< planner, sampler, seed and what else was asked for; no search
+  std::uint64_t samples = 0;                       ///< drawn in the last round
+  ConnectionRule rule;                             ///< by which milestones were joined, and start and goal will be
+  IndexChoice index = IndexChoice::where_it_pays;  ///< as it was asked for
   RoadmapArrays arrays;
   std::unique_ptr<RoadmapFile> file = {};    ///< what the lattice looks at, where it was read
   std::unique_ptr<RouteIndex> lattice = {};  ///< instead of arrays
@@ -64,6 +65,9 @@ EdgeCounts count_edges(const Roadmap& roadmap, const Execution& execution);
 /// States of the roadmap.
 std::uint64_t count_states(const Roadmap& roadmap);
 
+/// Is the number of samples found by growing? A lattice has as many as its maze has cells.
+bool grows(const SolveOptions& options, const Scene& scene, const RobotSpec& robot);
+
 struct OldRoadmap;
 
 /// What building took.
@@ -78,6 +82,9 @@ struct BuildAccount {
 /// what can't be built and for options that mean nothing to it, InputError, Stopped at a limit.
 Roadmap build(Scene scene, const Question& question = {}, const SolveOptions& options = {}, const Limits& limits = {},
               IndexChoice index = IndexChoice::where_it_pays);
+
+/// Throws what build() throws before it works, for options that name a planner.
+void check_buildable(const Scene& scene, const Question& question, const SolveOptions& options);
 
 /// The same under an execution. `old`: update's.
 Roadmap build_within(Scene scene, const Question& question, const SolveOptions& options, const Execution& execution,

@@ -138,6 +138,13 @@ std::string roadmap_meta(const RoadmapFile& file, const Execution& execution) {
 }
 
 void write_roadmap(const Roadmap& roadmap, const std::string& path, const Execution& execution, bool with_world) {
+  OutputFile file(path, execution);  // first: a place that can't be written is known before the work
+  write_roadmap(roadmap, file, path, execution, with_world);
+  file.commit();
+}
+
+void write_roadmap(const Roadmap& roadmap, OutputFile& file, const std::string& path, const Execution& execution,
+                   bool with_world) {
   const std::string meta = meta_json(roadmap, execution);
   const RoadmapParts parts = roadmap.arrays.parts();
   const WorldSections world(roadmap.scene, execution);
@@ -147,7 +154,7 @@ void write_roadmap(const Roadmap& roadmap, const std::string& path, const Execut
   const RoadmapFileHeader header{.world_hash = hash_number(roadmap.world_hash),
                                  .recipe_hash = hash_of(recipe_json(roadmap, execution)),
                                  .writer = "warren " WARREN_VERSION};
-  write_roadmap_file(path, header, sections, execution);
+  write_roadmap_file(file, path, header, sections, execution);
 }
 
 void check_roadmap(const RoadmapFile& file, const Execution& execution) {
@@ -157,7 +164,10 @@ void check_roadmap(const RoadmapFile& file, const Execution& execution) {
 }
 
 Roadmap read_roadmap(const std::string& path, const Execution& execution, std::optional<Scene> world) {
-  auto opened = std::make_unique<RoadmapFile>(path, execution);
+  return read_roadmap(std::make_unique<RoadmapFile>(path, execution), execution, std::move(world));
+}
+
+Roadmap read_roadmap(std::unique_ptr<RoadmapFile> opened, const Execution& execution, std::optional<Scene> world) {
   const RoadmapFile& file = *opened;
   Roadmap roadmap = described(file, execution);
   const std::string source = world ? world->source : roadmap.scene.source;

@@ -3,11 +3,13 @@
 // what the roadmap is. The same roadmap gives the same bytes, whatever threads, compiler and machine.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "parallel/execution.hpp"
 #include "roadmaps/file/roadmap_file.hpp"
+#include "scenes/text/output_file_io.hpp"
 #include "solve/roadmaps/roadmap.hpp"
 
 namespace warren {
@@ -16,11 +18,15 @@ namespace warren {
 /// WriteError, Stopped.
 void write_roadmap(const Roadmap& roadmap, const std::string& path, const Execution& execution = {},
                    bool with_world = true);
+/// The same into a file that the caller completes and puts in its place, `path`.
+void write_roadmap(const Roadmap& roadmap, OutputFile& file, const std::string& path, const Execution& execution,
+                   bool with_world = true);
 
 /// Reads a whole roadmap and holds all of it against what it promises. `world`: for a file that has none, or to make
 /// sure that it is for this one. Throws ReadError, InputError (cut off, damaged, of another version, world or body, or
 /// without a world where none is given), Stopped.
 Roadmap read_roadmap(const std::string& path, const Execution& execution = {}, std::optional<Scene> world = {});
+Roadmap read_roadmap(std::unique_ptr<RoadmapFile> opened, const Execution& execution, std::optional<Scene> world = {});
 
 /// Does the file begin as a .roadmap does?
 bool is_roadmap_file(std::string_view first_bytes);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Roadmaps in as the verbs need them: ROADMAP, the first operand, and by --world the world of a file that has none.
+// Roadmaps in as the verbs need them: ROADMAP, the first operand, and by --world the world of a file that has none. And
+// as a picture.
 #pragma once
 
 #include "core/base/counters.hpp"
@@ -19,5 +20,11 @@ void check_rules_of_maps(const Arguments& arguments);
 /// Adds the time to seconds. Throws as read_roadmap and load_world do, InputError for a world where a roadmap is
 /// expected, and UsageError where an output is the table of the roadmap's arm.
 Roadmap load_roadmap(const Arguments& arguments, const Execution& execution, StageTimes& seconds);
+
+/// Is there a roadmap in the file? Pipes are taken for worlds, since what is read of them is gone.
+bool is_roadmap_named(const std::string& file);
+
+/// The picture of ROADMAP in a file. The exit code; throws as load_roadmap and write_picture do.
+int draw_roadmap(const Arguments& arguments, const std::string& file);
 
 }  // namespace warren

@@ -31,21 +31,29 @@ MapServerRules rules_value(std::string_view option, std::string_view text) {
   return choice_value(option, text, words) == 0 ? MapServerRules::nav2 : MapServerRules::ros1;
 }
 
-bool is_picture(std::string_view ending) { return ending == ".svg" || ending == ".png" || ending == ".html"; }
+[[noreturn]] void refuse_rules(const std::string& source) {
+  throw UsageError(fmt::format("--map-rules: is for the YAML of map_server, and {} is none", source));
+}
 
 }  // namespace
+
+bool is_picture(std::string_view ending) { return ending == ".svg" || ending == ".png" || ending == ".html"; }
 
 std::span<const OptionSpec> world_option_specs() { return world_specs; }
 
 Scene load_world(const std::string& source, const Arguments& arguments, const Execution& execution,
                  StageTimes& seconds) {
-  const bool generates = is_maze_source(source);
+  if (!is_maze_source(source)) return load_world(InputFile(source, execution), arguments, execution, seconds);
+  if (arguments.has("--map-rules")) refuse_rules(source);
+  const StageTimer timer(execution, "generate", seconds.generate);
+  return read_world(source, execution);
+}
+
+Scene load_world(const InputFile& file, const Arguments& arguments, const Execution& execution, StageTimes& seconds) {
   const auto asked = given_value(arguments, "--map-rules", rules_value);
-  const StageTimer timer(execution, generates ? "generate" : "read", generates ? seconds.generate : seconds.read);
-  Scene scene = read_world(source, execution, asked.value_or(MapServerRules::nav2));
-  if (asked && !(scene.map && scene.map->format == MapFormat::ros)) {
-    throw UsageError(fmt::format("--map-rules: is for the YAML of map_server, and {} is none", source));
-  }
+  const StageTimer timer(execution, "read", seconds.read);
+  Scene scene = read_scene(file, execution, asked.value_or(MapServerRules::nav2));
+  if (asked && !(scene.map && scene.map->format == MapFormat::ros)) refuse_rules(file.name());
   if (scene.map) check_not_written(arguments, scene.map->image);
   check_not_written(arguments, scene.robot);
   return scene;

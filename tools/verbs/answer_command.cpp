@@ -11,6 +11,7 @@
 #include "pictures/answer_summary.hpp"
 #include "pictures/draw_answer.hpp"
 #include "solve/answer/write_answer_io.hpp"
+#include "solve/roadmaps/roadmap_file_io.hpp"
 #include "solve/steps/solve_steps.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_names.hpp"
@@ -36,10 +37,11 @@ bool is_straight(const std::string& path) {
 
 std::span<const OptionSpec> answer_output_specs() { return output_specs; }
 
-AnswerCommand::AnswerCommand(const Arguments& arguments)
+AnswerCommand::AnswerCommand(const Arguments& arguments, std::string_view keep)
     : arguments_(arguments),
       json_(output_file(arguments, "--json").value_or("")),
-      svg_(output_file(arguments, "--svg").value_or("")) {
+      svg_(output_file(arguments, "--svg").value_or("")),
+      roadmap_(output_file(arguments, keep).value_or("")) {
   check_picture_ending("--svg", svg_, ".svg .png .html");
 }
 
@@ -54,7 +56,7 @@ int AnswerCommand::run() {
 }
 
 bool AnswerCommand::takes_standard_output() const {
-  return json_ == "-" || svg_ == "-" || arguments_.value("--trace") == "-" || arguments_.value("--keep") == "-";
+  return json_ == "-" || svg_ == "-" || arguments_.value("--trace") == "-" || roadmap_ == "-";
 }
 
 void AnswerCommand::answer(const Run& run) {
@@ -85,19 +87,32 @@ void AnswerCommand::write_outputs(const Run& run) {
   write_stopped(run.execution());
 }
 
-/// A JSON file is put into its place when the picture is in its own; what is written straight follows the picture.
+/// A JSON file is put into its place when picture and roadmap are in theirs; what is written straight follows the
+/// picture.
 void AnswerCommand::write_finished(const Execution& execution) {
+  std::optional<OutputFile> kept;
   std::optional<OutputFile> json;
+  const bool kept_follows = keeps_roadmap() && is_straight(roadmap_);
+  if (keeps_roadmap() && !kept_follows) write_kept(kept, execution);
   const bool json_follows = !json_.empty() && is_straight(json_);
   if (!json_.empty() && !json_follows) write_json(json, execution);
   if (!svg_.empty()) draw(execution);
   json_said_ = json_follows;
   if (json_follows) write_json(json, execution);
+  if (kept_follows) write_kept(kept, execution);
+  FirstOfTwoFiles first(kept && json ? roadmap_ : "-");
+  if (kept) kept->commit();
   if (json) json->commit();
-  write_more(execution);
-  for (const std::string& file : {json_, svg_}) {
+  first.keep();
+  for (const std::string& file : {json_, svg_, roadmap_}) {
     if (!file.empty()) written_.push_back(file);
   }
+}
+
+void AnswerCommand::write_kept(std::optional<OutputFile>& file, const Execution& execution) const {
+  file.emplace(roadmap_, execution);
+  write_roadmap(roadmap(), *file, roadmap_, execution);
+  file->complete();
 }
 
 void AnswerCommand::write_stopped(const Execution& execution) {

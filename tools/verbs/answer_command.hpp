@@ -6,12 +6,14 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scenes/scene/scene.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/answer/by_products.hpp"
+#include "solve/roadmaps/roadmap.hpp"
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/words/arguments.hpp"
 #include "tools/words/command.hpp"
@@ -23,8 +25,9 @@ std::span<const OptionSpec> answer_output_specs();
 
 class AnswerCommand {
  public:
-  /// Throws UsageError, WriteError for outputs that can't be.
-  explicit AnswerCommand(const Arguments& arguments);
+  /// `keep`: the option whose file takes the roadmap, if it is given. Throws UsageError, WriteError for outputs that
+  /// can't be.
+  AnswerCommand(const Arguments& arguments, std::string_view keep);
   virtual ~AnswerCommand() = default;
   AnswerCommand(const AnswerCommand&) = delete;
   AnswerCommand& operator=(const AnswerCommand&) = delete;
@@ -36,8 +39,9 @@ class AnswerCommand {
   virtual Answer find(const Run& run, StageTimes& before, ByProducts* keep) = 0;
   /// The world of the picture, which needs it no more, and what find() has left out of `keep`.
   virtual Scene scene_drawn(const Execution& execution, ByProducts& keep) = 0;
-  /// After the outputs.
-  virtual void write_more(const Execution&) {}
+  /// What goes to the file of `keep`; only after find().
+  virtual const Roadmap& roadmap() const = 0;
+  bool keeps_roadmap() const { return !roadmap_.empty(); }
 
   const Arguments& arguments_;
 
@@ -49,12 +53,14 @@ class AnswerCommand {
   void write_stopped(const Execution& execution);
   void write_json(std::optional<OutputFile>& file, const Execution& execution) const;
   void take_back_answer(StopReason reason);
+  void write_kept(std::optional<OutputFile>& file, const Execution& execution) const;
   void draw(const Execution& execution);
   StopReason stop_reason() const { return answer_.stop_reason.value_or(StopReason::time); }
   int exit_code() const;
 
   std::string json_;
   std::string svg_;
+  std::string roadmap_;
   ByProducts by_products_;
   Answer answer_;
   std::vector<std::string> written_;

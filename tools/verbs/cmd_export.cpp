@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "pictures/picture.hpp"
 #include "scenes/text/human_units.hpp"
 #include "solve/roadmaps/export_of_roadmap.hpp"
 #include "tools/screen/exit_code.hpp"
@@ -16,7 +17,11 @@ namespace warren {
 namespace {
 
 constexpr OptionSpec export_specs[] = {
-    {"--output", "FILE", "where to: .geojson .graphml .gr .csv .npz .dot by ending", {}, "-o"},
+    {"--output",
+     "FILE",
+     "where to: .geojson .graphml .gr .csv .npz .dot, or as a picture .svg .png .html, by ending",
+     {},
+     "-o"},
     {"--unchecked", "", "edges that nobody has checked, too"},
     {"--frame", "NAME", "the frame that .geojson names (default: map)"},
     roadmap_world_option,
@@ -26,6 +31,12 @@ int export_roadmap_file(const Arguments& arguments) {
   check_rules_of_maps(arguments);
   const auto file = output_file(arguments, "--output");
   if (!file) throw UsageError("-o FILE is missing");
+  if (is_picture(ending_of(*file))) {
+    for (const std::string_view option : {"--unchecked", "--frame"}) {
+      if (arguments.has(option)) throw UsageError(fmt::format("{}: means nothing to a picture", option));
+    }
+    return draw_roadmap(arguments, *file);
+  }
   for (const std::string& name : files_of_export(*file)) check_writable(name);
   const ExportOptions options{.with_unchecked = arguments.has("--unchecked"),
                               .frame = std::string(arguments.value("--frame").value_or("map"))};

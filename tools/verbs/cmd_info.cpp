@@ -2,6 +2,12 @@
 // warren info: what is in this file, a world or a roadmap.
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <system_error>
+#include <utility>
+
 #include "core/base/error.hpp"
 #include "core/base/printable.hpp"
 #include "scenes/formats/read_world_io.hpp"
@@ -25,38 +31,48 @@ constexpr OptionSpec info_specs[] = {
     {"--check", "all", "of a roadmap file: hold all of it against its checksums and what it promises", "all"},
 };
 
-bool is_roadmap(const std::string& path, const Execution& execution) {
-  if (is_maze_source(path) || path == "-") return false;
-  return is_roadmap_file(InputFile(path, execution).bytes());
+/// Of a world nullptr. What comes through a pipe is read once.
+std::unique_ptr<RoadmapFile> opened_roadmap(const InputFile& file, const std::string& path,
+                                            const Execution& execution) {
+  if (!is_roadmap_file(file.bytes())) return nullptr;
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(path, ignored)) return std::make_unique<RoadmapFile>(path, execution);
+  execution.reserve(file.bytes().size());
+  return std::unique_ptr<RoadmapFile>(
+      new RoadmapFile(RoadmapFile::of_bytes(file.name(), file.bytes(), execution)));  // it can't be moved
 }
 
 /// What the roadmap says of itself; --check: after all of it was looked at.
-std::string roadmap_info(const Arguments& arguments, const Execution& execution) {
-  const RoadmapFile file(arguments.operand(0), execution);
-  std::string meta = roadmap_meta(file, execution);
-  if (!arguments.has("--check")) return meta;
-  file.check_all(execution);
-  if (has_world(file)) {
-    read_roadmap(arguments.operand(0), execution);
+std::string roadmap_info(std::unique_ptr<RoadmapFile> file, bool check, const Execution& execution) {
+  std::string meta = roadmap_meta(*file, execution);
+  if (!check) return meta;
+  file->check_all(execution);
+  if (has_world(*file)) {
+    read_roadmap(std::move(file), execution);
   } else {
-    check_roadmap(file, execution);
+    check_roadmap(*file, execution);
   }
   return meta;
 }
 
 int info(const Arguments& arguments) {
   const auto json = output_file(arguments, "--json");
+  const std::string& path = arguments.operand(0);
+  const bool check = arguments.has("--check");
   Run run(arguments);
-  if (is_roadmap(arguments.operand(0), run.execution())) {
-    const std::string meta = roadmap_info(arguments, run.execution());
+  std::optional<InputFile> file;
+  if (!is_maze_source(path)) file.emplace(path, run.execution());
+  if (auto roadmap = file ? opened_roadmap(*file, path, run.execution()) : nullptr) {
+    const std::string meta = roadmap_info(std::move(roadmap), check, run.execution());
     run.end();
     if (json) write_file(*json, meta, run.execution());
     if (!run.quiet() && json != "-") print_text(meta);
     return exit_code::success;
   }
-  if (arguments.has("--check")) throw UsageError("--check: is for roadmap files; a world is checked as it is read");
+  if (check) throw UsageError("--check: is for roadmap files; a world is checked as it is read");
   StageTimes seconds;
-  const Scene scene = load_world(arguments.operand(0), arguments, run.execution(), seconds);
+  const Scene scene = file ? load_world(*file, arguments, run.execution(), seconds)
+                           : load_world(path, arguments, run.execution(), seconds);
   const std::vector<Fact> facts = facts_of(scene, run.execution());
   run.end();
   if (json) write_file(*json, facts_json(facts), run.execution());

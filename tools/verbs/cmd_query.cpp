@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// warren query: asks a roadmap from a file, once, for each line of a batch, or for a table of lengths. The file is never
-// written.
+// warren query: asks a roadmap from a file, once, for each line of a batch, or for a table of lengths. The file is
+// never written.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -44,10 +44,7 @@ RoadmapSearchFields how_to_search(const Arguments& arguments) {
 class QueryCommand : public AnswerCommand {
  public:
   explicit QueryCommand(const Arguments& arguments)
-      : AnswerCommand(arguments),
-        question_(question_words(arguments)),
-        how_(how_to_search(arguments)),
-        keep_file_(output_file(arguments, "--keep")) {}
+      : AnswerCommand(arguments, "--keep"), question_(question_words(arguments)), how_(how_to_search(arguments)) {}
 
  private:
   Answer find(const Run& run, StageTimes& before, ByProducts* keep) override {
@@ -55,17 +52,14 @@ class QueryCommand : public AnswerCommand {
     const RoadmapQuery query(roadmap_, run.execution(), Questions::one);
     QuestionScratch scratch;
     Answer answer = query.ask_within(question_.start, question_.goal, how_, run.execution(), scratch, keep);
-    if (keep_file_) learn(roadmap_, query, run.execution());
+    if (keeps_roadmap()) learn(roadmap_, query, run.execution());
     return answer;
   }
   Scene scene_drawn(const Execution&, ByProducts&) override { return roadmap_.scene; }
-  void write_more(const Execution& execution) override {
-    if (keep_file_) write_roadmap(roadmap_, *keep_file_, execution);
-  }
+  const Roadmap& roadmap() const override { return roadmap_; }
 
   Question question_;
   RoadmapSearchFields how_;
-  std::optional<std::string> keep_file_;
   Roadmap roadmap_;
 };
 
@@ -121,10 +115,10 @@ int ask_table(const Arguments& arguments) {
         const InputFile starts(names[0], on);
         const InputFile goals(names[1], on);
         const MatrixAccount account = ask_matrix(query, starts, goals, how, on, print_text);
-        return std::pair(fmt::format("{}, {}, {} solved, {} wrong", counted(account.starts, "start", "starts"),
-                                     counted(account.goals, "goal", "goals"), grouped(account.solved),
-                                     grouped(account.wrong)),
-                         account.wrong);
+        return std::pair(
+            fmt::format("{}, {}, {} solved, {} wrong", counted(account.starts, "start", "starts"),
+                        counted(account.goals, "goal", "goals"), grouped(account.solved), grouped(account.wrong)),
+            account.wrong);
       });
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// warren render: a picture of a world, with an answer's path on it.
+// warren render: a picture of a world, with an answer's path on it, or of a roadmap.
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
@@ -10,6 +10,7 @@
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_conflicts.hpp"
 #include "tools/screen/output_names.hpp"
+#include "tools/screen/roadmap_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/terminal.hpp"
 #include "tools/screen/world_files.hpp"
@@ -22,6 +23,7 @@ namespace {
 constexpr OptionSpec render_specs[] = {
     {"--output", "FILE", "where to: .svg .png .html by ending", {}, "-o"},
     {"--answer", "FILE", "draw this answer's path"},
+    roadmap_world_option,
     {"--animate", "", "with --answer: the body moves along the path (.svg and .html)"},
 };
 
@@ -29,7 +31,7 @@ std::string picture_file(const Arguments& arguments) {
   const auto file = arguments.value("--output");
   if (!file) throw UsageError("-o FILE is missing");
   const std::string ending = ending_of(*file);
-  if (*file != "-" && ending != ".svg" && ending != ".png" && ending != ".html") {
+  if (*file != "-" && !is_picture(ending)) {
     throw UsageError("--output: a picture ends in .svg, .png or .html (found: '" + *file + "')");
   }
   check_writable(*file);
@@ -46,6 +48,12 @@ int render(const Arguments& arguments) {
   const std::string file = picture_file(arguments);
   const auto answer_file = arguments.value("--answer");
   check_animation(arguments, file);
+  if (is_roadmap_named(arguments.operand(0))) {
+    check_rules_of_maps(arguments);
+    if (answer_file) throw UsageError("--answer: is drawn on a world; a roadmap is drawn alone");
+    return draw_roadmap(arguments, file);
+  }
+  if (arguments.has("--world")) throw UsageError("--world: is for a roadmap without its world");
   Run run(arguments);
   StageTimes seconds;
   RecordedAnswer answer;
@@ -75,7 +83,7 @@ int render(const Arguments& arguments) {
 }  // namespace
 
 Command render_command() {
-  Command command{"render", "WORLD", "draw a world, and an answer's path on it", {}, render};
+  Command command{"render", "FILE", "draw a world, and an answer's path on it, or a roadmap", {}, render};
   add_options(command.options, render_specs);
   add_options(command.options, world_option_specs());
   add_options(command.options, run_option_specs());

@@ -2,6 +2,7 @@
 // warren solve: finds a path, verifies it, prints what it took. A stop at any stage still gives an answer.
 #include <utility>
 
+#include "solve/roadmaps/solve_and_keep.hpp"
 #include "solve/solve.hpp"
 #include "solve/steps/blocked_end.hpp"
 #include "solve/steps/kind_of_problem.hpp"
@@ -14,10 +15,16 @@
 namespace warren {
 namespace {
 
+constexpr OptionSpec solve_specs[] = {
+    {"--save-roadmap", "FILE", "keep the roadmap of the answer, with prm and lazy-prm, for `warren query`"},
+};
+
 class SolveCommand : public AnswerCommand {
  public:
   explicit SolveCommand(const Arguments& arguments)
-      : AnswerCommand(arguments), question_(question_words(arguments)), options_(solve_words(arguments)) {
+      : AnswerCommand(arguments, "--save-roadmap"),
+        question_(question_words(arguments)),
+        options_(solve_words(arguments)) {
     check_not_written(arguments, question_.robot);
     check_solver_options(options_);
   }
@@ -25,18 +32,23 @@ class SolveCommand : public AnswerCommand {
  private:
   Answer find(const Run& run, StageTimes& before, ByProducts* keep) override {
     scene_ = load_world(arguments_.operand(0), arguments_, run.execution(), before);
-    Answer answer = solve_within(scene_, question_, options_, run.execution(), keep);
-    explain_blocked_end(scene_, answer, run.execution());
+    Answer answer = keeps_roadmap()
+                        ? solve_and_keep(std::move(scene_), question_, options_, run.execution(), roadmap_, keep)
+                        : solve_within(scene_, question_, options_, run.execution(), keep);
+    explain_blocked_end(keeps_roadmap() ? roadmap_.scene : scene_, answer, run.execution());
     return answer;
   }
   Scene scene_drawn(const Execution& execution, ByProducts& keep) override {
+    if (keeps_roadmap()) return roadmap_.scene;
     make_by_products(scene_, question_, options_, execution, keep);
     return std::move(scene_);
   }
+  const Roadmap& roadmap() const override { return roadmap_; }
 
   Question question_;
   SolveOptions options_;
   Scene scene_;
+  Roadmap roadmap_;
 };
 
 }  // namespace
@@ -47,6 +59,7 @@ Command solve_command() {
   add_options(command.options, question_option_specs());
   add_options(command.options, world_option_specs());
   add_options(command.options, answer_output_specs());
+  add_options(command.options, solve_specs);
   add_options(command.options, run_option_specs());
   command.run = [](const Arguments& arguments) { return SolveCommand(arguments).run(); };
   return command;

@@ -380,7 +380,7 @@ TEST(PrmStar, NeighboursAndRadiusFollowTheSamples) {
   EXPECT_EQ(star_rule(StarRule::neighbours, 1000, 2, 0.0).neighbours, 29U);  // e 3/2 ln 1000 = 28.17
   // 2 (3/2 V / pi ln n / n)^(1/2)
   EXPECT_NEAR(star_rule(StarRule::radius, 1000, 2, 10.0).radius, 0.3632, 1e-3);
-  EXPECT_THROW(star_rule(StarRule::radius, 1000, 3, 0.0), InputError);
+  EXPECT_THROW(star_rule(StarRule::radius, 1000, 3, 0.0), UsageError);
 }
 
 }  // namespace

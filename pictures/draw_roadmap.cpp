@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pictures/draw_roadmap.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "core/base/trigonometry.hpp"
+#include "pictures/draw_arm.hpp"
+#include "pictures/draw_car.hpp"
+#include "pictures/draw_cells.hpp"
+#include "scenes/text/human_units.hpp"
+#include "solve/answer/world_account.hpp"
+#include "solve/question/question_of_arm.hpp"
+#include "solve/roadmaps/export_of_roadmap.hpp"
+#include "worlds/rasters/map_borders.hpp"
+
+namespace warren {
+namespace {
+
+constexpr Rgb unchecked_color{176, 184, 196};
+constexpr Rgb blocked_color{253, 160, 100};
+constexpr std::size_t most_arrows = 2000;
+constexpr std::size_t polled = std::size_t{1} << 14;
+
+struct EdgeStyle {
+  EdgeState state;
+  const char* id;
+  Rgb color;
+};
+/// Free edges are drawn last, over the others.
+constexpr std::array<EdgeStyle, 2> other_edges{
+    {{EdgeState::unchecked, "unchecked", unchecked_color}, {EdgeState::blocked, "blocked", blocked_color}}};
+
+/// The edges in one state.
+Graph edges_in(EdgeState state, const RoadmapArrays& arrays, const Execution& execution) {
+  const Graph& all = arrays.candidates;
+  execution.reserve((all.vertex_count() + 1) * sizeof(EdgeEnd) + all.targets().size() * sizeof(VertexId));
+  RawVector<EdgeEnd> offsets;
+  RawVector<VertexId> targets;
+  for (VertexId v = 0; v < all.vertex_count(); ++v) {
+    if (v % polled == 0) execution.check();
+    offsets.push_back(static_cast<EdgeEnd>(targets.size()));
+    std::size_t end = all.first_end(v);
+    for (const VertexId w : all.neighbours(v)) {
+      if (edge_state(arrays.edge_states, end++) == state) targets.push_back(w);
+    }
+  }
+  offsets.push_back(static_cast<EdgeEnd>(targets.size()));
+  return {std::move(offsets), std::move(targets)};
+}
+
+/// Draws one roadmap whose arrays are given.
+class RoadmapDrawing {
+ public:
+  RoadmapDrawing(const Scene& scene, const Roadmap& roadmap, const RoadmapArrays& arrays, const Execution& execution)
+      : scene_(scene), roadmap_(roadmap), arrays_(arrays), execution_(execution) {}
+
+  Drawing draw() const {
+    if (is_arm(roadmap_.robot)) return draw_arm();
+    Drawing drawing;
+    drawing.start = plane_point(scene_.start);
+    drawing.goal = plane_point(scene_.goal);
+    if (scene_.map) drawing.layers.push_back(map_layer(*scene_.map, execution_));
+    roadmap_.robot.kind == RobotKind::car ? add_curves(drawing) : add_lines(drawing);
+    if (arrays_.dimension == 3 && vertex_count() <= most_arrows) drawing.layers.push_back(arrows());
+    return drawing;
+  }
+
+ private:
+  std::size_t vertex_count() const { return arrays_.candidates.vertex_count(); }
+  Vec2 position(VertexId v) const {
+    const std::size_t first = std::size_t{v} * arrays_.dimension;
+    return {arrays_.states[first], arrays_.states[first + 1]};
+  }
+  RawVector<Vec2> positions() const {
+    RawVector<Vec2> all;
+    all.reserve(vertex_count());
+    for (VertexId v = 0; v < vertex_count(); ++v) all.push_back(position(v));
+    return all;
+  }
+  Se2 pose(VertexId v) const { return {position(v).x, position(v).y, arrays_.states[std::size_t{v} * 3 + 2]}; }
+  JointState joints(VertexId v) const {
+    return joint_state(std::span<const double>(arrays_.states).subspan(std::size_t{v} * most_joints, most_joints));
+  }
+  void add_lines(Drawing& drawing) const;
+  void add_curves(Drawing& drawing) const;
+  PictureLayer arrows() const;
+  Drawing draw_arm() const;
+
+  const Scene& scene_;
+  const Roadmap& roadmap_;
+  const RoadmapArrays& arrays_;
+  const Execution& execution_;
+};
+
+void RoadmapDrawing::add_lines(Drawing& drawing) const {
+  for (const EdgeStyle& style : other_edges) {
+    PictureLayer layer{style.id, style.color, widths::edge, {}};
+    const Graph graph = edges_in(style.state, arrays_, execution_);
+    for (VertexId v = 0; v < vertex_count(); ++v) {
+      if (v % polled == 0) execution_.check();
+      for (const VertexId w : graph.neighbours(v)) {
+        if (v < w || arrays_.directed) layer.lines.add(std::array{position(v), position(w)});
+      }
+    }
+    if (layer.lines.size() > 0) drawing.layers.push_back(std::move(layer));
+  }
+  drawing.roadmap.emplace();
+  drawing.roadmap->states = positions();
+  drawing.roadmap->graph = edges_in(EdgeState::free, arrays_, execution_);
+}
+
+void RoadmapDrawing::add_curves(Drawing& drawing) const {
+  std::array<PlannedRoadmap<Se2>, 1> roadmap;
+  for (VertexId v = 0; v < vertex_count(); ++v) roadmap[0].states.push_back(pose(v));
+  const auto add = [&](EdgeStyle style) {
+    roadmap[0].graph = edges_in(style.state, arrays_, execution_);
+    PictureLayer layer = car_curves(roadmap, roadmap_.robot, execution_).edges;
+    layer.id = style.id;
+    layer.color = style.color;
+    if (layer.lines.size() > 0) drawing.layers.push_back(std::move(layer));
+  };
+  for (const EdgeStyle& style : other_edges) add(style);
+  add({EdgeState::free, "free", colors::components[0]});
+  drawing.roadmap.emplace();
+  drawing.roadmap->states = positions();
+  drawing.roadmap->graph = Graph::from_edges(vertex_count(), {});
+}
+
+/// Where the states look, in strokes that keep apart from each other.
+PictureLayer RoadmapDrawing::arrows() const {
+  PictureLayer layer{"headings", colors::outline, widths::edge, {}};
+  Box box;
+  for (VertexId v = 0; v < vertex_count(); ++v) box.include(position(v));
+  if (box.empty()) return layer;
+  const double extent = std::max(box.width(), box.height());
+  const double length = std::min(extent / 50.0, 0.4 * extent / std::sqrt(static_cast<double>(vertex_count())));
+  for (VertexId v = 0; v < vertex_count(); ++v) {
+    const Rotation turned(pose(v).theta);
+    const auto at = [&](double x, double y) { return position(v) + turned(Vec2{x * length, y * length}); };
+    layer.lines.add(std::array{position(v), at(1.0, 0.0), at(0.7, 0.2), at(1.0, 0.0), at(0.7, -0.2)});
+  }
+  return layer;
+}
+
+Drawing RoadmapDrawing::draw_arm() const {
+  std::vector<JointState> states;
+  for (VertexId v = 0; v < vertex_count(); ++v) states.push_back(joints(v));
+  std::vector<ToolLines> lines;
+  const auto add = [&](EdgeStyle style) {
+    lines.push_back({style.id, style.color, {}});
+    const Graph graph = edges_in(style.state, arrays_, execution_);
+    for (VertexId v = 0; v < vertex_count(); ++v) {
+      for (const VertexId w : graph.neighbours(v)) {
+        if (v < w) lines.back().edges.push_back({v, w});
+      }
+    }
+  };
+  for (const EdgeStyle& style : other_edges) add(style);
+  add({EdgeState::free, "free", colors::components[0]});
+  ArmViews views = arm_roadmap_views(scene_, table_of(roadmap_.robot, execution_), roadmap_.robot.radius,
+                                     scene_.start.empty() ? JointState{} : joint_state(scene_.start), states, lines);
+  return {.layers = std::move(views.layers), .stage = std::move(views.stage)};
+}
+
+}  // namespace
+
+Drawing drawing_of(const Scene& scene, const Roadmap& roadmap, const Execution& execution) {
+  const EdgeCounts edges = count_edges(roadmap, execution);
+  const bool by_index = roadmap.lattice != nullptr;  // its blocked edges are its walls
+  const std::uint64_t drawn = edges.free + (by_index ? 0 : edges.unchecked + edges.blocked);
+  if (drawn > most_drawn_edges) {
+    throw UsageError(
+        fmt::format("this roadmap has {} edges, and a picture of more than {} shows nothing; export it to "
+                    ".graphml or .csv and draw a part, or draw its world",
+                    grouped(drawn), grouped(most_drawn_edges)));
+  }
+  if (!by_index) return RoadmapDrawing(scene, roadmap, roadmap.arrays, execution).draw();
+  const RoadmapArrays arrays = arrays_of(roadmap.lattice->passages(), execution);
+  return RoadmapDrawing(scene, roadmap, arrays, execution).draw();
+}
+
+void write_picture(const std::string& file, const Roadmap& roadmap, const std::string& description,
+                   const Execution& execution) {
+  Scene bordered;
+  if (roadmap.scene.map) {
+    bordered = roadmap.scene;
+    add_map_walls(bordered, execution);
+  }
+  const Scene& scene = roadmap.scene.map ? bordered : roadmap.scene;
+  const Drawing drawing = drawing_of(scene, roadmap, execution);
+  Picture picture = picture_of(scene, drawing);
+  constexpr double most_units = 680.0;  // beyond, write_png leaves a roadmap out
+  const Canvas canvas = canvas_of(picture, execution);
+  if (ending_of(file) == ".png" && std::max(canvas.box.width(), canvas.box.height()) > most_units * canvas.unit) {
+    throw UsageError(fmt::format("{}: the edges of this roadmap would be finer than pixels; say .svg or .html", file));
+  }
+  picture.title = roadmap.scene.source;
+  picture.description =
+      fmt::format("{}, {} states: {}", description_of(roadmap.scene), grouped(count_states(roadmap)), description);
+  write_picture(file, picture, execution);
+}
+
+}  // namespace warren

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a picture shows of a roadmap that is kept: its vertices, and its edges by what is known of them. Free ones take
+// the colours of their components, unchecked ones are grey, blocked ones orange. Cars' edges are the curves that they
+// drive; few states of bodies that turn have arrows. Of an arm: the places of its tool in the three views, and
+// straight lines between them.
+#pragma once
+
+#include "parallel/execution.hpp"
+#include "pictures/draw_answer.hpp"
+#include "solve/roadmaps/roadmap.hpp"
+
+namespace warren {
+
+/// More edges are no picture but a grey.
+inline constexpr std::uint64_t most_drawn_edges = 900'000;
+
+/// The world and the roadmap on it, ready to be drawn; start and goal are those of the world. `scene`: the roadmap's,
+/// with the borders of a map's cells. Throws UsageError for more edges than most_drawn_edges; Stopped; what it throws
+/// for a table of an arm, reading the roadmap has thrown before.
+Drawing drawing_of(const Scene& scene, const Roadmap& roadmap, const Execution& execution);
+
+/// The same in one go, in the format that the file's ending says. `description` is added to what the picture says of
+/// itself. Throws UsageError where edges would be finer than pixels, WriteError, Stopped.
+void write_picture(const std::string& file, const Roadmap& roadmap, const std::string& description,
+                   const Execution& execution);
+
+}  // namespace warren
