@@ -256,7 +256,7 @@ std::vector<PictureLayer> ArmDrawing::places(std::span<const JointState> states,
   for (const JointState& q : states) tools.push_back(tool(q));
   std::vector<PictureLayer> layers;
   for (const ToolLines& some : lines) {
-    PictureLayer& layer = layers.emplace_back(PictureLayer{some.id, some.color, widths::edge, {}});
+    PictureLayer& layer = layers.emplace_back(PictureLayer{some.id, some.color, some.width, {}});
     for (const View& view : views_) {
       for (const Edge& e : some.edges) layer.lines.add(std::array{view.at(tools[e.from]), view.at(tools[e.to])});
     }

@@ -21,6 +21,7 @@ struct ArmViews {
 struct ToolLines {
   std::string id;  ///< the layer's
   Rgb color;
+  double width;  ///< multiples of Canvas::unit
   std::vector<Edge> edges;
 };
 

@@ -23,7 +23,8 @@ namespace warren {
 namespace {
 
 constexpr Rgb unchecked_color{176, 184, 196};
-constexpr Rgb blocked_color{253, 160, 100};
+constexpr Rgb blocked_color{246, 130, 130};
+constexpr double thin = 0.5 * widths::edge;  // what can't be driven stands back
 constexpr std::size_t most_arrows = 2000;
 constexpr std::size_t polled = std::size_t{1} << 14;
 
@@ -100,7 +101,7 @@ class RoadmapDrawing {
 
 void RoadmapDrawing::add_lines(Drawing& drawing) const {
   for (const EdgeStyle& style : other_edges) {
-    PictureLayer layer{style.id, style.color, widths::edge, {}};
+    PictureLayer layer{style.id, style.color, thin, {}};
     const Graph graph = edges_in(style.state, arrays_, execution_);
     for (VertexId v = 0; v < vertex_count(); ++v) {
       if (v % polled == 0) execution_.check();
@@ -123,6 +124,7 @@ void RoadmapDrawing::add_curves(Drawing& drawing) const {
     PictureLayer layer = car_curves(roadmap, roadmap_.robot, execution_).edges;
     layer.id = style.id;
     layer.color = style.color;
+    if (style.state != EdgeState::free) layer.width = thin;
     if (layer.lines.size() > 0) drawing.layers.push_back(std::move(layer));
   };
   for (const EdgeStyle& style : other_edges) add(style);
@@ -153,7 +155,7 @@ Drawing RoadmapDrawing::draw_arm() const {
   for (VertexId v = 0; v < vertex_count(); ++v) states.push_back(joints(v));
   std::vector<ToolLines> lines;
   const auto add = [&](EdgeStyle style) {
-    lines.push_back({style.id, style.color, {}});
+    lines.push_back({style.id, style.color, style.state == EdgeState::free ? widths::edge : thin, {}});
     const Graph graph = edges_in(style.state, arrays_, execution_);
     for (VertexId v = 0; v < vertex_count(); ++v) {
       for (const VertexId w : graph.neighbours(v)) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a picture shows of a roadmap that is kept: its vertices, and its edges by what is known of them. Free ones take
-// the colours of their components, unchecked ones are grey, blocked ones orange. Cars' edges are the curves that they
-// drive; few states of bodies that turn have arrows. Of an arm: the places of its tool in the three views, and
-// straight lines between them.
+// the colours of their components, unchecked ones are thin and grey, blocked ones thin and red. Cars' edges are the
+// curves that they drive; few states of bodies that turn have arrows. Of an arm: the places of its tool in the three
+// views, and straight lines between them.
 #pragma once
 
 #include "parallel/execution.hpp"

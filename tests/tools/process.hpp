@@ -54,6 +54,14 @@ class Folder {
   std::filesystem::path path_;
 };
 
+/// A world of examples/worlds/.
+inline std::string world_file(const std::string& name) { return source_dir() + "/examples/worlds/" + name; }
+
+inline std::vector<std::string> joined(std::vector<std::string> words, const std::vector<std::string>& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
 struct Outcome {
   int code = -1;  ///< 128 + n if signal n killed it
   std::string out;

@@ -127,7 +127,7 @@ TEST_F(RoadmapBatch, IdsAreQuotedAsCsvQuotesThem) {
 {"id": "d,", "goal": [1]})",
                   {"--csv", "--lengths-only"})
                 .out,
-            "id,status,length\n\"a \"\"b\"\", c\",solved,0.0\nplain,solved,0.0\ntwo\\x0alines,solved,0.0\n"
+            "id,status,length\n\"a \"\"b\"\", c\",solved,0.5\nplain,solved,0.5\ntwo\\x0alines,solved,0.5\n"
             "\"d,\",error,\n");
 }
 

@@ -7,8 +7,6 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-std::string world_file(const std::string& name) { return source_dir() + "/examples/worlds/" + name; }
-
 std::size_t count_of(const std::string& text, std::string_view part) {
   std::size_t count = 0;
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) ++count;
@@ -90,7 +88,7 @@ TEST_F(RoadmapPictures, WhatNoPictureShowsIsRefused) {
   check({{"export", path("r.roadmap"), "-o", path("y.svg"), "--unchecked"}, 2, "--unchecked: means nothing"});
   check({{"export", path("r.roadmap"), "-o", path("y.svg"), "--frame", "map"}, 2, "--frame: means nothing"});
   check({{"render", path("r.roadmap"), "--answer", path("x.svg"), "-o", path("y.svg")}, 2, "--answer: is drawn on"});
-  check({{"render", path("r.roadmap"), "-o", path("r.roadmap")}, 2, "a picture ends in .svg"});
+  check({{"render", path("r.roadmap"), "-o", path("r.roadmap")}, 2, "would overwrite"});
 }
 
 }  // namespace

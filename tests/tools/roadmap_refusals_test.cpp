@@ -132,7 +132,7 @@ TEST_F(RoadmapRefusals, WordsThatMeanNothing) {
   refused({"build", "maze:9x9", "-o", "@new", "--start", "1,1"}, 2, "--start");
   refused({"build", "maze:9x9", "-o", "@no/folder"}, 73, "no/folder");
   refused({"query", "@r.roadmap", "--seed", "3"}, 2, "--seed");
-  refused({"query", "@r.roadmap", "--clearance", "0.3"}, 2, "--clearance");
+  refused({"query", "@r.roadmap", "--clearance", "0.3"}, 2, "--clearance: the roadmap was built with its own");
   refused({"query", "@r.roadmap", "--start", "1,1,0"}, 2, "X,Y");
   refused({"query", "@r.roadmap", "--attach", "3"}, 2, "--attach");
   refused({"query", "@r.roadmap", "--map-rules", "ros1"}, 2, "--map-rules: is for the world that --world names");

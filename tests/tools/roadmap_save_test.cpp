@@ -11,16 +11,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Words = std::vector<std::string>;
 
-std::string world_file(const std::string& name) { return source_dir() + "/examples/worlds/" + name; }
-
-Words joined(Words words, const Words& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
-
 class RoadmapSave : public ::testing::Test {
  protected:
   std::string path(const std::string& name) const { return folder_.path(name); }
+  std::string plain_walls() const {
+    return folder_.write("walls.txt", "bounds 0 0 10 10\n2 0 2 6\n5 10 5 4\n8 0 8 6\nstart 1 1\ngoal 9 1\n");
+  }
   Outcome solved(const std::string& world, const Words& more) const {
     return run(joined({"solve", world, "--save-roadmap", path("s.roadmap"), "--json", "-"}, more));
   }
@@ -44,17 +40,18 @@ struct SaveCase {
 };
 
 TEST_F(RoadmapSave, TheAnswerIsSolvesAndTheFileThatOfBuild) {
+  const std::string walls = plain_walls();
   const std::vector<SaveCase> cases{
-      {"maze:9x13,loops=0.1", {}, {}, {}},
+      {"maze:9x13,loops=0.1", {}, {}, {}, true, false},
       {"maze:300x257,loops=0.02", {}, {}, {}, true, false},
       {"maze:9x13", {"--planner", "prm", "--sampler", "uniform", "--samples", "900", "--seed", "3"}, {}, {}},
       {world_file("walls.scene"), {"--planner", "prm", "--samples", "300"}, {"--search", "dijkstra"}, {}},
-      {world_file("walls.scene"), {"--samples", "300"}, {"--optimise"}, {"--planner", "lazy-prm"}, false},
+      {walls, {"--samples", "300"}, {"--optimise"}, {"--planner", "lazy-prm"}, false},
       {world_file("poly-easy.scene"), {"--planner", "prm", "--samples", "300"}, {}, {}},
       {world_file("parking-lot.scene"), {"--planner", "prm", "--samples", "200"}, {}, {}},
       {world_file("car-20.scene"), {"--planner", "lazy-prm", "--samples", "300"}, {}, {}, false},
       {world_file("puma-seed.scene"), {"--planner", "prm", "--samples", "300"}, {}, {}},
-      {world_file("walls.scene"), {"--planner", "prm", "--samples", "300"}, {"--start=-99,0"}, {}}};
+      {world_file("walls.scene"), {"--planner", "prm", "--samples", "300"}, {"--start=-99,0,0"}, {}}};
   for (const SaveCase& c : cases) {
     SCOPED_TRACE(shown(joined({"solve", c.world}, c.options)));
     const Outcome outcome = solved(c.world, joined(c.options, c.ends));
@@ -79,6 +76,7 @@ TEST_F(RoadmapSave, TheAnswerIsSolvesAndTheFileThatOfBuild) {
 TEST_F(RoadmapSave, SamplesThatGrowAreThoseOfTheLastRound) {
   const std::vector<SaveCase> cases{{world_file("walls.scene"), {"--planner", "prm"}, {}, {}},
                                     {world_file("walls.scene"), {"--planner", "lazy-prm"}, {}, {}, false},
+                                    {plain_walls(), {"--planner", "lazy-prm"}, {}, {}, false},
                                     {"maze:7x7", {"--planner", "prm", "--sampler", "uniform"}, {}, {}},
                                     {world_file("parking-lot.scene"), {"--planner", "prm"}, {}, {}},
                                     {world_file("car-20.scene"), {"--planner", "prm"}, {}, {}},

@@ -11,13 +11,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Words = std::vector<std::string>;
 
-std::string world_file(const std::string& name) { return source_dir() + "/examples/worlds/" + name; }
-
-Words joined(Words words, const Words& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
-
 class RoadmapVerbs : public ::testing::Test {
  protected:
   std::string path(const std::string& name) const { return folder_.path(name); }
@@ -206,6 +199,42 @@ TEST_F(RoadmapVerbs, InfoSaysWhatTheFileSaysOfItself) {
   EXPECT_EQ(meta["components"], 1);
   EXPECT_EQ(told({"info", file, "--check", "all", "--json", "-"}), meta);
   check({{"info", "maze:7x9", "--check", "all"}, 2, "is for roadmap files"});
+  EXPECT_EQ(Json::parse(Process({"info", "-", "--check", "all"}, file).wait().out), meta);
+  const std::string world = folder_.write("w.scene", "bounds 0 0 9 9\nstart 1 1\ngoal 8 8\n");
+  EXPECT_NE(Process({"info", "-"}, world).wait().out.find("9"), std::string::npos);
+}
+
+TEST_F(RoadmapVerbs, ALazyCarCountsItsEdgesAsSolveDoes) {
+  const std::string car = world_file("car-20.scene");
+  const Words body{"--planner", "lazy-prm", "--samples", "300", "--seed", "5"};
+  const Json answer = told({"query", built("r.roadmap", car, body), "--json", "-"});
+  const Json expected = told(joined({"solve", car, "--json", "-"}, body));
+  EXPECT_EQ(answer["roadmap"]["edges"], expected["roadmap"]["edges"]);
+  EXPECT_EQ(answer["counters"]["edges_checked"], expected["counters"]["edges_checked"]);
+}
+
+TEST_F(RoadmapVerbs, AnUpdateTakesTheIndexThatABuildWouldTake) {
+  const std::string large = "maze:300x257,loops=0.02";
+  const std::string indexed = built("indexed.roadmap", large);
+  const std::string plain = built("plain.roadmap", large, {"--index", "none"});
+  const std::string small = built("small.roadmap", "maze:9x9");
+  EXPECT_EQ(told({"info", plain})["index"], "none");
+  EXPECT_FALSE(told({"info", small}).contains("index"));
+  const Json report = told({"update", small, large, "-o", path("u.roadmap"), "--report", "-"});
+  EXPECT_TRUE(folder_.read("u.roadmap") == folder_.read("indexed.roadmap"));
+  EXPECT_EQ(report["mode"], "built");
+  EXPECT_EQ(report["states_added"], 300 * 257 - 81);
+  EXPECT_EQ(report["states_dropped"], 0);
+  runs({"update", plain, large, "-o", path("u.roadmap")});
+  EXPECT_TRUE(folder_.read("u.roadmap") == folder_.read("plain.roadmap"));
+  runs({"update", indexed, "maze:9x9", "-o", path("u.roadmap")});
+  EXPECT_TRUE(folder_.read("u.roadmap") == folder_.read("small.roadmap"));
+}
+
+TEST_F(RoadmapVerbs, TheStarRuleByRadiusNeedsAVolume) {
+  check({{"build", world_file("car-20.scene"), "--samples", "50", "--radius", "star", "-o", path("r.roadmap")},
+         2,
+         "--radius: star: this world doesn't tell its volume; say --neighbours star"});
 }
 
 TEST_F(RoadmapVerbs, AStopLeavesTheFileAsItWas) {

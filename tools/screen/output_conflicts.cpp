@@ -23,7 +23,7 @@ namespace warren {
 namespace {
 
 /// Of all verbs: the options whose values are files that are written, and that are read. Operands are read.
-constexpr std::array<std::string_view, 11> output_options{"--json", "--svg",    "--png",         "--html",
+constexpr std::array<std::string_view, 12> output_options{"--path", "--json", "--svg",    "--png",         "--html",
                                                           "--csv",  "--log",    "--trace",       "--output",
                                                           "--keep", "--report", "--save-roadmap"};
 constexpr std::array<std::string_view, 5> input_options{"--answer", "--map", "--batch", "--matrix", "--world"};
@@ -87,7 +87,9 @@ std::vector<NamedFile> outputs_of(const Arguments& arguments) {
     if (ending == ".gr" || ending == ".csv") files.push_back({"its second file", files_of_export(*path).back()});
   }
   for (const char* many : {"--batch", "--matrix"}) {
-    if (arguments.has(many)) files.push_back({fmt::format("the answers to {}", many), "-"});
+    if (!arguments.has(many)) continue;
+    files.push_back({fmt::format("the answers to {}", many), "-"});
+    break;  // both are refused by name
   }
   return files;
 }

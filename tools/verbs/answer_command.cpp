@@ -15,6 +15,7 @@
 #include "solve/steps/solve_steps.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_names.hpp"
+#include "tools/words/path_words.hpp"
 #include "worlds/rasters/map_borders.hpp"
 
 namespace warren {
@@ -41,7 +42,9 @@ AnswerCommand::AnswerCommand(const Arguments& arguments, std::string_view keep)
     : arguments_(arguments),
       json_(output_file(arguments, "--json").value_or("")),
       svg_(output_file(arguments, "--svg").value_or("")),
-      roadmap_(output_file(arguments, keep).value_or("")) {
+      roadmap_(output_file(arguments, keep).value_or("")),
+      path_(output_file(arguments, "--path").value_or("")),
+      path_options_(path_words(arguments)) {
   check_picture_ending("--svg", svg_, ".svg .png .html");
 }
 
@@ -56,7 +59,7 @@ int AnswerCommand::run() {
 }
 
 bool AnswerCommand::takes_standard_output() const {
-  return json_ == "-" || svg_ == "-" || arguments_.value("--trace") == "-" || roadmap_ == "-";
+  return json_ == "-" || svg_ == "-" || arguments_.value("--trace") == "-" || roadmap_ == "-" || path_ == "-";
 }
 
 void AnswerCommand::answer(const Run& run) {
@@ -90,6 +93,8 @@ void AnswerCommand::write_outputs(const Run& run) {
 /// A JSON file is put into its place when picture and roadmap are in theirs; what is written straight follows the
 /// picture.
 void AnswerCommand::write_finished(const Execution& execution) {
+  const bool has_path = !path_.empty() && answer_.verified;
+  if (has_path) check_path_file(answer_.problem.robot, path_, path_options_);
   std::optional<OutputFile> kept;
   std::optional<OutputFile> json;
   const bool kept_follows = keeps_roadmap() && is_straight(roadmap_);
@@ -97,6 +102,7 @@ void AnswerCommand::write_finished(const Execution& execution) {
   const bool json_follows = !json_.empty() && is_straight(json_);
   if (!json_.empty() && !json_follows) write_json(json, execution);
   if (!svg_.empty()) draw(execution);
+  if (has_path) write_path_file(answer_, path_, path_options_, execution);
   json_said_ = json_follows;
   if (json_follows) write_json(json, execution);
   if (kept_follows) write_kept(kept, execution);
@@ -107,6 +113,7 @@ void AnswerCommand::write_finished(const Execution& execution) {
   for (const std::string& file : {json_, svg_, roadmap_}) {
     if (!file.empty()) written_.push_back(file);
   }
+  if (has_path) written_.push_back(path_);
 }
 
 void AnswerCommand::write_kept(std::optional<OutputFile>& file, const Execution& execution) const {

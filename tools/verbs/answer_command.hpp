@@ -13,6 +13,7 @@
 #include "scenes/text/output_file_io.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/answer/by_products.hpp"
+#include "solve/paths/path_file_io.hpp"
 #include "solve/roadmaps/roadmap.hpp"
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/words/arguments.hpp"
@@ -61,6 +62,8 @@ class AnswerCommand {
   std::string json_;
   std::string svg_;
   std::string roadmap_;
+  std::string path_;
+  PathFileOptions path_options_;
   ByProducts by_products_;
   Answer answer_;
   std::vector<std::string> written_;

@@ -15,12 +15,14 @@
 #include "solve/roadmaps/ask_batch_io.hpp"
 #include "solve/roadmaps/ask_matrix_io.hpp"
 #include "solve/roadmaps/roadmap_file_io.hpp"
+#include "solve/steps/blocked_end.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_names.hpp"
 #include "tools/screen/roadmap_files.hpp"
 #include "tools/screen/terminal.hpp"
 #include "tools/screen/world_files.hpp"
 #include "tools/verbs/answer_command.hpp"
+#include "tools/words/path_words.hpp"
 #include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"
 
@@ -52,6 +54,7 @@ class QueryCommand : public AnswerCommand {
     const RoadmapQuery query(roadmap_, run.execution(), Questions::one);
     QuestionScratch scratch;
     Answer answer = query.ask_within(question_.start, question_.goal, how_, run.execution(), scratch, keep);
+    explain_blocked_end(roadmap_.scene, answer, run.execution());
     if (keeps_roadmap()) learn(roadmap_, query, run.execution());
     return answer;
   }
@@ -142,14 +145,21 @@ int query_roadmap(const Arguments& arguments) {
 Command query_command() {
   Command command{"query", "ROADMAP", "ask a roadmap for a path, or for many", {}, query_roadmap};
   add_options(command.options, query_specs);
+  constexpr std::string_view fixed = "the roadmap was built with its own; another one takes `warren build`";
   for (const OptionSpec& spec : solve_option_specs()) {
     constexpr std::string_view asked[] = {"--search",    "--queue",        "--optimise",
                                           "--cusp-cost", "--reverse-cost", "--attach"};
-    if (std::find(std::begin(asked), std::end(asked), spec.name) != std::end(asked)) command.options.push_back(spec);
+    if (std::find(std::begin(asked), std::end(asked), spec.name) != std::end(asked)) {
+      command.options.push_back(spec);
+    } else {
+      command.foreign.emplace_back(spec.name, fixed);
+    }
   }
+  for (const std::string_view name : {"--robot", "--clearance", "--contact"}) command.foreign.emplace_back(name, fixed);
   add_options(command.options, question_option_specs(), {"--robot", "--clearance", "--contact"});
   add_options(command.options, world_option_specs());
   add_options(command.options, answer_output_specs());
+  add_options(command.options, path_option_specs());
   add_options(command.options, run_option_specs());
   return command;
 }

@@ -9,6 +9,7 @@
 #include "tools/screen/output_conflicts.hpp"
 #include "tools/screen/world_files.hpp"
 #include "tools/verbs/answer_command.hpp"
+#include "tools/words/path_words.hpp"
 #include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"
 
@@ -59,6 +60,7 @@ Command solve_command() {
   add_options(command.options, question_option_specs());
   add_options(command.options, world_option_specs());
   add_options(command.options, answer_output_specs());
+  add_options(command.options, path_option_specs());
   add_options(command.options, solve_specs);
   add_options(command.options, run_option_specs());
   command.run = [](const Arguments& arguments) { return SolveCommand(arguments).run(); };

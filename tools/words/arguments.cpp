@@ -20,10 +20,8 @@ const OptionSpec* find_option(const Command& command, std::string_view name) {
 }
 
 [[noreturn]] void refuse_unknown(const Command& command, std::string_view name) {
-  for (const auto& [option, owner] : command.foreign) {
-    if (name == option) {
-      throw UsageError(fmt::format("{}: an option of {}, which this version does not have", name, owner));
-    }
+  for (const auto& [option, why] : command.foreign) {
+    if (name == option) throw UsageError(fmt::format("{}: {}", name, why));
   }
   std::vector<std::string_view> known{"--help"};
   for (const OptionSpec& option : command.options) known.push_back(option.name);

@@ -32,7 +32,7 @@ struct Command {
   std::string_view summary;  ///< one line
   std::vector<OptionSpec> options;
   std::function<int(const Arguments&)> run;  ///< returns the exit code
-  /// Documented options that this version does not take yet, and what takes them.
+  /// Options of other verbs that people will look for here, and why there are none.
   std::vector<std::pair<std::string_view, std::string_view>> foreign = {};
 };
 
