@@ -106,10 +106,11 @@ void add_roadmap(std::string& text, const Answer& answer, const Palette& palette
        fmt::format("{} checked, {} expanded, {}", counted(answer.counters.edges_checked, "edge", "edges"),
                    grouped(answer.counters.expanded), counted(answer.counters.rounds, "round", "rounds")));
   if (answer.outcome != Outcome::not_connected) return;
-  line(text, palette, "start, goal",
-       fmt::format("components of {} and {}, {} apart", counted(answer.separation.start_size, "milestone", "milestones"),
-                   counted(answer.separation.goal_size, "milestone", "milestones"),
-                   human_number(answer.separation.nearest_gap)));
+  line(
+      text, palette, "start, goal",
+      fmt::format("components of {} and {}, {} apart", counted(answer.separation.start_size, "milestone", "milestones"),
+                  counted(answer.separation.goal_size, "milestone", "milestones"),
+                  human_number(answer.separation.nearest_gap)));
 }
 
 void add_times(std::string& text, const Answer& answer, const Palette& palette) {

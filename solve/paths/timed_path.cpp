@@ -90,6 +90,7 @@ auto TimedPath::ramp(std::size_t leg) const -> Ramp {
 }
 
 PathMoment TimedPath::at(double t) const {
+  if (t >= times_.back()) return {legs_->leg_count() - 1, 1.0, 0.0};
   const auto next = std::upper_bound(times_.begin() + 1, times_.end() - 1, t);
   const auto leg = static_cast<std::size_t>(next - times_.begin()) - 1;
   const double length = legs_->length(leg);

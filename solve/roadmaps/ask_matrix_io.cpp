@@ -15,7 +15,8 @@
 namespace warren {
 namespace {
 
-constexpr std::size_t pairs_at_once = std::size_t{1} << 14;  // pairs whose lengths are held at once, where a line has fewer
+constexpr std::size_t pairs_at_once = std::size_t{1}
+                                      << 14;  // pairs whose lengths are held at once, where a line has fewer
 constexpr std::size_t most_starts = 1024;
 constexpr std::size_t bytes_of_place = sizeof(BatchQuestion) + 64;
 constexpr std::size_t bytes_of_entry = 128;  // a length as a number and as text

@@ -81,7 +81,8 @@ void take_id(const Json& json, BatchQuestion& question) {
 void refuse_other_keys(const Json& json, bool is_place) {
   for (const auto& [key, value] : json.items()) {
     const bool known = key == "id" || (is_place ? key == "state" : key == "start" || key == "goal");
-    if (!known) throw InputError(key, is_place ? "expected the keys id and state" : "expected the keys id, start, goal");
+    if (!known)
+      throw InputError(key, is_place ? "expected the keys id and state" : "expected the keys id, start, goal");
   }
 }
 

@@ -39,8 +39,8 @@ class RoadmapMatrix : public ::testing::Test {
     return lengths;
   }
   /// The table of these places has the lengths of single questions, for 1 thread and 3.
-  void expect_single_lengths(const std::string& header, const std::string& axes,
-                             const std::vector<std::string>& starts, const std::vector<std::string>& goals) const {
+  void expect_single_lengths(const std::string& header, const std::string& axes, const std::vector<std::string>& starts,
+                             const std::vector<std::string>& goals) const {
     const std::vector<std::string> lengths = single(starts, goals, header);
     ASSERT_EQ(lengths.size(), starts.size() * goals.size());
     std::string expected = "id";
