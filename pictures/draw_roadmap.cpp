@@ -189,12 +189,13 @@ Drawing drawing_of(const Scene& scene, const Roadmap& roadmap, const Execution& 
 
 void write_picture(const std::string& file, const Roadmap& roadmap, const std::string& description,
                    const Execution& execution) {
+  const Scene& world = roadmap.world.whole(execution);
   Scene bordered;
-  if (roadmap.scene.map) {
-    bordered = roadmap.scene;
+  if (world.map) {
+    bordered = world;
     add_map_walls(bordered, execution);
   }
-  const Scene& scene = roadmap.scene.map ? bordered : roadmap.scene;
+  const Scene& scene = world.map ? bordered : world;
   const Drawing drawing = drawing_of(scene, roadmap, execution);
   Picture picture = picture_of(scene, drawing);
   constexpr double most_units = 680.0;  // beyond, write_png leaves a roadmap out
@@ -202,9 +203,9 @@ void write_picture(const std::string& file, const Roadmap& roadmap, const std::s
   if (ending_of(file) == ".png" && std::max(canvas.box.width(), canvas.box.height()) > most_units * canvas.unit) {
     throw UsageError(fmt::format("{}: the edges of this roadmap would be finer than pixels; say .svg or .html", file));
   }
-  picture.title = roadmap.scene.source;
+  picture.title = world.source;
   picture.description =
-      fmt::format("{}, {} states: {}", description_of(roadmap.scene), grouped(count_states(roadmap)), description);
+      fmt::format("{}, {} states: {}", description_of(world), grouped(count_states(roadmap)), description);
   write_picture(file, picture, execution);
 }
 

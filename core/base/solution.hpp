@@ -22,6 +22,9 @@ constexpr auto enum_names(Outcome) {
   return std::array<std::string_view, 6>{"solved",        "start_blocked", "goal_blocked",
                                          "not_connected", "infeasible",    "stopped"};
 }
+constexpr bool is_blocked(Outcome outcome) {
+  return outcome == Outcome::start_blocked || outcome == Outcome::goal_blocked;
+}
 
 /// Size of the roadmap that gave the answer.
 struct RoadmapSize {

@@ -88,6 +88,9 @@ MazeCells generate_maze(const MazeOptions& options, const Execution& execution);
 /// 2^23 rows and columns, doubles beyond.
 WallSet maze_walls(const MazeCells& cells, bool merged, const Execution& execution);
 
+/// Are these, to the bit, the walls that maze_walls() makes of the cells, not merged? Makes none.
+bool has_maze_walls(const WallSet& walls, const MazeCells& cells, const Execution& execution);
+
 /// A scene with walls, maze hint, start (0.5, 1) and goal (cols + 0.5, rows).
 Scene maze_scene(const MazeOptions& options, bool merged, const Execution& execution);
 

@@ -16,6 +16,8 @@ namespace {
 constexpr std::size_t wall_grain = std::size_t{1} << 16;
 constexpr std::uint32_t largest_float_side = (1U << 23U) - 1;  // side + 0.5 is a float up to here
 
+bool as_floats(const MazeCells& cells) { return std::max(cells.rows(), cells.cols()) <= largest_float_side; }
+
 /// Cells row_first .. row_last - 1 of one column.
 struct Run {
   std::uint32_t col, row_first, row_last;
@@ -119,8 +121,26 @@ class WallWriter {
   std::size_t used_ = 0;
 };
 
+/// Takes the walls of one chunk as WallWriter does, and looks whether those that stand are they.
 template <class T>
-void write_units(const MazeCells& cells, const WallStarts& starts, const Run& run, WallWriter<T>& writer) {
+class WallComparer {
+ public:
+  explicit WallComparer(const WallOf<T>* walls) : at_(walls) {}
+  void make_room() const {}
+  void add(T x1, T y1, T x2, T y2, unsigned keep) {
+    if (keep == 0) return;
+    same_ = same_ && *at_ == WallOf<T>{x1, y1, x2, y2};
+    ++at_;
+  }
+  bool same() const { return same_; }
+
+ private:
+  const WallOf<T>* at_;
+  bool same_ = true;
+};
+
+template <class T, class Writer>
+void write_units(const MazeCells& cells, const WallStarts& starts, const Run& run, Writer& writer) {
   const std::uint8_t* bytes = cells.bytes().data() + cells.index(run.col, 0);
   const unsigned interior = starts.interior_of(run.col);
   const T left = static_cast<T>(run.col) + T{0.5};
@@ -160,19 +180,39 @@ std::array<WallOf<T>, 4> outline(const MazeCells& cells) {
   return {{{low, low, right, low}, {low, top, right, top}, {low, low + 1, low, top}, {right, low, right, top - 1}}};
 }
 
-template <class T>
-WallSet walls_as(const MazeCells& cells, bool merged, const Execution& execution) {
-  const WallStarts starts(cells, merged);
+/// Where the walls of each chunk of cells stand, behind the outline's four; and the end.
+std::vector<std::size_t> places_of(const MazeCells& cells, const WallStarts& starts, const Execution& execution) {
   std::vector<std::size_t> places(chunk_count(cells.cell_count(), wall_grain) + 1, 0);
   for_chunks(cells.cell_count(), wall_grain, {execution.threads, execution.deadline}, [&](Range r) {
     std::size_t n = 0;
     for_runs(cells, r, [&](const Run& run) { n += starts.count(run); });
     places[r.first / wall_grain + 1] = n;
   });
-  const std::array<WallOf<T>, 4> frame = outline<T>(cells);
-  places[0] = frame.size();
+  places[0] = 4;
   for (std::size_t c = 1; c < places.size(); ++c) places[c] += places[c - 1];
+  return places;
+}
 
+template <class T>
+bool has_walls_as(std::span<const WallOf<T>> walls, const MazeCells& cells, const Execution& execution) {
+  const WallStarts starts(cells, false);
+  const std::vector<std::size_t> places = places_of(cells, starts, execution);
+  const std::array<WallOf<T>, 4> frame = outline<T>(cells);
+  if (walls.size() != places.back() || !std::equal(frame.begin(), frame.end(), walls.begin())) return false;
+  std::vector<std::uint8_t> same(places.size() - 1);
+  for_chunks(cells.cell_count(), wall_grain, execution, [&](Range r) {
+    WallComparer<T> comparer(walls.data() + places[r.first / wall_grain]);
+    for_runs(cells, r, [&](const Run& run) { write_units<T>(cells, starts, run, comparer); });
+    same[r.first / wall_grain] = comparer.same() ? 1 : 0;
+  });
+  return std::find(same.begin(), same.end(), 0) == same.end();
+}
+
+template <class T>
+WallSet walls_as(const MazeCells& cells, bool merged, const Execution& execution) {
+  const WallStarts starts(cells, merged);
+  const std::vector<std::size_t> places = places_of(cells, starts, execution);
+  const std::array<WallOf<T>, 4> frame = outline<T>(cells);
   execution.reserve(places.back() * sizeof(WallOf<T>));
   RawVector<WallOf<T>> walls(places.back());
   std::copy(frame.begin(), frame.end(), walls.begin());
@@ -200,8 +240,12 @@ std::uint64_t interior_walls(const MazeCells& cells, const Execution& execution)
 
 WallSet maze_walls(const MazeCells& cells, bool merged, const Execution& execution) {
   if (execution.progress != nullptr) execution.progress->begin("walls", cells.cell_count());
-  const bool floats = std::max(cells.rows(), cells.cols()) <= largest_float_side;
-  return floats ? walls_as<float>(cells, merged, execution) : walls_as<double>(cells, merged, execution);
+  return as_floats(cells) ? walls_as<float>(cells, merged, execution) : walls_as<double>(cells, merged, execution);
+}
+
+bool has_maze_walls(const WallSet& walls, const MazeCells& cells, const Execution& execution) {
+  if (walls.holds_floats() != as_floats(cells)) return false;
+  return walls.visit([&](auto all) { return has_walls_as(all, cells, execution); });
 }
 
 }  // namespace warren

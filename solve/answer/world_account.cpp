@@ -3,21 +3,22 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "scenes/formats/scene_io.hpp"
 #include "scenes/text/human_units.hpp"
 
 namespace warren {
 
 WorldAccount account_of(const Scene& scene, const Execution& execution) {
-  if (scene.map) return {scene.source, "map", 0, 0, scene_hash(scene, execution), 0, 0};
+  return account_of(scene, scene_hash(scene, execution));
+}
+
+WorldAccount account_of(const Scene& scene, std::string hash) {
+  if (scene.map) return {scene.source, "map", 0, 0, std::move(hash), 0, 0};
   const bool plane = scene.walls.size() > 0 || !has_solids(scene);
   const char* kind = scene.maze ? "maze" : !scene.polygons.empty() ? "polygons" : plane ? "walls" : "solids";
-  return {scene.source,
-          kind,
-          scene.walls.size(),
-          scene.polygons.size(),
-          scene_hash(scene, execution),
-          scene.spheres.size(),
+  return {scene.source,      kind, scene.walls.size(), scene.polygons.size(), std::move(hash), scene.spheres.size(),
           scene.boxes.size()};
 }
 

@@ -23,6 +23,8 @@ struct WorldAccount {
 
 /// Throws Stopped. O(size of the scene), for the hash.
 WorldAccount account_of(const Scene& scene, const Execution& execution);
+/// The same where the hash is known. O(1).
+WorldAccount account_of(const Scene& scene, std::string hash);
 
 /// "41 x 41 maze, 1,604 walls": what a person wants to know first.
 std::string description_of(const Scene& scene);

@@ -106,6 +106,7 @@ BatchAccount ask_batch(const RoadmapQuery& query, const InputFile& questions, co
   const Batch batch(query, options, execution);
   BatchAccount account;
   write(batch.header());
+  if (!options.lengths_only) query.prepare_paths(execution);
   std::vector<BatchQuestion> some;
   std::vector<QuestionScratch> scratch(thread_count(execution.threads));
   while (reader.next(block, some)) {

@@ -90,7 +90,7 @@ void refuse_other_keys(const Json& json, bool is_place) {
 
 BatchQuestions::BatchQuestions(const InputFile& file, BatchLines kind, const Roadmap& roadmap,
                                const Execution& execution)
-    : lines_(file, execution), kind_(kind), scene_(roadmap.scene), axes_(axes_of(roadmap.arrays.dimension)) {
+    : lines_(file, execution), kind_(kind), scene_(roadmap.world.outline()), axes_(axes_of(roadmap.arrays.dimension)) {
   std::string_view line;
   while (line.empty() && lines_.next()) line = trimmed(lines_.line());
   if (line.empty()) return;

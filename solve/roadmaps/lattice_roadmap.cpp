@@ -71,9 +71,9 @@ std::unique_ptr<RouteIndex> lattice_index(const Scene& scene, const Question& bo
   }
 }
 
-LatticeQuestion::LatticeQuestion(const Scene& scene, const WallProblem& problem, const RouteIndex& index,
+LatticeQuestion::LatticeQuestion(const KeptWorld& world, const WallProblem& problem, const RouteIndex& index,
                                  RouteQuery& query, const Execution& execution)
-    : scene_(scene), problem_(problem), index_(index), query_(query), execution_(execution) {
+    : world_(world), problem_(problem), index_(index), query_(query), execution_(execution) {
   if (!link(0, problem.start)) {
     outcome_ = Outcome::start_blocked;
   } else if (!link(1, problem.goal)) {
@@ -98,7 +98,7 @@ bool LatticeQuestion::link(std::size_t end, Vec2 p) {
     links_[end].push_back({*cell, 0.0});
     return true;
   }
-  const Scene local = around(scene_, p, problem_.reach(), execution_);
+  const Scene local = around(world_.whole(execution_), p, problem_.reach(), execution_);
   const MazeWorld world(local, problem_.reach(), execution_);
   auto query = world.make_query();
   if (!world.is_free(p, query)) return false;
@@ -139,7 +139,8 @@ void LatticeQuestion::join() {
   }
   const double straight = distance(problem_.start, problem_.goal);
   if (straight <= 1.0 && straight < best) {
-    const MazeWorld world(around(scene_, problem_.start, problem_.reach(), execution_), problem_.reach(), execution_);
+    const Scene local = around(world_.whole(execution_), problem_.start, problem_.reach(), execution_);
+    const MazeWorld world(local, problem_.reach(), execution_);
     auto query = world.make_query();
     direct_ = world.is_free_motion(problem_.start, problem_.goal, query);
     if (direct_) best = straight;

@@ -14,9 +14,9 @@
 #include "core/base/solution.hpp"
 #include "planners/route_index/route_index.hpp"
 #include "planners/route_index/route_query.hpp"
-#include "scenes/scene/scene.hpp"
 #include "solve/question/question.hpp"
 #include "solve/question/solve_options.hpp"
+#include "solve/roadmaps/kept_world.hpp"
 
 namespace warren {
 
@@ -36,7 +36,7 @@ std::unique_ptr<RouteIndex> lattice_index(const Scene& scene, const Question& bo
 class LatticeQuestion {
  public:
   /// `query`: of the index. All are referred to. Throws Stopped.
-  LatticeQuestion(const Scene& scene, const WallProblem& problem, const RouteIndex& index, RouteQuery& query,
+  LatticeQuestion(const KeptWorld& world, const WallProblem& problem, const RouteIndex& index, RouteQuery& query,
                   const Execution& execution);
 
   Outcome outcome() const { return outcome_; }
@@ -55,7 +55,7 @@ class LatticeQuestion {
   bool link(std::size_t end, Vec2 p);
   void join();
 
-  const Scene& scene_;
+  const KeptWorld& world_;
   const WallProblem& problem_;
   const RouteIndex& index_;
   RouteQuery& query_;

@@ -2,10 +2,10 @@
 #include "solve/roadmaps/maze_bits.hpp"
 
 #include <algorithm>
-#include <vector>
 
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
+#include "planners/route_trees/lattice_places.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 
 namespace warren {
@@ -21,9 +21,13 @@ template <class Cells, class Visit>
 void for_each_cell(const Cells& cells, std::size_t word, const Visit& visit) {
   const std::uint64_t first = word * cells_in_word;
   const std::uint64_t last = std::min(first + cells_in_word, cells.cell_count());
+  auto col = static_cast<std::uint32_t>(first / cells.rows());
+  auto row = static_cast<std::uint32_t>(first % cells.rows());
   for (std::uint64_t i = first; i < last; ++i) {
-    visit(i - first,
-          cells.index(static_cast<std::uint32_t>(i / cells.rows()), static_cast<std::uint32_t>(i % cells.rows())));
+    visit(i - first, cells.index(col, row));
+    if (++row < cells.rows()) continue;
+    row = 0;
+    ++col;
   }
 }
 
@@ -41,13 +45,29 @@ RawVector<std::uint64_t> packed(const MazeCells& cells, const Execution& executi
   return words;
 }
 
-bool same_walls(const WallSet& a, const WallSet& b, const Execution& execution) {
-  if (a.holds_floats() != b.holds_floats() || a.size() != b.size()) return false;
-  std::vector<std::uint8_t> same(chunk_count(a.size(), grain), 1);
-  for_chunks(a.size(), grain, execution, [&](Range r) {
-    for (std::size_t i = r.first; i < r.last; ++i) same[r.first / grain] &= a.segment(i) == b.segment(i) ? 1 : 0;
+/// The maze whose walls stand wherever there is no passage: tile by tile, so that the rows of bits and the columns of
+/// bytes of a tile stay in the first-level cache.
+MazeCells cells_of(const LatticePassages& lattice, const Execution& execution) {
+  const LatticePlaces places(lattice.size());
+  MazeCells cells(lattice.size().rows, lattice.size().cols, execution);
+  const std::span<std::uint8_t> bytes = cells.bytes();
+  for_chunks(places.tile_count(), 16, execution, [&](Range r) {
+    for (std::size_t tile = r.first; tile < r.last; ++tile) {
+      const auto first_col = static_cast<std::uint32_t>(tile % places.tile_cols()) * LatticePlaces::side;
+      const auto first_row = static_cast<std::uint32_t>(tile / places.tile_cols()) * LatticePlaces::side;
+      const std::uint32_t cols = std::min(LatticePlaces::side, lattice.size().cols - first_col);
+      const std::uint32_t rows = std::min(LatticePlaces::side, lattice.size().rows - first_row);
+      for (std::uint32_t row = 0; row < rows; ++row) {
+        const auto open = lattice.open_words(first_col, first_row + row);
+        std::size_t at = cells.index(first_col, first_row + row);
+        for (std::uint32_t col = 0; col < cols; ++col, at += cells.stride()) {
+          const std::uint64_t passages = (open[0] >> col & 1U) | (open[1] >> col & 1U) << 1;
+          bytes[at] = static_cast<std::uint8_t>(passages ^ MazeCells::all_walls);
+        }
+      }
+    }
   });
-  return std::find(same.begin(), same.end(), 0) == same.end();
+  return cells;
 }
 
 }  // namespace
@@ -55,8 +75,16 @@ bool same_walls(const WallSet& a, const WallSet& b, const Execution& execution) 
 std::optional<RawVector<std::uint64_t>> maze_bits(const Scene& scene, const Execution& execution) {
   if (!scene.maze || first_wall_off_grid(scene.walls, *scene.maze, execution)) return std::nullopt;
   const MazeCells cells = cells_of_walls(scene.walls, *scene.maze, execution);
-  if (!same_walls(maze_walls(cells, false, execution), scene.walls, execution)) return std::nullopt;
+  if (!has_maze_walls(scene.walls, cells, execution)) return std::nullopt;
   return packed(cells, execution);
+}
+
+bool has_walls_of(const LatticePassages& lattice, const Scene& scene, const Execution& execution) {
+  return has_maze_walls(scene.walls, cells_of(lattice, execution), execution);
+}
+
+WallSet walls_of_lattice(const LatticePassages& lattice, const Execution& execution) {
+  return maze_walls(cells_of(lattice, execution), false, execution);
 }
 
 WallSet walls_of_maze_bits(const std::string& where, MazeHint maze, std::span<const std::uint64_t> bits,

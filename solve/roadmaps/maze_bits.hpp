@@ -11,12 +11,20 @@
 
 #include "core/base/raw_vector.hpp"
 #include "parallel/execution.hpp"
+#include "planners/route_trees/lattice_passages.hpp"
 #include "scenes/scene/scene.hpp"
 
 namespace warren {
 
 /// Nothing where the scene's walls are others, or in another order. Throws Stopped.
 std::optional<RawVector<std::uint64_t>> maze_bits(const Scene& scene, const Execution& execution);
+
+/// Are the scene's walls, to the bit, those of a maze where a wall stands wherever the lattice has no passage? Throws
+/// Stopped.
+bool has_walls_of(const LatticePassages& lattice, const Scene& scene, const Execution& execution);
+
+/// The walls of that maze. Throws Stopped.
+WallSet walls_of_lattice(const LatticePassages& lattice, const Execution& execution);
 
 /// The walls again, to the bit. Throws InputError naming `where` for another number of words, Stopped.
 WallSet walls_of_maze_bits(const std::string& where, MazeHint maze, std::span<const std::uint64_t> bits,

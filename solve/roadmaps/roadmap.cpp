@@ -94,9 +94,9 @@ void compare_states(const RoadmapParts& before, const RoadmapParts& now, const E
 /// Two lattices share the smaller one's rows and columns; another roadmap shares nothing with a lattice.
 void compare_lattices(const Roadmap& before, const Roadmap& now, UpdateAccount& account) {
   std::uint64_t both = 0;
-  if (before.scene.maze && now.scene.maze) {
-    const MazeHint& a = *before.scene.maze;
-    const MazeHint& b = *now.scene.maze;
+  if (before.world.outline().maze && now.world.outline().maze) {
+    const MazeHint& a = *before.world.outline().maze;
+    const MazeHint& b = *now.world.outline().maze;
     both = std::uint64_t{std::min(a.rows, b.rows)} * std::min(a.cols, b.cols);
   }
   account.states_added = count_states(now) - both;
@@ -156,24 +156,24 @@ void check_buildable(const Scene& scene, const Question& question, const SolveOp
 Roadmap build_within(Scene scene, const Question& question, const SolveOptions& options, const Execution& execution,
                      IndexChoice index, BuildAccount* account, const OldRoadmap* old) {
   Roadmap roadmap;
-  roadmap.scene = std::move(scene);
+  roadmap.world = KeptWorld(std::move(scene));
+  const Scene& world = roadmap.world.outline();  // all of it
   roadmap.index = index;
   roadmap.options = options;
   roadmap.options.planner = options.planner.value_or(PlannerKind::prm);
-  check_buildable(roadmap.scene, question, roadmap.options);
-  const Question asked = without_ends(roadmap.scene, question);
-  const ChosenSolver solver = builder_of(roadmap.options, roadmap.scene, asked);
-  roadmap.robot = robot_of(roadmap.scene, asked);
-  roadmap.clearance = clearance_of(roadmap.scene, asked);
-  roadmap.world_hash = scene_hash(roadmap.scene, execution);
-  if (index == IndexChoice::where_it_pays)
-    roadmap.lattice = lattice_index(roadmap.scene, asked, roadmap.options, execution);
+  check_buildable(world, question, roadmap.options);
+  const Question asked = without_ends(world, question);
+  const ChosenSolver solver = builder_of(roadmap.options, world, asked);
+  roadmap.robot = robot_of(world, asked);
+  roadmap.clearance = clearance_of(world, asked);
+  roadmap.world_hash = scene_hash(world, execution);
+  if (index == IndexChoice::where_it_pays) roadmap.lattice = lattice_index(world, asked, roadmap.options, execution);
   if (roadmap.lattice != nullptr) {
     roadmap.samples = roadmap.lattice->passages().cell_count();
     roadmap.rule = {1.0, 0};
     return roadmap;
   }
-  const PlannedScene planned(roadmap.scene, asked, solver.planner, execution);
+  const PlannedScene planned(world, asked, solver.planner, execution);
   BuiltArrays built =
       solver.kind->build({roadmap.options, planned.get(), asked, solver.planner, execution, nullptr, {}, old});
   roadmap.samples = built.samples;
@@ -186,9 +186,11 @@ Roadmap build_within(Scene scene, const Question& question, const SolveOptions& 
 
 Roadmap update(const Roadmap& roadmap, Scene now, const Execution& execution, UpdateAccount* account) {
   std::optional<OldRoadmap> old;
-  if (!grows(roadmap.options, roadmap.scene, roadmap.robot) && roadmap.lattice == nullptr &&
+  if (!grows(roadmap.options, roadmap.world.outline(), roadmap.robot) && roadmap.lattice == nullptr &&
       roadmap.robot.kind != RobotKind::puma560 && roadmap.robot.kind != RobotKind::arm) {
-    if (auto places = changed_places(roadmap.scene, now, execution)) old = {&roadmap.arrays, std::move(*places)};
+    if (auto places = changed_places(roadmap.world.whole(execution), now, execution)) {
+      old = {&roadmap.arrays, std::move(*places)};
+    }
   }
   BuildAccount built;
   Roadmap next = build_within(std::move(now), roadmap.question(), roadmap.options, execution, roadmap.index, &built,

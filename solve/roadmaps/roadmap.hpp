@@ -16,10 +16,10 @@
 #include "planners/route_index/route_index.hpp"
 #include "roadmaps/file/roadmap_file.hpp"
 #include "roadmaps/graph/roadmap_parts.hpp"
-#include "scenes/scene/scene.hpp"
 #include "solve/question/limits.hpp"
 #include "solve/question/question.hpp"
 #include "solve/question/solve_options.hpp"
+#include "solve/roadmaps/kept_world.hpp"
 #include "solve/roadmaps/lattice_roadmap.hpp"
 
 namespace warren {
@@ -39,7 +39,7 @@ struct RoadmapArrays {
 };
 
 struct Roadmap {
-  Scene scene;
+  KeptWorld world;
   std::string world_hash;  ///< scene_hash
   RobotSpec robot;
   double clearance = 0.0;

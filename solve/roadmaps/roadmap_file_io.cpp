@@ -72,18 +72,41 @@ RoadmapArrays read_arrays(const RoadmapFile& file, const Roadmap& roadmap, const
   return arrays;
 }
 
-Scene world_of(const RoadmapFile& file, std::optional<Scene> given, const std::string& hash,
-               const Execution& execution) {
-  if (!given && !has_world(file)) {
+KeptWorld given_world(const RoadmapFile& file, Scene given, const std::string& hash, const Execution& execution) {
+  const std::string found = scene_hash(given, execution);
+  if (found == hash) return KeptWorld(std::move(given));
+  throw InputError(file.name(), fmt::format("was built for the world {}, and {} is another one", hash, given.source),
+                   found);
+}
+
+/// The body can be in the world.
+void check_world_of(const Scene& scene, const Question& question, const std::string& name) {
+  try {
+    check_plannable(scene, question);
+  } catch (const UsageError& error) {
+    throw InputError(name, error.what());
+  }
+}
+
+/// The world inside. A lattice's walls are made when they are needed: what of it refers to the file and the lattice
+/// lives as long as they do.
+KeptWorld world_inside(const RoadmapFile& file, const Roadmap& roadmap, const Execution& execution) {
+  if (!has_world(file)) {
     throw InputError(file.name(), "has no world inside; name the world that it was built for");
   }
-  const bool is_given = given.has_value();
-  Scene scene = is_given ? std::move(*given) : read_world_sections(file, execution);
-  const std::string found = scene_hash(scene, execution);
-  if (found == hash) return scene;
-  if (!is_given) throw InputError(file.name(), fmt::format("the world inside is not its own, {}", hash), found);
-  throw InputError(file.name(), fmt::format("was built for the world {}, and {} is another one", hash, scene.source),
-                   found);
+  Scene outline = read_world_outline(file, execution);
+  outline.source = roadmap.world.outline().source;
+  const LatticePassages* lattice = roadmap.lattice != nullptr ? &roadmap.lattice->passages() : nullptr;
+  auto make = [&file, lattice, outline, question = roadmap.question(), hash = roadmap.world_hash](const Execution& on) {
+    Scene scene = outline;
+    scene.walls = read_world_walls(file, outline, lattice, on);
+    const std::string found = scene_hash(scene, on);
+    if (found != hash) throw InputError(file.name(), fmt::format("the world inside is not its own, {}", hash), found);
+    check_world_of(scene, question, file.name());
+    return scene;
+  };
+  if (lattice == nullptr) return KeptWorld(make(execution));
+  return {std::move(outline), std::move(make)};
 }
 
 void append_graph(const RoadmapParts& parts, std::vector<RoadmapSection>& sections) {
@@ -107,21 +130,13 @@ Roadmap described(const RoadmapFile& file, const Execution& execution) {
   throw InputError(file.name(), "header and meta name different worlds");
 }
 
-/// The body can be in the world.
-void check_world_of(const Roadmap& roadmap, const std::string& name) {
-  try {
-    check_plannable(roadmap.scene, roadmap.question());
-  } catch (const UsageError& error) {
-    throw InputError(name, error.what());
-  }
-}
-
-/// The lattice is that of the maze.
-void check_lattice_of(const Roadmap& roadmap) {
-  const auto& maze = roadmap.scene.maze;
+/// The lattice is that of the maze, and of a body that plans on it.
+void check_lattice_of(const Roadmap& roadmap, const std::string& name) {
+  const auto& maze = roadmap.world.outline().maze;
   const LatticeSize size = roadmap.lattice->passages().size();
-  if (maze && maze->rows == size.rows && maze->cols == size.cols) return;
-  throw InputError(roadmap.file->name(), "its lattice is none of its world");
+  const bool is_round = roadmap.robot.kind == RobotKind::point || roadmap.robot.kind == RobotKind::disc;
+  if (is_round && maze && maze->rows == size.rows && maze->cols == size.cols) return;
+  throw InputError(name, "its lattice is none of its world and body");
 }
 
 }  // namespace
@@ -147,9 +162,11 @@ void write_roadmap(const Roadmap& roadmap, OutputFile& file, const std::string& 
                    bool with_world) {
   const std::string meta = meta_json(roadmap, execution);
   const RoadmapParts parts = roadmap.arrays.parts();
-  const WorldSections world(roadmap.scene, execution);
+  const LatticePassages* lattice = roadmap.lattice != nullptr ? &roadmap.lattice->passages() : nullptr;
+  std::optional<WorldSections> world;
+  if (with_world) world.emplace(roadmap.world.whole(execution), lattice, execution);
   std::vector<RoadmapSection> sections{roadmap_section("meta", std::span<const char>(meta))};
-  if (with_world) world.append_to(sections);
+  if (world) world->append_to(sections);
   roadmap.lattice != nullptr ? append_lattice_sections(*roadmap.lattice, sections) : append_graph(parts, sections);
   const RoadmapFileHeader header{.world_hash = hash_number(roadmap.world_hash),
                                  .recipe_hash = hash_of(recipe_json(roadmap, execution)),
@@ -170,20 +187,19 @@ Roadmap read_roadmap(const std::string& path, const Execution& execution, std::o
 Roadmap read_roadmap(std::unique_ptr<RoadmapFile> opened, const Execution& execution, std::optional<Scene> world) {
   const RoadmapFile& file = *opened;
   Roadmap roadmap = described(file, execution);
-  const std::string source = world ? world->source : roadmap.scene.source;
-  roadmap.scene = world_of(file, std::move(world), roadmap.world_hash, execution);
-  roadmap.scene.source = source;
+  if (has_lattice(file)) roadmap.lattice = read_lattice(file, lattice_of(file, execution), execution);
+  roadmap.world = world ? given_world(file, std::move(*world), roadmap.world_hash, execution)
+                        : world_inside(file, roadmap, execution);
   if (file.header().recipe_hash != hash_of(recipe_json(roadmap, execution))) {
     throw InputError(file.name(), "header and meta name different bodies or options");
   }
-  check_world_of(roadmap, file.name());
-  if (!has_lattice(file)) {
+  if (roadmap.lattice == nullptr) {
+    check_world_of(roadmap.world.outline(), roadmap.question(), file.name());
     roadmap.arrays = read_arrays(file, roadmap, execution);
-    return roadmap;
+  } else {
+    check_lattice_of(roadmap, file.name());
+    roadmap.file = std::move(opened);
   }
-  roadmap.lattice = read_lattice(file, lattice_of(file, execution), execution);
-  roadmap.file = std::move(opened);
-  check_lattice_of(roadmap);
   return roadmap;
 }
 

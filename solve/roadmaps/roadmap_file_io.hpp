@@ -22,7 +22,8 @@ void write_roadmap(const Roadmap& roadmap, const std::string& path, const Execut
 void write_roadmap(const Roadmap& roadmap, OutputFile& file, const std::string& path, const Execution& execution,
                    bool with_world = true);
 
-/// Reads a whole roadmap and holds all of it against what it promises. `world`: for a file that has none, or to make
+/// Reads a whole roadmap and holds all of it against what it promises, but for the walls of a lattice: these are looked
+/// at when Roadmap::world is first asked for the whole. `world`: for a file that has none, or to make
 /// sure that it is for this one. Throws ReadError, InputError (cut off, damaged, of another version, world or body, or
 /// without a world where none is given), Stopped.
 Roadmap read_roadmap(const std::string& path, const Execution& execution = {}, std::optional<Scene> world = {});

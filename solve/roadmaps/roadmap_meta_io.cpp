@@ -182,7 +182,7 @@ std::string meta_json(const Roadmap& roadmap, const Execution& execution) {
   counts.add("blocked", edges.blocked);
   JsonObject object(",\n ", ": ");
   object.add("schema", schema);
-  object.add("source", std::string_view(roadmap.scene.source));
+  object.add("source", std::string_view(roadmap.world.outline().source));
   object.add("world_hash", std::string_view(roadmap.world_hash));
   add_recipe(object, roadmap, execution);
   if (roadmap.index == IndexChoice::none) object.add("index", name_of(roadmap.index));
@@ -218,7 +218,9 @@ void read_meta(const std::string& where, std::string_view text, Roadmap& roadmap
   const Json json = parsed(where, text);
   const MetaReader meta(where, json);
   if (meta.text("schema") != schema) meta.fail("schema", schema);
-  roadmap.scene.source = meta.text("source");
+  Scene named;
+  named.source = meta.text("source");
+  roadmap.world = KeptWorld(std::move(named));
   roadmap.world_hash = meta.text("world_hash");
   roadmap.robot = robot_value(fmt::format("{}: key \"robot\"", where), meta.text("robot"));
   if (roadmap.robot.kind == RobotKind::arm && table_hash(roadmap.robot, {}) != meta.text("table_hash")) {

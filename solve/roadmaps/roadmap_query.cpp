@@ -26,8 +26,7 @@ Question question_of(const Roadmap& roadmap, const std::vector<double>& start, c
 }
 
 /// The answer with what does not depend on the question.
-Answer signed_by(Answer answer, const WorldAccount& world, const Execution& execution) {
-  answer.world = world;
+Answer finished(Answer answer, const Execution& execution) {
   answer.threads = thread_count(execution.threads);
   answer.peak_memory_bytes = peak_resident_bytes();
   return answer;
@@ -48,7 +47,7 @@ void refuse_search(const RoadmapSearchFields& how) {
 
 /// Who says that an edge is free which is not: the roadmap, for its world has been looked at by nobody else.
 [[noreturn]] void refuse_roadmap(const Roadmap& roadmap, const RefutedPathError& error) {
-  throw InputError(fmt::format("the roadmap of {}", roadmap.scene.source),
+  throw InputError(fmt::format("the roadmap of {}", roadmap.world.outline().source),
                    fmt::format("leads through an obstacle; build it anew: {}", error.what()));
 }
 
@@ -63,18 +62,13 @@ std::vector<double> anywhere(const Roadmap& roadmap) { return std::vector<double
 
 }  // namespace
 
+/// Of states and edges.
 struct RoadmapQuery::Opened {
   Opened(const Roadmap& roadmap, const Execution& execution, Questions questions)
       : any(question_of(roadmap, anywhere(roadmap), anywhere(roadmap))),
-        solver(choose_solver(roadmap.options, roadmap.scene, any)),
-        planned(roadmap.scene, any, solver.planner, execution),
-        world(account_of(roadmap.scene, execution)),
-        session(roadmap.lattice != nullptr
-                    ? nullptr
-                    : solver.kind->open(request_of(roadmap, execution, questions), roadmap.arrays, roadmap.rule)) {
-    const bool judges_many = roadmap.lattice != nullptr && questions == Questions::many;
-    if (judges_many && roadmap.scene.walls.size() <= most_indexed_walls) judged.emplace(roadmap.scene, execution);
-  }
+        solver(choose_solver(roadmap.options, roadmap.world.whole(execution), any)),
+        planned(roadmap.world.whole(execution), any, solver.planner, execution),
+        session(solver.kind->open(request_of(roadmap, execution, questions), roadmap.arrays, roadmap.rule)) {}
   SolveRequest request_of(const Roadmap& roadmap, const Execution& execution, Questions questions) const {
     SolveRequest request{roadmap.options, planned.get(), any, solver.planner, execution};
     request.many = questions != Questions::one;
@@ -83,16 +77,22 @@ struct RoadmapQuery::Opened {
   Question any;
   ChosenSolver solver;
   PlannedScene planned;
-  WorldAccount world;
   std::unique_ptr<RoadmapSession> session;
-  std::optional<ObstacleIndex> judged;  ///< of a lattice
+};
+
+/// Of a lattice: made when the first path is judged.
+struct RoadmapQuery::Judged {
+  MadeOnce<ObstacleIndex> index;
 };
 
 RoadmapQuery::RoadmapQuery(const Roadmap& roadmap, const Limits& limits)
     : RoadmapQuery(roadmap, LimitedExecution(limits).execution()) {}
 
 RoadmapQuery::RoadmapQuery(const Roadmap& roadmap, const Execution& execution, Questions questions)
-    : roadmap_(roadmap), opened_(std::make_unique<Opened>(roadmap, execution, questions)) {}
+    : roadmap_(roadmap),
+      questions_(questions),
+      opened_(roadmap.lattice != nullptr ? nullptr : std::make_unique<Opened>(roadmap, execution, questions)),
+      judged_(std::make_unique<Judged>()) {}
 
 RoadmapQuery::~RoadmapQuery() = default;
 
@@ -118,7 +118,8 @@ Answer RoadmapQuery::ask_within(const std::vector<double>& start, const std::vec
   if (how.attach) options.roadmap.attach = how.attach;
   options.validate();
   check_solver_options(options);
-  const ChosenSolver solver = choose_solver(options, roadmap_.scene, question);
+  const Scene& scene = roadmap_.world.whole(execution);
+  const ChosenSolver solver = choose_solver(options, scene, question);
   Answer answer;
   try {
     answer = solver.kind->solve({options,
@@ -135,15 +136,26 @@ Answer RoadmapQuery::ask_within(const std::vector<double>& start, const std::vec
   } catch (const RefutedPathError& error) {
     refuse_roadmap(roadmap_, error);
   }
-  return signed_by(std::move(answer), opened_->world, execution);
+  answer.world = account_of(scene, roadmap_.world_hash);
+  return finished(std::move(answer), execution);
+}
+
+const ObstacleIndex* RoadmapQuery::judge_of_lattice(const Execution& execution) const {
+  const Scene& scene = roadmap_.world.whole(execution);
+  if (questions_ == Questions::one || scene.walls.size() > most_indexed_walls) return nullptr;
+  return &judged_->index.get([&] { return std::make_unique<ObstacleIndex>(scene, execution); });
+}
+
+void RoadmapQuery::prepare_paths(const Execution& execution) const {
+  if (roadmap_.lattice != nullptr) judge_of_lattice(execution);
 }
 
 Answer RoadmapQuery::ask_lattice(const Question& question, const RoadmapSearchFields& how, const Execution& execution,
                                  QuestionScratch& scratch) const {
   refuse_search(how);
-  const WallProblem problem = wall_problem(roadmap_.scene, question);
+  const WallProblem problem = wall_problem(roadmap_.world.outline(), question);
   Answer answer;
-  describe_roadmap_planner(answer, problem, planner_options(roadmap_.options, roadmap_.scene, problem));
+  describe_roadmap_planner(answer, problem, planner_options(roadmap_.options, roadmap_.world.outline(), problem));
   answer.search.clear();
   answer.pipeline.clear();
   answer.figures.push_back({"index", std::string("route")});
@@ -152,20 +164,22 @@ Answer RoadmapQuery::ask_lattice(const Question& question, const RoadmapSearchFi
     answer_within_limits(answer, [&] {
       {
         const StageTimer timer(execution, "search", answer.seconds.search);
-        const LatticeQuestion asked(roadmap_.scene, problem, *roadmap_.lattice, *scratch.route, execution);
+        const LatticeQuestion asked(roadmap_.world, problem, *roadmap_.lattice, *scratch.route, execution);
         answer.outcome = asked.outcome();
         answer.roadmap.milestones = count_states(roadmap_) + 2;
         if (answer.outcome == Outcome::solved) answer.path = asked.path();
       }
-      const ObstacleIndex* judged = opened_->judged ? &*opened_->judged : nullptr;
-      settle_blocked_ends(answer, roadmap_.scene, problem, execution, judged);
-      if (how.optimise && answer.outcome == Outcome::solved) shorten(answer, roadmap_.scene, problem, execution);
-      verify_solved(answer, roadmap_.scene, problem, execution, judged);
+      const Scene& scene = roadmap_.world.whole(execution);
+      answer.world = account_of(scene, roadmap_.world_hash);
+      const ObstacleIndex* judged = judge_of_lattice(execution);
+      settle_blocked_ends(answer, scene, problem, execution, judged);
+      if (how.optimise && answer.outcome == Outcome::solved) shorten(answer, scene, problem, execution);
+      verify_solved(answer, scene, problem, execution, judged);
     });
   } catch (const RefutedPathError& error) {
     refuse_roadmap(roadmap_, error);
   }
-  return signed_by(std::move(answer), opened_->world, execution);
+  return finished(std::move(answer), execution);
 }
 
 LengthAnswer RoadmapQuery::length_within(const std::vector<double>& start, const std::vector<double>& goal,
@@ -180,8 +194,8 @@ LengthAnswer RoadmapQuery::length_within(const std::vector<double>& start, const
   const Question question = question_of(roadmap_, start, goal);
   question.validate();
   if (!scratch.route) scratch.route.emplace(*roadmap_.lattice);
-  const WallProblem problem = wall_problem(roadmap_.scene, question);
-  const LatticeQuestion asked(roadmap_.scene, problem, *roadmap_.lattice, *scratch.route, execution);
+  const WallProblem problem = wall_problem(roadmap_.world.outline(), question);
+  const LatticeQuestion asked(roadmap_.world, problem, *roadmap_.lattice, *scratch.route, execution);
   return {asked.outcome(), asked.length()};
 }
 

@@ -18,6 +18,8 @@
 
 namespace warren {
 
+class ObstacleIndex;  // verify/near/obstacle_index.hpp
+
 /// What a question may say beside its ends: all else is the roadmap's.
 struct RoadmapSearchFields {
   std::optional<SearchMethod> search = {};   ///< none: A*
@@ -58,6 +60,9 @@ class RoadmapQuery {
   /// The same under an execution, with a scratch that the thread keeps from one question to the next.
   Answer ask_within(const std::vector<double>& start, const std::vector<double>& goal, const RoadmapSearchFields& how,
                     const Execution& execution, QuestionScratch& scratch, ByProducts* keep = nullptr) const;
+  /// Makes what the judge of many paths needs, on all threads; else the first path's thread does it alone. Throws
+  /// InputError, Stopped.
+  void prepare_paths(const Execution& execution) const;
   /// The same without the path where an index tells the length alone. Throws UsageError, Stopped.
   LengthAnswer length_within(const std::vector<double>& start, const std::vector<double>& goal,
                              const RoadmapSearchFields& how, const Execution& execution,
@@ -70,10 +75,15 @@ class RoadmapQuery {
 
  private:
   struct Opened;
+  struct Judged;
   Answer ask_lattice(const Question& question, const RoadmapSearchFields& how, const Execution& execution,
                      QuestionScratch& scratch) const;
+  /// nullptr where a pass over all obstacles does.
+  const ObstacleIndex* judge_of_lattice(const Execution& execution) const;
   const Roadmap& roadmap_;
-  std::unique_ptr<Opened> opened_;
+  const Questions questions_;
+  std::unique_ptr<Opened> opened_;  // nullptr for a lattice
+  std::unique_ptr<Judged> judged_;
 };
 
 /// Takes over what the questions to a roadmap have learnt of its edges. Throws Stopped.

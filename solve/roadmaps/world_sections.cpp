@@ -125,10 +125,12 @@ OccupancyMap read_map(const RoadmapFile& file, const Execution& execution) {
 
 }  // namespace
 
-WorldSections::WorldSections(const Scene& scene, const Execution& execution) : scene_(scene) {
+WorldSections::WorldSections(const Scene& scene, const LatticePassages* lattice, const Execution& execution)
+    : scene_(scene) {
   write_scene_text(
       without_arrays(scene), [&](std::string_view text) { text_.append(text); }, execution);
-  maze_ = maze_bits(scene, execution);
+  in_lattice_ = lattice != nullptr && has_walls_of(*lattice, scene, execution);
+  if (!in_lattice_) maze_ = maze_bits(scene, execution);
   for (const Segment& s : scene.seams) seams_.insert(seams_.end(), {s.a.x, s.a.y, s.b.x, s.b.y});
   if (!scene.map) return;
   const OccupancyMap& map = *scene.map;
@@ -143,7 +145,7 @@ void WorldSections::append_to(std::vector<RoadmapSection>& sections) const {
   sections.push_back(roadmap_section("world.text", std::span<const char>(text_)));
   if (maze_) {
     sections.push_back(roadmap_section("maze.walls", std::span<const std::uint64_t>(*maze_)));
-  } else {
+  } else if (!in_lattice_) {
     append_walls(sections);
   }
   sections.push_back(roadmap_section("world.seams", std::span<const double>(seams_)));
@@ -166,7 +168,7 @@ void WorldSections::append_walls(std::vector<RoadmapSection>& sections) const {
 
 bool has_world(const RoadmapFile& file) { return file.find("world.text") != nullptr; }
 
-Scene read_world_sections(const RoadmapFile& file, const Execution& execution) {
+Scene read_world_outline(const RoadmapFile& file, const Execution& execution) {
   const auto text = file.section<std::byte>("world.text", execution);
   const std::string_view words(reinterpret_cast<const char*>(text.data()), text.size());
   Scene scene;
@@ -174,15 +176,6 @@ Scene read_world_sections(const RoadmapFile& file, const Execution& execution) {
     scene = read_scene_text(InputFile::of_bytes(file.name() + ": section world.text", words), execution);
   }
   if (scene.walls.size() != 0) refuse(file, "world.text", "expected walls in section world.walls alone");
-  if (scene.maze && file.find("maze.walls") != nullptr) {
-    scene.walls = walls_of_maze_bits(file.name() + ": section maze.walls", *scene.maze,
-                                     file.section<std::uint64_t>("maze.walls", execution), execution);
-  } else {
-    const SectionPlace* walls = file.find("world.walls");
-    if (walls == nullptr) refuse(file, "world.walls", "expected the walls of the world");
-    scene.walls =
-        walls->type == element_type<float>() ? read_walls<float>(file, execution) : read_walls<double>(file, execution);
-  }
   if (const auto seams = file.optional_section<double>("world.seams", execution)) {
     check_walls(file, "world.seams", *seams, execution);
     for (std::size_t i = 0; i + 3 < seams->size(); i += 4) {
@@ -191,6 +184,19 @@ Scene read_world_sections(const RoadmapFile& file, const Execution& execution) {
   }
   if (file.find("map.size") != nullptr) scene.map = read_map(file, execution);
   return scene;
+}
+
+WallSet read_world_walls(const RoadmapFile& file, const Scene& outline, const LatticePassages* lattice,
+                         const Execution& execution) {
+  if (outline.maze && file.find("maze.walls") != nullptr) {
+    return walls_of_maze_bits(file.name() + ": section maze.walls", *outline.maze,
+                              file.section<std::uint64_t>("maze.walls", execution), execution);
+  }
+  const SectionPlace* walls = file.find("world.walls");
+  if (walls == nullptr && outline.maze && lattice != nullptr) return walls_of_lattice(*lattice, execution);
+  if (walls == nullptr) refuse(file, "world.walls", "expected the walls of the world");
+  return walls->type == element_type<float>() ? read_walls<float>(file, execution)
+                                              : read_walls<double>(file, execution);
 }
 
 }  // namespace warren

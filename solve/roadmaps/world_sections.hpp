@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The world of a roadmap as sections of its file (docs/file_formats.md): walls as numbers, a map as bits, all else as
-// scene text, so that what is read back has the same hash as what was written.
+// The world of a roadmap as sections of its file (docs/file_formats.md): walls as numbers or as a maze's bits, a map as
+// bits, all else as scene text, so that what is read back has the same hash as what was written. A maze's walls that
+// stand wherever its lattice has no passage are said by the lattice alone.
 #pragma once
 
 #include <array>
@@ -10,6 +11,7 @@
 
 #include "core/base/raw_vector.hpp"
 #include "parallel/execution.hpp"
+#include "planners/route_trees/lattice_passages.hpp"
 #include "roadmaps/file/roadmap_file.hpp"
 #include "roadmaps/file/write_roadmap_file.hpp"
 #include "scenes/scene/scene.hpp"
@@ -19,8 +21,8 @@ namespace warren {
 /// Refers to the scene; holds what has to be put together.
 class WorldSections {
  public:
-  /// Throws Stopped.
-  WorldSections(const Scene& scene, const Execution& execution);
+  /// `lattice`: of the same file, or nullptr. Throws Stopped.
+  WorldSections(const Scene& scene, const LatticePassages* lattice, const Execution& execution);
   WorldSections(const WorldSections&) = delete;
   WorldSections& operator=(const WorldSections&) = delete;
 
@@ -31,6 +33,7 @@ class WorldSections {
 
   const Scene& scene_;
   std::string text_;
+  bool in_lattice_ = false;  // the walls are
   std::optional<RawVector<std::uint64_t>> maze_;
   RawVector<double> seams_;
   std::vector<double> map_place_;
@@ -45,7 +48,10 @@ inline constexpr std::array world_section_names{
 
 /// Is there a world in the file?
 bool has_world(const RoadmapFile& file);
-/// The world, but for its source. Throws InputError for sections that contradict each other, Stopped.
-Scene read_world_sections(const RoadmapFile& file, const Execution& execution);
+/// The world, but for its source and walls. Throws InputError for sections that contradict each other, Stopped.
+Scene read_world_outline(const RoadmapFile& file, const Execution& execution);
+/// Its walls. `lattice`: of the file, as large as the outline's maze, or nullptr. Throws as above.
+WallSet read_world_walls(const RoadmapFile& file, const Scene& outline, const LatticePassages* lattice,
+                         const Execution& execution);
 
 }  // namespace warren

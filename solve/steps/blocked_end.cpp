@@ -218,8 +218,8 @@ std::string hint_of(const std::vector<double>& state, BlockedEndSearch& search) 
 }  // namespace
 
 void explain_blocked_end(const Scene& scene, Answer& answer, const Execution& execution) {
+  if (!is_blocked(answer.outcome)) return;
   const bool is_start = answer.outcome == Outcome::start_blocked;
-  if (!is_start && answer.outcome != Outcome::goal_blocked) return;
   std::vector<double> state = is_start ? answer.problem.start : answer.problem.goal;
   const std::size_t width = state_size(answer.problem.robot);
   if (state.size() == 2 && width == 3) state.push_back(0.0);  // any heading: one of them tells enough

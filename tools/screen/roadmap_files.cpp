@@ -64,7 +64,7 @@ int draw_roadmap(const Arguments& arguments, const std::string& file) {
   run.conclude(file == "-", {}, [&] {
     const EdgeCounts edges = count_edges(roadmap, run.execution());
     return fmt::format("{}: {}, {}, edges: {} free, {} blocked, {} unchecked\n", run.palette().strong(file),
-                       description_of(roadmap.scene), counted(count_states(roadmap), "state", "states"),
+                       description_of(roadmap.world.outline()), counted(count_states(roadmap), "state", "states"),
                        grouped(edges.free), grouped(edges.blocked), grouped(edges.unchecked));
   });
   return exit_code::success;

@@ -42,7 +42,7 @@ int build_roadmap_file(const Arguments& arguments) {
   const EdgeCounts edges = count_edges(roadmap, run.execution());
   run.conclude(file == "-", {}, [&] {
     return fmt::format("{}: {}, {} states, {} edges free, {} blocked, {} unchecked\n", run.palette().strong(*file),
-                       description_of(roadmap.scene), grouped(count_states(roadmap)), grouped(edges.free),
+                       description_of(roadmap.world.outline()), grouped(count_states(roadmap)), grouped(edges.free),
                        grouped(edges.blocked), grouped(edges.unchecked));
   });
   return exit_code::success;

@@ -48,7 +48,7 @@ std::string roadmap_info(std::unique_ptr<RoadmapFile> file, bool check, const Ex
   if (!check) return meta;
   file->check_all(execution);
   if (has_world(*file)) {
-    read_roadmap(std::move(file), execution);
+    read_roadmap(std::move(file), execution).world.whole(execution);
   } else {
     check_roadmap(*file, execution);
   }

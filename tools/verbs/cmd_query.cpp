@@ -54,11 +54,11 @@ class QueryCommand : public AnswerCommand {
     const RoadmapQuery query(roadmap_, run.execution(), Questions::one);
     QuestionScratch scratch;
     Answer answer = query.ask_within(question_.start, question_.goal, how_, run.execution(), scratch, keep);
-    explain_blocked_end(roadmap_.scene, answer, run.execution());
+    if (is_blocked(answer.outcome)) explain_blocked_end(roadmap_.world.whole(run.execution()), answer, run.execution());
     if (keeps_roadmap()) learn(roadmap_, query, run.execution());
     return answer;
   }
-  Scene scene_drawn(const Execution&, ByProducts&) override { return roadmap_.scene; }
+  Scene scene_drawn(const Execution& execution, ByProducts&) override { return roadmap_.world.whole(execution); }
   const Roadmap& roadmap() const override { return roadmap_; }
 
   Question question_;

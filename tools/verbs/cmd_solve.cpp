@@ -36,11 +36,13 @@ class SolveCommand : public AnswerCommand {
     Answer answer = keeps_roadmap()
                         ? solve_and_keep(std::move(scene_), question_, options_, run.execution(), roadmap_, keep)
                         : solve_within(scene_, question_, options_, run.execution(), keep);
-    explain_blocked_end(keeps_roadmap() ? roadmap_.scene : scene_, answer, run.execution());
+    if (is_blocked(answer.outcome)) {
+      explain_blocked_end(keeps_roadmap() ? roadmap_.world.whole(run.execution()) : scene_, answer, run.execution());
+    }
     return answer;
   }
   Scene scene_drawn(const Execution& execution, ByProducts& keep) override {
-    if (keeps_roadmap()) return roadmap_.scene;
+    if (keeps_roadmap()) return roadmap_.world.whole(execution);
     make_by_products(scene_, question_, options_, execution, keep);
     return std::move(scene_);
   }

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <span>
 #include <tuple>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -44,6 +47,23 @@ TEST(MazeWalls, StandInTheCoursesOrder) {
   ASSERT_EQ(merged.size(), 4 + expected_merged.size());
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(merged.segment(i), expected[i]) << i;
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(merged.segment(4 + i), expected_merged[i]) << i;
+}
+
+TEST(MazeWalls, AreComparedWithoutBeingMade) {
+  const MazeCells cells = maze(70, 1100, 3, MazeAlgorithm::kruskal);  // more than one chunk
+  const WallSet walls = maze_walls(cells, false, {});
+  EXPECT_TRUE(has_maze_walls(walls, cells, {}));
+  EXPECT_FALSE(has_maze_walls(maze_walls(cells, true, {}), cells, {}));
+  EXPECT_FALSE(has_maze_walls(walls, maze(70, 1100, 4, MazeAlgorithm::kruskal), {}));
+  walls.visit([&](auto all) {
+    if constexpr (std::is_same_v<decltype(all), std::span<const FloatWall>>) {
+      for (const std::size_t i : {std::size_t{2}, std::size_t{4}, all.size() / 2, all.size() - 2}) {
+        RawVector<FloatWall> other(all.begin(), all.end());
+        std::swap(other[i], other[i + 1]);
+        EXPECT_FALSE(has_maze_walls(WallSet(std::move(other)), cells, {})) << i;
+      }
+    }
+  });
 }
 
 TEST(MazeWalls, CountMatchesTheCourse) {

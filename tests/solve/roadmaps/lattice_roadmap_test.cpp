@@ -9,11 +9,11 @@
 #include <filesystem>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "core/base/error.hpp"
 #include "scenes/formats/read_world_io.hpp"
 #include "solve/roadmaps/export_of_roadmap.hpp"
-#include "solve/roadmaps/roadmap_file_io.hpp"
 #include "solve/roadmaps/roadmap_query.hpp"
 #include "solve/solve.hpp"
 
@@ -38,12 +38,12 @@ TEST(LatticeRoadmap, AnswersAsSolveDoesWhereverTheEndsAre) {
                                     std::string("maze:256x256,loops=0.1,algorithm=kruskal")}) {
     const Roadmap roadmap = indexed(source);
     const RoadmapQuery query(roadmap);
-    EXPECT_EQ(query.ask({}, {}).length, solve(roadmap.scene).length);  // from opening to opening
+    EXPECT_EQ(query.ask({}, {}).length, solve(roadmap.world.outline()).length);  // from opening to opening
     for (int i = 0; i < 12; ++i) {
       const std::vector<double> start = place(i % 3 != 1);
       const std::vector<double> goal = place(i % 3 != 2);
       SCOPED_TRACE(source + " " + std::to_string(i));
-      const Answer expected = solve(roadmap.scene, {.start = start, .goal = goal});
+      const Answer expected = solve(roadmap.world.outline(), {.start = start, .goal = goal});
       const Answer answer = query.ask(start, goal);
       EXPECT_EQ(answer.outcome, expected.outcome);
       EXPECT_EQ(answer.verified, expected.verified);
@@ -74,24 +74,6 @@ TEST(LatticeRoadmap, BlockedAndUnreachableEndsAreTold) {
   EXPECT_EQ(query.ask({10, 9.5}, {1, 1}).outcome, Outcome::start_blocked);
   EXPECT_EQ(query.ask({1, 1}, {10, 9.55}).outcome, Outcome::goal_blocked);
   EXPECT_EQ(query.ask({10, 10}, {10.2, 10.2}).outcome, Outcome::solved);
-}
-
-TEST(LatticeRoadmap, IsReadBackFromItsFileWithTheSameBytes) {
-  const Roadmap roadmap = indexed("maze:256x256,loops=0.05");
-  const std::string file =
-      (std::filesystem::temp_directory_path() / ("warren_lattice_" + std::to_string(::getpid()))).string();
-  write_roadmap(roadmap, file);
-  {
-    const Roadmap read = read_roadmap(file);
-    ASSERT_NE(read.lattice, nullptr);
-    const Answer answer = RoadmapQuery(read).ask({}, {});
-    EXPECT_TRUE(answer.verified);
-    EXPECT_EQ(answer.path, RoadmapQuery(roadmap).ask({}, {}).path);
-    write_roadmap(read, file + "2");
-    EXPECT_EQ(std::filesystem::file_size(file), std::filesystem::file_size(file + "2"));
-  }
-  std::filesystem::remove(file);
-  std::filesystem::remove(file + "2");
 }
 
 TEST(LatticeRoadmap, IsExportedAsTheGraphThatItStandsFor) {

@@ -61,7 +61,7 @@ TEST_F(RoadmapFileIo, WhatIsReadAnswersAsWhatWasWrittenInEveryWorld) {
       const std::string file = place("a.roadmap");
       write_roadmap(built, file);
       const Roadmap read = read_roadmap(file);
-      EXPECT_EQ(read.scene.source, built.scene.source);
+      EXPECT_EQ(read.world.outline().source, built.world.outline().source);
       const Answer answer = RoadmapQuery(read).ask({}, {});
       const Answer expected = RoadmapQuery(built).ask({}, {});
       EXPECT_EQ(answer.outcome, expected.outcome);
@@ -81,9 +81,9 @@ TEST_F(RoadmapFileIo, MapsAreKeptWithTheirCells) {
   const Roadmap built = build(map, disc, few(300, PlannerKind::prm));
   write_roadmap(built, place("map.roadmap"));
   const Roadmap read = read_roadmap(place("map.roadmap"));
-  ASSERT_TRUE(read.scene.map.has_value());
-  EXPECT_EQ(read.scene.map->blocked, map.map->blocked);
-  EXPECT_EQ(read.scene.map->unknown, map.map->unknown);
+  ASSERT_TRUE(read.world.outline().map.has_value());
+  EXPECT_EQ(read.world.outline().map->blocked, map.map->blocked);
+  EXPECT_EQ(read.world.outline().map->unknown, map.map->unknown);
   const Answer answer = RoadmapQuery(read).ask({1, 1}, {3, 1});
   EXPECT_EQ(answer.path, RoadmapQuery(built).ask({1, 1}, {3, 1}).path);
 }

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A value that is made when somebody first asks for it, by whichever thread comes first; the others wait. Where making
+// it throws, nothing was made, and the next one who asks makes it. A look at what was made costs one load.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+
+namespace warren {
+
+/// Any number of threads may call get().
+template <class T>
+class MadeOnce {
+ public:
+  /// make() gives a std::unique_ptr<T> that isn't empty.
+  template <class Make>
+  const T& get(const Make& make) const {
+    if (const T* made = made_.load(std::memory_order_acquire)) return *made;
+    const std::scoped_lock lock(mutex_);
+    if (owned_ == nullptr) {
+      owned_ = make();
+      made_.store(owned_.get(), std::memory_order_release);
+    }
+    return *owned_;
+  }
+
+ private:
+  // Invariant: made_ is nullptr or what owned_ holds, which never changes from then on; owned_ is touched under mutex_.
+  mutable std::mutex mutex_;
+  mutable std::unique_ptr<T> owned_;
+  mutable std::atomic<const T*> made_{nullptr};
+};
+
+}  // namespace warren

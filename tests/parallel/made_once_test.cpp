@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "parallel/made_once.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+#include "parallel/chunks.hpp"
+
+namespace warren {
+namespace {
+
+TEST(MadeOnce, IsMadeByOneOfManyThreadsAndSeenWholeByAll) {
+  const MadeOnce<std::vector<int>> value;
+  std::atomic<int> made = 0;
+  std::vector<int> sizes(1000);
+  for_chunks(sizes.size(), 1, {.threads = 8}, [&](Range r) {
+    const std::vector<int>& all = value.get([&] {
+      ++made;
+      return std::make_unique<std::vector<int>>(1000, 7);
+    });
+    sizes[r.first] = static_cast<int>(all.size()) + all.back();
+  });
+  EXPECT_EQ(made, 1);
+  EXPECT_EQ(sizes, std::vector<int>(1000, 1007));
+}
+
+TEST(MadeOnce, WhatFailedIsMadeByTheNextOneWhoAsks) {
+  const MadeOnce<int> value;
+  const auto fail = []() -> std::unique_ptr<int> { throw std::runtime_error("no"); };
+  EXPECT_THROW(value.get(fail), std::runtime_error);
+  EXPECT_EQ(value.get([] { return std::make_unique<int>(3); }), 3);
+  EXPECT_EQ(value.get(fail), 3);
+}
+
+}  // namespace
+}  // namespace warren

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Lattices in files: asked without their walls, whose walls are those of the world, and whose lengths are those of a
+// breadth-first search.
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "roadmaps/file/roadmap_file.hpp"
+#include "scenes/formats/read_world_io.hpp"
+#include "solve/roadmaps/roadmap_file_io.hpp"
+#include "solve/roadmaps/roadmap_query.hpp"
+
+namespace warren {
+namespace {
+
+/// A roadmap's file, which goes with it.
+class KeptFile {
+ public:
+  explicit KeptFile(const Roadmap& roadmap)
+      : path_((std::filesystem::temp_directory_path() / ("warren_lattice_" + std::to_string(::getpid()))).string()) {
+    write_roadmap(roadmap, path_);
+  }
+  ~KeptFile() { std::filesystem::remove(path_); }
+  KeptFile(const KeptFile&) = delete;
+  KeptFile& operator=(const KeptFile&) = delete;
+  const std::string& path() const { return path_; }
+  std::string bytes() const {
+    std::ifstream in(path_, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+ private:
+  std::string path_;
+};
+
+TEST(KeptLattice, IsReadBackFromItsFileWithTheSameBytes) {
+  const Roadmap roadmap = build(read_world("maze:256x260,loops=0.05"));
+  const KeptFile file(roadmap);
+  const Roadmap read = read_roadmap(file.path());
+  ASSERT_NE(read.lattice, nullptr);
+  const Answer answer = RoadmapQuery(read).ask({}, {});
+  EXPECT_TRUE(answer.verified);
+  EXPECT_EQ(answer.path, RoadmapQuery(roadmap).ask({}, {}).path);
+  const std::string bytes = file.bytes();
+  EXPECT_TRUE(bytes == KeptFile(read).bytes());
+}
+
+TEST(KeptLattice, AFileHasNoWallsWhereItsPassagesSayThem) {
+  Scene scene = read_world("maze:250x271,loops=0.05");
+  std::vector<Segment> walls;
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) walls.push_back(scene.walls.segment(i));
+  {
+    const KeptFile file(build(scene));
+    const RoadmapFile sections(file.path(), {});
+    EXPECT_EQ(sections.find("maze.walls"), nullptr);
+    EXPECT_EQ(sections.find("world.walls"), nullptr);
+    const Roadmap read = read_roadmap(file.path());
+    EXPECT_EQ(read.world.outline().walls.size(), 0U);
+    const WallSet& again = read.world.whole({}).walls;
+    ASSERT_EQ(again.size(), walls.size());
+    for (std::size_t i = 0; i < walls.size(); ++i) ASSERT_EQ(again.segment(i), walls[i]) << i;
+  }
+  std::swap(walls[100], walls[101]);  // another order is another world
+  scene.walls = WallSet::narrowest(walls);
+  const KeptFile file(build(scene));
+  EXPECT_NE(RoadmapFile(file.path(), {}).find("world.walls"), nullptr);
+  EXPECT_EQ(read_roadmap(file.path()).world.whole({}).walls.segment(100), walls[100]);
+}
+
+TEST(KeptLattice, LengthsNeedNoWallsAndPathsRefuseAWorldThatIsAnother) {
+  Roadmap roadmap = build(read_world("maze:256x256"));
+  roadmap.world_hash = "0123456789abcdef";
+  const KeptFile file(roadmap);
+  const Roadmap read = read_roadmap(file.path());
+  const RoadmapQuery query(read);
+  QuestionScratch scratch;
+  EXPECT_EQ(query.length_within({3, 4}, {200, 100}, {}, {}, scratch).outcome, Outcome::solved);
+  for (const bool on_lattice : {true, false}) {
+    EXPECT_THROW(query.ask({3, on_lattice ? 4.0 : 4.2}, {200, 100}), InputError);
+    EXPECT_THROW(query.length_within({3, 4.2}, {200, 100}, {}, {}, scratch), InputError);
+  }
+}
+
+/// The oracle: a breadth-first search of the cells between the maze's walls as they stand in the world.
+class MazeFlood {
+ public:
+  explicit MazeFlood(const Scene& scene) : rows_(scene.maze->rows), cols_(scene.maze->cols) {
+    open_.assign(rows_ * cols_, 15);
+    for (std::size_t i = 0; i < scene.walls.size(); ++i) close(scene.walls.segment(i));
+  }
+  /// Steps from a cell, columns and rows from 1, to all cells; -1: none lead there.
+  std::vector<int> steps_from(std::size_t col, std::size_t row) const {
+    std::vector<int> steps(rows_ * cols_, -1);
+    std::vector<std::size_t> queue{number(col, row)};
+    steps[queue[0]] = 0;
+    const std::size_t next[] = {1, cols_, ~std::size_t{0}, ~cols_ + 1};
+    for (std::size_t i = 0; i < queue.size(); ++i) {
+      for (unsigned d = 0; d < 4; ++d) {
+        if ((open_[queue[i]] >> d & 1U) == 0) continue;
+        const std::size_t to = queue[i] + next[d];
+        if (steps[to] != -1) continue;
+        steps[to] = steps[queue[i]] + 1;
+        queue.push_back(to);
+      }
+    }
+    return steps;
+  }
+  std::size_t number(std::size_t col, std::size_t row) const { return (row - 1) * cols_ + col - 1; }
+
+ private:
+  void close_side(double x, double y, unsigned direction) {
+    if (x < 1 || y < 1 || x > static_cast<double>(cols_) || y > static_cast<double>(rows_)) return;
+    open_[number(static_cast<std::size_t>(x), static_cast<std::size_t>(y))] &= ~(1U << direction);
+  }
+  void close(const Segment& wall) {
+    for (double y = wall.a.y + 0.5; y < wall.b.y; ++y) {
+      close_side(wall.a.x - 0.5, y, 0);
+      close_side(wall.a.x + 0.5, y, 2);
+    }
+    for (double x = wall.a.x + 0.5; x < wall.b.x; ++x) {
+      close_side(x, wall.a.y - 0.5, 1);
+      close_side(x, wall.a.y + 0.5, 3);
+    }
+    open_[number(1, 1)] &= ~4U;  // the outline's openings lead out of the maze
+    open_[number(cols_, rows_)] &= ~1U;
+  }
+  std::size_t rows_;
+  std::size_t cols_;
+  std::vector<unsigned> open_;
+};
+
+TEST(KeptLattice, LengthsFromAFileAreThoseOfABreadthFirstSearch) {
+  std::mt19937 random(11);
+  const auto any = [&](std::uint32_t most) { return 1 + random() % most; };
+  std::size_t pairs = 0;
+  for (const char* algorithm : {"backtracker", "kruskal", "wilson"}) {
+    for (const char* loops : {"0", "0.01", "0.1"}) {
+      const std::string source = std::string("maze:250x271,seed=7,algorithm=") + algorithm + ",loops=" + loops;
+      SCOPED_TRACE(source);
+      const MazeFlood flood(read_world(source));
+      const KeptFile file(build(read_world(source)));
+      const Roadmap read = read_roadmap(file.path());
+      const RoadmapQuery query(read);
+      QuestionScratch scratch;
+      for (int start = 0; start < 6; ++start) {
+        const std::size_t col = any(271);
+        const std::size_t row = any(250);
+        const std::vector<int> steps = flood.steps_from(col, row);
+        for (int goal = 0; goal < 20; ++goal, ++pairs) {
+          const std::size_t to_col = any(271);
+          const std::size_t to_row = any(250);
+          const LengthAnswer answer =
+              query.length_within({static_cast<double>(col), static_cast<double>(row)},
+                                  {static_cast<double>(to_col), static_cast<double>(to_row)}, {}, {}, scratch);
+          ASSERT_EQ(answer.outcome, Outcome::solved);
+          ASSERT_EQ(answer.length, steps[flood.number(to_col, to_row)])
+              << col << ',' << row << " to " << to_col << ',' << to_row;
+        }
+      }
+    }
+  }
+  EXPECT_EQ(pairs, 1080U);
+}
+
+}  // namespace
+}  // namespace warren
