@@ -45,11 +45,23 @@ class CoreSearch {
   std::uint32_t number_of(LatticePlace p) const;
   const SeenCell& seen(std::uint32_t number) const { return seen_[number]; }
   /// Appends the cells on the way from the start, not included, to a seen cell, included.
-  void append_way(std::uint32_t to, RawVector<LatticePlace>& cells) const;
+  void append_way(std::uint32_t to, RawVector<CellId>& cells) const;
+  /// Appends a way of so many steps from one cell to another, the first not included: what search_for() finds, where
+  /// walking straight on and turning back when the goal is out of reach doesn't cost too many steps. False without it.
+  bool append_walk(LatticePlace start, LatticePlace goal, std::uint32_t steps, RawVector<CellId>& cells);
 
  private:
+  /// A cell of a walk, and the directions that were not tried yet.
+  struct WalkedCell {
+    LatticePlace place;
+    std::uint32_t col;
+    std::uint32_t row;
+    unsigned left;
+  };
+  SeenCell first_cell(LatticePlace start) const;
   void begin(LatticePlace start);
   void expand(std::uint32_t number);
+  bool is_core(LatticePlace next, LatticePlace from) const;
   bool enter(LatticePlace p, std::uint32_t number);
   std::size_t slot_of(LatticePlace p) const {
     return (p * std::uint64_t{0x9e3779b97f4a7c15U} >> 32) & (slots_.size() - 1);
@@ -59,6 +71,7 @@ class CoreSearch {
   const RouteIndex& index_;
   std::vector<SeenCell> seen_;
   std::vector<SeenGate> gates_;
+  std::vector<WalkedCell> walk_;
   /// Open addressing: number of a seen cell and in which search; at most half full.
   struct Slot {
     std::uint32_t search = 0;

@@ -18,7 +18,7 @@ std::uint64_t front_column(const FrontArrays& fronts, const Front& f, GateRank r
 }
 
 FrontQuery::FrontQuery(const RouteIndex& index)
-    : fronts_(index.arrays().fronts), lessen_(lessen_row()), lessen_short_(lessen_row_short()) {
+    : index_(index), fronts_(index.arrays().fronts), lessen_(lessen_row()), lessen_short_(lessen_row_short()) {
   forward_.distance.assign(fronts_.gate_place.size(), no_way);
   backward_.distance.assign(fronts_.gate_place.size(), no_way);
 }
@@ -68,7 +68,7 @@ void FrontQuery::climb(std::span<const SeenGate> starts, std::span<const SeenGat
 }
 
 void FrontQuery::settle(FrontId front, Half& half) {
-  const Front& f = fronts_.fronts[front];
+  const Front& f = index_.front(front);
   half.climbed.push_back(front);
   load_bounds(f, half, bounds_);
   for (std::uint32_t i = 0; i < f.gates; ++i) lessen_by(f, i, half, bounds_);
@@ -76,7 +76,7 @@ void FrontQuery::settle(FrontId front, Half& half) {
 }
 
 void FrontQuery::settle_both(FrontId front) {
-  const Front& f = fronts_.fronts[front];
+  const Front& f = index_.front(front);
   forward_.climbed.push_back(front);
   backward_.climbed.push_back(front);
   load_bounds(f, forward_, bounds_);

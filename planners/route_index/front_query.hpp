@@ -63,6 +63,7 @@ class FrontQuery {
                     std::vector<FrontStep>& steps) const;
   FrontStep step_into(const Half& half, GateRank to) const;
 
+  const RouteIndex& index_;
   const FrontArrays& fronts_;
   const LessenRow lessen_;
   const LessenRowShort lessen_short_;

@@ -8,36 +8,40 @@
 namespace warren {
 namespace {
 
-constexpr std::uint32_t few_steps = 12;  // a search so far costs less than looking through the fronts below
+constexpr std::uint32_t few_steps = 16;  // a search so far costs less than looking through the fronts below
 
 }  // namespace
 
-void FrontUnpacking::append(const FrontStep& whole, RawVector<LatticePlace>& cells) {
+void FrontUnpacking::append(const FrontStep& whole, RawVector<CellId>& cells) {
   todo_.assign(1, whole);
   while (!todo_.empty()) {
     const FrontStep step = todo_.back();
     todo_.pop_back();
-    const LatticePlace from = fronts_.gate_place[step.from];
-    const LatticePlace to = fronts_.gate_place[step.to];
-    if (step.length <= few_steps && search_.search_for(from, to, step.length)) {
-      search_.append_way(search_.number_of(to), cells);
-    } else if (const std::optional<Middle> middle = middle_of(step)) {
+    if (step.length <= few_steps && append_short(step, cells)) continue;
+    if (const std::optional<Middle> middle = middle_of(step)) {
       const bool up = step.from < step.to;
       todo_.push_back({middle->front, middle->gate, step.to, up ? middle->to_high : middle->from_low});
       todo_.push_back({middle->front, step.from, middle->gate, up ? middle->from_low : middle->to_high});
-    } else if (search_.search_for(from, to, step.length)) {
-      search_.append_way(search_.number_of(to), cells);
-    } else {
+    } else if (!append_short(step, cells)) {
       throw InputError("route index", "its fronts contradict its passages: build it again");
     }
   }
+}
+
+bool FrontUnpacking::append_short(const FrontStep& step, RawVector<CellId>& cells) {
+  const LatticePlace from = index_.gate_place(step.from);
+  const LatticePlace to = index_.gate_place(step.to);
+  if (search_.append_walk(from, to, step.length, cells)) return true;
+  if (!search_.search_for(from, to, step.length)) return false;
+  search_.append_way(search_.number_of(to), cells);
+  return true;
 }
 
 /// The front itself first, then those below that have both ends as bounds.
 std::optional<FrontUnpacking::Middle> FrontUnpacking::middle_of(const FrontStep& step) {
   const GateRank low = std::min(step.from, step.to);
   const GateRank high = std::max(step.from, step.to);
-  const Front& top = fronts_.fronts[step.front];
+  const Front& top = index_.front(step.front);
   const std::uint64_t own = front_column(fronts_, top, low);
   if (auto middle = middle_in(step.front, own, own, front_column(fronts_, top, high), step.length)) return middle;
   below_.assign(1, top.last_child);
@@ -45,7 +49,7 @@ std::optional<FrontUnpacking::Middle> FrontUnpacking::middle_of(const FrontStep&
     const FrontId front = below_.back();
     below_.pop_back();
     if (front == no_front) continue;
-    const Front& f = fronts_.fronts[front];
+    const Front& f = index_.front(front);
     below_.push_back(f.sibling);
     const std::uint64_t width = std::uint64_t{f.gates} + f.bounds;
     const std::uint64_t low_column = front_column(fronts_, f, low);

@@ -18,10 +18,10 @@ namespace warren {
 /// Scratch of one thread.
 class FrontUnpacking {
  public:
-  explicit FrontUnpacking(const RouteIndex& index) : fronts_(index.arrays().fronts), search_(index) {}
+  explicit FrontUnpacking(const RouteIndex& index) : index_(index), fronts_(index.arrays().fronts), search_(index) {}
 
   /// Appends the cells of the way, its first one not included.
-  void append(const FrontStep& step, RawVector<LatticePlace>& cells);
+  void append(const FrontStep& step, RawVector<CellId>& cells);
 
  private:
   struct Middle {
@@ -34,6 +34,9 @@ class FrontUnpacking {
   std::optional<Middle> middle_in(FrontId front, std::uint64_t end, std::uint64_t low, std::uint64_t high,
                                   std::uint32_t length) const;
 
+  bool append_short(const FrontStep& step, RawVector<CellId>& cells);
+
+  const RouteIndex& index_;
   const FrontArrays& fronts_;
   CoreSearch search_;
   std::vector<FrontStep> todo_;

@@ -54,11 +54,33 @@ RouteIndex::RouteIndex(LatticePassages passages, const RouteIndexOptions& option
       build_fronts(graph, dissect(graph, options.leaf == 0 ? leaf_size(graph) : options.leaf, execution), execution);
   mark_gates(marks, execution);
   arrays_.marks = ArrayOrView<std::uint64_t>(std::move(marks));
+  sound_ = LastingMarks(arrays_.fronts.fronts.size());
 }
 
 RouteIndex::RouteIndex(LatticePassages passages, RouteArrays arrays)
-    : passages_(std::move(passages)), places_(passages_.size()), arrays_(std::move(arrays)) {
-  check_route_arrays(places_, arrays_);
+    : passages_(std::move(passages)),
+      places_(passages_.size()),
+      arrays_(std::move(arrays)),
+      sound_(arrays_.fronts.fronts.size()) {
+  check_route_sizes(places_, arrays_);
+}
+
+GateRank RouteIndex::gate_at(LatticePlace p) const {
+  const std::size_t at = std::size_t{arrays_.gates_before[p / 64]} + marks().gates_before(p);
+  const std::size_t gates = arrays_.gate_rank.size();
+  if (at < gates && arrays_.gate_rank[at] < gates) return arrays_.gate_rank[at];
+  throw InputError("route index", "its gates contradict each other: build it again");
+}
+
+LatticePlace RouteIndex::gate_place(GateRank rank) const {
+  const LatticePlace p = arrays_.fronts.gate_place[rank];
+  if (p < places_.place_count()) return p;
+  throw InputError("route index", "a gate of it stands nowhere: build it again");
+}
+
+void RouteIndex::check_front(FrontId number) const {
+  check_front_arrays(arrays_.fronts, arrays_.fronts.fronts[number]);
+  sound_.set(number);
 }
 
 void RouteIndex::mark_gates(RawVector<std::uint64_t>& marks, const Execution& execution) {

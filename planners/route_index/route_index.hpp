@@ -25,6 +25,7 @@
 #include <cstdint>
 
 #include "parallel/execution.hpp"
+#include "parallel/lasting_marks.hpp"
 #include "planners/route_cuts/separator_fronts.hpp"
 #include "planners/route_trees/cell_marks.hpp"
 #include "planners/route_trees/lattice_passages.hpp"
@@ -58,7 +59,9 @@ class RouteIndex {
  public:
   /// Throws InputError where it doesn't pay and open_space isn't set, and Stopped.
   RouteIndex(LatticePassages passages, const RouteIndexOptions& options, const Execution& execution);
-  /// From arrays made before, owned or views. Throws InputError where they contradict each other.
+  /// From arrays made before, owned or views. Whatever their numbers are, no question leaves the arrays or turns in a
+  /// circle: what is looked at is checked where it is met, a front as a whole when it is first met, and questions throw
+  /// InputError. Throws InputError itself for arrays of the wrong size and fronts that lead out of them.
   RouteIndex(LatticePassages passages, RouteArrays arrays);
 
   const LatticePassages& passages() const { return passages_; }
@@ -66,19 +69,32 @@ class RouteIndex {
   const RouteArrays& arrays() const { return arrays_; }
   CellMarks marks() const { return CellMarks(arrays_.marks.data()); }
   PieceForest pieces() const { return {places_, marks(), arrays_.pieces}; }
+  /// Before marks of the tile of a place are read.
+  void look_at_tile(LatticePlace p) const {
+    constexpr std::size_t words = LatticePlaces::side * mark_word::count;
+    arrays_.marks.look(LatticePlaces::tile_of(p) * words, words);
+  }
   /// The rank of a cell that is a gate.
-  GateRank gate_at(LatticePlace p) const {
-    return arrays_.gate_rank[arrays_.gates_before[p / 64] + marks().gates_before(p)];
+  GateRank gate_at(LatticePlace p) const;
+  /// The cell of a gate.
+  LatticePlace gate_place(GateRank rank) const;
+  /// A front whose bounds and rows may be read.
+  const Front& front(FrontId number) const {
+    if (!sound_.test(number)) [[unlikely]]
+      check_front(number);
+    return arrays_.fronts.fronts[number];
   }
   /// Of all arrays, passages included.
   std::size_t bytes() const;
 
  private:
   void mark_gates(RawVector<std::uint64_t>& marks, const Execution& execution);
+  void check_front(FrontId number) const;
 
   LatticePassages passages_;
   LatticePlaces places_;
   RouteArrays arrays_;
+  mutable LastingMarks sound_{0};  // fronts that have been checked
 };
 
 }  // namespace warren

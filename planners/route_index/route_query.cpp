@@ -36,23 +36,22 @@ RawVector<CellId> RouteQuery::path(CellId start, CellId goal) {
   const LatticePlace a = checked(start);
   const LatticePlace b = checked(goal);
   const TreeJoin join = trees_.join(a, b);
-  RawVector<LatticePlace> cells;
-  trees_.append_climb(a, join.start_steps, cells);
-  cells.push_back(join.start_core);
-  if (!join.in_tree() && !append_core_path(join.start_core, join.goal_core, cells)) return {};
-  RawVector<LatticePlace> tail;
-  trees_.append_climb(b, join.goal_steps, tail);
-  append_reversed(tail, cells);
-  for (LatticePlace& cell : cells) cell = index_.places().cell_of(cell);
+  const std::size_t most = index_.places().place_count();
+  if (join.start_steps > most || join.goal_steps > most) {
+    throw InputError("route index", "its pieces are longer than the lattice: build it again");
+  }
+  RawVector<CellId> cells(std::size_t{join.start_steps} + 1 + (join.in_tree() ? join.goal_steps : 0));
+  cells[join.start_steps] = index_.places().cell_of(join.start_core);
+  if (!join.in_tree()) {
+    if (!append_core_path(join.start_core, join.goal_core, cells)) return {};
+    cells.resize(cells.size() + join.goal_steps);
+  }
+  trees_.write_climbs({a, join.start_steps, cells.data(), 1}, {b, join.goal_steps, &cells.back(), -1});
   return cells;
 }
 
-void RouteQuery::append_reversed(RawVector<LatticePlace>& tail, RawVector<LatticePlace>& cells) {
-  cells.insert(cells.end(), tail.rbegin(), tail.rend());
-}
-
 /// The first cell stands already.
-bool RouteQuery::append_core_path(LatticePlace start, LatticePlace goal, RawVector<LatticePlace>& cells) {
+bool RouteQuery::append_core_path(LatticePlace start, LatticePlace goal, RawVector<CellId>& cells) {
   near_start_.search(start);
   near_goal_.search(goal);
   const std::uint32_t direct = direct_length(goal);
@@ -64,11 +63,10 @@ bool RouteQuery::append_core_path(LatticePlace start, LatticePlace goal, RawVect
   }
   near_start_.append_way(near_start_.gates()[way.first].seen, cells);
   for (const FrontStep& step : way.steps) unpacking_.append(step, cells);
-  RawVector<LatticePlace> tail;
-  tail.push_back(goal);
+  RawVector<CellId> tail{index_.places().cell_of(goal)};
   near_goal_.append_way(near_goal_.gates()[way.last].seen, tail);
   tail.pop_back();  // the gate, which stands already; or the goal, where it is the gate
-  append_reversed(tail, cells);
+  cells.insert(cells.end(), tail.rbegin(), tail.rend());
   return true;
 }
 

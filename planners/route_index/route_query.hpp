@@ -32,8 +32,7 @@ class RouteQuery {
   LatticePlace checked(CellId cell) const;
   std::uint32_t core_length(LatticePlace start, LatticePlace goal);
   std::uint32_t direct_length(LatticePlace goal) const;
-  bool append_core_path(LatticePlace start, LatticePlace goal, RawVector<LatticePlace>& cells);
-  static void append_reversed(RawVector<LatticePlace>& tail, RawVector<LatticePlace>& cells);
+  bool append_core_path(LatticePlace start, LatticePlace goal, RawVector<CellId>& cells);
 
   const RouteIndex& index_;
   TreeRoutes trees_;

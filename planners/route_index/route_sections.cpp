@@ -2,6 +2,7 @@
 #include "planners/route_index/route_sections.hpp"
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include "core/base/error.hpp"
@@ -17,10 +18,7 @@ void for_each_array(Arrays& arrays, const Visit& visit) {
   visit("exits", arrays.pieces.exits);
   visit("exit.first", arrays.pieces.first_exit);
   visit("exit.piece", arrays.pieces.piece);
-  visit("piece.head", arrays.pieces.head);
-  visit("piece.parent", arrays.pieces.parent);
-  visit("piece.depth", arrays.pieces.depth);
-  visit("piece.door", arrays.pieces.door);
+  visit("pieces", arrays.pieces.pieces);
   visit("gates.before", arrays.gates_before);
   visit("gate.rank", arrays.gate_rank);
   visit("gate.place", arrays.fronts.gate_place);
@@ -31,14 +29,15 @@ void for_each_array(Arrays& arrays, const Visit& visit) {
 }
 
 template <class T>
-std::span<const T> elements(std::span<const RouteSection> sections, std::string_view name) {
+ArrayOrView<T> elements(std::span<const RouteSection> sections, std::string_view name) {
   const auto found =
       std::find_if(sections.begin(), sections.end(), [&](const RouteSection& s) { return s.name == name; });
   if (found == sections.end()) throw InputError("route index", "a section is missing", name);
   if (found->bytes.size() % sizeof(T) != 0 || found->element_bytes != sizeof(T)) {
     throw InputError("route index", "elements of a section need " + std::to_string(sizeof(T)) + " bytes", name);
   }
-  return {reinterpret_cast<const T*>(found->bytes.data()), found->bytes.size() / sizeof(T)};
+  const std::span all(reinterpret_cast<const T*>(found->bytes.data()), found->bytes.size() / sizeof(T));
+  return ArrayOrView<T>(all, found->first_look);
 }
 
 void require(bool holds, std::string_view what) {
@@ -64,29 +63,24 @@ void check_exits(const LatticePlaces& places, CellMarks marks, const ArrayOrView
 }
 
 void check_pieces(const LatticePlaces& places, const PieceArrays& pieces) {
-  const std::size_t count = pieces.head.size();
-  require(pieces.exits.size() == 4 * places.tile_count(), "exits");
-  require(pieces.first_exit.size() == places.tile_count() + 1 && pieces.first_exit[0] == 0, "exit.first");
+  const std::size_t count = pieces.pieces.size();
   for (std::size_t tile = 0; tile < places.tile_count(); ++tile) {
     std::uint32_t exits = 0;
     for (std::size_t d = 0; d < 4; ++d) exits += static_cast<std::uint32_t>(std::popcount(pieces.exits[4 * tile + d]));
     require(pieces.first_exit[tile + 1] == pieces.first_exit[tile] + exits, "exit.first");
   }
-  require(pieces.first_exit[places.tile_count()] == count && pieces.piece.size() == count, "exit.piece");
-  require(pieces.parent.size() == count && pieces.depth.size() == count && pieces.door.size() == count, "pieces");
   for (PieceId p = 0; p < count; ++p) {
-    require(pieces.piece[p] < count && pieces.head[p] <= p && pieces.door[p] < places.place_count(), "pieces");
-    require(pieces.head[pieces.head[p]] == pieces.head[p], "piece.head");
-    require(pieces.parent[p] == no_piece || pieces.parent[p] < p, "piece.parent");
+    const TreePiece& piece = pieces.pieces[p];
+    require(pieces.piece[p] < count && piece.head <= p && piece.door < places.place_count(), "pieces");
+    const TreePiece& head = pieces.pieces[piece.head];
+    require(head.head == piece.head && head.up == piece.up, "pieces");
+    require(piece.up == no_piece || piece.up < piece.head, "pieces");
   }
 }
 
-void check_fronts(const LatticePlaces& places, const FrontArrays& arrays) {
+/// Fronts follow each other without gaps in all that they have.
+void check_fronts(const FrontArrays& arrays) {
   const std::size_t gates = arrays.gate_place.size();
-  require(every(arrays.gate_place, [&](LatticePlace p) { return p < places.place_count(); }), "gate.place");
-  require(every(arrays.bounds, [&](GateRank rank) { return rank < gates; }), "front.bounds");
-  require(every(arrays.lengths, [](std::uint32_t length) { return length >= 1 && length <= no_way; }), "front.lengths");
-  require(every(arrays.short_lengths, [](std::uint16_t length) { return length >= 1; }), "front.shorts");
   std::uint64_t first = 0;
   std::uint64_t bound = 0;
   std::uint64_t wide = 0;
@@ -103,9 +97,6 @@ void check_fronts(const LatticePlaces& places, const FrontArrays& arrays) {
     require(f.parent == no_front || (f.parent > i && f.parent < arrays.fronts.size()), "fronts");
     require(f.last_child == no_front || f.last_child < i, "fronts");
     require(f.sibling == no_front || f.sibling < i, "fronts");
-    for (std::uint64_t b = bound - f.bounds; b < bound; ++b) {
-      require(arrays.bounds[b] >= first && (b + 1 == bound || arrays.bounds[b] < arrays.bounds[b + 1]), "front.bounds");
-    }
   }
   require(first == gates && bound == arrays.bounds.size() && wide == arrays.lengths.size(), "fronts");
   require(narrow == arrays.short_lengths.size(), "fronts");
@@ -135,22 +126,60 @@ std::vector<RouteSection> route_section_kinds() {
 
 RouteIndex route_index_of(LatticeSize size, std::span<const RouteSection> sections) {
   RouteArrays arrays;
-  for_each_array(arrays, [&]<class T>(std::string_view name, ArrayOrView<T>& array) {
-    array = ArrayOrView<T>(elements<T>(sections, name));
-  });
-  return {LatticePassages(size, elements<std::uint64_t>(sections, "passages.right"),
-                          elements<std::uint64_t>(sections, "passages.up")),
+  for_each_array(arrays,
+                 [&]<class T>(std::string_view name, ArrayOrView<T>& array) { array = elements<T>(sections, name); });
+  return {LatticePassages(size, elements<std::uint64_t>(sections, "passages.right").span(),
+                          elements<std::uint64_t>(sections, "passages.up").span()),
           std::move(arrays)};
+}
+
+bool is_read_in_parts(std::string_view section) {
+  constexpr std::array parts{"marks", "exit.piece", "pieces", "front.bounds", "front.lengths", "front.shorts"};
+  return std::find(parts.begin(), parts.end(), section) != parts.end();
+}
+
+void check_route_sizes(const LatticePlaces& places, const RouteArrays& arrays) {
+  const std::size_t rows = places.place_count() / 64;
+  const PieceArrays& pieces = arrays.pieces;
+  const std::size_t gates = arrays.fronts.gate_place.size();
+  require(arrays.marks.size() == rows * mark_word::count, "marks");
+  require(pieces.exits.size() == 4 * places.tile_count(), "exits");
+  require(pieces.first_exit.size() == places.tile_count() + 1 && pieces.first_exit[0] == 0, "exit.first");
+  require(pieces.first_exit[places.tile_count()] == pieces.pieces.size(), "exit.first");
+  require(pieces.piece.size() == pieces.pieces.size(), "exit.piece");
+  require(arrays.gates_before.size() == (gates == 0 ? 0 : rows) && arrays.gate_rank.size() == gates, "gates.before");
+  check_fronts(arrays.fronts);
+}
+
+void check_front_arrays(const FrontArrays& arrays, const Front& f) {
+  const std::uint64_t count = row_offset(f.gates, f.gates, f.bounds);
+  arrays.bounds.look(f.first_bound, f.bounds);
+  GateRank least = f.first + f.gates;
+  for (const GateRank bound : arrays.bounds.span().subspan(f.first_bound, f.bounds)) {
+    require(bound >= least && bound < arrays.gate_place.size(), "front.bounds");
+    least = bound + 1;
+  }
+  if (f.is_short()) {
+    arrays.short_lengths.look(f.first_length(), count);
+    const auto lengths = arrays.short_lengths.span().subspan(f.first_length(), count);
+    require(std::all_of(lengths.begin(), lengths.end(), [](std::uint16_t length) { return length >= 1; }),
+            "front.shorts");
+  } else {
+    arrays.lengths.look(f.first_length(), count);
+    const auto lengths = arrays.lengths.span().subspan(f.first_length(), count);
+    const auto is_length = [](std::uint32_t length) { return length >= 1 && length <= no_way; };
+    require(std::all_of(lengths.begin(), lengths.end(), is_length), "front.lengths");
+  }
 }
 
 void check_route_arrays(const LatticePlaces& places, const RouteArrays& arrays) {
   const std::size_t rows = places.place_count() / 64;
-  require(arrays.marks.size() == rows * mark_word::count, "marks");
+  const std::size_t gates = arrays.fronts.gate_place.size();
+  check_route_sizes(places, arrays);
   check_pieces(places, arrays.pieces);
   check_exits(places, CellMarks(arrays.marks.data()), arrays.pieces.exits);
-  check_fronts(places, arrays.fronts);
-  const std::size_t gates = arrays.fronts.gate_place.size();
-  require(arrays.gates_before.size() == (gates == 0 ? 0 : rows) && arrays.gate_rank.size() == gates, "gates.before");
+  for (const Front& front : arrays.fronts.fronts.span()) check_front_arrays(arrays.fronts, front);
+  require(every(arrays.fronts.gate_place, [&](LatticePlace p) { return p < places.place_count(); }), "gate.place");
   require(every(arrays.gate_rank, [&](GateRank rank) { return rank < gates; }), "gate.rank");
   std::uint32_t before = 0;
   for (std::size_t row = 0; row < rows; ++row) {

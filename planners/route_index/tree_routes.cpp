@@ -2,79 +2,201 @@
 #include "planners/route_index/tree_routes.hpp"
 
 #include <algorithm>
+#include <array>
+
+#include "core/base/error.hpp"
+#include "planners/route_trees/tile_climb.hpp"
 
 namespace warren {
+namespace {
 
-TreeRoutes::Climber TreeRoutes::climber(LatticePlace from) const {
-  const Climb up = pieces_.climb(from);
-  if (up.at_core) return {from, no_piece, up, 0, up.steps};
-  const PieceId piece = pieces_.piece_at(up.last);
-  return {from, piece, up, 0, up.steps + pieces_.depth(piece)};
+[[noreturn]] void refuse() { throw InputError("route index", "its trees contradict its pieces: build it again"); }
+
+/// A bit a cell.
+using SeenInTile = std::array<std::uint64_t, LatticePlaces::tile_places / 64>;
+
+/// A climb in a tile that knows where it has been.
+class TileWalk {
+ public:
+  TileWalk(CellMarks marks, LatticePlace from) : climb_(marks, from) { trail_[0] = at(); }
+
+  /// False at its end, and after as many steps as a tile has cells.
+  bool step() {
+    if (steps_ + 1 == trail_.size() || !climb_.step()) return false;
+    trail_[++steps_] = at();
+    return true;
+  }
+  bool was_seen(const SeenInTile& seen) const { return (seen[at() / 64] >> at() % 64 & 1U) != 0; }
+  bool mark(SeenInTile& seen) const {
+    seen[at() / 64] |= std::uint64_t{1} << at() % 64;
+    return true;
+  }
+  LatticePlace place() const { return climb_.place(); }
+  std::uint32_t steps() const { return steps_; }
+  /// From where this walk began to where the other one is, where this one has been.
+  std::uint32_t steps_to(const TileWalk& other) const {
+    const auto* const end = trail_.data() + steps_ + 1;
+    const auto* const found = std::find(trail_.data(), end, other.at());
+    if (found == end) refuse();
+    return static_cast<std::uint32_t>(found - trail_.data());
+  }
+
+ private:
+  std::uint16_t at() const { return static_cast<std::uint16_t>(climb_.place() % LatticePlaces::tile_places); }
+
+  TileClimb climb_;
+  std::uint32_t steps_ = 0;
+  std::array<std::uint16_t, LatticePlaces::tile_places> trail_;  // where it was after so many steps
+};
+
+/// Writes cell after cell of a climb.
+class CellWriter {
+ public:
+  CellWriter(const RouteIndex& index, const TreeRoutes::WrittenClimb& climb)
+      : index_(index),
+        marks_(index.marks()),
+        next_{1, index.places().size().cols, ~CellId{0}, ~index.places().size().cols + 1},
+        at_(climb.from),
+        cell_(index.places().cell_of(climb.from)),
+        to_(climb.to),
+        direction_(climb.direction) {
+    index.look_at_tile(at_);
+  }
+  void write() {
+    if (marks_.is_core(at_)) refuse();
+    *to_ = cell_;
+    to_ += direction_;
+    const unsigned way = marks_.direction(at_);
+    cell_ += next_[way];
+    if (LatticePlaces::leaves_tile(at_, way)) {
+      at_ = index_.places().step(at_, way);
+      if (at_ >= index_.places().place_count()) refuse();
+      index_.look_at_tile(at_);
+      marks_.prefetch_tile(LatticePlaces::tile_of(at_));
+    } else {
+      at_ = index_.places().step_inside(at_, way);
+    }
+  }
+
+ private:
+  const RouteIndex& index_;
+  const CellMarks marks_;
+  const std::array<CellId, 4> next_;  // what a motion adds to a cell, modulo 2^32
+  LatticePlace at_;
+  CellId cell_;
+  CellId* to_;
+  const int direction_;
+};
+
+}  // namespace
+
+TreeRoutes::Climber TreeRoutes::climber(LatticePlace from, const Climb& climb) const {
+  Climber climber{from, climb, climb.steps, no_piece};
+  if (climb.at_core) return climber;
+  enter(climber, pieces_.piece_at(climb.last));
+  climber.depth += pieces_.piece(climber.piece).depth;
+  return climber;
 }
 
-/// By the exit of a piece that is on its way.
-void TreeRoutes::leave(Climber& climber, PieceId by) const {
-  climber.at = pieces_.door(by);
-  climber.steps = climber.depth - pieces_.depth(by) + 1;
-  climber.piece = pieces_.parent(by);
+void TreeRoutes::enter(Climber& climber, PieceId piece) const {
+  climber.piece = piece;
+  climber.head = no_piece;
+  if (piece == no_piece) return;
+  climber.head = pieces_.piece(piece).head;
+  climber.up = pieces_.piece(piece).up;
 }
 
 /// While they are in pieces of different paths, the one with the larger number, which hangs off the other's path or
-/// off another one, leaves its path by the head; what has left all pieces waits for the other.
+/// off another one, leaves its path by the head; what has left all pieces waits for the other. On one path the one
+/// below leaves by the child of the other's piece.
 void TreeRoutes::climb_to_one_piece(Climber& start, Climber& goal) const {
-  const auto head = [&](PieceId p) { return p == no_piece ? no_piece : pieces_.head(p); };
-  PieceId start_head = head(start.piece);
-  PieceId goal_head = head(goal.piece);
-  while (start_head != goal_head) {
-    if (goal_head == no_piece || (start_head != no_piece && start.piece > goal.piece)) {
-      leave(start, start_head);
-      start_head = head(start.piece);
-    } else {
-      leave(goal, goal_head);
-      goal_head = head(goal.piece);
-    }
+  const auto order = [](PieceId p) { return p + 1; };  // none is least
+  while (start.head != goal.head) {
+    Climber& later = order(start.piece) > order(goal.piece) ? start : goal;
+    later.left = later.head;
+    enter(later, later.up);
   }
   if (start.piece == goal.piece) return;
-  if (start.piece > goal.piece) {
-    leave(start, goal.piece + 1);
-  } else {
-    leave(goal, start.piece + 1);
-  }
+  Climber& below = start.piece > goal.piece ? start : goal;
+  below.left = std::min(start.piece, goal.piece) + 1;
+}
+
+/// To the door of the last piece that was left.
+void TreeRoutes::step_out(Climber& climber) const {
+  if (climber.left == no_piece) return;
+  const TreePiece& left = pieces_.piece(climber.left);
+  climber.at = left.door;
+  climber.steps = climber.depth - left.depth + 1;
+  pieces_.prefetch(climber.at);
 }
 
 TreeJoin TreeRoutes::join(LatticePlace start, LatticePlace goal) const {
-  Climber from = climber(start);
-  Climber to = climber(goal);
+  pieces_.prefetch(start);
+  pieces_.prefetch(goal);
+  index_.look_at_tile(start);
+  index_.look_at_tile(goal);
+  const std::array<Climb, 2> first = pieces_.climb_both(start, goal);
+  Climber from = climber(start, first[0]);
+  Climber to = climber(goal, first[1]);
   climb_to_one_piece(from, to);
-  for (Climber* climber : {&from, &to}) {
-    if (climber->steps > 0) climber->up = pieces_.climb(climber->at);
-  }
-  if (from.up.last == to.up.last) return meet_in_tile(from, to);
-  return {from.steps + from.up.steps, to.steps + to.up.steps, from.up.last, to.up.last};
+  step_out(from);
+  step_out(to);
+  index_.look_at_tile(from.at);
+  index_.look_at_tile(to.at);
+  return from.piece != no_piece ? meet_in_piece(from, to) : meet_at_core(from, to);
 }
 
-/// Both ways end at the same cell of the tile.
-TreeJoin TreeRoutes::meet_in_tile(const Climber& start, const Climber& goal) const {
-  LatticePlace a = start.at;
-  LatticePlace b = goal.at;
-  std::uint32_t left_a = start.up.steps;
-  std::uint32_t left_b = goal.up.steps;
-  const auto up = [&](LatticePlace p) { return places_.step_inside(p, marks_.direction(p)); };
-  for (; left_a > left_b; --left_a) a = up(a);
-  for (; left_b > left_a; --left_b) b = up(b);
-  for (; a != b && left_a > 0; --left_a) {
-    a = up(a);
-    b = up(b);
+/// Side by side until one comes where the other has been, before the exit of the piece that they are in at the latest.
+TreeJoin TreeRoutes::meet_in_piece(const Climber& start, const Climber& goal) const {
+  if (LatticePlaces::tile_of(start.at) != LatticePlaces::tile_of(goal.at)) refuse();
+  TileWalk a(marks_, start.at);
+  TileWalk b(marks_, goal.at);
+  SeenInTile seen{};
+  if (start.at == goal.at) return {start.steps, goal.steps, start.at, start.at};
+  a.mark(seen);
+  b.mark(seen);
+  for (bool goes = true; goes;) {
+    goes = false;
+    if (a.step()) {
+      if (a.was_seen(seen)) return {start.steps + a.steps(), goal.steps + b.steps_to(a), a.place(), a.place()};
+      goes = a.mark(seen);
+    }
+    if (b.step()) {
+      if (b.was_seen(seen)) return {start.steps + a.steps_to(b), goal.steps + b.steps(), b.place(), b.place()};
+      goes = b.mark(seen);
+    }
   }
-  return {start.steps + start.up.steps - left_a, goal.steps + goal.up.steps - left_a, a, a};
+  refuse();
 }
 
-void TreeRoutes::append_climb(LatticePlace from, std::uint32_t steps, RawVector<LatticePlace>& cells) const {
-  const std::size_t most = std::min<std::size_t>(steps, places_.place_count());
-  for (std::size_t i = 0; i < most && !marks_.is_core(from); ++i) {
-    cells.push_back(from);
-    from = places_.step(from, marks_.direction(from));
+/// Both have left all pieces: the core, or the root of their tree, is in the tile of each.
+TreeJoin TreeRoutes::meet_at_core(Climber& start, Climber& goal) const {
+  if (start.steps > 0) start.climb = pieces_.climb(start.at);
+  if (goal.steps > 0) goal.climb = pieces_.climb(goal.at);
+  TileClimb a(marks_, start.at);
+  TileClimb b(marks_, goal.at);
+  std::uint32_t left_a = start.climb.steps;
+  std::uint32_t left_b = goal.climb.steps;
+  const TreeJoin apart{start.steps + left_a, goal.steps + left_b, start.climb.last, goal.climb.last};
+  if (!apart.in_tree()) return apart;
+  for (; left_a > left_b; --left_a) a.step();
+  for (; left_b > left_a; --left_b) b.step();
+  for (; a.place() != b.place() && left_a > 0; --left_a) {
+    a.step();
+    b.step();
   }
+  return {apart.start_steps - left_a, apart.goal_steps - left_a, a.place(), a.place()};
+}
+
+void TreeRoutes::write_climbs(WrittenClimb one, WrittenClimb other) const {
+  CellWriter a(index_, one);
+  CellWriter b(index_, other);
+  for (std::uint32_t both = std::min(one.steps, other.steps); both > 0; --both) {
+    a.write();
+    b.write();
+  }
+  for (std::uint32_t left = one.steps; left > other.steps; --left) a.write();
+  for (std::uint32_t left = other.steps; left > one.steps; --left) b.write();
 }
 
 }  // namespace warren

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ways in the trees that hang off the core: where a cell reaches the core, and where two cells of one tree meet. Cells
-// are climbed in at most three tiles, pieces between them; a few microseconds at any size.
+// are climbed in at most three tiles, pieces between them; two or three microseconds at any size.
 #pragma once
 
 #include <cstdint>
 
-#include "core/base/raw_vector.hpp"
 #include "planners/route_index/route_index.hpp"
 
 namespace warren {
@@ -24,26 +23,39 @@ struct TreeJoin {
 class TreeRoutes {
  public:
   explicit TreeRoutes(const RouteIndex& index)
-      : places_(index.places()), marks_(index.marks()), pieces_(index.pieces()) {}
+      : index_(index), places_(index.places()), marks_(index.marks()), pieces_(index.pieces()) {}
 
   TreeJoin join(LatticePlace start, LatticePlace goal) const;
-  /// Appends a cell and those after it on its way to the core, as many as steps.
-  void append_climb(LatticePlace from, std::uint32_t steps, RawVector<LatticePlace>& cells) const;
+  /// A cell and those after it on its way to the core, so many as steps, go to `to`, `to` + direction, ...
+  struct WrittenClimb {
+    LatticePlace from;
+    std::uint32_t steps;
+    CellId* to;
+    int direction;
+  };
+  /// Two of them side by side: each cell waits for the one before it. Throws InputError where a way is shorter.
+  void write_climbs(WrittenClimb one, WrittenClimb other) const;
 
  private:
   /// A cell on its way to the core: it stands in a piece, or in none where the core is in its tile.
   struct Climber {
     LatticePlace at;
-    PieceId piece;
-    Climb up;             // from `at`, in its tile
-    std::uint32_t steps;  // from where it began to `at`
+    Climb climb;          // from `at`, in its tile
     std::uint32_t depth;  // of where it began, if there in a piece: steps to the core
+    PieceId piece;
+    PieceId head = no_piece;  // of its path
+    PieceId up = no_piece;    // where its path leads to
+    PieceId left = no_piece;  // the last piece that it has left
+    std::uint32_t steps = 0;  // from where it began to `at`
   };
-  Climber climber(LatticePlace from) const;
-  void leave(Climber& climber, PieceId by) const;
+  Climber climber(LatticePlace from, const Climb& climb) const;
+  void enter(Climber& climber, PieceId piece) const;
   void climb_to_one_piece(Climber& start, Climber& goal) const;
-  TreeJoin meet_in_tile(const Climber& start, const Climber& goal) const;
+  void step_out(Climber& climber) const;
+  TreeJoin meet_in_piece(const Climber& start, const Climber& goal) const;
+  TreeJoin meet_at_core(Climber& start, Climber& goal) const;
 
+  const RouteIndex& index_;
   const LatticePlaces& places_;
   CellMarks marks_;
   PieceForest pieces_;

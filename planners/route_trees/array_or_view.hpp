@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/base/raw_vector.hpp"
+#include "parallel/first_look.hpp"
 
 namespace warren {
 
@@ -21,12 +22,14 @@ class ArrayOrView {
   using value_type = T;
   ArrayOrView() = default;
   explicit ArrayOrView(RawVector<T> elements) : own_(std::move(elements)), all_(own_) {}
-  explicit ArrayOrView(std::span<const T> elements) : all_(elements) {}
+  explicit ArrayOrView(std::span<const T> elements, FirstLook first_look = {})
+      : all_(elements), first_look_(first_look) {}
   ArrayOrView(ArrayOrView&& other) noexcept
-      : own_(std::exchange(other.own_, {})), all_(std::exchange(other.all_, {})) {}
+      : own_(std::exchange(other.own_, {})), all_(std::exchange(other.all_, {})), first_look_(other.first_look_) {}
   ArrayOrView& operator=(ArrayOrView&& other) noexcept {
     own_ = std::exchange(other.own_, {});
     all_ = std::exchange(other.all_, {});
+    first_look_ = other.first_look_;
     return *this;
   }
   ~ArrayOrView() = default;
@@ -36,10 +39,14 @@ class ArrayOrView {
   const T* data() const { return all_.data(); }
   const T& operator[](std::size_t i) const { return all_[i]; }
   std::span<const T> span() const { return all_; }
+  /// Whoever reads a view of a large file calls it before it reads these elements, which must be there. Throws what the
+  /// view's owner says of damage.
+  void look(std::size_t first, std::size_t count) const { first_look_.ensure(first * sizeof(T), count * sizeof(T)); }
 
  private:
   RawVector<T> own_;
   std::span<const T> all_;
+  FirstLook first_look_;
 };
 
 }  // namespace warren

@@ -43,6 +43,16 @@ class CellMarks {
     return static_cast<std::uint32_t>(std::popcount(row[mark_word::low] & row[mark_word::core] & below));
   }
 
+  /// The words of a tile, row by row.
+  const std::uint64_t* tile(std::uint32_t number) const {
+    return words_ + std::size_t{number} * LatticePlaces::side * mark_word::count;
+  }
+  void prefetch_tile(std::uint32_t number) const {
+    constexpr std::size_t line = 8;  // words
+    const std::uint64_t* const words = tile(number);
+    for (std::size_t i = 0; i < LatticePlaces::side * mark_word::count; i += line) __builtin_prefetch(words + i);
+  }
+
  private:
   const std::uint64_t* row_of(LatticePlace p) const { return words_ + std::size_t{p / 64} * mark_word::count; }
   bool bit(LatticePlace p, std::size_t word) const { return (row_of(p)[word] >> p % 64 & 1U) != 0; }

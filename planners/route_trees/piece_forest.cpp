@@ -4,8 +4,10 @@
 #include <bit>
 #include <utility>
 
+#include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
 #include "parallel/scan.hpp"
+#include "planners/route_trees/tile_climb.hpp"
 
 namespace warren {
 namespace {
@@ -164,22 +166,22 @@ void PieceBuilder::number_paths() {
 
 PieceArrays PieceBuilder::renumbered() {
   const std::size_t count = exits_.size();
-  RawVector<PieceId> parent(count);
-  RawVector<std::uint32_t> depth(count);
-  RawVector<LatticePlace> door(count);
-  for_each_poll(count, [&](std::size_t i) {
+  RawVector<TreePiece> pieces(count);
+  for_each_poll(count, [&](std::size_t i) {  // from the roots down
     const Exit& exit = exits_[order_[count - 1 - i]];
     const PieceId here = number_[order_[count - 1 - i]];
-    parent[here] = exit.parent == no_piece ? no_piece : number_[exit.parent];
-    depth[here] = exit.length + (exit.parent == no_piece ? 0 : depth[parent[here]]);
-    door[here] = exit.door;
+    const PieceId parent = exit.parent == no_piece ? no_piece : number_[exit.parent];
+    const std::uint32_t depth = exit.length + (parent == no_piece ? 0 : pieces[parent].depth);
+    pieces[here] = {head_[here], head_[here] == here ? parent : pieces[parent].up, depth, exit.door};
   });
   arrays_.piece = ArrayOrView<PieceId>(std::move(number_));
-  arrays_.head = ArrayOrView<PieceId>(std::move(head_));
-  arrays_.parent = ArrayOrView<PieceId>(std::move(parent));
-  arrays_.depth = ArrayOrView<std::uint32_t>(std::move(depth));
-  arrays_.door = ArrayOrView<LatticePlace>(std::move(door));
+  arrays_.pieces = ArrayOrView<TreePiece>(std::move(pieces));
   return std::move(arrays_);
+}
+
+/// A way that turned in a circle is said to have come to the core.
+Climb result_of(const TileClimb& climb, std::uint32_t steps) {
+  return {climb.place(), steps, climb.at_core() || steps == LatticePlaces::tile_places};
 }
 
 }  // namespace
@@ -197,15 +199,43 @@ std::uint64_t exits_of(CellMarks marks, std::uint32_t tile, unsigned direction) 
 }
 
 Climb PieceForest::climb(LatticePlace from) const {
-  Climb climb{from, 0, false};
-  while (!marks_.is_core(climb.last) && climb.steps < LatticePlaces::tile_places) {
-    const unsigned direction = marks_.direction(climb.last);
-    if (LatticePlaces::leaves_tile(climb.last, direction)) return climb;
-    climb.last = places_.step_inside(climb.last, direction);
-    ++climb.steps;
+  TileClimb climb(marks_, from);
+  std::uint32_t steps = 0;
+  while (steps < LatticePlaces::tile_places && climb.step()) ++steps;
+  return result_of(climb, steps);
+}
+
+std::array<Climb, 2> PieceForest::climb_both(LatticePlace a, LatticePlace b) const {
+  TileClimb one(marks_, a);
+  TileClimb other(marks_, b);
+  std::uint32_t both = 0;
+  bool one_goes = true;
+  bool other_goes = true;
+  for (;; ++both) {
+    one_goes = both < LatticePlaces::tile_places && one.step();
+    other_goes = both < LatticePlaces::tile_places && other.step();
+    if (!one_goes || !other_goes) break;
   }
-  climb.at_core = true;
-  return climb;
+  std::uint32_t one_steps = both + (one_goes ? 1 : 0);
+  std::uint32_t other_steps = both + (other_goes ? 1 : 0);
+  while (one_goes && (one_goes = one_steps < LatticePlaces::tile_places && one.step())) ++one_steps;
+  while (other_goes && (other_goes = other_steps < LatticePlaces::tile_places && other.step())) ++other_steps;
+  return {result_of(one, one_steps), result_of(other, other_steps)};
+}
+
+void PieceForest::prefetch(LatticePlace from) const {
+  const std::uint32_t tile = LatticePlaces::tile_of(from);
+  marks_.prefetch_tile(tile);
+  __builtin_prefetch(arrays_.exits.data() + 4 * std::size_t{tile});
+  __builtin_prefetch(arrays_.first_exit.data() + tile);
+}
+
+const TreePiece& PieceForest::piece(PieceId p) const {
+  arrays_.pieces.look(p, 1);
+  const TreePiece& piece = arrays_.pieces[p];
+  const bool leads_up = piece.head <= p && (piece.up == no_piece || piece.up < piece.head);
+  if (leads_up && piece.door < places_.place_count()) return piece;
+  throw InputError("route index", "its pieces contradict each other: build it again");
 }
 
 PieceId PieceForest::piece_at(LatticePlace exit) const {
@@ -217,7 +247,12 @@ PieceId PieceForest::piece_at(LatticePlace exit) const {
   }
   const std::uint64_t below = (std::uint64_t{1} << LatticePlaces::along_side(exit, direction)) - 1;
   number += static_cast<std::uint32_t>(std::popcount(arrays_.exits[4 * tile + direction] & below));
-  return arrays_.piece[number];
+  if (number < arrays_.piece.size()) {
+    arrays_.piece.look(number, 1);
+    const PieceId piece = arrays_.piece[number];
+    if (piece < arrays_.piece.size()) return piece;
+  }
+  throw InputError("route index", "its exits contradict each other: build it again");
 }
 
 PieceArrays build_pieces(const LatticePlaces& places, CellMarks marks, const Execution& execution) {

@@ -30,13 +30,22 @@ RoadmapFile::RoadmapFile(const std::string& name, std::string_view bytes_in_memo
 }
 
 void RoadmapFile::check_opened(const Execution& execution) const {
-  if (bytes().size() <= most_checked_whole) {
+  if (is_small()) {
     check_blocks({0, head_.blocks}, without_progress(execution));
     return;
   }
   for (const SectionPlace& place : head_.sections) {
     if (place.blocks() == 1) check_block(place.first_block);
   }
+}
+
+bool RoadmapFile::is_small() const { return bytes().size() <= most_checked_whole; }
+
+FirstLook RoadmapFile::first_look(const SectionPlace& place) const {
+  const auto look = [](const void* file, std::size_t block) {
+    static_cast<const RoadmapFile*>(file)->check_block(block);
+  };
+  return {&checked_, place.first_block, checked_block, this, look};
 }
 
 const SectionPlace* RoadmapFile::find(std::string_view name) const {

@@ -17,6 +17,7 @@
 
 #include "parallel/chunks.hpp"
 #include "parallel/execution.hpp"
+#include "parallel/first_look.hpp"
 #include "parallel/lasting_marks.hpp"
 #include "roadmaps/file/file_layout.hpp"
 #include "roadmaps/file/read_header.hpp"
@@ -49,7 +50,7 @@ class RoadmapFile {
   template <FileElement T>
   std::span<const T> section(std::string_view name, const Execution& execution) const {
     const SectionPlace& place = required(name, element_type<T>());
-    check_blocks({place.first_block, place.first_block + place.blocks()}, execution);
+    check_section(place, execution);
     return unchecked<T>(place);
   }
   /// The same, or nothing where the section is missing.
@@ -64,15 +65,18 @@ class RoadmapFile {
     return unchecked<T>(required(name, element_type<T>()));
   }
 
+  /// Checks what of a section was not checked yet, on all threads. Throws InputError, Stopped.
+  void check_section(const SectionPlace& place, const Execution& execution) const {
+    check_blocks({place.first_block, place.first_block + place.blocks()}, execution);
+  }
   /// Checks the blocks that hold these bytes of a section, unless they were checked before. Throws InputError.
   void ensure(const SectionPlace& place, std::size_t first_byte, std::size_t bytes) const {
-    if (bytes == 0) return;
-    const std::size_t last = place.first_block + (first_byte + bytes - 1) / checked_block;
-    for (std::size_t block = place.first_block + first_byte / checked_block; block <= last; ++block) {
-      if (!checked_.test(block)) [[unlikely]]
-        check_block(block);
-    }
+    first_look(place).ensure(first_byte, bytes);
   }
+  /// The same for whoever looks at a section's bytes without knowing of files.
+  FirstLook first_look(const SectionPlace& place) const;
+  /// Was all of it checked when it was opened?
+  bool is_small() const;
   /// Checks all that was not checked yet. Throws InputError for the first damaged block; Stopped.
   void check_all(const Execution& execution) const;
 

@@ -24,18 +24,27 @@ ElementType type_of(std::size_t bytes) {
   }
 }
 
-/// The bytes of a section of whatever type, checked.
-std::span<const std::byte> bytes_of(const RoadmapFile& file, const SectionPlace& place, const Execution& execution) {
-  const std::string_view name = place.name;
+/// The bytes of a section of whatever type.
+std::span<const std::byte> bytes_of(const RoadmapFile& file, const SectionPlace& place) {
   switch (place.type.bytes()) {
     case 2:
-      return std::as_bytes(file.section<std::uint16_t>(name, execution));
+      return std::as_bytes(file.unchecked_section<std::uint16_t>(place.name));
     case 4:
-      return std::as_bytes(file.section<std::uint32_t>(name, execution));
+      return std::as_bytes(file.unchecked_section<std::uint32_t>(place.name));
     case 8:
-      return std::as_bytes(file.section<std::uint64_t>(name, execution));
+      return std::as_bytes(file.unchecked_section<std::uint64_t>(place.name));
     default:
-      return file.section<std::byte>(name, execution);
+      return file.unchecked_section<std::byte>(place.name);
+  }
+}
+
+/// What call() gives; its failures name the file.
+template <class Call>
+auto named_by(const RoadmapFile& file, const Call& call) {
+  try {
+    return call();
+  } catch (const InputError& error) {
+    throw InputError(file.name(), error.what());
   }
 }
 
@@ -61,14 +70,21 @@ std::unique_ptr<RouteIndex> read_lattice(const RoadmapFile& file, LatticeSize si
     if (place == nullptr || place->type != type_of(section.element_bytes)) {
       throw InputError(file.name(), "a section of its index is missing or of another type", section.name);
     }
-    section.bytes = bytes_of(file, *place, execution);
+    section.bytes = bytes_of(file, *place);
+    section.first_look = file.first_look(*place);
+    if (!is_read_in_parts(section.name)) file.check_section(*place, execution);
   }
-  try {
+  return named_by(file, [&] {
     LatticePassages::check_size(size);
-    return std::make_unique<RouteIndex>(route_index_of(size, sections));
-  } catch (const InputError& error) {
-    throw InputError(file.name(), error.what());
-  }
+    auto index = std::make_unique<RouteIndex>(route_index_of(size, sections));
+    if (file.is_small()) check_route_arrays(index->places(), index->arrays());
+    return index;
+  });
+}
+
+void check_lattice(const RoadmapFile& file, const RouteIndex& index, const Execution& execution) {
+  file.check_all(execution);
+  named_by(file, [&] { check_route_arrays(index.places(), index.arrays()); });
 }
 
 }  // namespace warren

@@ -20,7 +20,10 @@ bool has_lattice(const RoadmapFile& file);
 /// Is it one of their names?
 bool is_lattice_section(std::string_view name);
 
-/// Looks at the file, which must outlive it; all of it is checked. Throws InputError, Stopped.
+/// Looks at the file, which must outlive it. Of a file of up to 64 MiB all is checked; of a larger one questions check
+/// what they look at, and throw InputError. Throws InputError, Stopped.
 std::unique_ptr<RouteIndex> read_lattice(const RoadmapFile& file, LatticeSize size, const Execution& execution);
+/// Checks all of a large file's index, too. Throws InputError, Stopped.
+void check_lattice(const RoadmapFile& file, const RouteIndex& index, const Execution& execution);
 
 }  // namespace warren

@@ -160,6 +160,7 @@ void write_roadmap(const Roadmap& roadmap, const std::string& path, const Execut
 
 void write_roadmap(const Roadmap& roadmap, OutputFile& file, const std::string& path, const Execution& execution,
                    bool with_world) {
+  if (roadmap.file != nullptr) roadmap.file->check_all(execution);  // nothing is copied that nobody looked at
   const std::string meta = meta_json(roadmap, execution);
   const RoadmapParts parts = roadmap.arrays.parts();
   const LatticePassages* lattice = roadmap.lattice != nullptr ? &roadmap.lattice->passages() : nullptr;
@@ -176,8 +177,11 @@ void write_roadmap(const Roadmap& roadmap, OutputFile& file, const std::string& 
 
 void check_roadmap(const RoadmapFile& file, const Execution& execution) {
   const Roadmap roadmap = described(file, execution);
-  has_lattice(file) ? void(read_lattice(file, lattice_of(file, execution), execution))
-                    : void(checked_parts(file, roadmap, execution));
+  if (has_lattice(file)) {
+    check_lattice(file, *read_lattice(file, lattice_of(file, execution), execution), execution);
+  } else {
+    checked_parts(file, roadmap, execution);
+  }
 }
 
 Roadmap read_roadmap(const std::string& path, const Execution& execution, std::optional<Scene> world) {

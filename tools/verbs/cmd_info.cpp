@@ -47,11 +47,8 @@ std::string roadmap_info(std::unique_ptr<RoadmapFile> file, bool check, const Ex
   std::string meta = roadmap_meta(*file, execution);
   if (!check) return meta;
   file->check_all(execution);
-  if (has_world(*file)) {
-    read_roadmap(std::move(file), execution).world.whole(execution);
-  } else {
-    check_roadmap(*file, execution);
-  }
+  check_roadmap(*file, execution);
+  if (has_world(*file)) read_roadmap(std::move(file), execution).world.whole(execution);
   return meta;
 }
 

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -104,6 +106,50 @@ TEST(RouteSections, AnIndexOfViewsAnswersTheSame) {
   }
 }
 
+/// Bytes that are wrong until somebody looks at their block of 64.
+struct Unseen {
+  explicit Unseen(RouteSection& section)
+      : right(section.bytes.begin(), section.bytes.end()),
+        words((right.size() + 7) / 8, ~std::uint64_t{0}),
+        done(right.size() / 64 + 1) {
+    const auto look = [](const void* owner, std::size_t block) { static_cast<const Unseen*>(owner)->show(block); };
+    section.bytes = std::as_bytes(std::span(words)).first(right.size());
+    section.first_look = {&done, 0, 64, this, look};
+  }
+  void show(std::size_t block) const {
+    const std::size_t first = 64 * block;
+    std::memcpy(reinterpret_cast<std::byte*>(words.data()) + first, right.data() + first,
+                std::min<std::size_t>(64, right.size() - first));
+    done.set(block);
+  }
+  Bytes right;
+  mutable std::vector<std::uint64_t> words;
+  mutable LastingMarks done;
+};
+
+TEST(RouteSections, NothingIsReadInPartsBeforeItWasLookedAt) {
+  for (const double loops : {0.0, 0.02, 0.1}) {
+    MazeOptions maze = loopy(200);
+    maze.loops = loops;
+    const RouteIndex built(test::maze_passages(maze), {}, {});
+    std::vector<RouteSection> sections = route_sections(built);
+    std::vector<std::unique_ptr<Unseen>> unseen;
+    for (RouteSection& s : sections) {
+      if (is_read_in_parts(s.name) && !s.bytes.empty()) unseen.push_back(std::make_unique<Unseen>(s));
+    }
+    EXPECT_GE(unseen.size(), 3U);
+    const RouteIndex viewed = route_index_of({maze.rows, maze.cols}, sections);
+    RouteQuery expected(built);
+    RouteQuery found(viewed);
+    for (std::uint64_t i = 0; i < 200; ++i) {
+      const auto a = static_cast<CellId>(random_bits(1, i, 0) % (maze.rows * maze.cols));
+      const auto b = static_cast<CellId>(random_bits(1, i, 1) % (maze.rows * maze.cols));
+      ASSERT_EQ(found.length(a, b), expected.length(a, b)) << a << ' ' << b;
+      ASSERT_EQ(found.path(a, b), expected.path(a, b)) << a << ' ' << b;
+    }
+  }
+}
+
 TEST(RouteSections, AMissingSectionIsNamed) {
   const RouteIndex built(test::maze_passages(loopy(70)), {}, {});
   for (const RouteSection& gone : route_sections(built)) {
@@ -123,26 +169,31 @@ TEST(RouteSections, AMissingSectionIsNamed) {
 /// Any number in any array may be wrong: it is refused, or answers are wrong and nothing else is.
 TEST(RouteSections, WrongNumbersAreRefusedOrHarmless) {
   const RouteIndex built(test::maze_passages(loopy(70)), {}, {});
-  std::size_t refused = 0;
+  std::size_t refused = 0;  // where all was checked
   std::size_t taken = 0;
+  std::size_t found_wrong = 0;  // by questions alone
   for (std::size_t section = 0; section < route_sections(built).size(); ++section) {
     for (std::uint64_t i = 0; i < 60; ++i) {
       Copies copies(built);
       if (copies.words[section].empty()) continue;
       std::uint64_t& word = copies.words[section][random_bits(section, i, 0) % copies.words[section].size()];
       word ^= std::uint64_t{1} << random_bits(section, i, 1) % 64;
-      try {
-        const RouteIndex index = route_index_of({70, 100}, copies.sections);
-        RouteQuery query(index);
-        for (CellId a = 0; a < 7000; a += 71) query.path(a, (a * 31) % 7000);
-        ++taken;
-      } catch (const InputError& error) {
-        ASSERT_EQ(std::string(error.what()).find("cell:"), std::string::npos);
-        ++refused;
+      for (const bool checked : {false, true}) {
+        try {
+          const RouteIndex index = route_index_of({70, 100}, copies.sections);
+          if (checked) check_route_arrays(index.places(), index.arrays());
+          RouteQuery query(index);
+          for (CellId a = 0; a < 7000; a += 71) query.path(a, (a * 31) % 7000);
+          taken += checked ? 1 : 0;
+        } catch (const InputError& error) {
+          ASSERT_EQ(std::string(error.what()).find("cell:"), std::string::npos);
+          ++(checked ? refused : found_wrong);
+        }
       }
     }
   }
-  EXPECT_GT(refused, 100U);
+  EXPECT_GT(refused, found_wrong) << "a check of everything finds more than questions do";
+  EXPECT_GT(found_wrong, 50U);
   EXPECT_GT(taken, 100U);
 }
 
