@@ -16,10 +16,19 @@ namespace {
 constexpr std::size_t row_grain = 1024;
 constexpr std::size_t junction_grain = 4096;
 
+/// Bit e: of nibbles of edges e, have they `least` edges or more? Processors without an instruction to count bits call
+/// a function for each cell.
+constexpr std::uint32_t nibbles_with(int least) {
+  std::uint32_t bits = 0;
+  for (unsigned e = 0; e < 16; ++e) bits |= std::uint32_t{std::popcount(e) >= least} << e;
+  return bits;
+}
+
 bool is_junction(LatticePlace p, unsigned byte) {
   if ((byte & peel_bit::peeled) != 0) return false;
-  const int edges = std::popcount(byte & peel_bit::edges);
-  return edges > 2 || (edges == 2 && is_post(p));
+  constexpr std::uint32_t two = nibbles_with(2);
+  constexpr std::uint32_t three = nibbles_with(3);
+  return ((is_post(p) ? two : three) >> (byte & peel_bit::edges) & 1U) != 0;
 }
 
 class CoreWalk {

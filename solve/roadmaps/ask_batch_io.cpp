@@ -13,7 +13,9 @@
 namespace warren {
 namespace {
 
-constexpr std::size_t block = 1024;  // questions whose answers are held at once
+// Questions whose answers are held at once: lengths are few bytes, paths may be millions.
+constexpr std::size_t path_block = 1024;
+constexpr std::size_t length_block = 16384;
 
 std::string path_json(const Answer& answer) {
   std::string text = "[";
@@ -109,7 +111,7 @@ BatchAccount ask_batch(const RoadmapQuery& query, const InputFile& questions, co
   if (!options.lengths_only) query.prepare_paths(execution);
   std::vector<BatchQuestion> some;
   std::vector<QuestionScratch> scratch(thread_count(execution.threads));
-  while (reader.next(block, some)) {
+  while (reader.next(options.lengths_only ? length_block : path_block, some)) {
     const std::size_t share = (some.size() + scratch.size() - 1) / scratch.size();
     std::vector<AnsweredChunk> chunks(chunk_count(some.size(), share));
     for_chunks(some.size(), share, execution, [&](Range r) {

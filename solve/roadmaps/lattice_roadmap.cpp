@@ -12,6 +12,7 @@
 #include "planners/route_trees/wall_passages.hpp"
 #include "planners/tiled/tiled_prm_lattice.hpp"
 #include "solve/question/planner_choice.hpp"
+#include "solve/roadmaps/maze_bits.hpp"
 #include "worlds/plane/maze_world.hpp"
 
 namespace warren {
@@ -49,6 +50,12 @@ Scene around(const Scene& scene, Vec2 p, double reach, const Execution& executio
   return local;
 }
 
+LatticePassages passages_of(const Scene& scene, double reach, const Execution& execution) {
+  if (auto passages = passages_of_maze(scene, reach, execution)) return std::move(*passages);
+  const std::vector<Segment> bounds = bounds_walls(scene);
+  return wall_passages({scene.walls, bounds, scene.bounds, reach, {scene.maze->rows, scene.maze->cols}}, execution);
+}
+
 }  // namespace
 
 std::unique_ptr<RouteIndex> lattice_index(const Scene& scene, const Question& body, const SolveOptions& options,
@@ -61,11 +68,8 @@ std::unique_ptr<RouteIndex> lattice_index(const Scene& scene, const Question& bo
   const RoadmapOptions roadmap = planner_options(options, scene, WallProblem{}).roadmap;
   const std::uint64_t cells = std::uint64_t{scene.maze->rows} * scene.maze->cols;
   if (cells < fewest_indexed_cells || !tiled_prm_applies(roadmap, reach)) return nullptr;
-  const std::vector<Segment> bounds = bounds_walls(scene);
-  LatticePassages passages =
-      wall_passages({scene.walls, bounds, scene.bounds, reach, {scene.maze->rows, scene.maze->cols}}, execution);
   try {
-    return std::make_unique<RouteIndex>(std::move(passages), RouteIndexOptions{}, execution);
+    return std::make_unique<RouteIndex>(passages_of(scene, reach, execution), RouteIndexOptions{}, execution);
   } catch (const InputError&) {  // it doesn't pay
     return nullptr;
   }

@@ -4,7 +4,7 @@
 //
 // Ends are joined to the lattice as solve() joins them: to the milestones within a step that they reach freely, and
 // where there is none to the nearest of the 256 nearest that they do. An end on a milestone that has an edge needs no
-// look at the walls; others cost a pass over them.
+// look at the walls; others cost a pass over them, and those of a file are made first.
 #pragma once
 
 #include <memory>

@@ -2,6 +2,8 @@
 #include "solve/roadmaps/maze_bits.hpp"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
@@ -70,7 +72,60 @@ MazeCells cells_of(const LatticePassages& lattice, const Execution& execution) {
   return cells;
 }
 
+/// Do the first walls, as the course's order has them, reach to all sides of the maze?
+bool begins_with_outline(const Scene& scene) {
+  Box box;
+  for (std::size_t i = 0; i < std::min<std::size_t>(4, scene.walls.size()); ++i) {
+    box.include(box_of(scene.walls.segment(i)));
+  }
+  return !box.empty() && box.min.x <= 0.5 && box.min.y <= 0.5 && box.max.x >= scene.maze->cols + 0.5 &&
+         box.max.y >= scene.maze->rows + 0.5;
+}
+
+/// Tile by tile, as cells_of().
+LatticePassages passages_between(const MazeCells& cells, const Execution& execution) {
+  const LatticeSize size{cells.rows(), cells.cols()};
+  const LatticePlaces places(size);
+  PassageWords words = LatticePassages::closed(size, execution);
+  const std::size_t stride = LatticePassages::words_a_row(size.cols);
+  for_chunks(places.tile_count(), 16, execution, [&](Range r) {
+    for (std::size_t tile = r.first; tile < r.last; ++tile) {
+      const auto first_col = static_cast<std::uint32_t>(tile % places.tile_cols()) * LatticePlaces::side;
+      const auto first_row = static_cast<std::uint32_t>(tile / places.tile_cols()) * LatticePlaces::side;
+      const std::uint32_t cols = std::min(LatticePlaces::side, size.cols - first_col);
+      const std::uint32_t rows = std::min(LatticePlaces::side, size.rows - first_row);
+      std::array<std::uint64_t, LatticePlaces::side> right{};
+      std::array<std::uint64_t, LatticePlaces::side> up{};
+      for (std::uint32_t col = 0; col < cols; ++col) {
+        const std::uint8_t* const bytes = cells.bytes().data() + cells.index(first_col + col, first_row);
+        for (std::uint32_t row = 0; row < rows; ++row) {
+          const std::uint64_t open = ~std::uint64_t{bytes[row]};
+          right[row] |= (open & 1U) << col;
+          up[row] |= (open >> 1 & 1U) << col;
+        }
+      }
+      for (std::uint32_t row = 0; row < rows; ++row) {
+        const std::size_t word = (first_row + row) * stride + first_col / LatticePlaces::side;
+        words.right[word] = right[row];
+        words.up[word] = up[row];
+      }
+    }
+  });
+  return {size, std::move(words)};
+}
+
 }  // namespace
+
+std::optional<LatticePassages> passages_of_maze(const Scene& scene, double reach, const Execution& execution) {
+  constexpr double widest = 0.49;  // of a half: whatever is rounded
+  if (!scene.maze || scene.bounds || !scene.polygons.empty() || scene.map || !(reach <= widest)) return std::nullopt;
+  if (!begins_with_outline(scene)) return std::nullopt;
+  try {
+    return passages_between(cells_of_walls(scene.walls, *scene.maze, execution), execution);
+  } catch (const InputError&) {  // a wall off the grid
+    return std::nullopt;
+  }
+}
 
 std::optional<RawVector<std::uint64_t>> maze_bits(const Scene& scene, const Execution& execution) {
   if (!scene.maze || first_wall_off_grid(scene.walls, *scene.maze, execution)) return std::nullopt;

@@ -19,6 +19,11 @@ namespace warren {
 /// Nothing where the scene's walls are others, or in another order. Throws Stopped.
 std::optional<RawVector<std::uint64_t>> maze_bits(const Scene& scene, const Execution& execution);
 
+/// What wall_passages() gives, three times as fast, where the scene is nothing but walls on its maze's grid inside
+/// their outline and the reach leaves the middles of cells alone: a motion is free unless a wall stands across it, for
+/// no other comes nearer than a half. Nothing elsewhere. Throws Stopped.
+std::optional<LatticePassages> passages_of_maze(const Scene& scene, double reach, const Execution& execution);
+
 /// Are the scene's walls, to the bit, those of a maze where a wall stands wherever the lattice has no passage? Throws
 /// Stopped.
 bool has_walls_of(const LatticePassages& lattice, const Scene& scene, const Execution& execution);
