@@ -9,6 +9,7 @@
 
 #include "core/base/error.hpp"
 #include "core/plane/geometry.hpp"
+#include "core/plane/polygon_distance.hpp"
 #include "core/plane/wall_set.hpp"
 #include "parallel/components.hpp"
 #include "planners/axis/axis_graph.hpp"
@@ -16,7 +17,6 @@
 #include "planners/roadmap/separation.hpp"
 #include "planners/roadmap/stopped_solution.hpp"
 #include "planners/shorten/certain_clearance.hpp"
-#include "spatial/obstacles/wall_index.hpp"
 
 namespace warren {
 namespace {
@@ -24,35 +24,46 @@ namespace {
 constexpr double planning_factor = 1.0 + 1e-9;  // the clearance that is asked for where rounding costs the exact one
 constexpr std::size_t most_candidates = 64;
 
+WallSet true_obstacles(const MedialAxis& axis) {
+  return WallSet::narrowest(std::span(axis.obstacles()).first(axis.true_obstacle_count()));
+}
+
 /// One plan: the steps share the question and fill in the solution.
 class Planning {
  public:
-  Planning(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal, const MedialAxisOptions& options,
-           const Execution& execution)
-      : obstacles_(obstacles), start_(start), goal_(goal), options_(options), execution_(execution) {}
+  Planning(Vec2 start, Vec2 goal, const MedialAxisOptions& options, const Execution& execution)
+      : start_(start), goal_(goal), options_(options), execution_(execution) {}
 
-  void run() {
-    if (obstacles_.polygons.empty() && obstacles_.walls.empty() && !obstacles_.bounds) return go_straight();
-    build_axis();
-    if (ends_are_blocked() || !join_ends()) return;
-    // With exactly the clearance first: a gap that is just as wide as the disc is a way. Where rounding spoils that,
-    // with a little more room.
-    if (plan(options_.clearance) && !keeps_clearance()) {
-      solution_.path.clear();
-      if (plan(std::max(options_.clearance * planning_factor, plan_.axis->resolution())) && !keeps_clearance()) {
-        solution_.outcome = Outcome::not_connected;
-        solution_.path.clear();
-      }
-    }
+  void run(const PlaneObstacles& obstacles) {
+    if (obstacles.polygons.empty() && obstacles.walls.empty() && !obstacles.bounds) return go_straight();
+    build_axis(obstacles);
+    run(obstacles.polygons);
+  }
+  void run(const AxisRoadmap& roadmap) {
+    axis_ = &roadmap.axis;
+    obstacles_ = &roadmap.index;
+    run(roadmap.polygons);
   }
   Solution<Vec2>& solution() { return solution_; }
   MedialAxisPlan& kept() { return plan_; }
 
  private:
-  const MedialAxis& axis() const { return *plan_.axis; }
+  void run(const PolygonSet& polygons) {
+    if (ends_are_blocked(polygons) || !join_ends()) return;
+    // With exactly the clearance first: a gap that is just as wide as the disc is a way. Where rounding spoils that,
+    // with a little more room.
+    if (plan(options_.clearance) && !keeps_clearance()) {
+      solution_.path.clear();
+      if (plan(std::max(options_.clearance * planning_factor, axis().resolution())) && !keeps_clearance()) {
+        solution_.outcome = Outcome::not_connected;
+        solution_.path.clear();
+      }
+    }
+  }
+  const MedialAxis& axis() const { return *axis_; }
   void go_straight();
-  void build_axis();
-  bool ends_are_blocked();
+  void build_axis(const PlaneObstacles& obstacles);
+  bool ends_are_blocked(const PolygonSet& polygons);
   bool join_ends();
   std::optional<AxisPlace> join(Vec2 p) const;
   std::optional<AxisPlace> nearest_clear(Vec2 p) const;
@@ -61,10 +72,12 @@ class Planning {
   bool ends_are_joined(const AxisGraph& graph);
   bool keeps_clearance();
 
-  const PlaneObstacles& obstacles_;
   const Vec2 start_, goal_;
   const MedialAxisOptions& options_;
   const Execution& execution_;
+  const MedialAxis* axis_ = nullptr;      // the plan's own, or a roadmap's
+  const WallIndex* obstacles_ = nullptr;  // that the path is checked against
+  std::optional<WallIndex> own_obstacles_;
   MedialAxisPlan plan_;
   AxisPlace start_place_{}, goal_place_{};
   Solution<Vec2> solution_;
@@ -76,17 +89,23 @@ void Planning::go_straight() {
   plan_.axis_clearance = std::numeric_limits<double>::infinity();
 }
 
-void Planning::build_axis() {
+void Planning::build_axis(const PlaneObstacles& obstacles) {
   const StageTimer timer(execution_, "medial axis", solution_.seconds.graph);
-  plan_.axis.emplace(obstacles_, execution_);
+  axis_ = &plan_.axis.emplace(obstacles, execution_);
 }
 
-bool Planning::ends_are_blocked() {
-  const std::vector<char> is_free = axis().free_points(obstacles_, {start_, goal_}, execution_);
-  const auto fits = [&](Vec2 p) { return is_clear({p, p}); };
-  if (is_free[0] == 0 || !fits(start_)) {
+bool Planning::ends_are_blocked(const PolygonSet& polygons) {
+  const auto fits = [&](Vec2 p) {
+    if (!axis().frame().contains(p)) return false;
+    for (std::size_t i = 0; i < polygons.size(); ++i) {
+      if (i % 4096 == 0) execution_.check();
+      if (strictly_inside(polygons[i], p)) return false;
+    }
+    return is_clear({p, p});
+  };
+  if (!fits(start_)) {
     solution_.outcome = Outcome::start_blocked;
-  } else if (is_free[1] == 0 || !fits(goal_)) {
+  } else if (!fits(goal_)) {
     solution_.outcome = Outcome::goal_blocked;
   } else {
     return false;
@@ -181,32 +200,45 @@ bool Planning::ends_are_joined(const AxisGraph& axis_graph) {
 /// Does the polyline keep the clearance for sure, as an exact verification will ask?
 bool Planning::keeps_clearance() {
   const StageTimer timer(execution_, "check", solution_.seconds.connect);
-  const std::vector<Segment>& all = axis().obstacles();
-  const std::span<const Segment> obstacles = std::span(all).first(axis().true_obstacle_count());
-  const WallIndex index(WallSet::narrowest(obstacles), execution_);
+  if (obstacles_ == nullptr) obstacles_ = &own_obstacles_.emplace(true_obstacles(axis()), execution_);
   for (std::size_t i = 1; i < solution_.path.size(); ++i) {
     if (i % 1024 == 0) execution_.check();
     const Segment leg{solution_.path[i - 1], solution_.path[i]};
-    if (!certainly_keeps_clearance(index, leg, options_.clearance)) return false;
+    if (!certainly_keeps_clearance(*obstacles_, leg, options_.clearance)) return false;
   }
   return true;
 }
 
-}  // namespace
-
-Solution<Vec2> plan_on_medial_axis(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal,
-                                   const MedialAxisOptions& options, const Execution& execution, MedialAxisPlan* keep) {
+/// Ground: the obstacles, or a roadmap.
+template <class Ground>
+Solution<Vec2> plan_on(const Ground& ground, Vec2 start, Vec2 goal, const MedialAxisOptions& options,
+                       const Execution& execution, MedialAxisPlan* keep) {
   if (!(options.clearance >= 0.0) || !(options.clearance <= largest_coordinate)) {
     throw InputError("clearance", "expected a finite number >= 0", std::to_string(options.clearance));
   }
-  Planning planning(obstacles, start, goal, options, execution);
+  Planning planning(start, goal, options, execution);
   try {
-    planning.run();
+    planning.run(ground);
   } catch (const Stopped& stopped) {
     mark_stopped(planning.solution(), stopped);
   }
   if (keep != nullptr) *keep = std::move(planning.kept());
   return std::move(planning.solution());
+}
+
+}  // namespace
+
+AxisRoadmap::AxisRoadmap(const PlaneObstacles& obstacles, const Execution& execution)
+    : polygons(obstacles.polygons), axis(obstacles, execution), index(true_obstacles(axis), execution) {}
+
+Solution<Vec2> plan_on_medial_axis(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal,
+                                   const MedialAxisOptions& options, const Execution& execution, MedialAxisPlan* keep) {
+  return plan_on(obstacles, start, goal, options, execution, keep);
+}
+
+Solution<Vec2> plan_on_medial_axis(const AxisRoadmap& roadmap, Vec2 start, Vec2 goal, const MedialAxisOptions& options,
+                                   const Execution& execution, MedialAxisPlan* keep) {
+  return plan_on(roadmap, start, goal, options, execution, keep);
 }
 
 }  // namespace warren

@@ -17,6 +17,7 @@
 #include "parallel/execution.hpp"
 #include "planners/axis/medial_axis.hpp"
 #include "planners/roadmap/roadmap_options.hpp"
+#include "spatial/obstacles/wall_index.hpp"
 
 namespace warren {
 
@@ -45,5 +46,19 @@ struct MedialAxisPlan {
 Solution<Vec2> plan_on_medial_axis(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal,
                                    const MedialAxisOptions& options, const Execution& execution,
                                    MedialAxisPlan* keep = nullptr);
+
+/// What of a plan depends on neither start nor goal. Immutable; any number of threads may plan on it.
+struct AxisRoadmap {
+  /// Throws as MedialAxis.
+  AxisRoadmap(const PlaneObstacles& obstacles, const Execution& execution);
+
+  PolygonSet polygons;
+  MedialAxis axis;
+  WallIndex index;  ///< of what paths must keep off: polygons' sides, walls, bounds
+};
+
+/// The same plan on an axis that is there already. `keep` receives lengths and clearances alone.
+Solution<Vec2> plan_on_medial_axis(const AxisRoadmap& roadmap, Vec2 start, Vec2 goal, const MedialAxisOptions& options,
+                                   const Execution& execution, MedialAxisPlan* keep = nullptr);
 
 }  // namespace warren

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <utility>
 
 #include "core/search/search.hpp"
 #include "parallel/components.hpp"
+#include "planners/cells/cell_locator.hpp"
 #include "planners/cells/cell_separation.hpp"
 #include "planners/cells/polyanya_on_cells.hpp"
 #include "planners/roadmap/queue_choice.hpp"
@@ -18,31 +20,42 @@ namespace {
 /// One plan: the steps share the question and fill in the solution.
 class Planning {
  public:
-  Planning(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal, const CellOptions& options,
-           const Execution& execution)
-      : obstacles_(obstacles), start_(start), goal_(goal), options_(options), execution_(execution) {}
+  Planning(Vec2 start, Vec2 goal, const CellOptions& options, const Execution& execution)
+      : start_(start), goal_(goal), options_(options), execution_(execution) {}
 
+  void run(const PlaneObstacles& obstacles) {
+    decompose_plane(obstacles);
+    run();
+  }
+  void run(const CellRoadmap& roadmap) {
+    cells_ = &roadmap.cells;
+    points_ = &roadmap.points;
+    for (const Vec2 end : {start_, goal_}) plan_.cells.places.push_back(locate(*cells_, roadmap.obstacles, end));
+    run();
+  }
+  Solution<Vec2>& solution() { return solution_; }
+  CellPlan& plan() { return plan_; }
+
+ private:
   void run() {
-    decompose_plane();
+    solution_.roadmap.milestones = cells_->cells.size();
+    solution_.roadmap.edges = cells_->doors.size();
     if (ends_are_blocked() || share_a_cell()) return;
     connect_cells();
     if (!ends_are_joined()) return;
     find_route();
     lay_path();
   }
-  Solution<Vec2>& solution() { return solution_; }
-  CellPlan& plan() { return plan_; }
-
- private:
   const CellPlace& start_place() const { return plan_.cells.places[0]; }
   const CellPlace& goal_place() const { return plan_.cells.places[1]; }
-  VertexId start_vertex() const { return static_cast<VertexId>(plan_.cells.cells.size()); }
+  VertexId start_vertex() const { return static_cast<VertexId>(cells_->cells.size()); }
   VertexId goal_vertex() const { return start_vertex() + 1; }
 
-  void decompose_plane();
+  void decompose_plane(const PlaneObstacles& obstacles);
   bool ends_are_blocked();
   bool share_a_cell();
   void connect_cells();
+  void compute_points();
   bool ends_are_joined();
   void find_route();
   RawVector<VertexId> search_cells();
@@ -55,24 +68,28 @@ class Planning {
   template <class Visit>
   void for_each_door(std::uint32_t cell, const Visit& visit) const;
 
-  const PlaneObstacles& obstacles_;
   const Vec2 start_, goal_;
   const CellOptions& options_;
   const Execution& execution_;
+  const CellDecomposition* cells_ = nullptr;  // the plan's own, or a roadmap's; the places are the plan's
   CellPlan plan_;
   std::vector<std::uint32_t> middles_;  // doors whose middles the searched path joins
   Graph graph_;
-  std::optional<DoorPoints> points_;
+  const DoorPoints* points_ = nullptr;
+  std::optional<DoorPoints> own_points_;
   Solution<Vec2> solution_;
 };
 
-void Planning::decompose_plane() {
-  const StageTimer timer(execution_, "cells", solution_.seconds.graph, obstacles_.polygons.corners.size());
+void Planning::decompose_plane(const PlaneObstacles& obstacles) {
+  const StageTimer timer(execution_, "cells", solution_.seconds.graph, obstacles.polygons.corners.size());
   const std::array<Vec2, 2> ends{start_, goal_};
-  plan_.cells = options_.overlaps == Overlaps::united ? decompose_united(obstacles_, ends, execution_)
-                                                      : decompose(obstacles_, ends, execution_);
-  solution_.roadmap.milestones = plan_.cells.cells.size();
-  solution_.roadmap.edges = plan_.cells.doors.size();
+  plan_.cells = options_.overlaps == Overlaps::united ? decompose_united(obstacles, ends, execution_)
+                                                      : decompose(obstacles, ends, execution_);
+  cells_ = &plan_.cells;
+}
+
+void Planning::compute_points() {
+  if (points_ == nullptr) points_ = &own_points_.emplace(*cells_, execution_);
 }
 
 bool Planning::ends_are_blocked() {
@@ -94,11 +111,11 @@ bool Planning::share_a_cell() {
 }
 
 void Planning::connect_cells() {
-  const StageTimer timer(execution_, "connect", solution_.seconds.connect, plan_.cells.doors.size());
+  const StageTimer timer(execution_, "connect", solution_.seconds.connect, cells_->doors.size());
   std::vector<Edge> edges;
   for (const VertexId cell : start_place().cells) edges.push_back({start_vertex(), cell});
   for (const VertexId cell : goal_place().cells) edges.push_back({goal_vertex(), cell});
-  graph_ = plan_.cells.graph(2, edges, execution_);
+  graph_ = cells_->graph(2, edges, execution_);
 }
 
 bool Planning::ends_are_joined() {
@@ -107,7 +124,7 @@ bool Planning::ends_are_joined() {
   solution_.roadmap.components = parts.count;
   if (parts.connected(start_vertex(), goal_vertex())) return true;
   solution_.outcome = Outcome::not_connected;
-  solution_.separation = cell_separation(plan_.cells, parts, start_, goal_, execution_);
+  solution_.separation = cell_separation(*cells_, parts, start_, goal_, execution_);
   return false;
 }
 
@@ -116,7 +133,7 @@ void Planning::find_route() {
   const bool over_cells = options_.search == SearchKind::bfs || options_.search == SearchKind::dfs;
   plan_.route = {start_, goal_, {}, {}};
   const bool taut = !over_cells && options_.doors == DoorKind::funnel;
-  if (options_.doors == DoorKind::midpoint) points_.emplace(plan_.cells, execution_);
+  if (options_.doors == DoorKind::midpoint) compute_points();
   if (over_cells) {
     follow_cells(search_cells());
   } else if (taut) {
@@ -140,17 +157,17 @@ RawVector<VertexId> Planning::search_cells() {
 
 template <class Visit>
 void Planning::for_each_door(std::uint32_t cell, const Visit& visit) const {
-  for (const std::uint32_t door : plan_.cells.cells[cell].doors) {
-    if (door != no_number && !plan_.cells.doors[door].shut) visit(door);
+  for (const std::uint32_t door : cells_->cells[cell].doors) {
+    if (door != no_number && !cells_->doors[door].shut) visit(door);
   }
 }
 
 /// Best first over the doors, start and goal behind them.
 RawVector<VertexId> Planning::search_doors() {
-  const auto count = static_cast<VertexId>(plan_.cells.doors.size());
+  const auto count = static_cast<VertexId>(cells_->doors.size());
   const VertexId start = count;
   const VertexId goal = count + 1;
-  std::vector<char> holds_goal(plan_.cells.cells.size(), 0);
+  std::vector<char> holds_goal(cells_->cells.size(), 0);
   for (const VertexId cell : goal_place().cells) holds_goal[cell] = 1;
   const auto neighbours = [&](VertexId v, const auto& visit) {
     if (v == start) {
@@ -159,7 +176,7 @@ RawVector<VertexId> Planning::search_doors() {
       }
       return;
     }
-    const Door& door = plan_.cells.doors[v];
+    const Door& door = cells_->doors[v];
     for (const std::uint32_t cell : {door.left, door.right}) {
       for_each_door(cell, [&](std::uint32_t d) {
         if (d != v) visit(d, points_->leg_length(v, d));
@@ -185,7 +202,7 @@ RawVector<VertexId> Planning::search_doors() {
 std::uint32_t Planning::door_between(std::uint32_t cell, std::uint32_t next) const {
   std::uint32_t found = no_number;
   for_each_door(cell, [&](std::uint32_t door) {
-    if (plan_.cells.beyond(door, cell) == next) found = door;
+    if (cells_->beyond(door, cell) == next) found = door;
   });
   return found;
 }
@@ -212,16 +229,16 @@ void Planning::follow_doors(std::span<const VertexId> doors) {
   for (std::size_t i = 1; i <= last; ++i) {
     const std::uint32_t door = doors[i];
     if (i == 1) {  // if start stands in the cell beyond as well, this door need not be passed
-      const Door& d = plan_.cells.doors[door];
-      const std::uint32_t next = i < last                      ? plan_.cells.shared_cell(door, doors[i + 1])
+      const Door& d = cells_->doors[door];
+      const std::uint32_t next = i < last                      ? cells_->shared_cell(door, doors[i + 1])
                                  : holds(goal_place(), d.left) ? d.left
                                                                : d.right;
-      const std::uint32_t other = plan_.cells.beyond(door, next);
+      const std::uint32_t other = cells_->beyond(door, next);
       route.cells.push_back(holds(start_place(), next) ? next : other);
       if (route.cells.back() == next) continue;
     }
-    const std::uint32_t beyond = plan_.cells.beyond(door, route.cells.back());
-    if (i < last && plan_.cells.shared_cell(door, doors[i + 1]) != beyond) continue;
+    const std::uint32_t beyond = cells_->beyond(door, route.cells.back());
+    if (i < last && cells_->shared_cell(door, doors[i + 1]) != beyond) continue;
     if (i == last && holds(goal_place(), route.cells.back())) continue;
     route.doors.push_back(door);
     route.cells.push_back(beyond);
@@ -232,10 +249,10 @@ void Planning::follow_doors(std::span<const VertexId> doors) {
 /// doors' middles does.
 void Planning::follow_taut_route() {
   const bool informed = options_.search == SearchKind::astar;
-  TautRoute found = shortest_taut_route(plan_.cells, start_, goal_, informed, execution_);
+  TautRoute found = shortest_taut_route(*cells_, plan_.cells.places, start_, goal_, informed, execution_);
   solution_.counters.expanded = found.expanded;
   if (!found.found) {
-    points_.emplace(plan_.cells, execution_);
+    compute_points();
     return follow_doors(search_doors());
   }
   plan_.route.cells = std::move(found.cells);
@@ -246,24 +263,38 @@ void Planning::lay_path() {
   const StageTimer timer(execution_, "path", solution_.seconds.search);
   Path<Vec2>& path = solution_.path;
   path = options_.doors == DoorKind::midpoint ? path_through_middles(start_, goal_, middles_, *points_)
-                                              : shortest_path_through(plan_.route, plan_.cells);
+                                              : shortest_path_through(plan_.route, *cells_);
   path.erase(std::unique(path.begin(), path.end()), path.end());
   if (path.size() == 1) path.push_back(path.front());
   solution_.outcome = Outcome::solved;
 }
 
-}  // namespace
-
-Solution<Vec2> plan_through_cells(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal, const CellOptions& options,
-                                  const Execution& execution, CellPlan* keep) {
-  Planning planning(obstacles, start, goal, options, execution);
+template <class Ground>
+Solution<Vec2> plan_on(const Ground& ground, Vec2 start, Vec2 goal, const CellOptions& options,
+                       const Execution& execution, CellPlan* keep) {
+  Planning planning(start, goal, options, execution);
   try {
-    planning.run();
+    planning.run(ground);
   } catch (const Stopped& stopped) {
     mark_stopped(planning.solution(), stopped);
   }
   if (keep != nullptr) *keep = std::move(planning.plan());
   return std::move(planning.solution());
+}
+
+}  // namespace
+
+CellRoadmap::CellRoadmap(PlaneObstacles plane, const Execution& execution)
+    : obstacles(std::move(plane)), cells(decompose(obstacles, {}, execution)), points(cells, execution) {}
+
+Solution<Vec2> plan_through_cells(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal, const CellOptions& options,
+                                  const Execution& execution, CellPlan* keep) {
+  return plan_on(obstacles, start, goal, options, execution, keep);
+}
+
+Solution<Vec2> plan_through_cells(const CellRoadmap& roadmap, Vec2 start, Vec2 goal, const CellOptions& options,
+                                  const Execution& execution) {
+  return plan_on(roadmap, start, goal, options, execution, nullptr);
 }
 
 }  // namespace warren

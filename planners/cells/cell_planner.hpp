@@ -48,4 +48,20 @@ struct CellPlan {
 Solution<Vec2> plan_through_cells(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal, const CellOptions& options,
                                   const Execution& execution, CellPlan* keep = nullptr);
 
+/// What of a plan depends on neither start nor goal. Immutable; any number of threads may plan on it.
+struct CellRoadmap {
+  /// Throws as decompose().
+  CellRoadmap(PlaneObstacles plane, const Execution& execution);
+  CellRoadmap(const CellRoadmap&) = delete;
+  CellRoadmap& operator=(const CellRoadmap&) = delete;
+
+  const PlaneObstacles obstacles;
+  const CellDecomposition cells;
+  const DoorPoints points;  ///< refers to the cells
+};
+
+/// The same plan on cells that are there already; they were not united. There are obstacles or bounds.
+Solution<Vec2> plan_through_cells(const CellRoadmap& roadmap, Vec2 start, Vec2 goal, const CellOptions& options,
+                                  const Execution& execution);
+
 }  // namespace warren

@@ -6,6 +6,7 @@
 
 #include "core/plane/geometry.hpp"
 #include "parallel/polled_sort.hpp"
+#include "planners/cells/cell_locator.hpp"
 
 namespace warren {
 namespace {
@@ -186,26 +187,11 @@ void CellSweep::answer_questions(bool passed) {
     CellPlace& place = result_.places[i];
     for (Node n = below_; n != above_; n = order_.above(n)) {
       const std::uint32_t cell = order_.entry(n).cell;
-      if (cell != no_number && !is_flat(result_.cells[cell])) place.cells.push_back(cell);
+      if (cell != no_number && !is_flat(result_, obstacles_, result_.cells[cell])) place.cells.push_back(cell);
     }
     std::sort(place.cells.begin(), place.cells.end());
     place.cells.erase(std::unique(place.cells.begin(), place.cells.end()), place.cells.end());
   }
-}
-
-/// Does the cell lie between the box's side and a segment on it where nobody can move? That is so for the bounds, which
-/// are walls. Where the box only confines, paths run along polygons on it, but not between walls and it.
-bool CellSweep::is_flat(const VerticalCell& cell) const {
-  const bool on_floor = cell.lower == CellDecomposition::floor_segment;
-  const bool on_ceiling = cell.upper == CellDecomposition::ceiling_segment;
-  if (on_floor == on_ceiling) return false;
-  const std::uint32_t segment = on_floor ? cell.upper : cell.lower;
-  const Segment& s = result_.segments[segment];
-  const Box& box = result_.box;
-  if (!obstacles_.bounds && (!is_wall(segment) || side_under(s, box) == BoxSide::none)) return false;
-  const double y = on_floor ? box.min.y : box.max.y;
-  const double x = on_floor ? box.max.x : box.min.x;
-  return (s.a.y == y && s.b.y == y) || (s.a.x == x && s.b.x == x);
 }
 
 void CellSweep::pass_corner() {
@@ -305,7 +291,9 @@ std::uint32_t CellSweep::open_cell(std::uint32_t lower, Node upper_node) {
 
 void CellSweep::add_door(std::uint32_t left, std::uint32_t right, bool above, bool shut) {
   if (left == no_number) return;  // blocked on both sides
-  if (shut && !obstacles_.bounds) shut = is_flat(result_.cells[left]) || is_flat(result_.cells[right]);
+  if (shut && !obstacles_.bounds) {
+    shut = is_flat(result_, obstacles_, result_.cells[left]) || is_flat(result_, obstacles_, result_.cells[right]);
+  }
   const auto door = static_cast<std::uint32_t>(result_.doors.size());
   result_.doors.push_back({left, right, corner_, above, shut});
   const std::size_t place = above ? 1 : 0;

@@ -65,7 +65,6 @@ class CellSweep {
   std::size_t owner(std::uint32_t segment) const;
   bool touches_floor(Vec2 p) const { return p.y == result_.box.min.y || p.x == result_.box.max.x; }
   bool touches_ceiling(Vec2 p) const { return p.y == result_.box.max.y || p.x == result_.box.min.x; }
-  bool is_flat(const VerticalCell& cell) const;
   std::uint32_t segment_of(Node n) const {
     return n == SweepOrder::none ? CellDecomposition::ceiling_segment : order_.entry(n).segment;
   }

@@ -64,8 +64,10 @@ struct LastRay {
 
 class TautSearch {
  public:
-  TautSearch(const CellDecomposition& cells, Vec2 start, Vec2 goal, bool informed, const Execution& execution)
+  TautSearch(const CellDecomposition& cells, std::span<const CellPlace> ends, Vec2 start, Vec2 goal, bool informed,
+             const Execution& execution)
       : cells_(cells),
+        ends_(ends),
         start_(start),
         goal_(goal),
         informed_(informed),
@@ -74,11 +76,11 @@ class TautSearch {
         bends_(cells.doors.size()),
         last_rays_(cells.doors.size()),
         holds_goal_(cells.cells.size(), 0) {
-    for (const VertexId cell : cells.places[1].cells) holds_goal_[cell] = 1;
+    for (const VertexId cell : ends[1].cells) holds_goal_[cell] = 1;
   }
 
   TautRoute run() {
-    for (const VertexId cell : cells_.places[0].cells) {
+    for (const VertexId cell : ends_[0].cells) {
       for (const bool rightwards : {false, true}) {
         add({cell, no_number, no_number, no_number, rightwards, start_, 0.0, {}, {}});
       }
@@ -294,6 +296,7 @@ class TautSearch {
   }
 
   const CellDecomposition& cells_;
+  std::span<const CellPlace> ends_;
   const Vec2 start_, goal_;
   const bool informed_;
   const Execution& execution_;
@@ -309,9 +312,9 @@ class TautSearch {
 
 }  // namespace
 
-TautRoute shortest_taut_route(const CellDecomposition& cells, Vec2 start, Vec2 goal, bool informed,
-                              const Execution& execution) {
-  return TautSearch(cells, start, goal, informed, execution).run();
+TautRoute shortest_taut_route(const CellDecomposition& cells, std::span<const CellPlace> ends, Vec2 start, Vec2 goal,
+                              bool informed, const Execution& execution) {
+  return TautSearch(cells, ends, start, goal, informed, execution).run();
 }
 
 }  // namespace warren

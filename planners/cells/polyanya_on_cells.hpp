@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/base/types.hpp"
@@ -27,9 +28,9 @@ struct TautRoute {
   std::uint64_t expanded = 0;  ///< nodes
 };
 
-/// start and goal are the first two of the places that the cells know. informed: A*, else Dijkstra's order. Throws
+/// `ends`: where start and goal lie, in this order. informed: A*, else Dijkstra's order. Throws
 /// Stopped at the deadline.
-TautRoute shortest_taut_route(const CellDecomposition& cells, Vec2 start, Vec2 goal, bool informed,
-                              const Execution& execution);
+TautRoute shortest_taut_route(const CellDecomposition& cells, std::span<const CellPlace> ends, Vec2 start, Vec2 goal,
+                              bool informed, const Execution& execution);
 
 }  // namespace warren

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planners/grid/map_skeleton.hpp"
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <map>
+#include <numbers>
 #include <vector>
 
 namespace warren {
@@ -54,8 +57,10 @@ class WaitingCells {
 
 class Thinning {
  public:
-  Thinning(const Bitmap& blocked, const DistanceField& field, std::span<const Cell> kept, const Execution& execution)
+  Thinning(const Bitmap& blocked, const DistanceField& field, std::span<const Cell> kept, SkeletonEnds ends,
+           const Execution& execution)
       : field_(field),
+        ends_(ends),
         execution_(execution),
         width_(blocked.width()),
         rest_(blocked.width(), blocked.height()),
@@ -77,7 +82,8 @@ class Thinning {
       const std::uint32_t number = waiting_.pop();
       const Cell cell{number % width_, number / width_};
       waits_.clear(cell.x, cell.y);
-      if (simple_table[around(cell)] && !is_kept(cell)) remove(cell);
+      const unsigned near = around(cell);
+      if (simple_table[near] && !is_kept(cell) && !stays_as_end(cell, near)) remove(cell);
     }
     return std::move(rest_);
   }
@@ -95,6 +101,25 @@ class Thinning {
       if (k == cell) return true;
     }
     return false;
+  }
+  /// The cell has one neighbour over a side, and the distance is nearly as large here as around it.
+  bool stays_as_end(Cell cell, unsigned near) const {
+    constexpr unsigned sides = 0x55U;
+    constexpr double least_slope = 0.5;
+    if (ends_ == SkeletonEnds::go || std::popcount(near & sides) != 1) return false;
+    return steepest(cell, 1) < least_slope && steepest(cell, 3) < least_slope;
+  }
+  /// How much the distance grows from there on, a cell of the way.
+  double steepest(Cell cell, int reach) const {
+    double slope = 0.0;
+    for (const auto& [dx, dy] : ring) {
+      const std::uint32_t x = cell.x + static_cast<std::uint32_t>(reach * dx);  // before 0: far beyond the width
+      const std::uint32_t y = cell.y + static_cast<std::uint32_t>(reach * dy);
+      if (x >= rest_.width() || y >= rest_.height()) continue;
+      const double run = reach * (dx != 0 && dy != 0 ? std::numbers::sqrt2 : 1.0);
+      slope = std::max(slope, (field_.distance(x, y) - field_.distance(cell.x, cell.y)) / run);
+    }
+    return slope;
   }
   void wait(Cell cell) {
     if (waits_.test(cell.x, cell.y)) return;
@@ -120,6 +145,7 @@ class Thinning {
   }
 
   const DistanceField& field_;
+  SkeletonEnds ends_;
   const Execution& execution_;
   std::uint32_t width_;
   Bitmap rest_;
@@ -131,8 +157,8 @@ class Thinning {
 }  // namespace
 
 Bitmap map_skeleton(const Bitmap& blocked, const DistanceField& field, std::span<const Cell> kept,
-                    const Execution& execution) {
-  return Thinning(blocked, field, kept, execution).run();
+                    const Execution& execution, SkeletonEnds ends) {
+  return Thinning(blocked, field, kept, ends, execution).run();
 }
 
 }  // namespace warren

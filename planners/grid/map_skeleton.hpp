@@ -9,6 +9,7 @@
 // O(cells log distances) time, serial; 9 bits a cell and 4 bytes a cell that waits.
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 #include "core/base/bitmap.hpp"
@@ -17,9 +18,15 @@
 
 namespace warren {
 
-/// blocked: set bits; the outside is blocked too. field: of what keeps its distance, the same size; only its order
-/// counts. kept: free cells that stay. Set bits of the result are the skeleton. Throws Stopped.
+/// What becomes of ends of lines that nobody has asked to keep. go: all dead ends are gone. stay: where from the end
+/// the distance grows by less than half a cell a cell in every direction, over the next cell and over the next three.
+/// So lines stay that lead to the ends of corridors, and those go that lead into the corners of rooms (0.71 a cell) and
+/// behind the bumps of walls.
+enum class SkeletonEnds : std::uint8_t { go, stay };
+
+/// blocked: set bits; the outside is blocked too. field: of what keeps its distance, the same size; its order counts,
+/// and where ends stay its slope. kept: free cells that stay. Set bits of the result are the skeleton. Throws Stopped.
 Bitmap map_skeleton(const Bitmap& blocked, const DistanceField& field, std::span<const Cell> kept,
-                    const Execution& execution);
+                    const Execution& execution, SkeletonEnds ends = SkeletonEnds::go);
 
 }  // namespace warren

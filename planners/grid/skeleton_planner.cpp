@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -14,9 +13,9 @@
 #include "parallel/components.hpp"
 #include "parallel/polled_sort.hpp"
 #include "planners/grid/map_skeleton.hpp"
+#include "planners/grid/numbered_cells.hpp"
 #include "planners/roadmap/queue_choice.hpp"
 #include "planners/roadmap/separation.hpp"
-#include "spatial/maps/distance_field.hpp"
 #include "spatial/maps/free_cells.hpp"
 
 namespace warren {
@@ -24,50 +23,17 @@ namespace {
 
 constexpr double sqrt2 = 1.4142135623730951;
 
-/// The set cells of a bitmap, numbered row by row.
-class NumberedCells {
- public:
-  explicit NumberedCells(Bitmap cells) : bits_(std::move(cells)) {
-    std::uint32_t count = 0;
-    for (const std::uint64_t word : bits_.words()) {
-      before_.push_back(count);
-      count += static_cast<std::uint32_t>(std::popcount(word));
-    }
-    cells_.reserve(count);
-    for (std::uint32_t y = 0; y < bits_.height(); ++y) {
-      const auto words = bits_.row(y);
-      for (std::uint32_t w = 0; w < words.size(); ++w) {
-        for (std::uint64_t rest = words[w]; rest != 0; rest &= rest - 1) {
-          cells_.push_back({64 * w + static_cast<std::uint32_t>(std::countr_zero(rest)), y});
-        }
-      }
-    }
-  }
-  std::size_t size() const { return cells_.size(); }
-  Cell cell(VertexId v) const { return cells_[v]; }
-  bool holds(std::int64_t x, std::int64_t y) const { return bits_.holds(x, y); }
-  /// Of a cell that is set.
-  VertexId number(std::uint32_t x, std::uint32_t y) const {
-    const std::size_t word = y * bits_.row(0).size() + x / 64;
-    const std::uint64_t below = (std::uint64_t{1} << x % 64) - 1;
-    return before_[word] + static_cast<VertexId>(std::popcount(bits_.words()[word] & below));
-  }
-
- private:
-  Bitmap bits_;
-  std::vector<std::uint32_t> before_;  // set cells before each word
-  std::vector<Cell> cells_;
-};
-
 /// One plan: the steps share the question and fill in the answer.
 class SkeletonPlan {
  public:
-  SkeletonPlan(const Bitmap& blocked, Cell start, Cell goal, const SkeletonOptions& options, const Execution& execution)
-      : start_(start), goal_(goal), options_(options), execution_(execution) {
-    const StageTimer timer(execution, "index", plan_.seconds.index, blocked.size());
-    blocked_ = blocked_for_disc(blocked, options.radius, execution);
-    field_.emplace(blocked, CellDistance::squares, true, execution);
-  }
+  SkeletonPlan(const SkeletonRoadmap& roadmap, Cell start, Cell goal, const SkeletonOptions& options,
+               const Execution& execution)
+      : start_(start),
+        goal_(goal),
+        options_(options),
+        execution_(execution),
+        blocked_(roadmap.blocked),
+        field_(roadmap.field) {}
 
   SkeletonPath run(std::vector<std::pair<Cell, Cell>>* steps) {
     if (blocked_.test(start_.x, start_.y)) return ended(Outcome::start_blocked);
@@ -86,12 +52,9 @@ class SkeletonPlan {
     plan_.outcome = outcome;
     return std::move(plan_);
   }
-  bool is_blocked(std::int64_t x, std::int64_t y) const {
-    return x < 0 || y < 0 || x >= blocked_.width() || y >= blocked_.height() || blocked_.holds(x, y);
-  }
   VertexId start() const { return cells_->number(start_.x, start_.y); }
   VertexId goal() const { return cells_->number(goal_.x, goal_.y); }
-  std::uint32_t squared(VertexId v) const { return field_->squared(cells_->cell(v).x, cells_->cell(v).y); }
+  std::uint32_t squared(VertexId v) const { return field_.squared(cells_->cell(v).x, cells_->cell(v).y); }
   double length(VertexId v, VertexId w) const {
     const Cell a = cells_->cell(v);
     const Cell b = cells_->cell(w);
@@ -111,8 +74,8 @@ class SkeletonPlan {
   Cell start_, goal_;
   const SkeletonOptions& options_;
   const Execution& execution_;
-  Bitmap blocked_;
-  std::optional<DistanceField> field_;
+  const Bitmap& blocked_;
+  const DistanceField& field_;
   std::optional<NumberedCells> cells_;
   std::vector<Edge> edges_;
   SkeletonPath plan_;
@@ -121,7 +84,7 @@ class SkeletonPlan {
 void SkeletonPlan::thin() {
   const StageTimer timer(execution_, "skeleton", plan_.seconds.graph, blocked_.size());
   const std::array<Cell, 2> kept{start_, goal_};
-  cells_.emplace(map_skeleton(blocked_, *field_, kept, execution_));
+  cells_.emplace(map_skeleton(blocked_, field_, kept, execution_));
 }
 
 void SkeletonPlan::link() {
@@ -133,7 +96,7 @@ void SkeletonPlan::link() {
       const std::int64_t x = std::int64_t{c.x} + dx;
       const std::int64_t y = std::int64_t{c.y} + dy;
       if (dy < 0 || (dy == 0 && dx < 0) || !cells_->holds(x, y)) continue;  // each step once
-      if (dx != 0 && dy != 0 && (is_blocked(x, c.y) || is_blocked(c.x, y))) continue;
+      if (dx != 0 && dy != 0 && (blocked_.holds(x, c.y) || blocked_.holds(c.x, y))) continue;
       edges_.push_back({v, cells_->number(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y))});
     }
   }
@@ -253,9 +216,25 @@ void SkeletonPlan::search() {
 
 }  // namespace
 
+SkeletonRoadmap::SkeletonRoadmap(const Bitmap& map, double radius, const Execution& execution)
+    : blocked(blocked_for_disc(map, radius, execution)), field(map, CellDistance::squares, true, execution) {}
+
 SkeletonPath plan_on_skeleton(const Bitmap& blocked, Cell start, Cell goal, const SkeletonOptions& options,
                               const Execution& execution, std::vector<std::pair<Cell, Cell>>* steps) {
-  return SkeletonPlan(blocked, start, goal, options, execution).run(steps);
+  std::optional<SkeletonRoadmap> roadmap;
+  double index_s = 0.0;
+  {
+    const StageTimer timer(execution, "index", index_s, blocked.size());
+    roadmap.emplace(blocked, options.radius, execution);
+  }
+  SkeletonPath plan = plan_on_skeleton(*roadmap, start, goal, options, execution, steps);
+  plan.seconds.index += index_s;
+  return plan;
+}
+
+SkeletonPath plan_on_skeleton(const SkeletonRoadmap& roadmap, Cell start, Cell goal, const SkeletonOptions& options,
+                              const Execution& execution, std::vector<std::pair<Cell, Cell>>* steps) {
+  return SkeletonPlan(roadmap, start, goal, options, execution).run(steps);
 }
 
 }  // namespace warren

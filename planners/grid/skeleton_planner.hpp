@@ -15,6 +15,7 @@
 #include "parallel/execution.hpp"
 #include "planners/axis/medial_axis_planner.hpp"
 #include "planners/roadmap/roadmap_options.hpp"
+#include "spatial/maps/distance_field.hpp"
 
 namespace warren {
 
@@ -35,9 +36,21 @@ struct SkeletonPath {
   StageTimes seconds;
 };
 
+/// What of a plan depends on neither start nor goal: the skeleton itself does. Any number of threads may plan on it.
+struct SkeletonRoadmap {
+  /// blocked: to a point; radius of a disc, in cells, >= 0. Throws Stopped.
+  SkeletonRoadmap(const Bitmap& map, double radius, const Execution& execution);
+
+  Bitmap blocked;       ///< to the disc
+  DistanceField field;  ///< from what is blocked to a point
+};
+
 /// blocked: to a point; what lies outside is blocked. `steps`, where given, receives the skeleton's steps, for
 /// pictures. Throws Stopped.
 SkeletonPath plan_on_skeleton(const Bitmap& blocked, Cell start, Cell goal, const SkeletonOptions& options,
+                              const Execution& execution, std::vector<std::pair<Cell, Cell>>* steps = nullptr);
+/// The same plan on a map whose distances are there already. Of the options `radius` is the roadmap's.
+SkeletonPath plan_on_skeleton(const SkeletonRoadmap& roadmap, Cell start, Cell goal, const SkeletonOptions& options,
                               const Execution& execution, std::vector<std::pair<Cell, Cell>>* steps = nullptr);
 
 }  // namespace warren

@@ -105,11 +105,16 @@ Graph graph_of_rows(std::size_t n, std::vector<Rows>& parts, const Execution& ex
 
 }  // namespace
 
-VisibilityGraph::VisibilityGraph(const VisibleCorners& corners, VisibilityEdges edges, const Execution& execution)
+VisibilityGraph::VisibilityGraph(const VisibleCorners& corners, Graph graph, VisibilityEdges edges)
     : corners_(corners),
       which_(edges == VisibilityEdges::full ? SightLines::all : SightLines::tangent),
-      positions_(corners.size()) {
+      positions_(corners.size()),
+      graph_(std::move(graph)) {
   for (VertexId v = 0; v < positions_.size(); ++v) positions_[v] = corners.position(v);
+}
+
+VisibilityGraph::VisibilityGraph(const VisibleCorners& corners, VisibilityEdges edges, const Execution& execution)
+    : VisibilityGraph(corners, Graph(), edges) {
   std::vector<Rows> parts = rows_above(corners, which_, execution);
   graph_ = graph_of_rows(positions_.size(), parts, execution);
 }

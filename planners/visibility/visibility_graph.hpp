@@ -40,6 +40,8 @@ class VisibilityGraph {
  public:
   /// Throws Stopped at the deadline or the memory limit, InputError for more than 2^32 - 1 edge ends.
   VisibilityGraph(const VisibleCorners& corners, VisibilityEdges edges, const Execution& execution);
+  /// The same where its edges are known: `graph` has a vertex a corner.
+  VisibilityGraph(const VisibleCorners& corners, Graph graph, VisibilityEdges edges);
 
   /// Over the vertices of the corners, without start and goal.
   const Graph& graph() const { return graph_; }

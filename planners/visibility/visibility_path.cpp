@@ -28,15 +28,12 @@ class VisibilityPlan {
 
   void run(const PlaneObstacles& obstacles) {
     const VisibleCorners corners = index(obstacles);
-    if (!box_.contains(start_) || corners.is_blocked(start_)) return end(Outcome::start_blocked);
-    if (!box_.contains(goal_) || corners.is_blocked(goal_)) return end(Outcome::goal_blocked);
-    solution_.roadmap.milestones = corners.size() + 2;
-    if (start_ == goal_) {
-      solution_.path = {start_, goal_};
-      return end(Outcome::solved);
-    }
+    if (!begin(corners)) return;
     if (options_.lazy) return search_lazily(corners);
     search(connect(corners));
+  }
+  void run(const VisibilityRoadmap& roadmap) {
+    if (begin(roadmap.corners)) search(roadmap.graph);
   }
   void stop(StopReason reason) {
     solution_.stop_reason = reason;
@@ -47,6 +44,16 @@ class VisibilityPlan {
 
  private:
   void end(Outcome outcome) { solution_.outcome = outcome; }
+
+  /// False where there is nothing to search.
+  bool begin(const VisibleCorners& corners) {
+    if (!box_.contains(start_) || corners.is_blocked(start_)) return end(Outcome::start_blocked), false;
+    if (!box_.contains(goal_) || corners.is_blocked(goal_)) return end(Outcome::goal_blocked), false;
+    solution_.roadmap.milestones = corners.size() + 2;
+    if (!(start_ == goal_)) return true;
+    solution_.path = {start_, goal_};
+    return end(Outcome::solved), false;
+  }
 
   VisibleCorners index(const PlaneObstacles& obstacles) {
     const StageTimer timer(execution_, "index", solution_.seconds.index);
@@ -139,16 +146,24 @@ Box whole_plane() {
   return {{-endless, -endless}, {endless, endless}};
 }
 
-Solution<Vec2> plan_within(const PlaneObstacles& obstacles, const Box& box, Vec2 start, Vec2 goal,
+/// Ground: the obstacles, or a roadmap.
+template <class Ground>
+Solution<Vec2> plan_within(const Ground& ground, const Box& box, Vec2 start, Vec2 goal,
                            const VisibilityOptions& options, const Execution& execution, PlannedRoadmap<Vec2>* keep) {
   options.validate();
   VisibilityPlan plan(box, start, goal, options, execution, keep);
   try {
-    plan.run(obstacles);
+    plan.run(ground);
   } catch (const Stopped& stopped) {
     plan.stop(stopped.reason);
   }
   return plan.take();
+}
+
+/// The box that confines the point.
+Box confining_box(const PlaneObstacles& obstacles) {
+  const Box box = box_around(obstacles);
+  return box.empty() ? whole_plane() : box;
 }
 
 }  // namespace
@@ -167,8 +182,20 @@ Solution<Vec2> visibility_path(const PlaneObstacles& obstacles, Vec2 start, Vec2
 Solution<Vec2> confined_visibility_path(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal,
                                         const VisibilityOptions& options, const Execution& execution,
                                         PlannedRoadmap<Vec2>* keep) {
-  const Box box = box_around(obstacles);
-  return plan_within(confined(obstacles), box.empty() ? whole_plane() : box, start, goal, options, execution, keep);
+  return plan_within(confined(obstacles), confining_box(obstacles), start, goal, options, execution, keep);
+}
+
+VisibilityRoadmap::VisibilityRoadmap(const PlaneObstacles& obstacles, VisibilityEdges edges, const Execution& execution)
+    : box(confining_box(obstacles)), corners(confined(obstacles), execution), graph(corners, edges, execution) {}
+
+VisibilityRoadmap::VisibilityRoadmap(const PlaneObstacles& obstacles, VisibilityEdges edges, Graph known,
+                                     const Execution& execution)
+    : box(confining_box(obstacles)), corners(confined(obstacles), execution), graph(corners, std::move(known), edges) {}
+
+Solution<Vec2> visibility_path(const VisibilityRoadmap& roadmap, Vec2 start, Vec2 goal,
+                               const VisibilityOptions& options, const Execution& execution,
+                               PlannedRoadmap<Vec2>* keep) {
+  return plan_within(roadmap, roadmap.box, start, goal, options, execution, keep);
 }
 
 }  // namespace warren

@@ -34,4 +34,22 @@ Solution<Vec2> confined_visibility_path(const PlaneObstacles& obstacles, Vec2 st
                                         const VisibilityOptions& options, const Execution& execution,
                                         PlannedRoadmap<Vec2>* keep = nullptr);
 
+/// What of such a confined plan depends on neither start nor goal. Immutable; any number of threads may plan on it.
+struct VisibilityRoadmap {
+  /// Throw as VisibilityGraph's; `known`: its graph.
+  VisibilityRoadmap(const PlaneObstacles& obstacles, VisibilityEdges edges, const Execution& execution);
+  VisibilityRoadmap(const PlaneObstacles& obstacles, VisibilityEdges edges, Graph known, const Execution& execution);
+  VisibilityRoadmap(const VisibilityRoadmap&) = delete;
+  VisibilityRoadmap& operator=(const VisibilityRoadmap&) = delete;
+
+  const Box box;
+  const VisibleCorners corners;
+  const VisibilityGraph graph;  ///< refers to the corners
+};
+
+/// The same plan on a graph that is there already. Of the options `edges` is the roadmap's; it is not lazy.
+Solution<Vec2> visibility_path(const VisibilityRoadmap& roadmap, Vec2 start, Vec2 goal,
+                               const VisibilityOptions& options, const Execution& execution,
+                               PlannedRoadmap<Vec2>* keep = nullptr);
+
 }  // namespace warren

@@ -66,9 +66,9 @@ PlaneObstacles indexed_obstacles(const SolveRequest& request, Answer& answer) {
   return plane_obstacles(request.scene, request.execution);
 }
 
-Solution<Vec2> plan_without_clashes(const SolveRequest& request, const std::function<Solution<Vec2>()>& plan) {
+void without_clashes(const SolveRequest& request, const std::function<void()>& plan) {
   try {
-    return plan();
+    plan();
   } catch (const ObstacleClash& clash) {
     const Scene& scene = request.scene;
     const bool polygon = clash.obstacle() < scene.polygons.size();

@@ -42,6 +42,13 @@ NamedFigure doors_option(const CellOptions& options);
 NamedLines doors_of(const CellDecomposition& cells);
 
 /// Runs `plan`, and says it with the file's lines where obstacles clash (planners/cells/cell_decomposition.hpp).
-Solution<Vec2> plan_without_clashes(const SolveRequest& request, const std::function<Solution<Vec2>()>& plan);
+void without_clashes(const SolveRequest& request, const std::function<void()>& plan);
+
+/// The problem of voronoi, and the clearance that it plans with: a hair more, so that rounding can't fail the
+/// verification.
+WallProblem voronoi_problem(const Scene& scene, const Question& question);
+double axis_clearance(const WallProblem& problem);
+/// A box without area has no middle: throws InputError with the file's name.
+void check_axis_box(const Scene& scene);
 
 }  // namespace warren

@@ -2,9 +2,12 @@
 // The planner cells: vertical cells, a route through them, and a path through its doors. That there is no route proves
 // that there is no path.
 #include <array>
+#include <tuple>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "planners/cells/cell_planner.hpp"
+#include "solve/kinds/geometric_roadmaps.hpp"
 #include "solve/kinds/plane_steps.hpp"
 #include "solve/steps/solve_steps.hpp"
 
@@ -37,17 +40,23 @@ Answer solve_by_cells(const SolveRequest& request) {
   describe_plane_planner(answer, request, problem, search);
   answer.options.push_back(doors_option(options));
   answer_within_limits(answer, [&] {
-    const PlaneObstacles obstacles = indexed_obstacles(request, answer);
+    const CellRoadmap* known = asked_roadmap<CellRoadmap>(request);
+    PlaneObstacles obstacles;
+    if (known == nullptr) obstacles = indexed_obstacles(request, answer);
     if (stand_on_seams(request, problem, answer)) return;
     CellPlan plan;
-    take_solution(answer, plan_without_clashes(request, [&] {
-                    return plan_through_cells(obstacles, problem.start, problem.goal, options, request.execution,
-                                              &plan);
-                  }));
-    answer.cells = CellCount{plan.cells.cells.size(), plan.cells.doors.size()};
+    Solution<Vec2> solution;
+    without_clashes(request, [&] {
+      const auto& [start, goal] = std::tie(problem.start, problem.goal);
+      solution = known != nullptr ? plan_through_cells(*known, start, goal, options, request.execution)
+                                  : plan_through_cells(obstacles, start, goal, options, request.execution, &plan);
+    });
+    take_solution(answer, std::move(solution));
+    const CellDecomposition& cells = known != nullptr ? known->cells : plan.cells;
+    answer.cells = CellCount{cells.cells.size(), cells.doors.size()};
     if (answer.outcome == Outcome::not_connected) answer.outcome = Outcome::infeasible;  // cells miss no way
-    if (request.keep != nullptr) request.keep->lines.push_back(doors_of(plan.cells));
-    verify_solved(answer, request.scene, problem, request.execution);
+    if (request.keep != nullptr) request.keep->lines.push_back(doors_of(cells));
+    verify_solved(answer, request.scene, problem, request.execution, request.asked.judged());
   });
   return answer;
 }

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "planners/grid/skeleton_planner.hpp"
+#include "solve/kinds/geometric_roadmaps.hpp"
 #include "solve/kinds/map_steps.hpp"
 #include "solve/kinds/plane_steps.hpp"
 #include "solve/steps/solve_steps.hpp"
@@ -37,8 +38,11 @@ class SkeletonSolve {
     if (!start) return end(Outcome::start_blocked);
     if (!goal) return end(Outcome::goal_blocked);
     std::vector<std::pair<Cell, Cell>> steps;
-    take(plan_on_skeleton(closed_cells(map_, problem_.start), *start, *goal, options_, request_.execution,
-                          request_.keep != nullptr ? &steps : nullptr));
+    auto* kept_steps = request_.keep != nullptr ? &steps : nullptr;
+    const SkeletonRoadmap* known = asked_roadmap<SkeletonRoadmap>(request_);
+    take(known != nullptr ? plan_on_skeleton(*known, *start, *goal, options_, request_.execution, kept_steps)
+                          : plan_on_skeleton(closed_cells(map_, problem_.start), *start, *goal, options_,
+                                             request_.execution, kept_steps));
     settle_ends();
     if (request_.keep != nullptr) request_.keep->lines.push_back(lines_of(map_, steps));
     verify_solved_on_map(answer_, map_, problem_, true, request_.execution);

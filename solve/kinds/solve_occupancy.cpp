@@ -3,6 +3,7 @@
 // (tools/solve_turning).
 #include <vector>
 
+#include "solve/kinds/geometric_roadmaps.hpp"
 #include "solve/kinds/map_steps.hpp"
 #include "solve/kinds/plane_steps.hpp"
 #include "solve/question/grid_choice.hpp"
@@ -38,6 +39,16 @@ Answer solve_occupancy(const SolveRequest& request) {
   }
 }
 
+BuiltArrays build_occupancy(const SolveRequest& request) {
+  return is_roadmap_planner(request.planner) ? build_on_map(request) : build_geometric(request);
+}
+
+std::unique_ptr<RoadmapSession> open_occupancy(const SolveRequest& request, const RoadmapArrays& arrays,
+                                               const ConnectionRule& rule) {
+  const auto open = is_roadmap_planner(request.planner) ? open_on_map : open_geometric;
+  return open(request, arrays, rule);
+}
+
 Verdict recheck_occupancy(const Scene& scene, const Question& question, const RecordedAnswer& answer,
                           const Execution& execution) {
   check_state_width(answer, 2, "a point or disc");
@@ -55,8 +66,8 @@ SolveKind occupancy_kind() {
           solve_occupancy,
           nullptr,
           recheck_occupancy,
-          build_on_map,
-          open_on_map};
+          build_occupancy,
+          open_occupancy};
 }
 
 }  // namespace warren

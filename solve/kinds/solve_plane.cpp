@@ -5,6 +5,7 @@
 #include "core/base/error.hpp"
 #include "planners/shorten/taut_path.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
+#include "solve/kinds/geometric_roadmaps.hpp"
 #include "solve/kinds/plane_steps.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 #include "solve/steps/sampled_roadmap.hpp"
@@ -86,6 +87,16 @@ Answer solve_plane(const SolveRequest& request) {
   }
 }
 
+BuiltArrays build_on_plane(const SolveRequest& request) {
+  return is_roadmap_planner(request.planner) ? build_sampled<PointAmongPolygons>(request) : build_geometric(request);
+}
+
+std::unique_ptr<RoadmapSession> open_on_plane(const SolveRequest& request, const RoadmapArrays& arrays,
+                                              const ConnectionRule& rule) {
+  const auto open = is_roadmap_planner(request.planner) ? open_sampled<PointAmongPolygons> : open_geometric;
+  return open(request, arrays, rule);
+}
+
 Verdict recheck_plane(const Scene& scene, const Question& question, const RecordedAnswer& answer,
                       const Execution& execution) {
   check_polygons(scene, execution);
@@ -102,8 +113,8 @@ SolveKind plane_kind() {
           solve_plane,
           nullptr,
           recheck_plane,
-          build_sampled<PointAmongPolygons>,
-          open_sampled<PointAmongPolygons>};
+          build_on_plane,
+          open_on_plane};
 }
 
 }  // namespace warren

@@ -4,11 +4,13 @@
 // another, the body turns when it is there. A body that fits only in some headings is not found a way: not_connected.
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include "core/base/error.hpp"
 #include "core/plane/se2.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
+#include "solve/kinds/geometric_roadmaps.hpp"
 #include "solve/kinds/map_steps.hpp"
 #include "solve/kinds/plane_steps.hpp"
 #include "solve/kinds/turning_judge.hpp"
@@ -45,8 +47,8 @@ class AxisSolve {
 
   Answer run() {
     const Question disc = question_of_disc(problem_);
-    const SolveRequest of_disc{request_.options, request_.scene,     disc,
-                               request_.planner, request_.execution, request_.keep};
+    const SolveRequest of_disc{request_.options,   request_.scene, disc,          request_.planner,
+                               request_.execution, request_.keep,  request_.asked};
     answer_ = request_.scene.map ? solve_on_skeleton(of_disc) : solve_on_medial_axis(of_disc);
     answer_.problem = problem_.general();
     const double seconds = answer_.solve_s;
@@ -61,7 +63,7 @@ class AxisSolve {
     if (answer_.outcome != Outcome::solved) return settle_blocked_ends();
     for (const Vec2 p : answer_.path) poses_.push_back({p.x, p.y, problem_.start.theta});
     turn_at_the_goal();
-    judge_turning(request_.scene, problem_, poses_, request_.execution, answer_);
+    judge_turning(request_.scene, problem_, poses_, request_.execution, answer_, request_.asked.judged());
   }
 
   /// In steps of at most a third of a turn, so that the way round is never in doubt.
@@ -79,7 +81,7 @@ class AxisSolve {
   /// The disc doesn't fit; the body may.
   void settle_blocked_ends() {
     settle_blocked_poses(answer_, problem_, [&](const Se2& pose) {
-      return turning_stands_free(request_.scene, problem_, pose, request_.execution);
+      return turning_stands_free(request_.scene, problem_, pose, request_.execution, request_.asked.judged());
     });
   }
 
@@ -91,6 +93,24 @@ class AxisSolve {
 
 Answer solve_turning_axis(const SolveRequest& request) { return AxisSolve(request).run(); }
 
+/// The disc's roadmap.
+SolveRequest request_of_disc(const SolveRequest& request, const Question& disc) {
+  SolveRequest of_disc{request.options, request.scene, disc, request.planner, request.execution};
+  of_disc.many = request.many;
+  return of_disc;
+}
+
+BuiltArrays build_turning_axis(const SolveRequest& request) {
+  const Question disc = question_of_disc(pose_problem(request.scene, request.question, turning_body));
+  return build_geometric(request_of_disc(request, disc));
+}
+
+std::unique_ptr<RoadmapSession> open_turning_axis(const SolveRequest& request, const RoadmapArrays& arrays,
+                                                  const ConnectionRule& rule) {
+  const Question disc = question_of_disc(pose_problem(request.scene, request.question, turning_body));
+  return open_geometric(request_of_disc(request, disc), arrays, rule);
+}
+
 }  // namespace
 
 SolveKind turning_axis_kind() {
@@ -100,7 +120,9 @@ SolveKind turning_axis_kind() {
           usual_turning_axis_planner,
           solve_turning_axis,
           nullptr,
-          nullptr};
+          nullptr,
+          build_turning_axis,
+          open_turning_axis};
 }
 
 }  // namespace warren

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <tuple>
 
 #include "core/base/error.hpp"
 #include "core/search/graph.hpp"
@@ -14,6 +15,7 @@
 #include "planners/roadmap/queue_choice.hpp"
 #include "planners/visibility/sampled_visibility.hpp"
 #include "planners/visibility/visibility_path.hpp"
+#include "solve/kinds/geometric_roadmaps.hpp"
 #include "solve/kinds/plane_steps.hpp"
 #include "solve/steps/solve_steps.hpp"
 
@@ -55,7 +57,8 @@ VisibilityRequest options_of(const SolveRequest& request, const SearchChoice& se
     }
     asked.options.lazy = true;
   } else {
-    asked.options.lazy = plain && corner_count(request.scene) > most_corners_at_once;
+    const bool is_kept = request.asked.session != nullptr;
+    asked.options.lazy = plain && !is_kept && corner_count(request.scene) > most_corners_at_once;
   }
   return asked;
 }
@@ -169,13 +172,18 @@ class VisibilitySolve {
       : request_(request), problem_(problem), asked_(asked) {}
 
   void run(Answer& answer) {
-    const PlaneObstacles obstacles = indexed_obstacles(request_, answer);
+    const VisibilityRoadmap* known = asked_roadmap<VisibilityRoadmap>(request_);
+    PlaneObstacles obstacles;
+    if (known == nullptr) obstacles = indexed_obstacles(request_, answer);
     if (stand_on_seams(request_, problem_, answer)) return;
     PlannedRoadmap<Vec2>* keep = request_.keep != nullptr ? &request_.keep->roadmap : nullptr;
-    take_solution(answer, confined_visibility_path(obstacles, problem_.start, problem_.goal, asked_.options,
-                                                   request_.execution, keep));
+    const auto& [start, goal] = std::tie(problem_.start, problem_.goal);
+    take_solution(answer,
+                  known != nullptr
+                      ? visibility_path(*known, start, goal, asked_.options, request_.execution, keep)
+                      : confined_visibility_path(obstacles, start, goal, asked_.options, request_.execution, keep));
     if (answer.outcome == Outcome::not_connected) answer.outcome = Outcome::infeasible;  // the graph misses no path
-    verify_solved(answer, request_.scene, problem_, request_.execution);
+    verify_solved(answer, request_.scene, problem_, request_.execution, request_.asked.judged());
     answer.optimal = answer.verified && is_best_first(asked_.options.search);
   }
 

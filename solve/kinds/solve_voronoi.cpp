@@ -5,6 +5,7 @@
 
 #include "core/base/error.hpp"
 #include "planners/axis/medial_axis_planner.hpp"
+#include "solve/kinds/geometric_roadmaps.hpp"
 #include "solve/kinds/plane_steps.hpp"
 #include "solve/steps/solve_steps.hpp"
 
@@ -12,13 +13,23 @@ namespace warren {
 namespace {
 
 MedialAxisOptions options_of(const SolveRequest& request, const WallProblem& problem, const SearchChoice& search) {
-  constexpr double planning_room = 1 + 1e-9;  // so that rounding can't fail the verification
   MedialAxisOptions options;
-  options.clearance = problem.reach() * planning_room;
+  options.clearance = axis_clearance(problem);
   options.search = search.search;
   options.queue = search.queue;
   options.objective = request.options.axis.objective.value_or(AxisObjective::length);
   return options;
+}
+
+Solution<Vec2> plan_from_nothing(const SolveRequest& request, const WallProblem& problem,
+                                 const MedialAxisOptions& options, Answer& answer, MedialAxisPlan& plan) {
+  check_axis_box(request.scene);
+  const PlaneObstacles obstacles = indexed_obstacles(request, answer);
+  Solution<Vec2> solution;
+  without_clashes(request, [&] {
+    solution = plan_on_medial_axis(obstacles, problem.start, problem.goal, options, request.execution, &plan);
+  });
+  return solution;
 }
 
 NamedLines lines_of(const MedialAxis& axis) {
@@ -32,38 +43,45 @@ NamedLines lines_of(const MedialAxis& axis) {
   return lines;
 }
 
-/// A box without area has no middle: said with the file's name.
-void check_box(const Scene& scene) {
+}  // namespace
+
+WallProblem voronoi_problem(const Scene& scene, const Question& question) {
+  return keeping_off(scene, question, "voronoi keeps off the obstacles");
+}
+
+double axis_clearance(const WallProblem& problem) {
+  constexpr double planning_room = 1 + 1e-9;
+  return problem.reach() * planning_room;
+}
+
+void check_axis_box(const Scene& scene) {
   const Box box = scene.bounds ? *scene.bounds : obstacle_box(scene);
   if (box.empty() || (box.width() > 0.0 && box.height() > 0.0)) return;
   throw InputError(scene.source, "voronoi needs bounds, or obstacles, that span an area",
                    fmt::format("{} x {}", box.width(), box.height()));
 }
 
-}  // namespace
-
 Answer solve_on_medial_axis(const SolveRequest& request) {
-  const WallProblem problem = keeping_off(request.scene, request.question, "voronoi keeps off the obstacles");
+  const WallProblem problem = voronoi_problem(request.scene, request.question);
   const SearchChoice search = search_choice(request.options);
   const MedialAxisOptions options = options_of(request, problem, search);
   Answer answer;
   describe_plane_planner(answer, request, problem, search);
   answer.options.push_back({"objective", std::string(name_of(options.objective))});
   answer_within_limits(answer, [&] {
-    check_box(request.scene);
-    const PlaneObstacles obstacles = indexed_obstacles(request, answer);
     MedialAxisPlan plan;
-    take_solution(answer, plan_without_clashes(request, [&] {
-                    return plan_on_medial_axis(obstacles, problem.start, problem.goal, options, request.execution,
-                                               &plan);
-                  }));
-    settle_blocked_ends(answer, request.scene, problem, request.execution);
+    const AxisRoadmap* known = asked_roadmap<AxisRoadmap>(request);
+    take_solution(answer, known != nullptr ? plan_on_medial_axis(*known, problem.start, problem.goal, options,
+                                                                 request.execution, &plan)
+                                           : plan_from_nothing(request, problem, options, answer, plan));
+    settle_blocked_ends(answer, request.scene, problem, request.execution, request.asked.judged());
     if (answer.outcome == Outcome::solved) {
       answer.path_figures.push_back({"axis_length", plan.axis_length});
       answer.path_figures.push_back({"axis_clearance", plan.axis_clearance});
     }
-    if (request.keep != nullptr && plan.axis) request.keep->lines.push_back(lines_of(*plan.axis));
-    verify_solved(answer, request.scene, problem, request.execution);
+    const MedialAxis* axis = known != nullptr ? &known->axis : plan.axis ? &*plan.axis : nullptr;
+    if (request.keep != nullptr && axis != nullptr) request.keep->lines.push_back(lines_of(*axis));
+    verify_solved(answer, request.scene, problem, request.execution, request.asked.judged());
   });
   return answer;
 }

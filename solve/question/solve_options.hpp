@@ -36,6 +36,12 @@ constexpr bool is_roadmap_planner(PlannerKind planner) {
   return planner == PlannerKind::prm || planner == PlannerKind::lazy_prm;
 }
 
+/// Makes it a roadmap that depends on neither start nor goal?
+constexpr bool keeps_roadmap(PlannerKind planner) {
+  return is_roadmap_planner(planner) || planner == PlannerKind::visibility || planner == PlannerKind::cells ||
+         planner == PlannerKind::voronoi;
+}
+
 /// How prm works: stage by stage over the whole world, or tile by tile with all stages of a tile in cache.
 enum class PipelineKind : std::uint8_t { plain, tiled };
 constexpr auto enum_names(PipelineKind) { return std::array<std::string_view, 2>{"plain", "tiled"}; }

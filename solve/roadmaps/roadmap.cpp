@@ -28,7 +28,7 @@ void refuse_what_is_asked_later(const SolveOptions& options) {
     if (!all.has(option)) continue;
     throw UsageError(fmt::format("@{}: is for a question; say it when the roadmap is asked", name_of(option)));
   }
-  for (const Option option : {Option::lazy, Option::pipeline}) {
+  for (const Option option : {Option::lazy, Option::pipeline, Option::sampled_edges}) {
     if (!all.has(option)) continue;
     throw UsageError(fmt::format("@{}: a roadmap that is kept is made in one way; leave it out", name_of(option)));
   }
@@ -103,11 +103,16 @@ void compare_lattices(const Roadmap& before, const Roadmap& now, UpdateAccount& 
   account.states_dropped = count_states(before) - both;
 }
 
+std::string_view why_nothing_is_kept(PlannerKind planner) {
+  if (keeps_roadmap(planner)) return "a body that doesn't turn meets other obstacles at each start's heading";
+  return planner == PlannerKind::grid ? "it searches the world's cells themselves" : "its trees grow from a start";
+}
+
 ChosenSolver builder_of(const SolveOptions& options, const Scene& scene, const Question& question) {
   const ChosenSolver solver = choose_solver(options, scene, question);
-  if (solver.kind->build == nullptr || !is_roadmap_planner(solver.planner)) {
-    throw UsageError(fmt::format("@planner: {} makes no roadmap that is kept; prm and lazy-prm do for {}",
-                                 name_of(solver.planner), solver.kind->problem));
+  if (solver.kind->build == nullptr || !keeps_roadmap(solver.planner)) {
+    throw UsageError(fmt::format("@planner: {} makes no roadmap that is kept: {}; prm and lazy-prm do",
+                                 name_of(solver.planner), why_nothing_is_kept(solver.planner)));
   }
   if (scene.map && !scene.map->water.empty()) {
     throw UsageError(
@@ -186,7 +191,8 @@ Roadmap build_within(Scene scene, const Question& question, const SolveOptions& 
 
 Roadmap update(const Roadmap& roadmap, Scene now, const Execution& execution, UpdateAccount* account) {
   std::optional<OldRoadmap> old;
-  if (!grows(roadmap.options, roadmap.world.outline(), roadmap.robot) && roadmap.lattice == nullptr &&
+  const bool drawn = is_roadmap_planner(*roadmap.options.planner);
+  if (drawn && !grows(roadmap.options, roadmap.world.outline(), roadmap.robot) && roadmap.lattice == nullptr &&
       roadmap.robot.kind != RobotKind::puma560 && roadmap.robot.kind != RobotKind::arm) {
     if (auto places = changed_places(roadmap.world.whole(execution), now, execution)) {
       old = {&roadmap.arrays, std::move(*places)};
@@ -200,8 +206,8 @@ Roadmap update(const Roadmap& roadmap, Scene now, const Execution& execution, Up
   account->built_anew = !old || next.lattice != nullptr;
   account->edges = edges.free + edges.blocked + edges.unchecked;
   account->edges_checked = built.counters.edges_checked;
-  if (next.lattice != nullptr) {
-    account->edges_checked = account->edges;  // the index is made of all of them
+  if (next.lattice != nullptr || !drawn) {
+    account->edges_checked = account->edges;  // all of them were made anew
   }
   if (roadmap.lattice != nullptr || next.lattice != nullptr) {
     compare_lattices(roadmap, next, *account);

@@ -76,10 +76,11 @@ struct BuildAccount {
   StageTimes seconds;
 };
 
-/// Builds the roadmap of prm or lazy_prm for any world and body that these solve; start and goal of question and scene
-/// mean nothing. With lazy_prm no edge is checked, unless the samples are left open: then, with either planner, rounds
-/// grow until what is joined stays joined (planners/roadmap/build_roadmap.hpp). Takes the scene. Throws UsageError for
-/// what can't be built and for options that mean nothing to it, InputError, Stopped at a limit.
+/// Builds the roadmap of prm, lazy_prm, visibility, cells or voronoi for any world and body that these solve, but for
+/// bodies at a fixed angle; start and goal of question and scene mean nothing. With lazy_prm no edge is checked, unless
+/// the samples are left open: then, with either planner, rounds grow until what is joined stays joined
+/// (planners/roadmap/build_roadmap.hpp). Takes the scene. Throws UsageError for what can't be built and for options
+/// that mean nothing to it, InputError, Stopped at a limit.
 Roadmap build(Scene scene, const Question& question = {}, const SolveOptions& options = {}, const Limits& limits = {},
               IndexChoice index = IndexChoice::where_it_pays);
 

@@ -15,6 +15,7 @@
 #include "solve/roadmaps/lattice_sections.hpp"
 #include "solve/roadmaps/roadmap_meta_io.hpp"
 #include "solve/roadmaps/world_sections.hpp"
+#include "solve/steps/kind_of_problem.hpp"
 
 namespace warren {
 namespace {
@@ -79,10 +80,14 @@ KeptWorld given_world(const RoadmapFile& file, Scene given, const std::string& h
                    found);
 }
 
-/// The body can be in the world.
-void check_world_of(const Scene& scene, const Question& question, const std::string& name) {
+/// The body can be in the world, and has such a roadmap there.
+void check_world_of(const Scene& scene, const SolveOptions& options, const Question& question,
+                    const std::string& name) {
   try {
     check_plannable(scene, question);
+    if (choose_solver(options, scene, question).kind->open == nullptr) {
+      throw InputError(name, "its planner keeps no roadmap of its body");
+    }
   } catch (const UsageError& error) {
     throw InputError(name, error.what());
   }
@@ -97,12 +102,13 @@ KeptWorld world_inside(const RoadmapFile& file, const Roadmap& roadmap, const Ex
   Scene outline = read_world_outline(file, execution);
   outline.source = roadmap.world.outline().source;
   const LatticePassages* lattice = roadmap.lattice != nullptr ? &roadmap.lattice->passages() : nullptr;
-  auto make = [&file, lattice, outline, question = roadmap.question(), hash = roadmap.world_hash](const Execution& on) {
+  auto make = [&file, lattice, outline, options = roadmap.options, question = roadmap.question(),
+               hash = roadmap.world_hash](const Execution& on) {
     Scene scene = outline;
     scene.walls = read_world_walls(file, outline, lattice, on);
     const std::string found = scene_hash(scene, on);
     if (found != hash) throw InputError(file.name(), fmt::format("the world inside is not its own, {}", hash), found);
-    check_world_of(scene, question, file.name());
+    check_world_of(scene, options, question, file.name());
     return scene;
   };
   if (lattice == nullptr) return KeptWorld(make(execution));
@@ -125,17 +131,18 @@ LatticeSize lattice_of(const RoadmapFile& file, const Execution& execution) {
 Roadmap described(const RoadmapFile& file, const Execution& execution) {
   refuse_unknown_sections(file);
   Roadmap roadmap;
-  read_meta(fmt::format("{}: section meta", file.name()), roadmap_meta(file, execution), roadmap);
+  read_meta(fmt::format("{}: section meta", file.name()), roadmap_meta(file, execution), roadmap, execution);
   if (hash_number(roadmap.world_hash) == file.header().world_hash) return roadmap;
   throw InputError(file.name(), "header and meta name different worlds");
 }
 
-/// The lattice is that of the maze, and of a body that plans on it.
+/// The lattice is that of the maze, of prm, and of a body that plans on it.
 void check_lattice_of(const Roadmap& roadmap, const std::string& name) {
   const auto& maze = roadmap.world.outline().maze;
   const LatticeSize size = roadmap.lattice->passages().size();
   const bool is_round = roadmap.robot.kind == RobotKind::point || roadmap.robot.kind == RobotKind::disc;
-  if (is_round && maze && maze->rows == size.rows && maze->cols == size.cols) return;
+  const bool is_its = maze && maze->rows == size.rows && maze->cols == size.cols;
+  if (is_round && is_its && roadmap.options.planner == PlannerKind::prm) return;
   throw InputError(name, "its lattice is none of its world and body");
 }
 
@@ -198,7 +205,7 @@ Roadmap read_roadmap(std::unique_ptr<RoadmapFile> opened, const Execution& execu
     throw InputError(file.name(), "header and meta name different bodies or options");
   }
   if (roadmap.lattice == nullptr) {
-    check_world_of(roadmap.world.outline(), roadmap.question(), file.name());
+    check_world_of(roadmap.world.outline(), roadmap.options, roadmap.question(), file.name());
     roadmap.arrays = read_arrays(file, roadmap, execution);
   } else {
     check_lattice_of(roadmap, file.name());

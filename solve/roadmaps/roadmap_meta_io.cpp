@@ -68,6 +68,9 @@ void add_recipe(JsonObject& object, const Roadmap& roadmap, const Execution& exe
     object.add("star", std::string_view(o.roadmap.star == StarRule::radius ? "radius" : "neighbours"));
   }
   if (o.roadmap.attach) object.add_json("attach", attach_json(*o.roadmap.attach));
+  if (o.visibility.full) object.add("full", true);
+  if (o.cells.doors) object.add("doors", name_of(*o.cells.doors));
+  if (o.axis.objective) object.add("objective", name_of(*o.axis.objective));
   if (o.car.steering) object.add("steering", name_of(*o.car.steering));
   add_some(object, "turning_radius", o.car.turning_radius);
 }
@@ -97,6 +100,11 @@ class MetaReader {
     const std::uint64_t value = whole(key);
     if (value > 1'000'000'000) fail(key, "a number of at most 10^9");
     return static_cast<std::uint32_t>(value);
+  }
+  bool truth(const char* key) const {
+    const Json& value = at(key);
+    if (!value.is_boolean()) fail(key, "true or false");
+    return value.get<bool>();
   }
   std::string text(const char* key) const {
     const Json& value = at(key);
@@ -133,7 +141,7 @@ GrowingAttach read_attach(const MetaReader& meta) {
 
 void read_options(const MetaReader& meta, SolveOptions& o) {
   o.planner = meta.named<PlannerKind>("planner");
-  if (!is_roadmap_planner(*o.planner)) meta.fail("planner", "prm or lazy-prm");
+  if (!keeps_roadmap(*o.planner)) meta.fail("planner", "one that makes roadmaps");
   if (meta.has("sampler")) o.sampler = meta.named<SamplerKind>("sampler");
   o.seed = meta.whole("seed");
   if (meta.has("samples")) o.roadmap.samples = meta.whole("samples");
@@ -145,6 +153,9 @@ void read_options(const MetaReader& meta, SolveOptions& o) {
     o.roadmap.star = star == "radius" ? StarRule::radius : StarRule::neighbours;
   }
   if (meta.has("attach")) o.roadmap.attach = read_attach(meta.object("attach"));
+  if (meta.has("full")) o.visibility.full = meta.truth("full");
+  if (meta.has("doors")) o.cells.doors = meta.named<DoorKind>("doors");
+  if (meta.has("objective")) o.axis.objective = meta.named<AxisObjective>("objective");
   if (meta.has("steering")) o.car.steering = meta.named<SteeringKind>("steering");
   if (meta.has("turning_radius")) o.car.turning_radius = meta.number("turning_radius");
 }
@@ -214,7 +225,7 @@ LatticeSize lattice_in_meta(const std::string& where, std::string_view text) {
   return {(*found)[0].get<std::uint32_t>(), (*found)[1].get<std::uint32_t>()};
 }
 
-void read_meta(const std::string& where, std::string_view text, Roadmap& roadmap) {
+void read_meta(const std::string& where, std::string_view text, Roadmap& roadmap, const Execution& execution) {
   const Json json = parsed(where, text);
   const MetaReader meta(where, json);
   if (meta.text("schema") != schema) meta.fail("schema", schema);
@@ -223,7 +234,7 @@ void read_meta(const std::string& where, std::string_view text, Roadmap& roadmap
   roadmap.world = KeptWorld(std::move(named));
   roadmap.world_hash = meta.text("world_hash");
   roadmap.robot = robot_value(fmt::format("{}: key \"robot\"", where), meta.text("robot"));
-  if (roadmap.robot.kind == RobotKind::arm && table_hash(roadmap.robot, {}) != meta.text("table_hash")) {
+  if (roadmap.robot.kind == RobotKind::arm && table_hash(roadmap.robot, execution) != meta.text("table_hash")) {
     throw InputError(where,
                      fmt::format("was made for another arm than {} has now; build it anew", roadmap.robot.table));
   }

@@ -16,7 +16,7 @@ std::string recipe_json(const Roadmap& roadmap, const Execution& execution);
 /// The whole of meta.
 std::string meta_json(const Roadmap& roadmap, const Execution& execution);
 /// Fills in all of the roadmap but scene and arrays, which tell their sizes. Throws InputError that names `where`.
-void read_meta(const std::string& where, std::string_view text, Roadmap& roadmap);
+void read_meta(const std::string& where, std::string_view text, Roadmap& roadmap, const Execution& execution);
 /// The lattice that meta names; 0 x 0 where it names none.
 LatticeSize lattice_in_meta(const std::string& where, std::string_view text);
 

@@ -72,6 +72,7 @@ struct RoadmapQuery::Opened {
   SolveRequest request_of(const Roadmap& roadmap, const Execution& execution, Questions questions) const {
     SolveRequest request{roadmap.options, planned.get(), any, solver.planner, execution};
     request.many = questions != Questions::one;
+    request.samples = roadmap.samples;
     return request;
   }
   Question any;
@@ -204,7 +205,7 @@ std::span<const std::uint64_t> RoadmapQuery::edge_states() const { return opened
 double RoadmapQuery::distance(VertexId from, VertexId to) const { return opened_->session->distance(from, to); }
 
 void learn(Roadmap& roadmap, const RoadmapQuery& query, const Execution& execution) {
-  if (roadmap.lattice != nullptr) return;  // all its edges are known
+  if (roadmap.options.planner != PlannerKind::lazy_prm) return;  // all its edges are known
   const std::span<const std::uint64_t> known = query.edge_states();
   roadmap.arrays.edge_states.assign(known.begin(), known.end());
   roadmap.arrays.component = free_components(roadmap.arrays.parts(), execution);

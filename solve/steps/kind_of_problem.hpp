@@ -52,6 +52,7 @@ struct SolveRequest {
   RoadmapAsked asked = {};          ///< a roadmap that is there already
   const OldRoadmap* old = nullptr;  ///< what a build may take over
   bool many = true;                 ///< open(): will there be more than one question?
+  std::uint64_t samples = 0;        ///< open(): of the roadmap's last round
 };
 
 /// What SolveKind::build leaves behind.
@@ -77,8 +78,8 @@ struct SolveKind {
   /// kind.
   Verdict (*verify)(const Scene& scene, const Question& question, const RecordedAnswer& answer,
                     const Execution& execution);
-  /// Builds the roadmap of prm or lazy_prm without a question: start and goal of the request are any. nullptr: no
-  /// planner of this kind makes one. Throws as solve(), and Stopped.
+  /// Builds a roadmap without a question, for planners that keep one: start and goal of the request are any. nullptr:
+  /// no planner of this kind makes one. Throws as solve(), and Stopped.
   BuiltArrays (*build)(const SolveRequest& request) = nullptr;
   /// Makes such a roadmap ready to be asked; solve() takes it as request.asked.
   std::unique_ptr<RoadmapSession> (*open)(const SolveRequest& request, const RoadmapArrays& arrays,

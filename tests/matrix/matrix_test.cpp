@@ -72,7 +72,7 @@ class Matrix : public testing::TestWithParam<MatrixWorld> {
   static std::vector<std::string> limits_of(const std::string& planner);
 
   void ask_planner(const MatrixBody& body, const PlannerRow& planner, const PlannerField* field, bool optimise);
-  void ask_kept_roadmap(const MatrixBody& body, const std::string& planner);
+  void ask_kept_roadmap(const MatrixBody& body, const std::string& planner, bool is_kept);
   void ask_judges(const MatrixBody& body, const std::string& planner, const ProgramAnswer& answer);
   void ask_all_at_once(const MatrixBody& body, const BodyColumn& column);
   void ask_in_vain(const MatrixBody& body);
@@ -213,14 +213,16 @@ void Matrix::ask_planner(const MatrixBody& body, const PlannerRow& planner, cons
   ask_judges(body, planner.name, answer);
 }
 
-/// A roadmap that is built and then asked answers as solve does, and an update to the same world asks about nothing.
-/// One field in four, drawn by its name.
-void Matrix::ask_kept_roadmap(const MatrixBody& body, const std::string& planner) {
+/// A roadmap that is built and then asked answers as solve does, and an update to the same world asks about nothing, or
+/// builds anew what is not drawn. One field in four, drawn by its name.
+void Matrix::ask_kept_roadmap(const MatrixBody& body, const std::string& planner, bool is_kept) {
   const std::string name = world().name + "/" + body.name + "/" + planner + "/kept";
-  if ((planner != "prm" && planner != "lazy-prm") || !is_drawn(name) || hash_of(name) % 4 != 0) return;
-  const std::vector<std::string> question = question_of(body, true);
+  if (!is_drawn(name) || hash_of(name) % 4 != 0) return;
+  const bool is_sampled = planner == "prm" || planner == "lazy-prm";
+  const std::vector<std::string> question = question_of(body, !keeps_angle(planner));
   const std::vector<std::string> ends(question.begin() + 2, question.begin() + 4);
-  std::vector<std::string> build{"build", world_file(), "--planner", planner, "--samples", "200"};
+  std::vector<std::string> build{"build", world_file(), "--planner", planner};
+  if (is_sampled) build.insert(build.end(), {"--samples", "200"});
   for (const std::string& word : question) {
     if (word != ends[0] && word != ends[1]) build.push_back(word);
   }
@@ -229,6 +231,7 @@ void Matrix::ask_kept_roadmap(const MatrixBody& body, const std::string& planner
   solve.insert(solve.end(), {ends[0], ends[1], "--json", folder_.path("solved.json")});
   const std::string roadmap = folder_.path("kept.roadmap");
   build.insert(build.end(), {"-o", roadmap});
+  if (!is_kept) return expect_refusal(build, "makes no roadmap that is kept");
   SCOPED_TRACE(shown(build));
   const Outcome built = ask(build);
   ASSERT_EQ(built.code, 0) << built.err;
@@ -241,11 +244,12 @@ void Matrix::ask_kept_roadmap(const MatrixBody& body, const std::string& planner
   EXPECT_EQ(answer.verified, expected.verified);
   EXPECT_EQ(answer.length, expected.length);
   EXPECT_EQ(answer.path, expected.path);
+  EXPECT_EQ(answer.expanded, expected.expanded);
   const Outcome updated =
       ask({"update", roadmap, world_file(), "-o", folder_.path("updated.roadmap"), "--report", "-"});
   EXPECT_EQ(updated.code, 0) << updated.err;
   const bool anew = updated.out.find("\"mode\": \"built\"") != std::string::npos;
-  EXPECT_EQ(anew, body.arm.has_value()) << updated.out;
+  EXPECT_EQ(anew, body.arm.has_value() || !is_sampled) << updated.out;
   EXPECT_TRUE(anew || updated.out.find("\"edges_checked\": 0,") != std::string::npos) << updated.out;
   EXPECT_TRUE(folder_.read("updated.roadmap") == folder_.read("kept.roadmap")) << "another roadmap of the same world";
 }
@@ -318,7 +322,7 @@ void Matrix::ask_everything() {
       const PlannerField* field = PlannerTable::field(planner, *column);
       ask_planner(body, planner, field, false);
       ask_planner(body, planner, field, true);
-      if (field != nullptr) ask_kept_roadmap(body, planner.name);
+      if (field != nullptr) ask_kept_roadmap(body, planner.name, field->is_kept);
     }
     if (!world().is_strange) ask_all_at_once(body, *column);
   }

@@ -36,8 +36,11 @@ PlannerField field_of(std::istringstream& rest) {
   std::string mark;
   PlannerField field;
   rest >> mark >> std::ws;
-  if (mark != "+" && mark != "-") throw std::runtime_error("planners.table: a field needs + or -");
-  field.optimises = mark == "+";
+  if (mark.size() != 2 || mark.find_first_not_of("+-") != std::string::npos) {
+    throw std::runtime_error("planners.table: a field needs two of + and -");
+  }
+  field.optimises = mark[0] == '+';
+  field.is_kept = mark[1] == '+';
   std::getline(rest, field.words);
   return field;
 }

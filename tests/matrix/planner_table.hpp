@@ -20,6 +20,7 @@ struct BodyColumn {
 /// A planner that solves a column's problems.
 struct PlannerField {
   bool optimises = false;  ///< takes --optimise
+  bool is_kept = false;    ///< its roadmap is built without a question
   std::string words;       ///< "yes", "yes; usual", ...
 };
 

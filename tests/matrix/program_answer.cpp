@@ -23,8 +23,12 @@ ProgramAnswer read_program_answer(const std::string& json) {
   const std::string status = value_of(json, "status");
   answer.status = status.substr(1, status.find('"', 1) - 1);
   answer.verified = std::string(value_of(json, "verified")).starts_with("true");
-  const std::string length = value_of(json, "length");
-  answer.length = length.substr(0, length.find(','));
+  const auto number_of = [&](const char* key) {
+    const std::string rest = value_of(json, key);
+    return rest.substr(0, rest.find_first_of(",}"));
+  };
+  answer.length = number_of("length");
+  if (json.find("\"expanded\": ") != std::string::npos) answer.expanded = number_of("expanded");
   int depth = 0;
   for (const char* c = value_of(json, "path"); *c != '\0';) {
     if (*c == '[') {

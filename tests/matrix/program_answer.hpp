@@ -10,7 +10,8 @@ namespace warren::test {
 struct ProgramAnswer {
   std::string status;
   bool verified = false;
-  std::string length;  ///< as it stands there
+  std::string length;    ///< as it stands there
+  std::string expanded;  ///< of the counters, likewise; empty where nothing was searched
   std::vector<std::vector<double>> path;
 };
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the verbs of roadmaps refuse: one line, the exit code that it deserves, and every file as it was.
+#include <sys/stat.h>
+
 #include <filesystem>
 
 #include "tests/tools/process.hpp"
@@ -103,6 +105,9 @@ TEST_F(RoadmapRefusals, TheTableOfAnArmIsNotOverwritten) {
   refused({"update", "@arm.roadmap", "@arm.scene", "-o", "@arm.txt"}, 2, "would overwrite");
   folder_.write("arm.txt", "joint 0 1 0 -3 3\njoint 0 2 0 -3 3\n");
   refused({"query", "@arm.roadmap"}, 65, "was made for another arm");
+  std::filesystem::remove(path("arm.txt"));
+  ASSERT_EQ(::mkfifo(path("arm.txt").c_str(), 0600), 0);  // that nobody writes to: a budget ends the wait
+  refused({"query", "@arm.roadmap", "--budget", "300ms", "--quiet"}, 124, "the time budget ended");
 }
 
 TEST_F(RoadmapRefusals, NoOutputByAnother) {
@@ -127,7 +132,8 @@ TEST_F(RoadmapRefusals, WordsThatMeanNothing) {
   refused({"build", "maze:9x9"}, 2, "-o FILE is missing");
   refused({"update", "@r.roadmap", "maze:9x9"}, 2, "-o FILE is missing");
   refused({"export", "@r.roadmap"}, 2, "-o FILE is missing");
-  refused({"build", "maze:9x9", "-o", "@new", "--planner", "visibility"}, 2, "prm and lazy-prm do");
+  refused({"build", "maze:9x9", "-o", "@new", "--planner", "grid"}, 2, "it searches the world's cells themselves");
+  refused({"build", "maze:9x9", "-o", "@new", "--planner", "visibility"}, 2, "visibility plans for a point");
   refused({"build", "maze:9x9", "-o", "@new", "--search", "bfs"}, 2, "--search");
   refused({"build", "maze:9x9", "-o", "@new", "--start", "1,1"}, 2, "--start");
   refused({"build", "maze:9x9", "-o", "@no/folder"}, 73, "no/folder");

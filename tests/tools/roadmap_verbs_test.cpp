@@ -163,6 +163,49 @@ TEST_F(RoadmapVerbs, AnUpdateIsABuildInTheNewWorld) {
   EXPECT_EQ(told({"update", grown, now, "-o", path("u.roadmap"), "--report", "-"})["mode"], "built");
 }
 
+TEST_F(RoadmapVerbs, WhatIsNotDrawnIsBuiltAnewByAnUpdate) {
+  const std::string text = "bounds 0 0 10 10\npolygon 2 2 4 2 4 6 2 6\nstart 1 1\ngoal 9 1\n";
+  const std::string before = folder_.write("before.scene", text);
+  const std::string now = folder_.write("now.scene", text + "polygon 6 0.5 7 0.5 7 8 6 8\n");
+  for (const char* planner : {"visibility", "cells", "voronoi"}) {
+    SCOPED_TRACE(planner);
+    const Words body{"--planner", planner};
+    const std::string file = built("before.roadmap", before, body);
+    built("now.roadmap", now, body);
+    const Json report = told({"update", file, now, "-o", path("updated.roadmap"), "--report", "-"});
+    EXPECT_TRUE(folder_.read("updated.roadmap") == folder_.read("now.roadmap"));
+    EXPECT_EQ(report["mode"], "built");
+    EXPECT_EQ(report["edges"], told({"info", path("now.roadmap")})["edges"]["free"]);
+    EXPECT_EQ(report["edges_checked"], report["edges"]);
+    EXPECT_GT(report["states_added"], 0);
+    const Words asked{"--json", "-"};
+    expect_same(told(joined({"query", path("now.roadmap")}, asked)),
+                told(joined({"solve", now, "--planner", planner}, asked)));
+  }
+}
+
+TEST_F(RoadmapVerbs, TheAxisOfAMapIsARouteGraph) {
+  const std::string axis =
+      built("axis.roadmap", world_file("flat.yaml"), {"--planner", "voronoi", "--robot", "disc 0.05"});
+  const Json meta = told({"info", axis, "--check", "all"});
+  EXPECT_EQ(meta["planner"], "voronoi");
+  EXPECT_GT(meta["edges"]["free"], 20);
+  for (const char* name : {"r.geojson", "r.graphml", "r.gr", "r.csv", "r.npz", "r.dot"}) {
+    runs({"export", axis, "-o", path(name), "--quiet"});
+  }
+  const Json route = Json::parse(folder_.read("r.geojson"));
+  EXPECT_EQ(route["features"].size(), meta["states"].get<std::size_t>() + 2 * meta["edges"]["free"].get<std::size_t>());
+  const Words ends{"--start", "1,1", "--goal", "3,1"};
+  const Json answer = told(joined({"query", axis, "--json", "-"}, ends));
+  const std::string questions = folder_.write("q.csv", "start_x,start_y,goal_x,goal_y\n1,1,3,1\n");
+  const Json length = told({"query", axis, "--batch", questions, "--lengths-only", "--quiet"});
+  EXPECT_EQ(length["status"], "solved");
+  EXPECT_EQ(length["length"], answer["length"]);
+  check(
+      {joined({"build", world_file("flat.yaml"), "-o", path("n.roadmap")}, {"--planner", "voronoi", "--search", "bfs"}),
+       2, "--search"});
+}
+
 TEST_F(RoadmapVerbs, AreExportedByEnding) {
   const std::string car = built("car.roadmap", world_file("parking-lot.scene"), {"--samples", "200"});
   const std::vector<std::pair<std::string, std::string>> files{{"x.geojson", "\"FeatureCollection\""},

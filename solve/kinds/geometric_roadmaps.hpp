@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Kept roadmaps of the planners that draw no samples: visibility (corners and who sees whom), cells (the middles of
+// doors, and those of one cell joined), voronoi (the medial axis as straight lines; on maps the skeleton's). A question
+// needs more than such a graph: that is made anew from the world when the roadmap is opened, and a file whose graph is
+// not the one that follows from its world is refused. Only the edges of a visibility graph of more than 1000 corners,
+// which take far longer to find than to read, are taken from the file as they are.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <type_traits>
+
+#include "planners/axis/medial_axis_planner.hpp"
+#include "planners/cells/cell_planner.hpp"
+#include "planners/grid/skeleton_planner.hpp"
+#include "planners/visibility/visibility_path.hpp"
+#include "solve/steps/kind_of_problem.hpp"
+
+namespace warren {
+
+/// SolveKind::build and open for visibility, cells and voronoi of a point or disc.
+BuiltArrays build_geometric(const SolveRequest& request);
+std::unique_ptr<RoadmapSession> open_geometric(const SolveRequest& request, const RoadmapArrays& arrays,
+                                               const ConnectionRule& rule);
+
+/// Known: VisibilityRoadmap, CellRoadmap, AxisRoadmap or SkeletonRoadmap. Refers to the arrays.
+template <class Known>
+struct GeometricSession : RoadmapSession {
+  explicit GeometricSession(const RoadmapArrays& of) : arrays(of) {}
+  std::span<const std::uint64_t> edge_states() const override { return arrays.edge_states; }
+  double distance(VertexId from, VertexId to) const override {
+    if constexpr (std::is_same_v<Known, CellRoadmap>) return known->points.leg_length(from, to);
+    const auto at = [&](VertexId v) { return Vec2{arrays.states[2 * v], arrays.states[2 * v + 1]}; };
+    return warren::distance(at(from), at(to));
+  }
+
+  const RoadmapArrays& arrays;
+  std::optional<Known> known;
+};
+
+/// What the kept roadmap that is asked knows; nullptr: none is asked.
+template <class Known>
+const Known* asked_roadmap(const SolveRequest& request) {
+  if (request.asked.session == nullptr) return nullptr;
+  return &*static_cast<const GeometricSession<Known>*>(request.asked.session)->known;
+}
+
+}  // namespace warren
