@@ -202,6 +202,7 @@ RawVector<Edge> attach_within_growing_radius(const W& world, std::span<const typ
   const double step = rule.attach->step.value_or(0.5 * radius);
   std::size_t tried = 0;
   for (std::uint32_t attempt = 0; attempt < rule.attach->tries && edges.empty(); ++attempt) {
+    if (tried == milestones.size()) break;
     ++counters.neighbour_queries;
     index.within(at, SearchRadius(radius + attempt * step), no_vertex, near);
     for (; tried < near.size(); ++tried) {

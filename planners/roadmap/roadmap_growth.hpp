@@ -19,6 +19,7 @@ struct ConnectionRule {
   double radius = 0.0;
   std::uint32_t neighbours = 0;
   std::optional<GrowingAttach> attach = {};  ///< of start and goal; none: by the rule too
+  friend bool operator==(const ConnectionRule&, const ConnectionRule&) = default;
 };
 
 /// Neighbours that the radius rule expects around a milestone in the open; see the table "uniform sampling that

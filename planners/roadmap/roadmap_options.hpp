@@ -62,7 +62,8 @@ struct LatticeSize {
 struct GrowingAttach {
   std::optional<double> radius = {};  ///< the first, > 0; none: the rule's radius, or as far as its k nearest
   std::optional<double> step = {};    ///< > 0; none: half of the first radius
-  std::uint32_t tries = 10;           ///< >= 1
+  std::uint32_t tries = 10;           ///< 1 .. 10,000
+  friend bool operator==(const GrowingAttach&, const GrowingAttach&) = default;
 };
 
 /// validate() refuses values outside the stated ranges with InputError.

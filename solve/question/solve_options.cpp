@@ -47,7 +47,7 @@ void SolveOptions::validate() const {
   if (roadmap.attach) {
     check_positive(Option::attach, roadmap.attach->radius);
     check_positive(Option::attach, roadmap.attach->step);
-    check_count(Option::attach, roadmap.attach->tries, 1, std::numeric_limits<std::uint32_t>::max());
+    check_count(Option::attach, roadmap.attach->tries, 1, 10'000);
   }
   check_positive(Option::step, trees.step);
   check_range(Option::goal_bias, trees.goal_bias, 0.0, 1.0);

@@ -2,10 +2,13 @@
 // Builds and opens the roadmaps of one body (sampled_solve.hpp says what a Body is), for questions that come later.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <type_traits>
@@ -85,6 +88,35 @@ Box swept_box(const W& world, const typename W::State& from, const typename W::S
   box.include(Vec2{from.x, from.y});
   box.include(Vec2{to.x, to.y});
   return box.grown(0.5 * world.distance(from, to) + reach);
+}
+
+/// A file may say anything of its states; nobody draws one far from the world or beyond the joints' limits, and motions
+/// over there would not end. Throws InputError, Stopped.
+template <World W>
+void check_drawn(const W& world, const SolveRequest& request, const Problem& problem, std::span<const double> numbers) {
+  constexpr unsigned width = state_width<typename W::State>();
+  std::array<double, width> low;
+  std::array<double, width> high;
+  if constexpr (width == 6) {
+    for (std::size_t j = 0; j < width; ++j) {
+      low[j] = world.chain().low(j);
+      high[j] = world.chain().high(j);
+    }
+  } else {
+    constexpr double turn = 2.0 * std::numbers::pi;
+    Box box = obstacle_box(request.scene, request.execution);
+    if (request.scene.bounds) box.include(*request.scene.bounds);
+    box = box.grown(box.width() + box.height() + reach_of(problem));
+    const std::array<double, 3> lows{box.min.x, box.min.y, -turn};
+    const std::array<double, 3> highs{box.max.x, box.max.y, turn};
+    std::copy_n(lows.begin(), width, low.begin());
+    std::copy_n(highs.begin(), width, high.begin());
+  }
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    poll(i, request.execution);
+    if (low[i % width] <= numbers[i] && numbers[i] <= high[i % width]) continue;
+    throw InputError("roadmap", fmt::format("its state {} is none that the body can have", i / width));
+  }
 }
 
 /// Motions of an old roadmap that keep clear of all that has changed since.
@@ -196,8 +228,13 @@ std::unique_ptr<RoadmapSession> open_sampled(const SolveRequest& request, const 
     throw InputError("roadmap", "its states are none of the body that it says it is for");
   }
   const Body body(request);
+  const RoadmapOptions options = detail::roadmap_options_of(request, body);
   auto session = std::make_unique<SessionIn<World>>();
-  body.index(session->world, detail::roadmap_options_of(request, body).sampler);
+  body.index(session->world, options.sampler);
+  if (!(connection_rule_for(*session->world, options, request.samples) == rule)) {
+    throw InputError("roadmap", "its rule is not the one that follows from its options");
+  }
+  detail::check_drawn(*session->world, request, body.problem(), arrays.states);
   if (request.many && Body::judged_by_index && !request.scene.map)
     session->judged.emplace(request.scene, request.execution);
   const std::span<const double> numbers(arrays.states);
