@@ -6,10 +6,12 @@
 //
 // Any number of threads may ask at once, each with a scratch of its own; what they learn is the same whatever their
 // order. Cost: two neighbour queries and one search; nothing is copied, but where large roadmaps are stringy
-// (is_stringy) or are searched blindly: then the free edges are.
+// (is_stringy) or are searched blindly: then the free edges are. Where
+// the roadmap has an index (planners/contraction), that is asked instead of searching, for the same path.
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -18,6 +20,7 @@
 #include "core/base/solution.hpp"
 #include "core/base/world.hpp"
 #include "parallel/components.hpp"
+#include "planners/contraction/hierarchy_query.hpp"
 #include "planners/roadmap/asked_neighbours.hpp"
 #include "planners/roadmap/asked_roadmap.hpp"
 #include "planners/roadmap/plan_in_rounds.hpp"
@@ -31,6 +34,9 @@ namespace warren {
 /// What one thread asks with: kept from one question to the next, it costs what a question touches.
 struct AskScratch {
   std::array<SearchState, 2> states;
+  HierarchyScratch hierarchy;
+  bool by_hierarchy = true;      ///< where the roadmap has one; false: by a search
+  bool tells_separation = true;  ///< where there is no path: how far apart are the parts? Takes a pass over the roadmap
 };
 
 namespace detail {
@@ -59,7 +65,7 @@ class Ask {
       execution_.check();
       attach_ends();
       search();
-      if (solution_.outcome == Outcome::not_connected) tell_separation();
+      if (solution_.outcome == Outcome::not_connected && tells_separation()) tell_separation();
       if (keep != nullptr) *keep = kept();
     } catch (const Stopped& stopped) {
       mark_stopped(solution_, stopped);
@@ -72,6 +78,8 @@ class Ask {
   VertexId start_vertex() const { return static_cast<VertexId>(roadmap_.states().size()); }
   VertexId goal_vertex() const { return start_vertex() + 1; }
   std::size_t vertex_count() const { return roadmap_.states().size() + 2; }
+  /// Of a lazy roadmap it is learnt on the way.
+  bool tells_separation() const { return scratch_.tells_separation || roadmap_.is_lazy(); }
   bool blind() const { return options_.search == SearchKind::bfs || options_.search == SearchKind::dfs; }
   AskedNeighbours<W> neighbours(std::vector<Edge>* used) const {
     return {roadmap_, ends_, end_edges_, used, execution_};
@@ -92,6 +100,7 @@ class Ask {
   SearchResult search_plainly(VertexId from, VertexId to, SearchState& state);
   SearchResult search_both_ends();
   SearchResult search_copy();
+  SearchResult search_hierarchy();
   std::optional<bool> known_to_be_joined();
   void learn_around_ends();
   void tell_separation();
@@ -187,7 +196,9 @@ void Ask<W>::search() {
   const StageTimer timer(execution_, "search", solution_.seconds.search);
   const bool large = !one_way && vertex_count() >= fewest_for_both_ends;
   SearchResult found;
-  if (blind() || (large && roadmap_.is_stringy())) {
+  if (roadmap_.hierarchy() != nullptr && scratch_.by_hierarchy) {
+    found = search_hierarchy();
+  } else if (blind() || (large && roadmap_.is_stringy())) {
     found = search_copy();
   } else if (large) {
     found = search_both_ends();
@@ -252,6 +263,33 @@ SearchResult Ask<W>::search_copy() {
                             .tree = keep_ ? &tree_ : nullptr};
   if (const auto reduced = reduced_for_search(graph, asked)) return search_roadmap(*reduced, asked);
   return search_roadmap(graph, asked);
+}
+
+/// By the index: start and goal are two vertices more, which no way passes between its ends.
+template <World W>
+SearchResult Ask<W>::search_hierarchy() {
+  const AskedNeighbours<W> places = neighbours(nullptr);
+  std::array<std::vector<HierarchyEnd>, 2> ends;
+  double direct = std::numeric_limits<double>::infinity();
+  for (const Edge& e : end_edges_) {
+    const double length = places.distance(e.from, e.to);
+    if (e.from == start_vertex()) {
+      direct = length;
+    } else {
+      ends[e.to - start_vertex()].push_back({e.from, length});
+    }
+  }
+  HierarchyQuery query(*roadmap_.hierarchy(), scratch_.hierarchy, execution_);
+  SearchResult found;
+  if (query.search(ends[0], ends[1], direct)) {
+    found.path = query.path();
+    found.path.insert(found.path.begin(), start_vertex());
+    found.path.push_back(goal_vertex());
+  } else if (direct < std::numeric_limits<double>::infinity()) {
+    found.path = {start_vertex(), goal_vertex()};
+  }
+  found.expanded = query.settled();
+  return found;
 }
 
 /// The free edges, those of start and goal among them; all of them are asked about first where they lead one way.

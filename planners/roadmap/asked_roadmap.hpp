@@ -9,12 +9,13 @@
 #include "core/base/world.hpp"
 #include "parallel/components.hpp"
 #include "parallel/shared_edge_states.hpp"
+#include "planners/contraction/hierarchy.hpp"
 #include "planners/roadmap/build_roadmap.hpp"
 #include "planners/roadmap/roadmap_search.hpp"
 
 namespace warren {
 
-/// A roadmap ready to be asked. Refers to the world.
+/// A roadmap ready to be asked. Refers to the world, and to the hierarchy where it has one.
 template <World W>
 class AskedRoadmap {
  public:
@@ -22,13 +23,14 @@ class AskedRoadmap {
 
   /// lazy: the roadmap is lazy_prm's, whose searches run so. Throws Stopped.
   AskedRoadmap(const W& world, RawVector<State> states, Graph candidates, std::span<const std::uint64_t> edge_states,
-               const ConnectionRule& rule, bool lazy, const Execution& execution)
+               const ConnectionRule& rule, bool lazy, const Execution& execution, const Hierarchy* hierarchy = nullptr)
       : world_(world),
         states_(std::move(states)),
         candidates_(std::move(candidates)),
         known_(edge_states),
         rule_(rule),
         lazy_(lazy),
+        hierarchy_(hierarchy),
         index_(index_of_states(world, std::span<const State>(states_), execution)) {
     if (lazy_) return;
     const Graph free = free_part(candidates_, edge_states, execution);
@@ -50,6 +52,8 @@ class AskedRoadmap {
   bool is_stringy() const { return stringy_; }
   std::uint64_t free_edges() const { return free_edges_; }
   const Components& component_labels() const { return components_; }
+  /// Of the free edges; nullptr: there is none.
+  const Hierarchy* hierarchy() const { return hierarchy_; }
   const W& world() const { return world_; }
   const StateIndex<W>& index() const { return index_; }
   const ConnectionRule& rule() const { return rule_; }
@@ -62,6 +66,7 @@ class AskedRoadmap {
   SharedEdgeStates known_;
   ConnectionRule rule_;
   bool lazy_;
+  const Hierarchy* hierarchy_;
   StateIndex<W> index_;
   bool stringy_ = false;
   std::uint64_t free_edges_ = 0;

@@ -100,4 +100,21 @@ Graph free_part(const Graph& candidates, std::span<const std::uint64_t> edge_sta
   return {std::move(offsets), std::move(targets)};
 }
 
+Graph free_part_with_lengths(const Graph& candidates, std::span<const std::uint64_t> edge_states,
+                             const VertexDistance& length, const Execution& execution) {
+  const Graph free = free_part(candidates, edge_states, execution);
+  execution.reserve(free.bytes() + free.targets().size() * sizeof(double));
+  RawVector<double> lengths(free.targets().size());
+  for_chunks(free.vertex_count(), polled_vertices, execution, [&](Range r) {
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      const auto v = static_cast<VertexId>(i);
+      std::size_t end = free.first_end(v);
+      for (const VertexId w : free.neighbours(v)) lengths[end++] = length(std::min(v, w), std::max(v, w));
+    }
+  });
+  return {{free.offsets().begin(), free.offsets().end()},
+          {free.targets().begin(), free.targets().end()},
+          std::move(lengths)};
+}
+
 }  // namespace warren

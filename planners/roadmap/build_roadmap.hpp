@@ -21,6 +21,7 @@
 #include "planners/roadmap/one_way_candidates.hpp"
 #include "planners/roadmap/roadmap_growth.hpp"
 #include "planners/roadmap/roadmap_options.hpp"
+#include "planners/roadmap/roadmap_search.hpp"
 
 namespace warren {
 
@@ -47,6 +48,10 @@ RawVector<std::uint64_t> unchecked_edges(const Graph& candidates);
 Graph one_way_graph(std::size_t vertex_count, const EdgeParts& edges, const Execution& execution);
 /// The edges of a graph that are free.
 Graph free_part(const Graph& candidates, std::span<const std::uint64_t> edge_states, const Execution& execution);
+
+/// The same with the lengths of the edges.
+Graph free_part_with_lengths(const Graph& candidates, std::span<const std::uint64_t> edge_states,
+                             const VertexDistance& length, const Execution& execution);
 
 /// Of a graph whose edges lead from a row to its targets: what `from` reaches has its label, and what reaches `to` has
 /// that of `to`.

@@ -111,6 +111,7 @@ BatchAccount ask_batch(const RoadmapQuery& query, const InputFile& questions, co
   if (!options.lengths_only) query.prepare_paths(execution);
   std::vector<BatchQuestion> some;
   std::vector<QuestionScratch> scratch(thread_count(execution.threads));
+  for (QuestionScratch& one : scratch) one.search.tells_separation = false;  // which no line has
   while (reader.next(options.lengths_only ? length_block : path_block, some)) {
     const std::size_t share = (some.size() + scratch.size() - 1) / scratch.size();
     std::vector<AnsweredChunk> chunks(chunk_count(some.size(), share));

@@ -179,8 +179,9 @@ Roadmap build_within(Scene scene, const Question& question, const SolveOptions& 
     return roadmap;
   }
   const PlannedScene planned(world, asked, solver.planner, execution);
-  BuiltArrays built =
-      solver.kind->build({roadmap.options, planned.get(), asked, solver.planner, execution, nullptr, {}, old});
+  SolveRequest request{roadmap.options, planned.get(), asked, solver.planner, execution, nullptr, {}, old};
+  request.index = index == IndexChoice::where_it_pays;
+  BuiltArrays built = solver.kind->build(request);
   roadmap.samples = built.samples;
   roadmap.rule = built.rule;
   roadmap.arrays = std::move(built.arrays);

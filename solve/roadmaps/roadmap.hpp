@@ -12,6 +12,7 @@
 #include "core/base/counters.hpp"
 #include "core/base/raw_vector.hpp"
 #include "core/search/graph.hpp"
+#include "planners/contraction/hierarchy.hpp"
 #include "planners/roadmap/roadmap_growth.hpp"
 #include "planners/route_index/route_index.hpp"
 #include "roadmaps/file/roadmap_file.hpp"
@@ -32,6 +33,7 @@ struct RoadmapArrays {
   Graph candidates;
   RawVector<std::uint64_t> edge_states;
   RawVector<VertexId> component;
+  Hierarchy hierarchy;  ///< of the free edges; empty: there is none
 
   RoadmapParts parts() const {
     return {dimension, directed, states, candidates.offsets(), candidates.targets(), edge_states, component};

@@ -22,7 +22,9 @@ namespace {
 
 constexpr std::array graph_section_names{std::string_view("meta"),       std::string_view("states"),
                                          std::string_view("edge.first"), std::string_view("edge.to"),
-                                         std::string_view("edge.state"), std::string_view("component")};
+                                         std::string_view("edge.state"), std::string_view("component"),
+                                         std::string_view("up.first"),   std::string_view("up.to"),
+                                         std::string_view("up.middle"),  std::string_view("up.length")};
 constexpr std::size_t longest_meta = std::size_t{1} << 20;
 
 std::uint64_t hash_number(std::string_view digits) {
@@ -61,6 +63,17 @@ RoadmapParts checked_parts(const RoadmapFile& file, const Roadmap& roadmap, cons
   return parts;
 }
 
+/// Empty where the file has none; what it has must be whole.
+Hierarchy read_hierarchy(const RoadmapFile& file, std::size_t vertex_count, const Execution& execution) {
+  if (file.find("up.first") == nullptr) return {};
+  Hierarchy hierarchy{.first = copied(file.section<EdgeEnd>("up.first", execution), execution),
+                      .to = copied(file.section<VertexId>("up.to", execution), execution),
+                      .middle = copied(file.section<VertexId>("up.middle", execution), execution),
+                      .length = copied(file.section<double>("up.length", execution), execution)};
+  check_hierarchy(hierarchy, vertex_count, file.name(), execution);
+  return hierarchy;
+}
+
 RoadmapArrays read_arrays(const RoadmapFile& file, const Roadmap& roadmap, const Execution& execution) {
   const RoadmapParts parts = checked_parts(file, roadmap, execution);
   RoadmapArrays arrays;
@@ -70,6 +83,7 @@ RoadmapArrays read_arrays(const RoadmapFile& file, const Roadmap& roadmap, const
   arrays.candidates = Graph(copied(parts.first, execution), copied(parts.to, execution));
   arrays.edge_states = copied(parts.edge_states, execution);
   arrays.component = copied(parts.component, execution);
+  arrays.hierarchy = read_hierarchy(file, parts.vertex_count(), execution);
   return arrays;
 }
 
@@ -113,6 +127,17 @@ KeptWorld world_inside(const RoadmapFile& file, const Roadmap& roadmap, const Ex
   };
   if (lattice == nullptr) return KeptWorld(make(execution));
   return {std::move(outline), std::move(make)};
+}
+
+void append_hierarchy(const Hierarchy& hierarchy, std::vector<RoadmapSection>& sections) {
+  if (hierarchy.empty()) return;
+  const auto add = [&]<class T>(std::string_view name, const RawVector<T>& numbers) {
+    sections.push_back(roadmap_section(name, std::span<const T>(numbers), true));
+  };
+  add("up.first", hierarchy.first);
+  add("up.to", hierarchy.to);
+  add("up.middle", hierarchy.middle);
+  add("up.length", hierarchy.length);
 }
 
 void append_graph(const RoadmapParts& parts, std::vector<RoadmapSection>& sections) {
@@ -176,6 +201,7 @@ void write_roadmap(const Roadmap& roadmap, OutputFile& file, const std::string& 
   std::vector<RoadmapSection> sections{roadmap_section("meta", std::span<const char>(meta))};
   if (world) world->append_to(sections);
   roadmap.lattice != nullptr ? append_lattice_sections(*roadmap.lattice, sections) : append_graph(parts, sections);
+  append_hierarchy(roadmap.arrays.hierarchy, sections);
   const RoadmapFileHeader header{.world_hash = hash_number(roadmap.world_hash),
                                  .recipe_hash = hash_of(recipe_json(roadmap, execution)),
                                  .writer = "warren " WARREN_VERSION};
@@ -187,7 +213,7 @@ void check_roadmap(const RoadmapFile& file, const Execution& execution) {
   if (has_lattice(file)) {
     check_lattice(file, *read_lattice(file, lattice_of(file, execution), execution), execution);
   } else {
-    checked_parts(file, roadmap, execution);
+    read_hierarchy(file, checked_parts(file, roadmap, execution).vertex_count(), execution);
   }
 }
 

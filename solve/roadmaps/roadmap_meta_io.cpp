@@ -203,6 +203,9 @@ std::string meta_json(const Roadmap& roadmap, const Execution& execution) {
   object.add("directed", roadmap.arrays.directed);
   object.add("states", count_states(roadmap));
   object.add_json("edges", counts.closed());
+  object.add("index", roadmap.lattice != nullptr         ? std::string_view("route")
+                      : roadmap.arrays.hierarchy.empty() ? std::string_view("none")
+                                                         : std::string_view("contraction"));
   if (roadmap.lattice != nullptr) {
     const LatticeSize size = roadmap.lattice->passages().size();
     object.add_json("lattice", json_list(std::span<const std::uint32_t>(std::array{size.rows, size.cols})));

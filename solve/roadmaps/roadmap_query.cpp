@@ -122,6 +122,7 @@ Answer RoadmapQuery::ask_within(const std::vector<double>& start, const std::vec
   const Scene& scene = roadmap_.world.whole(execution);
   const ChosenSolver solver = choose_solver(options, scene, question);
   Answer answer;
+  scratch.search.by_hierarchy = !how.search && !how.queue;
   try {
     answer = solver.kind->solve({options,
                                  opened_->planned.get(),
@@ -136,6 +137,10 @@ Answer RoadmapQuery::ask_within(const std::vector<double>& start, const std::vec
     answer.stop_reason = StopReason::memory;
   } catch (const RefutedPathError& error) {
     refuse_roadmap(roadmap_, error);
+  }
+  if (scratch.search.by_hierarchy && !roadmap_.arrays.hierarchy.empty()) {
+    answer.search.clear();
+    answer.figures.push_back({"index", std::string("contraction")});
   }
   answer.world = account_of(scene, roadmap_.world_hash);
   return finished(std::move(answer), execution);
@@ -187,6 +192,7 @@ LengthAnswer RoadmapQuery::length_within(const std::vector<double>& start, const
                                          const RoadmapSearchFields& how, const Execution& execution,
                                          QuestionScratch& scratch) const {
   if (roadmap_.lattice == nullptr || how.optimise) {
+    scratch.search.tells_separation = false;
     const Answer answer = ask_within(start, goal, how, execution, scratch);
     if (answer.outcome == Outcome::stopped) throw Stopped(answer.stop_reason.value_or(StopReason::time));
     return {answer.outcome, answer.length};

@@ -53,6 +53,7 @@ struct SolveRequest {
   const OldRoadmap* old = nullptr;  ///< what a build may take over
   bool many = true;                 ///< open(): will there be more than one question?
   std::uint64_t samples = 0;        ///< open(): of the roadmap's last round
+  bool index = false;               ///< build(): make an index where it pays
 };
 
 /// What SolveKind::build leaves behind.

@@ -18,6 +18,7 @@
 #include "core/base/error.hpp"
 #include "core/base/trigonometry.hpp"
 #include "parallel/polled_sort.hpp"
+#include "planners/contraction/contraction.hpp"
 #include "planners/roadmap/build_roadmap.hpp"
 #include "solve/question/planner_choice.hpp"
 #include "solve/roadmaps/changed_places.hpp"
@@ -178,6 +179,22 @@ KnownMotions<typename W::State> known_motions(const W& world, const SolveRequest
   }
 }
 
+/// Roadmaps below are searched in less time than a person notices.
+inline constexpr std::size_t fewest_contracted_states = 65'536;
+
+/// The index of a roadmap whose edges lead both ways and are all known, where that pays. Places in a pattern make ways
+/// of one length, of which an index would take another than a search.
+template <World W>
+Hierarchy hierarchy_of(const W& world, const BuiltRoadmap<typename W::State>& built, SamplerKind sampler,
+                       const Execution& execution) {
+  const bool in_pattern = takes_all_places(sampler) || sampler == SamplerKind::halton;
+  if constexpr (edge_directions<W>() == EdgeDirections::one) return {};
+  if (in_pattern || built.states.size() < fewest_contracted_states) return {};
+  const auto length = [&](VertexId v, VertexId w) { return world.distance(built.states[v], built.states[w]); };
+  const Graph free = free_part_with_lengths(built.candidates, built.edge_states, VertexDistance(length), execution);
+  return contract(free, execution).value_or(Hierarchy{});
+}
+
 }  // namespace detail
 
 /// SolveKind::build for a body.
@@ -204,6 +221,10 @@ BuiltArrays build_sampled(const SolveRequest& request) {
   all.account.seconds = built.seconds;
   all.account.seconds.index = index_s;
   RoadmapArrays& arrays = all.arrays;
+  if (request.index && !lazy) {
+    const StageTimer timer(execution, "contract", all.account.seconds.index, built.states.size());
+    arrays.hierarchy = detail::hierarchy_of(*world, built, options.sampler, execution);
+  }
   arrays.dimension = detail::state_width<State>();
   arrays.directed = edge_directions<World>() == EdgeDirections::one;
   execution.reserve(built.states.size() * arrays.dimension * sizeof(double));
@@ -217,7 +238,7 @@ BuiltArrays build_sampled(const SolveRequest& request) {
   return all;
 }
 
-/// SolveKind::open for a body.
+/// SolveKind::open for a body. Refers to the arrays where they have an index.
 template <class Body>
 std::unique_ptr<RoadmapSession> open_sampled(const SolveRequest& request, const RoadmapArrays& arrays,
                                              const ConnectionRule& rule) {
@@ -245,8 +266,10 @@ std::unique_ptr<RoadmapSession> open_sampled(const SolveRequest& request, const 
     detail::poll(i / width, request.execution);
     states.push_back(detail::state_of<State>(numbers.subspan(i, width)));
   }
-  session->roadmap.emplace(*session->world, std::move(states), arrays.candidates, arrays.edge_states, rule,
-                           request.planner == PlannerKind::lazy_prm, request.execution);
+  const bool lazy = request.planner == PlannerKind::lazy_prm;
+  const bool has_index = !arrays.hierarchy.empty() && !lazy && !arrays.directed;
+  session->roadmap.emplace(*session->world, std::move(states), arrays.candidates, arrays.edge_states, rule, lazy,
+                           request.execution, has_index ? &arrays.hierarchy : nullptr);
   return session;
 }
 

@@ -21,8 +21,7 @@ namespace {
 
 constexpr OptionSpec build_specs[] = {
     {"--output", "FILE", "where to: a name that ends in .roadmap, or any", {}, "-o"},
-    {"--index", "NAME", "of a large maze's lattice: answers without a search, where that pays (default: auto)",
-     "auto none"},
+    {"--index", "NAME", "of a large roadmap: answers without a search, where that pays (default: auto)", "auto none"},
     {"--no-world", "", "leave the world out of the file; who asks names it then"},
 };
 

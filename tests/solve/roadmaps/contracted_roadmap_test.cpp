@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Large sampled roadmaps are asked by their contraction hierarchy: the paths of the search, without it.
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <random>
+#include <string>
+
+#include "core/base/error.hpp"
+#include "roadmaps/file/write_roadmap_file.hpp"
+#include "scenes/formats/read_world_io.hpp"
+#include "solve/roadmaps/roadmap_file_io.hpp"
+#include "solve/roadmaps/roadmap_query.hpp"
+
+namespace warren {
+namespace {
+
+SolveOptions uniform(std::uint64_t samples) {
+  SolveOptions options{.sampler = SamplerKind::uniform};
+  options.roadmap.samples = samples;
+  return options;
+}
+
+const Roadmap& contracted() {
+  static const Roadmap roadmap = build(read_world("maze:90x90,loops=0.1"), {}, uniform(90'000));
+  return roadmap;
+}
+
+TEST(ContractedRoadmap, AnswersAsTheSearchDoes) {
+  ASSERT_FALSE(contracted().arrays.hierarchy.empty());
+  const RoadmapQuery query(contracted());
+  std::mt19937 random(3);
+  const auto place = [&] {
+    const auto number = [&] { return 0.5 + 0.001 * static_cast<double>(random() % 90'000); };
+    return std::vector<double>{number(), number()};
+  };
+  int solved = 0;
+  QuestionScratch scratch;
+  for (int i = 0; i < 60; ++i) {
+    SCOPED_TRACE(i);
+    const std::vector<double> start = place();
+    const std::vector<double> goal = i % 10 == 0 ? std::vector<double>{start[0] + 0.1, start[1]} : place();
+    const Answer expected = query.ask_within(start, goal, {.search = SearchMethod::astar}, {}, scratch);
+    const Answer answer = query.ask_within(start, goal, {}, {}, scratch);
+    EXPECT_EQ(answer.outcome, expected.outcome);
+    EXPECT_EQ(answer.path, expected.path);
+    EXPECT_EQ(answer.length, expected.length);
+    EXPECT_EQ(answer.verified, expected.verified);
+    const LengthAnswer length = query.length_within(start, goal, {}, {}, scratch);
+    EXPECT_EQ(length.outcome, expected.outcome);
+    EXPECT_EQ(length.length, expected.length);
+    if (!answer.verified) continue;
+    ++solved;
+    EXPECT_LE(answer.counters.expanded, expected.counters.expanded);
+  }
+  EXPECT_GT(solved, 30);
+}
+
+TEST(ContractedRoadmap, IsReadBackFromItsFile) {
+  const std::string file =
+      (std::filesystem::temp_directory_path() / ("warren_contracted_" + std::to_string(::getpid()))).string();
+  write_roadmap(contracted(), file);
+  const Roadmap read = read_roadmap(file);
+  const Hierarchy& expected = contracted().arrays.hierarchy;
+  EXPECT_EQ(read.arrays.hierarchy.first, expected.first);
+  EXPECT_EQ(read.arrays.hierarchy.to, expected.to);
+  EXPECT_EQ(read.arrays.hierarchy.middle, expected.middle);
+  EXPECT_EQ(read.arrays.hierarchy.length, expected.length);
+  {
+    const RoadmapFile open(file, {});
+    EXPECT_NE(roadmap_meta(open, {}).find("\"index\": \"contraction\""), std::string::npos);
+  }
+  Roadmap crafted = read_roadmap(file);
+  crafted.arrays.hierarchy.to.back() = 90'000;
+  write_roadmap(crafted, file);
+  EXPECT_THROW(read_roadmap(file), InputError);
+  std::filesystem::remove(file);
+}
+
+/// Edges that the roadmap has not: the judge says so, whatever the index does.
+TEST(ContractedRoadmap, AnIndexOfOtherEdgesIsRefusedByTheJudge) {
+  Roadmap crafted = build(read_world("maze:90x90,loops=0.1"), {}, uniform(90'000));
+  Hierarchy& index = crafted.arrays.hierarchy;
+  for (VertexId& middle : index.middle) middle = no_vertex;  // shortcuts pass for edges
+  const RoadmapQuery query(crafted);
+  EXPECT_THROW(query.ask({1.0, 1.0}, {90.0, 90.0}), InputError);
+}
+
+TEST(ContractedRoadmap, ThereIsNoneWhereItDoesNotPay) {
+  EXPECT_TRUE(build(read_world("maze:41x41"), {}, uniform(20'000)).arrays.hierarchy.empty());
+  EXPECT_TRUE(build(read_world("maze:90x90,loops=1"), {}, uniform(90'000)).arrays.hierarchy.empty());
+  EXPECT_TRUE(build(read_world("maze:90x90"), {}, uniform(90'000), {}, IndexChoice::none).arrays.hierarchy.empty());
+  SolveOptions lazy = uniform(90'000);
+  lazy.planner = PlannerKind::lazy_prm;
+  EXPECT_TRUE(build(read_world("maze:90x90"), {}, lazy).arrays.hierarchy.empty());
+}
+
+}  // namespace
+}  // namespace warren
