@@ -11,7 +11,6 @@
 #pragma once
 
 #include <array>
-#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -20,7 +19,7 @@
 #include "core/base/solution.hpp"
 #include "core/base/world.hpp"
 #include "parallel/components.hpp"
-#include "planners/contraction/hierarchy_query.hpp"
+#include "planners/contraction/hierarchy_route.hpp"
 #include "planners/roadmap/asked_neighbours.hpp"
 #include "planners/roadmap/asked_roadmap.hpp"
 #include "planners/roadmap/plan_in_rounds.hpp"
@@ -265,31 +264,12 @@ SearchResult Ask<W>::search_copy() {
   return search_roadmap(graph, asked);
 }
 
-/// By the index: start and goal are two vertices more, which no way passes between its ends.
 template <World W>
 SearchResult Ask<W>::search_hierarchy() {
   const AskedNeighbours<W> places = neighbours(nullptr);
-  std::array<std::vector<HierarchyEnd>, 2> ends;
-  double direct = std::numeric_limits<double>::infinity();
-  for (const Edge& e : end_edges_) {
-    const double length = places.distance(e.from, e.to);
-    if (e.from == start_vertex()) {
-      direct = length;
-    } else {
-      ends[e.to - start_vertex()].push_back({e.from, length});
-    }
-  }
-  HierarchyQuery query(*roadmap_.hierarchy(), scratch_.hierarchy, execution_);
-  SearchResult found;
-  if (query.search(ends[0], ends[1], direct)) {
-    found.path = query.path();
-    found.path.insert(found.path.begin(), start_vertex());
-    found.path.push_back(goal_vertex());
-  } else if (direct < std::numeric_limits<double>::infinity()) {
-    found.path = {start_vertex(), goal_vertex()};
-  }
-  found.expanded = query.settled();
-  return found;
+  std::vector<double> lengths;
+  for (const Edge& e : end_edges_) lengths.push_back(places.distance(e.from, e.to));
+  return route_by_hierarchy(*roadmap_.hierarchy(), end_edges_, lengths, scratch_.hierarchy, execution_);
 }
 
 /// The free edges, those of start and goal among them; all of them are asked about first where they lead one way.

@@ -196,7 +196,7 @@ std::string meta_json(const Roadmap& roadmap, const Execution& execution) {
   object.add("source", std::string_view(roadmap.world.outline().source));
   object.add("world_hash", std::string_view(roadmap.world_hash));
   add_recipe(object, roadmap, execution);
-  if (roadmap.index == IndexChoice::none) object.add("index", name_of(roadmap.index));
+  if (roadmap.index == IndexChoice::none) object.add("asked_index", name_of(roadmap.index));
   object.add_json("rule", rule_json(roadmap.rule));
   object.add("drawn", roadmap.samples);
   object.add("dimension", roadmap.arrays.dimension);
@@ -251,7 +251,7 @@ void read_meta(const std::string& where, std::string_view text, Roadmap& roadmap
   } catch (const UsageError& error) {
     throw InputError(where, error.what());
   }
-  if (meta.has("index")) roadmap.index = meta.named<IndexChoice>("index");
+  if (meta.has("asked_index")) roadmap.index = meta.named<IndexChoice>("asked_index");
   roadmap.rule = read_rule(meta.object("rule"));
   roadmap.samples = meta.whole("drawn");
   roadmap.arrays.dimension = meta.small("dimension");

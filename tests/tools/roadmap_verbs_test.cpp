@@ -261,8 +261,8 @@ TEST_F(RoadmapVerbs, AnUpdateTakesTheIndexThatABuildWouldTake) {
   const std::string indexed = built("indexed.roadmap", large);
   const std::string plain = built("plain.roadmap", large, {"--index", "none"});
   const std::string small = built("small.roadmap", "maze:9x9");
-  EXPECT_EQ(told({"info", plain})["index"], "none");
-  EXPECT_FALSE(told({"info", small}).contains("index"));
+  EXPECT_EQ(told({"info", plain})["asked_index"], "none");
+  EXPECT_FALSE(told({"info", small}).contains("asked_index"));
   const Json report = told({"update", small, large, "-o", path("u.roadmap"), "--report", "-"});
   EXPECT_TRUE(folder_.read("u.roadmap") == folder_.read("indexed.roadmap"));
   EXPECT_EQ(report["mode"], "built");
