@@ -2,7 +2,7 @@
 // A roadmap that is built once and asked often: a maze with 10 % loops, uniform milestones, questions between random
 // ones of them. All contestants have the same milestones and edges:
 //   warren, index        RoadmapQuery by the contraction hierarchy: attached, asked, verified
-//   warren, search       the same without the index
+//   warren, search       the whole question without the index
 //   Boost's A*           Boost.Graph's astar_search from milestone to milestone, over rows with their lengths; no
 //                        attaching, no verification
 //   OMPL's PRM           the milestones and edges handed to og::PRM; a question is clearQuery() and solve(), whose
@@ -10,7 +10,7 @@
 //                        thread polls every millisecond while the first one grows the roadmap further
 //   its A* alone         start and goal as milestones, constructSolution(), as solve() does once
 //   overlay search       prm by tiles (planners/tiled), which keeps nothing and builds its overlay for each question
-// Wall-clock time on as many threads as each takes. Lengths are compared with Boost's; OMPL joins start and goal to
+// CPU time of the process, all threads of it. Lengths are compared with Boost's; OMPL joins start and goal to
 // more.
 //   rival_kept_roadmap [SIDE [SAMPLES [QUESTIONS]]]
 #include <ompl/util/Console.h>
@@ -168,10 +168,10 @@ class GivenPrm : public ompl::geometric::PRM {
   std::vector<Vertex> near_;
 };
 
-double seconds_of(const std::function<void()>& work) {
+CpuWall seconds_of(const std::function<void()>& work) {
   const Stopwatch watch;
   work();
-  return watch.read().wall_s;
+  return watch.read();
 }
 
 /// Microseconds a question: median and the slowest of a hundred; how many lengths are Boost's.
@@ -182,7 +182,7 @@ void tell(const char* name, const std::vector<Asked>& questions, const std::vect
   int shorter = 0;
   for (std::size_t i = 0; i < questions.size(); ++i) {
     double length = 0.0;
-    times.push_back(1e6 * seconds_of([&] { length = ask(questions[i]); }));
+    times.push_back(1e6 * seconds_of([&] { length = ask(questions[i]); }).cpu_s);
     same += std::abs(length - lengths[i]) <= 1e-9 * lengths[i] ? 1 : 0;
     shorter += length < lengths[i] * (1.0 - 1e-9) ? 1 : 0;
   }
@@ -200,8 +200,8 @@ void compare(std::uint32_t side, std::uint64_t samples, int count) {
   Roadmap plain;
   Roadmap roadmap;
   const auto built = [&](IndexChoice index) { return build(maze_scene(maze, false, {}), {}, options, {}, index); };
-  std::printf("build            %8.2f s\n", seconds_of([&] { plain = built(IndexChoice::none); }));
-  const double with_index = seconds_of([&] { roadmap = built(IndexChoice::where_it_pays); });
+  std::printf("build            %8.2f s\n", seconds_of([&] { plain = built(IndexChoice::none); }).cpu_s);
+  const double with_index = seconds_of([&] { roadmap = built(IndexChoice::where_it_pays); }).cpu_s;
   std::printf("build, index     %8.2f s, %zu edges, %zu arcs\n", with_index,
               static_cast<std::size_t>(count_edges(roadmap, {}).free), roadmap.arrays.hierarchy.to.size());
   const MazeWorld world(roadmap.scene, clearance, {});
@@ -231,7 +231,7 @@ void compare(std::uint32_t side, std::uint64_t samples, int count) {
   std::unique_ptr<GivenPrm> ompl_side;
   const auto space = ompl_prm::make_space(world);
   std::printf("OMPL's milestones %7.2f s\n",
-              seconds_of([&] { ompl_side = std::make_unique<GivenPrm>(space, roadmap); }));
+              seconds_of([&] { ompl_side = std::make_unique<GivenPrm>(space, roadmap); }).cpu_s);
   tell("its A* alone", few, lengths, [&](const Asked& asked) { return ompl_side->search_alone(asked); });
   tell("OMPL's PRM", few, lengths, [&](const Asked& asked) { return ompl_side->solve_after_clear(asked); });
 }
