@@ -17,6 +17,8 @@ SolveOptions options_of_roadmap(const SolveOptions& options, PlannerKind planner
   kept.search.reset();
   kept.queue.reset();
   kept.optimise = false;
+  kept.car.cusp_cost.reset();
+  kept.car.reverse_cost.reset();
   return kept;
 }
 
@@ -41,7 +43,7 @@ Answer solve_and_keep(Scene scene, const Question& question, const SolveOptions&
                       Roadmap& roadmap, ByProducts* keep) {
   SolveOptions built_by = options_of_roadmap(options, choose_solver(options, scene, question).planner);
   check_buildable(scene, question, built_by);
-  const bool by_question = grows(built_by, scene, robot_of(scene, question));
+  const bool by_question = is_roadmap_planner(*built_by.planner) && grows(built_by, scene, robot_of(scene, question));
   Answer solved;
   if (by_question) {
     solved = solve_within(scene, question, options, execution, keep);
@@ -52,8 +54,12 @@ Answer solve_and_keep(Scene scene, const Question& question, const SolveOptions&
   roadmap = build_within(std::move(scene), question, built_by, execution, IndexChoice::where_it_pays, &account);
   if (by_question && built_by.planner != PlannerKind::lazy_prm) return solved;
   const RoadmapQuery query(roadmap, execution, Questions::one);
-  const RoadmapSearchFields how{
-      .search = options.search, .queue = options.queue, .attach = {}, .optimise = options.optimise};
+  RoadmapSearchFields how{.search = options.search,
+                          .queue = options.queue,
+                          .optimise = options.optimise,
+                          .cusp_cost = options.car.cusp_cost,
+                          .reverse_cost = options.car.reverse_cost};
+  if (!roadmap.arrays.hierarchy.empty() && !how.search) how.search = SearchMethod::astar;  // as solve searches
   QuestionScratch scratch;
   Answer asked = query.ask_within(question.start, question.goal, how, execution, scratch, by_question ? nullptr : keep);
   if (asked.outcome == Outcome::stopped) return asked;

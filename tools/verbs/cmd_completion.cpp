@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // warren completion bash|zsh|fish: what a shell needs to complete our words, made from the table of commands.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <set>
 
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/terminal.hpp"
@@ -22,13 +25,11 @@ std::string for_shell(std::string_view text) {  // inside single quotes of a she
 std::string operand_words(const Command& command) {
   if (command.name == "completion") return "bash zsh fish";
   if (command.name != "example") return {};
-  std::string words;
+  std::set<std::string_view> names;  // of worlds, which may have several files
   for (const ExampleFile& file : example_files()) {
-    const std::string_view name = file.name.substr(0, file.name.find('.'));
-    if (file.name == "README.md" || words.find(name) != std::string::npos) continue;
-    words.append(words.empty() ? "" : " ").append(name);
+    if (file.name != "README.md") names.insert(file.name.substr(0, file.name.find('.')));
   }
-  return words;
+  return fmt::format("{}", fmt::join(names, " "));
 }
 
 std::string bash_completion() {

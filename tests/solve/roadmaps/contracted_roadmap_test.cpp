@@ -19,14 +19,14 @@
 namespace warren {
 namespace {
 
-SolveOptions uniform(std::uint64_t samples) {
+SolveOptions uniform_samples(std::uint64_t samples) {
   SolveOptions options{.sampler = SamplerKind::uniform};
   options.roadmap.samples = samples;
   return options;
 }
 
 const Roadmap& contracted() {
-  static const Roadmap roadmap = build(read_world("maze:90x90,loops=0.1"), {}, uniform(90'000));
+  static const Roadmap roadmap = build(read_world("maze:90x90,loops=0.1"), {}, uniform_samples(90'000));
   return roadmap;
 }
 
@@ -92,22 +92,23 @@ TEST(ContractedRoadmap, IsReadBackFromItsFileAndCraftedOnesAreRefused) {
 }
 
 TEST(ContractedRoadmap, IsMadeAnewByAnUpdateAsByABuild) {
-  Scene now = contracted().scene;
+  Scene now = contracted().world.outline();
   std::vector<Segment> walls;
   for (std::size_t i = 1; i < now.walls.size(); ++i) walls.push_back(now.walls.segment(i));
   now.walls = WallSet::narrowest(walls);
   const Roadmap updated = update(contracted(), now, {});
-  const Roadmap expected = build(now, {}, uniform(90'000));
+  const Roadmap expected = build(now, {}, uniform_samples(90'000));
   EXPECT_FALSE(updated.arrays.hierarchy.empty());
   EXPECT_EQ(updated.arrays.hierarchy.to, expected.arrays.hierarchy.to);
   EXPECT_EQ(updated.arrays.hierarchy.length, expected.arrays.hierarchy.length);
 }
 
 TEST(ContractedRoadmap, ThereIsNoneWhereItDoesNotPay) {
-  EXPECT_TRUE(build(read_world("maze:41x41"), {}, uniform(20'000)).arrays.hierarchy.empty());
-  EXPECT_TRUE(build(read_world("maze:90x90,loops=1"), {}, uniform(90'000)).arrays.hierarchy.empty());
-  EXPECT_TRUE(build(read_world("maze:90x90"), {}, uniform(90'000), {}, IndexChoice::none).arrays.hierarchy.empty());
-  SolveOptions lazy = uniform(90'000);
+  EXPECT_TRUE(build(read_world("maze:41x41"), {}, uniform_samples(20'000)).arrays.hierarchy.empty());
+  EXPECT_TRUE(build(read_world("maze:90x90,loops=1"), {}, uniform_samples(90'000)).arrays.hierarchy.empty());
+  EXPECT_TRUE(
+      build(read_world("maze:90x90"), {}, uniform_samples(90'000), {}, IndexChoice::none).arrays.hierarchy.empty());
+  SolveOptions lazy = uniform_samples(90'000);
   lazy.planner = PlannerKind::lazy_prm;
   EXPECT_TRUE(build(read_world("maze:90x90"), {}, lazy).arrays.hierarchy.empty());
 }

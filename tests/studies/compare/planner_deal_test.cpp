@@ -85,7 +85,7 @@ TEST(PlannerDeal, EveryOptionReachesThePlannersThatTakeIt) {
   all.cells.doors = DoorKind::funnel;
   all.axis.objective = AxisObjective::clearance;
   all.visibility = {.full = true, .sampled_edges = 0.1};
-  all.car = {.steering = SteeringKind::dubins, .turning_radius = 2.0};
+  all.car = {.steering = SteeringKind::dubins, .turning_radius = 2.0, .cusp_cost = 1.0, .reverse_cost = 2.0};
   const PlannerDeal deal{.planners = {std::begin(all_planners), std::end(all_planners)}, .common = all};
   OptionSet reached;
   for (const SolveOptions& contender : deal_planners(deal)) {
