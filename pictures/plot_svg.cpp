@@ -12,8 +12,8 @@
 namespace warren {
 namespace {
 
-constexpr double width = 760.0;
-constexpr double height = 420.0;
+constexpr double width = plot_size.x;
+constexpr double height = plot_size.y;
 constexpr Box widest_frame{{76.0, 40.0}, {540.0, 362.0}};  // of the data, y down
 constexpr double narrowest = 300.0;
 constexpr double legend_indent = 52.0;  // from the frame to the end of a name, letters apart
@@ -141,6 +141,9 @@ Axis PlotDrawing::axis(bool of_x) const {
   };
   for (const PlotSeries& s : plot_.series) {
     for (const Vec2 p : s.points) include(of_x ? p.x : p.y);
+    for (const Vec2 span : s.spans) {
+      if (!of_x) include(span.x), include(span.y);
+    }
   }
   if (!of_x && plot_.level) include(*plot_.level);
   if (low > high) low = high = 1.0;
@@ -191,9 +194,13 @@ void PlotDrawing::series(std::size_t i) {
   const PlotSeries& series = plot_.series[i];
   std::string path;
   std::string marks;
-  for (const Vec2 p : series.points) {
+  for (std::size_t k = 0; k < series.points.size(); ++k) {
+    const Vec2 p = series.points[k];
     if (!shows(p)) continue;
     const double x = place_x(p.x);
+    if (k < series.spans.size()) {
+      line(x, place_y(series.spans[k].x), x, place_y(series.spans[k].y), fmt::format("stroke=\"{}\"", color(i)));
+    }
     const double y = place_y(p.y);
     fmt::format_to(std::back_inserter(path), "{}{:.1f} {:.1f}", path.empty() ? 'M' : 'L', x, y);
     fmt::format_to(std::back_inserter(marks), "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\"/>", x, y);
@@ -226,17 +233,23 @@ void PlotDrawing::legend() {
 
 std::string plot_svg(const Plot& plot) { return PlotDrawing(plot).text(); }
 
-std::string plots_svg(std::span<const Plot> plots, std::size_t columns) {
-  const std::size_t rows = (plots.size() + columns - 1) / columns;
+std::string panels_svg(std::span<const std::string> panels, std::size_t columns) {
+  const std::size_t rows = (panels.size() + columns - 1) / columns;
   std::string text =
       fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\">\n",
-                  width * static_cast<double>(std::min(columns, plots.size())), height * static_cast<double>(rows));
-  for (std::size_t i = 0; i < plots.size(); ++i) {
+                  width * static_cast<double>(std::min(columns, panels.size())), height * static_cast<double>(rows));
+  for (std::size_t i = 0; i < panels.size(); ++i) {
     text += fmt::format("<g transform=\"translate({} {})\">\n", width * static_cast<double>(i % columns),
                         height * static_cast<double>(i / columns));
-    text += plot_svg(plots[i]) + "</g>\n";
+    text += panels[i] + "</g>\n";
   }
   return text + "</svg>\n";
+}
+
+std::string plots_svg(std::span<const Plot> plots, std::size_t columns) {
+  std::vector<std::string> panels;
+  for (const Plot& plot : plots) panels.push_back(plot_svg(plot));
+  return panels_svg(panels, columns);
 }
 
 std::string xml_text(std::string_view text) {

@@ -18,6 +18,7 @@ struct PlotSeries {
   std::vector<Vec2> points;  ///< in the order in which the line joins them; on a logarithmic axis only those > 0 show
   bool joined = true;        ///< by a line
   bool dashed = false;       ///< the line alone, without markers: what is expected, not measured
+  std::vector<Vec2> spans = {};  ///< of each point a low and a high y, which a bar joins; empty: no bars
 };
 
 struct Plot {
@@ -33,10 +34,13 @@ struct Plot {
   std::string level_name = {};
 };
 
-/// The element with its namespace, 760 x 420 units.
+inline constexpr Vec2 plot_size{760.0, 420.0};
+
+/// The element with its namespace, of that size.
 std::string plot_svg(const Plot& plot);
 
-/// Several, row by row, as one element.
+/// Elements of that size, row by row, as one element.
+std::string panels_svg(std::span<const std::string> panels, std::size_t columns);
 std::string plots_svg(std::span<const Plot> plots, std::size_t columns);
 
 /// Text for XML and HTML: & < > " escaped, control characters and bytes that are not ASCII replaced.

@@ -54,6 +54,11 @@ std::string counted(std::uint64_t count, std::string_view one, std::string_view 
   return fmt::format("{} {}", grouped(count), count == 1 ? one : many);
 }
 
-std::string human_number(double value) { return fmt::format("{:.6g}", value); }
+std::string human_number(double value) {
+  constexpr double most_plain = 1e15;  // beyond it a power of ten is easier to read
+  const std::string text = fmt::format("{:.6g}", value);
+  const bool has_power = text.find("e+") != std::string::npos;
+  return has_power && std::abs(value) < most_plain ? fmt::format("{:.0f}", value) : text;
+}
 
 }  // namespace warren

@@ -15,6 +15,6 @@ std::string human_bytes(double bytes);        ///< 8.6 MiB
 std::string grouped(std::uint64_t count);     ///< 1 683 000, by no-break thin groups of three
 /// "1 wall", "1 683 walls"
 std::string counted(std::uint64_t count, std::string_view one, std::string_view many);
-std::string human_number(double value);  ///< up to six significant digits
+std::string human_number(double value);  ///< six significant digits, and all before the point up to 1e15
 
 }  // namespace warren

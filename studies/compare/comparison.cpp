@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "studies/compare/comparison.hpp"
 
+#include <charconv>
+#include <cmath>
 #include <numeric>
 #include <stdexcept>
 #include <variant>
@@ -27,13 +29,24 @@ std::optional<double> if_solved(const ComparedRun& run, Number value) {
   return run.solved() ? std::optional(static_cast<double>(value)) : std::nullopt;
 }
 
+/// A run that was cut says nothing about others.
+bool is_known(const Contender& c) {
+  return c.deterministic && !c.runs.empty() && c.runs.front().outcome != Outcome::stopped;
+}
+
+Interval success_of(const Contender& contender, const ComparisonRow& row) {
+  if (row.runs == 0) return {0.0, 1.0};
+  const double solved = row.solved > 0 ? 1.0 : 0.0;
+  return is_known(contender) ? Interval{solved, solved} : wilson_interval(row.solved, row.runs);
+}
+
 }  // namespace
 
 ComparisonRow row_of(const Contender& contender) {
   ComparisonRow row;
   row.runs = contender.runs.size();
   for (const ComparedRun& run : contender.runs) row.solved += run.solved() ? 1 : 0;
-  row.success = row.runs == 0 ? Interval{0.0, 1.0} : wilson_interval(row.solved, row.runs);
+  row.success = success_of(contender, row);
   row.length = distribution(contender, [](const ComparedRun& r) { return if_solved(r, r.length); });
   row.hops = distribution(contender, [](const ComparedRun& r) { return if_solved(r, r.hops); });
   row.min_clearance = distribution(
@@ -57,6 +70,13 @@ std::vector<std::pair<std::string, std::string>> json_options(const std::vector<
     texts.emplace_back(name, figure_json(value));
   }
   return texts;
+}
+
+std::optional<double> number_in_word(const std::string& word) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  const bool is_number = error == std::errc{} && end == word.data() + word.size() && std::isfinite(value);
+  return is_number ? std::optional(value) : std::nullopt;
 }
 
 std::string name_of(const Contender& contender, bool with_planner) {

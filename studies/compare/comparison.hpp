@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/counters.hpp"
 #include "core/base/solution.hpp"
 #include "solve/question/figure.hpp"
 #include "studies/measure/statistics.hpp"
@@ -28,6 +29,10 @@ struct ComparedRun {
   std::optional<std::uint64_t> cells = {};   ///< that the path passes on the world's raster; planners only
   std::optional<double> turn_rad = {};       ///< of bodies that turn
   std::optional<double> search_s = {};       ///< planners only: the search's part of time_s
+  std::optional<double> raw_length = {};     ///< before the path was shortened
+  std::optional<double> cost = {};           ///< in the planner's own units
+  Counters counters = {};                    ///< planners only
+  RoadmapSize roadmap = {};                  ///< planners only
   bool solved() const { return outcome == Outcome::solved; }
 };
 
@@ -47,7 +52,9 @@ struct Contender {
   std::string library;  ///< "warren", or the peer's name
   /// Name, value as JSON.
   std::vector<std::pair<std::string, std::string>> options;
-  std::vector<ComparedRun> runs;  ///< in the order in which they ran
+  std::vector<ComparedRun> runs;                                ///< in the order in which they ran, of planners by seed
+  std::vector<std::pair<std::string, std::string>> dealt = {};  ///< options that take several values here, and its word
+  bool deterministic = false;                                   ///< a planner whose answer no seed changes
 };
 
 struct Comparison {
@@ -62,7 +69,8 @@ struct Comparison {
 struct ComparisonRow {
   std::size_t runs = 0;
   std::size_t solved = 0;
-  Interval success;                           ///< Wilson's, 95 %; of one that never ran, 0 to 1
+  /// Wilson's, 95 %; of one that never ran, 0 to 1; of one that is deterministic 0 to 0 or 1 to 1
+  Interval success;
   std::optional<Distribution> length;         ///< of the solved runs
   std::optional<Distribution> hops;           ///< of the solved runs
   std::optional<Distribution> min_clearance;  ///< of the solved runs
@@ -76,6 +84,9 @@ ComparisonRow row_of(const Contender& contender);
 
 /// Options of an answer as Contender has them.
 std::vector<std::pair<std::string, std::string>> json_options(const std::vector<NamedFigure>& options);
+
+/// The number that a dealt word is, of those that are one.
+std::optional<double> number_in_word(const std::string& word);
 
 /// "astar, sorted-array", "prm, bfs"; `with_planner` where searches of one graph are not all there is.
 std::string name_of(const Contender& contender, bool with_planner);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A comparison as CSV (RFC 4180): a line a contender, empty where nothing is known.
+// A comparison as CSV (RFC 4180): a line a contender, or a line a run; empty where nothing is known.
 #include <fmt/format.h>
+
+#include <algorithm>
 
 #include "scenes/text/csv_text.hpp"
 #include "studies/compare/comparison_report.hpp"
@@ -10,8 +12,9 @@ namespace {
 
 std::string csv_line(const std::vector<std::string>& fields) {
   std::string line;
-  for (const std::string& field : fields) line += (line.empty() ? "" : ",") + csv_field(field);
-  return line + '\n';
+  for (const std::string& field : fields) line += csv_field(field) + ',';
+  line.back() = '\n';
+  return line;
 }
 
 std::string csv_row(const Comparison& comparison, const Contender& c) {
@@ -52,7 +55,45 @@ std::string csv_row(const Comparison& comparison, const Contender& c) {
                    low,
                    high,
                    of(row.cells, &Distribution::median),
-                   of(row.turn_rad, &Distribution::median)});
+                   of(row.turn_rad, &Distribution::median),
+                   problem.kind.empty() ? fmt::format("{}", c.deterministic) : ""});
+}
+
+/// All options that some contender has, in the order in which they are met.
+std::vector<std::string> option_names(const Comparison& comparison) {
+  std::vector<std::string> names;
+  for (const Contender& c : comparison.contenders) {
+    for (const auto& [name, value] : c.options) {
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+  }
+  return names;
+}
+
+/// As text: a word without its quotation marks.
+std::string option_value(const Contender& c, const std::string& name) {
+  for (const auto& [option, value] : c.options) {
+    const bool is_word = value.size() >= 2 && value.front() == '"';
+    if (option == name) return is_word ? value.substr(1, value.size() - 2) : value;
+  }
+  return {};
+}
+
+/// What a run says for itself; what a planner counts is left empty for searches.
+std::vector<std::string> run_fields(const ComparedRun& run, bool is_planner) {
+  const auto known = [](bool is_known, auto value) { return is_known ? fmt::format("{}", value) : std::string{}; };
+  const auto figure = [&](const auto& value) { return known(value.has_value(), value.value_or(0)); };
+  std::vector<std::string> fields{
+      std::to_string(run.seed), std::string(name_of(run.outcome)), fmt::format("{}", run.time_s),
+      figure(run.search_s),     known(run.solved(), run.length),   figure(run.raw_length),
+      figure(run.cost),         known(run.solved(), run.hops),     figure(run.cells),
+      figure(run.turn_rad),     figure(run.min_clearance),         std::to_string(run.expanded)};
+  for (const std::uint64_t count :
+       {run.counters.samples, run.counters.neighbour_queries, run.counters.edges_checked, run.counters.rounds,
+        run.counters.refused, run.roadmap.milestones, run.roadmap.edges, run.roadmap.components}) {
+    fields.push_back(known(is_planner, count));
+  }
+  return fields;
 }
 
 }  // namespace
@@ -61,8 +102,33 @@ std::string comparison_csv(const Comparison& comparison) {
   std::string text =
       "source,vertices,edges,planner,search,queue,library,options,runs,solved,success_low,success_high,length_median,"
       "length_q1,length_q3,hops,expanded,min_clearance,time_median_s,time_q1_s,time_q3_s,time_mean_s,"
-      "time_mean_low_s,time_mean_high_s,cells,turn_rad\n";
+      "time_mean_low_s,time_mean_high_s,cells,turn_rad,deterministic\n";
   for (const Contender& c : comparison.contenders) text += csv_row(comparison, c);
+  return text;
+}
+
+std::string comparison_runs(const Comparison& comparison) {
+  const std::vector<std::string> options = option_names(comparison);
+  std::vector<std::string> head{"source", "planner", "search", "queue", "library"};
+  for (const std::string& name : options) head.push_back("option_" + name);
+  for (const char* name :
+       {"seed",          "status", "time_s",   "search_s",      "length",   "raw_length", "cost",
+        "hops",          "cells",  "turn_rad", "min_clearance", "expanded", "samples",    "neighbour_queries",
+        "edges_checked", "rounds", "refused",  "milestones",    "edges",    "components"}) {
+    head.emplace_back(name);
+  }
+  std::string text = csv_line(head);
+  for (const Contender& c : comparison.contenders) {
+    const ComparedProblem& problem = comparison.problems[c.problem];
+    std::vector<std::string> contender{problem.source, c.planner, c.search, c.queue, c.library};
+    for (const std::string& name : options) contender.push_back(option_value(c, name));
+    for (const ComparedRun& run : c.runs) {
+      std::vector<std::string> fields = contender;
+      const std::vector<std::string> figures = run_fields(run, problem.kind.empty());
+      fields.insert(fields.end(), figures.begin(), figures.end());
+      text += csv_line(fields);
+    }
+  }
   return text;
 }
 

@@ -55,6 +55,13 @@ Json problem_json(const ComparedProblem& problem) {
 
 Json word_or_null(const std::string& word) { return word.empty() ? Json(nullptr) : Json(word); }
 
+/// Of options that were dealt out, the names: "options" has their values.
+Json names_of(const std::vector<std::pair<std::string, std::string>>& dealt) {
+  Json names = Json::array();
+  for (const auto& [name, word] : dealt) names.push_back(name);
+  return names;
+}
+
 Json row_json(const Comparison& comparison, const Contender& c) {
   const ComparisonRow row = row_of(c);
   Json options = Json::object();
@@ -72,6 +79,8 @@ Json row_json(const Comparison& comparison, const Contender& c) {
             {"hops", count_json(row.hops)},
             {"expanded", count_json(row.expanded)},
             {"time_s", seconds_json(row.time_s)}};
+  if (comparison.problems[c.problem].kind.empty()) json["deterministic"] = c.deterministic;
+  if (!c.dealt.empty()) json["dealt"] = names_of(c.dealt);
   if (row.cells) json["cells"] = quartiles_json(row.cells);
   if (row.turn_rad) json["turn_rad"] = quartiles_json(row.turn_rad);
   if (row.min_clearance) json["min_clearance"] = quartiles_json(row.min_clearance);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Plots of a comparison. Random graphs: for each search that takes a queue, times against size, and beside them the
-// ratios to the heap, whose crossing of 1 is where array and heap cross. Else: for each contender the share of its runs
-// that had found a path, against time.
+// ratios to the heap, whose crossing of 1 is where array and heap cross. Else: what options that were dealt out do
+// (comparison_lists.cpp), and for each contender the share of its runs that had found a path, against time.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -110,7 +110,15 @@ std::vector<Plot> share_plots(const Comparison& comparison) {
 std::string comparison_svg(const Comparison& comparison) {
   const std::vector<SweepCurve> curves = sweep_curves(comparison);
   constexpr std::size_t side_by_side = 2;
-  return curves.empty() ? plots_svg(share_plots(comparison), 1) : plots_svg(sweep_plots(curves), side_by_side);
+  if (!curves.empty()) return plots_svg(sweep_plots(curves), side_by_side);
+  constexpr std::size_t figures = 3;
+  constexpr std::size_t colours = 8;  // beyond them lines of equal colour would be told apart by nobody
+  std::vector<std::string> panels = list_panels(comparison);
+  const std::size_t columns = panels.empty() ? 1 : figures;
+  for (const Plot& plot : share_plots(comparison)) {
+    if (columns == 1 || plot.series.size() <= colours) panels.push_back(plot_svg(plot));
+  }
+  return panels_svg(panels, columns);
 }
 
 }  // namespace warren

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
-
 #include "core/base/printable.hpp"
 #include "scenes/text/human_units.hpp"
 #include "studies/measure/machine_memory.hpp"
@@ -33,15 +31,15 @@ std::string median_number(const std::optional<Distribution>& d) {
   return if_known(d, [](const Distribution& k) { return human_number(k.median); });
 }
 
-std::string mean_interval(const Distribution& d) {
-  if (!d.mean_ci95) return "-";
-  return precise_seconds(d.mean_ci95->low) + " to " + precise_seconds(d.mean_ci95->high);
+std::string median_interval(const Distribution& d) {
+  if (!d.median_ci95) return "-";
+  return precise_seconds(d.median_ci95->low) + " to " + precise_seconds(d.median_ci95->high);
 }
 
 /// Searches of one graph: the figures of a path are the same in every run.
 std::string search_table(const Comparison& comparison, std::size_t problem, const Palette& palette) {
   TextTable table{
-      {"search", "queue", "library", "length", "hops", "settled", "trials", "median", "mean", "95 % for the mean"},
+      {"search", "queue", "library", "length", "hops", "settled", "trials", "median", "95 % for the median", "mean"},
       3,
       {}};
   const bool with_library = has_peer(comparison);
@@ -54,8 +52,8 @@ std::string search_table(const Comparison& comparison, std::size_t problem, cons
     const auto length = [](const Distribution& d) { return fmt::format("{:.10g}", d.median); };
     table.rows.push_back({c.search, c.queue.empty() ? "-" : c.queue, with_library ? c.library : "",
                           if_known(row.length, length), median_number(row.hops), median_number(row.expanded),
-                          std::to_string(row.runs), seconds(&Distribution::median), seconds(&Distribution::mean),
-                          if_known(row.time_s, mean_interval)});
+                          std::to_string(row.runs), seconds(&Distribution::median),
+                          if_known(row.time_s, median_interval), seconds(&Distribution::mean)});
   }
   return table.text(palette);
 }
@@ -66,11 +64,14 @@ std::string planner_cell(const Contender& c) {
   return options.empty() ? name : name + ", " + printable(options);
 }
 
-std::string degrees_text(double angle_rad) { return fmt::format("{:.0f} deg", angle_rad * 180.0 / std::numbers::pi); }
+std::string success_text(const Contender& c, const ComparisonRow& row) {
+  if (c.deterministic) return "deterministic";
+  return fmt::format("{:.0f} to {:.0f} %", 100.0 * row.success.low, 100.0 * row.success.high);
+}
 
 std::string planner_table(const Comparison& comparison, std::size_t problem, const Palette& palette) {
-  TextTable table{{"planner", "solved", "95 %", "length q1", "median", "q3", "hops", "cells", "turning", "expanded",
-                   "clearance", "time q1", "median", "q3"},
+  TextTable table{{"planner", "solved", "95 %", "length q1", "median", "q3", "hops", "cells", "turning (rad)",
+                   "expanded", "clearance", "time q1", "median", "q3"},
                   1,
                   {}};
   for (const Contender& c : comparison.contenders) {
@@ -82,11 +83,10 @@ std::string planner_table(const Comparison& comparison, std::size_t problem, con
     const auto seconds = [&](double Distribution::*figure) {
       return if_known(row.time_s, [&](const Distribution& d) { return precise_seconds(d.*figure); });
     };
-    table.rows.push_back({planner_cell(c), fmt::format("{} of {}", row.solved, row.runs),
-                          fmt::format("{:.0f} to {:.0f} %", 100.0 * row.success.low, 100.0 * row.success.high),
+    table.rows.push_back({planner_cell(c), fmt::format("{} of {}", row.solved, row.runs), success_text(c, row),
                           number(&Distribution::q1), number(&Distribution::median), number(&Distribution::q3),
                           median_number(row.hops), row.cells ? median_number(row.cells) : "",
-                          row.turn_rad ? degrees_text(row.turn_rad->median) : "", median_number(row.expanded),
+                          row.turn_rad ? median_number(row.turn_rad) : "", median_number(row.expanded),
                           median_number(row.min_clearance), seconds(&Distribution::q1), seconds(&Distribution::median),
                           seconds(&Distribution::q3)});
   }

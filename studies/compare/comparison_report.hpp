@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "scenes/text/palette.hpp"
 #include "studies/compare/comparison.hpp"
@@ -15,13 +16,19 @@ namespace warren {
 std::string comparison_summary(const Comparison& comparison, const Palette& palette);
 std::string comparison_json(const Comparison& comparison);
 std::string comparison_csv(const Comparison& comparison);
+/// A line a run, with each option in a column of its own (comparison_csv.cpp).
+std::string comparison_runs(const Comparison& comparison);
 
 /// Median times against size, a line a size, and where arrays and heaps cross; empty without random graphs.
 std::string sweep_text(const Comparison& comparison, const Palette& palette);
 
-/// A plot as SVG (comparison_plots.cpp): of random graphs times and ratios against size; else the share of runs that
-/// had found a path, against time.
+/// Plots as SVG (comparison_plots.cpp): of random graphs times and ratios against size; else what options that were
+/// dealt out do, and the share of runs that had found a path, against time.
 std::string comparison_svg(const Comparison& comparison);
+
+/// Success, lengths and times against the options that were dealt out, as lines or heat maps (comparison_lists.cpp):
+/// SVG elements of plot_size; none where none was. At most 60.
+std::vector<std::string> list_panels(const Comparison& comparison);
 
 /// How planners are called in the log of OMPL's benchmarks, and what all runs had in common.
 struct OmplExperiment {

@@ -53,11 +53,11 @@ class ContestPictures {
                   const Execution& execution)
       : scene_(scene), options_(options), folder_(folder), execution_(execution) {}
 
-  void draw(const Contender& contender, const SolveOptions& options) {
+  void draw(const Contender& contender, const PlannerContender& asked) {
     const ComparedRun* run = median_run(contender);
     const std::uint64_t seed = run != nullptr ? run->seed : options_.first_seed;
     ByProducts made;
-    const Answer answer = solve_contender(scene_, options_.question, options, seed, execution_, &made);
+    const Answer answer = solve_contender(scene_, asked, seed, execution_, &made);
     const Drawing drawing = drawing_of(scene_, answer, std::move(made), execution_);
     const std::string said = options_text(contender);
     const std::string title = fmt::format("{}, {}{}seed {}: {}", scene_.source, contender.planner,

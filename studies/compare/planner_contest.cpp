@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "studies/compare/planner_contest.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 #include <utility>
 
+#include "parallel/chunks.hpp"
 #include "solve/answer/write_answer_io.hpp"
 #include "solve/question/grid_choice.hpp"
 #include "solve/solve.hpp"
@@ -14,26 +17,31 @@
 namespace warren {
 namespace {
 
+/// A turn that a contender takes, and what comes of it.
+struct Turn {
+  std::size_t contender;
+  std::uint64_t seed;
+  std::optional<ComparedRun> run = {};  ///< none: a signal came first
+};
+
 class PlannerContest {
  public:
   PlannerContest(const Scene& scene, const PlannerContestOptions& options, const Execution& execution,
                  Comparison& comparison)
       : scene_(scene), options_(options), execution_(execution), comparison_(comparison) {}
 
-  void run() {
-    enter();
-    double seconds = 0.0;
-    const StageTimer timer(execution_, "compare", seconds, options_.runs * options_.contenders.size());
-    for (std::uint64_t round = 0; round < options_.runs; ++round) {
-      for (const std::size_t i : turns(options_.contenders.size(), round)) run_once(i, options_.first_seed + round);
-    }
-  }
+  void run();
 
  private:
   void enter();
-  void run_once(std::size_t i, std::uint64_t seed);
-  Answer solve(const SolveOptions& contender, std::uint64_t seed) const;
-  std::optional<std::uint64_t> cells_of(const Answer& answer) const;
+  std::uint64_t turns_to_come() const;
+  std::vector<Turn> turns_of(std::uint64_t round) const;
+  void take(std::vector<Turn> turns);
+  ComparedRun run_once(const Turn& turn);
+  Answer solve(const PlannerContender& contender, std::uint64_t seed) const;
+  void describe(Contender& contender, const PlannerContender& asked, const Answer& answer) const;
+  Contender& contender(std::size_t i) { return comparison_.contenders[first_contender_ + i]; }
+  const Contender& contender(std::size_t i) const { return comparison_.contenders[first_contender_ + i]; }
 
   const Scene& scene_;
   const PlannerContestOptions& options_;
@@ -43,15 +51,39 @@ class PlannerContest {
   std::optional<GridFields> raster_;  ///< of the contender on whose raster cells are counted
 };
 
+/// The first round tells who needs others. Rounds beside each other are as many as keep all threads busy.
+void PlannerContest::run() {
+  constexpr std::size_t turns_at_once = 256;
+  enter();
+  double seconds = 0.0;
+  const StageTimer timer(execution_, "compare", seconds, options_.runs * options_.contenders.size());
+  take(turns_of(0));
+  if (execution_.progress != nullptr) execution_.progress->set_total(turns_to_come());
+  std::vector<Turn> turns;
+  for (std::uint64_t round = 1; round < options_.runs; ++round) {
+    const std::vector<Turn> more = turns_of(round);
+    if (more.empty()) return;
+    turns.insert(turns.end(), more.begin(), more.end());
+    const bool more_fit = options_.parallel && turns.size() < turns_at_once && round + 1 < options_.runs;
+    if (!more_fit) take(std::exchange(turns, {}));
+  }
+}
+
 /// Asks every planner, before the first run, whether it can solve this world with these options.
 void PlannerContest::enter() {
   comparison_.problems.push_back({.source = scene_.source, .kind = ""});
+  if (options_.parallel) {
+    comparison_.notes.push_back(fmt::format("times are of runs beside each other, up to {} at once, on a thread each",
+                                            thread_count(execution_.threads)));
+  }
   first_contender_ = comparison_.contenders.size();
-  for (const SolveOptions& options : options_.contenders) {
+  for (const PlannerContender& asked : options_.contenders) {
+    const SolveOptions& options = asked.options;
     if (!raster_ && options.planner == PlannerKind::grid) raster_ = options.grid;
     Contender contender;
+    contender.dealt = asked.dealt;
     contender.problem = comparison_.problems.size() - 1;
-    contender.planner = name_of(choose_solver(options, scene_, options_.question).planner);
+    contender.planner = name_of(choose_solver(options, scene_, asked.question).planner);
     if (options.search) contender.search = name_of(*options.search);
     if (options.queue) contender.queue = name_of(*options.queue);
     contender.library = "warren";
@@ -59,24 +91,68 @@ void PlannerContest::enter() {
   }
 }
 
-Answer PlannerContest::solve(const SolveOptions& contender, std::uint64_t seed) const {
+/// Of all rounds: the turns there are beside the first one's.
+std::uint64_t PlannerContest::turns_to_come() const {
+  std::uint64_t count = options_.contenders.size();
+  for (std::size_t i = 0; i < options_.contenders.size(); ++i) {
+    if (options_.repeat_all || !contender(i).deterministic) count += options_.runs - 1;
+  }
+  return count;
+}
+
+std::vector<Turn> PlannerContest::turns_of(std::uint64_t round) const {
+  std::vector<Turn> all;
+  for (const std::size_t i : turns(options_.contenders.size(), round)) {
+    const bool sits_out = round > 0 && !options_.repeat_all && contender(i).deterministic;
+    if (!sits_out) all.push_back({i, options_.first_seed + round});
+  }
+  return all;
+}
+
+/// Runs are kept in the order of the turns, whichever end first.
+void PlannerContest::take(std::vector<Turn> turns) {
+  Execution side_by_side = execution_;
+  if (!options_.parallel) side_by_side.threads = 1;
+  const auto keep = [&] {
+    for (const Turn& turn : turns) {
+      if (turn.run) contender(turn.contender).runs.push_back(*turn.run);
+    }
+  };
+  try {
+    for_chunks(turns.size(), 1, side_by_side, [&](Range r) { turns[r.first].run = run_once(turns[r.first]); });
+  } catch (...) {
+    keep();
+    throw;
+  }
+  keep();
+}
+
+Answer PlannerContest::solve(const PlannerContender& contender, std::uint64_t seed) const {
   execution_.check();
   const Deadline deadline(execution_.deadline, options_.budget_s);
   Execution within = execution_;
   within.deadline = &deadline;
   within.progress = nullptr;  // the bar shows the runs, not the stages of each
-  Answer answer = solve_contender(scene_, options_.question, contender, seed, within);
+  if (options_.parallel) within.threads = 1;
+  Answer answer = solve_contender(scene_, contender, seed, within);
   if (answer.outcome == Outcome::stopped) execution_.check();
   return answer;
 }
 
 /// Where the world has a raster, or somebody plans on one.
-std::optional<std::uint64_t> PlannerContest::cells_of(const Answer& answer) const {
+std::optional<std::uint64_t> cells_of(const Answer& answer, const Scene& scene,
+                                      const std::optional<GridFields>& raster) {
   if (answer.path.empty()) return std::nullopt;
-  if (scene_.map) return cells_passed(answer.path, *scene_.map);
-  if (!scene_.grid && !raster_) return std::nullopt;
-  const Box box = scene_.bounds ? *scene_.bounds : obstacle_box(scene_);
-  return cells_passed(answer.path, Raster{box.min, grid_spec(raster_.value_or(GridFields{}), scene_).cell});
+  if (scene.map) return cells_passed(answer.path, *scene.map);
+  if (!scene.grid && !raster) return std::nullopt;
+  const Box box = scene.bounds ? *scene.bounds : obstacle_box(scene);
+  return cells_passed(answer.path, Raster{box.min, grid_spec(raster.value_or(GridFields{}), scene).cell});
+}
+
+/// A number as it is, a word as text.
+std::string word_json(const std::string& word) {
+  const std::optional<double> number = number_in_word(word);
+  return number ? fmt::format("{}", *number) : json_string(word);
 }
 
 /// Trees settle no vertices in a search; they grow them.
@@ -89,37 +165,62 @@ std::size_t state_count(const Answer& answer) {
   return answer.states.empty() ? answer.path.size() : answer.states.size();
 }
 
-void PlannerContest::run_once(std::size_t i, std::uint64_t seed) {
-  const Answer answer = solve(options_.contenders[i], seed);
-  Contender& contender = comparison_.contenders[first_contender_ + i];
-  ComparedRun run{.seed = seed,
+/// What was dealt out is an option, whether or not the answer repeats it.
+void PlannerContest::describe(Contender& contender, const PlannerContender& asked, const Answer& answer) const {
+  contender.search = answer.search;
+  contender.deterministic = !depends_on_seed(answer, asked.options, scene_);
+  auto& options = contender.options;
+  options = json_options(answer.options);
+  if (!answer.sampler.empty()) options.insert(options.begin(), {"sampler", json_string(answer.sampler)});
+  for (const auto& [name, word] : asked.dealt) {
+    const bool has_column = name == name_of(Option::search) || name == name_of(Option::queue);
+    const auto is_it = [&, &name = name](const auto& option) { return option.first == name; };
+    if (!has_column && std::none_of(options.begin(), options.end(), is_it)) options.emplace_back(name, word_json(word));
+  }
+  std::erase_if(options, [](const auto& option) { return option.first == "queue"; });  // has a column
+}
+
+ComparedRun PlannerContest::run_once(const Turn& turn) {
+  const PlannerContender& asked = options_.contenders[turn.contender];
+  const Answer answer = solve(asked, turn.seed);
+  if (turn.seed == options_.first_seed) describe(contender(turn.contender), asked, answer);
+  ComparedRun run{.seed = turn.seed,
                   .outcome = answer.outcome,
                   .time_s = answer.solve_s,
                   .length = answer.length,
                   .hops = state_count(answer) > 0 ? state_count(answer) - 1 : 0,
                   .expanded = expanded_by(answer)};
   if (answer.verified) run.min_clearance = answer.min_clearance;
-  run.cells = cells_of(answer);
+  run.cells = cells_of(answer, scene_, raster_);
   run.turn_rad = answer.turn_rad;
   if (answer.seconds.search > 0.0) run.search_s = answer.seconds.search;
-  contender.search = answer.search;
-  contender.options = json_options(answer.options);
-  std::erase_if(contender.options, [](const auto& option) { return option.first == "queue"; });  // has a column
-  if (!answer.sampler.empty()) {
-    contender.options.insert(contender.options.begin(), {"sampler", json_string(answer.sampler)});
-  }
-  contender.runs.push_back(run);
-  execution_.advance(1);
+  run.raw_length = answer.raw_length;
+  run.cost = answer.cost;
+  run.counters = answer.counters;
+  run.roadmap = answer.roadmap;
+  return run;
 }
 
 }  // namespace
 
-Answer solve_contender(const Scene& scene, const Question& question, const SolveOptions& contender, std::uint64_t seed,
+bool depends_on_seed(const Answer& answer, const SolveOptions& options, const Scene& scene) {
+  const auto planner = enum_named<PlannerKind>(answer.planner);
+  if (!planner || *planner == PlannerKind::rrt || *planner == PlannerKind::rrt_connect) return true;
+  if (is_roadmap_planner(*planner)) {
+    const auto sampler = enum_named<SamplerKind>(answer.sampler);
+    if (!sampler || !takes_all_places(*sampler)) return true;
+  }
+  const RobotKind body = answer.problem.robot.kind;
+  const bool taut = !scene.map && (body == RobotKind::point || body == RobotKind::disc);
+  return options.optimise && !taut;
+}
+
+Answer solve_contender(const Scene& scene, const PlannerContender& contender, std::uint64_t seed,
                        const Execution& execution, ByProducts* keep) {
-  SolveOptions options = contender;
+  SolveOptions options = contender.options;
   options.seed = seed;
-  Answer answer = solve_within(scene, question, options, execution, keep);
-  if (keep != nullptr) make_by_products(scene, question, options, execution, *keep);
+  Answer answer = solve_within(scene, contender.question, options, execution, keep);
+  if (keep != nullptr) make_by_products(scene, contender.question, options, execution, *keep);
   return answer;
 }
 

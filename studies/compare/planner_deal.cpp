@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "studies/compare/planner_deal.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string_view>
 
 #include "core/base/error.hpp"
@@ -66,10 +69,6 @@ constexpr std::array<Copy, option_count> copies{
     part<&SolveOptions::roadmap, &RoadmapFields::attach>,
 };
 
-void copy_option(Option option, SolveOptions& to, const SolveOptions& from) {
-  copies[static_cast<std::size_t>(option)](to, from);
-}
-
 /// Why the planner does not take this option as it is in `from`; nothing where it does.
 std::optional<UsageError> refusal(PlannerKind planner, Option option, const SolveOptions& from) {
   SolveOptions alone{.planner = planner};
@@ -95,41 +94,49 @@ void check_taken(const std::vector<PlannerKind>& planners, Option option, const 
   if (refused) throw UsageError(*refused);
 }
 
-/// One value of a list, as an option that is given.
-struct Dealt {
-  Option option;
-  SolveOptions value;
-};
-
-/// The lists, in the order in which they are dealt out.
-std::vector<std::vector<Dealt>> lists_of(const PlannerDeal& deal) {
-  std::vector<std::vector<Dealt>> lists(4);
-  for (const SearchMethod search : deal.searches) lists[0].push_back({Option::search, {.search = search}});
-  for (const QueueKind queue : deal.queues) lists[1].push_back({Option::queue, {.queue = queue}});
-  for (const SamplerKind sampler : deal.samplers) lists[2].push_back({Option::sampler, {.sampler = sampler}});
-  for (const auto& samples : deal.samples) lists[3].push_back({Option::samples, {.roadmap = {.samples = samples}}});
-  return lists;
-}
-
 /// Would this queue go unused?
 bool idle_queue(const SolveOptions& contender, Option option) {
   return option == Option::queue && (contender.search == SearchMethod::bfs || contender.search == SearchMethod::dfs);
 }
 
+/// Throws where another `times` as many contenders would be too many.
+void check_count(std::size_t contenders, std::size_t times) {
+  constexpr std::size_t most_contenders = 10'000;
+  if (contenders * std::max<std::size_t>(times, 1) <= most_contenders) return;
+  throw UsageError(fmt::format("@planners: more than {} contenders come of these lists; shorten one", most_contenders));
+}
+
 /// Every way to give the contenders one of the values each.
-std::vector<SolveOptions> dealt(const std::vector<SolveOptions>& contenders, const std::vector<Dealt>& values) {
-  std::vector<SolveOptions> all;
-  for (const SolveOptions& contender : contenders) {
-    if (values.empty() || idle_queue(contender, values.front().option)) {
+std::vector<PlannerContender> dealt(const std::vector<PlannerContender>& contenders, const DealtOption& list) {
+  check_count(contenders.size(), list.values.size());
+  std::vector<PlannerContender> all;
+  for (const PlannerContender& contender : contenders) {
+    if (list.values.empty() || idle_queue(contender.options, list.option)) {
       all.push_back(contender);
       continue;
     }
-    for (const Dealt& value : values) {
+    for (const DealtValue& value : list.values) {
       all.push_back(contender);
-      copy_option(value.option, all.back(), value.value);
+      copy_option(list.option, all.back().options, value.value);
+      if (list.values.size() > 1) all.back().dealt.emplace_back(name_of(list.option), value.word);
     }
   }
   return all;
+}
+
+std::vector<PlannerContender> with_clearances(const std::vector<PlannerContender>& contenders,
+                                              const std::vector<double>& clearances) {
+  check_count(contenders.size(), clearances.size());
+  std::vector<PlannerContender> all;
+  for (const PlannerContender& contender : contenders) {
+    for (const double clearance : clearances) {
+      all.push_back(contender);
+      all.back().question.clearance = clearance;
+      all.back().question.validate();
+      if (clearances.size() > 1) all.back().dealt.emplace_back("clearance", fmt::format("{}", clearance));
+    }
+  }
+  return clearances.empty() ? contenders : all;
 }
 
 std::vector<Option> options_of(const SolveOptions& options) {
@@ -141,34 +148,39 @@ std::vector<Option> options_of(const SolveOptions& options) {
   return all;
 }
 
-std::vector<SolveOptions> contenders_of(const PlannerDeal& deal, PlannerKind planner) {
-  SolveOptions contender{.planner = planner, .seed = deal.common.seed};
+std::vector<PlannerContender> contenders_of(const PlannerDeal& deal, PlannerKind planner) {
+  SolveOptions usual{.planner = planner, .seed = deal.common.seed};
   for (const Option option : options_of(deal.common)) {
-    if (!refusal(planner, option, deal.common)) copy_option(option, contender, deal.common);
+    if (!refusal(planner, option, deal.common)) copy_option(option, usual, deal.common);
   }
-  std::vector<SolveOptions> all{contender};
-  for (std::vector<Dealt>& values : lists_of(deal)) {
-    std::erase_if(values, [&](const Dealt& v) { return refusal(planner, v.option, v.value).has_value(); });
-    all = dealt(all, values);
+  std::vector<PlannerContender> all{{usual, deal.question, {}}};
+  for (DealtOption list : deal.lists) {
+    std::erase_if(list.values, [&](const DealtValue& v) { return refusal(planner, list.option, v.value).has_value(); });
+    all = dealt(all, list);
   }
-  return all;
+  return with_clearances(all, deal.clearances);
 }
 
 }  // namespace
 
-std::vector<SolveOptions> deal_planners(const PlannerDeal& deal) {
+void copy_option(Option option, SolveOptions& to, const SolveOptions& from) {
+  copies[static_cast<std::size_t>(option)](to, from);
+}
+
+std::vector<PlannerContender> deal_planners(const PlannerDeal& deal) {
   deal.question.validate();
   for (const Option option : options_of(deal.common)) check_taken(deal.planners, option, deal.common);
-  for (const std::vector<Dealt>& values : lists_of(deal)) {
-    for (const Dealt& value : values) check_taken(deal.planners, value.option, value.value);
+  for (const DealtOption& list : deal.lists) {
+    for (const DealtValue& value : list.values) check_taken(deal.planners, list.option, value.value);
   }
-  std::vector<SolveOptions> all;
+  std::vector<PlannerContender> all;
   for (const PlannerKind planner : deal.planners) {
-    for (SolveOptions& contender : contenders_of(deal, planner)) {
-      check_solver_options(contender);
+    for (PlannerContender& contender : contenders_of(deal, planner)) {
+      check_solver_options(contender.options);
       all.push_back(std::move(contender));
     }
   }
+  check_count(all.size(), 1);
   return all;
 }
 

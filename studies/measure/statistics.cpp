@@ -19,12 +19,14 @@ double mean_of_sorted(std::span<const double> sorted) {
   return sum / static_cast<double>(sorted.size());
 }
 
+/// Student's t on the scale of the logarithm (the delta method), so that it never ends below zero.
 Interval mean_interval(std::span<const double> values, double mean) {
+  if (!(mean > 0.0)) return {mean, mean};
   double squares = 0.0;
   for (const double value : values) squares += (value - mean) * (value - mean);
   const auto n = static_cast<double>(values.size());
-  const double half_width = student_t(values.size() - 1) * std::sqrt(squares / (n - 1.0) / n);
-  return {mean - half_width, mean + half_width};
+  const double factor = std::exp(student_t(values.size() - 1) * std::sqrt(squares / (n - 1.0) / n) / mean);
+  return {mean / factor, mean * factor};
 }
 
 }  // namespace

@@ -27,11 +27,14 @@ struct Distribution {
   double q3 = 0.0;
   double most = 0.0;
   double mean = 0.0;
-  std::optional<Interval> mean_ci95;    ///< Student's t; none of fewer than two values
-  std::optional<Interval> median_ci95;  ///< free of any assumption; none of fewer than six values
+  /// Student's t for the mean's logarithm, of values >= 0 as times are; none of fewer than two values.
+  std::optional<Interval> mean_ci95;
+  /// Of order statistics, free of any assumption: where the percentile bootstrap of the median ends, without its draws.
+  /// None of fewer than six values.
+  std::optional<Interval> median_ci95;
 };
 
-/// Nothing of no values. All values finite. O(n log n).
+/// Nothing of no values. All values finite and >= 0. O(n log n).
 std::optional<Distribution> distribution_of(std::span<const double> values);
 
 /// The quantile at `share` (0 to 1) of sorted values, at least one.

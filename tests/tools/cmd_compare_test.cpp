@@ -6,6 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 
 #include "studies/searches/graph_search.hpp"
 #include "tests/paths.hpp"
@@ -214,6 +215,69 @@ TEST(Compare, ListsAreDealtToThePlannersThatTakeThem) {
   EXPECT_EQ(optional["rows"][1]["options"]["lazy"], "path");
 }
 
+std::string poly_easy() { return test::source_dir() + "/examples/worlds/poly-easy.scene"; }
+
+TEST(Compare, EveryCombinationOfListedOptionsIsAConfiguration) {
+  const Json json = compared(
+      poly_easy() +
+      " --planners prm,rrt --sampler uniform,halton --neighbours 6,star --nodes 500,5000 --clearance 0.01,0.05 "
+      "--seeds 1 --samples 300");
+  std::set<std::string> configurations;
+  for (const Json& row : json["rows"]) configurations.insert(row["planner"].get<std::string>() + row["options"].dump());
+  EXPECT_EQ(json["rows"].size(), 16U);
+  EXPECT_EQ(configurations.size(), 16U);
+  EXPECT_EQ(json["rows"][0]["dealt"], (Json{"sampler", "neighbours", "clearance"}));
+  EXPECT_EQ(json["rows"][0]["options"]["neighbours"], 6);
+  EXPECT_EQ(json["rows"][2]["options"]["neighbours"], "star");
+  EXPECT_EQ(json["rows"][1]["options"]["clearance"], 0.05);
+  EXPECT_GE(json["rows"][1]["min_clearance"]["min"], 0.05);
+}
+
+TEST(Compare, PlannersWhoseAnswerNoSeedChangesRunOnce) {
+  const Json json =
+      compared(poly_easy() + " --planners visibility,voronoi,prm,rrt,grid --angles 8 --cell 0.2 --seeds 4");
+  for (const Json& row : json["rows"]) {
+    SCOPED_TRACE(row["planner"]);
+    const bool random = row["planner"] == "prm" || row["planner"] == "rrt";
+    EXPECT_EQ(row["deterministic"], !random);
+    EXPECT_EQ(row["runs"], random ? 4 : 1);
+    const double solved = row["solved"] > 0 ? 1.0 : 0.0;
+    EXPECT_EQ(row["success_ci95"] == (Json{solved, solved}), !random);
+  }
+  const ProgramRun said =
+      run_program("compare " + test::source_dir() +
+                  "/tests/data/dense.scene --planners cells --trials 3 --progress none --color never");
+  EXPECT_NE(said.out.find("3 of 3  deterministic"), std::string::npos) << said.out;
+  const Json lattice = compared("maze:5x5 --planners prm,lazy-prm --optimise --seeds 3");
+  for (const Json& row : lattice["rows"]) EXPECT_EQ(row["runs"], row["options"]["sampler"] == "lattice" ? 1 : 3);
+}
+
+/// Without times, of which no two runs have the same.
+std::vector<std::string> runs_without_times(const std::string& csv) {
+  std::vector<std::string> runs;
+  std::istringstream lines(csv);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t status = line.find("solved,");
+    if (status == std::string::npos) continue;
+    const std::size_t time = line.find(',', status) + 1;
+    const std::size_t length = line.find(',', line.find(',', time) + 1) + 1;
+    runs.push_back(line.substr(0, time) + line.substr(length));
+  }
+  return runs;
+}
+
+TEST(Compare, RunsBesideEachOtherAreTheSameRuns) {
+  const std::string words = "compare " + poly_easy() + " --planners prm,rrt,visibility --seeds 9 --quiet --runs -";
+  const ProgramRun in_turn = run_program(words);
+  const ProgramRun beside = run_program(words + " --parallel --threads 3");
+  const auto runs = runs_without_times(in_turn.out);
+  EXPECT_EQ(runs.size(), 19U);
+  EXPECT_EQ(runs, runs_without_times(beside.out));
+  const ProgramRun said =
+      run_program("compare maze:5x5 --planners prm --seeds 2 --parallel --threads 2 --progress none");
+  EXPECT_NE(said.out.find("up to 2 at once"), std::string::npos) << said.out;
+}
+
 TEST(Compare, AQueueGoesOnlyToSearchesThatHaveOne) {
   const Json json = compared("maze:5x5 --planners prm --searches bfs,dijkstra --queues heap,sorted-array --trials 1");
   std::vector<std::string> rows;
@@ -234,9 +298,10 @@ TEST(Compare, LowSuccessIsAResultAndNoneIsAnExitCode) {
 
 TEST(Compare, OutputsAreWrittenSideBySide) {
   const Folder folder;
-  const ProgramRun run = run_program("compare maze:6x6 --planners prm,lazy-prm --seeds 3 --quiet --json " +
-                                     folder.path("a.json") + " --csv " + folder.path("a.csv") + " --log " +
-                                     folder.path("a.log") + " --svg " + folder.path("a.svg"));
+  const ProgramRun run =
+      run_program("compare maze:6x6 --planners prm,lazy-prm --trials 3 --quiet --json " + folder.path("a.json") +
+                  " --csv " + folder.path("a.csv") + " --log " + folder.path("a.log") + " --svg " +
+                  folder.path("a.svg") + " --runs " + folder.path("runs.csv"));
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_EQ(run.out, "");
   EXPECT_EQ(Json::parse(folder.read("a.json"))["rows"].size(), 2U);
@@ -257,7 +322,7 @@ TEST(Compare, ARunCutByItsBudgetIs124WithTheRunsSoFar) {
 }
 
 TEST(Compare, AnInterruptPrintsWhatThereIs) {
-  for (const char* words : {"compare maze:9x9 --planners prm --seeds 1000000 --quiet --json -",
+  for (const char* words : {"compare maze:9x9 --planners prm --sampler uniform --seeds 1000000 --quiet --json -",
                             "compare maze:9x9 --trials 1000000 --quiet --json -"}) {
     SCOPED_TRACE(words);
     const ProgramRun run = run_program(std::string{words} + " & p=$!; sleep 1; kill -INT $p; wait $p");
@@ -303,6 +368,13 @@ TEST(Compare, BadOptionsAreUsageErrorsOfOneLineThatNameTheOption) {
       {"maze:5x5 --planners prm --samples 0", "--samples"},
       {"maze:5x5 --planners prm --queues linear-scan", "linear-scan"},
       {"maze:5x5 --planners prm --lazy path", "--lazy"},
+      {"maze:5x5 --planners prm --neighbours 4,x", "--neighbours"},
+      {"maze:5x5 --planners prm --neighbours 4,8 --radius 1", "give one of them"},
+      {"maze:5x5 --planners prm --clearance 0.1,-1", "--clearance"},
+      {"maze:5x5 --planners prm --step 1,2", "--step: prm would ignore it"},
+      {"maze:5x5 --neighbours 4,8", "one graph"},
+      {"maze:5x5 --clearance 0.1,0.2", "one graph"},
+      {"maze:5x5 --parallel", "--parallel"},
       {"maze:5x5 --planners lazy-prm --searches bfs", "bfs"},
       {"--sizes 1", "--sizes"},
       {"--sizes 10,x", "--sizes"},

@@ -287,7 +287,7 @@ TEST(Maps, PlannersAreComparedOnThemPolygonsToo) {
   for (const char* robot : {"disc 0.3", "polygon -0.2 -0.2 0.3 -0.2 0.2 0.2"}) {
     SCOPED_TRACE(robot);
     const bool turns = robot[0] == 'p';
-    std::vector<std::string> words{"compare", map, "--robot", robot, "--seeds", "2", "--goal", "6.5,4.5", "--start"};
+    std::vector<std::string> words{"compare", map, "--robot", robot, "--trials", "2", "--goal", "6.5,4.5", "--start"};
     words.insert(words.end(), {turns ? "0.5,0.5,0" : "0.5,0.5", "--planners",
                                turns ? "voronoi,prm,rrt" : "grid,voronoi,prm,rrt", "--pictures", folder.path("out")});
     const Json answer = answered(words);

@@ -106,7 +106,7 @@ TEST(Lattice, TheCoursesPlannersAreComparedAndDrawn) {
                                   "--seeds", "3", "--pictures", pictures});
   ASSERT_EQ(compared["rows"].size(), 5U);
   const Json& grid = compared["rows"][0];
-  EXPECT_EQ(grid["solved"], 3);
+  EXPECT_EQ(grid["solved"], 1);  // once: no seed changes it
   EXPECT_EQ(grid["cells"]["median"], 559.0);
   EXPECT_GT(grid["expanded"], 1000);
   const Json& voronoi = compared["rows"][1];

@@ -53,7 +53,7 @@ TEST(Stops, SignalsEndItWithTheirCodeAndPartialFigures) {
 
 TEST(Stops, QuietStudiesSayInOneLineThatASignalCame) {
   for (const std::vector<std::string>& words :
-       {std::vector<std::string>{"compare", "maze:3000x3000", "--planners", "prm", "--seeds", "1000"},
+       {std::vector<std::string>{"compare", "maze:3000x3000", "--planners", "prm", "--trials", "1000"},
         {"largest", "--budget", "1h", "--start-size", "4000"},
         {"scale", "--sizes", "3000", "--repeats", "1000"}}) {
     SCOPED_TRACE(words.front());

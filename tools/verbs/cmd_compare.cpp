@@ -29,13 +29,14 @@ constexpr OptionSpec output_specs[] = {
     {"--budget", "TIME", "each run, of a planner or a search, may take so long (default: none)"},
     {"--json", "FILE", "write warren.compare/1; - is standard output"},
     {"--csv", "FILE", "write a line a planner or search; - is standard output"},
+    {"--runs", "FILE", "write a line a run as CSV; - is standard output"},
     {"--svg", "FILE", "plot times against size, or the share solved against time; - is standard output"},
     {"--log", "FILE", "write every run as OMPL's benchmarks do; - is standard output"},
 };
 
 /// Throws unless every output can be written; says whether one of them takes standard output.
 bool check_outputs_of_compare(const Arguments& arguments) {
-  const bool taken = check_reports(arguments, {"--json", "--csv", "--svg", "--log"});
+  const bool taken = check_reports(arguments, {"--json", "--csv", "--runs", "--svg", "--log"});
   check_picture_ending("--svg", arguments.value("--svg").value_or(""), ".svg");
   if (const auto folder = arguments.value("--pictures")) make_folder(*folder);
   if (arguments.has("--log") && arguments.has("--sizes")) {
@@ -107,7 +108,7 @@ void CompareCommand::compare_on_world(const Run& run) {
 
 /// Bodies that turn plan among a map's borders, and pictures show them.
 bool CompareCommand::needs_map_walls(const Scene& scene) const {
-  const RobotKind body = robot_of(scene, options_.planners->question).kind;
+  const RobotKind body = robot_of(scene, options_.planners->contenders.front().question).kind;
   return !options_.planners->pictures.empty() || (body != RobotKind::point && body != RobotKind::disc);
 }
 
@@ -116,11 +117,10 @@ SolveOptions CompareCommand::graph_options(const Scene& scene) const {
   PlannerDeal deal = options_.graph_deal;
   if (!options_.graph) {
     SolveOptions all = deal.common;
-    if (!deal.samplers.empty()) all.sampler = deal.samplers.front();
-    if (!deal.samples.empty()) all.roadmap.samples = deal.samples.front();
+    for (const DealtOption& list : deal.lists) copy_option(list.option, all, list.values.front().value);
     deal.planners = {usual_graph_planner(scene, deal.question, all)};
   }
-  SolveOptions graph = deal_planners(deal).front();
+  SolveOptions graph = deal_planners(deal).front().options;
   if (graph.planner == PlannerKind::prm) graph.roadmap.pipeline = PipelineKind::plain;  // tiles leave no roadmap
   return graph;
 }
@@ -144,6 +144,7 @@ void CompareCommand::compare_searches(const Scene& scene, const Run& run) {
 void CompareCommand::write_outputs() const {
   write_report(arguments_, "--json", [&] { return comparison_json(comparison_); });
   write_report(arguments_, "--csv", [&] { return comparison_csv(comparison_); });
+  write_report(arguments_, "--runs", [&] { return comparison_runs(comparison_); });
   write_report(arguments_, "--svg", [&] { return comparison_svg(comparison_); });
   write_report(arguments_, "--log", [&] { return ompl_log(comparison_, experiment()); });
 }

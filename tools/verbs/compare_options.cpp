@@ -9,7 +9,7 @@
 
 #include "core/base/error.hpp"
 #include "solve/steps/kind_of_problem.hpp"
-#include "tools/screen/output_conflicts.hpp"
+#include "tools/verbs/compare_lists.hpp"
 #include "tools/words/option_values.hpp"
 #include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"
@@ -23,32 +23,33 @@ constexpr std::uint64_t usual_seeds = 10;
 constexpr std::uint64_t usual_graphs = 3;
 
 constexpr OptionSpec own_specs[] = {
-    {"--planners", "LIST", "planners of 'solve', apart by commas; without it searches are compared"},
+    {"--planners", "LIST",
+     "planners of 'solve', apart by commas; each runs with every combination of what its options list, apart by "
+     "commas; "
+     "without it searches are compared"},
     {"--searches", "LIST",
      "of astar, dijkstra, bfs, dfs, apart by commas (default: all four; with --planners: as 'solve' chooses)"},
     {"--queues", "LIST",
      "of heap, lazy-heap, sorted-array, resorted-array, linear-scan, apart by commas (default: all five; with "
      "--planners: as 'solve' chooses)"},
     {"--trials", "N|auto",
-     "how often each search is timed (default: auto, 5 to 10000 times, about 0.25 s each); with --planners the same "
-     "as --seeds"},
+     "how often each search is timed (default: auto, 5 to 10000 times, about 0.25 s each); with --planners as --seeds, "
+     "and those whose answer no seed changes run as often"},
     {"--peer", "NAME", "the searches of another library on the same graph, too", "boost"},
     {"--graph", "NAME", "the planner of 'solve' whose graph is searched (default: prm; among polygons visibility)"},
     {"--sizes", "LIST", "search random geometric graphs of so many vertices, apart by commas; needs no WORLD"},
     {"--degree", "D", "neighbours of a vertex of those graphs, on average (default: 20)"},
     {"--seeds", "N",
-     "with --planners: runs of each planner, with seeds from --seed on (default: 10); with --sizes: graphs of each "
-     "size (default: 3)"},
-    {"--samplers", "LIST", "samplers of 'solve', apart by commas; with --planners each takes each"},
-    {"--samples", "LIST", "numbers of samples, or auto, apart by commas; with --planners each takes each"},
+     "with --planners: runs of each planner, with seeds from --seed on (default: 10), but one of those whose answer no "
+     "seed changes; with --sizes: graphs of each size (default: 3)"},
+    {"--samplers", "LIST", "samplers of 'solve', apart by commas, as --sampler"},
+    {"--samples", "LIST", "numbers of samples, or auto, apart by commas"},
     {"--seed", "N", "the first seed (default: 1)"},
+    {"--parallel", "",
+     "with --planners: runs beside each other on the threads, each on one; all figures but the times stay the same"},
     {"--pictures", "FOLDER",
      "with --planners: draw each planner's path of median length, the body along it, and the layers of the grid"},
 };
-
-/// Options of `solve` that are dealt out by lists, and the lists' names.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 3> lists{
-    {{"--search", "--searches"}, {"--queue", "--queues"}, {"--sampler", "--samplers"}}};
 
 /// The options of `solve` that compare takes as they are.
 std::vector<OptionSpec> passed_specs() {
@@ -67,33 +68,6 @@ std::uint64_t first_seed(const Arguments& arguments) {
   return given_value(arguments, "--seed", count_value, std::uint64_t{0}, last).value_or(1);
 }
 
-/// Throws where one of these is given; `why` says what takes them.
-void refuse(const Arguments& arguments, std::initializer_list<std::string_view> options, std::string_view why) {
-  for (const std::string_view option : options) {
-    if (arguments.has(option)) throw UsageError(fmt::format("{}: {}", option, why));
-  }
-}
-
-/// What is passed on to a `solve`; searches and queues are dealt out only to planners.
-PlannerDeal deal_of(const Arguments& arguments, std::vector<PlannerKind> planners, bool with_searches) {
-  for (const auto& [option, list] : lists) {
-    if (arguments.has(list)) refuse(arguments, {option}, fmt::format("{} gives it, too", list));
-  }
-  PlannerDeal deal;
-  deal.planners = std::move(planners);
-  deal.question = question_words(arguments);
-  check_not_written(arguments, deal.question.robot);
-  deal.common = solve_words(arguments.without({"--samples", "--seed"}));
-  if (with_searches) {
-    const auto read = [](std::string_view option, std::string_view word) { return search_value(option, word); };
-    deal.searches = given_values(arguments, "--searches", "--search", read);
-    deal.queues = given_values(arguments, "--queues", "--queue", choice_value<QueueKind>);
-  }
-  deal.samplers = given_values(arguments, "--samplers", "--sampler", choice_value<SamplerKind>);
-  deal.samples = given_values(arguments, "--samples", "--samples", samples_value);
-  return deal;
-}
-
 PlannerContestOptions contest_options(const Arguments& arguments) {
   refuse(arguments, {"--sizes", "--degree", "--peer", "--graph"},
          "compares searches, and --planners compares planners; give one of the two");
@@ -101,13 +75,13 @@ PlannerContestOptions contest_options(const Arguments& arguments) {
     throw UsageError("--trials: with --planners the same as --seeds; give one of the two");
   }
   const auto planners = given_values(arguments, "--planners", "--planner", choice_value<PlannerKind>);
-  const PlannerDeal deal = deal_of(arguments, planners, true);
   PlannerContestOptions options;
-  options.question = deal.question;
-  options.contenders = deal_planners(deal);
+  options.contenders = deal_planners(deal_words(arguments, planners, DealKind::planners));
   options.pictures = arguments.value("--pictures").value_or("");
   options.first_seed = first_seed(arguments);
-  options.runs = count_or(arguments, arguments.has("--trials") ? "--trials" : "--seeds", usual_seeds);
+  options.repeat_all = arguments.has("--trials");
+  options.runs = count_or(arguments, options.repeat_all ? "--trials" : "--seeds", usual_seeds);
+  options.parallel = arguments.has("--parallel");
   return options;
 }
 
@@ -173,10 +147,7 @@ void take_graph_options(const Arguments& arguments, CompareOptions& options) {
   refuse(arguments, {"--queue"}, "queues are compared; say --queues");
   options.graph = given_choice<PlannerKind>(arguments, "--graph");
   PlannerDeal& deal = options.graph_deal;
-  deal = deal_of(arguments, options.graph ? std::vector{*options.graph} : planners_there_are(), false);
-  constexpr std::string_view one = "{}: searches run on one graph; give one value";
-  if (deal.samplers.size() > 1) throw UsageError(fmt::format(one, "--sampler"));
-  if (deal.samples.size() > 1) throw UsageError(fmt::format(one, "--samples"));
+  deal = deal_words(arguments, options.graph ? std::vector{*options.graph} : planners_there_are(), DealKind::graph);
   deal.common.seed = first_seed(arguments);
   deal_planners(deal);
 }
@@ -206,6 +177,7 @@ CompareOptions compare_options(const Arguments& arguments) {
     return options;
   }
   refuse(arguments, {"--pictures"}, "draws the paths of --planners");
+  refuse(arguments, {"--parallel"}, "runs --planners beside each other; searches are timed one by one");
   options.searches.variants = variants_of(arguments);
   options.searches.trials = given_value(arguments, "--trials", auto_or_count_value, std::uint64_t{1}, most_runs);
   options.searches.budget_s = options.budget_s;

@@ -118,7 +118,13 @@ std::vector<std::string> Arguments::values(std::string_view option) const {
   return all;
 }
 
-Arguments Arguments::without(std::initializer_list<std::string_view> options) const {
+Arguments Arguments::of(std::string_view option, std::string value) {
+  Arguments one;
+  one.options_.emplace_back(option, std::move(value));
+  return one;
+}
+
+Arguments Arguments::without(std::span<const std::string_view> options) const {
   Arguments others = *this;
   std::erase_if(others.options_, [&](const auto& given) {
     return std::find(options.begin(), options.end(), given.first) != options.end();

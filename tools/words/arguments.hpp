@@ -4,7 +4,6 @@
 // of forty lines instead of a library, since help, completions, manual page and suggestions need the table anyway.
 #pragma once
 
-#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
@@ -22,13 +21,16 @@ class Arguments {
   /// wrong number of operands. Words after the verb.
   Arguments(const Command& command, std::span<const std::string> words);
 
+  /// One option alone; its name must outlive the words.
+  static Arguments of(std::string_view option, std::string value);
+
   bool has(std::string_view option) const;
   /// What was given with the option: empty for a flag, and where a value that may be missing is.
   std::optional<std::string> value(std::string_view option) const;
   /// All that was given with it, where it takes several words.
   std::vector<std::string> values(std::string_view option) const;
   /// These words, but for some options.
-  Arguments without(std::initializer_list<std::string_view> options) const;
+  Arguments without(std::span<const std::string_view> options) const;
   const std::string& operand(std::size_t i) const { return operands_[i]; }
   std::size_t operand_count() const { return operands_.size(); }  ///< fewer than the command's where some are optional
   /// The command line as it was given, for the pictures' descriptions.
@@ -36,6 +38,7 @@ class Arguments {
   bool wants_help() const { return wants_help_; }
 
  private:
+  Arguments() = default;
   void take_option(const Command& command, std::span<const std::string> words, std::size_t& i);
   void check_operands(const Command& command) const;
 

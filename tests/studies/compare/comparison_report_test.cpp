@@ -110,6 +110,30 @@ TEST(ComparisonCsv, FieldsWithCommasAreQuoted) {
   EXPECT_EQ(outside, static_cast<std::size_t>(std::count(lines[0].begin(), lines[0].end(), ',')));
 }
 
+TEST(ComparisonRow, WhatNoSeedChangesSucceedsAlwaysOrNever) {
+  Contender c = two_planners().contenders[0];
+  c.runs.resize(1);
+  EXPECT_LT(row_of(c).success.low, 0.5) << "one run of chance tells little";
+  c.deterministic = true;
+  EXPECT_EQ(row_of(c).success.low, 1.0);
+  c.runs[0].outcome = Outcome::not_connected;
+  EXPECT_EQ(row_of(c).success.high, 0.0);
+  c.runs[0].outcome = Outcome::stopped;
+  EXPECT_GT(row_of(c).success.high, 0.5) << "with more time it might have found a path";
+}
+
+TEST(ComparisonRuns, HasALineARunAndAColumnAnOption) {
+  const auto lines = lines_of(comparison_runs(two_planners()));
+  ASSERT_EQ(lines.size(), 9U);
+  EXPECT_EQ(lines[0].rfind("source,planner,search,queue,library,option_samples,option_optimise,seed,status,time_s,", 0),
+            0U);
+  EXPECT_EQ(lines[1].rfind("\"maze:4x4,seed=2\",prm,astar,,warren,50,true,7,solved,0.4,,4,", 0), 0U) << lines[1];
+  EXPECT_EQ(lines[5].rfind("\"maze:4x4,seed=2\",lazy-prm,astar,,warren,,,7,not_connected,0.7,,,", 0), 0U) << lines[5];
+  for (const std::string& line : lines) {
+    EXPECT_EQ(std::count(line.begin(), line.end(), ','), 26 + (line == lines[0] ? 0 : 1)) << "one in the source";
+  }
+}
+
 /// Reads the log as ompl_benchmark_statistics.py does: split at "; ", the last piece dropped.
 TEST(OmplLog, ReadsBackAsOmplsScriptReadsIt) {
   const OmplExperiment experiment{.name = "compare_maze",
@@ -176,6 +200,17 @@ TEST(OmplLog, ReadsBackAsOmplsScriptReadsIt) {
 TEST(TextTable, ColumnsAreAsWideAsTheirWidestCellAndEmptyOnesGo) {
   const TextTable table{{"name", "nothing", "n"}, 1, {{"a", "", "1"}, {"longer", "", "100"}}};
   EXPECT_EQ(table.text(Palette(false)), "name      n\na         1\nlonger  100\n");
+}
+
+TEST(HumanNumber, LargeNumbersHaveAllTheirDigits) {
+  const std::vector<std::pair<double, const char*>> cases{{0.0, "0"},
+                                                          {1.0 / 3.0, "0.333333"},
+                                                          {999999.4, "999999"},
+                                                          {999999.7, "1000000"},
+                                                          {11152213.5, "11152214"},
+                                                          {-1.5e12, "-1500000000000"},
+                                                          {2.5e15, "2.5e+15"}};
+  for (const auto& [value, text] : cases) EXPECT_EQ(human_number(value), text);
 }
 
 TEST(PreciseSeconds, ShowsThreeDigitsInTheUnitThatFits) {

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
 
 #include "core/base/rng.hpp"
 
@@ -25,12 +28,53 @@ TEST(Statistics, QuantilesAreNumpysDefault) {
   EXPECT_DOUBLE_EQ(median_of(std::vector<double>{3, 1, 2}), 2.0);
 }
 
-TEST(Statistics, MeanIntervalIsStudents) {
-  // t.test(c(5.1, 4.9, 6.2, 5.8, 5.5)): mean 5.5, 95 % from 4.849 to 6.151.
+TEST(Statistics, MeanIntervalIsStudentsOnTheLogarithmsScale) {
+  // t.test(c(5.1, 4.9, 6.2, 5.8, 5.5)): mean 5.5, standard error sqrt(0.275 / 5), t 2.77645.
   const auto d = distribution_of(std::vector<double>{5.1, 4.9, 6.2, 5.8, 5.5});
   ASSERT_TRUE(d && d->mean_ci95);
-  EXPECT_NEAR(d->mean_ci95->low, 5.5 - 2.77645 * std::sqrt(0.275 / 5), 1e-4);
-  EXPECT_NEAR(d->mean_ci95->high, 5.5 + 2.77645 * std::sqrt(0.275 / 5), 1e-4);
+  const double log_half_width = 2.77645 * std::sqrt(0.275 / 5) / 5.5;
+  EXPECT_NEAR(std::log(d->mean_ci95->low), std::log(5.5) - log_half_width, 1e-5);
+  EXPECT_NEAR(std::log(d->mean_ci95->high), std::log(5.5) + log_half_width, 1e-5);
+}
+
+TEST(Statistics, NoIntervalOfTimesEndsBelowZero) {
+  std::vector<double> times(20, 1e-6);
+  times.push_back(40e-6);  // somebody else had the processor: Student's interval of the mean would begin at -1 us
+  const auto d = distribution_of(times);
+  ASSERT_TRUE(d && d->mean_ci95 && d->median_ci95);
+  EXPECT_GT(d->mean_ci95->low, 0.0);
+  EXPECT_GT(d->mean_ci95->high, d->mean);
+  EXPECT_EQ(d->median_ci95->low, 1e-6);
+  EXPECT_EQ(d->median_ci95->high, 1e-6);
+  const auto zeros = distribution_of(std::vector<double>{0.0, 0.0, 0.0});
+  ASSERT_TRUE(zeros && zeros->mean_ci95);
+  EXPECT_EQ(zeros->mean_ci95->high, 0.0);
+}
+
+/// The 2.5 and 97.5 per cent points of the medians of many samples drawn from the sample, as ranks.
+std::pair<double, double> bootstrap_ranks(std::size_t count, std::uint64_t seed) {
+  std::vector<double> ranks(count);
+  std::iota(ranks.begin(), ranks.end(), 0.0);
+  SequentialRng rng(seed);
+  std::vector<double> medians;
+  for (int draw = 0; draw < 4000; ++draw) {
+    std::vector<double> sample;
+    for (std::size_t i = 0; i < count; ++i) sample.push_back(ranks[rng.below(count)]);
+    medians.push_back(median_of(sample));
+  }
+  std::sort(medians.begin(), medians.end());
+  return {sorted_quantile(medians, 0.025), sorted_quantile(medians, 0.975)};
+}
+
+TEST(Statistics, MedianIntervalEndsWhereThePercentileBootstrapDoes) {
+  for (const std::size_t n : {7, 10, 20, 31, 60, 100, 401}) {
+    SCOPED_TRACE(n);
+    const auto ranks = median_ranks(n);
+    ASSERT_TRUE(ranks);
+    const auto [low, high] = bootstrap_ranks(n, n);
+    EXPECT_NEAR(static_cast<double>(ranks->first), low, 1.0);
+    EXPECT_NEAR(static_cast<double>(ranks->second), high, 1.0);
+  }
 }
 
 TEST(Statistics, SmallSamplesClaimNoInterval) {

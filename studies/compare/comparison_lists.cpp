@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Plots of what options that were dealt out do. Where a planner takes the values of one option in turn: success with
+// its interval, lengths and times with their quartiles, against its value. Where it takes those of more: the same as
+// heat maps over the two options with most values, one row of maps for each way to take the others.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "pictures/plot_svg.hpp"
+#include "scenes/text/human_units.hpp"
+#include "studies/compare/comparison_report.hpp"
+#include "studies/compare/heat_map_svg.hpp"
+
+namespace warren {
+namespace {
+
+using Words = std::vector<std::pair<std::string, std::string>>;
+
+/// One of the figures that are shown against options.
+struct ShownFigure {
+  std::string_view name;
+  std::string_view label;                                 ///< of its axis
+  std::optional<Vec2> (*span)(const ComparisonRow& row);  ///< its interval or quartiles
+  std::optional<double> (*value)(const ComparisonRow& row);
+  std::string (*text)(double value);
+};
+
+template <auto Field>
+std::optional<double> median(const ComparisonRow& row) {
+  return row.*Field ? std::optional((row.*Field)->median) : std::nullopt;
+}
+template <auto Field>
+std::optional<Vec2> quartiles(const ComparisonRow& row) {
+  return row.*Field ? std::optional(Vec2{(row.*Field)->q1, (row.*Field)->q3}) : std::nullopt;
+}
+std::optional<double> success(const ComparisonRow& row) {
+  if (row.runs == 0) return std::nullopt;
+  return 100.0 * static_cast<double>(row.solved) / static_cast<double>(row.runs);
+}
+std::optional<Vec2> success_interval(const ComparisonRow& row) {
+  return Vec2{100.0 * row.success.low, 100.0 * row.success.high};
+}
+std::string per_cent(double value) { return fmt::format("{:.0f} %", value); }
+
+constexpr ShownFigure figures[] = {
+    {"runs solved", "per cent of the runs, 95 % interval", success_interval, success, per_cent},
+    {"median length", "length, with quartiles", quartiles<&ComparisonRow::length>, median<&ComparisonRow::length>,
+     human_number},
+    {"median time", "seconds, with quartiles", quartiles<&ComparisonRow::time_s>, median<&ComparisonRow::time_s>,
+     precise_seconds},
+};
+
+/// In the order in which they are met.
+void add_once(std::vector<std::string>& words, const std::string& word) {
+  if (std::find(words.begin(), words.end(), word) == words.end()) words.push_back(word);
+}
+
+const std::string& word_of(const Words& dealt, const std::string& name) {
+  static const std::string none;
+  for (const auto& [option, word] : dealt) {
+    if (option == name) return word;
+  }
+  return none;
+}
+
+/// Contenders that differ in nothing but the values on the axes.
+struct Family {
+  std::string name;                       ///< the planner, and what its contenders share of what was dealt
+  std::vector<std::string> axes;          ///< names of options, one or two
+  std::vector<const Contender*> members;  ///< all that take the axes' options
+};
+
+/// Of what the planner's contenders were dealt, the names of the two options with most values.
+std::vector<std::string> axes_of(const Comparison& comparison, const Contender& like) {
+  std::vector<std::pair<std::size_t, std::string>> by_count;
+  for (const auto& [name, word] : like.dealt) {
+    std::vector<std::string> words;
+    for (const Contender& c : comparison.contenders) {
+      if (c.planner == like.planner && c.problem == like.problem) add_once(words, word_of(c.dealt, name));
+    }
+    by_count.emplace_back(words.size(), name);
+  }
+  std::stable_sort(by_count.begin(), by_count.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<std::string> axes;
+  for (std::size_t i = 0; i < std::min<std::size_t>(2, by_count.size()); ++i) axes.push_back(by_count[i].second);
+  return axes;
+}
+
+std::vector<Family> families_of(const Comparison& comparison) {
+  std::vector<Family> families;
+  for (const Contender& c : comparison.contenders) {
+    if (c.dealt.empty()) continue;
+    Family family{c.planner, axes_of(comparison, c), {}};
+    for (const auto& [name, word] : c.dealt) {
+      const bool on_axis = std::find(family.axes.begin(), family.axes.end(), name) != family.axes.end();
+      if (!on_axis) family.name += fmt::format(", {} {}", name, word);
+    }
+    const auto same = std::find_if(families.begin(), families.end(),
+                                   [&](const Family& f) { return f.name == family.name && f.axes == family.axes; });
+    Family& of = same == families.end() ? families.emplace_back(std::move(family)) : *same;
+    of.members.push_back(&c);
+  }
+  return families;
+}
+
+HeatMap heat_map(const Family& family, const ShownFigure& figure) {
+  HeatMap map{
+      .title = fmt::format("{}: {}", family.name, figure.name), .x_label = family.axes[0], .y_label = family.axes[1]};
+  if (figure.text == per_cent) map.low = 0.0, map.high = 100.0;
+  for (const Contender* c : family.members) {
+    add_once(map.columns, word_of(c->dealt, family.axes[0]));
+    add_once(map.rows, word_of(c->dealt, family.axes[1]));
+  }
+  map.cells.resize(map.columns.size() * map.rows.size());
+  for (const Contender* c : family.members) {
+    const auto index = [&](const std::vector<std::string>& words, const std::string& axis) {
+      return static_cast<std::size_t>(std::find(words.begin(), words.end(), word_of(c->dealt, axis)) - words.begin());
+    };
+    HeatMap::Cell& cell =
+        map.cells[index(map.rows, family.axes[1]) * map.columns.size() + index(map.columns, family.axes[0])];
+    cell.value = figure.value(row_of(*c));
+    cell.text = cell.value ? figure.text(*cell.value) : "none";
+  }
+  return map;
+}
+
+/// Nothing of an option whose values are no numbers.
+std::optional<PlotSeries> series_of(const Family& family, const ShownFigure& figure) {
+  PlotSeries series{.name = family.name, .points = {}};
+  std::map<double, const Contender*> by_value;
+  for (const Contender* c : family.members) {
+    if (const auto x = number_in_word(word_of(c->dealt, family.axes[0]))) by_value[*x] = c;
+  }
+  for (const auto& [x, c] : by_value) {
+    const ComparisonRow row = row_of(*c);
+    const auto y = figure.value(row);
+    if (!y) continue;
+    series.points.push_back({x, *y});
+    series.spans.push_back(figure.span(row).value_or(Vec2{*y, *y}));
+  }
+  return by_value.size() < 2 ? std::nullopt : std::optional(std::move(series));
+}
+
+/// Planners that take the values of the same option are in one plot.
+std::vector<std::string> line_panels(const std::vector<Family>& families) {
+  std::vector<std::string> options;
+  for (const Family& family : families) {
+    if (family.axes.size() == 1) add_once(options, family.axes[0]);
+  }
+  std::vector<std::string> panels;
+  for (const std::string& option : options) {
+    for (const ShownFigure& figure : figures) {
+      Plot plot{.title = fmt::format("{} against {}", figure.name, option),
+                .x_label = option,
+                .y_label = std::string(figure.label),
+                .series = {}};
+      plot.from_zero = figure.text == per_cent;
+      for (const Family& family : families) {
+        if (family.axes.size() != 1 || family.axes[0] != option) continue;
+        if (auto series = series_of(family, figure)) plot.series.push_back(std::move(*series));
+      }
+      if (!plot.series.empty()) panels.push_back(plot_svg(plot));
+    }
+  }
+  return panels;
+}
+
+}  // namespace
+
+std::vector<std::string> list_panels(const Comparison& comparison) {
+  constexpr std::size_t most_maps = 60;
+  const std::vector<Family> families = families_of(comparison);
+  std::vector<std::string> panels = line_panels(families);
+  for (const Family& family : families) {
+    for (const ShownFigure& figure : figures) {
+      if (family.axes.size() == 2 && panels.size() < most_maps)
+        panels.push_back(heat_map_svg(heat_map(family, figure)));
+    }
+  }
+  return panels;
+}
+
+}  // namespace warren

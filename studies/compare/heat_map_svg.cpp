@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "studies/compare/heat_map_svg.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <string_view>
+
+#include "core/base/types.hpp"
+#include "pictures/plot_svg.hpp"
+
+namespace warren {
+namespace {
+
+constexpr Box frame{{150.0, 48.0}, {724.0, 350.0}};  // of the cells, y down
+
+/// Red, green, blue, 0 to 255.
+using Color = std::array<double, 3>;
+constexpr std::array<Color, 5> viridis{{{68, 1, 84}, {59, 82, 139}, {33, 145, 140}, {94, 201, 98}, {253, 231, 37}}};
+
+/// At a share from 0 to 1 of the scale.
+Color color_at(double share) {
+  const double at = share * static_cast<double>(viridis.size() - 1);
+  const std::size_t below = std::min(static_cast<std::size_t>(at), viridis.size() - 2);
+  Color color{};
+  for (std::size_t i = 0; i < color.size(); ++i) {
+    color[i] = std::lerp(viridis[below][i], viridis[below + 1][i], at - static_cast<double>(below));
+  }
+  return color;
+}
+
+std::string text_of(const Color& c) { return fmt::format("rgb({:.0f},{:.0f},{:.0f})", c[0], c[1], c[2]); }
+
+bool is_dark(const Color& c) { return 0.3 * c[0] + 0.59 * c[1] + 0.11 * c[2] < 128.0; }
+
+/// The least and the largest value; equal where there is one value or none.
+struct Scale {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+  double share(double value) const { return high > low ? (value - low) / (high - low) : 0.5; }
+};
+
+class HeatMapDrawing {
+ public:
+  explicit HeatMapDrawing(const HeatMap& map)
+      : map_(map),
+        cell_{frame.width() / static_cast<double>(map.columns.size()),
+              frame.height() / static_cast<double>(map.rows.size())} {
+    for (const HeatMap::Cell& cell : map.cells) {
+      if (!cell.value) continue;
+      scale_.low = std::min(scale_.low, *cell.value);
+      scale_.high = std::max(scale_.high, *cell.value);
+    }
+    scale_.low = map.low.value_or(scale_.low);
+    scale_.high = map.high.value_or(scale_.high);
+  }
+
+  std::string text() {
+    begin();
+    for (std::size_t row = 0; row < map_.rows.size(); ++row) {
+      for (std::size_t column = 0; column < map_.columns.size(); ++column) draw_cell(column, row);
+    }
+    return text_ + "</svg>\n";
+  }
+
+ private:
+  void begin();
+  void draw_cell(std::size_t column, std::size_t row);
+  double x_of(std::size_t column) const { return frame.min.x + cell_.x * static_cast<double>(column); }
+  double y_of(std::size_t row) const { return frame.max.y - cell_.y * static_cast<double>(row + 1); }
+  void label(double x, double y, std::string_view anchor, std::string_view text, std::string_view more = "") {
+    fmt::format_to(std::back_inserter(text_), "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y,
+                   anchor, more, xml_text(text));
+  }
+
+  const HeatMap& map_;
+  Vec2 cell_;  // width and height of one
+  Scale scale_;
+  std::string text_;
+};
+
+void HeatMapDrawing::begin() {
+  text_ = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" role=\"img\" "
+      "font-family=\"sans-serif\" font-size=\"12\" fill=\"#222222\">\n<title>{2}</title>\n"
+      "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n",
+      plot_size.x, plot_size.y, xml_text(map_.title));
+  label(frame.min.x, 28.0, "start", map_.title, " font-size=\"15\" font-weight=\"bold\"");
+  label((frame.min.x + frame.max.x) / 2.0, plot_size.y - 22.0, "middle", map_.x_label);
+  const double middle = (frame.min.y + frame.max.y) / 2.0;
+  label(40.0, middle, "middle", map_.y_label, fmt::format(" transform=\"rotate(-90 40 {:.1f})\"", middle));
+  for (std::size_t i = 0; i < map_.columns.size(); ++i) {
+    label(x_of(i) + 0.5 * cell_.x, frame.max.y + 18.0, "middle", map_.columns[i]);
+  }
+  for (std::size_t i = 0; i < map_.rows.size(); ++i) {
+    label(frame.min.x - 8.0, y_of(i) + 0.5 * cell_.y + 4.0, "end", map_.rows[i]);
+  }
+}
+
+void HeatMapDrawing::draw_cell(std::size_t column, std::size_t row) {
+  const HeatMap::Cell& cell = map_.cells[row * map_.columns.size() + column];
+  const Color color = cell.value ? color_at(scale_.share(*cell.value)) : Color{232, 232, 232};
+  fmt::format_to(
+      std::back_inserter(text_),
+      "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"{}\" stroke=\"#ffffff\"/>\n",
+      x_of(column), y_of(row), cell_.x, cell_.y, text_of(color));
+  const std::string_view ink = is_dark(color) ? " fill=\"#ffffff\"" : "";
+  label(x_of(column) + 0.5 * cell_.x, y_of(row) + 0.5 * cell_.y + 4.0, "middle", cell.text, ink);
+}
+
+}  // namespace
+
+std::string heat_map_svg(const HeatMap& map) { return HeatMapDrawing(map).text(); }
+
+}  // namespace warren

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A table of numbers as coloured cells, each with its number in it: one <svg> element as large as a plot of plot_svg.
+// The colours (viridis) rise in lightness, so they are told apart by all eyes and in grey.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace warren {
+
+struct HeatMap {
+  struct Cell {
+    std::optional<double> value = {};  ///< finite; none: an empty cell
+    std::string text = {};             ///< what is written in it
+  };
+  std::string title = {};
+  std::string x_label = {};
+  std::string y_label = {};
+  std::vector<std::string> columns = {};  ///< from left to right, at least one
+  std::vector<std::string> rows = {};     ///< from below, at least one
+  std::optional<double> low = {};         ///< where the colours begin; none: at the least value
+  std::optional<double> high = {};        ///< where they end; none: at the largest
+  std::vector<Cell> cells = {};           ///< row by row, columns.size() * rows.size() of them
+};
+
+std::string heat_map_svg(const HeatMap& map);
+
+}  // namespace warren

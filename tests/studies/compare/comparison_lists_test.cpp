@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "studies/compare/comparison_report.hpp"
+#include "studies/compare/heat_map_svg.hpp"
+
+namespace warren {
+namespace {
+
+using Words = std::vector<std::pair<std::string, std::string>>;
+
+Contender contender(const std::string& planner, Words dealt, std::size_t solved, double length) {
+  Contender c;
+  c.planner = planner;
+  c.dealt = std::move(dealt);
+  for (std::size_t i = 0; i < 4; ++i) {
+    ComparedRun run;
+    run.outcome = i < solved ? Outcome::solved : Outcome::not_connected;
+    run.time_s = 0.25;
+    run.length = length;
+    c.runs.push_back(run);
+  }
+  return c;
+}
+
+Comparison of(std::vector<Contender> contenders) {
+  Comparison comparison;
+  comparison.problems = {{"maze:4x4", "", 0, 0}};
+  comparison.contenders = std::move(contenders);
+  return comparison;
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+TEST(ListPanels, TwoListsMakeHeatMapsOfSuccessLengthAndTime) {
+  const auto panels = list_panels(of({contender("prm", {{"samples", "50"}, {"neighbours", "4"}}, 0, 0.0),
+                                      contender("prm", {{"samples", "50"}, {"neighbours", "8"}}, 1, 17.5),
+                                      contender("prm", {{"samples", "90"}, {"neighbours", "4"}}, 2, 16.5),
+                                      contender("prm", {{"samples", "90"}, {"neighbours", "8"}}, 4, 15.5)}));
+  ASSERT_EQ(panels.size(), 3U);
+  for (const char* text : {">0 %<", ">25 %<", ">50 %<", ">100 %<", ">samples<", ">neighbours<"}) {
+    EXPECT_EQ(count(panels[0], text), 1U) << text;
+  }
+  EXPECT_EQ(count(panels[1], ">none<"), 1U) << "no path, no length";
+  EXPECT_EQ(count(panels[1], ">17.5<"), 1U);
+  EXPECT_EQ(count(panels[2], ">250 ms<"), 4U);
+}
+
+TEST(ListPanels, TheListsWithMostValuesAreTheAxesAndOthersMakeMapsOfTheirOwn) {
+  std::vector<Contender> all;
+  for (const char* sampler : {"uniform", "halton"}) {
+    for (const char* k : {"4", "8", "12"}) {
+      for (const char* n : {"50", "90", "120"}) {
+        all.push_back(contender("prm", {{"sampler", sampler}, {"samples", n}, {"neighbours", k}}, 4, 1.0));
+      }
+    }
+  }
+  const auto panels = list_panels(of(all));
+  ASSERT_EQ(panels.size(), 6U);
+  EXPECT_EQ(count(panels[0], "prm, sampler uniform: runs solved"), 2U) << "title and heading";
+  EXPECT_EQ(count(panels[5], "prm, sampler halton: median time"), 2U);
+}
+
+TEST(ListPanels, OneListOfNumbersIsALineAPlannerWithBars) {
+  const auto panels =
+      list_panels(of({contender("prm", {{"samples", "100"}}, 4, 15.0), contender("prm", {{"samples", "50"}}, 1, 17.5),
+                      contender("lazy-prm", {{"samples", "50"}}, 2, 17.0),
+                      contender("lazy-prm", {{"samples", "100"}}, 4, 15.5), contender("voronoi", {}, 4, 20.0)}));
+  ASSERT_EQ(panels.size(), 3U);
+  EXPECT_EQ(count(panels[0], "<circle"), 4U + 2U) << "points and legend";
+  EXPECT_EQ(count(panels[0], ">voronoi<"), 0U);
+}
+
+TEST(ListPanels, WordsAndOptionsThatNobodyListsHaveNone) {
+  EXPECT_TRUE(list_panels(of({contender("prm", {}, 4, 15.0)})).empty());
+  EXPECT_TRUE(list_panels(of({contender("prm", {{"sampler", "uniform"}}, 4, 15.0),
+                              contender("prm", {{"sampler", "halton"}}, 4, 15.0)}))
+                  .empty());
+}
+
+TEST(HeatMap, EqualValuesAndNoneAreDrawnToo) {
+  const std::string svg =
+      heat_map_svg({.title = "a < b", .columns = {"1", "2"}, .rows = {"x"}, .cells = {{}, {2.0, "2"}}});
+  EXPECT_EQ(count(svg, "<rect"), 3U);
+  EXPECT_EQ(count(svg, "nan"), 0U);
+  EXPECT_EQ(count(svg, "a &lt; b"), 2U);
+}
+
+}  // namespace
+}  // namespace warren
