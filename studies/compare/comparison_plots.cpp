@@ -80,7 +80,13 @@ std::vector<Vec2> solved_shares(const Contender& contender) {
   return points;
 }
 
+/// Where options were dealt out, they alone set a planner's contenders apart.
 std::string contender_name(const Contender& c, bool with_planner) {
+  if (!c.dealt.empty()) {
+    std::string dealt = c.planner;
+    for (const auto& [option, word] : c.dealt) dealt += fmt::format(", {} {}", option, word);
+    return dealt;
+  }
   std::string name = name_of(c, with_planner);
   if (c.library != "warren") name = c.search + ", " + c.library;
   if (with_planner && !c.options.empty()) name += ", " + options_text(c);
