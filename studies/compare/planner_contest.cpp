@@ -34,7 +34,7 @@ class PlannerContest {
 
  private:
   void enter();
-  std::uint64_t turns_to_come() const;
+  std::uint64_t turns_in_all() const;
   std::vector<Turn> turns_of(std::uint64_t round) const;
   void take(std::vector<Turn> turns);
   ComparedRun run_once(const Turn& turn);
@@ -58,7 +58,7 @@ void PlannerContest::run() {
   double seconds = 0.0;
   const StageTimer timer(execution_, "compare", seconds, options_.runs * options_.contenders.size());
   take(turns_of(0));
-  if (execution_.progress != nullptr) execution_.progress->set_total(turns_to_come());
+  if (execution_.progress != nullptr) execution_.progress->set_total(turns_in_all());
   std::vector<Turn> turns;
   for (std::uint64_t round = 1; round < options_.runs; ++round) {
     const std::vector<Turn> more = turns_of(round);
@@ -91,8 +91,8 @@ void PlannerContest::enter() {
   }
 }
 
-/// Of all rounds: the turns there are beside the first one's.
-std::uint64_t PlannerContest::turns_to_come() const {
+/// Of all rounds together, when the first has told who needs others.
+std::uint64_t PlannerContest::turns_in_all() const {
   std::uint64_t count = options_.contenders.size();
   for (std::size_t i = 0; i < options_.contenders.size(); ++i) {
     if (options_.repeat_all || !contender(i).deterministic) count += options_.runs - 1;

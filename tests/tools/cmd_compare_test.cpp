@@ -215,6 +215,17 @@ TEST(Compare, ListsAreDealtToThePlannersThatTakeThem) {
   EXPECT_EQ(optional["rows"][1]["options"]["lazy"], "path");
 }
 
+TEST(Compare, ListsOfTwoOptionsAreDrawnAsHeatMaps) {
+  const Folder folder;
+  const std::string svg = folder.path("k.svg");
+  compared("maze:5x5 --planners prm --sampler uniform --samples 100,300 --neighbours 4,8 --seeds 2 --svg " + svg);
+  const std::string drawn = folder.read("k.svg");
+  for (const char* title :
+       {"prm: runs solved", "prm: median length", "prm: median time", "prm, samples 300, neighbours 8"}) {
+    EXPECT_NE(drawn.find(title), std::string::npos) << title;
+  }
+}
+
 std::string poly_easy() { return test::source_dir() + "/examples/worlds/poly-easy.scene"; }
 
 TEST(Compare, EveryCombinationOfListedOptionsIsAConfiguration) {
@@ -307,6 +318,8 @@ TEST(Compare, OutputsAreWrittenSideBySide) {
   EXPECT_EQ(Json::parse(folder.read("a.json"))["rows"].size(), 2U);
   const std::string csv = folder.read("a.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);
+  const std::string runs = folder.read("runs.csv");
+  EXPECT_EQ(std::count(runs.begin(), runs.end(), '\n'), 1 + 2 * 3);
   const std::string log = folder.read("a.log");
   EXPECT_NE(log.find("2 planners\nwarren_prm"), std::string::npos) << log;
   EXPECT_NE(log.find("3 runs\n6; "), std::string::npos) << log;
