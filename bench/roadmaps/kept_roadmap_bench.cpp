@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Kept roadmaps of sampled milestones: 110,000 samples in a maze of 110 x 110 cells with 10 % loops, without an index
 // (0) and with one (1): built, opened from a file with a first question, asked, asked in a batch, and updated where one
-// wall has gone. bench/rivals/kept_roadmap.cpp has the rivals.
+// wall has gone. bench/rivals/ompl_kept_roadmap.cpp has the rivals.
 #include <benchmark/benchmark.h>
 
 #include <fmt/format.h>

@@ -168,11 +168,17 @@ def roadmap_cases(w, full):
              for world, samples in ((maze, many), (polygons, many), (turning, few), (arm, few))
              for planner in ("prm", "lazy-prm")]
     cases += [(["build", f"maze:{2000 if full else 500}x{2000 if full else 500},loops=0.1"], {"-o": "out.roadmap"})]
+    cases += [(["build", polygons, "--planner", planner], {"-o": "out.roadmap"})
+              for planner in ("visibility", "cells", "voronoi")]
+    cases += [(["solve", polygons, "--planner", "prm", "--samples", many],
+               {"--save-roadmap": "out.roadmap", "--json": "answer.json", "--path": "out.csv"})]
     kept = w.made(f"kept-{many}.roadmap", "build", maze, "--samples", many)
+    ends = [f"{1 + i % side},{1 + i * 7 % side}" for i in range(300)]
     lines = ["start_x,start_y,goal_x,goal_y"] + [f"{1 + i % side},{1 + i * 7 % side},{side},{1 + i % 9}"
                                                  for i in range(20_000)]
     cases += [(["query", kept], {"--json": "answer.json", "--keep": "out.roadmap"}),
               (["query", kept, "--batch", w.written(f"batch-{side}.csv", lines)], {}),
+              (["query", kept, "--matrix", *[w.written(f"places-{side}.csv", ["x,y", *ends])] * 2], {}),
               (["update", kept, f"{maze},seed=2"], {"-o": "out.roadmap", "--report": "out.json"}),
               (["info", kept, "--check", "all"], {"--json": "info.json"})]
     cases += [(["export", kept], {"-o": name}) for name in ("out.geojson", "out.graphml", "out.npz", "out.gr")]

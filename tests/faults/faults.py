@@ -40,6 +40,10 @@ RUNS = [
     ("build", "build w.scene --samples 60 -o r.roadmap --threads 1", ["r.roadmap"]),
     ("query", "query kept.roadmap --json a.json --svg a.svg --keep k.roadmap --threads 1",
      ["a.json", "a.svg", "k.roadmap"]),
+    ("solve and keep",
+     "solve w.scene --planner prm --samples 60 --json a.json --save-roadmap s.roadmap --path p.csv --threads 1",
+     ["a.json", "s.roadmap", "p.csv"]),
+    ("query a table", "query kept.roadmap --matrix w.csv w.csv --trace t.json --threads 1", ["t.json"]),
     ("update", "update kept.roadmap w.scene -o u.roadmap --report u.json --threads 1", ["u.roadmap", "u.json"]),
     ("export", "export kept.roadmap -o x.gr", ["x.gr", "x.co"]),
 ]
@@ -50,6 +54,7 @@ def prepare(program: str, folder: Path) -> None:
     for words in ("generate maze 5x5 -o w.scene", "generate maze 60x60 -o big.npy",
                   "build w.scene --samples 60 --planner lazy-prm -o kept.roadmap"):
         subprocess.run([program, *words.split()], cwd=folder, check=True, stdout=subprocess.DEVNULL)
+    (folder / "w.csv").write_text("x,y\n1,1\n5,5\n")
     (folder / "m.pgm").write_text("P2\n3 3\n255\n0 0 0\n255 255 255\n0 0 0\n")
     (folder / "m.yaml").write_text("image: m.pgm\n" + ROS_KEYS)
 

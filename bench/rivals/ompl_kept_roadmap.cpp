@@ -12,7 +12,7 @@
 //   overlay search       prm by tiles (planners/tiled), which keeps nothing and builds its overlay for each question
 // CPU time of the process, all threads of it. Lengths are compared with Boost's; OMPL joins start and goal to
 // more.
-//   rival_kept_roadmap [SIDE [SAMPLES [QUESTIONS]]]
+//   rival_ompl_kept_roadmap [SIDE [SAMPLES [QUESTIONS]]]
 #include <ompl/util/Console.h>
 
 #include <algorithm>
@@ -244,7 +244,7 @@ int main(int argc, char** argv) {
   const int samples = argc > 2 ? std::atoi(argv[2]) : 100'000;
   const int questions = argc > 3 ? std::atoi(argv[3]) : 200;
   if (side < 2 || samples < 1 || questions < 1) {
-    std::fprintf(stderr, "usage: rival_kept_roadmap [SIDE [SAMPLES [QUESTIONS]]]\n");
+    std::fprintf(stderr, "usage: rival_ompl_kept_roadmap [SIDE [SAMPLES [QUESTIONS]]]\n");
     return 2;
   }
   ompl::msg::setLogLevel(ompl::msg::LOG_ERROR);
