@@ -93,11 +93,7 @@ std::string blocked_json(const BlockedEnd& blocked) {
   JsonObject json;
   json.add("end", blocked.is_start ? "start" : "goal");
   json.add("by", blocked.by);
-  if (blocked.free_place.empty()) {
-    json.add_json("free_place", "null");
-  } else {
-    add_state(json, "free_place", blocked.free_place);
-  }
+  add_state(json, "free_place", blocked.free_place);
   json.add_or_null("distance", !blocked.free_place.empty(), blocked.distance);
   add_text(json, "hint", blocked.hint);
   return json.closed();

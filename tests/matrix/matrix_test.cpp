@@ -70,6 +70,10 @@ class Matrix : public testing::TestWithParam<MatrixWorld> {
   void check_ends(const MatrixBody& body, const std::vector<std::vector<double>>& ends, bool may_touch,
                   const std::string& status) const;
   static std::vector<std::string> limits_of(const std::string& planner);
+  std::vector<std::string> path_words(const MatrixBody& body) const;
+  void check_path_file(const MatrixBody& body, const std::vector<std::vector<double>>& ends, bool may_touch,
+                       const std::vector<std::vector<double>>& path) const;
+  void check_why_blocked(const MatrixBody& body, bool may_touch, const ProgramAnswer& answer) const;
 
   void ask_planner(const MatrixBody& body, const PlannerRow& planner, const PlannerField* field, bool optimise);
   void ask_kept_roadmap(const MatrixBody& body, const std::string& planner, bool is_kept);
@@ -174,6 +178,52 @@ std::vector<std::string> Matrix::limits_of(const std::string& planner) {
   return {};
 }
 
+std::vector<std::string> Matrix::path_words(const MatrixBody& body) const {
+  std::vector<std::string> words{"--path", folder_.path("path.csv"), "--every", "0.25"};
+  if (body.arm) {
+    words.insert(words.end(), {"--joint-speed", "1", "--joint-acceleration", "2"});
+  } else {
+    words.insert(words.end(), {"--speed", "1", "--acceleration", "0.5"});
+  }
+  if (body.kind == "car") words.insert(words.end(), {"--lateral-acceleration", "0.3"});
+  return words;
+}
+
+/// The places of the path's file: the path's states are among them, what is between them is on the path, and time goes
+/// on.
+void Matrix::check_path_file(const MatrixBody& body, const std::vector<std::vector<double>>& ends, bool may_touch,
+                             const std::vector<std::vector<double>>& path) const {
+  std::vector<std::vector<double>> places;
+  std::size_t found = 0;
+  std::vector<double> before;
+  for (const std::vector<double>& row : read_numbers(folder_.read("path.csv"))) {  // t, s, state, speed
+    ASSERT_EQ(row.size(), path.front().size() + 3);
+    places.emplace_back(row.begin() + 2, row.end() - 1);
+    if (found < path.size() && places.back() == path[found]) ++found;
+    EXPECT_LE(std::abs(row.back()), 1.0 + 1e-9);
+    if (!before.empty()) {
+      EXPECT_GE(row[0], before[0]);
+      EXPECT_GE(row[1], before[1]);
+      EXPECT_LE(row[1] - before[1], 0.25 + 1e-9);
+    }
+    before = row;
+  }
+  EXPECT_EQ(found, path.size());
+  EXPECT_EQ(places.back(), path.back());
+  const auto wrong = wrong_with(body, ends, clearance_of(body), may_touch, places);
+  EXPECT_FALSE(wrong.has_value()) << "between the places of path.csv: " << *wrong;
+}
+
+/// What is told of a blocked end is told, and a place that is called free is.
+void Matrix::check_why_blocked(const MatrixBody& body, bool may_touch, const ProgramAnswer& answer) const {
+  const bool is_blocked = answer.status == "start_blocked" || answer.status == "goal_blocked";
+  EXPECT_EQ(answer.says_why_blocked, is_blocked);
+  if (answer.free_place.empty()) return;
+  const std::vector<double>& place = answer.free_place;
+  const auto wrong = wrong_with(body, {place, place}, clearance_of(body), may_touch, {place});
+  EXPECT_FALSE(wrong.has_value()) << "the free place: " << *wrong;
+}
+
 /// One field of the table: solve, verify, and the matrix's own look at every place of the path.
 void Matrix::ask_planner(const MatrixBody& body, const PlannerRow& planner, const PlannerField* field, bool optimise) {
   const std::string name = world().name + "/" + body.name + "/" + planner.name + (optimise ? "/optimise" : "");
@@ -197,6 +247,7 @@ void Matrix::ask_planner(const MatrixBody& body, const PlannerRow& planner, cons
   const std::string file = folder_.path("answer.json");
   for (const char* word : {"--quiet", "--budget", "30s", "--json"}) arguments.emplace_back(word);
   arguments.push_back(file);
+  for (const std::string& word : path_words(body)) arguments.push_back(word);
   SCOPED_TRACE(shown(arguments));
   const Outcome outcome = ask(arguments);
   ASSERT_TRUE(outcome.code == 0 || outcome.code == 1) << "exit code " << outcome.code << ": " << outcome.err;
@@ -206,10 +257,12 @@ void Matrix::ask_planner(const MatrixBody& body, const PlannerRow& planner, cons
   EXPECT_NE(answer.status, "stopped");
   const bool may_touch = body.kind == "point" && keeps_angle(planner.name);
   check_ends(body, ends_of(body, turns), may_touch, answer.status);
+  check_why_blocked(body, may_touch, answer);
   if (answer.status != "solved") {
     EXPECT_TRUE(answer.path.empty());
     return;
   }
+  check_path_file(body, ends_of(body, turns), may_touch, answer.path);
   ask_judges(body, planner.name, answer);
 }
 

@@ -8,12 +8,38 @@
 namespace warren::test {
 namespace {
 
-/// What follows `"key": `.
+/// What follows `"key": `, or `"key":` in an object within.
 const char* value_of(const std::string& json, const std::string& key) {
-  const std::string sought = "\"" + key + "\": ";
+  const std::string sought = "\"" + key + "\":";
   const std::size_t at = json.find(sought);
   if (at == std::string::npos) throw std::runtime_error("the answer has no " + key);
-  return json.c_str() + at + sought.size();
+  const char* const value = json.c_str() + at + sought.size();
+  return *value == ' ' ? value + 1 : value;
+}
+
+/// [[1, 2], [3, 4]]; a list by itself is one of lists.
+std::vector<std::vector<double>> lists_at(const char* c) {
+  std::vector<std::vector<double>> lists;
+  int depth = 0;
+  while (*c != '\0') {
+    if (*c == '[') {
+      if (++depth == 2) lists.emplace_back();
+      ++c;
+    } else if (*c == ']') {
+      ++c;
+      if (--depth == 0) break;
+    } else if (depth > 0 && *c != ',' && *c != ' ' && *c != '\n') {
+      if (lists.empty()) lists.emplace_back();
+      char* end = nullptr;
+      lists.back().push_back(std::strtod(c, &end));
+      if (end == c) throw std::runtime_error("the answer has something in a list that is no number");
+      c = end;
+    } else {
+      if (depth == 0) break;  // null
+      ++c;
+    }
+  }
+  return lists;
 }
 
 }  // namespace
@@ -29,24 +55,26 @@ ProgramAnswer read_program_answer(const std::string& json) {
   };
   answer.length = number_of("length");
   if (json.find("\"expanded\": ") != std::string::npos) answer.expanded = number_of("expanded");
-  int depth = 0;
-  for (const char* c = value_of(json, "path"); *c != '\0';) {
-    if (*c == '[') {
-      if (++depth == 2) answer.path.emplace_back();
-      ++c;
-    } else if (*c == ']') {
-      ++c;
-      if (--depth == 0) break;
-    } else if (depth == 2 && *c != ',' && *c != ' ' && *c != '\n') {
-      char* end = nullptr;
-      answer.path.back().push_back(std::strtod(c, &end));
-      if (end == c) throw std::runtime_error("the answer's path has something that is no number");
-      c = end;
-    } else {
-      ++c;
-    }
+  answer.path = lists_at(value_of(json, "path"));
+  answer.says_why_blocked = json.find("\"blocked\": {") != std::string::npos;
+  if (answer.says_why_blocked) {
+    const auto place = lists_at(value_of(json, "free_place"));
+    if (!place.empty()) answer.free_place = place.front();
   }
   return answer;
+}
+
+std::vector<std::vector<double>> read_numbers(const std::string& csv) {
+  std::istringstream lines(csv);
+  std::string line;
+  std::getline(lines, line);
+  std::vector<std::vector<double>> rows;
+  while (std::getline(lines, line)) {
+    std::istringstream cells(line);
+    rows.emplace_back();
+    for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(std::strtod(cell.c_str(), nullptr));
+  }
+  return rows;
 }
 
 std::string smallest_answer(const std::string& robot, const std::vector<std::vector<double>>& path) {

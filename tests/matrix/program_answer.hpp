@@ -13,10 +13,14 @@ struct ProgramAnswer {
   std::string length;    ///< as it stands there
   std::string expanded;  ///< of the counters, likewise; empty where nothing was searched
   std::vector<std::vector<double>> path;
+  bool says_why_blocked = false;
+  std::vector<double> free_place;  ///< near a blocked end; empty where none is told
 };
 
 /// Throws std::runtime_error for a text that has no status or no path.
 ProgramAnswer read_program_answer(const std::string& json);
+/// The numbers of a CSV file below its header.
+std::vector<std::vector<double>> read_numbers(const std::string& csv);
 /// The smallest answer that `verify` and `render` take: a body and its path.
 std::string smallest_answer(const std::string& robot, const std::vector<std::vector<double>>& path);
 
