@@ -90,11 +90,10 @@ void AnswerCommand::write_outputs(const Run& run) {
   write_stopped(run.execution());
 }
 
-/// A JSON file is put into its place when picture and roadmap are in theirs; what is written straight follows the
+/// A JSON file is put into its place when picture, path and roadmap are in theirs; what is written straight follows the
 /// picture.
 void AnswerCommand::write_finished(const Execution& execution) {
   const bool has_path = !path_.empty() && answer_.verified;
-  if (has_path) check_path_file(answer_.problem.robot, path_, path_options_);
   std::optional<OutputFile> kept;
   std::optional<OutputFile> json;
   const bool kept_follows = keeps_roadmap() && is_straight(roadmap_);
@@ -102,6 +101,7 @@ void AnswerCommand::write_finished(const Execution& execution) {
   const bool json_follows = !json_.empty() && is_straight(json_);
   if (!json_.empty() && !json_follows) write_json(json, execution);
   if (!svg_.empty()) draw(execution);
+  FirstOfTwoFiles path_first(has_path ? path_ : "-");
   if (has_path) write_path_file(answer_, path_, path_options_, execution);
   json_said_ = json_follows;
   if (json_follows) write_json(json, execution);
@@ -110,10 +110,15 @@ void AnswerCommand::write_finished(const Execution& execution) {
   if (kept) kept->commit();
   if (json) json->commit();
   first.keep();
+  path_first.keep();
   for (const std::string& file : {json_, svg_, roadmap_}) {
     if (!file.empty()) written_.push_back(file);
   }
   if (has_path) written_.push_back(path_);
+}
+
+void AnswerCommand::check_path_of(const RobotSpec& robot) const {
+  if (!path_.empty()) check_path_file(robot, path_, path_options_);
 }
 
 void AnswerCommand::write_kept(std::optional<OutputFile>& file, const Execution& execution) const {

@@ -42,6 +42,8 @@ class AnswerCommand {
   virtual Scene scene_drawn(const Execution& execution, ByProducts& keep) = 0;
   /// What goes to the file of `keep`; only after find().
   virtual const Roadmap& roadmap() const = 0;
+  /// Throws UsageError where the path of this body can't be written as it was asked for; find() calls it.
+  void check_path_of(const RobotSpec& robot) const;
   bool keeps_roadmap() const { return !roadmap_.empty(); }
 
   const Arguments& arguments_;

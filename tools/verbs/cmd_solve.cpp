@@ -33,6 +33,7 @@ class SolveCommand : public AnswerCommand {
  private:
   Answer find(const Run& run, StageTimes& before, ByProducts* keep) override {
     scene_ = load_world(arguments_.operand(0), arguments_, run.execution(), before);
+    check_path_of(robot_of(scene_, question_));
     Answer answer = keeps_roadmap()
                         ? solve_and_keep(std::move(scene_), question_, options_, run.execution(), roadmap_, keep)
                         : solve_within(scene_, question_, options_, run.execution(), keep);
