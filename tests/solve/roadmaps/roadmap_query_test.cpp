@@ -11,9 +11,12 @@
 #include "scenes/formats/read_world_io.hpp"
 #include "solve/solve.hpp"
 #include "tests/paths.hpp"
+#include "tests/solve/roadmaps/same_answers.hpp"
 
 namespace warren {
 namespace {
+
+using test::expect_same;
 
 std::string world_file(const std::string& name) { return test::source_dir() + "/examples/worlds/" + name; }
 
@@ -45,20 +48,6 @@ std::vector<Case> cases() {
            {.robot = RobotSpec{.kind = RobotKind::polygon, .outline = outline}, .start = {1, 1, 0}, .goal = {3, 1, 0}},
            500,
            {}}};
-}
-
-void expect_same(const Answer& answer, const Answer& expected) {
-  EXPECT_EQ(answer.outcome, expected.outcome);
-  EXPECT_EQ(answer.verified, expected.verified);
-  EXPECT_EQ(answer.length, expected.length);
-  EXPECT_EQ(answer.min_clearance, expected.min_clearance);
-  EXPECT_EQ(answer.path, expected.path);
-  EXPECT_EQ(answer.states.numbers, expected.states.numbers);
-  EXPECT_EQ(answer.counters.expanded, expected.counters.expanded);
-  EXPECT_EQ(answer.roadmap.milestones, expected.roadmap.milestones);
-  EXPECT_EQ(answer.planner, expected.planner);
-  EXPECT_EQ(answer.pipeline, expected.pipeline);
-  EXPECT_EQ(answer.world.hash, expected.world.hash);
 }
 
 TEST(RoadmapQuery, AnswersAsSolveDoes) {
