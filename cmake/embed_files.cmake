@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# cmake -DFROM=FOLDER -DTO=FILE.cpp -P embed_files.cmake: the bytes of the folder's files, as tools/verbs/example_files.hpp
-# declares them, in the order of their names.
+# cmake -DFROM=FOLDER -DTO=FILE.cpp -DHEADER=H -DFUNCTION=F -P embed_files.cmake: the bytes of the folder's files that are no C++,
+# as the header H declares them (std::span<const EmbeddedFile> F()), in the order of their names.
 cmake_minimum_required(VERSION 3.25)
 file(GLOB files RELATIVE ${FROM} ${FROM}/*)
+list(FILTER files EXCLUDE REGEX "[.][ch]pp$")
 list(SORT files)
 set(rows "")
 foreach(file IN LISTS files)
@@ -12,12 +13,12 @@ foreach(file IN LISTS files)
   string(APPEND rows "    {\"${file}\", {\"${bytes}\", ${size}}},\n")
 endforeach()
 file(WRITE ${TO} "// Made by cmake/embed_files.cmake.
-#include \"tools/verbs/example_files.hpp\"
+#include \"${HEADER}\"
 
 namespace warren {
 
-std::span<const ExampleFile> example_files() {
-  static constexpr ExampleFile files[] = {
+std::span<const EmbeddedFile> ${FUNCTION}() {
+  static constexpr EmbeddedFile files[] = {
 ${rows}  };
   return files;
 }

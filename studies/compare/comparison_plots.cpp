@@ -113,18 +113,23 @@ std::vector<Plot> share_plots(const Comparison& comparison) {
 
 }  // namespace
 
-std::string comparison_svg(const Comparison& comparison) {
-  const std::vector<SweepCurve> curves = sweep_curves(comparison);
-  constexpr std::size_t side_by_side = 2;
-  if (!curves.empty()) return plots_svg(sweep_plots(curves), side_by_side);
-  constexpr std::size_t figures = 3;
+std::vector<std::string> comparison_panels(const Comparison& comparison) {
   constexpr std::size_t colours = 8;  // beyond them lines of equal colour would be told apart by nobody
   std::vector<std::string> panels = list_panels(comparison);
-  const std::size_t columns = panels.empty() ? 1 : figures;
-  for (const Plot& plot : share_plots(comparison)) {
-    if (columns == 1 || plot.series.size() <= colours) panels.push_back(plot_svg(plot));
+  const std::vector<SweepCurve> curves = sweep_curves(comparison);
+  const bool is_alone = panels.empty();
+  for (const Plot& plot : curves.empty() ? share_plots(comparison) : sweep_plots(curves)) {
+    if (!curves.empty() || is_alone || plot.series.size() <= colours) panels.push_back(plot_svg(plot));
   }
-  return panels_svg(panels, columns);
+  return panels;
+}
+
+std::string comparison_svg(const Comparison& comparison) {
+  constexpr std::size_t side_by_side = 2;
+  constexpr std::size_t figures = 3;
+  const bool is_sweep = !sweep_curves(comparison).empty();
+  const std::size_t columns = is_sweep ? side_by_side : list_panels(comparison).empty() ? 1 : figures;
+  return panels_svg(comparison_panels(comparison), columns);
 }
 
 }  // namespace warren

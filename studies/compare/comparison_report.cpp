@@ -6,7 +6,6 @@
 #include "core/base/printable.hpp"
 #include "scenes/text/human_units.hpp"
 #include "studies/measure/machine_memory.hpp"
-#include "studies/measure/text_table.hpp"
 
 namespace warren {
 namespace {
@@ -37,7 +36,7 @@ std::string median_interval(const Distribution& d) {
 }
 
 /// Searches of one graph: the figures of a path are the same in every run.
-std::string search_table(const Comparison& comparison, std::size_t problem, const Palette& palette) {
+TextTable search_table(const Comparison& comparison, std::size_t problem) {
   TextTable table{
       {"search", "queue", "library", "length", "hops", "settled", "trials", "median", "95 % for the median", "mean"},
       3,
@@ -55,7 +54,7 @@ std::string search_table(const Comparison& comparison, std::size_t problem, cons
                           std::to_string(row.runs), seconds(&Distribution::median),
                           if_known(row.time_s, median_interval), seconds(&Distribution::mean)});
   }
-  return table.text(palette);
+  return table;
 }
 
 std::string planner_cell(const Contender& c) {
@@ -69,7 +68,7 @@ std::string success_text(const Contender& c, const ComparisonRow& row) {
   return fmt::format("{:.0f} to {:.0f} %", 100.0 * row.success.low, 100.0 * row.success.high);
 }
 
-std::string planner_table(const Comparison& comparison, std::size_t problem, const Palette& palette) {
+TextTable planner_table(const Comparison& comparison, std::size_t problem) {
   TextTable table{{"planner", "solved", "95 %", "length q1", "median", "q3", "hops", "cells", "turning (rad)",
                    "expanded", "clearance", "time q1", "median", "q3"},
                   1,
@@ -90,24 +89,34 @@ std::string planner_table(const Comparison& comparison, std::size_t problem, con
                           median_number(row.min_clearance), seconds(&Distribution::q1), seconds(&Distribution::median),
                           seconds(&Distribution::q3)});
   }
-  return table.text(palette);
-}
-
-std::string problem_text(const Comparison& comparison, std::size_t problem, const Palette& palette) {
-  const ComparedProblem& p = comparison.problems[problem];
-  if (p.kind.empty()) return planner_table(comparison, problem, palette);
-  return fmt::format("{}: graph of {}, {} vertices, {} edges\n", printable(p.source), p.kind, p.vertices, p.edges) +
-         search_table(comparison, problem, palette);
+  return table;
 }
 
 }  // namespace
 
+std::vector<ReportTable> comparison_tables(const Comparison& comparison) {
+  std::vector<ReportTable> tables;
+  for (std::size_t problem = 0; problem < comparison.problems.size(); ++problem) {
+    const ComparedProblem& p = comparison.problems[problem];
+    if (p.kind.empty()) {
+      tables.push_back({"", planner_table(comparison, problem)});
+    } else if (!is_sweep(comparison, problem)) {
+      tables.push_back(
+          {fmt::format("{}: graph of {}, {} vertices, {} edges", printable(p.source), p.kind, p.vertices, p.edges),
+           search_table(comparison, problem)});
+    }
+  }
+  for (ReportTable& table : sweep_tables(comparison)) tables.push_back(std::move(table));
+  return tables;
+}
+
 std::string comparison_summary(const Comparison& comparison, const Palette& palette) {
   std::string text;
-  for (std::size_t problem = 0; problem < comparison.problems.size(); ++problem) {
-    if (!is_sweep(comparison, problem)) text += problem_text(comparison, problem, palette);
+  for (const ReportTable& table : comparison_tables(comparison)) {
+    if (!text.empty()) text += '\n';
+    if (!table.title.empty()) text += table.title + '\n';
+    text += table.table.text(palette);
   }
-  text += sweep_text(comparison, palette);
   const auto line = [&](std::string_view name, const std::string& what) {
     text += fmt::format("{}{}\n", palette.faint(fmt::format("{:<11}", name)), what);
   };

@@ -9,22 +9,29 @@
 
 #include "scenes/text/palette.hpp"
 #include "studies/compare/comparison.hpp"
+#include "studies/measure/report_page.hpp"
 
 namespace warren {
 
 /// A table a problem (random graphs: one for all sizes, comparison_sweep.cpp), the crossings, notes, the machine.
 std::string comparison_summary(const Comparison& comparison, const Palette& palette);
+/// The tables of the summary.
+std::vector<ReportTable> comparison_tables(const Comparison& comparison);
+/// All of it as a page (comparison_page.cpp): tables and the plots of comparison_svg().
+std::string comparison_page(const Comparison& comparison, const std::string& command_line);
 std::string comparison_json(const Comparison& comparison);
 std::string comparison_csv(const Comparison& comparison);
 /// A line a run, with each option in a column of its own (comparison_csv.cpp).
 std::string comparison_runs(const Comparison& comparison);
 
-/// Median times against size, a line a size, and where arrays and heaps cross; empty without random graphs.
-std::string sweep_text(const Comparison& comparison, const Palette& palette);
+/// Median times against size, a line a size, and where arrays and heaps cross; none without random graphs.
+std::vector<ReportTable> sweep_tables(const Comparison& comparison);
 
 /// Plots as SVG (comparison_plots.cpp): of random graphs times and ratios against size; else what options that were
 /// dealt out do, and the share of runs that had found a path, against time.
 std::string comparison_svg(const Comparison& comparison);
+/// The same plots, an SVG element each.
+std::vector<std::string> comparison_panels(const Comparison& comparison);
 
 /// Success, lengths and times against the options that were dealt out, as lines or heat maps (comparison_lists.cpp):
 /// SVG elements of plot_size; none where none was. At most 60.

@@ -32,7 +32,7 @@ std::string curve_name(const SweepCurve& curve) {
   return curve.queue.empty() ? "median" : curve.queue;
 }
 
-std::string table_of(const std::vector<SweepCurve>& curves, const std::string& search, const Palette& palette) {
+TextTable table_of(const std::vector<SweepCurve>& curves, const std::string& search) {
   TextTable table{{search + " on"}, 0, {}};
   std::set<double> sizes;
   for (const SweepCurve& curve : curves) {
@@ -47,7 +47,7 @@ std::string table_of(const std::vector<SweepCurve>& curves, const std::string& s
     }
     table.rows.push_back(std::move(row));
   }
-  return table.text(palette);
+  return table;
 }
 
 /// "1.31 times", "394 times"
@@ -76,16 +76,16 @@ std::string crossing_text(const QueueCrossing& c) {
 
 }  // namespace
 
-std::string sweep_text(const Comparison& comparison, const Palette& palette) {
+std::vector<ReportTable> sweep_tables(const Comparison& comparison) {
   const std::vector<SweepCurve> curves = sweep_curves(comparison);
-  std::string text;
-  for (const std::string& search : searches_of(curves)) text += table_of(curves, search, palette) + '\n';
+  std::vector<ReportTable> tables;
+  for (const std::string& search : searches_of(curves)) tables.push_back({"", table_of(curves, search)});
   TextTable crossings{{"search", "array", "against", "from which size on the array is slower"}, 4, {}};
   for (const QueueCrossing& c : queue_crossings(curves)) {
     crossings.rows.push_back({c.search, c.array, c.heap, crossing_text(c)});
   }
-  if (!crossings.rows.empty()) text += crossings.text(palette);
-  return text;
+  if (!crossings.rows.empty()) tables.push_back({"", std::move(crossings)});
+  return tables;
 }
 
 }  // namespace warren

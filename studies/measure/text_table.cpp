@@ -40,4 +40,19 @@ std::string TextTable::text(const Palette& palette) const {
   return text;
 }
 
+TextTable TextTable::without_empty_columns() const {
+  const std::vector<std::size_t> widths = widths_of(*this);
+  const auto kept = [&](const std::vector<std::string>& cells) {
+    std::vector<std::string> left;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (widths[i] > 0) left.push_back(cells[i]);
+    }
+    return left;
+  };
+  const auto empty_words = std::count(widths.begin(), widths.begin() + static_cast<std::ptrdiff_t>(words), 0U);
+  TextTable table{kept(head), words - static_cast<std::size_t>(empty_words), {}};
+  for (const auto& row : rows) table.rows.push_back(kept(row));
+  return table;
+}
+
 }  // namespace warren

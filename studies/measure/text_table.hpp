@@ -17,6 +17,8 @@ struct TextTable {
 
   /// The head strong, each line with an end; columns that are empty in all rows are left out.
   std::string text(const Palette& palette) const;
+
+  TextTable without_empty_columns() const;
 };
 
 }  // namespace warren

@@ -10,32 +10,12 @@
 #include "pictures/plot_svg.hpp"
 #include "scenes/text/human_units.hpp"
 #include "studies/measure/machine_memory.hpp"
+#include "studies/measure/report_page.hpp"
 #include "studies/sizes/scaling_report.hpp"
 #include "studies/sizes/thread_gains.hpp"
 
 namespace warren {
 namespace {
-
-constexpr std::string_view page_head = R"(<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<link rel="icon" href="data:,">
-<title>warren scale</title>
-<style>
-body { font-family: sans-serif; color: #222222; background: #ffffff; margin: 2em auto; max-width: 1560px; padding: 0 1em; }
-table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
-th, td { padding: 0.25em 0.8em; text-align: right; border-bottom: 1px solid #e2e2e2; }
-th { border-bottom: 2px solid #888888; }
-td.word, th.word { text-align: left; }
-.plots { display: flex; flex-wrap: wrap; gap: 1em; }
-.plots svg { max-width: 100%; height: auto; border: 1px solid #e2e2e2; }
-code { background: #f3f3f3; padding: 0.1em 0.3em; overflow-wrap: anywhere; }
-</style>
-</head>
-<body>
-)";
 
 /// Planner and sampler.
 using Way = std::pair<std::string, std::string>;
@@ -177,88 +157,78 @@ std::vector<Plot> plots_of(std::span<const ScalingRow> rows) {
   return plots;
 }
 
-/// Five cells: cycles and instructions a cell of the maze, instructions a cycle, misses a cell.
-std::string hardware_cells(const RunCounts& counts, double cells) {
-  const auto cell = [](std::optional<double> value) {
-    return value && std::isfinite(*value) ? fmt::format("<td>{:.3g}</td>", *value) : std::string("<td>-</td>");
-  };
-  const auto per_cell = [&](std::string_view name) {
+/// Cycles and instructions a cell of the maze, instructions a cycle, misses a cell.
+std::vector<std::string> hardware_cells(const RunCounts& counts, double cells) {
+  const auto per = [&](std::string_view name, std::optional<double> unit) -> std::string {
     const auto count = counts.hardware_count(name);
-    return count ? std::optional(*count / cells) : std::nullopt;
+    if (!count || !unit || !std::isfinite(*count / *unit)) return "-";
+    return fmt::format("{:.3g}", *count / *unit);
   };
-  const auto cycles = counts.hardware_count("cycles");
-  const auto instructions = counts.hardware_count("instructions");
-  const auto a_cycle = cycles && instructions ? std::optional(*instructions / *cycles) : std::nullopt;
-  return cell(per_cell("cycles")) + cell(per_cell("instructions")) + cell(a_cycle) + cell(per_cell("cache_misses")) +
-         cell(per_cell("branch_misses"));
+  return {per("cycles", cells), per("instructions", cells), per("instructions", counts.hardware_count("cycles")),
+          per("cache_misses", cells), per("branch_misses", cells)};
 }
 
-std::string table_of(std::span<const ScalingRow> rows) {
-  std::string text =
-      "<table>\n<tr><th>size</th><th class=\"word\">planner</th><th>threads</th><th>runs</th><th>minimum</th>"
-      "<th>median</th><th>spread</th><th>ns a cell</th><th>speed-up</th><th>efficiency</th><th>memory</th>"
-      "<th>bytes a cell</th></tr>\n";
+std::string size_text(const MazeTrial& t) { return fmt::format("{} x {}", t.rows, t.cols); }
+
+TextTable table_of(std::span<const ScalingRow> rows) {
+  TextTable table{{"planner", "size", "threads", "runs", "minimum", "median", "spread", "ns a cell", "speed-up",
+                   "efficiency", "memory", "bytes a cell"},
+                  1,
+                  {}};
   for (const ScalingRow& row : rows) {
     const MazeTrial& t = row.fastest;
     const auto bytes = static_cast<double>(row.peak_memory_bytes);
-    text += fmt::format(
-        "<tr><td>{} &times; {}</td><td class=\"word\">{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
-        "<td>{:.1f} %</td><td>{:.1f}</td><td>{:.2f}</td><td>{:.0f} %</td><td>{}</td><td>{:.1f}</td></tr>\n",
-        t.rows, t.cols, xml_text(planner_text(t)), t.threads, row.runs, human_seconds(t.solve_s),
-        human_seconds(row.median_s), 100.0 * row.spread, t.solve_s * 1e9 / t.cells(), row.speed_up,
-        100.0 * row.speed_up / t.threads, human_bytes(bytes), bytes / t.cells());
+    table.rows.push_back({planner_text(t), size_text(t), std::to_string(t.threads), std::to_string(row.runs),
+                          human_seconds(t.solve_s), human_seconds(row.median_s),
+                          fmt::format("{:.1f} %", 100.0 * row.spread),
+                          fmt::format("{:.1f}", t.solve_s * 1e9 / t.cells()), fmt::format("{:.2f}", row.speed_up),
+                          fmt::format("{:.0f} %", 100.0 * row.speed_up / t.threads), human_bytes(bytes),
+                          fmt::format("{:.1f}", bytes / t.cells())});
   }
-  return text + "</table>\n";
+  return table;
 }
 
 /// What the fastest run of each row cost beside its time.
-std::string counts_of(const ScalingResult& result, std::span<const ScalingRow> rows) {
-  std::string text =
-      "<h2>Counts of the fastest runs</h2>\n<table>\n<tr><th>size</th><th class=\"word\">planner</th><th>threads</th>"
-      "<th>CPU</th><th>page faults</th><th>switched away</th>";
+TextTable counts_of(const ScalingResult& result, std::span<const ScalingRow> rows) {
+  TextTable table{{"planner", "size", "threads", "CPU", "page faults", "switched away"}, 1, {}};
   const bool counted = result.no_hardware_counts.empty();
   if (counted) {
-    text +=
-        "<th>cycles a cell</th><th>instructions a cell</th><th>a cycle</th><th>cache misses a cell</th>"
-        "<th>branch misses a cell</th>";
+    for (const char* head :
+         {"cycles a cell", "instructions a cell", "a cycle", "cache misses a cell", "branch misses a cell"}) {
+      table.head.emplace_back(head);
+    }
   }
-  text += "</tr>\n";
   for (const ScalingRow& row : rows) {
     const MazeTrial& t = row.fastest;
-    text +=
-        fmt::format("<tr><td>{} &times; {}</td><td class=\"word\">{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>",
-                    t.rows, t.cols, xml_text(planner_text(t)), t.threads, human_seconds(row.counts.cpu_s),
-                    row.counts.page_faults, row.counts.involuntary_switches);
-    if (counted) text += hardware_cells(row.counts, t.cells());
-    text += "</tr>\n";
+    table.rows.push_back({planner_text(t), size_text(t), std::to_string(t.threads), human_seconds(row.counts.cpu_s),
+                          std::to_string(row.counts.page_faults), std::to_string(row.counts.involuntary_switches)});
+    if (!counted) continue;
+    for (std::string& cell : hardware_cells(row.counts, t.cells())) table.rows.back().push_back(std::move(cell));
   }
-  text += "</table>\n";
-  if (!counted) {
-    text += fmt::format("<p>The processor's own counters are not to be had here (perf_event_open: {}).</p>\n",
-                        xml_text(result.no_hardware_counts));
-  }
-  return text;
+  return table;
 }
 
 }  // namespace
 
 std::string scaling_page(const ScalingResult& result, const std::string& command_line) {
   const std::vector<ScalingRow> rows = scaling_rows(result);
-  std::string page{page_head};
-  page += "<h1>Time, memory and work against size and threads</h1>\n";
-  page += fmt::format(
-      "<p><code>{}</code></p>\n<p>Machine: {}. Noise: {}. Times run from walls in memory to path verified; every path "
-      "was verified.{}</p>\n",
-      xml_text(command_line), xml_text(text_of(this_machine())), xml_text(noise_text(rows)),
-      result.signal ? " The study was interrupted: these are the runs so far." : "");
-  if (rows.empty()) return page + "<p>No run was solved.</p>\n</body>\n</html>\n";
-  page += "<div class=\"plots\">\n";
-  for (const Plot& plot : plots_of(rows)) page += plot_svg(plot);
-  page += "</div>\n<h2>Runs</h2>\n";
-  for (const ThreadGain& gain : thread_gains(result, this_machine().cores)) {
-    page += "<p>" + xml_text(text_of(gain)) + ".</p>\n";
+  ReportPage page{.title = "Time, memory and work against size and threads", .command_line = command_line};
+  page.notes.push_back(
+      fmt::format("Machine: {}. Noise: {}. Times run from walls in memory to path verified; every path was verified.{}",
+                  text_of(this_machine()), noise_text(rows),
+                  result.signal ? " The study was interrupted: these are the runs so far." : ""));
+  if (rows.empty()) {
+    page.notes.emplace_back("No run was solved.");
+    return page.html();
   }
-  return page + table_of(rows) + counts_of(result, rows) + "</body>\n</html>\n";
+  for (const ThreadGain& gain : thread_gains(result, this_machine().cores)) page.notes.push_back(text_of(gain) + ".");
+  for (const Plot& plot : plots_of(rows)) page.plots.push_back(plot_svg(plot));
+  page.tables = {{"Runs", table_of(rows)}, {"Counts of the fastest runs", counts_of(result, rows)}};
+  if (!result.no_hardware_counts.empty()) {
+    page.remarks.push_back(fmt::format("The processor's own counters are not to be had here (perf_event_open: {}).",
+                                       result.no_hardware_counts));
+  }
+  return page.html();
 }
 
 }  // namespace warren

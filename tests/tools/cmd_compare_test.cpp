@@ -189,6 +189,15 @@ TEST(Compare, LowSuccessIsAResultAndNoneIsAnExitCode) {
   EXPECT_EQ(run_program("compare maze:5x5 --start 0.5,0.5 --quiet").exit_code, 1) << "blocked";
 }
 
+TEST(Compare, APageHasTheTablesOfTheSummaryAndThePlots) {
+  const ProgramRun run = run_program("compare maze:5x5 --planners prm,lazy-prm --seeds 2 --html - --quiet");
+  EXPECT_TRUE(run.out.starts_with("<!DOCTYPE html>"));
+  for (const char* part :
+       {"<td class=\"word\">lazy-prm", "<button>length q1</button>", "maze:5x5</title>", "</html>\n"}) {
+    EXPECT_NE(run.out.find(part), std::string::npos) << part;
+  }
+}
+
 TEST(Compare, OutputsAreWrittenSideBySide) {
   const Folder folder;
   const ProgramRun run =

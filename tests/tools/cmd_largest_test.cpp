@@ -148,7 +148,7 @@ TEST(Scale, PageStandsAlone) {
   const ProgramRun run = run_program("scale --sizes 9,30 --threads 1,2 --repeats 1 --html - --quiet");
   EXPECT_TRUE(run.out.starts_with("<!DOCTYPE html>"));
   EXPECT_NE(run.out.find("<title>Speed-up</title>"), std::string::npos);
-  for (const char* loader : {"<script", "src=", "@import", "url("}) {
+  for (const char* loader : {"<script src", "src=", "@import", "url("}) {
     EXPECT_EQ(run.out.find(loader), std::string::npos) << loader;
   }
 }

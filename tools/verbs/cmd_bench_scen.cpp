@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// warren bench-scen: a Moving AI scenario file, checked by studies/compare/scenario_check. Exit code 0 only if all
+// warren bench-scen: a Moving AI scenario file, checked by studies/contests/scenario_check. Exit code 0 only if all
 // lengths agree with the published ones.
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include "core/base/error.hpp"
 #include "scenes/formats/moving_ai_io.hpp"
 #include "scenes/text/output_file_io.hpp"
-#include "studies/compare/scenario_check.hpp"
+#include "studies/contests/scenario_check.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_conflicts.hpp"
 #include "tools/screen/output_names.hpp"

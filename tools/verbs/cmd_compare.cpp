@@ -11,8 +11,8 @@
 
 #include "core/base/error.hpp"
 #include "studies/compare/comparison_report.hpp"
-#include "studies/compare/contest_pictures.hpp"
-#include "studies/compare/graph_of_world.hpp"
+#include "studies/contests/contest_pictures.hpp"
+#include "studies/contests/graph_of_world.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_names.hpp"
 #include "tools/screen/run_of_verb.hpp"
@@ -29,6 +29,7 @@ constexpr OptionSpec output_specs[] = {
     {"--budget", "TIME", "each run, of a planner or a search, may take so long (default: none)"},
     {"--json", "FILE", "write warren.compare/1; - is standard output"},
     {"--csv", "FILE", "write a line a planner or search; - is standard output"},
+    {"--html", "FILE", "write a page of tables and plots that needs no network; - is standard output"},
     {"--runs", "FILE", "write a line a run as CSV; - is standard output"},
     {"--svg", "FILE", "plot times against size, or the share solved against time; - is standard output"},
     {"--log", "FILE", "write every run as OMPL's benchmarks do; - is standard output"},
@@ -36,7 +37,7 @@ constexpr OptionSpec output_specs[] = {
 
 /// Throws unless every output can be written; says whether one of them takes standard output.
 bool check_outputs_of_compare(const Arguments& arguments) {
-  const bool taken = check_reports(arguments, {"--json", "--csv", "--runs", "--svg", "--log"});
+  const bool taken = check_reports(arguments, {"--json", "--csv", "--runs", "--svg", "--html", "--log"});
   check_picture_ending("--svg", arguments.value("--svg").value_or(""), ".svg");
   if (const auto folder = arguments.value("--pictures")) make_folder(*folder);
   if (arguments.has("--log") && arguments.has("--sizes")) {
@@ -146,6 +147,7 @@ void CompareCommand::write_outputs() const {
   write_report(arguments_, "--csv", [&] { return comparison_csv(comparison_); });
   write_report(arguments_, "--runs", [&] { return comparison_runs(comparison_); });
   write_report(arguments_, "--svg", [&] { return comparison_svg(comparison_); });
+  write_report(arguments_, "--html", [&] { return comparison_page(comparison_, arguments_.command_line()); });
   write_report(arguments_, "--log", [&] { return ompl_log(comparison_, experiment()); });
 }
 

@@ -26,7 +26,7 @@ std::string operand_words(const Command& command) {
   if (command.name == "completion") return "bash zsh fish";
   if (command.name != "example") return {};
   std::set<std::string_view> names;  // of worlds, which may have several files
-  for (const ExampleFile& file : example_files()) {
+  for (const EmbeddedFile& file : example_files()) {
     if (file.name != "README.md") names.insert(file.name.substr(0, file.name.find('.')));
   }
   return fmt::format("{}", fmt::join(names, " "));

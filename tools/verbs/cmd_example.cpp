@@ -33,7 +33,7 @@ struct Example {
 
 std::string_view bytes_of(std::string_view name) {
   const auto files = example_files();
-  return std::find_if(files.begin(), files.end(), [&](const ExampleFile& file) { return file.name == name; })->bytes;
+  return std::find_if(files.begin(), files.end(), [&](const EmbeddedFile& file) { return file.name == name; })->bytes;
 }
 
 /// What stands between backquotes.

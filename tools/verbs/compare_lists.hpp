@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "studies/compare/planner_deal.hpp"
+#include "studies/contests/planner_deal.hpp"
 #include "tools/words/arguments.hpp"
 
 namespace warren {

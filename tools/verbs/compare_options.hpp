@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "studies/compare/planner_contest.hpp"
-#include "studies/compare/planner_deal.hpp"
-#include "studies/compare/random_graph_sweep.hpp"
-#include "studies/compare/search_contest.hpp"
+#include "studies/contests/planner_contest.hpp"
+#include "studies/contests/planner_deal.hpp"
+#include "studies/contests/random_graph_sweep.hpp"
+#include "studies/contests/search_contest.hpp"
 #include "tools/words/arguments.hpp"
 #include "tools/words/command.hpp"
 

@@ -14,7 +14,7 @@
 #include "solve/answer/by_products.hpp"
 #include "solve/question/solve_options.hpp"
 #include "studies/compare/comparison.hpp"
-#include "studies/compare/planner_deal.hpp"
+#include "studies/contests/planner_deal.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "studies/compare/graph_of_world.hpp"
+#include "studies/contests/graph_of_world.hpp"
 
 #include <fmt/format.h>
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "studies/compare/comparison.hpp"
-#include "studies/compare/search_contest.hpp"
+#include "studies/contests/search_contest.hpp"
 
 namespace warren {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "studies/compare/planner_deal.hpp"
+#include "studies/contests/planner_deal.hpp"
 
 #include <fmt/format.h>
 

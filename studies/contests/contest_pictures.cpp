@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "studies/compare/contest_pictures.hpp"
+#include "studies/contests/contest_pictures.hpp"
 
 #include <fmt/format.h>
 #include <sys/stat.h>

@@ -8,7 +8,7 @@
 #include "parallel/execution.hpp"
 #include "scenes/scene/scene.hpp"
 #include "studies/compare/comparison.hpp"
-#include "studies/compare/planner_contest.hpp"
+#include "studies/contests/planner_contest.hpp"
 
 namespace warren {
 

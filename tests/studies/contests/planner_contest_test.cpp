@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "studies/compare/planner_contest.hpp"
+#include "studies/contests/planner_contest.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "studies/compare/random_graph_sweep.hpp"
+#include "studies/contests/random_graph_sweep.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "studies/compare/search_contest.hpp"
+#include "studies/contests/search_contest.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "studies/compare/scenario_check.hpp"
+#include "studies/contests/scenario_check.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "studies/compare/planner_contest.hpp"
+#include "studies/contests/planner_contest.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 #include "solve/question/grid_choice.hpp"
 #include "solve/solve.hpp"
 #include "solve/steps/kind_of_problem.hpp"
-#include "studies/compare/cells_on_path.hpp"
+#include "studies/contests/cells_on_path.hpp"
 
 namespace warren {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "studies/compare/cells_on_path.hpp"
+#include "studies/contests/cells_on_path.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Buttons, sliders, layers, keys; light and dark, and paper.
+"use strict";
+const $ = id => document.getElementById(id);
+const calm = matchMedia("(prefers-reduced-motion: reduce)"), night = matchMedia("(prefers-color-scheme: dark)");
+
+function swatch(layer) {
+  const color = layer.groups ? layer.colors[0] : inkOf(layer);
+  const shape = {dots: `<circle cx="14" cy="7" r="3.5" fill="${color}"/>`, areas: `<rect x="3" y="2" width="22" height="10" fill="${color}"/>`,
+    image: `<rect x="3" y="2" width="22" height="10" fill="${color}"/>`, start: `<circle cx="14" cy="7" r="5.5" fill="${color}"/>`,
+    goal: `<path d="M14 0l7 7-7 7-7-7z" fill="${color}"/>`}[layer.kind] ?? `<path d="M2 7h24" stroke="${color}" stroke-width="3"/>`;
+  return `<svg viewBox="0 0 28 14" aria-hidden="true">${shape}</svg>`;
+}
+function listLayers() {
+  const rows = [...layers, ...path.length ? [pathLayer] : []];
+  $("layers").replaceChildren(...rows.map(layer => {
+    const row = document.createElement("label"), count = document.createElement("span"), name = document.createElement("span");
+    row.className = "layer";
+    row.innerHTML = `<input type="checkbox" ${layer.shown ? "checked" : ""} name="${layer.id}">${swatch(layer)}`;
+    name.textContent = layer.label;
+    count.className = "count";
+    count.textContent = layer.count ? layer.count.toLocaleString("en") : "";
+    row.append(name, count);
+    row.firstChild.addEventListener("change", event => { layer.shown = event.target.checked; redraw(); });
+    return row;
+  }), ...Object.entries(picture.ends).map(([name, at]) => {
+    const row = document.createElement("div");
+    row.className = "layer";
+    row.innerHTML = `<input type="checkbox" checked disabled style="visibility:hidden">${swatch({kind: name, color: at.color})}<span>${name}</span>`;
+    return row;
+  }));
+}
+
+function setTheme(dark) {
+  document.documentElement.classList.toggle("dark", dark);
+  $("dark").setAttribute("aria-pressed", dark);
+  listLayers();
+  redraw();
+}
+function setMeasuring(on) {
+  isMeasuring = on;
+  measured.length = 0;
+  $("measure").setAttribute("aria-pressed", on);
+  marks.classList.toggle("measures", on);
+  readout.textContent = on ? "click along what is to be measured; Esc ends it" : "";
+  redraw("marks");
+}
+
+function showMotion() {
+  if (!poses) return;
+  const [x, y, theta] = poseAt(motion.share), length = motion.share * 100;
+  const heading = picture.body.outline.length || picture.body.heads ? `, heading ${((theta * 180 / Math.PI + 540) % 360 - 180).toFixed(1)}°` : "";
+  $("motion").value = motion.share * 1000;
+  $("moment").textContent = `${length.toFixed(0)} % at x ${shownNumber(x + picture.origin[0], precision())}, y ${shownNumber(y + picture.origin[1], precision())}${heading}`;
+  redraw("marks");
+}
+let playing = 0;
+function play() {
+  if (playing || !poses) { cancelAnimationFrame(playing); playing = 0; $("play").setAttribute("aria-pressed", false); return; }
+  if (motion.share >= 1) motion.share = 0;
+  motion.isOn = true;
+  $("play").setAttribute("aria-pressed", true);
+  let before = performance.now();
+  const lasts = calm.matches ? 20000 : 8000;
+  const step = now => {
+    motion.share = Math.min(1, motion.share + (now - before) / lasts);
+    before = now;
+    showMotion();
+    if (motion.share < 1) playing = requestAnimationFrame(step);
+    else { playing = 0; $("play").setAttribute("aria-pressed", false); }
+  };
+  playing = requestAnimationFrame(step);
+}
+function showWave() {
+  const by = picture.graph.byCost, limit = wave.share * by[by.length - 1];
+  let reached = 0;
+  while (reached < by.length && by[reached] <= limit) ++reached;
+  $("reached").textContent = wave.share >= 1 ? `all ${by.length.toLocaleString("en")} that were reached` : `ways of up to ${lengthText(limit)}: ${reached.toLocaleString("en")} of ${by.length.toLocaleString("en")}`;
+  layerOf("search_tree").shown = wave.share >= 1;
+  redraw();
+}
+
+const actions = {"+": () => zoomAt(stage.clientWidth / 2, stage.clientHeight / 2, 1.4), "-": () => zoomAt(stage.clientWidth / 2, stage.clientHeight / 2, 1 / 1.4),
+  "0": () => { fit(); redraw(); }, "m": () => setMeasuring(!isMeasuring), "d": () => setTheme(!isDark()), " ": play, "Escape": () => setMeasuring(false),
+  "ArrowLeft": () => pan(60, 0), "ArrowRight": () => pan(-60, 0), "ArrowUp": () => pan(0, 60), "ArrowDown": () => pan(0, -60)};
+actions["="] = actions["+"];
+actions["Home"] = actions["0"];
+document.addEventListener("keydown", event => {
+  if (event.ctrlKey || event.metaKey || event.altKey || event.target.matches("input, button") && (event.key === " " || event.key.startsWith("Arrow"))) return;
+  const action = actions[event.key];
+  if (!action) return;
+  event.preventDefault();
+  action();
+});
+for (const [id, key] of [["closer", "+"], ["farther", "-"], ["whole", "0"], ["measure", "m"], ["dark", "d"], ["play", " "]]) $(id).addEventListener("click", actions[key]);
+$("motion").addEventListener("input", event => { motion.isOn = true; motion.share = event.target.value / 1000; showMotion(); });
+$("wave").addEventListener("input", event => { wave.share = event.target.value / 1000; showWave(); });
+night.addEventListener("change", event => setTheme(event.matches));
+addEventListener("beforeprint", () => { $("dark").dataset.was = isDark(); setTheme(false); drawStill(); drawMarks(); });
+addEventListener("afterprint", () => setTheme($("dark").dataset.was === "true"));
+
+$("player").hidden = !poses;
+$("search").hidden = !layerOf("search_tree") || !picture.graph.byCost.length;
+for (const [name, value] of picture.facts) {
+  const dt = document.createElement("dt"), dd = document.createElement("dd");
+  dt.textContent = name;
+  dd.textContent = value;
+  $("facts").append(dt, dd);
+}
+if (!$("search").hidden) showWave();
+setTheme(night.matches);

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include "studies/compare/comparison_report.hpp"
+#include "studies/measure/machine_memory.hpp"
+
+namespace warren {
+
+std::string comparison_page(const Comparison& comparison, const std::string& command_line) {
+  ReportPage page{.title = "Planners and searches side by side",
+                  .command_line = command_line,
+                  .plots = comparison_panels(comparison),
+                  .tables = comparison_tables(comparison),
+                  .remarks = comparison.notes};
+  page.notes.push_back(fmt::format("Machine: {}.{}", text_of(this_machine()),
+                                   comparison.stopped ? " Interrupted: these are the runs so far." : ""));
+  return page.html();
+}
+
+}  // namespace warren
