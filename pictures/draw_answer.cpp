@@ -4,13 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "pictures/draw_arm.hpp"
-#include "pictures/draw_car.hpp"
-#include "pictures/draw_cells.hpp"
-#include "pictures/draw_sweep.hpp"
+#include "pictures/formats/write_picture.hpp"
+#include "pictures/layers/draw_arm.hpp"
+#include "pictures/layers/draw_car.hpp"
+#include "pictures/layers/draw_cells.hpp"
+#include "pictures/layers/draw_sweep.hpp"
+#include "pictures/subtitle.hpp"
 #include "solve/question/question_of_arm.hpp"
 #include "solve/question/solve_options.hpp"
 #include "worlds/poses/steering_curve.hpp"
@@ -19,17 +23,37 @@
 namespace warren {
 namespace {
 
+/// What planners call their lines, and how these are drawn.
+struct LineStyle {
+  std::string_view name;
+  std::string_view label;
+  Rgb color;
+  double width;
+};
+constexpr std::array<LineStyle, 5> line_styles{
+    {{"cells", "door between cells", colors::layer, widths::edge},
+     {"medial_axis", "medial axis", colors::layer, widths::search_tree},
+     {"visibility", "visibility edge", colors::layer, widths::edge},
+     {"wrong_edges", "edge through an obstacle", colors::wrong, widths::search_tree},
+     {"blocked", "obstacle of the reference point", colors::outline, widths::edge}}};
+
 PictureLayer layer_of(NamedLines lines) {
-  const bool is_wrong = lines.name == "wrong_edges";
-  const double width = is_wrong ? widths::path : lines.name == "medial_axis" ? widths::search_tree : widths::edge;
-  return {lines.name, is_wrong ? colors::wrong : colors::layer, width, std::move(lines.lines), lines.closed};
+  PictureLayer layer{.id = lines.name, .label = lines.name, .lines = std::move(lines.lines), .closed = lines.closed};
+  for (const LineStyle& style : line_styles) {
+    if (style.name != lines.name) continue;
+    layer.label = style.label;
+    layer.color = style.color;
+    layer.width = style.width;
+  }
+  return layer;
 }
 
 DrawingPage page_of(const HeadingCells& heading, const std::vector<PictureLayer>& ground, const Execution& execution) {
   const std::string id = fmt::format("layer_{:.0f}", heading.heading_degrees);
   const auto at = [&](Vec2 p) { return heading.origin + heading.cell * p; };
   DrawingPage page{id, ground};
-  page.layers.push_back(cells_layer(id, heading.blocked, at, execution));
+  page.layers.push_back(cells_layer(id, fmt::format("no room at {:.4g} degrees", heading.heading_degrees),
+                                    heading.blocked, at, execution));
   return page;
 }
 
@@ -80,7 +104,10 @@ Drawing drawing_of_arm(const Scene& scene, const RobotSpec& robot, const JointSt
   for (std::size_t i = 0; i < states.size(); ++i) path.push_back(joint_state(states[i]));
   if (path.empty()) path.push_back(start);
   ArmViews views = arm_views(scene, table_of(robot, execution), robot.radius, path);
-  return {.layers = std::move(views.layers), .stage = std::move(views.stage)};
+  return {.layers = std::move(views.layers),
+          .stage = std::move(views.stage),
+          .panels = std::move(views.panels),
+          .title = scene.source};
 }
 
 const std::vector<double>& first_given(const std::vector<double>& state, const std::vector<double>& otherwise) {
@@ -93,12 +120,16 @@ Drawing drawing_of(const Scene& scene, const Answer& answer, ByProducts made, co
   const Problem& problem = answer.problem;
   const StateList& states = answer.refuted ? answer.refuted->states : answer.states;
   if (is_arm(problem.robot)) {
-    return drawing_of_arm(scene, problem.robot, joint_state(problem.start), states, execution);
+    Drawing views = drawing_of_arm(scene, problem.robot, joint_state(problem.start), states, execution);
+    views.subtitle = subtitle_of(scene, answer);
+    return views;
   }
   Drawing drawing{.layers = ground_of(scene, execution),
                   .path = answer.refuted ? answer.refuted->path : answer.path,
                   .start = plane_point(problem.start),
-                  .goal = plane_point(problem.goal)};
+                  .goal = plane_point(problem.goal),
+                  .title = scene.source,
+                  .subtitle = subtitle_of(scene, answer)};
   for (const HeadingCells& heading : made.headings) {
     drawing.pages.push_back(page_of(heading, drawing.layers, execution));
   }
@@ -113,12 +144,16 @@ Drawing drawing_of(const Scene& scene, const RecordedAnswer& answer, const Execu
   const std::vector<double>& start = first_given(answer.problem.start, scene.start);
   if (is_arm(robot)) {
     if (!answer.path.empty()) check_state_width(answer, most_joints, "an arm");
-    return drawing_of_arm(scene, robot, joint_state(start), answer.states, execution);
+    Drawing views = drawing_of_arm(scene, robot, joint_state(start), answer.states, execution);
+    views.subtitle = subtitle_of(scene, answer);
+    return views;
   }
   Drawing drawing{.layers = ground_of(scene, execution),
                   .path = answer.path,
                   .start = plane_point(start),
-                  .goal = plane_point(first_given(answer.problem.goal, scene.goal))};
+                  .goal = plane_point(first_given(answer.problem.goal, scene.goal)),
+                  .title = scene.source,
+                  .subtitle = subtitle_of(scene, answer)};
   if (answer.state_width() == 3) add_sweep(drawing, robot, answer.states);
   return drawing;
 }
@@ -151,15 +186,24 @@ Picture picture_of(const Scene& scene, const Drawing& drawing) {
           .path_turns = drawing.path_turns,
           .start = drawing.start,
           .goal = drawing.goal,
+          .panels = drawing.panels,
+          .path_label = drawing.path_label,
+          .title = drawing.title,
+          .subtitle = drawing.subtitle,
           .moving = drawing.moving ? &*drawing.moving : nullptr};
 }
 
 Picture picture_of(const Scene& scene, const Drawing& drawing, const DrawingPage& page) {
-  return {.scene = scene, .layers = page.layers, .start = drawing.start, .goal = drawing.goal};
+  return {.scene = scene,
+          .layers = page.layers,
+          .start = drawing.start,
+          .goal = drawing.goal,
+          .title = drawing.title,
+          .subtitle = drawing.subtitle};
 }
 
 void write_picture(const std::string& file, const Scene& scene, const Answer& answer, ByProducts made,
-                   const Execution& execution) {
+                   const PictureOptions& options, const Execution& execution) {
   std::optional<Scene> bordered;
   if (scene.map && scene.walls.size() == 0) {
     bordered = scene;
@@ -167,10 +211,7 @@ void write_picture(const std::string& file, const Scene& scene, const Answer& an
   }
   const Scene& shown = bordered ? *bordered : scene;
   const Drawing drawing = drawing_of(shown, answer, std::move(made), execution);
-  Picture picture = picture_of(shown, drawing);
-  picture.title = fmt::format("{}: {}", scene.source, name_of(answer.outcome));
-  picture.description = fmt::format("{}. {}, seed {}", description_of(scene), answer.planner, answer.seed);
-  write_picture(file, picture, execution);
+  write_picture(file, picture_of(shown, drawing), options, execution);
 }
 
 }  // namespace warren

@@ -10,8 +10,7 @@
 #include "core/base/path.hpp"
 #include "core/base/types.hpp"
 #include "parallel/execution.hpp"
-#include "pictures/picture.hpp"
-#include "pictures/svg_animation.hpp"
+#include "pictures/model/picture.hpp"
 #include "planners/roadmap/planned_roadmap.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/answer/answer.hpp"
@@ -36,6 +35,10 @@ struct Drawing {
   std::vector<double> path_turns = {};  ///< as Picture::path_turns
   std::optional<Vec2> start = {};
   std::optional<Vec2> goal = {};
+  std::vector<AxesPanel> panels = {};  ///< as Picture::panels
+  std::string path_label = "path";
+  std::string title = {};
+  std::string subtitle = {};              ///< what was asked, how it was solved and what came of it
   std::optional<MovingBody> moving = {};  ///< none unless animate() was asked for it
 };
 
@@ -58,6 +61,6 @@ Picture picture_of(const Scene& scene, const Drawing& drawing, const DrawingPage
 /// The picture of an answer in one go, in the format that the file's ending says, with the borders of a map's cells.
 /// Throws WriteError, Stopped.
 void write_picture(const std::string& file, const Scene& scene, const Answer& answer, ByProducts made = {},
-                   const Execution& execution = {});
+                   const PictureOptions& options = {}, const Execution& execution = {});
 
 }  // namespace warren

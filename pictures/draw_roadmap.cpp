@@ -10,9 +10,11 @@
 
 #include "core/base/error.hpp"
 #include "core/base/trigonometry.hpp"
-#include "pictures/draw_arm.hpp"
-#include "pictures/draw_car.hpp"
-#include "pictures/draw_cells.hpp"
+#include "pictures/formats/write_picture.hpp"
+#include "pictures/layers/draw_arm.hpp"
+#include "pictures/layers/draw_car.hpp"
+#include "pictures/layers/draw_cells.hpp"
+#include "pictures/subtitle.hpp"
 #include "scenes/text/human_units.hpp"
 #include "solve/answer/world_account.hpp"
 #include "solve/question/question_of_arm.hpp"
@@ -31,11 +33,12 @@ constexpr std::size_t polled = std::size_t{1} << 14;
 struct EdgeStyle {
   EdgeState state;
   const char* id;
+  const char* label;
   Rgb color;
 };
 /// Free edges are drawn last, over the others.
-constexpr std::array<EdgeStyle, 2> other_edges{
-    {{EdgeState::unchecked, "unchecked", unchecked_color}, {EdgeState::blocked, "blocked", blocked_color}}};
+constexpr std::array<EdgeStyle, 2> other_edges{{{EdgeState::unchecked, "unchecked", "unchecked edge", unchecked_color},
+                                                {EdgeState::blocked, "blocked", "blocked edge", blocked_color}}};
 
 /// The edges in one state.
 Graph edges_in(EdgeState state, const RoadmapArrays& arrays, const Execution& execution) {
@@ -101,7 +104,7 @@ class RoadmapDrawing {
 
 void RoadmapDrawing::add_lines(Drawing& drawing) const {
   for (const EdgeStyle& style : other_edges) {
-    PictureLayer layer{style.id, style.color, thin, {}};
+    PictureLayer layer{.id = style.id, .label = style.label, .color = style.color, .width = thin};
     const Graph graph = edges_in(style.state, arrays_, execution_);
     for (VertexId v = 0; v < vertex_count(); ++v) {
       if (v % polled == 0) execution_.check();
@@ -123,12 +126,13 @@ void RoadmapDrawing::add_curves(Drawing& drawing) const {
     roadmap[0].graph = edges_in(style.state, arrays_, execution_);
     PictureLayer layer = car_curves(roadmap, roadmap_.robot, execution_).edges;
     layer.id = style.id;
+    layer.label = style.label;
     layer.color = style.color;
     if (style.state != EdgeState::free) layer.width = thin;
     if (layer.lines.size() > 0) drawing.layers.push_back(std::move(layer));
   };
   for (const EdgeStyle& style : other_edges) add(style);
-  add({EdgeState::free, "free", colors::components[0]});
+  add({EdgeState::free, "free", "free edge", colors::components[0]});
   drawing.roadmap.emplace();
   drawing.roadmap->states = positions();
   drawing.roadmap->graph = Graph::from_edges(vertex_count(), {});
@@ -136,7 +140,7 @@ void RoadmapDrawing::add_curves(Drawing& drawing) const {
 
 /// Where the states look, in strokes that keep apart from each other.
 PictureLayer RoadmapDrawing::arrows() const {
-  PictureLayer layer{"headings", colors::outline, widths::edge, {}};
+  PictureLayer layer{.id = "headings", .label = "heading of a state", .color = colors::outline};
   Box box;
   for (VertexId v = 0; v < vertex_count(); ++v) box.include(position(v));
   if (box.empty()) return layer;
@@ -155,7 +159,7 @@ Drawing RoadmapDrawing::draw_arm() const {
   for (VertexId v = 0; v < vertex_count(); ++v) states.push_back(joints(v));
   std::vector<ToolLines> lines;
   const auto add = [&](EdgeStyle style) {
-    lines.push_back({style.id, style.color, style.state == EdgeState::free ? widths::edge : thin, {}});
+    lines.push_back({style.id, style.label, style.color, style.state == EdgeState::free ? widths::edge : thin, {}});
     const Graph graph = edges_in(style.state, arrays_, execution_);
     for (VertexId v = 0; v < vertex_count(); ++v) {
       for (const VertexId w : graph.neighbours(v)) {
@@ -164,10 +168,10 @@ Drawing RoadmapDrawing::draw_arm() const {
     }
   };
   for (const EdgeStyle& style : other_edges) add(style);
-  add({EdgeState::free, "free", colors::components[0]});
+  add({EdgeState::free, "free", "free edge", colors::components[0]});
   ArmViews views = arm_roadmap_views(scene_, table_of(roadmap_.robot, execution_), roadmap_.robot.radius,
                                      scene_.start.empty() ? JointState{} : joint_state(scene_.start), states, lines);
-  return {.layers = std::move(views.layers), .stage = std::move(views.stage)};
+  return {.layers = std::move(views.layers), .stage = std::move(views.stage), .panels = std::move(views.panels)};
 }
 
 }  // namespace
@@ -187,8 +191,8 @@ Drawing drawing_of(const Scene& scene, const Roadmap& roadmap, const Execution& 
   return RoadmapDrawing(scene, roadmap, arrays, execution).draw();
 }
 
-void write_picture(const std::string& file, const Roadmap& roadmap, const std::string& description,
-                   const Execution& execution) {
+void write_picture(const std::string& file, const Roadmap& roadmap, const PictureOptions& options,
+                   const std::string& description, const Execution& execution) {
   const Scene& world = roadmap.world.whole(execution);
   Scene bordered;
   if (world.map) {
@@ -198,15 +202,13 @@ void write_picture(const std::string& file, const Roadmap& roadmap, const std::s
   const Scene& scene = world.map ? bordered : world;
   const Drawing drawing = drawing_of(scene, roadmap, execution);
   Picture picture = picture_of(scene, drawing);
-  constexpr double most_units = 680.0;  // beyond, write_png leaves a roadmap out
-  const Canvas canvas = canvas_of(picture, execution);
-  if (ending_of(file) == ".png" && std::max(canvas.box.width(), canvas.box.height()) > most_units * canvas.unit) {
-    throw UsageError(fmt::format("{}: the edges of this roadmap would be finer than pixels; say .svg or .html", file));
-  }
   picture.title = world.source;
-  picture.description =
-      fmt::format("{}, {} states: {}", description_of(world), grouped(count_states(roadmap)), description);
-  write_picture(file, picture, execution);
+  const EdgeCounts edges = count_edges(roadmap, execution);
+  picture.subtitle = fmt::format("{}\nroadmap of {}, edges: {} free, {} blocked, {} unchecked",
+                                 subtitle_of(world, roadmap.robot), counted(count_states(roadmap), "state", "states"),
+                                 grouped(edges.free), grouped(edges.blocked), grouped(edges.unchecked));
+  picture.description = fmt::format("{}\n{}", picture.subtitle, description);
+  write_picture(file, picture, options, execution);
 }
 
 }  // namespace warren

@@ -20,8 +20,8 @@ inline constexpr std::uint64_t most_drawn_edges = 900'000;
 Drawing drawing_of(const Scene& scene, const Roadmap& roadmap, const Execution& execution);
 
 /// The same in one go, in the format that the file's ending says. `description` is added to what the picture says of
-/// itself. Throws UsageError where edges would be finer than pixels, WriteError, Stopped.
-void write_picture(const std::string& file, const Roadmap& roadmap, const std::string& description,
-                   const Execution& execution);
+/// itself. Throws UsageError, WriteError, Stopped.
+void write_picture(const std::string& file, const Roadmap& roadmap, const PictureOptions& options,
+                   const std::string& description, const Execution& execution);
 
 }  // namespace warren

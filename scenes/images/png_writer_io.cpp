@@ -43,9 +43,24 @@ bool encode(png_structp png, png_infop info, const PngRows& rows, PngSink& sink,
   png_set_write_fn(png, &sink, png_write, png_flush);
   png_set_compression_level(png, fast_compression);
   png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
-  png_set_IHDR(png, info, rows.width, rows.height, rows.is_colour ? 8 : 1,
-               rows.is_colour ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
+  const bool has_palette = !rows.palette.empty();
+  png_set_IHDR(png, info, rows.width, rows.height, has_palette ? 8 : 1,
+               has_palette ? PNG_COLOR_TYPE_PALETTE : PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  if (has_palette) {
+    png_color colors[PNG_MAX_PALETTE_LENGTH];
+    for (std::size_t i = 0; i < rows.palette.size(); ++i) {
+      colors[i] = {rows.palette[i][0], rows.palette[i][1], rows.palette[i][2]};
+    }
+    png_set_PLTE(png, info, colors, static_cast<int>(rows.palette.size()));
+    if (!rows.alphas.empty())
+      png_set_tRNS(png, info, rows.alphas.data(), static_cast<int>(rows.alphas.size()), nullptr);
+  }
+  if (rows.dpi > 0.0) {
+    constexpr double inches_a_metre = 1.0 / 0.0254;
+    const auto per_metre = static_cast<png_uint_32>(rows.dpi * inches_a_metre + 0.5);
+    png_set_pHYs(png, info, per_metre, per_metre, PNG_RESOLUTION_METER);
+  }
   png_write_info(png, info);
   for (std::size_t y = 0; y < rows.height; ++y) {
     if (execution.should_stop()) return true;
@@ -83,7 +98,7 @@ void write_map_png(const OccupancyMap& map, const std::string& path, const Execu
     }
     return static_cast<const std::uint8_t*>(bytes.data());
   };
-  write_png({.width = map.width(), .height = map.height(), .is_colour = false, .row = row}, execution,
+  write_png({.width = map.width(), .height = map.height(), .row = row}, execution,
             [&](std::string_view piece) { file.write(piece); });
   file.commit();
 }

@@ -2,10 +2,12 @@
 // PNG out, by libpng, row by row: pictures, and maps as images that read_world takes back.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "parallel/execution.hpp"
 #include "scenes/scene/occupancy_map.hpp"
@@ -16,7 +18,10 @@ namespace warren {
 struct PngRows {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
-  bool is_colour = false;  ///< 3 bytes a pixel; else 1 bit a pixel, the first one the highest bit, 1 white
+  /// At most 256 colours, then a byte a pixel; empty: 1 bit a pixel, the first one the highest bit, 1 white.
+  std::vector<std::array<std::uint8_t, 3>> palette = {};
+  std::vector<std::uint8_t> alphas = {};  ///< of the palette's first colours, 255 opaque; empty: all are
+  double dpi = 0.0;                       ///< 0: nothing is said of it
   /// The bytes of row y, from the top; valid until the next call. Must not throw.
   std::function<const std::uint8_t*(std::size_t)> row;
 };

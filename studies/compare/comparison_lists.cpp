@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <map>
 
-#include "pictures/plot_svg.hpp"
+#include "pictures/plots/plot_svg.hpp"
 #include "scenes/text/human_units.hpp"
 #include "studies/compare/comparison_report.hpp"
 #include "studies/compare/heat_map_svg.hpp"

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 
-#include "pictures/plot_svg.hpp"
+#include "pictures/plots/plot_svg.hpp"
 #include "studies/compare/comparison_report.hpp"
 #include "studies/compare/queue_crossings.hpp"
 

@@ -11,7 +11,8 @@
 #include <string_view>
 
 #include "core/base/types.hpp"
-#include "pictures/plot_svg.hpp"
+#include "pictures/model/xml_text.hpp"
+#include "pictures/plots/plot_svg.hpp"
 
 namespace warren {
 namespace {

@@ -14,6 +14,7 @@
 
 #include "core/base/error.hpp"
 #include "pictures/draw_answer.hpp"
+#include "pictures/formats/write_picture.hpp"
 
 namespace warren {
 namespace {
@@ -79,7 +80,7 @@ class ContestPictures {
   void write(const std::string& name, const std::string& title, Picture picture) const {
     picture.title = title;
     picture.description = description_of(scene_);
-    write_picture(folder_ + "/" + name + ".svg", picture, execution_);
+    write_picture(folder_ + "/" + name + ".svg", picture, options_.look, execution_);
   }
 
   const Scene& scene_;

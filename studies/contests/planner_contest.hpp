@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "parallel/execution.hpp"
+#include "pictures/model/picture_options.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/answer/by_products.hpp"
@@ -27,6 +28,7 @@ struct PlannerContestOptions {
   bool parallel = false;
   double budget_s = std::numeric_limits<double>::infinity();  ///< of each run's solve_s
   std::string pictures = {};                                  ///< the folder that takes them; empty: none are drawn
+  PictureOptions look = {};
 };
 
 /// May another seed give another answer? What trees, samples and shortcuts draw is random; lattices, cells, visibility

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "pictures/plot_svg.hpp"
+#include "pictures/plots/plot_svg.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "scenes/text/human_units.hpp"
 #include "solve/answer/answer.hpp"

@@ -7,7 +7,8 @@
 #include <optional>
 #include <set>
 
-#include "pictures/plot_svg.hpp"
+#include "pictures/model/xml_text.hpp"
+#include "pictures/plots/plot_svg.hpp"
 #include "scenes/text/human_units.hpp"
 #include "studies/measure/machine_memory.hpp"
 #include "studies/measure/report_page.hpp"

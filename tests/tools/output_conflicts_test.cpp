@@ -142,7 +142,7 @@ TEST_F(OutputConflicts, WhatIsNoConflictIsWritten) {
 }
 
 TEST_F(OutputConflicts, APictureOfAnotherKindIsRefused) {
-  refused("solve @w.scene --svg @x.pdf", ".svg .png .html");
+  refused("solve @w.scene --svg @x.gif", ".svg .png .pdf .html");
   refused("compare @w.scene --svg @x.png", ".svg");
   refused("largest --svg @x.pdf", ".svg");
   EXPECT_FALSE(std::filesystem::exists(path("x.pdf")));

@@ -214,7 +214,7 @@ TEST(Solve, PicturesHaveTheirLayers) {
   for (const char* id : {"walls", "milestones", "edges", "search_tree", "path", "start", "goal"}) {
     EXPECT_NE(svg.find("<g id=\"" + std::string{id} + "\""), std::string::npos) << id;
   }
-  EXPECT_NE(svg.find("scale(1,-1)"), std::string::npos);
+  EXPECT_NE(svg.find("<g id=\"world\" transform="), std::string::npos);
   EXPECT_NE(svg.find("<title>"), std::string::npos);
   EXPECT_NE(svg.find("seed 1"), std::string::npos);
   EXPECT_EQ(run({"solve", "maze:9x9", "--svg", "-"}).out.rfind("<svg", 0), 0U) << "alone on standard output";

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "pictures/picture.hpp"
+#include "pictures/formats/write_picture.hpp"
 #include "roadmaps/exports/export_roadmap.hpp"
 #include "scenes/formats/read_world_io.hpp"
 #include "scenes/formats/ros_map_io.hpp"

@@ -9,7 +9,7 @@
 #include <system_error>
 
 #include "core/base/error.hpp"
-#include "pictures/picture.hpp"
+#include "pictures/formats/write_picture.hpp"
 #include "scenes/text/output_file_io.hpp"
 
 namespace warren {
@@ -39,6 +39,13 @@ void check_writable(const std::string& path) {
     fail(path, errno);
   }
   if (::access(folder_of(behind_links(path)).c_str(), W_OK | X_OK) != 0) fail(path, errno);
+}
+
+void check_picture(std::string_view option, const std::string& file) {
+  check_picture_ending(option, file, picture_endings);
+  if (ending_of(file) == ".pdf" && !can_write_pdf()) {
+    throw UsageError(fmt::format("{}: this warren was built without libharu and writes no .pdf; say .svg", option));
+  }
 }
 
 void check_picture_ending(std::string_view option, const std::string& file, std::string_view endings) {

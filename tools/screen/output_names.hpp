@@ -19,6 +19,9 @@ void check_writable(const std::string& path);
 /// ending promises nothing.
 void check_picture_ending(std::string_view option, const std::string& file, std::string_view endings);
 
+/// The same for a picture in any format that this build writes.
+void check_picture(std::string_view option, const std::string& file);
+
 /// The file that an option names, if it is given; check_writable has been asked.
 std::optional<std::string> output_file(const Arguments& arguments, std::string_view option);
 

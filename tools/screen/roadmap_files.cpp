@@ -51,14 +51,14 @@ bool is_roadmap_named(const std::string& file) {
   return stream && is_roadmap_file({head.data(), head.size()});
 }
 
-int draw_roadmap(const Arguments& arguments, const std::string& file) {
+int draw_roadmap(const Arguments& arguments, const std::string& file, const PictureOptions& options) {
   Run run(arguments);
   StageTimes seconds;
   const Roadmap roadmap = load_roadmap(arguments, run.execution(), seconds);
   {
     double draw_seconds = 0.0;
     const StageTimer timer(run.execution(), "draw", draw_seconds);
-    write_picture(file, roadmap, arguments.command_line(), run.execution());
+    write_picture(file, roadmap, options, arguments.command_line(), run.execution());
   }
   run.end();
   run.conclude(file == "-", {}, [&] {

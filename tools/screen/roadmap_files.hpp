@@ -5,6 +5,7 @@
 
 #include "core/base/counters.hpp"
 #include "parallel/execution.hpp"
+#include "pictures/model/picture_options.hpp"
 #include "solve/roadmaps/roadmap.hpp"
 #include "tools/words/arguments.hpp"
 #include "tools/words/command.hpp"
@@ -25,6 +26,6 @@ Roadmap load_roadmap(const Arguments& arguments, const Execution& execution, Sta
 bool is_roadmap_named(const std::string& file);
 
 /// The picture of ROADMAP in a file. The exit code; throws as load_roadmap and write_picture do.
-int draw_roadmap(const Arguments& arguments, const std::string& file);
+int draw_roadmap(const Arguments& arguments, const std::string& file, const PictureOptions& options);
 
 }  // namespace warren

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "core/base/error.hpp"
-#include "pictures/picture.hpp"
+#include "pictures/formats/write_picture.hpp"
 #include "scenes/formats/read_world_io.hpp"
 #include "solve/answer/world_account.hpp"
 #include "solve/question/question.hpp"
@@ -37,8 +37,6 @@ MapServerRules rules_value(std::string_view option, std::string_view text) {
 
 }  // namespace
 
-bool is_picture(std::string_view ending) { return ending == ".svg" || ending == ".png" || ending == ".html"; }
-
 std::span<const OptionSpec> world_option_specs() { return world_specs; }
 
 Scene load_world(const std::string& source, const Arguments& arguments, const Execution& execution,
@@ -60,25 +58,26 @@ Scene load_world(const InputFile& file, const Arguments& arguments, const Execut
 }
 
 void check_world_file(const std::string& file) {
-  constexpr std::array<std::string_view, 9> endings{".walls", ".scene", ".txt", ".npy", ".geojson",
-                                                    ".wkt",   ".svg",   ".png", ".html"};
+  constexpr std::array<std::string_view, 6> endings{".walls", ".scene", ".txt", ".npy", ".geojson", ".wkt"};
   const std::string ending = ending_of(file);
   const bool device = file == "-" || file.starts_with("/dev/");
-  if (!device && std::find(endings.begin(), endings.end(), ending) == endings.end()) {
+  if (is_picture(ending)) check_picture("--output", file);
+  if (!device && !is_picture(ending) && std::find(endings.begin(), endings.end(), ending) == endings.end()) {
     throw UsageError(
-        "--output: a world ends in .walls, .scene, .txt, .npy, .geojson, .wkt, .svg, .png or .html (found: '" + file +
-        "')");
+        "--output: a world ends in .walls, .scene, .txt, .npy, .geojson, .wkt, .svg, .png, .pdf or .html (found: '" +
+        file + "')");
   }
   check_writable(file);
 }
 
-void write_world(const Scene& scene, const std::string& file, const std::string& command_line,
-                 const Execution& execution) {
+void write_world(const Scene& scene, const std::string& file, const PictureOptions& options,
+                 const std::string& command_line, const Execution& execution) {
   if (!is_picture(ending_of(file))) return write_scene(scene, file, execution);
   Picture picture{.scene = scene, .start = plane_point(scene.start), .goal = plane_point(scene.goal)};
-  picture.title = description_of(scene);
+  picture.title = scene.source;
+  picture.subtitle = description_of(scene);
   picture.description = command_line;
-  write_picture(file, picture, execution);
+  write_picture(file, picture, options, execution);
 }
 
 }  // namespace warren

@@ -8,6 +8,7 @@
 
 #include "core/base/counters.hpp"
 #include "parallel/execution.hpp"
+#include "pictures/model/picture_options.hpp"
 #include "scenes/scene/scene.hpp"
 #include "scenes/text/input_file_io.hpp"
 #include "tools/words/arguments.hpp"
@@ -26,12 +27,9 @@ Scene load_world(const std::string& source, const Arguments& arguments, const Ex
 /// The same for a file that is open already.
 Scene load_world(const InputFile& file, const Arguments& arguments, const Execution& execution, StageTimes& seconds);
 
-/// Scene text, .npy, or a picture (.svg .png .html), by the file's ending; "-" is scene text.
-void write_world(const Scene& scene, const std::string& file, const std::string& command_line,
-                 const Execution& execution);
-
-/// .svg .png .html
-bool is_picture(std::string_view ending);
+/// Scene text, .npy, or a picture, by the file's ending; "-" is scene text.
+void write_world(const Scene& scene, const std::string& file, const PictureOptions& options,
+                 const std::string& command_line, const Execution& execution);
 
 /// Throws UsageError unless `file` has an ending that write_world knows, WriteError unless it can be written.
 void check_world_file(const std::string& file);

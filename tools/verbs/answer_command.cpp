@@ -10,12 +10,14 @@
 #include "core/base/error.hpp"
 #include "pictures/answer_summary.hpp"
 #include "pictures/draw_answer.hpp"
+#include "pictures/formats/write_picture.hpp"
 #include "solve/answer/write_answer_io.hpp"
 #include "solve/roadmaps/roadmap_file_io.hpp"
 #include "solve/steps/solve_steps.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_names.hpp"
 #include "tools/words/path_words.hpp"
+#include "tools/words/picture_words.hpp"
 #include "worlds/rasters/map_borders.hpp"
 
 namespace warren {
@@ -23,7 +25,7 @@ namespace {
 
 constexpr OptionSpec output_specs[] = {
     {"--json", "FILE", "write the answer as JSON; - is standard output"},
-    {"--svg", "FILE", "draw walls, roadmap, search and path; .png and .html work too"},
+    {"--svg", "FILE", "draw the world, roadmap, search and path: .svg .png .pdf .html by ending"},
 };
 
 /// A device, a pipe or standard output: what is written there can't be taken back.
@@ -36,7 +38,11 @@ bool is_straight(const std::string& path) {
 
 }  // namespace
 
-std::span<const OptionSpec> answer_output_specs() { return output_specs; }
+std::vector<OptionSpec> answer_output_specs() {
+  std::vector<OptionSpec> specs(std::begin(output_specs), std::end(output_specs));
+  add_options(specs, picture_option_specs());
+  return specs;
+}
 
 AnswerCommand::AnswerCommand(const Arguments& arguments, std::string_view keep)
     : arguments_(arguments),
@@ -44,8 +50,9 @@ AnswerCommand::AnswerCommand(const Arguments& arguments, std::string_view keep)
       svg_(output_file(arguments, "--svg").value_or("")),
       roadmap_(output_file(arguments, keep).value_or("")),
       path_(output_file(arguments, "--path").value_or("")),
-      path_options_(path_words(arguments)) {
-  check_picture_ending("--svg", svg_, ".svg .png .html");
+      path_options_(path_words(arguments)),
+      picture_options_(picture_words(arguments, arguments.has("--svg"), "--svg FILE")) {
+  check_picture("--svg", svg_);
 }
 
 int AnswerCommand::run() {
@@ -157,10 +164,8 @@ void AnswerCommand::draw(const Execution& execution) {
   add_map_walls(scene, execution);
   const Drawing drawing = drawing_of(scene, answer_, std::move(by_products_), execution);
   Picture picture = picture_of(scene, drawing);
-  picture.title = fmt::format("{}: {}", scene.source, name_of(answer_.outcome));
-  picture.description = fmt::format("{}. {}, seed {}: {}", description_of(scene), answer_.planner, answer_.seed,
-                                    arguments_.command_line());
-  write_picture(svg_, picture, execution);
+  picture.description = fmt::format("{}\n{}", drawing.subtitle, arguments_.command_line());
+  write_picture(svg_, picture, picture_options_, execution);
 }
 
 int AnswerCommand::exit_code() const {

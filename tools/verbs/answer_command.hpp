@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "pictures/model/picture_options.hpp"
 #include "scenes/scene/scene.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "solve/answer/answer.hpp"
@@ -21,8 +22,8 @@
 
 namespace warren {
 
-/// --json --svg
-std::span<const OptionSpec> answer_output_specs();
+/// --json --svg, and how a picture looks
+std::vector<OptionSpec> answer_output_specs();
 
 class AnswerCommand {
  public:
@@ -66,6 +67,7 @@ class AnswerCommand {
   std::string roadmap_;
   std::string path_;
   PathFileOptions path_options_;
+  PictureOptions picture_options_;
   ByProducts by_products_;
   Answer answer_;
   std::vector<std::string> written_;

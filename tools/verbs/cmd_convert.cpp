@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/base/error.hpp"
+#include "pictures/formats/write_picture.hpp"
 #include "scenes/formats/read_world_io.hpp"
 #include "scenes/formats/ros_map_io.hpp"
 #include "solve/answer/world_account.hpp"
@@ -17,6 +18,7 @@
 #include "tools/screen/world_files.hpp"
 #include "tools/words/command.hpp"
 #include "tools/words/option_values.hpp"
+#include "tools/words/picture_words.hpp"
 #include "worlds/rasters/map_borders.hpp"
 
 namespace warren {
@@ -25,7 +27,8 @@ namespace {
 constexpr OptionSpec convert_specs[] = {
     {"--output",
      "FILE",
-     "where to: .walls .scene .npy .geojson .wkt .map .yaml .pgm .svg .png .html by ending; - is standard output. A "
+     "where to: .walls .scene .npy .geojson .wkt .map .yaml .pgm .svg .png .pdf .html by ending; - is standard output. "
+     "A "
      "map's .png has a pixel a cell; of other worlds it is a picture unless --cell is given",
      {},
      "-o"},
@@ -45,14 +48,15 @@ bool becomes_map(const Scene& scene, std::string_view file, const Arguments& arg
   return is_map_ending(file) || (file.ends_with(".png") && (scene.map || arguments.has("--cell")));
 }
 
-void write_any(Scene& scene, const std::string& file, const Arguments& arguments, const Execution& execution) {
+void write_any(Scene& scene, const std::string& file, const Arguments& arguments, const PictureOptions& options,
+               const Execution& execution) {
   if (becomes_map(scene, file, arguments)) {
     const auto cell = given_value(arguments, "--cell", positive_value);
     if (cell) check_cell(*cell, scene);
     return write_map(map_for(scene, cell, execution), file, execution);
   }
   add_map_walls(scene, execution);
-  write_world(scene, file, arguments.command_line(), execution);
+  write_world(scene, file, options, arguments.command_line(), execution);
 }
 
 /// Throws as check_world_file does; a YAML has its image beside it.
@@ -69,13 +73,15 @@ int convert(const Arguments& arguments) {
   if (!is_map_ending(*file) && !file->ends_with(".png") && arguments.has("--cell")) {
     throw UsageError("--cell: only maps have cells: .map, .yaml, .pgm and .png");
   }
+  const PictureOptions options =
+      picture_words(arguments, is_picture(ending_of(*file)), "-o FILE.svg or another picture");
   Run run(arguments);
   StageTimes seconds;
   double write_seconds = 0.0;
   Scene scene = load_world(arguments.operand(0), arguments, run.execution(), seconds);
   {
     const StageTimer timer(run.execution(), "write", write_seconds);
-    write_any(scene, *file, arguments, run.execution());
+    write_any(scene, *file, arguments, options, run.execution());
   }
   run.end();
   if (!run.quiet() && *file != "-")
@@ -88,6 +94,7 @@ int convert(const Arguments& arguments) {
 Command convert_command() {
   Command command{"convert", "WORLD", "write a world in another format", {}, convert};
   add_options(command.options, convert_specs);
+  add_options(command.options, picture_option_specs());
   add_options(command.options, world_option_specs());
   add_options(command.options, run_option_specs());
   return command;

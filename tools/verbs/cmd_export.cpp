@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
-#include "pictures/picture.hpp"
+#include "pictures/formats/write_picture.hpp"
 #include "scenes/text/human_units.hpp"
 #include "solve/roadmaps/export_of_roadmap.hpp"
 #include "tools/screen/exit_code.hpp"
@@ -12,6 +12,7 @@
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/world_files.hpp"
 #include "tools/words/command.hpp"
+#include "tools/words/picture_words.hpp"
 
 namespace warren {
 namespace {
@@ -19,7 +20,7 @@ namespace {
 constexpr OptionSpec export_specs[] = {
     {"--output",
      "FILE",
-     "where to: .geojson .graphml .gr .csv .npz .dot, or as a picture .svg .png .html, by ending",
+     "where to: .geojson .graphml .gr .csv .npz .dot, or as a picture .svg .png .pdf .html, by ending",
      {},
      "-o"},
     {"--unchecked", "", "edges that nobody has checked, too"},
@@ -35,8 +36,10 @@ int export_roadmap_file(const Arguments& arguments) {
     for (const std::string_view option : {"--unchecked", "--frame"}) {
       if (arguments.has(option)) throw UsageError(fmt::format("{}: means nothing to a picture", option));
     }
-    return draw_roadmap(arguments, *file);
+    check_picture("--output", *file);
+    return draw_roadmap(arguments, *file, picture_words(arguments, true, {}));
   }
+  picture_words(arguments, false, "a picture");
   for (const std::string& name : files_of_export(*file)) check_writable(name);
   const ExportOptions options{.with_unchecked = arguments.has("--unchecked"),
                               .frame = std::string(arguments.value("--frame").value_or("map"))};
@@ -58,6 +61,7 @@ int export_roadmap_file(const Arguments& arguments) {
 Command export_command() {
   Command command{"export", "ROADMAP", "write a roadmap for other programs", {}, export_roadmap_file};
   add_options(command.options, export_specs);
+  add_options(command.options, picture_option_specs());
   add_options(command.options, world_option_specs());
   add_options(command.options, run_option_specs());
   return command;

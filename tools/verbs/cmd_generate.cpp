@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/base/error.hpp"
+#include "pictures/formats/write_picture.hpp"
 #include "scenes/formats/read_world_io.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "scenes/scene/polygon_generator.hpp"
@@ -20,6 +21,7 @@
 #include "tools/words/command.hpp"
 #include "tools/words/maze_words.hpp"
 #include "tools/words/option_values.hpp"
+#include "tools/words/picture_words.hpp"
 #include "tools/words/planner_words.hpp"
 
 namespace warren {
@@ -94,6 +96,8 @@ int generate(const Arguments& arguments) {
   const auto file = arguments.value("--output");
   if (!file) throw UsageError("-o FILE is missing");
   check_world_file(*file);
+  const PictureOptions options =
+      picture_words(arguments, is_picture(ending_of(*file)), "-o FILE.svg or another picture");
   Run run(arguments);
   double seconds = 0.0;
   Scene scene;
@@ -104,7 +108,7 @@ int generate(const Arguments& arguments) {
   double write_seconds = 0.0;
   {
     const StageTimer timer(run.execution(), "write", write_seconds);
-    write_world(scene, *file, arguments.command_line(), run.execution());
+    write_world(scene, *file, options, arguments.command_line(), run.execution());
   }
   run.end();
   if (!run.quiet() && *file != "-") {
@@ -120,6 +124,7 @@ Command generate_command() {
   Command command{
       "generate", "maze|polygons ROWSxCOLS|COUNT", "write a maze of any size, or any number of polygons", {}, generate};
   add_options(command.options, generate_specs);
+  add_options(command.options, picture_option_specs());
   add_options(command.options, run_option_specs());
   return command;
 }

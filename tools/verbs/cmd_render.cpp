@@ -4,6 +4,7 @@
 
 #include "core/base/error.hpp"
 #include "pictures/draw_answer.hpp"
+#include "pictures/formats/write_picture.hpp"
 #include "solve/answer/read_answer_io.hpp"
 #include "solve/answer/world_account.hpp"
 #include "solve/question/plannable.hpp"
@@ -15,13 +16,14 @@
 #include "tools/screen/terminal.hpp"
 #include "tools/screen/world_files.hpp"
 #include "tools/words/command.hpp"
+#include "tools/words/picture_words.hpp"
 #include "worlds/rasters/map_borders.hpp"
 
 namespace warren {
 namespace {
 
 constexpr OptionSpec render_specs[] = {
-    {"--output", "FILE", "where to: .svg .png .html by ending", {}, "-o"},
+    {"--output", "FILE", "where to: .svg .png .pdf .html by ending", {}, "-o"},
     {"--answer", "FILE", "draw this answer's path"},
     roadmap_world_option,
     {"--animate", "", "with --answer: the body moves along the path (.svg and .html)"},
@@ -32,8 +34,9 @@ std::string picture_file(const Arguments& arguments) {
   if (!file) throw UsageError("-o FILE is missing");
   const std::string ending = ending_of(*file);
   if (*file != "-" && !is_picture(ending)) {
-    throw UsageError("--output: a picture ends in .svg, .png or .html (found: '" + *file + "')");
+    throw UsageError("--output: a picture ends in .svg, .png, .pdf or .html (found: '" + *file + "')");
   }
+  check_picture("--output", *file);
   check_writable(*file);
   return *file;
 }
@@ -41,17 +44,20 @@ std::string picture_file(const Arguments& arguments) {
 void check_animation(const Arguments& arguments, const std::string& file) {
   if (!arguments.has("--animate")) return;
   if (!arguments.has("--answer")) throw UsageError("--animate: needs --answer FILE, a path to move along");
-  if (ending_of(file) == ".png") throw UsageError("--animate: a .png stands still; say .svg or .html");
+  if (const std::string ending = ending_of(file); ending == ".png" || ending == ".pdf") {
+    throw UsageError(fmt::format("--animate: a {} stands still; say .svg or .html", ending));
+  }
 }
 
 int render(const Arguments& arguments) {
   const std::string file = picture_file(arguments);
+  const PictureOptions options = picture_words(arguments, true, {});
   const auto answer_file = arguments.value("--answer");
   check_animation(arguments, file);
   if (is_roadmap_named(arguments.operand(0))) {
     check_rules_of_maps(arguments);
     if (answer_file) throw UsageError("--answer: is drawn on a world; a roadmap is drawn alone");
-    return draw_roadmap(arguments, file);
+    return draw_roadmap(arguments, file, options);
   }
   if (arguments.has("--world")) throw UsageError("--world: is for a roadmap without its world");
   Run run(arguments);
@@ -66,12 +72,11 @@ int render(const Arguments& arguments) {
   Drawing drawing = drawing_of(scene, answer, run.execution());
   if (arguments.has("--animate")) animate(drawing, robot_of(scene, answer.problem), answer);
   Picture picture = picture_of(scene, drawing);
-  picture.title = scene.source;
-  picture.description = description_of(scene) + ": " + arguments.command_line();
+  picture.description = fmt::format("{}\n{}", drawing.subtitle, arguments.command_line());
   double draw_seconds = 0.0;
   {
     const StageTimer timer(run.execution(), "draw", draw_seconds);
-    write_picture(file, picture, run.execution());
+    write_picture(file, picture, options, run.execution());
   }
   run.end();
   if (!run.quiet() && file != "-") {
@@ -85,6 +90,7 @@ int render(const Arguments& arguments) {
 Command render_command() {
   Command command{"render", "FILE", "draw a world, and an answer's path on it, or a roadmap", {}, render};
   add_options(command.options, render_specs);
+  add_options(command.options, picture_option_specs());
   add_options(command.options, world_option_specs());
   add_options(command.options, run_option_specs());
   return command;

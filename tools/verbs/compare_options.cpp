@@ -11,6 +11,7 @@
 #include "solve/steps/kind_of_problem.hpp"
 #include "tools/verbs/compare_lists.hpp"
 #include "tools/words/option_values.hpp"
+#include "tools/words/picture_words.hpp"
 #include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"
 
@@ -78,6 +79,7 @@ PlannerContestOptions contest_options(const Arguments& arguments) {
   PlannerContestOptions options;
   options.contenders = deal_planners(deal_words(arguments, planners, DealKind::planners));
   options.pictures = arguments.value("--pictures").value_or("");
+  options.look = picture_words(arguments, arguments.has("--pictures"), "--pictures FOLDER");
   options.first_seed = first_seed(arguments);
   options.repeat_all = arguments.has("--trials");
   options.runs = count_or(arguments, options.repeat_all ? "--trials" : "--seeds", usual_seeds);
@@ -159,6 +161,7 @@ std::vector<OptionSpec> compare_option_specs() {
   for (OptionSpec& spec : specs) {
     if (spec.name == "--graph") spec.choices = planner_names();
   }
+  add_options(specs, picture_option_specs());
   add_options(specs, passed_specs());
   return specs;
 }
@@ -176,6 +179,7 @@ CompareOptions compare_options(const Arguments& arguments) {
     options.planners->budget_s = options.budget_s;
     return options;
   }
+  picture_words(arguments, false, "--pictures FOLDER");
   refuse(arguments, {"--pictures"}, "draws the paths of --planners");
   refuse(arguments, {"--parallel"}, "runs --planners beside each other; searches are timed one by one");
   options.searches.variants = variants_of(arguments);

@@ -77,8 +77,6 @@ TEST_F(RoadmapPictures, ExportDrawsWhatRenderDraws) {
 }
 
 TEST_F(RoadmapPictures, WhatNoPictureShowsIsRefused) {
-  build("maze:2x700", {"--planner", "prm"});
-  check({{"render", path("r.roadmap"), "-o", path("x.png")}, 2, "finer than pixels; say .svg"});
   build("maze:700x700,loops=0.01", {"--index", "none", "--planner", "prm"});
   check({{"render", path("r.roadmap"), "-o", path("x.svg")}, 2, "and a picture of more than 900 000 shows nothing"});
   build("maze:9x9", {"--no-world"});

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pictures/formats/line_group.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace warren {
+
+void LineGroup::measure(std::span<const Vec2> chain) {
+  constexpr std::size_t chains_per_poll = 1 << 14;
+  if (++drawn_ % chains_per_poll == 0) execution_.check();
+  for (std::size_t i = 1; i < chain.size(); ++i) {
+    ink_ += pen_.width * (page_.view.scale * distance(chain[i - 1], chain[i]) + pen_.width);
+  }
+}
+
+Pen LineGroup::thinned() {
+  constexpr double most_cover = 0.3;
+  constexpr double least_width = 0.4;
+  constexpr double least_opacity = 0.25;
+  const double allowed = most_cover * page_.data.width() * page_.data.height();
+  if (ink_ > allowed) {
+    const double share = std::sqrt(allowed / ink_);
+    pen_.width = std::min(pen_.width, std::max(pen_.width * share, least_width));
+    pen_.opacity *= std::max(share, least_opacity);
+  }
+  return pen_;
+}
+
+void LineGroup::begin(std::string_view id, std::string_view label, std::size_t lines) {
+  surface_.begin_group(id, label, pen_);
+  drawn_ = 0;
+  if (!surface_.takes_as_mask(lines)) return;
+  constexpr double most_pixels = 4096.0;
+  density_ = most_pixels / std::max(page_.data.width(), page_.data.height());
+  mask_.emplace(static_cast<std::size_t>(std::ceil(density_ * page_.data.width())),
+                static_cast<std::size_t>(std::ceil(density_ * page_.data.height())), execution_);
+}
+
+void LineGroup::take_color(Rgb color) {
+  if (mask_) return;  // has one
+  pen_.stroke = color;
+  surface_.take_pen(pen_);
+}
+
+void LineGroup::segment(Vec2 a, Vec2 b) {
+  constexpr std::size_t lines_per_poll = 64;  // each may run across the whole picture
+  if (++drawn_ % lines_per_poll == 0) execution_.check();
+  if (!mask_) return surface_.segment(a, b);
+  const auto at = [&](Vec2 p) { return density_ * (page_.view.at(p) - page_.data.min); };
+  mask_->draw_line(at(a), at(b), density_ * pen_.width, pen_.opacity);
+}
+
+void LineGroup::end() {
+  if (mask_) surface_.mask(*mask_, *pen_.stroke);
+  surface_.end_group();
+}
+
+}  // namespace warren

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Lines are as wide as the page says (Page::thickness), so they stay in proportion to a maze's cells; walls, paths and
+// marks keep a least width. Many lines are drawn thinner and fainter: their ink covers a part of the page, not all.
+#include "pictures/formats/painter.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "pictures/formats/line_group.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
+
+namespace warren {
+namespace {
+
+constexpr std::size_t vertices_per_poll = 1 << 14;
+
+class Painter {
+ public:
+  Painter(const Picture& picture, Parts parts, const Page& page, Surface& surface, const Execution& execution)
+      : picture_(picture), parts_(parts), page_(page), surface_(surface), execution_(execution) {}
+
+  void paint() {
+    surface_.enter_world();
+    if (parts_.has(Part::world)) polygons();
+    for (const PictureLayer& some : picture_.layers) {
+      if (parts_.has(some.part) && some.part != Part::body) layer(some);
+    }
+    if (picture_.roadmap != nullptr) roadmap();
+    if (parts_.has(Part::world)) walls();
+    for (const PictureLayer& some : picture_.layers) {
+      if (parts_.has(some.part) && some.part == Part::body) layer(some);
+    }
+    if (parts_.has(Part::path)) {
+      path();
+      mark("start", picture_.start, MarkShape::disc, colors::start);
+      mark("goal", picture_.goal, MarkShape::star, colors::goal);
+    }
+    if (picture_.moving != nullptr && !picture_.path.empty() && parts_.has(Part::path)) {
+      surface_.moving_body(*picture_.moving, width(widths::search_tree));
+    }
+    surface_.leave_world();
+    frame();
+  }
+
+ private:
+  double width(double usual, double least = 0.0) const { return std::max(usual * page_.thickness(), least); }
+  void polygons();
+  void layer(const PictureLayer& layer);
+  void walls();
+  void roadmap();
+  void edges(const std::vector<std::uint8_t>& color);
+  void search_tree();
+  void milestones(const std::vector<std::uint8_t>& color);
+  void path();
+  void mark(const char* id, std::optional<Vec2> at, MarkShape shape, Rgb color);
+  void frame();
+  void swatch(const PlacedLegend& placed);
+
+  const Picture& picture_;
+  Parts parts_;
+  const Page& page_;
+  Surface& surface_;
+  const Execution& execution_;
+};
+
+void Painter::polygons() {
+  if (picture_.scene.polygons.empty()) return;
+  surface_.begin_group("polygons", "obstacles",
+                       {.stroke = colors::outline, .width = width(widths::outline, 0.4), .fill = colors::polygon});
+  std::size_t drawn = 0;
+  for (const ScenePolygon& polygon : picture_.scene.polygons) {
+    if (++drawn % 256 == 0) execution_.check();
+    surface_.chain(anticlockwise(polygon.corners), {}, true);
+  }
+  surface_.end_group();
+}
+
+void Painter::layer(const PictureLayer& layer) {
+  const bool has_lines = layer.width > 0.0;
+  Pen pen{.stroke = has_lines ? std::optional(layer.color) : std::nullopt,
+          .width = width(layer.width, 0.35),
+          .fill = layer.fill,
+          .opacity = layer.opacity,
+          .crisp = layer.fill && !has_lines};
+  if (layer.part == Part::roadmap && has_lines && !layer.fill) {
+    LineGroup group(surface_, page_, execution_, pen);
+    for (std::size_t i = 0; i < layer.lines.size(); ++i) group.measure(layer.lines[i]);
+    pen = group.thinned();
+  }
+  surface_.begin_group(layer.id, layer.label, pen);
+  for (std::size_t i = 0; i < layer.lines.size(); ++i) {
+    if (i % vertices_per_poll == 0) execution_.check();
+    if (!layer.opacities.empty()) {
+      Pen own = pen;
+      own.opacity *= layer.opacities[i];
+      surface_.take_pen(own);
+    }
+    surface_.chain(layer.lines[i], layer.turns_of(i), layer.closed || layer.fill);
+  }
+  surface_.end_group();
+}
+
+/// Walls that continue each other along an axis become one line.
+void Painter::walls() {
+  const double unit = page_.view.scale * page_.canvas.unit * page_.density();  // pixels
+  // Thin walls are drawn stronger than their width, or a large maze would fade; tiny cells stay a light texture.
+  constexpr double faint = 0.3;
+  const double least = std::clamp(faint * unit, 0.2, 1.0) / page_.density();
+  LineGroup group(surface_, page_, execution_, {.stroke = colors::wall, .width = width(widths::wall, least)});
+  group.begin("walls", "walls", picture_.scene.walls.size());
+  std::optional<Segment> run;
+  picture_.scene.walls.visit([&](auto all) {
+    for (const auto& wall : all) {
+      const Segment s = wall.segment();
+      const bool goes_on = run && s.a == run->b &&
+                           ((s.a.y == s.b.y && run->a.y == s.a.y && (s.b.x > s.a.x) == (run->b.x > run->a.x)) ||
+                            (s.a.x == s.b.x && run->a.x == s.a.x && (s.b.y > s.a.y) == (run->b.y > run->a.y)));
+      if (goes_on) {
+        run->b = s.b;
+        continue;
+      }
+      if (run) group.segment(run->a, run->b);
+      run = s;
+    }
+  });
+  if (run) group.segment(run->a, run->b);
+  if (picture_.scene.bounds) {
+    const auto [low, high] = *picture_.scene.bounds;
+    const std::array corners{low, Vec2{high.x, low.y}, high, Vec2{low.x, high.y}, low};
+    for (std::size_t i = 1; i < corners.size(); ++i) group.segment(corners[i - 1], corners[i]);
+  }
+  group.end();
+}
+
+void Painter::roadmap() {
+  const std::vector<std::uint8_t> color = component_colors(picture_.roadmap->graph, execution_);
+  if (color.size() != picture_.roadmap->states.size()) return;  // stopped before the graph was made
+  if (parts_.has(Part::roadmap)) edges(color);
+  if (parts_.has(Part::search)) search_tree();
+  if (parts_.has(Part::roadmap)) milestones(color);
+}
+
+void Painter::edges(const std::vector<std::uint8_t>& color) {
+  const PlannedRoadmap<Vec2>& roadmap = *picture_.roadmap;
+  LineGroup group(surface_, page_, execution_, {.stroke = colors::components[0], .width = width(widths::edge, 0.3)});
+  const auto visit = [&](const auto& take) {
+    for (VertexId v = 0; v < roadmap.graph.vertex_count(); ++v) {
+      for (const VertexId w : roadmap.graph.neighbours(v)) {
+        if (v < w) take(v, w);
+      }
+    }
+  };
+  visit([&](VertexId v, VertexId w) { group.measure(std::array{roadmap.states[v], roadmap.states[w]}); });
+  group.thinned();
+  group.begin("edges", "roadmap edges", roadmap.graph.edge_count());
+  for (std::size_t c = 0; c < colors::components.size(); ++c) {
+    if (std::find(color.begin(), color.end(), c) == color.end()) continue;
+    group.take_color(colors::components[c]);
+    visit([&](VertexId v, VertexId w) {
+      if (color[v] == c) group.segment(roadmap.states[v], roadmap.states[w]);
+    });
+  }
+  group.end();
+}
+
+/// A line of length zero with round ends is a dot.
+void Painter::milestones(const std::vector<std::uint8_t>& color) {
+  const PlannedRoadmap<Vec2>& roadmap = *picture_.roadmap;
+  LineGroup group(surface_, page_, execution_,
+                  {.stroke = colors::components[0], .width = width(widths::milestone, 0.8)});
+  for (const Vec2 p : roadmap.states) group.measure(std::array{p, p});
+  group.thinned();
+  group.begin("milestones", "milestones", color.size());
+  for (std::size_t c = 0; c < colors::components.size(); ++c) {
+    group.take_color(colors::components[c]);
+    for (std::size_t v = 0; v < color.size(); ++v) {
+      if (color[v] == c) group.segment(roadmap.states[v], roadmap.states[v]);
+    }
+  }
+  group.end();
+}
+
+void Painter::search_tree() {
+  const PlannedRoadmap<Vec2>& roadmap = *picture_.roadmap;
+  LineGroup group(surface_, page_, execution_,
+                  {.stroke = colors::search_tree, .width = width(widths::search_tree, 0.4)});
+  const auto visit = [&](const auto& take) {
+    for (const Edge& edge : roadmap.search_tree) {
+      if (edge.to != no_vertex) take(roadmap.states[edge.from], roadmap.states[edge.to]);
+    }
+  };
+  visit([&](Vec2 a, Vec2 b) { group.measure(std::array{a, b}); });
+  group.thinned();
+  group.begin("search_tree", "search tree", roadmap.search_tree.size());
+  visit([&](Vec2 a, Vec2 b) { group.segment(a, b); });
+  group.end();
+}
+
+void Painter::path() {
+  if (picture_.path.empty()) return;
+  constexpr double least_width = 2.0;
+  constexpr double halo = 2.2;
+  const Pen line{.stroke = colors::path, .width = width(widths::path, least_width)};
+  surface_.begin_group("path", picture_.path_label, line);
+  surface_.take_pen({.stroke = colors::paper, .width = line.width + halo});
+  surface_.chain(picture_.path, picture_.path_turns, false);
+  surface_.take_pen(line);
+  surface_.chain(picture_.path, picture_.path_turns, false);
+  surface_.end_group();
+}
+
+/// As large on any page; with a light rim.
+void Painter::mark(const char* id, std::optional<Vec2> at, MarkShape shape, Rgb color) {
+  if (!at) return;
+  surface_.begin_group(id, id, {.stroke = colors::paper, .width = 1.6, .fill = color});
+  std::vector<Vec2> outline = mark_outline(shape, widths::mark / page_.view.scale);
+  for (Vec2& p : outline) p = *at + p;
+  surface_.chain(outline, {}, true);
+  surface_.end_group();
+}
+
+void Painter::frame() {
+  if (!page_.frame.empty()) {
+    surface_.begin_group("axes", "", {.stroke = colors::frame, .width = 1.0});
+    for (const Segment& s : page_.frame) surface_.segment(s.a, s.b);
+    surface_.end_group();
+  }
+  if (!page_.ink.empty()) {
+    surface_.begin_group("scale", "", {.stroke = colors::text, .width = 1.4});
+    for (const Segment& s : page_.ink) surface_.segment(s.a, s.b);
+    surface_.end_group();
+  }
+  if (!page_.legend.empty()) {
+    surface_.begin_group("legend", "", {});
+    for (const PlacedLegend& placed : page_.legend) swatch(placed);
+    surface_.end_group();
+  }
+  surface_.begin_group("words", "", {.fill = colors::text});
+  for (const PlacedText& text : page_.texts) surface_.text(text);
+  surface_.end_group();
+}
+
+void Painter::swatch(const PlacedLegend& placed) {
+  const LegendEntry& entry = placed.entry;
+  const Vec2 at = placed.at;
+  const Vec2 middle{at.x + 0.5 * swatch_width, at.y};
+  if (entry.mark) {
+    surface_.take_pen({.fill = entry.fill});
+    std::vector<Vec2> outline = mark_outline(*entry.mark, 6.0);
+    for (Vec2& p : outline) p = {middle.x + p.x, middle.y - p.y};
+    return surface_.chain(outline, {}, true);
+  }
+  if (entry.fill) {
+    constexpr double half = 6.0;
+    Pen pen{.width = std::clamp(entry.width, 0.8, 2.0), .fill = entry.fill};
+    if (!entry.lines.empty()) pen.stroke = entry.lines.front();
+    surface_.take_pen(pen);
+    return surface_.chain(std::array{Vec2{at.x + 2.0, at.y - half}, Vec2{at.x + swatch_width - 2.0, at.y - half},
+                                     Vec2{at.x + swatch_width - 2.0, at.y + half}, Vec2{at.x + 2.0, at.y + half}},
+                          {}, true);
+  }
+  const double part = swatch_width / static_cast<double>(std::max<std::size_t>(entry.lines.size(), 1));
+  for (std::size_t i = 0; i < entry.lines.size(); ++i) {
+    surface_.take_pen({.stroke = entry.lines[i], .width = std::clamp(entry.width, 1.4, 3.4)});
+    const double x = at.x + part * static_cast<double>(i);
+    surface_.segment({x, at.y}, {x + part, at.y});
+  }
+  if (entry.dot) {
+    surface_.take_pen({.stroke = *entry.dot, .width = 5.0});
+    surface_.segment(middle, middle);
+  }
+}
+
+}  // namespace
+
+void paint(const Picture& picture, Parts parts, const Page& page, Surface& surface, const Execution& execution) {
+  Painter(picture, parts, page, surface, execution).paint();
+}
+
+}  // namespace warren

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The picture as one page of PDF, by libharu: lines stay lines, words are Helvetica, which every reader has, so the
+// bytes depend on no machine. The whole document is in memory before it is written; more lines than a page can show are
+// an image.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <memory>
+#include <new>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "pictures/formats/painter.hpp"
+#include "pictures/formats/write_picture.hpp"
+#include "pictures/model/letters.hpp"
+
+#ifdef WARREN_PDF
+#include <hpdf.h>
+
+namespace warren {
+namespace {
+
+constexpr double points_a_pixel = 0.75;
+constexpr double largest_side = 14'400.0;  // a side of a page
+
+struct FreeDocument {
+  void operator()(HPDF_Doc document) const { HPDF_Free(document); }
+};
+
+class PdfSurface : public Surface {
+ public:
+  PdfSurface(const Page& page, const Execution& execution)
+      : page_(page), execution_(execution), document_(HPDF_New(nullptr, nullptr)) {
+    if (!document_) throw std::bad_alloc();
+    HPDF_SetCompressionMode(document_.get(), HPDF_COMP_ALL);
+    sheet_ = HPDF_AddPage(document_.get());
+    HPDF_Page_SetWidth(sheet_, real(points_a_pixel * page.width));
+    HPDF_Page_SetHeight(sheet_, real(points_a_pixel * page.height));
+    HPDF_Page_SetLineCap(sheet_, HPDF_ROUND_END);
+    HPDF_Page_SetLineJoin(sheet_, HPDF_ROUND_JOIN);
+    regular_ = HPDF_GetFont(document_.get(), "Helvetica", "WinAnsiEncoding");
+    bold_ = HPDF_GetFont(document_.get(), "Helvetica-Bold", "WinAnsiEncoding");
+    check();
+  }
+  void tell(const std::string& title, const std::string& description) {
+    HPDF_SetInfoAttr(document_.get(), HPDF_INFO_TITLE, latin1_text(title).c_str());
+    HPDF_SetInfoAttr(document_.get(), HPDF_INFO_SUBJECT, latin1_text(description).c_str());
+  }
+  void finish(const Write& write);
+
+  void enter_world() override { in_world_ = true; }
+  void leave_world() override { in_world_ = false; }
+  void begin_group(std::string_view, std::string_view, const Pen& pen) override {
+    pen_ = pen;
+    HPDF_Page_GSave(sheet_);
+    use_pen();
+  }
+  void end_group() override {
+    paint_path();
+    HPDF_Page_GRestore(sheet_);
+    check();
+  }
+  void take_pen(const Pen& pen) override {
+    if (pen == pen_) return;
+    paint_path();
+    pen_ = pen;
+    use_pen();
+  }
+  void segment(Vec2 a, Vec2 b) override {
+    move_to(at(a));
+    line_to(at(b));
+    piece_ended();
+  }
+  void chain(std::span<const Vec2> points, std::span<const double> turns, bool closed) override {
+    const std::vector<Vec2> all = without_arcs(points, turns);
+    move_to(at(all[0]));
+    for (std::size_t i = 1; i < all.size(); ++i) line_to(at(all[i]));
+    if (closed) HPDF_Page_ClosePath(sheet_);
+    piece_ended();
+  }
+  void text(const PlacedText& text) override;
+  bool takes_as_mask(std::size_t lines) const override {
+    constexpr std::size_t most_lines = 500'000;
+    return lines > most_lines;
+  }
+  void mask(const Mask& mask, Rgb color) override;
+
+ private:
+  static HPDF_REAL real(double number) { return static_cast<HPDF_REAL>(number); }
+  /// In points, y up.
+  Vec2 at(Vec2 p) const {
+    const Vec2 on_page = in_world_ ? page_.view.at(p) : p;
+    return {points_a_pixel * on_page.x, points_a_pixel * (page_.height - on_page.y)};
+  }
+  void move_to(Vec2 p) {
+    HPDF_Page_MoveTo(sheet_, real(p.x), real(p.y));
+    ++path_steps_;
+  }
+  void line_to(Vec2 p) {
+    HPDF_Page_LineTo(sheet_, real(p.x), real(p.y));
+    ++path_steps_;
+  }
+  void use_pen();
+  void paint_path();
+  void piece_ended() {
+    constexpr std::size_t most_steps = 10'000;
+    if (path_steps_ < most_steps) return;
+    execution_.check();
+    paint_path();
+  }
+  void check() const {
+    if (HPDF_GetError(document_.get()) != HPDF_OK) throw std::bad_alloc();  // all that is asked of it is right
+  }
+
+  const Page& page_;
+  const Execution& execution_;
+  std::unique_ptr<std::remove_pointer_t<HPDF_Doc>, FreeDocument> document_;
+  HPDF_Page sheet_ = nullptr;
+  HPDF_Font regular_ = nullptr;
+  HPDF_Font bold_ = nullptr;
+  std::map<double, HPDF_ExtGState> opacities_;
+  Pen pen_;
+  bool in_world_ = false;
+  std::size_t path_steps_ = 0;
+};
+
+void PdfSurface::use_pen() {
+  const auto part = [](std::uint8_t value) { return real(value / 255.0); };
+  if (pen_.stroke) {
+    HPDF_Page_SetRGBStroke(sheet_, part(pen_.stroke->red), part(pen_.stroke->green), part(pen_.stroke->blue));
+    HPDF_Page_SetLineWidth(sheet_, real(points_a_pixel * pen_.width));
+  }
+  if (pen_.fill) HPDF_Page_SetRGBFill(sheet_, part(pen_.fill->red), part(pen_.fill->green), part(pen_.fill->blue));
+  if (pen_.crisp && pen_.fill && !pen_.stroke) {  // a hair's line closes the seams
+    constexpr double hair = 0.1;
+    HPDF_Page_SetRGBStroke(sheet_, part(pen_.fill->red), part(pen_.fill->green), part(pen_.fill->blue));
+    HPDF_Page_SetLineWidth(sheet_, real(hair));
+  }
+  HPDF_ExtGState& state = opacities_[pen_.opacity];
+  if (state == nullptr) {
+    state = HPDF_CreateExtGState(document_.get());
+    HPDF_ExtGState_SetAlphaFill(state, real(pen_.opacity));
+    HPDF_ExtGState_SetAlphaStroke(state, real(pen_.opacity));
+  }
+  HPDF_Page_SetExtGState(sheet_, state);
+}
+
+void PdfSurface::paint_path() {
+  if (path_steps_ == 0) return;
+  path_steps_ = 0;
+  if (pen_.fill && (pen_.stroke || pen_.crisp)) {
+    HPDF_Page_FillStroke(sheet_);
+  } else if (pen_.fill) {
+    HPDF_Page_Fill(sheet_);
+  } else {
+    HPDF_Page_Stroke(sheet_);
+  }
+}
+
+void PdfSurface::text(const PlacedText& text) {
+  const std::string words = latin1_text(text.text);
+  HPDF_Page_SetFontAndSize(sheet_, text.bold ? bold_ : regular_, real(points_a_pixel * text.size));
+  const double width = HPDF_Page_TextWidth(sheet_, words.c_str());
+  const double back = text.anchor == Anchor::start ? 0.0 : text.anchor == Anchor::middle ? 0.5 * width : width;
+  const Vec2 p = at(text.at) - (text.upright ? Vec2{0.0, back} : Vec2{back, 0.0});
+  const HPDF_REAL cosine = text.upright ? 0.0F : 1.0F;
+  const HPDF_REAL sine = text.upright ? 1.0F : 0.0F;
+  HPDF_Page_BeginText(sheet_);
+  HPDF_Page_SetTextMatrix(sheet_, cosine, sine, -sine, cosine, real(p.x), real(p.y));
+  HPDF_Page_ShowText(sheet_, words.c_str());
+  HPDF_Page_EndText(sheet_);
+}
+
+/// One pixel of the colour, seen through the mask.
+void PdfSurface::mask(const Mask& mask, Rgb color) {
+  paint_path();
+  const std::array pixel{color.red, color.green, color.blue};
+  const HPDF_Image ink = HPDF_LoadRawImageFromMem(document_.get(), pixel.data(), 1, 1, HPDF_CS_DEVICE_RGB, 8);
+  const HPDF_Image cover =
+      HPDF_LoadRawImageFromMem(document_.get(), mask.pixels().data(), static_cast<HPDF_UINT>(mask.width()),
+                               static_cast<HPDF_UINT>(mask.height()), HPDF_CS_DEVICE_GRAY, 8);
+  check();
+  HPDF_Image_AddSMask(ink, cover);
+  HPDF_Page_DrawImage(sheet_, ink, real(points_a_pixel * page_.data.min.x),
+                      real(points_a_pixel * (page_.height - page_.data.max.y)),
+                      real(points_a_pixel * page_.data.width()), real(points_a_pixel * page_.data.height()));
+  check();
+}
+
+void PdfSurface::finish(const Write& write) {
+  HPDF_SaveToStream(document_.get());
+  check();
+  std::array<HPDF_BYTE, std::size_t{1} << 16U> piece{};
+  for (;;) {
+    execution_.check();
+    auto size = static_cast<HPDF_UINT32>(piece.size());
+    const HPDF_STATUS status = HPDF_ReadFromStream(document_.get(), piece.data(), &size);
+    if (size > 0) write({reinterpret_cast<const char*>(piece.data()), size});
+    if (status == HPDF_STREAM_EOF || size == 0) return;
+    check();
+  }
+}
+
+}  // namespace
+
+bool can_write_pdf() { return true; }
+
+void write_pdf(const Picture& picture, const PictureOptions& options, const Execution& execution, const Write& write) {
+  const Page page = page_of(picture, options, false, execution);
+  if (points_a_pixel * std::max(page.width, page.height) > largest_side) {
+    throw UsageError("@size: a page of PDF is at most 5080 mm wide and high");
+  }
+  PdfSurface surface(page, execution);
+  surface.tell(options.title.value_or(picture.title), picture.description);
+  paint(picture, options.parts, page, surface, execution);
+  surface.finish(write);
+}
+
+}  // namespace warren
+
+#else
+
+namespace warren {
+
+bool can_write_pdf() { return false; }
+
+void write_pdf(const Picture&, const PictureOptions&, const Execution&, const Write&) {
+  throw UsageError("this warren was built without libharu and writes no .pdf; say .svg, or build it with libhpdf-dev");
+}
+
+}  // namespace warren
+#endif

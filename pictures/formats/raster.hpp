@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Pixels in memory, and lines and areas drawn on them with even edges. A line thinner than a pixel is drawn a pixel
+// wide and fainter instead: many of them add up to a shade, so that a picture stays readable at any scale.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/base/raw_vector.hpp"
+#include "core/base/types.hpp"
+#include "core/plane/polygon.hpp"
+#include "parallel/execution.hpp"
+#include "pictures/model/colors.hpp"
+
+namespace warren {
+
+/// Row 0 is the top row; 3 bytes a pixel.
+class Image {
+ public:
+  Image(std::size_t width, std::size_t height, Rgb paper, const Execution& execution);
+
+  std::size_t width() const { return width_; }
+  std::size_t height() const { return height_; }
+  const std::uint8_t* row(std::size_t y) const { return pixels_.data() + 3 * width_ * y; }
+  std::uint8_t* row(std::size_t y) { return pixels_.data() + 3 * width_ * y; }
+
+  /// A line with round ends; coordinates in pixels from the upper left corner, y down. O(pixels covered + rows).
+  void draw_line(Vec2 a, Vec2 b, double width, Rgb color, double opacity = 1.0);
+  /// The inside of outlines, by the even-odd rule, with even edges. O(pixels covered + crossed rows).
+  /// Throws Stopped.
+  void fill(const PolygonSet& outlines, Rgb color, double opacity, const Execution& execution);
+
+ private:
+  std::size_t width_;
+  std::size_t height_;
+  RawVector<std::uint8_t> pixels_;
+};
+
+/// How much of each pixel lines of one colour cover: a byte a pixel, row 0 on top.
+class Mask {
+ public:
+  Mask(std::size_t width, std::size_t height, const Execution& execution);
+
+  std::size_t width() const { return width_; }
+  std::size_t height() const { return height_; }
+  std::span<const std::uint8_t> pixels() const { return {pixels_.data(), width_ * height_}; }
+  /// As Image::draw_line.
+  void draw_line(Vec2 a, Vec2 b, double width, double opacity = 1.0);
+
+ private:
+  std::size_t width_;
+  std::size_t height_;
+  RawVector<std::uint8_t> pixels_;
+};
+
+}  // namespace warren

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What pictures are drawn on, whatever the format: lines, areas and words in groups. painter.cpp draws; each format has
+// a surface that writes it down.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "core/base/types.hpp"
+#include "pictures/formats/raster.hpp"
+#include "pictures/model/colors.hpp"
+#include "pictures/model/page.hpp"
+
+namespace warren {
+
+/// How lines and areas look.
+struct Pen {
+  std::optional<Rgb> stroke = {};
+  double width = 1.0;  ///< of lines, pixels of the page
+  std::optional<Rgb> fill = {};
+  double opacity = 1.0;
+  bool crisp = false;  ///< rectangles that tile: no seams may show
+  friend bool operator==(const Pen&, const Pen&) = default;
+};
+
+/// Groups are not nested. Within enter_world() and leave_world() points are the world's, else the page's; widths are
+/// always the page's.
+class Surface {
+ public:
+  Surface() = default;
+  virtual ~Surface() = default;
+  Surface(const Surface&) = delete;
+  Surface& operator=(const Surface&) = delete;
+
+  virtual void enter_world() = 0;
+  virtual void leave_world() = 0;
+  /// label: what the legend calls it; may be empty.
+  virtual void begin_group(std::string_view id, std::string_view label, const Pen& pen) = 0;
+  virtual void end_group() = 0;
+  /// For what follows in the group.
+  virtual void take_pen(const Pen& pen) = 0;
+  /// With round ends, also where both are the same point.
+  virtual void segment(Vec2 a, Vec2 b) = 0;
+  /// Outlines with a fill, drawn one after the other with one pen, are filled where any of them is; all of them run the
+  /// same way round. turns as in PictureLayer.
+  virtual void chain(std::span<const Vec2> points, std::span<const double> turns, bool closed) = 0;
+  virtual void text(const PlacedText& text) = 0;
+  /// So many lines as one Mask over the data's part of the page; false: they are to be drawn.
+  virtual bool takes_as_mask(std::size_t lines) const = 0;
+  virtual void mask(const Mask& mask, Rgb color) = 0;
+  /// The moving body, after the path; only where the format moves.
+  virtual void moving_body(const MovingBody&, double /*line_width*/) {}
+};
+
+}  // namespace warren

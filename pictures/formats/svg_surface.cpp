@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pictures/formats/svg_surface.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <iterator>
+
+#include "pictures/formats/base64.hpp"
+#include "pictures/formats/painter.hpp"
+#include "pictures/formats/png_file.hpp"
+#include "pictures/formats/svg_animation.hpp"
+#include "pictures/model/xml_text.hpp"
+
+namespace warren {
+namespace {
+
+std::string hex(Rgb c) { return fmt::format("#{:02x}{:02x}{:02x}", c.red, c.green, c.blue); }
+
+/// Appends a number with at most three decimals, without trailing zeros.
+void append_number(std::string& to, double value) {
+  const auto thousandths = static_cast<std::int64_t>(std::llround(value * 1000.0));
+  const std::int64_t size = thousandths < 0 ? -thousandths : thousandths;
+  char digits[24];
+  if (thousandths < 0) to += '-';
+  to.append(digits, std::to_chars(digits, digits + sizeof digits, size / 1000).ptr);
+  const auto fraction = static_cast<int>(size % 1000);
+  if (fraction == 0) return;
+  const char tail[] = {'.', static_cast<char>('0' + fraction / 100), static_cast<char>('0' + fraction / 10 % 10),
+                       static_cast<char>('0' + fraction % 10)};
+  to.append(tail, fraction % 10 != 0 ? 4 : fraction % 100 != 0 ? 3 : 2);
+}
+
+}  // namespace
+
+WorldFrame::WorldFrame(const Box& box) {
+  const double extent = std::max(box.width(), box.height());
+  if (extent > 0.0 && (extent < 5.0 || extent > 1e5)) scale = std::pow(10.0, 2.0 - std::floor(std::log10(extent)));
+  const double far = std::max({std::abs(box.min.x), std::abs(box.min.y), std::abs(box.max.x), std::abs(box.max.y)});
+  if (scale != 1.0 || far > 1e5) origin = box.min;
+}
+
+void SvgSurface::open(const Picture& picture, std::string_view title) {
+  std::string width = fmt::format("{:.0f}", std::ceil(page_.width));
+  std::string height = fmt::format("{:.0f}", std::ceil(page_.height));
+  if (page_.asked) {
+    const std::string_view unit = page_.asked->unit == LengthUnit::mm ? "mm" : "";
+    width = fmt::format("{:.6g}{}", unit.empty() ? page_.width : page_.asked->width, unit);
+    height = fmt::format("{:.6g}{}", unit.empty() ? page_.height : page_.asked->height, unit);
+  }
+  fmt::format_to(
+      std::back_inserter(text_),
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" "
+      "viewBox=\"0 0 {:.2f} {:.2f}\" width=\"{}\" height=\"{}\" role=\"img\" "
+      "font-family=\"Helvetica,Arial,Liberation Sans,DejaVu Sans,sans-serif\">\n"
+      "<title>{}</title>\n<desc>{}</desc>\n<rect id=\"paper\" width=\"100%\" height=\"100%\" fill=\"{}\"/>\n",
+      page_.width, page_.height, width, height, xml_text(title), xml_text(picture.description), hex(colors::paper));
+}
+
+void SvgSurface::close() {
+  text_ += "</svg>\n";
+  flush();
+}
+
+/// x right, y up.
+void SvgSurface::enter_world() {
+  in_world_ = true;
+  const double scale = page_.view.scale / frame_.scale;
+  const Vec2 zero = page_.view.at(frame_.origin);
+  fmt::format_to(std::back_inserter(text_),
+                 "<g id=\"world\" transform=\"matrix({0:.9g} 0 0 {1:.9g} {2:.9g} {3:.9g})\">\n", scale, -scale, zero.x,
+                 zero.y);
+}
+
+void SvgSurface::leave_world() {
+  text_ += "</g>\n";
+  in_world_ = false;
+}
+
+std::string SvgSurface::style(const Pen& pen) const {
+  std::string style = fmt::format(" fill=\"{}\"", pen.fill ? hex(*pen.fill) : "none");
+  if (pen.stroke) {
+    fmt::format_to(std::back_inserter(style),
+                   " stroke=\"{}\" stroke-width=\"{:.5g}\" stroke-linecap=\"round\" stroke-linejoin=\"round\"",
+                   hex(*pen.stroke), length(pen.width));
+  }
+  if (pen.opacity < 1.0) fmt::format_to(std::back_inserter(style), " opacity=\"{:.3g}\"", pen.opacity);
+  if (pen.crisp) style += " shape-rendering=\"crispEdges\"";
+  return style;
+}
+
+void SvgSurface::begin_group(std::string_view id, std::string_view label, const Pen& pen) {
+  group_pen_ = pen_ = pen;
+  is_way_ = id == "path";
+  fmt::format_to(std::back_inserter(text_), "<g id=\"{}\"{}", xml_text(id), style(pen));
+  if (!label.empty()) fmt::format_to(std::back_inserter(text_), " data-label=\"{}\"", xml_text(label));
+  text_ += '>';
+}
+
+void SvgSurface::end_group() {
+  close_path();
+  text_ += "</g>\n";
+  if (text_.size() > 1U << 16U) flush();
+}
+
+void SvgSurface::take_pen(const Pen& pen) {
+  if (pen == pen_) return;
+  close_path();
+  pen_ = pen;
+}
+
+void SvgSurface::open_path() {
+  if (path_is_open_) return;
+  path_is_open_ = true;
+  path_bytes_ = 0;
+  text_ += "\n<path";
+  if (is_way_ && pen_ == group_pen_) text_ += " id=\"way\"";
+  if (pen_ != group_pen_) text_ += style(pen_);
+  text_ += " d=\"";
+}
+
+void SvgSurface::close_path() {
+  if (path_is_open_) text_ += "\"/>";
+  path_is_open_ = false;
+}
+
+void SvgSurface::command(char letter, Vec2 p) {
+  text_ += letter;
+  append_number(text_, p.x);
+  text_ += ' ';
+  append_number(text_, p.y);
+}
+
+/// Axis-parallel segments, most of a maze, take the short commands.
+void SvgSurface::segment(Vec2 a, Vec2 b) {
+  open_path();
+  const Vec2 from = at(a);
+  const Vec2 to = at(b);
+  command('M', from);
+  if (from.y == to.y) {
+    text_ += 'h';
+    append_number(text_, to.x - from.x);
+  } else if (from.x == to.x) {
+    text_ += 'v';
+    append_number(text_, to.y - from.y);
+  } else {
+    command('L', to);
+  }
+  split();
+}
+
+/// A straight, or a circular arc.
+void SvgSurface::leg_to(Vec2 from, Vec2 to, double turn) {
+  constexpr double no_turn = 1e-9;
+  if (std::abs(turn) < no_turn) return command('L', at(to));
+  const double radius = frame_.scale * arc_radius(from, to, turn);
+  text_ += 'A';
+  append_number(text_, radius);
+  text_ += ' ';
+  append_number(text_, radius);
+  text_ += turn > 0.0 ? " 0 0 1 " : " 0 0 0 ";
+  const Vec2 p = at(to);
+  append_number(text_, p.x);
+  text_ += ' ';
+  append_number(text_, p.y);
+}
+
+void SvgSurface::chain(std::span<const Vec2> points, std::span<const double> turns, bool closed) {
+  open_path();
+  command('M', at(points[0]));
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    leg_to(points[i - 1], points[i], turns.empty() ? 0.0 : turns[i]);
+    if (closed) continue;
+    split();
+    if (!path_is_open_ && i + 1 < points.size()) {  // a long line goes on in the next path
+      open_path();
+      command('M', at(points[i]));
+    }
+  }
+  if (closed) text_ += 'Z';
+  split();
+}
+
+/// Ends the path before it is too long for a reader.
+void SvgSurface::split() {
+  constexpr std::size_t piece = 1U << 16U;
+  constexpr std::size_t longest_path = 900'000;
+  if (text_.size() < piece) return;
+  path_bytes_ += text_.size();
+  if (path_bytes_ > longest_path) close_path();
+  execution_.check();
+  flush();
+}
+
+void SvgSurface::flush() {
+  write_(text_);
+  text_.clear();
+}
+
+void SvgSurface::text(const PlacedText& text) {
+  constexpr std::string_view anchors[] = {"start", "middle", "end"};
+  std::string more;
+  if (text.anchor != Anchor::start) {
+    more = fmt::format(" text-anchor=\"{}\"", anchors[static_cast<std::size_t>(text.anchor)]);
+  }
+  if (text.bold) more += " font-weight=\"bold\"";
+  if (text.upright) more += fmt::format(" transform=\"rotate(-90 {:.1f} {:.1f})\"", text.at.x, text.at.y);
+  fmt::format_to(std::back_inserter(text_), "\n<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:.4g}\"{}>{}</text>",
+                 text.at.x, text.at.y, text.size, more, xml_text(text.text));
+}
+
+bool SvgSurface::takes_as_mask(std::size_t lines) const {
+  constexpr std::size_t most_lines = 2'500'000;  // some 20 MB
+  return lines > most_lines;
+}
+
+void SvgSurface::mask(const Mask& mask, Rgb color) {
+  close_path();
+  // In the world's coordinates, which run upwards: turned back.
+  const double size = length(1.0);
+  const Vec2 corner = at({(page_.data.min.x - page_.view.origin.x) / page_.view.scale,
+                          (page_.view.origin.y - page_.data.min.y) / page_.view.scale});
+  fmt::format_to(
+      std::back_inserter(text_),
+      "\n<image transform=\"matrix({0:.9g} 0 0 {1:.9g} {2:.9g} {3:.9g})\" width=\"{4:.9g}\" height=\"{5:.9g}\" "
+      "preserveAspectRatio=\"none\" xlink:href=\"data:image/png;base64,",
+      size, -size, corner.x, corner.y, page_.data.width(), page_.data.height());
+  flush();
+  Base64 base64(write_);
+  write_png_file(mask, color, execution_, [&](std::string_view bytes) { base64.write(bytes); });
+  base64.end();
+  text_ += "\"/>";
+}
+
+void SvgSurface::moving_body(const MovingBody& body, double line_width) {
+  text_ += svg_moving_body(body, "way", frame_.scale, length(line_width));
+}
+
+void write_svg(const Picture& picture, const PictureOptions& options, const Execution& execution, const Write& write) {
+  const Page page = page_of(picture, options, false, execution);
+  SvgSurface surface(page, execution, write);
+  surface.open(picture, options.title.value_or(picture.title));
+  paint(picture, options.parts, page, surface, execution);
+  surface.close();
+}
+
+}  // namespace warren

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pictures/formats/write_picture.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scenes/text/output_file_io.hpp"
+
+namespace warren {
+
+std::string ending_of(const std::string& file) {
+  const std::size_t dot = file.rfind('.');
+  if (dot == std::string::npos || file.find('/', dot) != std::string::npos) return {};
+  std::string ending = file.substr(dot);
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return ending;
+}
+
+bool is_picture(std::string_view ending) {
+  return !ending.empty() && fmt::format(" {} ", picture_endings).find(fmt::format(" {} ", ending)) != std::string::npos;
+}
+
+void write_picture(const std::string& file, const Picture& picture, const PictureOptions& options,
+                   const Execution& execution) {
+  options.validate();
+  const std::string ending = ending_of(file);
+  const auto writer = ending == ".png"    ? write_png
+                      : ending == ".pdf"  ? write_pdf
+                      : ending == ".html" ? write_html
+                                          : write_svg;
+  OutputFile output(file, execution);
+  writer(picture, options, execution, [&](std::string_view bytes) { output.write(bytes); });
+  output.commit();
+}
+
+}  // namespace warren

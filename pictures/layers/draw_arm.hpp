@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An arm's path in a picture: three orthogonal projections side by side (from above, from the front, from the side)
+// with the obstacles, the links' capsules at intervals along the path, and the tool's trace.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "pictures/model/picture.hpp"
+#include "scenes/scene/dh_table.hpp"
+#include "scenes/scene/scene.hpp"
+
+namespace warren {
+
+struct ArmViews {
+  Scene stage;  ///< shown instead of the world
+  std::vector<PictureLayer> layers;
+  std::vector<AxesPanel> panels;
+};
+
+/// Edges between places of the tool, in one colour.
+struct ToolLines {
+  std::string id;     ///< the layer's
+  std::string label;  ///< in the legend
+  Rgb color;
+  double width;  ///< as widths say
+  std::vector<Edge> edges;
+};
+
+/// radius: of the links. A path of one state shows the arm as it stands; none is empty.
+ArmViews arm_views(const Scene& scene, const DhTable& table, double radius, std::span<const JointState> path);
+
+/// The arm as it stands at `start`, the tool's places at `states` and lines between these.
+ArmViews arm_roadmap_views(const Scene& scene, const DhTable& table, double radius, const JointState& start,
+                           std::span<const JointState> states, std::span<const ToolLines> lines);
+
+}  // namespace warren

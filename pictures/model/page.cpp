@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The legend stands beside the world or below it, wherever the world becomes larger. Margins are as wide as the numbers
+// in them need; the world keeps its proportions.
+#include "pictures/model/page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "pictures/model/letters.hpp"
+#include "pictures/model/ticks.hpp"
+
+namespace warren {
+namespace {
+
+constexpr double usual_side = 720.0;  // of the world's longer side
+constexpr double least_side = 36.0;   // of the shorter one
+constexpr double rim = 12.0;          // around the world, so that no mark is cut off
+constexpr double margin = 12.0;       // around all
+constexpr double title_size = 16.0;
+constexpr double text_size = 12.5;
+constexpr double line_height = 1.45;
+constexpr double tick_length = 4.0;
+constexpr double legend_row = 21.0;
+constexpr double legend_gap = 18.0;  // between world and legend
+constexpr double swatch_gap = 8.0;
+
+/// What stands around the world.
+struct Margins {
+  double left, top, right, bottom;
+};
+
+class PageMaker {
+ public:
+  PageMaker(const Picture& picture, const PictureOptions& options, bool in_pixels, const Execution& execution)
+      : picture_(picture), options_(options), in_pixels_(in_pixels) {
+    page_.canvas = canvas_of(picture, execution);
+    if (options.parts.has(Part::legend)) entries_ = legend_of(picture, options.parts, execution);
+    for (const LegendEntry& entry : entries_) {
+      entry_width_ = std::max(entry_width_, swatch_width + swatch_gap + text_width(entry.label, text_size));
+    }
+    title_ = options.title.value_or(picture.title);
+  }
+
+  Page make() {
+    take_size();
+    lay_out(best_side());
+    if (!fixed_) fit_page();
+    place_world();
+    title();
+    if (has_axes()) axes();
+    legend();
+    return std::move(page_);
+  }
+
+ private:
+  bool has_axes() const { return options_.parts.has(Part::axes); }
+  double world_width() const { return page_.canvas.box.width(); }
+  double world_height() const { return page_.canvas.box.height(); }
+  void take_size();
+  bool best_side();
+  void lay_out(bool beside);
+  void fit_page();
+  void place_world();
+  void title();
+  void axes();
+  void axes_of(const AxesPanel& panel, Box at, bool inner);
+  void scale_bar(Vec2 at);
+  void legend();
+  void wrap_title();
+  double title_height() const;
+  double ticks_width() const;
+  std::size_t legend_columns(double width) const;
+  void text(Vec2 at, std::string words, double size, Anchor anchor, bool bold = false, bool upright = false) {
+    if (!words.empty()) page_.texts.push_back({at, std::move(words), size, anchor, bold, upright});
+  }
+
+  const Picture& picture_;
+  const PictureOptions& options_;
+  bool in_pixels_;
+  bool fixed_ = false;  // the page's size was asked for
+  Page page_;
+  std::vector<LegendEntry> entries_;
+  double entry_width_ = 0.0;
+  std::string title_;
+  std::vector<std::string> subtitle_;
+  bool beside_ = true;  // the legend
+  Margins around_{};
+};
+
+void PageMaker::take_size() {
+  const Box& box = page_.canvas.box;
+  const double longer = std::max(box.width(), box.height());
+  // A PNG of unasked size has some pixels for each cell, up to a limit.
+  constexpr double pixels_a_unit = 24.0;
+  constexpr double least_pixels = 2.0 * usual_side;
+  constexpr double most_pixels = 4096.0;
+  const double wanted = std::clamp(pixels_a_unit * longer / page_.canvas.unit, least_pixels, most_pixels);
+  const bool free_size = !options_.size && in_pixels_;
+  page_.dpi = options_.dpi.value_or(free_size ? 96.0 * wanted / usual_side : 96.0);
+  if (!options_.size) return;
+  fixed_ = true;
+  page_.asked = options_.size;
+  constexpr double mm_an_inch = 25.4;
+  const double to_page = 96.0 / (options_.size->unit == LengthUnit::mm ? mm_an_inch : page_.dpi);
+  page_.width = to_page * options_.size->width;
+  page_.height = to_page * options_.size->height;
+}
+
+/// Is there more room for the world with the legend beside it than with it below?
+bool PageMaker::best_side() {
+  if (entries_.empty()) return true;
+  const double aspect = world_width() / world_height();
+  if (!fixed_) return aspect < 1.4;
+  const auto scale = [&](bool beside) {
+    beside_ = beside;
+    page_.data = {};
+    lay_out(beside);
+    return page_.view.scale;
+  };
+  const double with_beside = scale(true);
+  return with_beside >= scale(false);
+}
+
+double PageMaker::ticks_width() const {
+  if (!has_axes()) return 0.0;
+  const Box& box = page_.canvas.box;
+  const double step = tick_step(std::max(box.width(), box.height()), 8.0);
+  double widest = 0.0;
+  for (const double tick : ticks_between(box.min.y, box.max.y, step)) {
+    widest = std::max(widest, text_width(tick_text(tick, step), text_size));
+  }
+  return widest;
+}
+
+std::size_t PageMaker::legend_columns(double width) const {
+  const double columns = std::floor((width + legend_gap) / (entry_width_ + legend_gap));
+  return std::clamp<std::size_t>(static_cast<std::size_t>(std::max(columns, 1.0)), 1,
+                                 std::max<std::size_t>(entries_.size(), 1));
+}
+
+double PageMaker::title_height() const {
+  double height = 0.0;
+  if (!title_.empty()) height += title_size * line_height;
+  height += static_cast<double>(subtitle_.size()) * text_size * line_height;
+  return height > 0.0 ? height + 4.0 : 0.0;
+}
+
+void PageMaker::wrap_title() {
+  subtitle_.clear();
+  if (options_.title && options_.title->empty()) return;
+  constexpr double least_width = 420.0;
+  const double room = (fixed_ ? page_.width : std::max(page_.width, least_width)) - 2.0 * margin;
+  for (std::size_t at = 0; at < picture_.subtitle.size();) {
+    const std::size_t end = std::min(picture_.subtitle.find('\n', at), picture_.subtitle.size());
+    for (std::string& line : wrapped_text(picture_.subtitle.substr(at, end - at), text_size, room)) {
+      subtitle_.push_back(std::move(line));
+    }
+    at = end + 1;
+  }
+}
+
+/// Margins and the scale of the world.
+void PageMaker::lay_out(bool beside) {
+  beside_ = beside;
+  const double axis = has_axes() ? tick_length + 4.0 + text_size * line_height : 0.0;
+  const bool names = has_axes() && picture_.panels.empty();
+  const double name = names ? text_size * line_height : 0.0;
+  around_ = {margin + name + (has_axes() ? ticks_width() + tick_length + 4.0 : 0.0), margin, margin,
+             margin + axis + name};
+  if (beside && !entries_.empty()) around_.right += legend_gap + entry_width_;
+  const double longer = std::max(world_width(), world_height());
+  double data_width = 0.0;
+  double data_height = 0.0;
+  for (int round = 0; round < 2; ++round) {  // the title is wrapped to the width that the first round gives
+    if (fixed_) {
+      wrap_title();
+      Margins all = around_;
+      all.top += title_height();
+      if (!beside) {
+        const double inner = page_.width - 2.0 * margin;
+        const auto rows = (entries_.size() + legend_columns(inner) - 1) / legend_columns(inner);
+        all.bottom += legend_gap + legend_row * static_cast<double>(rows);
+      }
+      data_width = std::max(page_.width - all.left - all.right, 8.0);
+      data_height = std::max(page_.height - all.top - all.bottom, 8.0);
+      const double fit_rim = std::min({rim, 0.2 * data_width, 0.2 * data_height});
+      page_.view.scale =
+          std::min((data_width - 2.0 * fit_rim) / world_width(), (data_height - 2.0 * fit_rim) / world_height());
+      page_.data = Box{{all.left, all.top}, {all.left + data_width, all.top + data_height}};
+      return;
+    }
+    page_.view.scale = (usual_side - 2.0 * rim) / longer;
+    data_width = std::max(world_width() * page_.view.scale + 2.0 * rim, least_side);
+    data_height = std::max(world_height() * page_.view.scale + 2.0 * rim, least_side);
+    page_.width = around_.left + data_width + around_.right;
+    wrap_title();
+  }
+  const double top = around_.top + title_height();
+  page_.data = Box{{around_.left, top}, {around_.left + data_width, top + data_height}};
+}
+
+/// The page around a world of the usual size.
+void PageMaker::fit_page() {
+  double widest = title_.empty() ? 0.0 : std::min(text_width(title_, title_size) * 1.08, 640.0);
+  for (const std::string& line : subtitle_) widest = std::max(widest, text_width(line, text_size));
+  page_.width = std::max(page_.width, widest + 2.0 * margin);
+  page_.height = page_.data.max.y + around_.bottom;
+  const auto count = static_cast<double>(entries_.size());
+  constexpr double bar_room = 34.0;
+  if (entries_.empty()) return;
+  if (beside_) {
+    const double scale_room = has_axes() ? bar_room : 0.0;
+    page_.height = std::max(page_.height, page_.data.min.y + count * legend_row + scale_room + margin);
+  } else {
+    const auto columns = static_cast<double>(legend_columns(page_.width - 2.0 * margin));
+    page_.height += legend_gap + legend_row * std::ceil(count / columns);
+  }
+}
+
+/// The world in the middle of its place; the frame as tight around it as the rim.
+void PageMaker::place_world() {
+  const Vec2 size{world_width() * page_.view.scale, world_height() * page_.view.scale};
+  Box& data = page_.data;
+  if (fixed_) {  // what is left over goes to the right and below
+    data.max.x = std::min(data.max.x, data.min.x + std::max(size.x + 2.0 * rim, least_side));
+    data.max.y = std::min(data.max.y, data.min.y + std::max(size.y + 2.0 * rim, least_side));
+  }
+  const Vec2 low{0.5 * (data.min.x + data.max.x - size.x), 0.5 * (data.min.y + data.max.y + size.y)};
+  page_.view.origin = {low.x - page_.view.scale * page_.canvas.box.min.x,
+                       low.y + page_.view.scale * page_.canvas.box.min.y};
+}
+
+void PageMaker::title() {
+  double y = margin;
+  if (!title_.empty()) {
+    y += title_size;
+    constexpr double bold = 1.08;
+    text({margin, y}, fitting_text(title_, title_size * bold, page_.width - 2.0 * margin), title_size, Anchor::start,
+         true);
+    y += (line_height - 1.0) * title_size;
+  }
+  for (const std::string& line : subtitle_) {
+    text({margin, y + text_size}, line, text_size, Anchor::start);
+    y += line_height * text_size;
+  }
+}
+
+void PageMaker::axes() {
+  if (picture_.panels.empty()) {
+    const std::string_view unit = unit_of(picture_.scene);
+    const auto name = [&](char axis) {
+      return unit.empty() ? std::string(1, axis) : fmt::format("{} ({})", axis, unit);
+    };
+    axes_of({.x_label = name('x'), .y_label = name('y')}, page_.data, false);
+    return;
+  }
+  for (const AxesPanel& panel : picture_.panels) {
+    const Vec2 low = page_.view.at(panel.box.min);
+    const Vec2 high = page_.view.at(panel.box.max);
+    axes_of(panel, Box{{low.x, high.y}, {high.x, low.y}}, true);
+  }
+}
+
+/// Frame, ticks and names around a part of the page. An inner panel has its names inside.
+void PageMaker::axes_of(const AxesPanel& panel, Box at, bool inner) {
+  const Vec2 low = at.min;
+  const Vec2 high = at.max;
+  const auto line = [&](Vec2 a, Vec2 b) { page_.frame.push_back({a, b}); };
+  line(low, {high.x, low.y});
+  line({high.x, low.y}, high);
+  line(high, {low.x, high.y});
+  line({low.x, high.y}, low);
+  const View& view = page_.view;
+  const Vec2 zero = view.at(panel.origin);
+  constexpr double pixels_a_tick = 80.0;
+  const double longer = std::max(high.x - low.x, high.y - low.y);
+  const double step = tick_step(longer / view.scale, std::max(longer / pixels_a_tick, 2.0));
+  const auto ticks = [&](double from, double to) { return ticks_between(from / view.scale, to / view.scale, step); };
+  double next = -1e9;  // where there is room again
+  for (const double tick : ticks(low.x - zero.x, high.x - zero.x)) {
+    const double x = zero.x + view.scale * tick;
+    line({x, high.y}, {x, high.y + tick_length});
+    const std::string words = tick_text(tick, step);
+    const double half = 0.5 * text_width(words, text_size);
+    if (x - half < next) continue;
+    next = x + half + 6.0;
+    text({x, high.y + tick_length + 3.0 + text_size}, words, text_size, Anchor::middle);
+  }
+  for (const double tick : ticks(zero.y - high.y, zero.y - low.y)) {
+    const double y = zero.y - view.scale * tick;
+    line({low.x - tick_length, y}, {low.x, y});
+    text({low.x - tick_length - 4.0, y + 0.35 * text_size}, tick_text(tick, step), text_size, Anchor::end);
+  }
+  const double below = tick_length + 3.0 + 2.3 * text_size;
+  if (inner) {
+    text({high.x - 6.0, high.y - 7.0}, panel.x_label, text_size, Anchor::end);
+    text({low.x + 6.0, low.y + text_size + 5.0}, panel.y_label, text_size, Anchor::start);
+  } else {
+    text({0.5 * (low.x + high.x), high.y + below}, panel.x_label, text_size, Anchor::middle);
+    text({margin + text_size, 0.5 * (low.y + high.y)}, panel.y_label, text_size, Anchor::middle, false, true);
+  }
+}
+
+/// A round length, its ends marked.
+void PageMaker::scale_bar(Vec2 at) {
+  constexpr double most = 110.0;
+  const double step = tick_step(most / page_.view.scale * 0.6, 1.0);
+  const double length = step * page_.view.scale;
+  const Vec2 end{at.x + length, at.y};
+  page_.ink.push_back({at, end});
+  for (const Vec2 p : {at, end}) page_.ink.push_back({{p.x, p.y - 3.5}, {p.x, p.y + 3.5}});
+  const std::string_view unit = unit_of(picture_.scene);
+  const bool one = step == 1.0 && unit == "cells";
+  text({end.x + swatch_gap, at.y + 0.35 * text_size},
+       fmt::format("{}{}{}", tick_text(step, step), unit.empty() ? "" : " ", one ? "cell" : unit), text_size,
+       Anchor::start);
+}
+
+void PageMaker::legend() {
+  if (entries_.empty()) return;
+  constexpr double bar_gap = 12.0;
+  if (beside_) {
+    Vec2 at{page_.data.max.x + legend_gap, page_.data.min.y + 0.5 * legend_row};
+    for (LegendEntry& entry : entries_) {
+      page_.legend.push_back({at, std::move(entry)});
+      at.y += legend_row;
+    }
+    if (has_axes()) scale_bar({at.x, at.y + bar_gap - 0.5 * legend_row + 6.0});
+  } else {
+    const std::size_t columns = legend_columns(page_.width - 2.0 * margin);
+    const double top = page_.data.max.y + around_.bottom - margin + legend_gap;
+    for (std::size_t i = 0; i < entries_.size(); ++i) {
+      const double x = margin + static_cast<double>(i % columns) * (entry_width_ + legend_gap);
+      page_.legend.push_back({{x, top + legend_row * static_cast<double>(i / columns)}, std::move(entries_[i])});
+    }
+  }
+  for (const PlacedLegend& placed : page_.legend) {
+    text({placed.at.x + swatch_width + swatch_gap, placed.at.y + 0.35 * text_size}, placed.entry.label, text_size,
+         Anchor::start);
+  }
+}
+
+}  // namespace
+
+double Page::thickness() const {
+  constexpr double usual_unit = 20.0;
+  constexpr double most = 1.25;
+  return std::min(view.scale * canvas.unit / usual_unit, most);
+}
+
+Page page_of(const Picture& picture, const PictureOptions& options, bool in_pixels, const Execution& execution) {
+  return PageMaker(picture, options, in_pixels, execution).make();
+}
+
+}  // namespace warren

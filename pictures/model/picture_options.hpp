@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is asked of a picture: its size, its title, and which parts are shown.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace warren {
+
+/// A part of pictures that can be left out.
+enum class Part : std::uint8_t { world, roadmap, search, path, body, axes, legend };
+constexpr auto enum_names(Part) {
+  return std::array<std::string_view, 7>{"world", "roadmap", "search", "path", "body", "axes", "legend"};
+}
+
+class Parts {
+ public:
+  static constexpr Parts all() { return Parts{0xffU}; }
+  static constexpr Parts none() { return Parts{0}; }
+  constexpr Parts with(Part part) const { return Parts{bits_ | 1U << static_cast<unsigned>(part)}; }
+  constexpr bool has(Part part) const { return (bits_ >> static_cast<unsigned>(part) & 1U) != 0; }
+
+ private:
+  constexpr explicit Parts(unsigned bits) : bits_(bits) {}
+  unsigned bits_;
+};
+
+enum class LengthUnit : std::uint8_t { px, mm };
+constexpr auto enum_names(LengthUnit) { return std::array<std::string_view, 2>{"px", "mm"}; }
+
+struct PageSize {
+  double width = 0.0;
+  double height = 0.0;
+  LengthUnit unit = LengthUnit::px;  ///< a px is a pixel of a PNG, elsewhere 1/dpi inch
+};
+
+struct PictureOptions {
+  std::optional<PageSize> size = {};      ///< none: as large as the world asks for
+  std::optional<double> dpi = {};         ///< pixels an inch, 10 .. 2400; none: 96, in a PNG what the world asks for
+  std::optional<std::string> title = {};  ///< none: the world and how it was solved; empty: no title
+  Parts parts = Parts::all();
+
+  /// Throws UsageError for a size that no page has: 40 .. 20,000 px or 10 .. 5,000 mm a side, dpi outside its range.
+  void validate() const;
+};
+
+}  // namespace warren

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pictures/plots/plot_svg.hpp"
+
+#include <gtest/gtest.h>
+
+namespace warren {
+namespace {
+
+std::size_t count_of(const std::string& text, std::string_view what) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++count;
+  return count;
+}
+
+Plot plot_of(std::vector<Vec2> points, bool logarithmic) {
+  return {.title = "times & <sizes>",
+          .x_label = "cells",
+          .y_label = "s",
+          .log_x = logarithmic,
+          .log_y = logarithmic,
+          .series = {{.name = "solve", .points = std::move(points)}}};
+}
+
+TEST(PlotSvg, EveryPointHasAMarkAndTheLegendOneMore) {
+  EXPECT_EQ(count_of(plot_svg(plot_of({{1, 1}, {2, 5}, {3, 2}}, false)), "<circle"), 4U);
+}
+
+TEST(PlotSvg, WhatALogarithmCantShowIsLeftOut) {
+  const std::string text = plot_svg(plot_of({{10, 1}, {100, 0}, {0, 5}, {-1, -1}, {1000, 2}}, true));
+  EXPECT_EQ(count_of(text, "<circle"), 3U);
+  EXPECT_EQ(text.find("nan"), std::string::npos);
+  EXPECT_EQ(text.find("inf"), std::string::npos);
+}
+
+TEST(PlotSvg, EmptyAndSinglePointsStillGiveAPlot) {
+  for (const std::vector<Vec2>& points : {std::vector<Vec2>{}, {{5, 5}}, {{0, 0}}, {{3, 7}, {3, 7}}}) {
+    for (const bool logarithmic : {false, true}) {
+      const std::string text = plot_svg(plot_of(points, logarithmic));
+      EXPECT_TRUE(text.ends_with("</svg>\n"));
+      EXPECT_EQ(text.find("nan"), std::string::npos) << text;
+      EXPECT_EQ(text.find("inf"), std::string::npos) << text;
+    }
+  }
+}
+
+TEST(PlotSvg, TheLevelIsInsideTheFrameAndNamed) {
+  Plot plot = plot_of({{1, 1}, {10, 2}}, true);
+  plot.level = 20.0;  // above all points
+  plot.level_name = "budget 20 s";
+  const std::string text = plot_svg(plot);
+  EXPECT_NE(text.find("budget 20 s"), std::string::npos);
+  EXPECT_EQ(text.find("=\"-"), std::string::npos) << "a place outside the picture";
+}
+
+/// The x of the right end of the frame, which is drawn as the last <rect>.
+double frame_end(const std::string& text) {
+  const std::size_t at = text.rfind("<rect x=\"");
+  const double left = std::stod(text.substr(at + 9));
+  return left + std::stod(text.substr(text.find("width=\"", at) + 7));
+}
+
+TEST(PlotSvg, LongNamesHaveRoomBesideTheFrame) {
+  Plot plot = plot_of({{1, 1}, {2, 2}}, false);
+  const double usual = frame_end(plot_svg(plot));
+  plot.series[0].name = std::string(40, 'w');
+  EXPECT_LT(frame_end(plot_svg(plot)), usual);
+  EXPECT_LE(frame_end(plot_svg(plot)) + 40 * 6.5, 760.0);
+  plot.series[0].name = std::string(4000, 'w');
+  EXPECT_GT(frame_end(plot_svg(plot)), 300.0) << "some of the plot is left";
+}
+
+TEST(PlotSvg, WhatIsCountedHasNoTicksBetweenWholeNumbers) {
+  Plot plot = plot_of({{1, 1}, {2, 2}}, false);
+  EXPECT_NE(plot_svg(plot).find(">1.2<"), std::string::npos);
+  plot.whole_x = true;
+  plot.series[0].points = {{1, 3}, {2, 3}};
+  EXPECT_EQ(plot_svg(plot).find(">1.2<"), std::string::npos);
+  EXPECT_NE(plot_svg(plot).find(">1<"), std::string::npos);
+  EXPECT_NE(plot_svg(plot).find(">2<"), std::string::npos);
+}
+
+TEST(PlotSvg, SmallPowersOfTenAreShort) {
+  const std::string text = plot_svg(plot_of({{1e-6, 1e-7}, {1e3, 1e-2}}, true));
+  EXPECT_NE(text.find(">1e-6<"), std::string::npos);
+  EXPECT_EQ(text.find("e-0"), std::string::npos);
+}
+
+TEST(PlotSvg, TextIsEscaped) {
+  const std::string text = plot_svg(plot_of({{1, 1}}, false));
+  EXPECT_NE(text.find("times &amp; &lt;sizes&gt;"), std::string::npos);
+  EXPECT_EQ(text.find("<sizes>"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace warren

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The words of how a picture looks; for every verb that draws.
+#pragma once
+
+#include <span>
+
+#include "pictures/model/picture_options.hpp"
+#include "tools/words/arguments.hpp"
+#include "tools/words/command.hpp"
+
+namespace warren {
+
+/// --show --size --dpi --title
+std::span<const OptionSpec> picture_option_specs();
+
+/// Throws UsageError, also for any of them where nothing is drawn; `draws` names what would, such as "--svg FILE".
+PictureOptions picture_words(const Arguments& arguments, bool is_drawn, std::string_view draws);
+
+}  // namespace warren
