@@ -57,8 +57,15 @@ DrawingPage page_of(const HeadingCells& heading, const std::vector<PictureLayer>
   return page;
 }
 
+void take_lengths(Drawing& drawing) {
+  const std::vector<double> straight(drawing.body.poses.size(), 0.0);
+  drawing.body.lengths = leg_lengths(drawing.body.poses, drawing.path_turns.empty() ? straight : drawing.path_turns);
+}
+
 /// The body along its path, where it is one that turns.
-void add_sweep(Drawing& drawing, const RobotSpec& robot, const StateList& states) {
+void add_body(Drawing& drawing, const RobotSpec& robot, const StateList& states) {
+  drawing.body = {.outline = robot.outline, .radius = robot.radius, .heads = robot.kind == RobotKind::car};
+  if (states.width == 3) drawing.body.poses = poses_of(states);
   if (robot.kind == RobotKind::polygon && !states.empty()) {
     drawing.layers.push_back(sweep_of(poses_of(states), robot.outline));
   }
@@ -67,6 +74,7 @@ void add_sweep(Drawing& drawing, const RobotSpec& robot, const StateList& states
     drawing.layers.push_back(car_sweep(poses, robot));
     drawing.path_turns = leg_turns(poses);
   }
+  take_lengths(drawing);
 }
 
 /// Takes what is drawn of roadmaps and trees.
@@ -135,7 +143,7 @@ Drawing drawing_of(const Scene& scene, const Answer& answer, ByProducts made, co
   }
   for (NamedLines& lines : made.lines) drawing.layers.push_back(layer_of(std::move(lines)));
   add_roadmap(drawing, answer, made, execution);
-  add_sweep(drawing, problem.robot, states);
+  add_body(drawing, problem.robot, states);
   return drawing;
 }
 
@@ -154,28 +162,24 @@ Drawing drawing_of(const Scene& scene, const RecordedAnswer& answer, const Execu
                   .goal = plane_point(first_given(answer.problem.goal, scene.goal)),
                   .title = scene.source,
                   .subtitle = subtitle_of(scene, answer)};
-  if (answer.state_width() == 3) add_sweep(drawing, robot, answer.states);
+  add_body(drawing, robot, answer.states);
   return drawing;
 }
 
-void animate(Drawing& drawing, const RobotSpec& robot, const RecordedAnswer& answer) {
+void animate(Drawing& drawing, const RobotSpec& robot) {
   constexpr double point_share = 1.0 / 120.0;
-  MovingBody body{.outline = robot.outline, .radius = robot.radius, .heads = robot.kind == RobotKind::car};
-  if (answer.state_width() == 3) {
-    body.poses = poses_of(answer.states);
-  } else if (answer.state_width() == 2) {
-    for (const Vec2 p : answer.path) body.poses.push_back({p.x, p.y, 0.0});
-  } else {
-    throw UsageError("@animate: draws bodies of the plane, not an arm");
+  if (is_arm(robot)) throw UsageError("@animate: draws bodies of the plane, not an arm");
+  MovingBody& body = drawing.body;
+  if (body.poses.empty()) {
+    for (const Vec2 p : drawing.path) body.poses.push_back({p.x, p.y, 0.0});
+    take_lengths(drawing);
   }
-  const std::vector<double> straight(body.poses.size(), 0.0);
-  body.lengths = leg_lengths(body.poses, drawing.path_turns.empty() ? straight : drawing.path_turns);
   if (body.outline.empty() && body.radius == 0.0) {
     Box box;
-    for (const Vec2 p : answer.path) box.include(p);
+    for (const Vec2 p : drawing.path) box.include(p);
     body.radius = point_share * std::max(box.width(), box.height());
   }
-  drawing.moving = std::move(body);
+  drawing.moves = true;
 }
 
 Picture picture_of(const Scene& scene, const Drawing& drawing) {
@@ -190,7 +194,8 @@ Picture picture_of(const Scene& scene, const Drawing& drawing) {
           .path_label = drawing.path_label,
           .title = drawing.title,
           .subtitle = drawing.subtitle,
-          .moving = drawing.moving ? &*drawing.moving : nullptr};
+          .body = &drawing.body,
+          .moves = drawing.moves};
 }
 
 Picture picture_of(const Scene& scene, const Drawing& drawing, const DrawingPage& page) {

@@ -38,8 +38,9 @@ struct Drawing {
   std::vector<AxesPanel> panels = {};  ///< as Picture::panels
   std::string path_label = "path";
   std::string title = {};
-  std::string subtitle = {};              ///< what was asked, how it was solved and what came of it
-  std::optional<MovingBody> moving = {};  ///< none unless animate() was asked for it
+  std::string subtitle = {};  ///< what was asked, how it was solved and what came of it
+  MovingBody body = {};       ///< of points and discs without poses: those are the path's
+  bool moves = false;         ///< animate() was asked for it
 };
 
 /// An answer, and what its planner made. A refuted path is drawn as any other. Throws Stopped; what it throws for a
@@ -51,7 +52,7 @@ Drawing drawing_of(const Scene& scene, const RecordedAnswer& answer, const Execu
 
 /// Lets the body move along the path, in pictures that can (SVG, HTML); a point is shown as a small disc. Throws
 /// UsageError for an arm.
-void animate(Drawing& drawing, const RobotSpec& robot, const RecordedAnswer& answer);
+void animate(Drawing& drawing, const RobotSpec& robot);
 
 /// Refers to both; of a map, the walls shown are those that add_map_walls() gave the scene. Title and description are
 /// left to the caller.

@@ -116,7 +116,7 @@ only(pdf "#include <hpdf" "^pictures/formats/pdf_surface[.]cpp$")
 only(zip "#include <zlib" "^roadmaps/exports/[a-z0-9_]*_io[.]cpp$")
 only(yaml "#include <yaml-cpp" "^(scenes/formats/[a-z0-9_]*_io[.]cpp$|tests/)")
 only(options "#include <CLI" "${above}")
-only(json "#include <nlohmann" "${above}|^studies/|^(scenes|solve)/[a-z]*/[a-z_]*_io[.]cpp$")
+only(json "#include <nlohmann" "${above}|^studies/|^(scenes|solve|pictures)/[a-z]*/[a-z_]*_io[.]cpp$")
 only(judges "#include <(gtest|gmock)/" "^tests/")
 only(stopwatches "#include <benchmark/" "^bench/")
 # The library's own bits, other ones with FMA than without: what is computed with goes through one file, tests and pictures

@@ -36,8 +36,8 @@ class Painter {
       mark("start", picture_.start, MarkShape::disc, colors::start);
       mark("goal", picture_.goal, MarkShape::star, colors::goal);
     }
-    if (picture_.moving != nullptr && !picture_.path.empty() && parts_.has(Part::path)) {
-      surface_.moving_body(*picture_.moving, width(widths::search_tree));
+    if (picture_.moves && !picture_.path.empty() && parts_.has(Part::path)) {
+      surface_.moving_body(*picture_.body, width(widths::search_tree));
     }
     surface_.leave_world();
     frame();

@@ -4,9 +4,9 @@
 // /): a glyph is its advance and its contours, a contour the count of its points and these, a point x + 1024 and
 // 2 (y + 512) + (1 if it is on the curve): TrueType's quadratic curves, 1024 units to the letters' size.
 //
-// Derived from DejaVu Sans 2.37 with another name, as its licence asks. Copyright (c) 2003 by Bitstream, Inc. All Rights
-// Reserved. Bitstream Vera is a trademark of Bitstream, Inc. DejaVu changes are in public domain. Permission is hereby
-// granted, free of charge, to any person obtaining a copy of the fonts accompanying this license ("Fonts") and
+// Derived from DejaVu Sans 2.37 with another name, as its licence asks. Copyright (c) 2003 by Bitstream, Inc. All
+// Rights Reserved. Bitstream Vera is a trademark of Bitstream, Inc. DejaVu changes are in public domain. Permission is
+// hereby granted, free of charge, to any person obtaining a copy of the fonts accompanying this license ("Fonts") and
 // associated documentation files (the "Font Software"), to reproduce and distribute the Font Software, including
 // without limitation the rights to use, copy, merge, publish, distribute, and/or sell copies of the Font Software, and
 // to permit persons to whom the Font Software is furnished to do so, subject to the following conditions: The above
@@ -203,6 +203,6 @@ inline constexpr std::string_view letter_outlines =
     "URXW7RXhhSzhhSzXBSzUiTxSEUvSFV6SEXQVAXQXlXQhhYshhYsQBXQQBXQStWuRGVWPkUcPlS7PkRXTUABU+h9AEVsoRXSoRXSlHVslHAESpoRU"
     "OoRUOlHSplH JeAQVKOZUiLQTYJWSaJXRRJXRRLxSHLxStLwTXM4TwO/UBQTQehhSAhhUvT1XehhZAhhAEV0pnXYpnU1jvTojv KKARS6SpS6JXR"
     "dJXRdoVS6oVS6e3TWgaUvh8Vsh9XSh8ZSc4ZSYxZSUoXSPkVsPlUvPkTWREAMXyYxXyb6WffgVWfhUNfgS6b6S6YxS6VkUNR8VWR9WfR8XyVk Je"
-    "AQVKOZUiLQTYJWSaJXRRJXRRLxSHLxStLwTXM4TwO/UBQTQehhSAhhUvT1XehhZAhhAEVeoRXEoRXElHVelHAESaoRUAoRUAlHSalH"    ;
+    "AQVKOZUiLQTYJWSaJXRRJXRRLxSHLxStLwTXM4TwO/UBQTQehhSAhhUvT1XehhZAhhAEVeoRXEoRXElHVelHAESaoRUAoRUAlHSalH";
 
 }  // namespace warren

@@ -51,7 +51,7 @@ double arc_radius(Vec2 from, Vec2 to, double turn);
 
 /// A part of the picture with axes of its own.
 struct AxesPanel {
-  Box box = {};           ///< in the picture's world
+  Box box = {};      ///< in the picture's world
   Vec2 origin = {};  ///< where the panel's own zero is
   std::string x_label = {};
   std::string y_label = {};
@@ -71,7 +71,8 @@ struct Picture {
   std::string title = {};
   std::string subtitle = {};  ///< a line or two below the title: planner, samples, length, seed
   std::string description = {};
-  const MovingBody* moving = nullptr;  ///< SVG and HTML only: moves along the path; nullptr: nothing does
+  const MovingBody* body = nullptr;  ///< what goes along the path; nullptr: a point. Without poses: the path's points
+  bool moves = false;                ///< SVG: it is seen moving; HTML has a slider always
 };
 
 /// The part of the world that is shown, and what counts as one unit there: a maze's cell, else a fortieth of the

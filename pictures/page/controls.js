@@ -5,7 +5,7 @@ const $ = id => document.getElementById(id);
 const calm = matchMedia("(prefers-reduced-motion: reduce)"), night = matchMedia("(prefers-color-scheme: dark)");
 
 function swatch(layer) {
-  const color = layer.groups ? layer.colors[0] : inkOf(layer);
+  const color = layer.groups ? layer.colors[0] : layer.color ? inkOf(layer) : "#888888";
   const shape = {dots: `<circle cx="14" cy="7" r="3.5" fill="${color}"/>`, areas: `<rect x="3" y="2" width="22" height="10" fill="${color}"/>`,
     image: `<rect x="3" y="2" width="22" height="10" fill="${color}"/>`, start: `<circle cx="14" cy="7" r="5.5" fill="${color}"/>`,
     goal: `<path d="M14 0l7 7-7 7-7-7z" fill="${color}"/>`}[layer.kind] ?? `<path d="M2 7h24" stroke="${color}" stroke-width="3"/>`;
@@ -26,7 +26,7 @@ function listLayers() {
   }), ...Object.entries(picture.ends).map(([name, at]) => {
     const row = document.createElement("div");
     row.className = "layer";
-    row.innerHTML = `<input type="checkbox" checked disabled style="visibility:hidden">${swatch({kind: name, color: at.color})}<span>${name}</span>`;
+    row.innerHTML = `<input type="checkbox" checked disabled style="visibility:hidden">${swatch({kind: name, color: shade(at.color)})}<span>${name}</span>`;
     return row;
   }));
 }
@@ -47,7 +47,7 @@ function setMeasuring(on) {
 }
 
 function showMotion() {
-  if (!poses) return;
+  if (!poses.length) return;
   const [x, y, theta] = poseAt(motion.share), length = motion.share * 100;
   const heading = picture.body.outline.length || picture.body.heads ? `, heading ${((theta * 180 / Math.PI + 540) % 360 - 180).toFixed(1)}°` : "";
   $("motion").value = motion.share * 1000;
@@ -56,7 +56,7 @@ function showMotion() {
 }
 let playing = 0;
 function play() {
-  if (playing || !poses) { cancelAnimationFrame(playing); playing = 0; $("play").setAttribute("aria-pressed", false); return; }
+  if (playing || !poses.length) { cancelAnimationFrame(playing); playing = 0; $("play").setAttribute("aria-pressed", false); return; }
   if (motion.share >= 1) motion.share = 0;
   motion.isOn = true;
   $("play").setAttribute("aria-pressed", true);
@@ -99,13 +99,9 @@ night.addEventListener("change", event => setTheme(event.matches));
 addEventListener("beforeprint", () => { $("dark").dataset.was = isDark(); setTheme(false); drawStill(); drawMarks(); });
 addEventListener("afterprint", () => setTheme($("dark").dataset.was === "true"));
 
-$("player").hidden = !poses;
-$("search").hidden = !layerOf("search_tree") || !picture.graph.byCost.length;
-for (const [name, value] of picture.facts) {
-  const dt = document.createElement("dt"), dd = document.createElement("dd");
-  dt.textContent = name;
-  dd.textContent = value;
-  $("facts").append(dt, dd);
-}
+$("title").textContent = picture.title;
+$("about").textContent = picture.about;
+$("player").hidden = !poses.length || Boolean(picture.panels.length);
+$("search").hidden = !picture.graph?.byCost?.length;
 if (!$("search").hidden) showWave();
 setTheme(night.matches);

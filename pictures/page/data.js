@@ -82,8 +82,9 @@ function layersOfGraph(graph) {
   graph.component = numbers(graph.component);
   graph.parent = graph.parent ? numbers(graph.parent) : null;
   const at = new Float32Array(2 * graph.ends.length);
+  if (!graph.hasRoadmap) return graph.parent ? [treeOf(graph)] : [];
   graph.ends.forEach((v, i) => { at[2 * i] = graph.states[2 * v]; at[2 * i + 1] = graph.states[2 * v + 1]; });
-  const made = [{id: "edges", kind: "segments", segments: at, width: graph.widths.edges, label: "edges of the roadmap", groups: i => graph.component[graph.ends[2 * i]]},
+  const made = [{id: "edges", kind: "segments", segments: at, width: graph.widths.edges, label: "roadmap edges", groups: i => graph.component[graph.ends[2 * i]]},
     {id: "milestones", kind: "dots", xy: graph.states, width: graph.widths.milestones, label: "milestones", groups: i => graph.component[i]}];
   for (const layer of made) layer.colors = graph.colors;
   if (graph.parent) made.splice(1, 0, treeOf(graph));
@@ -113,7 +114,10 @@ function treeOf(graph) {
 }
 
 const layers = picture.layers.map(prepared);
-if (picture.graph) layers.splice(layers.findIndex(l => l.id === "walls"), 0, ...layersOfGraph(picture.graph));
+if (picture.graph) {
+  const walls = layers.findIndex(l => l.id === "walls");
+  layers.splice(walls < 0 ? layers.length : walls, 0, ...layersOfGraph(picture.graph));
+}
 for (const layer of layers) {
   layer.shown = layer.shown ?? true;
   layer.count = layer.count ?? (layer.kind === "image" ? 0 : layer.kind === "dots" ? layer.xy.length / 2 : layer.kind === "segments" ? layer.segments.length / 4 : layer.first.length - 1);

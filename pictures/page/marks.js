@@ -3,13 +3,24 @@
 // pointer is at.
 "use strict";
 const path = picture.path ? numbers(picture.path) : new Float64Array(0);  // x, y; arcs are chords
-const poses = picture.poses ? numbers(picture.poses) : null;  // x, y, theta, moment in 0 .. 1
+const poses = picture.poses ? numbers(picture.poses) : posesOf(path);  // x, y, theta, moment in 0 .. 1
+/// Of a body that does not turn: time goes with the way.
+function posesOf(path) {
+  const poses = new Float64Array(2 * path.length);
+  let way = 0;
+  for (let i = 0; i < path.length; i += 2) {
+    if (i) way += Math.hypot(path[i] - path[i - 2], path[i + 1] - path[i - 1]);
+    poses.set([path[i], path[i + 1], 0, way], 2 * i);
+  }
+  for (let i = 3; i < poses.length; i += 4) poses[i] /= way || 1;
+  return poses;
+}
 const motion = {share: 0, isOn: false};
 const wave = {share: 1};
 const measured = [];
 let pointed = null;
 
-const pathLayer = {id: "path", label: "path of the reference point", color: picture.pathColor, shown: true, count: path.length / 2, kind: "chains", width: picture.pathWidth};
+const pathLayer = {id: "path", label: picture.pathLabel, color: picture.pathColor, shown: true, count: path.length / 2, kind: "chains", width: picture.pathWidth};
 const pathSegments = new Float32Array(Math.max(0, 2 * path.length - 4));
 for (let i = 0; i + 3 < path.length; i += 2) pathSegments.set(path.subarray(i, i + 4), 2 * i);
 pathLayer.segments = pathSegments;
@@ -30,8 +41,8 @@ function drawPath(context) {
   if (!pathLayer.shown || !path.length) return;
   const width = Math.max(pathLayer.width * shrink(), 1.4);
   context.lineJoin = context.lineCap = "round";
-  for (const [color, w] of [[paper(), width + 2], [pathLayer.color, width]]) {
-    if (color === paper() && width < 2) continue;
+  for (const [color, w] of [[paper(), width < 2 ? 0 : width + 2], [inkOf(pathLayer), width]]) {
+    if (w === 0) continue;
     context.strokeStyle = color;
     context.lineWidth = w;
     tracePath(context);
@@ -64,7 +75,7 @@ function poseAt(share) {
   return [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * turned(a[2], b[2])];
 }
 function drawBody(context) {
-  if (!poses || !motion.isOn) return;
+  if (!poses.length || !motion.isOn) return;
   const [x, y, theta] = poseAt(motion.share), body = picture.body;
   context.save();
   context.translate(screenX(x), screenY(y));
@@ -74,8 +85,8 @@ function drawBody(context) {
   if (body.outline.length) body.outline.forEach(([bx, by]) => context.lineTo(bx * view.scale, -by * view.scale));
   else context.arc(0, 0, r, 0, 2 * Math.PI);
   context.closePath();
-  context.fillStyle = picture.pathColor + "59";
-  context.strokeStyle = picture.pathColor;
+  context.fillStyle = inkOf(pathLayer) + "59";
+  context.strokeStyle = inkOf(pathLayer);
   context.lineWidth = 2;
   context.fill();
   context.stroke();
@@ -97,7 +108,7 @@ function drawEnds(context) {
     if (name === "start") context.arc(x, y, r, 0, 2 * Math.PI);
     else for (const [dx, dy] of [[0, -r - 2], [r + 2, 0], [0, r + 2], [-r - 2, 0]]) context.lineTo(x + dx, y + dy);
     context.closePath();
-    context.fillStyle = at.color;
+    context.fillStyle = shade(at.color);
     context.strokeStyle = paper();
     context.lineWidth = 2;
     context.fill();
@@ -114,7 +125,23 @@ const places = step => Math.max(0, Math.min(12, -Math.floor(Math.log10(step) + 1
 const shownNumber = (value, step) => Number(value.toFixed(places(step))).toLocaleString("en", {maximumFractionDigits: 12, useGrouping: Math.abs(value) >= 10000});
 const unitText = picture.lengthUnit ? " " + picture.lengthUnit : "";
 
+/// Views beside each other have axes of their own.
+function drawPanels(context) {
+  context.font = "12px system-ui, sans-serif";
+  context.fillStyle = context.strokeStyle = ink();
+  context.lineWidth = 1;
+  for (const {box, x, y} of picture.panels) {
+    const px = screenX(box[0]), py = screenY(box[3]), w = (box[2] - box[0]) * view.scale, h = (box[3] - box[1]) * view.scale;
+    context.strokeRect(px, py, w, h);
+    context.textAlign = "center";
+    context.fillText(x, px + w / 2, py + h + 15);
+    context.textAlign = "right";
+    context.fillText(y, px - 5, py + h / 2);
+  }
+  drawScaleBar(context, stage.clientWidth - 16, stage.clientHeight - 14);
+}
 function drawAxes(context) {
+  if (picture.panels.length) return drawPanels(context);
   const step = roundStep(90), w = stage.clientWidth, h = stage.clientHeight, [ox, oy] = picture.origin;
   context.fillStyle = isDark() ? "#0f172ad9" : "#ffffffd9";
   context.fillRect(0, h - axisHeight, w, axisHeight);

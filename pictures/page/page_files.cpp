@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "pictures/plot_svg.hpp"
+#include "pictures/model/xml_text.hpp"
 
 namespace warren {
 

@@ -71,7 +71,7 @@ function thingAt(x, y) {
 }
 
 const precision = () => 1 / view.scale;
-const lengthText = length => shownNumber(length, Math.min(precision(), length > 0 ? 10 ** Math.floor(Math.log10(length) - 2) : 1)) + unitText;
+const lengthText = length => shownNumber(length, Math.max(precision() / 100, Math.min(precision(), length > 0 ? 10 ** Math.floor(Math.log10(length) - 2) : 1))) + unitText;
 function tell(x, y) {
   const words = [`x ${shownNumber(x + picture.origin[0], precision())}, y ${shownNumber(y + picture.origin[1], precision())}${unitText}`];
   const solid = solids.find(layer => isInside(layer, x, y)), room = solid ? null : clearance(x, y);

@@ -6,9 +6,11 @@ const still = document.getElementById("still"), marks = document.getElementById(
 const view = {x: 0, y: 0, scale: 1};  // the world's point in the middle, CSS pixels a world unit
 const [boxX0, boxY0, boxX1, boxY1] = picture.box;
 const ratio = () => Math.min(window.devicePixelRatio || 1, 3);
-const darkInks = {walls: "#cbd5e1", polygons: "#475569", map: "#475569", blocked: "#475569"};
+/// Of inks that a dark paper swallows, what stands for them there.
+const darkInks = {"#1e293b": "#cbd5e1", "#d9dde3": "#475569", "#66717f": "#94a3b8", "#c8102e": "#fb7185", "#0072b2": "#7dd3fc", "#6a0dad": "#d8b4fe"};
 const isDark = () => document.documentElement.classList.contains("dark");
-const inkOf = layer => isDark() && darkInks[layer.id] || layer.color;
+const shade = color => isDark() && darkInks[color] || color;
+const inkOf = layer => shade(layer.color);
 const paper = () => isDark() ? "#0f172a" : "#ffffff";
 const ink = () => isDark() ? "#e2e8f0" : "#1e293b";
 
@@ -80,7 +82,7 @@ function strokeFew(context, layer, items) {
   context.lineCap = "round";
   for (const [color, path] of byColor(layer, items, (path, i) => {
     path.moveTo(screenX(s[4 * i]), screenY(s[4 * i + 1]));
-    path.lineTo(screenX(s[4 * i + 2]), screenY(s[4 * i + 3]));
+    path.lineTo(screenX(s[4 * i + 2]) + 0.01, screenY(s[4 * i + 3]));  // a dot has no length, and would not be drawn
   })) {
     context.strokeStyle = color;
     context.stroke(path);
@@ -138,24 +140,30 @@ function putInk(context, amount, w, h, color) {
   context.restore();
 }
 
-function fillAreas(context, layer) {
-  if (!layer.path) {
-    layer.path = new Path2D();
-    for (let c = 0; c + 1 < layer.first.length; ++c) {
-      for (let i = layer.first[c]; i < layer.first[c + 1]; ++i) layer.path[i === layer.first[c] ? "moveTo" : "lineTo"](layer.xy[2 * i], layer.xy[2 * i + 1]);
-      layer.path.closePath();
-    }
+/// One path, or one a chain where each has an opacity of its own.
+function pathsOf(layer) {
+  const paths = [];
+  for (let c = 0; c + 1 < layer.first.length; ++c) {
+    if (c === 0 || layer.opacities) paths.push(new Path2D());
+    const path = paths[paths.length - 1];
+    for (let i = layer.first[c]; i < layer.first[c + 1]; ++i) path[i === layer.first[c] ? "moveTo" : "lineTo"](layer.xy[2 * i], layer.xy[2 * i + 1]);
+    path.closePath();
   }
+  return paths;
+}
+function fillAreas(context, layer) {
+  layer.paths ??= pathsOf(layer);
   context.save();
   context.translate(stage.clientWidth / 2 - view.x * view.scale, stage.clientHeight / 2 + view.y * view.scale);
   context.scale(view.scale, -view.scale);
   context.fillStyle = inkOf(layer);
-  context.fill(layer.path, "nonzero");
-  if (layer.outline) {
-    context.lineWidth = 1 / view.scale;
-    context.strokeStyle = layer.outline;
-    context.stroke(layer.path);
-  }
+  context.lineWidth = Math.max(layer.width, 1) / view.scale;
+  context.strokeStyle = shade(layer.outline ?? layer.color);
+  layer.paths.forEach((path, i) => {
+    context.globalAlpha = (layer.opacity ?? 1) * (layer.opacities?.[i] ?? 1);
+    context.fill(path, "nonzero");
+    if (layer.outline) context.stroke(path);
+  });
   context.restore();
 }
 

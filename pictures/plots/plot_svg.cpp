@@ -200,7 +200,9 @@ void PlotDrawing::series(std::size_t i) {
     }
     const double y = place_y(p.y);
     fmt::format_to(std::back_inserter(path), "{}{:.1f} {:.1f}", path.empty() ? 'M' : 'L', x, y);
-    fmt::format_to(std::back_inserter(marks), "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\"/>", x, y);
+    fmt::format_to(
+        std::back_inserter(marks), "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\" data-tip=\"{}\"/>", x, y,
+        xml_text(fmt::format("{}: {:.6g} {}, {:.6g} {}", series.name, p.x, plot_.x_label, p.y, plot_.y_label)));
   }
   if (path.empty()) return;
   if (series.joined) {

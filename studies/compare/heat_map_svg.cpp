@@ -105,10 +105,12 @@ void HeatMapDrawing::begin() {
 void HeatMapDrawing::draw_cell(std::size_t column, std::size_t row) {
   const HeatMap::Cell& cell = map_.cells[row * map_.columns.size() + column];
   const Color color = cell.value ? color_at(scale_.share(*cell.value)) : Color{232, 232, 232};
-  fmt::format_to(
-      std::back_inserter(text_),
-      "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"{}\" stroke=\"#ffffff\"/>\n",
-      x_of(column), y_of(row), cell_.x, cell_.y, text_of(color));
+  fmt::format_to(std::back_inserter(text_),
+                 "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"{}\" stroke=\"#ffffff\" "
+                 "data-tip=\"{}\"/>\n",
+                 x_of(column), y_of(row), cell_.x, cell_.y, text_of(color),
+                 xml_text(fmt::format("{} {}, {} {}: {}", map_.x_label, map_.columns[column], map_.y_label,
+                                      map_.rows[row], cell.text)));
   const std::string_view ink = is_dark(color) ? " fill=\"#ffffff\"" : "";
   label(x_of(column) + 0.5 * cell_.x, y_of(row) + 0.5 * cell_.y + 4.0, "middle", cell.text, ink);
 }

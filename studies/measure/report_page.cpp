@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "pictures/page/page_files.hpp"
-#include "pictures/plot_svg.hpp"
+#include "pictures/model/xml_text.hpp"
 
 namespace warren {
 namespace {

@@ -94,13 +94,11 @@ TEST(DrawAnswer, ShowsAnArmFromThreeSides) {
   EXPECT_EQ(drawing.panels.size(), 3U);
   EXPECT_TRUE(drawing.path.empty());
   EXPECT_FALSE(drawing.start);
-  EXPECT_EQ(ids_of(drawing.layers),
-            (std::vector<std::string>{"sweep", "arm_at_start", "arm_at_goal", "trace"}));
+  EXPECT_EQ(ids_of(drawing.layers), (std::vector<std::string>{"sweep", "arm_at_start", "arm_at_goal", "trace"}));
   RecordedAnswer none;
   EXPECT_EQ(drawing_of(scene, none, {}).layers.size(), 3U) << "one posture: no goal";
   Drawing still = drawing_of(scene, none, {});
-  none.states = {.width = 6, .numbers = std::vector<double>(6, 0.0)};
-  EXPECT_THROW(animate(still, *scene.robot, none), UsageError);
+  EXPECT_THROW(animate(still, *scene.robot), UsageError);
 }
 
 TEST(DrawAnswer, ARefutedPathIsDrawnAsAnyOther) {

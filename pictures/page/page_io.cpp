@@ -1,0 +1,424 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A picture as a page of its own: what it shows as arrays of numbers in base64, and a script that draws them. Written
+// in pieces: memory stays small whatever the world. Of walls by the million, which no browser would draw at once, there
+// is an image.
+#include <fmt/format.h>
+
+#include <bit>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "pictures/formats/base64.hpp"
+#include "pictures/formats/png_file.hpp"
+#include "pictures/formats/raster.hpp"
+#include "pictures/formats/svg_animation.hpp"
+#include "pictures/formats/write_picture.hpp"
+#include "pictures/model/picture.hpp"
+#include "pictures/page/page_files.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
+
+namespace warren {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+static_assert(std::endian::native == std::endian::little, "the arrays of pages are little-endian");
+
+constexpr std::size_t most_drawn_walls = 4'000'000;
+
+std::string css_color(Rgb c) { return fmt::format("#{:02x}{:02x}{:02x}", c.red, c.green, c.blue); }
+
+/// As JSON that may stand in a <script>.
+std::string dumped(const Json& json) {
+  std::string safe;
+  for (const char c : json.dump(-1, ' ', true, Json::error_handler_t::replace)) {
+    if (c == '<') {
+      safe += "\\u003c";
+    } else {
+      safe += c;
+    }
+  }
+  return safe;
+}
+
+template <class T>
+constexpr std::string_view array_type() {
+  if constexpr (std::is_same_v<T, float>) return "f32";
+  if constexpr (std::is_same_v<T, double>) return "f64";
+  if constexpr (std::is_same_v<T, std::uint8_t>) return "u8";
+  if constexpr (std::is_same_v<T, std::uint16_t>) return "u16";
+  if constexpr (std::is_same_v<T, std::int32_t>) return "i32";
+  return "u32";
+}
+
+/// Numbers as an array of JSON's: {"type": "f32", "data": base64}.
+template <class T>
+class NumberArray {
+ public:
+  NumberArray(std::string_view name, const Execution& execution, const Write& write)
+      : execution_(execution), write_(write), base64_(write) {
+    write_(fmt::format(",\"{}\":{{\"type\":\"{}\",\"data\":\"", name, array_type<T>()));
+  }
+  template <class Number>
+  void add(Number number) {
+    constexpr std::size_t piece = 1U << 16U;
+    const auto value = static_cast<T>(number);
+    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+    if (bytes_.size() >= piece) flush();
+  }
+  void add(Vec2 p) {
+    add(p.x);
+    add(p.y);
+  }
+  void end() {
+    flush();
+    base64_.end();
+    write_("\"}");
+  }
+
+ private:
+  void flush() {
+    execution_.check();
+    base64_.write(bytes_);
+    bytes_.clear();
+  }
+
+  const Execution& execution_;
+  const Write& write_;
+  Base64 base64_;
+  std::string bytes_;
+};
+
+/// Near the box's lower left corner, and a whole number of units from the walls where they are so from each other.
+Vec2 origin_of(const WallSet& walls, const Box& box) {
+  const Vec2 some = walls.size() > 0 ? walls.segment(0).a : Vec2{};
+  return some + Vec2{std::floor(box.min.x - some.x), std::floor(box.min.y - some.y)};
+}
+
+class PageWriter {
+ public:
+  PageWriter(const Picture& picture, Parts parts, const Execution& execution, const Write& write)
+      : picture_(picture),
+        parts_(parts),
+        execution_(execution),
+        write_(write),
+        canvas_(canvas_of(picture, execution)),
+        origin_(origin_of(picture.scene.walls, canvas_.box)) {}
+
+  void document(const std::string& title) {
+    write_(head_of_page(title, page_file("page.css")));
+    write_(page_file("page.html"));
+    write_("<script id=\"picture\" type=\"application/json\">{");
+    words(title);
+    layers();
+    if (picture_.roadmap != nullptr && picture_.panels.empty()) graph(*picture_.roadmap);
+    if (parts_.has(Part::path)) path();
+    write_("}</script>\n<script>\n");
+    for (const char* script : {"data.js", "view.js", "marks.js", "pointer.js", "controls.js"})
+      write_(page_file(script));
+    write_("</script>\n</body>\n</html>\n");
+  }
+
+ private:
+  void words(const std::string& title);
+  void layers();
+  void polygons();
+  void layer(const PictureLayer& layer);
+  void walls();
+  template <class T>
+  void wall_ends();
+  void wall_image();
+  void graph(const PlannedRoadmap<Vec2>& roadmap);
+  void path();
+  void poses(const MovingBody& body);
+
+  void begin_layer(const Json& about) {
+    std::string text = dumped(about);
+    text.pop_back();
+    write_((is_first_ ? "" : ",") + text);
+    is_first_ = false;
+  }
+  template <class T>
+  NumberArray<T> numbers(std::string_view name) const {
+    return {name, execution_, write_};
+  }
+  Vec2 moved(Vec2 p) const { return p - origin_; }
+  bool has_small_whole_walls() const;
+
+  const Picture& picture_;
+  Parts parts_;
+  const Execution& execution_;
+  const Write& write_;
+  Canvas canvas_;
+  Vec2 origin_;  // numbers are relative to it, so that floats are enough
+  bool is_first_ = true;
+};
+
+void PageWriter::words(const std::string& title) {
+  const auto box_json = [&](const Box& box) {
+    const Vec2 low = moved(box.min);
+    const Vec2 high = moved(box.max);
+    return Json{low.x, low.y, high.x, high.y};
+  };
+  Json words{{"title", title},
+             {"about", picture_.subtitle},
+             {"origin", {origin_.x, origin_.y}},
+             {"box", box_json(canvas_.box)},
+             {"unit", canvas_.unit},
+             {"lengthUnit", unit_of(picture_.scene)},
+             {"pathColor", css_color(colors::path)},
+             {"pathWidth", widths::path},
+             {"pathLabel", picture_.path_label},
+             {"panels", Json::array()},
+             {"ends", Json::object()}};
+  for (const AxesPanel& panel : picture_.panels) {
+    words["panels"].push_back({{"box", box_json(panel.box)}, {"x", panel.x_label}, {"y", panel.y_label}});
+  }
+  const auto end = [&](const char* name, std::optional<Vec2> at, Rgb color) {
+    if (!at || !parts_.has(Part::path)) return;
+    words["ends"][name] = {{"x", moved(*at).x}, {"y", moved(*at).y}, {"color", css_color(color)}};
+  };
+  end("start", picture_.start, colors::start);
+  end("goal", picture_.goal, colors::goal);
+  std::string text = dumped(words);
+  text.pop_back();
+  write_(text.substr(1));
+}
+
+void PageWriter::layers() {
+  write_(",\"layers\":[");
+  if (parts_.has(Part::world) && !picture_.scene.polygons.empty()) polygons();
+  for (const PictureLayer& one : picture_.layers) {
+    if (parts_.has(one.part) && !one.lines.empty()) layer(one);
+  }
+  if (parts_.has(Part::world)) walls();
+  write_("]");
+}
+
+void PageWriter::polygons() {
+  const std::vector<ScenePolygon>& all = picture_.scene.polygons;
+  begin_layer({{"id", "polygons"},
+               {"label", "obstacles"},
+               {"kind", "areas"},
+               {"obstacle", true},
+               {"color", css_color(colors::polygon)},
+               {"outline", css_color(colors::outline)},
+               {"width", widths::outline}});
+  auto first = numbers<std::uint32_t>("first");
+  std::size_t corners = 0;
+  first.add(corners);
+  for (const ScenePolygon& polygon : all) first.add(corners += anticlockwise(polygon.corners).size());
+  first.end();
+  auto xy = numbers<float>("xy");
+  for (const ScenePolygon& polygon : all) {
+    for (const Vec2 p : anticlockwise(polygon.corners)) xy.add(moved(p));
+  }
+  xy.end();
+  write_("}");
+}
+
+void PageWriter::layer(const PictureLayer& layer) {
+  Json about{{"id", layer.id},
+             {"label", layer.label.empty() ? layer.id : layer.label},
+             {"kind", layer.fill ? "areas" : "chains"},
+             {"obstacle", layer.part == Part::world && layer.fill},
+             {"color", css_color(layer.fill.value_or(layer.color))},
+             {"width", layer.width},
+             {"closed", layer.closed},
+             {"opacity", layer.opacity}};
+  if (layer.fill && layer.width > 0.0) about["outline"] = css_color(layer.color);
+  if (!layer.opacities.empty()) about["opacities"] = layer.opacities;
+  begin_layer(about);
+  std::vector<std::uint32_t> first{0};
+  auto xy = numbers<float>("xy");
+  for (std::size_t i = 0; i < layer.lines.size(); ++i) {
+    const std::vector<Vec2> chain = without_arcs(layer.lines[i], layer.turns_of(i));
+    for (const Vec2 p : chain) xy.add(moved(p));
+    first.push_back(first.back() + static_cast<std::uint32_t>(chain.size()));
+  }
+  xy.end();
+  auto starts = numbers<std::uint32_t>("first");
+  for (const std::uint32_t corner : first) starts.add(corner);
+  starts.end();
+  write_("}");
+}
+
+void PageWriter::walls() {
+  const std::size_t count = picture_.scene.walls.size();
+  if (count == 0 && !picture_.scene.bounds) return;
+  Json about{{"id", "walls"},
+             {"label", picture_.scene.map ? "borders of blocked cells"
+                       : count == 0       ? "bounds"
+                                          : "walls"},
+             {"obstacle", picture_.panels.empty()},
+             {"color", css_color(colors::wall)},
+             {"width", widths::wall}};
+  if (count > most_drawn_walls) {
+    about["count"] = count;
+    begin_layer(about);
+    return wall_image();
+  }
+  about["kind"] = "segments";
+  begin_layer(about);
+  if (has_small_whole_walls()) {
+    wall_ends<std::uint16_t>();
+  } else {
+    wall_ends<float>();
+  }
+  write_("}");
+}
+
+bool PageWriter::has_small_whole_walls() const {
+  constexpr double most = 65535.0;
+  const auto fits = [](double x) { return x >= 0.0 && x <= most && x == std::floor(x); };
+  const auto all_fit = [&](Vec2 p) { return fits(moved(p).x) && fits(moved(p).y); };
+  if (picture_.scene.bounds && !(all_fit(picture_.scene.bounds->min) && all_fit(picture_.scene.bounds->max)))
+    return false;
+  return picture_.scene.walls.visit([&](auto all) {
+    for (const auto& wall : all) {
+      if (!all_fit(wall.segment().a) || !all_fit(wall.segment().b)) return false;
+    }
+    return true;
+  });
+}
+
+template <class T>
+void PageWriter::wall_ends() {
+  auto xy = numbers<T>("xy");
+  const auto add = [&](Vec2 a, Vec2 b) {
+    xy.add(moved(a));
+    xy.add(moved(b));
+  };
+  picture_.scene.walls.visit([&](auto all) {
+    for (const auto& wall : all) add(wall.segment().a, wall.segment().b);
+  });
+  if (picture_.scene.bounds) {
+    const auto [low, high] = *picture_.scene.bounds;
+    add(low, {high.x, low.y});
+    add({high.x, low.y}, high);
+    add(high, {low.x, high.y});
+    add({low.x, high.y}, low);
+  }
+  xy.end();
+}
+
+void PageWriter::wall_image() {
+  constexpr double most_pixels = 4096.0;
+  constexpr double least_width = 0.2;
+  constexpr std::size_t walls_a_poll = 1 << 14;
+  const Box& box = canvas_.box;
+  const double scale = most_pixels / std::max(box.width(), box.height());
+  Mask mask(static_cast<std::size_t>(std::ceil(scale * box.width())),
+            static_cast<std::size_t>(std::ceil(scale * box.height())), execution_);
+  const auto at = [&](Vec2 p) { return Vec2{scale * (p.x - box.min.x), scale * (box.max.y - p.y)}; };
+  const double width = std::max(widths::wall / 20.0 * scale * canvas_.unit, least_width);
+  picture_.scene.walls.visit([&](auto all) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (i % walls_a_poll == 0) execution_.check();
+      mask.draw_line(at(all[i].segment().a), at(all[i].segment().b), width);
+    }
+  });
+  const Vec2 low = moved(box.min);
+  const Vec2 high{low.x + static_cast<double>(mask.width()) / scale,
+                  moved(box.max).y - static_cast<double>(mask.height()) / scale};
+  write_(fmt::format(",\"kind\":\"image\",\"box\":[{},{},{},{}],\"href\":\"data:image/png;base64,", low.x, high.y,
+                     high.x, moved(box.max).y));
+  Base64 out(write_);
+  write_png_file(mask, colors::wall, execution_, [&](std::string_view bytes) { out.write(bytes); });
+  out.end();
+  write_("\"}");
+}
+
+void PageWriter::graph(const PlannedRoadmap<Vec2>& roadmap) {
+  const std::vector<std::uint8_t> component = component_colors(roadmap.graph, execution_);
+  if (component.size() != roadmap.states.size()) return;  // stopped before the graph was made
+  Json about{
+      {"colors", Json::array()},
+      {"treeColor", css_color(colors::search_tree)},
+      {"hasRoadmap", parts_.has(Part::roadmap)},
+      {"widths", {{"edges", widths::edge}, {"milestones", widths::milestone}, {"search_tree", widths::search_tree}}}};
+  for (const Rgb color : colors::components) about["colors"].push_back(css_color(color));
+  std::string text = dumped(about);
+  text.pop_back();
+  write_(",\"graph\":" + text);
+  auto states = numbers<float>("states");
+  for (const Vec2 p : roadmap.states) states.add(moved(p));
+  states.end();
+  auto colors = numbers<std::uint8_t>("component");
+  for (const std::uint8_t color : component) colors.add(color);
+  colors.end();
+  auto edges = numbers<std::uint32_t>("edges");
+  for (VertexId v = 0; v < roadmap.graph.vertex_count(); ++v) {
+    for (const VertexId w : roadmap.graph.neighbours(v)) {
+      if (w < v) continue;
+      edges.add(v);
+      edges.add(w);
+    }
+  }
+  edges.end();
+  if (parts_.has(Part::search) && !roadmap.search_tree.empty()) {
+    std::vector<std::int32_t> parent(roadmap.states.size(), -1);
+    for (const Edge& edge : roadmap.search_tree) {
+      parent[edge.from] = static_cast<std::int32_t>(edge.to == no_vertex ? edge.from : edge.to);
+    }
+    auto parents = numbers<std::int32_t>("parent");
+    for (const std::int32_t v : parent) parents.add(v);
+    parents.end();
+  }
+  write_("}");
+}
+
+void PageWriter::path() {
+  if (picture_.path.empty()) return;
+  auto xy = numbers<double>("path");
+  for (const Vec2 p : without_arcs(picture_.path, picture_.path_turns)) xy.add(moved(p));
+  xy.end();
+  const MovingBody point;
+  const MovingBody& body = picture_.body != nullptr ? *picture_.body : point;
+  Json outline = Json::array();
+  for (const Vec2 p : body.outline) outline.push_back({p.x, p.y});
+  write_(",\"body\":" + dumped({{"outline", outline}, {"radius", body.radius}, {"heads", body.heads}}));
+  if (!body.poses.empty()) poses(body);
+}
+
+/// x, y, heading and moment of as many places as arcs have chords, or turns on the spot few degrees.
+void PageWriter::poses(const MovingBody& body) {
+  constexpr double step_rad = 0.05;
+  const Timetable table = timetable_of(body);
+  auto out = numbers<double>("poses");
+  const auto add = [&](Vec2 at, double theta, double moment) {
+    out.add(at);
+    out.add(theta);
+    out.add(moment);
+  };
+  add(moved(body.poses.front().position()), body.poses.front().theta, 0.0);
+  for (std::size_t i = 1; i < body.poses.size(); ++i) {
+    const Se2& from = body.poses[i - 1];
+    const Se2& to = body.poses[i];
+    const double turn = turn_between(from.theta, to.theta);
+    const double arc = picture_.path_turns.empty() ? 0.0 : picture_.path_turns[i];
+    std::vector<Vec2> way = without_arcs(std::array{from.position(), to.position()}, std::array{0.0, arc});
+    if (way.size() == 2) {
+      const auto parts = static_cast<std::size_t>(std::ceil(std::abs(turn) / step_rad));
+      way = {from.position()};
+      for (std::size_t k = 1; k <= std::max<std::size_t>(parts, 1); ++k) {
+        const double share = static_cast<double>(k) / static_cast<double>(std::max<std::size_t>(parts, 1));
+        way.push_back(from.position() + share * (to.position() - from.position()));
+      }
+    }
+    for (std::size_t k = 1; k < way.size(); ++k) {
+      const double share = static_cast<double>(k) / static_cast<double>(way.size() - 1);
+      add(moved(way[k]), from.theta + share * turn,
+          table.moments[i - 1] + share * (table.moments[i] - table.moments[i - 1]));
+    }
+  }
+  out.end();
+}
+
+}  // namespace
+
+void write_html(const Picture& picture, const PictureOptions& options, const Execution& execution, const Write& write) {
+  PageWriter(picture, options.parts, execution, write).document(options.title.value_or(picture.title));
+}
+
+}  // namespace warren

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A headless Chromium for tests of pages: nothing is loaded from any network, and what its console says is kept."""
+import os
+import shutil
+import tempfile
+import unittest
+
+from selenium import webdriver
+from selenium.webdriver.chrome.options import Options
+from selenium.webdriver.chrome.service import Service
+
+FLAGS = ('--headless=new --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking '
+         '--disable-component-update --disable-sync --disable-default-apps --window-size=1200,800').split()
+
+
+def start(folder):
+    options = Options()
+    options.binary_location = shutil.which('chromium')
+    for flag in FLAGS + ['--user-data-dir=' + os.path.join(folder, 'profile')]:
+        options.add_argument(flag)
+    options.set_capability('goog:loggingPrefs', {'browser': 'ALL'})
+    return webdriver.Chrome(service=Service(shutil.which('chromedriver')), options=options)
+
+
+class BrowserTest(unittest.TestCase):
+    """One browser for all tests of a class; a test fails where the console has a message at its end."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.browser = start(cls.folder.name)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.quit()
+        cls.folder.cleanup()
+
+    def tearDown(self):
+        self.browser.set_window_size(1200, 800)
+        self.media()
+        self.assertEqual(self.browser.get_log('browser'), [])
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def open(self, name):
+        self.browser.get('file://' + self.path(name))
+
+    def run_script(self, script, *arguments):
+        return self.browser.execute_script(script, *arguments)
+
+    def async_script(self, script, *arguments):
+        """The script calls done(value)."""
+        return self.browser.execute_async_script('const done = arguments[arguments.length - 1];' + script, *arguments)
+
+    def frames(self):
+        """Waits until what was asked for is drawn."""
+        self.async_script('requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 0)))')
+
+    def media(self, **features):
+        """color_scheme='dark', reduced_motion='reduce'"""
+        said = [{'name': 'prefers-' + name.replace('_', '-'), 'value': value} for name, value in features.items()]
+        self.browser.execute_cdp_cmd('Emulation.setEmulatedMedia', {'features': said})
+
+    def touch(self, kind, *points):
+        self.browser.execute_cdp_cmd('Input.dispatchTouchEvent',
+                                     {'type': kind, 'touchPoints': [{'x': x, 'y': y, 'id': i} for i, (x, y) in enumerate(points)]})
