@@ -8,7 +8,7 @@ function swatch(layer) {
   const color = layer.groups ? layer.colors[0] : layer.color ? inkOf(layer) : "#888888";
   const shape = {dots: `<circle cx="14" cy="7" r="3.5" fill="${color}"/>`, areas: `<rect x="3" y="2" width="22" height="10" fill="${color}"/>`,
     image: `<rect x="3" y="2" width="22" height="10" fill="${color}"/>`, start: `<circle cx="14" cy="7" r="5.5" fill="${color}"/>`,
-    goal: `<path d="M14 0l7 7-7 7-7-7z" fill="${color}"/>`}[layer.kind] ?? `<path d="M2 7h24" stroke="${color}" stroke-width="3"/>`;
+    goal: `<path d="M${star(7).map(([x, y]) => `${14 + x} ${7 + y}`).join("L")}z" fill="${color}"/>`}[layer.kind] ?? `<path d="M2 7h24" stroke="${color}" stroke-width="3"/>`;
   return `<svg viewBox="0 0 28 14" aria-hidden="true">${shape}</svg>`;
 }
 function listLayers() {

@@ -122,4 +122,5 @@ for (const layer of layers) {
   layer.shown = layer.shown ?? true;
   layer.count = layer.count ?? (layer.kind === "image" ? 0 : layer.kind === "dots" ? layer.xy.length / 2 : layer.kind === "segments" ? layer.segments.length / 4 : layer.first.length - 1);
 }
+for (let i = layers.length; i-- > 0;) if (layers[i].kind !== "image" && layers[i].count === 0) layers.splice(i, 1);
 const layerOf = id => layers.find(l => l.id === id);

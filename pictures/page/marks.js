@@ -100,13 +100,14 @@ function drawBody(context) {
   context.restore();
 }
 
-/// Start is a circle, goal a square that stands on its corner.
+const star = r => Array.from({length: 10}, (_, i) => [(i % 2 ? 0.45 : 1) * r * Math.sin(Math.PI * i / 5), -(i % 2 ? 0.45 : 1) * r * Math.cos(Math.PI * i / 5)]);
+/// Start is a disc, goal a star of five points.
 function drawEnds(context) {
   for (const [name, at] of Object.entries(picture.ends)) {
     const x = screenX(at.x), y = screenY(at.y), r = 7;
     context.beginPath();
     if (name === "start") context.arc(x, y, r, 0, 2 * Math.PI);
-    else for (const [dx, dy] of [[0, -r - 2], [r + 2, 0], [0, r + 2], [-r - 2, 0]]) context.lineTo(x + dx, y + dy);
+    else for (const [dx, dy] of star(r + 2)) context.lineTo(x + dx, y + dy);
     context.closePath();
     context.fillStyle = shade(at.color);
     context.strokeStyle = paper();
