@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # What `cmake --install` leaves behind: headers, a library a folder, a package for find_package(warren), a file for
-# pkg-config, the licence. Targets: warren::core and so on, and warren::warren, which
-# is all of them. Component "library" is the package without the program.
+# pkg-config, the licence, the program with its manual pages and completions, documents and examples. Targets:
+# warren::core and so on, and warren::warren, which is all of them. Components: "library" is the package without the
+# program, "program" and "documents" are the rest.
 include(CMakePackageConfigHelpers)
 
 set(warren_libraries core parallel spatial scenes worlds verify planners roadmaps solve pictures)
@@ -41,3 +42,21 @@ file(RELATIVE_PATH warren_pc_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 configure_file(${CMAKE_CURRENT_LIST_DIR}/warren.pc.in ${PROJECT_BINARY_DIR}/warren.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/warren.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT library)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT library)
+
+# What people read, and what their shells ask: manual pages and completions as the program itself prints them, documents,
+# examples. `cmake --build DIR --target uninstall` takes back what the last installation has put in place.
+set(warren_words ${PROJECT_BINARY_DIR}/words)
+install(CODE "execute_process(COMMAND ${CMAKE_COMMAND} \"-DPROGRAM=$<TARGET_FILE:warren>\" -DTO=${warren_words}
+  -P ${CMAKE_CURRENT_LIST_DIR}/program_words.cmake COMMAND_ERROR_IS_FATAL ANY)" COMPONENT program)
+install(DIRECTORY ${warren_words}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT program)
+install(FILES ${warren_words}/warren DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
+install(FILES ${warren_words}/_warren DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT program)
+install(FILES ${warren_words}/warren.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
+        COMPONENT program)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR}
+        COMPONENT documents)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documents)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documents)
+add_custom_target(uninstall
+  COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR} -P ${CMAKE_CURRENT_LIST_DIR}/uninstall.cmake VERBATIM)

@@ -6,6 +6,7 @@ option(WARREN_BENCH "build the microbenchmarks" OFF)
 option(WARREN_WERROR "warnings are errors" OFF)
 option(WARREN_NATIVE "tune for this machine (the default build runs on any x86-64, or on any arm64)" OFF)
 option(WARREN_PLAIN "only the code that other processors than x86-64 run, on x86-64 too" OFF)
+set(WARREN_COMMIT "" CACHE STRING "the commit that --version names, for sources without git (default: what git says)")
 set(WARREN_SANITIZE "" CACHE STRING "sanitizers, as -fsanitize= takes them")
 
 if(NOT CMAKE_BUILD_TYPE)

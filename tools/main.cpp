@@ -22,28 +22,19 @@
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/signals.hpp"
 #include "tools/screen/terminal.hpp"
-#include "tools/words/closest_match.hpp"
+#include "tools/words/build_facts.hpp"
 #include "tools/words/command.hpp"
+#include "tools/verbs/completions.hpp"
 #include "tools/words/help.hpp"
 
 namespace warren {
 
 namespace {
 
-const Command& command_named(std::string_view name) {
-  std::vector<std::string_view> names;
-  for (const Command& command : command_table()) {
-    if (command.name == name) return command;
-    names.push_back(command.name);
-  }
-  const std::string_view what = name.starts_with('-') ? "unknown option " : "unknown command ";
-  throw UsageError(std::string{what} + std::string{name} + suggestion(name, names));
-}
-
 int run_command(const Command& command, std::span<const std::string> words) {
   const Arguments arguments(command, words);
   if (arguments.wants_help()) {
-    print_text(command_help(command));
+    print_text(command_help(command, terminal_width()));
     return exit_code::success;
   }
   check_outputs(arguments);
@@ -55,12 +46,16 @@ int dispatch(std::span<const std::string> words) {
     say_on_standard_error(program_help());
     return exit_code::usage;
   }
-  if (words[0] == "--help" || words[0] == "-h" || words[0] == "help") {
+  if (words[0] == "--help" || words[0] == "-h") {
     print_text(program_help());
     return exit_code::success;
   }
-  if (words[0] == "--version" || words[0] == "-V") {
-    print_text(version_text());
+  if (words[0] == "--version" || words[0] == "-V" || words[0] == "-v") {
+    print_text(version_text(build_commit()));
+    return exit_code::success;
+  }
+  if (words[0] == "complete") {  // asked by the scripts of `warren completion`, so no verb
+    print_text(completion_lines(words.subspan(1)));
     return exit_code::success;
   }
   return run_command(command_named(words[0]), words.subspan(1));

@@ -150,31 +150,6 @@ TEST(Usage, HelpVersionCompletionsAndManualComeOnStandardOutput) {
   EXPECT_EQ(version.out.rfind("warren ", 0), 0U) << version.out;
 }
 
-TEST(Usage, EveryOptionOfSolveIsInHelpManualAndCompletions) {
-  const std::string help = run({"solve", "--help"}).out;
-  const std::string bash = run({"completion", "bash"}).out;
-  const std::string fish = run({"completion", "fish"}).out;
-  const std::string zsh = run({"completion", "zsh"}).out;
-  const std::string page = run({"man"}).out;
-  for (const std::string option :
-       {"planner",    "robot",  "start",  "goal",  "clearance", "contact",  "sampler", "samples",
-        "neighbours", "radius", "search", "queue", "seed",      "threads",  "budget",  "memory",
-        "optimise",   "json",   "svg",    "trace", "quiet",     "progress", "color"}) {
-    SCOPED_TRACE(option);
-    EXPECT_NE(help.find("--" + option), std::string::npos);
-    EXPECT_NE(bash.find("--" + option), std::string::npos);
-    EXPECT_NE(zsh.find("--" + option), std::string::npos);
-    EXPECT_NE(fish.find("-l " + option), std::string::npos);
-    EXPECT_NE(page.find("\\-\\-" + option), std::string::npos);
-  }
-}
-
-TEST(Usage, CompletionsKnowTheExamples) {
-  for (const char* shell : {"bash", "fish", "zsh"}) {
-    EXPECT_NE(run({"completion", shell}).out.find("parking parking-lot poly-easy"), std::string::npos) << shell;
-  }
-}
-
 TEST(Usage, AnIgnoredOptionIsToldWithTheProblemThatItIsNotFor) {
   const Folder folder;
   const std::string turning = folder.write(

@@ -2,10 +2,15 @@
 // warren build: a roadmap without a question, in a file, for as many questions as one likes.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+#include <string>
+
 #include "core/base/error.hpp"
 #include "scenes/text/human_units.hpp"
 #include "solve/answer/world_account.hpp"
 #include "solve/roadmaps/roadmap_file_io.hpp"
+#include "solve/steps/kind_of_problem.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_conflicts.hpp"
 #include "tools/screen/output_names.hpp"
@@ -24,6 +29,33 @@ constexpr OptionSpec build_specs[] = {
     {"--index", "NAME", "of a large roadmap: answers without a search, where that pays (default: auto)", "auto none"},
     {"--no-world", "", "leave the world out of the file; who asks names it then"},
 };
+
+/// Those that some planner that keeps a roadmap takes, and that a roadmap without a question can have.
+void add_kept_options(Command& command) {
+  constexpr Option of_questions[] = {Option::search,       Option::queue, Option::optimise, Option::cusp_cost,
+                                     Option::reverse_cost, Option::lazy,  Option::pipeline};
+  static const std::string planners = names_of_planners(keeps_roadmap);
+  for (OptionSpec spec : solve_option_specs()) {
+    const auto option = option_of_words(spec.name);
+    const bool asked =
+        option && std::find(std::begin(of_questions), std::end(of_questions), *option) != std::end(of_questions);
+    const bool kept =
+        !option || std::any_of(std::begin(all_planners), std::end(all_planners), [&](PlannerKind planner) {
+          return keeps_roadmap(planner) && planner_takes(planner, *option);
+        });
+    if (spec.name == "--planner") {
+      spec.choices = planners;
+      spec.help = "whose roadmap (default: by world and body)";
+    }
+    if (kept && !asked) {
+      command.options.push_back(spec);
+    } else {
+      command.foreign.emplace_back(spec.name,
+                                   asked ? "is of questions; 'warren query' takes it, or 'warren solve'"
+                                         : "is for planners whose roadmaps can't be kept; 'warren solve' takes it");
+    }
+  }
+}
 
 int build_roadmap_file(const Arguments& arguments) {
   const auto file = output_file(arguments, "--output");
@@ -52,8 +84,7 @@ int build_roadmap_file(const Arguments& arguments) {
 Command build_command() {
   Command command{"build", "WORLD", "build a roadmap once, for many questions", {}, build_roadmap_file};
   add_options(command.options, build_specs);
-  add_options(command.options, solve_option_specs(),
-              {"--search", "--queue", "--optimise", "--cusp-cost", "--reverse-cost", "--lazy", "--pipeline"});
+  add_kept_options(command);
   add_options(command.options, question_option_specs(), {"--start", "--goal", "--contact"});
   add_options(command.options, world_option_specs());
   add_options(command.options, run_option_specs());

@@ -1,117 +1,116 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// warren completion bash|zsh|fish: what a shell needs to complete our words, made from the table of commands.
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include <set>
-
+// warren completion bash|zsh|fish: what a shell needs to complete our words. The scripts ask the program itself, by
+// `warren complete WORDS` (tools/verbs/completions.hpp), and add the names of files, which shells know better.
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/terminal.hpp"
-#include "tools/verbs/example_files.hpp"
 #include "tools/words/command.hpp"
-#include "tools/words/help.hpp"
 #include "tools/words/option_values.hpp"
 
 namespace warren {
 namespace {
 
-std::string for_shell(std::string_view text) {  // inside single quotes of a shell
-  std::string out;
-  for (const char c : text) out += c == '\'' ? std::string{"'\\''"} : std::string(1, c);
-  return out;
+// Bash splits words at "=" and ":" where COMP_WORDBREAKS has them, and replaces only what stands behind the last of
+// these: words are joined again as they stand in the line, and what bash keeps is cut off the answers.
+constexpr std::string_view bash_script =
+    R"(# bash completion for warren; install as share/bash-completion/completions/warren
+_warren() {
+  local line=${COMP_LINE:0:${COMP_POINT:-0}} i word before=' ' lines=() words=() IFS=$' \t\n'
+  for (( i = 0; i <= COMP_CWORD; i++ )); do
+    word=${COMP_WORDS[i]}
+    if [[ $before == *[=:] || $word == [=:]* ]] && (( i > 1 )) && [[ -z $line || $line != [[:space:]]* ]]; then
+      words[${#words[@]}-1]+=$word
+    else
+      words+=("$word")
+    fi
+    line=${line#"${line%%[![:space:]]*}"}
+    line=${line#"$word"}
+    before=$word
+  done
+  local typed=${words[${#words[@]}-1]} kept= answer file found=() told
+  mapfile -t lines < <("${words[0]}" complete "${words[@]:1}" 2>/dev/null)
+  (( ${#lines[@]} )) || return 0
+  told=${lines[${#lines[@]}-1]}
+  unset "lines[${#lines[@]}-1]"
+  [[ $typed == *[=:]* && $COMP_WORDBREAKS == *[=:]* ]] && kept=${typed%"${typed##*[=:]}"}
+  COMPREPLY=()
+  for answer in "${lines[@]}"; do
+    answer=${answer%%$'\t'*}
+    COMPREPLY+=("${answer#"$kept"}")
+  done
+  local prefix=${told#* }
+  told=${told%% *}
+  case $told in
+    *f*) mapfile -t found < <(compgen -f -- "${typed#"$prefix"}") ;;
+    *d*) mapfile -t found < <(compgen -d -- "${typed#"$prefix"}") ;;
+  esac
+  for file in "${found[@]}"; do
+    file=$prefix$file
+    COMPREPLY+=("${file#"$kept"}")
+  done
+  (( ${#found[@]} )) && compopt -o filenames 2>/dev/null
+  [[ $told == *n* ]] && compopt -o nospace 2>/dev/null
+  return 0
 }
+complete -F _warren warren
+)";
 
-/// The words that a verb takes where others take files; none.
-std::string operand_words(const Command& command) {
-  if (command.name == "completion") return "bash zsh fish";
-  if (command.name != "example") return {};
-  std::set<std::string_view> names;  // of worlds, which may have several files
-  for (const EmbeddedFile& file : example_files()) {
-    if (file.name != "README.md") names.insert(file.name.substr(0, file.name.find('.')));
-  }
-  return fmt::format("{}", fmt::join(names, " "));
+constexpr std::string_view zsh_script = R"(#compdef warren
+# zsh completion for warren; install as _warren in a folder of $fpath
+_warren() {
+  local -a lines told described
+  local line prefix
+  lines=("${(@f)$(${words[1]} complete "${(@)words[2,CURRENT]}" 2>/dev/null)}")
+  (( ${#lines} )) || return 1
+  told=${lines[-1]%% *}
+  prefix=${lines[-1]#* }
+  for line in "${(@)lines[1,-2]}"; do
+    described+=("${${line%%$'\t'*}//:/\\:}${${(M)line:#*$'\t'*}:+:${line#*$'\t'}}")
+  done
+  if (( ${#described} )); then
+    if [[ $told == *n* ]]; then
+      _describe -V warren described -S ''
+    else
+      _describe -V warren described
+    fi
+  fi
+  [[ -n $prefix ]] && compset -P "${(b)prefix}"
+  if [[ $told == *f* ]]; then
+    _files
+  elif [[ $told == *d* ]]; then
+    _files -/
+  fi
 }
+_warren "$@"
+)";
 
-std::string bash_completion() {
-  const auto choices = [](const Command& c, const OptionSpec& o) {
-    return o.choices.empty() ? "" : fmt::format("      '{} {}') words='{}' ;;\n", c.name, o.name, o.choices);
-  };
-  const auto operands = [](const Command& c) {
-    const std::string words = operand_words(c);
-    return words.empty() ? "" : fmt::format("      '{0} {0}') words='{1}' ;;\n", c.name, words);
-  };
-  return "# bash completion for warren; install as /usr/share/bash-completion/completions/warren\n"
-         "_warren() {\n"
-         "  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} words=\n"
-         "  if (( COMP_CWORD == 1 )); then\n"
-         "    words=\"" +
-         text_of_commands([](const Command& c) { return fmt::format("{} ", c.name); }) +
-         "--help --version\"\n"
-         "  else\n"
-         "    case \"${COMP_WORDS[1]} $before\" in\n" +
-         text_of_commands([](const Command&) { return ""; }, choices) + text_of_commands(operands) +
-         "    esac\n"
-         "    if [[ -z $words && $word == -* ]]; then\n"
-         "      case ${COMP_WORDS[1]} in\n" +
-         text_of_commands([](const Command& c) { return fmt::format("        {}) words='--help", c.name); },
-                          [](const Command&, const OptionSpec& o) { return fmt::format(" {}", o.name); }, "' ;;\n") +
-         "      esac\n    fi\n  fi\n"
-         "  if [[ -n $words ]]; then\n"
-         "    mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$word\")\n"
-         "  else\n"
-         "    mapfile -t COMPREPLY < <(compgen -f -- \"$word\")\n"
-         "  fi\n"
-         "}\n"
-         "complete -o filenames -F _warren warren\n";
-}
-
-std::string zsh_option(const Command&, const OptionSpec& option) {
-  std::string help;  // brackets and colons mean something to _arguments
-  for (const char c : option.help) help += c == '[' || c == ']' || c == ':' ? std::string{"\\"} + c : std::string(1, c);
-  const std::string values = option.choices.empty() ? "_files" : fmt::format("({})", option.choices);
-  std::string taken;
-  for (const std::string& word : words_of(option.value)) taken += fmt::format(":{}:{}", for_shell(word), values);
-  return fmt::format("        '{}{}[{}]{}' \\\n", option.name, taken.empty() ? "" : "=", for_shell(help), taken);
-}
-
-std::string zsh_completion() {
-  const auto verb = [](const Command& c) { return fmt::format("      '{}:{}'\n", c.name, for_shell(c.summary)); };
-  const auto head = [](const Command& c) {
-    const std::string words = operand_words(c);
-    return fmt::format("    {})\n      shift words; (( CURRENT-- ))\n      _arguments \\\n", c.name) +
-           (words.empty() ? "" : fmt::format("        '1:word:({})' \\\n", words));
-  };
-  return "#compdef warren\n"
-         "# zsh completion for warren; install as _warren in a folder of $fpath\n"
-         "_warren() {\n"
-         "  if (( CURRENT == 2 )); then\n"
-         "    local -a verbs=(\n" +
-         text_of_commands(verb) + "    )\n    _describe command verbs\n    return\n  fi\n  case ${words[2]} in\n" +
-         text_of_commands(head, zsh_option, "        '*:file:_files'\n      ;;\n") + "  esac\n}\n_warren \"$@\"\n";
-}
-
-std::string fish_completion() {
-  const auto verb = [](const Command& c) {
-    const std::string words = operand_words(c);
-    return fmt::format("complete -c warren -n __fish_use_subcommand -a {} -d '{}'\n", c.name, for_shell(c.summary)) +
-           (words.empty()
-                ? ""
-                : fmt::format("complete -c warren -n '__fish_seen_subcommand_from {}' -f -a '{}'\n", c.name, words));
-  };
-  const auto option = [](const Command& c, const OptionSpec& o) {
-    return fmt::format("complete -c warren -n '__fish_seen_subcommand_from {}' -l {}{}{}{} -d '{}'\n", c.name,
-                       o.name.substr(2), o.short_name.empty() ? "" : fmt::format(" -s {}", o.short_name.substr(1)),
-                       o.value.empty() ? "" : " -r", o.choices.empty() ? "" : fmt::format(" -f -a '{}'", o.choices),
-                       for_shell(o.help));
-  };
-  return "# fish completion for warren; install in vendor_completions.d/warren.fish\n" + text_of_commands(verb) +
-         text_of_commands([](const Command&) { return ""; }, option);
-}
+constexpr std::string_view fish_script = R"(# fish completion for warren; install in vendor_completions.d/warren.fish
+function __warren_complete
+  set -l words (commandline -opc)
+  set -l typed (commandline -ct)
+  set -l lines ($words[1] complete $words[2..-1] "$typed" 2>/dev/null)
+  test (count $lines) -gt 0; or return
+  for line in $lines[1..-2]
+    echo $line
+  end
+  set -l told (string split -m 1 ' ' -- $lines[-1])
+  set -l rest (string sub -s (math 1 + (string length -- "$told[2]")) -- "$typed")
+  if string match -q '*f*' -- $told[1]
+    for file in (__fish_complete_path "$rest")
+      echo $told[2]$file
+    end
+  else if string match -q '*d*' -- $told[1]
+    for file in (__fish_complete_directories "$rest" '')
+      echo $told[2]$file
+    end
+  end
+end
+complete -c warren -f -a '(__warren_complete)'
+)";
 
 int completion(const Arguments& arguments) {
   constexpr std::string_view shells[] = {"bash", "zsh", "fish"};
-  const std::size_t shell = choice_value("SHELL", arguments.operand(0), shells);
-  print_text(shell == 0 ? bash_completion() : shell == 1 ? zsh_completion() : fish_completion());
+  constexpr std::string_view scripts[] = {bash_script, zsh_script, fish_script};
+  print_text(scripts[choice_value("SHELL", arguments.operand(0), shells)]);
   return exit_code::success;
 }
 

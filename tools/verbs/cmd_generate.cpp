@@ -33,7 +33,7 @@ constexpr OptionSpec generate_specs[] = {
      "where to: .walls .scene .npy .geojson .wkt .svg .png .html by ending; - is standard output",
      {},
      "-o"},
-    {"--seed", "N", "which world (default: 1)"},
+    {.name = "--seed", .value = "N", .help = "which world (default: 1)", .group = "Options"},
     {"--algorithm", "NAME", "how a maze is made (default: backtracker)", "backtracker kruskal prim wilson course"},
     {"--loops", "F", "fraction of a maze's remaining walls taken out, 0 to 1 (default: 0)"},
     {"--unit-walls", "", "a maze's walls one cell long instead of as long as they go"},

@@ -28,11 +28,10 @@ constexpr OptionSpec own_specs[] = {
      "planners of 'solve', apart by commas; each runs with every combination of what its options list, apart by "
      "commas; "
      "without it searches are compared"},
-    {"--searches", "LIST",
-     "of astar, dijkstra, bfs, dfs, apart by commas (default: all four; with --planners: as 'solve' chooses)"},
-    {"--queues", "LIST",
-     "of heap, lazy-heap, sorted-array, resorted-array, linear-scan, apart by commas (default: all five; with "
-     "--planners: as 'solve' chooses)"},
+    {"--searches", "LIST", "searches, apart by commas (default: all four; with --planners: as 'solve' chooses)",
+     "astar dijkstra bfs dfs"},
+    {"--queues", "LIST", "queues, apart by commas (default: all five; with --planners: as 'solve' chooses)",
+     "heap lazy-heap sorted-array resorted-array linear-scan"},
     {"--trials", "N|auto",
      "how often each search is timed (default: auto, 5 to 10000 times, about 0.25 s each); with --planners as --seeds, "
      "and those whose answer no seed changes run as often"},
@@ -43,7 +42,8 @@ constexpr OptionSpec own_specs[] = {
     {"--seeds", "N",
      "with --planners: runs of each planner, with seeds from --seed on (default: 10), but one of those whose answer no "
      "seed changes; with --sizes: graphs of each size (default: 3)"},
-    {"--samplers", "LIST", "samplers of 'solve', apart by commas, as --sampler"},
+    {"--samplers", "LIST", "samplers of 'solve', apart by commas, as --sampler",
+     "uniform lattice halton random gaussian bridge mixture corridor cell-centres"},
     {"--samples", "LIST", "numbers of samples, or auto, apart by commas"},
     {"--seed", "N", "the first seed (default: 1)"},
     {"--parallel", "",
@@ -159,10 +159,15 @@ void take_graph_options(const Arguments& arguments, CompareOptions& options) {
 std::vector<OptionSpec> compare_option_specs() {
   std::vector<OptionSpec> specs(std::begin(own_specs), std::end(own_specs));
   for (OptionSpec& spec : specs) {
-    if (spec.name == "--graph") spec.choices = planner_names();
+    if (spec.name == "--graph" || spec.name == "--planners") spec.choices = planner_names();
+    spec.is_list = spec.value == "LIST";
   }
   add_options(specs, picture_option_specs());
   add_options(specs, passed_specs());
+  for (const ListOption& option : list_options()) {
+    const auto same = [&](const OptionSpec& spec) { return spec.name == option.name; };
+    std::find_if(specs.begin(), specs.end(), same)->is_list = true;
+  }
   return specs;
 }
 

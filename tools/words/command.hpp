@@ -15,7 +15,8 @@
 namespace warren {
 
 /// One long option. `value` names what follows it, a word each; empty for a flag. `choices` lists the words it takes,
-/// blank-separated.
+/// blank-separated. What a value is completed with follows from its name: FILE, FOLDER and WORLD are files, folders and
+/// worlds, and lower-case words between bars are words that it takes.
 struct OptionSpec {
   std::string_view name;
   std::string_view value;
@@ -23,6 +24,8 @@ struct OptionSpec {
   std::string_view choices = {};
   std::string_view short_name = {};  ///< e.g. "-o"
   bool value_optional = false;       ///< the next word is its value only if it is one of the choices
+  bool is_list = false;              ///< it takes several, apart by commas
+  std::string_view group = {};       ///< of help; empty: that of its name in option_groups.hpp
 };
 
 struct Command {
@@ -49,6 +52,7 @@ Command convert_command();
 Command example_command();
 Command export_command();
 Command generate_command();
+Command help_command();
 Command info_command();
 Command largest_command();
 Command man_command();
@@ -61,5 +65,7 @@ Command verify_command();
 
 /// All verbs, in the order of --help.
 const std::vector<Command>& command_table();
+/// Throws UsageError, with the closest match.
+const Command& command_named(std::string_view name);
 
 }  // namespace warren

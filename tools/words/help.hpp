@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// --help and --version, and texts of all commands: all made from the table of commands.
+// --help and --version: made from the table of commands.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <string_view>
 
@@ -10,13 +9,15 @@
 
 namespace warren {
 
+/// The verbs, a line each.
 std::string program_help();
-std::string command_help(const Command& command);
-std::string version_text();
+/// The verb's options in groups, in lines of at most `width` columns (those of 60 at least).
+std::string command_help(const Command& command, std::size_t width);
+std::string version_text(std::string_view commit);
 
-/// The table, command by command: `head`, a line an option (without --help), `foot`.
-std::string text_of_commands(const std::function<std::string(const Command&)>& head,
-                             const std::function<std::string(const Command&, const OptionSpec&)>& line = nullptr,
-                             std::string_view foot = "");
+/// "--neighbours K|auto|star", "-o, --output FILE"; of a list "NAME[,...]" unless the name says so.
+std::string option_usage(const OptionSpec& option);
+/// What "WORLD", an operand or a value of that name, is; empty where the name says enough.
+std::string_view meaning_of(std::string_view operand);
 
 }  // namespace warren

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/words/planner_words.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "core/base/error.hpp"
@@ -12,7 +13,11 @@ namespace {
 
 constexpr OptionSpec roadmap_specs[] = {
     {"--planner", "NAME",
-     "prm checks every edge, lazy-prm only those that a search reaches (default: prm with lattice)", "prm lazy-prm"},
+     "prm checks every edge of a roadmap, lazy-prm those that a search reaches; visibility and cells find shortest "
+     "paths among obstacles, voronoi keeps far from them; rrt and rrt-connect grow trees, grid searches cells "
+     "(default: "
+     "by world and body)",
+     "prm lazy-prm"},
     {"--sampler", "NAME",
      "where milestones come from (default: lattice in mazes, cell-centres on maps of corridors a cell wide, else "
      "uniform)",
@@ -146,15 +151,23 @@ SolveOptions solve_words(const Arguments& arguments) {
   return options;
 }
 
+std::string names_of_planners(bool (*are)(PlannerKind)) {
+  std::string words;
+  for (const PlannerKind planner : planners_there_are()) {
+    if (are(planner)) words.append(words.empty() ? "" : " ").append(name_of(planner));
+  }
+  return words;
+}
+
 std::string_view planner_names() {
-  static const std::string names = [] {
-    std::string words;
-    for (const PlannerKind planner : planners_there_are()) {
-      words.append(words.empty() ? "" : " ").append(name_of(planner));
-    }
-    return words;
-  }();
+  static const std::string names = names_of_planners([](PlannerKind) { return true; });
   return names;
+}
+
+std::optional<Option> option_of_words(std::string_view words) {
+  std::string name{words.substr(2)};
+  std::replace(name.begin(), name.end(), '-', '_');
+  return enum_named<Option>(name);
 }
 
 std::vector<OptionSpec> solve_option_specs() {

@@ -3,7 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "solve/question/solve_options.hpp"
@@ -40,5 +43,9 @@ SearchMethod search_value(std::string_view option, std::string_view text, std::o
 std::optional<std::uint64_t> samples_value(std::string_view option, std::string_view text);
 /// The names of the planners that there are, blank-separated.
 std::string_view planner_names();
+/// The same of some of them.
+std::string names_of_planners(bool (*are)(PlannerKind));
+/// "--goal-bias" is Option::goal_bias; none: planners are not asked about it.
+std::optional<Option> option_of_words(std::string_view words);
 
 }  // namespace warren

@@ -9,9 +9,13 @@ namespace {
 
 constexpr OptionSpec question_specs[] = {
     {"--robot", "\"BODY\"",
-     "the moving body: \"point\", \"disc RADIUS\" or \"polygon X Y X Y ...\" (default: the file's, else point)"},
-    {"--start", "X,Y[,THETA]", "where the path begins (default: the file's)"},
-    {"--goal", "X,Y[,THETA]", "where the path ends (default: the file's)"},
+     "the moving body: \"point\", \"disc RADIUS\", \"polygon X Y X Y ...\", \"car polygon X Y ... turning RHO\", "
+     "\"puma560 radius R\" or \"arm FILE radius R\" (default: the file's, else point)"},
+    {"--start", "X,Y[,THETA]",
+     "where the path begins; THETA in radians, or as 90deg; of an arm six joints (default: the file's)"},
+    {"--goal", "X,Y[,THETA]",
+     "where the path ends; a body that turns takes any heading where none is said (default: "
+     "the file's)"},
     {"--clearance", "R",
      "room kept around the body all along the path (default: the file's, else 0.1 in mazes, else 0)"},
     {"--contact", "WORD",
