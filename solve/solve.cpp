@@ -36,13 +36,8 @@ void check_length(Verdict& verdict, const RecordedAnswer& answer) {
 }
 
 RecordedAnswer recorded(const Answer& answer) {
-  const Problem& problem = answer.problem;
   RecordedAnswer record;
-  record.problem = {.robot = problem.robot,
-                    .start = problem.start,
-                    .goal = problem.goal,
-                    .clearance = problem.clearance,
-                    .contact = problem.contact};
+  record.problem = answer.problem.question();
   record.world_hash = answer.world.hash;
   record.length = answer.length;
   record.file = "answer";

@@ -7,16 +7,20 @@
 namespace warren {
 
 struct Counters {
-  std::uint64_t samples = 0;            ///< states drawn
+  std::uint64_t samples = 0;  ///< states drawn
+  std::uint64_t kept = 0;     ///< of samples, the states that became milestones: free, and as the sampler wants
   std::uint64_t neighbour_queries = 0;  ///< k-nearest or radius queries
   std::uint64_t edges_checked = 0;      ///< motions tested for collision
+  std::uint64_t edges_free = 0;         ///< of edges_checked, those that nothing blocks
   std::uint64_t expanded = 0;           ///< vertices settled by the search
   std::uint64_t rounds = 0;             ///< roadmaps built, lazy repairs or batches of trees made
   std::uint64_t refused = 0;            ///< motions that were neither proved free nor blocked, of edges_checked
   Counters& operator+=(const Counters& o) {
     samples += o.samples;
+    kept += o.kept;
     neighbour_queries += o.neighbour_queries;
     edges_checked += o.edges_checked;
+    edges_free += o.edges_free;
     expanded += o.expanded;
     rounds += o.rounds;
     refused += o.refused;

@@ -37,9 +37,12 @@ struct RoadmapSize {
 /// Why start and goal are not joined: sizes of their components, and the shortest distance between a milestone of one
 /// and a milestone of the other (in the world's metric).
 struct Separation {
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   std::uint64_t start_size = 0;
   std::uint64_t goal_size = 0;
-  double nearest_gap = std::numeric_limits<double>::quiet_NaN();
+  double nearest_gap = unknown;
+  std::array<double, 2> near_start{unknown, unknown};  ///< where these two stand, of bodies of the plane: x and y
+  std::array<double, 2> near_goal{unknown, unknown};
 };
 
 template <class State>

@@ -93,7 +93,11 @@ class Ask {
   void attach_one_way(std::size_t end, Heading heading);
   /// Is the motion free? A lazy roadmap leaves that to the search.
   bool may_be_free(const State& from, const State& to, typename W::Query& query) {
-    return roadmap_.is_lazy() || (++solution_.counters.edges_checked, world_.is_free_motion(from, to, query));
+    if (roadmap_.is_lazy()) return true;
+    ++solution_.counters.edges_checked;
+    const bool free = world_.is_free_motion(from, to, query);
+    solution_.counters.edges_free += free ? 1 : 0;
+    return free;
   }
   void search();
   SearchResult search_plainly(VertexId from, VertexId to, SearchState& state);

@@ -75,6 +75,7 @@ class AskedNeighbours {
       if (!visit.wants(w, length)) return;
       if (++counters_.edges_checked % checks_per_poll == 0) execution_->check();
       if (!roadmap_->world().is_free_motion(state(v), state(w), query_)) return;
+      ++counters_.edges_free;
       ++free_edges_;
     }
     visit(w, length);
@@ -85,6 +86,7 @@ class AskedNeighbours {
     const VertexId from = one_way ? v : std::min(v, w);
     const VertexId to = one_way ? w : std::max(v, w);
     const bool free = roadmap_->world().is_free_motion(state(from), state(to), query_);
+    counters_.edges_free += free ? 1 : 0;
     const EdgeState answer = free ? EdgeState::free : EdgeState::blocked;
     roadmap_->known().learn(end, answer);
     if (!one_way) roadmap_->known().learn(end_of_edge(roadmap_->candidates(), w, v), answer);

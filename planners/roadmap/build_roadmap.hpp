@@ -107,6 +107,7 @@ void RoadmapBuild<W>::round(std::uint64_t samples, bool check) {
     const StageTimer timer(execution_, "sample", built_.seconds.sample, samples);
     index_ = {};
     built_.states = draw_milestones(world_, options_, samples, execution_);
+    built_.counters.kept += built_.states.size();
   }
   {
     const StageTimer timer(execution_, "neighbours", built_.seconds.neighbours, built_.states.size());

@@ -173,6 +173,7 @@ EdgeParts connect_milestones(const W& world, std::span<const typename W::State> 
                         typename W::Query& query) {
     const std::uint32_t bits = detail::free_motions(world, motions, query);
     done[chunk].edges_checked += motions.size();
+    done[chunk].edges_free += static_cast<std::uint64_t>(std::popcount(bits));
     done[chunk].refused = refused_motions(query);  // one query a chunk
     return bits;
   };
@@ -210,6 +211,7 @@ RawVector<Edge> attach_within_growing_radius(const W& world, std::span<const typ
       if (world.is_free_motion(state, milestones[near[tried].id], query)) edges.push_back({near[tried].id, vertex});
     }
   }
+  counters.edges_free += edges.size();
   counters.refused += refused_motions(query);
   return edges;
 }
@@ -250,6 +252,7 @@ RawVector<Edge> attach(const W& world, std::span<const typename W::State> milest
     index.nearest(at, farthest, no_vertex, near);
     try_all(true);
   }
+  counters.edges_free += edges.size();
   counters.refused += refused_motions(query);
   return edges;
 }
@@ -268,7 +271,10 @@ RawVector<Edge> attach_start_and_goal(const W& world, std::span<const typename W
   if (world.distance(start, goal) > direct_reach(rule)) return edges;
   auto query = world.make_query();
   ++counters.edges_checked;
-  if (world.is_free_motion(start, goal, query)) edges.push_back({start_vertex, goal_vertex});
+  if (world.is_free_motion(start, goal, query)) {
+    edges.push_back({start_vertex, goal_vertex});
+    ++counters.edges_free;
+  }
   counters.refused += refused_motions(query);
   return edges;
 }

@@ -68,6 +68,7 @@ class LazyGraph {
       if (!visit.wants(w, length)) return;
       if (++counters_.edges_checked % checks_per_poll == 0) execution_->check();
       if (!world_.is_free_motion(states_[std::min(v, w)], states_[std::max(v, w)], query_)) return;
+      ++counters_.edges_free;
       ++free_edges_;
       if (recorded_ != nullptr) recorded_->push_back({std::min(v, w), std::max(v, w)});
       visit(w, length);

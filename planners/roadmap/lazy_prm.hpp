@@ -159,6 +159,7 @@ RawVector<VertexId> LazyPlan<W>::search_paths() {
   RawVector<VertexId> path = search.run();
   solution_.counters.expanded += search.expanded();
   solution_.counters.edges_checked += search.checked();
+  solution_.counters.edges_free += search.free_edges().size();
   solution_.roadmap.edges += search.free_edges().size();
   free_edges_.assign(end_edges_.begin(), end_edges_.end());
   free_edges_.insert(free_edges_.end(), search.free_edges().begin(), search.free_edges().end());

@@ -64,6 +64,7 @@ class OneWayPlan : public Rounds<W> {
     if (way.state == Check::unknown) {
       if (++counters.edges_checked % checks_per_poll == 0) execution_.check();
       way.state = world_.is_free_motion(states_[from], states_[way.to], query) ? Check::free : Check::blocked;
+      counters.edges_free += way.state == Check::free ? 1 : 0;
     }
     return way.state == Check::free;
   }

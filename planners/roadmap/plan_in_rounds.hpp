@@ -42,6 +42,7 @@ class Rounds {
     solution_.counters.samples += samples;
     const StageTimer timer(execution_, "sample", solution_.seconds.sample, samples);
     states_ = draw_milestones(world_, options_, samples, execution_);
+    solution_.counters.kept += states_.size();
     states_.push_back(start_);
     states_.push_back(goal_);
     solution_.roadmap = {states_.size(), 0, 0, samples};

@@ -3,6 +3,8 @@
 // of the smaller component against an index over the larger: O(n).
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <limits>
 #include <span>
 #include <vector>
@@ -18,20 +20,38 @@ namespace warren {
 /// Of two sets of points, neither of them empty; the order of the points does not matter.
 template <int D>
 Separation separation_between(std::vector<PointOf<D>> start, std::vector<PointOf<D>> goal, const Execution& execution) {
-  Separation result{start.size(), goal.size(), 0.0};
+  Separation result{.start_size = start.size(), .goal_size = goal.size()};
   const bool start_is_smaller = start.size() <= goal.size();
   const auto& small = start_is_smaller ? start : goal;
-  const KdTree<D> index(start_is_smaller ? goal : start, execution);  // a grid would search long where points are far
+  const auto& large = start_is_smaller ? goal : start;
+  const KdTree<D> index(large, execution);  // a grid would search long where points are far
   constexpr std::size_t grain = 1024;
-  std::vector<double> gaps(chunk_count(small.size(), grain), std::numeric_limits<double>::infinity());
+  struct Gap {
+    double distance = std::numeric_limits<double>::infinity();
+    std::size_t small = 0;
+    std::size_t large = 0;
+  };
+  std::vector<Gap> gaps(chunk_count(small.size(), grain));
   for_chunks(small.size(), grain, execution, [&](Range r) {
     std::vector<Neighbour> near;
     for (std::size_t i = r.first; i < r.last; ++i) {
       index.nearest(small[i], 1, no_vertex, near);
-      gaps[r.first / grain] = std::min(gaps[r.first / grain], near.front().distance);
+      Gap& least = gaps[r.first / grain];
+      if (near.front().distance < least.distance) least = {near.front().distance, i, near.front().id};
     }
   });
-  result.nearest_gap = *std::min_element(gaps.begin(), gaps.end());
+  const Gap least =
+      *std::min_element(gaps.begin(), gaps.end(), [](const Gap& a, const Gap& b) { return a.distance < b.distance; });
+  result.nearest_gap = least.distance;
+  const auto place = [](const PointOf<D>& point) {
+    if constexpr (D == 2) {
+      return std::array{point.x, point.y};
+    } else {
+      return std::array{point[0], point[1]};
+    }
+  };
+  result.near_start = place(start_is_smaller ? small[least.small] : large[least.large]);
+  result.near_goal = place(start_is_smaller ? large[least.large] : small[least.small]);
   return result;
 }
 

@@ -180,6 +180,7 @@ auto Redriving<Driver>::cheaper(double most) -> Path<State> {
     if (is_settled(arrival.place, arrival.way.last_gear)) continue;
     ++counters_.edges_checked;
     if (!driver_.is_free_way(arrival.way, query_)) continue;
+    ++counters_.edges_free;
     settled_[arrival.place][slot(arrival.way.last_gear)] = next;
     if (arrival.place + 1 < places_.size()) {
       expand(arrival.place, next, open);

@@ -79,7 +79,9 @@ class Shortener {
   double length_between(const Place& p, const Place& q) const;
   bool is_free(const State& a, const State& b, typename W::Query& query, Counters& counters) const {
     ++counters.edges_checked;
-    return world_.is_free(b, query) && world_.is_free_motion(a, b, query);
+    const bool free = world_.is_free(b, query) && world_.is_free_motion(a, b, query);
+    counters.edges_free += free ? 1 : 0;
+    return free;
   }
   Change shortcut(std::uint64_t round, std::uint64_t index, const std::vector<double>& along, typename W::Query& query,
                   Counters& counters) const;

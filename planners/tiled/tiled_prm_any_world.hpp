@@ -153,6 +153,7 @@ void TiledRoadmapPlan<W>::check_tile(Range tile, const StateIndex<W>& index, con
   const auto flush = [&] {
     std::uint32_t kept = free_motions(world_, bunch.motions(), query);
     counters.edges_checked += bunch.motions().size();
+    counters.edges_free += static_cast<std::uint64_t>(std::popcount(kept));
     for (; kept != 0; kept &= kept - 1) free(bunch.edges()[static_cast<std::size_t>(std::countr_zero(kept))]);
     bunch.clear();
   };

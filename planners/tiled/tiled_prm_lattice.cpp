@@ -121,8 +121,11 @@ void TiledPlan::reduce_tiles() {
     solution_.roadmap.edges += tile.free_edges;
     solution_.roadmap.components += tile.closed_components;
     solution_.counters.edges_checked += tile.candidate_edges;
+    solution_.counters.edges_free += tile.free_edges;
   }
   const std::uint64_t links = ends_.start.links.size() + ends_.goal.links.size() + (ends_.direct ? 1 : 0);
+  solution_.counters.kept = solution_.roadmap.milestones;
+  solution_.counters.edges_free += links;
   solution_.counters.neighbour_queries = solution_.roadmap.milestones + ends_.start.queries + ends_.goal.queries;
   solution_.counters.edges_checked +=
       ends_.start.checked + ends_.goal.checked + (is_direct_candidate(problem_.start, problem_.goal) ? 1 : 0);

@@ -51,6 +51,7 @@ class MotionTree {
     const bool is_free = forward ? world_->is_free_motion(states_[from], state, query)
                                  : world_->is_free_motion(state, states_[from], query);
     if (!is_free) return std::nullopt;
+    ++counters.edges_free;
     return add(state, from);
   }
   /// Grows one motion from `from` all the way to `to`: its vertex, or nothing where `to` or the motion is not free.
@@ -61,6 +62,7 @@ class MotionTree {
     const bool is_free =
         forward ? world_->is_free_motion(states_[from], to, query) : world_->is_free_motion(to, states_[from], query);
     if (!is_free) return std::nullopt;
+    ++counters.edges_free;
     return add(to, from);
   }
   /// Grows from `from` towards `to` step by step: the last vertex, which stands at `to` where nothing is in the way.

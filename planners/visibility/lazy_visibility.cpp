@@ -23,6 +23,7 @@ SearchResult lazy_visibility_search(const VisibleCorners& corners, Vec2 start, V
       sight.taut_from_vertex(v, at(state.parent(v)), goal, seen);
     }
     counters.edges_checked += seen.size();
+    counters.edges_free += seen.size();
     for (const VertexId w : seen) {
       const VertexId to = w == CornerSight::target ? n + 1 : w;
       visit(to, distance(at(v), at(to)));

@@ -11,6 +11,7 @@
 #include "core/base/path.hpp"
 #include "core/base/solution.hpp"
 #include "parallel/deadline.hpp"
+#include "solve/answer/explanation.hpp"
 #include "solve/answer/state_list.hpp"
 #include "solve/answer/world_account.hpp"
 #include "solve/question/figure.hpp"
@@ -47,10 +48,11 @@ struct Answer {
   Outcome outcome = Outcome::stopped;
   std::optional<StopReason> stop_reason;  ///< only for stopped
   bool verified = false;
-  std::optional<BlockedEnd> blocked;   ///< where solve() was asked, not in studies
-  std::optional<RefutedPath> refuted;  ///< the answer says nothing else of that path
-  double length = 0.0;                 ///< only where verified, as all that is said of the path
-  double min_clearance = 0.0;          ///< room around the body along the path
+  std::optional<BlockedEnd> blocked;     ///< where solve() was asked, not in studies
+  std::optional<Explanation> explained;  ///< where explain_answer() was asked
+  std::optional<RefutedPath> refuted;    ///< the answer says nothing else of that path
+  double length = 0.0;                   ///< only where verified, as all that is said of the path
+  double min_clearance = 0.0;            ///< room around the body along the path
   std::optional<double> raw_length;
   bool optimal = false;            ///< proved: no shorter path exists
   std::optional<double> cost;      ///< in the planner's own units, where that is not the length

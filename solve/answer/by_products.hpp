@@ -12,6 +12,7 @@
 #include "core/plane/polygon.hpp"
 #include "core/plane/se2.hpp"
 #include "planners/roadmap/planned_roadmap.hpp"
+#include "worlds/arms/serial_chain.hpp"
 
 namespace warren {
 
@@ -35,7 +36,8 @@ struct ByProducts {
   PlannedRoadmap<Vec2> roadmap;             ///< of points and discs
   std::vector<PlannedRoadmap<Vec2>> trees;  ///< of points and discs: the trees of each leg of a path
   std::vector<PlannedRoadmap<Se2>>
-      pose_roadmaps;  ///< of turning bodies and cars: the roadmap, or the trees of each leg
+      pose_roadmaps;                         ///< of turning bodies and cars: the roadmap, or the trees of each leg
+  PlannedRoadmap<JointState> joint_roadmap;  ///< of arms
   std::vector<NamedLines> lines;
   std::vector<HeadingCells> headings;
 };

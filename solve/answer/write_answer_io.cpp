@@ -9,6 +9,8 @@
 #include <type_traits>
 #include <variant>
 
+#include "solve/answer/explanation_text.hpp"
+
 namespace warren {
 namespace {
 
@@ -55,8 +57,10 @@ std::string options_json(const Answer& answer) {
 std::string counters_json(const Counters& counters) {
   JsonObject json;
   json.add("samples", counters.samples);
+  json.add("kept", counters.kept);
   json.add("neighbour_queries", counters.neighbour_queries);
   json.add("edges_checked", counters.edges_checked);
+  json.add("edges_free", counters.edges_free);
   json.add("expanded", counters.expanded);
   json.add("rounds", counters.rounds);
   json.add("refused", counters.refused);
@@ -148,6 +152,7 @@ void add_work(JsonObject& json, const Answer& answer) {
     json.add_json("components", separation_json(answer.separation));
   }
   json.add_json("counters", counters_json(answer.counters));
+  if (answer.explained) json.add_json("explained", explanation_json(answer));
   json.add_json("stages_s", stages_json(answer.seconds));
   json.add("solve_s", answer.solve_s);
   json.add("peak_memory_bytes", std::uint64_t{answer.peak_memory_bytes});

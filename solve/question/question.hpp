@@ -37,6 +37,9 @@ struct Problem {
   std::vector<double> goal;   ///< a turning body's may have 2: any heading
   double clearance = 0.0;     ///< around the body; finite, >= 0
   Contact contact = Contact::blocked;
+
+  /// The question that says all of it.
+  Question question() const { return {robot, start, goal, clearance, contact}; }
 };
 
 /// A point or disc among walls and polygons.

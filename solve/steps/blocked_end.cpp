@@ -76,15 +76,7 @@ class BlockedEndSearch {
   std::optional<Violation> met() const { return judged(scene_, state_).first_violation; }
 
   /// Where the reference point may be at all; of obstacles without bounds, the box that they fill.
-  Box room() const {
-    if (!scene_.map) return scene_.bounds ? *scene_.bounds : obstacle_box(scene_, execution_);
-    const Box cells{{0.0, 0.0}, {static_cast<double>(scene_.map->width()), static_cast<double>(scene_.map->height())}};
-    Box box;
-    for (const double x : {cells.min.x, cells.max.x}) {
-      for (const double y : {cells.min.y, cells.max.y}) box.include(world_point(*scene_.map, {x, y}));
-    }
-    return box;
-  }
+  Box room() const { return room_of(scene_, execution_); }
 
   /// The nearest free place with the same heading that rings of places around find, from the room's rim where the end
   /// lies outside.
@@ -124,11 +116,9 @@ class BlockedEndSearch {
   static constexpr int directions = 48;
 
   Question question_at(const std::vector<double>& state) const {
-    return {.robot = problem_.robot,
-            .start = state,
-            .goal = state,
-            .clearance = problem_.clearance,
-            .contact = problem_.contact};
+    Question question = problem_.question();
+    question.start = question.goal = state;
+    return question;
   }
   Verdict judged(const Scene& scene, const std::vector<double>& state) const {
     RecordedAnswer stay;
@@ -216,6 +206,16 @@ std::string hint_of(const std::vector<double>& state, BlockedEndSearch& search) 
 }
 
 }  // namespace
+
+Box room_of(const Scene& scene, const Execution& execution) {
+  if (!scene.map) return scene.bounds ? *scene.bounds : obstacle_box(scene, execution);
+  const Box cells{{0.0, 0.0}, {static_cast<double>(scene.map->width()), static_cast<double>(scene.map->height())}};
+  Box box;
+  for (const double x : {cells.min.x, cells.max.x}) {
+    for (const double y : {cells.min.y, cells.max.y}) box.include(world_point(*scene.map, {x, y}));
+  }
+  return box;
+}
 
 void explain_blocked_end(const Scene& scene, Answer& answer, const Execution& execution) {
   if (!is_blocked(answer.outcome)) return;

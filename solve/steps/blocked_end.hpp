@@ -13,4 +13,8 @@ namespace warren {
 /// Fills in answer.blocked where start or goal is blocked. What stops meanwhile leaves it as far as it has come.
 void explain_blocked_end(const Scene& scene, Answer& answer, const Execution& execution);
 
+/// The box in which reference points of bodies of the plane may be: map, bounds, or what the obstacles fill. Throws
+/// Stopped.
+Box room_of(const Scene& scene, const Execution& execution);
+
 }  // namespace warren

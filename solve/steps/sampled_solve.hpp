@@ -240,7 +240,7 @@ PlannedRoadmap<typename SampledSolve<Body>::State>* SampledSolve<Body>::kept() {
     if (by_roadmap()) request_.keep->pose_roadmaps.clear();
     return &request_.keep->pose_roadmaps.emplace_back();
   } else {
-    return nullptr;
+    return by_roadmap() ? &request_.keep->joint_roadmap : nullptr;
   }
 }
 

@@ -75,6 +75,8 @@ class Matrix : public testing::TestWithParam<MatrixWorld> {
                        const std::vector<std::vector<double>>& path) const;
   void check_why_blocked(const MatrixBody& body, bool may_touch, const ProgramAnswer& answer) const;
 
+  static void check_explained(const ProgramAnswer& answer, const std::string& summary);
+
   void ask_planner(const MatrixBody& body, const PlannerRow& planner, const PlannerField* field, bool optimise);
   void ask_kept_roadmap(const MatrixBody& body, const std::string& planner, bool is_kept);
   void ask_judges(const MatrixBody& body, const std::string& planner, const ProgramAnswer& answer);
@@ -224,6 +226,25 @@ void Matrix::check_why_blocked(const MatrixBody& body, bool may_touch, const Pro
   EXPECT_FALSE(wrong.has_value()) << "the free place: " << *wrong;
 }
 
+/// What is told of samples and motions adds up, and where there is no path something is said that would help, but where
+/// nothing would.
+void Matrix::check_explained(const ProgramAnswer& answer, const std::string& summary) {
+  ASSERT_EQ(answer.samples.size(), 3U);
+  ASSERT_EQ(answer.motions.size(), 4U);
+  for (const auto* counts : {&answer.samples, &answer.motions}) {
+    for (const long long count : *counts) EXPECT_GE(count, 0);
+  }
+  EXPECT_LE(answer.samples[1] + answer.samples[2], answer.samples[0]);
+  EXPECT_EQ(answer.motions[1] + answer.motions[2] + answer.motions[3], answer.motions[0]);
+  EXPECT_NE(summary.find("time went to"), std::string::npos) << summary;
+  const bool tries = summary.find("\n  try ") != std::string::npos;
+  if (answer.status == "not_connected") {
+    EXPECT_TRUE(tries) << summary;
+  } else if (answer.status == "solved" || answer.status == "infeasible") {
+    EXPECT_FALSE(tries) << summary;
+  }
+}
+
 /// One field of the table: solve, verify, and the matrix's own look at every place of the path.
 void Matrix::ask_planner(const MatrixBody& body, const PlannerRow& planner, const PlannerField* field, bool optimise) {
   const std::string name = world().name + "/" + body.name + "/" + planner.name + (optimise ? "/optimise" : "");
@@ -245,7 +266,7 @@ void Matrix::ask_planner(const MatrixBody& body, const PlannerRow& planner, cons
   }
   for (const std::string& word : limits_of(planner.name)) arguments.push_back(word);
   const std::string file = folder_.path("answer.json");
-  for (const char* word : {"--quiet", "--budget", "30s", "--json"}) arguments.emplace_back(word);
+  for (const char* word : {"--explain", "--budget", "30s", "--json"}) arguments.emplace_back(word);
   arguments.push_back(file);
   for (const std::string& word : path_words(body)) arguments.push_back(word);
   SCOPED_TRACE(shown(arguments));
@@ -255,6 +276,7 @@ void Matrix::ask_planner(const MatrixBody& body, const PlannerRow& planner, cons
   EXPECT_EQ(outcome.code == 0, answer.status == "solved");
   EXPECT_EQ(answer.verified, answer.status == "solved");
   EXPECT_NE(answer.status, "stopped");
+  check_explained(answer, outcome.out);
   const bool may_touch = body.kind == "point" && keeps_angle(planner.name);
   check_ends(body, ends_of(body, turns), may_touch, answer.status);
   check_why_blocked(body, may_touch, answer);

@@ -17,6 +17,12 @@ const char* value_of(const std::string& json, const std::string& key) {
   return *value == ' ' ? value + 1 : value;
 }
 
+std::vector<long long> counts_in(const std::string& object, const std::vector<std::string>& keys) {
+  std::vector<long long> counts;
+  for (const std::string& key : keys) counts.push_back(std::strtoll(value_of(object, key), nullptr, 10));
+  return counts;
+}
+
 /// [[1, 2], [3, 4]]; a list by itself is one of lists.
 std::vector<std::vector<double>> lists_at(const char* c) {
   std::vector<std::vector<double>> lists;
@@ -55,6 +61,11 @@ ProgramAnswer read_program_answer(const std::string& json) {
   };
   answer.length = number_of("length");
   if (json.find("\"expanded\": ") != std::string::npos) answer.expanded = number_of("expanded");
+  if (json.find("\"explained\": ") != std::string::npos) {
+    const std::string explained = value_of(json, "explained");
+    answer.samples = counts_in(value_of(explained, "samples"), {"drawn", "kept", "dropped"});
+    answer.motions = counts_in(value_of(explained, "motions"), {"checked", "free", "blocked", "undecided"});
+  }
   answer.path = lists_at(value_of(json, "path"));
   answer.says_why_blocked = json.find("\"blocked\": {") != std::string::npos;
   if (answer.says_why_blocked) {

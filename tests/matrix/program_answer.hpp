@@ -14,6 +14,9 @@ struct ProgramAnswer {
   std::string expanded;  ///< of the counters, likewise; empty where nothing was searched
   std::vector<std::vector<double>> path;
   bool says_why_blocked = false;
+  /// What --explain says of samples (drawn, kept, dropped) and of motions (checked, free, blocked, undecided).
+  std::vector<long long> samples;
+  std::vector<long long> motions;
   std::vector<double> free_place;  ///< near a blocked end; empty where none is told
 };
 

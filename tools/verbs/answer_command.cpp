@@ -11,6 +11,7 @@
 #include "pictures/answer_summary.hpp"
 #include "pictures/draw_answer.hpp"
 #include "pictures/formats/write_picture.hpp"
+#include "solve/answer/explanation_text.hpp"
 #include "solve/answer/write_answer_io.hpp"
 #include "solve/roadmaps/roadmap_file_io.hpp"
 #include "solve/steps/solve_steps.hpp"
@@ -25,6 +26,7 @@ namespace {
 
 constexpr OptionSpec output_specs[] = {
     {"--json", "FILE", "write the answer as JSON; - is standard output"},
+    {"--explain", "", "say what became of samples and motions, where it is narrow, and what would likely help"},
     {"--svg", "FILE", "draw the world, roadmap, search and path: .svg .png .pdf .html by ending"},
 };
 
@@ -46,6 +48,7 @@ std::vector<OptionSpec> answer_output_specs() {
 
 AnswerCommand::AnswerCommand(const Arguments& arguments, std::string_view keep)
     : arguments_(arguments),
+      explains_(arguments.has("--explain")),
       json_(output_file(arguments, "--json").value_or("")),
       svg_(output_file(arguments, "--svg").value_or("")),
       roadmap_(output_file(arguments, keep).value_or("")),
@@ -61,7 +64,8 @@ int AnswerCommand::run() {
   run.end();
   write_outputs(run);
   const auto stopped = answer_.outcome == Outcome::stopped ? std::optional(stop_reason()) : std::nullopt;
-  run.conclude(takes_standard_output(), stopped, [&] { return summary_of(answer_, run.palette(), written_); });
+  run.conclude(takes_standard_output(), stopped,
+               [&] { return summary_of(answer_, run.palette(), written_) + explanation_text(answer_, run.palette()); });
   return exit_code();
 }
 
@@ -72,7 +76,7 @@ bool AnswerCommand::takes_standard_output() const {
 void AnswerCommand::answer(const Run& run) {
   StageTimes before;
   try {
-    answer_ = find(run, before, svg_.empty() ? nullptr : &by_products_);
+    answer_ = find(run, before, svg_.empty() && !explains_ ? nullptr : &by_products_);
   } catch (const Stopped& stopped) {
     answer_.stop_reason = stopped.reason;
   } catch (const std::bad_alloc&) {
@@ -88,6 +92,7 @@ void AnswerCommand::answer(const Run& run) {
 /// What is on disk says the same as the exit code: a stop while something is written makes it a stopped answer.
 void AnswerCommand::write_outputs(const Run& run) {
   try {
+    if (explains_ && !answer_.world.kind.empty()) explain(run.execution(), answer_, by_products_);
     if (answer_.outcome != Outcome::stopped) return write_finished(run.execution());
   } catch (const Stopped& stopped) {
     take_back_answer(stopped.reason);

@@ -41,6 +41,8 @@ class AnswerCommand {
   virtual Answer find(const Run& run, StageTimes& before, ByProducts* keep) = 0;
   /// The world of the picture, which needs it no more, and what find() has left out of `keep`.
   virtual Scene scene_drawn(const Execution& execution, ByProducts& keep) = 0;
+  /// Fills in answer.explained; only after find(), with what that has kept. Throws Stopped.
+  virtual void explain(const Execution& execution, Answer& answer, ByProducts& keep) = 0;
   /// What goes to the file of `keep`; only after find().
   virtual const Roadmap& roadmap() const = 0;
   /// Throws UsageError where the path of this body can't be written as it was asked for; find() calls it.
@@ -62,6 +64,7 @@ class AnswerCommand {
   StopReason stop_reason() const { return answer_.stop_reason.value_or(StopReason::time); }
   int exit_code() const;
 
+  bool explains_;
   std::string json_;
   std::string svg_;
   std::string roadmap_;

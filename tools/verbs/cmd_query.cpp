@@ -16,6 +16,7 @@
 #include "solve/roadmaps/ask_matrix_io.hpp"
 #include "solve/roadmaps/roadmap_file_io.hpp"
 #include "solve/steps/blocked_end.hpp"
+#include "solve/steps/explain_answer.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_names.hpp"
 #include "tools/screen/roadmap_files.hpp"
@@ -60,6 +61,9 @@ class QueryCommand : public AnswerCommand {
     return answer;
   }
   Scene scene_drawn(const Execution& execution, ByProducts&) override { return roadmap_.world.whole(execution); }
+  void explain(const Execution& execution, Answer& answer, ByProducts& keep) override {
+    explain_answer(roadmap_.world.whole(execution), answer, keep, execution);
+  }
   const Roadmap& roadmap() const override { return roadmap_; }
 
   Question question_;
@@ -74,7 +78,7 @@ class ManyQuestions {
       : arguments_(arguments),
         options_{how_to_search(arguments), arguments.has("--lengths-only"), arguments.has("--csv")},
         keep_file_(output_file(arguments, "--keep")) {
-    for (const std::string_view option : {"--start", "--goal", "--json", "--svg"}) {
+    for (const std::string_view option : {"--start", "--goal", "--json", "--svg", "--explain"}) {
       if (arguments.has(option)) throw UsageError(fmt::format("{}: is for one question; {} has many", option, of));
     }
   }

@@ -5,6 +5,7 @@
 #include "solve/roadmaps/solve_and_keep.hpp"
 #include "solve/solve.hpp"
 #include "solve/steps/blocked_end.hpp"
+#include "solve/steps/explain_answer.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 #include "tools/screen/output_conflicts.hpp"
 #include "tools/screen/world_files.hpp"
@@ -44,14 +45,25 @@ class SolveCommand : public AnswerCommand {
   }
   Scene scene_drawn(const Execution& execution, ByProducts& keep) override {
     if (keeps_roadmap()) return roadmap_.world.whole(execution);
-    make_by_products(scene_, question_, options_, execution, keep);
+    complete(execution, keep);
     return std::move(scene_);
+  }
+  void explain(const Execution& execution, Answer& answer, ByProducts& keep) override {
+    if (keeps_roadmap()) return explain_answer(roadmap_.world.whole(execution), answer, keep, execution);
+    if (answer.outcome != Outcome::stopped) complete(execution, keep);
+    explain_answer(scene_, answer, keep, execution);
+  }
+  /// Once.
+  void complete(const Execution& execution, ByProducts& keep) {
+    if (!completed_) make_by_products(scene_, question_, options_, execution, keep);
+    completed_ = true;
   }
   const Roadmap& roadmap() const override { return roadmap_; }
 
   Question question_;
   SolveOptions options_;
   Scene scene_;
+  bool completed_ = false;
   Roadmap roadmap_;
 };
 

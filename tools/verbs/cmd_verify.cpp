@@ -2,12 +2,17 @@
 // warren verify: is the path of an answer free, all along and with all its clearance? Decided by verify/ alone.
 #include <fmt/format.h>
 
+#include <optional>
+#include <string>
+
 #include "core/base/error.hpp"
 #include "scenes/text/human_units.hpp"
 #include "scenes/text/output_file_io.hpp"
+#include "solve/answer/explanation_text.hpp"
 #include "solve/answer/read_answer_io.hpp"
 #include "solve/answer/write_answer_io.hpp"
 #include "solve/solve.hpp"
+#include "solve/steps/explain_answer.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_conflicts.hpp"
 #include "tools/screen/output_names.hpp"
@@ -22,14 +27,15 @@ namespace {
 
 constexpr OptionSpec verify_specs[] = {
     {"--json", "FILE", "write the verdict as JSON; - is standard output"},
+    {"--explain", "", "say where along the path there is least room"},
 };
 
-std::string verdict_json(const Verification& v) {
+std::string verdict_json(const Verification& v, const std::string& more) {
   const std::string violation = v.first_violation ? violation_json(*v.first_violation) : "null";
   return fmt::format(
       "{{\"schema\": \"warren.verify/1\",\n \"verified\": {},\n \"length\": {},\n \"min_clearance\": {},\n "
-      "\"first_violation\": {}}}\n",
-      v.verified, json_number(v.length), json_number(v.min_clearance), violation);
+      "\"first_violation\": {}{}}}\n",
+      v.verified, json_number(v.length), json_number(v.min_clearance), violation, more);
 }
 
 void print_verdict(const Verdict& v, const Palette& palette) {
@@ -59,9 +65,18 @@ int verify_answer(const Arguments& arguments) {
     const StageTimer timer(run.execution(), "verify", seconds.verify, answer.path.size() + scene.walls.size());
     verdict = verify_within(scene, question, answer, run.execution());
   }
+  const bool explains = arguments.has("--explain");
+  std::optional<NarrowPlace> narrow;
+  if (explains && verdict.verified) {
+    narrow = narrowest_place(scene, verdict.problem.question(), answer, verdict.min_clearance, run.execution());
+  }
   run.end();
-  if (json) write_file(*json, verdict_json(verdict), run.execution());
-  if (!run.quiet() && json != "-") print_verdict(verdict, run.palette());
+  const std::string more = explains ? ",\n \"narrowest\": " + narrowest_json(narrow) : "";
+  if (json) write_file(*json, verdict_json(verdict, more), run.execution());
+  if (!run.quiet() && json != "-") {
+    print_verdict(verdict, run.palette());
+    if (narrow) print_text(text_of(*narrow) + "\n");
+  }
   return verdict.verified ? exit_code::success : exit_code::no_path;
 }
 

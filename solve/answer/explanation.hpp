@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What became of the work of a solve beyond what its answer tells anyhow: which stage lost what, where it is narrow,
+// and what would likely help. Plain data; exact, and the same for any number of threads.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/types.hpp"
+
+namespace warren {
+
+/// Of the graph of a roadmap all of whose edges were checked; start and goal count as milestones.
+struct ComponentFacts {
+  std::uint64_t count = 0;
+  std::uint64_t milestones = 0;  ///< in all of them
+  std::uint64_t largest = 0;     ///< milestones in the largest
+  std::uint64_t alone = 0;       ///< components of one milestone
+  std::uint64_t of_start = 0;    ///< milestones in the one of the start
+  std::uint64_t of_goal = 0;
+  bool joined = false;  ///< are start and goal in one?
+};
+
+/// Where the body has least room along the path.
+struct NarrowPlace {
+  std::uint64_t leg = 0;      ///< from this state of the path to the next, from 0
+  std::optional<Vec2> place;  ///< of the reference point; of bodies that turn where the leg begins, of arms none
+  double clearance = 0.0;
+  /// Of so many uniform samples one falls into a square as wide as that room; of paths over samples alone.
+  std::optional<double> one_sample_in;
+};
+
+struct Explanation {
+  std::optional<ComponentFacts> components;  ///< of prm, where the graph is there and its edges lead both ways
+  std::optional<NarrowPlace> narrowest;      ///< of a path that keeps a distance
+  std::vector<std::string> hints;  ///< what would likely help where there is no path; options as the program has them
+};
+
+}  // namespace warren

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/answer/explanation_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/base/printable.hpp"
+#include "scenes/text/human_units.hpp"
+#include "scenes/text/json_text.hpp"
+#include "solve/question/solve_options.hpp"
+
+namespace warren {
+namespace {
+
+/// "15.0 %"; of nothing nothing.
+std::string share(std::uint64_t part, std::uint64_t whole) {
+  if (whole == 0) return "0 %";
+  return fmt::format("{:.1f} %", 100.0 * static_cast<double>(part) / static_cast<double>(whole));
+}
+
+/// Of edges_checked: what is neither free nor refused.
+std::uint64_t blocked_edges(const Counters& c) { return c.edges_checked - c.edges_free - c.refused; }
+
+bool by_trees(const Answer& answer) {
+  return answer.planner == name_of(PlannerKind::rrt) || answer.planner == name_of(PlannerKind::rrt_connect);
+}
+
+/// Samplers that look for free states take others, too, and drop them.
+std::string_view why_dropped(const Answer& answer) {
+  for (const std::string_view seeking : {"gaussian", "bridge", "mixture"}) {
+    if (answer.sampler == seeking) return "dropped: in obstacles, or not where the sampler looks";
+  }
+  return "in obstacles or out of bounds";
+}
+
+class Lines {
+ public:
+  explicit Lines(const Palette& palette) : palette_(palette) {}
+  void add(std::string_view name, std::string_view what) {
+    text_ += fmt::format("  {}{}\n", palette_.faint(fmt::format("{:<14}", name)), what);
+  }
+  std::string text() && { return std::move(text_); }
+
+ private:
+  const Palette& palette_;
+  std::string text_;
+};
+
+void add_samples(Lines& lines, const Answer& answer) {
+  const Counters& c = answer.counters;
+  if (c.samples == 0) return;
+  const std::string rounds = c.rounds > 1 ? fmt::format(" in {} rounds", grouped(c.rounds)) : "";
+  if (by_trees(answer)) {
+    return lines.add("samples", fmt::format("{} drawn to grow towards{}", grouped(c.samples), rounds));
+  }
+  lines.add("samples",
+            fmt::format("{} drawn{}: {} kept, {} ({}) {}", grouped(c.samples), rounds, grouped(c.kept),
+                        grouped(c.samples - c.kept), share(c.samples - c.kept, c.samples), why_dropped(answer)));
+}
+
+void add_edges(Lines& lines, const Answer& answer) {
+  const Counters& c = answer.counters;
+  if (c.edges_checked == 0) return;
+  std::string text =
+      fmt::format("{} asked about: {} free, {} ({}) blocked", grouped(c.edges_checked), grouped(c.edges_free),
+                  grouped(blocked_edges(c)), share(blocked_edges(c), c.edges_checked));
+  if (c.refused > 0) text += fmt::format(", {} too close to tell", grouped(c.refused));
+  lines.add("motions", text);
+}
+
+void add_components(Lines& lines, const Answer& answer) {
+  if (!answer.explained->components) return;
+  const ComponentFacts& facts = *answer.explained->components;
+  lines.add("components", fmt::format("{}; the largest has {} of the milestones, {} of one alone",
+                                      counted(facts.count, "component", "components"),
+                                      share(facts.largest, facts.milestones), counted(facts.alone, "is", "are")));
+  if (facts.joined) {
+    lines.add("start, goal",
+              fmt::format("in one component, of {}", counted(facts.of_start, "milestone", "milestones")));
+  }
+}
+
+void add_gap(Lines& lines, const Answer& answer) {
+  const Separation& s = answer.separation;
+  if (answer.outcome != Outcome::not_connected || answer.refuted || std::isnan(s.nearest_gap)) return;
+  const bool in_plane = answer.problem.start.size() <= 3 && !std::isnan(s.near_start[0]);
+  lines.add("gap", fmt::format("{} between what start and goal reach{}", human_number(s.nearest_gap),
+                               in_plane ? fmt::format(", from {},{} to {},{}", human_number(s.near_start[0]),
+                                                      human_number(s.near_start[1]), human_number(s.near_goal[0]),
+                                                      human_number(s.near_goal[1]))
+                                        : ""));
+}
+
+void add_search(Lines& lines, const Answer& answer) {
+  const std::uint64_t expanded = answer.counters.expanded;
+  if (expanded == 0) return;
+  const std::uint64_t milestones = answer.roadmap.milestones;
+  std::string text = fmt::format("{} expanded {}", answer.search.empty() ? "search" : answer.search, grouped(expanded));
+  const bool one_graph = answer.counters.rounds <= 1 && milestones >= expanded;
+  if (one_graph) text += fmt::format(" of {} vertices ({})", grouped(milestones), share(expanded, milestones));
+  lines.add("search", text);
+}
+
+void add_narrowest(Lines& lines, const Answer& answer) {
+  if (!answer.explained->narrowest) return;
+  const NarrowPlace& narrow = *answer.explained->narrowest;
+  std::string text = fmt::format("{}; {} asked for", text_of(narrow), human_number(answer.problem.clearance));
+  if (narrow.one_sample_in) {
+    text += fmt::format("; one uniform sample in {} falls there", human_count(*narrow.one_sample_in));
+  }
+  lines.add("narrowest", text);
+}
+
+/// The stages that took most, until they make nine tenths.
+void add_times(Lines& lines, const Answer& answer) {
+  auto stages = named_stages(answer.seconds);
+  std::stable_sort(stages.begin(), stages.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  double whole = 0.0;
+  for (const auto& [name, seconds] : stages) whole += seconds;
+  std::string text;
+  double told = 0.0;
+  for (const auto& [name, seconds] : stages) {
+    if (told >= 0.9 * whole) break;
+    text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", name, 100.0 * seconds / whole);
+    told += seconds;
+  }
+  if (!text.empty()) lines.add("time went to", text);
+}
+
+std::string components_json(const ComponentFacts& facts) {
+  JsonObject json;
+  json.add("count", facts.count);
+  json.add("milestones", facts.milestones);
+  json.add("largest", facts.largest);
+  json.add("alone", facts.alone);
+  json.add("of_start", facts.of_start);
+  json.add("of_goal", facts.of_goal);
+  json.add("joined", facts.joined);
+  return json.closed();
+}
+
+}  // namespace
+
+std::string text_of(const NarrowPlace& narrow) {
+  const std::string text = fmt::format("{} of room on leg {}", human_number(narrow.clearance), grouped(narrow.leg + 1));
+  if (!narrow.place) return text;
+  return text + fmt::format(", near {},{}", human_number(narrow.place->x), human_number(narrow.place->y));
+}
+
+std::string narrowest_json(const std::optional<NarrowPlace>& narrow) {
+  if (!narrow) return "null";
+  JsonObject json;
+  json.add("leg", narrow->leg);
+  json.add_json("place", narrow->place
+                             ? json_list(std::span<const double>(std::array{narrow->place->x, narrow->place->y}))
+                             : "null");
+  json.add("clearance", narrow->clearance);
+  json.add_or_null("one_sample_in", narrow->one_sample_in.has_value(), narrow->one_sample_in.value_or(0.0));
+  return json.closed();
+}
+
+std::string explanation_text(const Answer& answer, const Palette& palette) {
+  if (!answer.explained) return {};
+  Lines lines(palette);
+  add_samples(lines, answer);
+  add_edges(lines, answer);
+  add_components(lines, answer);
+  add_gap(lines, answer);
+  add_search(lines, answer);
+  add_narrowest(lines, answer);
+  add_times(lines, answer);
+  for (const std::string& hint : answer.explained->hints) lines.add("try", printable(hint));
+  return std::move(lines).text();
+}
+
+std::string explanation_json(const Answer& answer) {
+  const Explanation& explained = *answer.explained;
+  const Counters& c = answer.counters;
+  JsonObject json;
+  JsonObject samples;
+  samples.add("drawn", c.samples);
+  samples.add("kept", c.kept);
+  samples.add("dropped", by_trees(answer) ? std::uint64_t{0} : c.samples - c.kept);
+  json.add_json("samples", samples.closed());
+  JsonObject motions;
+  motions.add("checked", c.edges_checked);
+  motions.add("free", c.edges_free);
+  motions.add("blocked", blocked_edges(c));
+  motions.add("undecided", c.refused);
+  json.add_json("motions", motions.closed());
+  json.add_json("components", explained.components ? components_json(*explained.components) : "null");
+  json.add_json("narrowest", narrowest_json(explained.narrowest));
+  std::string hints = "[";
+  for (const std::string& hint : explained.hints) hints.append(hints.size() > 1 ? "," : "").append(json_string(hint));
+  json.add_json("hints", hints + "]");
+  return json.closed();
+}
+
+}  // namespace warren
