@@ -29,6 +29,13 @@ struct CoreGraph {
   std::size_t size() const { return place.size(); }
 };
 
+/// A bit for each slot of a junction that isn't empty.
+inline std::uint8_t slots_of(const CoreGraph& graph, JunctionId v) {
+  unsigned slots = 0;
+  for (unsigned s = 0; s < 4; ++s) slots |= graph.twin[4 * v + s] != no_half_edge ? 1U << s : 0U;
+  return static_cast<std::uint8_t>(slots);
+}
+
 /// Is the place on the grid of posts, every 16th column in every 16th row?
 constexpr bool is_post(LatticePlace p) { return (p & (15U | 15U * LatticePlaces::side)) == 0; }
 

@@ -2,13 +2,19 @@
 #include "planners/route_cuts/core_reduction.hpp"
 
 #include <array>
+#include <bit>
+
+#include "parallel/chunks.hpp"
+#include "planners/route_trees/peeling.hpp"
 
 namespace warren {
 namespace {
 
 class CoreReduction {
  public:
-  CoreReduction(CoreGraph& graph, const Execution& execution) : graph_(graph), execution_(execution) {}
+  CoreReduction(CoreGraph& graph, const LatticePlaces& places, RawVector<std::uint8_t>& peeled,
+                const Execution& execution)
+      : graph_(graph), places_(places), peeled_(peeled), execution_(execution) {}
 
   void run() {
     execution_.reserve(graph_.size() * 8);
@@ -23,6 +29,9 @@ class CoreReduction {
       }
     }
     renumber();
+    for_chunks(graph_.size(), 4096, execution_, [&](Range r) {
+      for (std::size_t v = r.first; v < r.last; ++v) mark_chains(static_cast<JunctionId>(v));
+    });
   }
 
  private:
@@ -30,8 +39,11 @@ class CoreReduction {
   void join(HalfEdge a, HalfEdge b, std::uint32_t length);
   void drop(HalfEdge h);
   void renumber();
+  void mark_chains(JunctionId v);
 
   CoreGraph& graph_;
+  const LatticePlaces& places_;
+  RawVector<std::uint8_t>& peeled_;
   const Execution& execution_;
   RawVector<std::uint8_t> gone_;
   RawVector<JunctionId> todo_;  // whoever has lost a chain
@@ -50,6 +62,8 @@ void CoreReduction::visit(JunctionId v) {
   gone_[v] = 1;
   if (count == 1) drop(chain[0]);
   if (count < 2) return;
+  std::uint8_t& byte = peeled_[graph_.place[v]];
+  byte = static_cast<std::uint8_t>((byte & ~peel_bit::edges) | 1U << chain[0] % 4 | 1U << chain[1] % 4);
   const HalfEdge a = graph_.twin[chain[0]];
   const HalfEdge b = graph_.twin[chain[1]];
   const std::uint32_t length = graph_.length[chain[0]] + graph_.length[chain[1]];
@@ -98,8 +112,32 @@ void CoreReduction::renumber() {
   graph_.length.resize(4 * std::size_t{next});
 }
 
+/// A junction, and the cells of its chains to junctions with larger numbers: each cell is written to once.
+void CoreReduction::mark_chains(JunctionId v) {
+  constexpr unsigned right_and_up = 3;
+  const auto mark = [&](LatticePlace p, unsigned edges) {
+    peeled_[p] = static_cast<std::uint8_t>(peeled_[p] | (edges & right_and_up) << peel_bit::direction_shift);
+  };
+  mark(graph_.place[v], slots_of(graph_, v));
+  for (unsigned slot = 0; slot < 4; ++slot) {
+    const HalfEdge twin = graph_.twin[4 * v + slot];
+    if (twin == no_half_edge || twin / 4 < v) continue;
+    unsigned direction = slot;
+    LatticePlace at = graph_.place[v];
+    for (std::uint32_t left = graph_.length[4 * v + slot]; left > 1; --left) {
+      at = places_.step(at, direction);
+      const unsigned edges = peeled_[at] & peel_bit::edges;
+      mark(at, edges);
+      direction = static_cast<unsigned>(std::countr_zero(edges & ~(1U << (direction ^ 2U))));
+    }
+  }
+}
+
 }  // namespace
 
-void reduce_core(CoreGraph& graph, const Execution& execution) { CoreReduction(graph, execution).run(); }
+void reduce_core(CoreGraph& graph, const LatticePlaces& places, RawVector<std::uint8_t>& peeled,
+                 const Execution& execution) {
+  CoreReduction(graph, places, peeled, execution).run();
+}
 
 }  // namespace warren

@@ -153,11 +153,7 @@ void Dissector::open_whole() {
   for (JunctionId v = 0; v < graph_.size(); ++v) whole.junction[v] = v;
   whole.twin = graph_.twin;
   whole.slots.resize(graph_.size());
-  for (JunctionId v = 0; v < graph_.size(); ++v) {
-    unsigned slots = 0;
-    for (unsigned s = 0; s < 4; ++s) slots |= graph_.twin[4 * v + s] != no_half_edge ? 1U << s : 0U;
-    whole.slots[v] = static_cast<std::uint8_t>(slots);
-  }
+  for (JunctionId v = 0; v < graph_.size(); ++v) whole.slots[v] = slots_of(graph_, v);
   RawVector<CutSide> nothing_cut;
   nothing_cut.assign(graph_.size(), CutSide::outside);
   for (PlanarRegion& part : RegionParts(execution_).split(whole, nothing_cut)) {

@@ -27,8 +27,9 @@ struct Dissection {
   RawVector<JunctionId> member;    ///< node by node, ascending in each
 };
 
-/// The most junctions of a leaf.
-inline constexpr std::size_t most_leaf_junctions = 40;
+/// The most junctions of a leaf: a way through so many is told by less than 63 bits
+/// (planners/route_cuts/hop_turns.hpp).
+inline constexpr std::size_t most_leaf_junctions = 36;
 
 /// leaf: 1 .. most_leaf_junctions. Throws Stopped.
 Dissection dissect(const CoreGraph& graph, std::size_t leaf, const Execution& execution);

@@ -24,8 +24,15 @@ using LessenRowShort = void (*)(std::uint32_t* least, const std::uint16_t* rest,
                                 std::size_t count);
 LessenRowShort lessen_row_short();
 
+/// lessen_row() where it is told by what: by[i] becomes `gate` where least[i] became smaller. `by` overlaps neither.
+using LessenRowBy = void (*)(std::uint32_t* least, std::uint32_t* by, const std::uint32_t* rest, std::uint32_t first,
+                             std::uint32_t gate, std::size_t count);
+LessenRowBy lessen_row_by();
+
 /// What needs nothing special.
 void lessen_row_short_plain(std::uint32_t* least, const std::uint16_t* rest, std::uint32_t first, std::size_t count);
 void lessen_row_plain(std::uint32_t* least, const std::uint32_t* rest, std::uint32_t first, std::size_t count);
+void lessen_row_by_plain(std::uint32_t* least, std::uint32_t* by, const std::uint32_t* rest, std::uint32_t first,
+                         std::uint32_t gate, std::size_t count);
 
 }  // namespace warren

@@ -9,10 +9,13 @@
 // ways, and rows are kept without gaps: no list of heads an entry, and whole words of lengths are added at once. Where
 // all lengths of a front are below 2^16 - 1, they are kept in two bytes each: a question's time is that of reading
 // rows. A shortest way between any two gates climbs from front to parent, then down again; both halves read rows only.
+// Beside each length, in an array of its own that lengths never look at, stands which gate of lower rank the way goes
+// over, in its two halves by that gate's row; or, where it passes no gate, its turns (hop_turns.hpp). A path is told by
+// these, without any search.
 //
 // To build, each node hands its parent the lengths between its bounds by ways through itself. Leaves of some dozens
-// of junctions are eliminated by least degree and not stored: they are searched cell by cell when asked.
-// Cost: 0.2 to 0.4 words a junction and level of the dissection; time is cubic in the size of the largest cut.
+// of junctions are eliminated by least degree and not stored: their ways are hops.
+// Cost: 0.2 to 0.4 entries a junction and level of the dissection; time is cubic in the size of the largest cut.
 #pragma once
 
 #include <cstdint>
@@ -21,28 +24,29 @@
 #include "core/base/raw_vector.hpp"
 #include "parallel/execution.hpp"
 #include "planners/route_cuts/dissection.hpp"
+#include "planners/route_cuts/front_matrix.hpp"
 #include "planners/route_trees/array_or_view.hpp"
 
 namespace warren {
 
-/// A gate's number: children before parents.
-using GateRank = std::uint32_t;
 using FrontId = std::uint32_t;
 inline constexpr FrontId no_front = ~FrontId{0};
 
 struct Front {
   std::uint64_t first_bound;  ///< in bounds
   std::uint64_t rows;         ///< twice where its rows begin, plus 1 where they are of short lengths
+  std::uint64_t ways;         ///< four times where its ways begin, plus 0, 1 or 2 where they have 16, 32 or 64 bits
   GateRank first;             ///< its gates are first .. first + gates - 1
   std::uint32_t gates;
   std::uint32_t bounds;
-  FrontId parent;      ///< of its lowest bound, no_front if there is none; larger than its own number
-  FrontId last_child;  ///< the child with the largest number, no_front if there is none
-  FrontId sibling;     ///< the parent's next smaller child
+  FrontId parent;  ///< of its lowest bound, no_front if there is none; larger than its own number
 
   bool is_short() const { return (rows & 1U) != 0; }
   /// In short_lengths or lengths: row i has gates - 1 - i + bounds of them.
   std::uint64_t first_length() const { return rows / 2; }
+  /// In FrontArrays::ways: rows as of lengths, of so many elements each.
+  std::uint64_t first_way() const { return ways / 4; }
+  std::uint64_t way_elements() const { return std::uint64_t{1} << (ways & 3U); }
 };
 
 /// Where row i of a front with so many gates and bounds begins.
@@ -56,8 +60,21 @@ struct FrontArrays {
   ArrayOrView<GateRank> bounds;        ///< ascending in each front
   ArrayOrView<std::uint32_t> lengths;  ///< of fronts with a length of 2^16 - 1 or more; no_way where there is none
   ArrayOrView<std::uint16_t> short_lengths;  ///< of the others; no_short_way where there is none
-  ArrayOrView<LatticePlace> gate_place;      ///< of a gate
+  /// Of all entries: twice how far the gate that the way goes over is below the row's rank; or twice a hop's turns,
+  /// from the row's gate, plus 1; the lowest 16 bits first. Anything where there is no way.
+  ArrayOrView<std::uint16_t> ways;
+  ArrayOrView<LatticePlace> gate_place;  ///< of a gate
 };
+
+/// How entry `at` of a front goes, counted along its rows: as FrontArrays::ways has it.
+inline std::uint64_t front_way(const FrontArrays& fronts, const Front& f, std::uint64_t at) {
+  const std::uint64_t elements = f.way_elements();
+  const std::uint64_t first = f.first_way() + at * elements;
+  fronts.ways.look(first, elements);
+  std::uint64_t way = 0;
+  for (std::uint64_t i = elements; i > 0; --i) way = way << 16U | fronts.ways[first + i - 1];
+  return way;
+}
 
 /// Throws Stopped.
 FrontArrays build_fronts(const CoreGraph& graph, const Dissection& dissection, const Execution& execution);

@@ -14,13 +14,6 @@ namespace {
 constexpr std::array<std::uint32_t, 4> right{1, 0, ~std::uint32_t{0}, 0};
 constexpr std::array<std::uint32_t, 4> up{0, 1, 0, ~std::uint32_t{0}};
 
-std::uint32_t between(std::uint32_t a, std::uint32_t b) { return a < b ? b - a : a - b; }
-
-unsigned ways_towards(std::uint32_t col, std::uint32_t row, const SeenCell& goal) {
-  return unsigned{col < goal.col} | unsigned{row < goal.row} << 1 | unsigned{col > goal.col} << 2 |
-         unsigned{row > goal.row} << 3;
-}
-
 }  // namespace
 
 void CoreSearch::begin(LatticePlace start) {
@@ -46,28 +39,13 @@ SeenCell CoreSearch::first_cell(LatticePlace start) const {
 
 void CoreSearch::search(LatticePlace start) {
   begin(start);
-  const CellMarks marks = index_.marks();
   for (std::uint32_t i = 0; i < seen_.size(); ++i) {
-    if (marks.is_gate(seen_[i].place)) {
+    if (index_.is_gate(seen_[i].place)) {
       gates_.push_back({index_.gate_at(seen_[i].place), seen_[i].steps, i});
     } else {
       expand(i);
     }
   }
-}
-
-bool CoreSearch::search_for(LatticePlace start, LatticePlace goal, std::uint32_t most_steps) {
-  begin(start);
-  const CellMarks marks = index_.marks();
-  const std::uint32_t col = index_.places().col(goal);
-  const std::uint32_t row = index_.places().row(goal);
-  for (std::uint32_t i = 0; i < seen_.size(); ++i) {
-    const SeenCell& cell = seen_[i];
-    if (cell.place == goal) return cell.steps <= most_steps;
-    const std::uint64_t at_least = std::uint64_t{cell.steps} + between(cell.col, col) + between(cell.row, row);
-    if (at_least <= most_steps && (i == 0 || !marks.is_gate(cell.place))) expand(i);
-  }
-  return false;
 }
 
 bool CoreSearch::is_core(LatticePlace next, LatticePlace from) const {
@@ -87,38 +65,6 @@ void CoreSearch::expand(std::uint32_t number) {
     if (!enter(next, static_cast<std::uint32_t>(seen_.size()))) continue;
     seen_.push_back({next, at.col + right[d], at.row + up[d], at.steps + 1, number});
   }
-}
-
-/// Ways that come nearer to the goal are tried first.
-bool CoreSearch::append_walk(LatticePlace start, LatticePlace goal, std::uint32_t steps, RawVector<CellId>& cells) {
-  const LatticePassages& passages = index_.passages();
-  const SeenCell first = first_cell(start);
-  const SeenCell last = first_cell(goal);
-  walk_.assign(1, {first.place, first.col, first.row, passages.open_at(first.col, first.row)});
-  for (std::size_t tries = 4 * std::size_t{steps} + 16; tries > 0 && !walk_.empty(); --tries) {
-    WalkedCell& at = walk_.back();
-    if (at.left == 0) {
-      walk_.pop_back();
-      continue;
-    }
-    const unsigned nearer = at.left & ways_towards(at.col, at.row, last);
-    const auto d = static_cast<unsigned>(std::countr_zero(nearer != 0 ? nearer : at.left));
-    at.left &= ~(1U << d);
-    const WalkedCell next{index_.places().step(at.place, d), at.col + right[d], at.row + up[d], 0};
-    const std::uint64_t apart = std::uint64_t{between(next.col, last.col)} + between(next.row, last.row);
-    if (apart + walk_.size() > steps || !is_core(next.place, at.place)) continue;
-    const bool arrived = walk_.size() == steps;
-    walk_.push_back(next);
-    if (!arrived) {
-      walk_.back().left = passages.open_at(next.col, next.row) & ~(1U << (d ^ 2U));
-      continue;
-    }
-    for (auto cell = walk_.begin() + 1; cell != walk_.end(); ++cell) {
-      cells.push_back(cell->row * index_.places().size().cols + cell->col);
-    }
-    return true;
-  }
-  return false;
 }
 
 bool CoreSearch::enter(LatticePlace p, std::uint32_t number) {

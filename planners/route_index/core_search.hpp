@@ -35,9 +35,6 @@ class CoreSearch {
 
   /// Everything that is reached from `start` without passing a gate. A start that is a gate is only itself.
   void search(LatticePlace start);
-  /// From a gate, or any other cell, past no further gate, until the goal is reached; false if it isn't in so many
-  /// steps. Cells that are too far from it, as if there were no walls, are left out.
-  bool search_for(LatticePlace start, LatticePlace goal, std::uint32_t most_steps);
 
   std::span<const SeenGate> gates() const { return gates_; }
   /// Number of a seen cell, or none.
@@ -46,18 +43,8 @@ class CoreSearch {
   const SeenCell& seen(std::uint32_t number) const { return seen_[number]; }
   /// Appends the cells on the way from the start, not included, to a seen cell, included.
   void append_way(std::uint32_t to, RawVector<CellId>& cells) const;
-  /// Appends a way of so many steps from one cell to another, the first not included: what search_for() finds, where
-  /// walking straight on and turning back when the goal is out of reach doesn't cost too many steps. False without it.
-  bool append_walk(LatticePlace start, LatticePlace goal, std::uint32_t steps, RawVector<CellId>& cells);
 
  private:
-  /// A cell of a walk, and the directions that were not tried yet.
-  struct WalkedCell {
-    LatticePlace place;
-    std::uint32_t col;
-    std::uint32_t row;
-    unsigned left;
-  };
   SeenCell first_cell(LatticePlace start) const;
   void begin(LatticePlace start);
   void expand(std::uint32_t number);
@@ -71,7 +58,6 @@ class CoreSearch {
   const RouteIndex& index_;
   std::vector<SeenCell> seen_;
   std::vector<SeenGate> gates_;
-  std::vector<WalkedCell> walk_;
   /// Open addressing: number of a seen cell and in which search; at most half full.
   struct Slot {
     std::uint32_t search = 0;

@@ -23,13 +23,6 @@ FrontQuery::FrontQuery(const RouteIndex& index)
   backward_.distance.assign(fronts_.gate_place.size(), no_way);
 }
 
-FrontId FrontQuery::front_of(GateRank rank) const {
-  const std::span<const Front> all = fronts_.fronts.span();
-  const auto after =
-      std::upper_bound(all.begin(), all.end(), rank, [](GateRank r, const Front& f) { return r < f.first; });
-  return static_cast<FrontId>(after - all.begin() - 1);
-}
-
 FrontId FrontQuery::seed(Half& half, std::span<const SeenGate> seeds) const {
   half.climbed.clear();
   GateRank lowest = ~GateRank{0};
@@ -37,7 +30,7 @@ FrontId FrontQuery::seed(Half& half, std::span<const SeenGate> seeds) const {
     half.distance[gate.rank] = gate.steps;
     lowest = std::min(lowest, gate.rank);
   }
-  return seeds.empty() ? no_front : front_of(lowest);
+  return seeds.empty() ? no_front : index_.front_of(lowest);
 }
 
 std::uint32_t FrontQuery::length(std::span<const SeenGate> starts, std::span<const SeenGate> goals,
@@ -171,7 +164,7 @@ FrontStep FrontQuery::step_into(const Half& half, GateRank to) const {
     for (std::uint32_t i = 0; i < f.gates && i < column; ++i) {
       const std::uint32_t distance = half.distance[f.first + i];
       if (distance >= half.distance[to]) continue;
-      const std::uint32_t length = front_entry(fronts_, f, i, column);
+      const std::uint32_t length = front_entry(fronts_, f, front_place(f, i, column));
       if (distance + length == half.distance[to]) return {front, f.first + i, to, length};
     }
   }

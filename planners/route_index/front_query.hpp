@@ -50,7 +50,6 @@ class FrontQuery {
     std::vector<FrontId> climbed;
   };
 
-  FrontId front_of(GateRank rank) const;
   FrontId seed(Half& half, std::span<const SeenGate> seeds) const;
   void climb(std::span<const SeenGate> starts, std::span<const SeenGate> goals);
   void settle(FrontId front, Half& half);
@@ -75,9 +74,13 @@ class FrontQuery {
   GateRank meeting_ = 0;
 };
 
-/// Entry of a front for gate i of it and column j > i: its gates, then its bounds.
-inline std::uint32_t front_entry(const FrontArrays& fronts, const Front& f, std::uint64_t i, std::uint64_t j) {
-  const std::uint64_t at = f.first_length() + row_offset(i, f.gates, f.bounds) + (j - i - 1);
+/// Where the entry of a front for gate i of it and column j > i, its gates, then its bounds, stands in the front.
+inline std::uint64_t front_place(const Front& f, std::uint64_t i, std::uint64_t j) {
+  return row_offset(i, f.gates, f.bounds) + (j - i - 1);
+}
+/// The length that stands there.
+inline std::uint32_t front_entry(const FrontArrays& fronts, const Front& f, std::uint64_t place) {
+  const std::uint64_t at = f.first_length() + place;
   if (!f.is_short()) return fronts.lengths[at];
   return fronts.short_lengths[at] == no_short_way ? no_way : fronts.short_lengths[at];
 }

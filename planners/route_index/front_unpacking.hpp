@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The cells behind an entry of a front. An entry's way goes by an earlier gate of the front, by a gate of a front below
-// that has both ends as bounds, or by no gate at all: the gate is the one whose two entries add up, and each half is
-// unpacked in turn; where there is none, the cells are searched for from one end. Nothing is stored for it.
+// The cells behind entries of fronts. Beside an entry stands the gate of lower rank that its way goes over, whose row
+// has both halves of it, and so on down to hops, which are then walked (hop_walk.hpp). Nothing is searched for.
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <span>
 #include <vector>
 
-#include "core/base/raw_vector.hpp"
-#include "planners/route_index/core_search.hpp"
 #include "planners/route_index/front_query.hpp"
+#include "planners/route_index/hop_walk.hpp"
 #include "planners/route_index/route_index.hpp"
 
 namespace warren {
@@ -18,29 +16,31 @@ namespace warren {
 /// Scratch of one thread.
 class FrontUnpacking {
  public:
-  explicit FrontUnpacking(const RouteIndex& index) : index_(index), fronts_(index.arrays().fronts), search_(index) {}
+  explicit FrontUnpacking(const RouteIndex& index) : index_(index), fronts_(index.arrays().fronts) {}
 
-  /// Appends the cells of the way, its first one not included.
-  void append(const FrontStep& step, RawVector<CellId>& cells);
+  /// Writes the cells of the ways, one after the other, from the first gate on, which is `cells` itself: one more than
+  /// their lengths together. Throws InputError where fronts contradict each other, after as many looks as there are
+  /// cells at most.
+  void write(std::span<const FrontStep> steps, CellId* cells);
 
  private:
-  struct Middle {
-    FrontId front;
-    GateRank gate;
-    std::uint32_t from_low;  // its entry with the lower one of both ends
-    std::uint32_t to_high;
+  /// An entry whose way's cells have their place: from its lower gate on, or the other way round.
+  struct Entry {
+    const Front* front;
+    std::uint64_t place;
+    GateRank low;
+    GateRank high;
+    std::uint32_t length;
+    bool downwards;
+    CellId* cells;
   };
-  std::optional<Middle> middle_of(const FrontStep& step);
-  std::optional<Middle> middle_in(FrontId front, std::uint64_t end, std::uint64_t low, std::uint64_t high,
-                                  std::uint32_t length) const;
-
-  bool append_short(const FrontStep& step, RawVector<CellId>& cells);
+  void open(const Entry& entry);
+  Entry half(const Front& front, GateRank middle, GateRank other) const;
 
   const RouteIndex& index_;
   const FrontArrays& fronts_;
-  CoreSearch search_;
-  std::vector<FrontStep> todo_;
-  std::vector<FrontId> below_;
+  std::vector<Entry> todo_;
+  std::vector<Hop> hops_;
 };
 
 }  // namespace warren

@@ -40,7 +40,7 @@ RouteIndex::RouteIndex(LatticePassages passages, const RouteIndexOptions& option
   const PagePool pages;  // what one stage leaves is warm for the next
   RawVector<std::uint8_t> peeled = peel(passages_, places_, execution);
   CoreGraph graph = core_graph(peeled, places_, execution);
-  reduce_core(graph, execution);
+  reduce_core(graph, places_, peeled, execution);
   if (!options.open_space && !route_index_pays(graph.size(), passages_.cell_count())) {
     throw InputError(
         "route index",
@@ -52,8 +52,9 @@ RouteIndex::RouteIndex(LatticePassages passages, const RouteIndexOptions& option
   arrays_.pieces = build_pieces(places_, CellMarks(marks.data()), execution);
   arrays_.fronts =
       build_fronts(graph, dissect(graph, options.leaf == 0 ? leaf_size(graph) : options.leaf, execution), execution);
-  mark_gates(marks, execution);
   arrays_.marks = ArrayOrView<std::uint64_t>(std::move(marks));
+  mark_gates(execution);
+  find_fronts();
   sound_ = LastingMarks(arrays_.fronts.fronts.size());
 }
 
@@ -63,10 +64,11 @@ RouteIndex::RouteIndex(LatticePassages passages, RouteArrays arrays)
       arrays_(std::move(arrays)),
       sound_(arrays_.fronts.fronts.size()) {
   check_route_sizes(places_, arrays_);
+  find_fronts();
 }
 
 GateRank RouteIndex::gate_at(LatticePlace p) const {
-  const std::size_t at = std::size_t{arrays_.gates_before[p / 64]} + marks().gates_before(p);
+  const std::size_t at = number_of_gate(p);
   const std::size_t gates = arrays_.gate_rank.size();
   if (at < gates && arrays_.gate_rank[at] < gates) return arrays_.gate_rank[at];
   throw InputError("route index", "its gates contradict each other: build it again");
@@ -83,32 +85,42 @@ void RouteIndex::check_front(FrontId number) const {
   sound_.set(number);
 }
 
-void RouteIndex::mark_gates(RawVector<std::uint64_t>& marks, const Execution& execution) {
+void RouteIndex::find_fronts() {
+  const std::span<const Front> fronts = arrays_.fronts.fronts.span();
+  front_near_.resize((arrays_.fronts.gate_place.size() + gates_a_look - 1) / gates_a_look);
+  FrontId front = 0;
+  for (std::size_t i = 0; i < front_near_.size(); ++i) {
+    while (front + 1 < fronts.size() && fronts[front + 1].first <= i * gates_a_look) ++front;
+    front_near_[i] = front;
+  }
+}
+
+void RouteIndex::mark_gates(const Execution& execution) {
   const ArrayOrView<LatticePlace>& gate_place = arrays_.fronts.gate_place;
   if (gate_place.empty()) return;
   const std::size_t rows = places_.place_count() / 64;
-  execution.reserve((rows + gate_place.size()) * sizeof(std::uint32_t));
+  execution.reserve(rows * (sizeof(std::uint64_t) + sizeof(std::uint32_t)) + gate_place.size() * sizeof(GateRank));
+  RawVector<std::uint64_t> gates;
+  assign_polled(gates, rows, std::uint64_t{0}, [&] { execution.check(); });
   for (std::size_t rank = 0; rank < gate_place.size(); ++rank) {
     if (rank % (1U << 16) == 0) execution.check();
     const LatticePlace p = gate_place[rank];
-    marks[std::size_t{p / 64} * mark_word::count + mark_word::low] |= std::uint64_t{1} << p % 64;
+    gates[p / 64] |= std::uint64_t{1} << p % 64;
   }
   RawVector<std::uint32_t> before(rows);
   for_chunks(rows, 4096, execution, [&](Range r) {
     for (std::size_t row = r.first; row < r.last; ++row) {
-      const std::uint64_t* const words = marks.data() + row * mark_word::count;
-      before[row] = static_cast<std::uint32_t>(std::popcount(words[mark_word::low] & words[mark_word::core]));
+      before[row] = static_cast<std::uint32_t>(std::popcount(gates[row]));
     }
   });
   exclusive_scan(before, execution);
   RawVector<GateRank> ranks(gate_place.size());
-  const CellMarks all(marks.data());
+  arrays_.gates = ArrayOrView<std::uint64_t>(std::move(gates));
+  arrays_.gates_before = ArrayOrView<std::uint32_t>(std::move(before));
   for (std::size_t rank = 0; rank < gate_place.size(); ++rank) {
     if (rank % (1U << 16) == 0) execution.check();
-    const LatticePlace p = gate_place[rank];
-    ranks[before[p / 64] + all.gates_before(p)] = static_cast<GateRank>(rank);
+    ranks[number_of_gate(gate_place[rank])] = static_cast<GateRank>(rank);
   }
-  arrays_.gates_before = ArrayOrView<std::uint32_t>(std::move(before));
   arrays_.gate_rank = ArrayOrView<GateRank>(std::move(ranks));
 }
 

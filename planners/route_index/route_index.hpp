@@ -6,9 +6,9 @@
 //   peeling            which cells are tree, and which way their core is           (planners/route_trees/peeling)
 //   pieces             trees cut at the borders of tiles, with heavy paths         (piece_forest)
 //   core graph         junctions of the core, joined by chains                     (core_graph)
-//   reduction          junctions without choice leave it                         (core_reduction)
+//   reduction          junctions without choice leave it; chains are marked      (core_reduction)
 //   dissection         the core cut by few junctions again and again               (planar_region, dissection)
-//   fronts             lengths between the junctions of cuts, the gates            (separator_fronts)
+//   fronts             lengths and ways between the junctions of cuts, the gates   (separator_fronts)
 //
 // All of it is plain arrays, which a file may hold (route_sections.hpp), and the same bytes for any thread count. In
 // open space nearly every cell is a junction and cuts are as long as the lattice is wide: there a search of the grid is
@@ -22,7 +22,9 @@
 //   path beyond its length, ns a cell        7      80     155
 #pragma once
 
+#include <bit>
 #include <cstdint>
+#include <span>
 
 #include "parallel/execution.hpp"
 #include "parallel/lasting_marks.hpp"
@@ -49,6 +51,7 @@ bool route_index_pays(std::uint64_t junctions, std::uint64_t cells);
 struct RouteArrays {
   ArrayOrView<std::uint64_t> marks;  ///< of all cells, see cell_marks.hpp
   PieceArrays pieces;
+  ArrayOrView<std::uint64_t> gates;         ///< a bit a place; empty if there is no gate
   ArrayOrView<std::uint32_t> gates_before;  ///< before each row of 64 places; empty if there is no gate
   ArrayOrView<GateRank> gate_rank;          ///< of a gate in the order of places
   FrontArrays fronts;
@@ -74,10 +77,18 @@ class RouteIndex {
     constexpr std::size_t words = LatticePlaces::side * mark_word::count;
     arrays_.marks.look(LatticePlaces::tile_of(p) * words, words);
   }
+  bool is_gate(LatticePlace p) const { return !arrays_.gates.empty() && (arrays_.gates[p / 64] >> p % 64 & 1U) != 0; }
   /// The rank of a cell that is a gate.
   GateRank gate_at(LatticePlace p) const;
   /// The cell of a gate.
   LatticePlace gate_place(GateRank rank) const;
+  /// The front that a gate is in.
+  FrontId front_of(GateRank rank) const {
+    const std::span<const Front> fronts = arrays_.fronts.fronts.span();
+    FrontId front = front_near_[rank / gates_a_look];
+    while (front + 1 < fronts.size() && fronts[front + 1].first <= rank) ++front;
+    return front;
+  }
   /// A front whose bounds and rows may be read.
   const Front& front(FrontId number) const {
     if (!sound_.test(number)) [[unlikely]]
@@ -88,12 +99,23 @@ class RouteIndex {
   std::size_t bytes() const;
 
  private:
-  void mark_gates(RawVector<std::uint64_t>& marks, const Execution& execution);
+  static constexpr std::size_t gates_a_look = 16;
+
+  /// Of a gate, in the order of places.
+  std::size_t number_of_gate(LatticePlace p) const {
+    const std::uint64_t below = (std::uint64_t{1} << p % 64) - 1;
+    return std::size_t{arrays_.gates_before[p / 64]} +
+           static_cast<std::size_t>(std::popcount(arrays_.gates[p / 64] & below));
+  }
+
+  void mark_gates(const Execution& execution);
+  void find_fronts();
   void check_front(FrontId number) const;
 
   LatticePassages passages_;
   LatticePlaces places_;
   RouteArrays arrays_;
+  RawVector<FrontId> front_near_;  // of every 16th gate
   mutable LastingMarks sound_{0};  // fronts that have been checked
 };
 

@@ -7,6 +7,13 @@
 #include "core/base/error.hpp"
 
 namespace warren {
+namespace {
+
+[[noreturn]] void refuse_length() {
+  throw InputError("route index", "a way in it is longer than the lattice: build it again");
+}
+
+}  // namespace
 
 LatticePlace RouteQuery::checked(CellId cell) const {
   if (cell < index_.passages().cell_count()) return index_.places().place_of(cell);
@@ -38,7 +45,7 @@ RawVector<CellId> RouteQuery::path(CellId start, CellId goal) {
   const TreeJoin join = trees_.join(a, b);
   const std::size_t most = index_.places().place_count();
   if (join.start_steps > most || join.goal_steps > most) {
-    throw InputError("route index", "its pieces are longer than the lattice: build it again");
+    refuse_length();
   }
   RawVector<CellId> cells(std::size_t{join.start_steps} + 1 + (join.in_tree() ? join.goal_steps : 0));
   cells[join.start_steps] = index_.places().cell_of(join.start_core);
@@ -62,7 +69,12 @@ bool RouteQuery::append_core_path(LatticePlace start, LatticePlace goal, RawVect
     return true;
   }
   near_start_.append_way(near_start_.gates()[way.first].seen, cells);
-  for (const FrontStep& step : way.steps) unpacking_.append(step, cells);
+  const std::size_t gate = cells.size() - 1;
+  if (way.length > index_.places().place_count()) refuse_length();
+  std::size_t between = 0;
+  for (const FrontStep& step : way.steps) between += step.length;
+  cells.resize(cells.size() + between);
+  unpacking_.write(way.steps, cells.data() + gate);
   RawVector<CellId> tail{index_.places().cell_of(goal)};
   near_goal_.append_way(near_goal_.gates()[way.last].seen, tail);
   tail.pop_back();  // the gate, which stands already; or the goal, where it is the gate

@@ -19,6 +19,7 @@ void for_each_array(Arrays& arrays, const Visit& visit) {
   visit("exit.first", arrays.pieces.first_exit);
   visit("exit.piece", arrays.pieces.piece);
   visit("pieces", arrays.pieces.pieces);
+  visit("gates", arrays.gates);
   visit("gates.before", arrays.gates_before);
   visit("gate.rank", arrays.gate_rank);
   visit("gate.place", arrays.fronts.gate_place);
@@ -26,6 +27,7 @@ void for_each_array(Arrays& arrays, const Visit& visit) {
   visit("front.bounds", arrays.fronts.bounds);
   visit("front.lengths", arrays.fronts.lengths);
   visit("front.shorts", arrays.fronts.short_lengths);
+  visit("front.ways", arrays.fronts.ways);
 }
 
 template <class T>
@@ -85,21 +87,34 @@ void check_fronts(const FrontArrays& arrays) {
   std::uint64_t bound = 0;
   std::uint64_t wide = 0;
   std::uint64_t narrow = 0;
+  std::uint64_t way = 0;
   for (std::size_t i = 0; i < arrays.fronts.size(); ++i) {
     const Front& f = arrays.fronts[i];
     std::uint64_t& length = f.is_short() ? narrow : wide;
-    require(f.first == first && f.first_bound == bound && f.first_length() == length, "fronts");
+    const std::uint64_t entries = row_offset(f.gates, f.gates, f.bounds);
+    require(f.first == first && f.first_bound == bound && f.first_length() == length && f.gates >= 1, "fronts");
+    require(f.first_way() == way && f.way_elements() <= 4, "fronts");
     first += f.gates;
     bound += f.bounds;
-    length += row_offset(f.gates, f.gates, f.bounds);
+    length += entries;
+    way += entries * f.way_elements();
     require(first <= gates && bound <= arrays.bounds.size() && wide <= arrays.lengths.size(), "fronts");
-    require(narrow <= arrays.short_lengths.size(), "fronts");
+    require(narrow <= arrays.short_lengths.size() && way <= arrays.ways.size(), "fronts");
     require(f.parent == no_front || (f.parent > i && f.parent < arrays.fronts.size()), "fronts");
-    require(f.last_child == no_front || f.last_child < i, "fronts");
-    require(f.sibling == no_front || f.sibling < i, "fronts");
   }
   require(first == gates && bound == arrays.bounds.size() && wide == arrays.lengths.size(), "fronts");
-  require(narrow == arrays.short_lengths.size(), "fronts");
+  require(narrow == arrays.short_lengths.size() && way == arrays.ways.size(), "fronts");
+}
+
+/// The gates that ways go over have lower ranks.
+void check_ways(const FrontArrays& arrays, const Front& f) {
+  std::uint64_t at = 0;
+  for (std::uint32_t i = 0; i < f.gates; ++i) {
+    for (std::uint64_t j = i + std::uint64_t{1}; j < std::uint64_t{f.gates} + f.bounds; ++j, ++at) {
+      const std::uint64_t way = front_way(arrays, f, at);
+      require((way & 1U) != 0 || way / 2 <= f.first + i, "front.ways");
+    }
+  }
 }
 
 }  // namespace
@@ -134,7 +149,8 @@ RouteIndex route_index_of(LatticeSize size, std::span<const RouteSection> sectio
 }
 
 bool is_read_in_parts(std::string_view section) {
-  constexpr std::array parts{"marks", "exit.piece", "pieces", "front.bounds", "front.lengths", "front.shorts"};
+  constexpr std::array parts{"marks",         "exit.piece",   "pieces",    "front.bounds",
+                             "front.lengths", "front.shorts", "front.ways"};
   return std::find(parts.begin(), parts.end(), section) != parts.end();
 }
 
@@ -147,7 +163,8 @@ void check_route_sizes(const LatticePlaces& places, const RouteArrays& arrays) {
   require(pieces.first_exit.size() == places.tile_count() + 1 && pieces.first_exit[0] == 0, "exit.first");
   require(pieces.first_exit[places.tile_count()] == pieces.pieces.size(), "exit.first");
   require(pieces.piece.size() == pieces.pieces.size(), "exit.piece");
-  require(arrays.gates_before.size() == (gates == 0 ? 0 : rows) && arrays.gate_rank.size() == gates, "gates.before");
+  require(arrays.gates.size() == (gates == 0 ? 0 : rows), "gates");
+  require(arrays.gates_before.size() == arrays.gates.size() && arrays.gate_rank.size() == gates, "gates.before");
   check_fronts(arrays.fronts);
 }
 
@@ -173,21 +190,23 @@ void check_front_arrays(const FrontArrays& arrays, const Front& f) {
 }
 
 void check_route_arrays(const LatticePlaces& places, const RouteArrays& arrays) {
-  const std::size_t rows = places.place_count() / 64;
   const std::size_t gates = arrays.fronts.gate_place.size();
   check_route_sizes(places, arrays);
   check_pieces(places, arrays.pieces);
   check_exits(places, CellMarks(arrays.marks.data()), arrays.pieces.exits);
-  for (const Front& front : arrays.fronts.fronts.span()) check_front_arrays(arrays.fronts, front);
+  for (const Front& front : arrays.fronts.fronts.span()) {
+    check_front_arrays(arrays.fronts, front);
+    check_ways(arrays.fronts, front);
+  }
   require(every(arrays.fronts.gate_place, [&](LatticePlace p) { return p < places.place_count(); }), "gate.place");
   require(every(arrays.gate_rank, [&](GateRank rank) { return rank < gates; }), "gate.rank");
   std::uint32_t before = 0;
-  for (std::size_t row = 0; row < rows; ++row) {
-    require(gates == 0 || arrays.gates_before[row] == before, "gates.before");
-    const std::uint64_t* const words = arrays.marks.data() + row * mark_word::count;
-    before += static_cast<std::uint32_t>(std::popcount(words[mark_word::low] & words[mark_word::core]));
+  for (std::size_t row = 0; row < arrays.gates.size(); ++row) {
+    require(arrays.gates_before[row] == before, "gates.before");
+    require((arrays.gates[row] & ~arrays.marks[row * mark_word::count + mark_word::core]) == 0, "gates");
+    before += static_cast<std::uint32_t>(std::popcount(arrays.gates[row]));
   }
-  require(before == gates, "marks");
+  require(before == gates, "gates");
 }
 
 }  // namespace warren

@@ -19,7 +19,7 @@
 namespace warren {
 
 /// A cell's byte: bits 0 to 3 its core edges; `peeled` if it is no cell of the core, with its direction in bits 4
-/// and 5.
+/// and 5, which are 0 in the core.
 namespace peel_bit {
 inline constexpr std::uint8_t edges = 15;
 inline constexpr unsigned direction_shift = 4;

@@ -35,6 +35,31 @@ TEST(MinPlus, RowsOfAllLengthsAndInstructionSets) {
   }
 }
 
+TEST(MinPlus, RowsThatKeepByWhatTheyBecameSmaller) {
+  for (std::size_t count = 0; count < 70; ++count) {
+    std::vector<std::uint32_t> least(count);
+    std::vector<std::uint32_t> rest(count);
+    std::vector<std::uint32_t> by(count);
+    std::vector<std::uint32_t> expected(count);
+    std::vector<std::uint32_t> expected_by(count);
+    const std::uint32_t first = 10;
+    for (std::size_t i = 0; i < count; ++i) {  // many are equal: these keep what they have
+      least[i] = below(5, count, i, 0) == 0 ? no_way : below(30, count, i, 1);
+      rest[i] = below(5, count, i, 2) == 0 ? no_way : below(30, count, i, 3);
+      by[i] = below(100, count, i, 4);
+      expected[i] = std::min(least[i], first + rest[i]);
+      expected_by[i] = expected[i] < least[i] ? 1000 : by[i];
+    }
+    for (const LessenRowBy lessen : {lessen_row_by(), &lessen_row_by_plain}) {
+      std::vector<std::uint32_t> found = least;
+      std::vector<std::uint32_t> found_by = by;
+      lessen(found.data(), found_by.data(), rest.data(), first, 1000, count);
+      EXPECT_EQ(found, expected) << count;
+      EXPECT_EQ(found_by, expected_by) << count;
+    }
+  }
+}
+
 TEST(MinPlus, ShortRowsHaveNoWaysOfTheirOwn) {
   for (std::size_t count = 0; count < 70; ++count) {
     std::vector<std::uint32_t> least(count);
