@@ -28,11 +28,12 @@ struct Algorithm {
   std::string_view name;
   void (*carve)(MazeCells&, std::uint64_t, const Execution&);
 };
-constexpr std::array<Algorithm, 5> algorithms{{{MazeAlgorithm::backtracker, "backtracker", maze::carve_backtracker},
+constexpr std::array<Algorithm, 6> algorithms{{{MazeAlgorithm::backtracker, "backtracker", maze::carve_backtracker},
                                                {MazeAlgorithm::kruskal, "kruskal", maze::carve_kruskal},
                                                {MazeAlgorithm::prim, "prim", maze::carve_prim},
                                                {MazeAlgorithm::wilson, "wilson", maze::carve_wilson},
-                                               {MazeAlgorithm::course, "course", maze::carve_course}}};
+                                               {MazeAlgorithm::course, "course", maze::carve_course},
+                                               {MazeAlgorithm::mst, "mst", maze::carve_mst}}};
 
 const Algorithm& algorithm_of(MazeAlgorithm id) { return algorithms.at(static_cast<std::size_t>(id)); }
 
@@ -110,7 +111,9 @@ MazeCells generate_maze(const MazeOptions& options, const Execution& execution) 
   if (execution.progress != nullptr) execution.progress->begin("generate", cells.cell_count());
   algorithm_of(options.algorithm).carve(cells, options.seed, execution);
   clear_scratch(cells, {execution.threads, execution.deadline});
-  if (options.loops > 0.0) {
+  if (options.loops > 0.0 && options.algorithm == MazeAlgorithm::mst) {
+    maze::open_drawn_loops(cells, options.loops, options.seed, {execution.threads, execution.deadline});
+  } else if (options.loops > 0.0) {
     const std::uint64_t standing = interior_walls(cells, {execution.threads, execution.deadline});
     const auto count = static_cast<std::uint64_t>(std::round(options.loops * static_cast<double>(standing)));
     open_loops(cells, std::min(count, standing), standing, options.seed, execution);

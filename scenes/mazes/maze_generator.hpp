@@ -2,7 +2,8 @@
 // Mazes of any size from a seed, the same bits on every machine. Cell (c, r) is the unit square around the integer
 // point (c, r), c in 1..cols, r in 1..rows; the outline opens at the left of (1, 1) and at the right of (cols, rows).
 // Carving is serial by nature and needs, cells included, 1 byte a cell for backtracker and wilson, 1 and the frontier
-// for prim, 13 for kruskal and 5 for course; all else is parallel. One file an algorithm: maze_backtracker.cpp, ...
+// for prim, 13 for kruskal and 5 for course; mst (spanning_maze.hpp) and all else is parallel. One file an algorithm:
+// maze_backtracker.cpp, ...
 #pragma once
 
 #include <cassert>
@@ -18,7 +19,7 @@
 
 namespace warren {
 
-enum class MazeAlgorithm : std::uint8_t { backtracker, kruskal, prim, wilson, course };
+enum class MazeAlgorithm : std::uint8_t { backtracker, kruskal, prim, wilson, course, mst };
 
 std::string_view name_of(MazeAlgorithm algorithm);
 /// Throws InputError naming the known algorithms.
@@ -29,7 +30,8 @@ struct MazeOptions {
   std::uint32_t cols = 41;  ///< >= 1
   std::uint64_t seed = 1;
   MazeAlgorithm algorithm = MazeAlgorithm::backtracker;
-  double loops = 0.0;  ///< fraction in [0, 1] of the interior walls left that are taken out, chosen by the seed
+  double loops = 0.0;  ///< fraction in [0, 1] of the interior walls left that are taken out, chosen by the seed (mst:
+                       ///< each by itself)
 };
 
 /// The maze as bits: which walls stand. One byte a cell, column after column, the cells of a column from low to high, a

@@ -7,12 +7,13 @@ namespace warren {
 namespace {
 
 constexpr OptionSpec maze_specs[] = {
-    {"--algorithm", "NAME", "how the mazes are made (default: backtracker)", "backtracker kruskal prim wilson course"},
+    {"--algorithm", "NAME", "how the mazes are made (default: backtracker)",
+     "backtracker kruskal prim wilson course mst"},
     {"--loops", "F", "fraction of the remaining walls taken out, 0 to 1 (default: 0)"},
 };
 
 MazeAlgorithm algorithm_value(std::string_view option, std::string_view text) {
-  constexpr std::string_view words[] = {"backtracker", "kruskal", "prim", "wilson", "course"};
+  constexpr std::string_view words[] = {"backtracker", "kruskal", "prim", "wilson", "course", "mst"};
   return maze_algorithm_named(words[choice_value(option, text, words)]);
 }
 

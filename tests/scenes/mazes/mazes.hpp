@@ -15,7 +15,8 @@ namespace warren::mazes {
 /// Column and row.
 using Cell = std::pair<std::uint32_t, std::uint32_t>;
 inline constexpr MazeAlgorithm all_algorithms[] = {MazeAlgorithm::backtracker, MazeAlgorithm::kruskal,
-                                                   MazeAlgorithm::prim, MazeAlgorithm::wilson, MazeAlgorithm::course};
+                                                   MazeAlgorithm::prim,        MazeAlgorithm::wilson,
+                                                   MazeAlgorithm::course,      MazeAlgorithm::mst};
 
 /// Distances in steps from a cell by a plain breadth-first search; -1: not reached.
 inline std::vector<int> distances_from(const MazeCells& cells, Cell from) {

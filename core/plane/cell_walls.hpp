@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A world of walls on the sides of unit cells that need not be held: whoever gives it makes the walls of any tile by
+// itself, when asked, as often as asked. Cell (col, row), from 0, is the unit square around (col + 1, row + 1); tiles
+// are squares of 2^side_log2 cells, numbered row by row from below, narrower at the right and upper rim.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/base/types.hpp"
+
+namespace warren {
+
+/// The walls of one tile: a byte a cell, and of the cells left of and below it.
+struct CellTile {
+  static constexpr std::uint8_t right_wall = 1;
+  static constexpr std::uint8_t upper_wall = 2;
+
+  std::uint32_t first_col = 0, first_row = 0, width = 0, height = 0;
+  std::vector<std::uint8_t>
+      walls;  ///< of column -1 and row -1 only the sides that the tile's cells share mean something
+
+  /// Of cell (col, row) of the tile, each from -1.
+  std::size_t index(std::ptrdiff_t col, std::ptrdiff_t row) const {
+    return static_cast<std::size_t>((row + 1) * (std::ptrdiff_t{width} + 1) + col + 1);
+  }
+  /// Calls visit(x, y, is_upper) for each unit wall on a side of the tile's cells: from (x, y) up, or to the right
+  /// where is_upper.
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    for (std::ptrdiff_t row = -1; row < std::ptrdiff_t{height}; ++row) {
+      const std::uint8_t* const line = walls.data() + index(0, row);
+      const double y = static_cast<double>(first_row) + static_cast<double>(row) + 0.5;
+      for (std::ptrdiff_t col = -1; col < std::ptrdiff_t{width}; ++col) {
+        const unsigned bits = line[col];
+        const double x = static_cast<double>(first_col) + static_cast<double>(col) + 0.5;
+        if ((bits & right_wall) != 0 && row >= 0) visit(x + 1, y, false);
+        if ((bits & upper_wall) != 0 && col >= 0) visit(x, y + 1, true);
+      }
+    }
+  }
+};
+
+/// Makes tiles; belongs to one thread.
+class CellWallReader {
+ public:
+  CellWallReader() = default;
+  virtual ~CellWallReader() = default;
+  CellWallReader(const CellWallReader&) = delete;
+  CellWallReader& operator=(const CellWallReader&) = delete;
+  /// Fills in the tile of this number, below CellWallSource::tile_count().
+  virtual void read(std::size_t number, CellTile& tile) = 0;
+};
+
+/// Immutable; any number of readers may be at work.
+class CellWallSource {
+ public:
+  /// rows, cols: 1 .. 2^31 - 1; side_log2: 0 .. 8.
+  CellWallSource(std::uint32_t rows, std::uint32_t cols, unsigned side_log2)
+      : rows_(rows), cols_(cols), side_log2_(side_log2), tile_cols_(((cols - 1) >> side_log2) + 1) {}
+  virtual ~CellWallSource() = default;
+  CellWallSource(const CellWallSource&) = delete;
+  CellWallSource& operator=(const CellWallSource&) = delete;
+  virtual std::unique_ptr<CellWallReader> reader() const = 0;
+
+  std::uint32_t rows() const { return rows_; }
+  std::uint32_t cols() const { return cols_; }
+  unsigned side_log2() const { return side_log2_; }
+  std::size_t tile_count() const { return tile_cols_ * (((rows_ - 1) >> side_log2_) + std::size_t{1}); }
+  std::size_t tile_cols() const { return tile_cols_; }
+  std::size_t tile_of(std::uint32_t col, std::uint32_t row) const {
+    return (row >> side_log2_) * tile_cols_ + (col >> side_log2_);
+  }
+  /// Of all walls.
+  Box box() const { return {{0.5, 0.5}, {cols_ + 0.5, rows_ + 0.5}}; }
+
+ protected:
+  /// Sets where the tile lies, with all walls standing.
+  void place(std::size_t number, CellTile& tile) const {
+    tile.first_col = static_cast<std::uint32_t>(number % tile_cols_) << side_log2_;
+    tile.first_row = static_cast<std::uint32_t>(number / tile_cols_) << side_log2_;
+    tile.width = std::min(1U << side_log2_, cols_ - tile.first_col);
+    tile.height = std::min(1U << side_log2_, rows_ - tile.first_row);
+    tile.walls.assign((std::size_t{tile.width} + 1) * (std::size_t{tile.height} + 1),
+                      CellTile::right_wall | CellTile::upper_wall);
+  }
+
+ private:
+  std::uint32_t rows_;
+  std::uint32_t cols_;
+  unsigned side_log2_;
+  std::size_t tile_cols_;
+};
+
+}  // namespace warren

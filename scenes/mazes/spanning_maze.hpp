@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The maze of the algorithm mst: the minimum spanning tree of the unit grid with the weights of grid_edges.hpp, and the
+// walls of any tile of it by itself. The same maze whatever the tiles and threads.
+//
+// Made in levels. A tile's tree (spanning_tile.hpp) is said in edges between cells of its rim; 8 x 8 neighbours are
+// joined by Kruskal's algorithm over these and the edges between them, then 8 x 8 such groups, until one is left. An
+// edge that a level refuses is in no tree of the whole; one that joins two parts of which one does not reach the
+// group's rim is in it; the others the next level decides. What is kept is where the whole differs from the trees of
+// the tiles: 0.03 bytes a cell at side 256, which is all that a tile needs to be made again.
+//
+// Cost: as SpanningTile, and 2 ns of CPU a cell for the levels; while it is made 0.03 bytes a cell more.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/plane/cell_walls.hpp"
+#include "parallel/execution.hpp"
+#include "scenes/mazes/grid_edges.hpp"
+#include "scenes/mazes/spanning_tile.hpp"
+
+namespace warren {
+
+class SpanningMaze : public CellWallSource {
+ public:
+  static constexpr std::uint32_t most_side = (1U << 31U) - 1;  ///< rows, cols
+
+  /// loops: the probability, 0 to 1, that a wall between two cells which the tree leaves is taken out. Throws
+  /// InputError for sizes and loops out of range, Stopped at the deadline or before memory would pass its limit.
+  SpanningMaze(std::uint32_t rows, std::uint32_t cols, std::uint64_t seed, double loops, const Execution& execution,
+               unsigned side_log2 = 8);
+  std::unique_ptr<CellWallReader> reader() const override;
+
+ private:
+  class Reader;
+  class Builder;
+  maze::GridPiece piece(std::size_t tile) const;
+
+  std::uint64_t seed_;
+  maze::LoopDraw loops_;
+  /// By tile, the edges in which the whole differs from the tile's tree: those inside it that are not in the whole, and
+  /// those that leave it to the right or above and are. 2 * (row * 256 + col) + direction.
+  std::vector<std::vector<std::uint32_t>> turned_;
+};
+
+}  // namespace warren
