@@ -4,6 +4,7 @@
 // names and words of files stand in it.
 #pragma once
 
+#include <cstddef>
 #include <exception>
 #include <stdexcept>
 #include <string>
@@ -26,33 +27,39 @@ class TextError : public Error {
   std::runtime_error text_;  // its copies share the text, so that they can't fail
 };
 
-/// Input that contradicts its format or its stated range. `where` names the place (file:line, option, parameter).
-class InputError : public TextError {
+/// An error that names its place: "where: wrong (found: value)".
+class PlacedError : public TextError {
  public:
-  InputError(std::string_view where, std::string_view what, std::string_view value = {})
-      : TextError(text(where, what, value)) {}
+  PlacedError(std::string_view where, std::string_view wrong, std::string_view value = {});
+
+  std::string_view where() const noexcept { return line().substr(0, where_bytes_); }
+  std::string_view wrong() const noexcept { return line().substr(where_bytes_ + 2, wrong_bytes_); }
+  std::string_view value() const noexcept;  ///< empty: none was given
 
  private:
-  static std::string text(std::string_view where, std::string_view what, std::string_view value) {
-    std::string line{where};
-    line.append(": ").append(what);
-    if (!value.empty()) line.append(" (found: ").append(value).append(")");
-    return line;
-  }
+  std::string_view line() const noexcept { return what(); }
+
+  std::size_t where_bytes_;
+  std::size_t wrong_bytes_;
+};
+
+/// Input that contradicts its format or its stated range. `where` names the place (file:line, option, parameter).
+class InputError : public PlacedError {
+ public:
+  using PlacedError::PlacedError;
 };
 
 /// An input that can't be opened or read at all.
-class ReadError : public TextError {
+class ReadError : public PlacedError {
  public:
-  ReadError(std::string_view where, std::string_view why)
-      : TextError(std::string{where} + ": can't be read: " + std::string{why}) {}
+  ReadError(std::string_view where, std::string_view why) : PlacedError(where, "can't be read: " + std::string{why}) {}
 };
 
 /// An output that can't be written; nothing half-written stays.
-class WriteError : public TextError {
+class WriteError : public PlacedError {
  public:
   WriteError(std::string_view where, std::string_view why)
-      : TextError(std::string{where} + ": can't be written: " + std::string{why}) {}
+      : PlacedError(where, "can't be written: " + std::string{why}) {}
 };
 
 /// A question, an option or a command line that contradicts itself, the world, or names something unknown. Where the

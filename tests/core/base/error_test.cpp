@@ -30,6 +30,20 @@ TEST(Error, WhatComesFromFilesIsPrintable) {
   EXPECT_EQ(UsageError("@json: \n").spelled("--", '-'), "--json: \\x0a");
 }
 
+TEST(PlacedError, TellsItsParts) {
+  const InputError whole("a.scene:3", "no such word", "\x1b");
+  EXPECT_EQ(whole.where(), "a.scene:3");
+  EXPECT_EQ(whole.wrong(), "no such word");
+  EXPECT_EQ(whole.value(), "\\x1b");
+  const InputError plain("\n", "");
+  EXPECT_EQ(plain.where(), "\\x0a");
+  EXPECT_EQ(plain.wrong(), "");
+  EXPECT_EQ(plain.value(), "");
+  const ReadError gone("a: b", "no such file");
+  EXPECT_EQ(gone.where(), "a: b");
+  EXPECT_EQ(gone.wrong(), "can't be read: no such file");
+}
+
 TEST(EnumNames, LeadBothWays) {
   EXPECT_EQ(name_of(Fruit::sour_cherry), "sour-cherry");
   EXPECT_EQ(enum_named<Fruit>("sour-cherry"), Fruit::sour_cherry);

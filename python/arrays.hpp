@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// NumPy's arrays in and out. In: read where they lie, so their type and layout must fit, and a TypeError says how they
+// don't; what is no array (lists, tuples) is converted. Out: read-only views of what an object of ours holds, which
+// keep that object alive, or arrays that own their block.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <initializer_list>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace warren::python {
+
+using Shape = std::vector<pybind11::ssize_t>;
+
+inline pybind11::array read_only(pybind11::array array) {
+  pybind11::detail::array_proxy(array.ptr())->flags &= ~pybind11::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  return array;
+}
+
+/// Numbers in C order that `owner` holds.
+template <class T>
+pybind11::array view_of(const T* numbers, Shape shape, pybind11::handle owner) {
+  return read_only(pybind11::array(pybind11::dtype::of<T>(), std::move(shape), {}, numbers, owner));
+}
+
+/// Takes a block of numbers: a vector of them, or of structs of them.
+template <class T, class Block>
+pybind11::array array_of(Block block, Shape shape) {
+  auto held = std::make_unique<Block>(std::move(block));
+  const auto* numbers = reinterpret_cast<const T*>(held->data());  // NOLINT: structs of T alone
+  const pybind11::capsule owner(held.release(), [](void* p) { delete static_cast<Block*>(p); });
+  return read_only(pybind11::array(pybind11::dtype::of<T>(), std::move(shape), {}, numbers, owner));
+}
+
+/// Rows of numbers, float64 in C order. Keeps the array that holds them.
+struct NumberRows {
+  pybind11::array_t<double, pybind11::array::c_style> array;
+  const double* numbers = nullptr;
+  std::size_t rows = 0;
+  std::size_t columns = 0;
+};
+
+/// An (n, columns) argument. Throws TypeError, which names it, for another type or shape.
+NumberRows rows_of(pybind11::handle value, const std::string& name, std::initializer_list<std::size_t> columns);
+
+/// "int64 (5, 2)": what an array is, for errors.
+std::string kind_of(const pybind11::array& array);
+
+}  // namespace warren::python

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The parts of the module warren._core, a file each. What users see of it is python/warren/: classes with their
+// documentation over these bare ones.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include "solve/answer/answer.hpp"
+#include "solve/answer/by_products.hpp"
+
+namespace warren::python {
+
+/// An answer, and what its planner made where it was asked to keep it.
+struct KeptAnswer {
+  Answer answer;
+  ByProducts made = {};
+};
+
+void bind_worlds(pybind11::module_& module);
+void bind_answers(pybind11::module_& module);
+void bind_pictures(pybind11::module_& module);
+void bind_solving(pybind11::module_& module);
+void bind_roadmaps(pybind11::module_& module);
+void bind_studies(pybind11::module_& module);
+
+}  // namespace warren::python

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Worlds and answers as SVG, HTML and PNG, and what a planner made as arrays, for plots.
+#include <pybind11/stl.h>
+
+#include <fmt/format.h>
+
+#include "pictures/draw_answer.hpp"
+#include "python/arrays.hpp"
+#include "python/bind.hpp"
+#include "python/interrupts.hpp"
+#include "solve/answer/world_account.hpp"
+#include "worlds/rasters/map_borders.hpp"
+
+namespace warren::python {
+namespace py = pybind11;
+namespace {
+
+std::string drawn(const Picture& picture, const std::string& format, const Execution& execution) {
+  std::string text;
+  const Write write = [&](std::string_view piece) { text += piece; };
+  if (format == "png") {
+    write_png(picture, execution, write);
+  } else if (format == "html") {
+    write_html(picture, execution, write);
+  } else {
+    write_svg(picture, execution, write);
+  }
+  return text;
+}
+
+/// The scene with the walls that pictures show of a map.
+const Scene& bordered(const Scene& scene, std::optional<Scene>& copy, const Execution& execution) {
+  if (!scene.map || scene.walls.size() > 0) return scene;
+  copy = scene;
+  add_map_walls(*copy, execution);
+  return *copy;
+}
+
+py::bytes picture_of_world(const Scene& scene, const std::string& format) {
+  return CallLimits().run([&](const Execution& execution) {
+    std::optional<Scene> copy;
+    const Scene& shown = bordered(scene, copy, execution);
+    Picture picture{.scene = shown, .start = plane_point(scene.start), .goal = plane_point(scene.goal)};
+    picture.title = description_of(scene);
+    return drawn(picture, format, execution);
+  });
+}
+
+RecordedAnswer as_recorded(const Answer& answer) {
+  RecordedAnswer plain;
+  plain.problem = {.robot = answer.problem.robot, .start = answer.problem.start, .goal = answer.problem.goal};
+  plain.path = answer.path;
+  plain.states = answer.states;
+  return plain;
+}
+
+py::bytes picture_of_answer(const KeptAnswer& kept, const Scene& scene, const std::string& format, bool moving) {
+  return CallLimits().run([&](const Execution& execution) {
+    std::optional<Scene> copy;
+    const Scene& shown = bordered(scene, copy, execution);
+    Drawing drawing = drawing_of(shown, kept.answer, kept.made, execution);
+    if (moving && !kept.answer.path.empty()) animate(drawing, kept.answer.problem.robot, as_recorded(kept.answer));
+    Picture picture = picture_of(shown, drawing);
+    picture.title = fmt::format("{}: {}", scene.source, name_of(kept.answer.outcome));
+    picture.description = fmt::format("{}. {}, seed {}", description_of(scene), kept.answer.planner, kept.answer.seed);
+    return drawn(picture, format, execution);
+  });
+}
+
+/// (n, 2, 2): where each edge of the graph, or of the search, begins and ends.
+template <class State>
+void add_segments(const PlannedRoadmap<State>& made, bool tree, RawVector<double>& segments) {
+  const auto add = [&](VertexId from, VertexId to) {
+    for (const VertexId v : {from, to}) segments.insert(segments.end(), {made.states[v].x, made.states[v].y});
+  };
+  if (tree) {
+    for (const Edge& edge : made.search_tree) add(edge.from, edge.to);
+    return;
+  }
+  for (const Edge& edge : made.motions) add(edge.from, edge.to);
+  for (VertexId v = 0; made.motions.empty() && v < made.graph.vertex_count(); ++v) {
+    for (const VertexId w : made.graph.neighbours(v)) {
+      if (v < w) add(v, w);
+    }
+  }
+}
+
+py::array segments_of(const KeptAnswer& kept, bool tree) {
+  RawVector<double> segments;
+  add_segments(kept.made.roadmap, tree, segments);
+  for (const auto& made : kept.made.trees) add_segments(made, tree, segments);
+  for (const auto& made : kept.made.pose_roadmaps) add_segments(made, tree, segments);
+  const auto n = static_cast<py::ssize_t>(segments.size() / 4);
+  return array_of<double>(std::move(segments), {n, 2, 2});
+}
+
+/// name: chains of points.
+py::dict lines_of(const KeptAnswer& kept) {
+  py::dict all;
+  for (const NamedLines& named : kept.made.lines) {
+    py::list chains;
+    for (std::size_t i = 0; i < named.lines.size(); ++i) {
+      const std::span<const Vec2> chain = named.lines[i];
+      std::vector<Vec2> points(chain.begin(), chain.end());
+      if (named.closed && !points.empty()) points.push_back(points.front());
+      const auto n = static_cast<py::ssize_t>(points.size());
+      chains.append(array_of<double>(std::move(points), {n, 2}));
+    }
+    all[py::str(named.name)] = chains;
+  }
+  return all;
+}
+
+/// The body's outline around its reference point, (n, 2), and its radius.
+py::tuple body_of(const Answer& answer) {
+  const RobotSpec& robot = answer.problem.robot;
+  std::vector<Vec2> outline = robot.outline;
+  const auto n = static_cast<py::ssize_t>(outline.size());
+  return py::make_tuple(array_of<double>(std::move(outline), {n, 2}), robot.radius);
+}
+
+}  // namespace
+
+void bind_pictures(py::module_& module) {
+  module.def("picture_of_world", &picture_of_world);
+  module.def("picture_of_answer", &picture_of_answer);
+  module.def("segments_of", &segments_of);
+  module.def("lines_of", &lines_of);
+  module.def("body_of", [](const KeptAnswer& kept) { return body_of(kept.answer); });
+}
+
+}  // namespace warren::python

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Worlds: read, made, looked at, changed, written.
+#include <pybind11/stl.h>
+
+#include <algorithm>
+
+#include "core/base/error.hpp"
+#include "python/arrays.hpp"
+#include "python/binary_archive.hpp"
+#include "python/bind.hpp"
+#include "python/keywords.hpp"
+#include "python/scene_of_arrays.hpp"
+#include "scenes/formats/geojson_io.hpp"
+#include "scenes/formats/read_world_io.hpp"
+#include "scenes/scene/polygon_generator.hpp"
+#include "scenes/text/input_file_io.hpp"
+#include "solve/answer/world_account.hpp"
+#include "solve/answer/world_facts.hpp"
+#include "tools/screen/world_files.hpp"
+#include "tools/words/question_words.hpp"
+
+namespace warren::python {
+namespace py = pybind11;
+namespace {
+
+const Command& reading() {
+  static const Command command = [] {
+    Command made{"read_world", "", "", {}, {}};
+    add_options(made.options, world_option_specs());
+    return made;
+  }();
+  return command;
+}
+
+const Command& question_of_world() {
+  static const Command command = [] {
+    Command made{"scene", "", "", {}, {}};
+    add_options(made.options, question_option_specs(), {"--contact"});
+    return made;
+  }();
+  return command;
+}
+
+/// What scene files say beside obstacles: start, goal, robot, clearance.
+void take_question(Scene& scene, const py::dict& keywords) {
+  Question question = question_words(arguments_of(question_of_world(), keywords));
+  question.validate();
+  if (!question.start.empty()) scene.start = std::move(question.start);
+  if (!question.goal.empty()) scene.goal = std::move(question.goal);
+  if (question.robot) scene.robot = std::move(question.robot);
+  if (question.clearance) scene.clearance = question.clearance;
+}
+
+Scene read_named(const std::string& source, py::dict keywords) {
+  CallLimits limits = take_limits(keywords);
+  const Arguments words = arguments_of(reading(), keywords);
+  return limits.run([&](const Execution& execution) {
+    StageTimes seconds;
+    return load_world(source, words, execution, seconds);
+  });
+}
+
+Scene read_text(const std::string& name, const std::string& text, const py::dict& keywords) {
+  Scene scene = CallLimits().run(
+      [&](const Execution& execution) { return read_scene(InputFile::of_bytes(name, text), execution); });
+  scene.source = name;
+  take_question(scene, keywords);
+  return scene;
+}
+
+Scene made_of_arrays(const py::dict& parts, const py::dict& keywords) {
+  Scene scene = scene_of_arrays(parts);
+  take_question(scene, keywords);
+  CallLimits().run([&](const Execution& execution) { check_scene(scene, execution); });
+  return scene;
+}
+
+Scene made_of_cells(const py::array& cells, double cell, std::array<double, 2> origin, double yaw_rad,
+                    const py::dict& keywords) {
+  Scene scene = scene_of_cells(cells, cell, origin, yaw_rad);
+  take_question(scene, keywords);
+  return scene;
+}
+
+py::array walls_of(const py::object& self) {
+  return self.cast<const Scene&>().walls.visit([&](auto walls) -> py::array {
+    const auto n = static_cast<py::ssize_t>(walls.size());
+    if (n == 0) return read_only(py::array_t<float>(Shape{0, 4}));
+    return view_of(&walls.data()->x1, {n, 4}, self);
+  });
+}
+
+py::list polygons_of(const py::object& self) {
+  py::list rings;
+  for (const ScenePolygon& polygon : self.cast<const Scene&>().polygons) {
+    rings.append(view_of(&polygon.corners.data()->x, {static_cast<py::ssize_t>(polygon.corners.size()), 2}, self));
+  }
+  return rings;
+}
+
+py::object cells_of(const Scene& scene) {
+  if (!scene.map) return py::none();
+  const Bitmap& blocked = scene.map->blocked;
+  py::array_t<bool> cells(Shape{blocked.height(), blocked.width()});
+  for (std::uint32_t y = 0; y < blocked.height(); ++y) {
+    bool* row = cells.mutable_data(blocked.height() - 1 - y, 0);
+    for (std::uint32_t x = 0; x < blocked.width(); ++x) row[x] = blocked.test(x, y);
+  }
+  return read_only(std::move(cells));
+}
+
+/// x0, y0, x1, y1, or None.
+py::object box_of(const Box& box) {
+  if (box.empty()) return py::none();
+  return py::make_tuple(box.min.x, box.min.y, box.max.x, box.max.y);
+}
+
+template <class T>
+py::array solids_of(const std::vector<T>& solids, py::ssize_t columns, const py::object& self) {
+  const auto n = static_cast<py::ssize_t>(solids.size());
+  if (n == 0) return read_only(py::array_t<double>(Shape{0, columns}));
+  return view_of(reinterpret_cast<const double*>(solids.data()), {n, columns}, self);  // NOLINT: doubles alone
+}
+
+/// The scene with walls taken out, by their rows, and others put at the end.
+Scene with_other_walls(const Scene& scene, const std::vector<std::size_t>& gone, const py::object& added) {
+  Scene next = scene;
+  std::vector<std::size_t> rows = gone;
+  std::sort(rows.begin(), rows.end());
+  if (!rows.empty() && rows.back() >= scene.walls.size()) {
+    throw InputError("gone", "there is no such wall", std::to_string(rows.back()));
+  }
+  std::vector<Segment> walls;
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) {
+    if (!std::binary_search(rows.begin(), rows.end(), i)) walls.push_back(scene.walls.segment(i));
+  }
+  if (!added.is_none()) {
+    py::dict parts;
+    parts["walls"] = added;
+    parts["source"] = "";
+    const Scene more = scene_of_arrays(parts);
+    for (std::size_t i = 0; i < more.walls.size(); ++i) walls.push_back(more.walls.segment(i));
+  }
+  next.walls = WallSet::narrowest(walls);
+  CallLimits().run([&](const Execution& execution) { check_scene(next, execution); });
+  return next;
+}
+
+void bind_what_is_seen(py::class_<Scene>& scene) {
+  scene.def_property_readonly("source", [](const Scene& s) { return s.source; })
+      .def_property_readonly("description", &description_of)
+      .def_property_readonly("walls", &walls_of)
+      .def_property_readonly("polygons", &polygons_of)
+      .def_property_readonly("cells", &cells_of)
+      .def_property_readonly("spheres",
+                             [](const py::object& s) { return solids_of(s.cast<const Scene&>().spheres, 4, s); })
+      .def_property_readonly("boxes", [](const py::object& s) { return solids_of(s.cast<const Scene&>().boxes, 6, s); })
+      .def_property_readonly("bounds", [](const Scene& s) { return box_of(s.bounds.value_or(Box{})); })
+      .def_property_readonly("box", [](const Scene& s) { return box_of(obstacle_box(s)); })
+      .def_property_readonly(
+          "robot", [](const Scene& s) { return s.robot ? py::object(py::str(robot_text(*s.robot))) : py::none(); })
+      .def_property_readonly("clearance", [](const Scene& s) { return s.clearance; })
+      .def_property_readonly("start", [](const Scene& s) { return s.start; })
+      .def_property_readonly("goal", [](const Scene& s) { return s.goal; })
+      .def_property_readonly("maze",
+                             [](const Scene& s) -> py::object {
+                               if (!s.maze) return py::none();
+                               return py::make_tuple(s.maze->rows, s.maze->cols);
+                             })
+      .def_property_readonly("raster", [](const Scene& s) -> py::object {
+        if (!s.map) return py::none();
+        return py::make_tuple(s.map->cell, s.map->origin.x, s.map->origin.y, s.map->yaw_rad);
+      });
+}
+
+}  // namespace
+
+void bind_worlds(py::module_& module) {
+  py::class_<Scene> scene(module, "Scene");
+  bind_what_is_seen(scene);
+  scene
+      .def("facts",
+           [](const Scene& s) {
+             return CallLimits().run([&](const Execution& on) { return facts_json(facts_of(s, on)); });
+           })
+      .def("hash",
+           [](const Scene& s) { return CallLimits().run([&](const Execution& on) { return account_of(s, on).hash; }); })
+      .def("with_other_walls", &with_other_walls)
+      .def("write",
+           [](const Scene& s, const std::string& path) {
+             CallLimits().run([&](const Execution& on) {
+               s.map && (is_map_ending(path) || path.ends_with(".png")) ? write_map(*s.map, path, on)
+                                                                        : write_scene(s, path, on);
+             });
+           })
+      .def(py::pickle([](const Scene& s) { return bytes_of(s); },
+                      [](const py::bytes& b) { return from_bytes<Scene>(b); }));
+  module.def("read_world", &read_named);
+  module.def("read_text", &read_text);
+  module.def("scene", &made_of_arrays);
+  module.def("cells", &made_of_cells);
+  module.def("reading_keywords", [] { return keyword_table(reading()); });
+}
+
+}  // namespace warren::python

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "python/interrupts.hpp"
+
+#include <string>
+
+namespace warren::python {
+namespace py = pybind11;
+namespace {
+
+constinit SignalFlag flag{0};
+constexpr std::array<int, 3> watched{SIGINT, SIGTERM, SIGHUP};
+std::array<struct sigaction, watched.size()> pythons;  // what Python does at each; only the main thread writes it
+
+/// Called by any thread. Python's own handler only takes a note, too.
+void take_note(int number) {
+  flag.store(number, std::memory_order_relaxed);
+  for (std::size_t i = 0; i < watched.size(); ++i) {
+    if (watched[i] == number) pythons[i].sa_handler(number);
+  }
+}
+
+bool is_handled_by_function(const struct sigaction& action) {
+  return (action.sa_flags & SA_SIGINFO) == 0 && action.sa_handler != SIG_DFL && action.sa_handler != SIG_IGN;
+}
+
+bool is_main_thread() {
+  static const auto main_thread =
+      py::module_::import("threading").attr("main_thread")().attr("ident").cast<unsigned long>();
+  return PyThread_get_thread_ident() == main_thread;
+}
+
+}  // namespace
+
+SignalWatch::SignalWatch() : is_watching_(is_main_thread()) {
+  if (!is_watching_) return;
+  flag.store(0, std::memory_order_relaxed);
+  for (std::size_t i = 0; i < watched.size(); ++i) {
+    ::sigaction(watched[i], nullptr, &pythons[i]);
+    if (!is_handled_by_function(pythons[i])) continue;
+    struct sigaction ours = pythons[i];
+    ours.sa_handler = take_note;
+    ::sigaction(watched[i], &ours, nullptr);
+  }
+}
+
+SignalWatch::~SignalWatch() {
+  if (!is_watching_) return;
+  for (std::size_t i = 0; i < watched.size(); ++i) {
+    if (is_handled_by_function(pythons[i])) ::sigaction(watched[i], &pythons[i], nullptr);
+  }
+}
+
+SignalFlag& SignalWatch::flag_or(SignalFlag& other) const { return is_watching_ ? flag : other; }
+
+void let_python_handle_signals() {
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
+CallLimits::CallLimits(unsigned threads, std::optional<double> budget_s, std::optional<std::size_t> memory,
+                       py::object progress)
+    : progress_(std::move(progress)) {
+  limits_.threads = threads;
+  if (budget_s) {
+    limits_.budget = std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(*budget_s));
+  }
+  limits_.memory = memory;
+}
+
+Limits CallLimits::limits(const SignalWatch& watch) {
+  flag_ = &watch.flag_or(own_flag_);
+  limits_.cancel = flag_;
+  if (!progress_.is_none()) limits_.progress = [this](const ProgressReport& report) { tell(report); };
+  return limits_;
+}
+
+void CallLimits::tell(const ProgressReport& report) noexcept {
+  const py::gil_scoped_acquire locked;
+  if (failure_) return;
+  try {
+    progress_(std::string(report.stage), report.done, report.total);
+  } catch (py::error_already_set& failure) {
+    failure_.emplace(std::move(failure));
+    flag_->store(SIGINT, std::memory_order_relaxed);
+  }
+}
+
+void CallLimits::raise_what_stopped(StopReason reason) {
+  if (failure_) throw std::move(*failure_);
+  if (is_signal(reason)) let_python_handle_signals();
+}
+
+}  // namespace warren::python

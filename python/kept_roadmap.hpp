@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A roadmap that Python holds, with what its questions need: made when they are first asked, kept for the next ones.
+#pragma once
+
+#include <memory>
+
+#include "parallel/made_once.hpp"
+#include "python/arrays.hpp"
+#include "solve/roadmaps/roadmap_query.hpp"
+
+namespace warren::python {
+
+/// Not movable, for queries refer to the roadmap. Any number of threads may ask.
+class KeptRoadmap {
+ public:
+  explicit KeptRoadmap(Roadmap roadmap) : roadmap_(std::move(roadmap)) {}
+
+  const Roadmap& roadmap() const { return roadmap_; }
+  const RoadmapQuery& query(const Execution& execution) const;
+  /// States and edges; a lattice's are made for it.
+  const RoadmapArrays& arrays(const Execution& execution) const;
+  /// Length of each edge end, in the order of arrays().
+  const RawVector<double>& lengths(const Execution& execution) const;
+  /// Takes over what the questions so far have learnt of the edges. Nobody may ask meanwhile.
+  void learn(const Execution& execution);
+
+  std::size_t askers = 0;  ///< calls that ask now; read and written with the interpreter's lock held
+
+ private:
+  Roadmap roadmap_;
+  MadeOnce<RoadmapQuery> query_;
+  MadeOnce<RoadmapArrays> lattice_;
+  MadeOnce<RawVector<double>> lengths_;
+};
+
+/// Lengths of the shortest ways between places, infinite where there is none: of pairs, row by row, or from each start
+/// to each goal. The same for any number of threads. Throws InputError, which names the rows, Stopped.
+void ask_lengths(const KeptRoadmap& kept, const NumberRows& starts, const NumberRows& goals, bool each_to_each,
+                 const RoadmapSearchFields& how, const Execution& execution, double* lengths);
+
+}  // namespace warren::python

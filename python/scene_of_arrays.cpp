@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "python/scene_of_arrays.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "core/base/error.hpp"
+#include "python/arrays.hpp"
+#include "scenes/mazes/maze_generator.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
+
+namespace warren::python {
+namespace py = pybind11;
+namespace {
+
+/// As readers of files take a number.
+double coordinate(double x, const char* name, std::size_t row) {
+  if (!(std::abs(x) <= largest_coordinate)) {
+    throw InputError(fmt::format("{}[{}]", name, row), "numbers must be finite and at most 1e60 in magnitude",
+                     fmt::format("{}", x));
+  }
+  return std::abs(x) < smallest_coordinate ? 0.0 : x;
+}
+
+Vec2 point(const NumberRows& rows, std::size_t i, const char* name) {
+  return {coordinate(rows.numbers[2 * i], name, i), coordinate(rows.numbers[2 * i + 1], name, i)};
+}
+
+template <class T>
+RawVector<WallOf<T>> walls_in(const py::array& array) {
+  RawVector<WallOf<T>> walls(static_cast<std::size_t>(array.shape(0)));
+  const auto* numbers = static_cast<const T*>(array.data());
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    const auto at = [&](std::size_t k) { return static_cast<T>(coordinate(numbers[4 * i + k], "walls", i)); };
+    walls[i] = {at(0), at(1), at(2), at(3)};
+  }
+  return walls;
+}
+
+WallSet read_walls(py::handle value) {
+  if (py::isinstance<py::array_t<float, py::array::c_style>>(value)) {
+    const auto array = py::reinterpret_borrow<py::array>(value);
+    if (array.ndim() == 2 && array.shape(1) == 4) return WallSet(walls_in<float>(array));
+  }
+  const bool is_array = py::isinstance<py::array>(value);
+  const bool is_float64 = py::isinstance<py::array_t<double, py::array::c_style>>(value);
+  if (is_array && !is_float64) {
+    throw py::type_error(fmt::format("walls: expected float32 or float64 (n, 4) in C order (found: {})",
+                                     kind_of(py::reinterpret_borrow<py::array>(value))));
+  }
+  const NumberRows rows = rows_of(value, "walls", {4});
+  if (is_array) return WallSet(walls_in<double>(rows.array));
+  std::vector<Segment> segments;
+  for (const DoubleWall& wall : rows.rows == 0 ? RawVector<DoubleWall>() : walls_in<double>(rows.array)) {
+    segments.push_back(wall.segment());
+  }
+  return WallSet::narrowest(segments);
+}
+
+void add_polygons(Scene& scene, py::handle value) {
+  for (const py::handle ring : value) {
+    const NumberRows rows = rows_of(ring, fmt::format("polygons[{}]", scene.polygons.size()), {2});
+    ScenePolygon polygon;
+    for (std::size_t i = 0; i < rows.rows; ++i) polygon.corners.push_back(point(rows, i, "polygons"));
+    scene.polygons.push_back(std::move(polygon));
+  }
+}
+
+void add_spheres(Scene& scene, py::handle value) {
+  const NumberRows rows = rows_of(value, "spheres", {4});
+  for (std::size_t i = 0; i < rows.rows; ++i) {
+    const auto at = [&](std::size_t k) { return coordinate(rows.numbers[4 * i + k], "spheres", i); };
+    scene.spheres.push_back({at(0), at(1), at(2), at(3)});
+    if (!(at(3) >= 0.0)) throw InputError(fmt::format("spheres[{}]", i), "the radius must be at least 0");
+  }
+}
+
+void add_boxes(Scene& scene, py::handle value) {
+  const NumberRows rows = rows_of(value, "boxes", {6});
+  for (std::size_t i = 0; i < rows.rows; ++i) {
+    SolidBox box{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      box.low[k] = coordinate(rows.numbers[6 * i + k], "boxes", i);
+      box.high[k] = coordinate(rows.numbers[6 * i + 3 + k], "boxes", i);
+      if (!(box.low[k] <= box.high[k])) {
+        throw InputError(fmt::format("boxes[{}]", i), "expected xmin, ymin, zmin, xmax, ymax, zmax");
+      }
+    }
+    scene.boxes.push_back(box);
+  }
+}
+
+Box read_bounds(py::handle value) {
+  const py::tuple row = py::make_tuple(value);
+  const NumberRows rows = rows_of(py::module_::import("numpy").attr("asarray")(row, "float64"), "bounds", {4});
+  const auto at = [&](std::size_t k) { return coordinate(rows.numbers[k], "bounds", 0); };
+  const Box box{{at(0), at(1)}, {at(2), at(3)}};
+  if (!(box.width() > 0.0) || !(box.height() > 0.0)) {
+    throw InputError("bounds", "expected xmin, ymin, xmax, ymax of a box that has an inside");
+  }
+  return box;
+}
+
+}  // namespace
+
+Scene scene_of_arrays(const py::dict& parts) {
+  const auto part = [&](const char* name) -> py::object {
+    return parts.contains(name) ? py::object(parts[name]) : py::object(py::none());
+  };
+  Scene scene;
+  scene.source = part("source").cast<std::string>();
+  if (const py::object walls = part("walls"); !walls.is_none()) scene.walls = read_walls(walls);
+  if (const py::object rings = part("polygons"); !rings.is_none()) add_polygons(scene, rings);
+  if (const py::object balls = part("spheres"); !balls.is_none()) add_spheres(scene, balls);
+  if (const py::object boxes = part("boxes"); !boxes.is_none()) add_boxes(scene, boxes);
+  if (const py::object bounds = part("bounds"); !bounds.is_none()) scene.bounds = read_bounds(bounds);
+  if (const py::object maze = part("maze"); !maze.is_none()) {
+    const auto [rows, cols] = maze.cast<std::pair<std::uint32_t, std::uint32_t>>();
+    if (rows == 0 || cols == 0 || std::uint64_t{rows} * cols > std::numeric_limits<std::uint32_t>::max()) {
+      throw InputError("maze", "rows and columns must be at least 1, and fewer than 2^32 cells");
+    }
+    scene.maze = MazeHint{rows, cols};
+  }
+  return scene;
+}
+
+Scene scene_of_cells(const py::array& cells, double cell, std::array<double, 2> origin, double yaw_rad) {
+  const bool is_byte = cells.dtype().kind() == 'b' || (cells.dtype().kind() == 'u' && cells.itemsize() == 1);
+  if (!is_byte || cells.ndim() != 2) {
+    throw py::type_error("cells: expected bool or uint8 (rows, columns) (found: " + kind_of(cells) + ")");
+  }
+  check_map_size("cells", static_cast<std::uint64_t>(cells.shape(1)), static_cast<std::uint64_t>(cells.shape(0)));
+  if (!(cell > smallest_coordinate && cell < largest_coordinate)) {
+    throw InputError("cell", "must be a number above 0", fmt::format("{}", cell));
+  }
+  OccupancyMap map;
+  const auto height = static_cast<std::uint32_t>(cells.shape(0));
+  const auto width = static_cast<std::uint32_t>(cells.shape(1));
+  map.blocked = Bitmap(width, height);
+  for (std::uint32_t row = 0; row < height; ++row) {
+    const auto* byte = static_cast<const std::uint8_t*>(cells.data(row, 0));
+    for (std::uint32_t x = 0; x < width; ++x, byte += cells.strides(1)) {
+      if (*byte != 0) map.blocked.set(x, height - 1 - row);
+    }
+  }
+  map.occupied = map.blocked.count();
+  map.free = map.blocked.size() - map.occupied;
+  map.cell = cell;
+  map.origin = {coordinate(origin[0], "origin", 0), coordinate(origin[1], "origin", 1)};
+  map.yaw_rad = coordinate(yaw_rad, "yaw", 0);
+  map.source = "cells";
+  Scene scene;
+  scene.source = map.source;
+  scene.map = std::move(map);
+  return scene;
+}
+
+void check_scene(const Scene& scene, const Execution& execution) {
+  check_polygons(scene, execution);
+  if (!scene.maze) return;
+  if (const auto off = first_wall_off_grid(scene.walls, *scene.maze, execution)) {
+    throw InputError(fmt::format("walls[{}]", *off), "is not on the unit grid of the maze");
+  }
+}
+
+}  // namespace warren::python

@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Bodies, as the words of the scene format: what `robot=` takes."""
+from __future__ import annotations
+
+import os
+from typing import Any, Optional, Sequence, Union
+
+
+def _corners(outline: Any) -> str:
+    return " ".join(f"{float(x)!r} {float(y)!r}" for x, y in outline)
+
+
+def disc(radius: float) -> str:
+    """A disc that doesn't turn.
+
+    Parameters
+    ----------
+    radius : float
+        At least 0; 0 is a point.
+
+    Returns
+    -------
+    str
+        The body as scene files and `robot=` have it.
+
+    Examples
+    --------
+    >>> import warren
+    >>> warren.disc(0.2)
+    'disc 0.2'
+    """
+    return f"disc {float(radius)!r}"
+
+
+def polygon(outline: Sequence[Sequence[float]]) -> str:
+    """A rigid body that moves and turns.
+
+    Parameters
+    ----------
+    outline : array_like, (n, 2)
+        Corners around the reference point, which a state's x and y place; simple, in either direction.
+
+    Examples
+    --------
+    >>> import warren
+    >>> warren.polygon([(-1, -0.5), (1, -0.5), (1, 0.5), (-1, 0.5)])
+    'polygon -1.0 -0.5 1.0 -0.5 1.0 0.5 -1.0 0.5'
+    """
+    return f"polygon {_corners(outline)}"
+
+
+def car(turning_radius: float, *, outline: Optional[Sequence[Sequence[float]]] = None,
+        radius: Optional[float] = None, steering: Optional[str] = None) -> str:
+    """A car: it moves where it faces, on curves no tighter than its turning circle.
+
+    Parameters
+    ----------
+    turning_radius : float
+        Of the reference point, above 0.
+    outline : array_like, (n, 2), optional
+        Corners around the reference point.
+    radius : float, optional
+        Of a disc instead of an outline; one of the two is given.
+    steering : {'dubins', 'reeds-shepp'}, optional
+        Forwards only (the default), or backwards too.
+
+    Examples
+    --------
+    >>> import warren
+    >>> warren.car(2.0, radius=0.5, steering="reeds-shepp")
+    'car radius 0.5 turning 2.0 steering reeds-shepp'
+    """
+    if (outline is None) == (radius is None):
+        raise TypeError("car: give an outline or a radius")
+    shape = f"radius {float(radius)!r}" if radius is not None else f"polygon {_corners(outline)}"
+    return f"car {shape} turning {float(turning_radius)!r}" + (f" steering {steering}" if steering else "")
+
+
+def _links(radius: float, tool: float, self_collision: bool, limits: Optional[str] = None) -> str:
+    words = f"radius {float(radius)!r}"
+    words += f" tool {float(tool)!r}" if tool else ""
+    words += f" limits {limits}" if limits else ""
+    return words + (" self-collision" if self_collision else "")
+
+
+def puma560(radius: float, *, tool: float = 0.0, limits: Optional[str] = None, self_collision: bool = False) -> str:
+    """The Puma 560: six joints, lengths in metres.
+
+    Parameters
+    ----------
+    radius : float
+        Of its links, which are capsules.
+    tool : float
+        Length of the tool.
+    limits : {'classic', 'symmetric'}, optional
+        Of its joints (default: classic).
+    self_collision : bool
+        May links not touch each other?
+
+    Examples
+    --------
+    >>> import warren
+    >>> warren.puma560(0.05, tool=0.1)
+    'puma560 radius 0.05 tool 0.1'
+    """
+    return "puma560 " + _links(radius, tool, self_collision, limits)
+
+
+def arm(table: Union[str, "os.PathLike[str]"], radius: float, *, tool: float = 0.0,
+        self_collision: bool = False) -> str:
+    """An arm of one to six revolute joints by its Denavit-Hartenberg table.
+
+    Parameters
+    ----------
+    table : str or path
+        The file of the table (docs/file_formats.md); no blanks in its name.
+    radius : float
+        Of its links, which are capsules.
+    tool : float
+        Length of the tool.
+    self_collision : bool
+        May links not touch each other?
+
+    Examples
+    --------
+    >>> import warren
+    >>> warren.arm("arm.dh", 0.05)
+    'arm arm.dh radius 0.05'
+    """
+    return f"arm {os.fspath(table)} " + _links(radius, tool, self_collision)

@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The keywords that functions share with the program: their documentation is made of the program's own table."""
+from __future__ import annotations
+
+import textwrap
+from typing import Any, Callable, List, Tuple, TypeVar
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+_KINDS = {"N": "int", "K": "int", "NAME": "str", "WORD": "str", "TIME": "float or str", "BYTES": "int or str",
+          "STATES": "sequence of sequences of float", "X,Y[,THETA]": "sequence of float", '"BODY"': "str",
+          "LIST": "list of str or str", "N|auto": "int or 'auto'", "K|auto|star": "int, 'auto' or 'star'",
+          "R|auto|star": "float, 'auto' or 'star'", "R[,STEP]": "float or (float, float)", "D|TIME": "float or str",
+          "W[,...]": "float or sequence of float", "A[,...]": "float or sequence of float"}
+
+LIMITS = """
+threads : int, optional
+    Threads to compute on; changes the time, never the result (default: all).
+budget : float or str, optional
+    Seconds, or a word such as "500ms", after which :class:`Stopped` is raised (default: none).
+memory : int or str, optional
+    Bytes, or a word such as "2GiB", that the process may hold (default: what the machine has).
+progress : callable, optional
+    Called with stage, done and total (0: not known) ten times a second, on another thread.
+"""
+
+
+def _kind(value: str, choices: List[str], optional: bool) -> str:
+    if choices and optional:
+        return "bool or {" + ", ".join(choices) + "}"
+    if choices:
+        return "{" + ", ".join(choices) + "}"
+    return _KINDS.get(value, "float") if value else "bool"
+
+
+def documented(table: List[Tuple[str, str, str, List[str], bool]], limits: bool = True) -> Callable[[F], F]:
+    """Puts the keywords of a table where a docstring says {options}."""
+    text = LIMITS.strip("\n") if limits else ""
+    rows = [f"{name} : {_kind(value, choices, optional)}, optional\n" +
+            textwrap.fill(said[:1].upper() + said[1:] + ".", 110, initial_indent="    ", subsequent_indent="    ")
+            for name, value, said, choices, optional in table if name not in ("start", "goal", "path")]
+
+    def put(function: F) -> F:
+        said = textwrap.indent("\n".join([*rows, text] if text else rows), "    ").lstrip()
+        function.__doc__ = (function.__doc__ or "").replace("{options}", said)
+        return function
+
+    return put

@@ -1,0 +1,201 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""solve(): the program's answers, byte for byte; options, errors, arrays."""
+import gc
+import json
+import pickle
+import threading
+
+import numpy as np
+import pytest
+import warren
+from conftest import WORLDS, unmeasured
+
+
+TOWN = {"start": "1.5,1.5", "goal": "9.5,8.5"}
+FLAT = {"start": "0.5,0.5", "goal": "4.3,0.5"}
+SAME = [
+    ("maze:41x41,seed=3", {}),
+    ("maze:21x21,seed=5,loops=0.2", {"planner": "lazy-prm", "sampler": "uniform", "samples": 4000, "seed": 9}),
+    ("maze:15x15", {"planner": "prm", "pipeline": "plain", "clearance": 0.25, "optimise": True}),
+    ("maze:15x15,loops=0.3", {"planner": "lazy-prm", "lazy": "path", "robot": warren.disc(0.1)}),
+    ("poly-easy.scene", {}),
+    ("town.geojson", {"planner": "visibility", "full": True, **TOWN}),
+    ("town.geojson", {"planner": "cells", "doors": "funnel", **TOWN}),
+    ("town.geojson", {"planner": "voronoi", "objective": "clearance", **TOWN}),
+    ("poly-easy.scene", {"planner": "rrt", "goal_bias": 0.1, "seed": 4, "nodes": 20000}),
+    ("flat.yaml", {"planner": "grid", "robot": warren.disc(0.2), **FLAT}),
+    ("flat.yaml", {"map_rules_of_world": "ros1", **FLAT}),
+    ("parking.scene", {"seed": 2}),
+    ("puma-seed.scene", {"seed": 3}),
+    ("walls.scene", {"contact": "blocked"}),
+]
+
+
+def words_of(options):
+    words = []
+    for name, value in options.items():
+        words.append("--" + name.replace("_of_world", "").replace("_", "-"))
+        words += [] if value is True else [str(value)]
+    return words
+
+
+@pytest.mark.parametrize("world, options", SAME, ids=[f"{w}-{'-'.join(o) or 'usual'}" for w, o in SAME])
+def test_an_answer_has_the_bytes_of_the_program(program, world, options):
+    name = world if world.startswith("maze:") else str(WORLDS / world)
+    theirs = program.json("solve", name, *words_of(options))
+    reading = {key[:-9]: value for key, value in options.items() if key.endswith("_of_world")}
+    ours = warren.solve(warren.read_world(name, **reading), **{k: v for k, v in options.items() if k not in
+                                                               ("map_rules_of_world",)})
+    assert unmeasured(ours.json()) == unmeasured(theirs)
+    assert ours.verified and ours.status == "solved"
+    assert ours.path.tolist() == json.loads(theirs)["path"]
+
+
+def test_numbers_reach_the_planner_with_all_their_digits():
+    start = (0.1 + 0.2, 1 + 2 ** -50)
+    answer = warren.solve("maze:5x5", start, np.array([5.25, 5.0]), clearance=np.float32(0.1), seed=np.int64(3))
+    assert answer.start == start and answer.goal == (5.25, 5.0)
+    assert answer.clearance == float(np.float32(0.1)) and answer.seed == 3
+
+
+def test_the_path_is_a_read_only_view_that_outlives_all_else():
+    path = warren.solve("maze:41x41").path
+    gc.collect()
+    warren.solve("maze:99x99")
+    assert path.dtype == np.float64 and path.shape[1] == 2 and not path.flags.owndata
+    assert path[0].tolist() == [0.5, 1.0] and path[-1].tolist() == [41.5, 41.0]
+    with pytest.raises(ValueError):
+        path[0, 0] = 1.0
+
+
+def test_an_answer_is_an_array_where_one_is_expected():
+    answer = warren.solve("maze:5x5")
+    assert np.array_equal(np.asarray(answer), answer.path)
+    assert np.asarray(answer, dtype=np.float32).dtype == np.float32
+
+
+@pytest.mark.parametrize("options, status", [({"goal": (9, 9)}, "goal_blocked"), ({"start": (0, 9)}, "start_blocked"),
+                                             ({"clearance": 0.6}, "goal_blocked")])
+def test_no_path_is_no_exception(options, status):
+    answer = warren.solve("maze:5x5", **{"start": (1, 1), "goal": (4, 4), **options})
+    assert answer.status in (status, "start_blocked") and not answer and not answer.verified
+    assert answer.path.shape == (0, 2) and np.isnan(answer.length) and np.isnan(answer.min_clearance)
+    assert answer.blocked["end"] in ("start", "goal") and answer.blocked["by"]
+
+
+def test_what_is_infeasible_is_said():
+    walls = [(0, 2, 4, 2)]
+    answer = warren.solve(warren.scene(walls=walls, bounds=(0, 0, 4, 4)), (1, 1), (1, 3), planner="visibility")
+    assert answer.status in ("infeasible", "not_connected") and answer.blocked is None
+
+
+def test_an_option_that_is_none_or_false_is_not_given():
+    assert warren.solve("maze:9x9", optimise=False, planner=None).json() != ""
+    assert "optimise" not in warren.solve("maze:9x9", optimise=False).to_dict()["options"]
+
+
+@pytest.mark.parametrize("options, where, value", [
+    ({"goal_bias": 2, "planner": "rrt"}, "goal_bias", "'2'"),
+    ({"planner": "prn"}, "planner", ""),
+    ({"start": (float("nan"), 1)}, "start", "'nan,1'"),
+    ({"seed": -1}, "seed", "'-1'"),
+    ({"threads": 0}, "threads", "'0'"),
+    ({"budget": 0.0}, "budget", "'0s'"),
+    ({"memory": "lots"}, "memory", "'lots'"),
+    ({"robot": "disk 0.1"}, "robot", "disk"),
+    ({"planner": "visibility", "samples": 5}, "samples", ""),
+])
+def test_a_wrong_value_is_a_value_error_with_its_parts(options, where, value):
+    with pytest.raises(ValueError) as caught:
+        warren.solve("maze:9x9", **options)
+    error = caught.value
+    assert isinstance(error, warren.UsageError) and isinstance(error, warren.InputError)
+    assert error.where == where and error.what and value in error.value
+    assert "--" not in str(error) and "@" not in str(error) and "\n" not in str(error)
+
+
+@pytest.mark.parametrize("options, said", [
+    ({"gaol": (1, 1)}, "unexpected keyword argument 'gaol'; did you mean goal?"),
+    ({"json": "x"}, "unexpected keyword argument 'json'"),
+    ({"optimise": 3}, "optimise: expected True or False"),
+    ({"planner": {"a": 1}}, "planner: expected"),
+    ({"planner": True}, "planner: expected"),
+    ({"progress": 3}, "progress: expected a function"),
+])
+def test_a_wrong_keyword_or_type_is_a_type_error(options, said):
+    with pytest.raises(TypeError, match=said.replace("?", r"\?")):
+        warren.solve("maze:9x9", **options)
+
+
+def test_a_file_that_is_not_there_is_an_os_error():
+    with pytest.raises(OSError) as caught:
+        warren.solve("no such file.scene")
+    assert isinstance(caught.value, warren.ReadError)
+    assert caught.value.where == "no such file.scene" and "can't be read" in caught.value.what
+
+
+def test_a_world_that_contradicts_itself_names_file_and_line(tmp_path):
+    file = tmp_path / "bad.scene"
+    file.write_text("0 0 1 1\nwall 1 2 3\n")
+    with pytest.raises(warren.InputError) as caught:
+        warren.read_world(file)
+    assert not isinstance(caught.value, warren.UsageError)
+    assert caught.value.where == f"{file}:2" and caught.value.what and str(caught.value).startswith(f"{file}:2: ")
+
+
+def test_errors_survive_pickling():
+    for error in (warren.InputError("a:1", "wrong", "x"), warren.ReadError("f", "can't be read: gone"),
+                  warren.UsageError("seed", "no"), warren.Stopped("budget", "the time budget ended", None)):
+        again = pickle.loads(pickle.dumps(error))
+        assert type(again) is type(error) and again.args == error.args and str(again) == str(error)
+        assert (again.where, again.what, again.value) == (error.where, error.what, error.value)
+
+
+def test_threads_may_ask_one_world_at_once():
+    world = warren.maze(301, 301, seed=2)
+    alone = warren.solve(world, threads=1).path
+    paths = []
+    askers = [threading.Thread(target=lambda: paths.append(warren.solve(world, threads=2).path)) for _ in range(6)]
+    for asker in askers:
+        asker.start()
+    for asker in askers:
+        asker.join()
+    assert len(paths) == 6 and all(np.array_equal(path, alone) for path in paths)
+
+
+def test_verify_judges_answers_arrays_and_files(tmp_path):
+    world = warren.maze(15, 15)
+    answer = warren.solve(world, clearance=0.2)
+    answer.save(tmp_path / "a.json")
+    for path in (answer, answer.path, answer.path.tolist(), tmp_path / "a.json"):
+        verdict = warren.verify(world, path)
+        assert verdict and verdict.length == answer.length and verdict.violation is None
+    refuted = warren.verify(world, answer.path, clearance=0.51)
+    leg, distance, obstacle = refuted.violation
+    assert not refuted and leg == 0 and distance < 0.51 and obstacle
+    with pytest.raises(TypeError, match=r"path: expected float64 \(n, 2\) or"):
+        warren.verify(world, np.zeros((3, 4)))
+
+
+def test_a_path_is_sampled_along_its_curve():
+    world = warren.read_world(WORLDS / "parking.scene")
+    answer = warren.solve(world)
+    states, along = answer.sample(0.05)
+    assert states.shape == (len(along), 3) and along[0] == 0.0
+    assert along[-1] == pytest.approx(answer.length, rel=1e-9) and np.all(np.diff(along) > 0)
+    assert np.all(np.hypot(*np.diff(states[:, :2], axis=0).T) <= 0.05 + 1e-9)
+    states, times = answer.sample("100ms", speed=2.0, acceleration=1.0)
+    assert np.allclose(np.diff(times)[:-1], 0.1) and states[0].tolist() == answer.path[0].tolist()
+    with pytest.raises(warren.UsageError, match="^every: moments need speed"):
+        answer.sample("100ms")
+
+
+def test_a_path_is_written_as_the_program_writes_it(program, tmp_path):
+    program.run("solve", "maze:9x9", "--path", "theirs.csv", "--every", "0.3", "--speed", "1", cwd=tmp_path)
+    told = warren.solve("maze:9x9").save_path(tmp_path / "ours.csv", every=0.3, speed=1)
+    assert (tmp_path / "ours.csv").read_bytes() == (tmp_path / "theirs.csv").read_bytes()
+    assert told["places"] == len((tmp_path / "ours.csv").read_text().splitlines()) - 1 and told["duration_s"] > 0
+    with pytest.raises(warren.UsageError, match="^path: writes"):
+        warren.solve("maze:9x9").save_path("a.txt")
+    with pytest.raises(warren.WriteError):
+        warren.solve("maze:9x9").save_path(tmp_path / "none" / "a.csv")
