@@ -5,15 +5,18 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
+#include <numbers>
 #include <string_view>
 #include <utility>
 
 #include "core/base/error.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "pictures/layers/draw_arm.hpp"
+#include "pictures/layers/draw_bodies.hpp"
 #include "pictures/layers/draw_car.hpp"
 #include "pictures/layers/draw_cells.hpp"
-#include "pictures/layers/draw_sweep.hpp"
+#include "pictures/layers/roadmap_in_the_plane.hpp"
 #include "pictures/subtitle.hpp"
 #include "solve/question/question_of_arm.hpp"
 #include "solve/question/solve_options.hpp"
@@ -48,12 +51,31 @@ PictureLayer layer_of(NamedLines lines) {
   return layer;
 }
 
+/// Where the body may stand: arrows that show how it is turned there.
+PictureLayer arrows_among(const HeadingCells& heading, const std::function<Vec2(Vec2)>& at,
+                          const Execution& execution) {
+  constexpr std::uint32_t most_a_side = 24;
+  const std::uint32_t apart = std::max(heading.blocked.width(), heading.blocked.height()) / most_a_side + 1;
+  std::vector<Se2> poses;
+  for (std::uint32_t y = apart / 2; y < heading.blocked.height(); y += apart) {
+    execution.check();
+    for (std::uint32_t x = apart / 2; x < heading.blocked.width(); x += apart) {
+      if (heading.blocked.test(x, y)) continue;
+      const Vec2 p = at({x + 0.5, y + 0.5});
+      poses.push_back({p.x, p.y, heading.yaw_rad + heading.heading_degrees * std::numbers::pi / 180.0});
+    }
+  }
+  return heading_arrows(poses, 0.6 * apart * heading.cell);
+}
+
 DrawingPage page_of(const HeadingCells& heading, const std::vector<PictureLayer>& ground, const Execution& execution) {
   const std::string id = fmt::format("layer_{:.0f}", heading.heading_degrees);
-  const auto at = [&](Vec2 p) { return heading.origin + heading.cell * p; };
+  const Rotation turned(heading.yaw_rad);
+  const auto at = [&](Vec2 p) { return heading.origin + turned(heading.cell * p); };
   DrawingPage page{id, ground};
   page.layers.push_back(cells_layer(id, fmt::format("no room at {:.4g} degrees", heading.heading_degrees),
                                     heading.blocked, at, execution));
+  page.layers.push_back(arrows_among(heading, at, execution));
   return page;
 }
 
@@ -62,17 +84,22 @@ void take_lengths(Drawing& drawing) {
   drawing.body.lengths = leg_lengths(drawing.body.poses, drawing.path_turns.empty() ? straight : drawing.path_turns);
 }
 
-/// The body along its path, where it is one that turns.
-void add_body(Drawing& drawing, const RobotSpec& robot, const StateList& states) {
-  drawing.body = {.outline = robot.outline, .radius = robot.radius, .heads = robot.kind == RobotKind::car};
-  if (states.width == 3) drawing.body.poses = poses_of(states);
-  if (robot.kind == RobotKind::polygon && !states.empty()) {
-    drawing.layers.push_back(sweep_of(poses_of(states), robot.outline));
+/// The body along its path.
+void add_bodies(Drawing& drawing, const RobotSpec& robot, const StateList& states) {
+  const bool drives = robot.kind == RobotKind::car;
+  drawing.body = {.outline = robot.outline, .radius = robot.radius, .heads = drives};
+  if (robot.kind == RobotKind::point) return;
+  drawing.path_label = "path of the reference point";
+  std::vector<Se2> poses;
+  if (states.width == 3 && !states.empty()) {
+    poses = poses_of(states);
+    drawing.body.poses = poses;
+  } else {
+    for (const Vec2 p : drawing.path) poses.push_back({p.x, p.y, 0.0});
   }
-  if (robot.kind == RobotKind::car) {
-    const std::vector<Se2> poses = poses_of(states);
-    drawing.layers.push_back(car_sweep(poses, robot));
-    drawing.path_turns = leg_turns(poses);
+  if (drives) drawing.path_turns = leg_turns(poses);
+  for (PictureLayer& layer : bodies_along(poses, robot, drives ? BodyMotion::driving : BodyMotion::straight)) {
+    drawing.layers.push_back(std::move(layer));
   }
   take_lengths(drawing);
 }
@@ -115,7 +142,7 @@ Drawing drawing_of_arm(const Scene& scene, const RobotSpec& robot, const JointSt
   return {.layers = std::move(views.layers),
           .stage = std::move(views.stage),
           .panels = std::move(views.panels),
-          .title = scene.source};
+          .title = title_of(scene)};
 }
 
 const std::vector<double>& first_given(const std::vector<double>& state, const std::vector<double>& otherwise) {
@@ -136,14 +163,14 @@ Drawing drawing_of(const Scene& scene, const Answer& answer, ByProducts made, co
                   .path = answer.refuted ? answer.refuted->path : answer.path,
                   .start = plane_point(problem.start),
                   .goal = plane_point(problem.goal),
-                  .title = scene.source,
+                  .title = title_of(scene),
                   .subtitle = subtitle_of(scene, answer)};
   for (const HeadingCells& heading : made.headings) {
     drawing.pages.push_back(page_of(heading, drawing.layers, execution));
   }
   for (NamedLines& lines : made.lines) drawing.layers.push_back(layer_of(std::move(lines)));
   add_roadmap(drawing, answer, made, execution);
-  add_body(drawing, problem.robot, states);
+  add_bodies(drawing, problem.robot, states);
   return drawing;
 }
 
@@ -160,9 +187,9 @@ Drawing drawing_of(const Scene& scene, const RecordedAnswer& answer, const Execu
                   .path = answer.path,
                   .start = plane_point(start),
                   .goal = plane_point(first_given(answer.problem.goal, scene.goal)),
-                  .title = scene.source,
+                  .title = title_of(scene),
                   .subtitle = subtitle_of(scene, answer)};
-  add_body(drawing, robot, answer.states);
+  if (answer.state_width() == state_size(robot)) add_bodies(drawing, robot, answer.states);
   return drawing;
 }
 

@@ -12,6 +12,7 @@
 #include "core/base/trigonometry.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "pictures/layers/draw_arm.hpp"
+#include "pictures/layers/draw_bodies.hpp"
 #include "pictures/layers/draw_car.hpp"
 #include "pictures/layers/draw_cells.hpp"
 #include "pictures/subtitle.hpp"
@@ -140,18 +141,14 @@ void RoadmapDrawing::add_curves(Drawing& drawing) const {
 
 /// Where the states look, in strokes that keep apart from each other.
 PictureLayer RoadmapDrawing::arrows() const {
-  PictureLayer layer{.id = "headings", .label = "heading of a state", .color = colors::outline};
   Box box;
   for (VertexId v = 0; v < vertex_count(); ++v) box.include(position(v));
-  if (box.empty()) return layer;
+  if (box.empty()) return heading_arrows({}, 0.0);
   const double extent = std::max(box.width(), box.height());
   const double length = std::min(extent / 50.0, 0.4 * extent / std::sqrt(static_cast<double>(vertex_count())));
-  for (VertexId v = 0; v < vertex_count(); ++v) {
-    const Rotation turned(pose(v).theta);
-    const auto at = [&](double x, double y) { return position(v) + turned(Vec2{x * length, y * length}); };
-    layer.lines.add(std::array{position(v), at(1.0, 0.0), at(0.7, 0.2), at(1.0, 0.0), at(0.7, -0.2)});
-  }
-  return layer;
+  std::vector<Se2> poses;
+  for (VertexId v = 0; v < vertex_count(); ++v) poses.push_back(pose(v));
+  return heading_arrows(poses, length);
 }
 
 Drawing RoadmapDrawing::draw_arm() const {
@@ -202,7 +199,7 @@ void write_picture(const std::string& file, const Roadmap& roadmap, const Pictur
   const Scene& scene = world.map ? bordered : world;
   const Drawing drawing = drawing_of(scene, roadmap, execution);
   Picture picture = picture_of(scene, drawing);
-  picture.title = world.source;
+  picture.title = title_of(world);
   const EdgeCounts edges = count_edges(roadmap, execution);
   picture.subtitle = fmt::format("{}\nroadmap of {}, edges: {} free, {} blocked, {} unchecked",
                                  subtitle_of(world, roadmap.robot), counted(count_states(roadmap), "state", "states"),

@@ -47,6 +47,8 @@ std::string outcome_text(const Answer& answer) {
 
 }  // namespace
 
+std::string title_of(const Scene& scene) { return scene.source.substr(scene.source.rfind('/') + 1); }
+
 std::string subtitle_of(const Scene& scene, const RobotSpec& robot) {
   return description_of(scene) + "; " + body_text(robot);
 }

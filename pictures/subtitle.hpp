@@ -10,6 +10,9 @@
 
 namespace warren {
 
+/// The world's name, without its folder.
+std::string title_of(const Scene& scene);
+
 std::string subtitle_of(const Scene& scene, const Answer& answer);
 std::string subtitle_of(const Scene& scene, const RecordedAnswer& answer);
 

@@ -82,7 +82,7 @@ void Painter::layer(const PictureLayer& layer) {
           .width = width(layer.width, 0.35),
           .fill = layer.fill,
           .opacity = layer.opacity,
-          .crisp = layer.fill && !has_lines};
+          .crisp = layer.fill && layer.part == Part::world};
   if (layer.part == Part::roadmap && has_lines && !layer.fill) {
     LineGroup group(surface_, page_, execution_, pen);
     for (std::size_t i = 0; i < layer.lines.size(); ++i) group.measure(layer.lines[i]);

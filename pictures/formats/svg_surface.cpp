@@ -51,8 +51,9 @@ void SvgSurface::open(const Picture& picture, std::string_view title) {
   }
   fmt::format_to(
       std::back_inserter(text_),
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" "
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" "
       "viewBox=\"0 0 {:.2f} {:.2f}\" width=\"{}\" height=\"{}\" role=\"img\" "
+      "xmlns:xlink=\"http://www.w3.org/1999/xlink\" "
       "font-family=\"Helvetica,Arial,Liberation Sans,DejaVu Sans,sans-serif\">\n"
       "<title>{}</title>\n<desc>{}</desc>\n<rect id=\"paper\" width=\"100%\" height=\"100%\" fill=\"{}\"/>\n",
       page_.width, page_.height, width, height, xml_text(title), xml_text(picture.description), hex(colors::paper));

@@ -1,37 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pictures/layers/draw_car.hpp"
 
-#include <algorithm>
-#include <numbers>
-#include <numeric>
-
 #include "worlds/poses/dubins_curve.hpp"
 #include "worlds/poses/reeds_shepp_curve.hpp"
 #include "worlds/poses/steering_curve.hpp"
 
 namespace warren {
 namespace {
-
-/// Adds one body to the layer: its outline, or a circle of two halves.
-void add_body(PictureLayer& layer, const Se2& pose, const RobotSpec& robot) {
-  std::vector<Vec2> corners;
-  if (robot.outline.empty()) {
-    const Vec2 off{robot.radius, 0.0};
-    corners = {pose.position() + off, pose.position() - off, pose.position() + off};
-    layer.turns.insert(layer.turns.end(), {0.0, std::numbers::pi, std::numbers::pi});
-  } else {
-    const Rotation turned(pose.theta);
-    for (const Vec2 p : robot.outline) corners.push_back(pose.position() + turned(p));
-    layer.turns.insert(layer.turns.end(), corners.size(), 0.0);
-  }
-  layer.lines.add(corners);
-}
-
-double size_of(const RobotSpec& robot) {
-  double size = robot.radius;
-  for (const Vec2 p : robot.outline) size = std::max(size, norm(p));
-  return size;
-}
 
 SteeringCurve curve_between(const Se2& a, const Se2& b, const RobotSpec& car) {
   const auto shortest = car.steering == SteeringKind::dubins ? DubinsCurve::shortest : ReedsSheppCurve::shortest;
@@ -85,24 +60,6 @@ CarCurves car_curves(std::span<const PlannedRoadmap<Se2>> roadmaps, const RobotS
     for (const Se2& state : states) curves.milestones.push_back(state.position());
   }
   return curves;
-}
-
-PictureLayer car_sweep(std::span<const Se2> poses, const RobotSpec& car) {
-  constexpr double most = 400.0;
-  PictureLayer layer{.id = "sweep", .part = Part::body, .color = colors::body, .closed = true};
-  if (poses.empty() || !(size_of(car) > 0.0)) return layer;
-  const std::vector<double> lengths = leg_lengths(poses, leg_turns(poses));
-  const double whole = std::accumulate(lengths.begin(), lengths.end(), 0.0);
-  const double apart = std::max(size_of(car) / 3.0, whole / most);
-  double next = 0.0;  // on the leg at hand
-  for (std::size_t i = 1; i < poses.size(); ++i) {
-    for (; next < lengths[i]; next += apart) {
-      add_body(layer, pose_on_leg(poses[i - 1], poses[i], next / lengths[i]), car);
-    }
-    next -= lengths[i];
-  }
-  add_body(layer, poses.back(), car);
-  return layer;
 }
 
 }  // namespace warren

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a picture of a car shows beyond the world: the curves of its trees or roadmap, and its body along the path. A
-// curve is drawn as what it is, straights and circular arcs.
+// What a picture of a car shows beyond the world: the curves of its trees or roadmap. A curve is drawn as what it is,
+// straights and circular arcs.
 #pragma once
 
 #include <span>
@@ -23,8 +23,5 @@ struct CarCurves {
 
 /// Every motion of the roadmaps as the curve that the car drives. Throws Stopped.
 CarCurves car_curves(std::span<const PlannedRoadmap<Se2>> roadmaps, const RobotSpec& car, const Execution& execution);
-
-/// The body along a path whose legs are straights and arcs, about a third of its size apart, at most 400 of them.
-PictureLayer car_sweep(std::span<const Se2> poses, const RobotSpec& car);
 
 }  // namespace warren

@@ -13,6 +13,14 @@ struct Rgb {
   friend constexpr bool operator==(const Rgb&, const Rgb&) = default;
 };
 
+/// A share of one colour, the rest of the other.
+constexpr Rgb mixed(Rgb one, Rgb other, double share) {
+  const auto part = [&](std::uint8_t a, std::uint8_t b) {
+    return static_cast<std::uint8_t>(share * a + (1.0 - share) * b + 0.5);
+  };
+  return {part(one.red, other.red), part(one.green, other.green), part(one.blue, other.blue)};
+}
+
 namespace colors {
 inline constexpr Rgb paper{255, 255, 255};
 inline constexpr Rgb text{34, 34, 34};

@@ -65,8 +65,13 @@ void LegendMaker::roadmap() {
     LegendEntry entry{.label = edges > 0 ? "roadmap edge, milestone" : "milestone", .dot = colors::components[0]};
     if (edges > 0) {
       const std::vector<std::uint8_t> color = component_colors(roadmap.graph, execution_);
-      const std::size_t used = std::min<std::size_t>(
-          3, 1 + std::size_t{color.empty() ? std::uint8_t{0} : *std::max_element(color.begin(), color.end())});
+      // The last colour is for single milestones, too.
+      std::size_t used = 1;
+      for (std::size_t c = 1; c + 1 < colors::components.size(); ++c) {
+        used += std::find(color.begin(), color.end(), c) != color.end() ? 1 : 0;
+      }
+      constexpr std::size_t most_pieces = 4;
+      used = std::min(used, most_pieces);
       entry.lines.assign(colors::components.begin(), colors::components.begin() + static_cast<std::ptrdiff_t>(used));
       if (used > 1) entry.label = "roadmap, a colour a component";
       entry.width = 1.5;
@@ -83,7 +88,7 @@ void LegendMaker::add(const PictureLayer& layer) {
   for (const LegendEntry& there : entries_) {
     if (there.label == layer.label) return;
   }
-  LegendEntry entry{.label = layer.label, .width = layer.width, .fill = layer.fill};
+  LegendEntry entry{.label = layer.label, .width = layer.width, .fill = layer.fill, .mark = layer.swatch};
   if (layer.width > 0.0) entry.lines = {layer.color};
   entries_.push_back(std::move(entry));
 }

@@ -9,6 +9,7 @@
 namespace warren {
 
 std::vector<Vec2> mark_outline(MarkShape shape, double radius) {
+  if (shape == MarkShape::front) return {{radius, 0.0}, {-0.7 * radius, radius}, {-0.7 * radius, -radius}};
   const bool is_star = shape == MarkShape::star;
   const std::size_t corners = is_star ? 10 : 32;
   constexpr double star_reach = 1.35;

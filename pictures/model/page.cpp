@@ -215,7 +215,7 @@ void PageMaker::fit_page() {
     page_.height = std::max(page_.height, page_.data.min.y + count * legend_row + scale_room + margin);
   } else {
     const auto columns = static_cast<double>(legend_columns(page_.width - 2.0 * margin));
-    page_.height += legend_gap + legend_row * std::ceil(count / columns);
+    page_.height += legend_gap + legend_row * (std::ceil(count / columns) - 0.7);
   }
 }
 

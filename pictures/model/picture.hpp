@@ -14,6 +14,7 @@
 #include "core/plane/polygon.hpp"
 #include "parallel/execution.hpp"
 #include "pictures/model/colors.hpp"
+#include "pictures/model/marks.hpp"
 #include "pictures/model/moving_body.hpp"
 #include "pictures/model/picture_options.hpp"
 #include "planners/roadmap/planned_roadmap.hpp"
@@ -23,8 +24,9 @@ namespace warren {
 
 /// Lines or areas of one kind: cells, a visibility graph, a medial axis, bodies along a path.
 struct PictureLayer {
-  std::string id;          ///< the SVG group's
-  std::string label = {};  ///< in the legend; empty: not there
+  std::string id;                        ///< the SVG group's
+  std::string label = {};                ///< in the legend; empty: not there
+  std::optional<MarkShape> swatch = {};  ///< in the legend, instead of a line or an area
   Part part = Part::roadmap;
   Rgb color = colors::layer;           ///< of the lines
   double width = widths::edge;         ///< as widths say; 0: no lines

@@ -30,6 +30,7 @@ struct HeadingCells {
   Bitmap blocked;
   Vec2 origin;  ///< lower left corner of cell (0, 0)
   double cell = 0.0;
+  double yaw_rad = 0.0;  ///< the cells are turned about that corner, anticlockwise; the heading is as they see it
 };
 
 struct ByProducts {

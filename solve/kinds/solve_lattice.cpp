@@ -258,15 +258,19 @@ class LatticeSolve {
     answer_.min_clearance = verification.min_clearance;
   }
 
-  /// The layers of some headings, which course reports show.
+  /// The layers nearest to some headings, which course reports show.
   void keep_headings(ByProducts& keep) const {
     if (!turns()) return;
-    for (const std::uint32_t degrees : {0U, 45U, 90U}) {
-      const std::uint64_t heading = std::uint64_t{degrees} * layers_.angles;
-      if (heading % 360 != 0 || heading / 360 >= layers_.angles) continue;
-      const Bitmap& blocked = layers_.bitmaps[layers_.standing[heading / 360]];
-      const Vec2 corner = layers_.origin - layers_.cell * Vec2{0.5, 0.5};
-      keep.headings.push_back({static_cast<double>(degrees), blocked, corner, layers_.cell});
+    const Vec2 corner = layers_.origin - layers_.cell * Vec2{0.5, 0.5};
+    const Se2 in_world = frame_.in_world({corner.x, corner.y, 0.0});
+    std::set<std::uint32_t> nearest;
+    for (const double degrees : {0.0, 45.0, 90.0}) {
+      nearest.insert(static_cast<std::uint32_t>(std::lround(degrees / 360.0 * layers_.angles)) % layers_.angles);
+    }
+    for (const std::uint32_t k : nearest) {
+      const double degrees = 360.0 * k / layers_.angles;
+      const Bitmap& blocked = layers_.bitmaps[layers_.standing[k]];
+      keep.headings.push_back({degrees, blocked, in_world.position(), layers_.cell, in_world.theta});
     }
   }
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "pictures/layers/draw_sweep.hpp"
+#include "pictures/layers/roadmap_in_the_plane.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 #include "studies/compare/comparison.hpp"
 

@@ -55,18 +55,20 @@ TEST(DrawAnswer, ShowsTheBodyAlongThePath) {
   scene.robot = RobotSpec{.kind = RobotKind::polygon, .outline = {{-0.5, -0.1}, {0.5, -0.1}, {0.5, 0.1}, {-0.5, 0.1}}};
   scene.start.push_back(0.0);
   scene.goal.push_back(1.0);
+  const std::vector<std::string> along_the_path{"sweep", "bodies", "body_start", "body_goal", "fronts"};
   const Drawing trees = drawn(scene, {.planner = PlannerKind::rrt_connect});
-  EXPECT_EQ(ids_of(trees.layers), std::vector<std::string>{"sweep"});
+  EXPECT_EQ(ids_of(trees.layers), along_the_path);
   EXPECT_TRUE(trees.roadmap);
   EXPECT_TRUE(trees.path_turns.empty());
   const Drawing grid = drawn(scene, {.planner = PlannerKind::grid, .grid = {.cell = 0.5, .angles = 8}});
-  EXPECT_EQ(ids_of(grid.layers), std::vector<std::string>{"sweep"});
+  EXPECT_EQ(ids_of(grid.layers), along_the_path);
   ASSERT_EQ(grid.pages.size(), 3U) << "0, 45 and 90 degrees";
   EXPECT_EQ(grid.pages[1].id, "layer_45");
-  EXPECT_EQ(ids_of(grid.pages[1].layers), std::vector<std::string>{"layer_45"});
+  EXPECT_EQ(ids_of(grid.pages[1].layers), (std::vector<std::string>{"layer_45", "headings"}));
   scene.goal.back() = 0.0;
   const Drawing fixed = drawn(scene, {.planner = PlannerKind::cells});
-  EXPECT_EQ(ids_of(fixed.layers), (std::vector<std::string>{"cells", "blocked", "sweep"}));
+  EXPECT_EQ(ids_of(fixed.layers),
+            (std::vector<std::string>{"cells", "blocked", "sweep", "bodies", "body_start", "body_goal", "fronts"}));
 }
 
 TEST(DrawAnswer, DrawsCarsInCurves) {
@@ -76,7 +78,8 @@ TEST(DrawAnswer, DrawsCarsInCurves) {
   scene.start.push_back(0.0);
   scene.goal.push_back(1.0);
   const Drawing drawing = drawn(scene, {});
-  EXPECT_EQ(ids_of(drawing.layers), (std::vector<std::string>{"edges", "search_tree", "sweep"}));
+  EXPECT_EQ(ids_of(drawing.layers),
+            (std::vector<std::string>{"edges", "search_tree", "sweep", "body_start", "body_goal", "fronts"}));
   EXPECT_EQ(drawing.path_turns.size(), drawing.path.size());
   ASSERT_TRUE(drawing.roadmap);
   EXPECT_EQ(drawing.roadmap->graph.vertex_count(), drawing.roadmap->states.size());

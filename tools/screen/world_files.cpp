@@ -9,6 +9,7 @@
 
 #include "core/base/error.hpp"
 #include "pictures/formats/write_picture.hpp"
+#include "pictures/subtitle.hpp"
 #include "scenes/formats/read_world_io.hpp"
 #include "solve/answer/world_account.hpp"
 #include "solve/question/question.hpp"
@@ -74,7 +75,7 @@ void write_world(const Scene& scene, const std::string& file, const PictureOptio
                  const std::string& command_line, const Execution& execution) {
   if (!is_picture(ending_of(file))) return write_scene(scene, file, execution);
   Picture picture{.scene = scene, .start = plane_point(scene.start), .goal = plane_point(scene.goal)};
-  picture.title = scene.source;
+  picture.title = title_of(scene);
   picture.subtitle = description_of(scene);
   picture.description = command_line;
   write_picture(file, picture, options, execution);
