@@ -70,6 +70,15 @@ std::string short_text(double value) {
   return text;
 }
 
+/// Six digits, exponents as short as they can be.
+std::string figure(double value) {
+  std::string text = fmt::format("{:.6g}", value);
+  if (const std::size_t zero = text.find('0', text.find('e')); zero != std::string::npos && text.find('e') < zero) {
+    text.erase(zero, 1);
+  }
+  return text;
+}
+
 /// Draws one plot from back to front.
 class PlotDrawing {
  public:
@@ -202,7 +211,7 @@ void PlotDrawing::series(std::size_t i) {
     fmt::format_to(std::back_inserter(path), "{}{:.1f} {:.1f}", path.empty() ? 'M' : 'L', x, y);
     fmt::format_to(
         std::back_inserter(marks), "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\" data-tip=\"{}\"/>", x, y,
-        xml_text(fmt::format("{}: {:.6g} {}, {:.6g} {}", series.name, p.x, plot_.x_label, p.y, plot_.y_label)));
+        xml_text(fmt::format("{}: {} {}, {} {}", series.name, figure(p.x), plot_.x_label, figure(p.y), plot_.y_label)));
   }
   if (path.empty()) return;
   if (series.joined) {

@@ -223,7 +223,7 @@ TEST(Solve, PicturesHaveTheirLayers) {
     EXPECT_EQ(run({"render", "maze:9x9", "--answer", folder.path("a.json"), "-o", folder.path(name)}).code, 0);
   }
   EXPECT_EQ(folder.read("b.png").substr(0, 8), "\x89PNG\r\n\x1a\n");
-  EXPECT_NE(folder.read("b.html").find("<g id=\"path\""), std::string::npos);
+  EXPECT_NE(folder.read("b.html").find("\"path\":{\"type\":\"f64\""), std::string::npos);
 }
 
 TEST(Solve, TheTraceIsChromesFormat) {

@@ -53,7 +53,7 @@ TEST(ReadWorld, RefusesBadMazeNamesAsUsage) {
       {"maze:5x5,loops=2", "loops must be from 0 to 1"},
       {"maze:5x5,loops=nan", "loops must be from 0 to 1"},
       {"maze:5x5,loops=half", "loops must be a number"},
-      {"maze:5x5,algorithm=magic", "must be one of backtracker, kruskal, prim, wilson, course (found: magic)"},
+      {"maze:5x5,algorithm=magic", "must be one of backtracker, kruskal, prim, wilson, course, mst (found: magic)"},
       {"maze:5x5,colour=red", "unknown key `colour`"},
   };
   for (const auto& [source, expected] : cases) {
