@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace warren {
 
@@ -27,11 +28,11 @@ Pen LineGroup::thinned() {
   return pen_;
 }
 
-void LineGroup::begin(std::string_view id, std::string_view label, std::size_t lines) {
+void LineGroup::begin(std::string_view id, std::string_view label, std::size_t points) {
   surface_.begin_group(id, label, pen_);
   drawn_ = 0;
-  if (!surface_.takes_as_mask(lines)) return;
-  constexpr double most_pixels = 4096.0;
+  if (!surface_.takes_as_mask(points)) return;
+  constexpr double most_pixels = 3072.0;
   density_ = most_pixels / std::max(page_.data.width(), page_.data.height());
   mask_.emplace(static_cast<std::size_t>(std::ceil(density_ * page_.data.width())),
                 static_cast<std::size_t>(std::ceil(density_ * page_.data.height())), execution_);
@@ -43,16 +44,40 @@ void LineGroup::take_color(Rgb color) {
   surface_.take_pen(pen_);
 }
 
-void LineGroup::segment(Vec2 a, Vec2 b) {
+void LineGroup::count() {
   constexpr std::size_t lines_per_poll = 64;  // each may run across the whole picture
   if (++drawn_ % lines_per_poll == 0) execution_.check();
+}
+
+void LineGroup::segment(Vec2 a, Vec2 b) {
+  count();
   if (!mask_) return surface_.segment(a, b);
-  const auto at = [&](Vec2 p) { return density_ * (page_.view.at(p) - page_.data.min); };
-  mask_->draw_line(at(a), at(b), density_ * pen_.width, pen_.opacity);
+  mask_->draw_line(in_mask(a), in_mask(b), density_ * pen_.width, pen_.opacity);
+}
+
+void LineGroup::chain(std::span<const Vec2> points, std::span<const double> turns, bool closed, double opacity) {
+  count();
+  if (!mask_) {
+    Pen pen = pen_;
+    pen.opacity *= opacity;
+    surface_.take_pen(pen);
+    return surface_.chain(points, turns, closed);
+  }
+  std::vector<Vec2> all = without_arcs(points, turns);
+  for (Vec2& p : all) p = in_mask(p);
+  if (pen_.fill) {
+    PolygonSet outline;
+    outline.add(all);
+    return mask_->fill(outline, pen_.opacity * opacity, execution_);
+  }
+  if (closed) all.push_back(all.front());
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    mask_->draw_line(all[i - 1], all[i], density_ * pen_.width, pen_.opacity * opacity);
+  }
 }
 
 void LineGroup::end() {
-  if (mask_) surface_.mask(*mask_, *pen_.stroke);
+  if (mask_) surface_.mask(*mask_, pen_.fill ? *pen_.fill : *pen_.stroke);
   surface_.end_group();
 }
 

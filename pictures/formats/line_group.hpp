@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Many lines of one kind as a group on a surface. Where their ink would cover much of the page they become thinner and
-// fainter; where a file of them would be too large they are drawn as pixels.
+// Many lines or areas of one kind as a group on a surface. Where their ink would cover much of the page they become
+// thinner and fainter; where a file of them would be too large they are drawn as pixels.
 #pragma once
 
 #include <optional>
@@ -23,14 +23,19 @@ class LineGroup {
   void measure(std::span<const Vec2> chain);
   /// The pen that covers no more than a share of the page with what was measured; the group takes it.
   Pen thinned();
-  /// lines: how many will follow.
-  void begin(std::string_view id, std::string_view label, std::size_t lines);
+  /// points: how many will follow, at least.
+  void begin(std::string_view id, std::string_view label, std::size_t points);
   void take_color(Rgb color);
   /// Throws Stopped.
   void segment(Vec2 a, Vec2 b);
+  /// As Surface's, with this share of the opacity.
+  void chain(std::span<const Vec2> points, std::span<const double> turns, bool closed, double opacity = 1.0);
   void end();
 
  private:
+  Vec2 in_mask(Vec2 p) const { return density_ * (page_.view.at(p) - page_.data.min); }
+  void count();
+
   Surface& surface_;
   const Page& page_;
   const Execution& execution_;

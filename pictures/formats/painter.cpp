@@ -13,8 +13,6 @@
 namespace warren {
 namespace {
 
-constexpr std::size_t vertices_per_poll = 1 << 14;
-
 class Painter {
  public:
   Painter(const Picture& picture, Parts parts, const Page& page, Surface& surface, const Execution& execution)
@@ -65,40 +63,35 @@ class Painter {
 };
 
 void Painter::polygons() {
-  if (picture_.scene.polygons.empty()) return;
-  surface_.begin_group("polygons", "obstacles",
-                       {.stroke = colors::outline, .width = width(widths::outline, 0.4), .fill = colors::polygon});
-  std::size_t drawn = 0;
-  for (const ScenePolygon& polygon : picture_.scene.polygons) {
-    if (++drawn % 256 == 0) execution_.check();
-    surface_.chain(anticlockwise(polygon.corners), {}, true);
-  }
-  surface_.end_group();
+  const std::vector<ScenePolygon>& polygons = picture_.scene.polygons;
+  if (polygons.empty()) return;
+  LineGroup group(surface_, page_, execution_,
+                  {.stroke = colors::outline, .width = width(widths::outline, 0.4), .fill = colors::polygon});
+  std::size_t corners = 0;
+  for (const ScenePolygon& polygon : polygons) corners += polygon.corners.size();
+  group.begin("polygons", "obstacles", corners);
+  for (const ScenePolygon& polygon : polygons) group.chain(anticlockwise(polygon.corners), {}, true);
+  group.end();
 }
 
 void Painter::layer(const PictureLayer& layer) {
   const bool has_lines = layer.width > 0.0;
-  Pen pen{.stroke = has_lines ? std::optional(layer.color) : std::nullopt,
-          .width = width(layer.width, 0.35),
-          .fill = layer.fill,
-          .opacity = layer.opacity,
-          .crisp = layer.fill && layer.part == Part::world};
-  if (layer.part == Part::roadmap && has_lines && !layer.fill) {
-    LineGroup group(surface_, page_, execution_, pen);
+  LineGroup group(surface_, page_, execution_,
+                  {.stroke = has_lines ? std::optional(layer.color) : std::nullopt,
+                   .width = width(layer.width, 0.35),
+                   .fill = layer.fill,
+                   .opacity = layer.opacity,
+                   .crisp = layer.fill && layer.part == Part::world});
+  if ((layer.part == Part::roadmap || layer.part == Part::search) && !layer.fill) {
     for (std::size_t i = 0; i < layer.lines.size(); ++i) group.measure(layer.lines[i]);
-    pen = group.thinned();
+    group.thinned();
   }
-  surface_.begin_group(layer.id, layer.label, pen);
+  group.begin(layer.id, layer.label, layer.lines.corners.size());
   for (std::size_t i = 0; i < layer.lines.size(); ++i) {
-    if (i % vertices_per_poll == 0) execution_.check();
-    if (!layer.opacities.empty()) {
-      Pen own = pen;
-      own.opacity *= layer.opacities[i];
-      surface_.take_pen(own);
-    }
-    surface_.chain(layer.lines[i], layer.turns_of(i), layer.closed || layer.fill);
+    group.chain(layer.lines[i], layer.turns_of(i), layer.closed || layer.fill,
+                layer.opacities.empty() ? 1.0 : layer.opacities[i]);
   }
-  surface_.end_group();
+  group.end();
 }
 
 /// Walls that continue each other along an axis become one line.
@@ -197,16 +190,27 @@ void Painter::search_tree() {
   group.end();
 }
 
+/// Points that the page does not tell apart are left out of very long paths.
 void Painter::path() {
   if (picture_.path.empty()) return;
   constexpr double least_width = 2.0;
   constexpr double halo = 2.2;
+  constexpr std::size_t long_path = 100'000;
+  std::vector<Vec2> seen;
+  if (picture_.path.size() > long_path && picture_.path_turns.empty()) {
+    const double apart = 0.1 / page_.view.scale;
+    for (const Vec2 p : picture_.path) {
+      if (seen.empty() || distance(seen.back(), p) > apart) seen.push_back(p);
+    }
+    seen.push_back(picture_.path.back());
+  }
+  const std::span<const Vec2> shown = seen.empty() ? picture_.path : std::span<const Vec2>(seen);
   const Pen line{.stroke = colors::path, .width = width(widths::path, least_width)};
   surface_.begin_group("path", picture_.path_label, line);
   surface_.take_pen({.stroke = colors::paper, .width = line.width + halo});
-  surface_.chain(picture_.path, picture_.path_turns, false);
+  surface_.chain(shown, picture_.path_turns, false);
   surface_.take_pen(line);
-  surface_.chain(picture_.path, picture_.path_turns, false);
+  surface_.chain(shown, picture_.path_turns, false);
   surface_.end_group();
 }
 

@@ -81,9 +81,9 @@ class PdfSurface : public Surface {
     piece_ended();
   }
   void text(const PlacedText& text) override;
-  bool takes_as_mask(std::size_t lines) const override {
-    constexpr std::size_t most_lines = 500'000;
-    return lines > most_lines;
+  bool takes_as_mask(std::size_t points) const override {
+    constexpr std::size_t most_points = 500'000;
+    return points > most_points;
   }
   void mask(const Mask& mask, Rgb color) override;
 

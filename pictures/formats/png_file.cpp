@@ -111,13 +111,21 @@ void write_png_file(const Image& image, double dpi, const Execution& execution, 
 }
 
 void write_png_file(const Mask& mask, Rgb color, const Execution& execution, const Write& write) {
-  std::vector<std::uint8_t> alphas(most_colors);
-  for (std::size_t i = 0; i < most_colors; ++i) alphas[i] = static_cast<std::uint8_t>(i);
+  constexpr std::size_t shades = 16;
+  std::vector<std::uint8_t> alphas(shades);
+  for (std::size_t i = 0; i < shades; ++i) alphas[i] = static_cast<std::uint8_t>(17 * i);
+  std::vector<std::uint8_t> row(mask.width());
   write_png({.width = static_cast<std::uint32_t>(mask.width()),
              .height = static_cast<std::uint32_t>(mask.height()),
-             .palette = std::vector<Color>(most_colors, Color{color.red, color.green, color.blue}),
+             .palette = std::vector<Color>(shades, Color{color.red, color.green, color.blue}),
              .alphas = alphas,
-             .row = [&](std::size_t y) { return mask.pixels().data() + y * mask.width(); }},
+             .row =
+                 [&](std::size_t y) {
+                   const std::uint8_t* pixels = mask.pixels().data() + y * mask.width();
+                   for (std::size_t x = 0; x < row.size(); ++x)
+                     row[x] = static_cast<std::uint8_t>((pixels[x] + 8) / 17);
+                   return static_cast<const std::uint8_t*>(row.data());
+                 }},
             execution, write);
 }
 

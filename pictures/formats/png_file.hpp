@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pixels as PNG with a palette: the most frequent colours of an image; a mask's shades of one colour.
+// Pixels as PNG with a palette: the most frequent colours of an image; a mask in sixteen shades of one colour.
 #pragma once
 
 #include "parallel/execution.hpp"

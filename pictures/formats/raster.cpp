@@ -10,7 +10,9 @@
 namespace warren {
 
 Image::Image(std::size_t width, std::size_t height, Rgb paper, const Execution& execution)
-    : width_(width), height_(height), pixels_(3 * width * height) {
+    : width_(width), height_(height) {
+  execution.reserve(3 * width * height);
+  pixels_.resize(3 * width * height);
   constexpr std::size_t pixels_per_poll = std::size_t{1} << 18;
   for (std::size_t i = 0; i < width * height; ++i) {
     if (i % pixels_per_poll == 0) execution.check();
@@ -88,15 +90,16 @@ PixelRun add_cover(std::span<std::vector<double>> crossings, std::vector<double>
   return run;
 }
 
-}  // namespace
-
-void Image::fill(const PolygonSet& outlines, Rgb color, double opacity, const Execution& execution) {
+/// Calls cover(x, y, share) for each pixel that has a part inside of the outlines, by the even-odd rule.
+template <class Cover>
+void cover_inside(const PolygonSet& outlines, std::size_t columns, std::size_t all_rows, const Execution& execution,
+                  const Cover& cover) {
   execution.check();
   Box box;
   for (const Vec2 p : outlines.corners) box.include(p);
   if (box.empty()) return;
-  const double top = std::clamp(std::floor(box.min.y), 0.0, static_cast<double>(height_));
-  const double bottom = std::clamp(std::ceil(box.max.y), 0.0, static_cast<double>(height_));
+  const double top = std::clamp(std::floor(box.min.y), 0.0, static_cast<double>(all_rows));
+  const double bottom = std::clamp(std::ceil(box.max.y), 0.0, static_cast<double>(all_rows));
   if (!(top < bottom)) return;
   const auto first_row = static_cast<std::size_t>(top);
   const std::size_t rows = static_cast<std::size_t>(bottom) - first_row;
@@ -118,15 +121,22 @@ void Image::fill(const PolygonSet& outlines, Rgb color, double opacity, const Ex
       a = b;
     }
   }
-  std::vector<double> cover(width_ + 1);
+  std::vector<double> shares(columns + 1);
   for (std::size_t k = 0; k < rows; ++k) {
     if (k % 64 == 63) execution.check();
-    const PixelRun run = add_cover(std::span(crossings).subspan(k * sub_rows, sub_rows), cover);
+    const PixelRun run = add_cover(std::span(crossings).subspan(k * sub_rows, sub_rows), shares);
     for (auto x = static_cast<std::size_t>(run.low); x < static_cast<std::size_t>(run.high); ++x) {
-      blend(row(first_row + k) + 3 * x, opacity * std::min(1.0, cover[x]), color);
-      cover[x] = 0.0;
+      cover(x, first_row + k, std::min(1.0, shares[x]));
+      shares[x] = 0.0;
     }
   }
+}
+
+}  // namespace
+
+void Image::fill(const PolygonSet& outlines, Rgb color, double opacity, const Execution& execution) {
+  cover_inside(outlines, width_, height_, execution,
+               [&](std::size_t x, std::size_t y, double share) { blend(row(y) + 3 * x, opacity * share, color); });
 }
 
 void Image::draw_line(Vec2 a, Vec2 b, double width, Rgb color, double opacity) {
@@ -134,19 +144,28 @@ void Image::draw_line(Vec2 a, Vec2 b, double width, Rgb color, double opacity) {
              [&](std::size_t x, std::size_t y, double share) { blend(row(y) + 3 * x, opacity * share, color); });
 }
 
-Mask::Mask(std::size_t width, std::size_t height, const Execution& execution)
-    : width_(width), height_(height), pixels_(width * height) {
+Mask::Mask(std::size_t width, std::size_t height, const Execution& execution) : width_(width), height_(height) {
+  execution.reserve(width * height);
+  pixels_.resize(width * height);
   for (std::size_t y = 0; y < height; ++y) {
     if (y % 64 == 0) execution.check();
     std::fill_n(pixels_.data() + width * y, width, std::uint8_t{0});
   }
 }
 
+void Mask::cover(std::size_t x, std::size_t y, double share) {
+  std::uint8_t& pixel = pixels_[width_ * y + x];
+  pixel = static_cast<std::uint8_t>(pixel + std::lround((255 - pixel) * share));
+}
+
 void Mask::draw_line(Vec2 a, Vec2 b, double width, double opacity) {
-  cover_line(a, b, width, width_, height_, [&](std::size_t x, std::size_t y, double share) {
-    std::uint8_t& pixel = pixels_[width_ * y + x];
-    pixel = static_cast<std::uint8_t>(pixel + std::lround((255 - pixel) * opacity * share));
-  });
+  cover_line(a, b, width, width_, height_,
+             [&](std::size_t x, std::size_t y, double share) { cover(x, y, opacity * share); });
+}
+
+void Mask::fill(const PolygonSet& outlines, double opacity, const Execution& execution) {
+  cover_inside(outlines, width_, height_, execution,
+               [&](std::size_t x, std::size_t y, double share) { cover(x, y, opacity * share); });
 }
 
 }  // namespace warren

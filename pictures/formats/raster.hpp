@@ -38,7 +38,7 @@ class Image {
   RawVector<std::uint8_t> pixels_;
 };
 
-/// How much of each pixel lines of one colour cover: a byte a pixel, row 0 on top.
+/// How much of each pixel is covered by what has one colour: a byte a pixel, row 0 on top.
 class Mask {
  public:
   Mask(std::size_t width, std::size_t height, const Execution& execution);
@@ -46,10 +46,13 @@ class Mask {
   std::size_t width() const { return width_; }
   std::size_t height() const { return height_; }
   std::span<const std::uint8_t> pixels() const { return {pixels_.data(), width_ * height_}; }
-  /// As Image::draw_line.
+  /// As Image's.
   void draw_line(Vec2 a, Vec2 b, double width, double opacity = 1.0);
+  void fill(const PolygonSet& outlines, double opacity, const Execution& execution);
 
  private:
+  void cover(std::size_t x, std::size_t y, double share);
+
   std::size_t width_;
   std::size_t height_;
   RawVector<std::uint8_t> pixels_;

@@ -47,8 +47,8 @@ class Surface {
   /// same way round. turns as in PictureLayer.
   virtual void chain(std::span<const Vec2> points, std::span<const double> turns, bool closed) = 0;
   virtual void text(const PlacedText& text) = 0;
-  /// So many lines as one Mask over the data's part of the page; false: they are to be drawn.
-  virtual bool takes_as_mask(std::size_t lines) const = 0;
+  /// Lines and areas of so many points as one Mask over the data's part of the page; false: they are to be drawn.
+  virtual bool takes_as_mask(std::size_t points) const = 0;
   virtual void mask(const Mask& mask, Rgb color) = 0;
   /// The moving body, after the path; only where the format moves.
   virtual void moving_body(const MovingBody&, double /*line_width*/) {}

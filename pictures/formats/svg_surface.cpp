@@ -196,6 +196,7 @@ void SvgSurface::split() {
 
 void SvgSurface::flush() {
   write_(text_);
+  written_ += text_.size();
   text_.clear();
 }
 
@@ -211,9 +212,11 @@ void SvgSurface::text(const PlacedText& text) {
                  text.at.x, text.at.y, text.size, more, xml_text(text.text));
 }
 
-bool SvgSurface::takes_as_mask(std::size_t lines) const {
-  constexpr std::size_t most_lines = 2'500'000;  // some 20 MB
-  return lines > most_lines;
+/// Some readers (librsvg, and so GNOME) open no more than ten megabytes.
+bool SvgSurface::takes_as_mask(std::size_t points) const {
+  constexpr std::size_t bytes_a_point = 12;
+  constexpr std::size_t most_bytes = 7'000'000;
+  return written_ + points * bytes_a_point > most_bytes;
 }
 
 void SvgSurface::mask(const Mask& mask, Rgb color) {
@@ -229,7 +232,10 @@ void SvgSurface::mask(const Mask& mask, Rgb color) {
       size, -size, corner.x, corner.y, page_.data.width(), page_.data.height());
   flush();
   Base64 base64(write_);
-  write_png_file(mask, color, execution_, [&](std::string_view bytes) { base64.write(bytes); });
+  write_png_file(mask, color, execution_, [&](std::string_view bytes) {
+    written_ += bytes.size() * 4 / 3;
+    base64.write(bytes);
+  });
   base64.end();
   text_ += "\"/>";
 }

@@ -37,7 +37,7 @@ class SvgSurface : public Surface {
   void segment(Vec2 a, Vec2 b) override;
   void chain(std::span<const Vec2> points, std::span<const double> turns, bool closed) override;
   void text(const PlacedText& text) override;
-  bool takes_as_mask(std::size_t lines) const override;
+  bool takes_as_mask(std::size_t points) const override;
   void mask(const Mask& mask, Rgb color) override;
   void moving_body(const MovingBody& body, double line_width) override;
 
@@ -63,6 +63,7 @@ class SvgSurface : public Surface {
   bool path_is_open_ = false;
   bool is_way_ = false;  // the group is "path": its last line has the id "way"
   std::size_t path_bytes_ = 0;
+  std::size_t written_ = 0;  // bytes
   std::string text_;
 };
 

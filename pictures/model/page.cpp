@@ -37,6 +37,7 @@ class PageMaker {
       : picture_(picture), options_(options), in_pixels_(in_pixels) {
     page_.canvas = canvas_of(picture, execution);
     if (options.parts.has(Part::legend)) entries_ = legend_of(picture, options.parts, execution);
+    if (has_axes()) entry_width_ = 120.0;  // the scale bar's
     for (const LegendEntry& entry : entries_) {
       entry_width_ = std::max(entry_width_, swatch_width + swatch_gap + text_width(entry.label, text_size));
     }
@@ -55,6 +56,8 @@ class PageMaker {
   }
 
  private:
+  /// Places in the legend; the scale bar has the last.
+  std::size_t slots() const { return entries_.empty() ? 0 : entries_.size() + (has_axes() ? 1 : 0); }
   bool has_axes() const { return options_.parts.has(Part::axes); }
   double world_width() const { return page_.canvas.box.width(); }
   double world_height() const { return page_.canvas.box.height(); }
@@ -137,7 +140,7 @@ double PageMaker::ticks_width() const {
 std::size_t PageMaker::legend_columns(double width) const {
   const double columns = std::floor((width + legend_gap) / (entry_width_ + legend_gap));
   return std::clamp<std::size_t>(static_cast<std::size_t>(std::max(columns, 1.0)), 1,
-                                 std::max<std::size_t>(entries_.size(), 1));
+                                 std::max<std::size_t>(slots(), 1));
 }
 
 double PageMaker::title_height() const {
@@ -167,7 +170,8 @@ void PageMaker::lay_out(bool beside) {
   const double axis = has_axes() ? tick_length + 4.0 + text_size * line_height : 0.0;
   const bool names = has_axes() && picture_.panels.empty();
   const double name = names ? text_size * line_height : 0.0;
-  around_ = {margin + name + (has_axes() ? ticks_width() + tick_length + 4.0 : 0.0), margin, margin,
+  const double numbers = ticks_width();
+  around_ = {margin + name + (has_axes() ? numbers + tick_length + 4.0 : 0.0), margin, std::max(margin, 0.5 * numbers),
              margin + axis + name};
   if (beside && !entries_.empty()) around_.right += legend_gap + entry_width_;
   const double longer = std::max(world_width(), world_height());
@@ -180,7 +184,7 @@ void PageMaker::lay_out(bool beside) {
       all.top += title_height();
       if (!beside) {
         const double inner = page_.width - 2.0 * margin;
-        const auto rows = (entries_.size() + legend_columns(inner) - 1) / legend_columns(inner);
+        const auto rows = (slots() + legend_columns(inner) - 1) / legend_columns(inner);
         all.bottom += legend_gap + legend_row * static_cast<double>(rows);
       }
       data_width = std::max(page_.width - all.left - all.right, 8.0);
@@ -207,12 +211,10 @@ void PageMaker::fit_page() {
   for (const std::string& line : subtitle_) widest = std::max(widest, text_width(line, text_size));
   page_.width = std::max(page_.width, widest + 2.0 * margin);
   page_.height = page_.data.max.y + around_.bottom;
-  const auto count = static_cast<double>(entries_.size());
-  constexpr double bar_room = 34.0;
   if (entries_.empty()) return;
+  const auto count = static_cast<double>(slots());
   if (beside_) {
-    const double scale_room = has_axes() ? bar_room : 0.0;
-    page_.height = std::max(page_.height, page_.data.min.y + count * legend_row + scale_room + margin);
+    page_.height = std::max(page_.height, page_.data.min.y + count * legend_row + margin);
   } else {
     const auto columns = static_cast<double>(legend_columns(page_.width - 2.0 * margin));
     page_.height += legend_gap + legend_row * (std::ceil(count / columns) - 0.7);
@@ -305,8 +307,8 @@ void PageMaker::axes_of(const AxesPanel& panel, Box at, bool inner) {
 
 /// A round length, its ends marked.
 void PageMaker::scale_bar(Vec2 at) {
-  constexpr double most = 110.0;
-  const double step = tick_step(most / page_.view.scale * 0.6, 1.0);
+  constexpr double wish = 45.0;
+  const double step = tick_step(wish / page_.view.scale, 1.0);
   const double length = step * page_.view.scale;
   const Vec2 end{at.x + length, at.y};
   page_.ink.push_back({at, end});
@@ -320,22 +322,15 @@ void PageMaker::scale_bar(Vec2 at) {
 
 void PageMaker::legend() {
   if (entries_.empty()) return;
-  constexpr double bar_gap = 12.0;
-  if (beside_) {
-    Vec2 at{page_.data.max.x + legend_gap, page_.data.min.y + 0.5 * legend_row};
-    for (LegendEntry& entry : entries_) {
-      page_.legend.push_back({at, std::move(entry)});
-      at.y += legend_row;
-    }
-    if (has_axes()) scale_bar({at.x, at.y + bar_gap - 0.5 * legend_row + 6.0});
-  } else {
-    const std::size_t columns = legend_columns(page_.width - 2.0 * margin);
-    const double top = page_.data.max.y + around_.bottom - margin + legend_gap;
-    for (std::size_t i = 0; i < entries_.size(); ++i) {
-      const double x = margin + static_cast<double>(i % columns) * (entry_width_ + legend_gap);
-      page_.legend.push_back({{x, top + legend_row * static_cast<double>(i / columns)}, std::move(entries_[i])});
-    }
-  }
+  const std::size_t columns = beside_ ? 1 : legend_columns(page_.width - 2.0 * margin);
+  const Vec2 first = beside_ ? Vec2{page_.data.max.x + legend_gap, page_.data.min.y + 0.5 * legend_row}
+                             : Vec2{margin, page_.data.max.y + around_.bottom - margin + legend_gap};
+  const auto place = [&](std::size_t i) {
+    return first + Vec2{static_cast<double>(i % columns) * (entry_width_ + legend_gap),
+                        static_cast<double>(i / columns) * legend_row};
+  };
+  for (std::size_t i = 0; i < entries_.size(); ++i) page_.legend.push_back({place(i), entries_[i]});
+  if (has_axes()) scale_bar(place(entries_.size()));
   for (const PlacedLegend& placed : page_.legend) {
     text({placed.at.x + swatch_width + swatch_gap, placed.at.y + 0.35 * text_size}, placed.entry.label, text_size,
          Anchor::start);
