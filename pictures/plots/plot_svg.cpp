@@ -70,15 +70,6 @@ std::string short_text(double value) {
   return text;
 }
 
-/// Six digits, exponents as short as they can be.
-std::string figure(double value) {
-  std::string text = fmt::format("{:.6g}", value);
-  if (const std::size_t zero = text.find('0', text.find('e')); zero != std::string::npos && text.find('e') < zero) {
-    text.erase(zero, 1);
-  }
-  return text;
-}
-
 /// Draws one plot from back to front.
 class PlotDrawing {
  public:
@@ -209,9 +200,9 @@ void PlotDrawing::series(std::size_t i) {
     }
     const double y = place_y(p.y);
     fmt::format_to(std::back_inserter(path), "{}{:.1f} {:.1f}", path.empty() ? 'M' : 'L', x, y);
-    fmt::format_to(
-        std::back_inserter(marks), "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\" data-tip=\"{}\"/>", x, y,
-        xml_text(fmt::format("{}: {} {}, {} {}", series.name, figure(p.x), plot_.x_label, figure(p.y), plot_.y_label)));
+    fmt::format_to(std::back_inserter(marks), "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\" data-tip=\"{}\"/>", x, y,
+                   xml_text(fmt::format("{}: {} {}, {} {}", series.name, short_text(p.x), plot_.x_label,
+                                        short_text(p.y), plot_.y_label)));
   }
   if (path.empty()) return;
   if (series.joined) {
