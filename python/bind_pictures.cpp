@@ -59,6 +59,7 @@ py::bytes picture_of_answer(const KeptAnswer& kept, const Scene& scene, const st
     std::optional<Scene> copy;
     const Scene& shown = bordered(scene, copy, execution);
     Drawing drawing = drawing_of(shown, kept.answer, kept.made, execution);
+    if (kept.made.roadmap.states.empty()) drawing.roadmap.reset();  // nothing was kept: no empty layers
     if (moving && !kept.answer.path.empty()) animate(drawing, kept.answer.problem.robot, as_recorded(kept.answer));
     Picture picture = picture_of(shown, drawing);
     picture.title = fmt::format("{}: {}", scene.source, name_of(kept.answer.outcome));

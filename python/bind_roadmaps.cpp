@@ -154,26 +154,38 @@ py::array lengths(KeptRoadmap& kept, const py::object& from, const py::object& t
   return std::move(told);
 }
 
-/// indptr, indices, lengths, states of edges: views that keep the roadmap alive.
-py::tuple rows_of_edges(const py::object& self, bool with_lengths) {
+template <class List>
+Shape size_of(const List& list) {
+  return {static_cast<py::ssize_t>(list.size())};
+}
+
+/// indptr, indices and lengths of all edges: views that keep the roadmap alive. Below 2^31 unsigned numbers are the
+/// same bits as numbers with a sign, which SciPy has.
+py::tuple all_rows(const py::object& self) {
   auto& kept = self.cast<KeptRoadmap&>();
   const Asking asking(kept);
   const RawVector<double>* lengths = nullptr;
   const RoadmapArrays* arrays = nullptr;
   CallLimits().run([&](const Execution& execution) {
     arrays = &kept.arrays(execution);
-    if (with_lengths) lengths = &kept.lengths(execution);
+    lengths = &kept.lengths(execution);
   });
-  const auto size = [](const auto& list) { return Shape{static_cast<py::ssize_t>(list.size())}; };
-  const auto offsets = arrays->candidates.offsets();
-  const auto targets = arrays->candidates.targets();
-  // Below 2^31 they are the same numbers with a sign, as SciPy has them.
-  const auto indices = [&](const auto& list) {
-    return view_of(reinterpret_cast<const std::int32_t*>(list.data()), size(list), self);  // NOLINT
+  const auto signed_view = [&](const auto& list) {
+    return view_of(reinterpret_cast<const std::int32_t*>(list.data()), size_of(list), self);  // NOLINT
   };
-  py::object of_edges = py::none();
-  if (with_lengths) of_edges = view_of(lengths->data(), size(*lengths), self);
-  return py::make_tuple(indices(offsets), indices(targets), of_edges);
+  return py::make_tuple(signed_view(arrays->candidates.offsets()), signed_view(arrays->candidates.targets()),
+                        view_of(lengths->data(), size_of(*lengths), self));
+}
+
+/// The same of the free edges, in arrays of their own.
+py::tuple free_rows_of(KeptRoadmap& kept) {
+  const Asking asking(kept);
+  EdgeRows rows = CallLimits().run([&](const Execution& execution) { return free_rows(kept, execution); });
+  const Shape first = size_of(rows.first);
+  const Shape ends = size_of(rows.to);
+  return py::make_tuple(array_of<std::int32_t>(std::move(rows.first), first),
+                        array_of<std::int32_t>(std::move(rows.to), ends),
+                        array_of<double>(std::move(rows.lengths), ends));
 }
 
 /// 0 unchecked, 1 free, 2 blocked: of each edge end.
@@ -189,14 +201,22 @@ py::array edge_states(KeptRoadmap& kept) {
   return read_only(std::move(states));
 }
 
-py::tuple states_of(const py::object& self) {
+py::array states_of(const py::object& self) {
   auto& kept = self.cast<KeptRoadmap&>();
   const Asking asking(kept);
   const RoadmapArrays* arrays = nullptr;
   CallLimits().run([&](const Execution& execution) { arrays = &kept.arrays(execution); });
   const auto width = static_cast<py::ssize_t>(arrays->dimension);
-  const auto n = static_cast<py::ssize_t>(arrays->states.size()) / width;
-  return py::make_tuple(view_of(arrays->states.data(), {n, width}, self), view_of(arrays->component.data(), {n}, self));
+  return view_of(arrays->states.data(), {static_cast<py::ssize_t>(arrays->states.size()) / width, width}, self);
+}
+
+/// A copy: what is learnt changes it.
+py::array components_of(KeptRoadmap& kept) {
+  const Asking asking(kept);
+  RawVector<VertexId> component =
+      CallLimits().run([&](const Execution& execution) { return kept.arrays(execution).component; });
+  const Shape size = size_of(component);
+  return array_of<VertexId>(std::move(component), size);
 }
 
 py::dict export_to(KeptRoadmap& kept, const std::string& file, bool unchecked, const std::string& frame) {
@@ -249,9 +269,11 @@ void bind_roadmaps(py::module_& module) {
       .def_property_readonly("indexed", [](const KeptRoadmap& kept) { return kept.roadmap().lattice != nullptr; })
       .def("ask", &ask)
       .def("lengths", &lengths)
-      .def("rows_of_edges", &rows_of_edges)
+      .def("all_rows", &all_rows)
+      .def("free_rows", &free_rows_of)
       .def("edge_states", &edge_states)
-      .def("states", &states_of)
+      .def_property_readonly("states", &states_of)
+      .def("components", &components_of)
       .def("counts", &counts)
       .def("learn", &learn_from_questions)
       .def("update", &update_roadmap)

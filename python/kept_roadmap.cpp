@@ -41,14 +41,40 @@ const RawVector<double>& KeptRoadmap::lengths(const Execution& execution) const 
         const auto from = static_cast<VertexId>(v);
         std::size_t end = graph.first_end(from);
         for (const VertexId to : graph.neighbours(from)) {
-          // Of an edge that leads both ways, from its smaller vertex: as exports have it.
-          const bool turned = !roadmap_.arrays.directed && to < from;
-          (*lengths)[end++] = asked == nullptr ? 1.0 : turned ? asked->distance(to, from) : asked->distance(from, to);
+          (*lengths)[end++] = length(from, to, asked);
         }
       }
     });
     return lengths;
   });
+}
+
+/// Of an edge that leads both ways from its smaller vertex, as exports have it. `query`: nullptr for a lattice.
+double KeptRoadmap::length(VertexId from, VertexId to, const RoadmapQuery* query) const {
+  if (query == nullptr) return 1.0;
+  const bool turned = !roadmap_.arrays.directed && to < from;
+  return turned ? query->distance(to, from) : query->distance(from, to);
+}
+
+EdgeRows free_rows(const KeptRoadmap& kept, const Execution& execution) {
+  constexpr std::size_t polled = 4096;
+  const RoadmapArrays& arrays = kept.arrays(execution);
+  const RoadmapParts parts = arrays.parts();
+  const RoadmapQuery* asked = kept.roadmap().lattice == nullptr ? &kept.query(execution) : nullptr;
+  execution.reserve(parts.first.size_bytes() + parts.to.size() * (sizeof(VertexId) + sizeof(double)));
+  EdgeRows rows;
+  rows.first.reserve(parts.first.size());
+  rows.first.push_back(0);
+  for (std::size_t v = 0; v < parts.vertex_count(); ++v) {
+    if (v % polled == 0) execution.check();
+    for (std::size_t end = parts.first[v]; end < parts.first[v + 1]; ++end) {
+      if (parts.state_of_end(end) != EdgeState::free) continue;
+      rows.to.push_back(parts.to[end]);
+      rows.lengths.push_back(kept.length(static_cast<VertexId>(v), parts.to[end], asked));
+    }
+    rows.first.push_back(static_cast<EdgeEnd>(rows.to.size()));
+  }
+  return rows;
 }
 
 void KeptRoadmap::learn(const Execution& execution) {

@@ -21,6 +21,7 @@ class KeptRoadmap {
   const RoadmapArrays& arrays(const Execution& execution) const;
   /// Length of each edge end, in the order of arrays().
   const RawVector<double>& lengths(const Execution& execution) const;
+  double length(VertexId from, VertexId to, const RoadmapQuery* query) const;
   /// Takes over what the questions so far have learnt of the edges. Nobody may ask meanwhile.
   void learn(const Execution& execution);
 
@@ -32,6 +33,16 @@ class KeptRoadmap {
   MadeOnce<RoadmapArrays> lattice_;
   MadeOnce<RawVector<double>> lengths_;
 };
+
+/// Rows of edges as RoadmapParts has them, with their lengths.
+struct EdgeRows {
+  RawVector<EdgeEnd> first;
+  RawVector<VertexId> to;
+  RawVector<double> lengths;
+};
+
+/// The edges that are known to be free. Throws Stopped.
+EdgeRows free_rows(const KeptRoadmap& kept, const Execution& execution);
 
 /// Lengths of the shortest ways between places, infinite where there is none: of pairs, row by row, or from each start
 /// to each goal. The same for any number of threads. Throws InputError, which names the rows, Stopped.

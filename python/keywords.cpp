@@ -133,7 +133,7 @@ CallLimits take_limits(py::dict& keywords) {
 py::list keyword_table(const Command& command) {
   py::list table;
   for (const OptionSpec& spec : command.options) {
-    table.append(py::make_tuple(keyword_of(spec.name), std::string(spec.value), std::string(spec.help),
+    table.append(py::make_tuple(keyword_of(spec.name), std::string(spec.value), with_keywords(std::string(spec.help)),
                                 words_of(spec.choices), spec.value_optional));
   }
   return table;

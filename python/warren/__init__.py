@@ -9,9 +9,15 @@
 from ._core import __version__
 from ._errors import Error, InputError, ReadError, Stopped, UsageError, WriteError
 from ._bodies import arm, car, disc, polygon, puma560
-from ._worlds import World, from_geo, grid, maze, read_world, scene
-from ._answers import Answer, Verdict, solve, verify
+from ._worlds import World
+from ._making_worlds import from_geo, grid, maze, read_world, scene
+from ._answers import Answer
+from ._solving import Verdict, solve, verify
+from ._roadmaps import EdgeCounts, Roadmap
+from ._building import build, open_roadmap
+from ._studies import Comparison, compare
+from ._plots import animate, plot
 
-__all__ = ["Answer", "Error", "InputError", "ReadError", "Stopped", "UsageError", "Verdict", "World", "WriteError",
-           "__version__", "arm", "car", "disc", "from_geo", "grid", "maze", "polygon", "puma560", "read_world", "scene",
-           "solve", "verify"]
+__all__ = ["Answer", "Comparison", "EdgeCounts", "Error", "InputError", "ReadError", "Roadmap", "Stopped", "UsageError",
+           "Verdict", "World", "WriteError", "__version__", "animate", "arm", "build", "car", "compare", "disc", "from_geo",
+           "grid", "maze", "open_roadmap", "plot", "polygon", "puma560", "read_world", "scene", "solve", "verify"]

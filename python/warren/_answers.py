@@ -1,17 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Questions and their answers."""
-from __future__ import annotations
-
 import json
 import os
-from typing import Any, Dict, List, NamedTuple, Optional, Tuple
-
-import numpy as np
 
 from . import _core
-from ._errors import Stopped
 from ._options import documented
-from ._worlds import World, as_world
 
 
 class Answer:
@@ -36,129 +29,127 @@ class Answer:
     __slots__ = ("_core", "world", "__weakref__")
     __module__ = "warren"
 
-    world: World
-
-    def __init__(self, core: Any, world: World) -> None:
+    def __init__(self, core, world):
         if not isinstance(core, _core.Answer):
             raise TypeError("Answer: is made by solve and Roadmap.query")
         self._core = core
         self.world = world
 
-    def __repr__(self) -> str:
+    def __repr__(self):
         if not self.verified:
             return f"<Answer {self.status}>"
         return f"<Answer {self.status}: length {self.length:g}, verified>"
 
-    def __str__(self) -> str:
-        return self._core.summary.rstrip("\n")  # type: ignore[no-any-return]
+    def __str__(self):
+        return self._core.summary.rstrip("\n")
 
-    def __bool__(self) -> bool:
-        return self._core.verified  # type: ignore[no-any-return]
+    def __bool__(self):
+        return self._core.verified
 
-    def __array__(self, dtype: Any = None) -> np.ndarray[Any, Any]:
+    def __array__(self, dtype=None):
         return self.path if dtype is None else self.path.astype(dtype)
 
-    def __reduce__(self) -> Any:
+    def __reduce__(self):
         return Answer, (self._core, self.world)
 
     @property
-    def status(self) -> str:
+    def status(self):
         """"solved", "start_blocked", "goal_blocked", "not_connected", "infeasible" (proved) or "stopped"."""
         return self._core.status
 
     @property
-    def verified(self) -> bool:
+    def verified(self):
         """Has it a path that an independent judge found free, all along and with all its clearance?"""
         return self._core.verified
 
     @property
-    def optimal(self) -> bool:
+    def optimal(self):
         """Is it proved that no shorter path exists?"""
         return self._core.optimal
 
     @property
-    def path(self) -> np.ndarray[Any, Any]:
+    def path(self):
         """States from start to goal, float64: (n, 2) x, y; (n, 3) x, y, theta; (n, 6) joint angles. A read-only view
         that keeps the answer alive; no rows where there is no path."""
         return self._core.path
 
     @property
-    def length(self) -> float:
+    def length(self):
         """Of the path, of a car its curve, of an arm in radians; nan without a verified path."""
         return self._core.length
 
     @property
-    def min_clearance(self) -> float:
+    def min_clearance(self):
         """The least room around the body along the path; nan without a verified path."""
         return self._core.min_clearance
 
     @property
-    def raw_length(self) -> float:
+    def raw_length(self):
         """The length before the path was pulled taut; nan where it wasn't."""
         return self._core.raw_length
 
     @property
-    def cost(self) -> float:
+    def cost(self):
         """In the planner's own units; nan where that is the length."""
         return self._core.cost
 
     @property
-    def turn_rad(self) -> float:
+    def turn_rad(self):
         """All turning along the path; nan for bodies that don't turn."""
         return self._core.turn_rad
 
     @property
-    def planner(self) -> str:
+    def planner(self):
         """Who found it."""
         return self._core.planner
 
     @property
-    def seed(self) -> int:
+    def seed(self):
         """Of all that was random."""
         return self._core.seed
 
     @property
-    def robot(self) -> str:
+    def robot(self):
         """The body that was asked about."""
         return self._core.robot
 
     @property
-    def clearance(self) -> float:
+    def clearance(self):
         """The room that was asked for."""
         return self._core.clearance
 
     @property
-    def start(self) -> Tuple[float, ...]:
+    def start(self):
         """Where the path was to begin."""
         return tuple(self._core.start)
 
     @property
-    def goal(self) -> Tuple[float, ...]:
+    def goal(self):
         """Where the path was to end."""
         return tuple(self._core.goal)
 
     @property
-    def seconds(self) -> Dict[str, float]:
+    def seconds(self):
         """What each stage took."""
         return self._core.seconds
 
     @property
-    def solve_s(self) -> float:
+    def solve_s(self):
         """What all of it took, in seconds."""
         return self._core.solve_s
 
     @property
-    def blocked(self) -> Optional[Dict[str, Any]]:
+    def blocked(self):
         """Where start or goal is blocked: its end, what it is blocked by, a free_place near it and the distance to that,
         and a hint; else None."""
         return self._core.blocked
 
-    def json(self) -> str:
+    def json(self):
         """The answer as warren.answer/1, byte for byte what `warren solve --json -` prints (but for measured times,
         threads and memory)."""
         return self._core.json
 
-    def to_dict(self) -> Dict[str, Any]:
+    def to_dict(self):
         """The same, parsed.
 
         Examples
@@ -167,10 +158,10 @@ class Answer:
         >>> warren.solve("maze:5x5").to_dict()["counters"]["samples"]
         25
         """
-        parsed: Dict[str, Any] = json.loads(self._core.json)
+        parsed = json.loads(self._core.json)
         return parsed
 
-    def sample(self, every: Optional[float | str] = None, **limits: Any) -> Tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
+    def sample(self, every=None, **limits):
         """Places along the path as the curve that it is: straight ways, even turns, a car's arcs.
 
         Parameters
@@ -196,9 +187,9 @@ class Answer:
         >>> len(states), at[-1]
         (39, 19.0)
         """
-        return self._core.sample({"every": every, **limits})  # type: ignore[no-any-return]
+        return self._core.sample({"every": every, **limits})
 
-    def save_path(self, file: str | os.PathLike[str], **how: Any) -> Dict[str, Any]:
+    def save_path(self, file, **how):
         """Writes the path as .csv, .yaml (ROS nav_msgs/Path) or .geojson, by the ending.
 
         Parameters
@@ -217,14 +208,14 @@ class Answer:
             Where there is no path.
         UsageError, WriteError
         """
-        return self._core.save_path(os.fspath(file), how)  # type: ignore[no-any-return]
+        return self._core.save_path(os.fspath(file), how)
 
-    def save(self, file: str | os.PathLike[str]) -> None:
+    def save(self, file):
         """Writes :meth:`json`."""
         with open(file, "w", encoding="utf-8") as out:
             out.write(self.json())
 
-    def edges(self, *, tree: bool = False) -> np.ndarray[Any, Any]:
+    def edges(self, *, tree=False):
         """What the planner made, of answers that were asked with `keep=True`.
 
         Parameters
@@ -237,14 +228,14 @@ class Answer:
         ndarray, (n, 2, 2)
             x, y of both ends of each edge; none where nothing was kept.
         """
-        return _core.segments_of(self._core, tree)  # type: ignore[no-any-return]
+        return _core.segments_of(self._core, tree)
 
-    def lines(self) -> Dict[str, List[np.ndarray[Any, Any]]]:
+    def lines(self):
         """Further lines that the planner made, of answers that were asked with `keep=True`: "cells", "visibility",
         "medial_axis" and others, as chains of points (k, 2)."""
-        return _core.lines_of(self._core)  # type: ignore[no-any-return]
+        return _core.lines_of(self._core)
 
-    def svg(self, *, moving: bool = False) -> str:
+    def svg(self, *, moving=False):
         """World, roadmap where it was kept, and path as an SVG document.
 
         Parameters
@@ -252,138 +243,23 @@ class Answer:
         moving : bool
             Shall the body move along the path?
         """
-        return _core.picture_of_answer(self._core, self.world._core, "svg", moving).decode()  # type: ignore[no-any-return]
+        return _core.picture_of_answer(self._core, self.world._core, "svg", moving).decode()
 
-    def html(self, *, moving: bool = False) -> str:
+    def html(self, *, moving=False):
         """The same as a page of its own: drag moves, the wheel zooms."""
-        return _core.picture_of_answer(self._core, self.world._core, "html", moving).decode()  # type: ignore[no-any-return]
+        return _core.picture_of_answer(self._core, self.world._core, "html", moving).decode()
 
-    def png(self) -> bytes:
+    def png(self):
         """The same as a PNG image."""
-        return _core.picture_of_answer(self._core, self.world._core, "png", False)  # type: ignore[no-any-return]
+        return _core.picture_of_answer(self._core, self.world._core, "png", False)
 
-    def _repr_svg_(self) -> str:
+    def _repr_svg_(self):
         return self.svg()
 
-    def _repr_html_(self) -> str:
+    def _repr_html_(self):
         import html
         svg = self.svg()
         return f"<pre>{html.escape(str(self))}</pre>{svg[svg.index('<svg'):]}"
 
 
-Answer.save_path = documented(_core.path_keywords(), limits=False)(Answer.save_path)  # type: ignore[method-assign]
-
-
-def finished(core: Any, world: World) -> Answer:
-    """The answer, or the exception of a limit that ended it."""
-    answer = Answer(core, world)
-    if core.stop_reason is not None:
-        reason, text = core.stop_reason
-        raise Stopped(reason, text, answer)
-    return answer
-
-
-@documented(_core.solve_keywords())
-def solve(world: Any, start: Any = None, goal: Any = None, *, keep: bool = False, **options: Any) -> Answer:
-    """Finds a path, verified by code that shares nothing with the planner.
-
-    What isn't said is as the world's file says, and else what is fastest and most honest for the problem. The answer is
-    the same for any number of threads and on every machine. Takes no lock: any number of threads may call.
-
-    Parameters
-    ----------
-    world : World, str, path, ndarray, or geometry
-        A world; the file or name of one; cells; what has a `__geo_interface__`.
-    start, goal : sequence of float, optional
-        x, y of a point or disc; x, y, theta (radians) of a body that turns, whose goal may lack theta; six joint angles
-        of an arm, whose goal may be the three coordinates of a place of its tool (default: the world's).
-    keep : bool
-        Shall the answer keep what the planner made on its way, for pictures and plots? It takes memory.
-    {options}
-
-    Returns
-    -------
-    Answer
-        No path, and a blocked start or goal, is an answer.
-
-    Raises
-    ------
-    UsageError
-        For what can't be asked of this world.
-    InputError
-        For a world that contradicts itself.
-    Stopped
-        At a limit; its `answer` is the partial one.
-    KeyboardInterrupt
-        Within 0.2 s of Ctrl-C.
-
-    Examples
-    --------
-    >>> import warren
-    >>> answer = warren.solve(warren.maze(41, 41, seed=3), planner="lazy-prm", clearance=0.2)
-    >>> answer.status, answer.length == warren.solve("maze:41x41,seed=3").length
-    ('solved', True)
-    >>> warren.solve("maze:5x5", (1, 1), (9, 9)).status
-    'goal_blocked'
-    """
-    there = as_world(world)
-    options["start"] = start
-    options["goal"] = goal
-    return finished(_core.solve(there._core, options, keep), there)
-
-
-class Verdict(NamedTuple):
-    """What the judge says of a path.
-
-    True where it is free. `violation` is None, or the leg (from 0), the distance and the obstacle of the first one.
-    """
-
-    verified: bool
-    length: float
-    min_clearance: float
-    violation: Optional[Tuple[int, float, str]]
-
-    def __bool__(self) -> bool:
-        return self.verified
-
-
-Verdict.__module__ = "warren"
-
-
-@documented(_core.verify_keywords())
-def verify(world: Any, path: Any, **options: Any) -> Verdict:
-    """Is a path free, all along and with all its clearance? Decided by code that shares nothing with planners.
-
-    Parameters
-    ----------
-    world : World, str, path, ndarray, or geometry
-        As :func:`solve` takes it.
-    path : Answer, array_like (n, 2), (n, 3) or (n, 6), or str or path
-        Whose states are judged; a name is of a file with an answer as JSON.
-    start, goal : sequence of float, optional
-        Where the path must begin and end (default: the answer's, else the world's, else its own ends).
-    {options}
-
-    Returns
-    -------
-    Verdict
-
-    Examples
-    --------
-    >>> import warren
-    >>> world = warren.maze(5, 5)
-    >>> answer = warren.solve(world)
-    >>> warren.verify(world, answer).verified
-    True
-    >>> straight = warren.verify(world, [(0.5, 1), (5.5, 5)])
-    >>> bool(straight), straight.violation[0]
-    (False, 0)
-    """
-    there = as_world(world)
-    if isinstance(path, Answer):
-        told = _core.verify_json(there._core, path.json(), options)
-    elif isinstance(path, (str, os.PathLike)):
-        told = _core.verify_file(there._core, os.fspath(path), options)
-    else:
-        told = _core.verify_states(there._core, path, options)
-    return Verdict(told["verified"], told["length"], told["min_clearance"], told["violation"])
+Answer.save_path = documented(_core.path_keywords(), limits=False)(Answer.save_path)

@@ -1,16 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Bodies, as the words of the scene format: what `robot=` takes."""
-from __future__ import annotations
-
 import os
-from typing import Any, Optional, Sequence, Union
 
 
-def _corners(outline: Any) -> str:
+def _corners(outline):
     return " ".join(f"{float(x)!r} {float(y)!r}" for x, y in outline)
 
 
-def disc(radius: float) -> str:
+def disc(radius):
     """A disc that doesn't turn.
 
     Parameters
@@ -32,7 +29,7 @@ def disc(radius: float) -> str:
     return f"disc {float(radius)!r}"
 
 
-def polygon(outline: Sequence[Sequence[float]]) -> str:
+def polygon(outline):
     """A rigid body that moves and turns.
 
     Parameters
@@ -49,8 +46,8 @@ def polygon(outline: Sequence[Sequence[float]]) -> str:
     return f"polygon {_corners(outline)}"
 
 
-def car(turning_radius: float, *, outline: Optional[Sequence[Sequence[float]]] = None,
-        radius: Optional[float] = None, steering: Optional[str] = None) -> str:
+def car(turning_radius, *, outline=None,
+        radius=None, steering=None):
     """A car: it moves where it faces, on curves no tighter than its turning circle.
 
     Parameters
@@ -76,14 +73,14 @@ def car(turning_radius: float, *, outline: Optional[Sequence[Sequence[float]]] =
     return f"car {shape} turning {float(turning_radius)!r}" + (f" steering {steering}" if steering else "")
 
 
-def _links(radius: float, tool: float, self_collision: bool, limits: Optional[str] = None) -> str:
+def _links(radius, tool, self_collision, limits=None):
     words = f"radius {float(radius)!r}"
     words += f" tool {float(tool)!r}" if tool else ""
     words += f" limits {limits}" if limits else ""
     return words + (" self-collision" if self_collision else "")
 
 
-def puma560(radius: float, *, tool: float = 0.0, limits: Optional[str] = None, self_collision: bool = False) -> str:
+def puma560(radius, *, tool=0.0, limits=None, self_collision=False):
     """The Puma 560: six joints, lengths in metres.
 
     Parameters
@@ -106,8 +103,8 @@ def puma560(radius: float, *, tool: float = 0.0, limits: Optional[str] = None, s
     return "puma560 " + _links(radius, tool, self_collision, limits)
 
 
-def arm(table: Union[str, "os.PathLike[str]"], radius: float, *, tool: float = 0.0,
-        self_collision: bool = False) -> str:
+def arm(table, radius, *, tool=0.0,
+        self_collision=False):
     """An arm of one to six revolute joints by its Denavit-Hartenberg table.
 
     Parameters

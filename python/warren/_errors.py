@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What goes wrong, as exceptions that Python's own ones catch too."""
-from __future__ import annotations
-
-from typing import Any
 
 
 class Error(Exception):
@@ -18,14 +15,14 @@ class Error(Exception):
         What was found; empty where there is nothing to show.
     """
 
-    def __init__(self, where: str = "", what: str = "", value: str = "") -> None:
+    def __init__(self, where="", what="", value=""):
         line = f"{where}: {what}" if where else what
         super().__init__(f"{line} (found: {value})" if value else line)
         self.where = where
         self.what = what
         self.value = value
 
-    def __reduce__(self) -> Any:
+    def __reduce__(self):
         return type(self), (self.where, self.what, self.value)
 
 
@@ -66,12 +63,12 @@ class Stopped(Error, TimeoutError):
         What is known so far, of calls that give an answer: its status is "stopped", its counters say how far it came.
     """
 
-    def __init__(self, reason: str = "", what: str = "", answer: Any = None) -> None:
+    def __init__(self, reason="", what="", answer=None):
         super().__init__("", what, "")
         self.reason = reason
         self.answer = answer
 
-    def __reduce__(self) -> Any:
+    def __reduce__(self):
         return type(self), (self.reason, self.what, self.answer)
 
 

@@ -1,11 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The keywords that functions share with the program: their documentation is made of the program's own table."""
-from __future__ import annotations
-
 import textwrap
-from typing import Any, Callable, List, Tuple, TypeVar
-
-F = TypeVar("F", bound=Callable[..., Any])
 
 _KINDS = {"N": "int", "K": "int", "NAME": "str", "WORD": "str", "TIME": "float or str", "BYTES": "int or str",
           "STATES": "sequence of sequences of float", "X,Y[,THETA]": "sequence of float", '"BODY"': "str",
@@ -25,7 +20,7 @@ progress : callable, optional
 """
 
 
-def _kind(value: str, choices: List[str], optional: bool) -> str:
+def _kind(value, choices, optional):
     if choices and optional:
         return "bool or {" + ", ".join(choices) + "}"
     if choices:
@@ -33,14 +28,14 @@ def _kind(value: str, choices: List[str], optional: bool) -> str:
     return _KINDS.get(value, "float") if value else "bool"
 
 
-def documented(table: List[Tuple[str, str, str, List[str], bool]], limits: bool = True) -> Callable[[F], F]:
+def documented(table, limits=True):
     """Puts the keywords of a table where a docstring says {options}."""
     text = LIMITS.strip("\n") if limits else ""
     rows = [f"{name} : {_kind(value, choices, optional)}, optional\n" +
-            textwrap.fill(said[:1].upper() + said[1:] + ".", 110, initial_indent="    ", subsequent_indent="    ")
+            textwrap.fill(said + ".", 110, initial_indent="    ", subsequent_indent="    ")
             for name, value, said, choices, optional in table if name not in ("start", "goal", "path")]
 
-    def put(function: F) -> F:
+    def put(function):
         said = textwrap.indent("\n".join([*rows, text] if text else rows), "    ").lstrip()
         function.__doc__ = (function.__doc__ or "").replace("{options}", said)
         return function

@@ -1,0 +1,247 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Worlds read from files, made of arrays and of geometries."""
+import json
+import os
+
+import numpy as np
+
+from . import _core
+from ._options import documented
+from ._worlds import World
+
+
+@documented(_core.reading_keywords())
+def read_world(source, **options):
+    """Reads a world from a file of any format, or makes the maze of a name.
+
+    Parameters
+    ----------
+    source : str or path
+        A file (docs/file_formats.md; its content says what it is), or "maze:ROWSxCOLS[,seed=N][,algorithm=NAME]
+        [,loops=F]".
+    {options}
+
+    Returns
+    -------
+    World
+
+    Raises
+    ------
+    ReadError, InputError, UsageError, Stopped
+
+    Examples
+    --------
+    >>> import warren
+    >>> warren.read_world("maze:41x41,seed=7,loops=0.05").maze
+    (41, 41)
+    """
+    return World(_core.read_world(os.fspath(source), options))
+
+
+def maze(rows, cols, *, seed=None, algorithm=None,
+         loops=None):
+    """A maze from a seed, the same on every machine.
+
+    Parameters
+    ----------
+    rows, cols : int
+        At least 1, fewer than 2^32 cells.
+    seed : int, optional
+        Default: 1.
+    algorithm : {'backtracker', 'kruskal', 'prim', 'wilson', 'course'}, optional
+        Default: backtracker.
+    loops : float, optional
+        The share, 0 to 1, of the interior walls left that are taken out (default: 0, exactly one way between any two
+        cells).
+
+    Returns
+    -------
+    World
+        Its :attr:`~World.source` is the name that the program knows it by.
+
+    Examples
+    --------
+    >>> import warren
+    >>> warren.maze(41, 41, seed=7, loops=0.05).source
+    'maze:41x41,seed=7,loops=0.05'
+    """
+    name = f"maze:{int(rows)}x{int(cols)}"
+    if seed is not None:
+        name += f",seed={int(seed)}"
+    if algorithm is not None:
+        name += f",algorithm={algorithm}"
+    if loops is not None:
+        name += f",loops={float(loops)!r}"
+    return read_world(name)
+
+
+def grid(cells, cell=1.0, origin=(0.0, 0.0), *, yaw=0.0,
+         start=None, goal=None, robot=None,
+         clearance=None):
+    """A map of cells.
+
+    Parameters
+    ----------
+    cells : ndarray, (rows, columns) of bool or uint8
+        What is not 0 is blocked; row 0 is the top, as in images. Read where it lies, in any layout.
+    cell : float
+        Side of a cell, in world units.
+    origin : (float, float)
+        Lower left corner of the map.
+    yaw : float
+        The map is turned about that corner, anticlockwise, in radians.
+    start, goal : sequence of float, optional
+        Where paths begin and end that aren't asked otherwise.
+    robot : str, optional
+        The body, as :func:`disc` and its like give it.
+    clearance : float, optional
+        Room around the body.
+
+    Returns
+    -------
+    World
+
+    Raises
+    ------
+    TypeError
+        For cells of another type or shape.
+
+    Examples
+    --------
+    >>> import numpy as np, warren
+    >>> cells = np.zeros((60, 80), bool)
+    >>> cells[20:, 40] = True
+    >>> answer = warren.solve(warren.grid(cells, 0.05), (0.5, 0.5), (3.5, 0.5))
+    >>> answer.status, round(answer.length, 2)
+    ('solved', 4.37)
+    """
+    if not isinstance(cells, np.ndarray):
+        raise TypeError(f"cells: expected an array of bool or uint8 (found: {type(cells).__name__})")
+    said = {"start": start, "goal": goal, "robot": robot, "clearance": clearance}
+    return World(_core.cells(cells, float(cell), (float(origin[0]), float(origin[1])), float(yaw), said))
+
+
+def scene(*, walls=None, polygons=None, bounds=None, spheres=None, boxes=None,
+          maze=None, start=None, goal=None, robot=None,
+          clearance=None, source="scene"):
+    """A world of walls, polygons, balls and boxes.
+
+    Parameters
+    ----------
+    walls : array_like, (n, 4), optional
+        x1, y1, x2, y2. An array must be float32 or float64 in C order.
+    polygons : sequence of array_like, (n, 2), optional
+        Simple rings in either direction; their insides are blocked.
+    bounds : (float, float, float, float), optional
+        xmin, ymin, xmax, ymax: what confines everything.
+    spheres : array_like, (n, 4), optional
+        x, y, z, radius: for arms.
+    boxes : array_like, (n, 6), optional
+        xmin, ymin, zmin, xmax, ymax, zmax: for arms.
+    maze : (int, int), optional
+        Rows and columns, where all walls lie on the unit grid of a maze.
+    start, goal : sequence of float, optional
+        Where paths begin and end that aren't asked otherwise.
+    robot : str, optional
+        The body, as :func:`disc` and its like give it.
+    clearance : float, optional
+        Room around the body.
+    source : str
+        The name that answers give the world.
+
+    Returns
+    -------
+    World
+
+    Raises
+    ------
+    TypeError
+        For arrays of another type or shape.
+    InputError
+        For numbers that aren't finite, polygons that aren't simple.
+
+    Examples
+    --------
+    >>> import warren
+    >>> world = warren.scene(polygons=[[(0, 0), (2, 0), (1, 2)]], walls=[(3, 0, 3, 5)], bounds=(-1, -1, 9, 9))
+    >>> answer = warren.solve(world, (0, 5), (8, 5))
+    >>> answer.optimal, round(answer.length, 3)
+    (True, 8.0)
+    """
+    parts = {"walls": walls, "polygons": polygons, "bounds": bounds, "spheres": spheres, "boxes": boxes, "maze": maze,
+             "source": source}
+    return World(_core.scene(parts, {"start": start, "goal": goal, "robot": robot, "clearance": clearance}))
+
+
+def _features(geometry):
+    if hasattr(geometry, "__geo_interface__"):
+        geometry = geometry.__geo_interface__
+    if not isinstance(geometry, dict):
+        return [feature for part in geometry for feature in _features(part)]
+    kind = geometry.get("type")
+    if kind == "FeatureCollection":
+        return list(geometry["features"])
+    if kind == "GeometryCollection":
+        return [feature for part in geometry["geometries"] for feature in _features(part)]
+    return [geometry] if kind == "Feature" else [{"type": "Feature", "properties": {}, "geometry": geometry}]
+
+
+def from_geo(geometry, *, bounds=None, start=None, goal=None, robot=None,
+             clearance=None):
+    """A world of what has a `__geo_interface__`: geometries of shapely, frames of geopandas, GeoJSON's dictionaries.
+
+    Polygons, with holes or without, are obstacles, lines are walls; a feature whose properties have a "role" is a start,
+    a goal or the bounds.
+
+    Parameters
+    ----------
+    geometry : object, mapping, or sequence of these
+        What has a `__geo_interface__`, or is one.
+    bounds : (float, float, float, float), optional
+        xmin, ymin, xmax, ymax: what confines everything.
+    start, goal : sequence of float, optional
+        Where paths begin and end that aren't asked otherwise.
+    robot : str, optional
+        The body, as :func:`disc` and its like give it.
+    clearance : float, optional
+        Room around the body.
+
+    Returns
+    -------
+    World
+
+    Examples
+    --------
+    >>> import warren
+    >>> block = {"type": "Polygon", "coordinates": [[(2, 0), (4, 0), (4, 3), (2, 3), (2, 0)]]}
+    >>> world = warren.from_geo(block, bounds=(-1, -1, 7, 4))
+    >>> round(warren.solve(world, (0, 1), (6, 1)).length, 3)
+    6.472
+    """
+    features = _features(geometry)
+    if bounds is not None:
+        x0, y0, x1, y1 = (float(x) for x in bounds)
+        ring = [[x0, y0], [x1, y0], [x1, y1], [x0, y1], [x0, y0]]
+        features.append({"type": "Feature", "properties": {"role": "bounds"},
+                         "geometry": {"type": "Polygon", "coordinates": [ring]}})
+    plain = [{"type": "Feature", "properties": {"role": (feature.get("properties") or {}).get("role")},
+              "geometry": feature.get("geometry")} for feature in features]
+    for feature in plain:
+        if feature["properties"]["role"] is None:
+            feature["properties"] = {}
+    text = json.dumps({"type": "FeatureCollection", "features": plain})
+    said = {"start": start, "goal": goal, "robot": robot, "clearance": clearance}
+    return World(_core.read_text("geometry", text, said))
+
+
+def as_world(world):
+    """A world as functions take it: one, the name of one, an array of cells, or geometry."""
+    if isinstance(world, World):
+        return world
+    if isinstance(world, (str, os.PathLike)):
+        return read_world(world)
+    if isinstance(world, np.ndarray):
+        return grid(world)
+    if hasattr(world, "__geo_interface__") or isinstance(world, dict):
+        return from_geo(world)
+    raise TypeError(f"world: expected a World, a name, an array of cells or geometry (found: {type(world).__name__})")

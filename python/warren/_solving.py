@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Questions, and the judge of paths."""
+import os
+from typing import NamedTuple, Optional, Tuple
+
+from . import _core
+from ._answers import Answer
+from ._errors import Stopped
+from ._options import documented
+from ._making_worlds import as_world
+
+
+def finished(core, world):
+    """The answer, or the exception of a limit that ended it."""
+    answer = Answer(core, world)
+    if core.stop_reason is not None:
+        reason, text = core.stop_reason
+        raise Stopped(reason, text, answer)
+    return answer
+
+
+@documented(_core.solve_keywords())
+def solve(world, start=None, goal=None, *, keep=False, **options):
+    """Finds a path, verified by code that shares nothing with the planner.
+
+    What isn't said is as the world's file says, and else what is fastest and most honest for the problem. The answer is
+    the same for any number of threads and on every machine. Takes no lock: any number of threads may call.
+
+    Parameters
+    ----------
+    world : World, str, path, ndarray, or geometry
+        A world; the file or name of one; cells; what has a `__geo_interface__`.
+    start, goal : sequence of float, optional
+        x, y of a point or disc; x, y, theta (radians) of a body that turns, whose goal may lack theta; six joint angles
+        of an arm, whose goal may be the three coordinates of a place of its tool (default: the world's).
+    keep : bool
+        Shall the answer keep what the planner made on its way, for pictures and plots? It takes memory.
+    {options}
+
+    Returns
+    -------
+    Answer
+        No path, and a blocked start or goal, is an answer.
+
+    Raises
+    ------
+    UsageError
+        For what can't be asked of this world.
+    InputError
+        For a world that contradicts itself.
+    Stopped
+        At a limit; its `answer` is the partial one.
+    KeyboardInterrupt
+        Within 0.2 s of Ctrl-C.
+
+    Examples
+    --------
+    >>> import warren
+    >>> answer = warren.solve(warren.maze(41, 41, seed=3), planner="lazy-prm", clearance=0.2)
+    >>> answer.status, answer.length == warren.solve("maze:41x41,seed=3").length
+    ('solved', True)
+    >>> warren.solve("maze:5x5", (1, 1), (9, 9)).status
+    'goal_blocked'
+    """
+    there = as_world(world)
+    options["start"] = start
+    options["goal"] = goal
+    return finished(_core.solve(there._core, options, keep), there)
+
+
+class Verdict(NamedTuple):
+    """What the judge says of a path.
+
+    True where it is free. `violation` is None, or the leg (from 0), the distance and the obstacle of the first one.
+    """
+
+    verified: bool
+    length: float
+    min_clearance: float
+    violation: Optional[Tuple[int, float, str]]
+
+    def __bool__(self):
+        return self.verified
+
+
+Verdict.__module__ = "warren"
+
+
+@documented(_core.verify_keywords())
+def verify(world, path, **options):
+    """Is a path free, all along and with all its clearance? Decided by code that shares nothing with planners.
+
+    Parameters
+    ----------
+    world : World, str, path, ndarray, or geometry
+        As :func:`solve` takes it.
+    path : Answer, array_like (n, 2), (n, 3) or (n, 6), or str or path
+        Whose states are judged; a name is of a file with an answer as JSON.
+    start, goal : sequence of float, optional
+        Where the path must begin and end (default: the answer's, else the world's, else its own ends).
+    {options}
+
+    Returns
+    -------
+    Verdict
+
+    Examples
+    --------
+    >>> import warren
+    >>> world = warren.maze(5, 5)
+    >>> answer = warren.solve(world)
+    >>> warren.verify(world, answer).verified
+    True
+    >>> straight = warren.verify(world, [(0.5, 1), (5.5, 5)])
+    >>> bool(straight), straight.violation[0]
+    (False, 0)
+    """
+    there = as_world(world)
+    if isinstance(path, Answer):
+        told = _core.verify_json(there._core, path.json(), options)
+    elif isinstance(path, (str, os.PathLike)):
+        told = _core.verify_file(there._core, os.fspath(path), options)
+    else:
+        told = _core.verify_states(there._core, path, options)
+    return Verdict(told["verified"], told["length"], told["min_clearance"], told["violation"])

@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: BSD-3-Clause
+from collections.abc import Sequence
+from typing import Any, Literal, NamedTuple
+
+from numpy.typing import ArrayLike
+
+from ._answers import Answer
+from ._worlds import (
+    World,
+    _Contact,
+    _Diagonal,
+    _Doors,
+    _Layers,
+    _Objective,
+    _Path,
+    _Pipeline,
+    _Planner,
+    _Progress,
+    _Queue,
+    _Sampler,
+    _Search,
+    _State,
+    _Steering,
+    _World,
+)
+
+class Verdict(NamedTuple):
+    verified: bool
+    length: float
+    min_clearance: float
+    violation: tuple[int, float, str] | None
+    def __bool__(self) -> bool: ...
+
+def solve(
+    world: _World,
+    start: _State | None = ...,
+    goal: _State | None = ...,
+    *,
+    keep: bool = ...,
+    planner: _Planner | None = ...,
+    sampler: _Sampler | None = ...,
+    samples: int | Literal["auto"] | None = ...,
+    neighbours: int | Literal["auto", "star"] | None = ...,
+    radius: float | Literal["auto", "star"] | None = ...,
+    search: _Search | None = ...,
+    queue: _Queue | None = ...,
+    lazy: bool | Literal["expansion", "path"] | None = ...,
+    pipeline: _Pipeline | None = ...,
+    optimise: bool | None = ...,
+    seed: int | None = ...,
+    cell: float | None = ...,
+    angles: int | None = ...,
+    face_motion: bool | None = ...,
+    step_cost: float | None = ...,
+    turn_cost: float | None = ...,
+    diagonal: _Diagonal | None = ...,
+    layers: _Layers | None = ...,
+    full: bool | None = ...,
+    sampled_edges: float | None = ...,
+    doors: _Doors | None = ...,
+    objective: _Objective | None = ...,
+    step: float | None = ...,
+    goal_bias: float | None = ...,
+    nodes: int | None = ...,
+    trees: int | None = ...,
+    via: Sequence[_State] | None = ...,
+    steering: _Steering | None = ...,
+    turning_radius: float | None = ...,
+    cusp_cost: float | None = ...,
+    reverse_cost: float | None = ...,
+    attach: float | tuple[float, float] | None = ...,
+    robot: str | None = ...,
+    clearance: float | None = ...,
+    contact: _Contact | None = ...,
+    threads: int | None = ...,
+    budget: float | str | None = ...,
+    memory: int | str | None = ...,
+    progress: _Progress | None = ...,
+) -> Answer: ...
+def verify(
+    world: _World,
+    path: Answer | ArrayLike | _Path,
+    *,
+    start: _State | None = ...,
+    goal: _State | None = ...,
+    robot: str | None = ...,
+    clearance: float | None = ...,
+    contact: _Contact | None = ...,
+    threads: int | None = ...,
+    budget: float | str | None = ...,
+    memory: int | str | None = ...,
+    progress: _Progress | None = ...,
+) -> Verdict: ...
+def finished(core: Any, world: World) -> Answer: ...

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Planners side by side."""
+import csv
+import io
+
+import numpy as np
+
+from . import _core
+from ._options import documented
+from ._making_worlds import as_world
+
+
+def _column(words):
+    """Numbers where all are, with nan for what is empty; else words."""
+    try:
+        if all(words):
+            return np.array([int(word) for word in words])
+    except (ValueError, OverflowError):
+        pass
+    try:
+        return np.array([float(word) if word else np.nan for word in words])
+    except ValueError:
+        return np.array(words, dtype=object)
+
+
+def _table(text):
+    rows = list(csv.reader(io.StringIO(text)))
+    return {name: _column([row[i] for row in rows[1:]]) for i, name in enumerate(rows[0])}
+
+
+class Comparison(dict):
+    """What :func:`compare` measured: a column a name, a row a run, as pandas.DataFrame takes it.
+
+    Attributes
+    ----------
+    table : dict of ndarray
+        The same with a row a planner: how many of its runs were solved, medians and quartiles.
+    """
+
+    __module__ = "warren"
+
+    def __init__(self, core):
+        super().__init__(_table(core.runs_csv()))
+        self._core = core
+        self.table = _table(core.table_csv())
+
+    def __repr__(self):
+        return f"<Comparison of {len(self.table['planner'])} planners, {len(self['planner'])} runs>"
+
+    def __str__(self):
+        return self._core.summary()
+
+    def json(self):
+        """warren.compare/1, as `warren compare --json -` prints it."""
+        return self._core.json()
+
+    def svg(self):
+        """Plots of success and times, as `warren compare --svg` draws them."""
+        return self._core.svg()
+
+    def _repr_svg_(self):
+        return self.svg()
+
+
+@documented(_core.compare_keywords())
+def compare(world, **options):
+    """Runs planners side by side on a world, over many seeds; every path that counts as solved was verified.
+
+    An option that is a list makes a contender of each of its values, of each planner that takes it.
+
+    Parameters
+    ----------
+    world : World, str, path, ndarray, or geometry
+        As :func:`solve` takes it.
+    start, goal : sequence of float, optional
+        As :func:`solve` takes them.
+    {options}
+
+    Returns
+    -------
+    Comparison
+
+    Examples
+    --------
+    >>> import warren
+    >>> found = warren.compare("maze:9x9", planners=["prm", "lazy-prm"], sampler="uniform", samples=[200, 900], seeds=3)
+    >>> found
+    <Comparison of 4 planners, 12 runs>
+    >>> sorted(set(found["planner"])), found.table["solved"].shape
+    (['lazy-prm', 'prm'], (4,))
+    """
+    return Comparison(_core.compare(as_world(world)._core, options))

@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a call may take, who may stop it, and what it leaves behind."""
+import gc
+import multiprocessing
+import os
+import pathlib
+import pickle
+import resource
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+import warren
+
+HARD = """
+import signal, sys, time, warren
+{before}
+print("ready", flush=True)
+began = time.monotonic()
+try:
+    warren.read_world("maze:6000x6000") if {reading} else warren.solve(world, **options)
+    print("finished")
+except KeyboardInterrupt:
+    print("KeyboardInterrupt")
+except warren.Stopped as stopped:
+    print("Stopped", stopped.reason, stopped.answer.status)
+except Handled:
+    print("Handled")
+"""
+# A search without an end: no way leads out of the box.
+CLOSED = """
+class Handled(Exception): pass
+world = warren.scene(walls=[(4, 4, 6, 4), (6, 4, 6, 6), (6, 6, 4, 6), (4, 6, 4, 4)], bounds=(0, 0, 10, 10),
+                     robot=warren.polygon([(-.1, -.1), (.1, -.1), (.1, .1)]), start=(1, 1, 0), goal=(5, 5, 0))
+options = dict(planner="rrt", nodes=2**31)
+"""
+
+
+def interrupted(number, before="", reading=False):
+    """What a program prints that gets a signal while it computes, and how long it took to say so."""
+    program = subprocess.Popen([sys.executable, "-B", "-c", HARD.format(before=CLOSED + before, reading=reading)],
+                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    assert program.stdout.readline() == "ready\n"
+    time.sleep(0.4)
+    sent = time.monotonic()
+    program.send_signal(number)
+    said = program.stdout.readline().strip()
+    seconds = time.monotonic() - sent
+    program.wait(30)
+    return said, seconds
+
+
+@pytest.mark.parametrize("reading", [False, True])
+def test_control_c_is_a_keyboard_interrupt_within_a_fifth_of_a_second(reading):
+    tries = [interrupted(signal.SIGINT, reading=reading) for _ in range(3)]
+    assert all(said == "KeyboardInterrupt" for said, _ in tries)
+    assert min(seconds for _, seconds in tries) < 0.2
+
+
+def test_a_handler_of_the_program_has_its_say():
+    said, _ = interrupted(signal.SIGTERM, "def handle(*_): raise Handled\nsignal.signal(signal.SIGTERM, handle)\n")
+    assert said == "Handled"
+
+
+def test_a_handler_that_lets_go_on_ends_the_call_all_the_same():
+    said, _ = interrupted(signal.SIGINT, "signal.signal(signal.SIGINT, lambda *_: None)\n")
+    assert said == "Stopped SIGINT stopped"
+
+
+def test_handlers_are_as_they_were_afterwards():
+    before = signal.getsignal(signal.SIGINT)
+    warren.solve("maze:5x5")
+    assert signal.getsignal(signal.SIGINT) is before
+    with pytest.raises(KeyboardInterrupt):
+        os.kill(os.getpid(), signal.SIGINT)
+        time.sleep(1)
+    assert warren.solve("maze:5x5")  # an old signal stops no new call
+
+
+def closed():
+    names = {"warren": warren}
+    exec(CLOSED, names)  # noqa: S102
+    return names["world"], names["options"]
+
+
+def test_a_budget_raises_a_timeout_with_the_partial_answer():
+    world, options = closed()
+    with pytest.raises(TimeoutError) as caught:
+        warren.solve(world, budget=0.05, **options)
+    assert isinstance(caught.value, warren.Stopped) and caught.value.reason == "budget"
+    answer = caught.value.answer
+    assert answer.status == "stopped" and not answer and answer.to_dict()["counters"]["samples"] > 0
+    with pytest.raises(warren.Stopped):
+        warren.read_world("maze:3000x3000", budget="1ms")
+
+
+def test_memory_is_limited():
+    with pytest.raises(warren.Stopped) as caught:
+        warren.read_world("maze:20000x20000", memory="200MiB")
+    assert caught.value.reason == "memory" and caught.value.answer is None
+
+
+def test_progress_is_told_and_what_it_raises_comes_up():
+    stages = []
+    warren.solve(warren.maze(1500, 1500), planner="prm", pipeline="plain",
+                 progress=lambda stage, done, total: stages.append((stage, done, total)))
+    assert stages and all(isinstance(stage, str) and done >= 0 for stage, done, _ in stages)
+
+    def fail(stage, done, total):
+        raise ZeroDivisionError("told")
+
+    world, options = closed()
+    with pytest.raises(ZeroDivisionError, match="told"):
+        warren.solve(world, budget=20, progress=fail, **options)
+
+
+def test_other_threads_run_meanwhile():
+    world, options = closed()
+    counted = []
+
+    def count():
+        while not done.is_set():
+            counted.append(None)
+            time.sleep(0.001)
+
+    done = threading.Event()
+    counter = threading.Thread(target=count)
+    counter.start()
+    with pytest.raises(warren.Stopped):
+        warren.solve(world, budget=0.3, **options)
+    done.set()
+    counter.join()
+    assert len(counted) > 20
+
+
+def length_of(world):
+    return warren.solve(world).length
+
+
+@pytest.mark.parametrize("method", ["spawn", "fork"])
+def test_worlds_and_answers_go_to_other_processes(method):
+    worlds = [warren.maze(21, 21, seed=seed) for seed in range(4)]
+    worlds.append(warren.scene(walls=[(3, 0, 3, 5)], bounds=(0, 0, 9, 9), start=(1, 1), goal=(8, 1)))
+    here = [warren.solve(world).length for world in worlds]
+    with multiprocessing.get_context(method).Pool(2) as pool:
+        assert pool.map(length_of, worlds) == here
+        answers = pool.map(warren.solve, worlds)
+    assert [answer.length for answer in answers] == here and answers[-1].world.hash == worlds[-1].hash
+
+
+def test_pickles_hold_all_of_a_world(tmp_path):
+    root = pathlib.Path(__file__).resolve().parents[2] / "examples" / "worlds"
+    for name in ("town.geojson", "flat.yaml", "puma-seed.scene", "car-20.scene", "walls.scene"):
+        world = warren.read_world(root / name)
+        again = pickle.loads(pickle.dumps(world))
+        assert again.facts() == world.facts() and repr(again) == repr(world)
+    answer = warren.solve("maze:41x41", keep=True)
+    assert pickle.loads(pickle.dumps(answer)).json() == answer.json()
+    cut = pickle.dumps(warren.scene(walls=[(0, 0, 1, 1)]))
+    with pytest.raises(ValueError):
+        pickle.loads(cut.replace(b"warren.pickle/0", b"warren.pickle/9"))
+
+
+def test_nothing_grows():
+    world = warren.maze(11, 11)
+    roadmap = warren.build(world)
+    ends = np.array([[1.0, 1.0], [9.0, 9.0]])
+
+    def calls(n):
+        for _ in range(n):
+            answer = warren.solve(world, (1, 1), (9, 9), clearance=0.2)
+            answer.path, answer.json(), world.walls, answer.sample(1.0)
+            roadmap.lengths(ends, ends[::-1].copy())
+            roadmap.query((1, 1), (9, 9))
+            warren.grid(np.zeros((5, 5), bool)).cells
+            try:
+                warren.solve(world, planner="prn")
+            except warren.UsageError:
+                pass
+        gc.collect()
+
+    calls(200)
+    objects = len(gc.get_objects())
+    held = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    calls(int(os.environ.get("WARREN_GROWTH_CALLS", "1500")))
+    assert len(gc.get_objects()) <= objects + 5
+    assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss <= held + 1024

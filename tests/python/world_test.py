@@ -1,0 +1,187 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Worlds of arrays, geometries and files; what they show; how they are drawn and compared."""
+import gc
+
+import geopandas
+import matplotlib
+import numpy as np
+import pandas
+import pytest
+import shapely.geometry
+import warren
+from conftest import WORLDS
+
+matplotlib.use("Agg")
+
+
+@pytest.mark.parametrize("kind", [np.float32, np.float64])
+def test_walls_are_read_from_arrays_and_shown_as_views(kind):
+    walls = np.array([[3, 0, 3, 5], [0, 7, 4, 7]], kind)
+    world = warren.scene(walls=walls, bounds=(0, 0, 9, 9))
+    shown = world.walls
+    walls[:] = 0  # what was given is not held
+    del world
+    gc.collect()
+    assert shown.dtype == kind and shown.tolist() == [[3, 0, 3, 5], [0, 7, 4, 7]] and not shown.flags.writeable
+
+
+def test_the_same_world_has_the_same_hash_whatever_it_is_made_of(tmp_path):
+    maze = warren.maze(9, 9)
+    again = warren.scene(walls=maze.walls, maze=(9, 9), start=maze.start, goal=maze.goal)
+    assert again.hash == maze.hash and warren.solve(again).length == warren.solve(maze).length
+    maze.save(tmp_path / "maze.npy")
+    assert np.array_equal(np.load(tmp_path / "maze.npy"), maze.walls)
+    assert warren.read_world(tmp_path / "maze.npy").hash == maze.hash
+
+
+@pytest.mark.parametrize("parts, error, said", [
+    ({"walls": np.zeros((2, 4), int)}, TypeError, r"walls: expected float32 or float64 \(n, 4\).*int64 \(2, 4\)"),
+    ({"walls": np.zeros((2, 3))}, TypeError, r"walls: expected .*\(found: float64 \(2, 3\)\)"),
+    ({"walls": np.zeros((4, 2)).T}, TypeError, "walls: expected"),
+    ({"walls": [[0, 0, 1, np.inf]]}, ValueError, r"walls\[0\]: numbers must be finite"),
+    ({"polygons": [[(0, 0), (1, 1), (1, 0), (0, 1)]]}, ValueError, "polygon 0"),
+    ({"bounds": (0, 0, 0, 1)}, ValueError, "bounds: "),
+    ({"spheres": [(0, 0, 0, -1)]}, ValueError, r"spheres\[0\]: "),
+    ({"boxes": [(1, 0, 0, 0, 1, 1)]}, ValueError, r"boxes\[0\]: "),
+    ({"walls": [(0.2, 0, 0.2, 1)], "maze": (3, 3)}, ValueError, r"walls\[0\]: is not on the unit grid"),
+    ({"maze": (0, 3)}, ValueError, "maze: "),
+    ({"robot": "disc -1"}, ValueError, "robot: "),
+])
+def test_parts_that_make_no_world_are_refused(parts, error, said):
+    with pytest.raises(error, match=said):
+        warren.scene(**parts)
+
+
+def test_cells_are_read_where_they_lie():
+    cells = np.zeros((6, 8), np.uint8)
+    cells[0, 3] = 7
+    for given in (cells, cells != 0, np.asfortranarray(cells), cells[::-1][::-1]):
+        world = warren.grid(given, 0.5, (10, 20))
+        assert np.array_equal(world.cells, cells != 0) and world.raster == (0.5, 10.0, 20.0, 0.0)
+        assert world.box == (10.0, 20.0, 14.0, 23.0)
+    # The top row is the highest: the cell at row 0 is blocked at y 22.5 .. 23.
+    assert warren.solve(world, (11.75, 22.75), (10.1, 20.1), planner="grid").status == "start_blocked"
+    for wrong in (cells.astype(int), cells.astype(float), cells[0]):
+        with pytest.raises(TypeError, match=r"cells: expected bool or uint8 \(rows, columns\)"):
+            warren.grid(wrong)
+    with pytest.raises(TypeError, match="cells: expected an array"):
+        warren.grid([[0, 1]])
+    with pytest.raises(ValueError, match="^cell: "):
+        warren.grid(cells, 0)
+
+
+def test_a_map_of_cells_is_solved_as_its_file_is():
+    flat = warren.read_world(WORLDS / "flat.yaml")
+    same = warren.grid(flat.cells, flat.raster[0], flat.raster[1:3])
+    ends = {"start": (0.5, 0.5), "goal": (4.3, 0.5), "robot": warren.disc(0.2)}
+    assert same.hash == flat.hash
+    assert np.array_equal(warren.solve(same, **ends).path, warren.solve(flat, **ends).path)
+
+
+def test_geometries_of_shapely_and_geopandas_are_worlds():
+    yard = shapely.geometry.Polygon([(2, 0), (6, 0), (6, 6), (2, 6)], [[(3, 1), (5, 1), (5, 5), (3, 5)]])
+    fence = shapely.geometry.LineString([(0, 7), (6, 7)])
+    frame = geopandas.GeoDataFrame({"name": ["yard", "fence"], "geometry": [yard, fence]})
+    bounds = (-1, -1, 9, 9)
+    worlds = [warren.from_geo(given, bounds=bounds) for given in
+              (frame, [yard, fence], shapely.geometry.GeometryCollection([yard, fence]), frame.__geo_interface__)]
+    assert len({world.hash for world in worlds}) == 1 and worlds[0].bounds == bounds
+    assert warren.solve(worlds[0], (0, 3), (8, 3)).optimal
+    assert warren.solve(worlds[0], (4, 3), (8, 3)).status in ("infeasible", "not_connected")
+    assert warren.solve(shapely.geometry.box(0, 0, 4, 3), (0, 0), (4, 3)).length == 7.0
+    with pytest.raises(ValueError):
+        warren.from_geo({"type": "Polygon", "coordinates": [[(0, 0), (1, 1), (1, 0), (0, 1), (0, 0)]]})
+
+
+def test_functions_take_worlds_names_cells_and_geometry(tmp_path):
+    file = tmp_path / "a.scene"
+    file.write_text("wall 3 0 3 5\nbounds 0 0 9 9\nstart 1 1\ngoal 8 1\n")
+    assert warren.solve(file).length == warren.solve(str(file)).length == warren.solve(warren.read_world(file)).length
+    assert warren.solve(np.zeros((4, 4), bool), (0.5, 0.5), (3.5, 3.5)).verified
+    with pytest.raises(TypeError, match="world: expected a World, a name"):
+        warren.solve(3)
+
+
+def test_an_arm_is_planned_among_solids_of_arrays():
+    cell = warren.scene(spheres=np.array([[0.9, 0.4, 0.2, 0.15]]), boxes=[(0.6, -0.9, -0.6, 0.8, -0.7, 0.4)],
+                        robot=warren.puma560(0.05))
+    answer = warren.solve(cell, np.zeros(6), (0.6, -0.5, 0.3, 0, 0.2, 0), seed=3)
+    assert answer.status == "solved" and answer.path.shape[1] == 6
+    assert warren.verify(cell, answer) and answer.svg().startswith("<?xml") or answer.svg().startswith("<svg")
+    with pytest.raises(ValueError, match="plot: draws the plane"):
+        warren.plot(answer)
+
+
+def test_a_car_drives_by_its_words():
+    car = warren.car(1.0, outline=[(-0.5, -0.3), (0.5, -0.3), (0.5, 0.3), (-0.5, 0.3)], steering="reeds-shepp")
+    world = warren.scene(walls=[(3, 0, 3, 5)], bounds=(0, 0, 9, 9), robot=car)
+    answer = warren.solve(world, (1, 1, 0), (8, 1, np.pi / 2), seed=2)
+    assert answer.status == "solved" and answer.robot == world.robot and answer.path.shape[1] == 3
+    assert warren.solve("maze:9x9", robot=warren.polygon([(-.1, -.1), (.1, -.1), (0, .1)]), start=(1, 1, 0),
+                        goal=(9, 9)).status == "solved"
+
+
+def test_pictures_are_those_of_the_library():
+    answer = warren.solve("maze:9x9", keep=True)
+    svg = answer.svg()
+    assert svg.count("<svg") == 1 and 'id="path"' in svg and 'id="edges"' in svg
+    assert 'id="edges"' not in warren.solve("maze:9x9").svg()
+    assert "animateMotion" in answer.svg(moving=True) and "animateMotion" not in svg
+    assert answer.html().lower().startswith("<!doctype html>") and answer.png().startswith(b"\x89PNG")
+    assert answer._repr_svg_() == svg and "solved and verified" in answer._repr_html_()
+    world = warren.read_world(WORLDS / "flat.yaml")
+    assert 'id="walls"' in world.svg() and world._repr_svg_() == world.svg() and world.png().startswith(b"\x89PNG")
+    assert 'id="edges"' in warren.build("maze:9x9").svg()
+
+
+def test_worlds_answers_and_roadmaps_are_plotted(tmp_path):
+    from matplotlib import pyplot
+    answer = warren.solve("maze:9x9", keep=True)
+    _, given = pyplot.subplots()
+    ax = warren.plot(answer, ax=given, tree=True)
+    assert ax is given and [line.get_label() for line in ax.lines] == ["path", "start", "goal"]
+    assert np.array_equal(ax.lines[0].get_xydata(), answer.path)
+    layers = {c.get_label(): len(c.get_segments()) for c in ax.collections if not c.get_label().startswith("_")}
+    assert layers["roadmap"] == answer.to_dict()["roadmap"]["edges"]
+    assert ax.get_xlim()[0] <= 0.5 and ax.get_xlim()[1] >= 9.5 and ax.get_aspect() == 1.0
+    roadmap = warren.build("maze:9x9")
+    drawn = warren.plot(roadmap).collections[-1]
+    assert len(drawn.get_segments()) == roadmap.edges.free
+    flat = warren.read_world(WORLDS / "flat.yaml")
+    ends = {"start": (0.5, 0.5), "goal": (4.3, 0.5), "robot": warren.disc(0.2)}
+    ax = warren.plot(flat, answer=warren.solve(flat, **ends), bodies=20)
+    assert np.array_equal(ax.images[0].get_array(), flat.cells)
+    ax.figure.savefig(tmp_path / "flat.png")
+    pyplot.close("all")
+
+
+def test_the_body_moves_in_an_animation(tmp_path):
+    from matplotlib import pyplot
+    world = warren.read_world(WORLDS / "parking.scene")
+    answer = warren.solve(world)
+    moving = warren.animate(answer, frames=6)
+    moving.save(tmp_path / "parking.gif", writer="pillow")
+    assert (tmp_path / "parking.gif").stat().st_size > 0
+    assert len(list(warren.animate(warren.solve("maze:5x5"), speed=2.0).new_saved_frame_seq())) > 100
+    with pytest.raises(ValueError, match="has no path"):
+        warren.animate(warren.solve("maze:5x5", (1, 1), (9, 9)))
+    pyplot.close("all")
+
+
+def test_a_comparison_is_a_frame_of_pandas(program):
+    options = {"planners": ["prm", "lazy-prm"], "sampler": "uniform", "samples": [300, 900], "seeds": 3}
+    found = warren.compare("maze:9x9", **options)
+    frame = pandas.DataFrame(found)
+    assert len(frame) == 12 and set(frame["status"]) <= {"solved", "not_connected"}
+    theirs = program.run("compare", "maze:9x9", "--planners", "prm,lazy-prm", "--sampler", "uniform", "--samples",
+                         "300,900", "--seeds", "3", "--runs", "-").stdout.splitlines()
+    assert theirs[0].split(",") == list(frame.columns)
+    at = theirs[0].split(",").index("length")
+    assert [float(row.split(",")[at] or "nan") for row in theirs[1:]] == pytest.approx(list(frame["length"]), nan_ok=True)
+    assert pandas.DataFrame(found.table)["runs"].tolist() == [3, 3, 3, 3]
+    assert found.svg().startswith("<svg") or "<svg" in found.svg()
+    assert '"warren.compare/1"' in found.json() and "prm" in str(found)
+    with pytest.raises(warren.UsageError, match="^planners"):
+        warren.compare("maze:9x9")
+    with pytest.raises(TypeError, match="did you mean planners"):
+        warren.compare("maze:9x9", planers=["prm"])
