@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Roadmaps built, and read from files."""
 import os
-import tempfile
 
 from . import _core
 from ._making_worlds import as_world
@@ -65,6 +64,7 @@ def open_roadmap(file, *, world=None, **limits):
 
 
 def from_bytes(data, report):
+    import tempfile
     with tempfile.TemporaryDirectory() as folder:
         file = os.path.join(folder, "pickled.roadmap")
         with open(file, "wb") as kept:

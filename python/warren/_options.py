@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The keywords that functions share with the program: their documentation is made of the program's own table."""
-import textwrap
-
 _KINDS = {"N": "int", "K": "int", "NAME": "str", "WORD": "str", "TIME": "float or str", "BYTES": "int or str",
           "STATES": "sequence of sequences of float", "X,Y[,THETA]": "sequence of float", '"BODY"': "str",
           "LIST": "list of str or str", "N|auto": "int or 'auto'", "K|auto|star": "int, 'auto' or 'star'",
@@ -28,16 +26,26 @@ def _kind(value, choices, optional):
     return _KINDS.get(value, "float") if value else "bool"
 
 
+def _filled(text):
+    """Lines of at most 110 characters, indented: textwrap would take ten milliseconds of the import."""
+    lines = [""]
+    for word in text.split():
+        if len(lines[-1]) + len(word) > 105:
+            lines.append("")
+        lines[-1] += (" " if lines[-1] else "") + word
+    return "".join(f"\n    {line}" for line in lines)
+
+
 def documented(table, limits=True):
     """Puts the keywords of a table where a docstring says {options}."""
-    text = LIMITS.strip("\n") if limits else ""
-    rows = [f"{name} : {_kind(value, choices, optional)}, optional\n" +
-            textwrap.fill(said + ".", 110, initial_indent="    ", subsequent_indent="    ")
+    rows = [f"{name} : {_kind(value, choices, optional)}, optional{_filled(said + '.')}"
             for name, value, said, choices, optional in table if name not in ("start", "goal", "path")]
+    text = "\n".join([*rows, LIMITS.strip()] if limits else rows)
 
     def put(function):
-        said = textwrap.indent("\n".join([*rows, text] if text else rows), "    ").lstrip()
-        function.__doc__ = (function.__doc__ or "").replace("{options}", said)
+        before, after = function.__doc__.split("{options}")
+        margin = before[before.rindex("\n"):]
+        function.__doc__ = before + text.replace("\n", margin) + after
         return function
 
     return put

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Roadmaps that outlive their question."""
 import os
-import tempfile
 from typing import NamedTuple
 
 import numpy as np
@@ -65,6 +64,7 @@ class Roadmap:
         return self._core.counts()[0]
 
     def __reduce__(self):
+        import tempfile
         with tempfile.TemporaryDirectory() as folder:
             file = os.path.join(folder, "pickled.roadmap")
             self.save(file)
@@ -323,6 +323,7 @@ class Roadmap:
 
     def svg(self):
         """World and roadmap as an SVG document."""
+        import tempfile
         with tempfile.TemporaryDirectory() as folder:
             file = os.path.join(folder, "roadmap.svg")
             self._core.draw(file)

@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Planners side by side."""
-import csv
-import io
-
 import numpy as np
 
 from . import _core
@@ -24,6 +21,8 @@ def _column(words):
 
 
 def _table(text):
+    import csv
+    import io
     rows = list(csv.reader(io.StringIO(text)))
     return {name: _column([row[i] for row in rows[1:]]) for i, name in enumerate(rows[0])}
 
