@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planners/tiled/tiled_prm_lattice.hpp"
 
+#include <algorithm>
+#include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
@@ -15,8 +18,8 @@
 #include "planners/tiles/lattice_tile_reduction.hpp"
 #include "planners/tiles/tile_grid.hpp"
 #include "planners/tiles/tile_plane.hpp"
+#include "planners/tiles/tile_source.hpp"
 #include "planners/tiles/wall_marking.hpp"
-#include "planners/tiles/wall_partition.hpp"
 
 namespace warren {
 namespace {
@@ -27,7 +30,8 @@ class TiledPlan {
   TiledPlan(const TiledProblem& problem, const RoadmapOptions& options, const Execution& execution)
       : problem_(problem),
         execution_(execution),
-        grid_(TileGrid::of(options.lattice)),
+        grid_(problem.cells != nullptr ? TileGrid::of(options.lattice, problem.cells->side_log2())
+                                       : TileGrid::of(options.lattice)),
         clearance_(problem.clearance * (1 + 1e-9)) {}
 
   void run() {
@@ -48,8 +52,11 @@ class TiledPlan {
  private:
   void partition();
   bool join_ends();
+  template <class Numbers>
+  void reduce(std::size_t count, const Numbers& tile_at, bool with_steps);
   void reduce_tiles();
   void keep_linked(TilePlane& plane) const;
+  void remake_tiles_of(std::span<const VertexId> path);
   void build_overlay();
   bool joined();
   void search();
@@ -59,7 +66,7 @@ class TiledPlan {
   const Execution& execution_;
   const TileGrid grid_;
   const double clearance_;
-  std::optional<WallPartition> partition_;
+  std::unique_ptr<TileSource> source_;
   Box box_;
   OverlayEnds ends_;
   std::vector<TileSummary> tiles_;
@@ -68,15 +75,19 @@ class TiledPlan {
 };
 
 void TiledPlan::partition() {
-  const StageTimer timer(execution_, "index", solution_.seconds.index, 2 * problem_.walls.size());
-  const double halo = 1.0 + clearance_ * (1 + 1e-9) + 0.01;  // an edge's length, its clearance, and rounding
-  partition_.emplace(problem_.walls, problem_.more_walls, grid_, halo, execution_);
-  box_ = problem_.box.value_or(partition_->box());
+  if (problem_.cells != nullptr) {
+    source_ = cell_tiles(*problem_.cells, grid_);
+  } else {
+    const StageTimer timer(execution_, "index", solution_.seconds.index, 2 * problem_.walls.size());
+    const double halo = 1.0 + clearance_ * (1 + 1e-9) + 0.01;  // an edge's length, its clearance, and rounding
+    source_ = held_tiles(problem_.walls, problem_.more_walls, grid_, halo, execution_);
+  }
+  box_ = problem_.box.value_or(source_->box());
 }
 
 /// Start and goal: false if one of them is blocked.
 bool TiledPlan::join_ends() {
-  const LatticeWorld world{grid_, problem_.walls, problem_.more_walls, *partition_, box_, clearance_};
+  const LatticeWorld world{grid_, *source_, box_, clearance_};
   constexpr std::size_t many_walls = 100'000;  // as many as make a search by two threads worth it
   Execution own = execution_;
   own.progress = nullptr;
@@ -101,21 +112,33 @@ void TiledPlan::keep_linked(TilePlane& plane) const {
   }
 }
 
-void TiledPlan::reduce_tiles() {
-  const StageTimer timer(execution_, "connect", solution_.seconds.connect, grid_.count());
+/// Fills in the summaries of tile_at(0) .. tile_at(count - 1).
+template <class Numbers>
+void TiledPlan::reduce(std::size_t count, const Numbers& tile_at, bool with_steps) {
+  const std::size_t grain = problem_.cells != nullptr ? 8 : 1;  // a reader's scratch is large
   tiles_.resize(grid_.count());
-  for_chunks(grid_.count(), 1, execution_, [&](Range r) {
+  for_chunks(count, grain, execution_, [&](Range r) {
+    const std::unique_ptr<TileReader> reader = source_->reader();
     WallMarker marker(clearance_);
     TilePlane plane(grid_, marker.margin());
     TileReduction reduction(plane);
-    for (std::size_t tile = r.first; tile < r.last; ++tile) {
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      const std::size_t tile = tile_at(i);
+      execution_.check();
       plane.reset(tile, box_);
-      marker.mark(partition_->of(tile), plane);
+      marker.mark(reader->read(tile), plane);
       keep_linked(plane);
       tiles_[tile] = reduction.reduce(plane);
+      if (!with_steps) tiles_[tile].steps = {};
     }
   });
-  partition_.reset();
+}
+
+void TiledPlan::reduce_tiles() {
+  const StageTimer timer(execution_, "connect", solution_.seconds.connect, grid_.count());
+  reduce(
+      grid_.count(), [](std::size_t i) { return i; }, !problem_.forget);
+  if (!problem_.forget) source_.reset();
   for (const TileSummary& tile : tiles_) {
     solution_.roadmap.milestones += tile.milestones;
     solution_.roadmap.edges += tile.free_edges;
@@ -137,6 +160,7 @@ void TiledPlan::build_overlay() {
   {
     const StageTimer timer(execution_, "graph", solution_.seconds.graph, grid_.count());
     overlay_.emplace(grid_, tiles_, ends_, execution_);
+    if (problem_.forget) tiles_ = {};
   }
   const StageTimer timer(execution_, "reduce", solution_.seconds.reduce, grid_.count());
   solution_.roadmap.components += overlay_->peel(execution_);
@@ -152,19 +176,36 @@ bool TiledPlan::joined() {
 
 /// The tiles have been let go of, so they are made again: an answer without a path is not hurried.
 void TiledPlan::measure_gap() {
-  partition();
+  if (source_ == nullptr) partition();
+  if (tiles_.empty()) {
+    reduce(
+        grid_.count(), [](std::size_t i) { return i; }, false);
+  }
   const int margin = WallMarker(clearance_).margin();
   const auto remake = [&](std::size_t tile, TilePlane& plane) {
     plane.reset(tile, box_);
-    WallMarker(clearance_).mark(partition_->of(tile), plane);
+    WallMarker(clearance_).mark(source_->reader()->read(tile), plane);
   };
   solution_.separation = tile_separation(*overlay_, grid_, tiles_, ends_, {margin, remake}, execution_);
+}
+
+/// The keys of a path say which tiles it passes: what the search needs no more of the others stays forgotten.
+void TiledPlan::remake_tiles_of(std::span<const VertexId> path) {
+  std::vector<std::size_t> passed;
+  for (const VertexId v : path) {
+    if (overlay_->is_key(v)) passed.push_back(overlay_->tile_of(v));
+  }
+  std::sort(passed.begin(), passed.end());
+  passed.erase(std::unique(passed.begin(), passed.end()), passed.end());
+  reduce(
+      passed.size(), [&](std::size_t i) { return passed[i]; }, true);
 }
 
 void TiledPlan::search() {
   const StageTimer timer(execution_, "search", solution_.seconds.search, overlay_->vertex_count());
   const SearchResult found = search_steps(*overlay_, ends_, execution_);
   solution_.counters.expanded = found.expanded;
+  if (tiles_.empty()) remake_tiles_of(found.path);
   solution_.path = expand_path(*overlay_, grid_, tiles_, ends_, found.path, execution_);
   solution_.outcome = Outcome::solved;
 }
@@ -183,6 +224,9 @@ Solution<Vec2> tiled_prm(const TiledProblem& problem, const RoadmapOptions& opti
   if (!(problem.clearance >= 0.0)) throw InputError("clearance", "must be a number, at least 0");
   if (!tiled_prm_applies(options, problem.clearance)) {
     throw InputError("pipeline", "tiles take only the lattice at radius 1 with a clearance of at most 8");
+  }
+  if (problem.cells != nullptr && !(problem.clearance < most_cell_clearance / (1 + 1e-8))) {
+    throw InputError("clearance", "must be below half a cell where walls are made tile by tile");
   }
   TiledPlan plan(problem, options, execution);
   try {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "planners/tiles/wall_marking.hpp"
 
@@ -26,13 +27,10 @@ std::vector<Segment> walls_around(const LatticeWorld& world, Vec2 at, double rea
       return static_cast<std::uint32_t>(std::clamp(std::floor(x - 0.5), 0.0, count - 1.0));
     };
     const std::size_t tile = world.grid.tile_at(index(at.x, world.grid.cols), index(at.y, world.grid.rows));
-    world.partition.of(tile).for_each(world.grid, tile, take);
+    world.tiles.reader()->read(tile).for_each(world.grid, tile, take);
     return near;
   }
-  world.walls.visit([&](auto walls) {
-    for (const auto& wall : walls) take(wall.segment());
-  });
-  for (const Segment& wall : world.more) take(wall);
+  world.tiles.for_each_near(around, take);
   return near;
 }
 

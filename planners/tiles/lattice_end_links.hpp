@@ -5,13 +5,11 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "core/base/types.hpp"
-#include "core/plane/wall_set.hpp"
 #include "planners/tiles/tile_grid.hpp"
-#include "planners/tiles/wall_partition.hpp"
+#include "planners/tiles/tile_source.hpp"
 
 namespace warren {
 
@@ -33,9 +31,7 @@ struct EndLinks {
 /// What the look-up needs to know of the world.
 struct LatticeWorld {
   const TileGrid& grid;
-  const WallSet& walls;
-  std::span<const Segment> more;  ///< walls beside the set
-  const WallPartition& partition;
+  const TileSource& tiles;
   Box box;           ///< the reference point stays in it
   double clearance;  ///< of planning
 };

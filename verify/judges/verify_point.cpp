@@ -156,7 +156,9 @@ std::size_t first_misfit(std::span<const Vec2> path, const Execution& execution)
   return *std::min_element(first.begin(), first.end());
 }
 
-void check_input(std::span<const Vec2> path, const VerifyOptions& options, const Execution& execution) {
+}  // namespace
+
+void check_judged_path(std::span<const Vec2> path, const VerifyOptions& options, const Execution& execution) {
   constexpr std::size_t most_legs = 500'000'000;  // so that legs, and their runs in cells, can be numbered in 32 bits
   if (path.empty()) throw InputError("path", "has no points");
   if (path.size() > most_legs + 1) throw InputError("path", "more than 500 million legs can't be verified");
@@ -167,8 +169,6 @@ void check_input(std::span<const Vec2> path, const VerifyOptions& options, const
   check_not_negative("clearance", options.clearance);
   check_not_negative("tolerance", options.tolerance);
 }
-
-}  // namespace
 
 std::optional<Violation> wrong_start(std::span<const Vec2> path, const VerifyOptions& options) {
   if (!options.start || norm(path.front() - *options.start) <= options.tolerance) return std::nullopt;
@@ -184,7 +184,7 @@ std::optional<Violation> wrong_goal(std::span<const Vec2> path, const VerifyOpti
 Verification verify_path(const Scene& scene, std::span<const Vec2> path, const VerifyOptions& options,
                          const Execution& execution, const ObstacleIndex* index) {
   assert(index == nullptr || &index->scene() == &scene);
-  check_input(path, options, execution);
+  check_judged_path(path, options, execution);
   check_plane_scene(scene, execution);
   if (scene.map) return verify_on_map(*scene.map, path, options, execution);
   const Vec2 twice[] = {path.front(), path.front()};

@@ -46,6 +46,9 @@ struct VerifyOptions {
 Verification verify_path(const Scene& scene, std::span<const Vec2> path, const VerifyOptions& options,
                          const Execution& execution, const ObstacleIndex* index = nullptr);
 
+/// Throws InputError for paths and options that no judge of points and discs takes, as said above.
+void check_judged_path(std::span<const Vec2> path, const VerifyOptions& options, const Execution& execution);
+
 /// What the ends of a path of points say that begins or ends elsewhere; nothing where they are as asked for.
 std::optional<Violation> wrong_start(std::span<const Vec2> path, const VerifyOptions& options);
 std::optional<Violation> wrong_goal(std::span<const Vec2> path, const VerifyOptions& options);

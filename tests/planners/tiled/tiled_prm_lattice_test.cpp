@@ -14,6 +14,8 @@
 #include "planners/roadmap/prm.hpp"
 #include "planners/tiles/wall_partition.hpp"
 #include "scenes/mazes/maze_generator.hpp"
+#include "scenes/mazes/spanning_maze.hpp"
+#include "tests/held_cells.hpp"
 #include "tests/planners/visibility/plane_worlds.hpp"
 #include "verify/judges/verify_point.hpp"
 #include "worlds/plane/maze_world.hpp"
@@ -61,14 +63,18 @@ Solution<Vec2> tiled(const TiledCase& c, const Execution& execution = {}) {
   return tiled_prm({c.scene.walls, bounds, c.scene.bounds, c.clearance, c.start, c.goal}, options_of(c), execution);
 }
 
+/// The same question to walls that are made tile by tile.
+Solution<Vec2> streamed(const TiledCase& c, const CellWallSource& cells, const Execution& execution = {}) {
+  const WallSet none;
+  return tiled_prm({none, {}, {}, c.clearance, c.start, c.goal, &cells, true}, options_of(c), execution);
+}
+
 Solution<Vec2> plain(const TiledCase& c) {
   const MazeWorld world(c.scene, c.clearance, {});
   return prm(world, c.start, c.goal, options_of(c), {});
 }
 
-void expect_same_answer(const TiledCase& c) {
-  const Solution<Vec2> expected = plain(c);
-  const Solution<Vec2> found = tiled(c);
+void expect_same_answer(const TiledCase& c, const Solution<Vec2>& expected, const Solution<Vec2>& found) {
   ASSERT_EQ(name_of(found.outcome), name_of(expected.outcome));
   EXPECT_EQ(found.roadmap.milestones, expected.roadmap.milestones);
   EXPECT_EQ(found.roadmap.edges, expected.roadmap.edges);
@@ -89,6 +95,72 @@ void expect_same_answer(const TiledCase& c) {
     EXPECT_EQ(found.separation.goal_size, expected.separation.goal_size);
     EXPECT_EQ(found.separation.nearest_gap, expected.separation.nearest_gap);
   }
+}
+
+void expect_same_answer(const TiledCase& c) { expect_same_answer(c, plain(c), tiled(c)); }
+
+TEST(TiledPrm, GivesThePlainAnswerWhereTilesAreMadeWhenTheyAreAskedFor) {
+  const LatticeSize sizes[] = {{1, 1}, {1, 90}, {70, 1}, {63, 65}, {64, 64}, {130, 131}};
+  for (const LatticeSize size : sizes) {
+    for (const double loops : {0.0, 0.1, 1.0}) {
+      for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+        SCOPED_TRACE(std::to_string(size.rows) + "x" + std::to_string(size.cols) + " seed " + std::to_string(seed) +
+                     " loops " + std::to_string(loops));
+        const MazeOptions maze{size.rows, size.cols, seed, MazeAlgorithm::backtracker, loops};
+        const TiledCase c = maze_case(maze);
+        const Solution<Vec2> expected = plain(c);
+        for (const unsigned side_log2 : {2U, 5U, 8U}) {
+          const test::HeldCells cells(generate_maze(maze, {}), side_log2);
+          expect_same_answer(c, expected, streamed(c, cells));
+        }
+      }
+    }
+  }
+}
+
+TEST(TiledPrm, WalksFromAnywhereAmongTilesThatAreMadeWhenTheyAreAskedFor) {
+  const MazeOptions maze{50, 60, 4, MazeAlgorithm::kruskal, 0.1};
+  const test::HeldCells cells(generate_maze(maze, {}), 4);
+  TiledCase c = maze_case(maze, 0.2);
+  for (const Vec2 start : {Vec2{17, 31}, Vec2{16.2, 16.7}, Vec2{59.7, 50.2}, Vec2{17.5, 16.5}}) {
+    c.start = start;
+    SCOPED_TRACE(std::to_string(start.x) + " " + std::to_string(start.y));
+    expect_same_answer(c, plain(c), streamed(c, cells));
+  }
+}
+
+TEST(TiledPrm, SaysHowFarApartTheEndsAreWhereTilesWereForgotten) {
+  MazeCells cells = generate_maze({40, 40, 2, MazeAlgorithm::kruskal, 0.0}, {});
+  MazeCells closed(40, 40);
+  for (std::uint32_t col = 0; col < 40; ++col) {
+    for (std::uint32_t row = 0; row < 40; ++row) {
+      if (col != 19 && !cells.wall_right(col, row)) closed.open_right(col, row);
+      if (!cells.wall_above(col, row)) closed.open_above(col, row);
+    }
+  }
+  TiledCase c = maze_case({40, 40, 2, MazeAlgorithm::kruskal, 0.0});
+  c.scene.walls = maze_walls(closed, false, {});
+  expect_same_answer(c, plain(c), streamed(c, test::HeldCells(closed, 3)));
+}
+
+TEST(TiledPrm, MadeTilesGiveTheSamePathForAnyThreads) {
+  const SpanningMaze cells(300, 280, 3, 0.05, {}, 5);
+  const TiledCase c = maze_case({300, 280, 3, MazeAlgorithm::mst, 0.05});
+  const Solution<Vec2> expected = streamed(c, cells, {.threads = 1});
+  expect_same_answer(c, plain(c), expected);
+  for (const unsigned threads : {2U, 3U, 8U}) EXPECT_EQ(streamed(c, cells, {.threads = threads}).path, expected.path);
+}
+
+TEST(TiledPrm, RefusesAClearanceOfHalfACellWhereTilesAreMade) {
+  const TiledCase c = maze_case({5, 5, 1}, 0.5);
+  EXPECT_THROW(streamed(c, test::HeldCells(generate_maze({5, 5, 1}, {}), 3)), InputError);
+}
+
+TEST(TiledPrm, HeldWallsGiveTheSamePathWhereTheirTilesAreForgotten) {
+  const TiledCase c = maze_case({200, 190, 6, MazeAlgorithm::backtracker, 0.1});
+  const Solution<Vec2> found =
+      tiled_prm({c.scene.walls, {}, {}, c.clearance, c.start, c.goal, nullptr, true}, options_of(c), {});
+  EXPECT_EQ(found.path, tiled(c).path);
 }
 
 TEST(TiledPrm, GivesThePlainAnswerInMazesThatStraddleTiles) {
