@@ -63,7 +63,7 @@ py::object blocked_of(const Answer& answer) {
   blocked["free_place"] = answer.blocked->free_place;
   blocked["distance"] = answer.blocked->distance;
   blocked["hint"] = answer.blocked->hint;
-  return std::move(blocked);
+  return blocked;
 }
 
 /// States at even steps along the path, its own states among them: one row each; and how far along they are.

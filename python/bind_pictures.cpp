@@ -2,9 +2,8 @@
 // Worlds and answers as SVG, HTML and PNG, and what a planner made as arrays, for plots.
 #include <pybind11/stl.h>
 
-#include <fmt/format.h>
-
 #include "pictures/draw_answer.hpp"
+#include "pictures/formats/write_picture.hpp"
 #include "python/arrays.hpp"
 #include "python/bind.hpp"
 #include "python/interrupts.hpp"
@@ -18,13 +17,11 @@ namespace {
 std::string drawn(const Picture& picture, const std::string& format, const Execution& execution) {
   std::string text;
   const Write write = [&](std::string_view piece) { text += piece; };
-  if (format == "png") {
-    write_png(picture, execution, write);
-  } else if (format == "html") {
-    write_html(picture, execution, write);
-  } else {
-    write_svg(picture, execution, write);
-  }
+  const auto writer = format == "png"    ? write_png
+                      : format == "pdf"  ? write_pdf
+                      : format == "html" ? write_html
+                                         : write_svg;
+  writer(picture, {}, execution, write);
   return text;
 }
 
@@ -46,25 +43,14 @@ py::bytes picture_of_world(const Scene& scene, const std::string& format) {
   });
 }
 
-RecordedAnswer as_recorded(const Answer& answer) {
-  RecordedAnswer plain;
-  plain.problem = {.robot = answer.problem.robot, .start = answer.problem.start, .goal = answer.problem.goal};
-  plain.path = answer.path;
-  plain.states = answer.states;
-  return plain;
-}
-
 py::bytes picture_of_answer(const KeptAnswer& kept, const Scene& scene, const std::string& format, bool moving) {
   return CallLimits().run([&](const Execution& execution) {
     std::optional<Scene> copy;
     const Scene& shown = bordered(scene, copy, execution);
     Drawing drawing = drawing_of(shown, kept.answer, kept.made, execution);
     if (kept.made.roadmap.states.empty()) drawing.roadmap.reset();  // nothing was kept: no empty layers
-    if (moving && !kept.answer.path.empty()) animate(drawing, kept.answer.problem.robot, as_recorded(kept.answer));
-    Picture picture = picture_of(shown, drawing);
-    picture.title = fmt::format("{}: {}", scene.source, name_of(kept.answer.outcome));
-    picture.description = fmt::format("{}. {}, seed {}", description_of(scene), kept.answer.planner, kept.answer.seed);
-    return drawn(picture, format, execution);
+    if (moving && !kept.answer.path.empty()) animate(drawing, kept.answer.problem.robot);
+    return drawn(picture_of(shown, drawing), format, execution);
   });
 }
 

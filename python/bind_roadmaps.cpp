@@ -146,12 +146,12 @@ py::array lengths(KeptRoadmap& kept, const py::object& from, const py::object& t
   const bool none = starts.rows == 0 || goals.rows == 0;
   py::array_t<double> told(each_to_each ? Shape{size(starts.rows), size(goals.rows)}
                                         : Shape{none ? 0 : size(std::max(starts.rows, goals.rows))});
-  if (none) return std::move(told);
+  if (none) return told;
   double* numbers = told.mutable_data();
   const Asking asking(kept);
   limits.run(
       [&](const Execution& execution) { ask_lengths(kept, starts, goals, each_to_each, how, execution, numbers); });
-  return std::move(told);
+  return told;
 }
 
 template <class List>
@@ -285,7 +285,7 @@ void bind_roadmaps(py::module_& module) {
            })
       .def("draw", [](KeptRoadmap& kept, const std::string& file) {
         const Asking asking(kept);
-        CallLimits().run([&](const Execution& on) { write_picture(file, kept.roadmap(), "", on); });
+        CallLimits().run([&](const Execution& on) { write_picture(file, kept.roadmap(), {}, "", on); });
       });
   module.def("build", &build_roadmap);
   module.def("open_roadmap", &open_roadmap, py::arg(), py::arg().none(true), py::arg());

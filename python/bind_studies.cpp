@@ -6,7 +6,7 @@
 #include "python/bind.hpp"
 #include "python/keywords.hpp"
 #include "studies/compare/comparison_report.hpp"
-#include "studies/compare/planner_contest.hpp"
+#include "studies/contests/planner_contest.hpp"
 #include "tools/verbs/compare_options.hpp"
 #include "worlds/rasters/map_borders.hpp"
 

@@ -318,7 +318,7 @@ class Roadmap:
         return matrix
 
     def save_picture(self, file):
-        """Draws world and roadmap as .svg, .html or .png, by the ending."""
+        """Draws world and roadmap as .svg, .png, .pdf or .html, by the ending."""
         self._core.draw(os.fspath(file))
 
     def svg(self):

@@ -21,7 +21,7 @@
 namespace warren {
 namespace {
 
-constexpr std::size_t box_number = std::numeric_limits<std::size_t>::max() - 2;  // on one leg reported after walls
+constexpr std::size_t bounds_number = std::numeric_limits<std::size_t>::max() - 2;  // on one leg reported after walls
 
 /// Walls have numbers by their place: the cell left of or below them, and on which side of it they stand.
 std::size_t number_of(std::uint32_t col_and_one, std::uint32_t row_and_one, bool is_upper) {
@@ -154,13 +154,13 @@ void check_box(const Box& box, const LegBoxes& legs, std::span<const Vec2> path,
   if (box.contains(legs.box().min) && box.contains(legs.box().max)) return;
   for (std::size_t i = 0; i < path.size(); ++i) {
     if (box.contains(path[i])) continue;
-    tally.violation = std::min(tally.violation, LegContact{i == 0 ? 0 : i - 1, box_number});
+    tally.violation = std::min(tally.violation, LegContact{i == 0 ? 0 : i - 1, bounds_number});
     return;
   }
 }
 
 Violation described(const LegContact& found, const LegBoxes& legs, const Box& box) {
-  if (found.obstacle == box_number) {
+  if (found.obstacle == bounds_number) {
     return {found.leg, 0.0, fmt::format("box: {} {} {} {}", box.min.x, box.min.y, box.max.x, box.max.y)};
   }
   const Segment wall = wall_of(found.obstacle);
