@@ -18,49 +18,78 @@ void FrontUnpacking::write(std::span<const FrontStep> steps, CellId* cells) {
   todo_.clear();
   hops_.clear();
   for (const FrontStep& step : steps) {
-    Entry whole = half(index_.front(step.front), std::min(step.from, step.to), std::max(step.from, step.to));
-    whole.downwards = step.from > step.to;
-    whole.cells = cells;
+    const auto [low, high] = std::minmax(step.from, step.to);
+    const Front& front = index_.front(step.front);
+    todo_.push_back({&front, place_in(front, low, high), low, high, step.length, step.from > step.to, cells});
     cells += step.length;
-    for (todo_.assign(1, whole); !todo_.empty();) {
-      const Entry entry = todo_.back();
-      todo_.pop_back();
-      open(entry);
-    }
   }
+  while (!todo_.empty()) {  // ranks become less
+    read_ways();
+    find_halves();
+    open_halves();
+  }
+  // Along the path neighbours share tiles.
+  std::sort(hops_.begin(), hops_.end(), [](const Hop& a, const Hop& b) { return a.first < b.first; });
   write_hops(index_, hops_);
 }
 
-/// Lengths become less, so each entry ends in hops.
-void FrontUnpacking::open(const Entry& entry) {
-  const std::uint64_t way = front_way(fronts_, *entry.front, entry.place);
-  if ((way & 1U) != 0) {
-    hops_.push_back({index_.gate_place(entry.low), index_.gate_place(entry.high), entry.length,
-                     entry.downwards ? -1 : 1, way / 2, entry.downwards ? entry.cells + entry.length : entry.cells});
-    return;
+/// What goes over a gate becomes a middle.
+void FrontUnpacking::read_ways() {
+  middles_.clear();
+  for (const Entry& entry : todo_) {
+    const std::uint64_t way = front_way(fronts_, *entry.front, entry.place);
+    if ((way & 1U) != 0) {
+      hops_.push_back({index_.gate_place(entry.low), index_.gate_place(entry.high), entry.length,
+                       entry.downwards ? -1 : 1, way / 2, entry.downwards ? entry.cells + entry.length : entry.cells});
+      continue;
+    }
+    const std::uint64_t below = way / 2;
+    if (below == 0 || below > entry.low) refuse_front();
+    const GateRank gate = entry.low - static_cast<GateRank>(below);
+    index_.prefetch_front_of(gate);
+    middles_.push_back({entry, gate, nullptr, 0, 0});
   }
-  const std::uint64_t below = way / 2;
-  if (below == 0 || below > entry.low) refuse_front();
-  const GateRank middle = entry.low - static_cast<GateRank>(below);
-  const Front& front = index_.front(index_.front_of(middle));
-  Entry to_low = half(front, middle, entry.low);
-  Entry to_high = half(front, middle, entry.high);
-  if (to_low.length + to_high.length != entry.length) refuse_front();
-  Entry& first = entry.downwards ? to_high : to_low;
-  Entry& last = entry.downwards ? to_low : to_high;
-  first.downwards = true;
-  first.cells = entry.cells;
-  last.downwards = false;
-  last.cells = entry.cells + first.length;
-  todo_.push_back(last);
-  todo_.push_back(first);
 }
 
-FrontUnpacking::Entry FrontUnpacking::half(const Front& front, GateRank middle, GateRank other) const {
+void FrontUnpacking::find_halves() {
+  for (Middle& middle : middles_) {
+    middle.front = &index_.front(index_.front_of(middle.gate));
+    __builtin_prefetch(fronts_.bounds.data() + middle.front->first_bound);
+  }
+  for (Middle& middle : middles_) {
+    middle.low = place_in(*middle.front, middle.gate, middle.whole.low);
+    middle.high = place_in(*middle.front, middle.gate, middle.whole.high);
+    for (const std::uint64_t place : {middle.low, middle.high}) {
+      const std::uint64_t length = middle.front->first_length() + place;
+      if (middle.front->is_short()) {
+        __builtin_prefetch(fronts_.short_lengths.data() + length);
+      } else {
+        __builtin_prefetch(fronts_.lengths.data() + length);
+      }
+      __builtin_prefetch(fronts_.ways.data() + middle.front->first_way() + place * middle.front->way_elements());
+    }
+  }
+}
+
+void FrontUnpacking::open_halves() {
+  todo_.clear();
+  for (const Middle& middle : middles_) {
+    const Entry& whole = middle.whole;
+    const std::uint32_t to_low = front_entry(fronts_, *middle.front, middle.low);
+    const std::uint32_t to_high = front_entry(fronts_, *middle.front, middle.high);
+    if (to_low + to_high != whole.length) refuse_front();
+    CellId* const low_cells = whole.downwards ? whole.cells + to_high : whole.cells;
+    CellId* const high_cells = whole.downwards ? whole.cells : whole.cells + to_low;
+    todo_.push_back({middle.front, middle.low, middle.gate, whole.low, to_low, !whole.downwards, low_cells});
+    todo_.push_back({middle.front, middle.high, middle.gate, whole.high, to_high, whole.downwards, high_cells});
+  }
+}
+
+/// Of the entry between a gate of the front and a gate of higher rank.
+std::uint64_t FrontUnpacking::place_in(const Front& front, GateRank gate, GateRank other) const {
   const std::uint64_t column = front_column(fronts_, front, other);
   if (column == std::uint64_t{front.gates} + front.bounds) refuse_front();
-  const std::uint64_t place = front_place(front, middle - front.first, column);
-  return {&front, place, middle, other, front_entry(fronts_, front, place), false, nullptr};
+  return front_place(front, gate - front.first, column);
 }
 
 }  // namespace warren

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The cells behind entries of fronts. Beside an entry stands the gate of lower rank that its way goes over, whose row
-// has both halves of it, and so on down to hops, which are then walked (hop_walk.hpp). Nothing is searched for.
+// has both halves of it, and so on down to hops, which are then walked (hop_walk.hpp). Nothing is searched for. Entries
+// are opened level by level, all of a level in three rounds, each of which asks the memory for what the next one reads:
+// one by one each would wait four times.
 #pragma once
 
 #include <cstdint>
@@ -34,12 +36,23 @@ class FrontUnpacking {
     bool downwards;
     CellId* cells;
   };
-  void open(const Entry& entry);
-  Entry half(const Front& front, GateRank middle, GateRank other) const;
+  /// An entry whose way goes over a gate: where its halves stand.
+  struct Middle {
+    Entry whole;
+    GateRank gate;
+    const Front* front;
+    std::uint64_t low;
+    std::uint64_t high;
+  };
+  void read_ways();
+  void find_halves();
+  void open_halves();
+  std::uint64_t place_in(const Front& front, GateRank gate, GateRank other) const;
 
   const RouteIndex& index_;
   const FrontArrays& fronts_;
   std::vector<Entry> todo_;
+  std::vector<Middle> middles_;
   std::vector<Hop> hops_;
 };
 

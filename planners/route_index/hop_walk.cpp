@@ -29,6 +29,8 @@ class HopWalk {
     *to_ = cell_;
     stand_at(hop.from);
   }
+  /// Asks the memory for what a walk looks at soon.
+  void prefetch(LatticePlace p) const { marks_.prefetch_tile(LatticePlaces::tile_of(p)); }
   bool goes() const { return left_ > 0; }
   void step() {
     unsigned onwards = exits() & ~came_from_;
@@ -80,17 +82,17 @@ class HopWalk {
   }
   unsigned choice(unsigned onwards) {
     if (onwards == 0) refuse_hop();
-    return 1U << next_turn(onwards, hop_.turns);
+    return next_turn(onwards, hop_.turns);
   }
   void cross(unsigned way) {
     const LatticePlace next = index_.places().step(place(), way);
     if (next >= index_.places().place_count()) refuse_hop();
+    prefetch(next);
     stand_at(next);
   }
   void stand_at(LatticePlace p) {
     tile_ = LatticePlaces::tile_of(p);
     index_.look_at_tile(p);
-    marks_.prefetch_tile(tile_);
     words_ = marks_.tile(tile_);
     const std::uint32_t in_tile = p % LatticePlaces::tile_places;
     at_ = in_tile >> 6U << row_shift | (in_tile & col_bits);
@@ -124,7 +126,7 @@ void write_hops(const RouteIndex& index, std::span<const Hop> hops) {
         walk.step();
       } else if (next < hops.size()) {
         walk.begin(hops[next++]);
-        if (next + ahead < hops.size()) index.marks().prefetch_tile(LatticePlaces::tile_of(hops[next + ahead].from));
+        if (next + ahead < hops.size()) walk.prefetch(hops[next + ahead].from);
       } else {
         continue;
       }

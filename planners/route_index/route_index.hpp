@@ -89,6 +89,10 @@ class RouteIndex {
     while (front + 1 < fronts.size() && fronts[front + 1].first <= rank) ++front;
     return front;
   }
+  void prefetch_front_of(GateRank rank) const {
+    __builtin_prefetch(arrays_.fronts.fronts.data() + front_near_[rank / gates_a_look]);
+    __builtin_prefetch(arrays_.fronts.fronts.data() + front_near_[rank / gates_a_look] + 1);
+  }
   /// A front whose bounds and rows may be read.
   const Front& front(FrontId number) const {
     if (!sound_.test(number)) [[unlikely]]
@@ -99,7 +103,7 @@ class RouteIndex {
   std::size_t bytes() const;
 
  private:
-  static constexpr std::size_t gates_a_look = 16;
+  static constexpr std::size_t gates_a_look = 4;
 
   /// Of a gate, in the order of places.
   std::size_t number_of_gate(LatticePlace p) const {
@@ -115,7 +119,7 @@ class RouteIndex {
   LatticePassages passages_;
   LatticePlaces places_;
   RouteArrays arrays_;
-  RawVector<FrontId> front_near_;  // of every 16th gate
+  RawVector<FrontId> front_near_;  // of every 4th gate
   mutable LastingMarks sound_{0};  // fronts that have been checked
 };
 

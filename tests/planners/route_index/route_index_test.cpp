@@ -166,6 +166,60 @@ TEST(RouteSections, AMissingSectionIsNamed) {
   }
 }
 
+/// Whoever makes a file may write anything beside a length: nobody walks in circles.
+TEST(RouteSections, WaysThatLeadNowhereAreRefused) {
+  const RouteIndex built(test::maze_passages(loopy(150)), {}, {});
+  RouteQuery right(built);
+  for (const std::uint16_t way : {0x0000, 0x0001, 0x0002, 0x0003, 0x1555, 0xfffe, 0xffff}) {
+    Copies copies(built);
+    const std::size_t number = copies.number("front.ways");
+    const std::size_t bytes = copies.sections[number].bytes.size();
+    for (std::size_t i = 0; i < bytes / sizeof(way); ++i) {
+      std::memcpy(reinterpret_cast<std::byte*>(copies.words[number].data()) + i * sizeof(way), &way, sizeof(way));
+    }
+    const RouteIndex forged = route_index_of({150, 180}, copies.sections);
+    RouteQuery query(forged);
+    std::size_t refused = 0;
+    for (CellId a = 0; a < 150 * 180; a += 997) {
+      const CellId b = 150 * 180 - 1 - a;
+      try {
+        EXPECT_EQ(query.path(a, b).size(), right.path(a, b).size());
+      } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("route index"), std::string::npos) << error.what();
+        ++refused;
+      }
+      EXPECT_EQ(query.length(a, b), right.length(a, b)) << "lengths look at no ways";
+    }
+    EXPECT_GT(refused, 10U) << way;
+  }
+}
+
+/// Chains whose marks are gone, or go on everywhere.
+TEST(RouteSections, ChainsThatLeadElsewhereAreRefused) {
+  const RouteIndex built(test::maze_passages(loopy(150)), {}, {});
+  for (const bool on : {false, true}) {
+    Copies copies(built);
+    std::vector<std::uint64_t>& marks = copies.words[copies.number("marks")];
+    for (std::size_t row = 0; row < marks.size(); row += mark_word::count) {
+      const std::uint64_t core = marks[row + mark_word::core];
+      for (const std::size_t word : {mark_word::low, mark_word::high}) {
+        marks[row + word] = on ? marks[row + word] | core : marks[row + word] & ~core;
+      }
+    }
+    const RouteIndex forged = route_index_of({150, 180}, copies.sections);
+    RouteQuery query(forged);
+    std::size_t refused = 0;
+    for (CellId a = 0; a < 150 * 180; a += 997) {
+      try {
+        query.path(a, 150 * 180 - 1 - a);
+      } catch (const InputError&) {
+        ++refused;
+      }
+    }
+    EXPECT_GT(refused, 20U) << on;
+  }
+}
+
 /// Any number in any array may be wrong: it is refused, or answers are wrong and nothing else is.
 TEST(RouteSections, WrongNumbersAreRefusedOrHarmless) {
   const RouteIndex built(test::maze_passages(loopy(70)), {}, {});
