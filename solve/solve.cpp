@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "solve/steps/blocked_end.hpp"
+#include "solve/steps/heuristic_price.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 #include "solve/steps/planned_scene.hpp"
 
@@ -81,6 +82,16 @@ Verdict verify_within(const Scene& scene, const Question& question, const Record
   return verdict;
 }
 
+void price_heuristic(const Scene& scene, const Question& question, const SolveOptions& options,
+                     const Execution& execution, Answer& answer) {
+  price_heuristic(answer, options.heuristic, [&](HeuristicKind exact) {
+    SolveOptions again = options;
+    again.heuristic = exact;
+    again.optimise = false;
+    return solve_within(scene, question, again, execution);
+  });
+}
+
 void make_by_products(const Scene& scene, const Question& question, const SolveOptions& options,
                       const Execution& execution, ByProducts& keep) {
   const ChosenSolver solver = choose_solver(options, scene, question);
@@ -93,6 +104,7 @@ Answer solve(const Scene& scene, const Question& question, const SolveOptions& o
   const LimitedExecution limited(limits);
   Answer answer = solve_within(scene, question, options, limited.execution(), keep);
   explain_blocked_end(scene, answer, limited.execution());
+  price_heuristic(scene, question, options, limited.execution(), answer);
   if (keep == nullptr || answer.outcome == Outcome::stopped) return answer;
   try {
     make_by_products(scene, question, options, limited.execution(), *keep);

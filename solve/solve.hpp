@@ -36,6 +36,11 @@ Answer solve_within(const Scene& scene, const Question& question, const SolveOpt
 Verdict verify_within(const Scene& scene, const Question& question, const RecordedAnswer& answer,
                       const Execution& execution);
 
+/// Says what an estimate of options cost, where it is not the straight line (solve/steps/heuristic_price.hpp); solve()
+/// has done it.
+void price_heuristic(const Scene& scene, const Question& question, const SolveOptions& options,
+                     const Execution& execution, Answer& answer);
+
 /// Adds the by-products that solving leaves out because they cost: the roadmap of tiles. Throws Stopped.
 void make_by_products(const Scene& scene, const Question& question, const SolveOptions& options,
                       const Execution& execution, ByProducts& keep);

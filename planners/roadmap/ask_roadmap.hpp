@@ -86,7 +86,9 @@ class Ask {
   auto estimate_to(VertexId to) const {
     const bool informed = options_.search == SearchKind::astar && to != no_vertex;
     const AskedNeighbours<W> places = neighbours(nullptr);
-    return [informed, to, places](VertexId v) { return informed ? places.distance(v, to) : 0.0; };
+    return [this, informed, to, places](VertexId v) {
+      return informed ? estimated_way(world_, options_.heuristic, places.state(v), places.state(to)) : 0.0;
+    };
   }
 
   void attach_ends();
@@ -197,7 +199,8 @@ void Ask<W>::search() {
   solution_.outcome = Outcome::not_connected;
   if (known_to_be_joined() == false) return;
   const StageTimer timer(execution_, "search", solution_.seconds.search);
-  const bool large = !one_way && vertex_count() >= fewest_for_both_ends;
+  const bool fits = never_overestimates(options_.heuristic);
+  const bool large = !one_way && fits && vertex_count() >= fewest_for_both_ends;
   SearchResult found;
   if (roadmap_.hierarchy() != nullptr && scratch_.by_hierarchy) {
     found = search_hierarchy();
@@ -256,10 +259,13 @@ SearchResult Ask<W>::search_copy() {
   const Graph graph = free_graph();
   const AskedNeighbours<W> places = neighbours(nullptr);
   const auto distance = [&](VertexId v, VertexId w) { return places.distance(v, w); };
+  const auto estimate = [&](VertexId v, VertexId w) {
+    return estimated_way(world_, options_.heuristic, places.state(v), places.state(w));
+  };
   const RoadmapSearch asked{.start = start_vertex(),
                             .goal = goal_vertex(),
                             .length = VertexDistance(distance),
-                            .estimate = VertexDistance(distance),
+                            .estimate = VertexDistance(estimate),
                             .search = options_.search,
                             .queue = options_.queue,
                             .execution = execution_,

@@ -67,10 +67,12 @@ class LazyPlan : public Rounds<W> {
   SearchResult expand_from(VertexId from, VertexId to, SearchState& state, std::vector<Edge>* record);
   LazyGraph<W> lazy_graph() const { return {world_, states_, index_, rule_, candidates_, end_edges_, execution_}; }
   void count(const LazyGraph<W>& graph);
-  /// Estimate of the way to `to`: consistent; zero for Dijkstra and where there is no target.
+  /// Estimate of the way to `to`; zero for Dijkstra and where there is no target.
   auto estimate_to(VertexId to) const {
     const bool informed = options_.search == SearchKind::astar && to != no_vertex;
-    return [this, informed, to](VertexId v) { return informed ? world_.distance(states_[v], states_[to]) : 0.0; };
+    return [this, informed, to](VertexId v) {
+      return informed ? estimated_way(world_, options_.heuristic, states_[v], states_[to]) : 0.0;
+    };
   }
   bool keep_;
   ConnectionRule rule_;
@@ -121,7 +123,8 @@ template <World W>
 RawVector<VertexId> LazyPlan<W>::search_expanding() {
   const StageTimer timer(execution_, "search", solution_.seconds.search);
   free_edges_.assign(end_edges_.begin(), end_edges_.end());
-  if (states_.size() >= fewest_for_both_ends) return search_from_both_ends();
+  const bool fits = never_overestimates(options_.heuristic);
+  if (states_.size() >= fewest_for_both_ends && fits) return search_from_both_ends();
   execution_.reserve(states_.size() * 24);
   SearchState state;
   const SearchResult found = expand_from(start_vertex(), goal_vertex(), state, keep_ ? &free_edges_ : nullptr);

@@ -85,14 +85,19 @@ void PrmPlan<W>::assemble(const EdgeParts& edges) {
 template <World W>
 bool PrmPlan<W>::search() {
   const auto distance = [this](VertexId v, VertexId w) { return world_.distance(states_[v], states_[w]); };
+  const HeuristicKind heuristic = this->options_.heuristic;
+  const auto estimate = [&](VertexId v, VertexId w) {
+    return estimated_way(world_, heuristic, states_[v], states_[w]);
+  };
   const RoadmapSearch asked{.start = start_vertex(),
                             .goal = goal_vertex(),
                             .length = VertexDistance(distance),
-                            .estimate = VertexDistance(distance),
+                            .estimate = VertexDistance(estimate),
                             .search = this->options_.search,
                             .queue = this->options_.queue,
                             .execution = execution_,
-                            .tree = keep_ ? &tree_ : nullptr};
+                            .tree = keep_ ? &tree_ : nullptr,
+                            .estimate_fits = never_overestimates(heuristic)};
   {
     const StageTimer timer(execution_, "search", solution_.seconds.search);
     reduced_ = reduced_for_search(graph_, asked);

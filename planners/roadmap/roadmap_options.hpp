@@ -9,6 +9,7 @@
 
 #include "core/base/enum_names.hpp"
 #include "core/base/types.hpp"
+#include "planners/roadmap/heuristic.hpp"
 
 namespace warren {
 
@@ -77,7 +78,8 @@ struct RoadmapOptions {
   std::uint64_t seed = 1;             ///< any value
   SearchKind search = SearchKind::astar;
   QueueKind queue = QueueKind::heap;
-  LazyCheck lazy = LazyCheck::expansion;  ///< only for lazy_prm
+  HeuristicKind heuristic = HeuristicKind::euclidean;  ///< of astar, for points of the plane
+  LazyCheck lazy = LazyCheck::expansion;               ///< only for lazy_prm
   /// How start and goal are joined; none: by the rule, and where that finds nothing to the nearest that will do.
   std::optional<GrowingAttach> attach = {};
 

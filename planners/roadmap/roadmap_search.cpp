@@ -42,7 +42,7 @@ SearchResult search_best(const Graph& graph, VertexId start, VertexId goal, cons
   execution.reserve(n * 36);
   std::array<SearchState, 2> states;
   SearchResult found;
-  if (n >= fewest_for_both_ends) {
+  if (n >= fewest_for_both_ends && asked.estimate_fits) {
     found = search_from_both_ends<GraphEdges>(asked.queue, n, {start, goal}, {neighbours, neighbours}, estimate_to,
                                               {&states[0], &states[1]}, execution);
   } else {
@@ -137,7 +137,7 @@ bool is_stringy(const Graph& graph, const Execution& execution) {
 }
 
 std::optional<TwiceReducedGraphView> reduced_for_search(const Graph& graph, const RoadmapSearch& asked) {
-  if (is_blind(asked.search)) return std::nullopt;
+  if (is_blind(asked.search) || !asked.estimate_fits) return std::nullopt;
   if (graph.vertex_count() < fewest_for_both_ends || !is_stringy(graph, asked.execution)) return std::nullopt;
   return TwiceReducedGraphView(graph, std::array{asked.start, asked.goal}, asked.length, asked.execution);
 }

@@ -45,6 +45,7 @@ struct RoadmapSearch {
   QueueKind queue;
   const Execution& execution;
   std::vector<Edge>* tree = nullptr;  ///< receives (vertex, parent) of what the search reached
+  bool estimate_fits = true;          ///< false: it may be too long; the graph itself is searched, from the start alone
 };
 
 /// (vertex, parent) of every vertex that a search reached.

@@ -149,7 +149,7 @@ class PointAmongWalls : public UsualBody {
   WallProblem problem_;
 };
 
-constexpr OptionSet shared_options = prm_takes | OptionSet{Option::lazy, Option::pipeline};
+constexpr OptionSet shared_options = prm_takes | OptionSet{Option::lazy, Option::pipeline, Option::heuristic};
 constexpr PlannerChoice walls_planners[] = {{PlannerKind::prm, shared_options},
                                             {PlannerKind::lazy_prm, shared_options}};
 

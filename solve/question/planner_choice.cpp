@@ -32,6 +32,7 @@ RoadmapOptions roadmap_options(const SolveOptions& asked) {
   options.search = searched.search;
   options.queue = searched.queue;
   options.seed = asked.seed;
+  options.heuristic = asked.heuristic.value_or(HeuristicKind::euclidean);
   options.lazy = asked.roadmap.lazy.value_or(LazyCheck::expansion);
   return options;
 }
@@ -39,6 +40,19 @@ RoadmapOptions roadmap_options(const SolveOptions& asked) {
 void check_queue(const SolveOptions& asked, SearchKind search) {
   if (!asked.queue || search == SearchKind::astar || search == SearchKind::dijkstra) return;
   throw UsageError(fmt::format("@queue: {} has no priority queue; astar and dijkstra take one", name_of(search)));
+}
+
+void check_heuristic(const SolveOptions& asked, SearchKind search) {
+  if (!asked.heuristic) return;
+  if (search != SearchKind::astar) {
+    throw UsageError(fmt::format("@heuristic: {} estimates nothing; astar takes one", name_of(search)));
+  }
+  if (asked.roadmap.lazy == LazyCheck::path) {
+    throw UsageError("@heuristic: a search that repairs its paths estimates nothing; @lazy expansion takes one");
+  }
+  if (asked.roadmap.pipeline == PipelineKind::tiled) {
+    throw UsageError("@heuristic: tiles keep shortest paths only; for estimates there is @pipeline plain");
+  }
 }
 
 void check_planner(const SolveOptions& asked, PlannerKind planner, SearchKind search) {
@@ -70,7 +84,7 @@ void check_lattice(SamplerKind sampler, const Scene& scene) {
 
 /// Fused tiles take the lattice with its own rule of joining, and have a search of their own.
 bool takes_fused_tiles(const SolveOptions& asked, const PlannerOptions& options, double clearance) {
-  const bool usual_search = !asked.search && !asked.queue;
+  const bool usual_search = !asked.search && !asked.queue && !asked.heuristic;
   return options.planner == PlannerKind::prm && usual_search && tiled_prm_applies(options.roadmap, clearance);
 }
 
@@ -106,6 +120,7 @@ std::vector<NamedFigure> given_options(const SolveOptions& asked, const PlannerO
   if (o.roadmap.star == StarRule::neighbours) add("neighbours", std::string("star"));
   if (o.roadmap.star == StarRule::radius) add("radius", std::string("star"));
   if (asked.queue) add("queue", std::string(name_of(*asked.queue)));
+  if (asked.heuristic) add("heuristic", std::string(name_of(*asked.heuristic)));
   if (asked.roadmap.lazy) add("lazy", std::string(name_of(*asked.roadmap.lazy)));
   if (asked.roadmap.pipeline) add("pipeline", std::string(name_of(*asked.roadmap.pipeline)));
   if (o.optimise) add("optimise", true);
@@ -128,6 +143,7 @@ void check_planner_options(const SolveOptions& asked) {
   }
   const auto sampler = asked.sampler;
   check_queue(asked, options.search);
+  check_heuristic(asked, options.search);
   if (planner) check_planner(asked, *planner, options.search);
   if ((options.neighbours || options.radius) && options.star != StarRule::none) {
     throw UsageError("@radius: a number and a rule of PRM* contradict each other; give one of the two");

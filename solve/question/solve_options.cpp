@@ -99,6 +99,7 @@ OptionSet given(const SolveOptions& o) {
   add(Option::cusp_cost, o.car.cusp_cost.has_value());
   add(Option::reverse_cost, o.car.reverse_cost.has_value());
   add(Option::attach, o.roadmap.attach.has_value());
+  add(Option::heuristic, o.heuristic.has_value());
   return set;
 }
 

@@ -112,6 +112,7 @@ struct SolveOptions {
   std::optional<SamplerKind> sampler = {};  ///< of roadmaps and trees; none: by planner and world
   std::optional<SearchMethod> search = {};  ///< none: A*; jump points or breadth first on maps where they are as good
   std::optional<QueueKind> queue = {};      ///< of astar and dijkstra; none: heap
+  std::optional<HeuristicKind> heuristic = {};  ///< of astar on roadmaps of points and discs; none: euclidean
   RoadmapFields roadmap = {};
   TreeFields trees = {};
   GridFields grid = {};
@@ -155,14 +156,15 @@ enum class Option : std::uint8_t {
   turning_radius,
   cusp_cost,
   reverse_cost,
-  attach
+  attach,
+  heuristic
 };
 constexpr auto enum_names(Option) {
-  return std::array<std::string_view, 30>{
+  return std::array<std::string_view, 31>{
       "sampler",  "samples",       "neighbours",     "radius",      "search",       "queue",     "lazy",     "pipeline",
       "optimise", "cell",          "angles",         "face_motion", "step_cost",    "turn_cost", "diagonal", "layers",
       "full",     "sampled_edges", "doors",          "objective",   "step",         "goal_bias", "nodes",    "trees",
-      "via",      "steering",      "turning_radius", "cusp_cost",   "reverse_cost", "attach"};
+      "via",      "steering",      "turning_radius", "cusp_cost",   "reverse_cost", "attach",    "heuristic"};
 }
 inline constexpr std::size_t option_count = enum_names(Option{}).size();
 

@@ -24,7 +24,7 @@ namespace {
 void refuse_what_is_asked_later(const SolveOptions& options) {
   const OptionSet all = given(options);
   for (const Option option :
-       {Option::search, Option::queue, Option::optimise, Option::cusp_cost, Option::reverse_cost}) {
+       {Option::search, Option::queue, Option::optimise, Option::cusp_cost, Option::reverse_cost, Option::heuristic}) {
     if (!all.has(option)) continue;
     throw UsageError(fmt::format("@{}: is for a question; say it when the roadmap is asked", name_of(option)));
   }

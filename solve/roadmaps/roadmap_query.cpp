@@ -37,11 +37,12 @@ constexpr std::size_t most_indexed_walls = std::size_t{1} << 23;
 
 /// An index is not searched.
 void refuse_search(const RoadmapSearchFields& how) {
-  if (how.search || how.queue || how.attach) {
+  if (how.search || how.queue || how.attach || how.heuristic) {
     throw UsageError(fmt::format("@{}: this roadmap is asked by its index; build it with @index none to search it",
-                                 how.search  ? "search"
-                                 : how.queue ? "queue"
-                                             : "attach"));
+                                 how.search      ? "search"
+                                 : how.queue     ? "queue"
+                                 : how.heuristic ? "heuristic"
+                                                 : "attach"));
   }
 }
 
@@ -113,6 +114,7 @@ Answer RoadmapQuery::ask_within(const std::vector<double>& start, const std::vec
   SolveOptions options = roadmap_.options;
   options.search = how.search;
   options.queue = how.queue;
+  options.heuristic = how.heuristic;
   options.optimise = how.optimise;
   options.car.cusp_cost = how.cusp_cost;
   options.car.reverse_cost = how.reverse_cost;
@@ -122,7 +124,7 @@ Answer RoadmapQuery::ask_within(const std::vector<double>& start, const std::vec
   const Scene& scene = roadmap_.world.whole(execution);
   const ChosenSolver solver = choose_solver(options, scene, question);
   Answer answer;
-  scratch.search.by_hierarchy = !how.search && !how.queue;
+  scratch.search.by_hierarchy = !how.search && !how.queue && !how.heuristic;
   try {
     answer = solver.kind->solve({options,
                                  opened_->planned.get(),

@@ -28,6 +28,7 @@ struct RoadmapSearchFields {
   bool optimise = false;                     ///< pull the path taut after the search
   std::optional<double> cusp_cost = {};      ///< as CarFields has them, with optimise
   std::optional<double> reverse_cost = {};
+  std::optional<HeuristicKind> heuristic = {};  ///< of A*, for points and discs; none: euclidean
 };
 
 /// What one thread keeps from one question to the next.

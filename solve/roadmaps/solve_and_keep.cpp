@@ -58,7 +58,8 @@ Answer solve_and_keep(Scene scene, const Question& question, const SolveOptions&
                           .queue = options.queue,
                           .optimise = options.optimise,
                           .cusp_cost = options.car.cusp_cost,
-                          .reverse_cost = options.car.reverse_cost};
+                          .reverse_cost = options.car.reverse_cost,
+                          .heuristic = options.heuristic};
   if (!roadmap.arrays.hierarchy.empty() && !how.search) how.search = SearchMethod::astar;  // as solve searches
   QuestionScratch scratch;
   Answer asked = query.ask_within(question.start, question.goal, how, execution, scratch, by_question ? nullptr : keep);

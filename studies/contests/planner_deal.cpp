@@ -67,6 +67,7 @@ constexpr std::array<Copy, option_count> copies{
     part<&SolveOptions::car, &CarFields::cusp_cost>,
     part<&SolveOptions::car, &CarFields::reverse_cost>,
     part<&SolveOptions::roadmap, &RoadmapFields::attach>,
+    whole<&SolveOptions::heuristic>,
 };
 
 /// Why the planner does not take this option as it is in `from`; nothing where it does.
@@ -94,9 +95,11 @@ void check_taken(const std::vector<PlannerKind>& planners, Option option, const 
   if (refused) throw UsageError(*refused);
 }
 
-/// Would this queue go unused?
-bool idle_queue(const SolveOptions& contender, Option option) {
-  return option == Option::queue && (contender.search == SearchMethod::bfs || contender.search == SearchMethod::dfs);
+/// Would this queue, or this estimate, go unused?
+bool idles(const SolveOptions& contender, Option option) {
+  const SearchMethod search = contender.search.value_or(SearchMethod::astar);
+  if (option == Option::heuristic) return search != SearchMethod::astar;
+  return option == Option::queue && (search == SearchMethod::bfs || search == SearchMethod::dfs);
 }
 
 /// Throws where another `times` as many contenders would be too many.
@@ -111,7 +114,7 @@ std::vector<PlannerContender> dealt(const std::vector<PlannerContender>& contend
   check_count(contenders.size(), list.values.size());
   std::vector<PlannerContender> all;
   for (const PlannerContender& contender : contenders) {
-    if (list.values.empty() || idle_queue(contender.options, list.option)) {
+    if (list.values.empty() || idles(contender.options, list.option)) {
       all.push_back(contender);
       continue;
     }

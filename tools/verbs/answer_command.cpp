@@ -11,6 +11,7 @@
 #include "pictures/answer_summary.hpp"
 #include "pictures/draw_answer.hpp"
 #include "pictures/formats/write_picture.hpp"
+#include "solve/answer/answer_notes.hpp"
 #include "solve/answer/explanation_text.hpp"
 #include "solve/answer/write_answer_io.hpp"
 #include "solve/roadmaps/roadmap_file_io.hpp"
@@ -64,8 +65,10 @@ int AnswerCommand::run() {
   run.end();
   write_outputs(run);
   const auto stopped = answer_.outcome == Outcome::stopped ? std::optional(stop_reason()) : std::nullopt;
-  run.conclude(takes_standard_output(), stopped,
-               [&] { return summary_of(answer_, run.palette(), written_) + explanation_text(answer_, run.palette()); });
+  run.conclude(takes_standard_output(), stopped, [&] {
+    return summary_of(answer_, run.palette(), written_) + notes_text(answer_, run.palette()) +
+           explanation_text(answer_, run.palette());
+  });
   return exit_code();
 }
 

@@ -32,27 +32,25 @@ constexpr OptionSpec build_specs[] = {
 
 /// Those that some planner that keeps a roadmap takes, and that a roadmap without a question can have.
 void add_kept_options(Command& command) {
-  constexpr Option of_questions[] = {Option::search,       Option::queue, Option::optimise, Option::cusp_cost,
-                                     Option::reverse_cost, Option::lazy,  Option::pipeline};
+  constexpr OptionSet of_questions{Option::search,    Option::queue,        Option::optimise,
+                                   Option::cusp_cost, Option::reverse_cost, Option::heuristic};
+  constexpr OptionSet of_work{Option::lazy, Option::pipeline, Option::sampled_edges};
   static const std::string planners = names_of_planners(keeps_roadmap);
   for (OptionSpec spec : solve_option_specs()) {
     const auto option = option_of_words(spec.name);
-    const bool asked =
-        option && std::find(std::begin(of_questions), std::end(of_questions), *option) != std::end(of_questions);
-    const bool kept =
-        !option || std::any_of(std::begin(all_planners), std::end(all_planners), [&](PlannerKind planner) {
-          return keeps_roadmap(planner) && planner_takes(planner, *option);
-        });
+    const auto takes = [&](PlannerKind planner) { return keeps_roadmap(planner) && planner_takes(planner, *option); };
     if (spec.name == "--planner") {
       spec.choices = planners;
       spec.help = "whose roadmap (default: by world and body)";
     }
-    if (kept && !asked) {
-      command.options.push_back(spec);
+    if (option && of_questions.has(*option)) {
+      command.foreign.emplace_back(spec.name, "is for a question; 'warren query' takes it");
+    } else if (option && of_work.has(*option)) {
+      command.foreign.emplace_back(spec.name, "a roadmap that is kept is made in one way; leave it out");
+    } else if (option && std::none_of(std::begin(all_planners), std::end(all_planners), takes)) {
+      command.foreign.emplace_back(spec.name, "is for planners whose roadmaps can't be kept; 'warren solve' takes it");
     } else {
-      command.foreign.emplace_back(spec.name,
-                                   asked ? "is of questions; 'warren query' takes it, or 'warren solve'"
-                                         : "is for planners whose roadmaps can't be kept; 'warren solve' takes it");
+      command.options.push_back(spec);
     }
   }
 }

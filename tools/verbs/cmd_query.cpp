@@ -17,6 +17,7 @@
 #include "solve/roadmaps/roadmap_file_io.hpp"
 #include "solve/steps/blocked_end.hpp"
 #include "solve/steps/explain_answer.hpp"
+#include "solve/steps/heuristic_price.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_names.hpp"
 #include "tools/screen/roadmap_files.hpp"
@@ -41,7 +42,8 @@ constexpr OptionSpec query_specs[] = {
 
 RoadmapSearchFields how_to_search(const Arguments& arguments) {
   const SolveOptions words = solve_words(arguments);
-  return {words.search, words.queue, words.roadmap.attach, words.optimise, words.car.cusp_cost, words.car.reverse_cost};
+  return {words.search,           words.queue,    words.roadmap.attach, words.optimise, words.car.cusp_cost,
+          words.car.reverse_cost, words.heuristic};
 }
 
 class QueryCommand : public AnswerCommand {
@@ -56,6 +58,12 @@ class QueryCommand : public AnswerCommand {
     const RoadmapQuery query(roadmap_, run.execution(), Questions::one);
     QuestionScratch scratch;
     Answer answer = query.ask_within(question_.start, question_.goal, how_, run.execution(), scratch, keep);
+    price_heuristic(answer, how_.heuristic, [&](HeuristicKind exact) {
+      RoadmapSearchFields again = how_;
+      again.heuristic = exact;
+      again.optimise = false;
+      return query.ask_within(question_.start, question_.goal, again, run.execution(), scratch);
+    });
     if (is_blocked(answer.outcome)) explain_blocked_end(roadmap_.world.whole(run.execution()), answer, run.execution());
     if (keeps_roadmap()) learn(roadmap_, query, run.execution());
     return answer;
@@ -152,8 +160,8 @@ Command query_command() {
   add_options(command.options, query_specs);
   constexpr std::string_view fixed = "the roadmap was built with its own; another one takes `warren build`";
   for (const OptionSpec& spec : solve_option_specs()) {
-    constexpr std::string_view asked[] = {"--search",    "--queue",        "--optimise",
-                                          "--cusp-cost", "--reverse-cost", "--attach"};
+    constexpr std::string_view asked[] = {"--search",       "--queue",  "--optimise", "--cusp-cost",
+                                          "--reverse-cost", "--attach", "--heuristic"};
     if (std::find(std::begin(asked), std::end(asked), spec.name) != std::end(asked)) {
       command.options.push_back(spec);
     } else {

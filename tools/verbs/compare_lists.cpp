@@ -18,6 +18,7 @@ namespace {
 constexpr ListOption listed[] = {
     {Option::search, "--search", "--searches"},
     {Option::queue, "--queue", "--queues"},
+    {Option::heuristic, "--heuristic"},
     {Option::sampler, "--sampler", "--samplers"},
     {Option::samples, "--samples"},
     {Option::neighbours, "--neighbours"},

@@ -146,6 +146,7 @@ void refuse_world_options(const Arguments& arguments) {
 void take_graph_options(const Arguments& arguments, CompareOptions& options) {
   refuse(arguments, {"--optimise", "--pipeline", "--lazy"}, "changes no graph; --planners compares planners with it");
   refuse(arguments, {"--search"}, "searches are compared; say --searches");
+  refuse(arguments, {"--heuristic"}, "is compared by --planners prm --heuristic euclidean,manhattan");
   refuse(arguments, {"--queue"}, "queues are compared; say --queues");
   options.graph = given_choice<PlannerKind>(arguments, "--graph");
   PlannerDeal& deal = options.graph_deal;

@@ -27,6 +27,10 @@ constexpr OptionSpec roadmap_specs[] = {
     {"--radius", "R|auto|star",
      "join milestones at most so far apart, instead of the K nearest; star: by the rule of PRM* (default: auto)"},
     {"--search", "NAME", "how the roadmap is searched (default: astar)", "astar dijkstra bfs dfs"},
+    {"--heuristic", "NAME",
+     "what astar takes the way to the goal for, of points and discs; manhattan and octile may lengthen the path, and "
+     "what it costs is told (default: euclidean)",
+     "euclidean manhattan octile chebyshev zero"},
     {"--queue", "NAME", "the queue of astar and dijkstra (default: heap)",
      "heap lazy-heap sorted-array resorted-array"},
     {"--lazy",
@@ -128,6 +132,7 @@ SolveOptions roadmap_words(const Arguments& arguments) {
   options.roadmap = roadmap_fields(arguments);
   options.search = given_value(arguments, "--search", search_value, options.planner);
   options.queue = given_choice<QueueKind>(arguments, "--queue");
+  options.heuristic = given_choice<HeuristicKind>(arguments, "--heuristic");
   options.seed = seed_word(arguments);
   options.visibility.lazy = arguments.value("--lazy") == "";
   options.sampler = given_choice<SamplerKind>(arguments, "--sampler");
