@@ -40,8 +40,9 @@ class Comparison {
   void with_near_legs(const LegIndex& index, const Segment& obstacle, std::size_t number);
   /// By the boxes of legs: about log(legs), plus what is near; O(legs) at worst.
   void with_all_legs(const Segment& obstacle, std::size_t number);
-  /// Is all that lies in the box too far from the leg to matter?
+  /// Is all that lies in the box too far from the leg, or from all legs in a box, to matter?
   bool skips(std::size_t leg, const Box& obstacles) const;
+  bool skips(const Box& legs, const Box& obstacles) const { return too_far(legs, obstacles); }
   void with_leg(std::size_t leg, const Segment& obstacle, std::size_t number);
   Tally take() { return std::move(tally_); }
 

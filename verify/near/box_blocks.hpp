@@ -36,6 +36,18 @@ class BoxBlocks {
   template <class Skip, class Visit>
   void for_each(const Skip& skip, const Visit& visit) const;
 
+  /// The same in two steps, for who asks several questions of one neighbourhood: visit(block) for blocks of eight boxes
+  /// that skip() doesn't leave out, and visit(number) for the boxes of one of them.
+  template <class Skip, class Visit>
+  void for_each_block(const Skip& skip, const Visit& visit) const {
+    if (!levels_.empty()) visit_block(levels_.size() - 1, 0, skip, visit);
+  }
+  const Box& block_box(std::size_t block) const { return levels_.front()[block]; }
+  template <class Visit>
+  void for_each_in(std::size_t block, const Visit& visit) const {
+    visit_members(block, visit);
+  }
+
   /// Calls visit(number) for some boxes that are rather near: a start for who looks for the nearest.
   template <class Visit>
   void for_some_near(const Box& place, const Visit& visit) const;
@@ -86,7 +98,7 @@ BoxBlocks::BoxBlocks(std::size_t count, const BoxOf& box_of, const Execution& ex
 
 template <class Skip, class Visit>
 void BoxBlocks::for_each(const Skip& skip, const Visit& visit) const {
-  if (!levels_.empty()) visit_block(levels_.size() - 1, 0, skip, visit);
+  for_each_block(skip, [&](std::size_t block) { visit_members(block, visit); });
 }
 
 template <class Visit>
@@ -103,7 +115,7 @@ void BoxBlocks::for_some_near(const Box& place, const Visit& visit) const {
 template <class Skip, class Visit>
 void BoxBlocks::visit_block(std::size_t level, std::size_t block, const Skip& skip, const Visit& visit) const {
   if (skip(levels_[level][block])) return;
-  if (level == 0) return visit_members(block, visit);
+  if (level == 0) return visit(block);
   const std::size_t end = std::min(block_size * (block + 1), levels_[level - 1].size());
   for (std::size_t part = block_size * block; part < end; ++part) visit_block(level - 1, part, skip, visit);
 }

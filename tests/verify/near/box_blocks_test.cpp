@@ -75,6 +75,20 @@ TEST(BoxBlocks, SomeNearOnesAreNear) {
   EXPECT_LT(nearest, 4.0);
 }
 
+TEST(BoxBlocks, BlocksHoldWhatTheyAreLeftOutFor) {
+  const std::vector<Box> boxes = random_boxes(4, 3001);
+  const BoxBlocks blocks = blocks_of(boxes);
+  const Box place{{3.0, 3.0}, {5.0, 6.0}};
+  std::vector<std::size_t> numbers;
+  blocks.for_each_block([&](const Box& box) { return !box.meets(place); },
+                        [&](std::size_t block) {
+                          EXPECT_TRUE(blocks.block_box(block).meets(place));
+                          blocks.for_each_in(block, [&](std::size_t i) { numbers.push_back(i); });
+                        });
+  EXPECT_EQ(numbers, visited(blocks, place));
+  EXPECT_LT(numbers.size(), boxes.size() / 2);
+}
+
 TEST(BoxBlocks, AreTheSameForAnyNumberOfThreads) {
   const std::vector<Box> boxes = random_boxes(3, 30000);
   const Box everywhere{{-1e9, -1e9}, {1e9, 1e9}};
