@@ -5,12 +5,12 @@
 #include <algorithm>
 
 #include "core/base/error.hpp"
-#include "core/search/edge_states.hpp"
 #include "parallel/deadline.hpp"
 #include "pictures/draw_roadmap.hpp"
 #include "python/bind.hpp"
 #include "python/kept_roadmap.hpp"
 #include "python/keywords.hpp"
+#include "python/roadmap_arrays.hpp"
 #include "solve/roadmaps/export_of_roadmap.hpp"
 #include "solve/roadmaps/roadmap_file_io.hpp"
 #include "solve/steps/blocked_end.hpp"
@@ -58,18 +58,6 @@ RoadmapSearchFields how_to_search(const Arguments& arguments) {
   const SolveOptions words = solve_words(arguments);
   return {words.search, words.queue, words.roadmap.attach, words.optimise, words.car.cusp_cost, words.car.reverse_cost};
 }
-
-/// Counts those who ask, so that nobody changes the roadmap meanwhile.
-class Asking {
- public:
-  explicit Asking(KeptRoadmap& kept) : kept_(kept) { ++kept_.askers; }
-  ~Asking() { --kept_.askers; }
-  Asking(const Asking&) = delete;
-  Asking& operator=(const Asking&) = delete;
-
- private:
-  KeptRoadmap& kept_;
-};
 
 Kept build_roadmap(const Scene& scene, py::dict keywords) {
   CallLimits limits = take_limits(keywords);
@@ -152,71 +140,6 @@ py::array lengths(KeptRoadmap& kept, const py::object& from, const py::object& t
   limits.run(
       [&](const Execution& execution) { ask_lengths(kept, starts, goals, each_to_each, how, execution, numbers); });
   return told;
-}
-
-template <class List>
-Shape size_of(const List& list) {
-  return {static_cast<py::ssize_t>(list.size())};
-}
-
-/// indptr, indices and lengths of all edges: views that keep the roadmap alive. Below 2^31 unsigned numbers are the
-/// same bits as numbers with a sign, which SciPy has.
-py::tuple all_rows(const py::object& self) {
-  auto& kept = self.cast<KeptRoadmap&>();
-  const Asking asking(kept);
-  const RawVector<double>* lengths = nullptr;
-  const RoadmapArrays* arrays = nullptr;
-  CallLimits().run([&](const Execution& execution) {
-    arrays = &kept.arrays(execution);
-    lengths = &kept.lengths(execution);
-  });
-  const auto signed_view = [&](const auto& list) {
-    return view_of(reinterpret_cast<const std::int32_t*>(list.data()), size_of(list), self);  // NOLINT
-  };
-  return py::make_tuple(signed_view(arrays->candidates.offsets()), signed_view(arrays->candidates.targets()),
-                        view_of(lengths->data(), size_of(*lengths), self));
-}
-
-/// The same of the free edges, in arrays of their own.
-py::tuple free_rows_of(KeptRoadmap& kept) {
-  const Asking asking(kept);
-  EdgeRows rows = CallLimits().run([&](const Execution& execution) { return free_rows(kept, execution); });
-  const Shape first = size_of(rows.first);
-  const Shape ends = size_of(rows.to);
-  return py::make_tuple(array_of<std::int32_t>(std::move(rows.first), first),
-                        array_of<std::int32_t>(std::move(rows.to), ends),
-                        array_of<double>(std::move(rows.lengths), ends));
-}
-
-/// 0 unchecked, 1 free, 2 blocked: of each edge end.
-py::array edge_states(KeptRoadmap& kept) {
-  const Asking asking(kept);
-  const RoadmapArrays* arrays = nullptr;
-  CallLimits().run([&](const Execution& execution) { arrays = &kept.arrays(execution); });
-  py::array_t<std::uint8_t> states(static_cast<py::ssize_t>(arrays->candidates.targets().size()));
-  std::uint8_t* to = states.mutable_data();
-  for (std::size_t i = 0; i < arrays->candidates.targets().size(); ++i) {
-    to[i] = static_cast<std::uint8_t>(edge_state(arrays->edge_states, i));
-  }
-  return read_only(std::move(states));
-}
-
-py::array states_of(const py::object& self) {
-  auto& kept = self.cast<KeptRoadmap&>();
-  const Asking asking(kept);
-  const RoadmapArrays* arrays = nullptr;
-  CallLimits().run([&](const Execution& execution) { arrays = &kept.arrays(execution); });
-  const auto width = static_cast<py::ssize_t>(arrays->dimension);
-  return view_of(arrays->states.data(), {static_cast<py::ssize_t>(arrays->states.size()) / width, width}, self);
-}
-
-/// A copy: what is learnt changes it.
-py::array components_of(KeptRoadmap& kept) {
-  const Asking asking(kept);
-  RawVector<VertexId> component =
-      CallLimits().run([&](const Execution& execution) { return kept.arrays(execution).component; });
-  const Shape size = size_of(component);
-  return array_of<VertexId>(std::move(component), size);
 }
 
 py::dict export_to(KeptRoadmap& kept, const std::string& file, bool unchecked, const std::string& frame) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "python/interrupts.hpp"
 
+#include <array>
 #include <string>
 
 namespace warren::python {

@@ -7,7 +7,6 @@
 
 #include <pybind11/pybind11.h>
 
-#include <array>
 #include <csignal>
 #include <optional>
 #include <utility>

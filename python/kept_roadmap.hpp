@@ -34,6 +34,18 @@ class KeptRoadmap {
   MadeOnce<RawVector<double>> lengths_;
 };
 
+/// Counts those who ask, so that nobody changes the roadmap meanwhile.
+class Asking {
+ public:
+  explicit Asking(KeptRoadmap& kept) : kept_(kept) { ++kept_.askers; }
+  ~Asking() { --kept_.askers; }
+  Asking(const Asking&) = delete;
+  Asking& operator=(const Asking&) = delete;
+
+ private:
+  KeptRoadmap& kept_;
+};
+
 /// Rows of edges as RoadmapParts has them, with their lengths.
 struct EdgeRows {
   RawVector<EdgeEnd> first;

@@ -2,7 +2,10 @@
 // Worlds from what Python holds: arrays of walls, rings and solids, grids of cells, and GeoJSON's objects as text.
 #pragma once
 
+#include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
+
+#include <array>
 
 #include "parallel/execution.hpp"
 #include "scenes/scene/scene.hpp"

@@ -97,17 +97,22 @@ def mypy(*words):
     return done.returncode, done.stdout
 
 
-def test_stubtest_finds_no_difference(tmp_path):
-    (tmp_path / "mypy.ini").write_text(f"[mypy]\ncache_dir = {tmp_path / 'cache'}\n")
+@pytest.fixture(scope="module")
+def cache(tmp_path_factory):
+    return tmp_path_factory.mktemp("cache")
+
+
+def test_stubtest_finds_no_difference(tmp_path, cache):
+    (tmp_path / "mypy.ini").write_text(f"[mypy]\ncache_dir = {cache}\n")
     code, said = mypy("mypy.stubtest", "warren", "--mypy-config-file", str(tmp_path / "mypy.ini"))
     assert code == 0, said
 
 
-def test_typed_programs_pass_mypy_strict(tmp_path):
+def test_typed_programs_pass_mypy_strict(tmp_path, cache):
     program = pathlib.Path(__file__).with_name("typed_program.py")
-    code, said = mypy("mypy", "--strict", "--cache-dir", str(tmp_path), str(program))
+    code, said = mypy("mypy", "--strict", "--cache-dir", str(cache), str(program))
     assert code == 0, said
     wrong = tmp_path / "wrong.py"
     wrong.write_text("import warren\nwarren.solve('maze:5x5', planner='prn')\nwarren.solve('maze:5x5').lenght\n")
-    code, said = mypy("mypy", "--strict", "--cache-dir", str(tmp_path), str(wrong))
+    code, said = mypy("mypy", "--strict", "--cache-dir", str(cache), str(wrong))
     assert code == 1 and said.count("error:") == 2, said
