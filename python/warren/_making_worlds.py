@@ -48,7 +48,7 @@ def maze(rows, cols, *, seed=None, algorithm=None,
         At least 1, fewer than 2^32 cells.
     seed : int, optional
         Default: 1.
-    algorithm : {'backtracker', 'kruskal', 'prim', 'wilson', 'course'}, optional
+    algorithm : {'backtracker', 'kruskal', 'prim', 'wilson', 'course', 'mst'}, optional
         Default: backtracker.
     loops : float, optional
         The share, 0 to 1, of the interior walls left that are taken out (default: 0, exactly one way between any two

@@ -20,7 +20,7 @@ def maze(
     cols: int,
     *,
     seed: int | None = ...,
-    algorithm: Literal["backtracker", "kruskal", "prim", "wilson", "course"] | None = ...,
+    algorithm: Literal["backtracker", "kruskal", "prim", "wilson", "course", "mst"] | None = ...,
     loops: float | None = ...,
 ) -> World: ...
 def grid(

@@ -50,6 +50,15 @@ def test_the_choices_of_a_stub_are_those_of_the_program(program):
         assert ", ".join(f'"{choice}"' for choice in choices) in stub, name
 
 
+def test_the_algorithms_of_mazes_are_those_of_the_library():
+    with pytest.raises(warren.UsageError) as caught:
+        warren.maze(5, 5, algorithm="nope")
+    names = caught.value.what.split(" one of ")[1].split(", ")
+    literal = "Literal[" + ", ".join(f'"{name}"' for name in names) + "]"
+    assert literal in (PACKAGE / "_making_worlds.pyi").read_text()
+    assert "{" + ", ".join(f"'{name}'" for name in names) + "}" in warren.maze.__doc__
+
+
 def test_every_option_is_documented():
     for function in (warren.solve, warren.build, warren.compare, warren.verify, warren.read_world, warren.Roadmap.query,
                      warren.Answer.save_path):
