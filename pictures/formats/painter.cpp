@@ -193,12 +193,11 @@ void Painter::search_tree() {
 /// Points that the page does not tell apart are left out of very long paths.
 void Painter::path() {
   if (picture_.path.empty()) return;
-  constexpr double least_width = 2.0;
-  constexpr double halo = 2.2;
-  constexpr std::size_t long_path = 100'000;
+  constexpr double least_width = 1.1;
+  constexpr std::size_t long_path = 50'000;
   std::vector<Vec2> seen;
   if (picture_.path.size() > long_path && picture_.path_turns.empty()) {
-    const double apart = 0.1 / page_.view.scale;
+    const double apart = 0.5 / page_.view.scale;
     for (const Vec2 p : picture_.path) {
       if (seen.empty() || distance(seen.back(), p) > apart) seen.push_back(p);
     }
@@ -206,9 +205,17 @@ void Painter::path() {
   }
   const std::span<const Vec2> shown = seen.empty() ? picture_.path : std::span<const Vec2>(seen);
   const Pen line{.stroke = colors::path, .width = width(widths::path, least_width)};
+  if (surface_.takes_as_mask(shown.size())) {
+    LineGroup group(surface_, page_, execution_, line);
+    group.begin("path", picture_.path_label, shown.size());
+    group.chain(shown, picture_.path_turns, false);
+    return group.end();
+  }
   surface_.begin_group("path", picture_.path_label, line);
-  surface_.take_pen({.stroke = colors::paper, .width = line.width + halo});
-  surface_.chain(shown, picture_.path_turns, false);
+  if (seen.empty()) {  // a light rim, where there is room for one
+    surface_.take_pen({.stroke = colors::paper, .width = 1.65 * line.width});
+    surface_.chain(shown, picture_.path_turns, false);
+  }
   surface_.take_pen(line);
   surface_.chain(shown, picture_.path_turns, false);
   surface_.end_group();

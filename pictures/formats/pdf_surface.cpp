@@ -44,7 +44,8 @@ class PdfSurface : public Surface {
     bold_ = HPDF_GetFont(document_.get(), "Helvetica-Bold", "WinAnsiEncoding");
     check();
   }
-  void tell(const std::string& title, const std::string& description) {
+  void tell(const std::string& title, std::string description) {
+    std::replace(description.begin(), description.end(), '\n', ' ');
     HPDF_SetInfoAttr(document_.get(), HPDF_INFO_TITLE, latin1_text(title).c_str());
     HPDF_SetInfoAttr(document_.get(), HPDF_INFO_SUBJECT, latin1_text(description).c_str());
   }

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "core/plane/geometry.hpp"
-
 namespace warren {
 
 Image::Image(std::size_t width, std::size_t height, Rgb paper, const Execution& execution)
@@ -45,6 +43,10 @@ void cover_line(Vec2 a, Vec2 b, double width, std::size_t columns, std::size_t r
   const double strength = std::min(1.0, width);
   const double radius = 0.5 * std::max(1.0, width);
   const Box reach = box_of({a, b}).grown(radius + 0.5);
+  const Vec2 along = b - a;
+  const double length_sq = dot(along, along);
+  const double share_a_pixel = length_sq > 0.0 ? 1.0 / length_sq : 0.0;
+  const double reach_sq = (radius + 0.5) * (radius + 0.5);
   const auto clamped = [](double v, std::size_t size) {
     return static_cast<std::size_t>(std::clamp(v, 0.0, static_cast<double>(size)));
   };
@@ -54,15 +56,16 @@ void cover_line(Vec2 a, Vec2 b, double width, std::size_t columns, std::size_t r
     const auto [low, high] = reach_in_row(a, b, static_cast<double>(y) + 0.5, radius + 0.5);
     const std::size_t end = std::min(right, clamped(std::ceil(high), columns));
     for (std::size_t x = clamped(std::floor(std::max(reach.min.x, low)), columns); x < end; ++x) {
-      const Vec2 centre{static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5};
-      const double share = radius + 0.5 - distance(centre, Segment{a, b});
-      if (share > 0.0) cover(x, y, strength * std::min(1.0, share));
+      const Vec2 from_a = Vec2{static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5} - a;
+      const Vec2 off = from_a - std::clamp(dot(from_a, along) * share_a_pixel, 0.0, 1.0) * along;
+      const double distance_sq = dot(off, off);
+      if (distance_sq < reach_sq) cover(x, y, strength * std::min(1.0, radius + 0.5 - std::sqrt(distance_sq)));
     }
   }
 }
 
 void blend(std::uint8_t* pixel, double alpha, Rgb color) {
-  const auto weight = static_cast<int>(std::lround(alpha * 256.0));
+  const auto weight = static_cast<int>(alpha * 256.0 + 0.5);
   const int ink[] = {color.red, color.green, color.blue};
   for (int c = 0; c < 3; ++c) pixel[c] = static_cast<std::uint8_t>((pixel[c] * (256 - weight) + ink[c] * weight) >> 8);
 }
@@ -155,7 +158,7 @@ Mask::Mask(std::size_t width, std::size_t height, const Execution& execution) : 
 
 void Mask::cover(std::size_t x, std::size_t y, double share) {
   std::uint8_t& pixel = pixels_[width_ * y + x];
-  pixel = static_cast<std::uint8_t>(pixel + std::lround((255 - pixel) * share));
+  pixel = static_cast<std::uint8_t>(pixel + static_cast<int>((255 - pixel) * share + 0.5));
 }
 
 void Mask::draw_line(Vec2 a, Vec2 b, double width, double opacity) {

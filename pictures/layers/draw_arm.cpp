@@ -14,7 +14,7 @@ namespace warren {
 namespace {
 
 /// One projection: which axes run right and up, and where its panel stands.
-struct View {
+struct Projection {
   std::array<int, 2> axes;
   Vec2 shift;
   Vec2 at(const Vec3& p) const { return shift + Vec2{p[axes[0]], p[axes[1]]}; }
@@ -65,7 +65,7 @@ class ArmDrawing {
   ArmViews draw() const {
     ArmViews views;
     views.stage.source = scene_.source;
-    for (const View& view : views_) add_obstacles(view, views.stage);
+    for (const Projection& view : views_) add_obstacles(view, views.stage);
     views.panels = panels();
     views.layers = {sweep(), arm_at("start", path_.front(), colors::start), arm_at("goal", path_.back(), colors::goal),
                     trace()};
@@ -91,7 +91,7 @@ class ArmDrawing {
   double joint_length() const;
   void measure();
   void lay_out();
-  void add_obstacles(const View& view, Scene& stage) const;
+  void add_obstacles(const Projection& view, Scene& stage) const;
   std::vector<AxesPanel> panels() const;
   PictureLayer sweep() const;
   PictureLayer arm_at(const char* id, const JointState& q, Rgb color) const;
@@ -105,7 +105,7 @@ class ArmDrawing {
   Vec3 low_ = Vec3::Zero();
   Vec3 high_ = Vec3::Zero();
   double room_ = 1.0;  // around each view
-  std::array<View, 3> views_;
+  std::array<Projection, 3> views_;
 };
 
 double ArmDrawing::joint_length() const {
@@ -153,11 +153,11 @@ void ArmDrawing::lay_out() {
   room_ = margin * std::max(size.maxCoeff(), 1e-9);
   const Vec2 right{size.x() + 3.0 * room_, 0.0};
   const Vec2 above{0.0, size.z() + 3.0 * room_};
-  views_ = {View{{0, 2}, Vec2{-low_.x(), -low_.z()}}, View{{0, 1}, above + Vec2{-low_.x(), -low_.y()}},
-            View{{1, 2}, right + Vec2{-low_.y(), -low_.z()}}};
+  views_ = {Projection{{0, 2}, Vec2{-low_.x(), -low_.z()}}, Projection{{0, 1}, above + Vec2{-low_.x(), -low_.y()}},
+            Projection{{1, 2}, right + Vec2{-low_.y(), -low_.z()}}};
 }
 
-void ArmDrawing::add_obstacles(const View& view, Scene& stage) const {
+void ArmDrawing::add_obstacles(const Projection& view, Scene& stage) const {
   for (const Sphere& s : scene_.spheres) {
     if (s.radius > 0.0) stage.polygons.push_back({circle(view.at({s.x, s.y, s.z}), s.radius)});
   }
@@ -172,7 +172,7 @@ std::vector<AxesPanel> ArmDrawing::panels() const {
   constexpr std::array<const char*, 3> names{"x", "y", "z"};
   std::vector<AxesPanel> panels;
   const Vec2 room{0.5 * room_, 0.5 * room_};
-  for (const View& view : views_) {
+  for (const Projection& view : views_) {
     panels.push_back({.box = {view.at(low_) - room, view.at(high_) + room},
                       .origin = view.shift,
                       .x_label = names[static_cast<std::size_t>(view.axes[0])],
@@ -191,7 +191,7 @@ PictureLayer ArmDrawing::sweep() const {
                      .closed = true};
   for (const JointState& q : pieces(std::max(joint_length() / bodies, 1e-9))) {
     const ChainPosture at = posture(q);
-    for (const View& view : views_) {
+    for (const Projection& view : views_) {
       for (const ArmLink& link : links_) {
         layer.lines.add(stadium(view.at(at.points[link.from]), view.at(at.points[link.to]), radius_));
       }
@@ -207,7 +207,7 @@ PictureLayer ArmDrawing::arm_at(const char* id, const JointState& q, Rgb color) 
                      .color = color,
                      .width = widths::wall};
   const ChainPosture at = posture(q);
-  for (const View& view : views_) {
+  for (const Projection& view : views_) {
     std::vector<Vec2> spine{view.at(at.points[links_.front().from])};
     for (const ArmLink& link : links_) spine.push_back(view.at(at.points[link.to]));
     layer.lines.add(spine);
@@ -223,7 +223,7 @@ PictureLayer ArmDrawing::trace() const {
                      .color = colors::path,
                      .width = 0.6 * widths::path};
   const std::vector<JointState> states = pieces(std::max(joint_length() / pieces_a_path, 1e-9));
-  for (const View& view : views_) {
+  for (const Projection& view : views_) {
     std::vector<Vec2> line;
     for (const JointState& q : states) line.push_back(view.at(tool(q)));
     layer.lines.add(line);
@@ -239,13 +239,13 @@ std::vector<PictureLayer> ArmDrawing::places(std::span<const JointState> states,
   for (const ToolLines& some : lines) {
     PictureLayer& layer =
         layers.emplace_back(PictureLayer{.id = some.id, .label = some.label, .color = some.color, .width = some.width});
-    for (const View& view : views_) {
+    for (const Projection& view : views_) {
       for (const Edge& e : some.edges) layer.lines.add(std::array{view.at(tools[e.from]), view.at(tools[e.to])});
     }
   }
   PictureLayer& dots = layers.emplace_back(PictureLayer{
       .id = "milestones", .label = "tool at a state", .color = colors::outline, .width = widths::milestone});
-  for (const View& view : views_) {
+  for (const Projection& view : views_) {
     for (const Vec3& p : tools) dots.lines.add(std::array{view.at(p), view.at(p)});
   }
   return layers;

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "pictures/model/letters.hpp"
+#include "pictures/model/page_axes.hpp"
 #include "pictures/model/ticks.hpp"
 
 namespace warren {
@@ -19,12 +20,10 @@ constexpr double least_side = 36.0;   // of the shorter one
 constexpr double rim = 12.0;          // around the world, so that no mark is cut off
 constexpr double margin = 12.0;       // around all
 constexpr double title_size = 16.0;
-constexpr double text_size = 12.5;
+constexpr double text_size = page_text_size;
 constexpr double line_height = 1.45;
-constexpr double tick_length = 4.0;
 constexpr double legend_row = 21.0;
 constexpr double legend_gap = 18.0;  // between world and legend
-constexpr double swatch_gap = 8.0;
 
 /// What stands around the world.
 struct Margins {
@@ -68,8 +67,6 @@ class PageMaker {
   void place_world();
   void title();
   void axes();
-  void axes_of(const AxesPanel& panel, Box at, bool inner);
-  void scale_bar(Vec2 at);
   void legend();
   void wrap_title();
   double title_height() const;
@@ -255,69 +252,14 @@ void PageMaker::axes() {
     const auto name = [&](char axis) {
       return unit.empty() ? std::string(1, axis) : fmt::format("{} ({})", axis, unit);
     };
-    axes_of({.x_label = name('x'), .y_label = name('y')}, page_.data, false);
+    add_axes(page_, {.x_label = name('x'), .y_label = name('y')}, page_.data, margin + page_text_size);
     return;
   }
   for (const AxesPanel& panel : picture_.panels) {
     const Vec2 low = page_.view.at(panel.box.min);
     const Vec2 high = page_.view.at(panel.box.max);
-    axes_of(panel, Box{{low.x, high.y}, {high.x, low.y}}, true);
+    add_axes(page_, panel, Box{{low.x, high.y}, {high.x, low.y}}, std::nullopt);
   }
-}
-
-/// Frame, ticks and names around a part of the page. An inner panel has its names inside.
-void PageMaker::axes_of(const AxesPanel& panel, Box at, bool inner) {
-  const Vec2 low = at.min;
-  const Vec2 high = at.max;
-  const auto line = [&](Vec2 a, Vec2 b) { page_.frame.push_back({a, b}); };
-  line(low, {high.x, low.y});
-  line({high.x, low.y}, high);
-  line(high, {low.x, high.y});
-  line({low.x, high.y}, low);
-  const View& view = page_.view;
-  const Vec2 zero = view.at(panel.origin);
-  constexpr double pixels_a_tick = 80.0;
-  const double longer = std::max(high.x - low.x, high.y - low.y);
-  const double step = tick_step(longer / view.scale, std::max(longer / pixels_a_tick, 2.0));
-  const auto ticks = [&](double from, double to) { return ticks_between(from / view.scale, to / view.scale, step); };
-  double next = -1e9;  // where there is room again
-  for (const double tick : ticks(low.x - zero.x, high.x - zero.x)) {
-    const double x = zero.x + view.scale * tick;
-    line({x, high.y}, {x, high.y + tick_length});
-    const std::string words = tick_text(tick, step);
-    const double half = 0.5 * text_width(words, text_size);
-    if (x - half < next) continue;
-    next = x + half + 6.0;
-    text({x, high.y + tick_length + 3.0 + text_size}, words, text_size, Anchor::middle);
-  }
-  for (const double tick : ticks(zero.y - high.y, zero.y - low.y)) {
-    const double y = zero.y - view.scale * tick;
-    line({low.x - tick_length, y}, {low.x, y});
-    text({low.x - tick_length - 4.0, y + 0.35 * text_size}, tick_text(tick, step), text_size, Anchor::end);
-  }
-  const double below = tick_length + 3.0 + 2.3 * text_size;
-  if (inner) {
-    text({high.x - 6.0, high.y - 7.0}, panel.x_label, text_size, Anchor::end);
-    text({low.x + 6.0, low.y + text_size + 5.0}, panel.y_label, text_size, Anchor::start);
-  } else {
-    text({0.5 * (low.x + high.x), high.y + below}, panel.x_label, text_size, Anchor::middle);
-    text({margin + text_size, 0.5 * (low.y + high.y)}, panel.y_label, text_size, Anchor::middle, false, true);
-  }
-}
-
-/// A round length, its ends marked.
-void PageMaker::scale_bar(Vec2 at) {
-  constexpr double wish = 45.0;
-  const double step = tick_step(wish / page_.view.scale, 1.0);
-  const double length = step * page_.view.scale;
-  const Vec2 end{at.x + length, at.y};
-  page_.ink.push_back({at, end});
-  for (const Vec2 p : {at, end}) page_.ink.push_back({{p.x, p.y - 3.5}, {p.x, p.y + 3.5}});
-  const std::string_view unit = unit_of(picture_.scene);
-  const bool one = step == 1.0 && unit == "cells";
-  text({end.x + swatch_gap, at.y + 0.35 * text_size},
-       fmt::format("{}{}{}", tick_text(step, step), unit.empty() ? "" : " ", one ? "cell" : unit), text_size,
-       Anchor::start);
 }
 
 void PageMaker::legend() {
@@ -330,7 +272,7 @@ void PageMaker::legend() {
                         static_cast<double>(i / columns) * legend_row};
   };
   for (std::size_t i = 0; i < entries_.size(); ++i) page_.legend.push_back({place(i), entries_[i]});
-  if (has_axes()) scale_bar(place(entries_.size()));
+  if (has_axes()) add_scale_bar(page_, place(entries_.size()), unit_of(picture_.scene));
   for (const PlacedLegend& placed : page_.legend) {
     text({placed.at.x + swatch_width + swatch_gap, placed.at.y + 0.35 * text_size}, placed.entry.label, text_size,
          Anchor::start);

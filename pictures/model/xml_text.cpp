@@ -30,7 +30,7 @@ std::string xml_text(std::string_view text) {
         if (bytes > 1) {
           out += text.substr(0, bytes);
         } else {
-          out += static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7e ? '?' : c;
+          out += (static_cast<unsigned char>(c) < 0x20 && c != '\n') || static_cast<unsigned char>(c) > 0x7e ? '?' : c;
         }
     }
     text.remove_prefix(bytes);

@@ -7,7 +7,7 @@
 
 namespace warren {
 
-/// & < > " escaped, control characters and what is no UTF-8 replaced.
+/// & < > " escaped, control characters but the line feed, and what is no UTF-8, replaced.
 std::string xml_text(std::string_view text);
 
 }  // namespace warren

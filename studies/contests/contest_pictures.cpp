@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <optional>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -15,6 +16,8 @@
 #include "core/base/error.hpp"
 #include "pictures/draw_answer.hpp"
 #include "pictures/formats/write_picture.hpp"
+#include "pictures/layers/draw_cells.hpp"
+#include "pictures/subtitle.hpp"
 
 namespace warren {
 namespace {
@@ -61,14 +64,28 @@ class ContestPictures {
     const Answer answer = solve_contender(scene_, asked, seed, execution_, &made);
     const Drawing drawing = drawing_of(scene_, answer, std::move(made), execution_);
     const std::string said = options_text(contender);
-    const std::string title = fmt::format("{}, {}{}seed {}: {}", scene_.source, contender.planner,
+    const std::string title = fmt::format("{}, {}{}seed {}: {}", title_of(scene_), contender.planner,
                                           said.empty() ? ", " : ", " + said + ", ", seed, name_of(answer.outcome));
     write(unused(file_name(contender.planner + " " + said)), title, picture_of(scene_, drawing));
+    add_path(drawing, said.empty() ? contender.planner : contender.planner + ", " + said);
     for (const DrawingPage& page : drawing.pages) {
       const std::string name = file_name(contender.planner) + "_" + page.id;
       if (!names_.insert(name).second) continue;
-      write(name, scene_.source + ": " + page.id, picture_of(scene_, drawing, page));
+      write(name, title_of(scene_) + ": " + page.id, picture_of(scene_, drawing, page));
     }
+  }
+  /// The paths of all contenders in one figure.
+  void draw_paths() {
+    if (paths_.size() < 2) return;
+    std::vector<PictureLayer> layers;
+    if (scene_.map) layers.push_back(map_layer(*scene_.map, execution_));
+    for (PictureLayer& path : paths_) layers.push_back(std::move(path));
+    write(unused("paths"), title_of(scene_),
+          {.scene = scene_,
+           .layers = layers,
+           .start = start_,
+           .goal = goal_,
+           .subtitle = fmt::format("{}\nof each planner the path of median length", description_of(scene_))});
   }
 
  private:
@@ -76,6 +93,20 @@ class ContestPictures {
     std::string name = wanted;
     for (int i = 2; !names_.insert(name).second; ++i) name = fmt::format("{}_{}", wanted, i);
     return name;
+  }
+  /// Keeps what the figure of all paths shows; an arm's are in joint space.
+  void add_path(const Drawing& drawing, std::string label) {
+    if (drawing.path.size() < 2) return;
+    const Rgb color = colors::series[paths_.size() % colors::series.size()];
+    PictureLayer& layer = paths_.emplace_back(PictureLayer{.id = fmt::format("path_{}", paths_.size() + 1),
+                                                           .label = std::move(label),
+                                                           .part = Part::path,
+                                                           .color = color,
+                                                           .width = 0.8 * widths::path});
+    layer.lines.add(drawing.path);
+    layer.turns = drawing.path_turns;
+    start_ = drawing.start;
+    goal_ = drawing.goal;
   }
   void write(const std::string& name, const std::string& title, Picture picture) const {
     picture.title = title;
@@ -88,6 +119,9 @@ class ContestPictures {
   const std::string& folder_;
   const Execution& execution_;
   std::set<std::string> names_;
+  std::vector<PictureLayer> paths_;
+  std::optional<Vec2> start_;
+  std::optional<Vec2> goal_;
 };
 
 }  // namespace
@@ -99,6 +133,7 @@ void draw_contest(const Scene& scene, const PlannerContestOptions& options, cons
     execution.check();
     pictures.draw(comparison.contenders[i], options.contenders[i]);
   }
+  pictures.draw_paths();
 }
 
 void make_folder(const std::string& folder) {

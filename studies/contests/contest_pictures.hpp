@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The pictures of a comparison of planners: for each contender the run whose path is of median length, with its roadmap
-// or tree, its path and the body along it; and the pages that a planner adds (the layers of some headings).
+// or tree, its path and the body along it; and the pages that a planner adds (the layers of some headings); and
+// one figure of all these paths.
 #pragma once
 
 #include <string>
@@ -12,7 +13,7 @@
 
 namespace warren {
 
-/// Writes FOLDER/NAME.svg, NAME a contender's planner and options ("prm_samples_50"). The folder must exist. Solves
+/// Writes FOLDER/NAME.svg, NAME a contender's planner and options ("prm_samples_50"), and paths.svg. The folder must exist. Solves
 /// each of the runs once more. A map's scene has its border walls. Throws WriteError, Stopped.
 void draw_contest(const Scene& scene, const PlannerContestOptions& options, const Comparison& comparison,
                   const std::string& folder, const Execution& execution);
