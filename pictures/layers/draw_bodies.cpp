@@ -92,7 +92,7 @@ class BodyDrawing {
                        .color = color,
                        .width = 1.4 * widths::edge,
                        .closed = true,
-                       .fill = mixed(color, colors::paper, 0.35),
+                       .fill = mixed(color, colors::paper, 35),
                        .opacity = 0.75};
     for (const Se2& pose : poses) add_body(layer, pose);
     return layer;

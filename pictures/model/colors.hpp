@@ -13,10 +13,10 @@ struct Rgb {
   friend constexpr bool operator==(const Rgb&, const Rgb&) = default;
 };
 
-/// A share of one colour, the rest of the other.
-constexpr Rgb mixed(Rgb one, Rgb other, double share) {
+/// So many hundredths of one colour, 0 .. 100, the rest of the other.
+constexpr Rgb mixed(Rgb one, Rgb other, unsigned percent) {
   const auto part = [&](std::uint8_t a, std::uint8_t b) {
-    return static_cast<std::uint8_t>(share * a + (1.0 - share) * b + 0.5);
+    return static_cast<std::uint8_t>((percent * a + (100U - percent) * b + 50U) / 100U);
   };
   return {part(one.red, other.red), part(one.green, other.green), part(one.blue, other.blue)};
 }
