@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <iterator>
+#include <numbers>
 
 #include "core/base/printable.hpp"
 #include "scenes/text/human_units.hpp"
@@ -54,6 +55,7 @@ void add_blocked(std::string& text, const BlockedEnd& blocked, const Palette& pa
 /// A heading of 90 is as good as any, but hardly meant.
 void add_strange_headings(std::string& text, const Problem& problem, const Palette& palette) {
   constexpr double a_turn_and_a_bit = 6.3;
+  if (problem.robot.kind != RobotKind::polygon && problem.robot.kind != RobotKind::car) return;
   for (const std::vector<double>* state : {&problem.start, &problem.goal}) {
     if (state->size() != 3 || std::abs((*state)[2]) <= a_turn_and_a_bit) continue;
     line(text, palette, "note", fmt::format("a heading of {0} is in radians; degrees are written {0}deg", (*state)[2]));
@@ -62,6 +64,7 @@ void add_strange_headings(std::string& text, const Problem& problem, const Palet
 
 std::string world_text(const WorldAccount& world) {
   std::string text = world.kind;
+  if (text == "map") return text;  // it has cells
   if (world.polygons > 0) text += ", " + counted(world.polygons, "polygon", "polygons");
   const bool solids = world.spheres > 0 || world.boxes > 0;
   if (world.walls > 0 || (world.polygons == 0 && !solids)) text += ", " + counted(world.walls, "wall", "walls");
@@ -84,8 +87,11 @@ void add_path(std::string& text, const Answer& answer, const Palette& palette) {
   if (answer.optimal) length += " (the shortest there is)";
   const std::size_t points = answer.states.empty() ? answer.path.size() : answer.states.size();
   line(text, palette, "length", length + fmt::format(", {}", counted(points, "point", "points")));
-  if (answer.cost) line(text, palette, "cost", human_number(*answer.cost));
-  if (answer.turn_rad) line(text, palette, "turning", human_number(*answer.turn_rad) + " rad");
+  if (answer.cost) line(text, palette, "cost", human_number(*answer.cost) + ", in steps from cell to cell");
+  if (answer.turn_rad) {
+    constexpr double degree = std::numbers::pi / 180.0;
+    line(text, palette, "turning", human_number(*answer.turn_rad / degree) + " degrees");
+  }
   line(text, palette, "clearance",
        fmt::format("{} at least; {} asked for", human_number(answer.min_clearance),
                    human_number(answer.problem.clearance)));

@@ -45,7 +45,8 @@ const ExportFormat& format_of(const std::string& path) {
     if (path.ends_with(format.ending)) return format;
     endings.append(" ").append(format.ending);
   }
-  throw UsageError(path + ": a roadmap is exported to a file that ends in one of" + endings);
+  throw UsageError(path + ": a roadmap is exported to a file that ends in one of" + endings +
+                   ", and drawn by .svg .png .pdf .html");
 }
 
 }  // namespace

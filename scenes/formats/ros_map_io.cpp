@@ -225,7 +225,10 @@ class Classifier {
          pixel += header_.channels, x += run.step_x) {
       const Class kind = class_at(pixel);
       ++counts_[static_cast<std::size_t>(kind)];
-      if (kind == Class::free) continue;
+      if (kind == Class::free) {
+        map_.grey_free += is_saved_unknown(pixel) ? 1 : 0;
+        continue;
+      }
       map_.blocked.set(x, y);
       if (kind == Class::unknown) map_.unknown.set(x, y);
     }
@@ -240,6 +243,12 @@ class Classifier {
   }
 
  private:
+  /// As map_saver writes what it does not know.
+  bool is_saved_unknown(const std::uint16_t* pixel) const {
+    constexpr unsigned grey = 205;
+    return header_.maximum == 255 && !description_.negate && description_.mode != Mode::raw &&
+           std::all_of(pixel, pixel + colours_, [](unsigned value) { return value == grey; });
+  }
   Class class_at(const std::uint16_t* pixel) const {
     const unsigned sum = std::accumulate(pixel, pixel + colours_, 0U);
     const Class kind = classes_[sum];

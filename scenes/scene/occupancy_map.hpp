@@ -24,11 +24,12 @@ struct OccupancyMap {
   std::uint64_t free = 0;  ///< cells; the four counts add up to all cells, water counts as occupied
   std::uint64_t occupied = 0;
   std::uint64_t unknown_count = 0;
-  std::uint64_t between = 0;  ///< map server, modes scale and raw: neither free nor occupied nor unknown
-  double cell = 1.0;          ///< side of a cell, in world units; > 0
-  Vec2 origin;                ///< lower left corner of cell (0, 0)
-  double yaw_rad = 0.0;       ///< the map is turned about its origin, counter-clockwise
-  std::optional<Vec2> start;  ///< world coordinates; maze images: the entrance in the first row
+  std::uint64_t between = 0;    ///< map server, modes scale and raw: neither free nor occupied nor unknown
+  std::uint64_t grey_free = 0;  ///< map server: free pixels of grey 205, by which map_saver means unknown
+  double cell = 1.0;            ///< side of a cell, in world units; > 0
+  Vec2 origin;                  ///< lower left corner of cell (0, 0)
+  double yaw_rad = 0.0;         ///< the map is turned about its origin, counter-clockwise
+  std::optional<Vec2> start;    ///< world coordinates; maze images: the entrance in the first row
   std::optional<Vec2> goal;
   std::string source;
   std::string image = {};  ///< map server: the file that the pixels come from

@@ -42,6 +42,8 @@ struct BlockedEnd {
   std::vector<double> free_place = {};  ///< near it, with the same heading; empty: none was found, or nobody looked
   double distance = 0.0;                ///< between the two
   std::string hint = {};                ///< what may have been meant; may be empty
+  double room = 0.0;                    ///< between what is in the way and the body, of a disc its middle
+  double needed = 0.0;                  ///< the room that it needs; 0: it only may not touch
 };
 
 struct Answer {

@@ -32,6 +32,15 @@ std::string samples_note(const Answer& answer) {
                      grouped(c.samples - c.kept));
 }
 
+/// How much room there is where the body does not fit, but for limits and what is outside of all.
+std::string room_note(const Answer& answer) {
+  if (!answer.blocked || !(answer.blocked->needed > 0.0)) return {};
+  for (const char* other : {"outside", "limits"}) {
+    if (answer.blocked->by.starts_with(other)) return {};
+  }
+  return fmt::format("{} there, {} needed", human_number(answer.blocked->room), human_number(answer.blocked->needed));
+}
+
 std::string lazy_note(const Answer& answer) {
   if (answer.planner != name_of(PlannerKind::lazy_prm) || answer.roadmap.milestones == 0) return {};
   return "lazy-prm asks only about edges that its search meets, and counts these; --planner prm asks about all";
@@ -64,6 +73,7 @@ std::string notes_text(const Answer& answer, const Palette& palette) {
   const auto add = [&](std::string_view name, const std::string& what) {
     if (!what.empty()) text += fmt::format("  {}{}\n", palette.faint(fmt::format("{:<14}", name)), what);
   };
+  add("room", room_note(answer));
   add("heuristic", heuristic_note(answer));
   if (!answer.explained) add("samples", samples_note(answer));
   add("note", lazy_note(answer));

@@ -100,6 +100,8 @@ std::string blocked_json(const BlockedEnd& blocked) {
   add_state(json, "free_place", blocked.free_place);
   json.add_or_null("distance", !blocked.free_place.empty(), blocked.distance);
   add_text(json, "hint", blocked.hint);
+  json.add("room", blocked.room);
+  json.add("needed", blocked.needed);
   return json.closed();
 }
 

@@ -41,8 +41,29 @@ std::string car_text(const RobotSpec& robot) {
 
 }  // namespace
 
+namespace {
+
+/// A footprint as Nav2 has it, [[x, y], [x, y], ...], in the words of a polygon; nothing else is changed.
+std::string without_brackets(std::string_view text) {
+  const std::size_t first = text.find('[');
+  if (first == std::string_view::npos) return std::string(text);
+  std::string words(text);
+  int depth = 0;
+  for (char& c : words) {
+    if (c != '[' && c != ']') continue;
+    depth += c == '[' ? 1 : -1;
+    if (depth < 0 || depth > 2) return std::string(text);
+    c = ' ';
+  }
+  if (depth != 0) return std::string(text);
+  return text.find_first_not_of(' ') == first ? "polygon " + words : words;
+}
+
+}  // namespace
+
 RobotSpec robot_value(const std::string& where, std::string_view text) {
-  scene_text::Fields fields(text, {where, 0});
+  const std::string words = without_brackets(text);
+  scene_text::Fields fields(words, {where, 0});
   return read_robot(fields, {});
 }
 

@@ -11,6 +11,8 @@
 #include "core/base/error.hpp"
 #include "core/base/trigonometry.hpp"
 #include "core/plane/geometry.hpp"
+#include "scenes/text/human_units.hpp"
+#include "solve/question/question_of_arm.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 
 namespace warren {
@@ -24,6 +26,11 @@ double rounding_unit(double x) {
   while (unit > 0.1 * x) unit /= 10.0;
   while (unit * 100.0 <= x) unit *= 10.0;
   return unit;
+}
+
+/// To a multiple of a power of ten, in as few digits as say it.
+double rounded(double x, double unit) {
+  return unit < 1.0 ? std::round(x / unit) / std::round(1.0 / unit) : std::round(x / unit) * unit;
 }
 
 /// The obstacles within `reach` of a place, and those whose ends are the box of all: it confines bodies that turn.
@@ -156,8 +163,8 @@ class BlockedEndSearch {
     for (double distance = nearest; distance < 1.1 * nearest; distance += 0.02 * nearest) {
       const double unit = rounding_unit(distance);
       const Vec2 exact = place(towards, distance);
-      state[0] = std::round(exact.x / unit) * unit;
-      state[1] = std::round(exact.y / unit) * unit;
+      state[0] = rounded(exact.x, unit);
+      state[1] = rounded(exact.y, unit);
       if (is_free({state[0], state[1]})) return state;
     }
     const Vec2 exact = place(towards, nearest);
@@ -177,7 +184,27 @@ class BlockedEndSearch {
   double near_reach_ = 0.0;
 };
 
-std::string numbers(const Box& box) { return fmt::format("{} {} {} {}", box.min.x, box.min.y, box.max.x, box.max.y); }
+std::string numbers(const Box& box) {
+  return fmt::format("{} {} {} {}", human_number(box.min.x), human_number(box.min.y), human_number(box.max.x),
+                     human_number(box.max.y));
+}
+
+/// Of an arm whose tool no posture brings to the goal's place: how far that is from its base, and how far all links
+/// would reach in a line.
+void explain_reach(Answer& answer, const Execution& execution) {
+  const Figure* cause = figure_named(answer.figures, "cause");
+  const auto* word = cause == nullptr ? nullptr : std::get_if<std::string>(cause);
+  if (word == nullptr || *word != "goal_out_of_reach") return;
+  const RobotSpec& robot = answer.problem.robot;
+  const DhTable table = table_of(robot, execution);
+  double reach = robot.tool + table.tool.translation().norm();
+  for (const DhJoint& joint : table.joints) reach += portable::hypot(joint.a, joint.d);
+  const auto& goal = answer.problem.goal;
+  const double away = portable::hypot(portable::hypot(goal[0], goal[1]), goal[2]);
+  answer.blocked = BlockedEnd{.is_start = false, .by = "outside of what the tool reaches within the joints' limits"};
+  answer.blocked->hint = fmt::format("it is {} from the base, and all links in a line are {} long", human_number(away),
+                                     human_number(reach));
+}
 
 /// Outside of all that there is, or what the judge met.
 std::string in_the_way(const Scene& scene, const std::vector<double>& state, const Violation& met,
@@ -223,13 +250,16 @@ void explain_blocked_end(const Scene& scene, Answer& answer, const Execution& ex
   std::vector<double> state = is_start ? answer.problem.start : answer.problem.goal;
   const std::size_t width = state_size(answer.problem.robot);
   if (state.size() == 2 && width == 3) state.push_back(0.0);  // any heading: one of them tells enough
-  if (state.size() != width) return;
   try {
+    if (state.size() == 3 && width == 6) return explain_reach(answer, execution);
+    if (state.size() != width) return;
     BlockedEndSearch search(scene, answer.problem, state, execution);
     const auto met = search.met();
     if (!met) return;
     answer.blocked = BlockedEnd{.is_start = is_start, .by = in_the_way(scene, state, *met, search)};
     answer.blocked->hint = hint_of(state, search);
+    answer.blocked->room = met->distance;
+    answer.blocked->needed = answer.problem.clearance + answer.problem.robot.radius;
     if (auto place = search.free_place()) {
       answer.blocked->distance = norm(Vec2{(*place)[0], (*place)[1]} - search.at());
       answer.blocked->free_place = std::move(*place);

@@ -35,6 +35,8 @@ TEST(Usage, WrongWordsAreRefusedWithTheClosestMatch) {
       {{"render", "maze:5x7"}, 2, "-o FILE is missing"},
       {{"convert", "maze:5x7", "-o", "picture"}, 2, "ends in"},
       {{"verify", "maze:5x7"}, 2, "ANSWER.json is missing"},
+      {{"verify", "a.json", "maze:5x7"}, 2, "the world comes first, then its answer: warren verify maze:5x7 a.json"},
+      {{"export", "x.roadmap", "-o", "x.doc"}, 2, "drawn by .svg .png .pdf .html"},
       {{"verify", "-", "-"}, 2, "can't both come from standard input"},
       {{"completion", "tcsh"}, 2, "bash, zsh, fish"},
   };

@@ -23,6 +23,11 @@ std::string bar(double fraction, std::size_t width) {
 
 }  // namespace
 
+std::string erasing(std::size_t columns, std::size_t width) {
+  const std::size_t rows_above = columns == 0 ? 0 : (columns - 1) / std::max<std::size_t>(width, 1);
+  return rows_above == 0 ? "\r\x1b[K" : fmt::format("\r\x1b[{}A\x1b[J", rows_above);
+}
+
 std::string progress_line(const char* stage, std::uint64_t done, std::uint64_t total, double items_per_s,
                           std::size_t width) {
   std::string line = fmt::format("{:<10}", stage);
@@ -32,7 +37,7 @@ std::string progress_line(const char* stage, std::uint64_t done, std::uint64_t t
     figures += fmt::format(" {:3.0f} %", 100.0 * fraction);
     if (items_per_s > 0.0 && done < total) {
       const auto left = static_cast<double>(total - done);
-      figures += fmt::format("  {}/s  {} left", human_count(items_per_s), human_seconds(left / items_per_s));
+      figures += fmt::format("  {}/s  {} left of it", human_count(items_per_s), human_seconds(left / items_per_s));
     }
     constexpr std::size_t widest_bar = 40;
     const std::size_t used = line.size() + figures.size() + 3;
@@ -54,7 +59,7 @@ ProgressBar::ProgressBar(const Progress& progress, ProgressMode mode)
 
 ProgressBar::~ProgressBar() {
   ticker_.reset();
-  if (drawn_ && mode_ == ProgressMode::bar) std::fputs("\r\x1b[K", stderr);
+  if (columns_ > 0 && mode_ == ProgressMode::bar) std::fputs(erasing(columns_, terminal_width()).c_str(), stderr);
 }
 
 void ProgressBar::draw() {
@@ -69,10 +74,11 @@ void ProgressBar::draw() {
   }
   const double seconds = std::chrono::duration<double>(now - stage_begin_).count();
   const double rate = seconds > 0.0 ? static_cast<double>(done - done_at_begin_) / seconds : 0.0;
-  const std::string line = progress_line(stage, done, progress_.total(), rate, terminal_width());
-  std::fputs((mode_ == ProgressMode::bar ? "\r\x1b[K" + line : line + "\n").c_str(), stderr);
+  const std::size_t width = terminal_width();
+  const std::string line = progress_line(stage, done, progress_.total(), rate, width);
+  std::fputs((mode_ == ProgressMode::bar ? erasing(columns_, width) + line : line + "\n").c_str(), stderr);
   std::fflush(stderr);
-  drawn_ = true;
+  columns_ = line.size();
 }
 
 }  // namespace warren

@@ -31,12 +31,16 @@ class ProgressBar {
   const char* stage_ = nullptr;  // of the last drawing; rate and time left start anew with each stage
   std::chrono::steady_clock::time_point stage_begin_;
   std::uint64_t done_at_begin_ = 0;
-  bool drawn_ = false;
+  std::size_t columns_ = 0;  // of what stands on the screen
   std::unique_ptr<Ticker> ticker_;
 };
 
-/// One line: "connect  [=====>    ]  43 %  12.3 M/s  3 s left", at most `width` columns. seconds since the stage began,
-/// items done meanwhile.
+/// What erases so many columns that stand on a screen `width` columns wide: more rows than one where it has become
+/// narrower meanwhile.
+std::string erasing(std::size_t columns, std::size_t width);
+
+/// One line: "connect  [=====>    ]  43 %  12.3 M/s  3 s left of it", at most `width` columns: how long the stage will
+/// take, since nobody knows the next ones.
 std::string progress_line(const char* stage, std::uint64_t done, std::uint64_t total, double items_per_s,
                           std::size_t width);
 

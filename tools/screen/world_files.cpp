@@ -8,11 +8,14 @@
 #include <string_view>
 
 #include "core/base/error.hpp"
+#include "core/base/printable.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "pictures/subtitle.hpp"
 #include "scenes/formats/read_world_io.hpp"
+#include "scenes/text/human_units.hpp"
 #include "solve/answer/world_account.hpp"
 #include "solve/question/question.hpp"
+#include "tools/screen/last_words.hpp"
 #include "tools/screen/output_conflicts.hpp"
 #include "tools/screen/output_names.hpp"
 #include "tools/words/option_values.hpp"
@@ -30,6 +33,15 @@ constexpr OptionSpec world_specs[] = {
 MapServerRules rules_value(std::string_view option, std::string_view text) {
   constexpr std::array<std::string_view, 2> words{"nav2", "ros1"};
   return choice_value(option, text, words) == 0 ? MapServerRules::nav2 : MapServerRules::ros1;
+}
+
+void tell_of_grey(const OccupancyMap& map) {
+  say_on_standard_error(
+      printable(fmt::format("warren: note: {}: {} of grey 205, by which map_saver means unknown, {} free by "
+                            "free_thresh; below 0.196 they stay "
+                            "unknown",
+                            map.source, counted(map.grey_free, "pixel", "pixels"), map.grey_free == 1 ? "is" : "are")) +
+      "\n");
 }
 
 [[noreturn]] void refuse_rules(const std::string& source) {
@@ -54,6 +66,7 @@ Scene load_world(const InputFile& file, const Arguments& arguments, const Execut
   Scene scene = read_scene(file, execution, asked.value_or(MapServerRules::nav2));
   if (asked && !(scene.map && scene.map->format == MapFormat::ros)) refuse_rules(file.name());
   if (scene.map) check_not_written(arguments, scene.map->image);
+  if (scene.map && scene.map->grey_free > 0 && !arguments.has("--quiet")) tell_of_grey(*scene.map);
   check_not_written(arguments, scene.robot);
   return scene;
 }

@@ -62,8 +62,8 @@ AnswerCommand::AnswerCommand(const Arguments& arguments, std::string_view keep)
 int AnswerCommand::run() {
   Run run(arguments_);
   answer(run);
-  run.end();
   write_outputs(run);
+  run.end();
   const auto stopped = answer_.outcome == Outcome::stopped ? std::optional(stop_reason()) : std::nullopt;
   run.conclude(takes_standard_output(), stopped, [&] {
     return summary_of(answer_, run.palette(), written_) + notes_text(answer_, run.palette()) +
@@ -154,9 +154,11 @@ void AnswerCommand::write_stopped(const Execution& execution) {
 
 /// Opens the file with the first word: nlohmann ends the program where memory is out.
 void AnswerCommand::write_json(std::optional<OutputFile>& file, const Execution& execution) const {
+  if (execution.progress != nullptr) execution.progress->begin("write", 0);
   write_answer_json(answer_, execution, [&](std::string_view text) {
     if (!file) file.emplace(json_, execution);
     file->write(text);
+    if (execution.progress != nullptr) execution.progress->advance(text.size());
   });
 }
 
@@ -168,6 +170,8 @@ void AnswerCommand::take_back_answer(StopReason reason) {
 }
 
 void AnswerCommand::draw(const Execution& execution) {
+  double seconds = 0.0;
+  const StageTimer timer(execution, "draw", seconds);
   Scene scene = scene_drawn(execution, by_products_);
   add_map_walls(scene, execution);
   const Drawing drawing = drawing_of(scene, answer_, std::move(by_products_), execution);

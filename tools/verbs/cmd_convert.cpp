@@ -12,6 +12,7 @@
 #include "solve/answer/world_account.hpp"
 #include "solve/question/grid_choice.hpp"
 #include "tools/screen/exit_code.hpp"
+#include "tools/screen/last_words.hpp"
 #include "tools/screen/output_names.hpp"
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/terminal.hpp"
@@ -53,7 +54,12 @@ void write_any(Scene& scene, const std::string& file, const Arguments& arguments
   if (becomes_map(scene, file, arguments)) {
     const auto cell = given_value(arguments, "--cell", positive_value);
     if (cell) check_cell(*cell, scene);
-    return write_map(map_for(scene, cell, execution), file, execution);
+    const OccupancyMap map = map_for(scene, cell, execution);
+    if (map.free == 0 && !arguments.has("--quiet")) {
+      say_on_standard_error(
+          "warren: note: no cell of the map is free, each touches a wall; a smaller --cell leaves some\n");
+    }
+    return write_map(map, file, execution);
   }
   add_map_walls(scene, execution);
   write_world(scene, file, options, arguments.command_line(), execution);

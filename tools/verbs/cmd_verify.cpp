@@ -53,6 +53,10 @@ void print_verdict(const Verdict& v, const Palette& palette) {
 
 int verify_answer(const Arguments& arguments) {
   const auto json = output_file(arguments, "--json");
+  if (arguments.operand(0).ends_with(".json") && !arguments.operand(1).ends_with(".json")) {
+    throw UsageError(fmt::format("the world comes first, then its answer: warren verify {} {}", arguments.operand(1),
+                                 arguments.operand(0)));
+  }
   const Question question = question_words(arguments);
   check_not_written(arguments, question.robot);
   Run run(arguments);

@@ -9,7 +9,8 @@ namespace {
 
 constexpr OptionSpec question_specs[] = {
     {"--robot", "\"BODY\"",
-     "the moving body: \"point\", \"disc RADIUS\", \"polygon X Y X Y ...\", \"car polygon X Y ... turning RHO\", "
+     "the moving body: \"point\", \"disc RADIUS\", \"polygon X Y X Y ...\" (or \"[[X, Y], ...]\"), \"car polygon X Y "
+     "... turning RHO\", "
      "\"puma560 radius R\" or \"arm FILE radius R\" (default: the file's, else point)"},
     {"--start", "X,Y[,THETA]",
      "where the path begins; THETA in radians, or as 90deg; of an arm six joints (default: the file's)"},

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -275,7 +276,10 @@ std::optional<Violation> ArmVerifier::outside_limits(const JointState& q, std::s
     const double high = exists ? table_.joints[j].high_rad : 0.0;
     const double beyond = std::max(low - q[j], q[j] - high);
     if (beyond <= options_.tolerance) continue;
-    return Violation{number, 0.0, fmt::format("limits: joint {} at {}, which has {} to {}", j + 1, q[j], low, high)};
+    constexpr double degree = std::numbers::pi / 180.0;
+    return Violation{number, 0.0,
+                     fmt::format("limits: joint {} at {:.6g}, which has {:.6g} to {:.6g} ({:.6g} to {:.6g} degrees)",
+                                 j + 1, q[j], low, high, low / degree, high / degree)};
   }
   return std::nullopt;
 }

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is said where something does not fit: what, where, how much, and what would do.
+#include "tests/tools/grid_worlds.hpp"
+#include "tests/tools/process.hpp"
+#include "tools/screen/progress_bar.hpp"
+
+namespace warren::test {
+namespace {
+
+using Words = std::vector<std::string>;
+
+std::string said(const Words& words, int code = 1) {
+  const Outcome outcome = run(words);
+  EXPECT_EQ(outcome.code, code) << shown(words) << outcome.err;
+  return outcome.out + outcome.err;
+}
+
+void expect_said(const std::string& text, const Words& parts) {
+  for (const std::string& part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << " is not in\n" << text;
+}
+
+TEST(RefusalsThatHelp, TooNarrowIsToldWithTheRoomAndThePlaceInFewDigits) {
+  const Folder folder;
+  const std::string world = folder.write("w.scene", "bounds 0 0 10 4\nwall 5 0 5 2\nstart 1 1\ngoal 9 3\n");
+  expect_said(said({"solve", world, "--robot", "disc 0.3", "--goal", "5.1,1"}),
+              {"goal blocked", "in the way is wall 0", "0.1 there, 0.3 needed", "free is       5.31,1, 0.21 away"});
+  const Json blocked = answered({"solve", world, "--robot", "disc 0.3", "--goal", "5.1,1"}, 1)["blocked"];
+  EXPECT_NEAR(blocked["room"].get<double>(), 0.1, 1e-9);
+  EXPECT_EQ(blocked["needed"], 0.3);
+  expect_said(said({"solve", world, "--start", "12,1"}),
+              {"outside of the bounds 0 0 10 4", "free is       10,1, 2 away"});
+}
+
+TEST(RefusalsThatHelp, ArmsAreToldTheirLimitsInDegreesAndTheirReach) {
+  const std::string world = world_file("puma-seed.scene");
+  expect_said(said({"solve", world, "--start", "0,0,0,0,0,400"}),
+              {"joint 6 at 400", "-266 to 266 degrees", "400 degrees are 400deg"});
+  const std::string far = said({"solve", world, "--goal", "9,9,9"});
+  expect_said(far, {"outside of what the tool reaches", "it is 15.5885 from the base"});
+  EXPECT_EQ(far.find("a heading of"), std::string::npos) << far;
+}
+
+TEST(RefusalsThatHelp, FootprintsOfNav2AreBodies) {
+  const Folder folder;
+  const std::string world = folder.write("w.scene", "bounds 0 0 10 4\nwall 5 0 5 2\n");
+  const Words ends{"--start", "1,1,0", "--goal", "9,3,90deg"};
+  const Json by_list = answered(joined({"solve", world, "--robot", "[[0.3, 0.2], [-0.3, 0.2], [-0.3, -0.2]]"}, ends));
+  const Json by_words = answered(joined({"solve", world, "--robot", "polygon 0.3 0.2 -0.3 0.2 -0.3 -0.2"}, ends));
+  EXPECT_EQ(by_list["robot"], by_words["robot"]);
+  EXPECT_EQ(by_list["path"], by_words["path"]);
+  check({joined({"solve", world, "--robot", "[[0.3, 0.2], [-0.3"}, ends), 2, "--robot"});
+}
+
+TEST(RefusalsThatHelp, GreyThatBecomesFreeIsToldOnce) {
+  const Folder folder;
+  folder.write("m.pgm", std::string("P5\n3 2\n255\n") + "\xfe\xfe\xcd\xcd\xfe\x01");
+  const std::string yaml = "image: m.pgm\nresolution: 1\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\n";
+  const std::string loose = folder.write("loose.yaml", yaml + "free_thresh: 0.25\n");
+  const std::string strict = folder.write("strict.yaml", yaml + "free_thresh: 0.196\n");
+  expect_said(run({"info", loose}).err, {"2 pixels of grey 205", "free_thresh"});
+  EXPECT_EQ(run({"info", loose, "--quiet"}).err, "");
+  EXPECT_EQ(run({"info", strict}).err, "");
+}
+
+TEST(RefusalsThatHelp, MapsWithoutAFreeCellAreTold) {
+  const Folder folder;
+  expect_said(said({"convert", "maze:5x5", "--cell", "0.5", "-o", folder.path("m.png")}, 0),
+              {"no cell of the map is free"});
+}
+
+TEST(RefusalsThatHelp, SummariesHaveUnits) {
+  const Folder folder;
+  const std::string map = folder.write("a.map", small_map);
+  const std::string text = said({"solve", map, "--start", "0.5,0.5", "--goal", "0.5,4.5"}, 0);
+  expect_said(text, {"world         map\n", "in steps from cell to cell"});
+  expect_said(said({"solve", world_file("walls.scene"), "--seed", "1"}, 0), {" degrees\n"});
+}
+
+TEST(RefusalsThatHelp, MiddlesOfDoorsAreNotTheShortestWay) {
+  const Folder folder;
+  const std::string world = folder.write("w.scene", "bounds 0 0 10 4\npolygon 4 0 6 0 6 2 4 2\nstart 1 1\ngoal 9 1\n");
+  expect_said(said({"solve", world, "--planner", "cells"}, 0), {"--doors funnel"});
+  EXPECT_EQ(said({"solve", world, "--planner", "cells", "--doors", "funnel"}, 0).find("--doors funnel"),
+            std::string::npos);
+}
+
+TEST(RefusalsThatHelp, AQuietRunThatRunsOutOfTimeSaysSo) {
+  const Outcome outcome = run({"solve", "maze:2000x2000", "--quiet", "--budget", "1ms"});
+  EXPECT_EQ(outcome.code, 124);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_NE(outcome.err.find("warren: stopped"), std::string::npos);
+}
+
+TEST(RefusalsThatHelp, WhatABarLeftOnANarrowerScreenIsErased) {
+  EXPECT_EQ(erasing(60, 80), "\r\x1b[K");
+  EXPECT_EQ(erasing(80, 80), "\r\x1b[K");
+  EXPECT_EQ(erasing(79, 40), "\r\x1b[1A\x1b[J");
+  EXPECT_EQ(erasing(79, 20), "\r\x1b[3A\x1b[J");
+}
+
+}  // namespace
+}  // namespace warren::test
