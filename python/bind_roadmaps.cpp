@@ -14,6 +14,7 @@
 #include "solve/roadmaps/export_of_roadmap.hpp"
 #include "solve/roadmaps/roadmap_file_io.hpp"
 #include "solve/steps/blocked_end.hpp"
+#include "solve/steps/heuristic_price.hpp"
 #include "tools/words/option_values.hpp"
 #include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"
@@ -44,8 +45,8 @@ const Command& building() {
 const Command& asking() {
   static const Command command = [] {
     Command made = of_verb(query_command(), {});
-    constexpr std::string_view kept[] = {"--search",       "--queue",  "--optimise", "--cusp-cost",
-                                         "--reverse-cost", "--attach", "--start",    "--goal"};
+    constexpr std::string_view kept[] = {"--search",       "--heuristic", "--queue", "--optimise", "--cusp-cost",
+                                         "--reverse-cost", "--attach",    "--start", "--goal"};
     std::erase_if(made.options, [&](const OptionSpec& spec) {
       return std::find(std::begin(kept), std::end(kept), spec.name) == std::end(kept);
     });
@@ -56,7 +57,8 @@ const Command& asking() {
 
 RoadmapSearchFields how_to_search(const Arguments& arguments) {
   const SolveOptions words = solve_words(arguments);
-  return {words.search, words.queue, words.roadmap.attach, words.optimise, words.car.cusp_cost, words.car.reverse_cost};
+  return {words.search,           words.queue,    words.roadmap.attach, words.optimise, words.car.cusp_cost,
+          words.car.reverse_cost, words.heuristic};
 }
 
 Kept build_roadmap(const Scene& scene, py::dict keywords) {
@@ -106,8 +108,15 @@ KeptAnswer ask(KeptRoadmap& kept, py::dict keywords, bool keep) {
   KeptAnswer said;
   said.answer = limits.run([&](const Execution& execution) {
     QuestionScratch scratch;
-    Answer answer = kept.query(execution).ask_within(question.start, question.goal, how, execution, scratch,
-                                                     keep ? &said.made : nullptr);
+    const RoadmapQuery& query = kept.query(execution);
+    Answer answer =
+        query.ask_within(question.start, question.goal, how, execution, scratch, keep ? &said.made : nullptr);
+    price_heuristic(answer, how.heuristic, [&](HeuristicKind exact) {
+      RoadmapSearchFields again = how;
+      again.heuristic = exact;
+      again.optimise = false;
+      return query.ask_within(question.start, question.goal, again, execution, scratch);
+    });
     if (is_blocked(answer.outcome)) explain_blocked_end(kept.roadmap().world.whole(execution), answer, execution);
     answer.threads = thread_count(execution.threads);
     answer.peak_memory_bytes = peak_resident_bytes();

@@ -48,6 +48,7 @@ KeptAnswer solve_scene(const Scene& scene, py::dict keywords, bool keep) {
   KeptAnswer kept;
   kept.answer = limits.run([&](const Execution& execution) {
     Answer answer = solve_within(scene, question, options, execution, keep ? &kept.made : nullptr);
+    price_heuristic(scene, question, options, execution, answer);
     if (is_blocked(answer.outcome)) explain_blocked_end(scene, answer, execution);
     if (keep) make_by_products(scene, question, options, execution, kept.made);
     answer.threads = thread_count(execution.threads);

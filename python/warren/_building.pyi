@@ -1,18 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-from collections.abc import Sequence
 from typing import Any, Literal
 
 from ._roadmaps import Roadmap
 from ._worlds import (
-    _Diagonal,
     _Doors,
-    _Layers,
     _Objective,
     _Path,
-    _Planner,
     _Progress,
     _Sampler,
-    _State,
     _Steering,
     _World,
 )
@@ -21,28 +16,15 @@ def build(
     world: _World,
     *,
     index: Literal["auto", "none"] | None = ...,
-    planner: _Planner | None = ...,
+    planner: Literal["prm", "lazy-prm", "visibility", "cells", "voronoi"] | None = ...,
     sampler: _Sampler | None = ...,
     samples: int | Literal["auto"] | None = ...,
     neighbours: int | Literal["auto", "star"] | None = ...,
     radius: float | Literal["auto", "star"] | None = ...,
     seed: int | None = ...,
-    cell: float | None = ...,
-    angles: int | None = ...,
-    face_motion: bool | None = ...,
-    step_cost: float | None = ...,
-    turn_cost: float | None = ...,
-    diagonal: _Diagonal | None = ...,
-    layers: _Layers | None = ...,
     full: bool | None = ...,
-    sampled_edges: float | None = ...,
     doors: _Doors | None = ...,
     objective: _Objective | None = ...,
-    step: float | None = ...,
-    goal_bias: float | None = ...,
-    nodes: int | None = ...,
-    trees: int | None = ...,
-    via: Sequence[_State] | None = ...,
     steering: _Steering | None = ...,
     turning_radius: float | None = ...,
     attach: float | tuple[float, float] | None = ...,

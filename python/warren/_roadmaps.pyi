@@ -5,7 +5,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._answers import Answer
-from ._worlds import World, _Floats, _Path, _Progress, _Queue, _Search, _State, _World
+from ._worlds import World, _Floats, _Heuristic, _Path, _Progress, _Queue, _Search, _State, _World
 
 class EdgeCounts(NamedTuple):
     free: int
@@ -44,6 +44,7 @@ class Roadmap:
         *,
         keep: bool = ...,
         search: _Search | None = ...,
+        heuristic: _Heuristic | None = ...,
         queue: _Queue | None = ...,
         optimise: bool | None = ...,
         cusp_cost: float | None = ...,
@@ -60,6 +61,7 @@ class Roadmap:
         goals: ArrayLike,
         *,
         search: _Search | None = ...,
+        heuristic: _Heuristic | None = ...,
         queue: _Queue | None = ...,
         optimise: bool | None = ...,
         cusp_cost: float | None = ...,
@@ -76,6 +78,7 @@ class Roadmap:
         goals: ArrayLike,
         *,
         search: _Search | None = ...,
+        heuristic: _Heuristic | None = ...,
         queue: _Queue | None = ...,
         optimise: bool | None = ...,
         cusp_cost: float | None = ...,

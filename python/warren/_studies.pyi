@@ -28,6 +28,7 @@ def compare(
     neighbours: _Listed = ...,
     radius: _Listed = ...,
     search: _Listed = ...,
+    heuristic: _Listed = ...,
     queue: _Listed = ...,
     lazy: _Listed = ...,
     pipeline: _Listed = ...,

@@ -16,6 +16,7 @@ _Sampler: TypeAlias = Literal[
     "uniform", "lattice", "halton", "random", "gaussian", "bridge", "mixture", "corridor", "cell-centres"
 ]
 _Search: TypeAlias = Literal["astar", "dijkstra", "bfs", "dfs"]
+_Heuristic: TypeAlias = Literal["euclidean", "manhattan", "octile", "chebyshev", "zero"]
 _Queue: TypeAlias = Literal["heap", "lazy-heap", "sorted-array", "resorted-array"]
 _Pipeline: TypeAlias = Literal["plain", "tiled"]
 _Diagonal: TypeAlias = Literal["sqrt2", "unit", "none"]
