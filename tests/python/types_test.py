@@ -17,7 +17,8 @@ LIMITS = {"threads", "budget", "memory", "progress"}
 # What is no option of a call: outputs and how the terminal looks.
 OUTPUTS = {"json", "svg", "path", "every", "speed", "acceleration", "lateral_acceleration", "joint_speed",
            "joint_acceleration", "frame", "save_roadmap", "quiet", "color", "trace", "help", "output", "no_world", "csv",
-           "runs", "log", "pictures", "batch", "lengths_only", "matrix", "world", "keep", "animate", "explain"}
+           "runs", "log", "pictures", "batch", "lengths_only", "matrix", "world", "keep", "animate", "explain",
+           "title", "dpi", "size", "show", "html"}
 
 
 def keywords_of_stub(name):
