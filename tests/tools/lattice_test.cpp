@@ -121,6 +121,10 @@ TEST(Lattice, TheCoursesPlannersAreComparedAndDrawn) {
   for (const char* name : {"pictures/grid_layer_0.svg", "pictures/grid_layer_45.svg", "pictures/grid_layer_90.svg"}) {
     EXPECT_NE(folder.read(name).find("<g id=\"layer_"), std::string::npos) << name;
   }
+  const std::string paths = folder.read("pictures/paths.svg");
+  for (const char* label : {"grid, cell 2.0", "voronoi, ", "prm, ", "rrt, "}) {
+    EXPECT_NE(paths.find(std::string("data-label=\"") + label), std::string::npos) << label;
+  }
   for (const char* name :
        {"pictures/grid_cell_2_0_angles_72_diagonal_sqrt2.svg", "pictures/voronoi_objective_length.svg",
         "pictures/prm_sampler_uniform_samples_500.svg", "pictures/rrt_sampler_uniform-gaussian.svg"}) {
