@@ -13,8 +13,8 @@
 
 namespace warren {
 
-/// Writes FOLDER/NAME.svg, NAME a contender's planner and options ("prm_samples_50"), and paths.svg. The folder must exist. Solves
-/// each of the runs once more. A map's scene has its border walls. Throws WriteError, Stopped.
+/// Writes FOLDER/NAME.svg, NAME a contender's planner and options ("prm_samples_50"), and paths.svg. The folder must
+/// exist. Solves each of the runs once more. A map's scene has its border walls. Throws WriteError, Stopped.
 void draw_contest(const Scene& scene, const PlannerContestOptions& options, const Comparison& comparison,
                   const std::string& folder, const Execution& execution);
 
