@@ -20,27 +20,12 @@ struct CellTile {
   static constexpr std::uint8_t upper_wall = 2;
 
   std::uint32_t first_col = 0, first_row = 0, width = 0, height = 0;
-  std::vector<std::uint8_t>
-      walls;  ///< of column -1 and row -1 only the sides that the tile's cells share mean something
+  /// Of column -1 and row -1 only the sides that the tile's cells share mean something.
+  std::vector<std::uint8_t> walls;
 
   /// Of cell (col, row) of the tile, each from -1.
   std::size_t index(std::ptrdiff_t col, std::ptrdiff_t row) const {
     return static_cast<std::size_t>((row + 1) * (std::ptrdiff_t{width} + 1) + col + 1);
-  }
-  /// Calls visit(x, y, is_upper) for each unit wall on a side of the tile's cells: from (x, y) up, or to the right
-  /// where is_upper.
-  template <class Visit>
-  void for_each(const Visit& visit) const {
-    for (std::ptrdiff_t row = -1; row < std::ptrdiff_t{height}; ++row) {
-      const std::uint8_t* const line = walls.data() + index(0, row);
-      const double y = static_cast<double>(first_row) + static_cast<double>(row) + 0.5;
-      for (std::ptrdiff_t col = -1; col < std::ptrdiff_t{width}; ++col) {
-        const unsigned bits = line[col];
-        const double x = static_cast<double>(first_col) + static_cast<double>(col) + 0.5;
-        if ((bits & right_wall) != 0 && row >= 0) visit(x + 1, y, false);
-        if ((bits & upper_wall) != 0 && col >= 0) visit(x, y + 1, true);
-      }
-    }
   }
 };
 

@@ -61,6 +61,10 @@ class MazeSource {
       parse_option(key, value, options);
     }
     if (source_.ends_with(',')) fail("nothing follows the last comma");
+    const bool is_held = options.algorithm != MazeAlgorithm::mst;
+    if (is_held && std::uint64_t{options.rows} * options.cols > std::numeric_limits<std::uint32_t>::max()) {
+      fail("ROWS x COLS must be below 2^32 (of the algorithm mst it may be more)");
+    }
     return options;
   }
 
@@ -83,9 +87,6 @@ class MazeSource {
     const std::string_view rows = cut(size, 'x');
     options.rows = side(rows, "ROWS");
     options.cols = side(size, "COLS");
-    if (std::uint64_t{options.rows} * options.cols > std::numeric_limits<std::uint32_t>::max()) {
-      fail("ROWS x COLS must be below 2^32");
-    }
   }
   std::uint32_t side(std::string_view text, std::string_view name) const {
     const auto value = number<std::uint64_t>(text, name);

@@ -17,6 +17,7 @@
 #include "core/base/rng.hpp"
 #include "parallel/chunks.hpp"
 #include "scenes/mazes/maze_carving.hpp"
+#include "scenes/mazes/spanning_maze.hpp"
 
 namespace warren {
 namespace {
@@ -121,6 +122,27 @@ MazeCells generate_maze(const MazeOptions& options, const Execution& execution) 
   return cells;
 }
 
+namespace {
+
+/// All but the walls.
+void describe(const MazeOptions& options, Scene& scene) {
+  scene.maze = MazeHint{options.rows, options.cols};
+  scene.start = {0.5, 1.0};
+  scene.goal = {options.cols + 0.5, static_cast<double>(options.rows)};
+  scene.source = fmt::format("maze:{}x{},seed={},algorithm={},loops={}", options.rows, options.cols, options.seed,
+                             name_of(options.algorithm), options.loops);
+  if (options.algorithm == MazeAlgorithm::mst) scene.formula = MazeFormula{options.seed, options.loops};
+}
+
+}  // namespace
+
+Scene unmade_maze_scene(const MazeOptions& options) {
+  check_spanning_maze(options.rows, options.cols, options.loops);
+  Scene scene;
+  describe(options, scene);
+  return scene;
+}
+
 Scene maze_scene(const MazeOptions& options, bool merged, const Execution& execution) {
   check_size(options.rows, options.cols);
   const std::uint64_t interior = (std::uint64_t{options.rows} - 1) * (options.cols - 1);
@@ -128,11 +150,7 @@ Scene maze_scene(const MazeOptions& options, bool merged, const Execution& execu
   const MazeCells cells = generate_maze(options, execution);
   Scene scene;
   scene.walls = maze_walls(cells, merged, execution);
-  scene.maze = MazeHint{options.rows, options.cols};
-  scene.start = {0.5, 1.0};
-  scene.goal = {options.cols + 0.5, static_cast<double>(options.rows)};
-  scene.source = fmt::format("maze:{}x{},seed={},algorithm={},loops={}", options.rows, options.cols, options.seed,
-                             name_of(options.algorithm), options.loops);
+  describe(options, scene);
   return scene;
 }
 

@@ -43,17 +43,6 @@ struct Parts {
   std::vector<Part> list;
 };
 
-void check_maze(std::uint32_t rows, std::uint32_t cols, double loops) {
-  const std::uint32_t most = SpanningMaze::most_side;
-  if (rows < 1 || cols < 1 || rows > most || cols > most) {
-    throw InputError("maze", fmt::format("rows and columns must be from 1 to {}", most),
-                     fmt::format("{}x{}", rows, cols));
-  }
-  if (!(loops >= 0.0 && loops <= 1.0)) {
-    throw InputError("maze", "loops must be a fraction from 0 to 1", fmt::format("{}", loops));
-  }
-}
-
 /// Joins a rectangle of parts to one. decide(edge, is_in) is told of each edge that is decided by it.
 template <class Decide>
 class Joining {
@@ -176,6 +165,17 @@ struct Group {
 
 }  // namespace
 
+void check_spanning_maze(std::uint32_t rows, std::uint32_t cols, double loops) {
+  const std::uint32_t most = SpanningMaze::most_side;
+  if (rows < 1 || cols < 1 || rows > most || cols > most) {
+    throw InputError("maze", fmt::format("rows and columns must be from 1 to {}", most),
+                     fmt::format("{}x{}", rows, cols));
+  }
+  if (!(loops >= 0.0 && loops <= 1.0)) {
+    throw InputError("maze", "loops must be a fraction from 0 to 1", fmt::format("{}", loops));
+  }
+}
+
 /// Goes through the levels and notes what is turned.
 class SpanningMaze::Builder {
  public:
@@ -184,18 +184,20 @@ class SpanningMaze::Builder {
   void run() {
     const std::size_t cols = maze_.tile_cols();
     const std::size_t tiles = maze_.tile_count();
-    maze_.turned_.resize(tiles);
-    if (tiles == 1) return;
     const std::uint64_t side = std::uint64_t{1} << maze_.side_log2();
-    execution_.reserve(tiles * (side * 16 + 64));  // turned edges, and what the first level hands on
+    execution_.reserve(tiles * (side * side / 12 + side * 16 + 128));  // choices, turned edges, what levels hand on
+    maze_.turned_.resize(tiles);
+    maze_.choices_.resize(tiles);
     Parts parts = join_all(cols, tiles / cols, [&](const Group& group) {
       std::vector<Part> made;
       maze::SpanningTile scratch(maze_.seed_);
       for (std::size_t row = 0; row < group.rows; ++row) {
         for (std::size_t col = 0; col < group.cols; ++col) {
-          const GridPiece at = maze_.piece((group.first_row + row) * cols + group.first_col + col);
+          const std::size_t tile = (group.first_row + row) * cols + group.first_col + col;
+          const GridPiece at = maze_.piece(tile);
           execution_.check();
           scratch.make(at);
+          scratch.choices(maze_.choices_[tile]);
           made.push_back({at, {scratch.rim_edges().begin(), scratch.rim_edges().end()}});
         }
       }
@@ -278,9 +280,7 @@ class SpanningMaze::Reader : public CellWallReader {
   }
 
   void open_tree(std::size_t number, CellTile& tile) {
-    GridPiece at = maze_.piece(number);
-    at.more = 0;
-    tree_.make(at);
+    tree_.remake(maze_.piece(number), maze_.choices_[number]);
     const std::uint8_t* open = tree_.open().data();
     for (std::uint32_t row = 0; row < tile.height; ++row) {
       std::uint8_t* const walls = tile.walls.data() + tile.index(0, row);
@@ -316,7 +316,7 @@ class SpanningMaze::Reader : public CellWallReader {
 SpanningMaze::SpanningMaze(std::uint32_t rows, std::uint32_t cols, std::uint64_t seed, double loops,
                            const Execution& execution, unsigned side_log2)
     : CellWallSource(rows, cols, side_log2), seed_(seed), loops_(loops) {
-  check_maze(rows, cols, loops);
+  check_spanning_maze(rows, cols, loops);
   Builder(*this, execution).run();
 }
 

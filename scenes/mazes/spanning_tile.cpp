@@ -38,6 +38,7 @@ void SpanningTile::make(const GridPiece& piece) {
   weigh();
   find_least();
   find_greatest();
+  mark();
   contract();
   collect();
   sort();
@@ -112,23 +113,36 @@ void SpanningTile::find_greatest() {
                     greatest_.data() + width, cells_);
 }
 
+/// Opens the least edges, and finds those that neither rule decides.
+void SpanningTile::mark() {
+  const std::size_t width = piece_.width;
+  open_.resize(cells_);
+  contested_.resize(cells_);
+  const std::uint8_t* const least = least_.data() + width;
+  const std::uint8_t* const greatest = greatest_.data() + width;
+  std::uint8_t* __restrict const open = open_.data();
+  std::uint8_t* __restrict const contested = contested_.data();
+  const auto below = static_cast<std::ptrdiff_t>(width);
+  for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(cells_); ++i) {
+    const unsigned in = (least[i] & 3U) | (least[i + 1] >> 2U & 1U) | (least[i + below] >> 2U & 2U);
+    const unsigned out = (greatest[i] & 3U) | (greatest[i - below] >> 2U & 1U) | (greatest[i - 1] >> 2U & 2U);
+    open[i] = static_cast<std::uint8_t>(in);
+    contested[i] = static_cast<std::uint8_t>(~(in | out) & 3U);
+  }
+  for (std::size_t row = 0; row < piece_.height; ++row) contested[row * width + width - 1] &= up;
+  for (std::size_t col = 0; col < width; ++col) contested[cells_ - width + col] &= right;
+}
+
 /// Every cell points at where its least edge leads; of two that point at each other the first is the root.
 void SpanningTile::contract() {
-  const std::array<std::ptrdiff_t, 4> offset{1, static_cast<std::ptrdiff_t>(piece_.width), -1,
-                                             -static_cast<std::ptrdiff_t>(piece_.width)};
-  std::array<std::int32_t, 16> step{};
-  for (unsigned d = 0; d < 4; ++d) step[std::size_t{1} << d] = static_cast<std::int32_t>(offset[d]);
+  const std::int32_t above = static_cast<std::int32_t>(piece_.width);
+  const std::array<std::int32_t, 9> step{0, 1, above, 0, -1, 0, 0, 0, -above};
   parent_.resize(cells_);
-  open_.resize(cells_);
-  const std::size_t width = piece_.width;
-  const std::uint8_t* const least = least_.data() + width;
-  for (std::size_t i = 0; i < cells_; ++i) {
-    parent_[i] = static_cast<std::uint16_t>(static_cast<std::int32_t>(i) + step[least[i]]);
-    const unsigned opens_right = (least[i] & 1U) | (least[i + 1] >> 2U & 1U);
-    const unsigned opens_up = (least[i] & 2U) | (least[i + width] >> 2U & 2U);
-    open_[i] = static_cast<std::uint8_t>(opens_right | opens_up);
-  }
   std::uint16_t* const parent = parent_.data();
+  const std::uint8_t* const least = least_.data() + piece_.width;
+  for (std::size_t i = 0; i < cells_; ++i) {
+    parent[i] = static_cast<std::uint16_t>(static_cast<std::int32_t>(i) + step[least[i]]);
+  }
   for (std::size_t i = 0; i < cells_; ++i) {
     const std::size_t next = parent[i];
     const bool is_root = (next > i) & (parent[next] == i);
@@ -150,26 +164,51 @@ void SpanningTile::collect() {
   const std::size_t width = piece_.width;
   candidates_.resize(2 * cells_ + 1);
   Candidate* out = candidates_.data();
-  const std::uint8_t* const greatest = greatest_.data() + width;
-  const std::uint32_t* const right = right_.data() + width;
-  const std::uint32_t* const up = up_.data() + width;
-  for (std::size_t row = 0; row < piece_.height; ++row) {
-    for (std::size_t col = 0; col < width; ++col) {
-      const std::size_t i = row * width + col;
-      const std::size_t r = col + 1 < width ? i + 1 : i;
-      const std::size_t u = row + 1 < piece_.height ? i + width : i;
-      const unsigned from_left = col > 0 ? greatest[i - 1] : 0U;
-      const bool right_out =
-          ((greatest[i] & 1U) | (greatest[static_cast<std::ptrdiff_t>(i) - static_cast<std::ptrdiff_t>(width)] & 4U)) !=
-          0;
-      const bool up_out = ((greatest[i] & 2U) | (from_left & 8U)) != 0;
-      *out = {right[i], static_cast<std::uint32_t>(2 * i)};
-      out += !right_out && parent_[i] != parent_[r] ? 1 : 0;
-      *out = {up[i], static_cast<std::uint32_t>(2 * i + 1)};
-      out += !up_out && parent_[i] != parent_[u] ? 1 : 0;
-    }
+  const std::uint32_t* const right_weight = right_.data() + width;
+  const std::uint32_t* const up_weight = up_.data() + width;
+  for (std::size_t i = 0; i < cells_; ++i) {
+    const std::size_t beside = std::min(i + 1, cells_ - 1);
+    const std::size_t above = std::min(i + width, cells_ - 1);
+    *out = {right_weight[i], static_cast<std::uint32_t>(2 * i)};
+    out += (contested_[i] & right) & (parent_[i] != parent_[beside] ? 1U : 0U);
+    *out = {up_weight[i], static_cast<std::uint32_t>(2 * i + 1)};
+    out += (contested_[i] >> 1U) & (parent_[i] != parent_[above] ? 1U : 0U);
   }
   candidate_count_ = static_cast<std::size_t>(out - candidates_.data());
+}
+
+/// A bit for each contested edge, in the order of the cells.
+void SpanningTile::choices(std::vector<std::uint64_t>& bits) const {
+  bits.assign(2 * cells_ / 64 + 1, 0);
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < cells_; ++i) {
+    const unsigned contested = contested_[i];
+    const unsigned open = open_[i];
+    bits[n / 64] |= std::uint64_t{contested & open & 1U} << n % 64;
+    n += contested & 1U;
+    bits[n / 64] |= std::uint64_t{(contested & open) >> 1U} << n % 64;
+    n += contested >> 1U;
+  }
+  bits.resize(n / 64 + 1);
+  bits.shrink_to_fit();
+}
+
+void SpanningTile::remake(const GridPiece& piece, std::span<const std::uint64_t> choices) {
+  piece_ = piece;
+  cells_ = std::size_t{piece.width} * piece.height;
+  weigh();
+  find_least();
+  find_greatest();
+  mark();
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < cells_; ++i) {
+    const unsigned contested = contested_[i];
+    const unsigned first = static_cast<unsigned>(choices[n / 64] >> n % 64) & contested & 1U;
+    n += contested & 1U;
+    const unsigned second = static_cast<unsigned>(choices[n / 64] >> n % 64) & contested >> 1U;
+    n += contested >> 1U;
+    open_[i] = static_cast<std::uint8_t>(open_[i] | first | second << 1U);
+  }
 }
 
 void SpanningTile::sort() {

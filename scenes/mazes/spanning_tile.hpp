@@ -58,6 +58,10 @@ class SpanningTile {
   explicit SpanningTile(std::uint64_t seed);
   /// width, height: 1 .. largest_side.
   void make(const GridPiece& piece);
+  /// How the edges were decided that are neither least nor greatest around a corner: a bit each, 0.6 a cell.
+  void choices(std::vector<std::uint64_t>& bits) const;
+  /// As make(), of the same piece, from its choices: nothing is sorted, a fourth of the time. There are no rim_edges.
+  void remake(const GridPiece& piece, std::span<const std::uint64_t> choices);
   /// Edges of the tree, cell by cell (row * width + col), as bits of the cell on whose right or upper side they lie.
   std::span<const std::uint8_t> open() const { return {open_.data(), cells_}; }
   /// By weight, ascending; with no neighbour beyond: none.
@@ -74,6 +78,7 @@ class SpanningTile {
   void find_least();
   void cut_at_rim();
   void find_greatest();
+  void mark();
   void contract();
   void collect();
   void sort();
@@ -91,6 +96,7 @@ class SpanningTile {
   std::vector<std::uint8_t> least_;        // bits: right, up, left, down; a row of 0 before and after
   std::vector<std::uint8_t> greatest_;  // of the corner above right of a cell, bits: its lower edge, left, upper, right
   std::vector<std::uint8_t> open_;
+  std::vector<std::uint8_t> contested_;
   std::vector<std::uint16_t> parent_;
   std::vector<std::uint16_t> on_rim_;  // of a part's root: a side number, or none
   std::vector<Candidate> candidates_, sorted_;

@@ -104,7 +104,17 @@ std::size_t state_size(const RobotSpec& robot) {
   return 2;
 }
 
+std::string formula_hash(const Scene& scene) {
+  Hasher hasher(std::uint64_t{0x6d7374});  // "mst"
+  hasher.add(std::uint64_t{scene.maze->rows});
+  hasher.add(std::uint64_t{scene.maze->cols});
+  hasher.add(scene.formula->seed);
+  hasher.add(scene.formula->loops);
+  return fmt::format("{:016x}", hasher.value());
+}
+
 std::string scene_hash(const Scene& scene, const Execution& execution) {
+  if (is_unmade(scene)) return formula_hash(scene);
   if (scene.map) return map_hash(*scene.map);
   Hasher hasher(hash_of(scene.walls, execution));
   hasher.add(std::uint64_t{scene.polygons.size()});

@@ -42,6 +42,13 @@ struct MazeHint {
   friend bool operator==(const MazeHint&, const MazeHint&) = default;
 };
 
+/// Where the walls of a maze of the algorithm mst come from: with the hint's rows and columns all that they follow from
+/// (scenes/mazes/spanning_maze.hpp).
+struct MazeFormula {
+  std::uint64_t seed = 1;
+  double loops = 0.0;
+};
+
 /// arm: a serial chain whose table is in a file.
 enum class RobotKind : std::uint8_t { point, disc, polygon, car, puma560, arm };
 constexpr auto enum_names(RobotKind) {
@@ -79,6 +86,7 @@ struct Scene {
   std::optional<Box> bounds;
   std::optional<double> clearance;
   std::optional<MazeHint> maze;
+  std::optional<MazeFormula> formula;  ///< of the maze's walls; these may be left out (is_unmade)
   std::optional<RobotSpec> robot;
   std::vector<double> start;  ///< 2, 3 or 6 numbers; empty: none
   std::vector<double> goal;   ///< the same; an arm's 3 are a place of its tool
@@ -93,8 +101,15 @@ std::size_t state_size(const RobotSpec& robot);
 
 /// A 64-bit hash of everything that shapes the free space (walls in order, polygons, spheres, boxes, bounds), as 16 hex
 /// digits: the same for the same world whatever file it came from and however its walls are held. Words are folded by
-/// wide multiplications (as wyhash does), chunk by chunk in parallel; about memory speed. Not for adversaries.
+/// wide multiplications (as wyhash does), chunk by chunk in parallel; about memory speed. Not for adversaries. Of walls
+/// that are left out: of their formula, another number than of the walls.
 std::string scene_hash(const Scene& scene, const Execution& execution = {});
+
+/// Are the walls left out, because they are many and follow from the formula?
+inline bool is_unmade(const Scene& scene) { return scene.formula && scene.walls.size() == 0; }
+
+/// What scene_hash says of a maze whose walls are left out, whether they are or not; needs the formula.
+std::string formula_hash(const Scene& scene);
 
 /// Is there anything that only a body in space can meet?
 inline bool has_solids(const Scene& scene) { return !scene.spheres.empty() || !scene.boxes.empty(); }
