@@ -22,9 +22,9 @@
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/signals.hpp"
 #include "tools/screen/terminal.hpp"
+#include "tools/verbs/completions.hpp"
 #include "tools/words/build_facts.hpp"
 #include "tools/words/command.hpp"
-#include "tools/verbs/completions.hpp"
 #include "tools/words/help.hpp"
 
 namespace warren {

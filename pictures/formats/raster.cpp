@@ -65,7 +65,7 @@ void cover_line(Vec2 a, Vec2 b, double width, std::size_t columns, std::size_t r
 }
 
 void blend(std::uint8_t* pixel, double alpha, Rgb color) {
-  const auto weight = static_cast<int>(alpha * 256.0 + 0.5);
+  const auto weight = static_cast<int>(std::lround(alpha * 256.0));
   const int ink[] = {color.red, color.green, color.blue};
   for (int c = 0; c < 3; ++c) pixel[c] = static_cast<std::uint8_t>((pixel[c] * (256 - weight) + ink[c] * weight) >> 8);
 }
@@ -158,7 +158,7 @@ Mask::Mask(std::size_t width, std::size_t height, const Execution& execution) : 
 
 void Mask::cover(std::size_t x, std::size_t y, double share) {
   std::uint8_t& pixel = pixels_[width_ * y + x];
-  pixel = static_cast<std::uint8_t>(pixel + static_cast<int>((255 - pixel) * share + 0.5));
+  pixel = static_cast<std::uint8_t>(pixel + std::lround((255 - pixel) * share));
 }
 
 void Mask::draw_line(Vec2 a, Vec2 b, double width, double opacity) {

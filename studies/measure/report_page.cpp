@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "pictures/page/page_files.hpp"
 #include "pictures/model/xml_text.hpp"
+#include "pictures/page/page_files.hpp"
 
 namespace warren {
 namespace {

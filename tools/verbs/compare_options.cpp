@@ -49,7 +49,8 @@ constexpr OptionSpec own_specs[] = {
     {"--parallel", "",
      "with --planners: runs beside each other on the threads, each on one; all figures but the times stay the same"},
     {"--pictures", "FOLDER",
-     "with --planners: draw each planner's path of median length, the body along it, the layers of the grid, and all paths in one"},
+     "with --planners: draw each planner's path of median length, the body along it, the layers of the grid, and all "
+     "paths in one"},
 };
 
 /// The options of `solve` that compare takes as they are.

@@ -256,7 +256,7 @@ TEST(ExportRoadmap, OtherEndingsAreRefusedByName) {
     } catch (const UsageError& error) {
       EXPECT_EQ(error.what(), path +
                                   ": a roadmap is exported to a file that ends in one of .geojson .graphml .gr .csv"
-                                  " .npz .dot");
+                                  " .npz .dot, and drawn by .svg .png .pdf .html");
     }
   }
 }
