@@ -24,7 +24,7 @@ Numbers converted(py::handle value, const std::string& name, const std::string& 
     throw py::type_error(fmt::format("{}: expected numbers in rows, {}", name, shape));
   }
   if (numbers.size() == 0) return Numbers(Shape{0, 2});
-  return Numbers(std::move(numbers));
+  return Numbers(numbers);
 }
 
 }  // namespace

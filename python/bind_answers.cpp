@@ -107,10 +107,10 @@ std::pair<RawVector<double>, RawVector<double>> places_in_time(const PathLegs& l
 }
 
 /// (states, along or times); the keywords are those of paths in files.
-py::tuple sample(const Answer& answer, py::dict keywords) {
+py::tuple sample(const Answer& answer, const py::dict& keywords) {
   keywords["path"] = "-";
   const PathFileOptions options = path_words(arguments_of(path_keywords(), keywords));
-  check_path_file(answer.problem.robot, answer.states.width == 6 ? "-" : "-", options);
+  check_path_file(answer.problem.robot, "-", options);
   if (answer.path.empty() && answer.states.empty()) {
     return py::make_tuple(read_only(py::array_t<double>(Shape{0, 2})), read_only(py::array_t<double>(Shape{0})));
   }
@@ -124,7 +124,7 @@ py::tuple sample(const Answer& answer, py::dict keywords) {
                         array_of<double>(std::move(at), {n}));
 }
 
-py::dict save_path(const Answer& answer, const std::string& file, py::dict keywords) {
+py::dict save_path(const Answer& answer, const std::string& file, const py::dict& keywords) {
   keywords["path"] = file;
   const PathFileOptions options = path_words(arguments_of(path_keywords(), keywords));
   check_path_file(answer.problem.robot, file, options);

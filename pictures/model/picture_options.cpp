@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/enum_names.hpp"
 #include "core/base/error.hpp"
 
 namespace warren {

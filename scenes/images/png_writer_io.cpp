@@ -3,6 +3,7 @@
 
 #include <png.h>
 
+#include <cmath>
 #include <csetjmp>
 #include <exception>
 #include <new>
@@ -58,7 +59,7 @@ bool encode(png_structp png, png_infop info, const PngRows& rows, PngSink& sink,
   }
   if (rows.dpi > 0.0) {
     constexpr double inches_a_metre = 1.0 / 0.0254;
-    const auto per_metre = static_cast<png_uint_32>(rows.dpi * inches_a_metre + 0.5);
+    const auto per_metre = static_cast<png_uint_32>(std::lround(rows.dpi * inches_a_metre));
     png_set_pHYs(png, info, per_metre, per_metre, PNG_RESOLUTION_METER);
   }
   png_write_info(png, info);
