@@ -1,93 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A picture as a page of its own: what it shows as arrays of numbers in base64, and a script that draws them. Written
-// in pieces: memory stays small whatever the world. Of walls by the million, which no browser would draw at once, there
-// is an image.
+// in pieces: memory stays small whatever the world.
 #include <fmt/format.h>
 
-#include <bit>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "pictures/formats/base64.hpp"
-#include "pictures/formats/png_file.hpp"
-#include "pictures/formats/raster.hpp"
 #include "pictures/formats/svg_animation.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "pictures/model/picture.hpp"
+#include "pictures/page/number_array.hpp"
 #include "pictures/page/page_files.hpp"
-#include "scenes/scene/plane_obstacles.hpp"
+#include "pictures/page/page_layers_io.hpp"
 
 namespace warren {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-static_assert(std::endian::native == std::endian::little, "the arrays of pages are little-endian");
-
-constexpr std::size_t most_drawn_walls = 4'000'000;
-
-std::string css_color(Rgb c) { return fmt::format("#{:02x}{:02x}{:02x}", c.red, c.green, c.blue); }
-
-/// As JSON that may stand in a <script>.
-std::string dumped(const Json& json) {
-  std::string safe;
-  for (const char c : json.dump(-1, ' ', true, Json::error_handler_t::replace)) {
-    if (c == '<') {
-      safe += "\\u003c";
-    } else {
-      safe += c;
-    }
-  }
-  return safe;
-}
-
-template <class T>
-constexpr std::string_view array_type() {
-  if constexpr (std::is_same_v<T, float>) return "f32";
-  if constexpr (std::is_same_v<T, double>) return "f64";
-  if constexpr (std::is_same_v<T, std::uint8_t>) return "u8";
-  if constexpr (std::is_same_v<T, std::uint16_t>) return "u16";
-  if constexpr (std::is_same_v<T, std::int32_t>) return "i32";
-  return "u32";
-}
-
-/// Numbers as an array of JSON's: {"type": "f32", "data": base64}.
-template <class T>
-class NumberArray {
- public:
-  NumberArray(std::string_view name, const Execution& execution, const Write& write)
-      : execution_(execution), write_(write), base64_(write) {
-    write_(fmt::format(",\"{}\":{{\"type\":\"{}\",\"data\":\"", name, array_type<T>()));
-  }
-  template <class Number>
-  void add(Number number) {
-    constexpr std::size_t piece = 1U << 16U;
-    const auto value = static_cast<T>(number);
-    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
-    if (bytes_.size() >= piece) flush();
-  }
-  void add(Vec2 p) {
-    add(p.x);
-    add(p.y);
-  }
-  void end() {
-    flush();
-    base64_.end();
-    write_("\"}");
-  }
-
- private:
-  void flush() {
-    execution_.check();
-    base64_.write(bytes_);
-    bytes_.clear();
-  }
-
-  const Execution& execution_;
-  const Write& write_;
-  Base64 base64_;
-  std::string bytes_;
-};
 
 /// Near the box's lower left corner, and a whole number of units from the walls where they are so from each other.
 Vec2 origin_of(const WallSet& walls, const Box& box) {
@@ -110,7 +40,7 @@ class PageWriter {
     write_(page_file("page.html"));
     write_("<script id=\"picture\" type=\"application/json\">{");
     words(title);
-    layers();
+    write_page_layers(picture_, parts_, canvas_, origin_, execution_, write_);
     if (picture_.roadmap != nullptr && picture_.panels.empty()) graph(*picture_.roadmap);
     if (parts_.has(Part::path)) path();
     write_("}</script>\n<script>\n");
@@ -121,29 +51,15 @@ class PageWriter {
 
  private:
   void words(const std::string& title);
-  void layers();
-  void polygons();
-  void layer(const PictureLayer& layer);
-  void walls();
-  template <class T>
-  void wall_ends();
-  void wall_image();
   void graph(const PlannedRoadmap<Vec2>& roadmap);
   void path();
   void poses(const MovingBody& body);
 
-  void begin_layer(const Json& about) {
-    std::string text = dumped(about);
-    text.pop_back();
-    write_((is_first_ ? "" : ",") + text);
-    is_first_ = false;
-  }
   template <class T>
   NumberArray<T> numbers(std::string_view name) const {
     return {name, execution_, write_};
   }
   Vec2 moved(Vec2 p) const { return p - origin_; }
-  bool has_small_whole_walls() const;
 
   const Picture& picture_;
   Parts parts_;
@@ -151,7 +67,6 @@ class PageWriter {
   const Write& write_;
   Canvas canvas_;
   Vec2 origin_;  // numbers are relative to it, so that floats are enough
-  bool is_first_ = true;
 };
 
 void PageWriter::words(const std::string& title) {
@@ -180,153 +95,9 @@ void PageWriter::words(const std::string& title) {
   };
   end("start", picture_.start, colors::start);
   end("goal", picture_.goal, colors::goal);
-  std::string text = dumped(words);
+  std::string text = in_script(words.dump(-1, ' ', true, Json::error_handler_t::replace));
   text.pop_back();
   write_(text.substr(1));
-}
-
-void PageWriter::layers() {
-  write_(",\"layers\":[");
-  if (parts_.has(Part::world) && !picture_.scene.polygons.empty()) polygons();
-  for (const PictureLayer& one : picture_.layers) {
-    if (parts_.has(one.part) && !one.lines.empty()) layer(one);
-  }
-  if (parts_.has(Part::world)) walls();
-  write_("]");
-}
-
-void PageWriter::polygons() {
-  const std::vector<ScenePolygon>& all = picture_.scene.polygons;
-  begin_layer({{"id", "polygons"},
-               {"label", "obstacles"},
-               {"kind", "areas"},
-               {"obstacle", true},
-               {"color", css_color(colors::polygon)},
-               {"outline", css_color(colors::outline)},
-               {"width", widths::outline}});
-  auto first = numbers<std::uint32_t>("first");
-  std::size_t corners = 0;
-  first.add(corners);
-  for (const ScenePolygon& polygon : all) first.add(corners += anticlockwise(polygon.corners).size());
-  first.end();
-  auto xy = numbers<float>("xy");
-  for (const ScenePolygon& polygon : all) {
-    for (const Vec2 p : anticlockwise(polygon.corners)) xy.add(moved(p));
-  }
-  xy.end();
-  write_("}");
-}
-
-void PageWriter::layer(const PictureLayer& layer) {
-  Json about{{"id", layer.id},
-             {"label", layer.label.empty() ? layer.id : layer.label},
-             {"kind", layer.fill ? "areas" : "chains"},
-             {"obstacle", layer.part == Part::world && layer.fill},
-             {"color", css_color(layer.fill.value_or(layer.color))},
-             {"width", layer.width},
-             {"closed", layer.closed},
-             {"opacity", layer.opacity}};
-  if (layer.fill && layer.width > 0.0) about["outline"] = css_color(layer.color);
-  if (!layer.opacities.empty()) about["opacities"] = layer.opacities;
-  begin_layer(about);
-  std::vector<std::uint32_t> first{0};
-  auto xy = numbers<float>("xy");
-  for (std::size_t i = 0; i < layer.lines.size(); ++i) {
-    const std::vector<Vec2> chain = without_arcs(layer.lines[i], layer.turns_of(i));
-    for (const Vec2 p : chain) xy.add(moved(p));
-    first.push_back(first.back() + static_cast<std::uint32_t>(chain.size()));
-  }
-  xy.end();
-  auto starts = numbers<std::uint32_t>("first");
-  for (const std::uint32_t corner : first) starts.add(corner);
-  starts.end();
-  write_("}");
-}
-
-void PageWriter::walls() {
-  const std::size_t count = picture_.scene.walls.size();
-  if (count == 0 && !picture_.scene.bounds) return;
-  Json about{{"id", "walls"},
-             {"label", picture_.scene.map ? "borders of blocked cells"
-                       : count == 0       ? "bounds"
-                                          : "walls"},
-             {"obstacle", picture_.panels.empty()},
-             {"color", css_color(colors::wall)},
-             {"width", widths::wall}};
-  if (count > most_drawn_walls) {
-    about["count"] = count;
-    begin_layer(about);
-    return wall_image();
-  }
-  about["kind"] = "segments";
-  begin_layer(about);
-  if (has_small_whole_walls()) {
-    wall_ends<std::uint16_t>();
-  } else {
-    wall_ends<float>();
-  }
-  write_("}");
-}
-
-bool PageWriter::has_small_whole_walls() const {
-  constexpr double most = 65535.0;
-  const auto fits = [](double x) { return x >= 0.0 && x <= most && x == std::floor(x); };
-  const auto all_fit = [&](Vec2 p) { return fits(moved(p).x) && fits(moved(p).y); };
-  if (picture_.scene.bounds && !(all_fit(picture_.scene.bounds->min) && all_fit(picture_.scene.bounds->max)))
-    return false;
-  return picture_.scene.walls.visit([&](auto all) {
-    for (const auto& wall : all) {
-      if (!all_fit(wall.segment().a) || !all_fit(wall.segment().b)) return false;
-    }
-    return true;
-  });
-}
-
-template <class T>
-void PageWriter::wall_ends() {
-  auto xy = numbers<T>("xy");
-  const auto add = [&](Vec2 a, Vec2 b) {
-    xy.add(moved(a));
-    xy.add(moved(b));
-  };
-  picture_.scene.walls.visit([&](auto all) {
-    for (const auto& wall : all) add(wall.segment().a, wall.segment().b);
-  });
-  if (picture_.scene.bounds) {
-    const auto [low, high] = *picture_.scene.bounds;
-    add(low, {high.x, low.y});
-    add({high.x, low.y}, high);
-    add(high, {low.x, high.y});
-    add({low.x, high.y}, low);
-  }
-  xy.end();
-}
-
-void PageWriter::wall_image() {
-  constexpr double most_pixels = 4096.0;
-  constexpr double least_width = 0.2;
-  constexpr std::size_t walls_a_poll = 1 << 14;
-  const Box& box = canvas_.box;
-  const double scale = most_pixels / std::max(box.width(), box.height());
-  Mask mask(static_cast<std::size_t>(std::ceil(scale * box.width())),
-            static_cast<std::size_t>(std::ceil(scale * box.height())), execution_);
-  const auto at = [&](Vec2 p) { return Vec2{scale * (p.x - box.min.x), scale * (box.max.y - p.y)}; };
-  const double width = std::max(widths::wall / 20.0 * scale * canvas_.unit, least_width);
-  picture_.scene.walls.visit([&](auto all) {
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      if (i % walls_a_poll == 0) execution_.check();
-      mask.draw_line(at(all[i].segment().a), at(all[i].segment().b), width);
-    }
-  });
-  const Vec2 low = moved(box.min);
-  const Vec2 high{low.x + static_cast<double>(mask.width()) / scale,
-                  moved(box.max).y - static_cast<double>(mask.height()) / scale};
-  write_(fmt::format(",\"kind\":\"image\",\"box\":[{},{},{},{}],\"href\":\"data:image/png;base64,", low.x, high.y,
-                     high.x, moved(box.max).y));
-  Base64 out(write_);
-  write_png_file(mask, colors::wall, execution_, [&](std::string_view bytes) { out.write(bytes); });
-  out.end();
-  write_("\"}");
 }
 
 void PageWriter::graph(const PlannedRoadmap<Vec2>& roadmap) {
@@ -338,7 +109,7 @@ void PageWriter::graph(const PlannedRoadmap<Vec2>& roadmap) {
       {"hasRoadmap", parts_.has(Part::roadmap)},
       {"widths", {{"edges", widths::edge}, {"milestones", widths::milestone}, {"search_tree", widths::search_tree}}}};
   for (const Rgb color : colors::components) about["colors"].push_back(css_color(color));
-  std::string text = dumped(about);
+  std::string text = about.dump();
   text.pop_back();
   write_(",\"graph\":" + text);
   auto states = numbers<float>("states");
@@ -357,6 +128,7 @@ void PageWriter::graph(const PlannedRoadmap<Vec2>& roadmap) {
   }
   edges.end();
   if (parts_.has(Part::search) && !roadmap.search_tree.empty()) {
+    execution_.reserve(roadmap.states.size() * sizeof(std::int32_t));
     std::vector<std::int32_t> parent(roadmap.states.size(), -1);
     for (const Edge& edge : roadmap.search_tree) {
       parent[edge.from] = static_cast<std::int32_t>(edge.to == no_vertex ? edge.from : edge.to);
@@ -377,7 +149,7 @@ void PageWriter::path() {
   const MovingBody& body = picture_.body != nullptr ? *picture_.body : point;
   Json outline = Json::array();
   for (const Vec2 p : body.outline) outline.push_back({p.x, p.y});
-  write_(",\"body\":" + dumped({{"outline", outline}, {"radius", body.radius}, {"heads", body.heads}}));
+  write_(",\"body\":" + Json{{"outline", outline}, {"radius", body.radius}, {"heads", body.heads}}.dump());
   if (!body.poses.empty()) poses(body);
 }
 
