@@ -61,7 +61,7 @@ Answer solve_within(const Scene& scene, const Question& question, const SolveOpt
     WorldAccount world = account_of(scene, execution);
     const PlannedScene planned(scene, question, solver.planner, execution);
     answer = solver.kind->solve({options, planned.get(), question, solver.planner, execution, keep});
-    answer.world = std::move(world);
+    if (answer.world.kind.empty()) answer.world = std::move(world);
   } catch (const Stopped& stopped) {
     answer.stop_reason = stopped.reason;
   } catch (const std::bad_alloc&) {

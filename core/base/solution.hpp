@@ -32,6 +32,7 @@ struct RoadmapSize {
   std::uint64_t edges = 0;       ///< undirected; lazy planners: edges that were checked and found free
   std::uint64_t components = 0;  ///< 0 where the planner doesn't compute them (lazy ones)
   std::uint64_t samples = 0;     ///< drawn in the last round, by planners that draw them in rounds
+  std::uint64_t end_edges = 0;   ///< those of the edges that lead to start or goal; told by the tiled lattice alone
 };
 
 /// Why start and goal are not joined: sizes of their components, and the shortest distance between a milestone of one

@@ -154,6 +154,7 @@ void TiledPlan::reduce_tiles() {
       ends_.start.checked + ends_.goal.checked + (is_direct_candidate(problem_.start, problem_.goal) ? 1 : 0);
   solution_.roadmap.milestones += 2;
   solution_.roadmap.edges += links;
+  solution_.roadmap.end_edges = links;
 }
 
 void TiledPlan::build_overlay() {

@@ -62,7 +62,7 @@ struct Answer {
   Problem problem;
   WorldAccount world;
   std::string planner;
-  std::string pipeline;  ///< plain or tiled; only for prm
+  std::string pipeline;  ///< plain, tiled or streamed; only for prm
   std::string sampler;   ///< empty: the planner has none
   std::string search;    ///< empty: the planner has none
   std::uint64_t seed = 1;
@@ -77,8 +77,9 @@ struct Answer {
   StageTimes seconds;
   double solve_s = 0.0;
   std::size_t peak_memory_bytes = 0;
-  Path<Vec2> path;   ///< of the reference point in the plane, as pictures show it; a point's or disc's states
-  StateList states;  ///< start to goal, where a state is more than a point of the plane; else empty
+  Path<Vec2> path;         ///< of the reference point in the plane, as pictures show it; a point's or disc's states
+  StateList states;        ///< start to goal, where a state is more than a point of the plane; else empty
+  bool tells_path = true;  ///< does JSON list the path's states, or only their number and hash?
 };
 
 /// Stages with the names that JSON and summary give them, in the order of the work.

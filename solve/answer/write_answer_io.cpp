@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "solve/answer/explanation_text.hpp"
+#include "solve/answer/path_hash.hpp"
 
 namespace warren {
 namespace {
@@ -180,11 +181,15 @@ void write_path(std::size_t count, const State& state, const Execution& executio
 }
 
 /// All but the path.
-std::string json_head(const Answer& answer) {
+std::string json_head(const Answer& answer, const Execution& execution) {
   JsonObject json(",\n ", ": ");
   add_outcome(json, answer);
   add_problem(json, answer);
   add_work(json, answer);
+  if (!answer.tells_path && answer.verified) {
+    json.add("path_points", std::uint64_t{answer.states.empty() ? answer.path.size() : answer.states.size()});
+    json.add("path_hash", path_hash(answer, execution));
+  }
   return json.open() + ",\n ";
 }
 
@@ -254,14 +259,18 @@ std::string figure_json(const Figure& figure) {
 
 void write_answer_json(const Answer& answer, const Execution& execution,
                        const std::function<void(std::string_view)>& write) {
-  write(json_head(answer));
+  write(json_head(answer, execution));
   if (answer.refuted) {
     write(fmt::format("\"refuted\": {{{}, \"path\": ", refuted_head(*answer.refuted)));
     write_states(answer.refuted->path, answer.refuted->states, execution, write);
     write("},\n ");
   }
   write("\"path\": ");
-  write_states(answer.path, answer.states, execution, write);
+  if (answer.tells_path) {
+    write_states(answer.path, answer.states, execution, write);
+  } else {
+    write("[]");
+  }
   write("}\n");
 }
 

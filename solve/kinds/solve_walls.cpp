@@ -77,7 +77,7 @@ void WallSolve::plan(PlannedRoadmap<Vec2>* keep) {
                                        *asked_.scratch, keep));
     return;
   }
-  if (options_.pipeline == PipelineKind::tiled && options_.fused) {
+  if (options_.pipeline == PipelineKind::streamed || (options_.pipeline == PipelineKind::tiled && options_.fused)) {
     take_solution(answer_, plan_tiles());
     return;
   }
@@ -93,7 +93,8 @@ void WallSolve::plan(PlannedRoadmap<Vec2>* keep) {
 
 Solution<Vec2> WallSolve::plan_tiles() {
   const std::vector<Segment> bounds = bounds_walls(scene_);
-  const TiledProblem problem{scene_.walls, bounds, scene_.bounds, problem_.reach(), problem_.start, problem_.goal};
+  const TiledProblem problem{scene_.walls,   bounds,        scene_.bounds, problem_.reach(),
+                             problem_.start, problem_.goal, nullptr,       options_.pipeline == PipelineKind::streamed};
   return tiled_prm(problem, options_.roadmap, execution_);
 }
 
@@ -179,7 +180,7 @@ constexpr std::uint64_t most_drawn = 40'000;  // cells or samples: beyond, a pic
 void make_roadmap(const SolveRequest& request) {
   const WallProblem problem = problem_of(request);
   const PlannerOptions options = planner_options(request.options, request.scene, problem);
-  if (options.planner != PlannerKind::prm || options.pipeline != PipelineKind::tiled) return;
+  if (options.planner != PlannerKind::prm || options.pipeline == PipelineKind::plain) return;
   if (!options.fused && options.roadmap.samples.value_or(0) > most_drawn) return;
   draw_roadmap(request.scene, problem, options, request.execution, request.keep->roadmap);
 }

@@ -3,14 +3,17 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <span>
 #include <string_view>
 
 #include "core/base/error.hpp"
 #include "core/base/trigonometry.hpp"
 #include "scenes/text/json_text.hpp"
+#include "scenes/text/npy_header.hpp"
 #include "scenes/text/output_file_io.hpp"
 
 namespace warren {
@@ -173,6 +176,16 @@ std::uint64_t write_geojson_line(Rows& rows, const PathLegs& legs, const Answer&
   return places;
 }
 
+/// Places alone, as doubles: x and y, with the heading where there is one, or six joints.
+std::uint64_t write_array(Rows& rows, const PathLegs& legs, OutputFile& file) {
+  const std::uint64_t places = rows.visit([](const Row&) {});
+  file.write(npy_header("<f8", std::array<std::uint64_t, 2>{places, legs.width()}));
+  return rows.visit([&](const Row& row) {
+    const std::span<const double> numbers = row.state.used();
+    file.write({reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes()});  // NOLINT: the numbers' bytes
+  });
+}
+
 }  // namespace
 
 PathFormat path_format(const std::string& file) {
@@ -181,13 +194,19 @@ PathFormat path_format(const std::string& file) {
   if (file == "-" || ending == ".csv") return PathFormat::csv;
   if (ending == ".yaml" || ending == ".yml") return PathFormat::yaml;
   if (ending == ".geojson") return PathFormat::geojson;
-  throw UsageError(fmt::format("@path: writes .csv, .yaml (nav_msgs/Path) and .geojson by ending (found: {})", file));
+  if (ending == ".npy") return PathFormat::npy;
+  throw UsageError(
+      fmt::format("@path: writes .csv, .yaml (nav_msgs/Path), .geojson and .npy by ending (found: {})", file));
 }
 
 void check_path_file(const RobotSpec& robot, const std::string& file, const PathFileOptions& options) {
   const bool is_arm = robot.kind == RobotKind::puma560 || robot.kind == RobotKind::arm;
-  if (is_arm && path_format(file) != PathFormat::csv) {
-    throw UsageError("@path: the joints of an arm are written as .csv");
+  const PathFormat format = path_format(file);
+  if (is_arm && format != PathFormat::csv && format != PathFormat::npy) {
+    throw UsageError("@path: the joints of an arm are written as .csv or .npy");
+  }
+  if (format == PathFormat::npy && options.limits) {
+    throw UsageError("@path: .npy holds places alone; .csv, .yaml and .geojson say when");
   }
   if (options.every_s && !options.limits) {
     throw UsageError(fmt::format("@every: moments need {}", is_arm ? "@joint_speed" : "@speed"));
@@ -217,6 +236,9 @@ PathFileAccount write_path_file(const Answer& answer, const std::string& file, c
       break;
     case PathFormat::geojson:
       account.places = write_geojson_line(rows, legs, answer, options.frame, out);
+      break;
+    case PathFormat::npy:
+      account.places = write_array(rows, legs, out);
       break;
   }
   out.commit();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A path as a file that others drive along: CSV, ROS nav_msgs/Path as YAML, GeoJSON. docs/file_formats.md, "Paths".
+// A path as a file that others drive along: CSV, ROS nav_msgs/Path as YAML, GeoJSON, NumPy array. docs/file_formats.md,
+// "Paths".
 #pragma once
 
 #include <cstdint>
@@ -12,7 +13,7 @@
 
 namespace warren {
 
-enum class PathFormat : std::uint8_t { csv, yaml, geojson };
+enum class PathFormat : std::uint8_t { csv, yaml, geojson, npy };
 
 /// By the ending; "-" is CSV. Throws UsageError, which names the endings there are.
 PathFormat path_format(const std::string& file);
@@ -30,8 +31,8 @@ struct PathFileAccount {
   std::optional<double> duration_s;
 };
 
-/// Throws UsageError for a format that paths of this body can't be written in, for limits of another body, and for
-/// moments without limits.
+/// Throws UsageError for a format that paths of this body can't be written in, or moments, for limits of another body,
+/// and for moments without limits.
 void check_path_file(const RobotSpec& robot, const std::string& file, const PathFileOptions& options);
 
 /// answer: has a path. Throws UsageError as check_path_file does, and for more than 1e9 places; WriteError, Stopped.

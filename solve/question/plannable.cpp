@@ -11,7 +11,7 @@ namespace {
 
 /// Is there anything that only bodies of the plane can meet?
 bool is_flat(const Scene& scene) {
-  return scene.walls.size() > 0 || !scene.polygons.empty() || scene.bounds || scene.map;
+  return scene.walls.size() > 0 || !scene.polygons.empty() || scene.bounds || scene.map || is_unmade(scene);
 }
 
 }  // namespace
@@ -31,6 +31,10 @@ void check_plannable(const Scene& scene, const Question& problem) {
         fmt::format("{}a {} plans among walls, polygons and bounds or on a map; spheres and boxes take an "
                     "arm (puma560, arm)",
                     where, name_of(robot.kind)));
+  }
+  if (is_unmade(scene) && robot.kind != RobotKind::point && robot.kind != RobotKind::disc) {
+    throw UsageError(fmt::format("{}where walls are made tile by tile a point or disc plans; a {} takes a smaller maze",
+                                 where, name_of(robot.kind)));
   }
   if (is_flat(scene)) return;
   throw UsageError(fmt::format("{}nothing confines the {}: the world needs bounds, walls, polygons or a map", where,

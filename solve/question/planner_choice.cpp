@@ -101,6 +101,16 @@ PipelineKind pipeline_for(const SolveOptions& asked, const PlannerOptions& optio
   if (pipeline == PipelineKind::tiled && !scene.polygons.empty()) {
     throw UsageError("@pipeline: tiled takes worlds of walls; among polygons there is plain");
   }
+  const bool unmade = is_unmade(scene);
+  if ((unmade || pipeline == PipelineKind::streamed) && !options.fused) {
+    throw UsageError(
+        "@pipeline: streamed takes the lattice of a maze with the usual rules of joining and searching, and "
+        "a clearance of at most 8");
+  }
+  if (unmade && pipeline.value_or(PipelineKind::streamed) != PipelineKind::streamed) {
+    throw UsageError(fmt::format("@pipeline: the walls of {} are not held; streamed takes them", scene.source));
+  }
+  if (unmade) return PipelineKind::streamed;
   return pipeline.value_or(options.fused ? PipelineKind::tiled : PipelineKind::plain);
 }
 

@@ -42,9 +42,10 @@ constexpr bool keeps_roadmap(PlannerKind planner) {
          planner == PlannerKind::voronoi;
 }
 
-/// How prm works: stage by stage over the whole world, or tile by tile with all stages of a tile in cache.
-enum class PipelineKind : std::uint8_t { plain, tiled };
-constexpr auto enum_names(PipelineKind) { return std::array<std::string_view, 2>{"plain", "tiled"}; }
+/// How prm works: stage by stage over the whole world; tile by tile with all stages of a tile in cache; or so that
+/// nothing of a tile is kept but what paths through it need, and its walls neither where they can be made again.
+enum class PipelineKind : std::uint8_t { plain, tiled, streamed };
+constexpr auto enum_names(PipelineKind) { return std::array<std::string_view, 3>{"plain", "tiled", "streamed"}; }
 
 /// How a graph or a grid is searched; dfs is for roadmaps alone, jump_points for grids.
 enum class SearchMethod : std::uint8_t { astar, dijkstra, bfs, dfs, jump_points };

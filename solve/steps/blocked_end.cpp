@@ -245,7 +245,7 @@ Box room_of(const Scene& scene, const Execution& execution) {
 }
 
 void explain_blocked_end(const Scene& scene, Answer& answer, const Execution& execution) {
-  if (!is_blocked(answer.outcome)) return;
+  if (!is_blocked(answer.outcome) || is_unmade(scene)) return;
   const bool is_start = answer.outcome == Outcome::start_blocked;
   std::vector<double> state = is_start ? answer.problem.start : answer.problem.goal;
   const std::size_t width = state_size(answer.problem.robot);

@@ -100,7 +100,7 @@ void refuse_ignored(const SolveOptions& options, PlannerKind planner, const std:
 std::vector<const SolveKind*> fitting_kinds(const Scene& scene, const RobotSpec& robot) {
   std::vector<const SolveKind*> fitting;
   for (const SolveKind& kind : solve_kinds()) {
-    if (kind.fits(scene, robot)) fitting.push_back(&kind);
+    if (kind.unmade == is_unmade(scene) && kind.fits(scene, robot)) fitting.push_back(&kind);
   }
   return fitting;
 }
@@ -130,9 +130,9 @@ void check_corridors(const SolveOptions& options, const Scene& scene) {
 }  // namespace
 
 const std::vector<SolveKind>& solve_kinds() {
-  static const std::vector<SolveKind> kinds{occupancy_kind(), walls_kind(),       plane_kind(),
-                                            turning_kind(),   fixed_angle_kind(), turning_axis_kind(),
-                                            car_kind(),       arm_kind(),         lattice_kind()};
+  static const std::vector<SolveKind> kinds{occupancy_kind(),   walls_kind(),        plane_kind(), turning_kind(),
+                                            fixed_angle_kind(), turning_axis_kind(), car_kind(),   arm_kind(),
+                                            lattice_kind(),     streamed_kind()};
   return kinds;
 }
 

@@ -85,10 +85,12 @@ struct SolveKind {
   /// Makes such a roadmap ready to be asked; solve() takes it as request.asked.
   std::unique_ptr<RoadmapSession> (*open)(const SolveRequest& request, const RoadmapArrays& arrays,
                                           const ConnectionRule& rule) = nullptr;
+  bool unmade = false;  ///< takes worlds whose walls are left out, and no others
 };
 
 // The kinds, one a file solve_NAME.cpp.
 SolveKind walls_kind();
+SolveKind streamed_kind();
 SolveKind plane_kind();
 SolveKind turning_kind();
 SolveKind fixed_angle_kind();

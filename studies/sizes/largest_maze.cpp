@@ -124,13 +124,13 @@ std::optional<MazeTrial> LargestSearch::trial(const MazeOptions& maze, bool last
   if (!has_memory_for(maze)) return std::nullopt;
   try {
     double generate_s = 0.0;
-    const Scene scene = generate_trial(maze, execution_, generate_s);
+    const Scene scene = generate_trial(maze, options_.planner, execution_, generate_s);
     MazeTrial ran = solve_trial(scene, maze, options_.question, options_.planner, options_.budget_s, execution_);
     ran.generate_s = generate_s;
     if (ran.outcome == Outcome::solved) bytes_a_cell_ = static_cast<double>(ran.peak_memory_bytes) / ran.cells();
     result_.trials.push_back(ran);
     say(ran);
-    if (last && within_budget(ran)) measure_bar(scene);
+    if (last && within_budget(ran) && !is_unmade(scene)) measure_bar(scene);
     return ran;
   } catch (const Stopped& stopped) {
     if (stopped.reason != StopReason::memory) throw;

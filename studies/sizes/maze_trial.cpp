@@ -4,13 +4,17 @@
 #include <nlohmann/json.hpp>
 
 #include "solve/answer/write_answer_io.hpp"
+#include "solve/kinds/solve_streamed.hpp"
 #include "solve/kinds/solve_walls.hpp"
 #include "solve/question/planner_choice.hpp"
 #include "solve/question/question.hpp"
 #include "studies/measure/machine_memory.hpp"
 
 namespace warren {
-Scene generate_trial(const MazeOptions& maze, const Execution& execution, double& seconds) {
+Scene generate_trial(const MazeOptions& maze, const SolveOptions& options, const Execution& execution,
+                     double& seconds) {
+  const bool is_streamed = options.roadmap.pipeline == PipelineKind::streamed;
+  if (is_streamed && maze.algorithm == MazeAlgorithm::mst) return unmade_maze_scene(maze);
   const StageTimer timer(execution, "generate", seconds);
   return maze_scene(maze, false, execution);
 }
@@ -24,7 +28,8 @@ MazeTrial solve_trial(const Scene& scene, const MazeOptions& maze, const Questio
   const Deadline deadline(execution.deadline, budget_s);
   Execution within = execution;
   within.deadline = &deadline;
-  const Answer answer = solve_walls(scene, problem, planner, within, nullptr);
+  const Answer answer = is_unmade(scene) ? solve_streamed(scene, problem, planner, within)
+                                         : solve_walls(scene, problem, planner, within, nullptr);
   const auto reason = answer.outcome == Outcome::stopped ? answer.stop_reason : std::nullopt;
   if (reason && is_signal(*reason)) throw Stopped{*reason};
   return {.rows = maze.rows,

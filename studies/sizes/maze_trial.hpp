@@ -26,7 +26,7 @@ struct MazeTrial {
   unsigned threads = 1;
   std::string planner;
   std::string sampler;
-  std::string pipeline;  ///< plain or tiled; only for prm
+  std::string pipeline;  ///< plain, tiled or streamed; only for prm
   Outcome outcome = Outcome::stopped;
   std::optional<StopReason> stop_reason;  ///< time or memory; only for stopped
   bool verified = false;
@@ -40,8 +40,9 @@ struct MazeTrial {
   double cells() const { return static_cast<double>(rows) * static_cast<double>(cols); }
 };
 
-/// Makes the maze; `seconds` receives the time. Throws Stopped.
-Scene generate_trial(const MazeOptions& maze, const Execution& execution, double& seconds);
+/// Makes the maze, whose walls are left out where they are to be streamed and can be; `seconds` receives the time.
+/// Throws Stopped.
+Scene generate_trial(const MazeOptions& maze, const SolveOptions& options, const Execution& execution, double& seconds);
 
 /// Solves it by prm or lazy-prm, as `options` say, with the maze's seed, and at most budget_s of solve_s; the memory
 /// limit is the execution's. Throws Stopped only for signals; other stops are outcomes. Throws UsageError.

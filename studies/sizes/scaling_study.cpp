@@ -61,7 +61,8 @@ void ScalingStudy::run_maze(std::uint32_t rows, std::uint32_t cols, std::uint64_
 
 std::optional<Scene> ScalingStudy::generated(const MazeOptions& maze, double& seconds) {
   try {
-    return generate_trial(maze, execution_, seconds);
+    const bool alone = options_.planners.size() == 1;
+    return generate_trial(maze, alone ? options_.planners.front() : SolveOptions{}, execution_, seconds);
   } catch (const Stopped& stopped) {
     if (stopped.reason != StopReason::memory) throw;
   } catch (const std::bad_alloc&) {

@@ -55,6 +55,7 @@ class Matrix : public testing::TestWithParam<MatrixWorld> {
   static void check_explained(const ProgramAnswer& answer, const std::string& summary);
 
   void ask_planner(const MatrixBody& body, const PlannerRow& planner, const PlannerField* field, bool optimise);
+  void ask_pipelines(std::vector<std::string> arguments, const ProgramAnswer& usual);
   void ask_kept_roadmap(const MatrixBody& body, const std::string& planner, bool is_kept);
   void ask_estimate(const MatrixBody& body, const std::string& planner);
   void ask_judges(const MatrixBody& body, const std::string& planner, const ProgramAnswer& answer);

@@ -81,6 +81,21 @@ void Matrix::ask_planner(const MatrixBody& body, const PlannerRow& planner, cons
   }
   check_path_file(body, ends_of(body, turns), may_touch, answer.path);
   ask_judges(body, planner.name, answer);
+  if (planner.name == "prm" && world().name == "maze" && (body.kind == "point" || body.kind == "disc") && !optimise)
+    ask_pipelines(arguments, answer);
+}
+
+/// However prm works, its path is as long.
+void Matrix::ask_pipelines(std::vector<std::string> arguments, const ProgramAnswer& usual) {
+  arguments.insert(arguments.end(), {"--pipeline", ""});
+  for (const char* pipeline : {"plain", "tiled", "streamed"}) {
+    arguments.back() = pipeline;
+    SCOPED_TRACE(shown(arguments));
+    ASSERT_EQ(ask(arguments).code, 0);
+    const ProgramAnswer answer = read_program_answer(folder_.read("answer.json"));
+    EXPECT_TRUE(answer.verified);
+    EXPECT_EQ(answer.length, usual.length);
+  }
 }
 
 /// A roadmap that is built and then asked answers as solve does, and an update to the same world asks about nothing, or

@@ -44,6 +44,19 @@ TEST(Largest, TheSizeGivesWhatSolveGives) {
   EXPECT_EQ(found["trials"].back()["length"], solved["length"]);
 }
 
+TEST(Largest, StreamedMazesBeginWithTheSeed) {
+  const Json json = Json::parse(
+      run_program("largest --max-size 300 --start-size 300 --seeds 1 --pipeline streamed --quiet --json -").out);
+  EXPECT_EQ(json["rows"], 300);
+  EXPECT_TRUE(json["verified"]);
+  EXPECT_EQ(json["trials"][0]["pipeline"], "streamed");
+  EXPECT_EQ(json["trials"][0]["generate_s"], 0.0);
+  EXPECT_GT(json["trials"][0]["stages_s"]["generate"], 0.0);
+  const Json solved =
+      Json::parse(run_program("solve maze:300x300,algorithm=mst --pipeline tiled --quiet --json -").out);
+  EXPECT_EQ(json["trials"][0]["length"], solved["length"]);
+}
+
 TEST(Largest, ShapeIsRowsToColumns) {
   const Json json = Json::parse(run_program("largest --max-size 30 --rows 1 --cols 4 --seeds 1 --quiet --json -").out);
   EXPECT_EQ(json["rows"], 15);

@@ -60,6 +60,25 @@ Scene load_world(const std::string& source, const Arguments& arguments, const Ex
   return read_world(source, execution);
 }
 
+Scene load_planned_world(const std::string& source, std::optional<PipelineKind> pipeline, const Arguments& arguments,
+                         const Execution& execution, StageTimes& seconds) {
+  constexpr double bytes_a_cell = 25.0;  // walls and tiles at their peak (docs/performance.md)
+  constexpr double most_held = 4294967295.0;
+  if (is_maze_source(source)) {
+    const MazeOptions maze = parse_maze_source(source);
+    const double cells = static_cast<double>(maze.rows) * maze.cols;
+    const double memory = execution.deadline == nullptr ? most_held * bytes_a_cell
+                                                        : static_cast<double>(execution.deadline->memory_bytes());
+    const bool is_large = !pipeline && (cells > most_held || cells * bytes_a_cell > memory);
+    if (maze.algorithm == MazeAlgorithm::mst && (is_large || pipeline == PipelineKind::streamed)) {
+      Scene scene = unmade_maze_scene(maze);
+      scene.source = source;
+      return scene;
+    }
+  }
+  return load_world(source, arguments, execution, seconds);
+}
+
 Scene load_world(const InputFile& file, const Arguments& arguments, const Execution& execution, StageTimes& seconds) {
   const auto asked = given_value(arguments, "--map-rules", rules_value);
   const StageTimer timer(execution, "read", seconds.read);

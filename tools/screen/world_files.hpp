@@ -2,6 +2,7 @@
 // Worlds in and out as the verbs need them: read or generated with its time taken, written in any format by ending.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -11,6 +12,7 @@
 #include "pictures/model/picture_options.hpp"
 #include "scenes/scene/scene.hpp"
 #include "scenes/text/input_file_io.hpp"
+#include "solve/question/solve_options.hpp"
 #include "tools/words/arguments.hpp"
 #include "tools/words/command.hpp"
 
@@ -23,6 +25,11 @@ std::span<const OptionSpec> world_option_specs();
 /// read_world does, and UsageError for rules of maps where the world is no map of map_server.
 Scene load_world(const std::string& source, const Arguments& arguments, const Execution& execution,
                  StageTimes& seconds);
+
+/// The same, but walls are left out that follow from a formula (is_unmade): where `pipeline` is streamed, or where it
+/// is not said and the memory would not hold them while they are planned among.
+Scene load_planned_world(const std::string& source, std::optional<PipelineKind> pipeline, const Arguments& arguments,
+                         const Execution& execution, StageTimes& seconds);
 
 /// The same for a file that is open already.
 Scene load_world(const InputFile& file, const Arguments& arguments, const Execution& execution, StageTimes& seconds);

@@ -27,6 +27,7 @@ namespace {
 
 constexpr OptionSpec output_specs[] = {
     {"--json", "FILE", "write the answer as JSON; - is standard output"},
+    {"--no-path", "", "leave the path's points out of the JSON: it says their number (path_points) and path_hash"},
     {"--explain", "", "say what became of samples and motions, where it is narrow, and what would likely help"},
     {"--svg", "FILE", "draw the world, roadmap, search and path: .svg .png .pdf .html by ending"},
 };
@@ -87,8 +88,9 @@ void AnswerCommand::answer(const Run& run) {
   }
   if (answer_.world.source.empty()) answer_.world.source = arguments_.operand(0);
   answer_.seconds.read = before.read;
-  answer_.seconds.generate = before.generate;
+  answer_.seconds.generate += before.generate;
   answer_.threads = run.threads();
+  answer_.tells_path = !arguments_.has("--no-path");
   answer_.peak_memory_bytes = peak_resident_bytes();
 }
 

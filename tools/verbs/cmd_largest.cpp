@@ -23,11 +23,13 @@
 namespace warren {
 namespace {
 
-constexpr double most_cells = 4294967295.0;  // of any maze
+constexpr double most_cells = 4294967295.0;  // of a maze that is held
+constexpr double most_streamed = 1e12;
 constexpr double default_budget_s = 20.0;
 
 constexpr OptionSpec search_specs[] = {
-    {"--budget", "TIME", "each run may take so long from walls in memory to path verified (default: 20s)"},
+    {"--budget", "TIME",
+     "each run may take so long from walls in memory (streamed: from the seed) to path verified (default: 20s)"},
     {"--rows", "R", "rows to columns as R to C, by --cols; the search is over the number of cells (default: 1)"},
     {"--cols", "C", "see --rows (default: 1)"},
     {"--start-size", "N", "the first maze tried has about N x N cells (default: 128)"},
@@ -45,11 +47,11 @@ double share_value(std::string_view option, std::string_view text) {
   return number_value(option, text, 0.01, 100.0) / 100.0;
 }
 
-SizeSearch size_search(const Arguments& arguments, double shape_rows, double shape_cols) {
+SizeSearch size_search(const Arguments& arguments, double shape_rows, double shape_cols, bool is_streamed) {
   const double lean = std::sqrt(std::max(shape_rows / shape_cols, shape_cols / shape_rows));
   SizeSearch search;
   // Rounding the rows and columns of a shape may add half a row: stay a little under the limit.
-  const double limit = std::floor(std::sqrt(most_cells) - 1.0 - lean);
+  const double limit = std::floor(std::sqrt(is_streamed ? most_streamed : most_cells) - 1.0 - lean);
   if (limit < 1.0) throw UsageError("--rows, --cols: too far apart for any maze");
   const auto largest_side = static_cast<std::uint32_t>(limit);
   search.most = given_count(arguments, "--max-size", 1, largest_side).value_or(largest_side);
@@ -79,11 +81,14 @@ LargestOptions largest_options(const Arguments& arguments) {
   options.budget_s = given_value(arguments, "--budget", duration_value).value_or(default_budget_s);
   options.shape_rows = shape("--rows");
   options.shape_cols = shape("--cols");
-  options.sizes = size_search(arguments, options.shape_rows, options.shape_cols);
-  options.maze = maze_words(arguments);
+  options.planner = roadmap_words(arguments);
+  const bool is_streamed = options.planner.roadmap.pipeline == PipelineKind::streamed;
+  if (is_streamed) options.maze.algorithm = MazeAlgorithm::mst;
+  options.maze = maze_words(arguments, options.maze);
+  const bool is_unmade = is_streamed && options.maze.algorithm == MazeAlgorithm::mst;
+  options.sizes = size_search(arguments, options.shape_rows, options.shape_cols, is_unmade);
   options.seeds = given_value(arguments, "--seeds", count_value, std::uint64_t{1}, most_seeds).value_or(options.seeds);
   options.maze.seed = given_value(arguments, "--seed", count_value, std::uint64_t{0}, last_seed).value_or(1);
-  options.planner = roadmap_words(arguments);
   check_planner_options(options.planner);
   options.question = question_words(arguments);
   return options;

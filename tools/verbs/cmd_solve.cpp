@@ -2,6 +2,8 @@
 // warren solve: finds a path, verifies it, prints what it took. A stop at any stage still gives an answer.
 #include <utility>
 
+#include "core/base/error.hpp"
+#include "scenes/formats/read_world_io.hpp"
 #include "solve/roadmaps/solve_and_keep.hpp"
 #include "solve/solve.hpp"
 #include "solve/steps/blocked_end.hpp"
@@ -33,8 +35,11 @@ class SolveCommand : public AnswerCommand {
 
  private:
   Answer find(const Run& run, StageTimes& before, ByProducts* keep) override {
-    scene_ = load_world(arguments_.operand(0), arguments_, run.execution(), before);
+    scene_ = load_planned_world(arguments_.operand(0), options_.roadmap.pipeline, arguments_, run.execution(), before);
     check_path_of(robot_of(scene_, question_));
+    if (is_unmade(scene_) && arguments_.has("--explain")) {
+      throw UsageError("--explain: looks at walls that are held, and these are made tile by tile");
+    }
     Answer answer = keeps_roadmap()
                         ? solve_and_keep(std::move(scene_), question_, options_, run.execution(), roadmap_, keep)
                         : solve_within(scene_, question_, options_, run.execution(), keep);
@@ -47,6 +52,7 @@ class SolveCommand : public AnswerCommand {
   }
   Scene scene_drawn(const Execution& execution, ByProducts& keep) override {
     if (keeps_roadmap()) return roadmap_.world.whole(execution);
+    if (is_unmade(scene_)) return read_world(arguments_.operand(0), execution);
     complete(execution, keep);
     return std::move(scene_);
   }

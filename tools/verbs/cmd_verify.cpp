@@ -62,7 +62,7 @@ int verify_answer(const Arguments& arguments) {
   Run run(arguments);
   StageTimes seconds;
   const RecordedAnswer answer = read_answer(arguments.operand(1), run.execution());
-  const Scene scene = load_world(arguments.operand(0), arguments, run.execution(), seconds);
+  const Scene scene = load_planned_world(arguments.operand(0), std::nullopt, arguments, run.execution(), seconds);
   check_not_written(arguments, answer.problem.robot);
   Verdict verdict;
   {

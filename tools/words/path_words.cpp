@@ -14,7 +14,7 @@ namespace warren {
 namespace {
 
 constexpr OptionSpec path_specs[] = {
-    {"--path", "FILE", "write the path: .csv, .yaml (ROS nav_msgs/Path) or .geojson by ending"},
+    {"--path", "FILE", "write the path: .csv, .yaml (ROS nav_msgs/Path), .geojson or .npy by ending"},
     {"--every", "D|TIME",
      "with --path: places at most D apart beside the path's own, or moments, such as 100ms (default: its own)"},
     {"--speed", "V", "with --path: say when, at most so fast, in units of length a second; stops at corners"},

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A point or disc in a maze whose walls are not held: prm on its lattice, whose tiles are made, reduced and forgotten;
+// those of the path are made again to expand it, and once more for the judge. solve_s includes all of it.
+#include "solve/kinds/solve_streamed.hpp"
+
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "planners/tiled/tiled_prm_lattice.hpp"
+#include "planners/tiles/tile_source.hpp"
+#include "scenes/mazes/spanning_maze.hpp"
+#include "solve/answer/world_account.hpp"
+#include "solve/question/planner_choice.hpp"
+#include "solve/steps/kind_of_problem.hpp"
+#include "solve/steps/settled_ends.hpp"
+#include "solve/steps/solve_steps.hpp"
+#include "verify/judges/verify_cells.hpp"
+
+namespace warren {
+namespace {
+
+VerifyOptions judged_as(const WallProblem& problem) {
+  return {.radius = problem.robot.radius, .clearance = problem.clearance, .start = problem.start, .goal = problem.goal};
+}
+
+/// One solve: the steps share the question and fill in the answer.
+class StreamedSolve {
+ public:
+  StreamedSolve(const Scene& scene, const WallProblem& problem, const PlannerOptions& options,
+                const Execution& execution)
+      : scene_(scene), problem_(problem), options_(options), execution_(execution) {
+    if (options.optimise) throw UsageError("@optimise: pulls no path taut among walls that are not held");
+    if (!(problem.reach() < most_cell_clearance * (1 - 1e-8))) {
+      throw UsageError(
+          "@clearance: with the body's radius it must be below half a cell where walls are made tile by tile");
+    }
+    describe_roadmap_planner(answer_, problem, options);
+  }
+
+  void run() {
+    make_borders();
+    plan();
+    answer_.outcome = settled_ends(
+        answer_.outcome, [&] { return stands_free(problem_.start); }, [&] { return stands_free(problem_.goal); });
+    verify();
+    count_walls();
+  }
+  Answer& answer() { return answer_; }
+
+ private:
+  /// What the tiles need to be made each by itself.
+  void make_borders() {
+    const std::uint64_t groups = (std::uint64_t{scene_.maze->rows} * scene_.maze->cols >> 22U) + 1;
+    const StageTimer timer(execution_, "generate", answer_.seconds.generate, groups);
+    maze_.emplace(scene_.maze->rows, scene_.maze->cols, scene_.formula->seed, scene_.formula->loops, execution_);
+  }
+  void plan() {
+    const WallSet none;
+    take_solution(answer_, tiled_prm({none, {}, {}, problem_.reach(), problem_.start, problem_.goal, &*maze_, true},
+                                     options_.roadmap, execution_));
+  }
+  bool stands_free(Vec2 p) const {
+    const VerifyOptions options{.radius = problem_.robot.radius, .clearance = problem_.clearance};
+    return verify_among_cells(*maze_, std::span(&p, 1), options, execution_).verified;
+  }
+  void verify() {
+    if (answer_.outcome != Outcome::solved) return;
+    const StageTimer timer(execution_, "verify", answer_.seconds.verify);
+    const Verification found = verify_among_cells(*maze_, answer_.path, judged_as(problem_), execution_);
+    if (!found.verified) fail_verification(answer_, found.first_violation);
+    answer_.verified = true;
+    answer_.length = found.length;
+    answer_.min_clearance = found.min_clearance;
+  }
+  /// Below half a cell nothing but a wall between two cells blocks a step, so the steps that are free say how many
+  /// walls stand; the outline counts as four, as in maze_walls.
+  void count_walls() {
+    answer_.world = account_of(scene_, formula_hash(scene_));
+    const RoadmapSize& roadmap = answer_.roadmap;
+    const std::uint64_t rows = scene_.maze->rows;
+    const std::uint64_t cols = scene_.maze->cols;
+    if (roadmap.milestones == rows * cols + 2) {
+      answer_.world.walls = 4 + 2 * rows * cols - rows - cols - (roadmap.edges - roadmap.end_edges);
+    }
+  }
+
+  const Scene& scene_;
+  const WallProblem& problem_;
+  const PlannerOptions& options_;
+  const Execution& execution_;
+  std::optional<SpanningMaze> maze_;
+  Answer answer_;
+};
+
+constexpr PlannerChoice streamed_planners[] = {{PlannerKind::prm, prm_takes | OptionSet{Option::pipeline}}};
+
+bool fits_streamed(const Scene& scene, const RobotSpec& robot) {
+  return is_unmade(scene) && (robot.kind == RobotKind::point || robot.kind == RobotKind::disc);
+}
+
+PlannerKind usual_streamed_planner(const SolveOptions&, const Scene&, const Question&) { return PlannerKind::prm; }
+
+Answer solve_request(const SolveRequest& request) {
+  const WallProblem problem = keeping_off(request.scene, request.question, "prm keeps off the walls");
+  return solve_streamed(request.scene, problem, planner_options(request.options, request.scene, problem),
+                        request.execution);
+}
+
+Verdict recheck_streamed(const Scene& scene, const Question& question, const RecordedAnswer& answer,
+                         const Execution& execution) {
+  const WallProblem problem = wall_problem(scene, question);
+  check_state_width(answer, 2, "a point or disc");
+  const SpanningMaze maze(scene.maze->rows, scene.maze->cols, scene.formula->seed, scene.formula->loops, execution);
+  return {verify_among_cells(maze, answer.path, judged_as(problem), execution), problem.general()};
+}
+
+}  // namespace
+
+Answer solve_streamed(const Scene& scene, const WallProblem& problem, const PlannerOptions& options,
+                      const Execution& execution) {
+  StreamedSolve solve(scene, problem, options, execution);
+  answer_within_limits(solve.answer(), [&] { solve.run(); });
+  return std::move(solve.answer());
+}
+
+SolveKind streamed_kind() {
+  SolveKind kind{"a point or disc in a maze made tile by tile",
+                 fits_streamed,
+                 streamed_planners,
+                 usual_streamed_planner,
+                 solve_request,
+                 nullptr,
+                 recheck_streamed};
+  kind.unmade = true;
+  return kind;
+}
+
+}  // namespace warren
