@@ -98,7 +98,7 @@ TEST(Streamed, WithoutItsPointsAnAnswerSaysTheirNumberAndHash) {
 }
 
 TEST(Streamed, MazesThatTheMemoryDoesNotHoldAreStreamed) {
-  const Json answer = answered({"solve", "maze:2000x2000,algorithm=mst", "--memory", "95M", "--no-path"});
+  const Json answer = answered({"solve", "maze:2000x2000,algorithm=mst", "--memory", "95MiB", "--no-path"});
   EXPECT_EQ(answer["pipeline"], "streamed");
   EXPECT_EQ(answer["verified"], true);
   EXPECT_LT(answer["peak_memory_bytes"].get<double>(), 95e6);
@@ -107,10 +107,10 @@ TEST(Streamed, MazesThatTheMemoryDoesNotHoldAreStreamed) {
 TEST(Streamed, TenBillionCellsStopWhereTheyAreToldTo) {
   const std::string world = "maze:100000x100000,algorithm=mst";
   const Json late = answered({"solve", world, "--budget", "300ms"}, 124);
-  EXPECT_EQ(late["stopped_by"], "deadline");
+  EXPECT_EQ(late["stopped_by"], "budget");
   EXPECT_EQ(late["world"]["kind"], "maze");
   EXPECT_EQ(late["world"]["walls"], 99999LL * 99999LL + 4);
-  EXPECT_EQ(answered({"solve", world, "--memory", "100M"}, 124)["stopped_by"], "memory");
+  EXPECT_EQ(answered({"solve", world, "--memory", "100MiB"}, 124)["stopped_by"], "memory");
 }
 
 TEST(Streamed, RefusesWhatItWouldIgnore) {
@@ -121,11 +121,13 @@ TEST(Streamed, RefusesWhatItWouldIgnore) {
   refused({"--clearance", "0.5"}, "--clearance: with the body's radius it must be below half a cell");
   refused({"--robot", "disc 0.45"}, "--clearance: with the body's radius it must be below half a cell");
   refused({"--optimise"}, "--optimise: pulls no path taut");
-  refused({"--planner", "visibility"},
-          "--planner: visibility does not solve a point or disc in a maze made tile by tile");
-  refused({"--samples", "100"}, "--pipeline: streamed takes the lattice");
+  refused({"--planner", "visibility"}, "--pipeline: visibility would ignore it");
+  refused({"--planner", "prm", "--samples", "100"}, "--pipeline: streamed takes the lattice");
   refused({"--robot", "polygon -.1 -.1 .1 -.1 0 .1"}, "a polygon takes a smaller maze");
   check({{"solve", "maze:100000x100000"}, 2, "of the algorithm mst it may be more"});
+  check({{"solve", "maze:100000x100000,algorithm=mst", "--planner", "visibility"},
+         2,
+         "--planner: visibility does not solve a point or disc in a maze made tile by tile"});
   check({{"solve", "maze:9x9", "--planner", "lazy-prm", "--pipeline", "streamed"}, 2, "the planner prm takes"});
 }
 

@@ -41,10 +41,9 @@ constexpr OptionSpec roadmap_specs[] = {
      {},
      true},
     {"--pipeline", "NAME",
-     "how prm works: stage by stage, tile by tile in cache, or so that mazes of the algorithm mst are made, reduced "
-     "and "
-     "forgotten tile by tile (default: tiled on a lattice where the rules of joining and searching are the usual ones, "
-     "streamed where the memory does not hold the maze)",
+     "how prm works: stage by stage, tile by tile in cache, or so that mazes of mst are made and forgotten tile by "
+     "tile (default: tiled on a lattice where the rules of joining and searching are the usual ones, streamed where "
+     "the memory does not hold the maze)",
      "plain tiled streamed"},
     {"--optimise", "", "pull the path taut after the search"},
     {"--seed", "N", "seed of the sampling; never alters the world (default: 1)"},
