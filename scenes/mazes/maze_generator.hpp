@@ -96,7 +96,7 @@ bool has_maze_walls(const WallSet& walls, const MazeCells& cells, const Executio
 /// A scene with walls, maze hint, start (0.5, 1) and goal (cols + 0.5, rows).
 Scene maze_scene(const MazeOptions& options, bool merged, const Execution& execution);
 
-/// The scene of a maze of the algorithm mst with its walls left out: O(1), of any size below 2^31 x 2^31. Throws
+/// The scene of a maze of the algorithm mst with its walls left out: O(1), of any size below 2^27 x 2^27. Throws
 /// InputError for sizes and loops out of range.
 Scene unmade_maze_scene(const MazeOptions& options);
 

@@ -26,7 +26,8 @@ void check_spanning_maze(std::uint32_t rows, std::uint32_t cols, double loops);
 
 class SpanningMaze : public CellWallSource {
  public:
-  static constexpr std::uint32_t most_side = (1U << 31U) - 1;  ///< rows, cols
+  /// Of rows and columns: the sides of the 64 parts that are joined last have fewer than 2^32 cells.
+  static constexpr std::uint32_t most_side = (1U << 27U) - 1;
 
   /// loops: the probability, 0 to 1, that a wall between two cells which the tree leaves is taken out. Throws
   /// InputError for sizes and loops out of range, Stopped at the deadline or before memory would pass its limit.

@@ -147,7 +147,7 @@ TEST(SpanningMaze, LargeTilesAreKruskalsMazeToo) {
 
 TEST(SpanningMaze, RefusesSizesAndLoopsOutOfRange) {
   EXPECT_THROW(SpanningMaze(0, 5, 1, 0.0, {}), InputError);
-  EXPECT_THROW(SpanningMaze(5, 1U << 31U, 1, 0.0, {}), InputError);
+  EXPECT_THROW(SpanningMaze(5, SpanningMaze::most_side + 1, 1, 0.0, {}), InputError);
   EXPECT_THROW(SpanningMaze(5, 5, 1, 1.5, {}), InputError);
 }
 
