@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A value that is made when somebody first asks for it, by whichever thread comes first; the others wait. Where making
-// it throws, nothing was made, and the next one who asks makes it. A look at what was made costs one load.
+// A value that is made when somebody first asks for it, by whichever thread comes first; the others wait, each within
+// its own limits. Where making it throws, nothing was made, and the next one who asks makes it. A look at what was made
+// costs one load.
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <memory>
 #include <mutex>
+#include <thread>
+
+#include "parallel/execution.hpp"
 
 namespace warren {
 
@@ -13,11 +18,15 @@ namespace warren {
 template <class T>
 class MadeOnce {
  public:
-  /// make() gives a std::unique_ptr<T> that isn't empty.
+  /// make() gives a std::unique_ptr<T> that isn't empty. Throws what it throws; Stopped while another thread makes it.
   template <class Make>
-  const T& get(const Make& make) const {
+  const T& get(const Execution& execution, const Make& make) const {
     if (const T* made = made_.load(std::memory_order_acquire)) return *made;
-    const std::scoped_lock lock(mutex_);
+    std::unique_lock lock(mutex_, std::try_to_lock);
+    while (!lock.owns_lock() && !lock.try_lock()) {
+      execution.check();
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
     if (owned_ == nullptr) {
       owned_ = make();
       made_.store(owned_.get(), std::memory_order_release);

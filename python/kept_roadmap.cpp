@@ -17,20 +17,30 @@ std::vector<double> row(const NumberRows& rows, std::size_t i) {
   return {first, first + rows.columns};
 }
 
+/// Of what is wrong with a start or a goal its row; an option that is wrong has none.
+[[noreturn]] void refuse_row(const UsageError& error, std::size_t start, std::size_t goal) {
+  constexpr std::string_view of_start = "start: ";
+  constexpr std::string_view of_goal = "goal: ";
+  const std::string_view said = error.what();
+  if (said.starts_with(of_start)) throw InputError(fmt::format("starts[{}]", start), said.substr(of_start.size()));
+  if (said.starts_with(of_goal)) throw InputError(fmt::format("goals[{}]", goal), said.substr(of_goal.size()));
+  throw error;
+}
+
 }  // namespace
 
 const RoadmapQuery& KeptRoadmap::query(const Execution& execution) const {
-  return query_.get([&] { return std::make_unique<RoadmapQuery>(roadmap_, execution, Questions::many); });
+  return query_.get(execution, [&] { return std::make_unique<RoadmapQuery>(roadmap_, execution, Questions::many); });
 }
 
 const RoadmapArrays& KeptRoadmap::arrays(const Execution& execution) const {
   if (roadmap_.lattice == nullptr) return roadmap_.arrays;
   return lattice_.get(
-      [&] { return std::make_unique<RoadmapArrays>(arrays_of(roadmap_.lattice->passages(), execution)); });
+      execution, [&] { return std::make_unique<RoadmapArrays>(arrays_of(roadmap_.lattice->passages(), execution)); });
 }
 
 const RawVector<double>& KeptRoadmap::lengths(const Execution& execution) const {
-  return lengths_.get([&] {
+  return lengths_.get(execution, [&] {
     constexpr std::size_t grain = 1024;
     const Graph& graph = arrays(execution).candidates;
     execution.reserve(graph.targets().size() * sizeof(double));
@@ -95,7 +105,7 @@ void ask_lengths(const KeptRoadmap& kept, const NumberRows& starts, const Number
       const LengthAnswer answer = query.length_within(row(starts, start), row(goals, goal), how, one_thread, scratch);
       lengths[i] = answer.outcome == Outcome::solved ? answer.length : std::numeric_limits<double>::infinity();
     } catch (const UsageError& error) {
-      throw InputError(fmt::format("starts[{}], goals[{}]", start, goal), error.what());
+      refuse_row(error, start, goal);
     }
   };
   // A chunk a thread: each has a scratch as large as the roadmap.

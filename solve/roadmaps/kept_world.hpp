@@ -30,7 +30,7 @@ class KeptWorld {
   /// Throws InputError for a world that is not what its file promises, Stopped; the next call then tries again.
   const Scene& whole(const Execution& execution) const {
     if (later_ == nullptr) return outline_;
-    return later_->whole.get([&] { return std::make_unique<Scene>(later_->make(execution)); });
+    return later_->whole.get(execution, [&] { return std::make_unique<Scene>(later_->make(execution)); });
   }
 
  private:

@@ -151,7 +151,7 @@ Answer RoadmapQuery::ask_within(const std::vector<double>& start, const std::vec
 const ObstacleIndex* RoadmapQuery::judge_of_lattice(const Execution& execution) const {
   const Scene& scene = roadmap_.world.whole(execution);
   if (questions_ == Questions::one || scene.walls.size() > most_indexed_walls) return nullptr;
-  return &judged_->index.get([&] { return std::make_unique<ObstacleIndex>(scene, execution); });
+  return &judged_->index.get(execution, [&] { return std::make_unique<ObstacleIndex>(scene, execution); });
 }
 
 void RoadmapQuery::prepare_paths(const Execution& execution) const {

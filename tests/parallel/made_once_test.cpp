@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <csignal>
+#include <limits>
 #include <memory>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include "parallel/chunks.hpp"
@@ -18,7 +21,7 @@ TEST(MadeOnce, IsMadeByOneOfManyThreadsAndSeenWholeByAll) {
   std::atomic<int> made = 0;
   std::vector<int> sizes(1000);
   for_chunks(sizes.size(), 1, {.threads = 8}, [&](Range r) {
-    const std::vector<int>& all = value.get([&] {
+    const std::vector<int>& all = value.get({}, [&] {
       ++made;
       return std::make_unique<std::vector<int>>(1000, 7);
     });
@@ -31,9 +34,21 @@ TEST(MadeOnce, IsMadeByOneOfManyThreadsAndSeenWholeByAll) {
 TEST(MadeOnce, WhatFailedIsMadeByTheNextOneWhoAsks) {
   const MadeOnce<int> value;
   const auto fail = []() -> std::unique_ptr<int> { throw std::runtime_error("no"); };
-  EXPECT_THROW(value.get(fail), std::runtime_error);
-  EXPECT_EQ(value.get([] { return std::make_unique<int>(3); }), 3);
-  EXPECT_EQ(value.get(fail), 3);
+  EXPECT_THROW(value.get({}, fail), std::runtime_error);
+  EXPECT_EQ(value.get({}, [] { return std::make_unique<int>(3); }), 3);
+  EXPECT_EQ(value.get({}, fail), 3);
+}
+
+TEST(MadeOnce, WhoWaitsIsStoppedByItsOwnDeadline) {
+  const MadeOnce<int> value;
+  const SignalFlag signal = SIGINT;
+  const Deadline over(std::numeric_limits<double>::infinity(), std::numeric_limits<std::size_t>::max(), &signal);
+  const auto unasked = []() -> std::unique_ptr<int> { throw std::logic_error("two make it"); };
+  const int& made = value.get({}, [&] {
+    std::jthread([&] { EXPECT_THROW(value.get({.deadline = &over}, unasked), Stopped); });  // ends while this one makes
+    return std::make_unique<int>(3);
+  });
+  EXPECT_EQ(made, 3);
 }
 
 }  // namespace
