@@ -23,6 +23,8 @@ Numbers converted(py::handle value, const std::string& name, const std::string& 
     PyErr_Clear();
     throw py::type_error(fmt::format("{}: expected numbers in rows, {}", name, shape));
   }
+  if (numbers.ndim() == 0)
+    throw py::type_error(fmt::format("{}: expected numbers in rows, {} (found: one)", name, shape));
   if (numbers.size() == 0) return Numbers(Shape{0, 2});
   return Numbers(numbers);
 }

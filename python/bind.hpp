@@ -5,6 +5,10 @@
 
 #include <pybind11/pybind11.h>
 
+#include <optional>
+
+#include "parallel/execution.hpp"
+#include "scenes/scene/scene.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/answer/by_products.hpp"
 
@@ -15,6 +19,9 @@ struct KeptAnswer {
   Answer answer;
   ByProducts made = {};
 };
+
+/// The scene with the borders of a map's cells as walls, as pictures and files of walls show it: itself, or `copy`.
+const Scene& bordered(const Scene& scene, std::optional<Scene>& copy, const Execution& execution);
 
 void bind_worlds(pybind11::module_& module);
 void bind_answers(pybind11::module_& module);

@@ -10,6 +10,7 @@
 #include "python/binary_archive.hpp"
 #include "python/bind.hpp"
 #include "python/keywords.hpp"
+#include "scenes/text/output_file_io.hpp"
 #include "solve/answer/write_answer_io.hpp"
 #include "solve/paths/path_file_io.hpp"
 #include "solve/paths/timed_path.hpp"
@@ -25,6 +26,15 @@ const Command& path_keywords() {
   static const Command command = [] {
     Command made{"save_path", "", "", {}, {}};
     add_options(made.options, path_option_specs());
+    return made;
+  }();
+  return command;
+}
+
+const Command& sample_keywords() {
+  static const Command command = [] {
+    Command made{"sample", "", "", {}, {}};
+    add_options(made.options, path_option_specs(), {"--frame"});
     return made;
   }();
   return command;
@@ -109,7 +119,7 @@ std::pair<RawVector<double>, RawVector<double>> places_in_time(const PathLegs& l
 /// (states, along or times); the keywords are those of paths in files.
 py::tuple sample(const Answer& answer, const py::dict& keywords) {
   keywords["path"] = "-";
-  const PathFileOptions options = path_words(arguments_of(path_keywords(), keywords));
+  const PathFileOptions options = path_words(arguments_of(sample_keywords(), keywords));
   check_path_file(answer.problem.robot, "-", options);
   if (answer.path.empty() && answer.states.empty()) {
     return py::make_tuple(read_only(py::array_t<double>(Shape{0, 2})), read_only(py::array_t<double>(Shape{0})));
@@ -171,6 +181,14 @@ void bind_answers(py::module_& module) {
   figure(answers, "json", &json_of);
   figure(answers, "summary", [](const Answer& a) { return summary_of(a, Palette(false), {}); });
   answers.def("sample", [](const KeptAnswer& kept, const py::dict& how) { return sample(kept.answer, how); })
+      .def("save",
+           [](const KeptAnswer& kept, const std::string& file) {
+             CallLimits().run([&](const Execution& execution) {
+               OutputFile out(file, execution);
+               write_answer_json(kept.answer, execution, [&](std::string_view piece) { out.write(piece); });
+               out.commit();
+             });
+           })
       .def("save_path", [](const KeptAnswer& kept, const std::string& file,
                            const py::dict& how) { return save_path(kept.answer, file, how); })
       .def(py::pickle([](const KeptAnswer& kept) { return bytes_of(kept.answer); },

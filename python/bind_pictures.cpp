@@ -25,14 +25,6 @@ std::string drawn(const Picture& picture, const std::string& format, const Execu
   return text;
 }
 
-/// The scene with the walls that pictures show of a map.
-const Scene& bordered(const Scene& scene, std::optional<Scene>& copy, const Execution& execution) {
-  if (!scene.map || scene.walls.size() > 0) return scene;
-  copy = scene;
-  add_map_walls(*copy, execution);
-  return *copy;
-}
-
 py::bytes picture_of_world(const Scene& scene, const std::string& format) {
   return CallLimits().run([&](const Execution& execution) {
     std::optional<Scene> copy;
@@ -107,6 +99,13 @@ py::tuple body_of(const Answer& answer) {
 }
 
 }  // namespace
+
+const Scene& bordered(const Scene& scene, std::optional<Scene>& copy, const Execution& execution) {
+  if (!scene.map || scene.walls.size() > 0) return scene;
+  copy = scene;
+  add_map_walls(*copy, execution);
+  return *copy;
+}
 
 void bind_pictures(py::module_& module) {
   module.def("picture_of_world", &picture_of_world);

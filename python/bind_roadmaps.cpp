@@ -42,17 +42,33 @@ const Command& building() {
   return command;
 }
 
+/// The options of `warren query` that say how a search works.
+Command search_command(std::string_view name) {
+  Command made = of_verb(query_command(), {});
+  made.name = name;
+  constexpr std::string_view kept[] = {"--search",    "--heuristic",    "--queue", "--optimise",
+                                       "--cusp-cost", "--reverse-cost", "--attach"};
+  std::erase_if(made.options, [&](const OptionSpec& spec) {
+    return std::find(std::begin(kept), std::end(kept), spec.name) == std::end(kept);
+  });
+  return made;
+}
+
 const Command& asking() {
   static const Command command = [] {
-    Command made = of_verb(query_command(), {});
-    constexpr std::string_view kept[] = {"--search",       "--heuristic", "--queue", "--optimise", "--cusp-cost",
-                                         "--reverse-cost", "--attach",    "--start", "--goal"};
-    std::erase_if(made.options, [&](const OptionSpec& spec) {
-      return std::find(std::begin(kept), std::end(kept), spec.name) == std::end(kept);
-    });
+    Command made = search_command("query");
+    for (const OptionSpec& spec : query_command().options) {
+      if (spec.name == "--start" || spec.name == "--goal") made.options.push_back(spec);
+    }
     return made;
   }();
   return command;
+}
+
+const Command& asking_lengths(bool each_to_each) {
+  static const Command pairs = search_command("lengths");
+  static const Command matrix = search_command("matrix");
+  return each_to_each ? matrix : pairs;
 }
 
 RoadmapSearchFields how_to_search(const Arguments& arguments) {
@@ -129,7 +145,7 @@ KeptAnswer ask(KeptRoadmap& kept, py::dict keywords, bool keep) {
 py::array lengths(KeptRoadmap& kept, const py::object& from, const py::object& to, bool each_to_each,
                   py::dict keywords) {
   CallLimits limits = take_limits(keywords);
-  const RoadmapSearchFields how = how_to_search(arguments_of(asking(), keywords));
+  const RoadmapSearchFields how = how_to_search(arguments_of(asking_lengths(each_to_each), keywords));
   const std::size_t width = state_size(kept.roadmap().robot);
   const NumberRows starts = rows_of(from, "starts", {width});
   const NumberRows goals = width == 3   ? rows_of(to, "goals", {3, 2})
@@ -172,8 +188,7 @@ py::tuple counts(KeptRoadmap& kept) {
 }
 
 void learn_from_questions(KeptRoadmap& kept) {
-  if (kept.askers > 0) throw py::value_error("learn: another thread asks this roadmap now");
-  const Asking asking(kept);
+  const Learning learning(kept);
   CallLimits().run([&](const Execution& execution) { kept.learn(execution); });
 }
 
@@ -223,6 +238,7 @@ void bind_roadmaps(py::module_& module) {
   module.def("open_roadmap", &open_roadmap, py::arg(), py::arg().none(true), py::arg());
   module.def("build_keywords", [] { return keyword_table(building()); });
   module.def("query_keywords", [] { return keyword_table(asking()); });
+  module.def("lengths_keywords", [] { return keyword_table(asking_lengths(false)); });
 }
 
 }  // namespace warren::python

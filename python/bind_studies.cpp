@@ -8,7 +8,6 @@
 #include "studies/compare/comparison_report.hpp"
 #include "studies/contests/planner_contest.hpp"
 #include "tools/verbs/compare_options.hpp"
-#include "worlds/rasters/map_borders.hpp"
 
 namespace warren::python {
 namespace py = pybind11;
@@ -37,13 +36,11 @@ Comparison compare_planners(const Scene& scene, py::dict keywords) {
   const CompareOptions options = compare_options(words);
   Comparison comparison;
   limits.run([&](const Execution& execution) {
-    std::optional<Scene> bordered;
+    std::optional<Scene> copy;
     const RobotKind body = robot_of(scene, options.planners->contenders.front().question).kind;
-    if (scene.map && body != RobotKind::point && body != RobotKind::disc) {
-      bordered = scene;
-      add_map_walls(*bordered, execution);
-    }
-    run_planner_contest(bordered ? *bordered : scene, *options.planners, execution, comparison);
+    const bool plans_on_cells = body == RobotKind::point || body == RobotKind::disc;
+    run_planner_contest(plans_on_cells ? scene : bordered(scene, copy, execution), *options.planners, execution,
+                        comparison);
   });
   return comparison;
 }

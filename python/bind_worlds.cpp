@@ -2,7 +2,8 @@
 // Worlds: read, made, looked at, changed, written.
 #include <pybind11/stl.h>
 
-#include <algorithm>
+#include <cstdint>
+#include <string_view>
 
 #include "core/base/error.hpp"
 #include "python/arrays.hpp"
@@ -16,8 +17,10 @@
 #include "scenes/text/input_file_io.hpp"
 #include "solve/answer/world_account.hpp"
 #include "solve/answer/world_facts.hpp"
+#include "solve/question/grid_choice.hpp"
 #include "tools/screen/world_files.hpp"
 #include "tools/words/question_words.hpp"
+#include "worlds/rasters/map_borders.hpp"
 
 namespace warren::python {
 namespace py = pybind11;
@@ -123,16 +126,25 @@ py::array solids_of(const std::vector<T>& solids, py::ssize_t columns, const py:
 }
 
 /// The scene with walls taken out, by their rows, and others put at the end.
-Scene with_other_walls(const Scene& scene, const std::vector<std::size_t>& gone, const py::object& added) {
+Scene with_other_walls(const Scene& scene, const std::vector<std::int64_t>& gone, const py::object& added) {
+  if (scene.map) {
+    throw InputError("walls",
+                     "the world is a map, whose obstacles are cells: make another one of changed cells by grid()");
+  }
   Scene next = scene;
-  std::vector<std::size_t> rows = gone;
-  std::sort(rows.begin(), rows.end());
-  if (!rows.empty() && rows.back() >= scene.walls.size()) {
-    throw InputError("gone", "there is no such wall", std::to_string(rows.back()));
+  next.formula.reset();
+  constexpr std::string_view changed = " (changed)";
+  if (!next.source.ends_with(changed)) next.source += changed;
+  std::vector<bool> is_gone(scene.walls.size());
+  for (const std::int64_t row : gone) {
+    if (row < 0 || static_cast<std::size_t>(row) >= is_gone.size()) {
+      throw InputError("rows", "there is no such wall", std::to_string(row));
+    }
+    is_gone[static_cast<std::size_t>(row)] = true;
   }
   std::vector<Segment> walls;
-  for (std::size_t i = 0; i < scene.walls.size(); ++i) {
-    if (!std::binary_search(rows.begin(), rows.end(), i)) walls.push_back(scene.walls.segment(i));
+  for (std::size_t i = 0; i < is_gone.size(); ++i) {
+    if (!is_gone[i]) walls.push_back(scene.walls.segment(i));
   }
   if (!added.is_none()) {
     py::dict parts;
@@ -144,6 +156,23 @@ Scene with_other_walls(const Scene& scene, const std::vector<std::size_t>& gone,
   next.walls = WallSet::narrowest(walls);
   CallLimits().run([&](const Execution& execution) { check_scene(next, execution); });
   return next;
+}
+
+/// A map by its endings and .png, what is no map in cells of that side; all else as walls and polygons.
+void write_by_ending(const Scene& scene, const std::string& path, const std::optional<double>& cell) {
+  const bool is_map = is_map_ending(path) || path.ends_with(".png");
+  if (cell && (!is_map || scene.map)) {
+    throw UsageError(is_map ? "@cell: the world is a map, and its cells stay as they are"
+                            : "@cell: only maps have cells: .map, .yaml, .pgm and .png");
+  }
+  if (is_map && !scene.map && !cell)
+    throw UsageError("@cell: is missing; it says how large a cell of the map shall be");
+  if (cell) check_cell(*cell, scene);
+  CallLimits().run([&](const Execution& execution) {
+    std::optional<Scene> copy;
+    if (!is_map) return write_scene(bordered(scene, copy, execution), path, execution);
+    write_map(scene.map ? *scene.map : map_of_scene(scene, *cell, execution), path, execution);
+  });
 }
 
 void bind_what_is_seen(py::class_<Scene>& scene) {
@@ -186,13 +215,7 @@ void bind_worlds(py::module_& module) {
       .def("hash",
            [](const Scene& s) { return CallLimits().run([&](const Execution& on) { return account_of(s, on).hash; }); })
       .def("with_other_walls", &with_other_walls)
-      .def("write",
-           [](const Scene& s, const std::string& path) {
-             CallLimits().run([&](const Execution& on) {
-               s.map && (is_map_ending(path) || path.ends_with(".png")) ? write_map(*s.map, path, on)
-                                                                        : write_scene(s, path, on);
-             });
-           })
+      .def("write", &write_by_ending)
       .def(py::pickle([](const Scene& s) { return bytes_of(s); },
                       [](const py::bytes& b) { return from_bytes<Scene>(b); }));
   module.def("read_world", &read_named);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "python/interrupts.hpp"
 
+#include <cxxabi.h>
+#include <unistd.h>
+
 #include <array>
 #include <string>
 
@@ -30,6 +33,17 @@ bool is_main_thread() {
   return PyThread_get_thread_ident() == main_thread;
 }
 
+/// Calls what wants the interpreter's lock; where the interpreter has ended, which unwinds this thread, it never
+/// returns. So nothing that Python counts may be a local of `call`.
+template <class Call>
+void or_sleep_at_exit(const Call& call) noexcept {
+  try {
+    call();
+  } catch (abi::__forced_unwind&) {
+    while (true) ::pause();
+  }
+}
+
 }  // namespace
 
 SignalWatch::SignalWatch() : is_watching_(is_main_thread()) {
@@ -53,6 +67,10 @@ SignalWatch::~SignalWatch() {
 
 SignalFlag& SignalWatch::flag_or(SignalFlag& other) const { return is_watching_ ? flag : other; }
 
+Unlocked::~Unlocked() {
+  or_sleep_at_exit([&] { PyEval_RestoreThread(state_); });
+}
+
 void let_python_handle_signals() {
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
@@ -75,18 +93,29 @@ Limits CallLimits::limits(const SignalWatch& watch) {
 }
 
 void CallLimits::tell(const ProgressReport& report) noexcept {
-  const py::gil_scoped_acquire locked;
-  if (failure_) return;
-  try {
-    progress_(std::string(report.stage), report.done, report.total);
-  } catch (py::error_already_set& failure) {
-    failure_.emplace(std::move(failure));
-    flag_->store(SIGINT, std::memory_order_relaxed);
-  }
+  or_sleep_at_exit([&] {
+    const PyGILState_STATE state = PyGILState_Ensure();
+    if (!failure_) ask_python(report);
+    PyGILState_Release(state);
+  });
+}
+
+void CallLimits::ask_python(const ProgressReport& report) {
+  PyObject* stage = PyUnicode_FromStringAndSize(report.stage.data(), static_cast<Py_ssize_t>(report.stage.size()));
+  PyObject* said = PyObject_CallFunction(progress_.ptr(), "NKK", stage, static_cast<unsigned long long>(report.done),
+                                         static_cast<unsigned long long>(report.total));
+  Py_XDECREF(said);
+  if (said != nullptr) return;
+  failure_.emplace();
+  flag_->store(SIGINT, std::memory_order_relaxed);
+}
+
+void CallLimits::raise_failure() {
+  if (failure_) throw std::move(*failure_);
 }
 
 void CallLimits::raise_what_stopped(StopReason reason) {
-  if (failure_) throw std::move(*failure_);
+  raise_failure();
   if (is_signal(reason)) let_python_handle_signals();
 }
 

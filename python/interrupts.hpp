@@ -9,6 +9,7 @@
 
 #include <csignal>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 #include "parallel/deadline.hpp"
@@ -17,7 +18,8 @@
 namespace warren::python {
 
 /// While it lives on the main thread, signals that Python handles stop the call. Does nothing on other threads, as
-/// Python does. Never two at once. Made and ended with the interpreter's lock held.
+/// Python does. Never two at once, and nothing of Python runs on that thread meanwhile: a handler may set another one,
+/// and may compute itself. Made and ended with the interpreter's lock held.
 class SignalWatch {
  public:
   SignalWatch();
@@ -30,6 +32,19 @@ class SignalWatch {
 
  private:
   bool is_watching_ = false;
+};
+
+/// While it lives, the interpreter's lock is free for others. A thread that wants it back when the interpreter has
+/// ended sleeps until the process ends, too: CPython would unwind its stack, through destructors, and abort.
+class Unlocked {
+ public:
+  Unlocked() : state_(PyEval_SaveThread()) {}
+  ~Unlocked();
+  Unlocked(const Unlocked&) = delete;
+  Unlocked& operator=(const Unlocked&) = delete;
+
+ private:
+  PyThreadState* state_;
 };
 
 /// Python runs its handlers; throws what they raise: KeyboardInterrupt, most of all.
@@ -47,11 +62,15 @@ class CallLimits {
   /// progress functions raise; Stopped where a handler of a signal lets the program go on.
   template <class Work>
   auto run(const Work& work) {
-    const SignalWatch watch;
     try {
-      const pybind11::gil_scoped_release unlocked;
-      const LimitedExecution limited(limits(watch));
-      return work(limited.execution());
+      if constexpr (std::is_void_v<decltype(watched(work))>) {
+        watched(work);
+        raise_failure();
+      } else {
+        auto made = watched(work);
+        raise_failure();
+        return made;
+      }
     } catch (const Stopped& stopped) {
       raise_what_stopped(stopped.reason);
       throw;
@@ -61,8 +80,17 @@ class CallLimits {
   void raise_what_stopped(StopReason reason);
 
  private:
+  template <class Work>
+  auto watched(const Work& work) {
+    const SignalWatch watch;
+    const Unlocked unlocked;
+    const LimitedExecution limited(limits(watch));
+    return work(limited.execution());
+  }
   Limits limits(const SignalWatch& watch);
   void tell(const ProgressReport& report) noexcept;
+  void ask_python(const ProgressReport& report);
+  void raise_failure();
 
   Limits limits_;
   SignalFlag own_flag_{0};

@@ -25,22 +25,47 @@ class KeptRoadmap {
   /// Takes over what the questions so far have learnt of the edges. Nobody may ask meanwhile.
   void learn(const Execution& execution);
 
-  std::size_t askers = 0;  ///< calls that ask now; read and written with the interpreter's lock held
-
  private:
+  friend class Asking;
+  friend class Learning;
+  static constexpr int learner = -1;
+  int askers_ = 0;  // calls that ask now, or `learner`; read and written with the interpreter's lock held
+
   Roadmap roadmap_;
   MadeOnce<RoadmapQuery> query_;
   MadeOnce<RoadmapArrays> lattice_;
   MadeOnce<RawVector<double>> lengths_;
 };
 
-/// Counts those who ask, so that nobody changes the roadmap meanwhile.
+/// One of those who ask: any number of them, while nobody learns. Made and ended with the interpreter's lock held,
+/// which is free between.
 class Asking {
  public:
-  explicit Asking(KeptRoadmap& kept) : kept_(kept) { ++kept_.askers; }
-  ~Asking() { --kept_.askers; }
+  /// Throws ValueError while another thread learns.
+  explicit Asking(KeptRoadmap& kept) : kept_(kept) {
+    if (kept.askers_ == KeptRoadmap::learner)
+      throw pybind11::value_error("roadmap: another thread calls its learn() now");
+    ++kept_.askers_;
+  }
+  ~Asking() { --kept_.askers_; }
   Asking(const Asking&) = delete;
   Asking& operator=(const Asking&) = delete;
+
+ private:
+  KeptRoadmap& kept_;
+};
+
+/// The only one, who may change the roadmap.
+class Learning {
+ public:
+  /// Throws ValueError while another thread asks or learns.
+  explicit Learning(KeptRoadmap& kept) : kept_(kept) {
+    if (kept.askers_ != 0) throw pybind11::value_error("learn: another thread asks this roadmap now");
+    kept_.askers_ = KeptRoadmap::learner;
+  }
+  ~Learning() { kept_.askers_ = 0; }
+  Learning(const Learning&) = delete;
+  Learning& operator=(const Learning&) = delete;
 
  private:
   KeptRoadmap& kept_;

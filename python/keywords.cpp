@@ -89,14 +89,14 @@ std::string word_of(py::handle value, const std::string& keyword) {
 
 Arguments arguments_of(const Command& command, const py::dict& keywords, std::vector<std::string> words) {
   for (const auto& [name, value] : keywords) {
-    if (value.is_none() || value.is(py::bool_(false))) continue;
+    if (value.is_none()) continue;
     const auto keyword = name.cast<std::string>();
     const std::string option = option_of(keyword);
     const auto spec = std::find_if(command.options.begin(), command.options.end(),
                                    [&](const OptionSpec& known) { return known.name == option; });
     if (spec == command.options.end()) refuse_keyword(command, keyword);
     if (spec->value.empty() || spec->value_optional) {
-      add_flag(*spec, keyword, value, words);
+      if (!value.is(py::bool_(false))) add_flag(*spec, keyword, value, words);
     } else {
       words.push_back(option + "=" + word_of(value, keyword));
     }

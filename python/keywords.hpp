@@ -19,8 +19,8 @@ namespace warren::python {
 /// commas, sequences of sequences by semicolons. Throws TypeError.
 std::string word_of(pybind11::handle value, const std::string& keyword);
 
-/// The keywords that are not None or False, after what is there already, such as operands. Throws TypeError for one
-/// that the command has not, UsageError.
+/// The keywords that are not None, nor False where that is a flag left out, after what is there already, such as
+/// operands. Throws TypeError for one that the command has not, UsageError.
 Arguments arguments_of(const Command& command, const pybind11::dict& keywords, std::vector<std::string> words = {});
 
 /// Takes threads, budget (seconds, or a word such as "500ms"), memory (bytes, or a word such as "2GiB") and progress

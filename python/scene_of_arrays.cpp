@@ -4,7 +4,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <limits>
+#include <string_view>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "python/arrays.hpp"
@@ -14,6 +18,10 @@
 namespace warren::python {
 namespace py = pybind11;
 namespace {
+
+[[noreturn]] void refuse_part(std::string_view part, std::string_view expected, py::handle found) {
+  throw py::type_error(fmt::format("{}: expected {} (found: {})", part, expected, py::repr(found).cast<std::string>()));
+}
 
 /// As readers of files take a number.
 double coordinate(double x, const char* name, std::size_t row) {
@@ -60,6 +68,7 @@ WallSet read_walls(py::handle value) {
 }
 
 void add_polygons(Scene& scene, py::handle value) {
+  if (!py::isinstance<py::iterable>(value)) refuse_part("polygons", "a sequence of rings (n, 2)", value);
   for (const py::handle ring : value) {
     const NumberRows rows = rows_of(ring, fmt::format("polygons[{}]", scene.polygons.size()), {2});
     ScenePolygon polygon;
@@ -103,6 +112,22 @@ Box read_bounds(py::handle value) {
   return box;
 }
 
+MazeHint read_maze(py::handle value) {
+  std::pair<std::int64_t, std::int64_t> size;
+  try {
+    size = value.cast<std::pair<std::int64_t, std::int64_t>>();
+  } catch (const py::cast_error&) {
+    refuse_part("maze", "rows and columns", value);
+  }
+  constexpr std::int64_t most = std::numeric_limits<std::uint32_t>::max();
+  const auto [rows, cols] = size;
+  if (rows < 1 || cols < 1 || rows > most / cols) {
+    throw InputError("maze", "rows and columns must be at least 1, and fewer than 2^32 cells",
+                     fmt::format("{}, {}", rows, cols));
+  }
+  return {static_cast<std::uint32_t>(rows), static_cast<std::uint32_t>(cols)};
+}
+
 }  // namespace
 
 Scene scene_of_arrays(const py::dict& parts) {
@@ -110,19 +135,15 @@ Scene scene_of_arrays(const py::dict& parts) {
     return parts.contains(name) ? py::object(parts[name]) : py::object(py::none());
   };
   Scene scene;
-  scene.source = part("source").cast<std::string>();
+  const py::object source = part("source");
+  if (!py::isinstance<py::str>(source)) refuse_part("source", "a name", source);
+  scene.source = source.cast<std::string>();
   if (const py::object walls = part("walls"); !walls.is_none()) scene.walls = read_walls(walls);
   if (const py::object rings = part("polygons"); !rings.is_none()) add_polygons(scene, rings);
   if (const py::object balls = part("spheres"); !balls.is_none()) add_spheres(scene, balls);
   if (const py::object boxes = part("boxes"); !boxes.is_none()) add_boxes(scene, boxes);
   if (const py::object bounds = part("bounds"); !bounds.is_none()) scene.bounds = read_bounds(bounds);
-  if (const py::object maze = part("maze"); !maze.is_none()) {
-    const auto [rows, cols] = maze.cast<std::pair<std::uint32_t, std::uint32_t>>();
-    if (rows == 0 || cols == 0 || std::uint64_t{rows} * cols > std::numeric_limits<std::uint32_t>::max()) {
-      throw InputError("maze", "rows and columns must be at least 1, and fewer than 2^32 cells");
-    }
-    scene.maze = MazeHint{rows, cols};
-  }
+  if (const py::object maze = part("maze"); !maze.is_none()) scene.maze = read_maze(maze);
   return scene;
 }
 

@@ -4,7 +4,7 @@ import json
 import os
 
 from . import _core
-from ._options import documented
+from ._options import documented, told
 
 
 class Answer:
@@ -52,71 +52,22 @@ class Answer:
     def __reduce__(self):
         return Answer, (self._core, self.world)
 
-    @property
-    def status(self):
-        """"solved", "start_blocked", "goal_blocked", "not_connected", "infeasible" (proved) or "stopped"."""
-        return self._core.status
-
-    @property
-    def verified(self):
-        """Has it a path that an independent judge found free, all along and with all its clearance?"""
-        return self._core.verified
-
-    @property
-    def optimal(self):
-        """Is it proved that no shorter path exists?"""
-        return self._core.optimal
-
-    @property
-    def path(self):
-        """States from start to goal, float64: (n, 2) x, y; (n, 3) x, y, theta; (n, 6) joint angles. A read-only view
-        that keeps the answer alive; no rows where there is no path."""
-        return self._core.path
-
-    @property
-    def length(self):
-        """Of the path, of a car its curve, of an arm in radians; nan without a verified path."""
-        return self._core.length
-
-    @property
-    def min_clearance(self):
-        """The least room around the body along the path; nan without a verified path."""
-        return self._core.min_clearance
-
-    @property
-    def raw_length(self):
-        """The length before the path was pulled taut; nan where it wasn't."""
-        return self._core.raw_length
-
-    @property
-    def cost(self):
-        """In the planner's own units; nan where that is the length."""
-        return self._core.cost
-
-    @property
-    def turn_rad(self):
-        """All turning along the path; nan for bodies that don't turn."""
-        return self._core.turn_rad
-
-    @property
-    def planner(self):
-        """Who found it."""
-        return self._core.planner
-
-    @property
-    def seed(self):
-        """Of all that was random."""
-        return self._core.seed
-
-    @property
-    def robot(self):
-        """The body that was asked about."""
-        return self._core.robot
-
-    @property
-    def clearance(self):
-        """The room that was asked for."""
-        return self._core.clearance
+    status = told("status", '''"solved", "start_blocked", "goal_blocked", "not_connected", "infeasible" (proved) or
+        "stopped".''')
+    verified = told("verified", """Has it a path that an independent judge found free, all along and with all its
+        clearance?""")
+    optimal = told("optimal", "Is it proved that no shorter path exists?")
+    path = told("path", """States from start to goal, float64: (n, 2) x, y; (n, 3) x, y, theta; (n, 6) joint angles.
+        A read-only view that keeps the answer alive; no rows where there is no path.""")
+    length = told("length", "Of the path, of a car its curve, of an arm in radians; nan without a verified path.")
+    min_clearance = told("min_clearance", "The least room around the body along the path; nan without a verified path.")
+    raw_length = told("raw_length", "The length before the path was pulled taut; nan where it wasn't.")
+    cost = told("cost", "In the planner's own units; nan where that is the length.")
+    turn_rad = told("turn_rad", "All turning along the path; nan for bodies that don't turn.")
+    planner = told("planner", "Who found it.")
+    seed = told("seed", "Of all that was random.")
+    robot = told("robot", "The body that was asked about.")
+    clearance = told("clearance", "The room that was asked for.")
 
     @property
     def start(self):
@@ -128,21 +79,10 @@ class Answer:
         """Where the path was to end."""
         return tuple(self._core.goal)
 
-    @property
-    def seconds(self):
-        """What each stage took."""
-        return self._core.seconds
-
-    @property
-    def solve_s(self):
-        """What all of it took, in seconds."""
-        return self._core.solve_s
-
-    @property
-    def blocked(self):
-        """Where start or goal is blocked: its end, what it is blocked by, a free_place near it and the distance to that,
-        and a hint; else None."""
-        return self._core.blocked
+    seconds = told("seconds", "What each stage took.")
+    solve_s = told("solve_s", "What all of it took, in seconds.")
+    blocked = told("blocked", """Where start or goal is blocked: its end, what it is blocked by, a free_place near it
+        and the distance to that, and a hint; else None.""")
 
     def json(self):
         """The answer as warren.answer/1, byte for byte what `warren solve --json -` prints (but for measured times,
@@ -211,9 +151,14 @@ class Answer:
         return self._core.save_path(os.fspath(file), how)
 
     def save(self, file):
-        """Writes :meth:`json`."""
-        with open(file, "w", encoding="utf-8") as out:
-            out.write(self.json())
+        """Writes :meth:`json`; in place of a file that was there, all of it or nothing.
+
+        Raises
+        ------
+        WriteError
+            Where the file can't be written.
+        """
+        self._core.save(os.fspath(file))
 
     def edges(self, *, tree=False):
         """What the planner made, of answers that were asked with `keep=True`.

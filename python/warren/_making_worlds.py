@@ -2,10 +2,12 @@
 """Worlds read from files, made of arrays and of geometries."""
 import json
 import os
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 
 from . import _core
+from ._errors import InputError
 from ._options import documented
 from ._worlds import World
 
@@ -35,7 +37,8 @@ def read_world(source, **options):
     >>> warren.read_world("maze:41x41,seed=7,loops=0.05").maze
     (41, 41)
     """
-    return World(_core.read_world(os.fspath(source), options))
+    name = os.fspath(source)
+    return World(_core.read_world(name, options), name if name.startswith("maze:") else None)
 
 
 def maze(rows, cols, *, seed=None, algorithm=None,
@@ -176,13 +179,18 @@ def scene(*, walls=None, polygons=None, bounds=None, spheres=None, boxes=None,
 def _features(geometry):
     if hasattr(geometry, "__geo_interface__"):
         geometry = geometry.__geo_interface__
-    if not isinstance(geometry, dict):
+    if isinstance(geometry, Mapping):
+        geometry = dict(geometry)
+    elif isinstance(geometry, (str, bytes)) or not isinstance(geometry, Iterable):
+        raise TypeError(f"geometry: expected what has a __geo_interface__ (found: {type(geometry).__name__})")
+    else:
         return [feature for part in geometry for feature in _features(part)]
     kind = geometry.get("type")
-    if kind == "FeatureCollection":
-        return list(geometry["features"])
-    if kind == "GeometryCollection":
-        return [feature for part in geometry["geometries"] for feature in _features(part)]
+    if kind in ("FeatureCollection", "GeometryCollection"):
+        parts = geometry.get("features" if kind == "FeatureCollection" else "geometries")
+        if not isinstance(parts, (list, tuple)):
+            raise InputError("geometry", f"a {kind} needs a list of its parts")
+        return [feature for part in parts for feature in _features(part)]
     return [geometry] if kind == "Feature" else [{"type": "Feature", "properties": {}, "geometry": geometry}]
 
 

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The keywords that functions share with the program: their documentation is made of the program's own table."""
+"""What classes and functions share: figures as the core tells them, and keywords, whose documentation is made of the
+program's own table."""
+import operator
+
 _KINDS = {"N": "int", "K": "int", "NAME": "str", "WORD": "str", "TIME": "float or str", "BYTES": "int or str",
           "STATES": "sequence of sequences of float", "X,Y[,THETA]": "sequence of float", '"BODY"': "str",
           "LIST": "list of str or str", "N|auto": "int or 'auto'", "K|auto|star": "int, 'auto' or 'star'",
@@ -16,6 +19,11 @@ memory : int or str, optional
 progress : callable, optional
     Called with stage, done and total (0: not known) ten times a second, on another thread.
 """
+
+
+def told(name, doc):
+    """A property that the core has under the same name."""
+    return property(operator.attrgetter("_core." + name), doc=doc)
 
 
 def _kind(value, choices, optional):

@@ -7,7 +7,7 @@ import numpy as np
 
 from . import _core
 from ._making_worlds import as_world
-from ._options import documented
+from ._options import documented, told
 from ._solving import finished
 from ._worlds import World
 
@@ -79,35 +79,12 @@ class Roadmap:
             self._world = World(self._core.world)
         return self._world
 
-    @property
-    def robot(self):
-        """The body that it is for."""
-        return self._core.robot
-
-    @property
-    def clearance(self):
-        """The room that it keeps around the body."""
-        return self._core.clearance
-
-    @property
-    def planner(self):
-        """Who made it."""
-        return self._core.planner
-
-    @property
-    def seed(self):
-        """Of the states that were drawn."""
-        return self._core.seed
-
-    @property
-    def directed(self):
-        """Do edges lead one way only, as those of a car that can't go backwards?"""
-        return self._core.directed
-
-    @property
-    def states(self):
-        """States, float64: (n, 2) x, y; (n, 3) x, y, theta; (n, 6) joint angles."""
-        return self._core.states
+    robot = told("robot", "The body that it is for.")
+    clearance = told("clearance", "The room that it keeps around the body.")
+    planner = told("planner", "Who made it.")
+    seed = told("seed", "Of the states that were drawn.")
+    directed = told("directed", "Do edges lead one way only, as those of a car that can't go backwards?")
+    states = told("states", "States, float64: (n, 2) x, y; (n, 3) x, y, theta; (n, 6) joint angles.")
 
     @property
     def components(self):
@@ -205,7 +182,7 @@ class Roadmap:
         Raises
         ------
         ValueError
-            While another thread asks.
+            While another thread asks; and one that asks meanwhile gets it, too.
         """
         self._core.learn()
         self._free = None
@@ -335,5 +312,5 @@ class Roadmap:
 
 
 Roadmap.query = documented(_core.query_keywords())(Roadmap.query)
-Roadmap.lengths = documented(_core.query_keywords())(Roadmap.lengths)
-Roadmap.matrix = documented(_core.query_keywords())(Roadmap.matrix)
+Roadmap.lengths = documented(_core.lengths_keywords())(Roadmap.lengths)
+Roadmap.matrix = documented(_core.lengths_keywords())(Roadmap.matrix)

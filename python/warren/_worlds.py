@@ -1,9 +1,22 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Worlds: what they hold as arrays, read from files, made of arrays and geometries."""
 import json
+import operator
 import os
+import warnings
 
 from . import _core
+from ._options import told
+
+
+def _row(number):
+    kind = type(number).__name__
+    if kind in ("bool", "bool_") or not hasattr(number, "__index__"):
+        raise TypeError(f"rows: expected whole numbers (found: {kind})")
+    return operator.index(number)
+
+
+_PARTS = ("start", "goal", "robot", "clearance")
 
 
 class World:
@@ -22,82 +35,39 @@ class World:
     ((20, 4), (0.5, 1.0), (5.5, 5.0))
     """
 
-    __slots__ = ("_core", "__weakref__")
+    __slots__ = ("_core", "_name", "__weakref__")
     __module__ = "warren"
 
-    def __init__(self, core):
+    def __init__(self, core, name=None):
         if not isinstance(core, _core.Scene):
             raise TypeError("World: is made by read_world, maze, grid, scene and from_geo")
         self._core = core
+        self._name = name  # of a maze that read_world makes of it: all that a pickle needs
 
     def __repr__(self):
         return f"<World {self.source}: {self._core.description}>"
 
     def __reduce__(self):
-        if self.source.startswith("maze:") and " " not in self.source:
+        if self._name is not None:
             from ._making_worlds import read_world
-            return read_world, (self.source,)
+            return read_world, (self._name,)
         return World, (self._core,)
 
-    @property
-    def source(self):
-        """The file or name that it comes from."""
-        return self._core.source
-
-    @property
-    def walls(self):
-        """Walls, (n, 4) float32 or float64: x1, y1, x2, y2."""
-        return self._core.walls
-
-    @property
-    def polygons(self):
-        """Polygons, a ring of corners (n, 2) each; those with holes are cut into pieces that touch."""
-        return self._core.polygons
-
-    @property
-    def cells(self):
-        """Cells of a map, (rows, columns) bool, True where blocked, row 0 at the top; None for other worlds. A copy."""
-        return self._core.cells
-
-    @property
-    def raster(self):
-        """Of a map: the side of a cell, x and y of the lower left corner, the turn about it in radians."""
-        return self._core.raster
-
-    @property
-    def spheres(self):
-        """Balls, (n, 4): x, y, z, radius."""
-        return self._core.spheres
-
-    @property
-    def boxes(self):
-        """Boxes, (n, 6): the lowest corner, the highest corner."""
-        return self._core.boxes
-
-    @property
-    def bounds(self):
-        """The box that confines everything, xmin, ymin, xmax, ymax; None where there is none."""
-        return self._core.bounds
-
-    @property
-    def box(self):
-        """The box of all walls, polygons and cells, xmin, ymin, xmax, ymax."""
-        return self._core.box
-
-    @property
-    def maze(self):
-        """Rows and columns, where all walls lie on the unit grid of a maze."""
-        return self._core.maze
-
-    @property
-    def robot(self):
-        """The body that the world is asked about where the question names none."""
-        return self._core.robot
-
-    @property
-    def clearance(self):
-        """The room around the body where the question names none."""
-        return self._core.clearance
+    source = told("source", "The file or name that it comes from.")
+    walls = told("walls", "Walls, (n, 4) float32 or float64: x1, y1, x2, y2.")
+    polygons = told("polygons", """Polygons, a ring of corners (n, 2) each; those with holes are cut into pieces that
+        touch.""")
+    cells = told("cells", """Cells of a map, (rows, columns) bool, True where blocked, row 0 at the top; None for other
+        worlds. A copy.""")
+    raster = told("raster", """Of a map: the side of a cell, x and y of the lower left corner, the turn about it in
+        radians.""")
+    spheres = told("spheres", "Balls, (n, 4): x, y, z, radius.")
+    boxes = told("boxes", "Boxes, (n, 6): the lowest corner, the highest corner.")
+    bounds = told("bounds", "The box that confines everything, xmin, ymin, xmax, ymax; None where there is none.")
+    box = told("box", "The box of all walls, polygons and cells, xmin, ymin, xmax, ymax.")
+    maze = told("maze", "Rows and columns, where all walls lie on the unit grid of a maze.")
+    robot = told("robot", "The body that the world is asked about where the question names none.")
+    clearance = told("clearance", "The room around the body where the question names none.")
 
     @property
     def start(self):
@@ -127,12 +97,17 @@ class World:
         return facts
 
     def without_walls(self, rows):
-        """The world without these walls.
+        """The world without these walls. Its source says that it was changed.
 
         Parameters
         ----------
-        rows : sequence of int
+        rows : iterable of int
             Rows of :attr:`walls`.
+
+        Raises
+        ------
+        InputError
+            For rows that there aren't, and for maps, whose obstacles are cells.
 
         Examples
         --------
@@ -140,31 +115,55 @@ class World:
         >>> warren.maze(5, 5).without_walls([17]).walls.shape
         (19, 4)
         """
-        return World(self._core.with_other_walls([int(row) for row in rows], None))
+        return World(self._core.with_other_walls([_row(row) for row in rows], None))
 
     def with_walls(self, walls):
-        """The world with these walls, too.
+        """The world with these walls, too. Its source says that it was changed.
 
         Parameters
         ----------
         walls : array_like, (n, 4)
             x1, y1, x2, y2; of a maze on its unit grid.
+
+        Raises
+        ------
+        InputError
+            For walls off the grid of a maze, and for maps, whose obstacles are cells.
         """
         return World(self._core.with_other_walls([], walls))
 
-    def save(self, file):
+    def save(self, file, *, cell=None):
         """Writes the world by the ending of the file: .scene, .walls, .npy, .geojson, .wkt; maps .map, .yaml, .pgm, .png.
+
+        Of a map, formats of walls get the borders of its cells. Start, goal, body and clearance that the format has no
+        words for are left out with a warning.
+
+        Parameters
+        ----------
+        file : str or path
+        cell : float, optional
+            Side of a cell where walls become a map.
 
         Raises
         ------
         UsageError
-            For other endings.
+            For other endings, and where a map needs its cell.
         InputError
-            For what the format can't hold.
+            For obstacles that the format can't hold.
         WriteError
             Where the file can't be written.
         """
-        self._core.write(os.fspath(file))
+        path = os.fspath(file)
+        self._core.write(path, None if cell is None else float(cell))
+        lost = [part for part in _PARTS if getattr(self, part) is not None and part not in self._kept_by(path)]
+        if lost:
+            warnings.warn(f"{path}: its format has no {', '.join(lost)}: left out", stacklevel=2)
+
+    def _kept_by(self, path):
+        if path.endswith((".scene", ".walls", ".txt")):
+            return _PARTS
+        of_a_maze = self.maze is not None and path.endswith(".npy")  # read anew, it has the same ones
+        return ("start", "goal") if of_a_maze or path.endswith(".geojson") else ()
 
     def svg(self):
         """The world as an SVG document."""

@@ -3,6 +3,7 @@
 import gc
 import pickle
 import threading
+import time
 
 import numpy as np
 import pytest
@@ -88,7 +89,9 @@ def test_where_there_is_no_way_the_length_is_infinite():
     (np.zeros(2), TypeError, r"found: float64 \(2,\)"),
     ([("a", 1)], TypeError, "expected numbers"),
     (np.ones((4, 2)), ValueError, "as many of both, or one of either"),
-    (np.full((3, 2), np.nan), ValueError, r"starts\[\d\], goals\[\d\]: "),
+    (np.full((3, 2), np.nan), ValueError, r"^starts\[\d\]: coordinates are numbers"),
+    (3.0, TypeError, r"starts: expected numbers in rows, \(n, 2\) \(found: one\)"),
+    (np.float64(3), TypeError, "starts: expected numbers in rows"),
 ])
 def test_wrong_arrays_are_refused(starts, error, said):
     with pytest.raises(error, match=said):
@@ -100,6 +103,13 @@ def test_what_is_fixed_when_it_is_built_is_no_option_of_a_query():
         warren.build("maze:5x5").query(planner="prm")
     with pytest.raises(TypeError, match="unexpected keyword argument 'serach'; did you mean search"):
         warren.build("maze:5x5").lengths([(1, 1)], [(2, 2)], serach="astar")
+    for ask in (warren.build("maze:5x5").lengths, warren.build("maze:5x5").matrix):
+        with pytest.raises(TypeError, match=rf"^{ask.__name__}\(\) got an unexpected keyword argument 'start'"):
+            ask([(1, 1)], [(2, 2)], start=(1, 1))
+        with pytest.raises(warren.UsageError, match="^cusp_cost: "):
+            ask([(1, 1)], [(2, 2)], cusp_cost=2.0)
+    with pytest.raises(warren.InputError, match=r"^goals\[1\]: coordinates are numbers"):
+        warren.build("maze:5x5").lengths([(1, 1)], [(2, 2), (1, np.inf)])
 
 
 def test_an_update_is_what_building_anew_gives(maze, tmp_path):
@@ -140,6 +150,22 @@ def test_lazy_edges_are_learnt(maze):
     assert roadmap.edges.free > 0 and len(roadmap.csr()[1]) == 2 * roadmap.edges.free
     assert len(roadmap.csr(unchecked=True)[1]) == 2 * sum(roadmap.edges) == len(roadmap.edge_states)
     assert len(set(roadmap.components)) < len(roadmap)
+
+
+@pytest.mark.parametrize("long, short, said", [
+    (lambda roadmap: roadmap.learn(), lambda roadmap: roadmap.edge_states, "^roadmap: another thread calls its learn"),
+    (lambda roadmap: roadmap.query((1, 1), (61, 61)), lambda roadmap: roadmap.learn(), "^learn: another thread asks"),
+], ids=["learn", "ask"])
+def test_nobody_asks_while_a_roadmap_learns(long, short, said):
+    roadmap = warren.build(warren.maze(61, 61, loops=0.2), planner="lazy-prm", sampler="uniform", samples=40000)
+    thread = threading.Thread(target=long, args=(roadmap,))  # the first call of all prepares what it asks
+    with pytest.raises(ValueError, match=said):
+        thread.start()
+        while thread.is_alive():
+            short(roadmap)
+            time.sleep(0.0005)
+    thread.join()
+    assert roadmap.query((1, 1), (61, 61))
 
 
 def test_a_roadmap_is_exported_as_by_the_program(program, tmp_path):

@@ -115,15 +115,17 @@ def test_a_wrong_value_is_a_value_error_with_its_parts(options, where, value):
 
 
 @pytest.mark.parametrize("options, said", [
-    ({"gaol": (1, 1)}, "unexpected keyword argument 'gaol'; did you mean goal?"),
+    ({"gaol": (1, 1)}, "unexpected keyword argument 'gaol'; did you mean goal"),
     ({"json": "x"}, "unexpected keyword argument 'json'"),
     ({"optimise": 3}, "optimise: expected True or False"),
     ({"planner": {"a": 1}}, "planner: expected"),
     ({"planner": True}, "planner: expected"),
+    ({"seed": False}, r"seed: expected .* \(found: bool\)"),
+    ({"goal": False}, "goal: expected"),
     ({"progress": 3}, "progress: expected a function"),
 ])
 def test_a_wrong_keyword_or_type_is_a_type_error(options, said):
-    with pytest.raises(TypeError, match=said.replace("?", r"\?")):
+    with pytest.raises(TypeError, match=said):
         warren.solve("maze:9x9", **options)
 
 
@@ -167,6 +169,9 @@ def test_verify_judges_answers_arrays_and_files(tmp_path):
     world = warren.maze(15, 15)
     answer = warren.solve(world, clearance=0.2)
     answer.save(tmp_path / "a.json")
+    assert (tmp_path / "a.json").read_text() == answer.json()
+    with pytest.raises(warren.WriteError, match="none/a.json: can't be written"):
+        answer.save(tmp_path / "none" / "a.json")
     for path in (answer, answer.path, answer.path.tolist(), tmp_path / "a.json"):
         verdict = warren.verify(world, path)
         assert verdict and verdict.length == answer.length and verdict.violation is None
@@ -188,6 +193,9 @@ def test_a_path_is_sampled_along_its_curve():
     assert np.allclose(np.diff(times)[:-1], 0.1) and states[0].tolist() == answer.path[0].tolist()
     with pytest.raises(warren.UsageError, match="^every: moments need speed"):
         answer.sample("100ms")
+    for keyword in ("budget", "frame"):
+        with pytest.raises(TypeError, match=rf"^sample\(\) got an unexpected keyword argument '{keyword}'"):
+            answer.sample(**{keyword: "1"})
 
 
 def test_a_path_is_written_as_the_program_writes_it(program, tmp_path):
