@@ -7,42 +7,61 @@
 #include "python/arrays.hpp"
 #include "python/bind.hpp"
 #include "python/interrupts.hpp"
+#include "python/keywords.hpp"
 #include "solve/answer/world_account.hpp"
+#include "tools/words/picture_words.hpp"
 #include "worlds/rasters/map_borders.hpp"
 
 namespace warren::python {
 namespace py = pybind11;
 namespace {
 
-std::string drawn(const Picture& picture, const std::string& format, const Execution& execution) {
+const Command& drawing() {
+  static const Command command = [] {
+    Command made{"picture", "", "", {}, {}};
+    add_options(made.options, picture_option_specs());
+    return made;
+  }();
+  return command;
+}
+
+PictureOptions options_of(const py::dict& keywords) {
+  return picture_words(arguments_of(drawing(), keywords), true, "");
+}
+
+std::string drawn(const Picture& picture, const std::string& format, const PictureOptions& options,
+                  const Execution& execution) {
   std::string text;
   const Write write = [&](std::string_view piece) { text += piece; };
   const auto writer = format == "png"    ? write_png
                       : format == "pdf"  ? write_pdf
                       : format == "html" ? write_html
                                          : write_svg;
-  writer(picture, {}, execution, write);
+  writer(picture, options, execution, write);
   return text;
 }
 
-py::bytes picture_of_world(const Scene& scene, const std::string& format) {
+py::bytes picture_of_world(const Scene& scene, const std::string& format, const py::dict& keywords) {
+  const PictureOptions options = options_of(keywords);
   return CallLimits().run([&](const Execution& execution) {
     std::optional<Scene> copy;
     const Scene& shown = bordered(scene, copy, execution);
     Picture picture{.scene = shown, .start = plane_point(scene.start), .goal = plane_point(scene.goal)};
     picture.title = description_of(scene);
-    return drawn(picture, format, execution);
+    return drawn(picture, format, options, execution);
   });
 }
 
-py::bytes picture_of_answer(const KeptAnswer& kept, const Scene& scene, const std::string& format, bool moving) {
+py::bytes picture_of_answer(const KeptAnswer& kept, const Scene& scene, const std::string& format, bool moving,
+                            const py::dict& keywords) {
+  const PictureOptions options = options_of(keywords);
   return CallLimits().run([&](const Execution& execution) {
     std::optional<Scene> copy;
     const Scene& shown = bordered(scene, copy, execution);
     Drawing drawing = drawing_of(shown, kept.answer, kept.made, execution);
     if (kept.made.roadmap.states.empty()) drawing.roadmap.reset();  // nothing was kept: no empty layers
     if (moving && !kept.answer.path.empty()) animate(drawing, kept.answer.problem.robot);
-    return drawn(picture_of(shown, drawing), format, execution);
+    return drawn(picture_of(shown, drawing), format, options, execution);
   });
 }
 
@@ -110,6 +129,7 @@ const Scene& bordered(const Scene& scene, std::optional<Scene>& copy, const Exec
 void bind_pictures(py::module_& module) {
   module.def("picture_of_world", &picture_of_world);
   module.def("picture_of_answer", &picture_of_answer);
+  module.def("picture_keywords", [] { return keyword_table(drawing()); });
   module.def("segments_of", &segments_of);
   module.def("lines_of", &lines_of);
   module.def("body_of", [](const KeptAnswer& kept) { return body_of(kept.answer); });

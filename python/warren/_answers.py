@@ -180,23 +180,24 @@ class Answer:
         "medial_axis" and others, as chains of points (k, 2)."""
         return _core.lines_of(self._core)
 
-    def svg(self, *, moving=False):
+    def svg(self, *, moving=False, **look):
         """World, roadmap where it was kept, and path as an SVG document.
 
         Parameters
         ----------
         moving : bool
             Shall the body move along the path?
+        {options}
         """
-        return _core.picture_of_answer(self._core, self.world._core, "svg", moving).decode()
+        return _core.picture_of_answer(self._core, self.world._core, "svg", moving, look).decode()
 
-    def html(self, *, moving=False):
+    def html(self, *, moving=False, **look):
         """The same as a page of its own: drag moves, the wheel zooms."""
-        return _core.picture_of_answer(self._core, self.world._core, "html", moving).decode()
+        return _core.picture_of_answer(self._core, self.world._core, "html", moving, look).decode()
 
-    def png(self):
+    def png(self, **look):
         """The same as a PNG image."""
-        return _core.picture_of_answer(self._core, self.world._core, "png", False)
+        return _core.picture_of_answer(self._core, self.world._core, "png", False, look)
 
     def _repr_svg_(self):
         return self.svg()
@@ -208,3 +209,4 @@ class Answer:
 
 
 Answer.save_path = documented(_core.path_keywords(), limits=False)(Answer.save_path)
+Answer.svg = documented(_core.picture_keywords(), limits=False)(Answer.svg)

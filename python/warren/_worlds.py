@@ -6,7 +6,7 @@ import os
 import warnings
 
 from . import _core
-from ._options import told
+from ._options import documented, told
 
 
 def _row(number):
@@ -165,17 +165,25 @@ class World:
         of_a_maze = self.maze is not None and path.endswith(".npy")  # read anew, it has the same ones
         return ("start", "goal") if of_a_maze or path.endswith(".geojson") else ()
 
-    def svg(self):
-        """The world as an SVG document."""
-        return _core.picture_of_world(self._core, "svg").decode()
+    def svg(self, **look):
+        """The world as an SVG document.
 
-    def html(self):
-        """The world as a page of its own: drag moves, the wheel zooms."""
-        return _core.picture_of_world(self._core, "html").decode()
+        Parameters
+        ----------
+        {options}
+        """
+        return _core.picture_of_world(self._core, "svg", look).decode()
 
-    def png(self):
-        """The world as a PNG image."""
-        return _core.picture_of_world(self._core, "png")
+    def html(self, **look):
+        """The world as a page of its own: drag moves, the wheel zooms. Keywords as of :meth:`svg`."""
+        return _core.picture_of_world(self._core, "html", look).decode()
+
+    def png(self, **look):
+        """The world as a PNG image. Keywords as of :meth:`svg`."""
+        return _core.picture_of_world(self._core, "png", look)
 
     def _repr_svg_(self):
         return self.svg()
+
+
+World.svg = documented(_core.picture_keywords(), limits=False)(World.svg)

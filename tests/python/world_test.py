@@ -200,6 +200,12 @@ def test_pictures_are_those_of_the_library():
     assert "animateMotion" in answer.svg(moving=True) and "animateMotion" not in svg
     assert answer.html().lower().startswith("<!doctype html>") and answer.png().startswith(b"\x89PNG")
     assert answer._repr_svg_() == svg and "solved and verified" in answer._repr_html_()
+    assert "<title>mine" in answer.svg(title="mine", show=["world", "path"]) and 'id="edges"' not in answer.svg(show="world,path")
+    assert len(answer.png(size="200x100")) < len(answer.png(size="800x800")) and 'width="300' in answer.svg(size="300x200")
+    with pytest.raises(warren.UsageError, match="^show: "):
+        answer.svg(show="wold")
+    with pytest.raises(TypeError, match="did you mean title"):
+        answer.world.svg(titel="a")
     world = warren.read_world(WORLDS / "flat.yaml")
     assert 'id="walls"' in world.svg() and world._repr_svg_() == world.svg() and world.png().startswith(b"\x89PNG")
     assert 'id="edges"' in warren.build("maze:9x9").svg()
