@@ -16,6 +16,7 @@ SolveOptions options_of_roadmap(const SolveOptions& options, PlannerKind planner
   kept.planner = planner;
   kept.search.reset();
   kept.queue.reset();
+  kept.heuristic.reset();
   kept.optimise = false;
   kept.car.cusp_cost.reset();
   kept.car.reverse_cost.reset();

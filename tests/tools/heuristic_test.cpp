@@ -70,6 +70,8 @@ TEST(Heuristic, KeptRoadmapsAreAskedAlike) {
   const Json asked = answered({"query", roadmap, "--heuristic", "manhattan"});
   for (const char* key : {"path", "length", "shortest_length"}) EXPECT_EQ(asked[key], solved[key]) << key;
   check({{"build", "maze:5x5", "-o", roadmap, "--heuristic", "zero"}, 2, "'warren query' takes it"});
+  const Json kept = answered(joined(course("prm", "1"), {"--heuristic", "manhattan", "--save-roadmap", roadmap}));
+  EXPECT_EQ(kept["path"], solved["path"]);
 }
 
 TEST(Heuristic, IsRefusedWhereNothingIsEstimated) {
