@@ -101,12 +101,12 @@ class RoadmapBuild {
 template <World W>
 void RoadmapBuild<W>::round(std::uint64_t samples, bool check) {
   ++built_.counters.rounds;
-  built_.counters.samples += samples;
   built_.samples = samples;
   {
     const StageTimer timer(execution_, "sample", built_.seconds.sample, samples);
     index_ = {};
     built_.states = draw_milestones(world_, options_, samples, execution_);
+    built_.counters.samples += samples;
     built_.counters.kept += built_.states.size();
   }
   {

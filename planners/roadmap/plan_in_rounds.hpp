@@ -39,9 +39,9 @@ class Rounds {
   /// Begins a round.
   void draw(std::uint64_t samples) {
     ++solution_.counters.rounds;
-    solution_.counters.samples += samples;
     const StageTimer timer(execution_, "sample", solution_.seconds.sample, samples);
     states_ = draw_milestones(world_, options_, samples, execution_);
+    solution_.counters.samples += samples;
     solution_.counters.kept += states_.size();
     states_.push_back(start_);
     states_.push_back(goal_);

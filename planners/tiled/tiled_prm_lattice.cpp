@@ -38,8 +38,8 @@ class TiledPlan {
     partition();
     if (!join_ends()) return;
     solution_.counters.rounds = 1;
-    solution_.counters.samples = std::uint64_t{grid_.rows} * grid_.cols;
     reduce_tiles();
+    solution_.counters.samples = std::uint64_t{grid_.rows} * grid_.cols;
     build_overlay();
     if (joined()) {
       search();
