@@ -43,6 +43,8 @@ std::optional<Vec2> success_interval(const ComparisonRow& row) {
 }
 std::string per_cent(double value) { return fmt::format("{:.0f} %", value); }
 
+constexpr std::size_t most_panels = 60;
+
 constexpr ShownFigure figures[] = {
     {"runs solved", "per cent of the runs, 95 % interval", success_interval, success, per_cent},
     {"median length", "length, with quartiles", quartiles<&ComparisonRow::length>, median<&ComparisonRow::length>,
@@ -168,13 +170,22 @@ std::vector<std::string> line_panels(const std::vector<Family>& families) {
 
 }  // namespace
 
+std::string note_on_heat_maps(const Comparison& comparison) {
+  const std::vector<Family> families = families_of(comparison);
+  const auto has_map = [](const Family& family) { return family.axes.size() == 2; };
+  const auto maps =
+      std::size(figures) * static_cast<std::size_t>(std::count_if(families.begin(), families.end(), has_map));
+  const std::size_t drawn = most_panels - std::min(most_panels, line_panels(families).size());
+  if (maps <= drawn) return {};
+  return fmt::format("{} of {} heat maps are drawn: shorten a list, or take the figures from --csv FILE", drawn, maps);
+}
+
 std::vector<std::string> list_panels(const Comparison& comparison) {
-  constexpr std::size_t most_maps = 60;
   const std::vector<Family> families = families_of(comparison);
   std::vector<std::string> panels = line_panels(families);
   for (const Family& family : families) {
     for (const ShownFigure& figure : figures) {
-      if (family.axes.size() == 2 && panels.size() < most_maps)
+      if (family.axes.size() == 2 && panels.size() < most_panels)
         panels.push_back(heat_map_svg(heat_map(family, figure)));
     }
   }

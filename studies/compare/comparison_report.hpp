@@ -36,6 +36,8 @@ std::vector<std::string> comparison_panels(const Comparison& comparison);
 /// Success, lengths and times against the options that were dealt out, as lines or heat maps (comparison_lists.cpp):
 /// SVG elements of plot_size; none where none was. At most 60.
 std::vector<std::string> list_panels(const Comparison& comparison);
+/// How many heat maps list_panels() leaves out; empty: none.
+std::string note_on_heat_maps(const Comparison& comparison);
 
 /// How planners are called in the log of OMPL's benchmarks, and what all runs had in common.
 struct OmplExperiment {

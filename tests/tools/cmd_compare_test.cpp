@@ -302,5 +302,9 @@ TEST(Compare, FilesThatCannotBeReadOrWrittenHaveTheirCodes) {
   check({{"compare", "maze:5x5", "--json", "/nowhere/a.json"}, 73, "/nowhere"});
 }
 
+TEST(Compare, BlamesTheListOfPlanners) {
+  check({{"compare", "maze:5x5", "--planners", "rrt"}, 2, "--planners: rrt does not solve"});
+}
+
 }  // namespace
 }  // namespace warren

@@ -46,6 +46,14 @@ bool check_outputs_of_compare(const Arguments& arguments) {
   return taken;
 }
 
+/// What is wrong with the planner of one run is wrong with the list.
+std::string about_planners(const UsageError& error) {
+  std::string text = error.spelled("@", '_');
+  constexpr std::string_view one = "@planner:";
+  if (text.starts_with(one)) text.replace(0, one.size(), "@planners:");
+  return text;
+}
+
 /// One `warren compare`.
 class CompareCommand {
  public:
@@ -60,6 +68,10 @@ class CompareCommand {
     execution_ = run.execution();
     compare(run);
     run.end();
+    if (arguments_.has("--svg") || arguments_.has("--html")) {
+      if (std::string note = note_on_heat_maps(comparison_); !note.empty())
+        comparison_.notes.push_back(std::move(note));
+    }
     write_outputs();
     run.conclude(standard_output_taken_, comparison_.stopped,
                  [&] { return comparison_summary(comparison_, run.palette()); });
@@ -101,7 +113,11 @@ void CompareCommand::compare_on_world(const Run& run) {
   Scene scene = load_world(*options_.world, arguments_, execution_, before);
   if (!options_.planners) return compare_searches(scene, run);
   if (scene.map && needs_map_walls(scene)) add_map_walls(scene, execution_);
-  run_planner_contest(scene, *options_.planners, execution_, comparison_);
+  try {
+    run_planner_contest(scene, *options_.planners, execution_, comparison_);
+  } catch (const UsageError& error) {
+    throw UsageError(about_planners(error));
+  }
   if (options_.planners->pictures.empty()) return;
   draw_contest(scene, *options_.planners, comparison_, options_.planners->pictures, execution_);
   comparison_.notes.push_back("pictures: " + options_.planners->pictures);
