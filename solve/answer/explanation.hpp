@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/stop_reason.hpp"
 #include "core/base/types.hpp"
 
 namespace warren {
@@ -32,10 +33,18 @@ struct NarrowPlace {
   std::optional<double> one_sample_in;
 };
 
+/// What would likely help, as words of the command that was given or of another one.
+struct Hint {
+  std::string verb;                ///< whose options they are; empty: of the command that gave this answer
+  std::vector<std::string> words;  ///< options to add or to replace; empty: it takes more than an option
+  std::string why;                 ///< what they would do
+};
+
 struct Explanation {
   std::optional<ComponentFacts> components;  ///< of prm, where the graph is there and its edges lead both ways
   std::optional<NarrowPlace> narrowest;      ///< of a path that keeps a distance
-  std::vector<std::string> hints;  ///< what would likely help where there is no path; options as the program has them
+  std::vector<Hint> hints;                   ///< where there is no path, the likeliest first; this world takes them
+  std::optional<StopReason> stopped;         ///< why what is missing here is
 };
 
 }  // namespace warren

@@ -2,6 +2,7 @@
 #include "solve/answer/explanation_text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -146,6 +147,21 @@ std::string components_json(const ComponentFacts& facts) {
   return json.closed();
 }
 
+/// "--samples 800: why", or "warren build with --samples 800: why".
+std::string text_of(const Hint& hint) {
+  if (hint.words.empty()) return hint.why;
+  const std::string of = hint.verb.empty() ? "" : fmt::format("warren {} with ", hint.verb);
+  return fmt::format("{}{}: {}", of, fmt::join(hint.words, " "), hint.why);
+}
+
+std::string hint_json(const Hint& hint) {
+  JsonObject json;
+  json.add_or_null("command", !hint.verb.empty(), hint.verb);
+  json.add_json("options", json_list(std::span<const std::string>(hint.words)));
+  json.add("why", hint.why);
+  return json.closed();
+}
+
 }  // namespace
 
 std::string text_of(const NarrowPlace& narrow) {
@@ -176,7 +192,10 @@ std::string explanation_text(const Answer& answer, const Palette& palette) {
   add_search(lines, answer);
   add_narrowest(lines, answer);
   add_times(lines, answer);
-  for (const std::string& hint : answer.explained->hints) lines.add("try", printable(hint));
+  for (const Hint& hint : answer.explained->hints) lines.add("try", printable(text_of(hint)));
+  if (answer.explained->stopped) {
+    lines.add("explained", fmt::format("in part, {}; the answer stands", text_of(*answer.explained->stopped)));
+  }
   return std::move(lines).text();
 }
 
@@ -198,8 +217,10 @@ std::string explanation_json(const Answer& answer) {
   json.add_json("components", explained.components ? components_json(*explained.components) : "null");
   json.add_json("narrowest", narrowest_json(explained.narrowest));
   std::string hints = "[";
-  for (const std::string& hint : explained.hints) hints.append(hints.size() > 1 ? "," : "").append(json_string(hint));
+  for (const Hint& hint : explained.hints) hints.append(hints.size() > 1 ? "," : "").append(hint_json(hint));
   json.add_json("hints", hints + "]");
+  json.add_or_null("stopped_by", explained.stopped.has_value(),
+                   explained.stopped ? name_of(*explained.stopped) : std::string_view{});
   return json.closed();
 }
 

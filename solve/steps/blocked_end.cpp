@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -14,11 +15,10 @@
 #include "scenes/text/human_units.hpp"
 #include "solve/question/question_of_arm.hpp"
 #include "solve/steps/kind_of_problem.hpp"
+#include "solve/steps/obstacles_near.hpp"
 
 namespace warren {
 namespace {
-
-constexpr std::size_t obstacles_a_poll = 1U << 14U;
 
 /// A power of ten between a hundredth and a tenth of x > 0.
 double rounding_unit(double x) {
@@ -31,39 +31,6 @@ double rounding_unit(double x) {
 /// To a multiple of a power of ten, in as few digits as say it.
 double rounded(double x, double unit) {
   return unit < 1.0 ? std::round(x / unit) / std::round(1.0 / unit) : std::round(x / unit) * unit;
-}
-
-/// The obstacles within `reach` of a place, and those whose ends are the box of all: it confines bodies that turn.
-Scene nearby(const Scene& scene, Vec2 place, double reach, const Execution& execution) {
-  Scene near = scene;
-  near.walls = {};
-  near.polygons.clear();
-  near.seams.clear();
-  const Box all = obstacle_box(scene, execution);
-  const Box around = Box{place, place}.grown(reach);
-  const auto is_kept = [&](const Box& box) {
-    const bool is_near = box.min.x <= around.max.x && box.max.x >= around.min.x && box.min.y <= around.max.y &&
-                         box.max.y >= around.min.y;
-    return is_near || box.min.x == all.min.x || box.min.y == all.min.y || box.max.x == all.max.x ||
-           box.max.y == all.max.y;
-  };
-  std::vector<Segment> walls;
-  for (std::size_t i = 0; i < scene.walls.size(); ++i) {
-    if (i % obstacles_a_poll == 0) execution.check();
-    Box box;
-    const Segment wall = scene.walls.segment(i);
-    box.include(wall.a);
-    box.include(wall.b);
-    if (is_kept(box)) walls.push_back(wall);
-  }
-  near.walls = WallSet::narrowest(walls);
-  for (const ScenePolygon& polygon : scene.polygons) {
-    execution.check();
-    Box box;
-    for (const Vec2 corner : polygon.corners) box.include(corner);
-    if (is_kept(box)) near.polygons.push_back(polygon);
-  }
-  return near;
 }
 
 class BlockedEndSearch {
@@ -110,7 +77,7 @@ class BlockedEndSearch {
     const double distance = norm(place - middle_);
     if (!scene_.map && distance + reach_ > near_reach_) {
       near_reach_ = 2.0 * (distance + reach_);
-      near_ = nearby(scene_, middle_, near_reach_, execution_);
+      near_ = obstacles_near(scene_, std::array{middle_}, near_reach_, execution_);
     }
     std::vector<double> state = state_;
     state[0] = place.x;
@@ -147,7 +114,8 @@ class BlockedEndSearch {
     double nearest = ring;
     double towards = 0.0;
     bool found = false;
-    for (int i = 0; i < directions; ++i) {
+    const double near_enough = 1e-3 * std::max(ring, norm(middle_ - at()));
+    for (int i = 0; i < directions && (!found || nearest > near_enough); ++i) {
       const double angle = 2.0 * std::numbers::pi * i / directions;
       if (!is_free(place(angle, nearest))) continue;
       double blocked = before;

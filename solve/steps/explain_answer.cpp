@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solve/steps/explain_answer.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <string>
-#include <string_view>
 #include <utility>
 
 #include "core/plane/geometry.hpp"
 #include "parallel/components.hpp"
 #include "solve/steps/blocked_end.hpp"
 #include "solve/steps/kind_of_problem.hpp"
+#include "solve/steps/obstacles_near.hpp"
 
 namespace warren {
 namespace {
@@ -34,6 +31,13 @@ ComponentFacts facts_of(const Graph& graph, const Execution& execution) {
   return facts;
 }
 
+/// How far the body reaches from its reference point.
+double extent_of(const RobotSpec& robot) {
+  double extent = robot.radius;
+  for (const Vec2 corner : robot.outline) extent = std::max(extent, norm(corner));
+  return extent;
+}
+
 /// The graph of the roadmap, whatever its states are; nullptr: none was kept, or its edges lead one way.
 const Graph* graph_of(const ByProducts& made, const Answer& answer) {
   if (answer.problem.robot.kind == RobotKind::car) return nullptr;
@@ -46,15 +50,22 @@ const Graph* graph_of(const ByProducts& made, const Answer& answer) {
   return nullptr;
 }
 
-/// A verified path, part by part.
+/// A verified path, part by part, among the obstacles that are near the part which is looked at.
 class PathParts {
  public:
-  PathParts(const Scene& scene, Question question, const RecordedAnswer& answer, const Execution& execution)
-      : scene_(scene),
-        question_(std::move(question)),
+  /// Obstacles that come as near as `room` are looked at.
+  PathParts(const Scene& scene, Question question, const RecordedAnswer& answer, double room,
+            const Execution& execution)
+      : question_(std::move(question)),
         answer_(answer),
         execution_(execution),
-        kind_(verifying_kind(scene, question_)) {}
+        kind_(verifying_kind(scene, question_)),
+        reach_(2.0 * room + extent_of(*question_.robot)) {
+    look_at(scene, 0, size() - 1);
+  }
+
+  /// From now on obstacles that are far from the states first .. last are left out.
+  void look_at(std::size_t first, std::size_t last) { look_at(near_, first, last); }
 
   std::size_t size() const { return answer_.states.empty() ? answer_.path.size() : answer_.states.size(); }
   bool in_plane() const { return answer_.states.empty(); }
@@ -83,24 +94,44 @@ class PathParts {
     Question question = question_;
     question.start = states.front();
     question.goal = states.back();
-    return kind_.verify(scene_, question, part, execution_).min_clearance;
+    return kind_.verify(near_, question, part, execution_).min_clearance;
   }
 
  private:
-  const Scene& scene_;
+  void look_at(const Scene& scene, std::size_t first, std::size_t last) {
+    if (state(0).size() > 3) {
+      near_ = scene;
+      return;
+    }
+    std::vector<Vec2> way;
+    double longest = 0.0;  // a car's curve bends away from its chord by no more
+    for (std::size_t i = first; i <= last; ++i) {
+      const std::vector<double> at = state(i);
+      way.push_back({at[0], at[1]});
+      if (i > first) longest = std::max(longest, distance(way.end()[-2], way.back()));
+    }
+    const double bend = question_.robot->kind == RobotKind::car ? longest : 0.0;
+    near_ = obstacles_near(scene, way, reach_ + bend, execution_);
+  }
+
   Question question_;
   const RecordedAnswer& answer_;
   const Execution& execution_;
   const SolveKind& kind_;
+  double reach_;
+  Scene near_;
 };
 
 /// The leg with the least room: the half that has it, again and again.
-std::size_t narrowest_leg(const PathParts& parts) {
+std::size_t narrowest_leg(PathParts& parts, double least) {
   std::size_t first = 0;
   std::size_t last = parts.size() - 1;
   while (last - first > 1) {
     const std::size_t middle = first + (last - first) / 2;
-    (parts.clearance(first, middle) <= parts.clearance(middle, last) ? last : first) = middle;
+    const double before = parts.clearance(first, middle);
+    const bool is_before = before <= least || before <= parts.clearance(middle, last);
+    (is_before ? last : first) = middle;
+    parts.look_at(first, last);
   }
   return first;
 }
@@ -131,97 +162,34 @@ std::optional<double> one_sample_in(const Scene& scene, const Answer& answer, co
   return std::max(1.0, box.width() * box.height() / (free * free));
 }
 
-bool is_given(const Answer& answer, std::string_view option) { return figure_named(answer.options, option) != nullptr; }
-
-void add_roadmap_hints(const Answer& answer, std::vector<std::string>& hints) {
-  const bool fixed = is_given(answer, "samples");
-  const bool seeks = answer.sampler == "bridge" || answer.sampler == "gaussian" || answer.sampler == "mixture";
-  const bool sampled = answer.sampler != "lattice" && answer.sampler != "cell-centres";
-  if (fixed) {
-    hints.push_back(fmt::format("--samples {}, or none: the roadmap then grows until start and goal connect",
-                                4 * std::max<std::uint64_t>(answer.counters.samples, 1)));
-  } else if (!sampled) {
-    hints.push_back("--sampler uniform: milestones between the middles of cells, too");
-  }
-  if (sampled && !seeks) hints.push_back("--sampler bridge or gaussian: milestones in narrow passages");
-  if (const Figure* radius = figure_named(answer.options, "radius")) {
-    if (const double* r = std::get_if<double>(radius)) {
-      const bool too_far = answer.separation.nearest_gap > *r;
-      hints.push_back(fmt::format("--radius {:.3g}{}", 2.0 * std::max(*r, too_far ? answer.separation.nearest_gap : *r),
-                                  too_far ? ": the gap is wider than the one asked for" : ""));
-    }
-  }
-  if (const Figure* neighbours = figure_named(answer.options, "neighbours")) {
-    if (const auto* k = std::get_if<std::uint64_t>(neighbours)) {
-      hints.push_back(fmt::format("--neighbours {}: each milestone is joined to more", 2 * *k));
-    }
-  }
-}
-
-void add_tree_hints(const Answer& answer, std::vector<std::string>& hints) {
-  hints.push_back(fmt::format("--nodes {}: the trees gave up at their number",
-                              4 * std::max<std::uint64_t>(answer.roadmap.milestones, 25'000)));
-  if (!is_given(answer, "step")) hints.push_back("--step: shorter motions squeeze through narrower passages");
-  if (!is_given(answer, "trees")) hints.push_back("--trees 4: the first of them to arrive answers");
-}
-
-std::vector<std::string> hints_for(const Answer& answer) {
-  std::vector<std::string> hints;
-  if (answer.outcome == Outcome::stopped) {
-    hints.push_back("a longer --budget, or more --memory; 'time went to' says which stage took it");
-  }
-  if (answer.blocked && !answer.blocked->hint.empty()) hints.push_back(answer.blocked->hint);
-  if (answer.blocked && !answer.blocked->free_place.empty()) {
-    const auto& place = answer.blocked->free_place;
-    std::string text = answer.blocked->is_start ? "--start " : "--goal ";
-    for (std::size_t i = 0; i < place.size(); ++i) text += fmt::format("{}{}", i == 0 ? "" : ",", place[i]);
-    hints.push_back(text + ": the nearest place where the body fits");
-  }
-  if (answer.outcome != Outcome::not_connected || answer.refuted) return hints;
-  const auto planner = enum_named<PlannerKind>(answer.planner);
-  if (planner && is_roadmap_planner(*planner)) add_roadmap_hints(answer, hints);
-  if (planner == PlannerKind::rrt || planner == PlannerKind::rrt_connect) add_tree_hints(answer, hints);
-  if (planner == PlannerKind::grid) {
-    hints.push_back("a smaller --cell, or more --angles: what is narrower than a cell is not seen");
-  }
-  if (planner == PlannerKind::voronoi || planner == PlannerKind::cells) {
-    hints.push_back("another --planner: prm or lazy-prm");
-  }
-  if (answer.problem.clearance > 0.0) {
-    hints.push_back(fmt::format("--clearance below {:.6g}, if less room will do", answer.problem.clearance));
-  }
-  return hints;
-}
-
 }  // namespace
 
 std::optional<NarrowPlace> narrowest_place(const Scene& scene, const Question& question, const RecordedAnswer& answer,
                                            double min_clearance, const Execution& execution) {
-  const PathParts parts(scene, question, answer, execution);
-  if (parts.size() < 2 || !(min_clearance > 0.0) || !std::isfinite(min_clearance)) return std::nullopt;
-  NarrowPlace narrow{.leg = narrowest_leg(parts), .place = {}, .clearance = min_clearance, .one_sample_in = {}};
+  const std::size_t states = std::max(answer.path.size(), answer.states.size());
+  if (states < 2 || !(min_clearance > 0.0) || !std::isfinite(min_clearance)) return std::nullopt;
+  PathParts parts(scene, question, answer, min_clearance, execution);
+  NarrowPlace narrow{
+      .leg = narrowest_leg(parts, min_clearance), .place = {}, .clearance = min_clearance, .one_sample_in = {}};
   if (parts.state(0).size() <= 3) narrow.place = narrowest_on(parts, narrow.leg);
   return narrow;
 }
 
-void explain_answer(const Scene& scene, Answer& answer, const ByProducts& made, const Execution& execution) {
-  Explanation explained;
+void explain_answer(const Scene& scene, const AskedWith& asked, Answer& answer, const ByProducts& made,
+                    const Execution& execution) {
+  Explanation& explained = answer.explained.emplace();
+  explained.hints = hints_for(scene, asked, answer);
   const auto planner = enum_named<PlannerKind>(answer.planner);
   if (planner == PlannerKind::prm && answer.outcome != Outcome::stopped) {
     if (const Graph* graph = graph_of(made, answer)) explained.components = facts_of(*graph, execution);
   }
-  if (answer.verified) {
-    RecordedAnswer path;
-    path.file = "answer";
-    path.path = answer.path;
-    path.states = answer.states;
-    explained.narrowest = narrowest_place(scene, answer.problem.question(), path, answer.min_clearance, execution);
-    if (explained.narrowest) {
-      explained.narrowest->one_sample_in = one_sample_in(scene, answer, execution);
-    }
-  }
-  explained.hints = hints_for(answer);
-  answer.explained = std::move(explained);
+  if (!answer.verified) return;
+  RecordedAnswer path;
+  path.file = "answer";
+  path.path = answer.path;
+  path.states = answer.states;
+  explained.narrowest = narrowest_place(scene, answer.problem.question(), path, answer.min_clearance, execution);
+  if (explained.narrowest) explained.narrowest->one_sample_in = one_sample_in(scene, answer, execution);
 }
 
 }  // namespace warren

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What --explain tells: the components of the roadmap that gave the answer, the narrowest place of its path by the
-// judge's word, and what would likely help where there is none. Costs a pass over the roadmap and about one more
-// verification of the path.
+// judge's word, and what would likely help where there is none. Costs a pass over the roadmap, one over the obstacles,
+// and two more verifications of the path among those near it.
 #pragma once
 
 #include <optional>
@@ -11,11 +11,14 @@
 #include "solve/answer/answer.hpp"
 #include "solve/answer/by_products.hpp"
 #include "solve/answer/read_answer_io.hpp"
+#include "solve/steps/hints.hpp"
 
 namespace warren {
 
-/// Fills in answer.explained. `made`: what solve() and make_by_products() have kept. Throws Stopped.
-void explain_answer(const Scene& scene, Answer& answer, const ByProducts& made, const Execution& execution);
+/// Fills in answer.explained, hints first: what stops it leaves the rest out. `made`: what solve() and
+/// make_by_products() have kept. Throws Stopped.
+void explain_answer(const Scene& scene, const AskedWith& asked, Answer& answer, const ByProducts& made,
+                    const Execution& execution);
 
 /// Where the body has least room along a verified path of this length and clearance; nothing where it touches, and of
 /// paths of one state. Throws Stopped.

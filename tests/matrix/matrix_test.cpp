@@ -34,7 +34,10 @@ bool is_drawn(const std::string& field) { return (hash_of(field) >> 32U) % WARRE
 /// A small picture, in the format that the field's name draws.
 std::vector<std::string> picture_words(const Folder& folder, const std::string& field) {
   constexpr std::array<const char*, 4> endings{".svg", ".png", ".pdf", ".html"};
-  return {"--size", "300x300", "--svg", folder.path(std::string("picture") + endings[hash_of(field) % endings.size()])};
+  const std::string ending = endings[hash_of(field) % endings.size()];
+  std::vector<std::string> words{"--svg", folder.path("picture" + ending)};
+  if (ending != ".html") words.insert(words.end(), {"--size", "300x300"});  // a page fills its window
+  return words;
 }
 
 }  // namespace
@@ -191,9 +194,10 @@ void Matrix::ask_all_at_once(const MatrixBody& body, const BodyColumn& column) {
   const std::string picture = folder_.path("picture.svg");
   expect_path({"solve", world_file(), "--budget", "30s", "--json", answer, "--svg", picture}, question);
   expect_path({"verify", world_file(), answer}, {});
-  for (const char* drawn : {"drawn.svg", "drawn.png", "drawn.pdf", "drawn.html"}) {
+  for (const char* drawn : {"drawn.svg", "drawn.png", "drawn.pdf"}) {
     expect_path({"render", world_file(), "--answer", answer, "--size", "300x300", "-o", folder_.path(drawn)}, {});
   }
+  expect_path({"render", world_file(), "--answer", answer, "-o", folder_.path("drawn.html")}, {});
   if (planners.ends_with("grid")) {
     for (const std::string& word : raster_of(body)) question.push_back(word);
   }

@@ -17,9 +17,10 @@ const char* value_of(const std::string& json, const std::string& key) {
   return *value == ' ' ? value + 1 : value;
 }
 
-std::vector<long long> counts_in(const std::string& object, const std::vector<std::string>& keys) {
-  std::vector<long long> counts;
-  for (const std::string& key : keys) counts.push_back(std::strtoll(value_of(object, key), nullptr, 10));
+/// A difference that went below 0 comes out as larger than all others.
+std::vector<unsigned long long> counts_in(const std::string& object, const std::vector<std::string>& keys) {
+  std::vector<unsigned long long> counts;
+  for (const std::string& key : keys) counts.push_back(std::strtoull(value_of(object, key), nullptr, 10));
   return counts;
 }
 

@@ -15,8 +15,8 @@ struct ProgramAnswer {
   std::vector<std::vector<double>> path;
   bool says_why_blocked = false;
   /// What --explain says of samples (drawn, kept, dropped) and of motions (checked, free, blocked, undecided).
-  std::vector<long long> samples;
-  std::vector<long long> motions;
+  std::vector<unsigned long long> samples;
+  std::vector<unsigned long long> motions;
   std::vector<double> free_place;  ///< near a blocked end; empty where none is told
 };
 

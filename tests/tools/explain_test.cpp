@@ -25,10 +25,17 @@ Json explained(const Words& words, int code = 0) {
   return answer.value("explained", Json());
 }
 
+/// The options apart by blanks.
+std::string text_of(const Json& hint) {
+  std::string text;
+  for (const Json& word : hint["options"]) text += (text.empty() ? "" : " ") + word.get<std::string>();
+  return text;
+}
+
 bool any_hint(const Json& told, const std::string& said) {
   const auto& hints = told["hints"];
   return std::any_of(hints.begin(), hints.end(),
-                     [&](const Json& hint) { return hint.get<std::string>().find(said) != std::string::npos; });
+                     [&](const Json& hint) { return text_of(hint).find(said) != std::string::npos; });
 }
 
 TEST(Explain, AMazeIsOneComponentAndAllOfItIsKept) {
@@ -54,7 +61,7 @@ TEST(Explain, AWallMakesTwoComponentsAndTheGapStandsAtIt) {
   EXPECT_EQ(parts["of_start"].get<int>() + parts["of_goal"].get<int>(), parts["milestones"].get<int>());
   EXPECT_EQ(parts["largest"], std::max(parts["of_start"], parts["of_goal"]));
   EXPECT_TRUE(any_hint(told, "--samples"));
-  EXPECT_TRUE(any_hint(told, "--sampler bridge"));
+  EXPECT_FALSE(any_hint(told, "--sampler bridge")) << "nothing lies in an obstacle here";
   const std::string text = run(joined(words, {"--explain"})).out;
   const std::size_t gap = text.find("between what start and goal reach, from ");
   ASSERT_NE(gap, std::string::npos) << text;
@@ -115,6 +122,80 @@ TEST(Explain, AKeptRoadmapIsExplainedAsAnswersAre) {
   const Json told = explained({"query", roadmap});
   EXPECT_EQ(told["components"]["joined"], true);
   check({{"query", roadmap, "--batch", world, "--explain"}, 2, "--explain: is for one question"});
+  check({{"query", roadmap, "--batch", world, "--dpi", "96"}, 2, "--dpi: is for one question"});
+  check({{"query", roadmap, "--matrix", world, world, "--path", "p.csv"}, 2, "--path: is for one question"});
+}
+
+/// The command with the hint's options instead of its own.
+Words followed(Words words, const Json& hint) {
+  const Json& options = hint["options"];
+  const std::string name = options[0].get<std::string>();
+  const auto old = std::find(words.begin(), words.end(), name.substr(0, name.find('=')));
+  if (old != words.end()) words.erase(old, old + 2);
+  for (const Json& word : options) words.push_back(word.get<std::string>());
+  return words;
+}
+
+TEST(Explain, EveryHintIsTaken) {
+  const Folder folder;
+  const std::string shut = folder.write("w.scene", shut_world);
+  const std::string slit = folder.write("s.scene",
+                                        "bounds 0 0 10 4\npolygon 4 0 6 0 6 2.1 4 2.1\npolygon 4 2.2 6 2.2 6 4 4 4\n"
+                                        "start 1 1\ngoal 9 3\n");
+  const std::string map = folder.write("a.map", "type octile\nheight 3\nwidth 5\nmap\n..@..\n..@..\n..@..\n");
+  const Words turning{"--robot", "polygon 0 0 0.3 0 0 0.3", "--start", "1,1,0", "--goal", "9,3,0"};
+  const Words ends{"--start", "0.5,0.5", "--goal", "4.5,0.5"};
+  std::vector<Words> asked;
+  for (const char* sampler : {"uniform", "halton", "random", "bridge", "gaussian", "mixture"}) {
+    for (const char* planner : {"prm", "lazy-prm"}) {
+      for (const std::string& world : {shut, slit}) {
+        asked.push_back({"solve", world, "--planner", planner, "--sampler", sampler, "--samples", "30"});
+      }
+    }
+  }
+  asked.push_back(
+      {"solve", shut, "--robot", "disc 0.2", "--clearance", "0.1", "--samples", "2147483648", "--budget", "1ms"});
+  asked.push_back({"solve", shut, "--robot", "disc 0.2", "--radius", "0.4", "--samples", "50"});
+  asked.push_back({"solve", shut, "--robot", "disc 0.2", "--neighbours", "4096", "--samples", "50"});
+  for (const char* planner : {"voronoi", "grid"})
+    asked.push_back({"solve", shut, "--planner", planner, "--robot", "disc 0.2"});
+  for (const char* planner : {"rrt", "rrt-connect"})
+    asked.push_back(joined({"solve", shut, "--planner", planner, "--nodes", "50", "--step", "0.2"}, turning));
+  asked.push_back(joined({"solve", shut, "--planner", "grid", "--cell", "0.5", "--angles", "8"}, turning));
+  for (const char* planner : {"prm", "lazy-prm", "grid", "voronoi"})
+    asked.push_back(joined({"solve", map, "--planner", planner}, ends));
+  asked.push_back({"solve", slit, "--robot", "disc 0.2", "--start", "5,1"});
+  asked.push_back({"solve", slit, "--start", "12,1"});
+  for (const Words& words : asked) {
+    SCOPED_TRACE(shown(words));
+    const Outcome outcome = run(joined(words, {"--explain", "--json", "-"}));
+    ASSERT_FALSE(outcome.out.empty()) << outcome.err;
+    const Json answer = Json::parse(outcome.out);
+    for (const Json& hint : answer["explained"]["hints"]) {
+      if (hint["options"].empty()) continue;
+      const Outcome tried = run(joined(followed(words, hint), {"--budget", "3s", "--json", "-"}));
+      EXPECT_NE(tried.code, 2) << hint << tried.err;
+      if (answer.contains("blocked") && !answer["blocked"].is_null()) {
+        EXPECT_NE(Json::parse(tried.out)["status"], answer["status"]) << hint;
+      }
+    }
+    EXPECT_TRUE(answer["status"] != "not_connected" || !answer["explained"]["hints"].empty());
+  }
+}
+
+TEST(Explain, KeptRoadmapsAreToldToBeBuiltWithMore) {
+  const Folder folder;
+  const std::string world = folder.write("w.scene", shut_world);
+  const std::string roadmap = folder.path("r.roadmap");
+  const Words build{"build", world, "--planner", "prm", "--samples", "300", "-o", roadmap};
+  ASSERT_EQ(run(build).code, 0);
+  const Json told = explained({"query", roadmap}, 1);
+  EXPECT_TRUE(any_hint(told, "--samples 1200")) << told;
+  EXPECT_NE(run({"query", roadmap, "--explain"}).out.find("warren build with --samples 1200"), std::string::npos);
+  for (const Json& hint : told["hints"]) {
+    EXPECT_EQ(hint["command"], "build");
+    EXPECT_NE(run(followed(build, hint)).code, 2) << hint;
+  }
 }
 
 TEST(Explain, IsTheSameForAnyNumberOfThreads) {

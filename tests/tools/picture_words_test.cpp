@@ -25,6 +25,13 @@ TEST(PictureWords, SayHowAPictureLooks) {
   EXPECT_EQ(folder.read("c.png").substr(16, 8), std::string("\0\0\0\xc8\0\0\0\x96", 8));
 }
 
+TEST(PictureWords, APageHasNoPixels) {
+  const Folder folder;
+  const std::string file = folder.path("a.html");
+  check({{"solve", "maze:5x5", "--svg", file, "--dpi", "96"}, 2, "--dpi: a page fills its window"});
+  check({{"render", "maze:5x5", "-o", file, "--size", "300x300"}, 2, "--size: a page fills its window"});
+}
+
 TEST(PictureWords, APdfIsAPdf) {
   const Folder folder;
   const Outcome outcome = run({"solve", "maze:5x5", "--svg", folder.path("a.pdf")});

@@ -48,6 +48,7 @@ unsigned threads_value(std::string_view option, std::string_view text) {
 
 Run::Run(const Arguments& arguments, RunScope scope)
     : deadline_(deadline_of(arguments, scope)),
+      last_deadline_(std::numeric_limits<double>::infinity(), deadline_.memory_bytes(), &signal_flag()),
       quiet_(arguments.has("--quiet")),
       mode_(given_choice<ProgressMode>(arguments, "--progress")
                 .value_or(quiet_ ? ProgressMode::none : ProgressMode::automatic)),
@@ -75,6 +76,14 @@ void Run::conclude(bool standard_output_taken, std::optional<StopReason> stopped
                    const std::function<std::string()>& summary) const {
   if (!quiet_ && !standard_output_taken) return print_text(summary());
   if (stopped) fmt::print(stderr, "warren: stopped: {}\n", text_of(*stopped));
+}
+
+Execution Run::execution_for_what_is_left() {
+  if (!deadline_.reached()) return execution_;
+  forget_signal();
+  Execution left = execution_;
+  left.deadline = &last_deadline_;
+  return left;
 }
 
 void Run::end() {

@@ -49,12 +49,16 @@ class Run {
   /// anything did.
   void conclude(bool standard_output_taken, std::optional<StopReason> stopped,
                 const std::function<std::string()>& summary) const;
+  /// Where the answer is there in time and what came after it was stopped: for writing it, which a further signal or
+  /// the memory alone ends; else execution().
+  Execution execution_for_what_is_left();
   /// Ends the progress bar and writes the trace, if one was asked for; further calls do nothing.
   void end();
 
  private:
   PagePool pages_;  // what one stage leaves is warm for the next
   Deadline deadline_;
+  Deadline last_deadline_;  // without the budget
   Progress progress_;
   std::optional<Trace> trace_;
   std::string trace_file_;

@@ -14,7 +14,7 @@ namespace warren {
 namespace {
 
 constinit SignalFlag flag{0};
-constinit std::atomic<std::int64_t> first_ms{0};
+constinit std::atomic<std::int64_t> first_ms{-1'000'000};  // long ago
 static_assert(SignalFlag::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free,
               "a signal handler may only touch lock-free atomics");
 
@@ -45,10 +45,12 @@ std::int64_t now_ms() {
 
 void remember(int number) {
   constexpr std::int64_t patience_ms = 1000;
+  const std::int64_t now = now_ms();
+  if (now - first_ms.load(std::memory_order_relaxed) < patience_ms) return;
   int none = 0;
   if (flag.compare_exchange_strong(none, number, std::memory_order_relaxed)) {
-    first_ms.store(now_ms(), std::memory_order_relaxed);
-  } else if (now_ms() - first_ms.load(std::memory_order_relaxed) >= patience_ms) {
+    first_ms.store(now, std::memory_order_relaxed);
+  } else {
     std::signal(number, SIG_DFL);  // the next thing that happens in this thread
     std::raise(number);
   }
@@ -82,5 +84,7 @@ void install_signal_handlers() {
 }
 
 const SignalFlag& signal_flag() { return flag; }
+
+void forget_signal() { flag.store(0, std::memory_order_relaxed); }
 
 }  // namespace warren

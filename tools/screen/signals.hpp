@@ -13,5 +13,7 @@ void install_signal_handlers();
 
 /// 0, or the number of the signal that came.
 const SignalFlag& signal_flag();
+/// The signal that came has done what it could: the next one stops what runs then.
+void forget_signal();
 
 }  // namespace warren

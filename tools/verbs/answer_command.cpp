@@ -56,7 +56,7 @@ AnswerCommand::AnswerCommand(const Arguments& arguments, std::string_view keep)
       roadmap_(output_file(arguments, keep).value_or("")),
       path_(output_file(arguments, "--path").value_or("")),
       path_options_(path_words(arguments)),
-      picture_options_(picture_words(arguments, arguments.has("--svg"), "--svg FILE")) {
+      picture_options_(picture_words(arguments, arguments.has("--svg"), "--svg FILE", svg_)) {
   check_picture("--svg", svg_);
 }
 
@@ -94,11 +94,27 @@ void AnswerCommand::answer(const Run& run) {
   answer_.peak_memory_bytes = peak_resident_bytes();
 }
 
-/// What is on disk says the same as the exit code: a stop while something is written makes it a stopped answer.
-void AnswerCommand::write_outputs(const Run& run) {
+/// What stops it leaves the answer as it is.
+void AnswerCommand::explain_in_time(const Execution& execution) {
+  const auto stop = [&](StopReason reason) {
+    if (!answer_.explained) answer_.explained.emplace();
+    answer_.explained->stopped = reason;
+  };
   try {
-    if (explains_ && !answer_.world.kind.empty()) explain(run.execution(), answer_, by_products_);
-    if (answer_.outcome != Outcome::stopped) return write_finished(run.execution());
+    explain(execution, answer_, by_products_);
+  } catch (const Stopped& stopped) {
+    stop(stopped.reason);
+  } catch (const std::bad_alloc&) {
+    stop(StopReason::memory);
+  }
+}
+
+/// What is on disk says the same as the exit code: a stop while something is written makes it a stopped answer, one
+/// before, after the answer was found, does not.
+void AnswerCommand::write_outputs(Run& run) {
+  if (explains_ && !answer_.world.kind.empty()) explain_in_time(run.execution());
+  try {
+    if (answer_.outcome != Outcome::stopped) return write_finished(run.execution_for_what_is_left());
   } catch (const Stopped& stopped) {
     take_back_answer(stopped.reason);
   } catch (const std::bad_alloc&) {

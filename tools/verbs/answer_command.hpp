@@ -54,7 +54,8 @@ class AnswerCommand {
  private:
   bool takes_standard_output() const;
   void answer(const Run& run);
-  void write_outputs(const Run& run);
+  void explain_in_time(const Execution& execution);
+  void write_outputs(Run& run);
   void write_finished(const Execution& execution);
   void write_stopped(const Execution& execution);
   void write_json(std::optional<OutputFile>& file, const Execution& execution) const;

@@ -80,7 +80,7 @@ int convert(const Arguments& arguments) {
     throw UsageError("--cell: only maps have cells: .map, .yaml, .pgm and .png");
   }
   const PictureOptions options =
-      picture_words(arguments, is_picture(ending_of(*file)), "-o FILE.svg or another picture");
+      picture_words(arguments, is_picture(ending_of(*file)), "-o FILE.svg or another picture", *file);
   Run run(arguments);
   StageTimes seconds;
   double write_seconds = 0.0;

@@ -37,7 +37,7 @@ int export_roadmap_file(const Arguments& arguments) {
       if (arguments.has(option)) throw UsageError(fmt::format("{}: means nothing to a picture", option));
     }
     check_picture("--output", *file);
-    return draw_roadmap(arguments, *file, picture_words(arguments, true, {}));
+    return draw_roadmap(arguments, *file, picture_words(arguments, true, {}, *file));
   }
   picture_words(arguments, false, "a picture");
   for (const std::string& name : files_of_export(*file)) check_writable(name);

@@ -97,7 +97,7 @@ int generate(const Arguments& arguments) {
   if (!file) throw UsageError("-o FILE is missing");
   check_world_file(*file);
   const PictureOptions options =
-      picture_words(arguments, is_picture(ending_of(*file)), "-o FILE.svg or another picture");
+      picture_words(arguments, is_picture(ending_of(*file)), "-o FILE.svg or another picture", *file);
   Run run(arguments);
   double seconds = 0.0;
   Scene scene;

@@ -25,6 +25,7 @@
 #include "tools/screen/world_files.hpp"
 #include "tools/verbs/answer_command.hpp"
 #include "tools/words/path_words.hpp"
+#include "tools/words/picture_words.hpp"
 #include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"
 
@@ -70,7 +71,8 @@ class QueryCommand : public AnswerCommand {
   }
   Scene scene_drawn(const Execution& execution, ByProducts&) override { return roadmap_.world.whole(execution); }
   void explain(const Execution& execution, Answer& answer, ByProducts& keep) override {
-    explain_answer(roadmap_.world.whole(execution), answer, keep, execution);
+    const AskedWith asked{.options = roadmap_.options, .samples = roadmap_.samples, .is_kept = true};
+    explain_answer(roadmap_.world.whole(execution), asked, answer, keep, execution);
   }
   const Roadmap& roadmap() const override { return roadmap_; }
 
@@ -86,7 +88,10 @@ class ManyQuestions {
       : arguments_(arguments),
         options_{how_to_search(arguments), arguments.has("--lengths-only"), arguments.has("--csv")},
         keep_file_(output_file(arguments, "--keep")) {
-    for (const std::string_view option : {"--start", "--goal", "--json", "--svg", "--explain"}) {
+    std::vector<std::string_view> one{"--start", "--goal", "--json", "--svg", "--explain"};
+    for (const OptionSpec& spec : picture_option_specs()) one.push_back(spec.name);
+    for (const OptionSpec& spec : path_option_specs()) one.push_back(spec.name);
+    for (const std::string_view option : one) {
       if (arguments.has(option)) throw UsageError(fmt::format("{}: is for one question; {} has many", option, of));
     }
   }

@@ -51,7 +51,7 @@ void check_animation(const Arguments& arguments, const std::string& file) {
 
 int render(const Arguments& arguments) {
   const std::string file = picture_file(arguments);
-  const PictureOptions options = picture_words(arguments, true, {});
+  const PictureOptions options = picture_words(arguments, true, {}, file);
   const auto answer_file = arguments.value("--answer");
   check_animation(arguments, file);
   if (is_roadmap_named(arguments.operand(0))) {

@@ -57,9 +57,10 @@ class SolveCommand : public AnswerCommand {
     return std::move(scene_);
   }
   void explain(const Execution& execution, Answer& answer, ByProducts& keep) override {
-    if (keeps_roadmap()) return explain_answer(roadmap_.world.whole(execution), answer, keep, execution);
+    const AskedWith asked{options_};
+    if (keeps_roadmap()) return explain_answer(roadmap_.world.whole(execution), asked, answer, keep, execution);
     if (answer.outcome != Outcome::stopped) complete(execution, keep);
-    explain_answer(scene_, answer, keep, execution);
+    explain_answer(scene_, asked, answer, keep, execution);
   }
   /// Once.
   void complete(const Execution& execution, ByProducts& keep) {

@@ -2,6 +2,7 @@
 // warren verify: is the path of an answer free, all along and with all its clearance? Decided by verify/ alone.
 #include <fmt/format.h>
 
+#include <new>
 #include <optional>
 #include <string>
 
@@ -51,6 +52,19 @@ void print_verdict(const Verdict& v, const Palette& palette) {
   }
 }
 
+/// What stops it leaves the verdict as it is.
+std::optional<NarrowPlace> narrowest_in_time(const Scene& scene, const Verdict& verdict, const RecordedAnswer& answer,
+                                             const Run& run) {
+  try {
+    return narrowest_place(scene, verdict.problem.question(), answer, verdict.min_clearance, run.execution());
+  } catch (const Stopped& stopped) {
+    run.note(fmt::format("--explain ended early, {}; the verdict stands", text_of(stopped.reason)));
+  } catch (const std::bad_alloc&) {
+    run.note(fmt::format("--explain ended early, {}; the verdict stands", text_of(StopReason::memory)));
+  }
+  return std::nullopt;
+}
+
 int verify_answer(const Arguments& arguments) {
   const auto json = output_file(arguments, "--json");
   if (arguments.operand(0).ends_with(".json") && !arguments.operand(1).ends_with(".json")) {
@@ -71,12 +85,10 @@ int verify_answer(const Arguments& arguments) {
   }
   const bool explains = arguments.has("--explain");
   std::optional<NarrowPlace> narrow;
-  if (explains && verdict.verified) {
-    narrow = narrowest_place(scene, verdict.problem.question(), answer, verdict.min_clearance, run.execution());
-  }
+  if (explains && verdict.verified) narrow = narrowest_in_time(scene, verdict, answer, run);
   run.end();
   const std::string more = explains ? ",\n \"narrowest\": " + narrowest_json(narrow) : "";
-  if (json) write_file(*json, verdict_json(verdict, more), run.execution());
+  if (json) write_file(*json, verdict_json(verdict, more), run.execution_for_what_is_left());
   if (!run.quiet() && json != "-") {
     print_verdict(verdict, run.palette());
     if (narrow) print_text(text_of(*narrow) + "\n");

@@ -37,13 +37,19 @@ PageSize size_value(std::string_view option, std::string_view text) {
 
 std::span<const OptionSpec> picture_option_specs() { return picture_specs; }
 
-PictureOptions picture_words(const Arguments& arguments, bool is_drawn, std::string_view draws) {
+PictureOptions picture_words(const Arguments& arguments, bool is_drawn, std::string_view draws, std::string_view file) {
   PictureOptions options;
   if (!is_drawn) {
     for (const OptionSpec& spec : picture_specs) {
       if (arguments.has(spec.name)) throw UsageError(fmt::format("{}: goes with {}", spec.name, draws));
     }
     return options;
+  }
+  if (file.ends_with(".html")) {
+    for (const char* option : {"--size", "--dpi"}) {
+      if (arguments.has(option))
+        throw UsageError(fmt::format("{}: a page fills its window; say .svg, .png or .pdf", option));
+    }
   }
   if (arguments.has("--show")) {
     options.parts = Parts::none();

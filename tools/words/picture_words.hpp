@@ -13,7 +13,9 @@ namespace warren {
 /// --show --size --dpi --title
 std::span<const OptionSpec> picture_option_specs();
 
-/// Throws UsageError, also for any of them where nothing is drawn; `draws` names what would, such as "--svg FILE".
-PictureOptions picture_words(const Arguments& arguments, bool is_drawn, std::string_view draws);
+/// Throws UsageError, also for any of them where nothing is drawn, `draws` names what would, such as "--svg FILE"; and
+/// for those that mean nothing to the picture's `file`.
+PictureOptions picture_words(const Arguments& arguments, bool is_drawn, std::string_view draws,
+                             std::string_view file = {});
 
 }  // namespace warren

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An answer that was found in time stays one where only what comes after it is stopped.
+#include <csignal>
+#include <nlohmann/json.hpp>
+
+#include "solve/solve.hpp"
+#include "tests/tools/process.hpp"
+#include "tools/screen/exit_code.hpp"
+#include "tools/screen/signals.hpp"
+#include "tools/verbs/answer_command.hpp"
+
+namespace warren::test {
+namespace {
+
+enum class Dawdles { explaining, finding };
+
+/// A solve that is in time with its answer, and takes until it is stopped for what comes after.
+class SlowTalker : public AnswerCommand {
+ public:
+  SlowTalker(const Arguments& arguments, Dawdles where) : AnswerCommand(arguments, "--save-roadmap"), where_(where) {
+    scene_.source = "field";
+    scene_.bounds = Box{{0.0, 0.0}, {10.0, 10.0}};
+    scene_.start = {1.0, 1.0};
+    scene_.goal = {9.0, 9.0};
+  }
+
+ private:
+  static void wait(const Execution& execution) {
+    while (!execution.should_stop()) {
+    }
+  }
+  Answer find(const Run& run, StageTimes&, ByProducts* keep) override {
+    Answer answer = solve_within(scene_, {}, {}, run.execution(), keep);
+    if (where_ == Dawdles::finding) wait(run.execution());  // as an estimate's price does, which swallows its stop
+    return answer;
+  }
+  Scene scene_drawn(const Execution&, ByProducts&) override { return scene_; }
+  void explain(const Execution& execution, Answer&, ByProducts&) override {
+    if (where_ == Dawdles::explaining) wait(execution);
+    execution.check();
+  }
+  const Roadmap& roadmap() const override { return roadmap_; }
+
+  Dawdles where_;
+  Scene scene_;
+  Roadmap roadmap_;
+};
+
+nlohmann::json told_in_time(const Folder& folder, const std::vector<std::string>& more, Dawdles where) {
+  std::vector<std::string> words{
+      "solve", "field", "--quiet", "--json", folder.path("a.json"), "--svg", folder.path("a.svg")};
+  words.insert(words.end(), more.begin(), more.end());
+  const Command command = command_named("solve");
+  const Arguments arguments(command, std::span(words).subspan(1));
+  EXPECT_EQ(SlowTalker(arguments, where).run(), exit_code::success);
+  EXPECT_NE(folder.read("a.svg"), "");
+  return nlohmann::json::parse(folder.read("a.json"));
+}
+
+TEST(AnswerInTime, StaysWhereTheBudgetEndsItsExplanation) {
+  const Folder folder;
+  const auto answer = told_in_time(folder, {"--explain", "--budget", "200ms"}, Dawdles::explaining);
+  EXPECT_EQ(answer["status"], "solved");
+  EXPECT_EQ(answer["verified"], true);
+  EXPECT_EQ(answer["explained"]["stopped_by"], "budget");
+}
+
+TEST(AnswerInTime, StaysWhereASecondSolveIsStoppedSilently) {
+  const Folder folder;
+  EXPECT_EQ(told_in_time(folder, {"--budget", "200ms"}, Dawdles::finding)["status"], "solved");
+}
+
+TEST(AnswerInTime, ASignalThatEndedAnExplanationIsForgotten) {
+  const Folder folder;
+  install_signal_handlers();
+  std::raise(SIGTERM);
+  EXPECT_NE(signal_flag().load(), 0);
+  forget_signal();
+  EXPECT_EQ(signal_flag().load(), 0);
+  std::raise(SIGTERM);  // a key pressed twice
+  EXPECT_EQ(signal_flag().load(), 0);
+}
+
+}  // namespace
+}  // namespace warren::test
