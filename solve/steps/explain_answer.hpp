@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What --explain tells: the components of the roadmap that gave the answer, the narrowest place of its path by the
 // judge's word, and what would likely help where there is none. Costs a pass over the roadmap, one over the obstacles,
-// and two more verifications of the path among those near it.
+// and verifications of ever shorter parts of the path among what is near them: about three times what the judge takes.
 #pragma once
 
 #include <optional>

@@ -306,5 +306,14 @@ TEST(Compare, BlamesTheListOfPlanners) {
   check({{"compare", "maze:5x5", "--planners", "rrt"}, 2, "--planners: rrt does not solve"});
 }
 
+TEST(Compare, SaysHowManyHeatMapsAreLeftOut) {
+  const Folder folder;
+  const test::Outcome outcome = test::run({"compare", "maze:3x3", "--planners", "prm,lazy-prm", "--sampler",
+                                           "uniform,halton,random,bridge,gaussian,mixture", "--neighbours", "4,5,6",
+                                           "--samples", "9,12,15", "--search", "astar,dijkstra", "--seeds", "1",
+                                           "--clearance", "0.1,0.2", "--html", folder.path("c.html")});
+  EXPECT_NE(outcome.out.find("60 of 72 heat maps are drawn"), std::string::npos) << outcome.out << outcome.err;
+}
+
 }  // namespace
 }  // namespace warren
