@@ -132,16 +132,18 @@ std::vector<PictureLayer> ground_of(const Scene& scene, const Execution& executi
   return ground;
 }
 
-/// Three views instead of the world.
+/// Views instead of the world.
 Drawing drawing_of_arm(const Scene& scene, const RobotSpec& robot, const JointState& start, const StateList& states,
                        const Execution& execution) {
   Path<JointState> path;
   for (std::size_t i = 0; i < states.size(); ++i) path.push_back(joint_state(states[i]));
   if (path.empty()) path.push_back(start);
-  ArmViews views = arm_views(scene, table_of(robot, execution), robot.radius, path);
+  ArmViews views = arm_views(scene, table_of(robot, execution), robot.radius, path, execution);
   return {.layers = std::move(views.layers),
           .stage = std::move(views.stage),
           .panels = std::move(views.panels),
+          .solids = std::move(views.solids),
+          .arm = std::move(views.arm),
           .title = title_of(scene)};
 }
 
@@ -193,9 +195,10 @@ Drawing drawing_of(const Scene& scene, const RecordedAnswer& answer, const Execu
   return drawing;
 }
 
-void animate(Drawing& drawing, const RobotSpec& robot) {
+void animate(Drawing& drawing) {
   constexpr double point_share = 1.0 / 120.0;
-  if (is_arm(robot)) throw UsageError("@animate: draws bodies of the plane, not an arm");
+  drawing.moves = true;
+  if (drawing.arm) return;
   MovingBody& body = drawing.body;
   if (body.poses.empty()) {
     for (const Vec2 p : drawing.path) body.poses.push_back({p.x, p.y, 0.0});
@@ -206,7 +209,6 @@ void animate(Drawing& drawing, const RobotSpec& robot) {
     for (const Vec2 p : drawing.path) box.include(p);
     body.radius = point_share * std::max(box.width(), box.height());
   }
-  drawing.moves = true;
 }
 
 Picture picture_of(const Scene& scene, const Drawing& drawing) {
@@ -218,10 +220,12 @@ Picture picture_of(const Scene& scene, const Drawing& drawing) {
           .start = drawing.start,
           .goal = drawing.goal,
           .panels = drawing.panels,
+          .solids = drawing.solids ? &*drawing.solids : nullptr,
           .path_label = drawing.path_label,
           .title = drawing.title,
           .subtitle = drawing.subtitle,
           .body = &drawing.body,
+          .arm = drawing.arm ? &*drawing.arm : nullptr,
           .moves = drawing.moves};
 }
 

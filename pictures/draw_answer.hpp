@@ -36,6 +36,8 @@ struct Drawing {
   std::optional<Vec2> start = {};
   std::optional<Vec2> goal = {};
   std::vector<AxesPanel> panels = {};  ///< as Picture::panels
+  std::optional<SolidView> solids = {};
+  std::optional<MovingArm> arm = {};
   std::string path_label = "path";
   std::string title = {};
   std::string subtitle = {};  ///< what was asked, how it was solved and what came of it
@@ -50,9 +52,9 @@ Drawing drawing_of(const Scene& scene, const Answer& answer, ByProducts made, co
 /// The same of an answer that was read from a file: path and body. Throws InputError for states that are no arm's.
 Drawing drawing_of(const Scene& scene, const RecordedAnswer& answer, const Execution& execution);
 
-/// Lets the body move along the path, in pictures that can (SVG, HTML); a point is shown as a small disc. Throws
-/// UsageError for an arm.
-void animate(Drawing& drawing, const RobotSpec& robot);
+/// Lets the body move along the path, in pictures that can (SVG, HTML); a point is shown as a small disc, an arm in its
+/// three projections.
+void animate(Drawing& drawing);
 
 /// Refers to both; of a map, the walls shown are those that add_map_walls() gave the scene. Title and description are
 /// left to the caller.

@@ -166,9 +166,13 @@ Drawing RoadmapDrawing::draw_arm() const {
   };
   for (const EdgeStyle& style : other_edges) add(style);
   add({EdgeState::free, "free", "free edge", colors::components[0]});
-  ArmViews views = arm_roadmap_views(scene_, table_of(roadmap_.robot, execution_), roadmap_.robot.radius,
-                                     scene_.start.empty() ? JointState{} : joint_state(scene_.start), states, lines);
-  return {.layers = std::move(views.layers), .stage = std::move(views.stage), .panels = std::move(views.panels)};
+  ArmViews views =
+      arm_roadmap_views(scene_, table_of(roadmap_.robot, execution_), roadmap_.robot.radius,
+                        scene_.start.empty() ? JointState{} : joint_state(scene_.start), states, lines, execution_);
+  return {.layers = std::move(views.layers),
+          .stage = std::move(views.stage),
+          .panels = std::move(views.panels),
+          .solids = std::move(views.solids)};
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ py::bytes picture_of_answer(const KeptAnswer& kept, const Scene& scene, const st
     const Scene& shown = bordered(scene, copy, execution);
     Drawing drawing = drawing_of(shown, kept.answer, kept.made, execution);
     if (kept.made.roadmap.states.empty()) drawing.roadmap.reset();  // nothing was kept: no empty layers
-    if (moving && !kept.answer.path.empty()) animate(drawing, kept.answer.problem.robot);
+    if (moving && !kept.answer.path.empty()) animate(drawing);
     return drawn(picture_of(shown, drawing), format, options, execution);
   });
 }

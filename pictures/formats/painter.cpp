@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "pictures/formats/line_group.hpp"
+#include "pictures/formats/solid_raster.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 
 namespace warren {
@@ -37,7 +38,11 @@ class Painter {
     if (picture_.moves && !picture_.path.empty() && parts_.has(Part::path)) {
       surface_.moving_body(*picture_.body, width(widths::search_tree));
     }
+    if (picture_.moves && picture_.arm != nullptr && parts_.has(Part::body)) {
+      surface_.moving_arm(*picture_.arm, width(widths::search_tree));
+    }
     surface_.leave_world();
+    if (picture_.solids != nullptr) solids(*picture_.solids);
     frame();
   }
 
@@ -51,6 +56,7 @@ class Painter {
   void search_tree();
   void milestones(const std::vector<std::uint8_t>& color);
   void path();
+  void solids(const SolidView& view);
   void mark(const char* id, std::optional<Vec2> at, MarkShape shape, Rgb color);
   void frame();
   void swatch(const PlacedLegend& placed);
@@ -228,6 +234,19 @@ void Painter::mark(const char* id, std::optional<Vec2> at, MarkShape shape, Rgb 
   std::vector<Vec2> outline = mark_outline(shape, widths::mark / page_.view.scale);
   for (Vec2& p : outline) p = *at + p;
   surface_.chain(outline, {}, true);
+  surface_.end_group();
+}
+
+void Painter::solids(const SolidView& view) {
+  const Vec2 low = page_.view.at({view.box.min.x, view.box.max.y});
+  const Vec2 high = page_.view.at({view.box.max.x, view.box.min.y});
+  constexpr double most_pixels = 2000.0;
+  const double density = std::min(surface_.image_density(), most_pixels / std::max(high.x - low.x, high.y - low.y));
+  const auto pixels = [&](double length) {
+    return std::max<std::size_t>(static_cast<std::size_t>(std::lround(density * length)), 1);
+  };
+  surface_.begin_group("perspective", "", {});
+  surface_.image(draw_solids(view, parts_, pixels(high.x - low.x), pixels(high.y - low.y), execution_), {low, high});
   surface_.end_group();
 }
 

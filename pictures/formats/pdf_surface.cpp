@@ -87,8 +87,17 @@ class PdfSurface : public Surface {
     return points > most_points;
   }
   void mask(const Mask& mask, Rgb color) override;
+  double image_density() const override { return density_of_images; }
+  void image(const Image& image, const Box& at) override;
 
  private:
+  static constexpr double density_of_images = 3.0;  // some 300 pixels an inch
+  void draw_image(HPDF_Image image, const Box& at) {
+    HPDF_Page_DrawImage(sheet_, image, real(points_a_pixel * at.min.x),
+                        real(points_a_pixel * (page_.height - at.max.y)), real(points_a_pixel * at.width()),
+                        real(points_a_pixel * at.height()));
+  }
+
   static HPDF_REAL real(double number) { return static_cast<HPDF_REAL>(number); }
   /// In points, y up.
   Vec2 at(Vec2 p) const {
@@ -184,10 +193,16 @@ void PdfSurface::mask(const Mask& mask, Rgb color) {
                                static_cast<HPDF_UINT>(mask.height()), HPDF_CS_DEVICE_GRAY, 8);
   check();
   HPDF_Image_AddSMask(ink, cover);
-  HPDF_Page_DrawImage(sheet_, ink, real(points_a_pixel * page_.data.min.x),
-                      real(points_a_pixel * (page_.height - page_.data.max.y)),
-                      real(points_a_pixel * page_.data.width()), real(points_a_pixel * page_.data.height()));
+  draw_image(ink, page_.data);
   check();
+}
+
+void PdfSurface::image(const Image& image, const Box& at) {
+  const HPDF_Image pixels =
+      HPDF_LoadRawImageFromMem(document_.get(), image.row(0), static_cast<HPDF_UINT>(image.width()),
+                               static_cast<HPDF_UINT>(image.height()), HPDF_CS_DEVICE_RGB, 8);
+  check();
+  draw_image(pixels, at);
 }
 
 void PdfSurface::finish(const Write& write) {

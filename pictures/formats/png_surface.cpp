@@ -32,6 +32,8 @@ class PngSurface : public Surface {
   void text(const PlacedText& text) override;
   bool takes_as_mask(std::size_t) const override { return false; }
   void mask(const Mask&, Rgb) override {}
+  double image_density() const override { return density_; }
+  void image(const Image& image, const Box& at) override;
 
  private:
   std::size_t pixels(double length) const {
@@ -89,6 +91,25 @@ void PngSurface::text(const PlacedText& text) {
     for (const Vec2 b : outlines[i]) {
       image_.draw_line(a, b, stroke * size, colors::text);
       a = b;
+    }
+  }
+}
+
+/// Each pixel takes the nearest one.
+void PngSurface::image(const Image& image, const Box& at) {
+  const Vec2 low = density_ * at.min;
+  const Vec2 size = density_ * (at.max - at.min);
+  const auto place = [](double v, std::size_t most) {
+    return static_cast<std::size_t>(std::clamp(v, 0.0, static_cast<double>(most)));
+  };
+  const std::size_t right = place(std::round(low.x + size.x), image_.width());
+  const std::size_t bottom = place(std::round(low.y + size.y), image_.height());
+  for (std::size_t y = place(std::round(low.y), image_.height()); y < bottom; ++y) {
+    execution_.check();
+    const double v = (static_cast<double>(y) + 0.5 - low.y) / size.y * static_cast<double>(image.height());
+    for (std::size_t x = place(std::round(low.x), image_.width()); x < right; ++x) {
+      const double u = (static_cast<double>(x) + 0.5 - low.x) / size.x * static_cast<double>(image.width());
+      std::copy_n(image.row(place(v, image.height() - 1)) + 3 * place(u, image.width() - 1), 3, image_.row(y) + 3 * x);
     }
   }
 }

@@ -50,8 +50,14 @@ class Surface {
   /// Lines and areas of so many points as one Mask over the data's part of the page; false: they are to be drawn.
   virtual bool takes_as_mask(std::size_t points) const = 0;
   virtual void mask(const Mask& mask, Rgb color) = 0;
+  /// Pixels of an image a pixel of the page, where it is to look as sharp as the page can.
+  virtual double image_density() const = 0;
+  /// Over that part of the page, in a group outside of the world; it may be of any size.
+  virtual void image(const Image& image, const Box& at) = 0;
   /// The moving body, after the path; only where the format moves.
   virtual void moving_body(const MovingBody&, double /*line_width*/) {}
+  /// The same of an arm.
+  virtual void moving_arm(const MovingArm&, double /*line_width*/) {}
 };
 
 }  // namespace warren

@@ -96,4 +96,30 @@ std::string svg_moving_body(const MovingBody& body, std::string_view path_id, do
       motion, turning, shape_of(body, scale, line_width));
 }
 
+std::string svg_moving_arm(const MovingArm& arm, double width, const std::function<Vec2(Vec2)>& at) {
+  if (arm.moments.size() < 2) return {};
+  constexpr int fine = 6;
+  const std::string moments = joined(arm.moments, fine);
+  std::string group = "<g id=\"arm\" visibility=\"hidden\"><set attributeName=\"visibility\" to=\"visible\"/>\n";
+  for (const Projection& view : arm.views) {
+    std::string places;
+    std::string first;
+    for (const std::vector<Vec3>& spine : arm.spines) {
+      std::string points;
+      for (const Vec3& end : spine) {
+        const Vec2 p = at(view.at(end));
+        fmt::format_to(std::back_inserter(points), "{}{:.3f},{:.3f}", points.empty() ? "" : " ", p.x, p.y);
+      }
+      places += (places.empty() ? "" : ";") + points;
+      if (first.empty()) first = points;
+    }
+    fmt::format_to(std::back_inserter(group),
+                   "<polyline points=\"{}\" fill=\"none\" stroke=\"#e11d48\" stroke-opacity=\"0.55\" "
+                   "stroke-width=\"{:.3f}\" stroke-linecap=\"round\" stroke-linejoin=\"round\"><animate "
+                   "attributeName=\"points\" {} calcMode=\"linear\" keyTimes=\"{}\" values=\"{}\"/></polyline>\n",
+                   first, width, duration, moments, places);
+  }
+  return group + "</g>\n";
+}
+
 }  // namespace warren

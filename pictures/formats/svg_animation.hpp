@@ -4,11 +4,13 @@
 // animation shows none.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/plane/se2.hpp"
+#include "pictures/model/moving_arm.hpp"
 #include "pictures/model/moving_body.hpp"
 
 namespace warren {
@@ -24,5 +26,9 @@ Timetable timetable_of(const MovingBody& body);
 /// The group "body". path_id: of the line that it follows; scale: picture units a world unit. Empty where the body
 /// stands still.
 std::string svg_moving_body(const MovingBody& body, std::string_view path_id, double scale, double line_width);
+
+/// The group "arm": in each of its projections a line of that width. `at`: from the picture's world to where it is
+/// written. Empty where it stands still.
+std::string svg_moving_arm(const MovingArm& arm, double width, const std::function<Vec2(Vec2)>& at);
 
 }  // namespace warren

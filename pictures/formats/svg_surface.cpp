@@ -240,6 +240,27 @@ void SvgSurface::mask(const Mask& mask, Rgb color) {
   text_ += "\"/>";
 }
 
+void SvgSurface::image(const Image& image, const Box& at) {
+  fmt::format_to(std::back_inserter(text_),
+                 "\n<image x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" preserveAspectRatio=\"none\" "
+                 "xlink:href=\"data:image/png;base64,",
+                 at.min.x, at.min.y, at.width(), at.height());
+  flush();
+  Base64 base64(write_);
+  constexpr double points_an_inch = 96.0;
+  write_png_file(image, density_of_images * points_an_inch, execution_, [&](std::string_view bytes) {
+    written_ += bytes.size() * 4 / 3;
+    base64.write(bytes);
+  });
+  base64.end();
+  text_ += "\"/>";
+}
+
+void SvgSurface::moving_arm(const MovingArm& arm, double line_width) {
+  const double width = std::max(2.0 * frame_.scale * arm.radius, length(line_width));
+  text_ += svg_moving_arm(arm, width, [&](Vec2 p) { return at(p); });
+}
+
 void SvgSurface::moving_body(const MovingBody& body, double line_width) {
   text_ += svg_moving_body(body, "way", frame_.scale, length(line_width));
 }

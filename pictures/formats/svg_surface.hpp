@@ -39,9 +39,13 @@ class SvgSurface : public Surface {
   void text(const PlacedText& text) override;
   bool takes_as_mask(std::size_t points) const override;
   void mask(const Mask& mask, Rgb color) override;
+  double image_density() const override { return density_of_images; }
+  void image(const Image& image, const Box& at) override;
   void moving_body(const MovingBody& body, double line_width) override;
+  void moving_arm(const MovingArm& arm, double line_width) override;
 
  private:
+  static constexpr double density_of_images = 2.0;  // sharp on most screens, and on paper
   Vec2 at(Vec2 p) const { return in_world_ ? frame_.at(p) : p; }
   /// Of a length on the page.
   double length(double pixels) const { return in_world_ ? pixels * frame_.scale / page_.view.scale : pixels; }

@@ -1,24 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The three views stand as in a technical drawing: from above over the one from the front, the one from the side to
-// the right of it. A sphere is a circle in all of them, a box a rectangle, a capsule a stadium.
+// the right of it, the perspective above that. In the projections a sphere is a circle, a box a rectangle, a capsule a
+// stadium.
 #include "pictures/layers/draw_arm.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numbers>
+#include <string>
 
-#include "worlds/arms/arm_world.hpp"
+#include "pictures/layers/arm_path.hpp"
+#include "pictures/layers/arm_solids.hpp"
 
 namespace warren {
 namespace {
-
-/// One projection: which axes run right and up, and where its panel stands.
-struct Projection {
-  std::array<int, 2> axes;
-  Vec2 shift;
-  Vec2 at(const Vec3& p) const { return shift + Vec2{p[axes[0]], p[axes[1]]}; }
-};
 
 std::vector<Vec2> circle(Vec2 centre, double radius) {
   constexpr int corners = 64;
@@ -44,34 +41,42 @@ std::vector<Vec2> stadium(Vec2 a, Vec2 b, double radius) {
   return points;
 }
 
+std::vector<Vec2> seen_from(const Projection& view, std::span<const Vec3> points) {
+  std::vector<Vec2> seen;
+  for (const Vec3& p : points) seen.push_back(view.at(p));
+  return seen;
+}
+
 class ArmDrawing {
  public:
-  ArmDrawing(const Scene& scene, const DhTable& table, double radius, std::span<const JointState> path)
-      : scene_(scene), radius_(radius), chain_(table), links_(links_of(chain_)), path_(path) {
-    measure();
-    lay_out();
-  }
-  /// In the views of another drawing.
-  ArmDrawing(const Scene& scene, const DhTable& table, double radius, std::span<const JointState> path,
-             const ArmDrawing& frame)
-      : ArmDrawing(scene, table, radius, path) {
-    low_ = frame.low_;
-    high_ = frame.high_;
+  /// seen: all states that the views have room for.
+  ArmDrawing(const Scene& scene, double radius, const ArmPath& seen, const Execution& execution)
+      : scene_(scene), radius_(radius), execution_(execution) {
+    measure(seen);
     lay_out();
   }
 
-  /// Where the tool is at these, in each view, instead of its trace.
-  std::vector<PictureLayer> places(std::span<const JointState> states, std::span<const ToolLines> lines) const;
-  ArmViews draw() const {
+  ArmViews draw(const ArmPath& path) const {
     ArmViews views;
     views.stage.source = scene_.source;
     for (const Projection& view : views_) add_obstacles(view, views.stage);
-    views.panels = panels();
-    views.layers = {sweep(), arm_at("start", path_.front(), colors::start), arm_at("goal", path_.back(), colors::goal),
-                    trace()};
-    if (path_.size() == 1) views.layers.erase(views.layers.begin() + 2);
+    views.layers = {sweep(path), arm_at("start", path, path.states().front(), colors::start),
+                    arm_at("goal", path, path.states().back(), colors::goal), trace(path)};
+    if (path.states().size() == 1) views.layers.erase(views.layers.begin() + 2);
+    views.solids = solids_of(scene_, perspective_, low_, high_, execution_);
+    add_arm(views.solids, path, radius_, execution_);
+    views.panels = panels(views.solids.square);
+    constexpr double moments = 120.0;
+    views.arm = {.radius = radius_, .views = {views_.begin(), views_.end()}};
+    for (const ArmPath::Place& at : path.places(moments, execution_)) {
+      views.arm.moments.push_back(at.moment);
+      views.arm.spines.push_back(path.spine(at.q));
+      views.arm.tools.push_back(path.tool(at.q));
+    }
     return views;
   }
+  /// Where the tool is at these, in each view, instead of its trace.
+  std::vector<PictureLayer> places(std::span<const Vec3> tools, std::span<const ToolLines> lines) const;
 
  private:
   static constexpr double margin = 0.1;  // of the extent
@@ -80,85 +85,56 @@ class ArmDrawing {
     low_ = low_.cwiseMin(p - Vec3::Constant(radius));
     high_ = high_.cwiseMax(p + Vec3::Constant(radius));
   }
-  ChainPosture posture(const JointState& q) const {
-    ChainPosture at;
-    chain_.place(q, at);
-    return at;
-  }
-  Vec3 tool(const JointState& q) const { return posture(q).points[chain_.point_count() - 1]; }
-  /// The path in pieces of about this length in joint space.
-  std::vector<JointState> pieces(double length) const;
-  double joint_length() const;
-  void measure();
+  void measure(const ArmPath& seen);
   void lay_out();
   void add_obstacles(const Projection& view, Scene& stage) const;
-  std::vector<AxesPanel> panels() const;
-  PictureLayer sweep() const;
-  PictureLayer arm_at(const char* id, const JointState& q, Rgb color) const;
-  PictureLayer trace() const;
+  std::vector<AxesPanel> panels(double square) const;
+  PictureLayer sweep(const ArmPath& path) const;
+  PictureLayer arm_at(const char* id, const ArmPath& path, const JointState& q, Rgb color) const;
+  PictureLayer trace(const ArmPath& path) const;
 
   const Scene& scene_;
   double radius_;
-  SerialChain chain_;
-  std::vector<ArmLink> links_;
-  std::span<const JointState> path_;
+  const Execution& execution_;
   Vec3 low_ = Vec3::Zero();
   Vec3 high_ = Vec3::Zero();
   double room_ = 1.0;  // around each view
   std::array<Projection, 3> views_;
+  Box perspective_;
 };
 
-double ArmDrawing::joint_length() const {
-  double sum = 0.0;
-  for (std::size_t i = 1; i < path_.size(); ++i) {
-    double square = 0.0;
-    for (std::size_t j = 0; j < most_joints; ++j) square += std::pow(path_[i][j] - path_[i - 1][j], 2.0);
-    sum += std::sqrt(square);
-  }
-  return sum;
-}
-
-std::vector<JointState> ArmDrawing::pieces(double length) const {
-  std::vector<JointState> states{path_.front()};
-  for (std::size_t i = 1; i < path_.size(); ++i) {
-    double square = 0.0;
-    for (std::size_t j = 0; j < most_joints; ++j) square += std::pow(path_[i][j] - path_[i - 1][j], 2.0);
-    const int count = std::max(1, static_cast<int>(std::ceil(std::sqrt(square) / length)));
-    for (int k = 1; k <= count; ++k) {
-      JointState q;
-      const double t = static_cast<double>(k) / count;
-      for (std::size_t j = 0; j < most_joints; ++j) q[j] = path_[i - 1][j] + t * (path_[i][j] - path_[i - 1][j]);
-      states.push_back(q);
-    }
-  }
-  return states;
-}
-
-void ArmDrawing::measure() {
+void ArmDrawing::measure(const ArmPath& seen) {
   include(Vec3::Zero(), radius_);
   for (const Sphere& s : scene_.spheres) include({s.x, s.y, s.z}, s.radius);
   for (const auto& [low, high] : scene_.boxes) {
     include({low[0], low[1], low[2]}, 0.0);
     include({high[0], high[1], high[2]}, 0.0);
   }
-  constexpr double pieces_a_path = 60.0;
-  for (const JointState& q : pieces(std::max(joint_length() / pieces_a_path, 1e-3))) {
-    const ChainPosture at = posture(q);
-    for (const ArmLink& link : links_) include(at.points[link.to], radius_);
+  constexpr double places = 60.0;
+  for (const ArmPath::Place& at : seen.places(places, execution_)) {
+    for (const Vec3& end : seen.spine(at.q)) include(end, radius_);
   }
 }
 
+/// Above the view from the side, and beyond where that is narrow, stands the perspective.
 void ArmDrawing::lay_out() {
   const Vec3 size = high_ - low_;
-  room_ = margin * std::max(size.maxCoeff(), 1e-9);
+  const double extent = std::max(size.maxCoeff(), 1e-9);
+  room_ = margin * extent;
   const Vec2 right{size.x() + 3.0 * room_, 0.0};
   const Vec2 above{0.0, size.z() + 3.0 * room_};
   views_ = {Projection{{0, 2}, Vec2{-low_.x(), -low_.z()}}, Projection{{0, 1}, above + Vec2{-low_.x(), -low_.y()}},
             Projection{{1, 2}, right + Vec2{-low_.y(), -low_.z()}}};
+  const Vec2 corner = right + above - Vec2{0.5 * room_, 0.5 * room_};
+  const double side = extent + room_;
+  perspective_ = {corner, corner + Vec2{side, side}};
 }
 
 void ArmDrawing::add_obstacles(const Projection& view, Scene& stage) const {
-  for (const Sphere& s : scene_.spheres) {
+  constexpr std::size_t obstacles_a_poll = 256;
+  for (std::size_t i = 0; i < scene_.spheres.size(); ++i) {
+    if (i % obstacles_a_poll == 0) execution_.check();
+    const Sphere& s = scene_.spheres[i];
     if (s.radius > 0.0) stage.polygons.push_back({circle(view.at({s.x, s.y, s.z}), s.radius)});
   }
   for (const auto& [low, high] : scene_.boxes) {
@@ -168,7 +144,7 @@ void ArmDrawing::add_obstacles(const Projection& view, Scene& stage) const {
   }
 }
 
-std::vector<AxesPanel> ArmDrawing::panels() const {
+std::vector<AxesPanel> ArmDrawing::panels(double square) const {
   constexpr std::array<const char*, 3> names{"x", "y", "z"};
   std::vector<AxesPanel> panels;
   const Vec2 room{0.5 * room_, 0.5 * room_};
@@ -178,10 +154,12 @@ std::vector<AxesPanel> ArmDrawing::panels() const {
                       .x_label = names[static_cast<std::size_t>(view.axes[0])],
                       .y_label = names[static_cast<std::size_t>(view.axes[1])]});
   }
+  panels.push_back(
+      {.box = perspective_, .y_label = fmt::format("perspective, squares of {:.4g}", square), .has_ticks = false});
   return panels;
 }
 
-PictureLayer ArmDrawing::sweep() const {
+PictureLayer ArmDrawing::sweep(const ArmPath& path) const {
   constexpr double bodies = 24.0;
   PictureLayer layer{.id = "sweep",
                      .label = "arm along the path",
@@ -189,58 +167,52 @@ PictureLayer ArmDrawing::sweep() const {
                      .color = colors::body,
                      .width = 0.5 * widths::edge,
                      .closed = true};
-  for (const JointState& q : pieces(std::max(joint_length() / bodies, 1e-9))) {
-    const ChainPosture at = posture(q);
+  for (const ArmPath::Place& at : path.places(bodies, execution_)) {
+    const std::vector<Vec3> spine = path.spine(at.q);
     for (const Projection& view : views_) {
-      for (const ArmLink& link : links_) {
-        layer.lines.add(stadium(view.at(at.points[link.from]), view.at(at.points[link.to]), radius_));
+      for (std::size_t i = 1; i < spine.size(); ++i) {
+        layer.lines.add(stadium(view.at(spine[i - 1]), view.at(spine[i]), radius_));
       }
     }
   }
   return layer;
 }
 
-PictureLayer ArmDrawing::arm_at(const char* id, const JointState& q, Rgb color) const {
+PictureLayer ArmDrawing::arm_at(const char* id, const ArmPath& path, const JointState& q, Rgb color) const {
   PictureLayer layer{.id = std::string("arm_at_") + id,
                      .label = std::string("arm at the ") + id,
                      .part = Part::body,
                      .color = color,
                      .width = widths::wall};
-  const ChainPosture at = posture(q);
-  for (const Projection& view : views_) {
-    std::vector<Vec2> spine{view.at(at.points[links_.front().from])};
-    for (const ArmLink& link : links_) spine.push_back(view.at(at.points[link.to]));
-    layer.lines.add(spine);
-  }
+  const std::vector<Vec3> spine = path.spine(q);
+  for (const Projection& view : views_) layer.lines.add(seen_from(view, spine));
   return layer;
 }
 
-PictureLayer ArmDrawing::trace() const {
-  constexpr double pieces_a_path = 400.0;
+PictureLayer ArmDrawing::trace(const ArmPath& path) const {
+  constexpr double pieces = 400.0;
   PictureLayer layer{.id = "trace",
                      .label = "path of the tool",
                      .part = Part::path,
                      .color = colors::path,
                      .width = 0.6 * widths::path};
-  const std::vector<JointState> states = pieces(std::max(joint_length() / pieces_a_path, 1e-9));
-  for (const Projection& view : views_) {
-    std::vector<Vec2> line;
-    for (const JointState& q : states) line.push_back(view.at(tool(q)));
-    layer.lines.add(line);
-  }
+  std::vector<Vec3> way;
+  for (const ArmPath::Place& at : path.places(pieces, execution_)) way.push_back(path.tool(at.q));
+  for (const Projection& view : views_) layer.lines.add(seen_from(view, way));
   return layer;
 }
 
-std::vector<PictureLayer> ArmDrawing::places(std::span<const JointState> states,
-                                             std::span<const ToolLines> lines) const {
-  std::vector<Vec3> tools;
-  for (const JointState& q : states) tools.push_back(tool(q));
+std::vector<PictureLayer> ArmDrawing::places(std::span<const Vec3> tools, std::span<const ToolLines> lines) const {
   std::vector<PictureLayer> layers;
+  constexpr std::size_t lines_a_poll = 1 << 12;
   for (const ToolLines& some : lines) {
     PictureLayer& layer =
         layers.emplace_back(PictureLayer{.id = some.id, .label = some.label, .color = some.color, .width = some.width});
     for (const Projection& view : views_) {
-      for (const Edge& e : some.edges) layer.lines.add(std::array{view.at(tools[e.from]), view.at(tools[e.to])});
+      for (std::size_t i = 0; i < some.edges.size(); ++i) {
+        if (i % lines_a_poll == 0) execution_.check();
+        layer.lines.add(std::array{view.at(tools[some.edges[i].from]), view.at(tools[some.edges[i].to])});
+      }
     }
   }
   PictureLayer& dots = layers.emplace_back(PictureLayer{
@@ -251,21 +223,41 @@ std::vector<PictureLayer> ArmDrawing::places(std::span<const JointState> states,
   return layers;
 }
 
+/// The same in the perspective: edges as threads, states as beads.
+void add_places(SolidView& view, std::span<const Vec3> tools, std::span<const ToolLines> lines) {
+  constexpr double thread = 0.002;
+  constexpr double bead = 0.008;
+  for (const ToolLines& some : lines) {
+    for (const Edge& e : some.edges) {
+      view.solids.push_back({tools[e.from], tools[e.to], thread * view.reach, some.color, Part::roadmap});
+    }
+  }
+  for (const Vec3& p : tools) view.solids.push_back({p, p, bead * view.reach, colors::outline, Part::roadmap});
+}
+
 }  // namespace
 
 ArmViews arm_roadmap_views(const Scene& scene, const DhTable& table, double radius, const JointState& start,
-                           std::span<const JointState> states, std::span<const ToolLines> lines) {
+                           std::span<const JointState> states, std::span<const ToolLines> lines,
+                           const Execution& execution) {
   std::vector<JointState> seen{start};
   seen.insert(seen.end(), states.begin(), states.end());
-  const ArmDrawing drawing(scene, table, radius, seen);
-  ArmViews views = ArmDrawing(scene, table, radius, std::span(seen).first(1), drawing).draw();
-  const std::vector<PictureLayer> places = drawing.places(states, lines);
+  const ArmPath all(table, seen);
+  const ArmPath stands(table, std::span(seen).first(1));
+  const ArmDrawing drawing(scene, radius, all, execution);
+  ArmViews views = drawing.draw(stands);
+  std::vector<Vec3> tools;
+  for (const JointState& q : states) tools.push_back(all.tool(q));
+  const std::vector<PictureLayer> places = drawing.places(tools, lines);
   views.layers.insert(views.layers.begin(), places.begin(), places.end());
+  add_places(views.solids, tools, lines);
   return views;
 }
 
-ArmViews arm_views(const Scene& scene, const DhTable& table, double radius, std::span<const JointState> path) {
-  return ArmDrawing(scene, table, radius, path).draw();
+ArmViews arm_views(const Scene& scene, const DhTable& table, double radius, std::span<const JointState> path,
+                   const Execution& execution) {
+  const ArmPath along(table, path);
+  return ArmDrawing(scene, radius, along, execution).draw(along);
 }
 
 }  // namespace warren

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // An arm's path in a picture: three orthogonal projections side by side (from above, from the front, from the side)
-// with the obstacles, the links' capsules at intervals along the path, and the tool's trace.
+// with the obstacles, the links' capsules at intervals along the path, and the tool's trace; beside them the same in
+// perspective.
 #pragma once
 
 #include <span>
 #include <vector>
 
+#include "parallel/execution.hpp"
+#include "pictures/model/moving_arm.hpp"
 #include "pictures/model/picture.hpp"
+#include "pictures/model/solids.hpp"
 #include "scenes/scene/dh_table.hpp"
 #include "scenes/scene/scene.hpp"
 
@@ -16,6 +20,8 @@ struct ArmViews {
   Scene stage;  ///< shown instead of the world
   std::vector<PictureLayer> layers;
   std::vector<AxesPanel> panels;
+  SolidView solids;
+  MovingArm arm;  ///< of a path of one state: that
 };
 
 /// Edges between places of the tool, in one colour.
@@ -27,11 +33,13 @@ struct ToolLines {
   std::vector<Edge> edges;
 };
 
-/// radius: of the links. A path of one state shows the arm as it stands; none is empty.
-ArmViews arm_views(const Scene& scene, const DhTable& table, double radius, std::span<const JointState> path);
+/// radius: of the links. A path of one state shows the arm as it stands; none is empty. Throws Stopped.
+ArmViews arm_views(const Scene& scene, const DhTable& table, double radius, std::span<const JointState> path,
+                   const Execution& execution);
 
 /// The arm as it stands at `start`, the tool's places at `states` and lines between these.
 ArmViews arm_roadmap_views(const Scene& scene, const DhTable& table, double radius, const JointState& start,
-                           std::span<const JointState> states, std::span<const ToolLines> lines);
+                           std::span<const JointState> states, std::span<const ToolLines> lines,
+                           const Execution& execution);
 
 }  // namespace warren

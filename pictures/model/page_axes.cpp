@@ -27,6 +27,11 @@ void add_axes(Page& page, const AxesPanel& panel, Box at, std::optional<double> 
   line({high.x, low.y}, high);
   line(high, {low.x, high.y});
   line({low.x, high.y}, low);
+  const auto names_inside = [&] {
+    add_text(page, {high.x - 6.0, high.y - 7.0}, panel.x_label, page_text_size, Anchor::end);
+    add_text(page, {low.x + 6.0, low.y + page_text_size + 5.0}, panel.y_label, page_text_size, Anchor::start);
+  };
+  if (!panel.has_ticks) return names_inside();
   const View& view = page.view;
   const Vec2 zero = view.at(panel.origin);
   constexpr double pixels_a_tick = 80.0;
@@ -51,8 +56,7 @@ void add_axes(Page& page, const AxesPanel& panel, Box at, std::optional<double> 
   }
   const double below = tick_length + 3.0 + 2.3 * page_text_size;
   if (!name_at) {
-    add_text(page, {high.x - 6.0, high.y - 7.0}, panel.x_label, page_text_size, Anchor::end);
-    add_text(page, {low.x + 6.0, low.y + page_text_size + 5.0}, panel.y_label, page_text_size, Anchor::start);
+    names_inside();
   } else {
     add_text(page, {0.5 * (low.x + high.x), high.y + below}, panel.x_label, page_text_size, Anchor::middle);
     add_text(page, {*name_at, 0.5 * (low.y + high.y)}, panel.y_label, page_text_size, Anchor::middle, false, true);

@@ -15,8 +15,10 @@
 #include "parallel/execution.hpp"
 #include "pictures/model/colors.hpp"
 #include "pictures/model/marks.hpp"
+#include "pictures/model/moving_arm.hpp"
 #include "pictures/model/moving_body.hpp"
 #include "pictures/model/picture_options.hpp"
+#include "pictures/model/solids.hpp"
 #include "planners/roadmap/planned_roadmap.hpp"
 #include "scenes/scene/scene.hpp"
 
@@ -57,6 +59,7 @@ struct AxesPanel {
   Vec2 origin = {};  ///< where the panel's own zero is
   std::string x_label = {};
   std::string y_label = {};
+  bool has_ticks = true;  ///< else a frame and the labels alone
 };
 
 /// Refers to what it shows; all of it must outlive the picture.
@@ -69,11 +72,13 @@ struct Picture {
   std::optional<Vec2> start = {};
   std::optional<Vec2> goal = {};
   std::span<const AxesPanel> panels = {};  ///< empty: one, around all
+  const SolidView* solids = nullptr;       ///< seen in perspective in a box of its own; nullptr: none
   std::string path_label = "path";
   std::string title = {};
   std::string subtitle = {};  ///< a line or two below the title: planner, samples, length, seed
   std::string description = {};
   const MovingBody* body = nullptr;  ///< what goes along the path; nullptr: a point. Without poses: the path's points
+  const MovingArm* arm = nullptr;    ///< that goes along a path; nullptr: none
   bool moves = false;                ///< SVG: it is seen moving; HTML has a slider always
 };
 

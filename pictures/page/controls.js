@@ -47,6 +47,11 @@ function setMeasuring(on) {
 }
 
 function showMotion() {
+  if (arm) {
+    $("motion").value = motion.share * 1000;
+    $("moment").textContent = `${(motion.share * 100).toFixed(0)} % of the way in joint space`;
+    return redraw("marks");
+  }
   if (!poses.length) return;
   const [x, y, theta] = poseAt(motion.share), length = motion.share * 100;
   const heading = picture.body.outline.length || picture.body.heads ? `, heading ${((theta * 180 / Math.PI + 540) % 360 - 180).toFixed(1)}°` : "";
@@ -54,9 +59,10 @@ function showMotion() {
   $("moment").textContent = `${length.toFixed(0)} % at x ${shownNumber(x + picture.origin[0], precision())}, y ${shownNumber(y + picture.origin[1], precision())}${heading}`;
   redraw("marks");
 }
+const canMove = arm ? arm.moments.length > 1 : poses.length > 0;
 let playing = 0;
 function play() {
-  if (playing || !poses.length) { cancelAnimationFrame(playing); playing = 0; $("play").setAttribute("aria-pressed", false); return; }
+  if (playing || !canMove) { cancelAnimationFrame(playing); playing = 0; $("play").setAttribute("aria-pressed", false); return; }
   if (motion.share >= 1) motion.share = 0;
   motion.isOn = true;
   $("play").setAttribute("aria-pressed", true);
@@ -101,7 +107,9 @@ addEventListener("afterprint", () => setTheme($("dark").dataset.was === "true"))
 
 $("title").textContent = picture.title;
 $("about").textContent = picture.about;
-$("player").hidden = !poses.length || Boolean(picture.panels.length);
+$("player").hidden = !canMove;
+$("turning").hidden = !arm;
+$("turn").addEventListener("input", event => { arm.turned = event.target.value * Math.PI / 180; redraw("marks"); });
 $("search").hidden = !picture.graph?.byCost?.length;
 if (!$("search").hidden) showWave();
 setTheme(night.matches);

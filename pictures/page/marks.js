@@ -131,10 +131,11 @@ function drawPanels(context) {
   context.font = "12px system-ui, sans-serif";
   context.fillStyle = context.strokeStyle = ink();
   context.lineWidth = 1;
-  for (const {box, x, y} of picture.panels) {
+  for (const {box, x, y, hasTicks} of picture.panels) {
     const px = screenX(box[0]), py = screenY(box[3]), w = (box[2] - box[0]) * view.scale, h = (box[3] - box[1]) * view.scale;
     context.strokeRect(px, py, w, h);
     context.textAlign = "center";
+    if (!hasTicks) { context.fillText(y, px + w / 2, py + h + 15); continue; }
     context.fillText(x, px + w / 2, py + h + 15);
     context.textAlign = "right";
     context.fillText(y, px - 5, py + h / 2);
@@ -214,6 +215,7 @@ function drawMarks() {
   drawWave(context);
   drawPath(context);
   drawBody(context);
+  drawArm(context);
   drawEnds(context);
   drawPointed(context);
   drawMeasure(context);

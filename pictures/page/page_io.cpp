@@ -11,6 +11,7 @@
 #include "pictures/formats/write_picture.hpp"
 #include "pictures/model/picture.hpp"
 #include "pictures/page/number_array.hpp"
+#include "pictures/page/page_arm_io.hpp"
 #include "pictures/page/page_files.hpp"
 #include "pictures/page/page_layers_io.hpp"
 
@@ -43,8 +44,11 @@ class PageWriter {
     write_page_layers(picture_, parts_, canvas_, origin_, execution_, write_);
     if (picture_.roadmap != nullptr && picture_.panels.empty()) graph(*picture_.roadmap);
     if (parts_.has(Part::path)) path();
+    if (picture_.solids != nullptr && picture_.arm != nullptr && !picture_.arm->spines.empty()) {
+      write_page_arm(picture_, parts_, origin_, execution_, write_);
+    }
     write_("}</script>\n<script>\n");
-    for (const char* script : {"data.js", "view.js", "marks.js", "pointer.js", "controls.js"})
+    for (const char* script : {"data.js", "view.js", "marks.js", "arm.js", "pointer.js", "controls.js"})
       write_(page_file(script));
     write_("</script>\n</body>\n</html>\n");
   }
@@ -87,7 +91,11 @@ void PageWriter::words(const std::string& title) {
              {"panels", Json::array()},
              {"ends", Json::object()}};
   for (const AxesPanel& panel : picture_.panels) {
-    words["panels"].push_back({{"box", box_json(panel.box)}, {"x", panel.x_label}, {"y", panel.y_label}});
+    words["panels"].push_back({{"box", box_json(panel.box)},
+                               {"x", panel.x_label},
+                               {"y", panel.y_label},
+                               {"origin", {moved(panel.origin).x, moved(panel.origin).y}},
+                               {"hasTicks", panel.has_ticks}});
   }
   const auto end = [&](const char* name, std::optional<Vec2> at, Rgb color) {
     if (!at || !parts_.has(Part::path)) return;

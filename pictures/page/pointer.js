@@ -72,7 +72,17 @@ function thingAt(x, y) {
 
 const precision = () => 1 / view.scale;
 const lengthText = length => shownNumber(length, Math.max(precision() / 100, Math.min(precision(), length > 0 ? 10 ** Math.floor(Math.log10(length) - 2) : 1))) + unitText;
+/// In one of several views beside each other; "" outside of them and where it looks into depth.
+function placeInPanel(wx, wy) {
+  const panel = picture.panels.find(({box}) => wx >= box[0] && wx <= box[2] && wy >= box[1] && wy <= box[3]);
+  if (!panel || !panel.hasTicks) return panel ? panel.y : "";
+  return `${panel.x} ${shownNumber(wx - panel.origin[0], precision())}, ${panel.y} ${shownNumber(wy - panel.origin[1], precision())}`;
+}
 function tell(x, y) {
+  if (picture.panels.length) {
+    readout.textContent = [placeInPanel(x, y), ...isMeasuring && measured.length ? [`measured ${lengthText(measuredLength())}`] : []].join("  ·  ");
+    return;
+  }
   const words = [`x ${shownNumber(x + picture.origin[0], precision())}, y ${shownNumber(y + picture.origin[1], precision())}${unitText}`];
   const solid = solids.find(layer => isInside(layer, x, y)), room = solid ? null : clearance(x, y);
   if (solid) words.push(`inside ${solid.label}`);

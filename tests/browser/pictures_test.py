@@ -21,6 +21,7 @@ class Pictures(BrowserTest):
         worlds = {'maze.html': ['maze:41x41,seed=3,loops=0.1', '--planner', 'prm', '--pipeline', 'plain'],
                   'car.html': [WORLDS + '/parking.scene', '--seed', '1'],
                   'town.html': [WORLDS + '/town.geojson', '--start', '1.5,1.5', '--goal', '9.5,8.5', '--planner', 'prm', '--samples', '300'],
+                  'arm.html': [WORLDS + '/puma-seed.scene', '--optimise'],
                   'large.html': ['maze:700x700']}
         for name, words in worlds.items():
             subprocess.run([WARREN, 'solve', *words, '--svg', cls.folder.name + '/' + name, '--quiet'], check=True)
@@ -47,7 +48,7 @@ class Pictures(BrowserTest):
         return self.browser.find_element(By.ID, 'readout').text
 
     def test_every_page_shows_its_world(self):
-        for name in ('maze.html', 'car.html', 'town.html', 'large.html'):
+        for name in ('maze.html', 'car.html', 'town.html', 'arm.html', 'large.html'):
             with self.subTest(name):
                 self.shown(name)
                 self.assertGreater(len(self.ink()), 1)
@@ -190,6 +191,35 @@ class Pictures(BrowserTest):
             for a, b in zip(end, at):
                 self.assertAlmostEqual(a, b, 5)
         self.assertIn('heading', self.browser.find_element(By.ID, 'moment').text)
+
+    def test_an_arm_moves_in_all_its_views(self):
+        self.shown('arm.html')
+        seen = [self.ink('marks')]
+        for value in (300, 700):
+            self.slide('motion', value)
+            seen.append(self.ink('marks'))
+        self.assertEqual(len({str(ink) for ink in seen}), 3)
+        ends = self.run_script('return [0, 1].map(share => [...spineAt(share)])')
+        spines = self.run_script('return [...arm.spines]')
+        self.assertEqual(ends, [spines[:len(ends[0])], spines[-len(ends[0]):]])
+        self.assertIn('70 %', self.browser.find_element(By.ID, 'moment').text)
+
+    def test_the_perspective_turns_and_the_nearest_solid_is_seen(self):
+        self.shown('arm.html')
+        before = self.ink('marks')
+        self.slide('turn', 90)
+        self.assertNotEqual(self.ink('marks'), before)
+        depths = self.run_script('''const eye = new Eye(64), ball = (x, r) => ({a: [x, 0, 0], b: [x, 0, 0], r, color: [9, 9, 9]}), to = eye.at.map(v => 0.3 * v);
+            eye.draw(ball(0, 0.2 * arm.reach)); const far = eye.depth[32 * 64 + 32];
+            eye.draw({a: to, b: to, r: 0.2 * arm.reach, color: [9, 9, 9]}); return [far, eye.depth[32 * 64 + 32], eye.depth[0], arm.reach]''')
+        self.assertAlmostEqual(depths[0], 3.0 * depths[3], 2)
+        self.assertAlmostEqual(depths[1], 0.7 * 3.2 * depths[3] - 0.2 * depths[3], 2)
+
+    def test_in_views_beside_each_other_places_are_the_views_own(self):
+        self.shown('arm.html')
+        box, origin = self.run_script('const p = picture.panels[0]; return [p.box, p.origin]')
+        self.at(*[(box[i] + box[i + 2]) / 2 + o for i, o in enumerate(self.run_script('return picture.origin'))])
+        self.assertRegex(self.told(), r'^x -?[\d.]+, z -?[\d.]+$')
 
     def test_play_moves_and_pauses(self):
         self.shown('car.html')

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "core/base/error.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "solve/solve.hpp"
 
@@ -85,7 +84,7 @@ TEST(DrawAnswer, DrawsCarsInCurves) {
   EXPECT_EQ(drawing.roadmap->graph.vertex_count(), drawing.roadmap->states.size());
 }
 
-TEST(DrawAnswer, ShowsAnArmFromThreeSides) {
+TEST(DrawAnswer, ShowsAnArmFromThreeSidesAndInPerspective) {
   Scene scene;
   scene.spheres = {{0.8, 0.2, -0.75, 0.1}};
   scene.robot = RobotSpec{.kind = RobotKind::puma560, .radius = 0.05};
@@ -94,14 +93,25 @@ TEST(DrawAnswer, ShowsAnArmFromThreeSides) {
   const Drawing drawing = drawn(scene, {});
   ASSERT_TRUE(drawing.stage);
   EXPECT_EQ(drawing.stage->polygons.size(), 3U);
-  EXPECT_EQ(drawing.panels.size(), 3U);
+  EXPECT_EQ(drawing.panels.size(), 4U);
+  ASSERT_TRUE(drawing.solids);
+  EXPECT_EQ(drawing.solids->solids.front().radius, 0.1);
+  const double reach = drawing.solids->reach;
+  for (const Solid& solid : drawing.solids->solids) {
+    EXPECT_LE((solid.b - drawing.solids->target).norm(), 1.5 * reach) << "all of it is seen";
+  }
+  ASSERT_TRUE(drawing.arm);
+  EXPECT_EQ(drawing.arm->moments.front(), 0.0);
+  EXPECT_DOUBLE_EQ(drawing.arm->moments.back(), 1.0);
+  EXPECT_GE(drawing.arm->spines.size(), 120U);
   EXPECT_TRUE(drawing.path.empty());
   EXPECT_FALSE(drawing.start);
   EXPECT_EQ(ids_of(drawing.layers), (std::vector<std::string>{"sweep", "arm_at_start", "arm_at_goal", "trace"}));
   RecordedAnswer none;
   EXPECT_EQ(drawing_of(scene, none, {}).layers.size(), 3U) << "one posture: no goal";
   Drawing still = drawing_of(scene, none, {});
-  EXPECT_THROW(animate(still, *scene.robot), UsageError);
+  animate(still);
+  EXPECT_EQ(still.arm->moments.size(), 1U) << "nothing to move along";
 }
 
 TEST(DrawAnswer, ARefutedPathIsDrawnAsAnyOther) {

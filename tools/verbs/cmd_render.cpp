@@ -70,7 +70,7 @@ int render(const Arguments& arguments) {
   add_map_walls(scene, run.execution());
   if (answer_file) check_same_world(answer, *answer_file, scene, run.execution());
   Drawing drawing = drawing_of(scene, answer, run.execution());
-  if (arguments.has("--animate")) animate(drawing, robot_of(scene, answer.problem));
+  if (arguments.has("--animate")) animate(drawing);
   Picture picture = picture_of(scene, drawing);
   picture.description = fmt::format("{}\n{}", drawing.subtitle, arguments.command_line());
   double draw_seconds = 0.0;

@@ -87,4 +87,18 @@ TEST(RenderAnimate, NeedsAnAnswerAndAPictureThatMoves) {
 
 }  // namespace
 }  // namespace test
+TEST(SvgAnimation, AnArmIsALineInEachViewWithAMomentASpine) {
+  MovingArm arm{.radius = 0.1, .views = {{{0, 2}, {0, 0}}, {{0, 1}, {5, 0}}}, .moments = {0.0}};
+  const auto tenfold = [](Vec2 p) { return 10.0 * p; };
+  EXPECT_EQ(svg_moving_arm(arm, 1.0, tenfold), "") << "it stands still";
+  arm.moments = {0.0, 0.5, 1.0};
+  arm.spines = {{{0, 0, 0}, {1, 2, 3}}, {{0, 0, 0}, {2, 2, 2}}, {{0, 0, 0}, {3, 2, 1}}};
+  const std::string text = svg_moving_arm(arm, 0.2, tenfold);
+  EXPECT_NE(text.find("keyTimes=\"0.000000;0.500000;1.000000\" values=\"0.000,0.000 10.000,30.000;0.000,0.000 "
+                      "20.000,20.000;0.000,0.000 30.000,10.000\""),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("points=\"50.000,0.000 60.000,20.000\""), std::string::npos) << "the second view";
+}
+
 }  // namespace warren

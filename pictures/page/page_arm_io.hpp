@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An arm and its solids as the member "arm" of a page's JSON.
+#pragma once
+
+#include "core/base/types.hpp"
+#include "parallel/execution.hpp"
+#include "pictures/formats/write_picture.hpp"
+#include "pictures/model/picture.hpp"
+
+namespace warren {
+
+/// Of a picture that has solids and an arm. Places of space are relative to the view's target, of the picture's world
+/// to `origin`. Throws Stopped, and what `write` throws.
+void write_page_arm(const Picture& picture, Parts parts, Vec2 origin, const Execution& execution, const Write& write);
+
+}  // namespace warren
