@@ -21,7 +21,7 @@ struct MovingArm {
   double radius = 0.0;                 ///< of the links
   std::vector<Projection> views = {};  ///< that show it
   std::vector<double> moments = {};    ///< 0 .. 1, by the way in joint space; as many as spines, none or at least one
-  std::vector<Vec3> tools = {};          ///< the tool's way; a line
+  std::vector<Vec3> tools = {};        ///< the tool's way; a line
   std::vector<std::vector<Vec3>> spines = {};  ///< the ends of its links, from the base; all of one size
 };
 
