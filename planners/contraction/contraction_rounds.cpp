@@ -96,9 +96,7 @@ void ContractionRounds::write_rows(const TakenOut& gone, Hierarchy& all) {
   for (std::size_t i = 0; i < gone.vertex.size(); ++i) {
     std::size_t at = all.first[gone.vertex[i]];
     for (const auto end = arc + gone.arcs[i]; arc != end; ++arc) {
-      all.to[at] = arc->to;
-      all.middle[at] = arc->middle;
-      all.length[at++] = arc->length;
+      all.arcs[at++] = {arc->to, arc->middle, arc->length};
     }
   }
 }
@@ -115,10 +113,8 @@ Hierarchy ContractionRounds::hierarchy() {
     }
   });
   const std::size_t arcs = scan_rows(all.first, execution_);
-  execution_.reserve(arcs * (2 * sizeof(VertexId) + sizeof(double)));
-  all.to.resize(arcs);
-  all.middle.resize(arcs);
-  all.length.resize(arcs);
+  execution_.reserve(arcs * sizeof(HierarchyArc));
+  all.arcs.resize(arcs);
   for_chunks(gone_.size(), 64, execution_, [&](Range r) {
     for (std::size_t i = r.first; i < r.last; ++i) write_rows(gone_[i], all);
   });

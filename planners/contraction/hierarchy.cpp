@@ -18,28 +18,26 @@ class HierarchyCheck {
 
   void sizes(std::size_t vertex_count) const {
     require(all_.first.size() == vertex_count + 1 && all_.first[0] == 0, "up.first");
-    require(all_.first.back() == all_.to.size() && std::is_sorted(all_.first.begin(), all_.first.end()), "up.first");
-    require(all_.middle.size() == all_.to.size(), "up.middle");
-    require(all_.length.size() == all_.to.size(), "up.length");
+    require(all_.first.back() == all_.arcs.size() && std::is_sorted(all_.first.begin(), all_.first.end()), "up.first");
   }
   void heads(VertexId v) const {
-    for (EdgeEnd arc = all_.first[v]; arc < all_.first[v + 1]; ++arc) {
-      const bool ascends = arc == all_.first[v] || all_.to[arc - 1] < all_.to[arc];
-      require(all_.to[arc] != v && all_.to[arc] < all_.vertex_count() && ascends, "up.to");
-      require(std::isfinite(all_.length[arc]) && !std::signbit(all_.length[arc]), "up.length");
+    VertexId least = 0;
+    for (const HierarchyArc& arc : all_.row(v)) {
+      require(arc.to != v && arc.to >= least && arc.to < all_.vertex_count(), "up.to");
+      require(std::isfinite(arc.length) && !std::signbit(arc.length), "up.length");
+      least = arc.to + 1;
     }
   }
   /// After all heads.
   void shortcuts(VertexId v) const {
-    for (EdgeEnd arc = all_.first[v]; arc < all_.first[v + 1]; ++arc) {
-      const VertexId middle = all_.middle[arc];
-      if (middle == no_vertex) continue;
-      require(middle < all_.vertex_count() && has(middle, v) && has(middle, all_.to[arc]), "up.middle");
+    for (const HierarchyArc& arc : all_.row(v)) {
+      if (arc.middle == no_vertex) continue;
+      require(arc.middle < all_.vertex_count() && has(arc.middle, v) && has(arc.middle, arc.to), "up.middle");
     }
   }
 
  private:
-  bool has(VertexId low, VertexId high) const { return all_.arc_to(low, high) < all_.to.size(); }
+  bool has(VertexId low, VertexId high) const { return all_.arc_to(low, high) < all_.arcs.size(); }
   void require(bool holds, std::string_view array) const {
     if (!holds) throw InputError(where_, "its index contradicts itself; build it anew", array);
   }
@@ -52,14 +50,16 @@ class HierarchyCheck {
 
 std::size_t Hierarchy::arc_to(VertexId low, VertexId high) const {
   constexpr std::size_t short_row = 16;  // counted without a branch an arc
-  const std::span<const VertexId> row(to.data() + first[low], to.data() + first[low + 1]);
+  const std::span<const HierarchyArc> arcs_up = row(low);
   std::size_t before = 0;
-  if (row.size() <= short_row) {
-    for (const VertexId other : row) before += static_cast<std::size_t>(other < high);
+  if (arcs_up.size() <= short_row) {
+    for (const HierarchyArc& arc : arcs_up) before += static_cast<std::size_t>(arc.to < high);
   } else {
-    before = static_cast<std::size_t>(std::lower_bound(row.begin(), row.end(), high) - row.begin());
+    const auto leads_below = [](const HierarchyArc& arc, VertexId other) { return arc.to < other; };
+    const auto found = std::lower_bound(arcs_up.begin(), arcs_up.end(), high, leads_below);
+    before = static_cast<std::size_t>(found - arcs_up.begin());
   }
-  return before < row.size() && row[before] == high ? first[low] + before : to.size();
+  return before < arcs_up.size() && arcs_up[before].to == high ? first[low] + before : arcs.size();
 }
 
 void check_hierarchy(const Hierarchy& hierarchy, std::size_t vertex_count, const std::string& where,

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include "core/base/raw_vector.hpp"
@@ -16,15 +17,21 @@
 
 namespace warren {
 
+struct HierarchyArc {
+  VertexId to;      ///< a vertex taken out later; they ascend in each row
+  VertexId middle;  ///< the vertex, taken out earlier, that it leads over; no_vertex: an edge
+  double length;
+  friend bool operator==(const HierarchyArc&, const HierarchyArc&) = default;
+};
+
 /// Any number of threads may read.
 struct Hierarchy {
-  RawVector<EdgeEnd> first;    ///< one more than vertices: where the arcs of each begin
-  RawVector<VertexId> to;      ///< of an arc: a vertex taken out later; they ascend in each row
-  RawVector<VertexId> middle;  ///< of an arc: the vertex, taken out earlier, that it leads over; no_vertex: an edge
-  RawVector<double> length;    ///< of an arc
+  RawVector<EdgeEnd> first;      ///< one more than vertices: where the arcs of each begin
+  RawVector<HierarchyArc> arcs;  ///< whole: a row is read at once, and so costs one look into the memory
 
   bool empty() const { return first.empty(); }
   std::size_t vertex_count() const { return first.empty() ? 0 : first.size() - 1; }
+  std::span<const HierarchyArc> row(VertexId v) const { return {arcs.data() + first[v], arcs.data() + first[v + 1]}; }
   /// The arc in the row of `low` that leads to `high`; the number of all arcs where there is none.
   std::size_t arc_to(VertexId low, VertexId high) const;
 };

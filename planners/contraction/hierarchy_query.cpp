@@ -38,8 +38,8 @@ bool HierarchyQuery::search(std::span<const HierarchyEnd> start, std::span<const
 
 /// Is there a shorter way to v from above?
 bool HierarchyQuery::is_stalled(const SearchState& state, VertexId v, double length) {
-  for (EdgeEnd arc = hierarchy_.first[v]; arc < hierarchy_.first[v + 1]; ++arc) {
-    if (state.g(hierarchy_.to[arc]) + hierarchy_.length[arc] < length) return true;
+  for (const HierarchyArc& arc : hierarchy_.row(v)) {
+    if (state.g(arc.to) + arc.length < length) return true;
   }
   return false;
 }
@@ -57,20 +57,19 @@ void HierarchyQuery::settle(std::size_t side) {
   }
   looks_ += hierarchy_.first[v + 1] - hierarchy_.first[v];
   if (is_stalled(state, v, next.key)) return;
-  for (EdgeEnd arc = hierarchy_.first[v]; arc < hierarchy_.first[v + 1]; ++arc) {
-    const double length = next.key + hierarchy_.length[arc];
-    if (!state.improves(hierarchy_.to[arc], length)) continue;
-    state.reach(hierarchy_.to[arc], length, v);
-    queue.push(hierarchy_.to[arc], length);
+  for (const HierarchyArc& arc : hierarchy_.row(v)) {
+    const double length = next.key + arc.length;
+    if (!state.improves(arc.to, length)) continue;
+    state.reach(arc.to, length, v);
+    queue.push(arc.to, length);
   }
 }
 
 /// Of the arc in the row of `low`. Asks the memory for what taking it apart will read.
 VertexId HierarchyQuery::middle_of(VertexId low, VertexId high) const {
-  const VertexId middle = hierarchy_.middle[hierarchy_.arc_to(low, high)];
+  const VertexId middle = hierarchy_.arcs[hierarchy_.arc_to(low, high)].middle;
   if (middle == no_vertex) return no_vertex;
-  __builtin_prefetch(hierarchy_.to.data() + hierarchy_.first[middle]);
-  __builtin_prefetch(hierarchy_.middle.data() + hierarchy_.first[middle]);
+  __builtin_prefetch(hierarchy_.arcs.data() + hierarchy_.first[middle]);
   return middle;
 }
 

@@ -12,6 +12,7 @@
 #include "roadmaps/file/write_roadmap_file.hpp"
 #include "roadmaps/graph/check_parts.hpp"
 #include "solve/question/plannable.hpp"
+#include "solve/roadmaps/hierarchy_sections.hpp"
 #include "solve/roadmaps/lattice_sections.hpp"
 #include "solve/roadmaps/roadmap_meta_io.hpp"
 #include "solve/roadmaps/world_sections.hpp"
@@ -61,17 +62,6 @@ RoadmapParts checked_parts(const RoadmapFile& file, const Roadmap& roadmap, cons
                            .component = file.section<VertexId>("component", execution)};
   check_parts(parts, file.name(), execution);
   return parts;
-}
-
-/// Empty where the file has none; what it has must be whole.
-Hierarchy read_hierarchy(const RoadmapFile& file, std::size_t vertex_count, const Execution& execution) {
-  if (file.find("up.first") == nullptr) return {};
-  Hierarchy hierarchy{.first = copied(file.section<EdgeEnd>("up.first", execution), execution),
-                      .to = copied(file.section<VertexId>("up.to", execution), execution),
-                      .middle = copied(file.section<VertexId>("up.middle", execution), execution),
-                      .length = copied(file.section<double>("up.length", execution), execution)};
-  check_hierarchy(hierarchy, vertex_count, file.name(), execution);
-  return hierarchy;
 }
 
 RoadmapArrays read_arrays(const RoadmapFile& file, const Roadmap& roadmap, const Execution& execution) {
@@ -127,17 +117,6 @@ KeptWorld world_inside(const RoadmapFile& file, const Roadmap& roadmap, const Ex
   };
   if (lattice == nullptr) return KeptWorld(make(execution));
   return {std::move(outline), std::move(make)};
-}
-
-void append_hierarchy(const Hierarchy& hierarchy, std::vector<RoadmapSection>& sections) {
-  if (hierarchy.empty()) return;
-  const auto add = [&]<class T>(std::string_view name, const RawVector<T>& numbers) {
-    sections.push_back(roadmap_section(name, std::span<const T>(numbers), true));
-  };
-  add("up.first", hierarchy.first);
-  add("up.to", hierarchy.to);
-  add("up.middle", hierarchy.middle);
-  add("up.length", hierarchy.length);
 }
 
 void append_graph(const RoadmapParts& parts, std::vector<RoadmapSection>& sections) {
@@ -201,7 +180,8 @@ void write_roadmap(const Roadmap& roadmap, OutputFile& file, const std::string& 
   std::vector<RoadmapSection> sections{roadmap_section("meta", std::span<const char>(meta))};
   if (world) world->append_to(sections);
   roadmap.lattice != nullptr ? append_lattice_sections(*roadmap.lattice, sections) : append_graph(parts, sections);
-  append_hierarchy(roadmap.arrays.hierarchy, sections);
+  const HierarchySections index(roadmap.arrays.hierarchy, execution);
+  index.append_to(sections);
   const RoadmapFileHeader header{.world_hash = hash_number(roadmap.world_hash),
                                  .recipe_hash = hash_of(recipe_json(roadmap, execution)),
                                  .writer = "warren " WARREN_VERSION};

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "verify/exact/exact_segments.hpp"
-
 namespace warren {
 
 void Tally::join(Tally&& other) {
@@ -44,21 +42,6 @@ void Comparison::with_near_legs(const LegIndex& index, const Segment& obstacle, 
 
 void Comparison::with_all_legs(const Segment& obstacle, std::size_t number) {
   compare(obstacle, box_of(obstacle), number, 0, legs_.leg_count() - 1);
-}
-
-bool Comparison::skips(std::size_t leg, const Box& obstacles) const {
-  const Segment s = legs_.leg(leg);
-  return too_far(box_of(s), obstacles) || beside(s, obstacles);
-}
-
-void Comparison::with_leg(std::size_t leg, const Segment& obstacle, std::size_t number) {
-  const Segment s = legs_.leg(leg);
-  if (!too_far(box_of(s), box_of(obstacle))) compare(s, leg, obstacle, number);
-}
-
-bool Comparison::too_far(const Box& a, const Box& b) const {
-  const double gap = exact::gap_sq(a, b);
-  return gap >= near_sq_ && gap > 0.0;
 }
 
 /// Does the whole box lie farther from the obstacle's line than is of interest?

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/types.hpp"
+#include "verify/exact/exact_segments.hpp"
 #include "verify/judges/contact.hpp"
 #include "verify/judges/verify_point.hpp"
 #include "verify/near/leg_boxes.hpp"
@@ -30,6 +31,14 @@ struct Tally {
   void join(Tally&& other);
 };
 
+/// A leg, or an obstacle, that is compared with many.
+struct BoxedSegment {
+  BoxedSegment(const Segment& s, std::size_t of) : segment(s), box(box_of(s)), number(of) {}
+  Segment segment;
+  Box box;
+  std::size_t number;
+};
+
 /// Refers to legs and options, which must outlive it.
 class Comparison {
  public:
@@ -41,13 +50,20 @@ class Comparison {
   /// By the boxes of legs: about log(legs), plus what is near; O(legs) at worst.
   void with_all_legs(const Segment& obstacle, std::size_t number);
   /// Is all that lies in the box too far from the leg, or from all legs in a box, to matter?
-  bool skips(std::size_t leg, const Box& obstacles) const;
+  bool skips(const BoxedSegment& leg, const Box& obstacles) const {
+    return too_far(leg.box, obstacles) || beside(leg.segment, obstacles);
+  }
   bool skips(const Box& legs, const Box& obstacles) const { return too_far(legs, obstacles); }
-  void with_leg(std::size_t leg, const Segment& obstacle, std::size_t number);
+  void with_leg(const BoxedSegment& leg, const BoxedSegment& side) {
+    if (!too_far(leg.box, side.box)) compare(leg.segment, leg.number, side.segment, side.number);
+  }
   Tally take() { return std::move(tally_); }
 
  private:
-  bool too_far(const Box& a, const Box& b) const;
+  bool too_far(const Box& a, const Box& b) const {
+    const double gap = exact::gap_sq(a, b);
+    return gap >= near_sq_ && gap > 0.0;
+  }
   bool beside(const Segment& obstacle, const Box& box) const;
   void compare(const Segment& obstacle, const Box& box, std::size_t number, std::size_t first, std::size_t last);
   void compare(const Segment& s, std::size_t leg, const Segment& obstacle, std::size_t number);

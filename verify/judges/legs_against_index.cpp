@@ -26,7 +26,8 @@ class IndexedTally {
         comparison_(legs, options, std::numeric_limits<double>::infinity()) {}
 
   Tally of(Range range) {
-    index_.sides().for_some_near(box_of(legs_.leg(range.first)), [&](std::size_t i) { compare(range.first, i); });
+    const BoxedSegment leg(legs_.leg(range.first), range.first);
+    index_.sides().for_some_near(leg.box, [&](std::size_t i) { comparison_.with_leg(leg, side(i)); });
     for (std::size_t first = range.first; first < range.last; first += legs_a_group) {
       compare_group({first, std::min(first + legs_a_group, range.last)});
     }
@@ -35,19 +36,29 @@ class IndexedTally {
 
  private:
   void compare_group(Range group);
-  void compare(std::size_t leg, std::size_t number) {
+  void find_near(const Box& legs);
+  void compare_with_near(const BoxedSegment& leg);
+  BoxedSegment side(std::size_t number) const { return {index_.obstacles().segment(number), number}; }
+  bool skips(const BoxedSegment& leg, const Box& blocks) {
     poll();
-    comparison_.with_leg(leg, index_.obstacles().segment(number), number);
+    return comparison_.skips(leg, blocks);
   }
   void poll() {
     if (++looks_ % looks_a_poll == 0) execution_.check();
   }
 
+  /// Of boxes near a group, and where its sides begin among those.
+  struct Block {
+    std::size_t number;
+    std::size_t first;
+  };
+
   const ObstacleIndex& index_;
   const LegBoxes& legs_;
   const Execution& execution_;
   Comparison comparison_;
-  std::vector<std::size_t> near_;  // blocks
+  std::vector<Block> near_;
+  std::vector<BoxedSegment> sides_;  // of the blocks
   std::size_t looks_ = 0;
 };
 
@@ -55,25 +66,36 @@ class IndexedTally {
 void IndexedTally::compare_group(Range group) {
   Box box;
   for (std::size_t leg = group.first; leg < group.last; ++leg) box.include(box_of(legs_.leg(leg)));
-  near_.clear();
-  const auto skip_group = [&](const Box& blocks) {
-    poll();
-    return near_.size() > most_near || comparison_.skips(box, blocks);
-  };
-  index_.sides().for_each_block(skip_group, [&](std::size_t block) { near_.push_back(block); });
-  for (std::size_t leg = group.first; leg < group.last; ++leg) {
-    const auto skip = [&](const Box& blocks) {
-      poll();
-      return comparison_.skips(leg, blocks);
-    };
-    const auto compare_one = [&](std::size_t number) { compare(leg, number); };
+  find_near(box);
+  for (std::size_t number = group.first; number < group.last; ++number) {
+    const BoxedSegment leg(legs_.leg(number), number);
     if (near_.size() > most_near) {
-      index_.sides().for_each(skip, compare_one);
-      continue;
+      index_.sides().for_each([&](const Box& blocks) { return skips(leg, blocks); },
+                              [&](std::size_t i) { comparison_.with_leg(leg, side(i)); });
+    } else {
+      compare_with_near(leg);
     }
-    for (const std::size_t block : near_) {
-      if (!skip(index_.sides().block_box(block))) index_.sides().for_each_in(block, compare_one);
-    }
+  }
+}
+
+void IndexedTally::find_near(const Box& legs) {
+  near_.clear();
+  sides_.clear();
+  const auto skip = [&](const Box& blocks) {
+    poll();
+    return near_.size() > most_near || comparison_.skips(legs, blocks);
+  };
+  index_.sides().for_each_block(skip, [&](std::size_t block) {
+    near_.push_back({block, sides_.size()});
+    index_.sides().for_each_in(block, [&](std::size_t i) { sides_.push_back(side(i)); });
+  });
+}
+
+void IndexedTally::compare_with_near(const BoxedSegment& leg) {
+  for (std::size_t i = 0; i < near_.size(); ++i) {
+    if (skips(leg, index_.sides().block_box(near_[i].number))) continue;
+    const std::size_t last = i + 1 < near_.size() ? near_[i + 1].first : sides_.size();
+    for (std::size_t k = near_[i].first; k < last; ++k) comparison_.with_leg(leg, sides_[k]);
   }
 }
 

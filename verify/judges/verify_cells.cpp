@@ -113,8 +113,8 @@ class LegsAmongCells {
 
   void compare_in(const CellTile& tile, std::size_t number, Comparison& comparison) const {
     for (std::uint64_t i = first_[number]; i < first_[number + 1]; ++i) {
-      const std::size_t leg = filed_[i];
-      const Cells near = around(leg);
+      const BoxedSegment leg(legs_.leg(filed_[i]), filed_[i]);
+      const Cells near = around(leg.number);
       const auto local = [](std::uint32_t x, std::uint32_t first, std::uint32_t size) {
         return std::clamp(std::ptrdiff_t{x} - std::ptrdiff_t{first}, std::ptrdiff_t{-1}, std::ptrdiff_t{size} - 1);
       };
@@ -127,14 +127,14 @@ class LegsAmongCells {
       }
     }
   }
-  static void compare_at(const CellTile& tile, std::ptrdiff_t col, std::ptrdiff_t row, std::size_t leg,
+  static void compare_at(const CellTile& tile, std::ptrdiff_t col, std::ptrdiff_t row, const BoxedSegment& leg,
                          Comparison& comparison) {
     const unsigned walls = tile.walls[tile.index(col, row)];
     const auto place = [&](bool is_upper) {
       return number_of(static_cast<std::uint32_t>(std::ptrdiff_t{tile.first_col} + col + 1),
                        static_cast<std::uint32_t>(std::ptrdiff_t{tile.first_row} + row + 1), is_upper);
     };
-    const auto with = [&](std::size_t wall) { comparison.with_leg(leg, wall_of(wall), wall); };
+    const auto with = [&](std::size_t wall) { comparison.with_leg(leg, {wall_of(wall), wall}); };
     if ((walls & CellTile::right_wall) != 0 && row >= 0) with(place(false));
     if ((walls & CellTile::upper_wall) != 0 && col >= 0) with(place(true));
   }

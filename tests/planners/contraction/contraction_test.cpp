@@ -131,9 +131,7 @@ TEST(Contraction, IsTheSameForAnyNumberOfThreads) {
   for (const unsigned threads : {2U, 3U, 8U}) {
     const Hierarchy other = whole_hierarchy(graph, {.threads = threads});
     EXPECT_EQ(one.first, other.first);
-    EXPECT_EQ(one.to, other.to);
-    EXPECT_EQ(one.middle, other.middle);
-    EXPECT_EQ(one.length, other.length);
+    EXPECT_EQ(one.arcs, other.arcs);
   }
 }
 
@@ -192,10 +190,10 @@ std::string refusal(const Hierarchy& good, const Change& change) {
 
 TEST(Contraction, NumbersThatLeadNowhereAreRefused) {
   const Hierarchy good = whole_hierarchy(random_graph(1, false));
-  const std::size_t arcs = good.to.size();
+  const std::size_t arcs = good.arcs.size();
   const std::size_t shortcut = static_cast<std::size_t>(
-      std::find_if(good.middle.begin(), good.middle.end(), [](VertexId m) { return m != no_vertex; }) -
-      good.middle.begin());
+      std::find_if(good.arcs.begin(), good.arcs.end(), [](const HierarchyArc& a) { return a.middle != no_vertex; }) -
+      good.arcs.begin());
   ASSERT_LT(shortcut, arcs);
   EXPECT_EQ(refusal(good, [](Hierarchy&) {}), "nothing");
   const auto names = [&](const char* array, const auto& change) {
@@ -204,23 +202,19 @@ TEST(Contraction, NumbersThatLeadNowhereAreRefused) {
   names("up.first", [](Hierarchy& h) { h.first.pop_back(); });
   names("up.first", [](Hierarchy& h) { h.first[0] = 1; });
   names("up.first", [&](Hierarchy& h) { h.first[7] = static_cast<EdgeEnd>(arcs + 1); });
-  names("up.first", [](Hierarchy& h) { h.to.pop_back(); });
-  names("up.middle", [](Hierarchy& h) { h.middle.pop_back(); });
-  names("up.length", [](Hierarchy& h) { h.length.pop_back(); });
-  names("up.to", [](Hierarchy& h) { h.to[0] = static_cast<VertexId>(h.vertex_count()); });
-  names("up.length", [](Hierarchy& h) { h.length[3] = -0.0; });
-  names("up.length", [](Hierarchy& h) { h.length[3] = std::nan(""); });
-  names("up.middle", [&](Hierarchy& h) { h.middle[shortcut] = h.to[shortcut]; });
-  names("up.middle", [&](Hierarchy& h) { h.middle[shortcut] = static_cast<VertexId>(h.vertex_count()); });
+  names("up.first", [](Hierarchy& h) { h.arcs.pop_back(); });
+  names("up.to", [](Hierarchy& h) { h.arcs[0].to = static_cast<VertexId>(h.vertex_count()); });
+  names("up.length", [](Hierarchy& h) { h.arcs[3].length = -0.0; });
+  names("up.length", [](Hierarchy& h) { h.arcs[3].length = std::nan(""); });
+  names("up.middle", [&](Hierarchy& h) { h.arcs[shortcut].middle = h.arcs[shortcut].to; });
+  names("up.middle", [&](Hierarchy& h) { h.arcs[shortcut].middle = static_cast<VertexId>(h.vertex_count()); });
 }
 
 /// Three vertices, each of whose arcs is said to lead over the third: what the check lets pass ends nevertheless.
 TEST(Contraction, ShortcutsThatGoRoundForEverEnd) {
   Hierarchy ring;
   ring.first = {0, 2, 4, 6};
-  ring.to = {1, 2, 0, 2, 0, 1};
-  ring.middle = {2, 1, 2, 0, 1, 0};
-  ring.length = {1, 1, 1, 1, 1, 1};
+  ring.arcs = {{1, 2, 1.0}, {2, 1, 1.0}, {0, 2, 1.0}, {2, 0, 1.0}, {0, 1, 1.0}, {1, 0, 1.0}};
   check_hierarchy(ring, 3, "test", {});
   HierarchyScratch scratch;
   const Execution execution;
