@@ -172,14 +172,15 @@ WARREN_ARCHIVED(StateList, width, numbers)
 WARREN_ARCHIVED(Violation, leg, distance, obstacle)
 WARREN_ARCHIVED(RefutedPath, violation, length, cost, path, states)
 WARREN_ARCHIVED(BlockedEnd, is_start, by, free_place, distance, hint, room, needed)
-WARREN_ARCHIVED(Explanation, components, narrowest, hints)
+WARREN_ARCHIVED(Hint, verb, words, why)
+WARREN_ARCHIVED(Explanation, components, narrowest, hints, stopped)
 WARREN_ARCHIVED(Problem, robot, start, goal, clearance, contact)
 WARREN_ARCHIVED(WorldAccount, source, kind, walls, polygons, hash, spheres, boxes)
 WARREN_ARCHIVED(NamedFigure, name, value)
 WARREN_ARCHIVED(Answer, outcome, stop_reason, verified, blocked, explained, refuted, length, min_clearance, raw_length,
                 optimal, cost, turn_rad, problem, world, planner, pipeline, sampler, search, seed, threads, options,
                 roadmap, cells, figures, path_figures, separation, counters, seconds, solve_s, peak_memory_bytes, path,
-                states)
+                states, tells_path)
 #undef WARREN_ARCHIVED
 
 }  // namespace
