@@ -9,7 +9,12 @@
 
 namespace warren {
 
-/// Of a picture that has solids and an arm. Places of space are relative to the view's target, of the picture's world
+/// Does the page's script draw an arm in perspective, where it is on its way?
+inline bool moves_arm(const Picture& picture) {
+  return picture.solids != nullptr && picture.arm != nullptr && !picture.arm->spines.empty();
+}
+
+/// Of a picture that moves an arm. Places of space are relative to the view's target, of the picture's world
 /// to `origin`. Throws Stopped, and what `write` throws.
 void write_page_arm(const Picture& picture, Parts parts, Vec2 origin, const Execution& execution, const Write& write);
 

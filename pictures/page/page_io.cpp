@@ -44,9 +44,7 @@ class PageWriter {
     write_page_layers(picture_, parts_, canvas_, origin_, execution_, write_);
     if (picture_.roadmap != nullptr && picture_.panels.empty()) graph(*picture_.roadmap);
     if (parts_.has(Part::path)) path();
-    if (picture_.solids != nullptr && picture_.arm != nullptr && !picture_.arm->spines.empty()) {
-      write_page_arm(picture_, parts_, origin_, execution_, write_);
-    }
+    if (moves_arm(picture_)) write_page_arm(picture_, parts_, origin_, execution_, write_);
     write_("}</script>\n<script>\n");
     for (const char* script : {"data.js", "view.js", "marks.js", "arm.js", "pointer.js", "controls.js"})
       write_(page_file(script));

@@ -8,7 +8,9 @@
 
 #include "pictures/formats/png_file.hpp"
 #include "pictures/formats/raster.hpp"
+#include "pictures/formats/solid_raster.hpp"
 #include "pictures/page/number_array.hpp"
+#include "pictures/page/page_arm_io.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 
 namespace warren {
@@ -33,6 +35,9 @@ class PageLayers {
   template <class T>
   void wall_ends();
   void wall_image();
+  void perspective(const SolidView& view);
+  template <class WritePng>
+  void image_in(const Box& box, const WritePng& write_png);
 
   void begin_layer(const Json& about) {
     std::string text = in_script(about.dump(-1, ' ', true, Json::error_handler_t::replace));
@@ -63,6 +68,7 @@ void PageLayers::all() {
     if (parts_.has(one.part) && !one.lines.empty()) layer(one);
   }
   if (parts_.has(Part::world)) walls();
+  if (picture_.solids != nullptr && !moves_arm(picture_)) perspective(*picture_.solids);
   write_("]");
 }
 
@@ -189,13 +195,32 @@ void PageLayers::wall_image() {
       mask.draw_line(at(all[i].segment().a), at(all[i].segment().b), width);
     }
   });
-  const Vec2 low = moved(box.min);
-  const Vec2 high{low.x + static_cast<double>(mask.width()) / scale,
-                  moved(box.max).y - static_cast<double>(mask.height()) / scale};
-  write_(fmt::format(",\"kind\":\"image\",\"box\":[{},{},{},{}],\"href\":\"data:image/png;base64,", low.x, high.y,
-                     high.x, moved(box.max).y));
+  const Vec2 top_left = moved({box.min.x, box.max.y});
+  const double width_seen = static_cast<double>(mask.width()) / scale;
+  const double height_seen = static_cast<double>(mask.height()) / scale;
+  image_in({{top_left.x, top_left.y - height_seen}, {top_left.x + width_seen, top_left.y}},
+           [&](const Write& write) { write_png_file(mask, colors::wall, execution_, write); });
+}
+
+/// Of an arm that doesn't move; the page's script draws the others.
+void PageLayers::perspective(const SolidView& view) {
+  constexpr std::size_t pixels = 1024;
+  begin_layer({{"id", "perspective"}, {"label", "perspective"}});
+  const double scale = static_cast<double>(pixels) / std::max(view.box.width(), view.box.height());
+  const Image image = draw_solids(view, parts_, static_cast<std::size_t>(std::ceil(scale * view.box.width())),
+                                  static_cast<std::size_t>(std::ceil(scale * view.box.height())), execution_);
+  constexpr double dots_an_inch = 96.0;
+  image_in({moved(view.box.min), moved(view.box.max)},
+           [&](const Write& write) { write_png_file(image, dots_an_inch, execution_, write); });
+}
+
+/// The rest of a layer that has begun: an image, the page's numbers for its place.
+template <class WritePng>
+void PageLayers::image_in(const Box& box, const WritePng& write_png) {
+  write_(fmt::format(",\"kind\":\"image\",\"box\":[{},{},{},{}],\"href\":\"data:image/png;base64,", box.min.x,
+                     box.min.y, box.max.x, box.max.y));
   Base64 out(write_);
-  write_png_file(mask, colors::wall, execution_, [&](std::string_view bytes) { out.write(bytes); });
+  write_png([&](std::string_view bytes) { out.write(bytes); });
   out.end();
   write_("\"}");
 }

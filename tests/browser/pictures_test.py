@@ -215,6 +215,18 @@ class Pictures(BrowserTest):
         self.assertAlmostEqual(depths[0], 3.0 * depths[3], 2)
         self.assertAlmostEqual(depths[1], 0.7 * 3.2 * depths[3] - 0.2 * depths[3], 2)
 
+    def test_the_roadmap_of_an_arm_is_seen_in_perspective(self):
+        kept, page = self.folder.name + '/arm.roadmap', self.folder.name + '/arm-roadmap.html'
+        subprocess.run([WARREN, 'build', WORLDS + '/puma-seed.scene', '--samples', '100', '-o', kept], check=True, capture_output=True)
+        subprocess.run([WARREN, 'render', kept, '-o', page], check=True, capture_output=True)
+        self.open('arm-roadmap.html')
+        self.async_script("""const layer = layers.find(one => one.id === "perspective"), wait = () => layer.image?.complete ? done() : requestAnimationFrame(wait); wait()""")
+        self.frames()
+        with_it = self.ink()
+        self.browser.find_element(By.NAME, 'perspective').click()
+        self.frames()
+        self.assertNotEqual(self.ink(), with_it)
+
     def test_in_views_beside_each_other_places_are_the_views_own(self):
         self.shown('arm.html')
         box, origin = self.run_script('const p = picture.panels[0]; return [p.box, p.origin]')
