@@ -45,7 +45,8 @@ TEST(MadeOnce, WhoWaitsIsStoppedByItsOwnDeadline) {
   const Deadline over(std::numeric_limits<double>::infinity(), std::numeric_limits<std::size_t>::max(), &signal);
   const auto unasked = []() -> std::unique_ptr<int> { throw std::logic_error("two make it"); };
   const int& made = value.get({}, [&] {
-    std::jthread([&] { EXPECT_THROW(value.get({.deadline = &over}, unasked), Stopped); });  // ends while this one makes
+    std::jthread waits([&] { EXPECT_THROW(value.get({.deadline = &over}, unasked), Stopped); });
+    waits.join();  // while this one makes
     return std::make_unique<int>(3);
   });
   EXPECT_EQ(made, 3);
