@@ -16,7 +16,7 @@
 #include "core/base/rng.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "scenes/text/output_file_io.hpp"
-#include "solve/roadmaps/ask_batch_io.hpp"
+#include "solve/batches/ask_batch_io.hpp"
 #include "solve/roadmaps/roadmap_file_io.hpp"
 
 namespace warren::bench {

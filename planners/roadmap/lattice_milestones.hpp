@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/error.hpp"
 #include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
 #include "core/base/world.hpp"
@@ -211,10 +212,14 @@ inline Vec2* LatticeInTileOrder::write_row(std::uint32_t row, std::uint32_t firs
 
 }  // namespace detail
 
-/// The free ones of the first `count` points of the lattice, in tile order; room for `spare` more.
+/// The free ones of the first `count` points of the lattice, in tile order; room for `spare` more. Throws InputError
+/// for a lattice with more points than milestones can be numbered, and Stopped.
 template <World W>
 RawVector<Vec2> lattice_milestones(const W& world, LatticeSize size, std::uint64_t count, const Execution& execution,
                                    std::size_t spare) {
+  if (std::uint64_t{size.rows} * size.cols > std::uint64_t{1} << 31) {
+    throw InputError("lattice", "has more than 2^31 cells; use the tiled pipeline");
+  }
   execution.reserve(std::size_t{size.rows} * (size.cols / 8 + 8));
   const detail::LatticeBits free(world, size, count, execution);
   return detail::LatticeInTileOrder(free, execution).points(spare);

@@ -29,11 +29,8 @@ void RoadmapOptions::validate() const {
   if (star != StarRule::none && (neighbours || radius)) {
     throw InputError("neighbours", "follow from the samples by the rules of PRM*: give a number or the rule");
   }
-  if (sampler == SamplerKind::lattice) {
-    if (lattice.rows < 1 || lattice.cols < 1) throw InputError("lattice", "needs the rows and columns of the maze");
-    if (std::uint64_t{lattice.rows} * lattice.cols > most_samples) {
-      throw InputError("lattice", "has more than 2^31 cells; use the tiled pipeline");
-    }
+  if (sampler == SamplerKind::lattice && (lattice.rows < 1 || lattice.cols < 1)) {
+    throw InputError("lattice", "needs the rows and columns of the maze");
   }
 }
 

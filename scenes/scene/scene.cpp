@@ -141,6 +141,22 @@ std::string scene_hash(const Scene& scene, const Execution& execution) {
   return fmt::format("{:016x}", hasher.value());
 }
 
+Scene without_arrays(const Scene& scene) {
+  Scene rest;
+  rest.polygons = scene.polygons;
+  rest.spheres = scene.spheres;
+  rest.boxes = scene.boxes;
+  rest.bounds = scene.bounds;
+  rest.clearance = scene.clearance;
+  rest.maze = scene.maze;
+  rest.robot = scene.robot;
+  rest.start = scene.start;
+  rest.goal = scene.goal;
+  rest.grid = scene.grid;
+  rest.source = scene.source;
+  return rest;
+}
+
 Box obstacle_box(const Scene& scene, const Execution& execution) {
   Box box = scene.walls.visit([&](auto walls) { return box_of_walls(walls, execution); });
   for (const ScenePolygon& polygon : scene.polygons) {

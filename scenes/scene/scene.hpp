@@ -111,6 +111,9 @@ inline bool is_unmade(const Scene& scene) { return scene.formula && scene.walls.
 /// What scene_hash says of a maze whose walls are left out, whether they are or not; needs the formula.
 std::string formula_hash(const Scene& scene);
 
+/// A copy without what can be large: walls, seams, cells of a map.
+Scene without_arrays(const Scene& scene);
+
 /// Is there anything that only a body in space can meet?
 inline bool has_solids(const Scene& scene) { return !scene.spheres.empty() || !scene.boxes.empty(); }
 

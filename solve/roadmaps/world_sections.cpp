@@ -19,22 +19,6 @@ namespace {
 constexpr std::size_t wall_grain = std::size_t{1} << 16;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// All but walls, seams and map.
-Scene without_arrays(const Scene& scene) {
-  Scene rest;
-  rest.polygons = scene.polygons;
-  rest.spheres = scene.spheres;
-  rest.boxes = scene.boxes;
-  rest.bounds = scene.bounds;
-  rest.clearance = scene.clearance;
-  rest.maze = scene.maze;
-  rest.robot = scene.robot;
-  rest.start = scene.start;
-  rest.goal = scene.goal;
-  rest.grid = scene.grid;
-  return rest;
-}
-
 void add_point(std::vector<double>& numbers, const std::optional<Vec2>& point) {
   numbers.push_back(point ? point->x : none);
   numbers.push_back(point ? point->y : none);

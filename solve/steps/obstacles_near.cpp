@@ -45,12 +45,7 @@ Scene obstacles_near(const Scene& scene, std::span<const Vec2> path, double reac
   if (scene.map || is_unmade(scene)) return scene;
   const Vec2 twice[] = {path.front(), path.front()};
   const NearPath places(scene, path.size() > 1 ? path : std::span<const Vec2>(twice), reach, execution);
-  Scene near;
-  near.source = scene.source;
-  near.bounds = scene.bounds;
-  near.maze = scene.maze;
-  near.spheres = scene.spheres;
-  near.boxes = scene.boxes;
+  Scene near = without_arrays(scene);
   std::vector<Segment> walls;
   for (std::size_t i = 0; i < scene.walls.size(); ++i) {
     if (i % obstacles_a_poll == 0) execution.check();
@@ -58,12 +53,12 @@ Scene obstacles_near(const Scene& scene, std::span<const Vec2> path, double reac
     if (places.keeps(box_of(wall))) walls.push_back(wall);
   }
   near.walls = WallSet::narrowest(walls);
-  for (const ScenePolygon& polygon : scene.polygons) {
+  std::erase_if(near.polygons, [&](const ScenePolygon& polygon) {
     execution.check();
     Box box;
     for (const Vec2 corner : polygon.corners) box.include(corner);
-    if (places.keeps(box)) near.polygons.push_back(polygon);
-  }
+    return !places.keeps(box);
+  });
   return near;
 }
 

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "solve/answer/write_answer_io.hpp"
-#include "solve/kinds/solve_streamed.hpp"
-#include "solve/kinds/solve_walls.hpp"
+#include "solve/mazes/solve_streamed.hpp"
+#include "solve/mazes/solve_walls.hpp"
 #include "solve/question/planner_choice.hpp"
 #include "solve/question/question.hpp"
 #include "studies/measure/machine_memory.hpp"

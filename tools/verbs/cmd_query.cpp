@@ -12,8 +12,8 @@
 
 #include "core/base/error.hpp"
 #include "scenes/text/human_units.hpp"
-#include "solve/roadmaps/ask_batch_io.hpp"
-#include "solve/roadmaps/ask_matrix_io.hpp"
+#include "solve/batches/ask_batch_io.hpp"
+#include "solve/batches/ask_matrix_io.hpp"
 #include "solve/roadmaps/roadmap_file_io.hpp"
 #include "solve/steps/blocked_end.hpp"
 #include "solve/steps/explain_answer.hpp"

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/error.hpp"
 #include "core/base/rng.hpp"
 #include "planners/roadmap/milestones.hpp"
 
@@ -70,6 +71,12 @@ TEST(LatticeMilestones, AreTheSameForAnyThreadCount) {
 
 TEST(LatticeMilestones, NoneAreThereWhereNothingIsFree) {
   EXPECT_TRUE(lattice_milestones(SpottedWorld{0.0, everywhere}, {20, 30}, 600, {}, 2).empty());
+}
+
+TEST(LatticeMilestones, MoreThanHaveNumbersAreRefused) {
+  const LatticeSize size{65'536, 32'769};
+  const std::uint64_t all = std::uint64_t{size.rows} * size.cols;
+  EXPECT_THROW(lattice_milestones(SpottedWorld{0.0, everywhere}, size, all, {}, 2), InputError);
 }
 
 }  // namespace

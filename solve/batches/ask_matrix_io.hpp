@@ -10,7 +10,7 @@
 
 #include "parallel/execution.hpp"
 #include "scenes/text/input_file_io.hpp"
-#include "solve/roadmaps/ask_batch_io.hpp"
+#include "solve/batches/ask_batch_io.hpp"
 #include "solve/roadmaps/roadmap_query.hpp"
 
 namespace warren {

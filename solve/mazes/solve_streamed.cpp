@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A point or disc in a maze whose walls are not held: prm on its lattice, whose tiles are made, reduced and forgotten;
 // those of the path are made again to expand it, and once more for the judge. solve_s includes all of it.
-#include "solve/kinds/solve_streamed.hpp"
+#include "solve/mazes/solve_streamed.hpp"
 
 #include <optional>
 #include <span>

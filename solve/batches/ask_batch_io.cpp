@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solve/roadmaps/ask_batch_io.hpp"
+#include "solve/batches/ask_batch_io.hpp"
 
 #include <array>
 #include <string>
@@ -8,7 +8,7 @@
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
 #include "scenes/text/json_text.hpp"
-#include "solve/roadmaps/batch_questions_io.hpp"
+#include "solve/batches/batch_questions_io.hpp"
 
 namespace warren {
 namespace {

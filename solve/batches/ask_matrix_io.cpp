@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solve/roadmaps/ask_matrix_io.hpp"
+#include "solve/batches/ask_matrix_io.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
-#include "solve/roadmaps/batch_questions_io.hpp"
+#include "solve/batches/batch_questions_io.hpp"
 
 namespace warren {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solve/kinds/maze_infeasible.hpp"
+#include "solve/mazes/maze_infeasible.hpp"
 
 #include <algorithm>
 #include <cmath>

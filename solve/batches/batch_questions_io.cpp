@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solve/roadmaps/batch_questions_io.hpp"
+#include "solve/batches/batch_questions_io.hpp"
 
 #include <fmt/format.h>
 

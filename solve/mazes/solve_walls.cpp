@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solve/kinds/solve_walls.hpp"
+#include "solve/mazes/solve_walls.hpp"
 
 #include <optional>
 #include <string>
@@ -11,7 +11,7 @@
 #include "planners/shorten/taut_path.hpp"
 #include "planners/tiled/tiled_prm_any_world.hpp"
 #include "planners/tiled/tiled_prm_lattice.hpp"
-#include "solve/kinds/maze_infeasible.hpp"
+#include "solve/mazes/maze_infeasible.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 #include "solve/steps/sampled_roadmap.hpp"
 #include "solve/steps/solve_steps.hpp"
