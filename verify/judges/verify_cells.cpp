@@ -4,18 +4,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <vector>
 
 #include "core/base/error.hpp"
 #include "core/base/raw_vector.hpp"
+#include "parallel/asked_growth.hpp"
 #include "parallel/chunks.hpp"
+#include "parallel/polled_sort.hpp"
 #include "verify/exact/exact_segments.hpp"
 #include "verify/judges/judged_input.hpp"
 #include "verify/judges/leg_against_side.hpp"
-#include "verify/judges/leg_reports.hpp"
 #include "verify/near/leg_boxes.hpp"
 
 namespace warren {
@@ -38,6 +40,11 @@ struct Cells {
   std::uint32_t low_col, low_row, high_col, high_row;
 };
 
+/// Legs first .. last, in a row, that come near a tile.
+struct Run {
+  std::size_t tile, first, last;
+};
+
 /// One look at all legs, as far as `reach` around each.
 class LegsAmongCells {
  public:
@@ -56,7 +63,7 @@ class LegsAmongCells {
       Comparison comparison(legs_, options_, std::numeric_limits<double>::infinity());
       for (std::size_t i = r.first; i < r.last; ++i) {
         execution_.check();
-        reader->read(passed_[i], tile);
+        reader->read(runs_[passed_[i].first].tile, tile);
         compare_in(tile, passed_[i], comparison);
       }
       parts[r.first / grain] = comparison.take();
@@ -77,76 +84,92 @@ class LegsAmongCells {
             cell(box.max.y, cells_.rows())};
   }
 
-  template <class Visit>
-  void for_each_tile(std::size_t leg, const Visit& visit) const {
+  /// A leg lengthens the runs of the leg before it where both come near few tiles; where they come near many, each has
+  /// runs of its own.
+  void add_runs(std::size_t leg, RawVector<Run>& runs) const {
+    constexpr std::size_t few = 4;
     const Cells near = around(leg);
     const unsigned shift = cells_.side_log2();
-    for (std::uint32_t row = near.low_row >> shift; row <= near.high_row >> shift; ++row) {
-      for (std::uint32_t col = near.low_col >> shift; col <= near.high_col >> shift; ++col) {
-        visit(row * cells_.tile_cols() + col);
-      }
-    }
-  }
-
-  /// Legs by tile: counted, then filed, in the order of the path.
-  void file_legs() {
-    const std::size_t tiles = cells_.tile_count();
-    execution_.reserve((tiles + 1) * sizeof(std::uint64_t));
-    first_.assign(tiles + 1, 0);
-    for_each_leg([&](std::size_t, std::size_t tile) { ++first_[tile + 1]; });
-    for (std::size_t t = 0; t < tiles; ++t) {
-      if (first_[t + 1] > 0) passed_.push_back(t);
-      first_[t + 1] += first_[t];
-    }
-    execution_.reserve(first_.back() * sizeof(std::uint32_t) + first_.size() * sizeof(std::uint64_t));
-    filed_.resize(first_.back());
-    std::vector<std::uint64_t> next(first_.begin(), first_.end() - 1);
-    for_each_leg([&](std::size_t leg, std::size_t tile) { filed_[next[tile]++] = static_cast<std::uint32_t>(leg); });
-  }
-  template <class Visit>
-  void for_each_leg(const Visit& visit) const {
-    for (std::size_t leg = 0; leg < legs_.leg_count(); ++leg) {
-      if (leg % 16384 == 0) execution_.check();
-      for_each_tile(leg, [&](std::size_t tile) { visit(leg, tile); });
-    }
-  }
-
-  void compare_in(const CellTile& tile, std::size_t number, Comparison& comparison) const {
-    for (std::uint64_t i = first_[number]; i < first_[number + 1]; ++i) {
-      const BoxedSegment leg(legs_.leg(filed_[i]), filed_[i]);
-      const Cells near = around(leg.number);
-      const auto local = [](std::uint32_t x, std::uint32_t first, std::uint32_t size) {
-        return std::clamp(std::ptrdiff_t{x} - std::ptrdiff_t{first}, std::ptrdiff_t{-1}, std::ptrdiff_t{size} - 1);
-      };
-      const std::ptrdiff_t last_row = local(near.high_row, tile.first_row, tile.height);
-      const std::ptrdiff_t last_col = local(near.high_col, tile.first_col, tile.width);
-      for (std::ptrdiff_t row = local(near.low_row, tile.first_row, tile.height) - 1; row <= last_row; ++row) {
-        for (std::ptrdiff_t col = local(near.low_col, tile.first_col, tile.width) - 1; col <= last_col; ++col) {
-          if (row >= -1 && col >= -1) compare_at(tile, col, row, leg, comparison);
+    const std::size_t recent = runs.size() - std::min(runs.size(), few);
+    for (std::size_t row = near.low_row >> shift; row <= near.high_row >> shift; ++row) {
+      for (std::size_t col = near.low_col >> shift; col <= near.high_col >> shift; ++col) {
+        const std::size_t tile = row * cells_.tile_cols() + col;
+        std::size_t i = runs.size();
+        while (i > recent && !(runs[i - 1].tile == tile && runs[i - 1].last + 1 == leg)) --i;
+        if (i > recent) {
+          runs[i - 1].last = leg;
+        } else {
+          push_asked(runs, Run{tile, leg, leg}, execution_);
         }
       }
     }
   }
-  static void compare_at(const CellTile& tile, std::ptrdiff_t col, std::ptrdiff_t row, const BoxedSegment& leg,
-                         Comparison& comparison) {
-    const unsigned walls = tile.walls[tile.index(col, row)];
-    const auto place = [&](bool is_upper) {
-      return number_of(static_cast<std::uint32_t>(std::ptrdiff_t{tile.first_col} + col + 1),
-                       static_cast<std::uint32_t>(std::ptrdiff_t{tile.first_row} + row + 1), is_upper);
+
+  /// Runs by tile, in the order of the path within each.
+  void file_legs() {
+    constexpr std::size_t grain = std::size_t{1} << 14;
+    std::vector<RawVector<Run>> parts(chunk_count(legs_.leg_count(), grain));
+    Execution quiet = execution_;
+    quiet.progress = nullptr;
+    for_chunks(legs_.leg_count(), grain, quiet, [&](Range r) {
+      for (std::size_t leg = r.first; leg < r.last; ++leg) add_runs(leg, parts[r.first / grain]);
+    });
+    std::size_t total = 0;
+    for (const RawVector<Run>& part : parts) total += part.size();
+    execution_.reserve(total * (sizeof(Run) + sizeof(Range)));
+    runs_.reserve(total);
+    for (RawVector<Run>& part : parts) {
+      runs_.insert(runs_.end(), part.begin(), part.end());
+      part = {};
+    }
+    const auto before = [](const Run& a, const Run& b) {
+      return std::tie(a.tile, a.first) < std::tie(b.tile, b.first);
     };
-    const auto with = [&](std::size_t wall) { comparison.with_leg(leg, {wall_of(wall), wall}); };
-    if ((walls & CellTile::right_wall) != 0 && row >= 0) with(place(false));
-    if ((walls & CellTile::upper_wall) != 0 && col >= 0) with(place(true));
+    polled_sort(runs_.begin(), runs_.end(), execution_, before);
+    for (std::size_t i = 0; i < runs_.size(); ++i) {
+      if (i == 0 || runs_[i].tile != runs_[i - 1].tile) push_asked(passed_, {i, i}, execution_);
+      passed_.back().last = i + 1;
+    }
   }
 
-  const CellWallSource& cells_;
-  const LegBoxes& legs_;
-  const VerifyOptions& options_;
-  const double reach_;
-  const Execution& execution_;
-  std::vector<std::uint64_t> first_;  // by tile, and the end
-  RawVector<std::uint32_t> filed_;
-  std::vector<std::size_t> passed_;  // tiles with legs
+  void compare_in(const CellTile& tile, Range runs, Comparison& comparison) const {
+    for (std::size_t i = runs.first; i < runs.last; ++i) {
+      for (std::size_t leg = runs_[i].first; leg <= runs_[i].last; ++leg) compare_leg(tile, leg, comparison);
+    }
+  }
+  void compare_leg(const CellTile& tile, std::size_t number, Comparison& comparison) const {
+    const BoxedSegment leg(legs_.leg(number), number);
+    const Cells near = around(leg.number);
+    const auto local = [](std::uint32_t x, std::uint32_t first, std::uint32_t size) {
+      return std::clamp(std::ptrdiff_t{x} - std::ptrdiff_t{first}, std::ptrdiff_t{-1}, std::ptrdiff_t{size} - 1);
+    };
+    const std::ptrdiff_t last_row = local(near.high_row, tile.first_row, tile.height);
+    const std::ptrdiff_t last_col = local(near.high_col, tile.first_col, tile.width);
+    for (std::ptrdiff_t row = local(near.low_row, tile.first_row, tile.height) - 1; row <= last_row; ++row) {
+      for (std::ptrdiff_t col = local(near.low_col, tile.first_col, tile.width) - 1; col <= last_col; ++col) {
+        if (row >= -1 && col >= -1) compare_at(tile, col, row, leg, comparison);
+      }
+    }
+  }
+} static void compare_at(const CellTile& tile, std::ptrdiff_t col, std::ptrdiff_t row, const BoxedSegment& leg,
+                         Comparison& comparison) {
+  const unsigned walls = tile.walls[tile.index(col, row)];
+  const auto place = [&](bool is_upper) {
+    return number_of(static_cast<std::uint32_t>(std::ptrdiff_t{tile.first_col} + col + 1),
+                     static_cast<std::uint32_t>(std::ptrdiff_t{tile.first_row} + row + 1), is_upper);
+  };
+  const auto with = [&](std::size_t wall) { comparison.with_leg(leg, {wall_of(wall), wall}); };
+  if ((walls & CellTile::right_wall) != 0 && row >= 0) with(place(false));
+  if ((walls & CellTile::upper_wall) != 0 && col >= 0) with(place(true));
+}
+
+const CellWallSource& cells_;
+const LegBoxes& legs_;
+const VerifyOptions& options_;
+const double reach_;
+const Execution& execution_;
+RawVector<Run> runs_;        // by tile
+std::vector<Range> passed_;  // the runs of each tile that has some
 };
 
 /// The first leg that leaves the box.
@@ -168,34 +191,60 @@ Violation described(const LegContact& found, const LegBoxes& legs, const Box& bo
           fmt::format("wall: {} {} {} {}", wall.a.x, wall.a.y, wall.b.x, wall.b.y)};
 }
 
-/// Looks farther where nothing came as near as was looked: the least distance is then the true one.
-Tally compared(const CellWallSource& cells, const LegBoxes& legs, const VerifyOptions& options,
+/// Looks farther where nothing came as near as was looked, or as something else did: the least distance, if it is below
+/// `least`, is then the true one.
+Tally compared(const CellWallSource& cells, const LegBoxes& legs, const VerifyOptions& options, double least,
                const Execution& execution) {
   const double farthest = static_cast<double>(cells.rows()) + cells.cols();
   for (double reach = std::max(1.0, std::ceil(options.reach() + 1e-6));; reach *= 2) {
     Tally tally = LegsAmongCells(cells, legs, options, reach, execution).compare();
-    if (tally.least <= reach || reach > farthest) return tally;
+    if (std::min(tally.least, least) <= reach || reach > farthest) return tally;
   }
 }
 
 }  // namespace
 
-Verification verify_among_cells(const CellWallSource& cells, std::span<const Vec2> path, const VerifyOptions& options,
-                                const Execution& execution) {
-  check_judged_path(path, options, execution);
+JudgeAmongCells::JudgeAmongCells(const CellWallSource& cells, const VerifyOptions& options, const Execution& execution)
+    : cells_(cells), options_(options), execution_(execution) {
   if (options.contact == Contact::allowed)
     throw InputError("contact", "is not judged where walls are made tile by tile");
-  const Vec2 twice[] = {path.front(), path.front()};
-  const std::span<const Vec2> legs_path = path.size() > 1 ? path : std::span<const Vec2>(twice);
-  const LegBoxes legs(legs_path, execution);
-  Tally tally = compared(cells, legs, options, execution);
-  check_box(cells.box(), legs, path, tally);
+}
+
+void JudgeAmongCells::add(std::span<const Vec2> piece) {
+  check_judged_path(piece, options_, execution_);
+  assert(points_ == 0 || piece.front() == ends_[1]);
+  const Vec2 twice[] = {piece.front(), piece.front()};
+  const std::span<const Vec2> path = piece.size() > 1 ? piece : std::span<const Vec2>(twice);
+  const LegBoxes legs(path, execution_);
+  Tally tally = compared(cells_, legs, options_, report_.least, execution_);
+  check_box(cells_.box(), legs, path, tally);
   LegReport report{.least = tally.least};
-  if (tally.violation != no_violation) report.violation = described(tally.violation, legs, cells.box());
-  Verification verdict = verdict_on(report, wrong_start(legs_path, options), wrong_goal(legs_path, options));
-  verdict.length = legs.length();
-  verdict.min_clearance -= options.radius;
+  if (tally.violation != no_violation) {
+    report.violation = described(tally.violation, legs, cells_.box());
+    report.violation->leg += points_ == 0 ? 0 : points_ - 1;
+  }
+  report_.add(report);
+  length_ += legs.length();
+  if (points_ == 0) ends_[0] = piece.front();
+  ends_[1] = piece.back();
+  points_ += piece.size() - (points_ == 0 ? 0 : 1);
+}
+
+Verification JudgeAmongCells::verdict() const {
+  assert(points_ > 0);
+  std::optional<Violation> goal = wrong_goal(ends_, options_);
+  if (goal) goal->leg = legs_of(points_) - 1;
+  Verification verdict = verdict_on(report_, wrong_start(ends_, options_), goal);
+  verdict.length = length_;
+  verdict.min_clearance -= options_.radius;
   return verdict;
+}
+
+Verification verify_among_cells(const CellWallSource& cells, std::span<const Vec2> path, const VerifyOptions& options,
+                                const Execution& execution) {
+  JudgeAmongCells judge(cells, options, execution);
+  judge.add(path);
+  return judge.verdict();
 }
 
 }  // namespace warren
