@@ -125,6 +125,7 @@ Path<Vec2> expand_path(const Overlay& overlay, const TileGrid& grid, std::span<c
     const bool is_link = !overlay.is_key(path[leg]) || !overlay.is_key(path[leg + 1]);
     return is_link ? 1 : steps_between(overlay, path[leg], path[leg + 1]);
   };
+  execution.reserve((legs + 1) * sizeof(std::size_t));
   std::vector<std::size_t> first(legs + 1, 1);  // where the vertices of a leg go, its own beginning not counted
   Execution quiet = execution;
   quiet.progress = nullptr;

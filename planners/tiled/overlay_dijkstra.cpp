@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "parallel/asked_growth.hpp"
 #include "parallel/bidirectional_search.hpp"
 #include "parallel/chunks.hpp"
 
@@ -45,13 +46,17 @@ StepBorder agree(const StepBorder& forward, const StepBorder& backward) {
   return agreed;
 }
 
-StepSide::StepSide(const Overlay& overlay, std::uint32_t longest)
+StepSide::StepSide(const Overlay& overlay, std::uint32_t longest, const Execution& execution)
     : overlay_(overlay),
-      mask_(std::bit_ceil(std::max<std::uint64_t>(64, longest + std::uint64_t{2})) - 1),
-      label_(overlay.vertex_count()),
-      is_near_(overlay.vertex_count() / block_size + 1, 0),
-      first_(mask_ + 1, none),
-      is_used_((mask_ + 1) / 64, 0) {}
+      execution_(execution),
+      mask_(std::bit_ceil(std::max<std::uint64_t>(64, longest + std::uint64_t{2})) - 1) {
+  const std::size_t n = overlay.vertex_count();
+  execution.reserve(n * sizeof(double) + n / block_size + mask_ * sizeof(std::uint32_t));
+  label_.resize(n);
+  is_near_.assign(n / block_size + 1, 0);
+  first_.assign(mask_ + 1, none);
+  is_used_.assign((mask_ + 1) / 64, 0);
+}
 
 void StepSide::clear(VertexId first, VertexId last) {
   for (VertexId v = first; v < last; ++v) label_[v] = overlay_.is_peeled(v) ? 0.0 : unreached;
@@ -65,7 +70,7 @@ void StepSide::begin(VertexId key, double length) {
 void StepSide::push(VertexId v, double label) {
   label_[v] = label;
   is_near_[v / block_size] = 1;
-  labelled_.push_back(v);
+  push_asked(labelled_, v, execution_);
   const auto step = static_cast<std::uint64_t>(label);
   const std::uint64_t slot = step & mask_;
   std::uint32_t entry = free_;
@@ -74,7 +79,7 @@ void StepSide::push(VertexId v, double label) {
     entries_[entry] = {v, first_[slot]};
   } else {
     entry = static_cast<std::uint32_t>(entries_.size());
-    entries_.push_back({v, first_[slot]});
+    push_asked(entries_, {v, first_[slot]}, execution_);
   }
   first_[slot] = entry;
   is_used_[slot / 64] |= std::uint64_t{1} << slot % 64;
@@ -99,7 +104,7 @@ void StepSide::empty_bucket() {
   const std::uint64_t slot = at_ & mask_;
   for (std::uint32_t entry = first_[slot]; entry != none;) {
     const Entry taken = entries_[entry];
-    bucket_.push_back(taken.vertex);
+    push_asked(bucket_, taken.vertex, execution_);
     entries_[entry].next = free_;
     free_ = entry;
     entry = taken.next;
@@ -156,12 +161,13 @@ void StepSide::exchange(const StepSide& other, bool stop) {
 }
 
 RawVector<VertexId> StepSide::path_to(VertexId v) const {
-  RawVector<VertexId> path{v};
+  RawVector<VertexId> path;
+  push_asked(path, v, execution_);
   const auto is_root = [&](VertexId key) {
     return std::any_of(roots_.begin(), roots_.end(),
                        [&](const Root& root) { return root.key == key && root.length == label(key); });
   };
-  while (!is_root(path.back())) path.push_back(before(path.back()));
+  while (!is_root(path.back())) push_asked(path, before(path.back()), execution_);
   std::reverse(path.begin(), path.end());
   return path;
 }
@@ -178,10 +184,9 @@ VertexId StepSide::before(VertexId v) const {
 
 SearchResult search_steps(const Overlay& overlay, const OverlayEnds& ends, const Execution& execution) {
   const std::size_t n = overlay.vertex_count();
-  execution.reserve(2 * n * sizeof(double));
   const auto longest = std::max(overlay.longest(), static_cast<std::uint32_t>(std::ceil(longest_link(ends))));
-  StepSide forward(overlay, longest);
-  StepSide backward(overlay, longest);
+  StepSide forward(overlay, longest, execution);
+  StepSide backward(overlay, longest, execution);
   for_chunks(n, std::size_t{1} << 15, execution, [&](Range r) {
     forward.clear(static_cast<VertexId>(r.first), static_cast<VertexId>(r.last));
     backward.clear(static_cast<VertexId>(r.first), static_cast<VertexId>(r.last));
@@ -195,7 +200,9 @@ SearchResult search_steps(const Overlay& overlay, const OverlayEnds& ends, const
   const double direct = ends.direct ? distance(ends.start.at, ends.goal.at) : unreached;
   const bool is_direct = ends.direct && (result.status != SearchStatus::found || direct <= result.length);
   if (result.status != SearchStatus::found && !is_direct) return result;
+  execution.reserve((result.path.size() + 2) * sizeof(VertexId));
   RawVector<VertexId> path{overlay.start()};
+  path.reserve(result.path.size() + 2);
   if (!is_direct) path.insert(path.end(), result.path.begin(), result.path.end());
   path.push_back(overlay.goal());
   return {SearchStatus::found, std::move(path), is_direct ? direct : result.length, result.expanded};

@@ -16,7 +16,7 @@
 //
 // No estimate of the rest of the way: mazes leave it nothing to prune, and open space, where it would, costs the
 // overlay more than this search. Measured against NBA* with an indexed heap: docs/performance.md.
-// Memory: 8 bytes a vertex and side; parents are found again on the way back, from the labels.
+// Memory: 8 bytes a vertex and side, 16 an open one; parents are found again on the way back, from the labels.
 #pragma once
 
 #include <array>
@@ -37,8 +37,9 @@ StepBorder agree(const StepBorder& forward, const StepBorder& backward);
 /// The search from one end; refers to the overlay.
 class StepSide {
  public:
-  /// longest: no edge or link is longer. Labels are not set yet.
-  StepSide(const Overlay& overlay, std::uint32_t longest);
+  /// longest: no edge or link is longer. Labels are not set yet. Asks for the memory of the labels and, as they grow,
+  /// of its lists: Stopped comes from the constructor, begin(), advance().
+  StepSide(const Overlay& overlay, std::uint32_t longest, const Execution& execution);
   /// Sets the labels of vertices first .. last - 1; any thread. Peeled vertices seem to be reached already.
   void clear(VertexId first, VertexId last);
   /// Where the search begins: a key and its link's length.
@@ -76,6 +77,7 @@ class StepSide {
   VertexId before(VertexId v) const;
 
   const Overlay& overlay_;
+  const Execution& execution_;
   std::uint64_t mask_;                  // buckets - 1
   RawVector<double> label_;             // with the sign bit set where settled
   std::vector<std::uint8_t> is_near_;   // one a block of vertices: has it labels?

@@ -56,6 +56,7 @@ class TiledPlan {
   void reduce(std::size_t count, const Numbers& tile_at, bool with_steps);
   void reduce_tiles();
   void keep_linked(TilePlane& plane) const;
+  void make_plane(std::size_t tile, TileReader& reader, WallMarker& marker, TilePlane& plane) const;
   void remake_tiles_of(std::span<const VertexId> path);
   void build_overlay();
   bool joined();
@@ -112,23 +113,31 @@ void TiledPlan::keep_linked(TilePlane& plane) const {
   }
 }
 
+/// The tile's roadmap before its reduction.
+void TiledPlan::make_plane(std::size_t tile, TileReader& reader, WallMarker& marker, TilePlane& plane) const {
+  plane.reset(tile, box_);
+  marker.mark(reader.read(tile), plane);
+}
+
 /// Fills in the summaries of tile_at(0) .. tile_at(count - 1).
 template <class Numbers>
 void TiledPlan::reduce(std::size_t count, const Numbers& tile_at, bool with_steps) {
   const std::size_t grain = problem_.cells != nullptr ? 8 : 1;  // a reader's scratch is large
+  if (tiles_.empty()) execution_.reserve(grid_.count() * sizeof(TileSummary));
   tiles_.resize(grid_.count());
   for_chunks(count, grain, execution_, [&](Range r) {
     const std::unique_ptr<TileReader> reader = source_->reader();
     WallMarker marker(clearance_);
     TilePlane plane(grid_, marker.margin());
     TileReduction reduction(plane);
+    std::size_t bytes = std::size_t{grid_.side()} * grid_.side() / 4;  // the next tile will take about as many
     for (std::size_t i = r.first; i < r.last; ++i) {
       const std::size_t tile = tile_at(i);
-      execution_.check();
-      plane.reset(tile, box_);
-      marker.mark(reader->read(tile), plane);
+      execution_.reserve(bytes);
+      make_plane(tile, *reader, marker, plane);
       keep_linked(plane);
       tiles_[tile] = reduction.reduce(plane);
+      bytes = tiles_[tile].bytes();
       if (!with_steps) tiles_[tile].steps = {};
     }
   });
@@ -175,19 +184,21 @@ bool TiledPlan::joined() {
   return components.joined;
 }
 
-/// The tiles have been let go of, so they are made again: an answer without a path is not hurried.
+/// The tiles have been let go of, so those that are met are made again: an answer without a path is not hurried.
 void TiledPlan::measure_gap() {
   if (source_ == nullptr) partition();
-  if (tiles_.empty()) {
-    reduce(
-        grid_.count(), [](std::size_t i) { return i; }, false);
-  }
-  const int margin = WallMarker(clearance_).margin();
   const auto remake = [&](std::size_t tile, TilePlane& plane) {
-    plane.reset(tile, box_);
-    WallMarker(clearance_).mark(source_->reader()->read(tile), plane);
+    WallMarker marker(clearance_);
+    make_plane(tile, *source_->reader(), marker, plane);
   };
-  solution_.separation = tile_separation(*overlay_, grid_, tiles_, ends_, {margin, remake}, execution_);
+  const auto keys = [&](std::size_t tile, TilePlane& plane) {
+    if (!tiles_.empty()) return tiles_[tile].keys;
+    remake(tile, plane);
+    keep_linked(plane);
+    return TileReduction(plane).reduce(plane).keys;
+  };
+  const int margin = WallMarker(clearance_).margin();
+  solution_.separation = tile_separation(*overlay_, grid_, ends_, {margin, keys, remake}, execution_);
 }
 
 /// The keys of a path say which tiles it passes: what the search needs no more of the others stays forgotten.

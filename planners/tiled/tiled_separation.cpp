@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planners/tiled/tiled_separation.hpp"
 
+#include <algorithm>
 #include <utility>
-#include <vector>
 
+#include "parallel/asked_growth.hpp"
 #include "parallel/chunks.hpp"
 #include "planners/roadmap/separation.hpp"
 
@@ -25,7 +26,7 @@ void flood(const Overlay& overlay, VertexId from, std::uint8_t mark, RawVector<s
     for (const OverlayEnd& end : overlay.ends(v)) {
       if (marks[end.target] != 0) continue;
       marks[end.target] = mark;
-      stack.push_back(end.target);
+      push_asked(stack, end.target, execution);
     }
   }
 }
@@ -61,8 +62,8 @@ Points joined(const std::vector<std::pair<Points, Points>>& parts, Points std::p
 
 }  // namespace
 
-Separation tile_separation(const Overlay& overlay, const TileGrid& grid, std::span<const TileSummary> tiles,
-                           const OverlayEnds& ends, const TileMaker& maker, const Execution& execution) {
+Separation tile_separation(const Overlay& overlay, const TileGrid& grid, const OverlayEnds& ends,
+                           const TileMaker& maker, const Execution& execution) {
   constexpr std::uint8_t of_start = 1;
   constexpr std::uint8_t of_goal = 2;
   execution.reserve(overlay.vertex_count());
@@ -70,17 +71,25 @@ Separation tile_separation(const Overlay& overlay, const TileGrid& grid, std::sp
   std::fill(marks.begin(), marks.end(), std::uint8_t{0});
   flood(overlay, overlay.start(), of_start, marks, execution);
   flood(overlay, overlay.goal(), of_goal, marks, execution);
+  const auto is_met = [&](std::size_t tile) {
+    const auto mark_of = [&](VertexId v) { return marks.data() + v; };
+    return std::any_of(mark_of(overlay.first_key(tile)), mark_of(overlay.first_key(tile + 1)),
+                       [](std::uint8_t mark) { return mark != 0; });
+  };
+  execution.reserve(grid.count() * sizeof(std::pair<Points, Points>));
   std::vector<std::pair<Points, Points>> parts(grid.count());
   for_chunks(grid.count(), 1, execution, [&](Range r) {
     TilePlane plane(grid, maker.margin);
     for (std::size_t tile = r.first; tile < r.last; ++tile) {
+      if (!is_met(tile)) continue;
+      execution.reserve(std::size_t{grid.side()} * grid.side() * sizeof(Vec2));
+      const std::vector<std::uint16_t> keys = maker.keys(tile, plane);
       maker.remake(tile, plane);
-      for (std::size_t k = 0; k < tiles[tile].keys.size(); ++k) {
+      for (std::size_t k = 0; k < keys.size(); ++k) {
         const std::uint8_t mark = marks[overlay.first_key(tile) + k];
         if (mark == 0) continue;
-        const int local = tiles[tile].keys[k];
         const int side = static_cast<int>(grid.side());
-        flood_plane(plane, local % side, local / side, mark == of_start ? parts[tile].first : parts[tile].second);
+        flood_plane(plane, keys[k] % side, keys[k] / side, mark == of_start ? parts[tile].first : parts[tile].second);
       }
     }
   });
