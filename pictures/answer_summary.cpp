@@ -85,8 +85,7 @@ void add_path(std::string& text, const Answer& answer, const Palette& palette) {
   std::string length = palette.strong(human_number(answer.length));
   if (answer.raw_length) length += fmt::format(" (before --optimise: {})", human_number(*answer.raw_length));
   if (answer.optimal) length += " (the shortest there is)";
-  const std::size_t points = answer.states.empty() ? answer.path.size() : answer.states.size();
-  line(text, palette, "length", length + fmt::format(", {}", counted(points, "point", "points")));
+  line(text, palette, "length", length + fmt::format(", {}", counted(path_points(answer), "point", "points")));
   if (answer.cost) line(text, palette, "cost", human_number(*answer.cost) + ", in steps from cell to cell");
   if (answer.turn_rad) {
     constexpr double degree = std::numbers::pi / 180.0;

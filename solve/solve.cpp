@@ -50,7 +50,7 @@ RecordedAnswer recorded(const Answer& answer) {
 }  // namespace
 
 Answer solve_within(const Scene& scene, const Question& question, const SolveOptions& options,
-                    const Execution& execution, ByProducts* keep) {
+                    const Execution& execution, ByProducts* keep, PathTaker* taker) {
   question.validate();
   options.validate();
   check_solver_options(options);
@@ -60,7 +60,9 @@ Answer solve_within(const Scene& scene, const Question& question, const SolveOpt
     const ChosenSolver solver = choose_solver(options, scene, question);
     WorldAccount world = account_of(scene, execution);
     const PlannedScene planned(scene, question, solver.planner, execution);
-    answer = solver.kind->solve({options, planned.get(), question, solver.planner, execution, keep});
+    SolveRequest request{options, planned.get(), question, solver.planner, execution, keep};
+    request.taker = taker;
+    answer = solver.kind->solve(request);
     if (answer.world.kind.empty()) answer.world = std::move(world);
   } catch (const Stopped& stopped) {
     answer.stop_reason = stopped.reason;

@@ -3,6 +3,7 @@
 // program links for; the other headers are the parts that this one joins.
 #pragma once
 
+#include "core/base/path_taker.hpp"
 #include "parallel/execution.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/answer/answer.hpp"
@@ -30,9 +31,10 @@ Verdict verify(const Scene& scene, const Answer& answer, const Limits& limits = 
 Verdict verify(const Scene& scene, const RecordedAnswer& answer, const Question& question = {},
                const Limits& limits = {});
 
-/// As above, with an execution that goes on: its deadline is running already.
+/// As above, with an execution that goes on: its deadline is running already. `taker`, where given, may receive the
+/// path's points while they are made, before they are verified; the answer then has `handed` instead of them.
 Answer solve_within(const Scene& scene, const Question& question, const SolveOptions& options,
-                    const Execution& execution, ByProducts* keep = nullptr);
+                    const Execution& execution, ByProducts* keep = nullptr, PathTaker* taker = nullptr);
 Verdict verify_within(const Scene& scene, const Question& question, const RecordedAnswer& answer,
                       const Execution& execution);
 

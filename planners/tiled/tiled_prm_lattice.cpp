@@ -12,6 +12,8 @@
 #include "planners/roadmap/stopped_solution.hpp"
 #include "planners/tiled/overlay_components.hpp"
 #include "planners/tiled/overlay_dijkstra.hpp"
+#include "planners/tiled/path_expansion.hpp"
+#include "planners/tiled/path_keeper.hpp"
 #include "planners/tiled/tile_overlay.hpp"
 #include "planners/tiled/tiled_separation.hpp"
 #include "planners/tiles/lattice_end_links.hpp"
@@ -57,11 +59,14 @@ class TiledPlan {
   void reduce_tiles();
   void keep_linked(TilePlane& plane) const;
   void make_plane(std::size_t tile, TileReader& reader, WallMarker& marker, TilePlane& plane) const;
-  void remake_tiles_of(std::span<const VertexId> path);
+  void give_pieces(const PathExpansion& path, PathTaker& taker);
   void build_overlay();
   bool joined();
   void search();
   void measure_gap();
+
+  static constexpr std::size_t most_points = std::size_t{1} << 20;  // of a piece of the path
+  static constexpr std::size_t most_tiles = 1024;
 
   const TiledProblem& problem_;
   const Execution& execution_;
@@ -202,23 +207,38 @@ void TiledPlan::measure_gap() {
 }
 
 /// The keys of a path say which tiles it passes: what the search needs no more of the others stays forgotten.
-void TiledPlan::remake_tiles_of(std::span<const VertexId> path) {
-  std::vector<std::size_t> passed;
-  for (const VertexId v : path) {
-    if (overlay_->is_key(v)) passed.push_back(overlay_->tile_of(v));
+void TiledPlan::give_pieces(const PathExpansion& path, PathTaker& taker) {
+  taker.begin(path.point_count());
+  RawVector<Vec2> points;
+  for (std::size_t leg = 0; leg < path.leg_count();) {
+    const PathPiece piece = path.piece_from(leg, most_points, most_tiles);
+    {
+      const StageTimer timer(execution_, "search", solution_.seconds.search, piece.tiles.size());
+      reduce(
+          piece.tiles.size(), [&](std::size_t i) { return piece.tiles[i]; }, true);
+      const std::size_t count = path.point_count(piece.legs);
+      if (count > points.capacity()) execution_.reserve(count * sizeof(Vec2));
+      points.resize(count);
+      path.write(piece.legs, tiles_, points.data());
+      for (const std::size_t tile : piece.tiles) tiles_[tile] = {};
+    }
+    taker.add(points);
+    leg = piece.legs.last;
   }
-  std::sort(passed.begin(), passed.end());
-  passed.erase(std::unique(passed.begin(), passed.end()), passed.end());
-  reduce(
-      passed.size(), [&](std::size_t i) { return passed[i]; }, true);
 }
 
 void TiledPlan::search() {
-  const StageTimer timer(execution_, "search", solution_.seconds.search, overlay_->vertex_count());
-  const SearchResult found = search_steps(*overlay_, ends_, execution_);
-  solution_.counters.expanded = found.expanded;
-  if (tiles_.empty()) remake_tiles_of(found.path);
-  solution_.path = expand_path(*overlay_, grid_, tiles_, ends_, found.path, execution_);
+  std::optional<PathExpansion> path;
+  SearchResult found;
+  {
+    const StageTimer timer(execution_, "search", solution_.seconds.search, overlay_->vertex_count());
+    found = search_steps(*overlay_, ends_, execution_);
+    solution_.counters.expanded = found.expanded;
+    path.emplace(*overlay_, grid_, ends_, found.path, execution_);
+    if (!problem_.forget) solution_.path = path->points(tiles_);
+  }
+  PathKeeper keeper(solution_.path, execution_);
+  if (problem_.forget) give_pieces(*path, problem_.taker != nullptr ? *problem_.taker : keeper);
   solution_.outcome = Outcome::solved;
 }
 

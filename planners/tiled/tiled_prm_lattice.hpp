@@ -22,6 +22,7 @@
 #include <optional>
 #include <span>
 
+#include "core/base/path_taker.hpp"
 #include "core/base/solution.hpp"
 #include "core/base/types.hpp"
 #include "core/plane/cell_walls.hpp"
@@ -41,6 +42,7 @@ struct TiledProblem {
   Vec2 goal;
   const CellWallSource* cells = nullptr;  ///< walls that are made when they are asked for, instead of the set
   bool forget = false;                    ///< keep of the tiles the overlay alone, and make those of the path again
+  PathTaker* taker = nullptr;             ///< where tiles are forgotten: receives the path instead of Solution::path
 };
 
 /// Can tiled_prm give the plain pipeline's answer under these options? The lattice with its own rule of joining (radius

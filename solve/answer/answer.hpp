@@ -46,6 +46,12 @@ struct BlockedEnd {
   double needed = 0.0;                  ///< the room that it needs; 0: it only may not touch
 };
 
+/// What is left to say of a path whose points were handed on as they were made (core/base/path_taker.hpp).
+struct HandedPath {
+  std::uint64_t points = 0;
+  std::string hash;  ///< solve/answer/path_hash.hpp
+};
+
 struct Answer {
   Outcome outcome = Outcome::stopped;
   std::optional<StopReason> stop_reason;  ///< only for stopped
@@ -77,10 +83,17 @@ struct Answer {
   StageTimes seconds;
   double solve_s = 0.0;
   std::size_t peak_memory_bytes = 0;
-  Path<Vec2> path;         ///< of the reference point in the plane, as pictures show it; a point's or disc's states
-  StateList states;        ///< start to goal, where a state is more than a point of the plane; else empty
-  bool tells_path = true;  ///< does JSON list the path's states, or only their number and hash?
+  Path<Vec2> path;  ///< of the reference point in the plane, as pictures show it; a point's or disc's states
+  std::optional<HandedPath> handed;  ///< instead of `path`, where solve_within() was given a taker and used it
+  StateList states;                  ///< start to goal, where a state is more than a point of the plane; else empty
+  bool tells_path = true;            ///< does JSON list the path's states, or only their number and hash?
 };
+
+/// The number of the path's states, wherever they are.
+inline std::uint64_t path_points(const Answer& answer) {
+  if (answer.handed) return answer.handed->points;
+  return answer.states.empty() ? answer.path.size() : answer.states.size();
+}
 
 /// Stages with the names that JSON and summary give them, in the order of the work.
 std::vector<std::pair<const char*, double>> named_stages(const StageTimes& seconds);

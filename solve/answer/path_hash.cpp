@@ -4,28 +4,18 @@
 #include <fmt/format.h>
 
 #include <bit>
-#include <cstdint>
 
 namespace warren {
-namespace {
+void PathHash::add(double number) {
+  const auto bits = std::bit_cast<std::uint64_t>(number);
+  for (unsigned shift = 0; shift < 64; shift += 8) hash_ = (hash_ ^ (bits >> shift & 0xffU)) * 0x100000001b3U;
+}
 
-class Fnv {
- public:
-  void add(double number) {
-    const auto bits = std::bit_cast<std::uint64_t>(number);
-    for (unsigned shift = 0; shift < 64; shift += 8) hash_ = (hash_ ^ (bits >> shift & 0xffU)) * 0x100000001b3U;
-  }
-  std::uint64_t value() const { return hash_; }
-
- private:
-  std::uint64_t hash_ = 0xcbf29ce484222325U;
-};
-
-}  // namespace
+std::string PathHash::text() const { return fmt::format("{:016x}", hash_); }
 
 std::string path_hash(const Answer& answer, const Execution& execution) {
   constexpr std::size_t states_a_poll = 1U << 16U;
-  Fnv hash;
+  PathHash hash;
   const std::size_t count = answer.states.empty() ? answer.path.size() : answer.states.size();
   for (std::size_t i = 0; i < count; ++i) {
     if (i % states_a_poll == 0) execution.check();
@@ -36,7 +26,7 @@ std::string path_hash(const Answer& answer, const Execution& execution) {
       for (std::size_t k = 0; k < answer.states.width; ++k) hash.add(answer.states[i][k]);
     }
   }
-  return fmt::format("{:016x}", hash.value());
+  return hash.text();
 }
 
 }  // namespace warren

@@ -2,6 +2,7 @@
 // A hash that tells two paths apart without their points.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "parallel/execution.hpp"
@@ -9,8 +10,18 @@
 
 namespace warren {
 
-/// FNV-1a of 64 bits over the numbers of the answer's states, or points, in their order, each as the eight bytes of a
-/// double from low to high; as 16 hex digits. 10 ns a number. Throws Stopped.
+/// FNV-1a of 64 bits over numbers in their order, each as the eight bytes of a double from low to high. 10 ns a number.
+class PathHash {
+ public:
+  void add(double number);
+  /// As 16 hex digits.
+  std::string text() const;
+
+ private:
+  std::uint64_t hash_ = 0xcbf29ce484222325U;
+};
+
+/// Of the numbers of the answer's states, or points. Throws Stopped.
 std::string path_hash(const Answer& answer, const Execution& execution);
 
 }  // namespace warren

@@ -187,8 +187,8 @@ std::string json_head(const Answer& answer, const Execution& execution) {
   add_problem(json, answer);
   add_work(json, answer);
   if (!answer.tells_path && answer.verified) {
-    json.add("path_points", std::uint64_t{answer.states.empty() ? answer.path.size() : answer.states.size()});
-    json.add("path_hash", path_hash(answer, execution));
+    json.add("path_points", path_points(answer));
+    json.add("path_hash", answer.handed ? answer.handed->hash : path_hash(answer, execution));
   }
   return json.open() + ",\n ";
 }

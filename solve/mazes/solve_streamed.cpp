@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A point or disc in a maze whose walls are not held: prm on its lattice, whose tiles are made, reduced and forgotten;
-// those of the path are made again to expand it, and once more for the judge. solve_s includes all of it.
+// those of the path are made again to expand it piece by piece, and once more for the judge. solve_s includes all of
+// it.
 #include "solve/mazes/solve_streamed.hpp"
 
 #include <optional>
@@ -8,9 +9,11 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "planners/tiled/path_keeper.hpp"
 #include "planners/tiled/tiled_prm_lattice.hpp"
 #include "planners/tiles/tile_source.hpp"
 #include "scenes/mazes/spanning_maze.hpp"
+#include "solve/answer/path_hash.hpp"
 #include "solve/answer/world_account.hpp"
 #include "solve/question/planner_choice.hpp"
 #include "solve/steps/kind_of_problem.hpp"
@@ -25,12 +28,47 @@ VerifyOptions judged_as(const WallProblem& problem) {
   return {.radius = problem.robot.radius, .clearance = problem.clearance, .start = problem.start, .goal = problem.goal};
 }
 
+/// Judges a path as it comes, and hands it on.
+class JudgedPath : public PathTaker {
+ public:
+  JudgedPath(JudgeAmongCells judge, PathTaker& next, StageTimes& seconds, const Execution& execution)
+      : judge_(std::move(judge)), next_(next), seconds_(seconds), execution_(execution) {}
+
+  void begin(std::uint64_t points) override {
+    points_ = points;
+    next_.begin(points);
+  }
+  void add(std::span<const Vec2> piece) override {
+    {
+      const StageTimer timer(execution_, "verify", seconds_.verify);
+      judge_.add(piece);
+    }
+    for (const Vec2 p : is_first_ ? piece : piece.subspan(1)) {
+      hash_.add(p.x);
+      hash_.add(p.y);
+    }
+    is_first_ = false;
+    next_.add(piece);
+  }
+  Verification verdict() const { return judge_.verdict(); }
+  HandedPath handed() const { return {points_, hash_.text()}; }
+
+ private:
+  JudgeAmongCells judge_;
+  PathTaker& next_;
+  StageTimes& seconds_;
+  const Execution& execution_;
+  PathHash hash_;
+  std::uint64_t points_ = 0;
+  bool is_first_ = true;
+};
+
 /// One solve: the steps share the question and fill in the answer.
 class StreamedSolve {
  public:
   StreamedSolve(const Scene& scene, const WallProblem& problem, const PlannerOptions& options,
-                const Execution& execution)
-      : scene_(scene), problem_(problem), options_(options), execution_(execution) {
+                const Execution& execution, PathTaker* taker)
+      : scene_(scene), problem_(problem), options_(options), execution_(execution), taker_(taker) {
     if (options.optimise) throw UsageError("@optimise: pulls no path taut among walls that are not held");
     if (!(problem.reach() < most_cell_clearance * (1 - 1e-8))) {
       throw UsageError(
@@ -41,10 +79,9 @@ class StreamedSolve {
 
   void run() {
     make_borders();
-    plan();
+    plan_and_verify();
     answer_.outcome = settled_ends(
         answer_.outcome, [&] { return stands_free(problem_.start); }, [&] { return stands_free(problem_.goal); });
-    verify();
     count_walls();
   }
   Answer& answer() { return answer_; }
@@ -56,23 +93,28 @@ class StreamedSolve {
     const StageTimer timer(execution_, "generate", answer_.seconds.generate, groups);
     maze_.emplace(scene_.maze->rows, scene_.maze->cols, scene_.formula->seed, scene_.formula->loops, execution_);
   }
-  void plan() {
+  /// Piece by piece: what the path is made of, its judge sees before the next is made.
+  void plan_and_verify() {
     const WallSet none;
-    take_solution(answer_, tiled_prm({none, {}, {}, problem_.reach(), problem_.start, problem_.goal, &*maze_, true},
-                                     options_.roadmap, execution_));
+    Path<Vec2> kept;
+    PathKeeper keeper(kept, execution_);
+    JudgedPath judged({*maze_, judged_as(problem_), execution_}, taker_ != nullptr ? *taker_ : keeper, answer_.seconds,
+                      execution_);
+    take_solution(answer_,
+                  tiled_prm({none, {}, {}, problem_.reach(), problem_.start, problem_.goal, &*maze_, true, &judged},
+                            options_.roadmap, execution_));
+    if (answer_.outcome != Outcome::solved) return;
+    const Verification found = judged.verdict();
+    if (!found.verified) fail_verification(answer_, found.first_violation);
+    answer_.path = std::move(kept);
+    if (taker_ != nullptr) answer_.handed = judged.handed();
+    answer_.verified = true;
+    answer_.length = found.length;
+    answer_.min_clearance = found.min_clearance;
   }
   bool stands_free(Vec2 p) const {
     const VerifyOptions options{.radius = problem_.robot.radius, .clearance = problem_.clearance};
     return verify_among_cells(*maze_, std::span(&p, 1), options, execution_).verified;
-  }
-  void verify() {
-    if (answer_.outcome != Outcome::solved) return;
-    const StageTimer timer(execution_, "verify", answer_.seconds.verify);
-    const Verification found = verify_among_cells(*maze_, answer_.path, judged_as(problem_), execution_);
-    if (!found.verified) fail_verification(answer_, found.first_violation);
-    answer_.verified = true;
-    answer_.length = found.length;
-    answer_.min_clearance = found.min_clearance;
   }
   /// Below half a cell nothing but a wall between two cells blocks a step, so the steps that are free say how many
   /// walls stand; the outline counts as four, as in maze_walls.
@@ -90,6 +132,7 @@ class StreamedSolve {
   const WallProblem& problem_;
   const PlannerOptions& options_;
   const Execution& execution_;
+  PathTaker* taker_;
   std::optional<SpanningMaze> maze_;
   Answer answer_;
 };
@@ -105,7 +148,7 @@ PlannerKind usual_streamed_planner(const SolveOptions&, const Scene&, const Ques
 Answer solve_request(const SolveRequest& request) {
   const WallProblem problem = keeping_off(request.scene, request.question, "prm keeps off the walls");
   return solve_streamed(request.scene, problem, planner_options(request.options, request.scene, problem),
-                        request.execution);
+                        request.execution, request.taker);
 }
 
 Verdict recheck_streamed(const Scene& scene, const Question& question, const RecordedAnswer& answer,
@@ -119,8 +162,8 @@ Verdict recheck_streamed(const Scene& scene, const Question& question, const Rec
 }  // namespace
 
 Answer solve_streamed(const Scene& scene, const WallProblem& problem, const PlannerOptions& options,
-                      const Execution& execution) {
-  StreamedSolve solve(scene, problem, options, execution);
+                      const Execution& execution, PathTaker* taker) {
+  StreamedSolve solve(scene, problem, options, execution, taker);
   answer_within_limits(solve.answer(), [&] { solve.run(); });
   return std::move(solve.answer());
 }

@@ -14,7 +14,6 @@
 #include "core/base/trigonometry.hpp"
 #include "scenes/text/json_text.hpp"
 #include "scenes/text/npy_header.hpp"
-#include "scenes/text/output_file_io.hpp"
 
 namespace warren {
 namespace {
@@ -176,17 +175,39 @@ std::uint64_t write_geojson_line(Rows& rows, const PathLegs& legs, const Answer&
   return places;
 }
 
+std::string header_of_array(std::uint64_t places, std::uint64_t width) {
+  return npy_header("<f8", std::array{places, width});
+}
+std::string_view bytes_of(std::span<const double> numbers) {
+  return {reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes()};  // NOLINT: the numbers' bytes
+}
+
 /// Places alone, as doubles: x and y, with the heading where there is one, or six joints.
 std::uint64_t write_array(Rows& rows, const PathLegs& legs, OutputFile& file) {
-  const std::uint64_t places = rows.visit([](const Row&) {});
-  file.write(npy_header("<f8", std::array<std::uint64_t, 2>{places, legs.width()}));
-  return rows.visit([&](const Row& row) {
-    const std::span<const double> numbers = row.state.used();
-    file.write({reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes()});  // NOLINT: the numbers' bytes
-  });
+  file.write(header_of_array(rows.visit([](const Row&) {}), legs.width()));
+  return rows.visit([&](const Row& row) { file.write(bytes_of(row.state.used())); });
 }
 
 }  // namespace
+
+void PathArrayFile::begin(std::uint64_t points) {
+  if (name_.empty()) return;
+  file_.emplace(name_, execution_);
+  file_->write(header_of_array(points, 2));
+  left_ = points;
+}
+
+void PathArrayFile::add(std::span<const Vec2> piece) {
+  static_assert(sizeof(Vec2) == 2 * sizeof(double));
+  if (!file_) return;
+  const std::span<const Vec2> rest = is_first_ ? piece : piece.subspan(1);
+  is_first_ = false;
+  if (!rest.empty()) file_->write(bytes_of({&rest.front().x, 2 * rest.size()}));
+  left_ -= rest.size();
+  if (left_ == 0) file_->complete();
+}
+
+void PathArrayFile::commit() { file_->commit(); }
 
 PathFormat path_format(const std::string& file) {
   const std::size_t dot = file.rfind('.');

@@ -5,9 +5,13 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 
+#include "core/base/path_taker.hpp"
 #include "parallel/execution.hpp"
+#include "scenes/text/output_file_io.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/paths/timed_path.hpp"
 
@@ -34,6 +38,25 @@ struct PathFileAccount {
 /// Throws UsageError for a format that paths of this body can't be written in, or moments, for limits of another body,
 /// and for moments without limits.
 void check_path_file(const RobotSpec& robot, const std::string& file, const PathFileOptions& options);
+
+/// A path of points as .npy, written while it is made: nobody holds it.
+class PathArrayFile : public PathTaker {
+ public:
+  /// file: path_format() npy; empty: none is written. Nothing is opened yet.
+  PathArrayFile(std::string file, const Execution& execution) : name_(std::move(file)), execution_(execution) {}
+  /// Throws WriteError, Stopped, as all that follow.
+  void begin(std::uint64_t points) override;
+  void add(std::span<const Vec2> piece) override;
+  /// Puts the file into its place; without it there is none.
+  void commit();
+
+ private:
+  std::string name_;
+  Execution execution_;
+  std::optional<OutputFile> file_;
+  std::uint64_t left_ = 0;  // points that have not come
+  bool is_first_ = true;
+};
 
 /// answer: has a path. Throws UsageError as check_path_file does, and for more than 1e9 places; WriteError, Stopped.
 PathFileAccount write_path_file(const Answer& answer, const std::string& file, const PathFileOptions& options,

@@ -15,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/path_taker.hpp"
 #include "parallel/execution.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/answer/answer.hpp"
@@ -54,6 +55,7 @@ struct SolveRequest {
   bool many = true;                 ///< open(): will there be more than one question?
   std::uint64_t samples = 0;        ///< open(): of the roadmap's last round
   bool index = false;               ///< build(): make an index where it pays
+  PathTaker* taker = nullptr;       ///< receives the path instead of the answer, where it is made in pieces
 };
 
 /// What SolveKind::build leaves behind.

@@ -86,6 +86,7 @@ void claim_nothing(Answer& answer) {
   answer.turn_rad.reset();
   answer.path_figures.clear();
   answer.path.clear();
+  answer.handed.reset();
   answer.states = {};
 }
 

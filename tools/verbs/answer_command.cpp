@@ -77,8 +77,16 @@ bool AnswerCommand::takes_standard_output() const {
   return json_ == "-" || svg_ == "-" || arguments_.value("--trace") == "-" || roadmap_ == "-" || path_ == "-";
 }
 
+/// Only a file that is put into its place when all is verified may be begun before.
+bool AnswerCommand::hands_path_on() const {
+  if (!arguments_.has("--no-path") || !svg_.empty() || explains_ || keeps_roadmap()) return false;
+  if (path_.empty()) return true;
+  return path_format(path_) == PathFormat::npy && !path_options_.every && !is_straight(path_);
+}
+
 void AnswerCommand::answer(const Run& run) {
   StageTimes before;
+  if (hands_path_on()) handed_on_.emplace(path_, run.execution());
   try {
     answer_ = find(run, before, svg_.empty() && !explains_ ? nullptr : &by_products_);
   } catch (const Stopped& stopped) {
@@ -135,7 +143,8 @@ void AnswerCommand::write_finished(const Execution& execution) {
   if (!json_.empty() && !json_follows) write_json(json, execution);
   if (!svg_.empty()) draw(execution);
   FirstOfTwoFiles path_first(has_path ? path_ : "-");
-  if (has_path) write_path_file(answer_, path_, path_options_, execution);
+  if (has_path && answer_.handed) handed_on_->commit();
+  if (has_path && !answer_.handed) write_path_file(answer_, path_, path_options_, execution);
   json_said_ = json_follows;
   if (json_follows) write_json(json, execution);
   if (kept_follows) write_kept(kept, execution);

@@ -48,12 +48,16 @@ class AnswerCommand {
   /// Throws UsageError where the path of this body can't be written as it was asked for; find() calls it.
   void check_path_of(const RobotSpec& robot) const;
   bool keeps_roadmap() const { return !roadmap_.empty(); }
+  /// Takes the path where nobody needs its points but a file that is written in their order; nullptr elsewhere. Only
+  /// find() calls it.
+  PathTaker* path_taker() { return handed_on_ ? &*handed_on_ : nullptr; }
 
   const Arguments& arguments_;
 
  private:
   bool takes_standard_output() const;
   void answer(const Run& run);
+  bool hands_path_on() const;
   void explain_in_time(const Execution& execution);
   void write_outputs(Run& run);
   void write_finished(const Execution& execution);
@@ -70,6 +74,7 @@ class AnswerCommand {
   std::string svg_;
   std::string roadmap_;
   std::string path_;
+  std::optional<PathArrayFile> handed_on_;
   PathFileOptions path_options_;
   PictureOptions picture_options_;
   ByProducts by_products_;

@@ -42,7 +42,7 @@ class SolveCommand : public AnswerCommand {
     }
     Answer answer = keeps_roadmap()
                         ? solve_and_keep(std::move(scene_), question_, options_, run.execution(), roadmap_, keep)
-                        : solve_within(scene_, question_, options_, run.execution(), keep);
+                        : solve_within(scene_, question_, options_, run.execution(), keep, path_taker());
     price_heuristic(keeps_roadmap() ? roadmap_.world.whole(run.execution()) : scene_, question_, options_,
                     run.execution(), answer);
     if (is_blocked(answer.outcome)) {

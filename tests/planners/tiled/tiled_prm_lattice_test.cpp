@@ -63,10 +63,29 @@ Solution<Vec2> tiled(const TiledCase& c, const Execution& execution = {}) {
   return tiled_prm({c.scene.walls, bounds, c.scene.bounds, c.clearance, c.start, c.goal}, options_of(c), execution);
 }
 
+class TakenPath : public PathTaker {
+ public:
+  void begin(std::uint64_t count) override { announced = count; }
+  void add(std::span<const Vec2> piece) override {
+    if (!points.empty()) {
+      EXPECT_EQ(points.back(), piece.front());
+      piece = piece.subspan(1);
+    }
+    points.insert(points.end(), piece.begin(), piece.end());
+  }
+  std::uint64_t announced = 0;
+  Path<Vec2> points;
+};
+
 /// The same question to walls that are made tile by tile.
 Solution<Vec2> streamed(const TiledCase& c, const CellWallSource& cells, const Execution& execution = {}) {
   const WallSet none;
-  return tiled_prm({none, {}, {}, c.clearance, c.start, c.goal, &cells, true}, options_of(c), execution);
+  TakenPath taken;
+  Solution<Vec2> solution =
+      tiled_prm({none, {}, {}, c.clearance, c.start, c.goal, &cells, true, &taken}, options_of(c), execution);
+  EXPECT_EQ(taken.points.size(), taken.announced);
+  if (solution.outcome == Outcome::solved) solution.path = std::move(taken.points);
+  return solution;
 }
 
 Solution<Vec2> plain(const TiledCase& c) {

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A path of the overlay with all that its chains stand for, whole or in pieces: a piece needs the summaries of the
+// tiles that it passes and no others. A leg leads from one vertex of the path to the next. Memory: 8 bytes a leg.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "core/base/path.hpp"
+#include "parallel/chunks.hpp"
+#include "parallel/execution.hpp"
+#include "planners/tiled/tile_overlay.hpp"
+
+namespace warren {
+
+/// Some legs in a row.
+struct PathPiece {
+  Range legs;
+  std::vector<std::size_t> tiles;  ///< those that it passes, ascending
+};
+
+/// Refers to all that it is made of.
+class PathExpansion {
+ public:
+  /// path: from start to goal. Throws Stopped.
+  PathExpansion(const Overlay& overlay, const TileGrid& grid, const OverlayEnds& ends, std::span<const VertexId> path,
+                const Execution& execution);
+
+  std::size_t leg_count() const { return path_.size() - 1; }
+  std::size_t point_count() const { return first_.back(); }
+  /// Points of a piece, its first leg's beginning among them.
+  std::size_t point_count(Range legs) const { return first_[legs.last] - first_[legs.first] + 1; }
+  /// As many legs from `first` on as have so many points and pass so many tiles, at least one.
+  PathPiece piece_from(std::size_t first, std::size_t most_points, std::size_t most_tiles) const;
+  /// Writes the points of a piece, its first leg's beginning among them; `tiles` has the summaries by number. In
+  /// parallel. Throws Stopped.
+  void write(Range legs, std::span<const TileSummary> tiles, Vec2* out) const;
+  /// All points.
+  Path<Vec2> points(std::span<const TileSummary> tiles) const;
+
+ private:
+  Vec2 place_of(VertexId v, std::span<const TileSummary> tiles) const;
+  std::uint32_t steps_of(std::size_t leg) const;
+  void write_leg(std::size_t leg, std::span<const TileSummary> tiles, Vec2* out) const;
+
+  const Overlay& overlay_;
+  const TileGrid& grid_;
+  const OverlayEnds& ends_;
+  std::span<const VertexId> path_;
+  const Execution& execution_;
+  std::vector<std::size_t> first_;  // where the points of each leg go, its beginning not counted; and the end
+};
+
+}  // namespace warren
