@@ -166,8 +166,9 @@ WARREN_ARCHIVED(RobotSpec, kind, radius, turning_radius, tool, outline, steering
 WARREN_ARCHIVED(ScenePolygon, corners, line)
 WARREN_ARCHIVED(OccupancyMap, format, blocked, unknown, water, free, occupied, unknown_count, between, grey_free, cell,
                 origin, yaw_rad, start, goal, source, image)
-WARREN_ARCHIVED(Scene, walls, polygons, seams, spheres, boxes, bounds, clearance, maze, formula, robot, start, goal,
-                grid, map, source)
+WARREN_ARCHIVED(PackedMaze, file, hash)
+WARREN_ARCHIVED(Scene, walls, polygons, seams, spheres, boxes, bounds, clearance, maze, formula, packed, robot, start,
+                goal, grid, map, source)
 WARREN_ARCHIVED(StateList, width, numbers)
 WARREN_ARCHIVED(Violation, leg, distance, obstacle)
 WARREN_ARCHIVED(RefutedPath, violation, length, cost, path, states)

@@ -133,6 +133,7 @@ Scene with_other_walls(const Scene& scene, const std::vector<std::int64_t>& gone
   }
   Scene next = scene;
   next.formula.reset();
+  next.packed.reset();
   constexpr std::string_view changed = " (changed)";
   if (!next.source.ends_with(changed)) next.source += changed;
   std::vector<bool> is_gone(scene.walls.size());

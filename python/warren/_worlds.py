@@ -133,7 +133,8 @@ class World:
         return World(self._core.with_other_walls([], walls))
 
     def save(self, file, *, cell=None):
-        """Writes the world by the ending of the file: .scene, .walls, .npy, .geojson, .wkt; maps .map, .yaml, .pgm, .png.
+        """Writes the world by the ending of the file: .scene, .walls, .npy, .maze, .geojson, .wkt; maps .map, .yaml, .pgm,
+        .png.
 
         Of a map, formats of walls get the borders of its cells. Start, goal, body and clearance that the format has no
         words for are left out with a warning.
@@ -162,7 +163,7 @@ class World:
     def _kept_by(self, path):
         if path.endswith((".scene", ".walls", ".txt")):
             return _PARTS
-        of_a_maze = self.maze is not None and path.endswith(".npy")  # read anew, it has the same ones
+        of_a_maze = self.maze is not None and path.endswith((".npy", ".maze"))  # read anew, it has the same ones
         return ("start", "goal") if of_a_maze or path.endswith(".geojson") else ()
 
     def svg(self, **look):

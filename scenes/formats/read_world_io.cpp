@@ -9,6 +9,7 @@
 
 #include "core/base/error.hpp"
 #include "scenes/formats/geojson_io.hpp"
+#include "scenes/formats/maze_file_io.hpp"
 #include "scenes/formats/maze_image_io.hpp"
 #include "scenes/formats/micromouse_io.hpp"
 #include "scenes/formats/moving_ai_io.hpp"
@@ -120,6 +121,7 @@ class MazeSource {
 WorldFormat format_of(const InputFile& file) {
   const std::string_view bytes = file.bytes();
   if (is_npy(bytes)) return WorldFormat::npy;
+  if (is_maze_file(bytes)) return WorldFormat::maze;
   if (is_png(bytes) || is_pgm(bytes)) return WorldFormat::image;
   if (bytes.starts_with("type ")) return WorldFormat::moving_ai;
   if (names_image(bytes)) return WorldFormat::ros_map;
@@ -129,6 +131,7 @@ WorldFormat format_of(const InputFile& file) {
   if (is_ring_list(bytes)) return WorldFormat::ring_list;
   const std::string_view name = file.name();
   if (name.ends_with(".npy")) return WorldFormat::npy;
+  if (name.ends_with(".maze")) return WorldFormat::maze;
   if (name.ends_with(".png") || name.ends_with(".pgm")) return WorldFormat::image;
   if (name.ends_with(".geojson") || name.ends_with(".json")) return WorldFormat::geojson;
   if (name.ends_with(".wkt")) return WorldFormat::wkt;
@@ -160,6 +163,8 @@ Scene read_unchecked(const InputFile& file, const Execution& execution, MapServe
       break;
     case WorldFormat::npy:
       return read_npy(file, execution);
+    case WorldFormat::maze:
+      return read_maze_file(file, execution);
     case WorldFormat::micromouse:
       return read_micromouse(file, execution);
     case WorldFormat::geojson:
@@ -199,11 +204,12 @@ Scene read_world(const std::string& source, const Execution& execution, MapServe
 void write_scene(const Scene& scene, const std::string& path, const Execution& execution) {
   const std::string_view name = path;
   if (name.ends_with(".npy")) return write_npy(scene, path, execution);
+  if (name.ends_with(".maze")) return write_maze_file(scene, path, execution);
   if (name.ends_with(".geojson")) return write_geojson(scene, path, execution);
   if (name.ends_with(".wkt")) return write_wkt(scene, path, execution);
   if (name != "-" && !name.starts_with("/dev/") && !name.ends_with(".walls") && !name.ends_with(".scene") &&
       !name.ends_with(".txt")) {
-    throw UsageError(path + ": the ending must be .walls, .scene, .txt, .npy, .geojson or .wkt");
+    throw UsageError(path + ": the ending must be .walls, .scene, .txt, .npy, .maze, .geojson or .wkt");
   }
   write_scene_text(scene, path, execution);
 }

@@ -15,7 +15,18 @@
 
 namespace warren {
 
-enum class WorldFormat : std::uint8_t { scene, npy, moving_ai, ros_map, image, micromouse, geojson, wkt, ring_list };
+enum class WorldFormat : std::uint8_t {
+  scene,
+  npy,
+  maze,
+  moving_ai,
+  ros_map,
+  image,
+  micromouse,
+  geojson,
+  wkt,
+  ring_list
+};
 
 /// What the content says, or where it says nothing the name's ending; text of no known kind is a scene.
 WorldFormat format_of(const InputFile& file);
@@ -33,7 +44,7 @@ Scene read_world(const std::string& source, const Execution& execution = {},
 /// The same for a file that is open already.
 Scene read_scene(const InputFile& file, const Execution& execution, MapServerRules rules = MapServerRules::nav2);
 
-/// Writes .npy, .geojson, .wkt, or for .walls, .scene, .txt and "-" scene text. Throws UsageError for other
+/// Writes .npy, .maze, .geojson, .wkt, or for .walls, .scene, .txt and "-" scene text. Throws UsageError for other
 /// endings, InputError for what the format can't hold, WriteError, Stopped.
 void write_scene(const Scene& scene, const std::string& path, const Execution& execution = {});
 

@@ -104,7 +104,8 @@ std::size_t state_size(const RobotSpec& robot) {
   return 2;
 }
 
-std::string formula_hash(const Scene& scene) {
+std::string unmade_hash(const Scene& scene) {
+  if (scene.packed) return fmt::format("{:016x}", scene.packed->hash);
   Hasher hasher(std::uint64_t{0x6d7374});  // "mst"
   hasher.add(std::uint64_t{scene.maze->rows});
   hasher.add(std::uint64_t{scene.maze->cols});
@@ -114,7 +115,7 @@ std::string formula_hash(const Scene& scene) {
 }
 
 std::string scene_hash(const Scene& scene, const Execution& execution) {
-  if (is_unmade(scene)) return formula_hash(scene);
+  if (is_unmade(scene)) return unmade_hash(scene);
   if (scene.map) return map_hash(*scene.map);
   Hasher hasher(hash_of(scene.walls, execution));
   hasher.add(std::uint64_t{scene.polygons.size()});

@@ -49,6 +49,12 @@ struct MazeFormula {
   double loops = 0.0;
 };
 
+/// The file that a maze's walls are in, tile by tile, and what tells it from others.
+struct PackedMaze {
+  std::string file;
+  std::uint64_t hash = 0;
+};
+
 /// arm: a serial chain whose table is in a file.
 enum class RobotKind : std::uint8_t { point, disc, polygon, car, puma560, arm };
 constexpr auto enum_names(RobotKind) {
@@ -87,6 +93,7 @@ struct Scene {
   std::optional<double> clearance;
   std::optional<MazeHint> maze;
   std::optional<MazeFormula> formula;  ///< of the maze's walls; these may be left out (is_unmade)
+  std::optional<PackedMaze> packed;    ///< the same of walls that a file holds
   std::optional<RobotSpec> robot;
   std::vector<double> start;  ///< 2, 3 or 6 numbers; empty: none
   std::vector<double> goal;   ///< the same; an arm's 3 are a place of its tool
@@ -102,14 +109,14 @@ std::size_t state_size(const RobotSpec& robot);
 /// A 64-bit hash of everything that shapes the free space (walls in order, polygons, spheres, boxes, bounds), as 16 hex
 /// digits: the same for the same world whatever file it came from and however its walls are held. Words are folded by
 /// wide multiplications (as wyhash does), chunk by chunk in parallel; about memory speed. Not for adversaries. Of walls
-/// that are left out: of their formula, another number than of the walls.
+/// that are left out: of their formula or file, another number than of the walls.
 std::string scene_hash(const Scene& scene, const Execution& execution = {});
 
-/// Are the walls left out, because they are many and follow from the formula?
-inline bool is_unmade(const Scene& scene) { return scene.formula && scene.walls.size() == 0; }
+/// Are the walls left out, because they are many and can be had tile by tile?
+inline bool is_unmade(const Scene& scene) { return (scene.formula || scene.packed) && scene.walls.size() == 0; }
 
-/// What scene_hash says of a maze whose walls are left out, whether they are or not; needs the formula.
-std::string formula_hash(const Scene& scene);
+/// What scene_hash says of a maze whose walls are left out, whether they are or not; needs formula or packed.
+std::string unmade_hash(const Scene& scene);
 
 /// A copy without what can be large: walls, seams, cells of a map.
 Scene without_arrays(const Scene& scene);

@@ -201,7 +201,8 @@ void check_same_world(const RecordedAnswer& answer, const std::string& file, con
                       const Execution& execution) {
   if (!answer.world_hash) return;
   const std::string hash = scene_hash(scene, execution);
-  if (hash == *answer.world_hash || (scene.formula && formula_hash(scene) == *answer.world_hash)) return;
+  if (hash == *answer.world_hash || ((scene.formula || scene.packed) && unmade_hash(scene) == *answer.world_hash))
+    return;
   throw InputError(file, fmt::format("this answer is about another world: {} has the hash {}", scene.source, hash),
                    answer.world_hash->substr(0, 16));
 }

@@ -18,7 +18,7 @@ WorldAccount account_of(const Scene& scene, std::string hash) {
   if (scene.map) return {scene.source, "map", 0, 0, std::move(hash), 0, 0};
   const bool plane = scene.walls.size() > 0 || !has_solids(scene);
   const char* kind = scene.maze ? "maze" : !scene.polygons.empty() ? "polygons" : plane ? "walls" : "solids";
-  const bool is_tree = is_unmade(scene) && scene.formula->loops == 0.0;
+  const bool is_tree = is_unmade(scene) && scene.formula && scene.formula->loops == 0.0;
   const std::size_t walls =
       is_tree ? 4 + (scene.maze->rows - std::size_t{1}) * (scene.maze->cols - std::size_t{1}) : scene.walls.size();
   return {scene.source, kind, walls, scene.polygons.size(), std::move(hash), scene.spheres.size(), scene.boxes.size()};

@@ -4,7 +4,7 @@
 // it.
 #include "solve/mazes/solve_streamed.hpp"
 
-#include <optional>
+#include <memory>
 #include <span>
 #include <utility>
 
@@ -12,9 +12,9 @@
 #include "planners/tiled/path_keeper.hpp"
 #include "planners/tiled/tiled_prm_lattice.hpp"
 #include "planners/tiles/tile_source.hpp"
-#include "scenes/mazes/spanning_maze.hpp"
 #include "solve/answer/path_hash.hpp"
 #include "solve/answer/world_account.hpp"
+#include "solve/mazes/streamed_walls.hpp"
 #include "solve/question/planner_choice.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 #include "solve/steps/settled_ends.hpp"
@@ -78,7 +78,7 @@ class StreamedSolve {
   }
 
   void run() {
-    make_borders();
+    open_walls();
     plan_and_verify();
     answer_.outcome = settled_ends(
         answer_.outcome, [&] { return stands_free(problem_.start); }, [&] { return stands_free(problem_.goal); });
@@ -87,22 +87,22 @@ class StreamedSolve {
   Answer& answer() { return answer_; }
 
  private:
-  /// What the tiles need to be made each by itself.
-  void make_borders() {
+  void open_walls() {
     const std::uint64_t groups = (std::uint64_t{scene_.maze->rows} * scene_.maze->cols >> 22U) + 1;
     const StageTimer timer(execution_, "generate", answer_.seconds.generate, groups);
-    maze_.emplace(scene_.maze->rows, scene_.maze->cols, scene_.formula->seed, scene_.formula->loops, execution_);
+    walls_ = streamed_walls(scene_, execution_);
   }
   /// Piece by piece: what the path is made of, its judge sees before the next is made.
   void plan_and_verify() {
     const WallSet none;
     Path<Vec2> kept;
     PathKeeper keeper(kept, execution_);
-    JudgedPath judged({*maze_, judged_as(problem_), execution_}, taker_ != nullptr ? *taker_ : keeper, answer_.seconds,
-                      execution_);
-    take_solution(answer_,
-                  tiled_prm({none, {}, {}, problem_.reach(), problem_.start, problem_.goal, &*maze_, true, &judged},
-                            options_.roadmap, execution_));
+    JudgedPath judged({walls_->judged(), judged_as(problem_), execution_}, taker_ != nullptr ? *taker_ : keeper,
+                      answer_.seconds, execution_);
+    take_solution(
+        answer_,
+        tiled_prm({none, {}, {}, problem_.reach(), problem_.start, problem_.goal, &walls_->planned(), true, &judged},
+                  options_.roadmap, execution_));
     if (answer_.outcome != Outcome::solved) return;
     const Verification found = judged.verdict();
     if (!found.verified) fail_verification(answer_, found.first_violation);
@@ -114,12 +114,12 @@ class StreamedSolve {
   }
   bool stands_free(Vec2 p) const {
     const VerifyOptions options{.radius = problem_.robot.radius, .clearance = problem_.clearance};
-    return verify_among_cells(*maze_, std::span(&p, 1), options, execution_).verified;
+    return verify_among_cells(walls_->judged(), std::span(&p, 1), options, execution_).verified;
   }
   /// Below half a cell nothing but a wall between two cells blocks a step, so the steps that are free say how many
   /// walls stand; the outline counts as four, as in maze_walls.
   void count_walls() {
-    answer_.world = account_of(scene_, formula_hash(scene_));
+    answer_.world = account_of(scene_, unmade_hash(scene_));
     const RoadmapSize& roadmap = answer_.roadmap;
     const std::uint64_t rows = scene_.maze->rows;
     const std::uint64_t cols = scene_.maze->cols;
@@ -133,7 +133,7 @@ class StreamedSolve {
   const PlannerOptions& options_;
   const Execution& execution_;
   PathTaker* taker_;
-  std::optional<SpanningMaze> maze_;
+  std::unique_ptr<StreamedWalls> walls_;
   Answer answer_;
 };
 
@@ -155,8 +155,8 @@ Verdict recheck_streamed(const Scene& scene, const Question& question, const Rec
                          const Execution& execution) {
   const WallProblem problem = wall_problem(scene, question);
   check_state_width(answer, 2, "a point or disc");
-  const SpanningMaze maze(scene.maze->rows, scene.maze->cols, scene.formula->seed, scene.formula->loops, execution);
-  return {verify_among_cells(maze, answer.path, judged_as(problem), execution), problem.general()};
+  const auto walls = streamed_walls(scene, execution);
+  return {verify_among_cells(walls->judged(), answer.path, judged_as(problem), execution), problem.general()};
 }
 
 }  // namespace

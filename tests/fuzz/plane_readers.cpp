@@ -4,6 +4,7 @@
 #include <array>
 
 #include "scenes/formats/geojson_io.hpp"
+#include "scenes/formats/maze_file_io.hpp"
 #include "scenes/formats/micromouse_io.hpp"
 #include "scenes/formats/npy_io.hpp"
 #include "scenes/formats/read_world_io.hpp"
@@ -50,6 +51,15 @@ void read_arrays(std::string_view bytes) {
   if (scene) demand_same_scene(*scene, rewritten(*scene, "again.npy"), false);
 }
 
+/// What is read is written as it was.
+void read_maze_files(std::string_view bytes) {
+  const auto scene = scene_in(bytes, read_maze_file);
+  if (!scene) return;
+  const std::string path = scratch_file("again.maze");
+  write_scene(*scene, path, fuzz_execution());
+  demand(InputFile(path, fuzz_execution()).bytes() == bytes, "the same bytes");
+}
+
 void read_geojson_files(std::string_view bytes) {
   const auto scene = scene_in(bytes, read_geojson);
   if (scene) demand_same_scene(*scene, rewritten(*scene, "again.geojson"), true);
@@ -69,7 +79,7 @@ constexpr std::array plane_table{
     FuzzReader{"scene", read_scenes},          FuzzReader{"npy", read_arrays},
     FuzzReader{"geojson", read_geojson_files}, FuzzReader{"wkt", read_wkt_files},
     FuzzReader{"ring_list", read_ring_lists},  FuzzReader{"micromouse", read_mice},
-    FuzzReader{"world", read_worlds},
+    FuzzReader{"maze_file", read_maze_files},  FuzzReader{"world", read_worlds},
 };
 
 }  // namespace

@@ -79,6 +79,27 @@ TEST(BadInput, SceneTextThatContradictsItsFormatIsRefusedWithItsLine) {
                   });
 }
 
+TEST(BadInput, MazeFilesThatAreDamagedAreRefused) {
+  const Folder folder;
+  ASSERT_EQ(run({"generate", "maze", "9x9", "-o", folder.path("good.maze")}).code, 0);
+  const std::string good = folder.read("good.maze");
+  std::string header = good;
+  header[17] = 1;
+  std::string cell = good;
+  cell[70] = static_cast<char>(cell[70] ^ 4);
+  expect_bad_data("bad.maze", {
+                                  {"empty", "", "begins with"},
+                                  {"not a maze", "hello", "begins with"},
+                                  {"magic alone", good.substr(0, 8), "ends within its header"},
+                                  {"cut in the cells", good.substr(0, 75), "bytes for 9 x 9 cells"},
+                                  {"cut in the checksums", good.substr(0, good.size() - 1), "bytes for 9 x 9 cells"},
+                                  {"more than cells", good + "x", "bytes for 9 x 9 cells"},
+                                  {"a bit of the header", header, "the header is damaged"},
+                                  {"a bit of a cell", cell, "rows 0 to 8"},
+                              });
+  check({{"solve", folder.write("bad.maze", cell), "--pipeline", "streamed"}, 65, "rows 0 to 8"});
+}
+
 TEST(BadInput, ArraysThatAreNoWallsAreRefused) {
   const std::string good = header("<f4", false, "(2, 4)");
   expect_bad_data("bad.npy",

@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <string_view>
 
 #include "core/base/error.hpp"
 #include "core/base/printable.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "pictures/subtitle.hpp"
+#include "scenes/formats/maze_file_io.hpp"
 #include "scenes/formats/read_world_io.hpp"
 #include "scenes/text/human_units.hpp"
 #include "solve/answer/world_account.hpp"
@@ -62,21 +64,30 @@ Scene load_world(const std::string& source, const Arguments& arguments, const Ex
 
 Scene load_planned_world(const std::string& source, std::optional<PipelineKind> pipeline, const Arguments& arguments,
                          const Execution& execution, StageTimes& seconds) {
-  constexpr double bytes_a_cell = 25.0;  // walls and tiles at their peak (docs/performance.md)
-  constexpr double most_held = 4294967295.0;
-  if (is_maze_source(source)) {
-    const MazeOptions maze = parse_maze_source(source);
-    const double cells = static_cast<double>(maze.rows) * maze.cols;
+  const auto is_left_out = [&](std::uint32_t rows, std::uint32_t cols) {
+    constexpr double bytes_a_cell = 25.0;  // walls and tiles at their peak (docs/performance.md)
+    constexpr double most_held = 4294967295.0;
+    const double cells = static_cast<double>(rows) * cols;
     const double memory = execution.deadline == nullptr ? most_held * bytes_a_cell
                                                         : static_cast<double>(execution.deadline->memory_bytes());
-    const bool is_large = !pipeline && (cells > most_held || cells * bytes_a_cell > memory);
-    if (maze.algorithm == MazeAlgorithm::mst && (is_large || pipeline == PipelineKind::streamed)) {
-      Scene scene = unmade_maze_scene(maze);
-      scene.source = source;
-      return scene;
+    if (pipeline) return *pipeline == PipelineKind::streamed;
+    return cells > most_held || cells * bytes_a_cell > memory;
+  };
+  if (is_maze_source(source)) {
+    const MazeOptions maze = parse_maze_source(source);
+    if (maze.algorithm != MazeAlgorithm::mst || !is_left_out(maze.rows, maze.cols)) {
+      return load_world(source, arguments, execution, seconds);
     }
+    Scene scene = unmade_maze_scene(maze);
+    scene.source = source;
+    return scene;
   }
-  return load_world(source, arguments, execution, seconds);
+  const InputFile file(source, execution);
+  if (is_maze_file(file.bytes()) && std::filesystem::is_regular_file(source) && !arguments.has("--map-rules")) {
+    Scene scene = unmade_maze_file(file);
+    if (is_left_out(scene.maze->rows, scene.maze->cols)) return scene;
+  }
+  return load_world(file, arguments, execution, seconds);
 }
 
 Scene load_world(const InputFile& file, const Arguments& arguments, const Execution& execution, StageTimes& seconds) {
@@ -91,13 +102,14 @@ Scene load_world(const InputFile& file, const Arguments& arguments, const Execut
 }
 
 void check_world_file(const std::string& file) {
-  constexpr std::array<std::string_view, 6> endings{".walls", ".scene", ".txt", ".npy", ".geojson", ".wkt"};
+  constexpr std::array<std::string_view, 7> endings{".walls", ".scene", ".txt", ".npy", ".maze", ".geojson", ".wkt"};
   const std::string ending = ending_of(file);
   const bool device = file == "-" || file.starts_with("/dev/");
   if (is_picture(ending)) check_picture("--output", file);
   if (!device && !is_picture(ending) && std::find(endings.begin(), endings.end(), ending) == endings.end()) {
     throw UsageError(
-        "--output: a world ends in .walls, .scene, .txt, .npy, .geojson, .wkt, .svg, .png, .pdf or .html (found: '" +
+        "--output: a world ends in .walls, .scene, .txt, .npy, .maze, .geojson, .wkt, .svg, .png, .pdf or .html "
+        "(found: '" +
         file + "')");
   }
   check_writable(file);

@@ -26,7 +26,7 @@ std::span<const OptionSpec> world_option_specs();
 Scene load_world(const std::string& source, const Arguments& arguments, const Execution& execution,
                  StageTimes& seconds);
 
-/// The same, but walls are left out that follow from a formula (is_unmade): where `pipeline` is streamed, or where it
+/// The same, but walls are left out that can be had tile by tile (is_unmade): where `pipeline` is streamed, or where it
 /// is not said and the memory would not hold them while they are planned among.
 Scene load_planned_world(const std::string& source, std::optional<PipelineKind> pipeline, const Arguments& arguments,
                          const Execution& execution, StageTimes& seconds);

@@ -28,7 +28,7 @@ namespace {
 constexpr OptionSpec convert_specs[] = {
     {"--output",
      "FILE",
-     "where to: .walls .scene .npy .geojson .wkt .map .yaml .pgm .svg .png .pdf .html by ending; - is standard output. "
+     "where to: .walls .scene .npy .maze .geojson .wkt .map .yaml .pgm .svg .png .pdf .html by ending; - is standard output. "
      "A "
      "map's .png has a pixel a cell; of other worlds it is a picture unless --cell is given",
      {},

@@ -9,8 +9,11 @@
 
 #include "core/base/error.hpp"
 #include "pictures/formats/write_picture.hpp"
+#include "scenes/formats/maze_file_io.hpp"
 #include "scenes/formats/read_world_io.hpp"
+#include "scenes/mazes/held_cells.hpp"
 #include "scenes/mazes/maze_generator.hpp"
+#include "scenes/mazes/spanning_maze.hpp"
 #include "scenes/scene/polygon_generator.hpp"
 #include "scenes/text/human_units.hpp"
 #include "solve/answer/world_account.hpp"
@@ -30,7 +33,7 @@ namespace {
 constexpr OptionSpec generate_specs[] = {
     {"--output",
      "FILE",
-     "where to: .walls .scene .npy .geojson .wkt .svg .png .html by ending; - is standard output",
+     "where to: .walls .scene .npy .maze .geojson .wkt .svg .png .html by ending; - is standard output",
      {},
      "-o"},
     {.name = "--seed", .value = "N", .help = "which world (default: 1)", .group = "Options"},
@@ -91,7 +94,39 @@ std::function<Scene(const Execution&)> generator_of(const Arguments& arguments) 
   throw UsageError("'" + what + "' is nothing that can be generated; did you mean maze or polygons?");
 }
 
+/// A maze as .maze, whose walls nobody needs to hold.
+void generate_maze_file(const MazeOptions& options, const std::string& file, const Execution& execution) {
+  if (options.algorithm == MazeAlgorithm::mst) {
+    return write_maze_file(SpanningMaze(options.rows, options.cols, options.seed, options.loops, execution), file,
+                           execution);
+  }
+  write_maze_file(HeldCells(generate_maze(options, execution), CellBits::usual_side_log2), file, execution);
+}
+
+int generate_packed(const Arguments& arguments, const std::string& file) {
+  const MazeOptions options = maze_options(arguments);
+  if (arguments.has("--unit-walls")) throw UsageError("--unit-walls: a .maze file holds cells");
+  check_world_file(file);
+  picture_words(arguments, false, "-o FILE.svg or another picture", file);
+  Run run(arguments);
+  double seconds = 0.0;
+  {
+    const StageTimer timer(run.execution(), "generate", seconds);
+    generate_maze_file(options, file, run.execution());
+  }
+  run.end();
+  if (!run.quiet()) {
+    print_text(fmt::format("{}: {} x {} maze, generated and written in {}\n", run.palette().strong(file), options.rows,
+                           options.cols, human_seconds(seconds)));
+  }
+  return exit_code::success;
+}
+
 int generate(const Arguments& arguments) {
+  if (const auto file = arguments.value("--output");
+      file && ending_of(*file) == ".maze" && arguments.operand(0) == "maze") {
+    return generate_packed(arguments, *file);
+  }
   const auto make = generator_of(arguments);
   const auto file = arguments.value("--output");
   if (!file) throw UsageError("-o FILE is missing");

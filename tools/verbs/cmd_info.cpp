@@ -5,12 +5,16 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "core/base/error.hpp"
 #include "core/base/printable.hpp"
+#include "scenes/formats/maze_file_io.hpp"
 #include "scenes/formats/read_world_io.hpp"
+#include "scenes/text/human_units.hpp"
 #include "scenes/text/input_file_io.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "solve/answer/world_facts.hpp"
@@ -52,6 +56,18 @@ std::string roadmap_info(std::unique_ptr<RoadmapFile> file, bool check, const Ex
   return meta;
 }
 
+/// Of a maze whose walls are left out; file: its .maze file.
+std::vector<Fact> packed_facts(const Scene& scene, const InputFile& file, const Execution& execution) {
+  const MazeFile maze(file);
+  maze.check(execution);
+  const std::uint64_t walls = maze.wall_count(execution);
+  std::vector<Fact> facts = facts_of(scene, execution);
+  for (Fact& fact : facts) {
+    if (fact.name == std::string_view("walls")) fact = {"walls", grouped(walls), std::to_string(walls)};
+  }
+  return facts;
+}
+
 int info(const Arguments& arguments) {
   const auto json = output_file(arguments, "--json");
   const std::string& path = arguments.operand(0);
@@ -68,9 +84,12 @@ int info(const Arguments& arguments) {
   }
   if (check) throw UsageError("--check: is for roadmap files; a world is checked as it is read");
   StageTimes seconds;
-  const Scene scene = file ? load_world(*file, arguments, run.execution(), seconds)
-                           : load_world(path, arguments, run.execution(), seconds);
-  const std::vector<Fact> facts = facts_of(scene, run.execution());
+  const bool is_packed = file && is_maze_file(file->bytes());
+  const Scene scene = is_packed ? load_planned_world(path, std::nullopt, arguments, run.execution(), seconds)
+                      : file    ? load_world(*file, arguments, run.execution(), seconds)
+                                : load_world(path, arguments, run.execution(), seconds);
+  const std::vector<Fact> facts =
+      is_packed && is_unmade(scene) ? packed_facts(scene, *file, run.execution()) : facts_of(scene, run.execution());
   run.end();
   if (json) write_file(*json, facts_json(facts), run.execution());
   if (run.quiet() || json == "-") return exit_code::success;

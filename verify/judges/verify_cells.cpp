@@ -151,25 +151,25 @@ class LegsAmongCells {
       }
     }
   }
-} static void compare_at(const CellTile& tile, std::ptrdiff_t col, std::ptrdiff_t row, const BoxedSegment& leg,
+  static void compare_at(const CellTile& tile, std::ptrdiff_t col, std::ptrdiff_t row, const BoxedSegment& leg,
                          Comparison& comparison) {
-  const unsigned walls = tile.walls[tile.index(col, row)];
-  const auto place = [&](bool is_upper) {
-    return number_of(static_cast<std::uint32_t>(std::ptrdiff_t{tile.first_col} + col + 1),
-                     static_cast<std::uint32_t>(std::ptrdiff_t{tile.first_row} + row + 1), is_upper);
-  };
-  const auto with = [&](std::size_t wall) { comparison.with_leg(leg, {wall_of(wall), wall}); };
-  if ((walls & CellTile::right_wall) != 0 && row >= 0) with(place(false));
-  if ((walls & CellTile::upper_wall) != 0 && col >= 0) with(place(true));
-}
+    const unsigned walls = tile.walls[tile.index(col, row)];
+    const auto place = [&](bool is_upper) {
+      return number_of(static_cast<std::uint32_t>(std::ptrdiff_t{tile.first_col} + col + 1),
+                       static_cast<std::uint32_t>(std::ptrdiff_t{tile.first_row} + row + 1), is_upper);
+    };
+    const auto with = [&](std::size_t wall) { comparison.with_leg(leg, {wall_of(wall), wall}); };
+    if ((walls & CellTile::right_wall) != 0 && row >= 0) with(place(false));
+    if ((walls & CellTile::upper_wall) != 0 && col >= 0) with(place(true));
+  }
 
-const CellWallSource& cells_;
-const LegBoxes& legs_;
-const VerifyOptions& options_;
-const double reach_;
-const Execution& execution_;
-RawVector<Run> runs_;        // by tile
-std::vector<Range> passed_;  // the runs of each tile that has some
+  const CellWallSource& cells_;
+  const LegBoxes& legs_;
+  const VerifyOptions& options_;
+  const double reach_;
+  const Execution& execution_;
+  RawVector<Run> runs_;        // by tile
+  std::vector<Range> passed_;  // the runs of each tile that has some
 };
 
 /// The first leg that leaves the box.

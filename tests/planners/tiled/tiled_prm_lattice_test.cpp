@@ -13,9 +13,9 @@
 #include "core/plane/geometry.hpp"
 #include "planners/roadmap/prm.hpp"
 #include "planners/tiles/wall_partition.hpp"
+#include "scenes/mazes/held_cells.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "scenes/mazes/spanning_maze.hpp"
-#include "tests/held_cells.hpp"
 #include "tests/planners/visibility/plane_worlds.hpp"
 #include "verify/judges/verify_point.hpp"
 #include "worlds/plane/maze_world.hpp"
@@ -129,7 +129,7 @@ TEST(TiledPrm, GivesThePlainAnswerWhereTilesAreMadeWhenTheyAreAskedFor) {
         const TiledCase c = maze_case(maze);
         const Solution<Vec2> expected = plain(c);
         for (const unsigned side_log2 : {2U, 5U, 8U}) {
-          const test::HeldCells cells(generate_maze(maze, {}), side_log2);
+          const HeldCells cells(generate_maze(maze, {}), side_log2);
           expect_same_answer(c, expected, streamed(c, cells));
         }
       }
@@ -139,7 +139,7 @@ TEST(TiledPrm, GivesThePlainAnswerWhereTilesAreMadeWhenTheyAreAskedFor) {
 
 TEST(TiledPrm, WalksFromAnywhereAmongTilesThatAreMadeWhenTheyAreAskedFor) {
   const MazeOptions maze{50, 60, 4, MazeAlgorithm::kruskal, 0.1};
-  const test::HeldCells cells(generate_maze(maze, {}), 4);
+  const HeldCells cells(generate_maze(maze, {}), 4);
   TiledCase c = maze_case(maze, 0.2);
   for (const Vec2 start : {Vec2{17, 31}, Vec2{16.2, 16.7}, Vec2{59.7, 50.2}, Vec2{17.5, 16.5}}) {
     c.start = start;
@@ -159,7 +159,7 @@ TEST(TiledPrm, SaysHowFarApartTheEndsAreWhereTilesWereForgotten) {
   }
   TiledCase c = maze_case({40, 40, 2, MazeAlgorithm::kruskal, 0.0});
   c.scene.walls = maze_walls(closed, false, {});
-  expect_same_answer(c, plain(c), streamed(c, test::HeldCells(closed, 3)));
+  expect_same_answer(c, plain(c), streamed(c, HeldCells(closed, 3)));
 }
 
 TEST(TiledPrm, MadeTilesGiveTheSamePathForAnyThreads) {
@@ -172,7 +172,7 @@ TEST(TiledPrm, MadeTilesGiveTheSamePathForAnyThreads) {
 
 TEST(TiledPrm, RefusesAClearanceOfHalfACellWhereTilesAreMade) {
   const TiledCase c = maze_case({5, 5, 1}, 0.5);
-  EXPECT_THROW(streamed(c, test::HeldCells(generate_maze({5, 5, 1}, {}), 3)), InputError);
+  EXPECT_THROW(streamed(c, HeldCells(generate_maze({5, 5, 1}, {}), 3)), InputError);
 }
 
 TEST(TiledPrm, HeldWallsGiveTheSamePathWhereTheirTilesAreForgotten) {

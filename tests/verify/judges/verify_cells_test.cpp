@@ -9,8 +9,8 @@
 
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
+#include "scenes/mazes/held_cells.hpp"
 #include "scenes/mazes/maze_generator.hpp"
-#include "tests/held_cells.hpp"
 #include "verify/judges/verify_point.hpp"
 
 namespace warren {
@@ -18,7 +18,7 @@ namespace {
 
 struct Judged {
   Scene scene;
-  test::HeldCells cells;
+  HeldCells cells;
   Judged(const MazeOptions& maze, unsigned side_log2)
       : scene(maze_scene(maze, false, {})), cells(generate_maze(maze, {}), side_log2) {}
 

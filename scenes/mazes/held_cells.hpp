@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A maze that is held, given tile by tile: what makes every maze of the generators a world whose walls are made when
-// they are asked for.
+// they are asked for. And the way back.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 #include "core/plane/cell_walls.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 
-namespace warren::test {
+namespace warren {
 
 class HeldCells : public CellWallSource {
  public:
@@ -50,4 +50,7 @@ class HeldCells : public CellWallSource {
   MazeCells cells_;
 };
 
-}  // namespace warren::test
+/// All cells of a source. Throws InputError for 2^32 cells and more, Stopped.
+MazeCells cells_from(const CellWallSource& source, const Execution& execution);
+
+}  // namespace warren

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/mazes/streamed_walls.hpp"
+
+#include "core/base/error.hpp"
+#include "scenes/formats/maze_file_io.hpp"
+#include "scenes/mazes/spanning_maze.hpp"
+#include "scenes/text/input_file_io.hpp"
+#include "verify/judges/judged_maze_file.hpp"
+
+namespace warren {
+namespace {
+
+/// The formula is what the maze is, for the judge, too.
+class FormulaWalls : public StreamedWalls {
+ public:
+  FormulaWalls(MazeHint size, const MazeFormula& formula, const Execution& execution)
+      : maze_(size.rows, size.cols, formula.seed, formula.loops, execution) {}
+  const CellWallSource& planned() const override { return maze_; }
+  const CellWallSource& judged() const override { return maze_; }
+
+ private:
+  SpanningMaze maze_;
+};
+
+class FileWalls : public StreamedWalls {
+ public:
+  FileWalls(const PackedMaze& packed, const Execution& execution)
+      : file_(packed.file, execution),
+        planned_(file_),
+        judged_(file_.name(), file_.bytes(),
+                [this](std::size_t first, std::size_t last) { file_.forget(first, last); }) {
+    planned_.check(execution);
+    if (planned_.hash() != packed.hash) throw InputError(packed.file, "has changed since it was looked at first");
+  }
+  const CellWallSource& planned() const override { return planned_; }
+  const CellWallSource& judged() const override { return judged_; }
+
+ private:
+  InputFile file_;
+  MazeFile planned_;
+  JudgedMazeFile judged_;
+};
+
+}  // namespace
+
+std::unique_ptr<StreamedWalls> streamed_walls(const Scene& unmade, const Execution& execution) {
+  if (unmade.packed) return std::make_unique<FileWalls>(*unmade.packed, execution);
+  return std::make_unique<FormulaWalls>(*unmade.maze, *unmade.formula, execution);
+}
+
+}  // namespace warren

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where the walls of a maze come from that are left out of its scene (is_unmade): for the planner, and for the judge,
+// who reads files by code of its own.
+#pragma once
+
+#include <memory>
+
+#include "core/plane/cell_walls.hpp"
+#include "parallel/execution.hpp"
+#include "scenes/scene/scene.hpp"
+
+namespace warren {
+
+/// Immutable; any number of threads may ask.
+class StreamedWalls {
+ public:
+  StreamedWalls() = default;
+  virtual ~StreamedWalls() = default;
+  StreamedWalls(const StreamedWalls&) = delete;
+  StreamedWalls& operator=(const StreamedWalls&) = delete;
+  virtual const CellWallSource& planned() const = 0;
+  virtual const CellWallSource& judged() const = 0;
+};
+
+/// Makes what the tiles need to be made each by itself; opens and checks the file. Throws InputError, ReadError,
+/// Stopped.
+std::unique_ptr<StreamedWalls> streamed_walls(const Scene& unmade, const Execution& execution);
+
+}  // namespace warren
