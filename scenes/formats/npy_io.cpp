@@ -32,20 +32,14 @@ constexpr std::string_view magic = "\x93NUMPY";
 constexpr std::size_t longest_header = 65535;  // all that version 1 can say, and a hundred times what walls need
 constexpr std::size_t npy_grain = std::size_t{1} << 16;
 
-struct Header {
-  bool is_float = false;  ///< else double
-  std::size_t walls = 0;
-  std::size_t data = 0;  ///< where the numbers begin
-};
-
 /// Reads the header's dictionary.
 class HeaderParser {
  public:
   explicit HeaderParser(const InputFile& file) : name_(file.name()), bytes_(file.bytes()) {}
 
-  Header parse() {
+  NpyWalls parse() {
     if (!is_npy(bytes_)) fail("expected a .npy file, which begins with \\x93NUMPY", bytes_.substr(0, 8));
-    Header header;
+    NpyWalls header;
     rest_ = dictionary(header.data);
     parse_entries(header);
     if (!has_type_ || !has_order_ || !has_shape_) fail("the header must have descr, fortran_order and shape", rest_);
@@ -77,7 +71,7 @@ class HeaderParser {
     return bytes_.substr(begin, length);
   }
 
-  void parse_entries(Header& header) {
+  void parse_entries(NpyWalls& header) {
     expect('{');
     while (!accept('}')) {
       const std::string_view key = quoted();
@@ -94,7 +88,7 @@ class HeaderParser {
       if (!accept(',') && !rest_.starts_with('}')) fail("expected `,` or `}` in the header", rest_);
     }
   }
-  void parse_type(Header& header) {
+  void parse_type(NpyWalls& header) {
     skip_blanks();
     if (!rest_.starts_with('\'') && !rest_.starts_with('"')) fail("expected numbers of type <f4 or <f8", rest_);
     const std::string_view type = quoted();
@@ -110,7 +104,7 @@ class HeaderParser {
     rest_.remove_prefix(5);
     has_order_ = true;
   }
-  void parse_shape(Header& header) {
+  void parse_shape(NpyWalls& header) {
     const std::string_view shown = rest_.substr(0, rest_.find(')') + 1);
     std::vector<std::size_t> shape;
     expect('(');
@@ -161,8 +155,8 @@ class HeaderParser {
   bool has_shape_ = false;
 };
 
-Header checked_header(const InputFile& file) {
-  const Header header = HeaderParser(file).parse();
+NpyWalls checked_header(const InputFile& file) {
+  const NpyWalls header = HeaderParser(file).parse();
   const std::size_t wall_bytes = header.is_float ? sizeof(FloatWall) : sizeof(DoubleWall);
   const std::size_t held = file.bytes().size() - header.data;
   if (header.walls == 0) throw InputError(file.name(), "the array has no rows; expected at least one wall");
@@ -178,7 +172,7 @@ Header checked_header(const InputFile& file) {
 template <class In>
 class Rows {
  public:
-  Rows(const InputFile& file, const Header& header, const Execution& execution)
+  Rows(const InputFile& file, const NpyWalls& header, const Execution& execution)
       : file_(file), header_(header), execution_(execution), bad_(chunk_count(header.walls, npy_grain), header.walls) {}
 
   template <class Out>
@@ -246,12 +240,12 @@ class Rows {
   }
 
   const InputFile& file_;
-  const Header& header_;
+  const NpyWalls& header_;
   const Execution& execution_;
   std::vector<std::size_t> bad_;  ///< a slot a chunk: its first row that is refused
 };
 
-WallSet walls_of(const InputFile& file, const Header& header, const Execution& execution) {
+WallSet walls_of(const InputFile& file, const NpyWalls& header, const Execution& execution) {
   if (header.is_float) return Rows<float>(file, header, execution).copy<float>();
   Rows<double> rows(file, header, execution);
   return rows.fit_floats() ? rows.copy<float>() : rows.copy<double>();
@@ -266,8 +260,10 @@ std::string header_of(std::uint64_t walls) {
 
 bool is_npy(std::string_view bytes) { return bytes.starts_with(magic); }
 
+NpyWalls npy_walls(const InputFile& file) { return checked_header(file); }
+
 Scene read_npy(const InputFile& file, const Execution& execution) {
-  const Header header = checked_header(file);
+  const NpyWalls header = checked_header(file);
   if (execution.progress != nullptr) execution.progress->begin("read", header.walls);
   Scene scene;
   scene.walls = walls_of(file, header, execution);

@@ -4,7 +4,9 @@
 // walls holds 16 n bytes (32 n where floats don't do) and runs at memory or disk speed.
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <string_view>
 
 #include "parallel/execution.hpp"
 #include "scenes/scene/scene.hpp"
@@ -14,6 +16,15 @@ namespace warren {
 
 /// True for the first bytes of every .npy file.
 bool is_npy(std::string_view bytes);
+
+/// What the header says of an array of walls that is as long as its file.
+struct NpyWalls {
+  bool is_float = false;  ///< else double
+  std::size_t walls = 0;
+  std::size_t data = 0;  ///< where the numbers begin
+};
+/// Throws InputError.
+NpyWalls npy_walls(const InputFile& file);
 
 /// Walls, and for a maze as `generate` writes it (its outline in the first four rows, all walls on the unit grid) also
 /// hint, start and goal. Throws InputError for anything but such an array of finite numbers, Stopped at the deadline.

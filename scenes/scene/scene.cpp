@@ -19,7 +19,7 @@
 namespace warren {
 namespace {
 
-constexpr std::size_t scene_grain = std::size_t{1} << 16;
+constexpr std::size_t scene_grain = WallsHash::grain;
 
 __extension__ using Wide = unsigned __int128;
 
@@ -47,14 +47,17 @@ std::uint64_t hash_of(std::span<const Wall> walls) {
   return fold(first ^ secret_b, second ^ secret_a ^ walls.size());
 }
 
+std::uint64_t folded(std::uint64_t hash, std::span<const std::uint64_t> parts) {
+  for (const std::uint64_t part : parts) hash = fold(hash ^ secret_a, part ^ secret_b);
+  return hash;
+}
+
 std::uint64_t hash_of(const WallSet& set, const Execution& execution) {
   return set.visit([&](auto walls) {
     std::vector<std::uint64_t> parts(chunk_count(walls.size(), scene_grain));
     for_chunks(walls.size(), scene_grain, execution,
                [&](Range r) { parts[r.first / scene_grain] = hash_of(walls.subspan(r.first, r.size())); });
-    std::uint64_t hash = walls.size();
-    for (const std::uint64_t part : parts) hash = fold(hash ^ secret_a, part ^ secret_b);
-    return hash;
+    return folded(walls.size(), parts);
   });
 }
 
@@ -105,7 +108,7 @@ std::size_t state_size(const RobotSpec& robot) {
 }
 
 std::string unmade_hash(const Scene& scene) {
-  if (scene.packed) return fmt::format("{:016x}", scene.packed->hash);
+  if (scene.packed) return scene.packed->hash ? fmt::format("{:016x}", *scene.packed->hash) : std::string();
   Hasher hasher(std::uint64_t{0x6d7374});  // "mst"
   hasher.add(std::uint64_t{scene.maze->rows});
   hasher.add(std::uint64_t{scene.maze->cols});
@@ -114,10 +117,11 @@ std::string unmade_hash(const Scene& scene) {
   return fmt::format("{:016x}", hasher.value());
 }
 
-std::string scene_hash(const Scene& scene, const Execution& execution) {
-  if (is_unmade(scene)) return unmade_hash(scene);
-  if (scene.map) return map_hash(*scene.map);
-  Hasher hasher(hash_of(scene.walls, execution));
+namespace {
+
+/// walls: their hash.
+std::string hash_with(std::uint64_t walls, const Scene& scene) {
+  Hasher hasher(walls);
   hasher.add(std::uint64_t{scene.polygons.size()});
   for (const ScenePolygon& polygon : scene.polygons) {
     hasher.add(std::uint64_t{polygon.corners.size()});
@@ -141,6 +145,19 @@ std::string scene_hash(const Scene& scene, const Execution& execution) {
   }
   return fmt::format("{:016x}", hasher.value());
 }
+
+}  // namespace
+
+std::string scene_hash(const Scene& scene, const Execution& execution) {
+  if (is_unmade(scene)) return unmade_hash(scene);
+  if (scene.map) return map_hash(*scene.map);
+  return hash_with(hash_of(scene.walls, execution), scene);
+}
+
+std::uint64_t WallsHash::of_chunk(std::span<const FloatWall> walls) { return hash_of(walls); }
+std::uint64_t WallsHash::of_chunk(std::span<const DoubleWall> walls) { return hash_of(walls); }
+void WallsHash::add(std::uint64_t chunk) { state_ = folded(state_, std::span(&chunk, 1)); }
+std::string WallsHash::text() const { return hash_with(state_, {}); }
 
 Scene without_arrays(const Scene& scene) {
   Scene rest;

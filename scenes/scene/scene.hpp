@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -49,10 +50,10 @@ struct MazeFormula {
   double loops = 0.0;
 };
 
-/// The file that a maze's walls are in, tile by tile, and what tells it from others.
+/// The file that a maze's walls are in, .maze or .npy, and what tells it from others.
 struct PackedMaze {
   std::string file;
-  std::uint64_t hash = 0;
+  std::optional<std::uint64_t> hash;  ///< nothing: who reads the walls will know
 };
 
 /// arm: a serial chain whose table is in a file.
@@ -116,7 +117,22 @@ std::string scene_hash(const Scene& scene, const Execution& execution = {});
 inline bool is_unmade(const Scene& scene) { return (scene.formula || scene.packed) && scene.walls.size() == 0; }
 
 /// What scene_hash says of a maze whose walls are left out, whether they are or not; needs formula or packed.
+/// Empty where the file has not been read.
 std::string unmade_hash(const Scene& scene);
+
+/// scene_hash() of walls alone that nobody holds: chunk after chunk of them.
+class WallsHash {
+ public:
+  static constexpr std::size_t grain = std::size_t{1} << 16;  ///< walls of each chunk but the last
+  explicit WallsHash(std::size_t walls) : state_(walls) {}
+  static std::uint64_t of_chunk(std::span<const FloatWall> walls);
+  static std::uint64_t of_chunk(std::span<const DoubleWall> walls);
+  void add(std::uint64_t chunk);
+  std::string text() const;
+
+ private:
+  std::uint64_t state_;
+};
 
 /// A copy without what can be large: walls, seams, cells of a map.
 Scene without_arrays(const Scene& scene);

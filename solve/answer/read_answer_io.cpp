@@ -199,10 +199,15 @@ void check_state_width(const RecordedAnswer& answer, std::size_t width, std::str
 
 void check_same_world(const RecordedAnswer& answer, const std::string& file, const Scene& scene,
                       const Execution& execution) {
-  if (!answer.world_hash) return;
+  if (!answer.world_hash || (is_unmade(scene) && unmade_hash(scene).empty())) return;
   const std::string hash = scene_hash(scene, execution);
   if (hash == *answer.world_hash || ((scene.formula || scene.packed) && unmade_hash(scene) == *answer.world_hash))
     return;
+  refuse_other_world(answer, file, scene, hash);
+}
+
+void refuse_other_world(const RecordedAnswer& answer, const std::string& file, const Scene& scene,
+                        const std::string& hash) {
   throw InputError(file, fmt::format("this answer is about another world: {} has the hash {}", scene.source, hash),
                    answer.world_hash->substr(0, 16));
 }

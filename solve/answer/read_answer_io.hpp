@@ -40,5 +40,8 @@ void check_state_width(const RecordedAnswer& answer, std::size_t width, std::str
 /// Throws InputError if the answer names the hash of another world.
 void check_same_world(const RecordedAnswer& answer, const std::string& file, const Scene& scene,
                       const Execution& execution);
+/// hash: of the scene.
+[[noreturn]] void refuse_other_world(const RecordedAnswer& answer, const std::string& file, const Scene& scene,
+                                     const std::string& hash);
 
 }  // namespace warren

@@ -89,7 +89,8 @@ class StreamedSolve {
  private:
   void open_walls() {
     const std::uint64_t groups = (std::uint64_t{scene_.maze->rows} * scene_.maze->cols >> 22U) + 1;
-    const StageTimer timer(execution_, "generate", answer_.seconds.generate, groups);
+    double& seconds = scene_.packed ? answer_.seconds.index : answer_.seconds.generate;
+    const StageTimer timer(execution_, scene_.packed ? "index" : "generate", seconds, groups);
     walls_ = streamed_walls(scene_, execution_);
   }
   /// Piece by piece: what the path is made of, its judge sees before the next is made.
@@ -119,7 +120,11 @@ class StreamedSolve {
   /// Below half a cell nothing but a wall between two cells blocks a step, so the steps that are free say how many
   /// walls stand; the outline counts as four, as in maze_walls.
   void count_walls() {
-    answer_.world = account_of(scene_, unmade_hash(scene_));
+    answer_.world = account_of(scene_, walls_->hash().value_or(unmade_hash(scene_)));
+    if (walls_->wall_count()) {
+      answer_.world.walls = *walls_->wall_count();
+      return;
+    }
     const RoadmapSize& roadmap = answer_.roadmap;
     const std::uint64_t rows = scene_.maze->rows;
     const std::uint64_t cols = scene_.maze->cols;
@@ -156,6 +161,9 @@ Verdict recheck_streamed(const Scene& scene, const Question& question, const Rec
   const WallProblem problem = wall_problem(scene, question);
   check_state_width(answer, 2, "a point or disc");
   const auto walls = streamed_walls(scene, execution);
+  if (walls->hash() && answer.world_hash && *walls->hash() != *answer.world_hash) {
+    refuse_other_world(answer, answer.file, scene, *walls->hash());
+  }
   return {verify_among_cells(walls->judged(), answer.path, judged_as(problem), execution), problem.general()};
 }
 

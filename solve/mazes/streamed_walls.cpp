@@ -3,9 +3,11 @@
 
 #include "core/base/error.hpp"
 #include "scenes/formats/maze_file_io.hpp"
+#include "scenes/formats/npy_maze_io.hpp"
 #include "scenes/mazes/spanning_maze.hpp"
 #include "scenes/text/input_file_io.hpp"
 #include "verify/judges/judged_maze_file.hpp"
+#include "verify/judges/judged_npy_maze.hpp"
 
 namespace warren {
 namespace {
@@ -41,9 +43,32 @@ class FileWalls : public StreamedWalls {
   JudgedMazeFile judged_;
 };
 
+/// Two passes over an array: the planner's, and the judge's.
+class ArrayWalls : public StreamedWalls {
+ public:
+  ArrayWalls(const PackedMaze& packed, MazeHint size, const Execution& execution)
+      : file_(packed.file, execution),
+        planned_(file_, size, execution),
+        judged_(
+            file_.name(), file_.bytes(), size.rows, size.cols,
+            [this](std::size_t first, std::size_t last) { file_.forget(first, last); }, execution) {}
+  const CellWallSource& planned() const override { return planned_.cells(); }
+  const CellWallSource& judged() const override { return judged_; }
+  std::optional<std::size_t> wall_count() const override { return planned_.wall_count(); }
+  std::optional<std::string> hash() const override { return planned_.hash(); }
+
+ private:
+  InputFile file_;
+  NpyMaze planned_;
+  JudgedNpyMaze judged_;
+};
+
 }  // namespace
 
 std::unique_ptr<StreamedWalls> streamed_walls(const Scene& unmade, const Execution& execution) {
+  if (unmade.packed && !unmade.packed->hash) {
+    return std::make_unique<ArrayWalls>(*unmade.packed, *unmade.maze, execution);
+  }
   if (unmade.packed) return std::make_unique<FileWalls>(*unmade.packed, execution);
   return std::make_unique<FormulaWalls>(*unmade.maze, *unmade.formula, execution);
 }

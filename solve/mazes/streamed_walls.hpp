@@ -3,7 +3,10 @@
 // who reads files by code of its own.
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "core/plane/cell_walls.hpp"
 #include "parallel/execution.hpp"
@@ -20,9 +23,12 @@ class StreamedWalls {
   StreamedWalls& operator=(const StreamedWalls&) = delete;
   virtual const CellWallSource& planned() const = 0;
   virtual const CellWallSource& judged() const = 0;
+  /// What is known of the walls by reading them: how many they are, and scene_hash() of the scene with them.
+  virtual std::optional<std::size_t> wall_count() const { return std::nullopt; }
+  virtual std::optional<std::string> hash() const { return std::nullopt; }
 };
 
-/// Makes what the tiles need to be made each by itself; opens and checks the file. Throws InputError, ReadError,
+/// Makes what the tiles need to be made each by itself; opens, checks or reads the file. Throws InputError, ReadError,
 /// Stopped.
 std::unique_ptr<StreamedWalls> streamed_walls(const Scene& unmade, const Execution& execution);
 

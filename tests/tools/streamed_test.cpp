@@ -2,7 +2,9 @@
 // What the program promises of mazes that are made, reduced and forgotten tile by tile: the answers of walls that are
 // held, the same bytes for any threads, and a little memory.
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cstdint>
 #include <cstring>
 
 #include "scenes/mazes/maze_generator.hpp"
@@ -102,6 +104,150 @@ TEST(Streamed, MazesThatTheMemoryDoesNotHoldAreStreamed) {
   EXPECT_EQ(answer["pipeline"], "streamed");
   EXPECT_EQ(answer["verified"], true);
   EXPECT_LT(answer["peak_memory_bytes"].get<double>(), 95e6);
+}
+
+TEST(Streamed, PathsThatAreNotHeldAreTheSame) {
+  const Folder folder;
+  for (const char* world : {"maze:200x300,algorithm=mst,seed=3", "maze:300x300,algorithm=mst,loops=0.1"}) {
+    SCOPED_TRACE(world);
+    const Json held = streamed(world, {"--path", folder.path("held.npy")});
+    const Json handed = streamed(world, {"--no-path", "--path", folder.path("handed.npy")});
+    const Json brief = streamed(world, {"--no-path"});
+    EXPECT_EQ(folder.read("handed.npy"), folder.read("held.npy"));
+    EXPECT_EQ(handed["path_points"], held["path"].size());
+    EXPECT_EQ(timeless(handed), timeless(brief));
+    EXPECT_EQ(handed["length"], held["length"]);
+  }
+}
+
+TEST(Streamed, AStopLeavesNoHalfOfAPath) {
+  const Folder folder;
+  for (const char* limit : {"--budget", "--memory"}) {
+    const std::string value = limit == std::string("--budget") ? "60ms" : "20MiB";
+    const Json answer =
+        streamed("maze:3000x3000,algorithm=mst", {"--no-path", "--path", folder.path("path.npy"), limit, value}, 124);
+    EXPECT_EQ(answer["verified"], false);
+    EXPECT_FALSE(answer.contains("path_points"));
+    EXPECT_TRUE(folder.is_empty());
+  }
+}
+
+/// All cells in one way: along the first row, back along the second.
+std::string serpentine(const Folder& folder, std::uint32_t rows, std::uint32_t cols) {
+  std::string scene = "maze " + std::to_string(rows) + " " + std::to_string(cols) + "\n";
+  const auto wall = [&](double x1, double y1, double x2, double y2) {
+    for (const double number : {x1, y1, x2, y2}) scene += std::to_string(number) + " ";
+    scene += "\n";
+  };
+  const double right = cols + 0.5;
+  const double top = rows + 0.5;
+  wall(0.5, 0.5, right, 0.5);
+  wall(0.5, top, right, top);
+  wall(0.5, 1.5, 0.5, top);
+  wall(right, 0.5, right, top - 1);
+  for (std::uint32_t row = 1; row < rows; ++row) {
+    const bool is_open_right = row % 2 == 1;
+    wall(is_open_right ? 0.5 : 1.5, row + 0.5, is_open_right ? right - 1 : right, row + 0.5);
+  }
+  const std::string file = folder.path("serpentine.maze");
+  EXPECT_EQ(run({"convert", folder.write("serpentine.walls", scene), "-o", file}).code, 0);
+  return file;
+}
+
+TEST(Streamed, APathLongerThanTheMemoryIsWrittenAndJudged) {
+  const Folder folder;
+  const std::string file = serpentine(folder, 1501, 3000);
+  const Json answer = streamed(file, {"--no-path", "--path", folder.path("path.npy"), "--memory", "70MiB"});
+  EXPECT_EQ(answer["path_points"], 1501 * 3000 + 2);
+  EXPECT_EQ(answer["length"], 1501 * 3000);
+  EXPECT_LT(answer["peak_memory_bytes"].get<double>(), 72e6);  // the points alone have 72 MB
+  EXPECT_EQ(folder.read("path.npy").size(), 128 + 16 * (1501 * 3000 + 2));
+}
+
+TEST(Streamed, MazeFilesAnswerAsTheirMazes) {
+  const Folder folder;
+  const std::string file = folder.path("a.maze");
+  ASSERT_EQ(
+      run({"generate", "maze", "300x270", "--algorithm", "mst", "--seed", "4", "--loops", "0.1", "-o", file}).code, 0);
+  const Json formula = streamed("maze:300x270,algorithm=mst,seed=4,loops=0.1");
+  const Json found = streamed(file);
+  EXPECT_EQ(found["path"], formula["path"]);
+  EXPECT_EQ(found["roadmap"], formula["roadmap"]);
+  EXPECT_EQ(found["world"]["walls"], formula["world"]["walls"]);
+  const Json held = answered({"solve", file});
+  EXPECT_EQ(held["world"]["hash"], answered({"solve", "maze:300x270,algorithm=mst,seed=4,loops=0.1"})["world"]["hash"]);
+  EXPECT_EQ(held["length"], found["length"]);
+  EXPECT_EQ(answered({"verify", file, folder.write("a.json", found.dump())})["verified"], true);
+  EXPECT_EQ(answered({"verify", file, folder.write("a.json", held.dump())})["verified"], true);
+  ASSERT_EQ(run({"generate", "maze", "300x270", "--algorithm", "mst", "--seed", "5", "-o", file}).code, 0);
+  check({{"verify", file, folder.path("a.json")}, 65, "another world"});
+}
+
+TEST(Streamed, MazeFilesGoThroughOtherFormats) {
+  const Folder folder;
+  const std::string file = folder.path("a.maze");
+  ASSERT_EQ(run({"generate", "maze", "41x60", "--loops", "0.2", "-o", file}).code, 0);
+  for (const char* other : {"b.npy", "b.walls", "b.scene"}) {
+    SCOPED_TRACE(other);
+    ASSERT_EQ(run({"convert", file, "-o", folder.path(other)}).code, 0);
+    ASSERT_EQ(run({"convert", folder.path(other), "-o", folder.path("c.maze")}).code, 0);
+    EXPECT_EQ(folder.read("c.maze"), folder.read("a.maze"));
+  }
+  const Json held = answered({"info", file});
+  EXPECT_EQ(held["maze"], Json({41, 60}));
+  ASSERT_EQ(run({"generate", "maze", "1500x1600", "--loops", "0.2", "-o", file}).code, 0);
+  const Json packed = answered({"info", file, "--memory", "40MiB"});
+  EXPECT_EQ(packed["maze"], Json({1500, 1600}));
+  EXPECT_EQ(packed["walls"], answered({"info", file})["walls"]);
+  check({{"convert", world_file("walls.scene"), "-o", folder.path("c.maze")}, 65, "a .maze file holds a maze alone"});
+}
+
+TEST(Streamed, ArraysLargerThanTheMemoryAreReadInWindows) {
+  const Folder folder;
+  ASSERT_EQ(run({"generate", "maze", "2000x2000", "--loops", "0.05", "-o", folder.path("a.maze")}).code, 0);
+  const Json packed = streamed(folder.path("a.maze"), {"--no-path"});
+  const std::string array = folder.path("a.npy");
+  for (const bool merged : {false, true}) {
+    SCOPED_TRACE(merged);
+    ASSERT_EQ(run(joined({"generate", "maze", "2000x2000", "--loops", "0.05", "-o", array},
+                         merged ? std::vector<std::string>{} : std::vector<std::string>{"--unit-walls"}))
+                  .code,
+              0);
+    const Json found = answered({"solve", array, "--memory", "48MiB"});
+    EXPECT_EQ(found["pipeline"], "streamed");
+    EXPECT_EQ(found["length"], packed["length"]);
+    EXPECT_EQ(found["roadmap"], packed["roadmap"]);
+    EXPECT_LT(found["peak_memory_bytes"].get<double>(), 50.4e6);
+    const Json info = answered({"info", array});
+    EXPECT_EQ(found["world"]["hash"], info["hash"]);
+    EXPECT_EQ(found["world"]["walls"], info["walls"]);
+    const std::string answer = folder.write("a.json", found.dump());
+    EXPECT_EQ(answered({"verify", array, answer})["verified"], true);
+    EXPECT_EQ(answered({"verify", array, answer, "--memory", "64MiB"})["verified"], true);
+  }
+}
+
+TEST(Streamed, ArraysOfOtherWallsAreRefusedWhereTheMemoryDoesNotHoldThem) {
+  const Folder folder;
+  const std::string array = folder.path("a.npy");
+  ASSERT_EQ(run({"generate", "maze", "1500x1500", "--unit-walls", "-o", array}).code, 0);
+  const std::string good = folder.read("a.npy");
+  const auto with_row = [&](std::size_t row, std::array<float, 4> wall) {
+    std::string bytes = good;
+    std::memcpy(bytes.data() + 128 + 16 * row, wall.data(), sizeof wall);
+    return folder.write("b.npy", bytes);
+  };
+  const auto refused = [&](const std::string& file, int code, std::string_view said) {
+    check({{"solve", file, "--memory", "32MiB"}, code, said});
+  };
+  refused(with_row(10, {3.5F, 3.5F, 3.7F, 3.5F}), 65, "b.npy: row 10: is no wall on the unit grid");
+  refused(with_row(11, {3.5F, 3.5F, 4.5F, 4.5F}), 65, "b.npy: row 11: is no wall on the unit grid");
+  refused(with_row(12, {1500.5F, 3.5F, 1501.5F, 3.5F}), 65, "b.npy: row 12: is no wall on the unit grid");
+  refused(with_row(13, {0.5F, 0.5F, 0.5F, 1.5F}), 65, "b.npy: row 13: closes a door");
+  refused(with_row(2, {0.5F, 2.5F, 0.5F, 1500.5F}), 124, "");
+  const std::string slit = with_row(10, {3.5F, 3.5F, 3.7F, 3.5F});
+  const Json held = answered({"solve", slit, "--no-path", "--start", "0.5,1", "--goal", "1500.5,1500"});
+  EXPECT_EQ(held["verified"], true);
 }
 
 TEST(Streamed, TenBillionCellsStopWhereTheyAreToldTo) {

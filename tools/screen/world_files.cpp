@@ -13,6 +13,7 @@
 #include "pictures/formats/write_picture.hpp"
 #include "pictures/subtitle.hpp"
 #include "scenes/formats/maze_file_io.hpp"
+#include "scenes/formats/npy_maze_io.hpp"
 #include "scenes/formats/read_world_io.hpp"
 #include "scenes/text/human_units.hpp"
 #include "solve/answer/world_account.hpp"
@@ -64,18 +65,19 @@ Scene load_world(const std::string& source, const Arguments& arguments, const Ex
 
 Scene load_planned_world(const std::string& source, std::optional<PipelineKind> pipeline, const Arguments& arguments,
                          const Execution& execution, StageTimes& seconds) {
-  const auto is_left_out = [&](std::uint32_t rows, std::uint32_t cols) {
+  const auto is_large = [&](MazeHint maze) {
     constexpr double bytes_a_cell = 25.0;  // walls and tiles at their peak (docs/performance.md)
     constexpr double most_held = 4294967295.0;
-    const double cells = static_cast<double>(rows) * cols;
+    const double cells = static_cast<double>(maze.rows) * maze.cols;
     const double memory = execution.deadline == nullptr ? most_held * bytes_a_cell
                                                         : static_cast<double>(execution.deadline->memory_bytes());
-    if (pipeline) return *pipeline == PipelineKind::streamed;
     return cells > most_held || cells * bytes_a_cell > memory;
   };
+  const bool is_streamed = pipeline == PipelineKind::streamed;
+  const auto is_left_out = [&](MazeHint maze) { return is_streamed || (!pipeline && is_large(maze)); };
   if (is_maze_source(source)) {
     const MazeOptions maze = parse_maze_source(source);
-    if (maze.algorithm != MazeAlgorithm::mst || !is_left_out(maze.rows, maze.cols)) {
+    if (maze.algorithm != MazeAlgorithm::mst || !is_left_out({maze.rows, maze.cols})) {
       return load_world(source, arguments, execution, seconds);
     }
     Scene scene = unmade_maze_scene(maze);
@@ -83,9 +85,14 @@ Scene load_planned_world(const std::string& source, std::optional<PipelineKind> 
     return scene;
   }
   const InputFile file(source, execution);
-  if (is_maze_file(file.bytes()) && std::filesystem::is_regular_file(source) && !arguments.has("--map-rules")) {
-    Scene scene = unmade_maze_file(file);
-    if (is_left_out(scene.maze->rows, scene.maze->cols)) return scene;
+  const bool is_array = is_npy(file.bytes());
+  std::error_code ignored;
+  if ((is_array || is_maze_file(file.bytes())) && std::filesystem::is_regular_file(source, ignored) &&
+      !arguments.has("--map-rules")) {
+    std::optional<Scene> scene = is_array ? unmade_npy(file) : unmade_maze_file(file);
+    const bool fits =
+        is_array && scene && !is_large(*scene->maze);  // all of an array's walls can be planned among then
+    if (scene && !fits && is_left_out(*scene->maze)) return std::move(*scene);
   }
   return load_world(file, arguments, execution, seconds);
 }

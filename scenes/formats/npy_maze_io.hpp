@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The cells of a maze whose walls are a NumPy array that no memory holds: read once, in windows, in whatever order they
+// come and however they are cut, into two bits a cell (scenes/mazes/cell_bits.hpp). The first four rows must be the
+// outline, as `generate` writes it: they say how many cells there are. Cost: the disk's, or 5 ns of CPU a wall.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "core/base/raw_vector.hpp"
+#include "parallel/execution.hpp"
+#include "scenes/formats/npy_io.hpp"
+#include "scenes/mazes/cell_bits.hpp"
+#include "scenes/scene/scene.hpp"
+#include "scenes/text/input_file_io.hpp"
+
+namespace warren {
+
+/// The maze whose walls the array holds, without them (is_unmade); nothing where its first four rows are no outline of
+/// a maze. Throws InputError.
+std::optional<Scene> unmade_npy(const InputFile& file);
+
+/// Holds the cells, not the file.
+class NpyMaze {
+ public:
+  /// maze: as unmade_npy() says. Throws InputError for a wall off the grid, outside the outline or in one of its doors;
+  /// Stopped.
+  NpyMaze(const InputFile& file, MazeHint maze, const Execution& execution);
+  const CellBits& cells() const { return cells_; }
+  std::size_t wall_count() const { return array_.walls; }
+  /// scene_hash() of the scene with the walls.
+  const std::string& hash() const { return hash_; }
+
+ private:
+  template <class T>
+  void read(const InputFile& file, const Execution& execution);
+  template <class T>
+  void add(const InputFile& file, std::size_t row, const WallOf<T>& wall);
+  void stand(std::uint32_t col, std::uint32_t row, unsigned wall) {
+    bits_[row * bytes_a_row(maze_.cols) + col / 4] |= static_cast<std::uint8_t>(wall << (2 * (col % 4)));
+  }
+
+  NpyWalls array_;
+  MazeHint maze_;
+  RawVector<std::uint8_t> bits_;
+  CellBits cells_;
+  std::string hash_;
+};
+
+}  // namespace warren
