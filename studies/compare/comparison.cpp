@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "studies/compare/comparison.hpp"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cmath>
 #include <numeric>
@@ -95,6 +97,18 @@ std::string options_text(const Contender& contender) {
     if (value != "true") text += " " + (is_word ? value.substr(1, value.size() - 2) : value);
   }
   return text;
+}
+
+std::string plot_name_of(const Contender& c, bool with_planner) {
+  if (!c.dealt.empty()) {
+    std::string dealt = c.planner;
+    for (const auto& [option, word] : c.dealt) dealt += fmt::format(", {} {}", option, word);
+    return dealt;
+  }
+  std::string name = name_of(c, with_planner);
+  if (c.library != "warren") name = c.search + ", " + c.library;
+  if (with_planner && !c.options.empty()) name += ", " + options_text(c);
+  return name;
 }
 
 std::vector<std::size_t> turns(std::size_t count, std::uint64_t round) {

@@ -91,6 +91,9 @@ std::optional<double> number_in_word(const std::string& word);
 /// "astar, sorted-array", "prm, bfs"; `with_planner` where searches of one graph are not all there is.
 std::string name_of(const Contender& contender, bool with_planner);
 
+/// The name in a plot. Where options were dealt out, they alone set a planner's contenders apart.
+std::string plot_name_of(const Contender& contender, bool with_planner);
+
 /// "samples 50, radius 2"
 std::string options_text(const Contender& contender);
 

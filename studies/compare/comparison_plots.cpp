@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Plots of a comparison. Random graphs: for each search that takes a queue, times against size, and beside them the
 // ratios to the heap, whose crossing of 1 is where array and heap cross. Else: what options that were dealt out do
-// (comparison_lists.cpp), and for each contender the share of its runs that had found a path, against time.
+// (comparison_lists.cpp), for each contender the share of its runs that had found a path, against time, and how its
+// lengths, times and clearances are spread (comparison_boxes.cpp).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -80,19 +81,6 @@ std::vector<Vec2> solved_shares(const Contender& contender) {
   return points;
 }
 
-/// Where options were dealt out, they alone set a planner's contenders apart.
-std::string contender_name(const Contender& c, bool with_planner) {
-  if (!c.dealt.empty()) {
-    std::string dealt = c.planner;
-    for (const auto& [option, word] : c.dealt) dealt += fmt::format(", {} {}", option, word);
-    return dealt;
-  }
-  std::string name = name_of(c, with_planner);
-  if (c.library != "warren") name = c.search + ", " + c.library;
-  if (with_planner && !c.options.empty()) name += ", " + options_text(c);
-  return name;
-}
-
 std::vector<Plot> share_plots(const Comparison& comparison) {
   std::vector<Plot> plots;
   for (std::size_t problem = 0; problem < comparison.problems.size(); ++problem) {
@@ -104,7 +92,7 @@ std::vector<Plot> share_plots(const Comparison& comparison) {
               .from_zero = true,
               .series = {}};
     for (const Contender& c : comparison.contenders) {
-      if (c.problem == problem) plot.series.push_back({contender_name(c, planners), solved_shares(c)});
+      if (c.problem == problem) plot.series.push_back({plot_name_of(c, planners), solved_shares(c)});
     }
     plots.push_back(std::move(plot));
   }
@@ -121,14 +109,16 @@ std::vector<std::string> comparison_panels(const Comparison& comparison) {
   for (const Plot& plot : curves.empty() ? share_plots(comparison) : sweep_plots(curves)) {
     if (!curves.empty() || is_alone || plot.series.size() <= colours) panels.push_back(plot_svg(plot));
   }
+  if (curves.empty()) {
+    for (std::string& panel : box_panels(comparison)) panels.push_back(std::move(panel));
+  }
   return panels;
 }
 
 std::string comparison_svg(const Comparison& comparison) {
   constexpr std::size_t side_by_side = 2;
   constexpr std::size_t figures = 3;
-  const bool is_sweep = !sweep_curves(comparison).empty();
-  const std::size_t columns = is_sweep ? side_by_side : list_panels(comparison).empty() ? 1 : figures;
+  const std::size_t columns = list_panels(comparison).empty() ? side_by_side : figures;
   return panels_svg(comparison_panels(comparison), columns);
 }
 

@@ -4,9 +4,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "pictures/plots/box_plot_svg.hpp"
 #include "scenes/text/palette.hpp"
 #include "studies/compare/comparison.hpp"
 #include "studies/measure/report_page.hpp"
@@ -38,6 +40,15 @@ std::vector<std::string> comparison_panels(const Comparison& comparison);
 std::vector<std::string> list_panels(const Comparison& comparison);
 /// How many heat maps list_panels() leaves out; empty: none.
 std::string note_on_heat_maps(const Comparison& comparison);
+
+/// Lengths, times and clearances of each problem's contenders as box plots (comparison_boxes.cpp), those that differ
+/// from run to run: SVG elements of plot_size. None of a problem with more than most_boxes contenders.
+std::vector<std::string> box_panels(const Comparison& comparison);
+/// Whiskers end at the last values within 1.5 times the quartiles' distance from the quartiles, the others are outliers
+/// (Tukey 1977). Nothing of no values.
+std::optional<BoxFigures> box_figures_of(std::vector<double> values);
+/// What box_panels() leaves out; empty: nothing.
+std::string note_on_box_plots(const Comparison& comparison);
 
 /// How planners are called in the log of OMPL's benchmarks, and what all runs had in common.
 struct OmplExperiment {

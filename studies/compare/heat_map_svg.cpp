@@ -6,13 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <string_view>
 
 #include "core/base/types.hpp"
 #include "pictures/model/xml_text.hpp"
-#include "pictures/plots/plot_svg.hpp"
+#include "pictures/plots/plot_sheet.hpp"
 
 namespace warren {
 namespace {
@@ -65,7 +64,7 @@ class HeatMapDrawing {
     for (std::size_t row = 0; row < map_.rows.size(); ++row) {
       for (std::size_t column = 0; column < map_.columns.size(); ++column) draw_cell(column, row);
     }
-    return text_ + "</svg>\n";
+    return sheet_.take();
   }
 
  private:
@@ -73,46 +72,33 @@ class HeatMapDrawing {
   void draw_cell(std::size_t column, std::size_t row);
   double x_of(std::size_t column) const { return frame.min.x + cell_.x * static_cast<double>(column); }
   double y_of(std::size_t row) const { return frame.max.y - cell_.y * static_cast<double>(row + 1); }
-  void label(double x, double y, std::string_view anchor, std::string_view text, std::string_view more = "") {
-    fmt::format_to(std::back_inserter(text_), "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y,
-                   anchor, more, xml_text(text));
-  }
 
   const HeatMap& map_;
   Vec2 cell_;  // width and height of one
   Scale scale_;
-  std::string text_;
+  PlotSheet sheet_;
 };
 
 void HeatMapDrawing::begin() {
-  text_ = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" role=\"img\" "
-      "font-family=\"sans-serif\" font-size=\"12\" fill=\"#222222\">\n<title>{2}</title>\n"
-      "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n",
-      plot_size.x, plot_size.y, xml_text(map_.title));
-  label(frame.min.x, 28.0, "start", map_.title, " font-size=\"15\" font-weight=\"bold\"");
-  label((frame.min.x + frame.max.x) / 2.0, plot_size.y - 22.0, "middle", map_.x_label);
-  const double middle = (frame.min.y + frame.max.y) / 2.0;
-  label(40.0, middle, "middle", map_.y_label, fmt::format(" transform=\"rotate(-90 40 {:.1f})\"", middle));
+  sheet_.begin(map_.title, frame, map_.x_label, map_.y_label, 40.0);
   for (std::size_t i = 0; i < map_.columns.size(); ++i) {
-    label(x_of(i) + 0.5 * cell_.x, frame.max.y + 18.0, "middle", map_.columns[i]);
+    sheet_.label(x_of(i) + 0.5 * cell_.x, frame.max.y + 18.0, "middle", map_.columns[i]);
   }
   for (std::size_t i = 0; i < map_.rows.size(); ++i) {
-    label(frame.min.x - 8.0, y_of(i) + 0.5 * cell_.y + 4.0, "end", map_.rows[i]);
+    sheet_.label(frame.min.x - 8.0, y_of(i) + 0.5 * cell_.y + 4.0, "end", map_.rows[i]);
   }
 }
 
 void HeatMapDrawing::draw_cell(std::size_t column, std::size_t row) {
   const HeatMap::Cell& cell = map_.cells[row * map_.columns.size() + column];
   const Color color = cell.value ? color_at(scale_.share(*cell.value)) : Color{232, 232, 232};
-  fmt::format_to(std::back_inserter(text_),
-                 "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"{}\" stroke=\"#ffffff\" "
-                 "data-tip=\"{}\"/>\n",
-                 x_of(column), y_of(row), cell_.x, cell_.y, text_of(color),
-                 xml_text(fmt::format("{} {}, {} {}: {}", map_.x_label, map_.columns[column], map_.y_label,
-                                      map_.rows[row], cell.text)));
+  const Vec2 low{x_of(column), y_of(row)};
+  sheet_.box({low, low + cell_},
+             fmt::format("fill=\"{}\" stroke=\"#ffffff\" data-tip=\"{}\"", text_of(color),
+                         xml_text(fmt::format("{} {}, {} {}: {}", map_.x_label, map_.columns[column], map_.y_label,
+                                              map_.rows[row], cell.text))));
   const std::string_view ink = is_dark(color) ? " fill=\"#ffffff\"" : "";
-  label(x_of(column) + 0.5 * cell_.x, y_of(row) + 0.5 * cell_.y + 4.0, "middle", cell.text, ink);
+  sheet_.label(x_of(column) + 0.5 * cell_.x, y_of(row) + 0.5 * cell_.y + 4.0, "middle", cell.text, ink);
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ constexpr OptionSpec output_specs[] = {
     {"--csv", "FILE", "write a line a planner or search; - is standard output"},
     {"--html", "FILE", "write a page of tables and plots that needs no network; - is standard output"},
     {"--runs", "FILE", "write a line a run as CSV; - is standard output"},
-    {"--svg", "FILE", "plot times against size, or the share solved against time; - is standard output"},
+    {"--svg", "FILE", "plot times against size, or the share solved against time and box plots; - is standard output"},
     {"--log", "FILE", "write every run as OMPL's benchmarks do; - is standard output"},
 };
 
@@ -69,8 +69,9 @@ class CompareCommand {
     compare(run);
     run.end();
     if (arguments_.has("--svg") || arguments_.has("--html")) {
-      if (std::string note = note_on_heat_maps(comparison_); !note.empty())
-        comparison_.notes.push_back(std::move(note));
+      for (std::string note : {note_on_heat_maps(comparison_), note_on_box_plots(comparison_)}) {
+        if (!note.empty()) comparison_.notes.push_back(std::move(note));
+      }
     }
     write_outputs();
     run.conclude(standard_output_taken_, comparison_.stopped,

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pictures/plots/box_plot_svg.hpp"
+
+#include <gtest/gtest.h>
+
+namespace warren {
+namespace {
+
+std::size_t times_in(const std::string& text, std::string_view what) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++count;
+  return count;
+}
+
+BoxPlot boxes_with(std::vector<double> outliers, bool logarithmic) {
+  BoxPlot plot{.title = "maze & more: time", .label = "seconds", .remarks = "solved", .logarithmic = logarithmic};
+  plot.boxes.push_back({"prm", "9 of 9", BoxFigures{1.0, 2.0, 3.0, 4.0, 6.0, std::move(outliers)}});
+  plot.boxes.push_back({"rrt", "none of 9", {}});
+  return plot;
+}
+
+TEST(BoxPlotSvg, EveryRowHasItsNameAndRemarkAndOnlyFiguresABox) {
+  const std::string text = box_plot_svg(boxes_with({20.0}, false));
+  for (const char* word : {">prm<", ">rrt<", ">9 of 9<", ">none of 9<", ">solved<", ">seconds<"}) {
+    EXPECT_EQ(times_in(text, word), 1U) << word;
+  }
+  EXPECT_EQ(times_in(text, "data-tip"), 1U);
+  EXPECT_EQ(times_in(text, "<circle"), 1U);
+  EXPECT_NE(text.find("maze &amp; more"), std::string::npos);
+}
+
+TEST(BoxPlotSvg, OutliersOnOnePixelAreDrawnOnce) {
+  EXPECT_EQ(times_in(box_plot_svg(boxes_with(std::vector<double>(100'000, 20.0), false)), "<circle"), 1U);
+  EXPECT_EQ(times_in(box_plot_svg(boxes_with({10.0, 15.0, 20.0}, false)), "<circle"), 3U);
+}
+
+TEST(BoxPlotSvg, ALogarithmicAxisShowsDecadesAndZeroKeepsItLinear) {
+  EXPECT_NE(box_plot_svg(boxes_with({5000.0}, true)).find(">1k<"), std::string::npos);
+  const std::string linear = box_plot_svg(boxes_with({0.0, 5000.0}, true));
+  EXPECT_EQ(linear.find("nan"), std::string::npos);
+  EXPECT_EQ(linear.find("inf"), std::string::npos);
+}
+
+TEST(BoxPlotSvg, PlacesAreInsideTheElementWithAnyNamesAndFigures) {
+  for (const double value : {0.0, 1e-9, 7.0, 1e12}) {
+    BoxPlot plot{.title = "one",
+                 .boxes = {{std::string(400, 'w'), "1 of 1", BoxFigures{value, value, value, value, value}}}};
+    const std::string text = box_plot_svg(plot);
+    EXPECT_EQ(text.find("nan"), std::string::npos) << value;
+    EXPECT_EQ(text.find("=\"-"), std::string::npos) << value;
+    EXPECT_NE(text.find("...<"), std::string::npos) << "a name that is cut says so";
+  }
+}
+
+}  // namespace
+}  // namespace warren
