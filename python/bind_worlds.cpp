@@ -217,6 +217,7 @@ void bind_worlds(py::module_& module) {
            [](const Scene& s) { return CallLimits().run([&](const Execution& on) { return account_of(s, on).hash; }); })
       .def("with_other_walls", &with_other_walls)
       .def("write", &write_by_ending)
+      .def("left_out", &parts_left_out)
       .def(py::pickle([](const Scene& s) { return bytes_of(s); },
                       [](const py::bytes& b) { return from_bytes<Scene>(b); }));
   module.def("read_world", &read_named);

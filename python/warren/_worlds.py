@@ -16,9 +16,6 @@ def _row(number):
     return operator.index(number)
 
 
-_PARTS = ("start", "goal", "robot", "clearance")
-
-
 class World:
     """Where a body may be: a maze, a map of cells, polygons and walls, or an arm's solids.
 
@@ -156,15 +153,8 @@ class World:
         """
         path = os.fspath(file)
         self._core.write(path, None if cell is None else float(cell))
-        lost = [part for part in _PARTS if getattr(self, part) is not None and part not in self._kept_by(path)]
-        if lost:
+        if lost := self._core.left_out(path):
             warnings.warn(f"{path}: its format has no {', '.join(lost)}: left out", stacklevel=2)
-
-    def _kept_by(self, path):
-        if path.endswith((".scene", ".walls", ".txt")):
-            return _PARTS
-        of_a_maze = self.maze is not None and path.endswith((".npy", ".maze"))  # read anew, it has the same ones
-        return ("start", "goal") if of_a_maze or path.endswith(".geojson") else ()
 
     def svg(self, **look):
         """The world as an SVG document.

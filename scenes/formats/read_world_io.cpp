@@ -201,6 +201,20 @@ Scene read_world(const std::string& source, const Execution& execution, MapServe
   return scene;
 }
 
+std::vector<std::string_view> parts_left_out(const Scene& scene, std::string_view path) {
+  const bool is_geojson = path.ends_with(".geojson");
+  const bool is_cells = path.ends_with(".npy") || path.ends_with(".maze");
+  const bool is_map = is_map_ending(path) || path.ends_with(".png");
+  std::vector<std::string_view> lost;
+  if (!is_geojson && !is_cells && !is_map && !path.ends_with(".wkt")) return lost;
+  const bool keeps_ends = is_geojson || (is_cells && scene.maze);
+  if (!scene.start.empty() && !keeps_ends) lost.push_back("start");
+  if (!scene.goal.empty() && !keeps_ends) lost.push_back("goal");
+  if (scene.robot) lost.push_back("robot");
+  if (scene.clearance) lost.push_back("clearance");
+  return lost;
+}
+
 void write_scene(const Scene& scene, const std::string& path, const Execution& execution) {
   const std::string_view name = path;
   if (name.ends_with(".npy")) return write_npy(scene, path, execution);

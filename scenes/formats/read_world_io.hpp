@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "parallel/execution.hpp"
 #include "scenes/formats/ros_map_io.hpp"
@@ -47,6 +48,10 @@ Scene read_scene(const InputFile& file, const Execution& execution, MapServerRul
 /// Writes .npy, .maze, .geojson, .wkt, or for .walls, .scene, .txt and "-" scene text. Throws UsageError for other
 /// endings, InputError for what the format can't hold, WriteError, Stopped.
 void write_scene(const Scene& scene, const std::string& path, const Execution& execution = {});
+
+/// Of "start", "goal", "robot" and "clearance" what the scene has and a file of that ending, a world's or a map's, has
+/// no words for. A maze read anew from .npy has the same start and goal.
+std::vector<std::string_view> parts_left_out(const Scene& scene, std::string_view path);
 
 /// Is this the ending of a map: .map (Moving AI), .yaml (map server, with a .pgm beside it) or .pgm?
 bool is_map_ending(std::string_view path);

@@ -247,6 +247,25 @@ TEST(Maps, ConvertGoesFromCellsToWallsAndBack) {
   EXPECT_EQ(answered({"info", folder.path("w.png")})["occupied"], 3);
 }
 
+TEST(Maps, WhatAFormatHasNoWordsForIsLeftOutWithANote) {
+  const Folder folder;
+  const std::string scene = folder.write(
+      "w.scene", "bounds 0 0 6 4\nrobot disc 0.1\nclearance 0.1\nstart 1 1\ngoal 5 1\nwall 2.5 1 2.5 2.5\n");
+  const std::pair<const char*, const char*> cases[]{{"w.wkt", "has no start, goal, robot, clearance: left out"},
+                                                    {"w.npy", "has no start, goal, robot, clearance: left out"},
+                                                    {"w.geojson", "has no robot, clearance: left out"}};
+  for (const auto& [name, said] : cases) {
+    const Outcome outcome = run({"convert", scene, "-o", folder.path(name)});
+    EXPECT_EQ(outcome.code, 0) << name;
+    EXPECT_NE(outcome.err.find(said), std::string::npos) << name << outcome.err;
+  }
+  EXPECT_NE(run({"convert", scene, "--cell", "0.5", "-o", folder.path("w.map")}).err.find("has no start, goal"),
+            std::string::npos);
+  for (const char* name : {"a.scene", "a.svg"}) EXPECT_EQ(run({"convert", scene, "-o", folder.path(name)}).err, "");
+  EXPECT_EQ(run({"convert", scene, "-o", folder.path("a.wkt"), "--quiet"}).err, "");
+  EXPECT_EQ(run({"convert", "maze:4x4", "-o", folder.path("a.npy")}).err, "") << "read anew, a maze has the same ones";
+}
+
 TEST(Maps, UnknownCellsStayClosedInImagesWithoutYaml) {
   const Folder folder;
   folder.write("m.pgm", "P2 3 1 255\n254 205 0\n");
