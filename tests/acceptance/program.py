@@ -53,6 +53,14 @@ class Program:
             raise Failure(f"exit code {done.returncode}, not {code}: {' '.join(command)}\n      {said[:300]}")
         return done.stdout.decode("utf-8")
 
+    def writes_pdf(self):
+        """Was libharu there when it was built?"""
+        page = os.path.join(self.folder, "page.pdf")
+        done = subprocess.run(self.command("convert", "maze:2x2", "-o", page), capture_output=True, timeout=60)
+        if done.returncode != 0 and b"without libharu" not in done.stderr:
+            raise Failure(f"exit code {done.returncode}: convert to .pdf\n      {done.stderr[-300:]!r}")
+        return done.returncode == 0
+
     def solve(self, file, *arguments, code=0, timeout_s=600.0, feed=None):
         """The answer of `solve … --json -` as text."""
         return self.run("solve", file, *arguments, "--json", "-", code=code, timeout_s=timeout_s, feed=feed)

@@ -128,12 +128,17 @@ def solve_cases(w, full):
     return [(["solve", *case], {"--json": "answer.json"}) for case in cases]
 
 
+def pictures_of(w, name):
+    """That name with each ending that this build draws: .pdf takes libharu."""
+    return [name + ending for ending in (".svg", ".png", ".html") + ((".pdf",) if w.program.writes_pdf() else ())]
+
+
 def picture_cases(w, full):
     """solve with pictures: the search is short, so stops fall into drawing and writing."""
     maze, polygons = f"maze:{1500 if full else 300}x{1500 if full else 300}", w.polygons(20000 if full else 2000)
     return [(["solve", world, *more], {"--json": "answer.json", "--svg": name})
             for world, more in ((maze, ["--optimise"]), (polygons, ["--planner", "cells"]))
-            for name in ("picture.svg", "picture.png", "picture.html")]
+            for name in pictures_of(w, "picture")]
 
 
 def file_cases(w, full):
@@ -144,7 +149,7 @@ def file_cases(w, full):
              (["verify", polygons, w.answer(polygons, "--planner", "cells")], {})]
     for world in (maze, polygons, cells):
         cases += [(["info", world], {"--json": "info.json"})]
-        cases += [(["render", world], {"-o": name}) for name in ("out.svg", "out.png", "out.html")]
+        cases += [(["render", world], {"-o": name}) for name in pictures_of(w, "out")]
     cases += [(["convert", maze], {"-o": name}) for name in ("out.scene", "out.npy", "out.walls", "out.wkt")]
     cases += [(["convert", polygons], {"-o": name}) for name in ("out.geojson", "out.scene")]
     cases += [(["convert", polygons, "--cell", "0.1" if full else "0.5"], {"-o": "out.map"}),

@@ -143,7 +143,8 @@ class Stop:
             answer = json.loads(content)
             if self.words[0] == "solve" and (answer["status"] == "stopped") == self.came_too_late:
                 raise Failure(f"exit code {self.code}, and {name} says {answer['status']}: {self.shown()}")
-        ends = {".svg": b"</svg>\n", ".html": b"</html>\n", ".png": b"IEND\xaeB`\x82", ".geojson": b"}\n"}
+        ends = {".svg": b"</svg>\n", ".html": b"</html>\n", ".png": b"IEND\xaeB`\x82", ".pdf": b"%%EOF\n",
+                ".geojson": b"}\n"}
         end = ends.get(os.path.splitext(name)[1])
         if end and not content.endswith(end):
             raise Failure(f"{name} is cut off: {self.shown()}")
