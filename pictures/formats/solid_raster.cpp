@@ -18,6 +18,7 @@ namespace warren {
 namespace {
 
 constexpr std::size_t samples_a_side = 2;  // of a pixel
+constexpr std::size_t solids_a_poll = 256;
 constexpr std::uint32_t nobody = ~std::uint32_t{0};
 
 /// Where on the raster a solid may be: in a box, half as large as `half`, whose middle is between a and b.
@@ -64,7 +65,10 @@ class SolidRaster {
   }
 
   Image draw() {
-    for (std::uint32_t i = 0; i < solids_.size(); ++i) mark(i);
+    for (std::uint32_t i = 0; i < solids_.size(); ++i) {
+      if (i % solids_a_poll == 0) execution_.check();
+      mark(i);
+    }
     Image image(width_, height_, colors::paper, execution_);
     for (std::size_t y = 0; y < height_; ++y) {
       execution_.check();
@@ -142,7 +146,6 @@ void SolidRaster::take_solids(const SolidView& view, Parts parts) {
   square_ = view.square / view.reach;
   shadows_ = Mask(shadow_side, shadow_side, execution_);
   execution_.reserve(view.solids.size() * sizeof(Solid));
-  constexpr std::size_t solids_a_poll = 256;
   for (std::size_t i = 0; i < view.solids.size(); ++i) {
     if (i % solids_a_poll == 0) execution_.check();
     const Solid& s = view.solids[i];

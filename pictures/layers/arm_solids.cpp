@@ -9,8 +9,6 @@
 namespace warren {
 namespace {
 
-constexpr double least_radius = 0.006;  // of what is to be seen, in reaches
-
 Vec3 corner(const std::array<double, 3>& c) { return {c[0], c[1], c[2]}; }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <string>
 
@@ -60,9 +61,12 @@ class ArmDrawing {
     ArmViews views;
     views.stage.source = scene_.source;
     for (const Projection& view : views_) add_obstacles(view, views.stage);
-    views.layers = {sweep(path), arm_at("start", path, path.states().front(), colors::start),
-                    arm_at("goal", path, path.states().back(), colors::goal), trace(path)};
-    if (path.states().size() == 1) views.layers.erase(views.layers.begin() + 2);
+    const PictureLayer start = arm_at("start", path, path.states().front(), colors::start);
+    if (path.states().size() == 1) {
+      views.layers = {start};
+    } else {
+      views.layers = {sweep(path), start, arm_at("goal", path, path.states().back(), colors::goal), trace(path)};
+    }
     views.solids = solids_of(scene_, perspective_, low_, high_, execution_);
     add_arm(views.solids, path, radius_, execution_);
     views.panels = panels(views.solids.square);
@@ -215,25 +219,74 @@ std::vector<PictureLayer> ArmDrawing::places(std::span<const Vec3> tools, std::s
       }
     }
   }
-  PictureLayer& dots = layers.emplace_back(PictureLayer{
-      .id = "milestones", .label = "tool at a state", .color = colors::outline, .width = widths::milestone});
+  PictureLayer& dots = layers.emplace_back(PictureLayer{.id = "milestones",
+                                                        .label = "tool at a state",
+                                                        .swatch = MarkShape::disc,
+                                                        .color = colors::outline,
+                                                        .width = widths::milestone});
   for (const Projection& view : views_) {
     for (const Vec3& p : tools) dots.lines.add(std::array{view.at(p), view.at(p)});
   }
   return layers;
 }
 
+/// How much thinner and paler balls and threads become whose ink would cover the view: the root of the share of it that
+/// they may cover, at most 1. ink: square reaches.
+double thinned(double ink) {
+  constexpr double allowed = 0.3 * 4.0;
+  return ink > allowed ? std::sqrt(allowed / ink) : 1.0;
+}
+
 /// The same in the perspective: edges as threads, states as beads.
-void add_places(SolidView& view, std::span<const Vec3> tools, std::span<const ToolLines> lines) {
-  constexpr double thread = 0.002;
-  constexpr double bead = 0.008;
-  for (const ToolLines& some : lines) {
-    for (const Edge& e : some.edges) {
-      view.solids.push_back({tools[e.from], tools[e.to], thread * view.reach, some.color, Part::roadmap});
+class Places {
+ public:
+  Places(SolidView& view, std::span<const Vec3> tools, const Execution& execution)
+      : view_(view), tools_(tools), execution_(execution) {}
+
+  void add(std::span<const ToolLines> lines) {
+    std::size_t count = tools_.size();
+    for (const ToolLines& some : lines) count += some.edges.size();
+    execution_.reserve(2 * (view_.solids.size() + count) * sizeof(Solid));  // two arrays while the solids move
+    view_.solids.reserve(view_.solids.size() + count);
+    for (const ToolLines& some : lines) add_threads(some);
+    constexpr double bead = 0.008;
+    constexpr double least_bead = 0.002;
+    const double share = thinned(std::numbers::pi * bead * bead * static_cast<double>(tools_.size()));
+    for (std::size_t i = 0; i < tools_.size(); ++i) {
+      if (i % edges_a_poll == 0) execution_.check();
+      const Vec3& p = tools_[i];
+      add_solid(p, p, std::max(share * bead, least_bead), colors::outline, share);
     }
   }
-  for (const Vec3& p : tools) view.solids.push_back({p, p, bead * view.reach, colors::outline, Part::roadmap});
-}
+
+ private:
+  void add_threads(const ToolLines& some) {
+    constexpr double thread = 0.002;
+    constexpr double least_thread = 0.0008;  // some pixels still see it
+    double ink = 0.0;
+    for (std::size_t i = 0; i < some.edges.size(); ++i) {
+      if (i % edges_a_poll == 0) execution_.check();
+      ink += 2.0 * thread * (tools_[some.edges[i].to] - tools_[some.edges[i].from]).norm() / view_.reach;
+    }
+    const double share = thinned(ink);
+    view_.is_thinned = view_.is_thinned || share < 1.0;
+    for (std::size_t i = 0; i < some.edges.size(); ++i) {
+      if (i % edges_a_poll == 0) execution_.check();
+      add_solid(tools_[some.edges[i].from], tools_[some.edges[i].to], std::max(share * thread, least_thread),
+                some.color, share);
+    }
+  }
+  void add_solid(const Vec3& a, const Vec3& b, double radius, Rgb color, double share) {
+    constexpr double least_share = 0.6;  // paler ones would be grey in their own shade
+    const auto percent = static_cast<unsigned>(100.0 * std::max(share, least_share));
+    view_.solids.push_back({a, b, radius * view_.reach, mixed(color, colors::paper, percent), Part::roadmap});
+  }
+
+  static constexpr std::size_t edges_a_poll = 1 << 12;
+  SolidView& view_;
+  std::span<const Vec3> tools_;
+  const Execution& execution_;
+};
 
 }  // namespace
 
@@ -247,10 +300,14 @@ ArmViews arm_roadmap_views(const Scene& scene, const DhTable& table, double radi
   const ArmDrawing drawing(scene, radius, all, execution);
   ArmViews views = drawing.draw(stands);
   std::vector<Vec3> tools;
-  for (const JointState& q : states) tools.push_back(all.tool(q));
+  constexpr std::size_t states_a_poll = 1 << 10;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (i % states_a_poll == 0) execution.check();
+    tools.push_back(all.tool(states[i]));
+  }
   const std::vector<PictureLayer> places = drawing.places(tools, lines);
   views.layers.insert(views.layers.begin(), places.begin(), places.end());
-  add_places(views.solids, tools, lines);
+  Places(views.solids, tools, execution).add(lines);
   return views;
 }
 

@@ -89,6 +89,7 @@ void LegendMaker::add(const PictureLayer& layer) {
     if (there.label == layer.label) return;
   }
   LegendEntry entry{.label = layer.label, .width = layer.width, .fill = layer.fill, .mark = layer.swatch};
+  if (layer.swatch && !layer.fill) entry.fill = layer.color;
   if (layer.width > 0.0) entry.lines = {layer.color};
   entries_.push_back(std::move(entry));
 }

@@ -31,7 +31,11 @@ struct SolidView {
   double floor_side = 1.0;   ///< > 0
   double square = 1.0;       ///< side of the floor's squares
   std::vector<Solid> solids = {};
+  bool is_thinned = false;  ///< lines of a roadmap are thinner and paler, being so many
 };
+
+/// Of links and paths that are to be seen, in reaches.
+inline constexpr double least_radius = 0.006;
 
 /// The eye is so many reaches away from the target.
 inline constexpr double eye_distance = 3.2;

@@ -23,7 +23,7 @@ Json facts_of(const SolidView& solids, const MovingArm& arm, Vec2 origin) {
              {"floorSide", solids.floor_side},
              {"square", solids.square},
              {"radius", arm.radius},
-             {"least", 0.006 * solids.reach},
+             {"least", least_radius * solids.reach},
              {"ends", arm.spines.front().size()},
              {"colors",
               {{"solid", css_color(colors::blocked_cell)},

@@ -9,9 +9,9 @@
 
 namespace warren {
 
-/// Does the page's script draw an arm in perspective, where it is on its way?
-inline bool moves_arm(const Picture& picture) {
-  return picture.solids != nullptr && picture.arm != nullptr && !picture.arm->spines.empty();
+/// Does the page's script draw an arm in perspective, where it is on its way? Else its perspective is an image.
+inline bool moves_arm(const Picture& picture, Parts parts) {
+  return picture.solids != nullptr && picture.arm != nullptr && !picture.arm->spines.empty() && parts.has(Part::body);
 }
 
 /// Of a picture that moves an arm. Places of space are relative to the view's target, of the picture's world

@@ -44,7 +44,7 @@ class PageWriter {
     write_page_layers(picture_, parts_, canvas_, origin_, execution_, write_);
     if (picture_.roadmap != nullptr && picture_.panels.empty()) graph(*picture_.roadmap);
     if (parts_.has(Part::path)) path();
-    if (moves_arm(picture_)) write_page_arm(picture_, parts_, origin_, execution_, write_);
+    if (moves_arm(picture_, parts_)) write_page_arm(picture_, parts_, origin_, execution_, write_);
     write_("}</script>\n<script>\n");
     for (const char* script : {"data.js", "view.js", "marks.js", "arm.js", "pointer.js", "controls.js"})
       write_(page_file(script));
@@ -152,7 +152,7 @@ void PageWriter::path() {
   for (const Vec2 p : without_arcs(picture_.path, picture_.path_turns)) xy.add(moved(p));
   xy.end();
   const MovingBody point;
-  const MovingBody& body = picture_.body != nullptr ? *picture_.body : point;
+  const MovingBody& body = picture_.body != nullptr && parts_.has(Part::body) ? *picture_.body : point;
   Json outline = Json::array();
   for (const Vec2 p : body.outline) outline.push_back({p.x, p.y});
   write_(",\"body\":" + Json{{"outline", outline}, {"radius", body.radius}, {"heads", body.heads}}.dump());

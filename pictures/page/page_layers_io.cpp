@@ -68,7 +68,7 @@ void PageLayers::all() {
     if (parts_.has(one.part) && !one.lines.empty()) layer(one);
   }
   if (parts_.has(Part::world)) walls();
-  if (picture_.solids != nullptr && !moves_arm(picture_)) perspective(*picture_.solids);
+  if (picture_.solids != nullptr && !moves_arm(picture_, parts_)) perspective(*picture_.solids);
   write_("]");
 }
 
@@ -202,7 +202,7 @@ void PageLayers::wall_image() {
            [&](const Write& write) { write_png_file(mask, colors::wall, execution_, write); });
 }
 
-/// Of an arm that doesn't move; the page's script draws the others.
+/// Of an arm that doesn't move there; the page's script draws the others.
 void PageLayers::perspective(const SolidView& view) {
   constexpr std::size_t pixels = 1024;
   begin_layer({{"id", "perspective"}, {"label", "perspective"}});
