@@ -21,15 +21,15 @@ class Painter {
 
   void paint() {
     surface_.enter_world();
+    layers([](const PictureLayer& some) { return some.part == Part::world; });
     if (parts_.has(Part::world)) polygons();
-    for (const PictureLayer& some : picture_.layers) {
-      if (parts_.has(some.part) && some.part != Part::body) layer(some);
-    }
+    const auto is_lines = [](Part part) { return part == Part::roadmap || part == Part::search; };
+    layers([&](const PictureLayer& some) { return is_lines(some.part) && !some.over_roadmap; });
     if (picture_.roadmap != nullptr) roadmap();
+    layers([&](const PictureLayer& some) { return is_lines(some.part) && some.over_roadmap; });
     if (parts_.has(Part::world)) walls();
-    for (const PictureLayer& some : picture_.layers) {
-      if (parts_.has(some.part) && some.part == Part::body) layer(some);
-    }
+    layers([](const PictureLayer& some) { return some.part == Part::body; });
+    layers([](const PictureLayer& some) { return some.part == Part::path; });
     if (parts_.has(Part::path)) {
       path();
       mark("start", picture_.start, MarkShape::disc, colors::start);
@@ -47,6 +47,13 @@ class Painter {
   }
 
  private:
+  /// Those that are chosen and shown.
+  template <class Choose>
+  void layers(const Choose& choose) {
+    for (const PictureLayer& some : picture_.layers) {
+      if (parts_.has(some.part) && choose(some)) layer(some);
+    }
+  }
   double width(double usual, double least = 0.0) const { return std::max(usual * page_.thickness(), least); }
   void polygons();
   void layer(const PictureLayer& layer);

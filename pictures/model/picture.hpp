@@ -36,6 +36,8 @@ struct PictureLayer {
   bool closed = false;                 ///< the chains are outlines
   std::optional<Rgb> fill = {};        ///< of outlines that do not overlap, or may be taken together
   double opacity = 1.0;                ///< 0 .. 1
+  bool blocks = true;                  ///< an area of Part::world is an obstacle
+  bool over_roadmap = false;           ///< drawn after the roadmap's edges
   std::vector<double> opacities = {};  ///< of each chain, times `opacity`; empty: all 1
   /// The turn of the arc that leads to each corner of `lines`, anticlockwise, at most a half turn; 0: a straight.
   /// Empty: all are straight.

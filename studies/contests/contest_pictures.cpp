@@ -16,8 +16,10 @@
 #include "core/base/error.hpp"
 #include "pictures/draw_answer.hpp"
 #include "pictures/formats/write_picture.hpp"
-#include "pictures/layers/draw_cells.hpp"
 #include "pictures/subtitle.hpp"
+#include "scenes/text/human_units.hpp"
+#include "solve/answer/world_account.hpp"
+#include "studies/contests/paths_figure.hpp"
 
 namespace warren {
 namespace {
@@ -67,7 +69,8 @@ class ContestPictures {
     const std::string title = fmt::format("{}, {}{}seed {}: {}", title_of(scene_), contender.planner,
                                           said.empty() ? ", " : ", " + said + ", ", seed, name_of(answer.outcome));
     write(unused(file_name(contender.planner + " " + said)), title, picture_of(scene_, drawing));
-    add_path(drawing, said.empty() ? contender.planner : contender.planner + ", " + said);
+    add_path(drawing, said.empty() ? contender.planner : contender.planner + ", " + said,
+             run != nullptr ? run->length : 0.0);
     for (const DrawingPage& page : drawing.pages) {
       const std::string name = file_name(contender.planner) + "_" + page.id;
       if (!names_.insert(name).second) continue;
@@ -76,16 +79,9 @@ class ContestPictures {
   }
   /// The paths of all contenders in one figure.
   void draw_paths() {
-    if (paths_.size() < 2) return;
-    std::vector<PictureLayer> layers;
-    if (scene_.map) layers.push_back(map_layer(*scene_.map, execution_));
-    for (PictureLayer& path : paths_) layers.push_back(std::move(path));
-    write(unused("paths"), title_of(scene_),
-          {.scene = scene_,
-           .layers = layers,
-           .start = start_,
-           .goal = goal_,
-           .subtitle = fmt::format("{}\nof each planner the path of median length", description_of(scene_))});
+    if (paths_.paths.size() < 2) return;
+    paths_.subtitle = fmt::format("{}\nof each planner the path of median length", description_of(scene_));
+    warren::draw_paths(file_of(unused("paths")), scene_, paths_, options_.look, execution_);
   }
 
  private:
@@ -95,23 +91,18 @@ class ContestPictures {
     return name;
   }
   /// Keeps what the figure of all paths shows; an arm's are in joint space.
-  void add_path(const Drawing& drawing, std::string label) {
+  void add_path(const Drawing& drawing, const std::string& label, double length) {
     if (drawing.path.size() < 2) return;
-    const Rgb color = colors::series[paths_.size() % colors::series.size()];
-    PictureLayer& layer = paths_.emplace_back(PictureLayer{.id = fmt::format("path_{}", paths_.size() + 1),
-                                                           .label = std::move(label),
-                                                           .part = Part::path,
-                                                           .color = color,
-                                                           .width = 0.8 * widths::path});
-    layer.lines.add(drawing.path);
-    layer.turns = drawing.path_turns;
-    start_ = drawing.start;
-    goal_ = drawing.goal;
+    paths_.paths.push_back(
+        {fmt::format("{}: length {}", label, human_number(length)), without_arcs(drawing.path, drawing.path_turns)});
+    paths_.start = drawing.start;
+    paths_.goal = drawing.goal;
   }
+  std::string file_of(const std::string& name) const { return folder_ + "/" + name + ".svg"; }
   void write(const std::string& name, const std::string& title, Picture picture) const {
     picture.title = title;
     picture.description = description_of(scene_);
-    write_picture(folder_ + "/" + name + ".svg", picture, options_.look, execution_);
+    write_picture(file_of(name), picture, options_.look, execution_);
   }
 
   const Scene& scene_;
@@ -119,9 +110,7 @@ class ContestPictures {
   const std::string& folder_;
   const Execution& execution_;
   std::set<std::string> names_;
-  std::vector<PictureLayer> paths_;
-  std::optional<Vec2> start_;
-  std::optional<Vec2> goal_;
+  PathsFigure paths_;
 };
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "studies/compare/comparison_report.hpp"
 #include "studies/contests/contest_pictures.hpp"
 #include "studies/contests/graph_of_world.hpp"
+#include "studies/contests/search_pictures.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_names.hpp"
 #include "tools/screen/run_of_verb.hpp"
@@ -157,6 +158,9 @@ void CompareCommand::compare_searches(const Scene& scene, const Run& run) {
   run.note(fmt::format("{}: {} vertices, {} edges, {} searches", scene.source, made.graph.graph.vertex_count(),
                        made.graph.graph.edge_count(), options_.searches.variants.size()));
   run_search_contest(made.graph, options_.searches, execution_, comparison_);
+  if (options_.pictures.empty()) return;
+  draw_searches(scene, made.graph, options_.searches, options_.pictures, options_.look, execution_);
+  comparison_.notes.push_back("pictures: " + options_.pictures);
 }
 
 void CompareCommand::write_outputs() const {

@@ -49,8 +49,8 @@ constexpr OptionSpec own_specs[] = {
     {"--parallel", "",
      "with --planners: runs beside each other on the threads, each on one; all figures but the times stay the same"},
     {"--pictures", "FOLDER",
-     "with --planners: draw each planner's path of median length, the body along it, the layers of the grid, and all "
-     "paths in one"},
+     "draw the graph with the path of each search in one figure; with --planners each planner's path of median length, "
+     "the body along it, the layers of the grid, and all paths in one"},
 };
 
 /// The options of `solve` that compare takes as they are.
@@ -140,7 +140,7 @@ std::optional<SizeSweepOptions> sweep_options(const Arguments& arguments) {
 void refuse_world_options(const Arguments& arguments) {
   constexpr std::string_view why = "is about a world; give WORLD, too";
   for (const OptionSpec& spec : passed_specs()) refuse(arguments, {spec.name}, why);
-  refuse(arguments, {"--graph", "--samplers", "--samples", "--map-rules"}, why);
+  refuse(arguments, {"--graph", "--samplers", "--samples", "--map-rules", "--pictures"}, why);
 }
 
 /// Options of the world's graph; checked for the planners that may make it, so far as that needs no world.
@@ -186,8 +186,8 @@ CompareOptions compare_options(const Arguments& arguments) {
     options.planners->budget_s = options.budget_s;
     return options;
   }
-  picture_words(arguments, false, "--pictures FOLDER");
-  refuse(arguments, {"--pictures"}, "draws the paths of --planners");
+  options.pictures = arguments.value("--pictures").value_or("");
+  options.look = picture_words(arguments, arguments.has("--pictures"), "--pictures FOLDER");
   refuse(arguments, {"--parallel"}, "runs --planners beside each other; searches are timed one by one");
   options.searches.variants = variants_of(arguments);
   options.searches.trials = given_value(arguments, "--trials", auto_or_count_value, std::uint64_t{1}, most_runs);

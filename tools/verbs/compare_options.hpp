@@ -24,6 +24,8 @@ struct CompareOptions {
   std::optional<SizeSweepOptions> sweep;
   std::optional<PlannerKind> graph;  ///< the planner whose graph is searched; none: the world's usual one
   PlannerDeal graph_deal;            ///< options of that planner; its planners are all that may make the graph
+  std::string pictures = {};         ///< the folder that takes the picture of the searches; empty: none is drawn
+  PictureOptions look = {};
   double budget_s = std::numeric_limits<double>::infinity();  ///< of each run
 };
 

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pictures/layers/lines_side_by_side.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace warren {
+namespace {
+
+double length_of(const PolygonSet& lines) {
+  double length = 0.0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    for (std::size_t k = 1; k < lines[i].size(); ++k) length += distance(lines[i][k - 1], lines[i][k]);
+  }
+  return length;
+}
+
+TEST(LinesSideBySide, APathAloneIsOneLine) {
+  const std::vector<std::vector<Vec2>> paths{{{0, 0}, {1, 0}, {1, 1}}};
+  const auto lines = lines_side_by_side(paths, 0.1, {});
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_EQ(lines[0].size(), 1U);
+  EXPECT_EQ(lines[0].corners, paths[0]);
+}
+
+TEST(LinesSideBySide, EqualPathsTakeTurnsInEitherDirection) {
+  const std::vector<std::vector<Vec2>> paths{{{0, 0}, {3, 0}, {3, 3}}, {{3, 3}, {3, 0}, {0, 0}}};
+  const auto lines = lines_side_by_side(paths, 0.5, {});
+  EXPECT_EQ(lines[0].size(), 6U);
+  EXPECT_EQ(lines[1].size(), 6U);
+  EXPECT_NEAR(length_of(lines[0]), 3.0, 1e-12) << "half of it each";
+  EXPECT_NEAR(length_of(lines[1]), 3.0, 1e-12);
+  EXPECT_EQ(lines[0].corners.front(), (Vec2{0, 0}));
+  EXPECT_EQ(lines[1].corners.back(), (Vec2{3, 3}));
+}
+
+TEST(LinesSideBySide, WhatIsSharedByAllIsShownOfAllAndTheRestWhole) {
+  // The first leg is everybody's, the second that of two, the last ones differ.
+  const std::vector<std::vector<Vec2>> paths{
+      {{0, 0}, {6, 0}, {8, 0}, {8, 1}}, {{0, 0}, {6, 0}, {8, 0}, {8, -1}}, {{0, 0}, {6, 0}, {6, 5}}};
+  const auto lines = lines_side_by_side(paths, 1.0, {});
+  EXPECT_NEAR(length_of(lines[0]), 2.0 + 1.0 + 1.0, 1e-12);
+  EXPECT_NEAR(length_of(lines[1]), 2.0 + 1.0 + 1.0, 1e-12);
+  EXPECT_NEAR(length_of(lines[2]), 2.0 + 5.0, 1e-12);
+}
+
+TEST(LinesSideBySide, ShortAndDegeneratePartsStillShowAll) {
+  const std::vector<std::vector<Vec2>> paths{
+      {{0, 0}, {0, 0}, {1, 0}}, {{0, 0}, {1, 0}}, {{1, 0}, {0, 0}}, {}, {{5, 5}}};
+  const auto lines = lines_side_by_side(paths, 100.0, {});
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(length_of(lines[i]), 1.0 / 3.0, 1e-12) << i;
+  EXPECT_TRUE(lines[3].empty());
+  EXPECT_TRUE(lines[4].empty());
+}
+
+}  // namespace
+}  // namespace warren
