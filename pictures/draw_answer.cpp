@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
-#include <numbers>
 #include <string_view>
 #include <utility>
 
@@ -16,6 +14,7 @@
 #include "pictures/layers/draw_bodies.hpp"
 #include "pictures/layers/draw_car.hpp"
 #include "pictures/layers/draw_cells.hpp"
+#include "pictures/layers/heading_layer.hpp"
 #include "pictures/layers/roadmap_in_the_plane.hpp"
 #include "pictures/subtitle.hpp"
 #include "solve/question/question_of_arm.hpp"
@@ -51,31 +50,11 @@ PictureLayer layer_of(NamedLines lines) {
   return layer;
 }
 
-/// Where the body may stand: arrows that show how it is turned there.
-PictureLayer arrows_among(const HeadingCells& heading, const std::function<Vec2(Vec2)>& at,
-                          const Execution& execution) {
-  constexpr std::uint32_t most_a_side = 24;
-  const std::uint32_t apart = std::max(heading.blocked.width(), heading.blocked.height()) / most_a_side + 1;
-  std::vector<Se2> poses;
-  for (std::uint32_t y = apart / 2; y < heading.blocked.height(); y += apart) {
-    execution.check();
-    for (std::uint32_t x = apart / 2; x < heading.blocked.width(); x += apart) {
-      if (heading.blocked.test(x, y)) continue;
-      const Vec2 p = at({x + 0.5, y + 0.5});
-      poses.push_back({p.x, p.y, heading.yaw_rad + heading.heading_degrees * std::numbers::pi / 180.0});
-    }
-  }
-  return heading_arrows(poses, 0.6 * apart * heading.cell);
-}
-
 DrawingPage page_of(const HeadingCells& heading, const std::vector<PictureLayer>& ground, const Execution& execution) {
-  const std::string id = fmt::format("layer_{:.0f}", heading.heading_degrees);
-  const Rotation turned(heading.yaw_rad);
-  const auto at = [&](Vec2 p) { return heading.origin + turned(heading.cell * p); };
-  DrawingPage page{id, ground};
-  page.layers.push_back(cells_layer(id, fmt::format("no room at {:.4g} degrees", heading.heading_degrees),
-                                    heading.blocked, at, execution));
-  page.layers.push_back(arrows_among(heading, at, execution));
+  PictureLayer cells = blocked_at_heading(heading, execution);
+  DrawingPage page{cells.id, ground};
+  page.layers.insert(page.layers.begin(), std::move(cells));
+  page.layers.push_back(arrows_among(heading, execution));
   return page;
 }
 
@@ -102,6 +81,15 @@ void add_bodies(Drawing& drawing, const RobotSpec& robot, const StateList& state
     drawing.layers.push_back(std::move(layer));
   }
   take_lengths(drawing);
+}
+
+/// All states of a turning body's roadmap or trees.
+std::vector<Se2> states_of(const std::vector<PlannedRoadmap<Se2>>& roadmaps) {
+  std::vector<Se2> all;
+  for (const PlannedRoadmap<Se2>& roadmap : roadmaps) {
+    all.insert(all.end(), roadmap.states.begin(), roadmap.states.end());
+  }
+  return all;
 }
 
 /// Takes what is drawn of roadmaps and trees.
@@ -153,7 +141,22 @@ const std::vector<double>& first_given(const std::vector<double>& state, const s
 
 }  // namespace
 
-Drawing drawing_of(const Scene& scene, const Answer& answer, ByProducts made, const Execution& execution) {
+void add_heading(Drawing& drawing, const Scene& scene, const RobotSpec& robot, double clearance,
+                 std::span<const Se2> states, double heading_rad, const Execution& execution) {
+  const HeadingCells cells = heading_cells(scene, robot, clearance, heading_rad, execution);
+  drawing.layers.insert(drawing.layers.begin(), blocked_at_heading(cells, execution));
+  if (states.empty()) drawing.layers.push_back(arrows_among(cells, execution));
+  for (PictureLayer& layer : state_arrows(states, heading_rad)) drawing.layers.push_back(std::move(layer));
+}
+
+void add_heading_of_world(Drawing& drawing, const Scene& scene, double heading_rad, const Execution& execution) {
+  const Question none;
+  add_heading(drawing, scene, robot_of(scene, none), clearance_of(scene, none), {}, heading_rad, execution);
+}
+
+Drawing drawing_of(const Scene& scene, const Answer& answer, ByProducts made, const Execution& execution,
+                   std::optional<double> heading_rad) {
+  if (heading_rad) check_has_headings(answer.problem.robot);
   const Problem& problem = answer.problem;
   const StateList& states = answer.refuted ? answer.refuted->states : answer.states;
   if (is_arm(problem.robot)) {
@@ -170,14 +173,20 @@ Drawing drawing_of(const Scene& scene, const Answer& answer, ByProducts made, co
   for (const HeadingCells& heading : made.headings) {
     drawing.pages.push_back(page_of(heading, drawing.layers, execution));
   }
+  if (heading_rad) {
+    add_heading(drawing, scene, problem.robot, problem.clearance, states_of(made.pose_roadmaps), *heading_rad,
+                execution);
+  }
   for (NamedLines& lines : made.lines) drawing.layers.push_back(layer_of(std::move(lines)));
   add_roadmap(drawing, answer, made, execution);
   add_bodies(drawing, problem.robot, states);
   return drawing;
 }
 
-Drawing drawing_of(const Scene& scene, const RecordedAnswer& answer, const Execution& execution) {
+Drawing drawing_of(const Scene& scene, const RecordedAnswer& answer, const Execution& execution,
+                   std::optional<double> heading_rad) {
   const RobotSpec robot = robot_of(scene, answer.problem);
+  if (heading_rad) check_has_headings(robot);
   const std::vector<double>& start = first_given(answer.problem.start, scene.start);
   if (is_arm(robot)) {
     if (!answer.path.empty()) check_state_width(answer, most_joints, "an arm");
@@ -191,6 +200,9 @@ Drawing drawing_of(const Scene& scene, const RecordedAnswer& answer, const Execu
                   .goal = plane_point(first_given(answer.problem.goal, scene.goal)),
                   .title = title_of(scene),
                   .subtitle = subtitle_of(scene, answer)};
+  if (heading_rad) {
+    add_heading(drawing, scene, robot, clearance_of(scene, answer.problem), {}, *heading_rad, execution);
+  }
   if (answer.state_width() == state_size(robot)) add_bodies(drawing, robot, answer.states);
   return drawing;
 }
@@ -246,7 +258,7 @@ void write_picture(const std::string& file, const Scene& scene, const Answer& an
     add_map_walls(*bordered, execution);
   }
   const Scene& shown = bordered ? *bordered : scene;
-  const Drawing drawing = drawing_of(shown, answer, std::move(made), execution);
+  const Drawing drawing = drawing_of(shown, answer, std::move(made), execution, options.heading);
   write_picture(file, picture_of(shown, drawing), options, execution);
 }
 

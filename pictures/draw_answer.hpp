@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,11 +47,20 @@ struct Drawing {
 };
 
 /// An answer, and what its planner made. A refuted path is drawn as any other. Throws Stopped; what it throws for a
-/// table of an arm, solving has thrown before.
-Drawing drawing_of(const Scene& scene, const Answer& answer, ByProducts made, const Execution& execution);
+/// table of an arm, solving has thrown before. heading_rad: as PictureOptions::heading.
+Drawing drawing_of(const Scene& scene, const Answer& answer, ByProducts made, const Execution& execution,
+                   std::optional<double> heading_rad = {});
 
 /// The same of an answer that was read from a file: path and body. Throws InputError for states that are no arm's.
-Drawing drawing_of(const Scene& scene, const RecordedAnswer& answer, const Execution& execution);
+Drawing drawing_of(const Scene& scene, const RecordedAnswer& answer, const Execution& execution,
+                   std::optional<double> heading_rad = {});
+
+/// What PictureOptions::heading asks for: the cells without room for the body at that heading, and the states as
+/// arrows; without states some arrows where it has room. Throws UsageError for bodies that have no such layer; Stopped.
+void add_heading(Drawing& drawing, const Scene& scene, const RobotSpec& robot, double clearance,
+                 std::span<const Se2> states, double heading_rad, const Execution& execution);
+/// The same of the world's own body.
+void add_heading_of_world(Drawing& drawing, const Scene& scene, double heading_rad, const Execution& execution);
 
 /// Lets the body move along the path, in pictures that can (SVG, HTML); a point is shown as a small disc, an arm in its
 /// three projections.

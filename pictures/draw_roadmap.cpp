@@ -15,6 +15,7 @@
 #include "pictures/layers/draw_bodies.hpp"
 #include "pictures/layers/draw_car.hpp"
 #include "pictures/layers/draw_cells.hpp"
+#include "pictures/layers/heading_layer.hpp"
 #include "pictures/subtitle.hpp"
 #include "scenes/text/human_units.hpp"
 #include "solve/answer/world_account.hpp"
@@ -65,14 +66,18 @@ class RoadmapDrawing {
   RoadmapDrawing(const Scene& scene, const Roadmap& roadmap, const RoadmapArrays& arrays, const Execution& execution)
       : scene_(scene), roadmap_(roadmap), arrays_(arrays), execution_(execution) {}
 
-  Drawing draw() const {
+  Drawing draw(std::optional<double> heading_rad) const {
+    if (heading_rad) check_has_headings(roadmap_.robot);
     if (is_arm(roadmap_.robot)) return draw_arm();
     Drawing drawing;
     drawing.start = plane_point(scene_.start);
     drawing.goal = plane_point(scene_.goal);
     if (scene_.map) drawing.layers.push_back(map_layer(*scene_.map, execution_));
+    if (heading_rad) {
+      add_heading(drawing, scene_, roadmap_.robot, roadmap_.clearance, poses(), *heading_rad, execution_);
+    }
     roadmap_.robot.kind == RobotKind::car ? add_curves(drawing) : add_lines(drawing);
-    if (arrays_.dimension == 3 && vertex_count() <= most_arrows) drawing.layers.push_back(arrows());
+    if (!heading_rad && arrays_.dimension == 3 && vertex_count() <= most_arrows) drawing.layers.push_back(arrows());
     return drawing;
   }
 
@@ -89,6 +94,11 @@ class RoadmapDrawing {
     return all;
   }
   Se2 pose(VertexId v) const { return {position(v).x, position(v).y, arrays_.states[std::size_t{v} * 3 + 2]}; }
+  std::vector<Se2> poses() const {
+    std::vector<Se2> all;
+    for (VertexId v = 0; v < vertex_count(); ++v) all.push_back(pose(v));
+    return all;
+  }
   JointState joints(VertexId v) const {
     return joint_state(std::span<const double>(arrays_.states).subspan(std::size_t{v} * most_joints, most_joints));
   }
@@ -146,9 +156,7 @@ PictureLayer RoadmapDrawing::arrows() const {
   if (box.empty()) return heading_arrows({}, 0.0);
   const double extent = std::max(box.width(), box.height());
   const double length = std::min(extent / 50.0, 0.4 * extent / std::sqrt(static_cast<double>(vertex_count())));
-  std::vector<Se2> poses;
-  for (VertexId v = 0; v < vertex_count(); ++v) poses.push_back(pose(v));
-  return heading_arrows(poses, length);
+  return heading_arrows(poses(), length);
 }
 
 Drawing RoadmapDrawing::draw_arm() const {
@@ -177,7 +185,8 @@ Drawing RoadmapDrawing::draw_arm() const {
 
 }  // namespace
 
-Drawing drawing_of(const Scene& scene, const Roadmap& roadmap, const Execution& execution) {
+Drawing drawing_of(const Scene& scene, const Roadmap& roadmap, const Execution& execution,
+                   std::optional<double> heading_rad) {
   const EdgeCounts edges = count_edges(roadmap, execution);
   const bool by_index = roadmap.lattice != nullptr;  // its blocked edges are its walls
   const std::uint64_t drawn = edges.free + (by_index ? 0 : edges.unchecked + edges.blocked);
@@ -187,9 +196,9 @@ Drawing drawing_of(const Scene& scene, const Roadmap& roadmap, const Execution& 
                     ".graphml or .csv and draw a part, or draw its world",
                     grouped(drawn), grouped(most_drawn_edges)));
   }
-  if (!by_index) return RoadmapDrawing(scene, roadmap, roadmap.arrays, execution).draw();
+  if (!by_index) return RoadmapDrawing(scene, roadmap, roadmap.arrays, execution).draw(heading_rad);
   const RoadmapArrays arrays = arrays_of(roadmap.lattice->passages(), execution);
-  return RoadmapDrawing(scene, roadmap, arrays, execution).draw();
+  return RoadmapDrawing(scene, roadmap, arrays, execution).draw(heading_rad);
 }
 
 void write_picture(const std::string& file, const Roadmap& roadmap, const PictureOptions& options,
@@ -201,7 +210,7 @@ void write_picture(const std::string& file, const Roadmap& roadmap, const Pictur
     add_map_walls(bordered, execution);
   }
   const Scene& scene = world.map ? bordered : world;
-  const Drawing drawing = drawing_of(scene, roadmap, execution);
+  const Drawing drawing = drawing_of(scene, roadmap, execution, options.heading);
   Picture picture = picture_of(scene, drawing);
   picture.title = title_of(world);
   const EdgeCounts edges = count_edges(roadmap, execution);

@@ -15,9 +15,11 @@ namespace warren {
 inline constexpr std::uint64_t most_drawn_edges = 900'000;
 
 /// The world and the roadmap on it, ready to be drawn; start and goal are those of the world. `scene`: the roadmap's,
-/// with the borders of a map's cells. Throws UsageError for more edges than most_drawn_edges; Stopped; what it throws
+/// with the borders of a map's cells. heading_rad: as PictureOptions::heading.
+/// Throws UsageError for more edges than most_drawn_edges; Stopped; what it throws
 /// for a table of an arm, reading the roadmap has thrown before.
-Drawing drawing_of(const Scene& scene, const Roadmap& roadmap, const Execution& execution);
+Drawing drawing_of(const Scene& scene, const Roadmap& roadmap, const Execution& execution,
+                   std::optional<double> heading_rad = {});
 
 /// The same in one go, in the format that the file's ending says. `description` is added to what the picture says of
 /// itself. Throws UsageError, WriteError, Stopped.

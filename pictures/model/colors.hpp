@@ -28,6 +28,7 @@ inline constexpr Rgb frame{136, 136, 136};
 inline constexpr Rgb wall{30, 41, 59};
 inline constexpr Rgb polygon{217, 221, 227};
 inline constexpr Rgb blocked_cell{190, 197, 207};
+inline constexpr Rgb no_room{250, 224, 193};  ///< for the reference point, at one heading
 inline constexpr Rgb outline{102, 113, 127};  ///< of polygons
 inline constexpr Rgb search_tree{240, 180, 41};
 inline constexpr Rgb path{200, 16, 46};

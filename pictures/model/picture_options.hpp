@@ -42,6 +42,8 @@ struct PictureOptions {
   std::optional<double> dpi = {};         ///< pixels an inch, 10 .. 2400; none: 96, in a PNG what the world asks for
   std::optional<std::string> title = {};  ///< none: the world and how it was solved; empty: no title
   Parts parts = Parts::all();
+  /// Of a body that turns, radians: the places without room for it at that heading are shown, and states as arrows.
+  std::optional<double> heading = {};
 
   /// Throws UsageError for a size that no page has: 40 .. 20,000 px or 10 .. 5,000 mm a side, dpi outside its range.
   void validate() const;

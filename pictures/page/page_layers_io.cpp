@@ -63,9 +63,12 @@ class PageLayers {
 
 void PageLayers::all() {
   write_(",\"layers\":[");
+  for (const PictureLayer& one : picture_.layers) {
+    if (one.part == Part::world && parts_.has(one.part) && !one.lines.empty()) layer(one);
+  }
   if (parts_.has(Part::world) && !picture_.scene.polygons.empty()) polygons();
   for (const PictureLayer& one : picture_.layers) {
-    if (parts_.has(one.part) && !one.lines.empty()) layer(one);
+    if (one.part != Part::world && parts_.has(one.part) && !one.lines.empty()) layer(one);
   }
   if (parts_.has(Part::world)) walls();
   if (picture_.solids != nullptr && !moves_arm(picture_, parts_)) perspective(*picture_.solids);
@@ -98,7 +101,7 @@ void PageLayers::layer(const PictureLayer& layer) {
   Json about{{"id", layer.id},
              {"label", layer.label.empty() ? layer.id : layer.label},
              {"kind", layer.fill ? "areas" : "chains"},
-             {"obstacle", layer.part == Part::world && layer.fill},
+             {"obstacle", layer.part == Part::world && layer.fill && layer.blocks},
              {"color", css_color(layer.fill.value_or(layer.color))},
              {"width", layer.width},
              {"closed", layer.closed},

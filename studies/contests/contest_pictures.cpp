@@ -64,7 +64,7 @@ class ContestPictures {
     const std::uint64_t seed = run != nullptr ? run->seed : options_.first_seed;
     ByProducts made;
     const Answer answer = solve_contender(scene_, asked, seed, execution_, &made);
-    const Drawing drawing = drawing_of(scene_, answer, std::move(made), execution_);
+    const Drawing drawing = drawing_of(scene_, answer, std::move(made), execution_, options_.look.heading);
     const std::string said = options_text(contender);
     const std::string title = fmt::format("{}, {}{}seed {}: {}", title_of(scene_), contender.planner,
                                           said.empty() ? ", " : ", " + said + ", ", seed, name_of(answer.outcome));

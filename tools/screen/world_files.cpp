@@ -10,6 +10,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/printable.hpp"
+#include "pictures/draw_answer.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "pictures/subtitle.hpp"
 #include "scenes/formats/maze_file_io.hpp"
@@ -129,6 +130,9 @@ void write_world(const Scene& scene, const std::string& file, const PictureOptio
   picture.title = title_of(scene);
   picture.subtitle = description_of(scene);
   picture.description = command_line;
+  Drawing drawing;
+  if (options.heading) add_heading_of_world(drawing, scene, *options.heading, execution);
+  picture.layers = drawing.layers;
   write_picture(file, picture, options, execution);
 }
 

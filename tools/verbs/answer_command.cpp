@@ -11,6 +11,7 @@
 #include "pictures/answer_summary.hpp"
 #include "pictures/draw_answer.hpp"
 #include "pictures/formats/write_picture.hpp"
+#include "pictures/layers/heading_layer.hpp"
 #include "solve/answer/answer_notes.hpp"
 #include "solve/answer/explanation_text.hpp"
 #include "solve/answer/write_answer_io.hpp"
@@ -159,7 +160,8 @@ void AnswerCommand::write_finished(const Execution& execution) {
   if (has_path) written_.push_back(path_);
 }
 
-void AnswerCommand::check_path_of(const RobotSpec& robot) const {
+void AnswerCommand::check_outputs_of(const RobotSpec& robot) const {
+  if (picture_options_.heading) check_has_headings(robot);
   if (!path_.empty()) check_path_file(robot, path_, path_options_);
 }
 
@@ -201,7 +203,7 @@ void AnswerCommand::draw(const Execution& execution) {
   const StageTimer timer(execution, "draw", seconds);
   Scene scene = scene_drawn(execution, by_products_);
   add_map_walls(scene, execution);
-  const Drawing drawing = drawing_of(scene, answer_, std::move(by_products_), execution);
+  const Drawing drawing = drawing_of(scene, answer_, std::move(by_products_), execution, picture_options_.heading);
   Picture picture = picture_of(scene, drawing);
   picture.description = fmt::format("{}\n{}", drawing.subtitle, arguments_.command_line());
   write_picture(svg_, picture, picture_options_, execution);

@@ -45,8 +45,9 @@ class AnswerCommand {
   virtual void explain(const Execution& execution, Answer& answer, ByProducts& keep) = 0;
   /// What goes to the file of `keep`; only after find().
   virtual const Roadmap& roadmap() const = 0;
-  /// Throws UsageError where the path of this body can't be written as it was asked for; find() calls it.
-  void check_path_of(const RobotSpec& robot) const;
+  /// Throws UsageError where the path of this body can't be written, or it can't be drawn, as it was asked for; find()
+  /// calls it.
+  void check_outputs_of(const RobotSpec& robot) const;
   bool keeps_roadmap() const { return !roadmap_.empty(); }
   /// Takes the path where nobody needs its points but a file that is written in their order; nullptr elsewhere. Only
   /// find() calls it.

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "pictures/layers/heading_layer.hpp"
 #include "studies/compare/comparison_report.hpp"
 #include "studies/contests/contest_pictures.hpp"
 #include "studies/contests/graph_of_world.hpp"
@@ -113,6 +114,10 @@ void CompareCommand::compare(const Run& run) {
 void CompareCommand::compare_on_world(const Run& run) {
   StageTimes before;
   Scene scene = load_world(*options_.world, arguments_, execution_, before);
+  if (const auto& look = options_.planners ? options_.planners->look : options_.look; look.heading) {
+    check_has_headings(robot_of(
+        scene, options_.planners ? options_.planners->contenders.front().question : options_.graph_deal.question));
+  }
   if (!options_.planners) return compare_searches(scene, run);
   if (scene.map && needs_map_walls(scene)) add_map_walls(scene, execution_);
   try {

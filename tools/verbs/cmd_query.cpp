@@ -55,7 +55,7 @@ class QueryCommand : public AnswerCommand {
  private:
   Answer find(const Run& run, StageTimes& before, ByProducts* keep) override {
     roadmap_ = load_roadmap(arguments_, run.execution(), before);
-    check_path_of(roadmap_.robot);
+    check_outputs_of(roadmap_.robot);
     const RoadmapQuery query(roadmap_, run.execution(), Questions::one);
     QuestionScratch scratch;
     Answer answer = query.ask_within(question_.start, question_.goal, how_, run.execution(), scratch, keep);

@@ -36,7 +36,7 @@ class SolveCommand : public AnswerCommand {
  private:
   Answer find(const Run& run, StageTimes& before, ByProducts* keep) override {
     scene_ = load_planned_world(arguments_.operand(0), options_.roadmap.pipeline, arguments_, run.execution(), before);
-    check_path_of(robot_of(scene_, question_));
+    check_outputs_of(robot_of(scene_, question_));
     if (is_unmade(scene_) && arguments_.has("--explain")) {
       throw UsageError("--explain: looks at walls that are held, and these are made tile by tile");
     }

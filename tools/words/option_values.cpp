@@ -95,6 +95,12 @@ double duration_value(std::string_view option, std::string_view text) {
   return *seconds;
 }
 
+double angle_value(std::string_view option, std::string_view text) {
+  const auto angle = number_or_degrees(text);
+  if (!angle || std::abs(*angle) > largest_coordinate) refuse(option, "an angle in radians, or as 90deg", text);
+  return *angle;
+}
+
 std::size_t memory_value(std::string_view option, std::string_view text) {
   constexpr Unit units[] = {{"KiB", 0x1p10}, {"MiB", 0x1p20}, {"GiB", 0x1p30}, {"TiB", 0x1p40}, {"kB", 1e3},
                             {"MB", 1e6},     {"GB", 1e9},     {"TB", 1e12},    {"B", 1.0}};

@@ -23,6 +23,8 @@ std::optional<double> number_in(std::string_view text);
 double number_value(std::string_view option, std::string_view text, double low, double high);
 /// A number > 0.
 double positive_value(std::string_view option, std::string_view text);
+/// Radians, "90deg" too; finite.
+double angle_value(std::string_view option, std::string_view text);
 /// A whole number in [low, high].
 std::uint64_t count_value(std::string_view option, std::string_view text, std::uint64_t low, std::uint64_t high);
 /// "auto" gives none.

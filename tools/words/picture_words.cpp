@@ -12,6 +12,8 @@ namespace {
 constexpr OptionSpec picture_specs[] = {
     {"--show", "LIST",
      "what a picture shows, of world, roadmap, search, path, body, axes, legend, apart by commas (default: all)"},
+    {"--heading", "ANGLE",
+     "of a body that turns, radians or as 45deg: show where it has no room at that heading, and states as arrows"},
     {"--size", "WxH", "size of a picture in pixels, or in millimetres as 180x120mm (default: as the world asks)"},
     {"--dpi", "N", "pixels an inch of a picture, 10 to 2400 (default: 96, or what a .png's world asks)"},
     {"--title", "TEXT", "title of a picture; an empty one leaves it out (default: the world and how it was solved)"},
@@ -61,6 +63,7 @@ PictureOptions picture_words(const Arguments& arguments, bool is_drawn, std::str
   constexpr double most_dpi = 2400.0;
   options.size = given_value(arguments, "--size", size_value);
   options.dpi = given_value(arguments, "--dpi", number_value, least_dpi, most_dpi);
+  options.heading = given_value(arguments, "--heading", angle_value);
   options.title = arguments.value("--title");
   options.validate();
   return options;

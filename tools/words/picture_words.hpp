@@ -10,7 +10,7 @@
 
 namespace warren {
 
-/// --show --size --dpi --title
+/// --show --heading --size --dpi --title
 std::span<const OptionSpec> picture_option_specs();
 
 /// Throws UsageError, also for any of them where nothing is drawn, `draws` names what would, such as "--svg FILE"; and

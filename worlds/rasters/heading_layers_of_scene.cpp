@@ -20,9 +20,10 @@ namespace warren {
 namespace {
 
 /// Where positions lie, without any layer.
-HeadingLayers empty_lattice(const Scene& scene, const RobotSpec& robot, const GridSpec& grid,
+HeadingLayers empty_lattice(const Scene& scene, const RobotSpec& robot, const LayerOptions& options,
                             const Execution& execution) {
-  const Box box = scene.bounds ? *scene.bounds : obstacle_box(scene, execution);
+  const GridSpec& grid = options.grid;
+  const Box box = options.region ? *options.region : scene.bounds ? *scene.bounds : obstacle_box(scene, execution);
   if (box.empty()) throw InputError("world", "has neither walls nor bounds: nothing confines the grid");
   constexpr double rounding = 1e-9;
   const double width = std::floor(box.width() / grid.cell + rounding);
@@ -55,7 +56,7 @@ class ExactLayers {
         execution_(execution),
         outline_(robot.kind == RobotKind::polygon ? robot.outline : std::vector<Vec2>{{0.0, 0.0}}),
         radius_((robot.kind == RobotKind::disc ? robot.radius : 0.0) + options.clearance),
-        layers_(empty_lattice(scene, robot, options.grid, execution)) {
+        layers_(empty_lattice(scene, robot, options, execution)) {
     for (const ScenePolygon& polygon : scene.polygons) {
       for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
         sides_.push_back({polygon.corners[i], polygon.corners[(i + 1) % polygon.corners.size()]});
@@ -168,7 +169,7 @@ Bitmap drawn_walls(const Scene& scene, const HeadingLayers& lattice, const Execu
 
 HeadingLayers report_layers(const Scene& scene, const RobotSpec& robot, const LayerOptions& options,
                             const Execution& execution) {
-  HeadingLayers layers = empty_lattice(scene, robot, options.grid, execution);
+  HeadingLayers layers = empty_lattice(scene, robot, options, execution);
   const DistanceField field(drawn_walls(scene, layers, execution), CellDistance::centres, false, execution);
   std::map<std::uint32_t, std::uint32_t> bitmap_of;  // by the disc's radius
   for (std::uint32_t k = 0; k < layers.angles; ++k) {

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string_view>
 
 #include "core/base/enum_names.hpp"
@@ -24,7 +25,8 @@ constexpr auto enum_names(LayerKind) { return std::array<std::string_view, 2>{"e
 struct LayerOptions {
   GridSpec grid;
   LayerKind kind = LayerKind::exact;
-  double clearance = 0.0;  ///< room around the body, exact layers only; >= 0; 0: touching is blocked
+  double clearance = 0.0;          ///< room around the body, exact layers only; >= 0; 0: touching is blocked
+  std::optional<Box> region = {};  ///< where positions lie, instead of the bounds
 };
 
 /// Point, disc or polygon robots (others: InputError). States lie at i * cell from the lower corner of the bounds, i =
