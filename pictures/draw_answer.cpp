@@ -250,8 +250,8 @@ Picture picture_of(const Scene& scene, const Drawing& drawing, const DrawingPage
           .subtitle = drawing.subtitle};
 }
 
-void write_picture(const std::string& file, const Scene& scene, const Answer& answer, ByProducts made,
-                   const PictureOptions& options, const Execution& execution) {
+std::vector<std::string> write_picture(const std::string& file, const Scene& scene, const Answer& answer,
+                                       ByProducts made, const PictureOptions& options, const Execution& execution) {
   std::optional<Scene> bordered;
   if (scene.map && scene.walls.size() == 0) {
     bordered = scene;
@@ -259,7 +259,7 @@ void write_picture(const std::string& file, const Scene& scene, const Answer& an
   }
   const Scene& shown = bordered ? *bordered : scene;
   const Drawing drawing = drawing_of(shown, answer, std::move(made), execution, options.heading);
-  write_picture(file, picture_of(shown, drawing), options, execution);
+  return write_picture(file, picture_of(shown, drawing), options, execution);
 }
 
 }  // namespace warren

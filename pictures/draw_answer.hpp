@@ -72,8 +72,9 @@ Picture picture_of(const Scene& scene, const Drawing& drawing);
 Picture picture_of(const Scene& scene, const Drawing& drawing, const DrawingPage& page);
 
 /// The picture of an answer in one go, in the format that the file's ending says, with the borders of a map's cells.
-/// Throws WriteError, Stopped.
-void write_picture(const std::string& file, const Scene& scene, const Answer& answer, ByProducts made = {},
-                   const PictureOptions& options = {}, const Execution& execution = {});
+/// Returns as write_picture() of formats/ does. Throws WriteError, Stopped.
+std::vector<std::string> write_picture(const std::string& file, const Scene& scene, const Answer& answer,
+                                       ByProducts made = {}, const PictureOptions& options = {},
+                                       const Execution& execution = {});
 
 }  // namespace warren

@@ -201,8 +201,8 @@ Drawing drawing_of(const Scene& scene, const Roadmap& roadmap, const Execution& 
   return RoadmapDrawing(scene, roadmap, arrays, execution).draw(heading_rad);
 }
 
-void write_picture(const std::string& file, const Roadmap& roadmap, const PictureOptions& options,
-                   const std::string& description, const Execution& execution) {
+std::vector<std::string> write_picture(const std::string& file, const Roadmap& roadmap, const PictureOptions& options,
+                                       const std::string& description, const Execution& execution) {
   const Scene& world = roadmap.world.whole(execution);
   Scene bordered;
   if (world.map) {
@@ -218,7 +218,7 @@ void write_picture(const std::string& file, const Roadmap& roadmap, const Pictur
                                  subtitle_of(world, roadmap.robot), counted(count_states(roadmap), "state", "states"),
                                  grouped(edges.free), grouped(edges.blocked), grouped(edges.unchecked));
   picture.description = fmt::format("{}\n{}", picture.subtitle, description);
-  write_picture(file, picture, options, execution);
+  return write_picture(file, picture, options, execution);
 }
 
 }  // namespace warren

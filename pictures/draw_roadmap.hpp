@@ -22,8 +22,8 @@ Drawing drawing_of(const Scene& scene, const Roadmap& roadmap, const Execution& 
                    std::optional<double> heading_rad = {});
 
 /// The same in one go, in the format that the file's ending says. `description` is added to what the picture says of
-/// itself. Throws UsageError, WriteError, Stopped.
-void write_picture(const std::string& file, const Roadmap& roadmap, const PictureOptions& options,
-                   const std::string& description, const Execution& execution);
+/// itself. Returns as write_picture() of formats/ does. Throws UsageError, WriteError, Stopped.
+std::vector<std::string> write_picture(const std::string& file, const Roadmap& roadmap, const PictureOptions& options,
+                                       const std::string& description, const Execution& execution);
 
 }  // namespace warren

@@ -21,7 +21,9 @@ Pen LineGroup::thinned() {
   constexpr double least_opacity = 0.25;
   const double allowed = most_cover * page_.data.width() * page_.data.height();
   if (ink_ > allowed) {
+    constexpr double visibly = 0.9;
     const double share = std::sqrt(allowed / ink_);
+    thin_ = share < visibly;
     pen_.width = std::min(pen_.width, std::max(pen_.width * share, least_width));
     pen_.opacity *= std::max(share, least_opacity);
   }

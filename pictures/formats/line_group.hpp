@@ -32,6 +32,10 @@ class LineGroup {
   void chain(std::span<const Vec2> points, std::span<const double> turns, bool closed, double opacity = 1.0);
   void end();
 
+  /// Are they visibly thinner than they were to be? Are they pixels?
+  bool is_thin() const { return thin_; }
+  bool is_mask() const { return mask_.has_value(); }
+
  private:
   Vec2 in_mask(Vec2 p) const { return density_ * (page_.view.at(p) - page_.data.min); }
   void count();
@@ -42,6 +46,7 @@ class LineGroup {
   Pen pen_;
   double ink_ = 0.0;  // square pixels of the page
   std::size_t drawn_ = 0;
+  bool thin_ = false;
   std::optional<Mask> mask_;
   double density_ = 1.0;  // pixels of the mask a pixel of the page
 };

@@ -3,6 +3,8 @@
 // marks keep a least width. Many lines are drawn thinner and fainter: their ink covers a part of the page, not all.
 #include "pictures/formats/painter.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,7 +21,7 @@ class Painter {
   Painter(const Picture& picture, Parts parts, const Page& page, Surface& surface, const Execution& execution)
       : picture_(picture), parts_(parts), page_(page), surface_(surface), execution_(execution) {}
 
-  void paint() {
+  std::vector<std::string> paint() {
     surface_.enter_world();
     layers([](const PictureLayer& some) { return some.part == Part::world; });
     if (parts_.has(Part::world)) polygons();
@@ -44,9 +46,16 @@ class Painter {
     surface_.leave_world();
     if (picture_.solids != nullptr) solids(*picture_.solids);
     frame();
+    return notes();
   }
 
  private:
+  /// Ends the group, and keeps what is to be said of it.
+  void end(LineGroup& group, const std::string& name) {
+    group.end();
+    if (group.is_thin()) thin_.push_back(name);
+    if (group.is_mask()) pixels_.push_back(name);
+  }
   /// Those that are chosen and shown.
   template <class Choose>
   void layers(const Choose& choose) {
@@ -54,6 +63,7 @@ class Painter {
       if (parts_.has(some.part) && choose(some)) layer(some);
     }
   }
+  std::vector<std::string> notes() const;
   double width(double usual, double least = 0.0) const { return std::max(usual * page_.thickness(), least); }
   void polygons();
   void layer(const PictureLayer& layer);
@@ -73,7 +83,16 @@ class Painter {
   const Page& page_;
   Surface& surface_;
   const Execution& execution_;
+  std::vector<std::string> thin_;    // what was drawn thinner than usual
+  std::vector<std::string> pixels_;  // what was drawn as pixels
 };
+
+std::vector<std::string> Painter::notes() const {
+  std::vector<std::string> all;
+  if (!thin_.empty()) all.push_back(fmt::format("thinner and paler, being so many: {}", fmt::join(thin_, ", ")));
+  if (!pixels_.empty()) all.push_back(fmt::format("as pixels, being so many: {}", fmt::join(pixels_, ", ")));
+  return all;
+}
 
 void Painter::polygons() {
   const std::vector<ScenePolygon>& polygons = picture_.scene.polygons;
@@ -84,7 +103,7 @@ void Painter::polygons() {
   for (const ScenePolygon& polygon : polygons) corners += polygon.corners.size();
   group.begin("polygons", "obstacles", corners);
   for (const ScenePolygon& polygon : polygons) group.chain(anticlockwise(polygon.corners), {}, true);
-  group.end();
+  end(group, "obstacles");
 }
 
 void Painter::layer(const PictureLayer& layer) {
@@ -104,7 +123,7 @@ void Painter::layer(const PictureLayer& layer) {
     group.chain(layer.lines[i], layer.turns_of(i), layer.closed || layer.fill,
                 layer.opacities.empty() ? 1.0 : layer.opacities[i]);
   }
-  group.end();
+  end(group, layer.label.empty() ? layer.id : layer.label);
 }
 
 /// Walls that continue each other along an axis become one line.
@@ -136,7 +155,7 @@ void Painter::walls() {
     const std::array corners{low, Vec2{high.x, low.y}, high, Vec2{low.x, high.y}, low};
     for (std::size_t i = 1; i < corners.size(); ++i) group.segment(corners[i - 1], corners[i]);
   }
-  group.end();
+  end(group, picture_.scene.map ? "borders of blocked cells" : "walls");
 }
 
 void Painter::roadmap() {
@@ -167,7 +186,7 @@ void Painter::edges(const std::vector<std::uint8_t>& color) {
       if (color[v] == c) group.segment(roadmap.states[v], roadmap.states[w]);
     });
   }
-  group.end();
+  end(group, "roadmap edges");
 }
 
 /// A line of length zero with round ends is a dot.
@@ -184,7 +203,7 @@ void Painter::milestones(const std::vector<std::uint8_t>& color) {
       if (color[v] == c) group.segment(roadmap.states[v], roadmap.states[v]);
     }
   }
-  group.end();
+  end(group, "milestones");
 }
 
 void Painter::search_tree() {
@@ -200,7 +219,7 @@ void Painter::search_tree() {
   group.thinned();
   group.begin("search_tree", "search tree", roadmap.search_tree.size());
   visit([&](Vec2 a, Vec2 b) { group.segment(a, b); });
-  group.end();
+  end(group, "search tree");
 }
 
 /// Points that the page does not tell apart are left out of very long paths.
@@ -222,7 +241,7 @@ void Painter::path() {
     LineGroup group(surface_, page_, execution_, line);
     group.begin("path", picture_.path_label, shown.size());
     group.chain(shown, picture_.path_turns, false);
-    return group.end();
+    return end(group, picture_.path_label);
   }
   surface_.begin_group("path", picture_.path_label, line);
   if (seen.empty()) {  // a light rim, where there is room for one
@@ -252,6 +271,7 @@ void Painter::solids(const SolidView& view) {
   const auto pixels = [&](double length) {
     return std::max<std::size_t>(static_cast<std::size_t>(std::lround(density * length)), 1);
   };
+  if (view.is_thinned) thin_.push_back("lines of the perspective");
   surface_.begin_group("perspective", "", {});
   surface_.image(draw_solids(view, parts_, pixels(high.x - low.x), pixels(high.y - low.y), execution_), {low, high});
   surface_.end_group();
@@ -275,6 +295,8 @@ void Painter::frame() {
   }
   surface_.begin_group("words", "", {.fill = colors::text});
   for (const PlacedText& text : page_.texts) surface_.text(text);
+  if (parts_.has(Part::legend) && !notes().empty())
+    surface_.text(foot_of(page_, fmt::format("{}", fmt::join(notes(), "; "))));
   surface_.end_group();
 }
 
@@ -311,8 +333,9 @@ void Painter::swatch(const PlacedLegend& placed) {
 
 }  // namespace
 
-void paint(const Picture& picture, Parts parts, const Page& page, Surface& surface, const Execution& execution) {
-  Painter(picture, parts, page, surface, execution).paint();
+std::vector<std::string> paint(const Picture& picture, Parts parts, const Page& page, Surface& surface,
+                               const Execution& execution) {
+  return Painter(picture, parts, page, surface, execution).paint();
 }
 
 }  // namespace warren

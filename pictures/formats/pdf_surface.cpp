@@ -223,15 +223,17 @@ void PdfSurface::finish(const Write& write) {
 
 bool can_write_pdf() { return true; }
 
-void write_pdf(const Picture& picture, const PictureOptions& options, const Execution& execution, const Write& write) {
+std::vector<std::string> write_pdf(const Picture& picture, const PictureOptions& options, const Execution& execution,
+                                   const Write& write) {
   const Page page = page_of(picture, options, false, execution);
   if (points_a_pixel * std::max(page.width, page.height) > largest_side) {
     throw UsageError("@size: a page of PDF is at most 5080 mm wide and high");
   }
   PdfSurface surface(page, execution);
   surface.tell(options.title.value_or(picture.title), picture.description);
-  paint(picture, options.parts, page, surface, execution);
+  std::vector<std::string> notes = paint(picture, options.parts, page, surface, execution);
   surface.finish(write);
+  return notes;
 }
 
 }  // namespace warren
@@ -242,7 +244,7 @@ namespace warren {
 
 bool can_write_pdf() { return false; }
 
-void write_pdf(const Picture&, const PictureOptions&, const Execution&, const Write&) {
+std::vector<std::string> write_pdf(const Picture&, const PictureOptions&, const Execution&, const Write&) {
   throw UsageError("this warren was built without libharu and writes no .pdf; say .svg, or build it with libhpdf-dev");
 }
 

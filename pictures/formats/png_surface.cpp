@@ -116,11 +116,13 @@ void PngSurface::image(const Image& image, const Box& at) {
 
 }  // namespace
 
-void write_png(const Picture& picture, const PictureOptions& options, const Execution& execution, const Write& write) {
+std::vector<std::string> write_png(const Picture& picture, const PictureOptions& options, const Execution& execution,
+                                   const Write& write) {
   const Page page = page_of(picture, options, true, execution);
   PngSurface surface(page, execution);
-  paint(picture, options.parts, page, surface, execution);
+  std::vector<std::string> notes = paint(picture, options.parts, page, surface, execution);
   write_png_file(surface.image(), page.dpi, execution, write);
+  return notes;
 }
 
 }  // namespace warren

@@ -265,12 +265,14 @@ void SvgSurface::moving_body(const MovingBody& body, double line_width) {
   text_ += svg_moving_body(body, "way", frame_.scale, length(line_width));
 }
 
-void write_svg(const Picture& picture, const PictureOptions& options, const Execution& execution, const Write& write) {
+std::vector<std::string> write_svg(const Picture& picture, const PictureOptions& options, const Execution& execution,
+                                   const Write& write) {
   const Page page = page_of(picture, options, false, execution);
   SvgSurface surface(page, execution, write);
   surface.open(picture, options.title.value_or(picture.title));
-  paint(picture, options.parts, page, surface, execution);
+  std::vector<std::string> notes = paint(picture, options.parts, page, surface, execution);
   surface.close();
+  return notes;
 }
 
 }  // namespace warren

@@ -22,8 +22,8 @@ bool is_picture(std::string_view ending) {
   return !ending.empty() && fmt::format(" {} ", picture_endings).find(fmt::format(" {} ", ending)) != std::string::npos;
 }
 
-void write_picture(const std::string& file, const Picture& picture, const PictureOptions& options,
-                   const Execution& execution) {
+std::vector<std::string> write_picture(const std::string& file, const Picture& picture, const PictureOptions& options,
+                                       const Execution& execution) {
   options.validate();
   const std::string ending = ending_of(file);
   const auto writer = ending == ".png"    ? write_png
@@ -31,8 +31,10 @@ void write_picture(const std::string& file, const Picture& picture, const Pictur
                       : ending == ".html" ? write_html
                                           : write_svg;
   OutputFile output(file, execution);
-  writer(picture, options, execution, [&](std::string_view bytes) { output.write(bytes); });
+  std::vector<std::string> notes =
+      writer(picture, options, execution, [&](std::string_view bytes) { output.write(bytes); });
   output.commit();
+  return notes;
 }
 
 }  // namespace warren

@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "parallel/execution.hpp"
 #include "pictures/model/picture.hpp"
@@ -13,14 +14,19 @@ namespace warren {
 
 using Write = std::function<void(std::string_view)>;
 
-/// One SVG 1.1 document. Throws Stopped, and what `write` throws; so do the others.
-void write_svg(const Picture& picture, const PictureOptions& options, const Execution& execution, const Write& write);
+/// One SVG 1.1 document. Returns what is drawn otherwise than usual, being so many, a line each. Throws Stopped, and
+/// what `write` throws; so do the others.
+std::vector<std::string> write_svg(const Picture& picture, const PictureOptions& options, const Execution& execution,
+                                   const Write& write);
 /// A page of its own with the SVG inline; drag moves, the wheel zooms.
-void write_html(const Picture& picture, const PictureOptions& options, const Execution& execution, const Write& write);
+std::vector<std::string> write_html(const Picture& picture, const PictureOptions& options, const Execution& execution,
+                                    const Write& write);
 /// In pixels: what is smaller than a pixel becomes a shade, the path stays strong.
-void write_png(const Picture& picture, const PictureOptions& options, const Execution& execution, const Write& write);
+std::vector<std::string> write_png(const Picture& picture, const PictureOptions& options, const Execution& execution,
+                                   const Write& write);
 /// One page, its words in Helvetica. Throws UsageError where can_write_pdf() is false, and for pages too large.
-void write_pdf(const Picture& picture, const PictureOptions& options, const Execution& execution, const Write& write);
+std::vector<std::string> write_pdf(const Picture& picture, const PictureOptions& options, const Execution& execution,
+                                   const Write& write);
 
 /// Was libharu there when this was built?
 bool can_write_pdf();
@@ -34,7 +40,7 @@ bool is_picture(std::string_view ending);
 
 /// By the file's ending: .png, .pdf, .html, and SVG for all others. Throws UsageError for options that no picture can
 /// have, WriteError, Stopped.
-void write_picture(const std::string& file, const Picture& picture, const PictureOptions& options,
-                   const Execution& execution);
+std::vector<std::string> write_picture(const std::string& file, const Picture& picture, const PictureOptions& options,
+                                       const Execution& execution);
 
 }  // namespace warren

@@ -287,6 +287,11 @@ double Page::thickness() const {
   return std::min(view.scale * canvas.unit / usual_unit, most);
 }
 
+PlacedText foot_of(const Page& page, const std::string& words) {
+  constexpr double size = 9.0;
+  return {{margin, page.height - 0.3 * size}, fitting_text(words, size, page.width - 2.0 * margin), size};
+}
+
 Page page_of(const Picture& picture, const PictureOptions& options, bool in_pixels, const Execution& execution) {
   return PageMaker(picture, options, in_pixels, execution).make();
 }

@@ -57,6 +57,9 @@ struct Page {
 
 inline constexpr double swatch_width = 26.0;
 
+/// A line in the margin below all, cut to what fits.
+PlacedText foot_of(const Page& page, const std::string& words);
+
 /// Throws Stopped.
 Page page_of(const Picture& picture, const PictureOptions& options, bool in_pixels, const Execution& execution);
 

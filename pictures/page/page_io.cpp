@@ -36,12 +36,12 @@ class PageWriter {
         canvas_(canvas_of(picture, execution)),
         origin_(origin_of(picture.scene.walls, canvas_.box)) {}
 
-  void document(const std::string& title) {
+  std::vector<std::string> document(const std::string& title) {
     write_(head_of_page(title, page_file("page.css")));
     write_(page_file("page.html"));
     write_("<script id=\"picture\" type=\"application/json\">{");
     words(title);
-    write_page_layers(picture_, parts_, canvas_, origin_, execution_, write_);
+    std::vector<std::string> notes = write_page_layers(picture_, parts_, canvas_, origin_, execution_, write_);
     if (picture_.roadmap != nullptr && picture_.panels.empty()) graph(*picture_.roadmap);
     if (parts_.has(Part::path)) path();
     if (moves_arm(picture_, parts_)) write_page_arm(picture_, parts_, origin_, execution_, write_);
@@ -49,6 +49,7 @@ class PageWriter {
     for (const char* script : {"data.js", "view.js", "marks.js", "arm.js", "pointer.js", "controls.js"})
       write_(page_file(script));
     write_("</script>\n</body>\n</html>\n");
+    return notes;
   }
 
  private:
@@ -195,8 +196,9 @@ void PageWriter::poses(const MovingBody& body) {
 
 }  // namespace
 
-void write_html(const Picture& picture, const PictureOptions& options, const Execution& execution, const Write& write) {
-  PageWriter(picture, options.parts, execution, write).document(options.title.value_or(picture.title));
+std::vector<std::string> write_html(const Picture& picture, const PictureOptions& options, const Execution& execution,
+                                    const Write& write) {
+  return PageWriter(picture, options.parts, execution, write).document(options.title.value_or(picture.title));
 }
 
 }  // namespace warren

@@ -127,9 +127,10 @@ void PageLayers::walls() {
   const std::size_t count = picture_.scene.walls.size();
   if (count == 0 && !picture_.scene.bounds) return;
   Json about{{"id", "walls"},
-             {"label", picture_.scene.map ? "borders of blocked cells"
-                       : count == 0       ? "bounds"
-                                          : "walls"},
+             {"label", picture_.scene.map         ? "borders of blocked cells"
+                       : count == 0               ? "bounds"
+                       : count > most_drawn_walls ? "walls, as pixels"
+                                                  : "walls"},
              {"obstacle", picture_.panels.empty()},
              {"color", css_color(colors::wall)},
              {"width", widths::wall}};
@@ -244,9 +245,11 @@ std::string in_script(std::string_view json) {
   return safe;
 }
 
-void write_page_layers(const Picture& picture, Parts parts, const Canvas& canvas, Vec2 origin,
-                       const Execution& execution, const Write& write) {
+std::vector<std::string> write_page_layers(const Picture& picture, Parts parts, const Canvas& canvas, Vec2 origin,
+                                           const Execution& execution, const Write& write) {
   PageLayers(picture, parts, canvas, origin, execution, write).all();
+  if (!parts.has(Part::world) || picture.scene.walls.size() <= most_drawn_walls) return {};
+  return {"as pixels, being so many: walls"};
 }
 
 }  // namespace warren

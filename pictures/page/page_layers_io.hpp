@@ -18,8 +18,9 @@ std::string css_color(Rgb color);
 /// JSON as it may stand in a <script>.
 std::string in_script(std::string_view json);
 
-/// `canvas`: the picture's. Numbers are relative to `origin`. Throws Stopped, and what `write` throws.
-void write_page_layers(const Picture& picture, Parts parts, const Canvas& canvas, Vec2 origin,
-                       const Execution& execution, const Write& write);
+/// `canvas`: the picture's. Numbers are relative to `origin`. Returns what is drawn otherwise than usual, as
+/// write_html() does. Throws Stopped, and what `write` throws.
+std::vector<std::string> write_page_layers(const Picture& picture, Parts parts, const Canvas& canvas, Vec2 origin,
+                                           const Execution& execution, const Write& write);
 
 }  // namespace warren

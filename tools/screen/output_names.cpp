@@ -9,8 +9,10 @@
 #include <system_error>
 
 #include "core/base/error.hpp"
+#include "core/base/printable.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "scenes/text/output_file_io.hpp"
+#include "tools/screen/last_words.hpp"
 
 namespace warren {
 namespace {
@@ -46,6 +48,11 @@ void check_picture(std::string_view option, const std::string& file) {
   if (ending_of(file) == ".pdf" && !can_write_pdf()) {
     throw UsageError(fmt::format("{}: this warren was built without libharu and writes no .pdf; say .svg", option));
   }
+}
+
+void say_of_picture(const Arguments& arguments, const std::string& file, const std::vector<std::string>& notes) {
+  if (notes.empty() || arguments.has("--quiet")) return;
+  say_on_standard_error(fmt::format("warren: note: {}: drawn {}\n", printable(file), fmt::join(notes, "; ")));
 }
 
 void check_picture_ending(std::string_view option, const std::string& file, std::string_view endings) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "tools/words/arguments.hpp"
 
@@ -33,5 +34,8 @@ void write_report(const Arguments& arguments, std::string_view option, const std
 
 /// "a" of "a/b.svg"; "." of "b.svg".
 std::string folder_of(const std::string& path);
+
+/// Says on standard error what is drawn otherwise than usual, if anything is and --quiet is not given.
+void say_of_picture(const Arguments& arguments, const std::string& file, const std::vector<std::string>& notes);
 
 }  // namespace warren

@@ -19,6 +19,7 @@
 #include "solve/roadmaps/roadmap_file_io.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_conflicts.hpp"
+#include "tools/screen/output_names.hpp"
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/world_files.hpp"
 
@@ -55,12 +56,14 @@ int draw_roadmap(const Arguments& arguments, const std::string& file, const Pict
   Run run(arguments);
   StageTimes seconds;
   const Roadmap roadmap = load_roadmap(arguments, run.execution(), seconds);
+  std::vector<std::string> notes;
   {
     double draw_seconds = 0.0;
     const StageTimer timer(run.execution(), "draw", draw_seconds);
-    write_picture(file, roadmap, options, arguments.command_line(), run.execution());
+    notes = write_picture(file, roadmap, options, arguments.command_line(), run.execution());
   }
   run.end();
+  say_of_picture(arguments, file, notes);
   run.conclude(file == "-", {}, [&] {
     const EdgeCounts edges = count_edges(roadmap, run.execution());
     return fmt::format("{}: {}, {}, edges: {} free, {} blocked, {} unchecked\n", run.palette().strong(file),

@@ -123,9 +123,12 @@ void check_world_file(const std::string& file) {
   check_writable(file);
 }
 
-void write_world(const Scene& scene, const std::string& file, const PictureOptions& options,
-                 const std::string& command_line, const Execution& execution) {
-  if (!is_picture(ending_of(file))) return write_scene(scene, file, execution);
+std::vector<std::string> write_world(const Scene& scene, const std::string& file, const PictureOptions& options,
+                                     const std::string& command_line, const Execution& execution) {
+  if (!is_picture(ending_of(file))) {
+    write_scene(scene, file, execution);
+    return {};
+  }
   Picture picture{.scene = scene, .start = plane_point(scene.start), .goal = plane_point(scene.goal)};
   picture.title = title_of(scene);
   picture.subtitle = description_of(scene);
@@ -133,7 +136,7 @@ void write_world(const Scene& scene, const std::string& file, const PictureOptio
   Drawing drawing;
   if (options.heading) add_heading_of_world(drawing, scene, *options.heading, execution);
   picture.layers = drawing.layers;
-  write_picture(file, picture, options, execution);
+  return write_picture(file, picture, options, execution);
 }
 
 }  // namespace warren

@@ -34,9 +34,9 @@ Scene load_planned_world(const std::string& source, std::optional<PipelineKind> 
 /// The same for a file that is open already.
 Scene load_world(const InputFile& file, const Arguments& arguments, const Execution& execution, StageTimes& seconds);
 
-/// Scene text, .npy, or a picture, by the file's ending; "-" is scene text.
-void write_world(const Scene& scene, const std::string& file, const PictureOptions& options,
-                 const std::string& command_line, const Execution& execution);
+/// Scene text, .npy, or a picture, by the file's ending; "-" is scene text. Returns as write_picture() does.
+std::vector<std::string> write_world(const Scene& scene, const std::string& file, const PictureOptions& options,
+                                     const std::string& command_line, const Execution& execution);
 
 /// Throws UsageError unless `file` has an ending that write_world knows, WriteError unless it can be written.
 void check_world_file(const std::string& file);

@@ -66,6 +66,7 @@ int AnswerCommand::run() {
   answer(run);
   write_outputs(run);
   run.end();
+  say_of_picture(arguments_, svg_, drawn_otherwise_);
   const auto stopped = answer_.outcome == Outcome::stopped ? std::optional(stop_reason()) : std::nullopt;
   run.conclude(takes_standard_output(), stopped, [&] {
     return summary_of(answer_, run.palette(), written_) + notes_text(answer_, run.palette()) +
@@ -206,7 +207,7 @@ void AnswerCommand::draw(const Execution& execution) {
   const Drawing drawing = drawing_of(scene, answer_, std::move(by_products_), execution, picture_options_.heading);
   Picture picture = picture_of(scene, drawing);
   picture.description = fmt::format("{}\n{}", drawing.subtitle, arguments_.command_line());
-  write_picture(svg_, picture, picture_options_, execution);
+  drawn_otherwise_ = write_picture(svg_, picture, picture_options_, execution);
 }
 
 int AnswerCommand::exit_code() const {

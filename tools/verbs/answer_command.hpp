@@ -81,7 +81,8 @@ class AnswerCommand {
   ByProducts by_products_;
   Answer answer_;
   std::vector<std::string> written_;
-  bool json_said_ = false;  ///< some of it is where it can't be taken back
+  std::vector<std::string> drawn_otherwise_;  // what write_picture() said
+  bool json_said_ = false;                    ///< some of it is where it can't be taken back
 };
 
 }  // namespace warren

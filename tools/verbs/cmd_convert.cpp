@@ -76,7 +76,7 @@ void write_any(Scene& scene, const std::string& file, const Arguments& arguments
     return;
   }
   add_map_walls(scene, execution);
-  write_world(scene, file, options, arguments.command_line(), execution);
+  say_of_picture(arguments, file, write_world(scene, file, options, arguments.command_line(), execution));
   if (!arguments.has("--quiet") && !is_picture(ending_of(file))) note_left_out(scene, file);
 }
 

@@ -18,6 +18,7 @@
 #include "scenes/text/human_units.hpp"
 #include "solve/answer/world_account.hpp"
 #include "tools/screen/exit_code.hpp"
+#include "tools/screen/output_names.hpp"
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/terminal.hpp"
 #include "tools/screen/world_files.hpp"
@@ -143,7 +144,7 @@ int generate(const Arguments& arguments) {
   double write_seconds = 0.0;
   {
     const StageTimer timer(run.execution(), "write", write_seconds);
-    write_world(scene, *file, options, arguments.command_line(), run.execution());
+    say_of_picture(arguments, *file, write_world(scene, *file, options, arguments.command_line(), run.execution()));
   }
   run.end();
   if (!run.quiet() && *file != "-") {

@@ -74,11 +74,13 @@ int render(const Arguments& arguments) {
   Picture picture = picture_of(scene, drawing);
   picture.description = fmt::format("{}\n{}", drawing.subtitle, arguments.command_line());
   double draw_seconds = 0.0;
+  std::vector<std::string> notes;
   {
     const StageTimer timer(run.execution(), "draw", draw_seconds);
-    write_picture(file, picture, options, run.execution());
+    notes = write_picture(file, picture, options, run.execution());
   }
   run.end();
+  say_of_picture(arguments, file, notes);
   if (!run.quiet() && file != "-") {
     print_text(fmt::format("{}: {}\n", run.palette().strong(file), description_of(scene)));
   }

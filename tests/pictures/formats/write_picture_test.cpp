@@ -13,7 +13,7 @@
 namespace warren {
 namespace {
 
-using Writer = void (*)(const Picture&, const PictureOptions&, const Execution&, const Write&);
+using Writer = std::vector<std::string> (*)(const Picture&, const PictureOptions&, const Execution&, const Write&);
 
 std::string written(Writer writer, const Picture& picture, const PictureOptions& options = {}) {
   std::string all;
