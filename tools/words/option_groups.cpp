@@ -27,8 +27,7 @@ constexpr NamedGroup option_groups[] = {
     {"Mazes", "--algorithm --loops"},
     {"Outputs",
      "--output --json --svg --csv --runs --log --html --pictures --report --save-roadmap --keep --explain --show "
-     "--size "
-     "--dpi --title"},
+     "--heading --size --dpi --title"},
     {"Path as a file",
      "--path --every --speed --acceleration --lateral-acceleration --joint-speed --joint-acceleration --frame"},
     {"Run", "--threads --budget --memory --quiet --progress --color --trace"},
