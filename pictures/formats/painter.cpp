@@ -131,7 +131,7 @@ void Painter::walls() {
   const double unit = page_.view.scale * page_.canvas.unit * page_.density();  // pixels
   // Thin walls are drawn stronger than their width, or a large maze would fade; tiny cells stay a light texture.
   constexpr double faint = 0.3;
-  const double least = std::clamp(faint * unit, 0.2, 1.0) / page_.density();
+  const double least = std::clamp(faint * unit, 0.02, 1.0) / page_.density();
   LineGroup group(surface_, page_, execution_, {.stroke = colors::wall, .width = width(widths::wall, least)});
   group.begin("walls", "walls", picture_.scene.walls.size());
   std::optional<Segment> run;
