@@ -10,7 +10,8 @@ foreach(file IN LISTS files)
   file(SIZE ${FROM}/${file} size)
   file(READ ${FROM}/${file} bytes HEX)
   string(REGEX REPLACE "(..)" "\\\\x\\1" bytes "${bytes}")
-  string(APPEND rows "    {\"${file}\", {\"${bytes}\", ${size}}},\n")
+  file(SHA256 ${FROM}/${file} digest)
+  string(APPEND rows "    {\"${file}\", {\"${bytes}\", ${size}}, \"${digest}\"},\n")
 endforeach()
 file(WRITE ${TO} "// Made by cmake/embed_files.cmake.
 #include \"${HEADER}\"

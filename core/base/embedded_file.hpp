@@ -9,6 +9,7 @@ namespace warren {
 struct EmbeddedFile {
   std::string_view name;  ///< "flat.pgm"
   std::string_view bytes;
+  std::string_view sha256;  ///< of the bytes, as 64 hex digits
 };
 
 }  // namespace warren

@@ -7,34 +7,33 @@
 #include "core/base/printable.hpp"
 
 namespace warren {
+namespace {
+
+/// add(piece): each character, or what stands for it.
+template <class Add>
+void for_each_seen(std::string_view text, const Add& add) {
+  while (!text.empty()) {
+    const std::string_view character = text.substr(0, std::max<std::size_t>(utf8_bytes(text), 1));
+    const bool is_seen = character == "\n" || printable(character) == character;
+    add(is_seen ? character : std::string_view("?"));
+    text.remove_prefix(character.size());
+  }
+}
+
+}  // namespace
 
 std::string xml_text(std::string_view text) {
   std::string out;
-  while (!text.empty()) {
-    const std::size_t bytes = std::max<std::size_t>(utf8_bytes(text), 1);
-    const char c = text.front();
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        if (bytes > 1) {
-          out += text.substr(0, bytes);
-        } else {
-          out += (static_cast<unsigned char>(c) < 0x20 && c != '\n') || static_cast<unsigned char>(c) > 0x7e ? '?' : c;
-        }
-    }
-    text.remove_prefix(bytes);
-  }
+  for_each_seen(text, [&](std::string_view piece) {
+    const char c = piece.front();
+    out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '"' ? "&quot;" : piece;
+  });
+  return out;
+}
+
+std::string seen_text(std::string_view text) {
+  std::string out;
+  for_each_seen(text, [&](std::string_view piece) { out += piece; });
   return out;
 }
 

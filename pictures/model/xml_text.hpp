@@ -7,7 +7,10 @@
 
 namespace warren {
 
-/// & < > " escaped, control characters but the line feed, and what is no UTF-8, replaced.
+/// & < > " escaped, and "?" for all that can't be seen or acts on others (printable.hpp), but for the line feed.
 std::string xml_text(std::string_view text);
+
+/// The same without the escapes: for text that scripts show.
+std::string seen_text(std::string_view text);
 
 }  // namespace warren

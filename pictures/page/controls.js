@@ -4,31 +4,47 @@
 const $ = id => document.getElementById(id);
 const calm = matchMedia("(prefers-reduced-motion: reduce)"), night = matchMedia("(prefers-color-scheme: dark)");
 
+/// An element with its attributes: never markup, whatever names are.
+function made(tag, attributes) {
+  const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+  return element;
+}
 function swatch(layer) {
   const color = layer.groups ? layer.colors[0] : layer.color ? inkOf(layer) : "#888888";
-  const shape = {dots: `<circle cx="14" cy="7" r="3.5" fill="${color}"/>`, areas: `<rect x="3" y="2" width="22" height="10" fill="${color}"/>`,
-    image: `<rect x="3" y="2" width="22" height="10" fill="${color}"/>`, start: `<circle cx="14" cy="7" r="5.5" fill="${color}"/>`,
-    goal: `<path d="M${star(7).map(([x, y]) => `${14 + x} ${7 + y}`).join("L")}z" fill="${color}"/>`}[layer.kind] ?? `<path d="M2 7h24" stroke="${color}" stroke-width="3"/>`;
-  return `<svg viewBox="0 0 28 14" aria-hidden="true">${shape}</svg>`;
+  const area = ["rect", {x: 3, y: 2, width: 22, height: 10, fill: color}], corners = star(7).map(([x, y]) => `${14 + x} ${7 + y}`);
+  const shape = {dots: ["circle", {cx: 14, cy: 7, r: 3.5, fill: color}], areas: area, image: area, start: ["circle", {cx: 14, cy: 7, r: 5.5, fill: color}],
+    goal: ["path", {d: `M${corners.join("L")}z`, fill: color}]}[layer.kind] ?? ["path", {d: "M2 7h24", stroke: color, "stroke-width": 3}];
+  const sample = made("svg", {viewBox: "0 0 28 14", "aria-hidden": true});
+  sample.append(made(...shape));
+  return sample;
+}
+function rowOf(layer, label) {
+  const row = document.createElement("label"), box = document.createElement("input"), name = document.createElement("span");
+  row.className = "layer";
+  box.type = "checkbox";
+  name.textContent = label;
+  row.append(box, swatch(layer), name);
+  return {row, box};
 }
 function listLayers() {
-  const rows = [...layers, ...path.length ? [pathLayer] : []];
-  $("layers").replaceChildren(...rows.map(layer => {
-    const row = document.createElement("label"), count = document.createElement("span"), name = document.createElement("span");
-    row.className = "layer";
-    row.innerHTML = `<input type="checkbox" ${layer.shown ? "checked" : ""} name="${layer.id}">${swatch(layer)}`;
-    name.textContent = layer.label;
+  const rows = [...layers, ...path.length ? [pathLayer] : []].map(layer => {
+    const {row, box} = rowOf(layer, layer.label), count = document.createElement("span");
+    box.name = layer.id;
+    box.checked = layer.shown;
+    box.addEventListener("change", () => { layer.shown = box.checked; redraw(); });
     count.className = "count";
     count.textContent = layer.count ? layer.count.toLocaleString("en") : "";
-    row.append(name, count);
-    row.firstChild.addEventListener("change", event => { layer.shown = event.target.checked; redraw(); });
+    row.append(count);
     return row;
-  }), ...Object.entries(picture.ends).map(([name, at]) => {
-    const row = document.createElement("div");
-    row.className = "layer";
-    row.innerHTML = `<input type="checkbox" checked disabled style="visibility:hidden">${swatch({kind: name, color: shade(at.color)})}<span>${name}</span>`;
+  });
+  const ends = Object.entries(picture.ends).map(([name, at]) => {
+    const {row, box} = rowOf({kind: name, color: at.color}, name);
+    box.disabled = true;
+    box.style.visibility = "hidden";
     return row;
-  }));
+  });
+  $("layers").replaceChildren(...rows, ...ends);
 }
 
 function setTheme(dark) {

@@ -15,7 +15,11 @@ std::span<const EmbeddedFile> page_files();
 /// The bytes of one of them.
 std::string_view page_file(std::string_view name);
 
-/// Up to the end of <head>: the title as plain text, the style, and a policy by which nothing is loaded from anywhere.
-std::string head_of_page(const std::string& title, std::string_view style);
+/// A file as the element that runs it.
+std::string script_element(std::string_view name);
+
+/// Up to the end of <head>: the title as plain text, the style, and a policy by which nothing is loaded from anywhere
+/// and nothing is run but the scripts of that name, as script_element() writes them.
+std::string head_of_page(const std::string& title, std::string_view style, std::span<const std::string_view> scripts);
 
 }  // namespace warren

@@ -10,6 +10,7 @@
 #include "pictures/formats/svg_animation.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "pictures/model/picture.hpp"
+#include "pictures/model/xml_text.hpp"
 #include "pictures/page/number_array.hpp"
 #include "pictures/page/page_arm_io.hpp"
 #include "pictures/page/page_files.hpp"
@@ -37,7 +38,9 @@ class PageWriter {
         origin_(origin_of(picture.scene.walls, canvas_.box)) {}
 
   std::vector<std::string> document(const std::string& title) {
-    write_(head_of_page(title, page_file("page.css")));
+    static constexpr std::string_view scripts[] = {"data.js", "view.js",    "marks.js",
+                                                   "arm.js",  "pointer.js", "controls.js"};
+    write_(head_of_page(title, page_file("page.css"), scripts));
     write_(page_file("page.html"));
     write_("<script id=\"picture\" type=\"application/json\">{");
     words(title);
@@ -45,10 +48,9 @@ class PageWriter {
     if (picture_.roadmap != nullptr && picture_.panels.empty()) graph(*picture_.roadmap);
     if (parts_.has(Part::path)) path();
     if (moves_arm(picture_, parts_)) write_page_arm(picture_, parts_, origin_, execution_, write_);
-    write_("}</script>\n<script>\n");
-    for (const char* script : {"data.js", "view.js", "marks.js", "arm.js", "pointer.js", "controls.js"})
-      write_(page_file(script));
-    write_("</script>\n</body>\n</html>\n");
+    write_("}</script>\n");
+    for (const std::string_view script : scripts) write_(script_element(script));
+    write_("</body>\n</html>\n");
     return notes;
   }
 
@@ -78,8 +80,8 @@ void PageWriter::words(const std::string& title) {
     const Vec2 high = moved(box.max);
     return Json{low.x, low.y, high.x, high.y};
   };
-  Json words{{"title", title},
-             {"about", picture_.subtitle},
+  Json words{{"title", seen_text(title)},
+             {"about", seen_text(picture_.subtitle)},
              {"origin", {origin_.x, origin_.y}},
              {"box", box_json(canvas_.box)},
              {"unit", canvas_.unit},

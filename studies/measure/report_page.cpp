@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <span>
+#include <string_view>
+
 #include "pictures/model/xml_text.hpp"
 #include "pictures/page/page_files.hpp"
 
@@ -37,7 +40,8 @@ std::string paragraphs(const std::vector<std::string>& all) {
 }  // namespace
 
 std::string ReportPage::html() const {
-  std::string page = head_of_page(title, page_file("report.css"));
+  static constexpr std::string_view script = "report.js";
+  std::string page = head_of_page(title, page_file("report.css"), std::span(&script, 1));
   page += "<body>\n<h1>" + xml_text(title) + "</h1>\n<p><code>" + xml_text(command_line) + "</code></p>\n";
   page += paragraphs(notes);
   if (!plots.empty()) page += "<div class=\"plots\">\n";
@@ -45,7 +49,7 @@ std::string ReportPage::html() const {
   if (!plots.empty()) page += "</div>\n";
   for (const ReportTable& table : tables) page += html_of(table);
   page += paragraphs(remarks);
-  return page + fmt::format("<script>\n{}</script>\n</body>\n</html>\n", page_file("report.js"));
+  return page + script_element(script) + "</body>\n</html>\n";
 }
 
 }  // namespace warren
