@@ -87,14 +87,26 @@ class Car : public PoseBody {
     return path;
   }
   void judge(const World& world, const Path<Se2>& path, Answer& answer) const;
+  /// Of how many trees.
+  std::size_t paths_weighed() const { return is_length_alone() ? 1 : 4; }
+  double price_once_shorter(const World& world, Path<Se2> path, Answer& answer) const {
+    if constexpr (Curve::one_way) {
+      return 0.0;
+    } else {
+      const auto curve_length = [&](const Se2& a, const Se2& b) { return length(world, a, b); };
+      return PricedCar(world.body(), price()).price(shortcut(world, std::move(path), curve_length, answer));
+    }
+  }
 
  private:
+  DrivingPrice price() const {
+    return {asked_.cusp_cost.value_or(question().robot.turning_radius), asked_.reverse_cost.value_or(1.0)};
+  }
+  bool is_length_alone() const { return Curve::one_way || (price().cusp == 0.0 && price().reverse == 1.0); }
   /// With fewer changes of gear, and less of it backwards, as their prices have it.
   Path<Se2> redriven(const World& world, Path<Se2> path, Answer& answer) const {
-    const DrivingPrice price{asked_.cusp_cost.value_or(question().robot.turning_radius),
-                             asked_.reverse_cost.value_or(1.0)};
-    if (price.cusp == 0.0 && price.reverse == 1.0) return path;
-    return redriven_path(PricedCar(world.body(), price), std::move(path), {.seed = answer.seed}, execution(),
+    if (is_length_alone()) return path;
+    return redriven_path(PricedCar(world.body(), price()), std::move(path), {.seed = answer.seed}, execution(),
                          answer.counters);
   }
 

@@ -35,6 +35,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/base/rng.hpp"
 #include "planners/roadmap/ask_roadmap.hpp"
 #include "planners/roadmap/lazy_prm.hpp"
 #include "planners/roadmap/one_way_prm.hpp"
@@ -93,11 +94,13 @@ class SampledSolve {
   void plan_roadmaps();
   Solution<State> plan_roadmap(const State& goal);
   void plan_trees();
+  Solution<State> grow_through_stops();
   Solution<State> grow_trees(const State& start, std::span<const State> goals);
   std::vector<std::vector<State>> stops() const;
   PlannedRoadmap<State>* kept();
   void take(Solution<State> solution);
   void settle_ends();
+  void choose_path();
   void finish();
   std::string_view cause() const;
 
@@ -199,10 +202,15 @@ Solution<typename SampledSolve<Body>::State> SampledSolve<Body>::plan_roadmap(co
 
 template <class Body>
 void SampledSolve<Body>::plan_trees() {
+  take(grow_through_stops());
+}
+
+template <class Body>
+Solution<typename SampledSolve<Body>::State> SampledSolve<Body>::grow_through_stops() {
   const auto plan = [&](const State& start, std::span<const State> goals, std::size_t) {
     return grow_trees(start, goals);
   };
-  take(plan_through<State>(body_.start(), stops(), plan));
+  return plan_through<State>(body_.start(), stops(), plan);
 }
 
 template <class Body>
@@ -260,6 +268,28 @@ void SampledSolve<Body>::settle_ends() {
       });
 }
 
+/// Of bodies whose ways have a price beyond their length: the cheapest of several trees' paths, each shortened a
+/// little. What is dear then stays so, since one that wanders is made better only near where it goes.
+template <class Body>
+void SampledSolve<Body>::choose_path() {
+  const std::size_t count = by_roadmap() ? 1 : body_.paths_weighed();
+  if (count < 2) return;
+  double least = body_.price_once_shorter(*world_, path_, answer_);
+  const std::uint64_t seed = tree_options_.seed;
+  for (std::size_t i = 1; i < count; ++i) {
+    tree_options_.seed = random_bits(seed, i);
+    Solution<State> other = grow_through_stops();
+    execution().check();
+    answer_.counters += other.counters;
+    if (other.outcome != Outcome::solved) continue;
+    const double price = body_.price_once_shorter(*world_, other.path, answer_);
+    if (!(price < least)) continue;
+    least = price;
+    path_ = std::move(other.path);
+  }
+  tree_options_.seed = seed;
+}
+
 template <class Body>
 void SampledSolve<Body>::finish() {
   if (answer_.outcome == Outcome::stopped) return;
@@ -269,6 +299,7 @@ void SampledSolve<Body>::finish() {
   }
   if (request_.options.optimise) {
     const StageTimer timer(execution(), "optimise", answer_.seconds.optimise, path_.size());
+    if constexpr (requires { body_.paths_weighed(); }) choose_path();
     answer_.raw_length =
         path_length(path_, [this](const State& a, const State& b) { return body_.length(*world_, a, b); });
     path_ = body_.shortened(*world_, std::move(path_), answer_);

@@ -120,18 +120,6 @@ std::uint64_t cusps_of(const Answer& answer) {
   return std::get<std::uint64_t>(*figure_named(answer.path_figures, "cusps"));
 }
 
-TEST(Solve, CarsThatOptimiseChangeGearWhereTheyMust) {
-  for (const char* name : {"parking.scene", "parking-lot.scene"}) {
-    const Scene street = example(name);
-    for (const std::uint64_t seed : {1, 2}) {
-      const Answer answer = solve(street, {}, {.seed = seed, .optimise = true});
-      ASSERT_EQ(answer.outcome, Outcome::solved) << name;
-      EXPECT_TRUE(answer.verified);
-      EXPECT_LE(cusps_of(answer), 3) << name << ", seed " << seed;
-    }
-  }
-}
-
 TEST(Solve, PricesOfDrivingAreWeighedAgainstLength) {
   const Scene street = example("parking-lot.scene");
   const auto driven = [&](double cusp, double reverse) {

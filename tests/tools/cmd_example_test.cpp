@@ -39,7 +39,8 @@ TEST(Example, WithoutANameEveryWorldHasItsLine) {
 TEST(Example, WritesTheFilesAsTheyStandAndSaysACommandThatSolvesThem) {
   const Folder folder;
   std::size_t written = 0;
-  for (const char* name : {"walls", "poly-easy", "town", "flat", "car-20", "parking-lot", "parking", "puma-seed"}) {
+  for (const char* name : {"walls", "poly-easy", "town", "flat", "car-20", "parking-lot", "parking", "square-place",
+                           "garage", "puma-seed"}) {
     SCOPED_TRACE(name);
     const Outcome outcome = run({"example", name, "-o", folder.path("")});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
