@@ -45,9 +45,11 @@ void line(std::string& text, const Palette& palette, std::string_view name, std:
 }
 
 void add_blocked(std::string& text, const BlockedEnd& blocked, const Palette& palette) {
+  if (blocked.depth) line(text, palette, "depth", fmt::format("{:.3g} in it", *blocked.depth));
   if (!blocked.free_place.empty()) {
+    const char* unit = blocked.free_place.size() == 6 ? " rad" : "";
     line(text, palette, "free is",
-         fmt::format("{}, {} away", fmt::join(blocked.free_place, ","), human_number(blocked.distance)));
+         fmt::format("{}, {}{} away", fmt::join(blocked.free_place, ","), human_number(blocked.distance), unit));
   }
   if (!blocked.hint.empty()) line(text, palette, "hint", printable(blocked.hint));
 }

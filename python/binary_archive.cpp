@@ -172,7 +172,7 @@ WARREN_ARCHIVED(Scene, walls, polygons, seams, spheres, boxes, bounds, clearance
 WARREN_ARCHIVED(StateList, width, numbers)
 WARREN_ARCHIVED(Violation, leg, distance, obstacle)
 WARREN_ARCHIVED(RefutedPath, violation, length, cost, path, states)
-WARREN_ARCHIVED(BlockedEnd, is_start, by, free_place, distance, hint, room, needed)
+WARREN_ARCHIVED(BlockedEnd, is_start, by, free_place, distance, hint, room, needed, depth)
 WARREN_ARCHIVED(Hint, verb, words, why)
 WARREN_ARCHIVED(Explanation, components, narrowest, hints, stopped)
 WARREN_ARCHIVED(Problem, robot, start, goal, clearance, contact)

@@ -73,6 +73,7 @@ py::object blocked_of(const Answer& answer) {
   blocked["free_place"] = answer.blocked->free_place;
   blocked["distance"] = answer.blocked->distance;
   blocked["hint"] = answer.blocked->hint;
+  blocked["depth"] = answer.blocked->depth;
   return blocked;
 }
 

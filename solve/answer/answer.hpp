@@ -40,10 +40,14 @@ struct BlockedEnd {
   bool is_start = true;
   std::string by;                       ///< what is in the way, as Violation::obstacle
   std::vector<double> free_place = {};  ///< near it, with the same heading; empty: none was found, or nobody looked
-  double distance = 0.0;                ///< between the two
+  double distance = 0.0;                ///< between the two; of joint angles, in joint space: rad
   std::string hint = {};                ///< what may have been meant; may be empty
-  double room = 0.0;                    ///< between what is in the way and the body, of a disc its middle
+  double room = 0.0;                    ///< between what is in the way and the body, of a disc its middle; of links
+                                        ///< their surfaces: below 0 in a sphere
   double needed = 0.0;                  ///< the room that it needs; 0: it only may not touch
+  /// How far the body, turned as it is, must go to be out of what is in the way, were that alone; of an arm, the
+  /// deepest link. None where it does not stand in it.
+  std::optional<double> depth = {};
 };
 
 /// What is left to say of a path whose points were handed on as they were made (core/base/path_taker.hpp).

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <string_view>
 
@@ -38,7 +39,8 @@ std::string room_note(const Answer& answer) {
   for (const char* other : {"outside", "limits"}) {
     if (answer.blocked->by.starts_with(other)) return {};
   }
-  return fmt::format("{} there, {} needed", human_number(answer.blocked->room), human_number(answer.blocked->needed));
+  return fmt::format("{} there, {} needed", human_number(std::max(0.0, answer.blocked->room)),
+                     human_number(answer.blocked->needed));
 }
 
 std::string lazy_note(const Answer& answer) {

@@ -103,6 +103,7 @@ std::string blocked_json(const BlockedEnd& blocked) {
   add_text(json, "hint", blocked.hint);
   json.add("room", blocked.room);
   json.add("needed", blocked.needed);
+  json.add_or_null("depth", blocked.depth.has_value(), blocked.depth.value_or(0.0));
   return json.closed();
 }
 

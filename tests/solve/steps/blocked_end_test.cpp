@@ -5,10 +5,14 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "scenes/formats/read_world_io.hpp"
 #include "solve/solve.hpp"
+#include "solve/steps/blocked_arm.hpp"
 #include "tests/paths.hpp"
+#include "tests/scenes/text/temporary_directory.hpp"
 
 namespace warren {
 namespace {
@@ -30,7 +34,11 @@ BlockedEnd told(const Scene& scene, Question question) {
   std::vector<double>& end = is_start ? question.start : question.goal;
   const Question all = {.start = answer.problem.start, .goal = answer.problem.goal};
   const std::vector<double>& asked = is_start ? all.start : all.goal;
-  EXPECT_NEAR(blocked.distance, std::hypot(blocked.free_place[0] - asked[0], blocked.free_place[1] - asked[1]), 1e-12);
+  double square = 0.0;
+  for (std::size_t k = 0; k < blocked.free_place.size(); ++k) {
+    square += k < asked.size() ? std::pow(blocked.free_place[k] - asked[k], 2) : 0.0;
+  }
+  EXPECT_NEAR(blocked.distance, std::sqrt(square), 1e-12);
   end = blocked.free_place;
   const Answer there = solve(scene, question);
   EXPECT_NE(there.outcome, is_start ? Outcome::start_blocked : Outcome::goal_blocked);
@@ -74,7 +82,102 @@ TEST(BlockedEnd, NamesTheJointAndItsLimitsAndGuessesDegrees) {
   const BlockedEnd blocked = told(world("puma-seed.scene"), {.goal = {90, 0, 0, 0, 0, 0}});
   EXPECT_NE(blocked.by.find("joint 1"), std::string::npos) << blocked.by;
   EXPECT_NE(blocked.hint.find("90deg"), std::string::npos);
-  EXPECT_TRUE(blocked.free_place.empty());
+  EXPECT_FALSE(blocked.depth.has_value());
+  ASSERT_EQ(blocked.free_place.size(), 6U) << "within the limits";
+  EXPECT_LT(blocked.free_place[0], 3.0);
+}
+
+/// As written, and the body that is asked about.
+Scene scene_of(const std::string& text) {
+  const TemporaryDirectory folder;
+  return read_world(folder.write("w.scene", text));
+}
+
+struct DepthCase {
+  const char* world;
+  const char* by;
+  double depth;  // by hand; 0: none
+  double distance;
+};
+
+TEST(BlockedEnd, TellsHowDeepTheBodyStandsInWhatIsInTheWay) {
+  const std::string block = "bounds 0 0 20 10\npolygon 8 2 14 2 14 8 8 8\ngoal 1 1\n";
+  const std::string turning = "bounds 0 0 20 10\npolygon 8 2 14 2 14 8 8 8\ngoal 1 5 0\n";
+  const DepthCase cases[] = {
+      {"start 9.5 5\n", "polygon 0", 1.5, 1.5},
+      {"start 9.5 5\nclearance 0.5\n", "polygon 0", 1.5, 2.0},
+      {"start 9.5 5\nrobot disc 0.5\n", "polygon 0", 2.0, 2.0},
+      {"start 7.8 5\nrobot disc 0.5\n", "polygon 0", 0.3, 0.3},
+      {"start 7.8 5\nclearance 0.5\n", "polygon 0", 0.0, 0.3},  // too near, but not in it
+      {"start 0.2 5\nrobot disc 0.5\n", "bounds", 0.3, 0.3},
+      {"start 4 5\nrobot disc 0.5\nwall 4.1 0 4.1 10\n", "wall 0", 0.4, 0.4},
+  };
+  for (const DepthCase& c : cases) {
+    SCOPED_TRACE(c.world);
+    const BlockedEnd blocked = told(scene_of(block + c.world), {});
+    EXPECT_TRUE(blocked.by.starts_with(c.by)) << blocked.by;
+    EXPECT_NEAR(blocked.depth.value_or(0.0), c.depth, 2e-3 * c.depth);
+    EXPECT_NEAR(blocked.distance, c.distance, 0.11 * c.distance);
+  }
+  // A body of 2 by 1 whose front is a unit in, and the same on its side.
+  const DepthCase bodies[] = {
+      {"robot polygon -1 -0.5 1 -0.5 1 0.5 -1 0.5\nstart 8 5 0\n", "polygon 0", 1.0, 1.0},
+      {"robot polygon -1 -0.5 1 -0.5 1 0.5 -1 0.5\nstart 8 5 1.5707963267948966\n", "polygon 0", 0.5, 0.5},
+      {"robot car polygon -1 -0.5 1 -0.5 1 0.5 -1 0.5 turning 1\nstart 8 5 0\n", "polygon 0", 1.0, 1.0},
+      {"robot polygon -1 -0.5 1 -0.5 1 0.5 -1 0.5\nstart 0.4 5 0\n", "bounds", 0.6, 0.6}};
+  for (const DepthCase& c : bodies) {
+    SCOPED_TRACE(c.world);
+    const BlockedEnd blocked = told(scene_of(turning + c.world), {});
+    EXPECT_TRUE(blocked.by.starts_with(c.by)) << blocked.by;
+    EXPECT_NEAR(blocked.depth.value_or(0.0), c.depth, 2e-3 * c.depth);
+    EXPECT_NEAR(blocked.distance, c.distance, 0.11 * c.distance);
+  }
+}
+
+TEST(BlockedEnd, APolygonWithAYardIsOneObstacle) {
+  const TemporaryDirectory folder;
+  const Scene ring = read_world(folder.write(
+      "ring.wkt",
+      "POLYGON ((0 0, 12 0, 12 12, 0 12, 0 0), (5 5, 7 5, 7 7, 5 7, 5 5))\nPOLYGON ((20 0, 21 0, 21 1, 20 0))\n"));
+  ASSERT_FALSE(ring.seams.empty());
+  // Wherever the cuts run, the nearest way out is 3 to the left, and 1.5 into the yard.
+  for (const auto& [place, depth] : std::vector<std::pair<std::vector<double>, double>>{
+           {{3, 6}, 2.0}, {{1.5, 3}, 1.5}, {{6, 3.5}, 1.5}, {{6, 9}, 2.0}, {{9, 6}, 2.0}, {{10.5, 11}, 1.0}}) {
+    const BlockedEnd blocked = told(ring, {.start = place, .goal = {15, 6}});
+    EXPECT_NEAR(blocked.depth.value_or(0.0), depth, 2e-3 * depth) << place[0] << ' ' << place[1];
+  }
+}
+
+TEST(BlockedEnd, OfAMapTheBlockedCellsAreOneObstacle) {
+  const Question question{.start = {0.05, 2.5}, .goal = {4.3, 0.5}};
+  const BlockedEnd blocked = told(world("flat.yaml"), question);
+  EXPECT_TRUE(blocked.by.starts_with("cell ")) << blocked.by;
+  EXPECT_NEAR(blocked.depth.value_or(0.0), blocked.distance, 0.05 * blocked.distance);
+}
+
+TEST(BlockedEnd, TellsHowDeepALinkStandsInASolidAndAFreePostureNearby) {
+  // The Puma's upper arm, straight ahead at q = 0: from (0, d2, 0) a length a2 = 0.4318 along x.
+  const std::string arm = "robot puma560 radius 0.05\ngoal 1.5 0 0 0 0 0\nstart 0 0 0 0 0 0\n";
+  const BlockedEnd ball = told(scene_of(arm + "sphere 0.3 0.1 0.2 0.25\n"), {});
+  EXPECT_TRUE(ball.by.starts_with("sphere 0")) << ball.by;
+  ASSERT_TRUE(ball.depth.has_value());
+  EXPECT_NEAR(ball.depth.value_or(0.0), 0.25 - std::sqrt(0.05) + 0.05, 1e-9) << "the upper arm";
+  ASSERT_EQ(ball.free_place.size(), 6U);
+  const BlockedEnd slab = told(scene_of(arm + "box 0.1 -1 -0.02 0.3 1 0.06\n"), {});
+  EXPECT_TRUE(slab.by.starts_with("box 0")) << slab.by;
+  EXPECT_NEAR(slab.depth.value_or(0.0), 0.02 + 0.05, 1e-9) << "down, out of it";
+  ASSERT_EQ(slab.free_place.size(), 6U);
+  EXPECT_LT(slab.distance, 2.0);
+}
+
+TEST(DepthInBox, IsTheLeastWayOut) {
+  const SolidBox box{{0, 0, 0}, {4, 2, 1}};
+  EXPECT_NEAR(depth_in_box({-5, 1, 0.3}, {9, 1, 0.3}, box), 0.3, 1e-12) << "right through";
+  EXPECT_NEAR(depth_in_box({0.2, 1, 0.5}, {0.2, 1, 0.5}, box), 0.2, 1e-12) << "a point";
+  EXPECT_NEAR(depth_in_box({-1, 1, 0.5}, {0.2, 1, 0.5}, box), 0.2, 1e-12) << "its tip";
+  EXPECT_NEAR(depth_in_box({-1, 0.6, 0.5}, {1, 2.6, 0.5}, box), 0.4 * std::sqrt(0.5), 1e-12) << "across an edge";
+  EXPECT_LE(depth_in_box({-1, 1, 0.5}, {-0.1, 1, 0.5}, box), 0.0) << "beside it";
+  EXPECT_LE(depth_in_box({-1, 1.2, 0.5}, {1, 3.2, 0.5}, box), 0.0) << "past an edge";
 }
 
 TEST(BlockedEnd, HoldsInLargeMazesAndForCars) {

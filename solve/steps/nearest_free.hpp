@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The nearest free state around one that is not, whatever a state's numbers mean: spheres of directions whose radius
+// grows by a quarter, the first of them that has a free state, then bisection towards the middle and directions beside
+// the best one, nearer and nearer. Finds what is wider than the directions are apart; the distance is right to a
+// thousandth where the free room has a smooth rim. Some thousand calls of is_free.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/base/rng.hpp"
+
+namespace warren {
+
+template <std::size_t n>
+using Numbers = std::array<double, n>;
+
+/// Unit vectors: both ways along each axis first, then `more` of even density, the same ones each time.
+template <std::size_t n>
+std::vector<Numbers<n>> directions_around(std::size_t more) {
+  std::vector<Numbers<n>> directions;
+  for (std::size_t k = 0; k < 2 * n; ++k) {
+    directions.emplace_back();
+    directions.back()[k / 2] = k % 2 == 0 ? 1.0 : -1.0;
+  }
+  for (std::uint64_t i = 0; directions.size() < 2 * n + more; ++i) {
+    Numbers<n> d{};
+    double square = 0.0;
+    for (std::size_t k = 0; k < n; ++k) {
+      d[k] = 2.0 * uniform(1, i, k) - 1.0;
+      square += d[k] * d[k];
+    }
+    if (square > 1.0 || square < 1e-4) continue;
+    for (double& x : d) x /= std::sqrt(square);
+    directions.push_back(d);
+  }
+  return directions;
+}
+
+template <std::size_t n>
+struct FreeDirection {
+  Numbers<n> direction;   ///< a unit vector
+  double distance = 0.0;  ///< along it, from the middle
+};
+
+struct FreeSearchRange {
+  double first;         ///< radius of the first sphere, > 0
+  double farthest;      ///< of the last
+  double enough = 0.0;  ///< a state so near the middle needs no better one
+};
+
+/// is_free(state): of Numbers<n>. directions: as directions_around() gives them.
+template <std::size_t n, class IsFree>
+class NearestFree {
+ public:
+  NearestFree(const Numbers<n>& middle, std::span<const Numbers<n>> directions, const IsFree& is_free)
+      : middle_(middle), directions_(directions), is_free_(is_free) {}
+
+  /// Nothing: there is none, or it is narrower than directions are apart.
+  std::optional<FreeDirection<n>> find(const FreeSearchRange& range) {
+    constexpr double growth = 1.25;
+    double before = 0.0;
+    for (double radius = range.first; radius <= range.farthest; radius *= growth) {
+      best_.distance = radius;
+      bool found = false;
+      for (const Numbers<n>& direction : directions_) {
+        if (is_free_at(direction, best_.distance)) {
+          approach(direction, before);
+          found = true;
+        }
+        if (found && best_.distance <= range.enough) break;
+      }
+      if (found) {
+        if (best_.distance > range.enough) look_beside();
+        return best_;
+      }
+      before = radius;
+    }
+    return std::nullopt;
+  }
+  Numbers<n> at(const Numbers<n>& direction, double distance) const {
+    Numbers<n> state = middle_;
+    for (std::size_t k = 0; k < n; ++k) state[k] += distance * direction[k];
+    return state;
+  }
+
+ private:
+  bool is_free_at(const Numbers<n>& direction, double distance) const { return is_free_(at(direction, distance)); }
+  /// As near as it goes along a direction that is free at the best distance.
+  void approach(const Numbers<n>& direction, double blocked) {
+    for (int i = 0; i < 10; ++i) {
+      const double middle = 0.5 * (blocked + best_.distance);
+      (is_free_at(direction, middle) ? best_.distance : blocked) = middle;
+    }
+    best_.direction = direction;
+  }
+  void look_beside() {
+    constexpr double gain = 1e-4;
+    for (double aside = 0.2; aside > 0.002; aside *= 0.5) {
+      for (const Numbers<n>& side : directions_.first(2 * n)) {
+        Numbers<n> direction = best_.direction;
+        double square = 0.0;
+        for (std::size_t k = 0; k < n; ++k) {
+          direction[k] += aside * side[k];
+          square += direction[k] * direction[k];
+        }
+        for (double& x : direction) x /= std::sqrt(square);
+        if (!is_free_at(direction, (1.0 - gain) * best_.distance)) continue;
+        best_.distance *= 1.0 - gain;
+        approach(direction, 0.9 * best_.distance);
+      }
+    }
+  }
+
+  Numbers<n> middle_;
+  std::span<const Numbers<n>> directions_;
+  const IsFree& is_free_;
+  FreeDirection<n> best_;
+};
+
+/// x to a multiple of a power of ten between a hundredth and a tenth of `size` > 0.
+inline double in_few_digits(double x, double size) {
+  double unit = 1.0;
+  while (unit > 0.1 * size) unit /= 10.0;
+  while (unit * 100.0 <= size) unit *= 10.0;
+  const double rounded = unit < 1.0 ? std::round(x / unit) / std::round(1.0 / unit) : std::round(x / unit) * unit;
+  return rounded + 0.0;  // no -0
+}
+
+/// The nearest free state, up to a tenth farther where that takes fewer digits: a tenth of its distance from the middle
+/// or of ten times what is near enough.
+template <std::size_t n, class IsFree>
+std::optional<Numbers<n>> nearest_free_in_few_digits(const Numbers<n>& middle, std::span<const Numbers<n>> directions,
+                                                     const FreeSearchRange& range, const IsFree& is_free) {
+  NearestFree<n, IsFree> search(middle, directions, is_free);
+  const auto found = search.find(range);
+  if (!found) return std::nullopt;
+  // Where a state is sought far from the middle that is there, what is near enough needs few digits, too.
+  const double size = std::max(found->distance, 10.0 * range.enough);
+  for (double more = 0.0; more < 0.1 * size; more += 0.02 * size) {
+    Numbers<n> state = search.at(found->direction, found->distance + more);
+    for (double& x : state) x = in_few_digits(x, size);
+    if (is_free(state)) return state;
+  }
+  return search.at(found->direction, found->distance);
+}
+
+}  // namespace warren
