@@ -17,9 +17,11 @@ namespace warren {
 
 /// Thrown where a budget ended or a signal came. Whoever solves makes it an answer; what() is the reason's name.
 struct Stopped : Error {
+  /// For this reason.
   explicit Stopped(StopReason why) noexcept : reason(why) {}
+  /// The reason's name: "budget", "memory", "SIGINT", "SIGTERM" or "SIGHUP".
   const char* what() const noexcept override { return name_of(reason).data(); }
-  StopReason reason;
+  StopReason reason;  ///< a limit, or a signal
 };
 
 /// Set by a signal handler, read by all threads: 0, or the signal's number.
@@ -28,7 +30,7 @@ using SignalFlag = std::atomic<int>;
 /// Any number of threads may ask. Neither copied nor moved.
 class Deadline {
  public:
-  using Clock = std::chrono::steady_clock;
+  using Clock = std::chrono::steady_clock;  ///< that never goes back
 
   Deadline() = default;  ///< never ends, and has all memory
   /// seconds from now (infinity: no limit), bytes that the process may hold in all, a flag that a signal sets.
@@ -48,6 +50,7 @@ class Deadline {
   /// system takes 6 us, so a 64th of what was left when it was last asked is granted without.
   void reserve(std::size_t bytes) const;
 
+  /// What the process may hold in all.
   std::size_t memory_bytes() const { return memory_bytes_; }
 
  private:
@@ -60,6 +63,7 @@ class Deadline {
 /// Bytes that this process holds now (resident set), and the most it has held, without the pages that the calling
 /// thread keeps and has no use for (core/base/page_pool.hpp); 0 where the system doesn't tell.
 std::size_t resident_bytes();
+/// The most that this process has held, as resident_bytes().
 std::size_t peak_resident_bytes();
 /// Bytes that this process may hold: the smaller of the machine's memory that is available, less a 16th of it for
 /// everybody else, and the cgroup's limit.

@@ -15,14 +15,18 @@ namespace warren {
 /// How far a stage is; written by the workers, read by whoever draws it.
 class Progress {
  public:
+  /// A stage begins; `stage` is a literal, total 0 where nobody knows.
   void begin(const char* stage, std::uint64_t total) noexcept {
     done_.store(0, std::memory_order_relaxed);
     total_.store(total, std::memory_order_relaxed);
     stage_.store(stage, std::memory_order_release);
   }
+  /// The stage has so many items, as it turns out.
   void set_total(std::uint64_t total) noexcept { total_.store(total, std::memory_order_relaxed); }
+  /// So many items more are done. Any number of threads may say so.
   void advance(std::uint64_t items) noexcept { done_.fetch_add(items, std::memory_order_relaxed); }
   const char* stage() const noexcept { return stage_.load(std::memory_order_acquire); }  ///< a literal, or nullptr
+  /// Items of the stage that are done.
   std::uint64_t done() const noexcept { return done_.load(std::memory_order_relaxed); }
   std::uint64_t total() const noexcept { return total_.load(std::memory_order_relaxed); }  ///< 0: not known
 
@@ -34,19 +38,24 @@ class Progress {
 
 class Trace;  // parallel/trace.hpp
 
+/// What changes the time of a call, never its result.
 struct Execution {
   unsigned threads = 0;                ///< 0: one a core that this process may use; changes the time, never the result
   const Deadline* deadline = nullptr;  ///< nullptr: no limit
   Progress* progress = nullptr;        ///< nullptr: nobody watches
   Trace* trace = nullptr;              ///< nullptr: nobody records
 
+  /// Throws Stopped if it is time to stop.
   void check() const {
     if (deadline != nullptr) deadline->check();
   }
+  /// Is it time to stop?
   bool should_stop() const noexcept { return deadline != nullptr && deadline->reached().has_value(); }
+  /// Throws Stopped{memory} if so many further bytes would pass the limit.
   void reserve(std::size_t bytes) const {
     if (deadline != nullptr) deadline->reserve(bytes);
   }
+  /// Tells whoever watches that so many items more are done.
   void advance(std::uint64_t items) const noexcept {
     if (progress != nullptr) progress->advance(items);
   }
@@ -59,6 +68,7 @@ unsigned thread_count(unsigned threads);
 /// whoever watches.
 class StageTimer {
  public:
+  /// The stage begins; `items`: how many it has, 0: not known. `execution` and `seconds` outlive it.
   StageTimer(const Execution& execution, const char* stage, double& seconds, std::uint64_t items = 0);
   ~StageTimer();
   StageTimer(const StageTimer&) = delete;

@@ -22,28 +22,28 @@ namespace warren {
 
 /// A further picture of an answer: the same world with other layers, without roadmap and path.
 struct DrawingPage {
-  std::string id;
-  std::vector<PictureLayer> layers;
+  std::string id;                    ///< ends the name of its file
+  std::vector<PictureLayer> layers;  ///< in the order in which they are drawn
 };
 
 /// A world with an answer on it, ready to be drawn. Owns all but the scene.
 struct Drawing {
-  std::optional<PlannedRoadmap<Vec2>> roadmap = {};
-  std::vector<PictureLayer> layers = {};  ///< in the order in which they are drawn
-  std::vector<DrawingPage> pages = {};    ///< what deserves a picture of its own each
-  std::optional<Scene> stage = {};        ///< shown instead of the world: views of a world that is not plane
-  Path<Vec2> path = {};
-  std::vector<double> path_turns = {};  ///< as Picture::path_turns
-  std::optional<Vec2> start = {};
-  std::optional<Vec2> goal = {};
-  std::vector<AxesPanel> panels = {};  ///< as Picture::panels
-  std::optional<SolidView> solids = {};
-  std::optional<MovingArm> arm = {};
-  std::string path_label = "path";
-  std::string title = {};
-  std::string subtitle = {};  ///< what was asked, how it was solved and what came of it
-  MovingBody body = {};       ///< of points and discs without poses: those are the path's
-  bool moves = false;         ///< animate() was asked for it
+  std::optional<PlannedRoadmap<Vec2>> roadmap = {};  ///< of bodies whose states stand in the plane
+  std::vector<PictureLayer> layers = {};             ///< in the order in which they are drawn
+  std::vector<DrawingPage> pages = {};               ///< what deserves a picture of its own each
+  std::optional<Scene> stage = {};                   ///< shown instead of the world: views of a world that is not plane
+  Path<Vec2> path = {};                              ///< of the reference point
+  std::vector<double> path_turns = {};               ///< as Picture::path_turns
+  std::optional<Vec2> start = {};                    ///< none: not shown
+  std::optional<Vec2> goal = {};                     ///< none: not shown
+  std::vector<AxesPanel> panels = {};                ///< as Picture::panels
+  std::optional<SolidView> solids = {};              ///< an arm's world in perspective
+  std::optional<MovingArm> arm = {};                 ///< that moves in it
+  std::string path_label = "path";                   ///< as the legend calls it
+  std::string title = {};                            ///< the world
+  std::string subtitle = {};                         ///< what was asked, how it was solved and what came of it
+  MovingBody body = {};                              ///< of points and discs without poses: those are the path's
+  bool moves = false;                                ///< animate() was asked for it
 };
 
 /// An answer, and what its planner made. A refuted path is drawn as any other. Throws Stopped; what it throws for a
@@ -69,6 +69,7 @@ void animate(Drawing& drawing);
 /// Refers to both; of a map, the walls shown are those that add_map_walls() gave the scene. Title and description are
 /// left to the caller.
 Picture picture_of(const Scene& scene, const Drawing& drawing);
+/// The same with a page's layers.
 Picture picture_of(const Scene& scene, const Drawing& drawing, const DrawingPage& page);
 
 /// The picture of an answer in one go, in the format that the file's ending says, with the borders of a map's cells.

@@ -14,3 +14,7 @@
 #include "solve/roadmaps/roadmap_file_io.hpp"    // IWYU pragma: export
 #include "solve/roadmaps/roadmap_query.hpp"      // IWYU pragma: export
 #include "solve/solve.hpp"                       // IWYU pragma: export
+
+/// All of the library. Where nothing else is said, functions may be called by any number of threads at once, values
+/// belong to one thread at a time, and lengths are in the units of the world.
+namespace warren {}

@@ -35,6 +35,7 @@ Verdict verify(const Scene& scene, const RecordedAnswer& answer, const Question&
 /// path's points while they are made, before they are verified; the answer then has `handed` instead of them.
 Answer solve_within(const Scene& scene, const Question& question, const SolveOptions& options,
                     const Execution& execution, ByProducts* keep = nullptr, PathTaker* taker = nullptr);
+/// verify() with an execution that goes on.
 Verdict verify_within(const Scene& scene, const Question& question, const RecordedAnswer& answer,
                       const Execution& execution);
 

@@ -14,15 +14,15 @@ namespace warren {
 
 /// Number of a column and a row; row 0 is the bottom row where a map is meant.
 struct Cell {
-  std::uint32_t x = 0;
-  std::uint32_t y = 0;
+  std::uint32_t x = 0;  ///< column, from the left
+  std::uint32_t y = 0;  ///< row
   friend constexpr bool operator==(Cell, Cell) = default;
 };
 
 /// width x height bits; x runs along a row. Owns its words; any number of threads may read, and write different rows.
 class Bitmap {
  public:
-  static constexpr std::uint32_t word_bits = 64;
+  static constexpr std::uint32_t word_bits = 64;  ///< of each word of a row
 
   Bitmap() = default;
   /// All bits `value`. Fewer than 2^32 bits in all.
@@ -39,16 +39,19 @@ class Bitmap {
     return words_a_row(width) * height * sizeof(std::uint64_t);
   }
 
-  std::uint32_t width() const { return width_; }
-  std::uint32_t height() const { return height_; }
-  bool empty() const { return words_.empty(); }
-  std::uint64_t size() const { return std::uint64_t{width_} * height_; }
-  std::size_t bytes() const { return words_.size() * sizeof(std::uint64_t); }
+  std::uint32_t width() const { return width_; }                               ///< bits a row
+  std::uint32_t height() const { return height_; }                             ///< rows
+  bool empty() const { return words_.empty(); }                                ///< has it no bits at all?
+  std::uint64_t size() const { return std::uint64_t{width_} * height_; }       ///< all bits
+  std::size_t bytes() const { return words_.size() * sizeof(std::uint64_t); }  ///< of the words
 
+  /// Is the bit set? x < width(), y < height().
   bool test(std::uint32_t x, std::uint32_t y) const {
     return (words_[y * stride_ + x / word_bits] >> (x % word_bits) & 1U) != 0;
   }
+  /// Sets the bit; x < width(), y < height(). Not at once with others who write its row.
   void set(std::uint32_t x, std::uint32_t y) { words_[y * stride_ + x / word_bits] |= bit(x); }
+  /// Clears the bit; as set().
   void clear(std::uint32_t x, std::uint32_t y) { words_[y * stride_ + x / word_bits] &= ~bit(x); }
   /// Sets bits first .. last - 1 of a row; first <= last <= width.
   void set_run(std::uint32_t y, std::uint32_t first, std::uint32_t last) {
@@ -68,8 +71,11 @@ class Bitmap {
            test(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
   }
 
+  /// The words of a row, bit x in word x / word_bits; what lies beyond the width stays 0.
   std::span<std::uint64_t> row(std::uint32_t y) { return std::span(words_).subspan(y * stride_, stride_); }
+  /// The same, to be read.
   std::span<const std::uint64_t> row(std::uint32_t y) const { return std::span(words_).subspan(y * stride_, stride_); }
+  /// All rows, one after the other.
   std::span<const std::uint64_t> words() const { return words_; }
 
   /// How many bits are set.

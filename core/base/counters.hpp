@@ -6,6 +6,7 @@
 
 namespace warren {
 
+/// What a planner has done: exact, the same for any number of threads.
 struct Counters {
   std::uint64_t samples = 0;  ///< states drawn
   std::uint64_t kept = 0;     ///< of samples, the states that became milestones: free, and as the sampler wants
@@ -15,6 +16,7 @@ struct Counters {
   std::uint64_t expanded = 0;           ///< vertices settled by the search
   std::uint64_t rounds = 0;             ///< roadmaps built, lazy repairs or batches of trees made
   std::uint64_t refused = 0;            ///< motions that were neither proved free nor blocked, of edges_checked
+  /// Adds all of them.
   Counters& operator+=(const Counters& o) {
     samples += o.samples;
     kept += o.kept;
@@ -31,17 +33,17 @@ struct Counters {
 
 /// Wall-clock seconds of each stage.
 struct StageTimes {
-  double generate = 0.0;
-  double read = 0.0;
-  double index = 0.0;
-  double sample = 0.0;
-  double neighbours = 0.0;
-  double connect = 0.0;
-  double graph = 0.0;
-  double reduce = 0.0;
-  double search = 0.0;
-  double optimise = 0.0;
-  double verify = 0.0;
+  double generate = 0.0;    ///< making a maze
+  double read = 0.0;        ///< reading a file
+  double index = 0.0;       ///< indexes over obstacles and free cells
+  double sample = 0.0;      ///< drawing states
+  double neighbours = 0.0;  ///< finding each state's neighbours
+  double connect = 0.0;     ///< checking motions
+  double graph = 0.0;       ///< joining edges to a graph, or cells to a decomposition
+  double reduce = 0.0;      ///< taking what no path needs out of a lattice's graph
+  double search = 0.0;      ///< searching; of trees, growing them
+  double optimise = 0.0;    ///< pulling the path taut
+  double verify = 0.0;      ///< judging the path
 };
 
 }  // namespace warren

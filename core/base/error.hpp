@@ -20,7 +20,9 @@ class Error : public std::exception {};
 /// An error with its line.
 class TextError : public Error {
  public:
+  /// The line; unprintable bytes are escaped.
   explicit TextError(std::string_view text) : text_(printable(text)) {}
+  /// The line, valid while the error lives.
   const char* what() const noexcept override { return text_.what(); }
 
  private:
@@ -30,9 +32,12 @@ class TextError : public Error {
 /// An error that names its place: "where: wrong (found: value)".
 class PlacedError : public TextError {
  public:
+  /// The place, what is wrong there or what would be right, and what was found.
   PlacedError(std::string_view where, std::string_view wrong, std::string_view value = {});
 
+  /// The place.
   std::string_view where() const noexcept { return line().substr(0, where_bytes_); }
+  /// What is wrong there.
   std::string_view wrong() const noexcept { return line().substr(where_bytes_ + 2, wrong_bytes_); }
   std::string_view value() const noexcept;  ///< empty: none was given
 
@@ -46,18 +51,21 @@ class PlacedError : public TextError {
 /// Input that contradicts its format or its stated range. `where` names the place (file:line, option, parameter).
 class InputError : public PlacedError {
  public:
+  /// The place, what is wrong there, and what was found.
   using PlacedError::PlacedError;
 };
 
 /// An input that can't be opened or read at all.
 class ReadError : public PlacedError {
  public:
+  /// A file, and the system's reason.
   ReadError(std::string_view where, std::string_view why) : PlacedError(where, "can't be read: " + std::string{why}) {}
 };
 
 /// An output that can't be written; nothing half-written stays.
 class WriteError : public PlacedError {
  public:
+  /// A file, and the system's reason.
   WriteError(std::string_view where, std::string_view why)
       : PlacedError(where, "can't be written: " + std::string{why}) {}
 };
@@ -66,6 +74,7 @@ class WriteError : public PlacedError {
 /// text names an option it says @option, since each caller spells it in his own way.
 class UsageError : public TextError {
  public:
+  /// The line, with @option for options.
   explicit UsageError(std::string_view text) : TextError(spelled(text, "", '_')), written_(std::string{text}) {}
   /// The line with "--goal-bias" for @goal_bias, or whatever prefix and hyphen are.
   std::string spelled(std::string_view prefix, char hyphen) const {

@@ -15,26 +15,33 @@ namespace warren {
 /// Blocks of 512 KiB and more are aligned to 2 MiB, advised to use huge pages, and made of the pages of earlier ones
 /// where the thread keeps them (core/base/page_pool.hpp). Throws std::bad_alloc.
 void* allocate_raw(std::size_t bytes);
+/// Gives back what allocate_raw() gave for so many bytes.
 void release_raw(void* block, std::size_t bytes) noexcept;
 
+/// Allocates by allocate_raw(), and leaves numbers as the memory has them.
 template <class T>
 class RawAllocator {
  public:
-  using value_type = T;
+  using value_type = T;  ///< of the elements
   RawAllocator() = default;
+  /// All of them are alike.
   template <class U>
   RawAllocator(const RawAllocator<U>&) noexcept {}  // NOLINT(google-explicit-constructor): allocators convert
 
+  /// Room for n elements. Throws std::bad_alloc.
   T* allocate(std::size_t n) {
     if (n > static_cast<std::size_t>(-1) / sizeof(T)) throw std::bad_alloc();
     return static_cast<T*>(allocate_raw(n * sizeof(T)));
   }
+  /// Gives it back.
   void deallocate(T* block, std::size_t n) noexcept { release_raw(block, n * sizeof(T)); }
 
+  /// An element without a value.
   template <class U>
   void construct(U* at) noexcept(std::is_nothrow_default_constructible_v<U>) {
     ::new (static_cast<void*>(at)) U;  // default-initialised: numbers keep what was in memory
   }
+  /// An element of these values.
   template <class U, class... Args>
   void construct(U* at, Args&&... args) {
     ::new (static_cast<void*>(at)) U(std::forward<Args>(args)...);
@@ -49,7 +56,7 @@ using RawVector = std::vector<T, RawAllocator<T>>;
 
 /// Asks nothing.
 struct NoPoll {
-  void operator()() const {}
+  void operator()() const {}  ///< does nothing
 };
 
 /// Makes `block` n times `value`, and calls poll() between pieces of it: the first touch of memory can take seconds.

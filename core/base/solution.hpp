@@ -22,6 +22,7 @@ constexpr auto enum_names(Outcome) {
   return std::array<std::string_view, 6>{"solved",        "start_blocked", "goal_blocked",
                                          "not_connected", "infeasible",    "stopped"};
 }
+/// Is an end of the question blocked?
 constexpr bool is_blocked(Outcome outcome) {
   return outcome == Outcome::start_blocked || outcome == Outcome::goal_blocked;
 }
@@ -38,23 +39,24 @@ struct RoadmapSize {
 /// Why start and goal are not joined: sizes of their components, and the shortest distance between a milestone of one
 /// and a milestone of the other (in the world's metric).
 struct Separation {
-  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  std::uint64_t start_size = 0;
-  std::uint64_t goal_size = 0;
-  double nearest_gap = unknown;
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();  ///< a distance that nobody measured
+  std::uint64_t start_size = 0;                        ///< milestones that the start can reach, itself included
+  std::uint64_t goal_size = 0;                         ///< the same of the goal
+  double nearest_gap = unknown;                        ///< shortest distance between the two; unknown: not measured
   std::array<double, 2> near_start{unknown, unknown};  ///< where these two stand, of bodies of the plane: x and y
-  std::array<double, 2> near_goal{unknown, unknown};
+  std::array<double, 2> near_goal{unknown, unknown};   ///< the one of the goal's
 };
 
+/// What a planner gives back, in its own states.
 template <class State>
 struct Solution {
-  Outcome outcome = Outcome::not_connected;
+  Outcome outcome = Outcome::not_connected;   ///< how it ended
   StopReason stop_reason = StopReason::time;  ///< only for stopped
   Path<State> path;                           ///< start to goal; empty unless solved
-  RoadmapSize roadmap;
-  Separation separation;  ///< only for not_connected
-  Counters counters;      ///< exact, the same for any thread count
-  StageTimes seconds;
+  RoadmapSize roadmap;                        ///< that was searched
+  Separation separation;                      ///< only for not_connected
+  Counters counters;                          ///< exact, the same for any thread count
+  StageTimes seconds;                         ///< wall-clock
 };
 
 }  // namespace warren

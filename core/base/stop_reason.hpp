@@ -24,6 +24,7 @@ constexpr std::string_view text_of(StopReason reason) {
   return texts[static_cast<std::size_t>(reason)];
 }
 
+/// Was it a signal?
 constexpr bool is_signal(StopReason reason) { return reason >= StopReason::interrupt; }
 
 }  // namespace warren

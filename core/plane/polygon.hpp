@@ -15,14 +15,16 @@ namespace warren {
 /// Simple polygons whose open interiors are blocked, corners in order. Polygon p has the corners
 /// corners[first[p]] .. corners[first[p + 1] - 1]. Fewer than 2^32 corners in all.
 struct PolygonSet {
-  std::vector<Vec2> corners;
+  std::vector<Vec2> corners;            ///< of all polygons, one after the other
   std::vector<std::uint32_t> first{0};  ///< size() + 1 numbers, ascending from 0
 
-  std::size_t size() const { return first.size() - 1; }
-  bool empty() const { return size() == 0; }
+  std::size_t size() const { return first.size() - 1; }  ///< polygons
+  bool empty() const { return size() == 0; }             ///< are there none?
+  /// The corners of polygon p; p < size().
   std::span<const Vec2> operator[](std::size_t p) const {
     return std::span(corners).subspan(first[p], first[p + 1] - first[p]);
   }
+  /// Appends a polygon.
   void add(std::span<const Vec2> outline) {
     corners.insert(corners.end(), outline.begin(), outline.end());
     first.push_back(static_cast<std::uint32_t>(corners.size()));
@@ -32,9 +34,9 @@ struct PolygonSet {
 /// What blocks the plane: polygons that run anticlockwise, each simple, with three or more corners, no two in a
 /// row equal (checked where they are read, not here); walls; and the bounds, whose four sides are walls.
 struct PlaneObstacles {
-  PolygonSet polygons;
+  PolygonSet polygons;         ///< whose insides are blocked
   std::vector<Segment> walls;  ///< without the sides of the bounds
-  std::optional<Box> bounds;
+  std::optional<Box> bounds;   ///< the box that nothing may leave; none: the plane has no end
 };
 
 }  // namespace warren

@@ -16,10 +16,11 @@ inline constexpr double largest_heading = 1000.0;
 
 /// A pose: the body's point p is at (x, y) + p turned by theta, counter-clockwise.
 struct Se2 {
-  double x = 0.0;
-  double y = 0.0;
+  double x = 0.0;      ///< of the body's reference point
+  double y = 0.0;      ///< of the same
   double theta = 0.0;  ///< radians, within +-largest_heading; turns modulo 2 pi
 
+  /// Without the heading.
   constexpr Vec2 position() const { return {x, y}; }
   friend constexpr bool operator==(const Se2&, const Se2&) = default;
 };
@@ -33,7 +34,9 @@ inline double wrapped_angle(double theta) { return std::remainder(theta, 2.0 * s
 /// A rotation, its sine and cosine taken once.
 class Rotation {
  public:
+  /// By theta radians, counter-clockwise.
   explicit Rotation(double theta) : Rotation(portable::sin_and_cos(theta)) {}
+  /// The point turned about the origin.
   Vec2 operator()(Vec2 p) const { return {cosine_ * p.x - sine_ * p.y, sine_ * p.x + cosine_ * p.y}; }
 
  private:

@@ -16,20 +16,26 @@ namespace warren {
 /// One wall as files hold it: four numbers.
 template <class T>
 struct WallOf {
-  T x1, y1, x2, y2;
+  T x1;  ///< of one end
+  T y1;  ///< of one end
+  T x2;  ///< of the other
+  T y2;  ///< of the other
+  /// As doubles; exact.
   Segment segment() const {
     return {{static_cast<double>(x1), static_cast<double>(y1)}, {static_cast<double>(x2), static_cast<double>(y2)}};
   }
   friend bool operator==(const WallOf&, const WallOf&) = default;
 };
-using FloatWall = WallOf<float>;
-using DoubleWall = WallOf<double>;
+using FloatWall = WallOf<float>;    ///< a wall of 16 bytes
+using DoubleWall = WallOf<double>;  ///< a wall of 32 bytes
 
 /// Owns the walls. Immutable after construction, so any number of threads may read.
 class WallSet {
  public:
   WallSet() = default;
+  /// Takes them.
   explicit WallSet(RawVector<FloatWall> walls) : walls_(std::move(walls)) {}
+  /// Takes them.
   explicit WallSet(RawVector<DoubleWall> walls) : walls_(std::move(walls)) {}
 
   /// Keeps floats where all coordinates are exact as float, doubles otherwise.
@@ -41,11 +47,15 @@ class WallSet {
     if (const auto* floats = std::get_if<RawVector<FloatWall>>(&walls_)) return f(std::span<const FloatWall>(*floats));
     return f(std::span<const DoubleWall>(std::get<RawVector<DoubleWall>>(walls_)));
   }
+  /// How many walls.
   std::size_t size() const {
     return visit([](auto walls) { return walls.size(); });
   }
+  /// Are they held as floats?
   bool holds_floats() const { return std::holds_alternative<RawVector<FloatWall>>(walls_); }
+  /// Memory of the walls.
   std::size_t bytes() const { return size() * (holds_floats() ? sizeof(FloatWall) : sizeof(DoubleWall)); }
+  /// Wall i as doubles; i < size().
   Segment segment(std::size_t i) const {
     return visit([i](auto walls) { return walls[i].segment(); });
   }

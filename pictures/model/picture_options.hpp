@@ -16,11 +16,14 @@ constexpr auto enum_names(Part) {
   return std::array<std::string_view, 7>{"world", "roadmap", "search", "path", "body", "axes", "legend"};
 }
 
+/// Which parts a picture shows.
 class Parts {
  public:
-  static constexpr Parts all() { return Parts{0xffU}; }
-  static constexpr Parts none() { return Parts{0}; }
+  static constexpr Parts all() { return Parts{0xffU}; }  ///< every part
+  static constexpr Parts none() { return Parts{0}; }     ///< no part
+  /// These and one more.
   constexpr Parts with(Part part) const { return Parts{bits_ | 1U << static_cast<unsigned>(part)}; }
+  /// Is it one of these?
   constexpr bool has(Part part) const { return (bits_ >> static_cast<unsigned>(part) & 1U) != 0; }
 
  private:
@@ -28,20 +31,23 @@ class Parts {
   unsigned bits_;
 };
 
+/// What sizes of pages are given in.
 enum class LengthUnit : std::uint8_t { px, mm };
 constexpr auto enum_names(LengthUnit) { return std::array<std::string_view, 2>{"px", "mm"}; }
 
+/// How large a picture is.
 struct PageSize {
-  double width = 0.0;
-  double height = 0.0;
+  double width = 0.0;                ///< 40 .. 20,000 px or 10 .. 5,000 mm
+  double height = 0.0;               ///< the same
   LengthUnit unit = LengthUnit::px;  ///< a px is a pixel of a PNG, elsewhere 1/dpi inch
 };
 
+/// How a picture looks.
 struct PictureOptions {
   std::optional<PageSize> size = {};      ///< none: as large as the world asks for
   std::optional<double> dpi = {};         ///< pixels an inch, 10 .. 2400; none: 96, in a PNG what the world asks for
   std::optional<std::string> title = {};  ///< none: the world and how it was solved; empty: no title
-  Parts parts = Parts::all();
+  Parts parts = Parts::all();             ///< those that are shown
   /// Of a body that turns, radians: the places without room for it at that heading are shown, and states as arrows.
   std::optional<double> heading = {};
 

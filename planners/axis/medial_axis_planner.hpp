@@ -21,21 +21,23 @@
 
 namespace warren {
 
+/// What a way along the axis shall be: short, or wide at its narrowest place.
 enum class AxisObjective : std::uint8_t { length, clearance };
 constexpr auto enum_names(AxisObjective) { return std::array<std::string_view, 2>{"length", "clearance"}; }
 
+/// How the axis is searched.
 struct MedialAxisOptions {
-  double clearance = 0.0;  ///< a disc of this radius; world units, >= 0 and finite
-  AxisObjective objective = AxisObjective::length;
+  double clearance = 0.0;                           ///< a disc of this radius; world units, >= 0 and finite
+  AxisObjective objective = AxisObjective::length;  ///< what is best
   SearchKind search = SearchKind::astar;  ///< breadth- and depth-first count links; `objective` then only narrows
-  QueueKind queue = QueueKind::heap;
+  QueueKind queue = QueueKind::heap;      ///< of astar and dijkstra
 };
 
 /// What a plan leaves to be drawn or told.
 struct MedialAxisPlan {
-  std::optional<MedialAxis> axis;
-  double axis_clearance = 0.0;  ///< of the way along the axis, at its narrowest; only if solved
-  double axis_length = 0.0;     ///< of that way, arcs as arcs
+  std::optional<MedialAxis> axis;  ///< none: the plan ended before
+  double axis_clearance = 0.0;     ///< of the way along the axis, at its narrowest; only if solved
+  double axis_length = 0.0;        ///< of that way, arcs as arcs
 };
 
 /// Plans from start to goal for a point that touches nothing, or a disc. Outcomes: solved; start_blocked and
@@ -52,9 +54,9 @@ struct AxisRoadmap {
   /// Throws as MedialAxis.
   AxisRoadmap(const PlaneObstacles& obstacles, const Execution& execution);
 
-  PolygonSet polygons;
-  MedialAxis axis;
-  WallIndex index;  ///< of what paths must keep off: polygons' sides, walls, bounds
+  PolygonSet polygons;  ///< whose insides are blocked
+  MedialAxis axis;      ///< of all obstacles
+  WallIndex index;      ///< of what paths must keep off: polygons' sides, walls, bounds
 };
 
 /// The same plan on an axis that is there already. `keep` receives lengths and clearances alone.

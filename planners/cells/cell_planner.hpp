@@ -26,17 +26,18 @@ namespace warren {
 enum class DoorKind : std::uint8_t { midpoint, funnel };
 constexpr auto enum_names(DoorKind) { return std::array<std::string_view, 2>{"midpoint", "funnel"}; }
 
+/// How cells are made and searched.
 struct CellOptions {
-  DoorKind doors = DoorKind::midpoint;
-  SearchKind search = SearchKind::astar;
-  QueueKind queue = QueueKind::heap;
+  DoorKind doors = DoorKind::midpoint;    ///< where they are passed
+  SearchKind search = SearchKind::astar;  ///< over the doors
+  QueueKind queue = QueueKind::heap;      ///< of astar and dijkstra
   Overlaps overlaps = Overlaps::refused;  ///< united: decompose_united()
 };
 
 /// What a plan leaves to be drawn or counted.
 struct CellPlan {
-  CellDecomposition cells;
-  CellRoute route;  ///< empty unless solved
+  CellDecomposition cells;  ///< all of them
+  CellRoute route;          ///< empty unless solved
 };
 
 /// Plans from start to goal for a point that may touch obstacles. Outcomes: solved; start_blocked and goal_blocked
@@ -55,9 +56,9 @@ struct CellRoadmap {
   CellRoadmap(const CellRoadmap&) = delete;
   CellRoadmap& operator=(const CellRoadmap&) = delete;
 
-  const PlaneObstacles obstacles;
-  const CellDecomposition cells;
-  const DoorPoints points;  ///< refers to the cells
+  const PlaneObstacles obstacles;  ///< that the cells lie between
+  const CellDecomposition cells;   ///< all of them
+  const DoorPoints points;         ///< refers to the cells
 };
 
 /// The same plan on cells that are there already; they were not united. There are obstacles or bounds.

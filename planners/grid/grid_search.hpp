@@ -32,11 +32,13 @@ constexpr auto enum_names(GridMethod) {
   return std::array<std::string_view, 4>{"astar", "dijkstra", "bfs", "jump-points"};
 }
 
+/// How cells are searched.
 struct GridSearchOptions {
-  Diagonal diagonal = Diagonal::sqrt2;
-  GridMethod method = GridMethod::astar;
+  Diagonal diagonal = Diagonal::sqrt2;    ///< which steps there are, and their cost
+  GridMethod method = GridMethod::astar;  ///< what finds the path
 };
 
+/// A path over cells, and what it took.
 struct GridPath {
   SearchStatus status = SearchStatus::exhausted;  ///< exhausted: no path over cells; also where an end is blocked
   std::vector<Cell> cells;     ///< start to goal, each a step from the one before; empty unless found
@@ -50,7 +52,9 @@ class GridSearch {
   /// blocked: set bits are blocked; what lies outside is blocked. Throws InputError for maps of about 2^32 cells.
   explicit GridSearch(const Bitmap& blocked);
   ~GridSearch();
+  /// Leaves the other without its map.
   GridSearch(GridSearch&&) noexcept;
+  /// Leaves the other without its map.
   GridSearch& operator=(GridSearch&&) noexcept;
 
   /// Throws InputError for cells outside the map and for jump points with other diagonals than sqrt2, Stopped.

@@ -41,8 +41,10 @@ constexpr bool takes_all_places(SamplerKind kind) {
 /// The rules of PRM* (Karaman, Frazzoli, Int. J. Robotics Research 30(7), 2011), by which the number of neighbours or
 /// the radius follows the number of samples so that paths approach the shortest ones.
 enum class StarRule : std::uint8_t { none, neighbours, radius };
+/// How a graph is searched: by cost and estimate, by cost, by the number of edges, or depth first.
 enum class SearchKind : std::uint8_t { astar, dijkstra, bfs, dfs };
 constexpr auto enum_names(SearchKind) { return std::array<std::string_view, 4>{"astar", "dijkstra", "bfs", "dfs"}; }
+/// What holds the open vertices of astar and dijkstra; the path has the same length with each of them.
 enum class QueueKind : std::uint8_t { heap, lazy_heap, sorted_array, resorted_array };
 constexpr auto enum_names(QueueKind) {
   return std::array<std::string_view, 4>{"heap", "lazy-heap", "sorted-array", "resorted-array"};
@@ -54,8 +56,8 @@ constexpr auto enum_names(LazyCheck) { return std::array<std::string_view, 2>{"e
 
 /// Cell centres (1..cols) x (1..rows): what SamplerKind::lattice needs to know.
 struct LatticeSize {
-  std::uint32_t rows = 0;
-  std::uint32_t cols = 0;
+  std::uint32_t rows = 0;  ///< of cells; y of their centres is 1 .. rows
+  std::uint32_t cols = 0;  ///< of cells; x of their centres is 1 .. cols
 };
 
 /// Start and goal are joined to all milestones within a radius to which their motion is free; while there is none, the
@@ -67,22 +69,24 @@ struct GrowingAttach {
   friend bool operator==(const GrowingAttach&, const GrowingAttach&) = default;
 };
 
+/// How a roadmap is made and searched.
 /// validate() refuses values outside the stated ranges with InputError.
 struct RoadmapOptions {
-  SamplerKind sampler = SamplerKind::uniform;
+  SamplerKind sampler = SamplerKind::uniform;    ///< where states are drawn
   LatticeSize lattice = {};                      ///< only for SamplerKind::lattice; both >= 1
   std::optional<std::uint64_t> samples = {};     ///< states drawn, 1 .. 2^31; none: grow until start and goal connect
   std::optional<std::uint32_t> neighbours = {};  ///< k of the k nearest, 1 .. 4096; none: by the sampler's rule
-  std::optional<double> radius = {};  ///< longest edge, world units, > 0 (replaces neighbours); none: by rule
-  StarRule star = StarRule::none;     ///< instead of neighbours and radius
-  std::uint64_t seed = 1;             ///< any value
-  SearchKind search = SearchKind::astar;
-  QueueKind queue = QueueKind::heap;
+  std::optional<double> radius = {};      ///< longest edge, world units, > 0 (replaces neighbours); none: by rule
+  StarRule star = StarRule::none;         ///< instead of neighbours and radius
+  std::uint64_t seed = 1;                 ///< any value
+  SearchKind search = SearchKind::astar;  ///< of the roadmap
+  QueueKind queue = QueueKind::heap;      ///< of astar and dijkstra
   HeuristicKind heuristic = HeuristicKind::euclidean;  ///< of astar, for points of the plane
   LazyCheck lazy = LazyCheck::expansion;               ///< only for lazy_prm
   /// How start and goal are joined; none: by the rule, and where that finds nothing to the nearest that will do.
   std::optional<GrowingAttach> attach = {};
 
+  /// Throws InputError for values outside their ranges.
   void validate() const;
 };
 

@@ -16,6 +16,7 @@
 
 namespace warren {
 
+/// What a file of a world may be (docs/file_formats.md).
 enum class WorldFormat : std::uint8_t {
   scene,
   npy,

@@ -19,17 +19,20 @@
 
 namespace warren {
 
+/// How a maze is made; mst is the one whose walls can be made piece by piece.
 enum class MazeAlgorithm : std::uint8_t { backtracker, kruskal, prim, wilson, course, mst };
 
+/// "backtracker", "kruskal", …
 std::string_view name_of(MazeAlgorithm algorithm);
 /// Throws InputError naming the known algorithms.
 MazeAlgorithm maze_algorithm_named(std::string_view name);
 
+/// Which maze: the same bits for the same options, everywhere.
 struct MazeOptions {
-  std::uint32_t rows = 41;  ///< >= 1; rows * cols < 2^32
-  std::uint32_t cols = 41;  ///< >= 1
-  std::uint64_t seed = 1;
-  MazeAlgorithm algorithm = MazeAlgorithm::backtracker;
+  std::uint32_t rows = 41;                               ///< >= 1; rows * cols < 2^32
+  std::uint32_t cols = 41;                               ///< >= 1
+  std::uint64_t seed = 1;                                ///< any value
+  MazeAlgorithm algorithm = MazeAlgorithm::backtracker;  ///< what makes it
   double loops = 0.0;  ///< fraction in [0, 1] of the interior walls left that are taken out, chosen by the seed (mst:
                        ///< each by itself)
 };
@@ -40,18 +43,19 @@ struct MazeOptions {
 /// walls.
 class MazeCells {
  public:
-  static constexpr std::uint8_t right_wall = 1;
-  static constexpr std::uint8_t upper_wall = 2;
-  static constexpr std::uint8_t all_walls = 3;  ///< other bits are scratch of the generators, 0 outside them
+  static constexpr std::uint8_t right_wall = 1;  ///< bit of a cell's byte
+  static constexpr std::uint8_t upper_wall = 2;  ///< bit of a cell's byte
+  static constexpr std::uint8_t all_walls = 3;   ///< other bits are scratch of the generators, 0 outside them
 
   /// All walls stand. Throws InputError unless rows, cols >= 1 and rows * cols < 2^32; asks `execution` for the memory,
   /// rows * cols + cols + 1 bytes.
   MazeCells(std::uint32_t rows, std::uint32_t cols, const Execution& execution = {});
-  std::uint32_t rows() const { return rows_; }
-  std::uint32_t cols() const { return cols_; }
-  std::uint64_t cell_count() const { return std::uint64_t{rows_} * cols_; }
+  std::uint32_t rows() const { return rows_; }                               ///< of cells
+  std::uint32_t cols() const { return cols_; }                               ///< of cells
+  std::uint64_t cell_count() const { return std::uint64_t{rows_} * cols_; }  ///< rows() * cols()
   /// Cell numbers are zero-based here: column 0 .. cols - 1, row 0 .. rows - 1 (row 0 is the lowest).
   bool wall_right(std::uint32_t col, std::uint32_t row) const { return (bits_[index(col, row)] & right_wall) != 0; }
+  /// As wall_right().
   bool wall_above(std::uint32_t col, std::uint32_t row) const { return (bits_[index(col, row)] & upper_wall) != 0; }
   /// Interior walls only: col + 1 < cols().
   void open_right(std::uint32_t col, std::uint32_t row) {
@@ -66,8 +70,11 @@ class MazeCells {
 
   /// For kernels: the bytes, where a cell's byte lies, and how far apart the bytes of neighbours in a row are.
   std::span<std::uint8_t> bytes() { return bits_; }
+  /// The same, to be read.
   std::span<const std::uint8_t> bytes() const { return bits_; }
+  /// From a cell's byte to that of the cell on its right.
   std::size_t stride() const { return std::size_t{rows_} + 1; }
+  /// Where a cell's byte lies in bytes().
   std::size_t index(std::uint32_t col, std::uint32_t row) const { return 1 + col * stride() + row; }
 
  private:

@@ -14,32 +14,37 @@
 
 namespace warren {
 
+/// Which file a map was read from; of cells that a program gives: image.
 enum class MapFormat : std::uint8_t { moving_ai, ros, image };
 
+/// Cells of a plane, each free or not. Row 0 is the bottom row.
 struct OccupancyMap {
-  MapFormat format = MapFormat::image;
+  MapFormat format = MapFormat::image;  ///< of its file
   Bitmap blocked;          ///< all cells that a robot may not touch: occupied, unknown, between the thresholds, water
   Bitmap unknown;          ///< blocked because nothing is known; empty where there are none
   Bitmap water;            ///< Moving AI: passable, but only from water; empty where there is none
   std::uint64_t free = 0;  ///< cells; the four counts add up to all cells, water counts as occupied
-  std::uint64_t occupied = 0;
-  std::uint64_t unknown_count = 0;
-  std::uint64_t between = 0;    ///< map server, modes scale and raw: neither free nor occupied nor unknown
-  std::uint64_t grey_free = 0;  ///< map server: free pixels of grey 205, by which map_saver means unknown
-  double cell = 1.0;            ///< side of a cell, in world units; > 0
-  Vec2 origin;                  ///< lower left corner of cell (0, 0)
-  double yaw_rad = 0.0;         ///< the map is turned about its origin, counter-clockwise
-  std::optional<Vec2> start;    ///< world coordinates; maze images: the entrance in the first row
-  std::optional<Vec2> goal;
-  std::string source;
-  std::string image = {};  ///< map server: the file that the pixels come from
+  std::uint64_t occupied = 0;       ///< cells
+  std::uint64_t unknown_count = 0;  ///< cells
+  std::uint64_t between = 0;        ///< map server, modes scale and raw: neither free nor occupied nor unknown
+  std::uint64_t grey_free = 0;      ///< map server: free pixels of grey 205, by which map_saver means unknown
+  double cell = 1.0;                ///< side of a cell, in world units; > 0
+  Vec2 origin;                      ///< lower left corner of cell (0, 0)
+  double yaw_rad = 0.0;             ///< the map is turned about its origin, counter-clockwise
+  std::optional<Vec2> start;        ///< world coordinates; maze images: the entrance in the first row
+  std::optional<Vec2> goal;         ///< the same; maze images: the exit
+  std::string source;               ///< name of the file, as it was given
+  std::string image = {};           ///< map server: the file that the pixels come from
 
+  /// Columns of cells.
   std::uint32_t width() const { return blocked.width(); }
+  /// Rows of cells.
   std::uint32_t height() const { return blocked.height(); }
 };
 
 /// The world's point at map coordinates (cells; (0.5, 0.5) is the middle of the first cell), and back.
 Vec2 world_point(const OccupancyMap& map, Vec2 in_cells);
+/// The place in the map's cells of a point of the world.
 Vec2 map_point(const OccupancyMap& map, Vec2 in_world);
 /// The middle of a cell, in world coordinates.
 Vec2 cell_centre(const OccupancyMap& map, Cell cell);

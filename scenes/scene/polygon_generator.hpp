@@ -20,6 +20,7 @@ struct PolygonOptions {
   std::optional<std::uint32_t> corners{};  ///< of each polygon, >= 3; none: 3 to 12, at random
   std::uint64_t seed = 1;                  ///< any value
 
+  /// Throws InputError for values outside their ranges.
   void validate() const;
 };
 

@@ -21,33 +21,36 @@ namespace warren {
 /// A simple polygon as its file gives it: corners in order, either orientation; `line` is its line in the file (0:
 /// none).
 struct ScenePolygon {
-  std::vector<Vec2> corners;
-  std::size_t line = 0;
+  std::vector<Vec2> corners;  ///< in order, the last joined to the first
+  std::size_t line = 0;       ///< of its file, from 1
 };
 
 /// A closed ball.
 struct Sphere {
-  double x, y, z, radius;
+  double x;       ///< of the middle
+  double y;       ///< of the middle
+  double z;       ///< of the middle
+  double radius;  ///< >= 0
 };
 
 /// A closed box with faces square to the axes.
 struct SolidBox {
-  std::array<double, 3> low;
+  std::array<double, 3> low;   ///< least x, y, z
   std::array<double, 3> high;  ///< >= low
 };
 
 /// "this is a maze": walls lie on the unit grid, cell centres at 1..cols x 1..rows.
 struct MazeHint {
-  std::uint32_t rows = 0;
-  std::uint32_t cols = 0;
+  std::uint32_t rows = 0;  ///< of cells
+  std::uint32_t cols = 0;  ///< of cells
   friend bool operator==(const MazeHint&, const MazeHint&) = default;
 };
 
 /// Where the walls of a maze of the algorithm mst come from: with the hint's rows and columns all that they follow from
 /// (scenes/mazes/spanning_maze.hpp).
 struct MazeFormula {
-  std::uint64_t seed = 1;
-  double loops = 0.0;
+  std::uint64_t seed = 1;  ///< as MazeOptions::seed
+  double loops = 0.0;      ///< as MazeOptions::loops
 };
 
 /// The file that a maze's walls are in, .maze or .npy, and what tells it from others.
@@ -66,12 +69,13 @@ constexpr auto enum_names(RobotKind) {
 enum class SteeringKind : std::uint8_t { dubins, reeds_shepp };
 constexpr auto enum_names(SteeringKind) { return std::array<std::string_view, 2>{"dubins", "reeds-shepp"}; }
 
+/// A body: what moves. Lengths in the units of the world.
 struct RobotSpec {
-  RobotKind kind = RobotKind::point;
-  double radius = 0.0;             ///< disc, car, links of puma560 and arm; >= 0
-  double turning_radius = 0.0;     ///< car; > 0
-  double tool = 0.0;               ///< puma560, arm: tool length; >= 0
-  std::vector<Vec2> outline = {};  ///< polygon, around the reference point; a car's too: empty where it is a disc
+  RobotKind kind = RobotKind::point;  ///< which of the members below mean something
+  double radius = 0.0;                ///< disc, car, links of puma560 and arm; >= 0
+  double turning_radius = 0.0;        ///< car; > 0
+  double tool = 0.0;                  ///< puma560, arm: tool length; >= 0
+  std::vector<Vec2> outline = {};     ///< polygon, around the reference point; a car's too: empty where it is a disc
   SteeringKind steering = SteeringKind::dubins;  ///< car
   std::string limits = {};                       ///< puma560: the name of its joint limits; empty: the classic ones
   std::string table = {};                        ///< arm: the file of its Denavit-Hartenberg table
@@ -84,21 +88,22 @@ struct GridSpec {
   std::uint32_t angles = 1;  ///< >= 1
 };
 
+/// A world as plain data: what blocks, and what its file says of the question.
 struct Scene {
-  WallSet walls;
-  std::vector<ScenePolygon> polygons;
-  std::vector<Segment> seams;  ///< where a polygon with holes was cut into several: no outline of what the file says
-  std::vector<Sphere> spheres;
-  std::vector<SolidBox> boxes;
-  std::optional<Box> bounds;
-  std::optional<double> clearance;
-  std::optional<MazeHint> maze;
+  WallSet walls;                       ///< closed segments
+  std::vector<ScenePolygon> polygons;  ///< whose open insides are blocked
+  std::vector<Segment> seams;   ///< where a polygon with holes was cut into several: no outline of what the file says
+  std::vector<Sphere> spheres;  ///< what only arms can meet
+  std::vector<SolidBox> boxes;  ///< the same
+  std::optional<Box> bounds;    ///< the box that nothing may leave; none: the world has no end
+  std::optional<double> clearance;     ///< that the file asks for
+  std::optional<MazeHint> maze;        ///< is it a maze, and of which size?
   std::optional<MazeFormula> formula;  ///< of the maze's walls; these may be left out (is_unmade)
   std::optional<PackedMaze> packed;    ///< the same of walls that a file holds
-  std::optional<RobotSpec> robot;
-  std::vector<double> start;  ///< 2, 3 or 6 numbers; empty: none
-  std::vector<double> goal;   ///< the same; an arm's 3 are a place of its tool
-  std::optional<GridSpec> grid;
+  std::optional<RobotSpec> robot;      ///< that the file asks for; none: a point
+  std::vector<double> start;           ///< 2, 3 or 6 numbers; empty: none
+  std::vector<double> goal;            ///< the same; an arm's 3 are a place of its tool
+  std::optional<GridSpec> grid;        ///< that the file asks for
   /// Cells instead of walls and polygons. Walls beside a map are its own borders (add_map_walls) and no obstacles more.
   std::optional<OccupancyMap> map;
   std::string source;  ///< file name or maze:... as given

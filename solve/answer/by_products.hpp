@@ -19,28 +19,29 @@ namespace warren {
 /// Chains of points, or closed outlines: "cells" the doors between them, "medial_axis", "visibility", "wrong_edges",
 /// "blocked": the obstacles of the reference point at a fixed angle.
 struct NamedLines {
-  std::string name;
-  PolygonSet lines;
-  bool closed = false;
+  std::string name;     ///< what they are
+  PolygonSet lines;     ///< a chain or outline each
+  bool closed = false;  ///< is the last corner joined to the first?
 };
 
 /// Cells where the body's reference point may not be, at one heading of a lattice.
 struct HeadingCells {
-  double heading_degrees = 0.0;
-  Bitmap blocked;
-  Vec2 origin;  ///< lower left corner of cell (0, 0)
-  double cell = 0.0;
+  double heading_degrees = 0.0;  ///< counter-clockwise from the cells' x axis
+  Bitmap blocked;                ///< set: blocked
+  Vec2 origin;                   ///< lower left corner of cell (0, 0)
+  double cell = 0.0;             ///< side of a cell, world units
   double yaw_rad = 0.0;  ///< the cells are turned about that corner, anticlockwise; the heading is as they see it
 };
 
+/// What a planner makes on its way to an answer: what pictures show beside the path.
 struct ByProducts {
   PlannedRoadmap<Vec2> roadmap;             ///< of points and discs
   std::vector<PlannedRoadmap<Vec2>> trees;  ///< of points and discs: the trees of each leg of a path
   std::vector<PlannedRoadmap<Se2>>
       pose_roadmaps;                         ///< of turning bodies and cars: the roadmap, or the trees of each leg
   PlannedRoadmap<JointState> joint_roadmap;  ///< of arms
-  std::vector<NamedLines> lines;
-  std::vector<HeadingCells> headings;
+  std::vector<NamedLines> lines;             ///< further lines, by name
+  std::vector<HeadingCells> headings;        ///< of lattices of positions and headings
 };
 
 }  // namespace warren

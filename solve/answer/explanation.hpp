@@ -15,20 +15,20 @@ namespace warren {
 
 /// Of the graph of a roadmap all of whose edges were checked; start and goal count as milestones.
 struct ComponentFacts {
-  std::uint64_t count = 0;
+  std::uint64_t count = 0;       ///< components
   std::uint64_t milestones = 0;  ///< in all of them
   std::uint64_t largest = 0;     ///< milestones in the largest
   std::uint64_t alone = 0;       ///< components of one milestone
   std::uint64_t of_start = 0;    ///< milestones in the one of the start
-  std::uint64_t of_goal = 0;
-  bool joined = false;  ///< are start and goal in one?
+  std::uint64_t of_goal = 0;     ///< milestones in the one of the goal
+  bool joined = false;           ///< are start and goal in one?
 };
 
 /// Where the body has least room along the path.
 struct NarrowPlace {
   std::uint64_t leg = 0;      ///< from this state of the path to the next, from 0
   std::optional<Vec2> place;  ///< of the reference point; of bodies that turn where the leg begins, of arms none
-  double clearance = 0.0;
+  double clearance = 0.0;     ///< room around the body there, world units
   /// Of so many uniform samples one falls into a square as wide as that room; of paths over samples alone.
   std::optional<double> one_sample_in;
 };
@@ -40,6 +40,7 @@ struct Hint {
   std::string why;                 ///< what they would do
 };
 
+/// What an answer means: what became of the roadmap, where it is narrow, what would help.
 struct Explanation {
   std::optional<ComponentFacts> components;  ///< of prm, where the graph is there and its edges lead both ways
   std::optional<NarrowPlace> narrowest;      ///< of a path that keeps a distance

@@ -18,14 +18,16 @@
 
 namespace warren {
 
+/// A path that a file holds, and what it says of its problem: the program's own answers, or a path of anybody.
 struct RecordedAnswer {
-  Question problem;  ///< what the answer says of the problem
-  std::optional<std::string> world_hash;
-  std::optional<double> length;
-  std::string file;  ///< where it stands, for messages
-  Path<Vec2> path;   ///< where a state has two numbers
-  StateList states;  ///< where a state has three or six; then `path` is their first two
+  Question problem;                       ///< what the answer says of the problem
+  std::optional<std::string> world_hash;  ///< of the world that it is for; none: the file doesn't say
+  std::optional<double> length;           ///< that it claims
+  std::string file;                       ///< where it stands, for messages
+  Path<Vec2> path;                        ///< where a state has two numbers
+  StateList states;                       ///< where a state has three or six; then `path` is their first two
 
+  /// Numbers a state.
   std::size_t state_width() const { return states.empty() ? 2 : states.width; }
 };
 

@@ -10,12 +10,16 @@
 
 namespace warren {
 
+/// States of any body, one after the other.
 struct StateList {
   std::size_t width = 2;        ///< numbers a state: 2, 3 or 6
   std::vector<double> numbers;  ///< width * size() of them
 
+  /// States.
   std::size_t size() const { return numbers.size() / width; }
+  /// Are there none?
   bool empty() const { return numbers.empty(); }
+  /// The numbers of state i; i < size().
   std::span<const double> operator[](std::size_t i) const { return std::span(numbers).subspan(i * width, width); }
   /// state has `width` numbers.
   void add(std::span<const double> state) { numbers.insert(numbers.end(), state.begin(), state.end()); }

@@ -11,7 +11,7 @@ namespace warren {
 /// What a judge says of a path, and about which question: the members of Verification (verified, length, min_clearance
 /// around the body, first_violation, …) and the problem that was judged.
 struct Verdict : Verification {
-  Problem problem;
+  Problem problem;  ///< that was judged
 };
 
 }  // namespace warren

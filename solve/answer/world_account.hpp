@@ -10,15 +10,16 @@
 
 namespace warren {
 
+/// What an answer says of its world.
 struct WorldAccount {
   std::string source;  ///< as it was asked for
   std::string kind;    ///< "map"; "maze" where the scene has the hint, else "walls", "polygons" where there are any,
                        ///< "solids" where there is nothing else
-  std::uint64_t walls = 0;
-  std::uint64_t polygons = 0;
-  std::string hash;
-  std::uint64_t spheres = 0;
-  std::uint64_t boxes = 0;
+  std::uint64_t walls = 0;     ///< wall segments
+  std::uint64_t polygons = 0;  ///< whose insides are blocked
+  std::string hash;            ///< scene_hash
+  std::uint64_t spheres = 0;   ///< that only arms meet
+  std::uint64_t boxes = 0;     ///< that only arms meet
 };
 
 /// Throws Stopped. O(size of the scene), for the hash.

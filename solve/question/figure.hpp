@@ -13,17 +13,19 @@ namespace warren {
 
 /// An edge of a sampled visibility graph that passes through an obstacle.
 struct WrongEdge {
-  std::uint32_t from;
-  std::uint32_t to;
-  double depth;  ///< how far inside, world units
+  std::uint32_t from;  ///< number of a corner
+  std::uint32_t to;    ///< number of a corner
+  double depth;        ///< how far inside, world units
 };
 
+/// What a planner tells beside what all tell.
 using Figure =
     std::variant<bool, std::uint64_t, double, std::string, std::vector<std::uint64_t>, std::vector<WrongEdge>>;
 
+/// A figure with its key in JSON.
 struct NamedFigure {
-  std::string name;
-  Figure value;
+  std::string name;  ///< the key
+  Figure value;      ///< of the unit that the key says
 };
 
 /// The figure of that name, or nullptr.

@@ -18,13 +18,15 @@ namespace warren {
 
 /// How far a call is.
 struct ProgressReport {
-  std::string_view stage;  ///< "sample", "connect", "search", …
-  std::uint64_t done = 0;
+  std::string_view stage;   ///< "sample", "connect", "search", …
+  std::uint64_t done = 0;   ///< items of the stage
   std::uint64_t total = 0;  ///< 0: not known
 };
 
+/// That a call may ask for.
 inline constexpr unsigned most_threads = 1024;
 
+/// What a call may take. Limits change its time, never its result.
 struct Limits {
   unsigned threads = 0;                                      ///< <= 1024; 0: one a core that this process may use
   std::optional<std::chrono::nanoseconds> budget = {};       ///< from the call on, > 0; none: no end
@@ -37,11 +39,13 @@ struct Limits {
 /// UsageError for limits that nobody can keep.
 class LimitedExecution {
  public:
+  /// Its budget begins; `limits` is copied, its flag is not.
   explicit LimitedExecution(const Limits& limits);
   ~LimitedExecution();
   LimitedExecution(const LimitedExecution&) = delete;
   LimitedExecution& operator=(const LimitedExecution&) = delete;
 
+  /// Valid while this lives.
   const Execution& execution() const { return execution_; }
 
  private:

@@ -32,11 +32,11 @@ struct Question {
 
 /// Any body among anything.
 struct Problem {
-  RobotSpec robot;
-  std::vector<double> start;  ///< 2, 3 or 6 numbers
-  std::vector<double> goal;   ///< a turning body's may have 2: any heading
-  double clearance = 0.0;     ///< around the body; finite, >= 0
-  Contact contact = Contact::blocked;
+  RobotSpec robot;                     ///< what moves
+  std::vector<double> start;           ///< 2, 3 or 6 numbers
+  std::vector<double> goal;            ///< a turning body's may have 2: any heading
+  double clearance = 0.0;              ///< around the body; finite, >= 0
+  Contact contact = Contact::blocked;  ///< may the path touch obstacles?
 
   /// The question that says all of it.
   Question question() const { return {robot, start, goal, clearance, contact}; }
@@ -44,14 +44,15 @@ struct Problem {
 
 /// A point or disc among walls and polygons.
 struct WallProblem {
-  RobotSpec robot;  ///< point or disc
-  Vec2 start;
-  Vec2 goal;
-  double clearance = 0.0;  ///< around the body; finite, >= 0
-  Contact contact = Contact::blocked;
+  RobotSpec robot;                     ///< point or disc
+  Vec2 start;                          ///< of the reference point
+  Vec2 goal;                           ///< of the reference point
+  double clearance = 0.0;              ///< around the body; finite, >= 0
+  Contact contact = Contact::blocked;  ///< may the path touch obstacles?
 
   /// Distance that the reference point keeps from every wall.
   double reach() const { return clearance + robot.radius; }
+  /// The same as a problem of any body.
   Problem general() const { return {robot, {start.x, start.y}, {goal.x, goal.y}, clearance, contact}; }
 };
 

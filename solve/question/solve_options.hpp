@@ -29,9 +29,11 @@ constexpr auto enum_names(PlannerKind) {
   return std::array<std::string_view, 8>{"prm",     "lazy-prm", "visibility",  "cells",
                                          "voronoi", "rrt",      "rrt-connect", "grid"};
 }
+/// In the order of the enumeration.
 inline constexpr PlannerKind all_planners[] = {PlannerKind::prm,         PlannerKind::lazy_prm, PlannerKind::visibility,
                                                PlannerKind::cells,       PlannerKind::voronoi,  PlannerKind::rrt,
                                                PlannerKind::rrt_connect, PlannerKind::grid};
+/// Does it search a roadmap of samples?
 constexpr bool is_roadmap_planner(PlannerKind planner) {
   return planner == PlannerKind::prm || planner == PlannerKind::lazy_prm;
 }
@@ -84,14 +86,17 @@ struct GridFields {
   std::optional<LayerKind> layers = {};      ///< none: exact
 };
 
+/// cells.
 struct CellFields {
   std::optional<DoorKind> doors = {};  ///< where doors are passed; none: in their middles
 };
 
+/// voronoi.
 struct AxisFields {
   std::optional<AxisObjective> objective = {};  ///< none: length
 };
 
+/// visibility.
 struct VisibilityFields {
   bool full = false;                         ///< all visible edges instead of those that shortest paths take
   bool lazy = false;                         ///< find edges as A* needs them
@@ -100,12 +105,13 @@ struct VisibilityFields {
 
 /// What of the scene's car is to be otherwise.
 struct CarFields {
-  std::optional<SteeringKind> steering = {};
+  std::optional<SteeringKind> steering = {};  ///< none: the scene's
   std::optional<double> turning_radius = {};  ///< > 0
   std::optional<double> cusp_cost = {};     ///< optimise: of a change of gear, as length, >= 0; none: a turning radius
   std::optional<double> reverse_cost = {};  ///< optimise: of a unit of length driven backwards, >= 1; none: 1
 };
 
+/// How a question is solved. What the planner would ignore is refused.
 struct SolveOptions {
   std::optional<PlannerKind> planner = {};  ///< none: the usual one of the problem
   std::uint64_t seed = 1;                   ///< of all that is random: any value
@@ -114,13 +120,13 @@ struct SolveOptions {
   std::optional<SearchMethod> search = {};  ///< none: A*; jump points or breadth first on maps where they are as good
   std::optional<QueueKind> queue = {};      ///< of astar and dijkstra; none: heap
   std::optional<HeuristicKind> heuristic = {};  ///< of astar on roadmaps of points and discs; none: euclidean
-  RoadmapFields roadmap = {};
-  TreeFields trees = {};
-  GridFields grid = {};
-  CellFields cells = {};
-  AxisFields axis = {};
-  VisibilityFields visibility = {};
-  CarFields car = {};
+  RoadmapFields roadmap = {};                   ///< of prm and lazy_prm
+  TreeFields trees = {};                        ///< of rrt and rrt_connect
+  GridFields grid = {};                         ///< of grid
+  CellFields cells = {};                        ///< of cells
+  AxisFields axis = {};                         ///< of voronoi
+  VisibilityFields visibility = {};             ///< of visibility
+  CarFields car = {};                           ///< of cars, whoever plans
 
   /// Throws UsageError for values outside their ranges and for options that contradict each other, whatever the world.
   void validate() const;
@@ -167,15 +173,19 @@ constexpr auto enum_names(Option) {
       "full",     "sampled_edges", "doors",          "objective",   "step",         "goal_bias", "nodes",    "trees",
       "via",      "steering",      "turning_radius", "cusp_cost",   "reverse_cost", "attach",    "heuristic"};
 }
+/// Enumerators of Option.
 inline constexpr std::size_t option_count = enum_names(Option{}).size();
 
 /// Which of the options are given.
 class OptionSet {
  public:
+  /// Those of the list.
   constexpr OptionSet(std::initializer_list<Option> options = {}) {
     for (const Option option : options) bits_ |= bit(option);
   }
+  /// Is it in the set?
   constexpr bool has(Option option) const { return (bits_ & bit(option)) != 0; }
+  /// Those of either.
   constexpr OptionSet operator|(OptionSet more) const {
     more.bits_ |= bits_;
     return more;
@@ -186,6 +196,7 @@ class OptionSet {
   static constexpr std::uint64_t bit(Option option) { return std::uint64_t{1} << static_cast<unsigned>(option); }
   std::uint64_t bits_ = 0;
 };
+/// The options that are not as they are by default.
 OptionSet given(const SolveOptions& options);
 
 }  // namespace warren

@@ -27,31 +27,33 @@ namespace warren {
 
 /// States and edges, owned. An edge that leads both ways stands in both its rows.
 struct RoadmapArrays {
-  unsigned dimension = 2;  ///< numbers a state
-  bool directed = false;
-  RawVector<double> states;
-  Graph candidates;
-  RawVector<std::uint64_t> edge_states;
-  RawVector<VertexId> component;
-  Hierarchy hierarchy;  ///< of the free edges; empty: there is none
+  unsigned dimension = 2;                ///< numbers a state
+  bool directed = false;                 ///< do edges lead one way?
+  RawVector<double> states;              ///< `dimension` numbers each
+  Graph candidates;                      ///< edges that are free, blocked or unchecked
+  RawVector<std::uint64_t> edge_states;  ///< two bits an edge end (core/search/edge_states.hpp)
+  RawVector<VertexId> component;         ///< a number each state: the same where free edges join them
+  Hierarchy hierarchy;                   ///< of the free edges; empty: there is none
 
+  /// Views of all of it.
   RoadmapParts parts() const {
     return {dimension, directed, states, candidates.offsets(), candidates.targets(), edge_states, component};
   }
 };
 
+/// A roadmap that outlives its question. Moved, not copied; any number of threads may read.
 struct Roadmap {
-  KeptWorld world;
-  std::string world_hash;  ///< scene_hash
-  RobotSpec robot;
-  double clearance = 0.0;
+  KeptWorld world;                                 ///< that it is of
+  std::string world_hash;                          ///< scene_hash
+  RobotSpec robot;                                 ///< whose motions its edges are
+  double clearance = 0.0;                          ///< around the body, on all edges
   SolveOptions options;                            ///< planner, sampler, seed and what else was asked for; no search
   std::uint64_t samples = 0;                       ///< drawn in the last round
   ConnectionRule rule;                             ///< by which milestones were joined, and start and goal will be
   IndexChoice index = IndexChoice::where_it_pays;  ///< as it was asked for
-  RoadmapArrays arrays;
-  std::unique_ptr<RoadmapFile> file = {};    ///< what the lattice looks at, where it was read
-  std::unique_ptr<RouteIndex> lattice = {};  ///< instead of arrays
+  RoadmapArrays arrays;                            ///< empty where there is a lattice
+  std::unique_ptr<RoadmapFile> file = {};          ///< what the lattice looks at, where it was read
+  std::unique_ptr<RouteIndex> lattice = {};        ///< instead of arrays
 
   /// The question that is still open: from where to where.
   Question question() const { return {.robot = robot, .clearance = clearance}; }
@@ -59,10 +61,11 @@ struct Roadmap {
 
 /// How many edges are in which state; an edge that stands twice counts once.
 struct EdgeCounts {
-  std::uint64_t unchecked = 0;
-  std::uint64_t free = 0;
-  std::uint64_t blocked = 0;
+  std::uint64_t unchecked = 0;  ///< edges that nobody has asked about
+  std::uint64_t free = 0;       ///< edges that nothing blocks
+  std::uint64_t blocked = 0;    ///< edges that something blocks
 };
+/// Throws Stopped.
 EdgeCounts count_edges(const Roadmap& roadmap, const Execution& execution);
 /// States of the roadmap.
 std::uint64_t count_states(const Roadmap& roadmap);
@@ -74,8 +77,8 @@ struct OldRoadmap;
 
 /// What building took.
 struct BuildAccount {
-  Counters counters;
-  StageTimes seconds;
+  Counters counters;   ///< exact, the same for any number of threads
+  StageTimes seconds;  ///< wall-clock
 };
 
 /// Builds the roadmap of prm, lazy_prm, visibility, cells or voronoi for any world and body that these solve, but for
@@ -96,11 +99,11 @@ Roadmap build_within(Scene scene, const Question& question, const SolveOptions& 
 
 /// What update() did.
 struct UpdateAccount {
-  bool built_anew = false;          ///< the change is such that nothing could be taken over
-  std::uint64_t edges = 0;          ///< of the new roadmap
-  std::uint64_t edges_checked = 0;  ///< those that the world was asked about
-  std::uint64_t states_added = 0;
-  std::uint64_t states_dropped = 0;
+  bool built_anew = false;           ///< the change is such that nothing could be taken over
+  std::uint64_t edges = 0;           ///< of the new roadmap
+  std::uint64_t edges_checked = 0;   ///< those that the world was asked about
+  std::uint64_t states_added = 0;    ///< that the old roadmap had not
+  std::uint64_t states_dropped = 0;  ///< that the new one has not
 };
 
 /// The roadmap that build() makes of a changed world by the same options, bit for bit; motions that keep clear of what

@@ -27,6 +27,7 @@ void write_roadmap(const Roadmap& roadmap, OutputFile& file, const std::string& 
 /// sure that it is for this one. Throws ReadError, InputError (cut off, damaged, of another version, world or body, or
 /// without a world where none is given), Stopped.
 Roadmap read_roadmap(const std::string& path, const Execution& execution = {}, std::optional<Scene> world = {});
+/// The same of a file that is open already.
 Roadmap read_roadmap(std::unique_ptr<RoadmapFile> opened, const Execution& execution, std::optional<Scene> world = {});
 
 /// Does the file begin as a .roadmap does?

@@ -22,24 +22,25 @@ class ObstacleIndex;  // verify/near/obstacle_index.hpp
 
 /// What a question may say beside its ends: all else is the roadmap's.
 struct RoadmapSearchFields {
-  std::optional<SearchMethod> search = {};   ///< none: A*
-  std::optional<QueueKind> queue = {};       ///< none: heap
-  std::optional<GrowingAttach> attach = {};  ///< arms alone
-  bool optimise = false;                     ///< pull the path taut after the search
-  std::optional<double> cusp_cost = {};      ///< as CarFields has them, with optimise
-  std::optional<double> reverse_cost = {};
+  std::optional<SearchMethod> search = {};      ///< none: A*
+  std::optional<QueueKind> queue = {};          ///< none: heap
+  std::optional<GrowingAttach> attach = {};     ///< arms alone
+  bool optimise = false;                        ///< pull the path taut after the search
+  std::optional<double> cusp_cost = {};         ///< as CarFields has them, with optimise
+  std::optional<double> reverse_cost = {};      ///< the same
   std::optional<HeuristicKind> heuristic = {};  ///< of A*, for points and discs; none: euclidean
 };
 
 /// What one thread keeps from one question to the next.
 struct QuestionScratch {
-  AskScratch search;
-  std::optional<RouteQuery> route;
+  AskScratch search;                ///< of searches
+  std::optional<RouteQuery> route;  ///< of a lattice's index
 };
 
+/// How long the shortest way of the roadmap is.
 struct LengthAnswer {
-  Outcome outcome = Outcome::not_connected;
-  double length = 0.0;  ///< only for solved
+  Outcome outcome = Outcome::not_connected;  ///< how it ended
+  double length = 0.0;                       ///< only for solved
 };
 
 /// What will be asked: one path, whose judge then passes over all obstacles; many paths, for which the judge makes an
@@ -49,7 +50,9 @@ enum class Questions : std::uint8_t { one, many, lengths };
 /// Refers to the roadmap. Any number of threads may ask; while they do, learnt() is nobody's.
 class RoadmapQuery {
  public:
+  /// Makes what paths need, within the limits. Throws UsageError, InputError, Stopped.
   explicit RoadmapQuery(const Roadmap& roadmap, const Limits& limits = {});
+  /// The same under an execution, for what will be asked.
   RoadmapQuery(const Roadmap& roadmap, const Execution& execution, Questions questions = Questions::many);
   ~RoadmapQuery();
   RoadmapQuery(const RoadmapQuery&) = delete;
@@ -68,6 +71,7 @@ class RoadmapQuery {
   LengthAnswer length_within(const std::vector<double>& start, const std::vector<double>& goal,
                              const RoadmapSearchFields& how, const Execution& execution,
                              QuestionScratch& scratch) const;
+  /// That it refers to.
   const Roadmap& roadmap() const { return roadmap_; }
   /// Length of the motion between two of the roadmap's states, in the world's metric.
   double distance(VertexId from, VertexId to) const;

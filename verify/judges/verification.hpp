@@ -9,6 +9,7 @@
 
 namespace warren {
 
+/// Where a path is not free.
 struct Violation {
   std::size_t leg = 0;    ///< 0-based: from path[leg] to path[leg + 1]
   double distance = 0.0;  ///< between that leg and the obstacle; 0 inside a polygon or outside the box
@@ -16,9 +17,10 @@ struct Violation {
       obstacle;  ///< e.g. "wall 17: 1.5 0.5 1.5 1.5", "polygon 2: ...", "cell 3, 4", "bounds: ...", "start: ..."
 };
 
+/// What a judge says of a path.
 struct Verification {
-  bool verified = false;
-  double length = 0.0;  ///< Euclidean; of a car's curve; of arms in joint space: radians
+  bool verified = false;  ///< is it free all along, with all its clearance?
+  double length = 0.0;    ///< Euclidean; of a car's curve; of arms in joint space: radians
   /// Least distance of the body to any obstacle, infinite where there is none; below 0 where a disc overlaps one. Each
   /// judge says how sharp it is.
   double min_clearance = std::numeric_limits<double>::infinity();
