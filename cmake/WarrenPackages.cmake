@@ -26,6 +26,10 @@ if(WARREN_PYTHON)
           FILES_MATCHING PATTERN "*.py" PATTERN "*.pyi" PATTERN "py.typed" PATTERN "__pycache__" EXCLUDE)
 endif()
 
+# The site, which tools/packages makes before.
+install(DIRECTORY ${PROJECT_BINARY_DIR}/docs/html DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/warren-doc COMPONENT documents
+        OPTIONAL)
+
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME warren)
 set(CPACK_PACKAGE_CONTACT "The warren authors <warren@example.org>")
@@ -67,7 +71,7 @@ warren_package(runtime libwarren${warren_soversion} libs "motion planning by roa
 warren_package(library libwarren-dev libdevel "motion planning by roadmaps: headers and libraries"
                "This package has headers, static libraries and files for CMake and pkg-config.")
 warren_package(documents warren-doc doc "motion planning by roadmaps: documents and examples"
-               "This package has documents, programs and worlds.")
+               "This package has the reference as a site, documents, programs and worlds.")
 warren_package(python python3-warren python "motion planning by roadmaps: module for Python"
                "This package has the module warren for Python, with its types.")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS OFF)
