@@ -32,7 +32,17 @@ install(DIRECTORY ${PROJECT_BINARY_DIR}/docs/html DESTINATION ${CMAKE_INSTALL_DA
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME warren)
-set(CPACK_PACKAGE_CONTACT "The warren authors <warren@example.org>")
+# Who packs them is who maintains them: DEBFULLNAME and DEBEMAIL say it, as to Debian's own tools. Else an address of a
+# domain that is reserved for examples, which reaches nobody by mistake.
+set(warren_maintainer "The warren authors")
+if(DEFINED ENV{DEBFULLNAME})
+  set(warren_maintainer "$ENV{DEBFULLNAME}")
+endif()
+set(warren_address "warren@example.org")
+if(DEFINED ENV{DEBEMAIL})
+  set(warren_address "$ENV{DEBEMAIL}")
+endif()
+set(CPACK_PACKAGE_CONTACT "${warren_maintainer} <${warren_address}>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_NAME} built using CMake")  # CPack's own words: it puts others before the synopsis
 set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/debs)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)

@@ -20,6 +20,13 @@ foreach(file IN ITEMS bin/warren share/man/man1/warren.1 share/man/man1/warren-s
     message(FATAL_ERROR "not installed: ${file}")
   endif()
 endforeach()
+# A report of a bug begins with these lines.
+execute_process(COMMAND ${prefix}/bin/warren --version OUTPUT_VARIABLE version COMMAND_ERROR_IS_FATAL ANY)
+foreach(word IN ITEMS "warren [0-9]+[.][0-9]+[.][0-9]+" "commit ([0-9a-f]+|unknown)" "(g[+][+]|clang[+][+]) [0-9]+" "(x86-64|arm64)")
+  if(NOT version MATCHES "${word}")
+    message(FATAL_ERROR "--version says nothing of ${word}: ${version}")
+  endif()
+endforeach()
 # A page for each verb, as help lists them.
 execute_process(COMMAND ${prefix}/bin/warren help OUTPUT_VARIABLE help COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX MATCHALL "\n  [a-z-]+ " verbs "${help}")
