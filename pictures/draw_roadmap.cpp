@@ -201,8 +201,8 @@ Drawing drawing_of(const Scene& scene, const Roadmap& roadmap, const Execution& 
   return RoadmapDrawing(scene, roadmap, arrays, execution).draw(heading_rad);
 }
 
-std::vector<std::string> write_picture(const std::string& file, const Roadmap& roadmap, const PictureOptions& options,
-                                       const std::string& description, const Execution& execution) {
+void draw_roadmap(const Roadmap& roadmap, const std::string& description, std::optional<double> heading_rad,
+                  const Execution& execution, const std::function<void(const Picture&)>& draw) {
   const Scene& world = roadmap.world.whole(execution);
   Scene bordered;
   if (world.map) {
@@ -210,7 +210,7 @@ std::vector<std::string> write_picture(const std::string& file, const Roadmap& r
     add_map_walls(bordered, execution);
   }
   const Scene& scene = world.map ? bordered : world;
-  const Drawing drawing = drawing_of(scene, roadmap, execution, options.heading);
+  const Drawing drawing = drawing_of(scene, roadmap, execution, heading_rad);
   Picture picture = picture_of(scene, drawing);
   picture.title = title_of(world);
   const EdgeCounts edges = count_edges(roadmap, execution);
@@ -218,7 +218,15 @@ std::vector<std::string> write_picture(const std::string& file, const Roadmap& r
                                  subtitle_of(world, roadmap.robot), counted(count_states(roadmap), "state", "states"),
                                  grouped(edges.free), grouped(edges.blocked), grouped(edges.unchecked));
   picture.description = fmt::format("{}\n{}", picture.subtitle, description);
-  return write_picture(file, picture, options, execution);
+  draw(picture);
+}
+
+std::vector<std::string> write_picture(const std::string& file, const Roadmap& roadmap, const PictureOptions& options,
+                                       const std::string& description, const Execution& execution) {
+  std::vector<std::string> notes;
+  draw_roadmap(roadmap, description, options.heading, execution,
+               [&](const Picture& picture) { notes = write_picture(file, picture, options, execution); });
+  return notes;
 }
 
 }  // namespace warren

@@ -5,6 +5,9 @@
 // views, and straight lines between them.
 #pragma once
 
+#include <functional>
+#include <string>
+
 #include "parallel/execution.hpp"
 #include "pictures/draw_answer.hpp"
 #include "solve/roadmaps/roadmap.hpp"
@@ -21,8 +24,13 @@ inline constexpr std::uint64_t most_drawn_edges = 900'000;
 Drawing drawing_of(const Scene& scene, const Roadmap& roadmap, const Execution& execution,
                    std::optional<double> heading_rad = {});
 
-/// The same in one go, in the format that the file's ending says. `description` is added to what the picture says of
-/// itself. Returns as write_picture() of formats/ does. Throws UsageError, WriteError, Stopped.
+/// Calls `draw` with the picture of world and roadmap, which lives as long as that call. `description` is added to what
+/// the picture says of itself; heading_rad: as PictureOptions::heading. Throws what drawing_of() and `draw` throw.
+void draw_roadmap(const Roadmap& roadmap, const std::string& description, std::optional<double> heading_rad,
+                  const Execution& execution, const std::function<void(const Picture&)>& draw);
+
+/// The same in one go, in the format that the file's ending says. Returns as write_picture() of formats/ does. Throws
+/// UsageError, WriteError, Stopped.
 std::vector<std::string> write_picture(const std::string& file, const Roadmap& roadmap, const PictureOptions& options,
                                        const std::string& description, const Execution& execution);
 

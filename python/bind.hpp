@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "parallel/execution.hpp"
+#include "python/interrupts.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/answer/by_products.hpp"
@@ -19,6 +20,10 @@ struct KeptAnswer {
   Answer answer;
   ByProducts made = {};
 };
+
+/// An answer as it is told, without what nobody asked to keep. Throws what Python's handlers of signals raise that have
+/// stopped it, or its explanation.
+KeptAnswer finished(KeptAnswer said, bool keep, CallLimits& limits);
 
 /// The scene with the borders of a map's cells as walls, as pictures and files of walls show it: itself, or `copy`.
 const Scene& bordered(const Scene& scene, std::optional<Scene>& copy, const Execution& execution);

@@ -11,6 +11,8 @@
 #include "python/bind.hpp"
 #include "python/keywords.hpp"
 #include "scenes/text/output_file_io.hpp"
+#include "solve/answer/answer_notes.hpp"
+#include "solve/answer/explanation_text.hpp"
 #include "solve/answer/write_answer_io.hpp"
 #include "solve/paths/path_file_io.hpp"
 #include "solve/paths/timed_path.hpp"
@@ -22,23 +24,8 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-const Command& path_keywords() {
-  static const Command command = [] {
-    Command made{"save_path", "", "", {}, {}};
-    add_options(made.options, path_option_specs());
-    return made;
-  }();
-  return command;
-}
-
-const Command& sample_keywords() {
-  static const Command command = [] {
-    Command made{"sample", "", "", {}, {}};
-    add_options(made.options, path_option_specs(), {"--frame"});
-    return made;
-  }();
-  return command;
-}
+Command saving_paths() { return command_of("save_path", {path_option_specs()}); }
+Command sampling() { return command_of("sample", {path_option_specs()}, {"--frame"}); }
 
 py::array path_of(const py::object& self) {
   const Answer& answer = self.cast<const KeptAnswer&>().answer;
@@ -120,7 +107,7 @@ std::pair<RawVector<double>, RawVector<double>> places_in_time(const PathLegs& l
 /// (states, along or times); the keywords are those of paths in files.
 py::tuple sample(const Answer& answer, const py::dict& keywords) {
   keywords["path"] = "-";
-  const PathFileOptions options = path_words(arguments_of(sample_keywords(), keywords));
+  const PathFileOptions options = path_words(arguments_of(made_once<sampling>(), keywords));
   check_path_file(answer.problem.robot, "-", options);
   if (answer.path.empty() && answer.states.empty()) {
     return py::make_tuple(read_only(py::array_t<double>(Shape{0, 2})), read_only(py::array_t<double>(Shape{0})));
@@ -137,7 +124,7 @@ py::tuple sample(const Answer& answer, const py::dict& keywords) {
 
 py::dict save_path(const Answer& answer, const std::string& file, const py::dict& keywords) {
   keywords["path"] = file;
-  const PathFileOptions options = path_words(arguments_of(path_keywords(), keywords));
+  const PathFileOptions options = path_words(arguments_of(made_once<saving_paths>(), keywords));
   check_path_file(answer.problem.robot, file, options);
   if (!answer.verified) throw py::value_error("save_path: the answer has no path");
   const PathFileAccount account =
@@ -180,7 +167,12 @@ void bind_answers(py::module_& module) {
   figure(answers, "seconds", &seconds_of);
   figure(answers, "blocked", &blocked_of);
   figure(answers, "json", &json_of);
-  figure(answers, "summary", [](const Answer& a) { return summary_of(a, Palette(false), {}); });
+  figure(answers, "explained",
+         [](const Answer& a) { return a.explained ? std::optional(explanation_json(a)) : std::nullopt; });
+  figure(answers, "summary", [](const Answer& a) {
+    const Palette plain(false);
+    return summary_of(a, plain, {}) + notes_text(a, plain) + explanation_text(a, plain);
+  });
   answers.def("sample", [](const KeptAnswer& kept, const py::dict& how) { return sample(kept.answer, how); })
       .def("save",
            [](const KeptAnswer& kept, const std::string& file) {
@@ -194,7 +186,7 @@ void bind_answers(py::module_& module) {
                            const py::dict& how) { return save_path(kept.answer, file, how); })
       .def(py::pickle([](const KeptAnswer& kept) { return bytes_of(kept.answer); },
                       [](const py::bytes& bytes) { return KeptAnswer{from_bytes<Answer>(bytes)}; }));
-  module.def("path_keywords", [] { return keyword_table(path_keywords()); });
+  module.def("path_keywords", [] { return keyword_table(made_once<saving_paths>()); });
 }
 
 }  // namespace warren::python

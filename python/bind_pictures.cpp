@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Worlds and answers as SVG, HTML and PNG, and what a planner made as arrays, for plots.
+// Worlds, answers and roadmaps as SVG, HTML, PNG and PDF, and what a planner made as arrays, for plots.
 #include <pybind11/stl.h>
 
 #include "pictures/draw_answer.hpp"
+#include "pictures/draw_roadmap.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "python/arrays.hpp"
 #include "python/bind.hpp"
 #include "python/interrupts.hpp"
+#include "python/kept_roadmap.hpp"
 #include "python/keywords.hpp"
+#include "scenes/text/output_file_io.hpp"
 #include "solve/answer/world_account.hpp"
 #include "tools/words/picture_words.hpp"
 #include "worlds/rasters/map_borders.hpp"
@@ -16,17 +19,10 @@ namespace warren::python {
 namespace py = pybind11;
 namespace {
 
-const Command& drawing() {
-  static const Command command = [] {
-    Command made{"picture", "", "", {}, {}};
-    add_options(made.options, picture_option_specs());
-    return made;
-  }();
-  return command;
-}
+Command drawing() { return command_of("picture", {picture_option_specs()}); }
 
-PictureOptions options_of(const py::dict& keywords) {
-  return picture_words(arguments_of(drawing(), keywords), true, "");
+PictureOptions options_of(const std::string& format, const py::dict& keywords) {
+  return picture_words(arguments_of(made_once<drawing>(), keywords), true, "", "picture." + format);
 }
 
 std::string drawn(const Picture& picture, const std::string& format, const PictureOptions& options,
@@ -42,7 +38,7 @@ std::string drawn(const Picture& picture, const std::string& format, const Pictu
 }
 
 py::bytes picture_of_world(const Scene& scene, const std::string& format, const py::dict& keywords) {
-  const PictureOptions options = options_of(keywords);
+  const PictureOptions options = options_of(format, keywords);
   return CallLimits().run([&](const Execution& execution) {
     std::optional<Scene> copy;
     const Scene& shown = bordered(scene, copy, execution);
@@ -57,7 +53,7 @@ py::bytes picture_of_world(const Scene& scene, const std::string& format, const 
 
 py::bytes picture_of_answer(const KeptAnswer& kept, const Scene& scene, const std::string& format, bool moving,
                             const py::dict& keywords) {
-  const PictureOptions options = options_of(keywords);
+  const PictureOptions options = options_of(format, keywords);
   return CallLimits().run([&](const Execution& execution) {
     std::optional<Scene> copy;
     const Scene& shown = bordered(scene, copy, execution);
@@ -65,6 +61,17 @@ py::bytes picture_of_answer(const KeptAnswer& kept, const Scene& scene, const st
     if (kept.made.roadmap.states.empty()) drawing.roadmap.reset();  // nothing was kept: no empty layers
     if (moving && !kept.answer.path.empty()) animate(drawing);
     return drawn(picture_of(shown, drawing), format, options, execution);
+  });
+}
+
+py::bytes picture_of_roadmap(KeptRoadmap& kept, const std::string& format, const py::dict& keywords) {
+  const PictureOptions options = options_of(format, keywords);
+  const Asking asking(kept);
+  return CallLimits().run([&](const Execution& execution) {
+    std::string text;
+    draw_roadmap(kept.roadmap(), "", options.heading, execution,
+                 [&](const Picture& picture) { text = drawn(picture, format, options, execution); });
+    return text;
   });
 }
 
@@ -132,7 +139,15 @@ const Scene& bordered(const Scene& scene, std::optional<Scene>& copy, const Exec
 void bind_pictures(py::module_& module) {
   module.def("picture_of_world", &picture_of_world);
   module.def("picture_of_answer", &picture_of_answer);
-  module.def("picture_keywords", [] { return keyword_table(drawing()); });
+  module.def("picture_of_roadmap", &picture_of_roadmap);
+  module.def("write_file", [](const std::string& file, const py::bytes& bytes) {
+    CallLimits().run([&, text = std::string_view(bytes)](const Execution& execution) {
+      OutputFile out(file, execution);
+      out.write(text);
+      out.commit();
+    });
+  });
+  module.def("picture_keywords", [] { return keyword_table(made_once<drawing>()); });
   module.def("segments_of", &segments_of);
   module.def("lines_of", &lines_of);
   module.def("body_of", [](const KeptAnswer& kept) { return body_of(kept.answer); });

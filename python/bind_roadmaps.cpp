@@ -3,10 +3,11 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <initializer_list>
+#include <iterator>
 
 #include "core/base/error.hpp"
 #include "parallel/deadline.hpp"
-#include "pictures/draw_roadmap.hpp"
 #include "python/bind.hpp"
 #include "python/kept_roadmap.hpp"
 #include "python/keywords.hpp"
@@ -14,6 +15,7 @@
 #include "solve/roadmaps/export_of_roadmap.hpp"
 #include "solve/roadmaps/roadmap_file_io.hpp"
 #include "solve/steps/blocked_end.hpp"
+#include "solve/steps/explain_answer.hpp"
 #include "solve/steps/heuristic_price.hpp"
 #include "tools/words/option_values.hpp"
 #include "tools/words/planner_words.hpp"
@@ -25,51 +27,40 @@ namespace {
 
 using Kept = std::unique_ptr<KeptRoadmap>;
 
-/// The options of one of the program's verbs that say how it works, not where things are written.
-Command of_verb(const Command& verb, std::initializer_list<std::string_view> without) {
-  Command made{verb.name, "", "", {}, {}};
+/// Of one of the program's verbs the options that `keeps` chooses.
+template <class Keeps>
+Command of_verb(std::string_view name, const Command& verb, const Keeps& keeps) {
+  Command made{name, "", "", {}, {}};
   made.foreign = verb.foreign;
-  for (const OptionSpec& spec : verb.options) {
-    if (std::find(without.begin(), without.end(), spec.name) == without.end()) made.options.push_back(spec);
-  }
+  std::copy_if(verb.options.begin(), verb.options.end(), std::back_inserter(made.options), keeps);
   return made;
 }
 
-const Command& building() {
-  static const Command command =
-      of_verb(build_command(), {"--output", "--no-world", "--map-rules", "--threads", "--budget", "--memory", "--quiet",
-                                "--progress", "--color", "--trace"});
-  return command;
+bool is_among(std::initializer_list<std::string_view> options, const OptionSpec& spec) {
+  return std::find(options.begin(), options.end(), spec.name) != options.end();
 }
 
-/// The options of `warren query` that say how a search works.
-Command search_command(std::string_view name) {
-  Command made = of_verb(query_command(), {});
-  made.name = name;
-  constexpr std::string_view kept[] = {"--search",    "--heuristic",    "--queue", "--optimise",
-                                       "--cusp-cost", "--reverse-cost", "--attach"};
-  std::erase_if(made.options, [&](const OptionSpec& spec) {
-    return std::find(std::begin(kept), std::end(kept), spec.name) == std::end(kept);
+/// Those that say how `warren build` works, not where things are written.
+Command building() {
+  return of_verb("build", build_command(), [](const OptionSpec& spec) {
+    return !is_among({"--output", "--no-world", "--map-rules", "--threads", "--budget", "--memory", "--quiet",
+                      "--progress", "--color", "--trace"},
+                     spec);
   });
-  return made;
 }
 
-const Command& asking() {
-  static const Command command = [] {
-    Command made = search_command("query");
-    for (const OptionSpec& spec : query_command().options) {
-      if (spec.name == "--start" || spec.name == "--goal") made.options.push_back(spec);
-    }
-    return made;
-  }();
-  return command;
+bool is_of_search(const OptionSpec& spec) {
+  return is_among({"--search", "--heuristic", "--queue", "--optimise", "--cusp-cost", "--reverse-cost", "--attach"},
+                  spec);
 }
 
-const Command& asking_lengths(bool each_to_each) {
-  static const Command pairs = search_command("lengths");
-  static const Command matrix = search_command("matrix");
-  return each_to_each ? matrix : pairs;
+Command asking() {
+  return of_verb("query", query_command(), [](const OptionSpec& spec) {
+    return is_of_search(spec) || is_among({"--start", "--goal"}, spec);
+  });
 }
+Command asking_pairs() { return of_verb("lengths", query_command(), is_of_search); }
+Command asking_matrix() { return of_verb("matrix", query_command(), is_of_search); }
 
 RoadmapSearchFields how_to_search(const Arguments& arguments) {
   const SolveOptions words = solve_words(arguments);
@@ -79,7 +70,7 @@ RoadmapSearchFields how_to_search(const Arguments& arguments) {
 
 Kept build_roadmap(const Scene& scene, py::dict keywords) {
   CallLimits limits = take_limits(keywords);
-  const Arguments words = arguments_of(building(), keywords);
+  const Arguments words = arguments_of(made_once<building>(), keywords);
   const Question question = question_words(words);
   const SolveOptions options = solve_words(words);
   const auto index = given_choice<IndexChoice>(words, "--index").value_or(IndexChoice::where_it_pays);
@@ -115,9 +106,9 @@ py::tuple update_roadmap(KeptRoadmap& old, const Scene& now, py::dict keywords) 
   return py::make_tuple(py::cast(std::move(next)), report);
 }
 
-KeptAnswer ask(KeptRoadmap& kept, py::dict keywords, bool keep) {
+KeptAnswer ask(KeptRoadmap& kept, py::dict keywords, bool keep, bool explain) {
   CallLimits limits = take_limits(keywords);
-  const Arguments words = arguments_of(asking(), keywords);
+  const Arguments words = arguments_of(made_once<asking>(), keywords);
   const Question question = question_words(words);
   const RoadmapSearchFields how = how_to_search(words);
   const Asking asking(kept);
@@ -125,27 +116,33 @@ KeptAnswer ask(KeptRoadmap& kept, py::dict keywords, bool keep) {
   said.answer = limits.run([&](const Execution& execution) {
     QuestionScratch scratch;
     const RoadmapQuery& query = kept.query(execution);
-    Answer answer =
-        query.ask_within(question.start, question.goal, how, execution, scratch, keep ? &said.made : nullptr);
+    ByProducts* made = keep || explain ? &said.made : nullptr;
+    Answer answer = query.ask_within(question.start, question.goal, how, execution, scratch, made);
     price_heuristic(answer, how.heuristic, [&](HeuristicKind exact) {
       RoadmapSearchFields again = how;
       again.heuristic = exact;
       again.optimise = false;
       return query.ask_within(question.start, question.goal, again, execution, scratch);
     });
-    if (is_blocked(answer.outcome)) explain_blocked_end(kept.roadmap().world.whole(execution), answer, execution);
+    const Roadmap& roadmap = kept.roadmap();
+    if (is_blocked(answer.outcome)) explain_blocked_end(roadmap.world.whole(execution), answer, execution);
+    if (explain) {
+      const AskedWith asked{.options = roadmap.options, .samples = roadmap.samples, .is_kept = true};
+      explain_in_time(answer,
+                      [&] { explain_answer(roadmap.world.whole(execution), asked, answer, said.made, execution); });
+    }
     answer.threads = thread_count(execution.threads);
     answer.peak_memory_bytes = peak_resident_bytes();
     return answer;
   });
-  if (said.answer.stop_reason) limits.raise_what_stopped(*said.answer.stop_reason);
-  return said;
+  return finished(std::move(said), keep, limits);
 }
 
 py::array lengths(KeptRoadmap& kept, const py::object& from, const py::object& to, bool each_to_each,
                   py::dict keywords) {
   CallLimits limits = take_limits(keywords);
-  const RoadmapSearchFields how = how_to_search(arguments_of(asking_lengths(each_to_each), keywords));
+  const RoadmapSearchFields how =
+      how_to_search(arguments_of(each_to_each ? made_once<asking_matrix>() : made_once<asking_pairs>(), keywords));
   const std::size_t width = state_size(kept.roadmap().robot);
   const NumberRows starts = rows_of(from, "starts", {width});
   const NumberRows goals = width == 3   ? rows_of(to, "goals", {3, 2})
@@ -225,20 +222,15 @@ void bind_roadmaps(py::module_& module) {
       .def("learn", &learn_from_questions)
       .def("update", &update_roadmap)
       .def("export", &export_to)
-      .def("save",
-           [](KeptRoadmap& kept, const std::string& file, bool with_world) {
-             const Asking asking(kept);
-             CallLimits().run([&](const Execution& on) { write_roadmap(kept.roadmap(), file, on, with_world); });
-           })
-      .def("draw", [](KeptRoadmap& kept, const std::string& file) {
+      .def("save", [](KeptRoadmap& kept, const std::string& file, bool with_world) {
         const Asking asking(kept);
-        CallLimits().run([&](const Execution& on) { write_picture(file, kept.roadmap(), {}, "", on); });
+        CallLimits().run([&](const Execution& on) { write_roadmap(kept.roadmap(), file, on, with_world); });
       });
   module.def("build", &build_roadmap);
   module.def("open_roadmap", &open_roadmap, py::arg(), py::arg().none(true), py::arg());
-  module.def("build_keywords", [] { return keyword_table(building()); });
-  module.def("query_keywords", [] { return keyword_table(asking()); });
-  module.def("lengths_keywords", [] { return keyword_table(asking_lengths(false)); });
+  module.def("build_keywords", [] { return keyword_table(made_once<building>()); });
+  module.def("query_keywords", [] { return keyword_table(made_once<asking>()); });
+  module.def("lengths_keywords", [] { return keyword_table(made_once<asking_pairs>()); });
 }
 
 }  // namespace warren::python

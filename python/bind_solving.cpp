@@ -2,15 +2,15 @@
 // solve() and verify(), with the program's options as keywords.
 #include <pybind11/stl.h>
 
-#include <fmt/format.h>
-
 #include "parallel/deadline.hpp"
 #include "python/arrays.hpp"
 #include "python/bind.hpp"
 #include "python/keywords.hpp"
 #include "scenes/text/input_file_io.hpp"
+#include "solve/answer/explanation_text.hpp"
 #include "solve/solve.hpp"
 #include "solve/steps/blocked_end.hpp"
+#include "solve/steps/explain_answer.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 #include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"
@@ -19,47 +19,40 @@ namespace warren::python {
 namespace py = pybind11;
 namespace {
 
-const Command& solving() {
-  static const Command command = [] {
-    Command made{"solve", "", "", {}, {}};
-    add_options(made.options, solve_option_specs());
-    add_options(made.options, question_option_specs());
-    return made;
-  }();
-  return command;
-}
-
-const Command& verifying() {
-  static const Command command = [] {
-    Command made{"verify", "", "", {}, {}};
-    add_options(made.options, question_option_specs());
-    return made;
-  }();
-  return command;
-}
+Command solving() { return command_of("solve", {solve_option_specs(), question_option_specs()}); }
+constexpr OptionSpec narrow_spec[] = {{"--explain", "", "say where along the path there is least room"}};
+Command verifying() { return command_of("verify", {question_option_specs(), narrow_spec}); }
 
 /// The answer as the program makes it; a stopped one, too, unless Python's handler of a signal raises.
-KeptAnswer solve_scene(const Scene& scene, py::dict keywords, bool keep) {
+KeptAnswer solve_scene(const Scene& scene, py::dict keywords, bool keep, bool explain) {
   CallLimits limits = take_limits(keywords);
-  const Arguments words = arguments_of(solving(), keywords);
+  const Arguments words = arguments_of(made_once<solving>(), keywords);
   const Question question = question_words(words);
   const SolveOptions options = solve_words(words);
   check_solver_options(options);
   KeptAnswer kept;
   kept.answer = limits.run([&](const Execution& execution) {
-    Answer answer = solve_within(scene, question, options, execution, keep ? &kept.made : nullptr);
+    Answer answer = solve_within(scene, question, options, execution, keep || explain ? &kept.made : nullptr);
     price_heuristic(scene, question, options, execution, answer);
     if (is_blocked(answer.outcome)) explain_blocked_end(scene, answer, execution);
-    if (keep) make_by_products(scene, question, options, execution, kept.made);
+    const auto complete = [&] {
+      if (answer.outcome != Outcome::stopped) make_by_products(scene, question, options, execution, kept.made);
+    };
+    if (keep) complete();
+    if (explain) {
+      explain_in_time(answer, [&] {
+        if (!keep) complete();
+        explain_answer(scene, AskedWith{options}, answer, kept.made, execution);
+      });
+    }
     answer.threads = thread_count(execution.threads);
     answer.peak_memory_bytes = peak_resident_bytes();
     return answer;
   });
-  if (kept.answer.stop_reason) limits.raise_what_stopped(*kept.answer.stop_reason);
-  return kept;
+  return finished(std::move(kept), keep, limits);
 }
 
-py::dict told(const Verdict& verdict) {
+py::dict told(const Verdict& verdict, const std::optional<NarrowPlace>& narrow) {
   py::dict account;
   account["verified"] = verdict.verified;
   account["length"] = verdict.length;
@@ -68,14 +61,32 @@ py::dict told(const Verdict& verdict) {
   if (const auto& violation = verdict.first_violation) {
     account["violation"] = py::make_tuple(violation->leg, violation->distance, violation->obstacle);
   }
+  account["narrowest"] = narrowest_json(narrow);
+  account["ended"] = py::none();
   return account;
 }
 
+/// With explain the narrowest place of a free path, too; "ended" says what stopped the search for it.
 py::dict judge(const Scene& scene, const RecordedAnswer& answer, py::dict keywords) {
   CallLimits limits = take_limits(keywords);
-  const Question question = question_words(arguments_of(verifying(), keywords));
-  return told(
-      limits.run([&](const Execution& execution) { return verify_within(scene, question, answer, execution); }));
+  const Arguments words = arguments_of(made_once<verifying>(), keywords);
+  const Question question = question_words(words);
+  std::optional<NarrowPlace> narrow;
+  std::optional<StopReason> ended;
+  const Verdict verdict = limits.run([&](const Execution& execution) {
+    Verdict said = verify_within(scene, question, answer, execution);
+    if (!words.has("--explain") || !said.verified) return said;
+    try {
+      narrow = narrowest_place(scene, said.problem.question(), answer, said.min_clearance, execution);
+    } catch (const Stopped& stopped) {
+      ended = stopped.reason;
+    }
+    return said;
+  });
+  if (ended) limits.raise_what_stopped(*ended);
+  py::dict account = told(verdict, narrow);
+  if (ended) account["ended"] = text_of(*ended);
+  return account;
 }
 
 py::dict judge_states(const Scene& scene, const py::object& states, const py::dict& keywords) {
@@ -97,6 +108,15 @@ RecordedAnswer recorded(const InputFile& file) {
 
 }  // namespace
 
+KeptAnswer finished(KeptAnswer said, bool keep, CallLimits& limits) {
+  const auto& explained = said.answer.explained;
+  for (const auto& reason : {said.answer.stop_reason, explained ? explained->stopped : std::nullopt}) {
+    if (reason) limits.raise_what_stopped(*reason);
+  }
+  if (!keep) said.made = {};
+  return said;
+}
+
 void bind_solving(py::module_& module) {
   module.def("solve", &solve_scene);
   module.def("verify_states", &judge_states);
@@ -108,8 +128,8 @@ void bind_solving(py::module_& module) {
     const RecordedAnswer answer = limits.run([&](const Execution& execution) { return read_answer(file, execution); });
     return judge(scene, answer, keywords);
   });
-  module.def("solve_keywords", [] { return keyword_table(solving()); });
-  module.def("verify_keywords", [] { return keyword_table(verifying()); });
+  module.def("solve_keywords", [] { return keyword_table(made_once<solving>()); });
+  module.def("verify_keywords", [] { return keyword_table(made_once<verifying>()); });
 }
 
 }  // namespace warren::python

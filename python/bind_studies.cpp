@@ -1,47 +1,46 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Planners compared on a world, as `warren compare --planners` does.
+// Planners compared in a world and searches on graphs, as `warren compare` does.
 #include <pybind11/stl.h>
 
-#include "core/base/error.hpp"
+#include "parallel/deadline.hpp"
 #include "python/bind.hpp"
 #include "python/keywords.hpp"
 #include "studies/compare/comparison_report.hpp"
-#include "studies/contests/planner_contest.hpp"
 #include "tools/verbs/compare_options.hpp"
+#include "tools/verbs/run_comparison.hpp"
 
 namespace warren::python {
 namespace py = pybind11;
 namespace {
 
-const Command& comparing() {
-  static const Command command = [] {
-    Command made{"compare", "[WORLD]", "", {}, {}};
-    add_options(made.options, compare_option_specs(),
-                {"--trials", "--peer", "--graph", "--sizes", "--degree", "--pictures"});
-    made.options.push_back({"--budget", "TIME", "each run may take so long (default: none)"});
-    return made;
-  }();
+Command comparing() {
+  Command command =
+      command_of("compare", {compare_option_specs()}, {"--pictures", "--show", "--size", "--dpi", "--title"});
+  command.operands = "[WORLD]";
+  command.options.push_back(
+      {"--budget", "TIME", "each run, of a planner or a search, may take so long (default: none)"});
   return command;
 }
 
-Comparison compare_planners(const Scene& scene, py::dict keywords) {
+/// Without a world random graphs alone.
+Comparison compare(const Scene* scene, py::dict keywords) {
   if (keywords.contains("budget") && !keywords["budget"].is_none()) {
     keywords["budget"] = budget_word(keywords["budget"]);
   }
   const py::object each_budget = keywords.attr("pop")("budget", py::none());
   CallLimits limits = take_limits(keywords);
   keywords["budget"] = each_budget;
-  const Arguments words = arguments_of(comparing(), keywords, {"WORLD"});
-  if (!words.has("--planners")) throw UsageError("planners: which ones? a list of planners of solve()");
-  const CompareOptions options = compare_options(words);
+  std::vector<std::string> world;
+  if (scene != nullptr) world.push_back(scene->source);
+  const CompareOptions options = compare_options(arguments_of(made_once<comparing>(), keywords, std::move(world)));
   Comparison comparison;
   limits.run([&](const Execution& execution) {
-    std::optional<Scene> copy;
-    const RobotKind body = robot_of(scene, options.planners->contenders.front().question).kind;
-    const bool plans_on_cells = body == RobotKind::point || body == RobotKind::disc;
-    run_planner_contest(plans_on_cells ? scene : bordered(scene, copy, execution), *options.planners, execution,
-                        comparison);
+    run_comparison(options, scene, execution, comparison, [](std::string_view) {});
   });
+  if (comparison.stopped) {
+    limits.raise_what_stopped(*comparison.stopped);
+    throw Stopped(*comparison.stopped);
+  }
   return comparison;
 }
 
@@ -54,8 +53,8 @@ void bind_studies(py::module_& module) {
       .def("json", &comparison_json)
       .def("svg", &comparison_svg)
       .def("summary", [](const Comparison& comparison) { return comparison_summary(comparison, Palette(false)); });
-  module.def("compare", &compare_planners);
-  module.def("compare_keywords", [] { return keyword_table(comparing()); });
+  module.def("compare", &compare, py::arg().none(true), py::arg());
+  module.def("compare_keywords", [] { return keyword_table(made_once<comparing>()); });
 }
 
 }  // namespace warren::python

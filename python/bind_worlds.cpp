@@ -26,27 +26,12 @@ namespace warren::python {
 namespace py = pybind11;
 namespace {
 
-const Command& reading() {
-  static const Command command = [] {
-    Command made{"read_world", "", "", {}, {}};
-    add_options(made.options, world_option_specs());
-    return made;
-  }();
-  return command;
-}
-
-const Command& question_of_world() {
-  static const Command command = [] {
-    Command made{"scene", "", "", {}, {}};
-    add_options(made.options, question_option_specs(), {"--contact"});
-    return made;
-  }();
-  return command;
-}
+Command reading() { return command_of("read_world", {world_option_specs()}); }
+Command question_of_world() { return command_of("scene", {question_option_specs()}, {"--contact"}); }
 
 /// What scene files say beside obstacles: start, goal, robot, clearance.
 void take_question(Scene& scene, const py::dict& keywords) {
-  Question question = question_words(arguments_of(question_of_world(), keywords));
+  Question question = question_words(arguments_of(made_once<question_of_world>(), keywords));
   question.validate();
   if (!question.start.empty()) scene.start = std::move(question.start);
   if (!question.goal.empty()) scene.goal = std::move(question.goal);
@@ -56,7 +41,7 @@ void take_question(Scene& scene, const py::dict& keywords) {
 
 Scene read_named(const std::string& source, py::dict keywords) {
   CallLimits limits = take_limits(keywords);
-  const Arguments words = arguments_of(reading(), keywords);
+  const Arguments words = arguments_of(made_once<reading>(), keywords);
   return limits.run([&](const Execution& execution) {
     StageTimes seconds;
     return load_world(source, words, execution, seconds);
@@ -224,7 +209,7 @@ void bind_worlds(py::module_& module) {
   module.def("read_text", &read_text);
   module.def("scene", &made_of_arrays);
   module.def("cells", &made_of_cells);
-  module.def("reading_keywords", [] { return keyword_table(reading()); });
+  module.def("reading_keywords", [] { return keyword_table(made_once<reading>()); });
 }
 
 }  // namespace warren::python

@@ -58,6 +58,13 @@ void add_flag(const OptionSpec& spec, const std::string& keyword, py::handle val
 
 }  // namespace
 
+Command command_of(std::string_view name, std::initializer_list<std::span<const OptionSpec>> options,
+                   std::initializer_list<std::string_view> without) {
+  Command command{name, "", "", {}, {}};
+  for (const std::span<const OptionSpec> table : options) add_options(command.options, table, without);
+  return command;
+}
+
 std::string word_of(py::handle value, const std::string& keyword) {
   if (py::isinstance<py::str>(value)) return value.cast<std::string>();
   if (py::isinstance<py::bool_>(value)) refuse_type(keyword, "a word, a number or numbers", value);

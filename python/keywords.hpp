@@ -6,7 +6,10 @@
 
 #include <pybind11/pybind11.h>
 
+#include <initializer_list>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "python/interrupts.hpp"
@@ -14,6 +17,17 @@
 #include "tools/words/command.hpp"
 
 namespace warren::python {
+
+/// A command of these options, but for those named `without`.
+Command command_of(std::string_view name, std::initializer_list<std::span<const OptionSpec>> options,
+                   std::initializer_list<std::string_view> without = {});
+
+/// What `make` makes: made when it is first asked for, and kept.
+template <Command make()>
+const Command& made_once() {
+  static const Command command = make();
+  return command;
+}
 
 /// What follows an option on a command line: words as they are, numbers with all their digits, sequences apart by
 /// commas, sequences of sequences by semicolons. Throws TypeError.

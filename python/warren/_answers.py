@@ -4,10 +4,12 @@ import json
 import os
 
 from . import _core
+from ._explanations import explanation
 from ._options import documented, told
+from ._pictures import Pictured
 
 
-class Answer:
+class Answer(Pictured):
     """What :func:`solve` and :meth:`Roadmap.query` found: a verified path, or why there is none.
 
     True where it has a verified path. An array of the path's states where an array is expected. Pickled without what
@@ -83,6 +85,12 @@ class Answer:
     solve_s = told("solve_s", "What all of it took, in seconds.")
     blocked = told("blocked", """Where start or goal is blocked: its end, what it is blocked by, a free_place near it
         and the distance to that, and a hint; else None.""")
+
+    @property
+    def explained(self):
+        """What it means, as an :class:`Explanation`, where `explain=True` asked for it; else None."""
+        said = self._core.explained
+        return None if said is None else explanation(said)
 
     def json(self):
         """The answer as warren.answer/1, byte for byte what `warren solve --json -` prints (but for measured times,
@@ -180,27 +188,9 @@ class Answer:
         "medial_axis" and others, as chains of points (k, 2)."""
         return _core.lines_of(self._core)
 
-    def svg(self, *, moving=False, **look):
-        """World, roadmap where it was kept, and path as an SVG document.
-
-        Parameters
-        ----------
-        moving : bool
-            Shall the body move along the path?
-        {options}
-        """
-        return _core.picture_of_answer(self._core, self.world._core, "svg", moving, look).decode()
-
-    def html(self, *, moving=False, **look):
-        """The same as a page of its own: drag moves, the wheel zooms."""
-        return _core.picture_of_answer(self._core, self.world._core, "html", moving, look).decode()
-
-    def png(self, **look):
-        """The same as a PNG image."""
-        return _core.picture_of_answer(self._core, self.world._core, "png", False, look)
-
-    def _repr_svg_(self):
-        return self.svg()
+    def _drawn(self, kind, look):
+        moving = look.pop("moving", False) if kind in ("svg", "html") else False
+        return _core.picture_of_answer(self._core, self.world._core, kind, moving, look)
 
     def _repr_html_(self):
         import html
@@ -209,4 +199,3 @@ class Answer:
 
 
 Answer.save_path = documented(_core.path_keywords(), limits=False)(Answer.save_path)
-Answer.svg = documented(_core.picture_keywords(), limits=False)(Answer.svg)

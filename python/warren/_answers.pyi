@@ -4,9 +4,11 @@ from typing import Any, Literal
 
 from numpy.typing import NDArray
 
+from ._explanations import Explanation
+from ._pictures import Pictured
 from ._worlds import World, _Floats, _Path
 
-class Answer:
+class Answer(Pictured):
     world: World
     def __init__(self, core: Any, world: World) -> None: ...
     def __bool__(self) -> bool: ...
@@ -50,6 +52,8 @@ class Answer:
     def solve_s(self) -> float: ...
     @property
     def blocked(self) -> dict[str, Any] | None: ...
+    @property
+    def explained(self) -> Explanation | None: ...
     def json(self) -> str: ...
     def to_dict(self) -> dict[str, Any]: ...
     def sample(
@@ -93,18 +97,17 @@ class Answer:
         moving: bool = ...,
         show: str | Sequence[str] | None = ...,
         heading: float | str | None = ...,
-        size: str | None = ...,
-        dpi: float | None = ...,
         title: str | None = ...,
     ) -> str: ...
-    def png(
+    def save_picture(
         self,
+        file: _Path,
         *,
+        moving: bool = ...,
         show: str | Sequence[str] | None = ...,
         heading: float | str | None = ...,
         size: str | None = ...,
         dpi: float | None = ...,
         title: str | None = ...,
-    ) -> bytes: ...
-    def _repr_svg_(self) -> str: ...
+    ) -> None: ...
     def _repr_html_(self) -> str: ...

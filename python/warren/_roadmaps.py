@@ -8,6 +8,7 @@ import numpy as np
 from . import _core
 from ._making_worlds import as_world
 from ._options import documented, told
+from ._pictures import Pictured
 from ._solving import finished
 from ._worlds import World
 
@@ -23,7 +24,7 @@ class EdgeCounts(NamedTuple):
 EdgeCounts.__module__ = "warren"
 
 
-class Roadmap:
+class Roadmap(Pictured):
     """A roadmap of a world for a body: built once, asked as often as one likes.
 
     Made by :func:`build` and :func:`open_roadmap`. Any number of threads may ask at once. What its arrays show they
@@ -108,7 +109,7 @@ class Roadmap:
         """
         return EdgeCounts(*self._core.counts()[1:])
 
-    def query(self, start=None, goal=None, *, keep=False, **options):
+    def query(self, start=None, goal=None, *, keep=False, explain=False, **options):
         """Asks for one path: what :func:`solve` would find with the roadmap's options.
 
         Parameters
@@ -117,6 +118,8 @@ class Roadmap:
             As :func:`solve` takes them (default: the world's).
         keep : bool
             Shall the answer keep what a picture shows of the search?
+        explain : bool
+            As :func:`solve` takes it; hints are options of :func:`build`.
         {options}
 
         Returns
@@ -129,7 +132,7 @@ class Roadmap:
         """
         options["start"] = start
         options["goal"] = goal
-        return finished(self._core.ask(options, keep), self.world)
+        return finished(self._core.ask(options, keep, explain), self.world)
 
     def lengths(self, starts, goals, **options):
         """Lengths of the shortest ways from each start to the goal beside it, on all threads.
@@ -294,21 +297,8 @@ class Roadmap:
         matrix.indptr, matrix.indices, matrix.data = indptr, indices, lengths
         return matrix
 
-    def save_picture(self, file):
-        """Draws world and roadmap as .svg, .png, .pdf or .html, by the ending."""
-        self._core.draw(os.fspath(file))
-
-    def svg(self):
-        """World and roadmap as an SVG document."""
-        import tempfile
-        with tempfile.TemporaryDirectory() as folder:
-            file = os.path.join(folder, "roadmap.svg")
-            self._core.draw(file)
-            with open(file, encoding="utf-8") as drawn:
-                return drawn.read()
-
-    def _repr_svg_(self):
-        return self.svg()
+    def _drawn(self, kind, look):
+        return _core.picture_of_roadmap(self._core, kind, look)
 
 
 Roadmap.query = documented(_core.query_keywords())(Roadmap.query)

@@ -5,6 +5,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._answers import Answer
+from ._pictures import Pictured
 from ._worlds import World, _Floats, _Heuristic, _Path, _Progress, _Queue, _Search, _State, _World
 
 class EdgeCounts(NamedTuple):
@@ -12,7 +13,7 @@ class EdgeCounts(NamedTuple):
     blocked: int
     unchecked: int
 
-class Roadmap:
+class Roadmap(Pictured):
     report: dict[str, Any] | None
     def __init__(self, core: Any, report: dict[str, Any] | None = ...) -> None: ...
     def __len__(self) -> int: ...
@@ -43,6 +44,7 @@ class Roadmap:
         goal: _State | None = ...,
         *,
         keep: bool = ...,
+        explain: bool = ...,
         search: _Search | None = ...,
         heuristic: _Heuristic | None = ...,
         queue: _Queue | None = ...,
@@ -103,6 +105,3 @@ class Roadmap:
     def export(self, file: _Path, *, unchecked: bool = ..., frame: str = ...) -> dict[str, int]: ...
     def csr(self, *, unchecked: bool = ...) -> tuple[NDArray[np.int32], NDArray[np.int32], _Floats]: ...
     def to_scipy(self, *, unchecked: bool = ...) -> Any: ...
-    def save_picture(self, file: _Path) -> None: ...
-    def svg(self) -> str: ...
-    def _repr_svg_(self) -> str: ...

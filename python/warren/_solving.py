@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Questions, and the judge of paths."""
+import json
 import os
+import warnings
 from typing import NamedTuple, Optional, Tuple
 
 from . import _core
 from ._answers import Answer
 from ._errors import Stopped
+from ._explanations import NarrowPlace, narrow_place
 from ._options import documented
 from ._making_worlds import as_world
 
@@ -20,7 +23,7 @@ def finished(core, world):
 
 
 @documented(_core.solve_keywords())
-def solve(world, start=None, goal=None, *, keep=False, **options):
+def solve(world, start=None, goal=None, *, keep=False, explain=False, **options):
     """Finds a path, verified by code that shares nothing with the planner.
 
     What isn't said is as the world's file says, and else what is fastest and most honest for the problem. The answer is
@@ -35,6 +38,9 @@ def solve(world, start=None, goal=None, *, keep=False, **options):
         of an arm, whose goal may be the three coordinates of a place of its tool (default: the world's).
     keep : bool
         Shall the answer keep what the planner made on its way, for pictures and plots? It takes memory.
+    explain : bool
+        Shall :attr:`Answer.explained` say what became of samples and motions, where it is narrow, and what would likely
+        help? It takes about three times what the judge of the path takes.
     {options}
 
     Returns
@@ -65,19 +71,21 @@ def solve(world, start=None, goal=None, *, keep=False, **options):
     there = as_world(world)
     options["start"] = start
     options["goal"] = goal
-    return finished(_core.solve(there._core, options, keep), there)
+    return finished(_core.solve(there._core, options, keep, explain), there)
 
 
 class Verdict(NamedTuple):
     """What the judge says of a path.
 
     True where it is free. `violation` is None, or the leg (from 0), the distance and the obstacle of the first one.
+    `narrowest` is where a free path has least room, where it was asked for; None of one that touches.
     """
 
     verified: bool
     length: float
     min_clearance: float
     violation: Optional[Tuple[int, float, str]]
+    narrowest: Optional[NarrowPlace] = None
 
     def __bool__(self):
         return self.verified
@@ -114,6 +122,8 @@ def verify(world, path, **options):
     >>> straight = warren.verify(world, [(0.5, 1), (5.5, 5)])
     >>> bool(straight), straight.violation[0]
     (False, 0)
+    >>> warren.verify(world, answer, explain=True).narrowest.clearance
+    0.5
     """
     there = as_world(world)
     if isinstance(path, Answer):
@@ -122,4 +132,7 @@ def verify(world, path, **options):
         told = _core.verify_file(there._core, os.fspath(path), options)
     else:
         told = _core.verify_states(there._core, path, options)
-    return Verdict(told["verified"], told["length"], told["min_clearance"], told["violation"])
+    if told["ended"] is not None:
+        warnings.warn(f"verify: explain ended early, {told['ended']}; the verdict stands", stacklevel=2)
+    return Verdict(told["verified"], told["length"], told["min_clearance"], told["violation"],
+                   narrow_place(json.loads(told["narrowest"])))

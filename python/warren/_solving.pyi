@@ -5,6 +5,7 @@ from typing import Any, Literal, NamedTuple
 from numpy.typing import ArrayLike
 
 from ._answers import Answer
+from ._explanations import NarrowPlace
 from ._worlds import (
     World,
     _Contact,
@@ -30,6 +31,7 @@ class Verdict(NamedTuple):
     length: float
     min_clearance: float
     violation: tuple[int, float, str] | None
+    narrowest: NarrowPlace | None = ...
     def __bool__(self) -> bool: ...
 
 def solve(
@@ -38,6 +40,7 @@ def solve(
     goal: _State | None = ...,
     *,
     keep: bool = ...,
+    explain: bool = ...,
     planner: _Planner | None = ...,
     sampler: _Sampler | None = ...,
     samples: int | Literal["auto"] | None = ...,
@@ -88,6 +91,7 @@ def verify(
     robot: str | None = ...,
     clearance: float | None = ...,
     contact: _Contact | None = ...,
+    explain: bool | None = ...,
     threads: int | None = ...,
     budget: float | str | None = ...,
     memory: int | str | None = ...,

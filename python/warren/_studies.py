@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Planners side by side."""
+"""Planners and searches side by side."""
 import numpy as np
 
 from . import _core
@@ -33,7 +33,7 @@ class Comparison(dict):
     Attributes
     ----------
     table : dict of ndarray
-        The same with a row a planner: how many of its runs were solved, medians and quartiles.
+        The same with a row a planner or search: how many of its runs were solved, medians and quartiles.
     """
 
     __module__ = "warren"
@@ -44,7 +44,8 @@ class Comparison(dict):
         self.table = _table(core.table_csv())
 
     def __repr__(self):
-        return f"<Comparison of {len(self.table['planner'])} planners, {len(self['planner'])} runs>"
+        contenders, runs = (len(next(iter(table.values()), ())) for table in (self.table, self))
+        return f"<Comparison of {contenders} contenders, {runs} runs>"
 
     def __str__(self):
         return self._core.summary()
@@ -62,15 +63,17 @@ class Comparison(dict):
 
 
 @documented(_core.compare_keywords())
-def compare(world, **options):
-    """Runs planners side by side on a world, over many seeds; every path that counts as solved was verified.
+def compare(world=None, **options):
+    """Runs planners, or searches on one graph, side by side; every path that counts as solved was verified.
 
-    An option that is a list makes a contender of each of its values, of each planner that takes it.
+    With `planners` these plan in the world, over many seeds: an option that is a list makes a contender of each of its
+    values, of each planner that takes it. Without, `searches` and `queues` search the graph that a planner makes of the
+    world, or with `sizes` random graphs of so many vertices.
 
     Parameters
     ----------
-    world : World, str, path, ndarray, or geometry
-        As :func:`solve` takes it.
+    world : World, str, path, ndarray, or geometry, optional
+        As :func:`solve` takes it; only random graphs need none.
     start, goal : sequence of float, optional
         As :func:`solve` takes them.
     {options}
@@ -84,8 +87,12 @@ def compare(world, **options):
     >>> import warren
     >>> found = warren.compare("maze:9x9", planners=["prm", "lazy-prm"], sampler="uniform", samples=[200, 900], seeds=3)
     >>> found
-    <Comparison of 4 planners, 12 runs>
+    <Comparison of 4 contenders, 12 runs>
     >>> sorted(set(found["planner"])), found.table["solved"].shape
     (['lazy-prm', 'prm'], (4,))
+    >>> searched = warren.compare("maze:41x41", searches=["dijkstra", "astar"], queues="heap", trials=5)
+    >>> list(searched.table["search"]), set(searched["length"])
+    (['dijkstra', 'astar'], {495})
     """
-    return Comparison(_core.compare(as_world(world)._core, options))
+    there = None if world is None else as_world(world)._core
+    return Comparison(_core.compare(there, options))

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Literal
 
 from numpy.typing import NDArray
 
-from ._worlds import _Listed, _Progress, _State, _World
+from ._worlds import _Listed, _Planner, _Progress, _State, _World
 
 class Comparison(dict[str, NDArray[Any]]):
     table: dict[str, NDArray[Any]]
@@ -14,11 +14,16 @@ class Comparison(dict[str, NDArray[Any]]):
     def _repr_svg_(self) -> str: ...
 
 def compare(
-    world: _World,
+    world: _World | None = ...,
     *,
     planners: _Listed = ...,
     searches: _Listed = ...,
     queues: _Listed = ...,
+    trials: int | Literal["auto"] | None = ...,
+    peer: Literal["boost"] | None = ...,
+    graph: _Planner | None = ...,
+    sizes: _Listed = ...,
+    degree: float | None = ...,
     seeds: int | None = ...,
     samplers: _Listed = ...,
     samples: _Listed = ...,

@@ -6,7 +6,8 @@ import os
 import warnings
 
 from . import _core
-from ._options import documented, told
+from ._options import told
+from ._pictures import Pictured
 
 
 def _row(number):
@@ -16,7 +17,7 @@ def _row(number):
     return operator.index(number)
 
 
-class World:
+class World(Pictured):
     """Where a body may be: a maze, a map of cells, polygons and walls, or an arm's solids.
 
     Made by :func:`read_world`, :func:`maze`, :func:`grid`, :func:`scene` and :func:`from_geo`. Never changes; any number
@@ -156,25 +157,5 @@ class World:
         if lost := self._core.left_out(path):
             warnings.warn(f"{path}: its format has no {', '.join(lost)}: left out", stacklevel=2)
 
-    def svg(self, **look):
-        """The world as an SVG document.
-
-        Parameters
-        ----------
-        {options}
-        """
-        return _core.picture_of_world(self._core, "svg", look).decode()
-
-    def html(self, **look):
-        """The world as a page of its own: drag moves, the wheel zooms. Keywords as of :meth:`svg`."""
-        return _core.picture_of_world(self._core, "html", look).decode()
-
-    def png(self, **look):
-        """The world as a PNG image. Keywords as of :meth:`svg`."""
-        return _core.picture_of_world(self._core, "png", look)
-
-    def _repr_svg_(self):
-        return self.svg()
-
-
-World.svg = documented(_core.picture_keywords(), limits=False)(World.svg)
+    def _drawn(self, kind, look):
+        return _core.picture_of_world(self._core, kind, look)

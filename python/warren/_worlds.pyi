@@ -7,6 +7,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import TypeAlias
 
+from ._pictures import Pictured
+
 class _Geo(Protocol):
     @property
     def __geo_interface__(self) -> Mapping[str, Any]: ...
@@ -33,7 +35,7 @@ _Progress: TypeAlias = Callable[[str, int, int], object]
 _Listed: TypeAlias = Union[str, float, Sequence[Union[str, float]], None]
 _Floats: TypeAlias = NDArray[np.float64]
 
-class World:
+class World(Pictured):
     def __init__(self, core: Any, name: str | None = ...) -> None: ...
     def __reduce__(self) -> Any: ...
     @property
@@ -70,31 +72,3 @@ class World:
     def without_walls(self, rows: Iterable[int]) -> World: ...
     def with_walls(self, walls: ArrayLike) -> World: ...
     def save(self, file: _Path, *, cell: float | None = ...) -> None: ...
-    def svg(
-        self,
-        *,
-        show: str | Sequence[str] | None = ...,
-        heading: float | str | None = ...,
-        size: str | None = ...,
-        dpi: float | None = ...,
-        title: str | None = ...,
-    ) -> str: ...
-    def html(
-        self,
-        *,
-        show: str | Sequence[str] | None = ...,
-        heading: float | str | None = ...,
-        size: str | None = ...,
-        dpi: float | None = ...,
-        title: str | None = ...,
-    ) -> str: ...
-    def png(
-        self,
-        *,
-        show: str | Sequence[str] | None = ...,
-        heading: float | str | None = ...,
-        size: str | None = ...,
-        dpi: float | None = ...,
-        title: str | None = ...,
-    ) -> bytes: ...
-    def _repr_svg_(self) -> str: ...

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <utility>
 
 #include "core/plane/geometry.hpp"
@@ -190,6 +191,20 @@ void explain_answer(const Scene& scene, const AskedWith& asked, Answer& answer, 
   path.states = answer.states;
   explained.narrowest = narrowest_place(scene, answer.problem.question(), path, answer.min_clearance, execution);
   if (explained.narrowest) explained.narrowest->one_sample_in = one_sample_in(scene, answer, execution);
+}
+
+void explain_in_time(Answer& answer, const std::function<void()>& explain) {
+  const auto stop = [&](StopReason reason) {
+    if (!answer.explained) answer.explained.emplace();
+    answer.explained->stopped = reason;
+  };
+  try {
+    explain();
+  } catch (const Stopped& stopped) {
+    stop(stopped.reason);
+  } catch (const std::bad_alloc&) {
+    stop(StopReason::memory);
+  }
 }
 
 }  // namespace warren

@@ -4,6 +4,7 @@
 // and verifications of ever shorter parts of the path among what is near them: about three times what the judge takes.
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "parallel/execution.hpp"
@@ -19,6 +20,9 @@ namespace warren {
 /// make_by_products() have kept. Throws Stopped.
 void explain_answer(const Scene& scene, const AskedWith& asked, Answer& answer, const ByProducts& made,
                     const Execution& execution);
+
+/// Lets `explain` do so; what stops it, a limit or memory, leaves the answer as it is, and the explanation says which.
+void explain_in_time(Answer& answer, const std::function<void()>& explain);
 
 /// Where the body has least room along a verified path of this length and clearance; nothing where it touches, and of
 /// paths of one state. Throws Stopped.

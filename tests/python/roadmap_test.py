@@ -29,10 +29,13 @@ def test_a_query_has_the_bytes_of_the_program(program, tmp_path, maze, options):
     roadmap = warren.build(maze, **options)
     roadmap.save(tmp_path / "ours.roadmap")
     assert (tmp_path / "ours.roadmap").read_bytes() == file.read_bytes()
-    theirs = program.json("query", file, "--start", "3,4", "--goal", "27,29")
+    question = ("query", file, "--start", "3,4", "--goal", "27,29")
     opened = warren.open_roadmap(file)
     for asked in (roadmap, opened):
-        assert unmeasured(asked.query((3, 4), (27, 29)).json()) == unmeasured(theirs)
+        assert unmeasured(asked.query((3, 4), (27, 29)).json()) == unmeasured(program.json(*question))
+    explained = warren.open_roadmap(file).query((3, 4), (27, 29), explain=True)
+    assert unmeasured(explained.json()) == unmeasured(program.json(*question, "--explain"))
+    assert explained.explained.narrowest.clearance == explained.min_clearance
 
 
 def test_lengths_are_those_of_queries_and_of_scipy(maze):

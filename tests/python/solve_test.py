@@ -207,3 +207,51 @@ def test_a_path_is_written_as_the_program_writes_it(program, tmp_path):
         warren.solve("maze:9x9").save_path("a.txt")
     with pytest.raises(warren.WriteError):
         warren.solve("maze:9x9").save_path(tmp_path / "none" / "a.csv")
+
+
+EXPLAINED = [
+    ("maze:15x15", {"planner": "prm", "sampler": "uniform", "samples": 300}),
+    ("maze:15x15", {"planner": "prm", "pipeline": "plain"}),
+    ("maze:41x41", {}),
+    ("parking.scene", {"seed": 2}),
+    ("maze:5x5", {"start": "1,1", "goal": "9,9"}),
+]
+
+
+@pytest.mark.parametrize("world, options", EXPLAINED, ids=[f"{w}-{'-'.join(o) or 'usual'}" for w, o in EXPLAINED])
+def test_an_explanation_is_that_of_the_program(program, world, options):
+    name = world if world.startswith("maze:") else str(WORLDS / world)
+    theirs = program.json("solve", name, *words_of(options), "--explain")
+    ours = warren.solve(name, explain=True, **options)
+    assert unmeasured(ours.json()) == unmeasured(theirs)
+    told = json.loads(theirs)["explained"]
+    explained = ours.explained
+    assert explained.samples._asdict() == told["samples"] and explained.motions._asdict() == told["motions"]
+    facts = explained.components and {**explained.components._asdict(), "count": explained.components.number}
+    assert (facts is None) == (told["components"] is None)
+    assert facts is None or all(facts[key] == value for key, value in told["components"].items())
+    assert (explained.narrowest is None) == (told["narrowest"] is None) and explained.stopped_by is None
+    assert [list(hint.options) for hint in explained.hints] == [hint["options"] for hint in told["hints"]]
+    assert bool(explained.hints) == (not ours) and ("time went to" in str(ours))
+    assert pickle.loads(pickle.dumps(ours)).explained == explained and len(ours.edges()) == 0
+    assert warren.solve(name, **options).explained is None
+
+
+def test_a_hint_can_be_tried_as_it_stands():
+    answer = warren.solve("maze:5x5", (1, 1), (9, 9), explain=True)
+    assert warren.solve("maze:5x5", **{"start": (1, 1), **answer.explained.hints[0].keywords})
+
+
+def test_the_narrowest_place_of_a_path_is_that_of_the_program(program, tmp_path):
+    answer = warren.solve("maze:15x15", optimise=True)
+    answer.save(tmp_path / "a.json")
+    told = json.loads(program.json("verify", "maze:15x15", tmp_path / "a.json", "--explain"))["narrowest"]
+    narrow = warren.verify("maze:15x15", answer, explain=True).narrowest
+    assert {**narrow._asdict(), "place": list(narrow.place)} == told
+    assert warren.verify("maze:15x15", answer).narrowest is None
+
+
+def test_a_stopped_answer_says_what_it_can():
+    with pytest.raises(warren.Stopped) as caught:
+        warren.solve(warren.maze(3000, 3000), budget=0.001, keep=True, explain=True)
+    assert caught.value.answer.explained.hints[0].why

@@ -17,7 +17,7 @@ LIMITS = {"threads", "budget", "memory", "progress"}
 # What is no option of a call: outputs and how the terminal looks.
 OUTPUTS = {"json", "svg", "path", "every", "speed", "acceleration", "lateral_acceleration", "joint_speed",
            "joint_acceleration", "frame", "save_roadmap", "quiet", "color", "trace", "help", "output", "no_world", "csv",
-           "runs", "log", "pictures", "batch", "lengths_only", "matrix", "world", "keep", "animate", "explain",
+           "runs", "log", "pictures", "batch", "lengths_only", "matrix", "world", "keep", "animate",
            "title", "dpi", "size", "show", "heading", "html", "no_path"}
 
 
@@ -35,8 +35,8 @@ def keywords_of_stub(name):
     ("verify", "verify", {"world", "path"}, {"map_rules"}),
     ("build", "build", {"world"}, {"map_rules"}),
     ("query", "query", {"keep"}, {"map_rules"}),
-    ("lengths", "query", {"starts", "goals"}, {"map_rules", "start", "goal"}),
-    ("compare", "compare", {"world"}, {"map_rules", "trials", "peer", "graph", "sizes", "degree"}),
+    ("lengths", "query", {"starts", "goals"}, {"map_rules", "start", "goal", "explain"}),
+    ("compare", "compare", {"world"}, {"map_rules"}),
 ])
 def test_the_keywords_are_the_long_options_of_the_program(program, name, verb, other, without):
     theirs = set(program.help_options(verb)) - OUTPUTS - without

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Worlds of arrays, geometries and files; what they show; how they are drawn and compared."""
+import csv
 import gc
 import warnings
 
@@ -208,7 +209,29 @@ def test_pictures_are_those_of_the_library():
         answer.world.svg(titel="a")
     world = warren.read_world(WORLDS / "flat.yaml")
     assert 'id="walls"' in world.svg() and world._repr_svg_() == world.svg() and world.png().startswith(b"\x89PNG")
-    assert 'id="edges"' in warren.build("maze:9x9").svg()
+    roadmap = warren.build("maze:9x9")
+    assert 'id="edges"' in roadmap.svg() and roadmap.png(size="200x100").startswith(b"\x89PNG")
+    assert roadmap.html().lower().startswith("<!doctype html>")
+
+
+def test_pictures_go_into_files_by_their_endings(tmp_path):
+    answer = warren.solve("maze:9x9")
+    for thing in (answer, answer.world, warren.build("maze:9x9")):
+        thing.save_picture(tmp_path / "a.svg", title="mine")
+        assert (tmp_path / "a.svg").read_text() == thing.svg(title="mine")
+        thing.save_picture(tmp_path / "a.PNG")
+        assert (tmp_path / "a.PNG").read_bytes() == thing.png()
+        thing.save_picture(tmp_path / "a.pdf", size="100x100mm")
+        assert (tmp_path / "a.pdf").read_bytes().startswith(b"%PDF")
+        with pytest.raises(warren.UsageError, match="^file: expected an ending among .svg .png .pdf .html"):
+            thing.save_picture(tmp_path / "a.jpg")
+        with pytest.raises(warren.UsageError, match="^size: a page fills its window"):
+            thing.html(size="100x100")
+    with pytest.raises(warren.WriteError):
+        answer.save_picture(tmp_path / "none" / "a.svg")
+    for wrong in (lambda: answer.world.svg(moving=True), lambda: answer.png(moving=True)):
+        with pytest.raises(TypeError, match="unexpected keyword argument 'moving'"):
+            wrong()
 
 
 def test_worlds_answers_and_roadmaps_are_plotted(tmp_path):
@@ -258,7 +281,20 @@ def test_a_comparison_is_a_frame_of_pandas(program):
     assert pandas.DataFrame(found.table)["runs"].tolist() == [3, 3, 3, 3]
     assert found.svg().startswith("<svg")
     assert '"warren.compare/1"' in found.json() and "prm" in str(found)
-    with pytest.raises(warren.UsageError, match="^planners"):
-        warren.compare("maze:9x9")
     with pytest.raises(TypeError, match="did you mean planners"):
         warren.compare("maze:9x9", planers=["prm"])
+
+
+def test_searches_are_compared_as_the_program_compares_them(program):
+    found = warren.compare("maze:41x41,loops=0.2", searches=["dijkstra", "astar"], queues=["heap", "sorted-array"], trials=5)
+    theirs = program.run("compare", "maze:41x41,loops=0.2", "--searches", "dijkstra,astar", "--queues", "heap,sorted-array",
+                         "--trials", "5", "--runs", "-").stdout.splitlines()
+    rows = list(csv.DictReader(theirs))
+    assert list(rows[0]) == list(found) and len(rows) == len(found["search"]) == 20
+    assert [(row["search"], row["queue"]) for row in rows] == list(zip(found["search"], found["queue"]))
+    for column in ("length", "expanded"):
+        assert [float(row[column]) for row in rows] == found[column].tolist()
+    random = warren.compare(sizes=[30, 100], searches="dijkstra", queues="heap", seeds=2, trials=3)
+    assert len(random.table["search"]) == 4 and random.svg().startswith("<svg")
+    with pytest.raises(warren.UsageError, match="WORLD is missing"):
+        warren.compare(searches=["astar"])

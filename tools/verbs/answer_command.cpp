@@ -16,6 +16,7 @@
 #include "solve/answer/explanation_text.hpp"
 #include "solve/answer/write_answer_io.hpp"
 #include "solve/roadmaps/roadmap_file_io.hpp"
+#include "solve/steps/explain_answer.hpp"
 #include "solve/steps/solve_steps.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_names.hpp"
@@ -104,25 +105,12 @@ void AnswerCommand::answer(const Run& run) {
   answer_.peak_memory_bytes = peak_resident_bytes();
 }
 
-/// What stops it leaves the answer as it is.
-void AnswerCommand::explain_in_time(const Execution& execution) {
-  const auto stop = [&](StopReason reason) {
-    if (!answer_.explained) answer_.explained.emplace();
-    answer_.explained->stopped = reason;
-  };
-  try {
-    explain(execution, answer_, by_products_);
-  } catch (const Stopped& stopped) {
-    stop(stopped.reason);
-  } catch (const std::bad_alloc&) {
-    stop(StopReason::memory);
-  }
-}
-
 /// What is on disk says the same as the exit code: a stop while something is written makes it a stopped answer, one
 /// before, after the answer was found, does not.
 void AnswerCommand::write_outputs(Run& run) {
-  if (explains_ && !answer_.world.kind.empty()) explain_in_time(run.execution());
+  if (explains_ && !answer_.world.kind.empty()) {
+    explain_in_time(answer_, [&] { explain(run.execution(), answer_, by_products_); });
+  }
   try {
     if (answer_.outcome != Outcome::stopped) return write_finished(run.execution_for_what_is_left());
   } catch (const Stopped& stopped) {

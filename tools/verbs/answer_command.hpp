@@ -59,7 +59,6 @@ class AnswerCommand {
   bool takes_standard_output() const;
   void answer(const Run& run);
   bool hands_path_on() const;
-  void explain_in_time(const Execution& execution);
   void write_outputs(Run& run);
   void write_finished(const Execution& execution);
   void write_stopped(const Execution& execution);

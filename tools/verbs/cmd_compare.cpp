@@ -10,19 +10,16 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
-#include "pictures/layers/heading_layer.hpp"
 #include "studies/compare/comparison_report.hpp"
 #include "studies/contests/contest_pictures.hpp"
-#include "studies/contests/graph_of_world.hpp"
-#include "studies/contests/search_pictures.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_names.hpp"
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/terminal.hpp"
 #include "tools/screen/world_files.hpp"
 #include "tools/verbs/compare_options.hpp"
+#include "tools/verbs/run_comparison.hpp"
 #include "tools/words/command.hpp"
-#include "worlds/rasters/map_borders.hpp"
 
 namespace warren {
 namespace {
@@ -46,14 +43,6 @@ bool check_outputs_of_compare(const Arguments& arguments) {
     throw UsageError("--log: holds the runs on one world; --sizes has many graphs");
   }
   return taken;
-}
-
-/// What is wrong with the planner of one run is wrong with the list.
-std::string about_planners(const UsageError& error) {
-  std::string text = error.spelled("@", '_');
-  constexpr std::string_view one = "@planner:";
-  if (text.starts_with(one)) text.replace(0, one.size(), "@planners:");
-  return text;
 }
 
 /// One `warren compare`.
@@ -83,10 +72,6 @@ class CompareCommand {
 
  private:
   void compare(const Run& run);
-  void compare_on_world(const Run& run);
-  void compare_searches(const Scene& scene, const Run& run);
-  bool needs_map_walls(const Scene& scene) const;
-  SolveOptions graph_options(const Scene& scene) const;
   void write_outputs() const;
   OmplExperiment experiment() const;
   int exit_code() const;
@@ -101,71 +86,16 @@ class CompareCommand {
 };
 
 void CompareCommand::compare(const Run& run) {
+  std::optional<Scene> scene;
   try {
-    if (options_.world) compare_on_world(run);
-    if (options_.sweep) {
-      run_size_sweep(*options_.sweep, execution_, comparison_, [&](std::string_view line) { run.note(line); });
-    }
+    StageTimes before;
+    if (options_.world) scene = load_world(*options_.world, arguments_, execution_, before);
   } catch (const Stopped& stopped) {
     comparison_.stopped = stopped.reason;
-  }
-}
-
-void CompareCommand::compare_on_world(const Run& run) {
-  StageTimes before;
-  Scene scene = load_world(*options_.world, arguments_, execution_, before);
-  if (const auto& look = options_.planners ? options_.planners->look : options_.look; look.heading) {
-    check_has_headings(robot_of(
-        scene, options_.planners ? options_.planners->contenders.front().question : options_.graph_deal.question));
-  }
-  if (!options_.planners) return compare_searches(scene, run);
-  if (scene.map && needs_map_walls(scene)) add_map_walls(scene, execution_);
-  try {
-    run_planner_contest(scene, *options_.planners, execution_, comparison_);
-  } catch (const UsageError& error) {
-    throw UsageError(about_planners(error));
-  }
-  if (options_.planners->pictures.empty()) return;
-  draw_contest(scene, *options_.planners, comparison_, options_.planners->pictures, execution_);
-  comparison_.notes.push_back("pictures: " + options_.planners->pictures);
-}
-
-/// Bodies that turn plan among a map's borders, and pictures show them.
-bool CompareCommand::needs_map_walls(const Scene& scene) const {
-  const RobotKind body = robot_of(scene, options_.planners->contenders.front().question).kind;
-  return !options_.planners->pictures.empty() || (body != RobotKind::point && body != RobotKind::disc);
-}
-
-/// The planner that was asked for, else the one that `solve` would take, with those of the options that it takes.
-SolveOptions CompareCommand::graph_options(const Scene& scene) const {
-  PlannerDeal deal = options_.graph_deal;
-  if (!options_.graph) {
-    SolveOptions all = deal.common;
-    for (const DealtOption& list : deal.lists) copy_option(list.option, all, list.values.front().value);
-    deal.planners = {usual_graph_planner(scene, deal.question, all)};
-  }
-  SolveOptions graph = deal_planners(deal).front().options;
-  if (graph.planner == PlannerKind::prm) graph.roadmap.pipeline = PipelineKind::plain;  // tiles leave no roadmap
-  return graph;
-}
-
-void CompareCommand::compare_searches(const Scene& scene, const Run& run) {
-  const SolveOptions graph = graph_options(scene);
-  const Deadline deadline(execution_.deadline, options_.budget_s);
-  Execution within = execution_;
-  within.deadline = &deadline;
-  const WorldGraph made = world_graph(scene, options_.graph_deal.question, graph, within);
-  if (made.graph.at.empty()) {
-    no_graph_ = made.outcome;
-    comparison_.notes.push_back(fmt::format("{}: {}", scene.source, name_of(made.outcome)));
     return;
   }
-  run.note(fmt::format("{}: {} vertices, {} edges, {} searches", scene.source, made.graph.graph.vertex_count(),
-                       made.graph.graph.edge_count(), options_.searches.variants.size()));
-  run_search_contest(made.graph, options_.searches, execution_, comparison_);
-  if (options_.pictures.empty()) return;
-  draw_searches(scene, made.graph, options_.searches, options_.pictures, options_.look, execution_);
-  comparison_.notes.push_back("pictures: " + options_.pictures);
+  no_graph_ = run_comparison(options_, scene ? &*scene : nullptr, execution_, comparison_,
+                             [&](std::string_view line) { run.note(line); });
 }
 
 void CompareCommand::write_outputs() const {
