@@ -9,6 +9,7 @@
 #include "python/arrays.hpp"
 #include "python/binary_archive.hpp"
 #include "python/bind.hpp"
+#include "python/errors.hpp"
 #include "python/keywords.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "solve/answer/answer_notes.hpp"
@@ -171,7 +172,7 @@ void bind_answers(py::module_& module) {
          [](const Answer& a) { return a.explained ? std::optional(explanation_json(a)) : std::nullopt; });
   figure(answers, "summary", [](const Answer& a) {
     const Palette plain(false);
-    return summary_of(a, plain, {}) + notes_text(a, plain) + explanation_text(a, plain);
+    return with_keywords(summary_of(a, plain, {}) + notes_text(a, plain) + explanation_text(a, plain));
   });
   answers.def("sample", [](const KeptAnswer& kept, const py::dict& how) { return sample(kept.answer, how); })
       .def("save",

@@ -93,6 +93,12 @@ py::dict judge_states(const Scene& scene, const py::object& states, const py::di
   const NumberRows rows = rows_of(states, "path", {2, 3, 6});
   RecordedAnswer answer;
   answer.file = "path";
+  const auto end = [&](std::size_t i) {
+    const double* state = rows.numbers + i * rows.columns;
+    return std::vector<double>(state, state + rows.columns);
+  };
+  if (scene.start.empty() && rows.rows > 0) answer.problem.start = end(0);
+  if (scene.goal.empty() && rows.rows > 0) answer.problem.goal = end(rows.rows - 1);
   if (rows.columns != 2) answer.states.width = rows.columns;
   for (std::size_t i = 0; i < rows.rows; ++i) {
     const double* state = rows.numbers + i * rows.columns;

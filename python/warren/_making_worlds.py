@@ -250,6 +250,6 @@ def as_world(world):
         return read_world(world)
     if isinstance(world, np.ndarray):
         return grid(world)
-    if hasattr(world, "__geo_interface__") or isinstance(world, dict):
+    if hasattr(world, "__geo_interface__") or isinstance(world, (dict, list, tuple)):
         return from_geo(world)
     raise TypeError(f"world: expected a World, a name, an array of cells or geometry (found: {type(world).__name__})")

@@ -98,7 +98,7 @@ def _draw_answer(ax, answer, bodies):
             states, _ = answer.sample(max(answer.length / bodies, 1e-300))
             outlines = _outlines(answer, states)
             if outlines is not None:
-                ax.add_collection(PolyCollection(outlines, facecolor="none", edgecolor=PATH, linewidth=0.4, alpha=0.5))
+                ax.add_collection(PolyCollection(outlines, facecolor="none", edgecolor=PATH, linewidth=0.8, alpha=0.8, zorder=2))
         ax.plot(curve[:, 0], curve[:, 1], color=PATH, linewidth=2.0, label="path")
     for name, state, color in (("start", answer.start, START), ("goal", answer.goal, GOAL)):
         if len(state) in (2, 3):

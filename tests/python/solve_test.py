@@ -182,6 +182,17 @@ def test_verify_judges_answers_arrays_and_files(tmp_path):
         warren.verify(world, np.zeros((3, 4)))
 
 
+def test_a_path_of_a_world_without_ends_is_judged_by_its_own():
+    world = warren.scene(walls=[(3, 0, 3, 5)], bounds=(0, 0, 9, 9))
+    assert warren.verify(world, [(1, 1), (1, 6), (8, 6)]) and not warren.verify(world, [(1, 1), (8, 1)])
+    assert warren.verify(world, [(1, 1), (1, 6)], start=(2, 2)).violation is not None
+
+
+def test_what_is_printed_names_keywords():
+    said = str(warren.solve("maze:15x15", planner="prm", sampler="uniform", samples=200, explain=True))
+    assert " samples 800:" in said and "--" not in said
+
+
 def test_a_path_is_sampled_along_its_curve():
     world = warren.read_world(WORLDS / "parking.scene")
     answer = warren.solve(world)

@@ -99,6 +99,7 @@ def test_geometries_of_shapely_and_geopandas_are_worlds():
     assert warren.solve(worlds[0], (0, 3), (8, 3)).optimal
     assert warren.solve(worlds[0], (4, 3), (8, 3)).status in ("infeasible", "not_connected")
     assert warren.solve(shapely.geometry.box(0, 0, 4, 3), (0, 0), (4, 3)).length == 7.0
+    assert warren.solve([yard, fence], (0, 0), (1, 6)).verified
     with pytest.raises(ValueError):
         warren.from_geo({"type": "Polygon", "coordinates": [[(0, 0), (1, 1), (1, 0), (0, 1), (0, 0)]]})
 
