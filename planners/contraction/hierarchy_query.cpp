@@ -2,21 +2,15 @@
 #include "planners/contraction/hierarchy_query.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/base/error.hpp"
 
 namespace warren {
 
-void HierarchyQuery::begin(Side& side, std::span<const HierarchyEnd> ends) {
-  const auto poll = [this] { execution_.check(); };
-  side.state.resize(hierarchy_.vertex_count(), poll);
-  side.queue.clear();
-  side.queue.resize(hierarchy_.vertex_count(), poll);
-  for (const HierarchyEnd& end : ends) {
-    if (!side.state.improves(end.vertex, end.length)) continue;
-    side.state.reach(end.vertex, end.length, no_vertex);
-    side.queue.push(end.vertex, end.length);
-  }
+void HierarchyQuery::begin(HierarchyClimb& side, std::span<const HierarchyEnd> ends) {
+  side.clear();
+  for (const HierarchyEnd& end : ends) side.reach(end.vertex, end.length, no_vertex);
 }
 
 bool HierarchyQuery::search(std::span<const HierarchyEnd> start, std::span<const HierarchyEnd> goal, double limit) {
@@ -31,79 +25,95 @@ bool HierarchyQuery::search(std::span<const HierarchyEnd> start, std::span<const
     const bool first = goes_on(forward);
     const bool second = goes_on(backward);
     if (!first && !second) return meeting_ != no_vertex;
-    settle(first && (!second || !(backward.queue.top() < forward.queue.top())) ? 0 : 1);
+    settle(first && (!second || !(backward.top() < forward.top())) ? 0 : 1);
     if (settled_ % expansions_per_poll == 0) execution_.check();
   }
 }
 
-/// Is there a shorter way to v from above?
-bool HierarchyQuery::is_stalled(const SearchState& state, VertexId v, double length) {
-  for (const HierarchyArc& arc : hierarchy_.row(v)) {
-    if (state.g(arc.to) + arc.length < length) return true;
-  }
-  return false;
-}
-
 void HierarchyQuery::settle(std::size_t side) {
-  auto& [state, queue] = scratch_.sides[side];
-  const QueueEntry next = queue.pop();
+  HierarchyClimb& climb = scratch_.sides[side];
+  const QueueEntry next = climb.pop();
   const VertexId v = next.vertex;
-  state.close(v);
   ++settled_;
-  const double whole = next.key + scratch_.sides[1 - side].state.g(v);
+  const double whole = next.key + scratch_.sides[1 - side].length(v);
   if (whole < best_) {
     best_ = whole;
     meeting_ = v;
   }
-  looks_ += hierarchy_.first[v + 1] - hierarchy_.first[v];
-  if (is_stalled(state, v, next.key)) return;
-  for (const HierarchyArc& arc : hierarchy_.row(v)) {
-    const double length = next.key + arc.length;
-    if (!state.improves(arc.to, length)) continue;
-    state.reach(arc.to, length, v);
-    queue.push(arc.to, length);
+  const std::span<const HierarchyArc> row = hierarchy_.row(v);
+  looks_ += row.size();
+  const auto is_shorter = [&](const HierarchyArc& arc) { return climb.length(arc.to) + arc.length < next.key; };
+  if (std::any_of(row.begin(), row.end(), is_shorter)) return;  // a way from above
+  for (const HierarchyArc& arc : row) climb.reach(arc.to, next.key + arc.length, v);
+  if (!climb.empty()) fetch_row(climb.top().vertex);
+}
+
+/// Asks the memory for what is settled after the other end's turn.
+void HierarchyQuery::fetch_row(VertexId v) const {
+  const auto row = hierarchy_.row(v);
+  constexpr std::size_t arcs_a_line = 64 / sizeof(HierarchyArc);
+  for (std::size_t i = 0; i < std::min<std::size_t>(row.size(), 8 * arcs_a_line); i += arcs_a_line) {
+    __builtin_prefetch(row.data() + i);
   }
 }
 
-/// Of the arc in the row of `low`. Asks the memory for what taking it apart will read.
-VertexId HierarchyQuery::middle_of(VertexId low, VertexId high) const {
-  const VertexId middle = hierarchy_.arcs[hierarchy_.arc_to(low, high)].middle;
-  if (middle == no_vertex) return no_vertex;
-  __builtin_prefetch(hierarchy_.arcs.data() + hierarchy_.first[middle]);
-  return middle;
+/// An arc of the row of `low`.
+void HierarchyQuery::add_part(VertexId from, VertexId to, VertexId low, VertexId high) {
+  scratch_.parts.push_back({from, to, hierarchy_.arcs[hierarchy_.arc_to(low, high)].middle, 0});
 }
 
-/// Appends the ends of its edges, the first one left out.
-void HierarchyQuery::append_way(const Step& step, RawVector<VertexId>& way) {
-  const std::size_t most = hierarchy_.vertex_count();  // a shortest way passes no vertex twice
-  todo_.assign(1, step);
-  while (!todo_.empty()) {
-    const auto [from, to, middle] = todo_.back();
-    todo_.pop_back();
-    if (middle == no_vertex) {
-      way.push_back(to);
-    } else {
-      todo_.push_back({middle, to, middle_of(middle, to)});
-      todo_.push_back({from, middle, middle_of(middle, from)});
+/// All parts down to edges, those of one depth after each other: the memory is asked for all their rows before the
+/// first is read.
+void HierarchyQuery::take_apart() {
+  std::vector<PartOfWay>& parts = scratch_.parts;
+  // A shortest way passes no vertex twice.
+  const std::size_t most = std::min<std::size_t>(2 * hierarchy_.vertex_count() + parts.size(), no_vertex);
+  std::size_t first = 0;
+  for (std::size_t last = parts.size(); first < last; first = std::exchange(last, parts.size())) {
+    for (std::size_t i = first; i < last; ++i) {
+      if (parts[i].middle != no_vertex) __builtin_prefetch(hierarchy_.first.data() + parts[i].middle);
     }
-    if (way.size() % (std::size_t{1} << 12) == 0) execution_.check();
-    if (way.size() > most || todo_.size() > most) {
-      throw InputError("roadmap", "the shortcuts of its index have no end; build it anew");
+    for (std::size_t i = first; i < last; ++i) {
+      if (parts[i].middle != no_vertex) __builtin_prefetch(hierarchy_.row(parts[i].middle).data());
+    }
+    for (std::size_t i = first; i < last; ++i) {
+      const auto [from, to, middle, none] = parts[i];
+      if (middle == no_vertex) continue;
+      parts[i].first = static_cast<std::uint32_t>(parts.size());
+      add_part(from, middle, middle, from);
+      add_part(middle, to, middle, to);
+      if (parts.size() % expansions_per_poll == 0) execution_.check();
+      if (parts.size() > most) throw InputError("roadmap", "the shortcuts of its index have no end; build it anew");
+    }
+  }
+}
+
+/// Their ends, the first one left out.
+void HierarchyQuery::append_edges(std::uint32_t part, RawVector<VertexId>& way) {
+  todo_.assign(1, part);
+  while (!todo_.empty()) {
+    const PartOfWay& next = scratch_.parts[todo_.back()];
+    todo_.pop_back();
+    if (next.middle == no_vertex) {
+      way.push_back(next.to);
+    } else {
+      todo_.push_back(next.first + 1);
+      todo_.push_back(next.first);
     }
   }
 }
 
 RawVector<VertexId> HierarchyQuery::path() {
-  const RawVector<VertexId> climb = scratch_.sides[0].state.path_to(meeting_);
-  const RawVector<VertexId> descent = scratch_.sides[1].state.path_to(meeting_);
+  const RawVector<VertexId> climb = scratch_.sides[0].back_from(meeting_);
+  const RawVector<VertexId> descent = scratch_.sides[1].back_from(meeting_);
+  scratch_.parts.clear();
+  for (std::size_t i = climb.size(); i-- > 1;) add_part(climb[i], climb[i - 1], climb[i], climb[i - 1]);
+  for (std::size_t i = 1; i < descent.size(); ++i) add_part(descent[i - 1], descent[i], descent[i], descent[i - 1]);
+  const auto arcs = static_cast<std::uint32_t>(scratch_.parts.size());
+  take_apart();
   RawVector<VertexId> way;
-  way.push_back(climb.front());
-  for (std::size_t i = 0; i + 1 < climb.size(); ++i) {
-    append_way({climb[i], climb[i + 1], middle_of(climb[i], climb[i + 1])}, way);
-  }
-  for (std::size_t i = descent.size(); i-- > 1;) {
-    append_way({descent[i], descent[i - 1], middle_of(descent[i - 1], descent[i])}, way);
-  }
+  way.push_back(climb.back());
+  for (std::uint32_t arc = 0; arc < arcs; ++arc) append_edges(arc, way);
   return way;
 }
 

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "core/base/raw_vector.hpp"
-#include "core/search/indexed_heap.hpp"
 #include "core/search/search.hpp"
 #include "parallel/execution.hpp"
 #include "planners/contraction/hierarchy.hpp"
+#include "planners/contraction/hierarchy_climb.hpp"
 
 namespace warren {
 
@@ -24,13 +24,18 @@ struct HierarchyEnd {
   double length;
 };
 
-/// What one thread keeps from one question to the next: 32 bytes a vertex.
+/// An edge of a way, or an arc that stands for two of them.
+struct PartOfWay {
+  VertexId from;
+  VertexId to;
+  VertexId middle;      // no_vertex: an edge
+  std::uint32_t first;  // of its two parts, which follow each other
+};
+
+/// What one thread keeps from one question to the next: as much as the largest of them touched.
 struct HierarchyScratch {
-  struct Side {
-    SearchState state;
-    IndexedHeap<> queue;
-  };
-  std::array<Side, 2> sides;
+  std::array<HierarchyClimb, 2> sides;
+  std::vector<PartOfWay> parts;
 };
 
 /// One thread's. Refers to all that it is given.
@@ -49,19 +54,13 @@ class HierarchyQuery {
   std::uint64_t looks() const { return looks_; }  ///< at arcs, by the last search
 
  private:
-  using Side = HierarchyScratch::Side;
-  /// An edge, or what a shortcut leads over.
-  struct Step {
-    VertexId from;
-    VertexId to;
-    VertexId middle;
-  };
-  void begin(Side& side, std::span<const HierarchyEnd> ends);
-  bool goes_on(const Side& side) const { return !side.queue.empty() && side.queue.top().key < best_; }
+  void begin(HierarchyClimb& side, std::span<const HierarchyEnd> ends);
+  bool goes_on(const HierarchyClimb& side) const { return !side.empty() && side.top().key < best_; }
   void settle(std::size_t side);
-  bool is_stalled(const SearchState& state, VertexId v, double length);
-  VertexId middle_of(VertexId low, VertexId high) const;
-  void append_way(const Step& step, RawVector<VertexId>& way);
+  void fetch_row(VertexId v) const;
+  void add_part(VertexId from, VertexId to, VertexId low, VertexId high);
+  void take_apart();
+  void append_edges(std::uint32_t part, RawVector<VertexId>& way);
 
   const Hierarchy& hierarchy_;
   HierarchyScratch& scratch_;
@@ -70,7 +69,7 @@ class HierarchyQuery {
   VertexId meeting_ = no_vertex;
   std::uint64_t settled_ = 0;
   std::uint64_t looks_ = 0;
-  std::vector<Step> todo_;
+  std::vector<std::uint32_t> todo_;  // parts
 };
 
 }  // namespace warren

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scenes/text/json_text.hpp"
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/base/printable.hpp"
@@ -60,10 +62,30 @@ std::string json_string(std::string_view text) {
 }
 
 std::string json_number(double value) {
-  if (!std::isfinite(value)) return "null";
-  std::string text = fmt::format("{}", value);
-  if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  std::string text;
+  append_json_number(text, value);
   return text;
+}
+
+void append_json_number(std::string& text, double value) {
+  if (!std::isfinite(value)) {
+    text += "null";
+    return;
+  }
+  std::array<char, 32> digits;  // of a double: 24 at most
+  const auto end = fmt::format_to(digits.begin(), FMT_COMPILE("{}"), value);
+  text.append(digits.begin(), end);
+  if (std::none_of(digits.begin(), end, [](char c) { return c == '.' || c == 'e'; })) text += ".0";
+}
+
+void append_json_list(std::string& text, std::span<const double> values) {
+  char before = '[';
+  for (const double value : values) {
+    text += before;
+    append_json_number(text, value);
+    before = ',';
+  }
+  text += values.empty() ? "[]" : "]";
 }
 
 }  // namespace warren

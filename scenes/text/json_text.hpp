@@ -16,6 +16,8 @@ namespace warren {
 std::string json_string(std::string_view text);
 /// A finite number as JSON, "1.0" rather than "1"; null for others. It reads back as the same double.
 std::string json_number(double value);
+/// The same, appended.
+void append_json_number(std::string& text, double value);
 
 inline std::string json_of(std::same_as<bool> auto value) { return value ? "true" : "false"; }
 inline std::string json_of(double value) { return json_number(value); }
@@ -30,6 +32,8 @@ std::string json_list(std::span<const T> values) {
   for (const T& value : values) text.append(text.size() > 1 ? "," : "").append(json_of(value));
   return text + "]";
 }
+/// A list of numbers, appended.
+void append_json_list(std::string& text, std::span<const double> values);
 
 /// An object as text. Keys are plain words, each added once.
 class JsonObject {

@@ -198,11 +198,12 @@ std::string json_head(const Answer& answer, const Execution& execution) {
 void write_states(const Path<Vec2>& path, const StateList& states, const Execution& execution,
                   const std::function<void(std::string_view)>& write) {
   const auto append_point = [&](std::size_t i, std::string& text) {
-    text.append(json_number(path[i].x)).append(", ").append(json_number(path[i].y));
+    append_json_number(text, path[i].x);
+    append_json_number(text += ", ", path[i].y);
   };
   const auto append_state = [&](std::size_t i, std::string& text) {
     for (std::size_t k = 0; k < states.width; ++k) {
-      text.append(k == 0 ? "" : ", ").append(json_number(states[i][k]));
+      append_json_number(text += k == 0 ? "" : ", ", states[i][k]);
     }
   };
   if (states.empty()) {

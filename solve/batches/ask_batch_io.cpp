@@ -20,7 +20,8 @@ constexpr std::size_t length_block = 16384;
 std::string path_json(const Answer& answer) {
   std::string text = "[";
   const auto add = [&](std::span<const double> state) {
-    text.append(text.size() > 1 ? "," : "").append(json_list(state));
+    if (text.size() > 1) text += ',';
+    append_json_list(text, state);
   };
   if (!answer.states.empty()) {
     for (std::size_t i = 0; i < answer.states.size(); ++i) add(answer.states[i]);

@@ -2,6 +2,7 @@
 #include "verify/near/box_blocks.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "parallel/polled_sort.hpp"
 #include "verify/exact/exact_segments.hpp"
@@ -32,10 +33,16 @@ void BoxBlocks::add_wholes() {
   }
 }
 
+/// Of those that hold the place, the one whose middle is nearest.
 std::size_t BoxBlocks::nearest_part(std::size_t level, std::size_t first, std::size_t last, const Box& place) const {
+  const auto distance = [&](std::size_t part) {
+    const Box& box = levels_[level][part];
+    const Vec2 off = (box.min - place.min) + (box.max - place.max);
+    return std::pair(exact::gap_sq(box, place), dot(off, off));
+  };
   std::size_t nearest = first;
-  for (std::size_t part = first; part < last; ++part) {
-    if (exact::gap_sq(levels_[level][part], place) < exact::gap_sq(levels_[level][nearest], place)) nearest = part;
+  for (std::size_t part = first + 1; part < last; ++part) {
+    if (distance(part) < distance(nearest)) nearest = part;
   }
   return nearest;
 }
