@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The cells of a maze whose walls are a NumPy array that no memory holds: read once, in windows, in whatever order they
 // come and however they are cut, into two bits a cell (scenes/mazes/cell_bits.hpp). The first four rows must be the
-// outline, as `generate` writes it: they say how many cells there are. Cost: the disk's, or 5 ns of CPU a wall.
+// outline, as `generate` writes it: they say how many cells there are. Cost: the disk's (docs/performance.md).
 #pragma once
 
 #include <cstdint>

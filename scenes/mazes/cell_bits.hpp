@@ -22,7 +22,7 @@ constexpr std::size_t bytes_a_row(std::uint32_t cols) { return (std::size_t{cols
 /// cells a side share no bytes.
 void pack_tile(const CellTile& tile, std::size_t row_bytes, std::uint8_t* rows);
 
-/// Bits that somebody holds, tile by tile. Refers to them; 2 ns of CPU a cell.
+/// Bits that somebody holds, tile by tile. Refers to them.
 class CellBits : public CellWallSource {
  public:
   static constexpr unsigned usual_side_log2 = 8;
