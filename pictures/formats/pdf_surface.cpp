@@ -36,6 +36,7 @@ class PdfSurface : public Surface {
     if (!document_) throw std::bad_alloc();
     HPDF_SetCompressionMode(document_.get(), HPDF_COMP_ALL);
     sheet_ = HPDF_AddPage(document_.get());
+    check();  // a page without its parts must not be asked for them
     HPDF_Page_SetWidth(sheet_, real(points_a_pixel * page.width));
     HPDF_Page_SetHeight(sheet_, real(points_a_pixel * page.height));
     HPDF_Page_SetLineCap(sheet_, HPDF_ROUND_END);
