@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <numbers>
+
 #include "core/base/printable.hpp"
 #include "scenes/text/human_units.hpp"
 #include "studies/measure/machine_memory.hpp"
@@ -69,7 +71,8 @@ std::string success_text(const Contender& c, const ComparisonRow& row) {
 }
 
 TextTable planner_table(const Comparison& comparison, std::size_t problem) {
-  TextTable table{{"planner", "solved", "95 %", "length q1", "median", "q3", "hops", "cells", "turning (rad)",
+  constexpr double degree = std::numbers::pi / 180.0;
+  TextTable table{{"planner", "solved", "95 %", "length q1", "median", "q3", "hops", "cells", "turning (deg)",
                    "expanded", "clearance", "time q1", "median", "q3"},
                   1,
                   {}};
@@ -85,7 +88,7 @@ TextTable planner_table(const Comparison& comparison, std::size_t problem) {
     table.rows.push_back({planner_cell(c), fmt::format("{} of {}", row.solved, row.runs), success_text(c, row),
                           number(&Distribution::q1), number(&Distribution::median), number(&Distribution::q3),
                           median_number(row.hops), row.cells ? median_number(row.cells) : "",
-                          row.turn_rad ? median_number(row.turn_rad) : "", median_number(row.expanded),
+                          row.turn_rad ? human_number(row.turn_rad->median / degree) : "", median_number(row.expanded),
                           median_number(row.min_clearance), seconds(&Distribution::q1), seconds(&Distribution::median),
                           seconds(&Distribution::q3)});
   }

@@ -28,30 +28,35 @@ std::string erasing(std::size_t columns, std::size_t width) {
   return rows_above == 0 ? "\r\x1b[K" : fmt::format("\r\x1b[{}A\x1b[J", rows_above);
 }
 
-std::string progress_line(const char* stage, std::uint64_t done, std::uint64_t total, double items_per_s,
+std::string progress_line(const RunMoment& moment, double items_per_s, std::string_view of_whole_run,
                           std::size_t width) {
-  std::string line = fmt::format("{:<10}", stage);
+  std::string line = fmt::format("{:<10}", moment.stage);
   std::string figures;
-  if (total > 0) {
-    const double fraction = std::min(1.0, static_cast<double>(done) / static_cast<double>(total));
+  if (moment.total > 0) {
+    const double fraction = std::min(1.0, static_cast<double>(moment.done) / static_cast<double>(moment.total));
     figures += fmt::format(" {:3.0f} %", 100.0 * fraction);
-    if (items_per_s > 0.0 && done < total) {
-      const auto left = static_cast<double>(total - done);
+    if (items_per_s > 0.0 && moment.done < moment.total) {
+      const auto left = static_cast<double>(moment.total - moment.done);
       figures += fmt::format("  {}/s  {} left of it", human_count(items_per_s), human_seconds(left / items_per_s));
     }
-    constexpr std::size_t widest_bar = 40;
-    const std::size_t used = line.size() + figures.size() + 3;
-    if (used + 8 < width) line += bar(fraction, std::min(widest_bar, width - used));
   } else if (items_per_s > 0.0) {
-    figures = fmt::format(" {}  {}/s", human_count(static_cast<double>(done)), human_count(items_per_s));
+    figures = fmt::format(" {}  {}/s", human_count(static_cast<double>(moment.done)), human_count(items_per_s));
+  }
+  if (!of_whole_run.empty()) figures += fmt::format("{}{}", figures.empty() ? " " : ", ", of_whole_run);
+  constexpr std::size_t widest_bar = 40;
+  const std::size_t used = line.size() + figures.size() + 3;
+  if (moment.total > 0 && used + 8 < width) {
+    line += bar(static_cast<double>(std::min(moment.done, moment.total)) / static_cast<double>(moment.total),
+                std::min(widest_bar, width - used));
   }
   line += figures;
   if (line.size() >= width) line.resize(width - 1);
   return line;
 }
 
-ProgressBar::ProgressBar(const Progress& progress, ProgressMode mode)
-    : progress_(progress), mode_(resolved(mode)), stage_begin_(std::chrono::steady_clock::now()) {
+ProgressBar::ProgressBar(const Progress& progress, ProgressMode mode, std::optional<double> budget_s,
+                         ExpectedStages stages)
+    : progress_(progress), mode_(resolved(mode)), budget_s_(budget_s), whole_(stages), stage_begin_(begin_) {
   if (mode_ == ProgressMode::none) return;
   const auto period = mode_ == ProgressMode::bar ? 100ms : 2000ms;
   ticker_ = std::make_unique<Ticker>(1000ms, period, [this] { draw(); });
@@ -60,6 +65,18 @@ ProgressBar::ProgressBar(const Progress& progress, ProgressMode mode)
 ProgressBar::~ProgressBar() {
   ticker_.reset();
   if (columns_ > 0 && mode_ == ProgressMode::bar) std::fputs(erasing(columns_, terminal_width()).c_str(), stderr);
+}
+
+std::string ProgressBar::whole_run_text(const RunMoment& moment, double items_per_s) {
+  auto left = whole_.seconds_left(moment);
+  if (left && items_per_s > 0.0 && moment.done < moment.total) {
+    left = std::max(*left, static_cast<double>(moment.total - moment.done) / items_per_s);  // no less than the stage
+  }
+  if (left && !(budget_s_ && *budget_s_ - moment.seconds < *left)) {
+    return fmt::format("about {} left in all", human_seconds(*left));
+  }
+  if (!budget_s_) return {};
+  return fmt::format("--budget ends in {}", human_seconds(std::max(0.0, *budget_s_ - moment.seconds)));
 }
 
 void ProgressBar::draw() {
@@ -75,7 +92,8 @@ void ProgressBar::draw() {
   const double seconds = std::chrono::duration<double>(now - stage_begin_).count();
   const double rate = seconds > 0.0 ? static_cast<double>(done - done_at_begin_) / seconds : 0.0;
   const std::size_t width = terminal_width();
-  const std::string line = progress_line(stage, done, progress_.total(), rate, width);
+  const RunMoment moment{stage, done, progress_.total(), std::chrono::duration<double>(now - begin_).count()};
+  const std::string line = progress_line(moment, rate, whole_run_text(moment, rate), width);
   std::fputs((mode_ == ProgressMode::bar ? erasing(columns_, width) + line : line + "\n").c_str(), stderr);
   std::fflush(stderr);
   columns_ = line.size();

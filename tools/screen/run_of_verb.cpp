@@ -30,9 +30,13 @@ constexpr OptionSpec run_specs[] = {
     {"--trace", "FILE", "write when each stage and chunk ran, as a Chrome trace"},
 };
 
+/// Of the whole command.
+std::optional<double> budget_of(const Arguments& arguments, RunScope scope) {
+  return scope == RunScope::whole_command ? given_value(arguments, "--budget", duration_value) : std::nullopt;
+}
+
 Deadline deadline_of(const Arguments& arguments, RunScope scope) {
-  std::optional<double> budget;
-  if (scope == RunScope::whole_command) budget = given_value(arguments, "--budget", duration_value);
+  const std::optional<double> budget = budget_of(arguments, scope);
   const auto memory = given_value(arguments, "--memory", memory_value);
   return Deadline(budget.value_or(std::numeric_limits<double>::infinity()), memory ? *memory : available_bytes(),
                   &signal_flag());
@@ -46,7 +50,7 @@ unsigned threads_value(std::string_view option, std::string_view text) {
   return static_cast<unsigned>(count_value(option, text, 1, most_threads));
 }
 
-Run::Run(const Arguments& arguments, RunScope scope)
+Run::Run(const Arguments& arguments, RunScope scope, ExpectedStages stages)
     : deadline_(deadline_of(arguments, scope)),
       last_deadline_(std::numeric_limits<double>::infinity(), deadline_.memory_bytes(), &signal_flag()),
       quiet_(arguments.has("--quiet")),
@@ -64,7 +68,7 @@ Run::Run(const Arguments& arguments, RunScope scope)
   }
   execution_.deadline = &deadline_;
   execution_.progress = &progress_;
-  bar_ = std::make_unique<ProgressBar>(progress_, mode_);
+  bar_ = std::make_unique<ProgressBar>(progress_, mode_, budget_of(arguments, scope), stages);
 }
 
 void Run::note(std::string_view line) const {

@@ -35,7 +35,8 @@ enum class RunScope : std::uint8_t { whole_command, each_run, each_run_and_threa
 /// One run of a verb: the clock starts with it. Not movable: Execution points into it.
 class Run {
  public:
-  explicit Run(const Arguments& arguments, RunScope scope = RunScope::whole_command);
+  /// stages: all to come, where they are known, so that the bar tells how long the whole run will take.
+  explicit Run(const Arguments& arguments, RunScope scope = RunScope::whole_command, ExpectedStages stages = {});
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;
 

@@ -63,7 +63,7 @@ AnswerCommand::AnswerCommand(const Arguments& arguments, std::string_view keep)
 }
 
 int AnswerCommand::run() {
-  Run run(arguments_);
+  Run run(arguments_, RunScope::whole_command, expected_stages());
   answer(run);
   write_outputs(run);
   run.end();

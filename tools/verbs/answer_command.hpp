@@ -43,6 +43,8 @@ class AnswerCommand {
   virtual Scene scene_drawn(const Execution& execution, ByProducts& keep) = 0;
   /// Fills in answer.explained; only after find(), with what that has kept. Throws Stopped.
   virtual void explain(const Execution& execution, Answer& answer, ByProducts& keep) = 0;
+  /// All stages to come, where they are known.
+  virtual ExpectedStages expected_stages() const { return {}; }
   /// What goes to the file of `keep`; only after find().
   virtual const Roadmap& roadmap() const = 0;
   /// Throws UsageError where the path of this body can't be written, or it can't be drawn, as it was asked for; find()

@@ -23,6 +23,10 @@ const OptionSpec* find_option(const Command& command, std::string_view name) {
   for (const auto& [option, why] : command.foreign) {
     if (name == option) throw UsageError(fmt::format("{}: {}", name, why));
   }
+  for (const std::string_view kind : {"--png", "--pdf", "--html"}) {
+    if (name != kind || find_option(command, "--svg") == nullptr) continue;
+    throw UsageError(fmt::format("{0}: a picture's ending says its kind: --svg FILE.{1}", name, kind.substr(2)));
+  }
   std::vector<std::string_view> known{"--help"};
   for (const OptionSpec& option : command.options) known.push_back(option.name);
   throw UsageError("unknown option " + std::string{name} + suggestion(name, known));

@@ -27,7 +27,8 @@ TEST(RefusalsThatHelp, TooNarrowIsToldWithTheRoomAndThePlaceInFewDigits) {
   const Json blocked = answered({"solve", world, "--robot", "disc 0.3", "--goal", "5.1,1"}, 1)["blocked"];
   EXPECT_NEAR(blocked["room"].get<double>(), 0.1, 1e-9);
   EXPECT_EQ(blocked["needed"], 0.3);
-  expect_said(said({"solve", world, "--start", "12,1"}), {"outside of the bounds 0 0 10 4", ", 2 away"});
+  expect_said(said({"solve", world, "--start", "12,1"}),
+              {"outside of the bounds 0 0 10 4", "free is       9.999,1, 2.001 away"});
 }
 
 TEST(RefusalsThatHelp, ArmsAreToldTheirLimitsInDegreesAndTheirReach) {
@@ -37,6 +38,21 @@ TEST(RefusalsThatHelp, ArmsAreToldTheirLimitsInDegreesAndTheirReach) {
   const std::string far = said({"solve", world, "--goal", "9,9,9"});
   expect_said(far, {"outside of what the tool reaches", "it is 15.5885 from the base"});
   EXPECT_EQ(far.find("a heading of"), std::string::npos) << far;
+}
+
+TEST(RefusalsThatHelp, HowDeepIsToldBesideTheFreePlace) {
+  const Folder folder;
+  const std::string world = folder.write("w.scene", "bounds 0 0 10 4\npolygon 4 1 7 1 7 3 4 3\nstart 1 1\ngoal 9 3\n");
+  expect_said(said({"solve", world, "--start", "4.5,2"}), {"in the way is polygon 0", "depth         0.5 in it"});
+  const Json blocked = answered({"solve", world, "--start", "4.5,2"}, 1)["blocked"];
+  EXPECT_NEAR(blocked["depth"].get<double>(), 0.5, 1e-3);
+  expect_said(said({"solve", world_file("puma-seed.scene"), "--goal", "-0.25,-0.4,0.05"}),
+              {"in the way is sphere 2", "depth         0.15 in it", "free is "});
+}
+
+TEST(RefusalsThatHelp, TheEndingSaysThePicturesKind) {
+  for (const std::string kind : {"png", "pdf", "html"})
+    check({{"solve", "maze:5x5", "--" + kind, "x." + kind}, 2, ("--svg FILE." + kind).c_str()});
 }
 
 TEST(RefusalsThatHelp, FootprintsOfNav2AreBodies) {
