@@ -249,8 +249,8 @@ TEST(Maps, ConvertGoesFromCellsToWallsAndBack) {
 
 TEST(Maps, WhatAFormatHasNoWordsForIsLeftOutWithANote) {
   const Folder folder;
-  const std::string scene = folder.write(
-      "w.scene", "bounds 0 0 6 4\nrobot disc 0.1\nclearance 0.1\nstart 1 1\ngoal 5 1\nwall 2.5 1 2.5 2.5\n");
+  const std::string scene =
+      folder.write("w.scene", "robot disc 0.1\nclearance 0.1\nstart 1 1\ngoal 5 1\nwall 2.5 1 2.5 2.5\nwall 0 0 6 0\n");
   const std::pair<const char*, const char*> cases[]{{"w.wkt", "has no start, goal, robot, clearance: left out"},
                                                     {"w.npy", "has no start, goal, robot, clearance: left out"},
                                                     {"w.geojson", "has no robot, clearance: left out"}};
