@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scenes/formats/read_world_io.hpp"
+#include "scenes/mazes/maze_generator.hpp"
 #include "solve/solve.hpp"
 #include "solve/steps/blocked_arm.hpp"
 #include "tests/paths.hpp"
@@ -185,6 +186,20 @@ TEST(BlockedEnd, HoldsInLargeMazesAndForCars) {
   EXPECT_TRUE(wall.by.starts_with("wall ")) << wall.by;
   EXPECT_LT(wall.distance, 0.2);
   told(world("car-20.scene"), {.goal = {8.9, 0.25, 1.57}});
+}
+
+TEST(BlockedEnd, HoldsWhereWallsAreMadeTileByTile) {
+  Scene maze = unmade_maze_scene(parse_maze_source("maze:30x40,algorithm=mst"));
+  maze.source = "maze:30x40,algorithm=mst";
+  const Question question{
+      .robot = RobotSpec{.kind = RobotKind::disc, .radius = 0.2}, .start = {0.6, 7.0}, .goal = {9, 9}};
+  const BlockedEnd wall = told(maze, question);
+  EXPECT_TRUE(wall.by.starts_with("wall: ")) << wall.by;
+  EXPECT_NEAR(wall.depth.value_or(0.0), 0.1, 1e-12) << "of the outline";
+  EXPECT_EQ(wall.free_place, (std::vector<double>{1, 7}));
+  const BlockedEnd outside = told(maze, {.goal = {50, 12}});
+  EXPECT_EQ(outside.by, "outside of the bounds 0.5 0.5 40.5 30.5");
+  EXPECT_EQ(outside.free_place, (std::vector<double>{40, 12}));
 }
 
 TEST(BlockedEnd, IsNotToldOfOtherAnswers) { EXPECT_FALSE(solve(world("walls.scene")).blocked.has_value()); }
