@@ -55,7 +55,7 @@ struct MazeFormula {
 
 /// The file that a maze's walls are in, .maze or .npy, and what tells it from others.
 struct PackedMaze {
-  std::string file;
+  std::string file;                   ///< its path
   std::optional<std::uint64_t> hash;  ///< nothing: who reads the walls will know
 };
 
@@ -129,10 +129,15 @@ std::string unmade_hash(const Scene& scene);
 class WallsHash {
  public:
   static constexpr std::size_t grain = std::size_t{1} << 16;  ///< walls of each chunk but the last
+  /// walls: how many there are in all.
   explicit WallsHash(std::size_t walls) : state_(walls) {}
+  /// Of `grain` walls that follow each other, the last ones fewer. Any number of threads may ask.
   static std::uint64_t of_chunk(std::span<const FloatWall> walls);
+  /// As above.
   static std::uint64_t of_chunk(std::span<const DoubleWall> walls);
+  /// Chunks in their order.
   void add(std::uint64_t chunk);
+  /// After all chunks: as scene_hash().
   std::string text() const;
 
  private:

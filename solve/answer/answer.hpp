@@ -52,8 +52,8 @@ struct BlockedEnd {
 
 /// What is left to say of a path whose points were handed on as they were made (core/base/path_taker.hpp).
 struct HandedPath {
-  std::uint64_t points = 0;
-  std::string hash;  ///< solve/answer/path_hash.hpp
+  std::uint64_t points = 0;  ///< their number
+  std::string hash;          ///< solve/answer/path_hash.hpp
 };
 
 /// What solve() found: an outcome, a verified path where there is one, and the account of the work.
