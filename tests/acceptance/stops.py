@@ -30,7 +30,7 @@ import stop_cases
 from program import Failure, Program
 
 CODES = {"budget": 124, signal.SIGHUP: 129, signal.SIGINT: 130, signal.SIGTERM: 143}
-BEFORE_MAIN_S = 0.02  # so early, a signal may end a process that has not begun to listen: shells see the same code
+BEFORE_MAIN_S = 0.02  # computed: so early, a signal may end a process that does not listen yet; shells see the same code
 GIB = 1 << 30
 TICKS_A_SECOND = os.sysconf("SC_CLK_TCK")
 LONGEST_S = 4.0  # of the run's length, from which the moments are drawn
@@ -92,7 +92,7 @@ class Stop:
             child.kill()
             os.wait4(child.pid, 0)
         child.returncode = self.code
-        if self.kind != "budget" and self.code == -self.kind and self.after_s < BEFORE_MAIN_S:
+        if self.kind != "budget" and self.code == -self.kind and before_s < BEFORE_MAIN_S:
             self.code = CODES[self.kind]
         self.late_s = time.monotonic() - asked
         self.limit_s = 0.3 + 0.12 * held / GIB
