@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How many seeds the longest tests take.
+// What tests ask of a build with sanitizers: fewer seeds, and no small memory.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +13,15 @@ constexpr std::uint64_t seeds(std::uint64_t all) {
   return (all + 3) / 4;
 #else
   return all;
+#endif
+}
+
+/// Does a process hold what warren asks for, and nothing else? Sanitizers hold more than a small limit.
+constexpr bool memory_is_ours() {
+#ifdef WARREN_FEWER_SEEDS
+  return false;
+#else
+  return true;
 #endif
 }
 
