@@ -204,7 +204,7 @@ void compare(std::uint32_t side, std::uint64_t samples, int count) {
   const double with_index = seconds_of([&] { roadmap = built(IndexChoice::where_it_pays); }).cpu_s;
   std::printf("build, index     %8.2f s, %zu edges, %zu arcs\n", with_index,
               static_cast<std::size_t>(count_edges(roadmap, {}).free), roadmap.arrays.hierarchy.arcs.size());
-  const MazeWorld world(roadmap.scene, clearance, {});
+  const MazeWorld world(roadmap.world.whole({}), clearance, {});
   const std::vector<Asked> questions = questions_of(roadmap, count);
   std::vector<Asked> few(questions.begin(), questions.begin() + std::min(count, 20));
   BoostSearch boost_search(roadmap);
