@@ -22,7 +22,7 @@
 #include "solve/steps/kind_of_problem.hpp"
 #include "solve/steps/settled_ends.hpp"
 #include "solve/steps/solve_steps.hpp"
-#include "verify/judges/verify_cells.hpp"
+#include "verify/cells/verify_cells.hpp"
 
 namespace warren {
 namespace {

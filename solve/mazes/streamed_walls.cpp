@@ -6,8 +6,8 @@
 #include "scenes/formats/npy_maze_io.hpp"
 #include "scenes/mazes/spanning_maze.hpp"
 #include "scenes/text/input_file_io.hpp"
-#include "verify/judges/judged_maze_file.hpp"
-#include "verify/judges/judged_npy_maze.hpp"
+#include "verify/cells/judged_maze_file.hpp"
+#include "verify/cells/judged_npy_maze.hpp"
 
 namespace warren {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The oracle is the maze that was written.
-#include "verify/judges/judged_maze_file.hpp"
+#include "verify/cells/judged_maze_file.hpp"
 
 #include <gtest/gtest.h>
 

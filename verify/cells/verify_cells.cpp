@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "verify/judges/verify_cells.hpp"
+#include "verify/cells/verify_cells.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "verify/judges/judged_npy_maze.hpp"
+#include "verify/cells/judged_npy_maze.hpp"
 
 #include <cstring>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The oracle is the judge of walls that are held.
-#include "verify/judges/verify_cells.hpp"
+#include "verify/cells/verify_cells.hpp"
 
 #include <gtest/gtest.h>
 

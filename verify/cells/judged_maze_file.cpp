@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "verify/judges/judged_maze_file.hpp"
+#include "verify/cells/judged_maze_file.hpp"
 
 #include <algorithm>
 #include <limits>
