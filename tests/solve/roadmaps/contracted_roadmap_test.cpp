@@ -32,12 +32,12 @@ const Roadmap& contracted() {
   return roadmap;
 }
 
-void expect_answers_of_a_search(const Roadmap& roadmap, double largest) {
+void expect_answers_of_a_search(const Roadmap& roadmap, unsigned largest, int fewest_solved) {
   ASSERT_FALSE(roadmap.arrays.hierarchy.empty());
   const RoadmapQuery query(roadmap);
   std::mt19937 random(3);
   const auto place = [&] {
-    const auto number = [&] { return 0.5 + largest * static_cast<double>(random() % 1000) / 1000.0; };
+    const auto number = [&] { return 0.5 + 0.001 * static_cast<double>(random() % (1000 * largest)); };
     return std::vector<double>{number(), number()};
   };
   const auto milestone = [&] {
@@ -66,11 +66,11 @@ void expect_answers_of_a_search(const Roadmap& roadmap, double largest) {
     expanded[0] += answer.counters.expanded;
     expanded[1] += expected.counters.expanded;
   }
-  EXPECT_GT(solved, 20);
+  EXPECT_GT(solved, fewest_solved);
   EXPECT_LT(10 * expanded[0], expanded[1]);
 }
 
-TEST(ContractedRoadmap, AnswersAsTheSearchDoes) { expect_answers_of_a_search(contracted(), 90.0); }
+TEST(ContractedRoadmap, AnswersAsTheSearchDoes) { expect_answers_of_a_search(contracted(), 90, 30); }
 
 constexpr std::size_t aisles = 40;
 constexpr std::size_t aisle_length = 100;
@@ -105,7 +105,7 @@ TEST(ContractedRoadmap, AmongPolygonsAnswersAsTheSearchDoes) {
       }
     }
   }
-  expect_answers_of_a_search(roadmap_of(".scene", world), 75.0);
+  expect_answers_of_a_search(roadmap_of(".scene", world), 75, 10);
 }
 
 /// The same as a map of cells.
@@ -117,7 +117,7 @@ TEST(ContractedRoadmap, OnMapsAnswersAsTheSearchDoes) {
     }
     map += '\n';
   }
-  expect_answers_of_a_search(roadmap_of(".map", map), 75.0);
+  expect_answers_of_a_search(roadmap_of(".map", map), 75, 10);
 }
 
 TEST(ContractedRoadmap, IsReadBackFromItsFileAndCraftedOnesAreRefused) {
