@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -33,12 +34,22 @@ class MadeOnce {
     }
     return *owned_;
   }
+  /// The same from the call on that `calls` others came before; nullptr until then: a value that only many are worth.
+  template <class Make>
+  const T* get_after(std::uint32_t calls, const Execution& execution, const Make& make) const {
+    if (const T* made = made_.load(std::memory_order_acquire)) return made;
+    if (calls_.load(std::memory_order_relaxed) < calls && calls_.fetch_add(1, std::memory_order_relaxed) < calls) {
+      return nullptr;
+    }
+    return &get(execution, make);
+  }
 
  private:
   // Invariant: made_ is nullptr or what owned_ holds, which never changes from then on; owned_ is touched under mutex_.
   mutable std::mutex mutex_;
   mutable std::unique_ptr<T> owned_;
   mutable std::atomic<const T*> made_{nullptr};
+  mutable std::atomic<std::uint32_t> calls_{0};  // of get_after() that came too early
 };
 
 }  // namespace warren

@@ -114,6 +114,10 @@ BatchAccount ask_batch(const RoadmapQuery& query, const InputFile& questions, co
   std::vector<QuestionScratch> scratch(thread_count(execution.threads));
   for (QuestionScratch& one : scratch) one.search.tells_separation = false;  // which no line has
   while (reader.next(options.lengths_only ? length_block : path_block, some)) {
+    for (const BatchQuestion& question : some) {
+      query.expect(question.start, execution);
+      query.expect(question.goal, execution);
+    }
     const std::size_t share = (some.size() + scratch.size() - 1) / scratch.size();
     std::vector<AnsweredChunk> chunks(chunk_count(some.size(), share));
     for_chunks(some.size(), share, execution, [&](Range r) {

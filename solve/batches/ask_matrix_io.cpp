@@ -93,6 +93,10 @@ Entry Matrix::asked(const BatchQuestion& start, const BatchQuestion& goal, const
 void Matrix::answer(const std::vector<BatchQuestion>& starts, const std::function<void(std::string_view)>& write) {
   const std::size_t pairs = starts.size() * goals_.size();
   execution_.reserve(pairs * bytes_of_entry);
+  if (!goals_.empty()) {
+    for (const BatchQuestion& start : starts) query_.expect(start.start, execution_);
+    for (const BatchQuestion& goal : goals_) query_.expect(goal.start, execution_);
+  }
   entries_.resize(pairs);
   Execution one_thread = execution_;
   one_thread.threads = 1;

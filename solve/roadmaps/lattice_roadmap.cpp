@@ -18,38 +18,6 @@
 namespace warren {
 namespace {
 
-constexpr int widest_look = 11;  // cells each way: 256 nearest lie within 10
-
-/// The walls that motions of a few cells around a place can meet, and those that reach farthest: the box of all walls,
-/// which the reference point stays in, is theirs too.
-Scene around(const Scene& scene, Vec2 p, double reach, const Execution& execution) {
-  constexpr std::size_t polled = std::size_t{1} << 20;
-  Box near;
-  near.include(p);
-  near = near.grown(widest_look + 1.0 + 2.0 * reach);
-  std::vector<Segment> walls;
-  Box all;
-  std::array<Segment, 4> farthest{};
-  scene.walls.visit([&](auto held) {
-    for (std::size_t i = 0; i < held.size(); ++i) {
-      if (i % polled == 0) execution.check();
-      const Segment s = held[i].segment();
-      const Box box = box_of(s);
-      if (near.meets(box)) walls.push_back(s);
-      if (box.min.x < all.min.x) farthest[0] = s;
-      if (box.min.y < all.min.y) farthest[1] = s;
-      if (box.max.x > all.max.x) farthest[2] = s;
-      if (box.max.y > all.max.y) farthest[3] = s;
-      all.include(box);
-    }
-  });
-  if (!all.empty()) walls.insert(walls.end(), farthest.begin(), farthest.end());
-  Scene local;
-  local.bounds = scene.bounds;
-  local.walls = WallSet::narrowest(walls);
-  return local;
-}
-
 LatticePassages passages_of(const Scene& scene, double reach, const Execution& execution) {
   if (auto passages = passages_of_maze(scene, reach, execution)) return std::move(*passages);
   const std::vector<Segment> bounds = bounds_walls(scene);
@@ -75,9 +43,9 @@ std::unique_ptr<RouteIndex> lattice_index(const Scene& scene, const Question& bo
   }
 }
 
-LatticeQuestion::LatticeQuestion(const KeptWorld& world, const WallProblem& problem, const RouteIndex& index,
+LatticeQuestion::LatticeQuestion(const WallsNearEnds& near, const WallProblem& problem, const RouteIndex& index,
                                  RouteQuery& query, const Execution& execution)
-    : world_(world), problem_(problem), index_(index), query_(query), execution_(execution) {
+    : near_(near), problem_(problem), index_(index), query_(query), execution_(execution) {
   if (!link(0, problem.start)) {
     outcome_ = Outcome::start_blocked;
   } else if (!link(1, problem.goal)) {
@@ -87,23 +55,27 @@ LatticeQuestion::LatticeQuestion(const KeptWorld& world, const WallProblem& prob
   }
 }
 
-std::optional<CellId> LatticeQuestion::cell_at(Vec2 p) const {
-  const LatticeSize size = index_.passages().size();
+std::optional<CellId> lattice_cell(const RouteIndex& index, Vec2 p) {
+  const LatticeSize size = index.passages().size();
   const bool inside = p.x >= 1.0 && p.y >= 1.0 && p.x <= size.cols && p.y <= size.rows;
   if (!inside || std::floor(p.x) != p.x || std::floor(p.y) != p.y) return std::nullopt;
   const auto col = static_cast<std::uint32_t>(p.x) - 1;
   const auto row = static_cast<std::uint32_t>(p.y) - 1;
-  return index_.passages().open_at(col, row) != 0 ? std::optional(row * size.cols + col) : std::nullopt;
+  return index.passages().open_at(col, row) != 0 ? std::optional(row * size.cols + col) : std::nullopt;
 }
 
 /// False where the body does not fit there.
 bool LatticeQuestion::link(std::size_t end, Vec2 p) {
-  if (const auto cell = cell_at(p)) {  // every other link leads over a longer way
+  if (const auto cell = lattice_cell(index_, p)) {  // every other link leads over a longer way
     links_[end].push_back({*cell, 0.0});
     return true;
   }
-  const Scene local = around(world_.whole(execution_), p, problem_.reach(), execution_);
-  const MazeWorld world(local, problem_.reach(), execution_);
+  bool is_free = false;
+  near_.look(p, execution_, [&](const MazeWorld& world) { is_free = link_among(world, end, p); });
+  return is_free;
+}
+
+bool LatticeQuestion::link_among(const MazeWorld& world, std::size_t end, Vec2 p) {
   auto query = world.make_query();
   if (!world.is_free(p, query)) return false;
   const LatticeSize size = index_.passages().size();
@@ -143,10 +115,10 @@ void LatticeQuestion::join() {
   }
   const double straight = distance(problem_.start, problem_.goal);
   if (straight <= 1.0 && straight < best) {
-    const Scene local = around(world_.whole(execution_), problem_.start, problem_.reach(), execution_);
-    const MazeWorld world(local, problem_.reach(), execution_);
-    auto query = world.make_query();
-    direct_ = world.is_free_motion(problem_.start, problem_.goal, query);
+    near_.look(problem_.start, execution_, [&](const MazeWorld& world) {
+      auto query = world.make_query();
+      direct_ = world.is_free_motion(problem_.start, problem_.goal, query);
+    });
     if (direct_) best = straight;
   }
   if (!std::isfinite(best)) return;

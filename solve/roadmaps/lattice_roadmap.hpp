@@ -4,7 +4,7 @@
 //
 // Ends are joined to the lattice as solve() joins them: to the milestones within a step that they reach freely, and
 // where there is none to the nearest of the 256 nearest that they do. An end on a milestone that has an edge needs no
-// look at the walls; others cost a pass over them, and those of a file are made first.
+// look at the walls; others have one (solve/roadmaps/walls_near_ends), and the walls of a file are made first.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@
 #include "planners/route_index/route_query.hpp"
 #include "solve/question/question.hpp"
 #include "solve/question/solve_options.hpp"
-#include "solve/roadmaps/kept_world.hpp"
+#include "solve/roadmaps/walls_near_ends.hpp"
 
 namespace warren {
 
@@ -32,11 +32,14 @@ inline constexpr std::uint64_t fewest_indexed_cells = 65'536;
 std::unique_ptr<RouteIndex> lattice_index(const Scene& scene, const Question& body, const SolveOptions& options,
                                           const Execution& execution);
 
+/// The cell whose milestone stands at p and has an edge.
+std::optional<CellId> lattice_cell(const RouteIndex& index, Vec2 p);
+
 /// The shortest way over the lattice between any two places.
 class LatticeQuestion {
  public:
   /// `query`: of the index. All are referred to. Throws Stopped.
-  LatticeQuestion(const KeptWorld& world, const WallProblem& problem, const RouteIndex& index, RouteQuery& query,
+  LatticeQuestion(const WallsNearEnds& near, const WallProblem& problem, const RouteIndex& index, RouteQuery& query,
                   const Execution& execution);
 
   Outcome outcome() const { return outcome_; }
@@ -51,11 +54,11 @@ class LatticeQuestion {
     CellId cell;
     double length;
   };
-  std::optional<CellId> cell_at(Vec2 p) const;
   bool link(std::size_t end, Vec2 p);
+  bool link_among(const MazeWorld& world, std::size_t end, Vec2 p);
   void join();
 
-  const KeptWorld& world_;
+  const WallsNearEnds& near_;
   const WallProblem& problem_;
   const RouteIndex& index_;
   RouteQuery& query_;

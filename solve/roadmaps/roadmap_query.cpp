@@ -82,9 +82,15 @@ struct RoadmapQuery::Opened {
   std::unique_ptr<RoadmapSession> session;
 };
 
-/// Of a lattice: made when the first path is judged.
-struct RoadmapQuery::Judged {
-  MadeOnce<ObstacleIndex> index;
+/// Of a lattice: what looks at its walls, for ends that are no milestones and for the judge of paths.
+struct RoadmapQuery::Walls {
+  explicit Walls(const Roadmap& roadmap)
+      : near_ends(
+            roadmap.world,
+            wall_problem(roadmap.world.outline(), question_of(roadmap, anywhere(roadmap), anywhere(roadmap))).reach()) {
+  }
+  WallsNearEnds near_ends;
+  MadeOnce<ObstacleIndex> judged;
 };
 
 RoadmapQuery::RoadmapQuery(const Roadmap& roadmap, const Limits& limits)
@@ -94,7 +100,7 @@ RoadmapQuery::RoadmapQuery(const Roadmap& roadmap, const Execution& execution, Q
     : roadmap_(roadmap),
       questions_(questions),
       opened_(roadmap.lattice != nullptr ? nullptr : std::make_unique<Opened>(roadmap, execution, questions)),
-      judged_(std::make_unique<Judged>()) {}
+      walls_(roadmap.lattice != nullptr ? std::make_unique<Walls>(roadmap) : nullptr) {}
 
 RoadmapQuery::~RoadmapQuery() = default;
 
@@ -151,11 +157,16 @@ Answer RoadmapQuery::ask_within(const std::vector<double>& start, const std::vec
 const ObstacleIndex* RoadmapQuery::judge_of_lattice(const Execution& execution) const {
   const Scene& scene = roadmap_.world.whole(execution);
   if (questions_ == Questions::one || scene.walls.size() > most_indexed_walls) return nullptr;
-  return &judged_->index.get(execution, [&] { return std::make_unique<ObstacleIndex>(scene, execution); });
+  return &walls_->judged.get(execution, [&] { return std::make_unique<ObstacleIndex>(scene, execution); });
 }
 
 void RoadmapQuery::prepare_paths(const Execution& execution) const {
   if (roadmap_.lattice != nullptr) judge_of_lattice(execution);
+}
+
+void RoadmapQuery::expect(const std::vector<double>& place, const Execution& execution) const {
+  if (roadmap_.lattice == nullptr || place.size() != 2) return;
+  if (!lattice_cell(*roadmap_.lattice, {place[0], place[1]})) walls_->near_ends.expect(execution);
 }
 
 Answer RoadmapQuery::ask_lattice(const Question& question, const RoadmapSearchFields& how, const Execution& execution,
@@ -172,7 +183,7 @@ Answer RoadmapQuery::ask_lattice(const Question& question, const RoadmapSearchFi
     answer_within_limits(answer, [&] {
       {
         const StageTimer timer(execution, "search", answer.seconds.search);
-        const LatticeQuestion asked(roadmap_.world, problem, *roadmap_.lattice, *scratch.route, execution);
+        const LatticeQuestion asked(walls_->near_ends, problem, *roadmap_.lattice, *scratch.route, execution);
         answer.outcome = asked.outcome();
         answer.roadmap.milestones = count_states(roadmap_) + 2;
         if (answer.outcome == Outcome::solved) answer.path = asked.path();
@@ -204,7 +215,7 @@ LengthAnswer RoadmapQuery::length_within(const std::vector<double>& start, const
   question.validate();
   if (!scratch.route) scratch.route.emplace(*roadmap_.lattice);
   const WallProblem problem = wall_problem(roadmap_.world.outline(), question);
-  const LatticeQuestion asked(roadmap_.world, problem, *roadmap_.lattice, *scratch.route, execution);
+  const LatticeQuestion asked(walls_->near_ends, problem, *roadmap_.lattice, *scratch.route, execution);
   return {asked.outcome(), asked.length()};
 }
 

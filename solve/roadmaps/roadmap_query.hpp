@@ -64,13 +64,16 @@ class RoadmapQuery {
   /// The same under an execution, with a scratch that the thread keeps from one question to the next.
   Answer ask_within(const std::vector<double>& start, const std::vector<double>& goal, const RoadmapSearchFields& how,
                     const Execution& execution, QuestionScratch& scratch, ByProducts* keep = nullptr) const;
-  /// Makes what the judge of many paths needs, on all threads; else the first path's thread does it alone. Throws
-  /// InputError, Stopped.
-  void prepare_paths(const Execution& execution) const;
   /// The same without the path where an index tells the length alone. Throws UsageError, Stopped.
   LengthAnswer length_within(const std::vector<double>& start, const std::vector<double>& goal,
                              const RoadmapSearchFields& how, const Execution& execution,
                              QuestionScratch& scratch) const;
+  /// Makes what the judge of many paths needs, on all threads; else the first path's thread does it alone. Throws
+  /// InputError, Stopped.
+  void prepare_paths(const Execution& execution) const;
+  /// A question from or to there will follow: what many such ends need is then made on all threads; else the thread of
+  /// a question does it alone. Throws InputError, Stopped.
+  void expect(const std::vector<double>& place, const Execution& execution) const;
   /// That it refers to.
   const Roadmap& roadmap() const { return roadmap_; }
   /// Length of the motion between two of the roadmap's states, in the world's metric.
@@ -80,7 +83,7 @@ class RoadmapQuery {
 
  private:
   struct Opened;
-  struct Judged;
+  struct Walls;
   Answer ask_lattice(const Question& question, const RoadmapSearchFields& how, const Execution& execution,
                      QuestionScratch& scratch) const;
   /// nullptr where a pass over all obstacles does.
@@ -88,7 +91,7 @@ class RoadmapQuery {
   const Roadmap& roadmap_;
   const Questions questions_;
   std::unique_ptr<Opened> opened_;  // nullptr for a lattice
-  std::unique_ptr<Judged> judged_;
+  std::unique_ptr<Walls> walls_;    // nullptr but for a lattice
 };
 
 /// Takes over what the questions to a roadmap have learnt of its edges. Throws Stopped.

@@ -39,6 +39,20 @@ TEST(MadeOnce, WhatFailedIsMadeByTheNextOneWhoAsks) {
   EXPECT_EQ(value.get({}, fail), 3);
 }
 
+TEST(MadeOnce, WhatOnlyManyAreWorthIsMadeAfterSoManyCalls) {
+  const MadeOnce<int> value;
+  int made = 0;
+  const auto make = [&] { return std::make_unique<int>(++made); };
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(value.get_after(3, {}, make), nullptr);
+  EXPECT_EQ(made, 0);
+  ASSERT_NE(value.get_after(3, {}, make), nullptr);
+  EXPECT_EQ(*value.get_after(3, {}, make), 1);
+  const MadeOnce<int> known;
+  known.get({}, make);
+  ASSERT_NE(known.get_after(3, {}, make), nullptr);
+  EXPECT_EQ(*known.get_after(3, {}, make), 2);
+}
+
 TEST(MadeOnce, WhoWaitsIsStoppedByItsOwnDeadline) {
   const MadeOnce<int> value;
   const SignalFlag signal = SIGINT;

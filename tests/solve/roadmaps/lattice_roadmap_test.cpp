@@ -56,6 +56,33 @@ TEST(LatticeRoadmap, AnswersAsSolveDoesWhereverTheEndsAre) {
   }
 }
 
+TEST(LatticeRoadmap, ManyEndsBesideTheLatticeAreAskedOfAnIndexAndAnswerTheSame) {
+  std::mt19937 random(7);
+  const auto place = [&] { return 0.4 + 0.001 * static_cast<double>(random() % 256'400); };
+  Question wide;
+  wide.clearance = 0.2;
+  for (const Question& body : {Question{}, wide}) {
+    const Roadmap roadmap = indexed("maze:256x256,loops=0.05", body);
+    const RoadmapQuery many(roadmap);
+    for (int i = 0; i < 40; ++i) many.expect({1.5, 1.25}, {});
+    int solved = 0;
+    for (int i = 0; i < 60; ++i) {
+      const std::vector<double> start = {place(), place()};
+      const std::vector<double> goal =
+          i % 5 == 0 ? std::vector{start[0] + 0.3, start[1]} : std::vector{place(), place()};
+      QuestionScratch by_index;
+      QuestionScratch by_passes;
+      const LengthAnswer length = many.length_within(start, goal, {}, {}, by_index);
+      const LengthAnswer expected = RoadmapQuery(roadmap).length_within(start, goal, {}, {}, by_passes);
+      EXPECT_EQ(length.outcome, expected.outcome) << i;
+      EXPECT_EQ(length.length, expected.length) << i;
+      solved += length.outcome == Outcome::solved ? 1 : 0;
+    }
+    EXPECT_GT(solved, 10);
+    EXPECT_LT(solved, 60);
+  }
+}
+
 TEST(LatticeRoadmap, BlockedAndUnreachableEndsAreTold) {
   Scene scene = read_world("maze:256x256,seed=2");
   std::vector<Segment> walls;
