@@ -83,6 +83,20 @@ PathPiece PathExpansion::piece_from(std::size_t first, std::size_t most_points, 
   return {{first, last}, {tiles.begin(), tiles.end()}};
 }
 
+std::vector<PathChain> PathExpansion::chains_of(Range legs) const {
+  std::vector<PathChain> chains;
+  for (std::size_t leg = legs.first; leg < legs.last; ++leg) {
+    if (leg % grain == 0) execution_.check();
+    const auto steps = static_cast<std::uint32_t>(first_[leg + 1] - first_[leg]);
+    if (steps == 1) continue;
+    const std::size_t tile = overlay_.tile_of(path_[leg]);
+    const auto [low, high] =
+        std::minmax(path_[leg] - overlay_.first_key(tile), path_[leg + 1] - overlay_.first_key(tile));
+    chains.push_back({tile, static_cast<std::uint16_t>(low), static_cast<std::uint16_t>(high), steps});
+  }
+  return chains;
+}
+
 void PathExpansion::write(Range legs, std::span<const TileSummary> tiles, Vec2* out) const {
   *out = place_of(path_[legs.first], tiles);
   for_chunks(legs.size(), grain, execution_, [&](Range r) {

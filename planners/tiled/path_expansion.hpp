@@ -20,6 +20,13 @@ struct PathPiece {
   std::vector<std::size_t> tiles;  ///< those that it passes, ascending
 };
 
+/// A chain that a path takes: key numbers of its tile, the lower first.
+struct PathChain {
+  std::size_t tile;
+  std::uint16_t from, to;
+  std::uint32_t length;
+};
+
 /// Refers to all that it is made of.
 class PathExpansion {
  public:
@@ -33,6 +40,8 @@ class PathExpansion {
   std::size_t point_count(Range legs) const { return first_[legs.last] - first_[legs.first] + 1; }
   /// As many legs from `first` on as have so many points and pass so many tiles, at least one.
   PathPiece piece_from(std::size_t first, std::size_t most_points, std::size_t most_tiles) const;
+  /// Those of more than one step among these legs, in their order.
+  std::vector<PathChain> chains_of(Range legs) const;
   /// Writes the points of a piece, its first leg's beginning among them; `tiles` has the summaries by number. In
   /// parallel. Throws Stopped.
   void write(Range legs, std::span<const TileSummary> tiles, Vec2* out) const;

@@ -10,10 +10,12 @@
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
 #include "planners/roadmap/stopped_solution.hpp"
+#include "planners/tiled/lattice_tiles.hpp"
 #include "planners/tiled/overlay_components.hpp"
 #include "planners/tiled/overlay_dijkstra.hpp"
 #include "planners/tiled/path_expansion.hpp"
 #include "planners/tiled/path_keeper.hpp"
+#include "planners/tiled/tile_borders.hpp"
 #include "planners/tiled/tile_overlay.hpp"
 #include "planners/tiled/tiled_separation.hpp"
 #include "planners/tiles/lattice_end_links.hpp"
@@ -54,11 +56,10 @@ class TiledPlan {
  private:
   void partition();
   bool join_ends();
-  template <class Numbers>
-  void reduce(std::size_t count, const Numbers& tile_at, bool with_steps);
+  LatticeTiles tiles_made() const;
   void reduce_tiles();
-  void keep_linked(TilePlane& plane) const;
-  void make_plane(std::size_t tile, TileReader& reader, WallMarker& marker, TilePlane& plane) const;
+  void expand(const PathExpansion& path, const PathPiece& piece);
+  void forget(TileSummary& tile) const;
   void give_pieces(const PathExpansion& path, PathTaker& taker);
   void build_overlay();
   bool joined();
@@ -108,50 +109,21 @@ bool TiledPlan::join_ends() {
   return ends_.start.free && ends_.goal.free;
 }
 
-void TiledPlan::keep_linked(TilePlane& plane) const {
-  for (const EndLinks* end : {&ends_.start, &ends_.goal}) {
-    for (const EndLink& link : end->links) {
-      if (grid_.tile_at(link.col, link.row) != plane.tile()) continue;
-      *plane.at(static_cast<int>(link.col - grid_.first_col(plane.tile())),
-                static_cast<int>(link.row - grid_.first_row(plane.tile()))) |= plane_bit::kept;
-    }
-  }
-}
-
-/// The tile's roadmap before its reduction.
-void TiledPlan::make_plane(std::size_t tile, TileReader& reader, WallMarker& marker, TilePlane& plane) const {
-  plane.reset(tile, box_);
-  marker.mark(reader.read(tile), plane);
-}
-
-/// Fills in the summaries of tile_at(0) .. tile_at(count - 1).
-template <class Numbers>
-void TiledPlan::reduce(std::size_t count, const Numbers& tile_at, bool with_steps) {
+LatticeTiles TiledPlan::tiles_made() const {
   const std::size_t grain = problem_.cells != nullptr ? 8 : 1;  // a reader's scratch is large
-  if (tiles_.empty()) execution_.reserve(grid_.count() * sizeof(TileSummary));
-  tiles_.resize(grid_.count());
-  for_chunks(count, grain, execution_, [&](Range r) {
-    const std::unique_ptr<TileReader> reader = source_->reader();
-    WallMarker marker(clearance_);
-    TilePlane plane(grid_, marker.margin());
-    TileReduction reduction(plane);
-    std::size_t bytes = std::size_t{grid_.side()} * grid_.side() / 4;  // the next tile will take about as many
-    for (std::size_t i = r.first; i < r.last; ++i) {
-      const std::size_t tile = tile_at(i);
-      execution_.reserve(bytes);
-      make_plane(tile, *reader, marker, plane);
-      keep_linked(plane);
-      tiles_[tile] = reduction.reduce(plane);
-      bytes = tiles_[tile].bytes();
-      if (!with_steps) tiles_[tile].steps = {};
-    }
-  });
+  return {grid_, *source_, box_, clearance_, ends_, grain};
 }
 
 void TiledPlan::reduce_tiles() {
   const StageTimer timer(execution_, "connect", solution_.seconds.connect, grid_.count());
-  reduce(
-      grid_.count(), [](std::size_t i) { return i; }, !problem_.forget);
+  execution_.reserve(grid_.count() * sizeof(TileSummary));
+  if (problem_.others != nullptr) {
+    tiles_ = problem_.others->reduce_all(ends_, execution_);
+  } else {
+    tiles_.resize(grid_.count());
+    tiles_made().reduce({0, grid_.count()}, !problem_.forget, tiles_, problem_.kept, execution_);
+  }
+  if (problem_.others != nullptr || problem_.kept != nullptr) check_borders(grid_, tiles_, execution_);
   if (!problem_.forget) source_.reset();
   for (const TileSummary& tile : tiles_) {
     solution_.roadmap.milestones += tile.milestones;
@@ -175,7 +147,10 @@ void TiledPlan::build_overlay() {
   {
     const StageTimer timer(execution_, "graph", solution_.seconds.graph, grid_.count());
     overlay_.emplace(grid_, tiles_, ends_, execution_);
-    if (problem_.forget) tiles_ = {};
+    if (problem_.forget && problem_.others == nullptr) tiles_ = {};
+    for (TileSummary& tile : tiles_) {
+      if (problem_.forget) forget(tile);
+    }
   }
   const StageTimer timer(execution_, "reduce", solution_.seconds.reduce, grid_.count());
   solution_.roadmap.components += overlay_->peel(execution_);
@@ -194,16 +169,49 @@ void TiledPlan::measure_gap() {
   if (source_ == nullptr) partition();
   const auto remake = [&](std::size_t tile, TilePlane& plane) {
     WallMarker marker(clearance_);
-    make_plane(tile, *source_->reader(), marker, plane);
+    tiles_made().make_plane(tile, *source_->reader(), marker, plane);
   };
   const auto keys = [&](std::size_t tile, TilePlane& plane) {
     if (!tiles_.empty()) return tiles_[tile].keys;
     remake(tile, plane);
-    keep_linked(plane);
+    tiles_made().keep_linked(plane);
     return TileReduction(plane).reduce(plane).keys;
   };
   const int margin = WallMarker(clearance_).margin();
   solution_.separation = tile_separation(*overlay_, grid_, ends_, {margin, keys, remake}, execution_);
+}
+
+/// Makes the tiles of a piece again. Where others make them the keys are here, and those hand the chains' steps back.
+void TiledPlan::expand(const PathExpansion& path, const PathPiece& piece) {
+  if (problem_.others == nullptr) {
+    if (tiles_.empty()) execution_.reserve(grid_.count() * sizeof(TileSummary));
+    tiles_.resize(grid_.count());
+    return tiles_made().reduce(piece.tiles, tiles_, execution_);
+  }
+  const std::vector<PathChain> chains = path.chains_of(piece.legs);
+  std::vector<TileChain> asked;
+  for (const PathChain& chain : chains) {
+    const auto& keys = tiles_[chain.tile].keys;
+    asked.push_back({chain.tile, keys[chain.from], keys[chain.to], chain.length});
+  }
+  const std::vector<std::vector<std::uint8_t>> steps = problem_.others->steps_of(asked, execution_);
+  for (std::size_t i = 0; i < chains.size(); ++i) {
+    TileSummary& tile = tiles_[chains[i].tile];
+    tile.chains.push_back(
+        {chains[i].from, chains[i].to, static_cast<std::uint32_t>(tile.steps.size()), chains[i].length});
+    tile.steps.insert(tile.steps.end(), steps[i].begin(), steps[i].end());
+  }
+  for (const std::size_t t : piece.tiles) {
+    std::stable_sort(tiles_[t].chains.begin(), tiles_[t].chains.end(),
+                     [](const Chain& a, const Chain& b) { return a.from < b.from; });
+  }
+}
+
+void TiledPlan::forget(TileSummary& tile) const {
+  if (problem_.others == nullptr) tile.keys = {};
+  tile.chains = {};
+  tile.steps = {};
+  tile.crossings = {};
 }
 
 /// The keys of a path say which tiles it passes: what the search needs no more of the others stays forgotten.
@@ -214,13 +222,12 @@ void TiledPlan::give_pieces(const PathExpansion& path, PathTaker& taker) {
     const PathPiece piece = path.piece_from(leg, most_points, most_tiles);
     {
       const StageTimer timer(execution_, "search", solution_.seconds.search, piece.tiles.size());
-      reduce(
-          piece.tiles.size(), [&](std::size_t i) { return piece.tiles[i]; }, true);
+      expand(path, piece);
       const std::size_t count = path.point_count(piece.legs);
       if (count > points.capacity()) execution_.reserve(count * sizeof(Vec2));
       points.resize(count);
       path.write(piece.legs, tiles_, points.data());
-      for (const std::size_t tile : piece.tiles) tiles_[tile] = {};
+      for (const std::size_t tile : piece.tiles) forget(tiles_[tile]);
     }
     taker.add(points);
     leg = piece.legs.last;

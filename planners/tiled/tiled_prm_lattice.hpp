@@ -22,6 +22,7 @@
 #include <optional>
 #include <span>
 
+#include "core/base/kept_parts.hpp"
 #include "core/base/path_taker.hpp"
 #include "core/base/solution.hpp"
 #include "core/base/types.hpp"
@@ -29,6 +30,7 @@
 #include "core/plane/wall_set.hpp"
 #include "parallel/execution.hpp"
 #include "planners/roadmap/roadmap_options.hpp"
+#include "planners/tiled/other_tiles.hpp"
 
 namespace warren {
 
@@ -43,6 +45,8 @@ struct TiledProblem {
   const CellWallSource* cells = nullptr;  ///< walls that are made when they are asked for, instead of the set
   bool forget = false;                    ///< keep of the tiles the overlay alone, and make those of the path again
   PathTaker* taker = nullptr;             ///< where tiles are forgotten: receives the path instead of Solution::path
+  KeptParts* kept = nullptr;              ///< where tiles are forgotten: has reduced tiles of an earlier run
+  OtherTiles* others = nullptr;           ///< where tiles are forgotten: makes them instead of this process
 };
 
 /// Can tiled_prm give the plain pipeline's answer under these options? The lattice with its own rule of joining (radius

@@ -6,12 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <limits>
 #include <utility>
 
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
-#include "scenes/mazes/disjoint_regions.hpp"
 
 namespace warren {
 namespace {
@@ -22,131 +20,19 @@ using maze::edge_number;
 using maze::edge_row;
 using maze::EdgeWeights;
 using maze::GridPiece;
-using maze::RimEdge;
+using maze::JoinedParts;
+using maze::RimPart;
 
 constexpr std::uint32_t group_side = 8;  // pieces that are joined at once, along a side
-constexpr std::uint32_t not_on_rim = std::numeric_limits<std::uint32_t>::max();
 
 std::uint32_t local_place(std::uint32_t col, std::uint32_t row, unsigned direction) {
   return (row << 8U | col) << 1U | direction;
 }
 
-/// A rectangle of tiles whose inner edges are decided but for those that its rim stands for.
-struct Part {
-  GridPiece at{};
-  std::vector<RimEdge> edges;
-};
-
 /// A rectangle of parts, in rows.
 struct Parts {
   std::size_t cols = 0;
-  std::vector<Part> list;
-};
-
-/// Joins a rectangle of parts to one. decide(edge, is_in) is told of each edge that is decided by it.
-template <class Decide>
-class Joining {
- public:
-  Joining(const EdgeWeights& weights, std::span<Part> parts, std::size_t cols, const Decide& decide)
-      : weights_(weights), parts_(parts), cols_(cols), decide_(decide) {}
-
-  Part run(const Execution& execution) {
-    Part whole{frame(), {}};
-    number_vertices(whole.at);
-    take_edges();
-    std::sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) { return a.weight < b.weight; });
-    execution.check();
-    maze::Regions<std::uint32_t> regions(first_.back(), {1, execution.deadline});
-    for (std::size_t i = 0; i < edges_.size(); ++i) {
-      if (i % 65536 == 0) execution.check();
-      join(edges_[i], regions, whole.edges);
-    }
-    return whole;
-  }
-
- private:
-  struct Edge {
-    std::uint64_t weight;
-    RimEdge between;  // vertices
-  };
-
-  GridPiece frame() const {
-    const GridPiece& low = parts_.front().at;
-    const GridPiece& high = parts_.back().at;
-    return {low.first_col, low.first_row, high.first_col + high.width - low.first_col,
-            high.first_row + high.height - low.first_row, (low.more & 12U) | (high.more & 3U)};
-  }
-
-  /// A vertex is a cell on a side of a part; on_rim_ says which of the whole's it is.
-  void number_vertices(const GridPiece& whole) {
-    first_.assign(1, 0);
-    for (const Part& part : parts_) first_.push_back(first_.back() + 2 * (part.at.width + part.at.height));
-    on_rim_.assign(first_.back(), not_on_rim);
-    for (std::size_t p = 0; p < parts_.size(); ++p) {
-      const GridPiece& at = parts_[p].at;
-      const auto number = [&](std::uint32_t col, std::uint32_t row) {
-        const std::uint32_t whole_col = at.first_col - whole.first_col + col;
-        const std::uint32_t whole_row = at.first_row - whole.first_row + row;
-        if (!whole.on_rim(whole_col, whole_row)) return;
-        on_rim_[first_[p] + at.side_number(col, row)] = whole.side_number(whole_col, whole_row);
-      };
-      for (std::uint32_t row = 0; row < at.height; ++row) {
-        number(0, row);
-        number(at.width - 1, row);
-      }
-      for (std::uint32_t col = 0; col < at.width; ++col) {
-        number(col, 0);
-        number(col, at.height - 1);
-      }
-    }
-  }
-
-  void add(std::uint32_t a, std::uint32_t b, std::uint64_t edge) { edges_.push_back({weights_(edge), {a, b, edge}}); }
-
-  void take_edges() {
-    for (std::size_t p = 0; p < parts_.size(); ++p) {
-      Part& part = parts_[p];
-      const GridPiece& at = part.at;
-      for (const RimEdge& e : part.edges) add(first_[p] + e.a, first_[p] + e.b, e.edge);
-      part.edges = {};
-      if ((p + 1) % cols_ != 0) {
-        const GridPiece& other = parts_[p + 1].at;
-        for (std::uint32_t row = 0; row < at.height; ++row) {
-          add(first_[p] + at.side_number(at.width - 1, row), first_[p + 1] + other.side_number(0, row),
-              edge_number(at.first_col + at.width - 1, at.first_row + row, 0));
-        }
-      }
-      if (p + cols_ < parts_.size()) {
-        const GridPiece& other = parts_[p + cols_].at;
-        for (std::uint32_t col = 0; col < at.width; ++col) {
-          add(first_[p] + at.side_number(col, at.height - 1), first_[p + cols_] + other.side_number(col, 0),
-              edge_number(at.first_col + col, at.first_row + at.height - 1, 1));
-        }
-      }
-    }
-  }
-
-  void join(const Edge& edge, maze::Regions<std::uint32_t>& regions, std::vector<RimEdge>& undecided) {
-    const std::uint32_t a = regions.root(edge.between.a);
-    const std::uint32_t b = regions.root(edge.between.b);
-    if (!regions.join(a, b)) return decide_(edge.between.edge, false);
-    const std::uint32_t kept = std::min(a, b);
-    const std::uint32_t gone = std::max(a, b);
-    if (on_rim_[kept] != not_on_rim && on_rim_[gone] != not_on_rim) {
-      undecided.push_back({on_rim_[kept], on_rim_[gone], edge.between.edge});
-      return;
-    }
-    on_rim_[kept] = std::min(on_rim_[kept], on_rim_[gone]);
-    decide_(edge.between.edge, true);
-  }
-
-  const EdgeWeights& weights_;
-  std::span<Part> parts_;
-  std::size_t cols_;
-  const Decide& decide_;
-  std::vector<std::uint32_t> first_;
-  std::vector<std::uint32_t> on_rim_;  // of a region's root: the side number of one of its cells, or none
-  std::vector<Edge> edges_;
+  std::vector<RimPart> list;
 };
 
 /// The rectangle of parts that group g of 8 x 8 is made of.
@@ -158,6 +44,7 @@ struct Group {
     const std::size_t row = g / across * group_side;
     return {col, row, std::min<std::size_t>(group_side, cols - col), std::min<std::size_t>(group_side, rows - row)};
   }
+  std::size_t size() const { return cols * rows; }
   static std::size_t count(std::size_t cols, std::size_t rows) {
     return ((cols - 1) / group_side + 1) * ((rows - 1) / group_side + 1);
   }
@@ -176,74 +63,94 @@ void check_spanning_maze(std::uint32_t rows, std::uint32_t cols, double loops) {
   }
 }
 
-/// Goes through the levels and notes what is turned.
+/// Goes through the levels of some rows of tiles and notes what is turned.
 class SpanningMaze::Builder {
  public:
-  Builder(SpanningMaze& maze, const Execution& execution) : maze_(maze), execution_(execution), weights_(maze.seed_) {}
+  Builder(SpanningMaze& maze, TileRows rows, KeptParts* kept, const Execution& execution)
+      : maze_(maze), first_tile_(rows.first * maze.tile_cols()), kept_(kept), execution_(execution) {}
 
-  void run() {
+  RimPart run(std::size_t rows) {
     const std::size_t cols = maze_.tile_cols();
-    const std::size_t tiles = maze_.tile_count();
     const std::uint64_t side = std::uint64_t{1} << maze_.side_log2();
-    execution_.reserve(tiles * (side * side / 12 + side * 16 + 128));  // choices, turned edges, what levels hand on
-    maze_.turned_.resize(tiles);
-    maze_.choices_.resize(tiles);
-    Parts parts = join_all(cols, tiles / cols, [&](const Group& group) {
-      std::vector<Part> made;
-      maze::SpanningTile scratch(maze_.seed_);
-      for (std::size_t row = 0; row < group.rows; ++row) {
-        for (std::size_t col = 0; col < group.cols; ++col) {
-          const std::size_t tile = (group.first_row + row) * cols + group.first_col + col;
-          const GridPiece at = maze_.piece(tile);
-          execution_.check();
-          scratch.make(at);
-          scratch.choices(maze_.choices_[tile]);
-          made.push_back({at, {scratch.rim_edges().begin(), scratch.rim_edges().end()}});
-        }
-      }
-      return made;
-    });
+    // choices, turned edges, what levels hand on
+    execution_.reserve(cols * rows * (side * side / 12 + side * 16 + 128) + 48 * maze_.tile_count());
+    maze_.turned_.resize(maze_.tile_count());
+    maze_.choices_.resize(maze_.tile_count());
+    Parts parts = join_all(cols, rows, [&](const Group& group, std::size_t number) { return tiles(group, number); });
     while (parts.list.size() > 1) {
       const std::size_t width = parts.cols;
-      parts = join_all(width, parts.list.size() / width, [&](const Group& group) {
-        std::vector<Part> taken;
+      parts = join_all(width, parts.list.size() / width, [&](const Group& group, std::size_t) {
+        std::vector<RimPart> taken;
         for (std::size_t row = 0; row < group.rows; ++row) {
           const auto first =
               parts.list.begin() + static_cast<std::ptrdiff_t>((group.first_row + row) * width + group.first_col);
           std::move(first, first + static_cast<std::ptrdiff_t>(group.cols), std::back_inserter(taken));
         }
-        return taken;
+        return join_parts(maze_.seed_, taken, group.cols, maze_.side_log2(), execution_);
       });
     }
+    return std::move(parts.list.front());
   }
 
  private:
-  /// One level: make(group) gives a group's parts.
-  template <class Make>
-  Parts join_all(std::size_t cols, std::size_t rows, const Make& make) {
-    Parts joined{(cols - 1) / group_side + 1, std::vector<Part>(Group::count(cols, rows))};
-    const auto decide = [&](std::uint64_t edge, bool is_in) { note(edge, is_in); };
+  /// One level: join(group, number) makes one part of a group. A group decides edges of its own tiles alone, so no two
+  /// threads meet.
+  template <class Join>
+  Parts join_all(std::size_t cols, std::size_t rows, const Join& join) {
+    Parts joined{(cols - 1) / group_side + 1, std::vector<RimPart>(Group::count(cols, rows))};
     for_chunks(joined.list.size(), 1, execution_, [&](Range r) {
-      const Group group = Group::of(r.first, cols, rows);
-      std::vector<Part> parts = make(group);
-      joined.list[r.first] = Joining(weights_, std::span<Part>(parts), group.cols, decide).run(execution_);
+      JoinedParts group = join(Group::of(r.first, cols, rows), r.first);
+      maze_.turn(group.turned);
+      joined.list[r.first] = std::move(group.whole);
     });
     return joined;
   }
 
-  /// A group decides edges of its own tiles alone, so no two threads meet.
-  void note(std::uint64_t edge, bool is_in) {
-    const std::uint32_t last = (1U << maze_.side_log2()) - 1;
-    const std::uint32_t col = edge_col(edge) & last;
-    const std::uint32_t row = edge_row(edge) & last;
-    const bool leaves = (edge_direction(edge) == 0 ? col : row) == last;
-    if (leaves != is_in) return;
-    maze_.turned_[maze_.tile_of(edge_col(edge), edge_row(edge))].push_back(local_place(col, row, edge_direction(edge)));
+  std::size_t tile_of(const Group& group, std::size_t i) const {
+    return first_tile_ + (group.first_row + i / group.cols) * maze_.tile_cols() + group.first_col + i % group.cols;
+  }
+
+  /// The first level is nearly all of the work, and what is kept.
+  JoinedParts tiles(const Group& group, std::size_t number) {
+    if (kept_ == nullptr) return make_tiles(group);
+    if (const auto bytes = kept_->find(PartKind::maze_group, number)) return unpack(group, *bytes);
+    JoinedParts made = make_tiles(group);
+    ValuePacker packer;
+    made.whole.pack(packer);
+    packer.add_list(made.turned);
+    for (std::size_t i = 0; i < group.size(); ++i) packer.add_list(maze_.choices_[tile_of(group, i)]);
+    kept_->keep(PartKind::maze_group, number, packer.bytes());
+    return made;
+  }
+
+  JoinedParts make_tiles(const Group& group) {
+    std::vector<RimPart> made;
+    maze::SpanningTile scratch(maze_.seed_);
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      const GridPiece at = maze_.piece(tile_of(group, i));
+      execution_.check();
+      scratch.make(at);
+      scratch.choices(maze_.choices_[tile_of(group, i)]);
+      made.push_back({at, {scratch.rim_edges().begin(), scratch.rim_edges().end()}});
+    }
+    return join_parts(maze_.seed_, made, group.cols, maze_.side_log2(), execution_);
+  }
+
+  JoinedParts unpack(const Group& group, std::span<const std::byte> bytes) {
+    ValueUnpacker from(bytes, "a kept part of the maze");
+    JoinedParts kept;
+    kept.whole = RimPart::unpack(from);
+    kept.turned = from.take_list<std::uint64_t>();
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      maze_.choices_[tile_of(group, i)] = from.take_list<std::uint64_t>();
+    }
+    return kept;
   }
 
   SpanningMaze& maze_;
+  const std::size_t first_tile_;
+  KeptParts* const kept_;
   const Execution& execution_;
-  const EdgeWeights weights_;
 };
 
 class SpanningMaze::Reader : public CellWallReader {
@@ -314,10 +221,28 @@ class SpanningMaze::Reader : public CellWallReader {
 };
 
 SpanningMaze::SpanningMaze(std::uint32_t rows, std::uint32_t cols, std::uint64_t seed, double loops,
-                           const Execution& execution, unsigned side_log2)
+                           const Execution& execution, unsigned side_log2, KeptParts* kept)
     : CellWallSource(rows, cols, side_log2), seed_(seed), loops_(loops) {
   check_spanning_maze(rows, cols, loops);
-  Builder(*this, execution).run();
+  const std::size_t tile_rows = tile_count() / tile_cols();
+  Builder(*this, {0, tile_rows}, kept, execution).run(tile_rows);
+}
+
+SpanningMaze::SpanningMaze(std::uint32_t rows, std::uint32_t cols, std::uint64_t seed, double loops, TileRows own,
+                           RimPart& rim, const Execution& execution, unsigned side_log2)
+    : CellWallSource(rows, cols, side_log2), seed_(seed), loops_(loops) {
+  check_spanning_maze(rows, cols, loops);
+  rim = Builder(*this, own, nullptr, execution).run(own.last - own.first);
+}
+
+void SpanningMaze::turn(std::span<const std::uint64_t> edges) {
+  const std::uint32_t last = (1U << side_log2()) - 1;
+  for (const std::uint64_t edge : edges) {
+    const std::uint32_t col = edge_col(edge);
+    const std::uint32_t row = edge_row(edge);
+    if (col >= cols() || row >= rows()) throw InputError("maze", "an edge lies beyond it");
+    turned_[tile_of(col, row)].push_back(local_place(col & last, row & last, edge_direction(edge)));
+  }
 }
 
 std::unique_ptr<CellWallReader> SpanningMaze::reader() const { return std::make_unique<Reader>(*this); }

@@ -14,9 +14,11 @@
 #include <span>
 #include <vector>
 
+#include "core/base/kept_parts.hpp"
 #include "core/plane/cell_walls.hpp"
 #include "parallel/execution.hpp"
 #include "scenes/mazes/grid_edges.hpp"
+#include "scenes/mazes/joined_parts.hpp"
 #include "scenes/mazes/spanning_tile.hpp"
 
 namespace warren {
@@ -24,15 +26,27 @@ namespace warren {
 /// Throws InputError for sizes and loops that SpanningMaze does not take.
 void check_spanning_maze(std::uint32_t rows, std::uint32_t cols, double loops);
 
+/// Rows of tiles first .. last - 1.
+struct TileRows {
+  std::size_t first, last;
+};
+
 class SpanningMaze : public CellWallSource {
  public:
   /// Of rows and columns: the sides of the 64 parts that are joined last have fewer than 2^32 cells.
   static constexpr std::uint32_t most_side = (1U << 27U) - 1;
 
   /// loops: the probability, 0 to 1, that a wall between two cells which the tree leaves is taken out. Throws
-  /// InputError for sizes and loops out of range, Stopped at the deadline or before memory would pass its limit.
+  /// InputError for sizes and loops out of range, Stopped at the deadline or before memory would pass its limit. kept:
+  /// takes the trees of finished groups, and has those of an earlier run.
   SpanningMaze(std::uint32_t rows, std::uint32_t cols, std::uint64_t seed, double loops, const Execution& execution,
-               unsigned side_log2 = 8);
+               unsigned side_log2 = 8, KeptParts* kept = nullptr);
+  /// Some rows of tiles alone, at least one, whose tiles can be read when turn() was told what the rest of the maze
+  /// makes of them. rim: receives what they say to it.
+  SpanningMaze(std::uint32_t rows, std::uint32_t cols, std::uint64_t seed, double loops, TileRows own,
+               maze::RimPart& rim, const Execution& execution, unsigned side_log2 = 8);
+  /// Edges in which the whole differs from the tiles' trees (maze::JoinedParts), of the own tiles and those below.
+  void turn(std::span<const std::uint64_t> edges);
   std::unique_ptr<CellWallReader> reader() const override;
 
  private:

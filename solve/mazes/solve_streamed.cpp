@@ -4,6 +4,8 @@
 // it.
 #include "solve/mazes/solve_streamed.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -70,8 +72,8 @@ class JudgedPath : public PathTaker {
 class StreamedSolve {
  public:
   StreamedSolve(const Scene& scene, const WallProblem& problem, const PlannerOptions& options,
-                const Execution& execution, PathTaker* taker)
-      : scene_(scene), problem_(problem), options_(options), execution_(execution), taker_(taker) {
+                const Execution& execution, const StreamedHelp& help)
+      : scene_(scene), problem_(problem), options_(options), execution_(execution), help_(help) {
     if (options.optimise) throw UsageError("@optimise: pulls no path taut among walls that are not held");
     if (!(problem.reach() < most_cell_clearance * (1 - 1e-8))) {
       throw UsageError(
@@ -95,24 +97,40 @@ class StreamedSolve {
     const std::uint64_t groups = (std::uint64_t{scene_.maze->rows} * scene_.maze->cols >> 22U) + 1;
     double& seconds = scene_.packed ? answer_.seconds.index : answer_.seconds.generate;
     const StageTimer timer(execution_, scene_.packed ? "index" : "generate", seconds, groups);
-    walls_ = streamed_walls(scene_, execution_);
+    const std::string hash = unmade_hash(scene_);
+    if (help_.kept != nullptr && !hash.empty()) help_.kept->begin(work(hash));
+    walls_ = streamed_walls(scene_, execution_, help_.kept);
+    if (help_.kept != nullptr && hash.empty()) help_.kept->begin(work(walls_->hash().value()));
+  }
+  /// All that the tiles' reductions depend on.
+  std::string work(const std::string& hash) const {
+    return fmt::format("warren {}, {} x {} cells with hash {}, {} {} to {} {}, keeping {} off the walls",
+                       WARREN_VERSION, scene_.maze->rows, scene_.maze->cols, hash, problem_.start.x, problem_.start.y,
+                       problem_.goal.x, problem_.goal.y, problem_.reach());
   }
   /// Piece by piece: what the path is made of, its judge sees before the next is made.
   void plan_and_verify() {
     const WallSet none;
     Path<Vec2> kept;
     PathKeeper keeper(kept, execution_);
-    JudgedPath judged({walls_->judged(), judged_as(problem_), execution_}, taker_ != nullptr ? *taker_ : keeper,
-                      answer_.seconds, execution_);
-    take_solution(
-        answer_,
-        tiled_prm({none, {}, {}, problem_.reach(), problem_.start, problem_.goal, &walls_->planned(), true, &judged},
-                  options_.roadmap, execution_));
+    JudgedPath judged({walls_->judged(), judged_as(problem_), execution_},
+                      help_.taker != nullptr ? *help_.taker : keeper, answer_.seconds, execution_);
+    take_solution(answer_, tiled_prm({none,
+                                      {},
+                                      {},
+                                      problem_.reach(),
+                                      problem_.start,
+                                      problem_.goal,
+                                      &walls_->planned(),
+                                      true,
+                                      &judged,
+                                      help_.kept},
+                                     options_.roadmap, execution_));
     if (answer_.outcome != Outcome::solved) return;
     const Verification found = judged.verdict();
     if (!found.verified) fail_verification(answer_, found.first_violation);
     answer_.path = std::move(kept);
-    if (taker_ != nullptr) answer_.handed = judged.handed();
+    if (help_.taker != nullptr) answer_.handed = judged.handed();
     answer_.verified = true;
     answer_.length = found.length;
     answer_.min_clearance = found.min_clearance;
@@ -161,7 +179,7 @@ class StreamedSolve {
   const WallProblem& problem_;
   const PlannerOptions& options_;
   const Execution& execution_;
-  PathTaker* taker_;
+  const StreamedHelp& help_;
   std::unique_ptr<StreamedWalls> walls_;
   Answer answer_;
 };
@@ -177,7 +195,7 @@ PlannerKind usual_streamed_planner(const SolveOptions&, const Scene&, const Ques
 Answer solve_request(const SolveRequest& request) {
   const WallProblem problem = keeping_off(request.scene, request.question, "prm keeps off the walls");
   return solve_streamed(request.scene, problem, planner_options(request.options, request.scene, problem),
-                        request.execution, request.taker);
+                        request.execution, {.taker = request.taker});
 }
 
 Verdict recheck_streamed(const Scene& scene, const Question& question, const RecordedAnswer& answer,
@@ -194,10 +212,23 @@ Verdict recheck_streamed(const Scene& scene, const Question& question, const Rec
 }  // namespace
 
 Answer solve_streamed(const Scene& scene, const WallProblem& problem, const PlannerOptions& options,
-                      const Execution& execution, PathTaker* taker) {
-  StreamedSolve solve(scene, problem, options, execution, taker);
+                      const Execution& execution, const StreamedHelp& help) {
+  StreamedSolve solve(scene, problem, options, execution, help);
   answer_within_limits(solve.answer(), [&] { solve.run(); });
   return std::move(solve.answer());
+}
+
+Answer solve_streamed_within(const Scene& scene, const Question& question, const SolveOptions& options,
+                             const Execution& execution, const StreamedHelp& help) {
+  question.validate();
+  options.validate();
+  check_solver_options(options);
+  if (!choose_solver(options, scene, question).kind->unmade) throw UsageError("@pipeline: these walls are held");
+  const WallProblem problem = keeping_off(scene, question, "prm keeps off the walls");
+  Answer answer = solve_streamed(scene, problem, planner_options(options, scene, problem), execution, help);
+  answer.threads = thread_count(execution.threads);
+  answer.peak_memory_bytes = peak_resident_bytes();
+  return answer;
 }
 
 SolveKind streamed_kind() {

@@ -15,8 +15,8 @@ namespace {
 /// The formula is what the maze is, for the judge, too.
 class FormulaWalls : public StreamedWalls {
  public:
-  FormulaWalls(MazeHint size, const MazeFormula& formula, const Execution& execution)
-      : maze_(size.rows, size.cols, formula.seed, formula.loops, execution) {}
+  FormulaWalls(MazeHint size, const MazeFormula& formula, const Execution& execution, KeptParts* kept)
+      : maze_(size.rows, size.cols, formula.seed, formula.loops, execution, CellBits::usual_side_log2, kept) {}
   const CellWallSource& planned() const override { return maze_; }
   const CellWallSource& judged() const override { return maze_; }
 
@@ -65,12 +65,12 @@ class ArrayWalls : public StreamedWalls {
 
 }  // namespace
 
-std::unique_ptr<StreamedWalls> streamed_walls(const Scene& unmade, const Execution& execution) {
+std::unique_ptr<StreamedWalls> streamed_walls(const Scene& unmade, const Execution& execution, KeptParts* kept) {
   if (unmade.packed && !unmade.packed->hash) {
     return std::make_unique<ArrayWalls>(*unmade.packed, *unmade.maze, execution);
   }
   if (unmade.packed) return std::make_unique<FileWalls>(*unmade.packed, execution);
-  return std::make_unique<FormulaWalls>(*unmade.maze, *unmade.formula, execution);
+  return std::make_unique<FormulaWalls>(*unmade.maze, *unmade.formula, execution, kept);
 }
 
 }  // namespace warren

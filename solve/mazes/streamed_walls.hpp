@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "core/base/kept_parts.hpp"
 #include "core/plane/cell_walls.hpp"
 #include "parallel/execution.hpp"
 #include "scenes/scene/scene.hpp"
@@ -30,6 +31,8 @@ class StreamedWalls {
 
 /// Makes what the tiles need to be made each by itself; opens, checks or reads the file. Throws InputError, ReadError,
 /// Stopped.
-std::unique_ptr<StreamedWalls> streamed_walls(const Scene& unmade, const Execution& execution);
+/// kept, where given, was begun, and has parts of a maze that an earlier run made.
+std::unique_ptr<StreamedWalls> streamed_walls(const Scene& unmade, const Execution& execution,
+                                              KeptParts* kept = nullptr);
 
 }  // namespace warren

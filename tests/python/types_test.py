@@ -18,7 +18,7 @@ LIMITS = {"threads", "budget", "memory", "progress"}
 OUTPUTS = {"json", "svg", "path", "every", "speed", "acceleration", "lateral_acceleration", "joint_speed",
            "joint_acceleration", "frame", "save_roadmap", "quiet", "color", "trace", "help", "output", "no_world", "csv",
            "runs", "log", "pictures", "batch", "lengths_only", "matrix", "world", "keep", "animate",
-           "title", "dpi", "size", "show", "heading", "html", "no_path"}
+           "title", "dpi", "size", "show", "heading", "html", "no_path", "resume"}
 
 
 def keywords_of_stub(name):

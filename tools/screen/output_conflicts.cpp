@@ -23,9 +23,9 @@ namespace warren {
 namespace {
 
 /// Of all verbs: the options whose values are files that are written, and that are read. Operands are read.
-constexpr std::array<std::string_view, 13> output_options{"--path", "--json",   "--svg",         "--png",   "--html",
-                                                          "--csv",  "--runs",   "--log",         "--trace", "--output",
-                                                          "--keep", "--report", "--save-roadmap"};
+constexpr std::array<std::string_view, 14> output_options{"--path", "--json",   "--svg",          "--png",   "--html",
+                                                          "--csv",  "--runs",   "--log",          "--trace", "--output",
+                                                          "--keep", "--report", "--save-roadmap", "--resume"};
 constexpr std::array<std::string_view, 5> input_options{"--answer", "--map", "--batch", "--matrix", "--world"};
 
 /// Where a file is, or will be: two are the same file exactly if their places are equal.

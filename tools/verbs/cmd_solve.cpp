@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // warren solve: finds a path, verifies it, prints what it took. A stop at any stage still gives an answer.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <utility>
 
 #include "core/base/error.hpp"
 #include "scenes/formats/read_world_io.hpp"
+#include "solve/mazes/resume_file_io.hpp"
+#include "solve/mazes/solve_streamed.hpp"
 #include "solve/roadmaps/solve_and_keep.hpp"
 #include "solve/solve.hpp"
 #include "solve/steps/blocked_end.hpp"
@@ -23,6 +27,9 @@ namespace {
 
 constexpr OptionSpec solve_specs[] = {
     {"--save-roadmap", "FILE", "keep the roadmap of the answer, with prm and lazy-prm, for `warren query`"},
+    {"--resume", "FILE",
+     "with --pipeline streamed: keep finished parts of the work in FILE, and go on from those of an earlier run that "
+     "ended before its answer"},
 };
 
 /// What the stages take of a maze that is made here, held or tile by tile, in hundredths, on two threads: `warren solve
@@ -44,12 +51,23 @@ class SolveCommand : public AnswerCommand {
   }
 
  private:
+  Answer resumed(const std::string& file, const Run& run) {
+    if (!is_unmade(scene_)) {
+      throw UsageError("--resume: keeps tiles of mazes that are made tile by tile; see --pipeline streamed");
+    }
+    ResumeFile kept(file, run.execution());
+    Answer answer =
+        solve_streamed_within(scene_, question_, options_, run.execution(), {.taker = path_taker(), .kept = &kept});
+    if (kept.found_count() > 0) run.note(fmt::format("went on from {} parts in {}", kept.found_count(), file));
+    return answer;
+  }
   Answer find(const Run& run, StageTimes& before, ByProducts* keep) override {
     scene_ = load_planned_world(arguments_.operand(0), options_.roadmap.pipeline, arguments_, run.execution(), before);
     check_outputs_of(robot_of(scene_, question_));
     if (is_unmade(scene_) && arguments_.has("--explain")) {
       throw UsageError("--explain: looks at walls that are held, and these are made tile by tile");
     }
+    if (const auto file = arguments_.value("--resume")) return resumed(*file, run);
     Answer answer = keeps_roadmap()
                         ? solve_and_keep(std::move(scene_), question_, options_, run.execution(), roadmap_, keep)
                         : solve_within(scene_, question_, options_, run.execution(), keep, path_taker());

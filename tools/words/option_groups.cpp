@@ -30,7 +30,7 @@ constexpr NamedGroup option_groups[] = {
      "--heading --size --dpi --title"},
     {"Path as a file",
      "--path --every --speed --acceleration --lateral-acceleration --joint-speed --joint-acceleration --frame"},
-    {"Run", "--threads --budget --memory --quiet --progress --color --trace"},
+    {"Run", "--threads --budget --memory --quiet --progress --color --trace --resume"},
 };
 
 constexpr NamedGroup command_groups[] = {
