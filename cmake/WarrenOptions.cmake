@@ -4,6 +4,7 @@
 option(WARREN_TESTS "build the tests" ON)
 option(WARREN_BENCH "build the microbenchmarks" OFF)
 option(WARREN_PYTHON "build the Python package" OFF)
+option(WARREN_MPI "build warren-mpi, which needs MPI" OFF)
 option(WARREN_PACKAGES "build what Debian's packages are made of: tools/packages" OFF)
 option(WARREN_WERROR "warnings are errors" OFF)
 option(WARREN_NATIVE "tune for this machine (the default build runs on any x86-64, or on any arm64)" OFF)

@@ -33,6 +33,8 @@ function(complains path text expected)
   endif()
 endfunction()
 
+complains(distributed/leader.cpp "#include <mpi.h>" "rule .mpi.")
+passes(distributed/mpi_transport.cpp "#include <mpi.h>\n#include \"tools/words/help.hpp\"")
 passes(worlds/plane/a.hpp "#include \"spatial/points/kd_tree.hpp\"\n#include <vector>")
 passes(scenes/formats/walls_io.cpp "#include <fstream>\n#include <fmt/format.h>")
 passes(tools/main.cpp "#include \"scenes/scene/scene.hpp\"\n#include <iostream>\nint main() { std::cout << 1; return 0; }")

@@ -2,26 +2,17 @@
 // The program `warren`: a table of verbs (command_table.cpp). Each verb parses its words, calls the library and prints;
 // what goes wrong becomes one line on standard error and an exit code here.
 #include <fmt/format.h>
-#include <poll.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <csignal>
-#include <cstdio>
 #include <new>
 #include <string>
-#include <system_error>
 #include <vector>
 
-#include "core/base/error.hpp"
-#include "core/base/printable.hpp"
-#include "parallel/deadline.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/last_words.hpp"
 #include "tools/screen/output_conflicts.hpp"
-#include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/signals.hpp"
 #include "tools/screen/terminal.hpp"
+#include "tools/screen/told_errors.hpp"
 #include "tools/verbs/completions.hpp"
 #include "tools/words/build_facts.hpp"
 #include "tools/words/command.hpp"
@@ -61,11 +52,6 @@ int dispatch(std::span<const std::string> words) {
   return run_command(command_named(words[0]), words.subspan(1));
 }
 
-int complain(int code, std::string_view text) {
-  say_on_standard_error(fmt::format("warren: {}\n", text));
-  return code;
-}
-
 std::string usage_hint(std::span<const std::string> words) {
   for (const Command& command : command_table()) {
     if (!words.empty() && words[0] == command.name) return fmt::format(" (see 'warren {} --help')", command.name);
@@ -73,42 +59,8 @@ std::string usage_hint(std::span<const std::string> words) {
   return " (see 'warren --help')";
 }
 
-int report_bug(std::string_view what) {
-  return complain(
-      exit_code::internal,
-      fmt::format("internal error: {}\nwarren: this is a bug. Please report it with the whole command line, "
-                  "the input file and the output of 'warren --version'.",
-                  printable(what)));
-}
-
-/// Where the reader of our standard output has gone, say nothing and end as other programs do.
-void die_if_unheard() {
-  pollfd out{STDOUT_FILENO, POLLOUT, 0};
-  if (::poll(&out, 1, 0) == 1 && (out.revents & POLLERR) != 0) std::raise(SIGPIPE);
-}
-
 int run_program(std::span<const std::string> words) {
-  try {
-    const int code = dispatch(words);
-    if (std::fflush(stdout) != 0) throw WriteError("standard output", std::generic_category().message(errno));
-    if (std::ferror(stdout) != 0) throw WriteError("standard output", "it did not take all");
-    return code;
-  } catch (const UsageError& error) {
-    return complain(exit_code::usage, error.spelled("--", '-') + usage_hint(words));
-  } catch (const InputError& error) {
-    return complain(exit_code::bad_data, error.what());
-  } catch (const ReadError& error) {
-    return complain(exit_code::unreadable, error.what());
-  } catch (const WriteError& error) {
-    die_if_unheard();
-    return complain(exit_code::unwritable, error.what());
-  } catch (const Stopped& stopped) {
-    return complain(exit_code_of(stopped.reason), fmt::format("stopped: {}", text_of(stopped.reason)));
-  } catch (const std::bad_alloc&) {
-    return say_memory_is_out();
-  } catch (const std::exception& error) {
-    return report_bug(error.what());
-  }
+  return run_with_errors_told("warren", usage_hint(words), [&] { return dispatch(words); });
 }
 
 }  // namespace

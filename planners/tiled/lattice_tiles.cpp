@@ -9,19 +9,19 @@ namespace warren {
 namespace {
 
 /// The parts of a run are the same for any number of threads: of so many tiles each.
-bool take_kept(KeptParts& kept, Range tiles, std::uint32_t side, std::span<TileSummary> summaries) {
-  const auto bytes = kept.find(PartKind::tiles, tiles.first);
+bool take_kept(KeptParts& kept, std::size_t first, std::uint32_t side, std::span<TileSummary> summaries) {
+  const auto bytes = kept.find(PartKind::tiles, first);
   if (!bytes) return false;
   ValueUnpacker from(*bytes, "a kept part of the tiles");
-  for (std::size_t t = tiles.first; t < tiles.last; ++t) summaries[t] = unpack_summary(from, side);
+  for (TileSummary& tile : summaries) tile = unpack_summary(from, side);
   if (!from.is_done()) from.refuse();
   return true;
 }
 
-void keep(KeptParts& kept, Range tiles, std::span<const TileSummary> summaries) {
+void keep(KeptParts& kept, std::size_t first, std::span<const TileSummary> summaries) {
   ValuePacker packer;
-  for (std::size_t t = tiles.first; t < tiles.last; ++t) pack_summary(summaries[t], packer);
-  kept.keep(PartKind::tiles, tiles.first, packer.bytes());
+  for (const TileSummary& tile : summaries) pack_summary(tile, packer);
+  kept.keep(PartKind::tiles, first, packer.bytes());
 }
 
 }  // namespace
@@ -73,14 +73,14 @@ void LatticeTiles::keep_linked(TilePlane& plane) const {
 void LatticeTiles::reduce(Range tiles, bool with_steps, std::span<TileSummary> summaries, KeptParts* kept,
                           const Execution& execution) const {
   for_chunks(tiles.size(), grain_, execution, [&](Range r) {
-    const Range part{tiles.first + r.first, tiles.first + r.last};
-    if (kept != nullptr && take_kept(*kept, part, grid_.side(), summaries)) return;
+    const std::span<TileSummary> part = summaries.subspan(r.first, r.size());
+    if (kept != nullptr && take_kept(*kept, tiles.first + r.first, grid_.side(), part)) return;
     Maker maker(*this);
-    for (std::size_t t = part.first; t < part.last; ++t) {
-      summaries[t] = maker.make(t, execution);
-      if (!with_steps) summaries[t].steps = {};
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      part[i] = maker.make(tiles.first + r.first + i, execution);
+      if (!with_steps) part[i].steps = {};
     }
-    if (kept != nullptr) keep(*kept, part, summaries);
+    if (kept != nullptr) keep(*kept, tiles.first + r.first, part);
   });
 }
 
@@ -88,7 +88,7 @@ void LatticeTiles::reduce(std::span<const std::size_t> tiles, std::span<TileSumm
                           const Execution& execution) const {
   for_chunks(tiles.size(), grain_, execution, [&](Range r) {
     Maker maker(*this);
-    for (std::size_t i = r.first; i < r.last; ++i) summaries[tiles[i]] = maker.make(tiles[i], execution);
+    for (std::size_t i = r.first; i < r.last; ++i) summaries[i] = maker.make(tiles[i], execution);
   });
 }
 

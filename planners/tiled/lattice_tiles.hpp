@@ -31,11 +31,11 @@ class LatticeTiles {
   /// The tile's roadmap before its reduction; what start and goal join is marked by keep_linked().
   void make_plane(std::size_t tile, TileReader& reader, WallMarker& marker, TilePlane& plane) const;
   void keep_linked(TilePlane& plane) const;
-  /// Fills in summaries[t] of all tiles t of the range. kept, where given, has those of an earlier run, without steps,
+  /// Fills in summaries[i] of tile tiles.first + i. kept, where given, has those of an earlier run, without steps,
   /// and takes those that are made. Throws Stopped.
   void reduce(Range tiles, bool with_steps, std::span<TileSummary> summaries, KeptParts* kept,
               const Execution& execution) const;
-  /// Fills in summaries[t], with steps, of the tiles t named.
+  /// Fills in summaries[i], with steps, of tile tiles[i].
   void reduce(std::span<const std::size_t> tiles, std::span<TileSummary> summaries, const Execution& execution) const;
 
  private:

@@ -90,8 +90,10 @@ std::vector<PathChain> PathExpansion::chains_of(Range legs) const {
     const auto steps = static_cast<std::uint32_t>(first_[leg + 1] - first_[leg]);
     if (steps == 1) continue;
     const std::size_t tile = overlay_.tile_of(path_[leg]);
-    const auto [low, high] =
-        std::minmax(path_[leg] - overlay_.first_key(tile), path_[leg + 1] - overlay_.first_key(tile));
+    const VertexId from = path_[leg] - overlay_.first_key(tile);
+    const VertexId to = path_[leg + 1] - overlay_.first_key(tile);
+    const VertexId low = std::min(from, to);
+    const VertexId high = std::max(from, to);
     chains.push_back({tile, static_cast<std::uint16_t>(low), static_cast<std::uint16_t>(high), steps});
   }
   return chains;

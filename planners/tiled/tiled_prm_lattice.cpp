@@ -186,7 +186,10 @@ void TiledPlan::expand(const PathExpansion& path, const PathPiece& piece) {
   if (problem_.others == nullptr) {
     if (tiles_.empty()) execution_.reserve(grid_.count() * sizeof(TileSummary));
     tiles_.resize(grid_.count());
-    return tiles_made().reduce(piece.tiles, tiles_, execution_);
+    std::vector<TileSummary> made(piece.tiles.size());
+    tiles_made().reduce(piece.tiles, made, execution_);
+    for (std::size_t i = 0; i < made.size(); ++i) tiles_[piece.tiles[i]] = std::move(made[i]);
+    return;
   }
   const std::vector<PathChain> chains = path.chains_of(piece.legs);
   std::vector<TileChain> asked;

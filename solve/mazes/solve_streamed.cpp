@@ -33,6 +33,17 @@ VerifyOptions judged_as(const WallProblem& problem) {
   return {.radius = problem.robot.radius, .clearance = problem.clearance, .start = problem.start, .goal = problem.goal};
 }
 
+/// Made by several processes.
+class TeamWalls : public StreamedWalls {
+ public:
+  TeamWalls(StreamedTeam& team, const Execution& execution) : cells_(team.make(execution)) {}
+  const CellWallSource& planned() const override { return cells_; }
+  const CellWallSource& judged() const override { return cells_; }
+
+ private:
+  const CellWallSource& cells_;
+};
+
 /// Judges a path as it comes, and hands it on.
 class JudgedPath : public PathTaker {
  public:
@@ -99,7 +110,11 @@ class StreamedSolve {
     const StageTimer timer(execution_, scene_.packed ? "index" : "generate", seconds, groups);
     const std::string hash = unmade_hash(scene_);
     if (help_.kept != nullptr && !hash.empty()) help_.kept->begin(work(hash));
-    walls_ = streamed_walls(scene_, execution_, help_.kept);
+    if (help_.team != nullptr) {
+      walls_ = std::make_unique<TeamWalls>(*help_.team, execution_);
+    } else {
+      walls_ = streamed_walls(scene_, execution_, help_.kept);
+    }
     if (help_.kept != nullptr && hash.empty()) help_.kept->begin(work(walls_->hash().value()));
   }
   /// All that the tiles' reductions depend on.
@@ -113,7 +128,8 @@ class StreamedSolve {
     const WallSet none;
     Path<Vec2> kept;
     PathKeeper keeper(kept, execution_);
-    JudgedPath judged({walls_->judged(), judged_as(problem_), execution_},
+    JudgesElsewhere* const judges = help_.team != nullptr ? &help_.team->judges() : nullptr;
+    JudgedPath judged({walls_->judged(), judged_as(problem_), execution_, judges},
                       help_.taker != nullptr ? *help_.taker : keeper, answer_.seconds, execution_);
     take_solution(answer_, tiled_prm({none,
                                       {},
@@ -124,7 +140,8 @@ class StreamedSolve {
                                       &walls_->planned(),
                                       true,
                                       &judged,
-                                      help_.kept},
+                                      help_.kept,
+                                      help_.team != nullptr ? &help_.team->tiles() : nullptr},
                                      options_.roadmap, execution_));
     if (answer_.outcome != Outcome::solved) return;
     const Verification found = judged.verdict();

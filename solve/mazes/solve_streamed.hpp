@@ -7,6 +7,7 @@
 #include "parallel/execution.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/answer/answer.hpp"
+#include "solve/mazes/streamed_team.hpp"
 #include "solve/question/planner_choice.hpp"
 #include "solve/question/question.hpp"
 #include "solve/question/solve_options.hpp"
@@ -15,8 +16,9 @@ namespace warren {
 
 /// What a streamed solve may be given beside the question; none of it changes the answer.
 struct StreamedHelp {
-  PathTaker* taker = nullptr;  ///< receives the path piece by piece, before it is verified; see Answer::handed
-  KeptParts* kept = nullptr;   ///< has finished parts of an earlier run, and takes those of this one
+  PathTaker* taker = nullptr;    ///< receives the path piece by piece, before it is verified; see Answer::handed
+  KeptParts* kept = nullptr;     ///< has finished parts of an earlier run, and takes those of this one
+  StreamedTeam* team = nullptr;  ///< shares the work
 };
 
 /// Makes the walls, plans, verifies; all of it is in solve_s. Throws UsageError for what can't be asked; a stop is an

@@ -48,9 +48,9 @@ struct Run {
 /// One look at all legs, as far as `reach` around each.
 class LegsAmongCells {
  public:
-  LegsAmongCells(const CellWallSource& cells, const LegBoxes& legs, const VerifyOptions& options, double reach,
-                 const Execution& execution)
-      : cells_(cells), legs_(legs), options_(options), reach_(reach), execution_(execution) {
+  LegsAmongCells(const CellWallSource& cells, Range tiles, const LegBoxes& legs, const VerifyOptions& options,
+                 double reach, const Execution& execution)
+      : cells_(cells), tiles_(tiles), legs_(legs), options_(options), reach_(reach), execution_(execution) {
     file_legs();
   }
 
@@ -94,6 +94,7 @@ class LegsAmongCells {
     for (std::size_t row = near.low_row >> shift; row <= near.high_row >> shift; ++row) {
       for (std::size_t col = near.low_col >> shift; col <= near.high_col >> shift; ++col) {
         const std::size_t tile = row * cells_.tile_cols() + col;
+        if (tile < tiles_.first || tile >= tiles_.last) continue;
         std::size_t i = runs.size();
         while (i > recent && !(runs[i - 1].tile == tile && runs[i - 1].last + 1 == leg)) --i;
         if (i > recent) {
@@ -164,6 +165,7 @@ class LegsAmongCells {
   }
 
   const CellWallSource& cells_;
+  const Range tiles_;
   const LegBoxes& legs_;
   const VerifyOptions& options_;
   const double reach_;
@@ -191,21 +193,42 @@ Violation described(const LegContact& found, const LegBoxes& legs, const Box& bo
           fmt::format("wall: {} {} {} {}", wall.a.x, wall.a.y, wall.b.x, wall.b.y)};
 }
 
+Tally within(const CellWallSource& cells, const LegBoxes& legs, const VerifyOptions& options, double reach,
+             std::span<const Vec2> path, JudgesElsewhere* others, const Execution& execution) {
+  if (others == nullptr)
+    return LegsAmongCells(cells, {0, cells.tile_count()}, legs, options, reach, execution).compare();
+  others->begin(path, reach);
+  Tally tally = LegsAmongCells(cells, others->own_tiles(), legs, options, reach, execution).compare();
+  for (const NearestWalls& found : others->take()) {
+    tally.least = std::min(tally.least, found.least);
+    tally.violation = std::min(tally.violation, LegContact{found.leg, found.wall});
+  }
+  return tally;
+}
+
 /// Looks farther where nothing came as near as was looked, or as something else did: the least distance, if it is below
 /// `least`, is then the true one.
 Tally compared(const CellWallSource& cells, const LegBoxes& legs, const VerifyOptions& options, double least,
-               const Execution& execution) {
+               std::span<const Vec2> path, JudgesElsewhere* others, const Execution& execution) {
   const double farthest = static_cast<double>(cells.rows()) + cells.cols();
   for (double reach = std::max(1.0, std::ceil(options.reach() + 1e-6));; reach *= 2) {
-    Tally tally = LegsAmongCells(cells, legs, options, reach, execution).compare();
+    Tally tally = within(cells, legs, options, reach, path, others, execution);
     if (std::min(tally.least, least) <= reach || reach > farthest) return tally;
   }
 }
 
 }  // namespace
 
-JudgeAmongCells::JudgeAmongCells(const CellWallSource& cells, const VerifyOptions& options, const Execution& execution)
-    : cells_(cells), options_(options), execution_(execution) {
+NearestWalls nearest_among_cells(const CellWallSource& cells, Range tiles, std::span<const Vec2> path,
+                                 const VerifyOptions& options, double reach, const Execution& execution) {
+  const LegBoxes legs(path, execution);
+  const Tally tally = LegsAmongCells(cells, tiles, legs, options, reach, execution).compare();
+  return {tally.least, tally.violation.leg, tally.violation.obstacle};
+}
+
+JudgeAmongCells::JudgeAmongCells(const CellWallSource& cells, const VerifyOptions& options, const Execution& execution,
+                                 JudgesElsewhere* others)
+    : cells_(cells), options_(options), execution_(execution), others_(others) {
   if (options.contact == Contact::allowed)
     throw InputError("contact", "is not judged where walls are made tile by tile");
 }
@@ -216,7 +239,7 @@ void JudgeAmongCells::add(std::span<const Vec2> piece) {
   const Vec2 twice[] = {piece.front(), piece.front()};
   const std::span<const Vec2> path = piece.size() > 1 ? piece : std::span<const Vec2>(twice);
   const LegBoxes legs(path, execution_);
-  Tally tally = compared(cells_, legs, options_, report_.least, execution_);
+  Tally tally = compared(cells_, legs, options_, report_.least, path, others_, execution_);
   check_box(cells_.box(), legs, path, tally);
   LegReport report{.least = tally.least};
   if (tally.violation != no_violation) {

@@ -7,9 +7,11 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "core/base/types.hpp"
 #include "core/plane/cell_walls.hpp"
+#include "parallel/chunks.hpp"
 #include "parallel/execution.hpp"
 #include "verify/judges/leg_reports.hpp"
 #include "verify/judges/verification.hpp"
@@ -22,10 +24,37 @@ namespace warren {
 Verification verify_among_cells(const CellWallSource& cells, std::span<const Vec2> path, const VerifyOptions& options,
                                 const Execution& execution);
 
+/// The least distance that was met, and the first leg that comes too near a wall, with that wall's number.
+struct NearestWalls {
+  double least;
+  std::uint64_t leg, wall;
+};
+
+/// Looks at the walls of these tiles alone, as far as `reach` around each leg: a share of the judge's work.
+NearestWalls nearest_among_cells(const CellWallSource& cells, Range tiles, std::span<const Vec2> path,
+                                 const VerifyOptions& options, double reach, const Execution& execution);
+
+/// Who looks at the other tiles where the judge looks at some.
+class JudgesElsewhere {
+ public:
+  JudgesElsewhere() = default;
+  virtual ~JudgesElsewhere() = default;
+  JudgesElsewhere(const JudgesElsewhere&) = delete;
+  JudgesElsewhere& operator=(const JudgesElsewhere&) = delete;
+  /// The tiles that are left to the judge itself.
+  virtual Range own_tiles() const = 0;
+  /// They begin to look at a path, which stays until take().
+  virtual void begin(std::span<const Vec2> path, double reach) = 0;
+  /// Waits for what they have found, one each.
+  virtual std::vector<NearestWalls> take() = 0;
+};
+
 /// The same of a path that comes in pieces, of which none is kept. Refers to the cells, which must outlive it.
 class JudgeAmongCells {
  public:
-  JudgeAmongCells(const CellWallSource& cells, const VerifyOptions& options, const Execution& execution);
+  /// others: look at the tiles that are not theirs, where there are such.
+  JudgeAmongCells(const CellWallSource& cells, const VerifyOptions& options, const Execution& execution,
+                  JudgesElsewhere* others = nullptr);
   /// The points that follow; each piece but the first begins with the last point of the one before.
   void add(std::span<const Vec2> piece);
   /// Of all pieces, at least one.
@@ -35,6 +64,7 @@ class JudgeAmongCells {
   const CellWallSource& cells_;
   const VerifyOptions options_;
   const Execution execution_;
+  JudgesElsewhere* others_;
   std::uint64_t points_ = 0;
   std::array<Vec2, 2> ends_{};  // the first point, and the last so far
   LegReport report_;

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The first and the last step of a run over ranks: all are the same program with the same words, or none begins; and
+// whatever becomes of rank 0, the others are told that it is over.
+#pragma once
+
+#include <string_view>
+
+#include "distributed/transport.hpp"
+
+namespace warren {
+
+/// Every rank calls it first, with all that must be the same everywhere. Throws InputError at rank 0 and returns false
+/// at the others where a rank differs. Throws Stopped.
+bool agree(Transport& transport, std::string_view facts, const Execution& execution);
+
+/// Lives at rank 0 from the agreement to its end.
+class EndOfFollowers {
+ public:
+  explicit EndOfFollowers(Transport& transport) : transport_(transport) {}
+  /// Tells the others, whatever they are doing.
+  ~EndOfFollowers();
+  EndOfFollowers(const EndOfFollowers&) = delete;
+  EndOfFollowers& operator=(const EndOfFollowers&) = delete;
+
+ private:
+  Transport& transport_;
+};
+
+}  // namespace warren

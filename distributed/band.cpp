@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "distributed/band.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/base/error.hpp"
+#include "planners/tiled/lattice_tiles.hpp"
+#include "planners/tiled/peeled_band.hpp"
+#include "planners/tiles/tile_source.hpp"
+
+namespace warren {
+namespace {
+
+constexpr std::size_t grain = 8;  // tiles: a reader's scratch is large
+
+/// The steps of the first chain of that length between the two places; there must be one.
+std::span<const std::uint8_t> steps_in(const TileSummary& tile, const TileChain& asked) {
+  const auto key = [&](std::uint16_t place) {
+    const auto found = std::lower_bound(tile.keys.begin(), tile.keys.end(), place);
+    if (found == tile.keys.end() || *found != place) throw InputError("path", "passes a point that is no key");
+    return static_cast<std::uint16_t>(found - tile.keys.begin());
+  };
+  const std::uint16_t from = key(asked.from);
+  const std::uint16_t to = key(asked.to);
+  for (const Chain& chain : tile.chains) {
+    if (chain.from != from || chain.to != to || chain.length != asked.length) continue;
+    return std::span(tile.steps).subspan(chain.first_step, chain.length);
+  }
+  throw InputError("path", "takes a chain that is none");
+}
+
+}  // namespace
+
+TileRows band_rows(std::size_t tile_rows, unsigned rank, unsigned ranks) {
+  return {tile_rows * rank / ranks, tile_rows * (rank + std::size_t{1}) / ranks};
+}
+
+unsigned rank_of_row(std::size_t row, std::size_t tile_rows, unsigned ranks) {
+  auto rank = static_cast<unsigned>(row * ranks / tile_rows);
+  while (band_rows(tile_rows, rank, ranks).last <= row) ++rank;
+  return rank;
+}
+
+Band::Band(const BandTask& task, TileRows own)
+    : task_(task), grid_(TileGrid::of({task.rows, task.cols}, 8)), own_(own) {}
+
+std::optional<maze::RimPart> Band::make(const Execution& execution) {
+  if (is_empty()) return std::nullopt;
+  maze::RimPart rim;
+  maze_.emplace(task_.rows, task_.cols, task_.seed, task_.loops, own_, rim, execution, grid_.side_log2);
+  return rim;
+}
+
+std::vector<TileSummary> Band::reduce(const OverlayEnds& ends, const Execution& execution) {
+  ends_ = ends;
+  if (is_empty()) return {};
+  const auto source = cell_tiles(*maze_, grid_);
+  execution.reserve(tiles().size() * sizeof(TileSummary));
+  std::vector<TileSummary> summaries(tiles().size());
+  LatticeTiles(grid_, *source, source->box(), task_.clearance * (1 + 1e-9), ends_, grain)
+      .reduce(tiles(), false, summaries, nullptr, execution);
+  peel_band(grid_, own_.first, own_.last, ends_, summaries, execution);
+  return summaries;
+}
+
+std::vector<std::vector<std::uint8_t>> Band::steps_of(std::span<const TileChain> chains,
+                                                      const Execution& execution) const {
+  std::vector<std::vector<std::uint8_t>> steps(chains.size());
+  std::vector<std::size_t> own;
+  for (const TileChain& chain : chains) {
+    if (chain.tile >= tiles().first && chain.tile < tiles().last) own.push_back(chain.tile);
+  }
+  if (own.empty()) return steps;
+  std::sort(own.begin(), own.end());
+  own.erase(std::unique(own.begin(), own.end()), own.end());
+  const auto source = cell_tiles(*maze_, grid_);
+  std::vector<TileSummary> made(own.size());
+  LatticeTiles(grid_, *source, source->box(), task_.clearance * (1 + 1e-9), ends_, grain).reduce(own, made, execution);
+  for (std::size_t i = 0; i < chains.size(); ++i) {
+    const auto at = std::lower_bound(own.begin(), own.end(), chains[i].tile);
+    if (at == own.end() || *at != chains[i].tile) continue;
+    const auto found = steps_in(made[static_cast<std::size_t>(at - own.begin())], chains[i]);
+    steps[i].assign(found.begin(), found.end());
+  }
+  return steps;
+}
+
+NearestWalls Band::judge(std::span<const Vec2> path, double reach, const Execution& execution) const {
+  if (!is_empty()) return nearest_among_cells(*maze_, tiles(), path, task_.judged, reach, execution);
+  constexpr std::uint64_t none = std::numeric_limits<std::uint64_t>::max();
+  return {std::numeric_limits<double>::infinity(), none, 0};
+}
+
+}  // namespace warren

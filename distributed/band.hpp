@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One rank's share of a streamed run: rows of tiles of a maze of mst, which it makes, reduces and peels, expands and
+// judges. It knows nothing of other ranks.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/plane/cell_walls.hpp"
+#include "parallel/chunks.hpp"
+#include "parallel/execution.hpp"
+#include "planners/tiled/other_tiles.hpp"
+#include "planners/tiled/tile_overlay.hpp"
+#include "planners/tiles/tile_grid.hpp"
+#include "scenes/mazes/spanning_maze.hpp"
+#include "scenes/scene/scene.hpp"
+#include "verify/cells/verify_cells.hpp"
+
+namespace warren {
+
+/// What all ranks know before the first message: they are given the same words.
+struct BandTask {
+  std::uint32_t rows, cols;
+  std::uint64_t seed;
+  double loops;
+  double clearance;      ///< of body and question
+  VerifyOptions judged;  ///< of the judge
+};
+
+/// Rows of tiles first .. last - 1 of rank r: R r / p to R (r + 1) / p.
+TileRows band_rows(std::size_t tile_rows, unsigned rank, unsigned ranks);
+/// The rank that has a tile row.
+unsigned rank_of_row(std::size_t row, std::size_t tile_rows, unsigned ranks);
+
+class Band {
+ public:
+  /// own may be empty.
+  Band(const BandTask& task, TileRows own);
+
+  /// Makes the own tiles' trees; what they say to the rest of the maze. Nothing where there are no tiles.
+  std::optional<maze::RimPart> make(const Execution& execution);
+  /// What the rest of the maze makes of them, of the row below as well. From now on tiles can be read.
+  void turn(std::span<const std::uint64_t> edges) { maze_->turn(edges); }
+
+  bool is_empty() const { return own_.first == own_.last; }
+  Range tiles() const { return {own_.first * grid_.tile_cols, own_.last * grid_.tile_cols}; }
+  const TileGrid& grid() const { return grid_; }
+  const SpanningMaze& maze() const { return *maze_; }
+
+  /// Summaries of the own tiles without steps, but for dead ends that end within the band.
+  std::vector<TileSummary> reduce(const OverlayEnds& ends, const Execution& execution);
+  /// Directions of chains of own tiles; of others nothing.
+  std::vector<std::vector<std::uint8_t>> steps_of(std::span<const TileChain> chains, const Execution& execution) const;
+  NearestWalls judge(std::span<const Vec2> path, double reach, const Execution& execution) const;
+
+ private:
+  const BandTask task_;
+  const TileGrid grid_;
+  const TileRows own_;
+  std::optional<SpanningMaze> maze_;
+  OverlayEnds ends_;  // as reduce() was told
+};
+
+}  // namespace warren

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "distributed/follower.hpp"
+
+#include <chrono>
+#include <csignal>
+#include <limits>
+#include <new>
+#include <utility>
+
+#include "core/base/enum_names.hpp"
+#include "core/base/error.hpp"
+#include "distributed/messages.hpp"
+#include "parallel/ticker.hpp"
+#include "planners/tiles/packed_tile_summary.hpp"
+
+namespace warren {
+namespace {
+
+class Follower {
+ public:
+  Follower(Transport& transport, const BandTask& task, const FollowerLimits& limits)
+      : transport_(transport),
+        band_(task, band_rows(TileGrid::of({task.rows, task.cols}, 8).tile_rows, transport.rank(), transport.ranks())),
+        outer_(limits.signal),
+        deadline_(std::numeric_limits<double>::infinity(), limits.memory_bytes, &stop_),
+        waiting_(std::numeric_limits<double>::infinity(), limits.memory_bytes, limits.signal),
+        execution_{limits.threads, &deadline_, limits.progress} {}
+
+  void run() {
+    while (serve(transport_.receive(0, {.deadline = &waiting_}))) {
+    }
+  }
+
+ private:
+  /// Answers one request; false at the end.
+  bool serve(const Bytes& message) {
+    ValueUnpacker from(message, "rank 0");
+    const auto request = from.take<Request>();
+    if (request == Request::end) return false;
+    if (execution_.progress != nullptr) execution_.progress->begin(name_of(request).data(), 0);
+    const Bytes answer = answered([&](ValuePacker& to) { work(request, from, to); });
+    transport_.send(0, answer, {.deadline = &waiting_});
+    return true;
+  }
+
+  /// The answer, or why there is none. A message that comes meanwhile is the end.
+  template <class Work>
+  Bytes answered(const Work& work) {
+    using std::chrono::milliseconds;
+    const Ticker ticker(milliseconds(50), milliseconds(50), [this] {
+      const int signal = outer_ != nullptr ? outer_->load() : 0;
+      stop_.store(signal != 0 ? signal : transport_.has_message(0) ? SIGTERM : 0);
+    });
+    ValuePacker packer;
+    try {
+      packer.add(Reply::done);
+      work(packer);
+      return packer.take();
+    } catch (const Stopped& stopped) {
+      return said(Reply::stopped, [&](ValuePacker& to) { to.add(stopped.reason); });
+    } catch (const std::bad_alloc&) {
+      return said(Reply::stopped, [&](ValuePacker& to) { to.add(StopReason::memory); });
+    } catch (const Error& error) {
+      return said(Reply::refused, [&](ValuePacker& to) { to.add_text(error.what()); });
+    }
+  }
+  template <class Say>
+  static Bytes said(Reply reply, const Say& say) {
+    ValuePacker packer;
+    packer.add(reply);
+    say(packer);
+    return packer.take();
+  }
+
+  void work(Request request, ValueUnpacker& from, ValuePacker& to) {
+    switch (request) {
+      case Request::make:
+        if (const auto rim = band_.make(execution_)) rim->pack(to);
+        return;
+      case Request::turn: {
+        const auto edges = from.take_list<std::uint64_t>();
+        if (!band_.is_empty()) band_.turn(edges);
+        return;
+      }
+      case Request::reduce:
+        return reduce(from, to);
+      case Request::hand_over:
+        for (const std::byte byte : std::exchange(summaries_, {})) to.add(byte);
+        return;
+      case Request::steps:
+        for (const auto& steps : band_.steps_of(from.take_list<TileChain>(), execution_)) to.add_list(steps);
+        return;
+      case Request::judge: {
+        const auto reach = from.take<double>();
+        return to.add(band_.judge(from.take_list<Vec2>(), reach, execution_));
+      }
+      case Request::read:
+        return read(from.take<std::size_t>(), to);
+      case Request::end:
+        return;
+    }
+  }
+
+  void reduce(ValueUnpacker& from, ValuePacker& to) {
+    OverlayEnds ends;
+    ends.start.links = from.take_list<EndLink>();
+    ends.goal.links = from.take_list<EndLink>();
+    std::vector<TileSummary> tiles = band_.reduce(ends, execution_);
+    std::size_t bytes = 0;
+    for (const TileSummary& tile : tiles) bytes += tile.bytes();
+    execution_.reserve(bytes);
+    ValuePacker packer;
+    for (TileSummary& tile : tiles) {
+      pack_summary(tile, packer);
+      tile = {};
+    }
+    summaries_ = packer.take();
+    to.add(std::uint64_t{summaries_.size()});
+  }
+  void read(std::size_t number, ValuePacker& to) const {
+    if (number < band_.tiles().first || number >= band_.tiles().last) throw InputError("tile", "is of another rank");
+    CellTile tile;
+    band_.maze().reader()->read(number, tile);
+    for (const std::uint32_t value : {tile.first_col, tile.first_row, tile.width, tile.height}) to.add(value);
+    to.add_list(tile.walls);
+  }
+
+  Transport& transport_;
+  Band band_;
+  const SignalFlag* outer_;
+  SignalFlag stop_{0};
+  Deadline deadline_;  // while it works
+  Deadline waiting_;   // while it waits
+  Execution execution_;
+  Bytes summaries_;  // packed, until they are handed over
+};
+
+}  // namespace
+
+void follow(Transport& transport, const BandTask& task, const FollowerLimits& limits) {
+  Follower(transport, task, limits).run();
+}
+
+}  // namespace warren

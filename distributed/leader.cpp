@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "distributed/leader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "distributed/patience.hpp"
+#include "planners/tiles/packed_tile_summary.hpp"
+#include "scenes/mazes/joined_parts.hpp"
+
+namespace warren {
+namespace {
+
+void pack_links(const EndLinks& end, ValuePacker& to) { to.add_list(end.links); }
+
+/// Edges that a rank's tiles and the row of tiles below them have to know.
+std::vector<std::uint64_t> edges_near(std::span<const std::uint64_t> edges, TileRows rows, unsigned side_log2) {
+  std::vector<std::uint64_t> near;
+  for (const std::uint64_t edge : edges) {
+    const std::size_t row = maze::edge_row(edge) >> side_log2;
+    if (row + 1 >= rows.first && row < rows.last) near.push_back(edge);
+  }
+  return near;
+}
+
+}  // namespace
+
+Leader::Leader(Transport& transport, const BandTask& task, const Execution& execution)
+    : transport_(transport),
+      task_(task),
+      band_(task, band_rows(TileGrid::of({task.rows, task.cols}, 8).tile_rows, 0, transport.ranks())),
+      cells_(band_, *this),
+      execution_(execution) {}
+
+void Leader::ask_one(unsigned rank, Request request, std::span<const std::byte> body) {
+  const auto head = std::as_bytes(std::span(&request, 1));
+  Bytes message(head.begin(), head.end());
+  message.insert(message.end(), body.begin(), body.end());
+  transport_.send(rank, message, execution_);
+}
+
+void Leader::ask(Request request, std::span<const std::byte> body) {
+  for (unsigned rank = 1; rank < transport_.ranks(); ++rank) ask_one(rank, request, body);
+}
+
+/// Throws what kept the other from it.
+Bytes Leader::opened(unsigned rank, const Bytes& message) const {
+  ValueUnpacker from(message, fmt::format("rank {}", rank));
+  switch (from.take<Reply>()) {
+    case Reply::done:
+      return {message.begin() + sizeof(Reply), message.end()};
+    case Reply::stopped:
+      throw Stopped(from.take<StopReason>());
+    case Reply::refused:
+      throw InputError(fmt::format("rank {}", rank), from.take_text());
+  }
+  from.refuse();
+}
+
+/// Whoever has failed is heard first, whatever its rank.
+std::vector<Bytes> Leader::answers() {
+  std::vector<Bytes> found(transport_.ranks());
+  std::vector<unsigned> awaited;
+  for (unsigned rank = 1; rank < transport_.ranks(); ++rank) awaited.push_back(rank);
+  Patience patience;
+  while (!awaited.empty()) {
+    const auto has_answered = [&](unsigned rank) {
+      if (!transport_.has_message(rank)) return false;
+      found[rank] = opened(rank, transport_.receive(rank, execution_));
+      return true;
+    };
+    if (std::erase_if(awaited, has_answered) > 0) {
+      patience.renew();
+    } else {
+      patience.wait(execution_);
+    }
+  }
+  return found;
+}
+
+const CellWallSource& Leader::make(const Execution& execution) {
+  execution_ = execution;
+  ask(Request::make, {});
+  std::vector<maze::RimPart> rims;
+  if (auto own = band_.make(execution)) rims.push_back(std::move(*own));
+  const std::vector<Bytes> others = answers();
+  for (unsigned rank = 1; rank < transport_.ranks(); ++rank) {
+    ValueUnpacker from(others[rank], fmt::format("rank {}", rank));
+    if (!from.is_done()) rims.push_back(maze::RimPart::unpack(from));
+  }
+  std::size_t edges = 0;
+  for (const maze::RimPart& rim : rims) edges += rim.edges.size() + rim.at.width;
+  execution.reserve(edges * 64);
+  const maze::JoinedParts joined = join_parts(task_.seed, rims, 1, band_.grid().side_log2, execution);
+  for (unsigned rank = 0; rank < transport_.ranks(); ++rank) {
+    const TileRows rows = band_rows(tile_rows(), rank, transport_.ranks());
+    const std::vector<std::uint64_t> near = edges_near(joined.turned, rows, band_.grid().side_log2);
+    if (rank == 0 && !band_.is_empty()) band_.turn(near);
+    if (rank == 0) continue;
+    ValuePacker packer;
+    packer.add_list(near);
+    ask_one(rank, Request::turn, packer.bytes());
+  }
+  answers();
+  return cells_;
+}
+
+/// Room for all is asked for before the first comes.
+std::vector<TileSummary> Leader::reduce_all(const OverlayEnds& ends, const Execution& execution) {
+  ValuePacker packer;
+  pack_links(ends.start, packer);
+  pack_links(ends.goal, packer);
+  ask(Request::reduce, packer.bytes());
+  std::vector<TileSummary> tiles = band_.reduce(ends, execution);
+  const std::vector<Bytes> sizes = answers();
+  std::size_t total = 0;
+  std::size_t largest = 0;
+  for (unsigned rank = 1; rank < transport_.ranks(); ++rank) {
+    const auto size = ValueUnpacker(sizes[rank], fmt::format("rank {}", rank)).take<std::uint64_t>();
+    total += size;
+    largest = std::max<std::size_t>(largest, size);
+  }
+  execution.reserve(total + 2 * largest);
+  tiles.reserve(band_.grid().count());
+  for (unsigned rank = 1; rank < transport_.ranks(); ++rank) {
+    execution.check();
+    ask_one(rank, Request::hand_over, {});
+    const Bytes bytes = opened(rank, transport_.receive(rank, execution));
+    ValueUnpacker from(bytes, fmt::format("rank {}", rank));
+    while (!from.is_done()) tiles.push_back(unpack_summary(from, band_.grid().side()));
+  }
+  if (tiles.size() != band_.grid().count()) throw InputError("ranks", "do not have all tiles between them");
+  return tiles;
+}
+
+std::vector<std::vector<std::uint8_t>> Leader::steps_of(std::span<const TileChain> chains, const Execution& execution) {
+  std::vector<std::vector<std::size_t>> of_rank(transport_.ranks());
+  for (std::size_t i = 0; i < chains.size(); ++i) {
+    of_rank[rank_of_row(chains[i].tile / band_.grid().tile_cols, tile_rows(), transport_.ranks())].push_back(i);
+  }
+  for (unsigned rank = 1; rank < transport_.ranks(); ++rank) {
+    std::vector<TileChain> own;
+    for (const std::size_t i : of_rank[rank]) own.push_back(chains[i]);
+    ValuePacker packer;
+    packer.add_list(own);
+    ask_one(rank, Request::steps, packer.bytes());
+  }
+  std::vector<std::vector<std::uint8_t>> steps = band_.steps_of(chains, execution);
+  const std::vector<Bytes> others = answers();
+  for (unsigned rank = 1; rank < transport_.ranks(); ++rank) {
+    ValueUnpacker from(others[rank], fmt::format("rank {}", rank));
+    for (const std::size_t i : of_rank[rank]) {
+      steps[i] = from.take_list<std::uint8_t>();
+      if (steps[i].size() != chains[i].length) from.refuse();
+    }
+  }
+  return steps;
+}
+
+void Leader::begin(std::span<const Vec2> path, double reach) {
+  ValuePacker packer;
+  packer.add(reach);
+  packer.add_list(path);
+  ask(Request::judge, packer.bytes());
+}
+
+std::vector<NearestWalls> Leader::take() {
+  std::vector<NearestWalls> found;
+  const std::vector<Bytes> others = answers();
+  for (unsigned rank = 1; rank < transport_.ranks(); ++rank) {
+    found.push_back(ValueUnpacker(others[rank], fmt::format("rank {}", rank)).take<NearestWalls>());
+  }
+  return found;
+}
+
+CellTile Leader::tile(std::size_t number) {
+  const unsigned rank = rank_of_row(number / band_.grid().tile_cols, tile_rows(), transport_.ranks());
+  return asking_([&] {
+    ask_one(rank, Request::read, std::as_bytes(std::span(&number, 1)));
+    const Bytes bytes = opened(rank, transport_.receive(rank, execution_));
+    ValueUnpacker from(bytes, fmt::format("rank {}", rank));
+    CellTile tile;
+    tile.first_col = from.take<std::uint32_t>();
+    tile.first_row = from.take<std::uint32_t>();
+    tile.width = from.take<std::uint32_t>();
+    tile.height = from.take<std::uint32_t>();
+    tile.walls = from.take_list<std::uint8_t>();
+    if (tile.walls.size() != (std::size_t{tile.width} + 1) * (std::size_t{tile.height} + 1)) from.refuse();
+    return tile;
+  });
+}
+
+}  // namespace warren

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What rank 0 asks of the others, and how they answer. Rank 0 leads: it sends the same request to all, does its own
+// share, and takes the others' answers; nobody else ever speaks first. So no two ranks wait for each other, and a
+// message that comes to a rank at work can only be the end.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace warren {
+
+/// The stages of a run, as messages name them.
+enum class Request : std::uint32_t { make, turn, reduce, hand_over, steps, judge, read, end };
+constexpr auto enum_names(Request) {
+  return std::array<std::string_view, 8>{"generate", "join", "connect", "gather", "expand", "verify", "search", "end"};
+}
+
+/// How an answer begins: what follows is what was asked for, a StopReason, or the line of an error.
+enum class Reply : std::uint32_t { done, stopped, refused };
+
+}  // namespace warren

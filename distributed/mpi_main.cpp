@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The program `warren-mpi`: mpirun -n RANKS warren-mpi solve maze:ROWSxCOLS,algorithm=mst. Every rank reads the same
+// words; rank 0 alone prints, and its exit code is the run's. A rank that can't go on ends all.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <limits>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "distributed/agreement.hpp"
+#include "distributed/mpi_transport.hpp"
+#include "distributed/shared_scale.hpp"
+#include "distributed/shared_solve.hpp"
+#include "parallel/deadline.hpp"
+#include "roadmaps/file/checksum.hpp"
+#include "scenes/text/input_file_io.hpp"
+#include "tools/screen/exit_code.hpp"
+#include "tools/screen/last_words.hpp"
+#include "tools/screen/output_conflicts.hpp"
+#include "tools/screen/signals.hpp"
+#include "tools/screen/terminal.hpp"
+#include "tools/screen/told_errors.hpp"
+#include "tools/words/build_facts.hpp"
+#include "tools/words/help.hpp"
+
+namespace warren {
+namespace {
+
+/// Two builds that differ in anything differ in this.
+std::string this_program() {
+  const InputFile file("/proc/self/exe", {});
+  return fmt::format("warren-mpi {} {:016x}", build_commit(), checksum(std::as_bytes(std::span(file.bytes()))));
+}
+
+bool has(const std::vector<std::string>& words, std::string_view option) {
+  for (const std::string& word : words) {
+    if (word == option || word.starts_with(std::string(option) + "=")) return true;
+  }
+  return false;
+}
+
+/// Cores and memory of a machine are shared by the ranks on it, unless the words say how many each takes.
+void add_limits(std::vector<std::string>& words, unsigned ranks_here) {
+  if (!has(words, "--threads")) {
+    words.insert(words.end(), {"--threads", std::to_string(std::max(1U, thread_count(0) / ranks_here))});
+  }
+  if (!has(words, "--memory")) {
+    words.insert(words.end(), {"--memory", std::to_string(available_bytes() / ranks_here)});
+  }
+}
+
+std::string usage_of(std::span<const Command> commands) {
+  std::string text = "Usage: mpirun -n RANKS warren-mpi COMMAND [operands] [options]\n\n";
+  for (const Command& command : commands) text += fmt::format("  {:6} {}\n", command.name, command.summary);
+  return text + "\n'warren-mpi COMMAND --help' tells a command's options.\n";
+}
+
+int dispatch(std::vector<std::string> words, MpiTransport& transport) {
+  const Command commands[] = {shared_solve_command(transport), shared_scale_command(transport)};
+  if (words.empty() || words[0] == "--help" || words[0] == "-h") {
+    if (transport.rank() == 0) print_text(usage_of(commands));
+    return exit_code::success;
+  }
+  if (words[0] == "--version") {
+    if (transport.rank() == 0) print_text(version_text(build_commit()));
+    return exit_code::success;
+  }
+  const auto command = std::find_if(std::begin(commands), std::end(commands),
+                                    [&](const Command& known) { return known.name == words[0]; });
+  if (command == std::end(commands)) throw UsageError("unknown command " + words[0]);
+  words.erase(words.begin());
+  add_limits(words, transport.ranks_here());
+  const Arguments arguments(*command, words);
+  if (arguments.wants_help()) {
+    if (transport.rank() == 0) print_text(command_help(*command, terminal_width()));
+    return exit_code::success;
+  }
+  if (transport.rank() == 0) check_outputs(arguments);
+  return command->run(arguments);
+}
+
+std::string facts_of(const std::vector<std::string>& words) {
+  std::string facts = this_program();
+  for (const std::string& word : words) facts += " " + word;
+  return facts;
+}
+
+int run_rank_0(const std::vector<std::string>& words, MpiTransport& transport) {
+  return run_with_errors_told("warren-mpi", " (see 'warren-mpi --help')", [&] {
+    const Deadline forever(std::numeric_limits<double>::infinity(), available_bytes(), &signal_flag());
+    agree(transport, facts_of(words), {.deadline = &forever});
+    const EndOfFollowers end(transport);
+    return dispatch(words, transport);
+  });
+}
+
+/// Whatever rank 0 says as well, only rank 0 says, and gives its code.
+int run_follower(const std::vector<std::string>& words, MpiTransport& transport) {
+  try {
+    const Deadline forever(std::numeric_limits<double>::infinity(), available_bytes(), &signal_flag());
+    if (agree(transport, facts_of(words), {.deadline = &forever})) dispatch(words, transport);
+    return exit_code::success;
+  } catch (const UsageError&) {
+    return exit_code::success;
+  } catch (const Stopped&) {
+    transport.end_all(exit_code::internal);
+  } catch (const std::exception& error) {
+    complain("warren-mpi", exit_code::internal, fmt::format("rank {}: {}", transport.rank(), error.what()));
+    transport.end_all(exit_code::internal);
+  }
+}
+
+}  // namespace
+}  // namespace warren
+
+int main(int argc, char** argv) {
+  warren::hold_standard_descriptors();
+  warren::install_last_words();
+  warren::MpiTransport transport(&argc, &argv);
+  warren::install_signal_handlers();
+  try {
+    const std::vector<std::string> words(argv + (argc > 0 ? 1 : 0), argv + argc);
+    return transport.rank() == 0 ? warren::run_rank_0(words, transport) : warren::run_follower(words, transport);
+  } catch (const std::bad_alloc&) {  // also of those who told of another error
+    return warren::say_memory_is_out();
+  }
+}

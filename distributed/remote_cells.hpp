@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The whole maze as rank 0 sees it: its own tiles are made here, others by their ranks, when they are asked for. For
+// the few tiles that no rank's share is about: those around start and goal.
+#pragma once
+
+#include <memory>
+
+#include "core/plane/cell_walls.hpp"
+#include "distributed/band.hpp"
+
+namespace warren {
+
+class Leader;
+
+/// Refers to both, which must outlive it.
+class RemoteCells : public CellWallSource {
+ public:
+  RemoteCells(const Band& band, Leader& leader);
+  std::unique_ptr<CellWallReader> reader() const override;
+
+ private:
+  class Reader;
+
+  const Band& band_;
+  Leader& leader_;
+};
+
+}  // namespace warren

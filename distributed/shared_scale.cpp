@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "distributed/shared_scale.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "distributed/agreement.hpp"
+#include "distributed/follower.hpp"
+#include "distributed/leader.hpp"
+#include "scenes/mazes/maze_generator.hpp"
+#include "solve/mazes/solve_streamed.hpp"
+#include "tools/screen/exit_code.hpp"
+#include "tools/screen/output_names.hpp"
+#include "tools/screen/run_of_verb.hpp"
+#include "tools/screen/signals.hpp"
+#include "tools/screen/terminal.hpp"
+#include "tools/words/maze_words.hpp"
+#include "tools/words/option_values.hpp"
+#include "tools/words/planner_words.hpp"
+
+namespace warren {
+namespace {
+
+constexpr OptionSpec scale_specs[] = {
+    {"--side", "N", "the maze of the strong runs is N x N; those of k ranks N k x N in the weak ones (default: 4000)"},
+    {"--loops", "F", "fraction of the walls left that are taken out (default: 0)"},
+    {"--seed", "N", "of the mazes (default: 1)"},
+    {"--ranks", "LIST",
+     "numbers of ranks, apart by commas, at most those that mpirun has started (default: 1 and all)"},
+    {"--json", "FILE", "write warren.ranks/1; - is standard output"},
+};
+
+/// The first ranks of a run, as if they were all.
+class FirstRanks : public Transport {
+ public:
+  FirstRanks(Transport& all, unsigned ranks) : all_(all), ranks_(ranks) {}
+  unsigned rank() const override { return all_.rank(); }
+  unsigned ranks() const override { return ranks_; }
+  void send(unsigned to, std::span<const std::byte> bytes, const Execution& execution) override {
+    all_.send(to, bytes, execution);
+  }
+  Bytes receive(unsigned from, const Execution& execution) override { return all_.receive(from, execution); }
+  bool has_message(unsigned from) override { return all_.has_message(from); }
+
+ private:
+  Transport& all_;
+  const unsigned ranks_;
+};
+
+/// What rank 0 tells the others before each run; no ranks: there is none.
+struct NextRun {
+  std::uint32_t ranks, rows, cols;
+};
+
+/// What a rank has used in one run.
+struct Used {
+  double cpu_s;
+  std::uint64_t bytes_sent, peak_bytes;
+};
+
+class UsedMeter {
+ public:
+  explicit UsedMeter(const Transport& transport) : transport_(transport), bytes_(transport.bytes_sent()) {
+    const int file = ::open("/proc/self/clear_refs", O_WRONLY | O_CLOEXEC);  // 5: the peak begins anew
+    if (file < 0) return;
+    [[maybe_unused]] const ssize_t ignored = ::write(file, "5", 1);
+    ::close(file);
+  }
+  Used used() const { return {cpu() - cpu_, transport_.bytes_sent() - bytes_, peak_resident_bytes()}; }
+
+ private:
+  static double cpu() {
+    rusage usage{};
+    ::getrusage(RUSAGE_SELF, &usage);
+    const auto seconds = [](const timeval& t) {
+      return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    };
+    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  }
+
+  const Transport& transport_;
+  const std::uint64_t bytes_;
+  const double cpu_ = cpu();
+};
+
+class NobodysPath : public PathTaker {
+ public:
+  void begin(std::uint64_t) override {}
+  void add(std::span<const Vec2>) override {}
+};
+
+struct Mazes {
+  explicit Mazes(const Arguments& arguments)
+      : side(given_count(arguments, "--side", 1, 1'000'000).value_or(4000)),
+        loops(given_value(arguments, "--loops", number_value, 0.0, 1.0).value_or(0.0)),
+        seed(seed_word(arguments)) {}
+  Scene scene(const NextRun& run) const {
+    return unmade_maze_scene(
+        {.rows = run.rows, .cols = run.cols, .seed = seed, .algorithm = MazeAlgorithm::mst, .loops = loops});
+  }
+  BandTask task(const NextRun& run) const {
+    const WallProblem problem = keeping_off(scene(run), {}, "");
+    return {run.rows, run.cols,        seed,
+            loops,    problem.reach(), {.radius = problem.robot.radius, .clearance = problem.clearance}};
+  }
+  std::uint32_t side;
+  double loops;
+  std::uint64_t seed;
+};
+
+struct Measured {
+  bool is_strong;
+  NextRun run;
+  Answer answer;
+  double seconds;
+  std::vector<Used> used;  // by rank
+
+  double cpu_s() const {
+    double sum = 0.0;
+    for (const Used& rank : used) sum += rank.cpu_s;
+    return sum;
+  }
+  std::uint64_t bytes_sent() const {
+    std::uint64_t sum = 0;
+    for (const Used& rank : used) sum += rank.bytes_sent;
+    return sum;
+  }
+  std::uint64_t peak_bytes() const {
+    std::uint64_t most = 0;
+    for (const Used& rank : used) most = std::max(most, rank.peak_bytes);
+    return most;
+  }
+};
+
+Measured measured(Transport& transport, const Mazes& mazes, bool is_strong, const NextRun& next,
+                  const Execution& execution) {
+  for (unsigned rank = 1; rank < transport.ranks(); ++rank) {
+    transport.send(rank, std::as_bytes(std::span(&next, 1)), execution);
+  }
+  const UsedMeter meter(transport);
+  const auto begin = std::chrono::steady_clock::now();
+  Measured found{is_strong, next, {}, 0.0, {}};
+  {
+    FirstRanks first(transport, next.ranks);
+    const EndOfFollowers end(first);
+    Leader leader(first, mazes.task(next), execution);
+    NobodysPath nobody;
+    SolveOptions options;
+    options.roadmap.pipeline = PipelineKind::streamed;
+    found.answer =
+        solve_streamed_within(mazes.scene(next), {}, options, execution, {.taker = &nobody, .team = &leader});
+  }
+  found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  found.used.push_back(meter.used());
+  for (unsigned rank = 1; rank < next.ranks; ++rank) {
+    found.used.push_back(ValueUnpacker(transport.receive(rank, execution), "rank").take<Used>());
+  }
+  if (found.answer.stop_reason) throw Stopped(*found.answer.stop_reason);
+  return found;
+}
+
+std::string table_of(std::span<const Measured> runs) {
+  std::string text =
+      "        ranks          maze   clock s     CPU s  CPU a cell  of 1 rank    sent a cell   peak a rank\n";
+  for (const Measured& run : runs) {
+    const auto first =
+        std::find_if(runs.begin(), runs.end(), [&](const Measured& r) { return r.is_strong == run.is_strong; });
+    const auto cells = [](const Measured& r) { return static_cast<double>(r.run.rows) * r.run.cols; };
+    const double cpu_ns = 1e9 * run.cpu_s() / cells(run);
+    text += fmt::format(
+        "{:7} {:5} {:>13} {:9.2f} {:9.2f} {:8.2f} ns {:9.3f} {:12.4f} B {:9.1f} MiB\n",
+        run.is_strong ? "strong" : "weak", run.run.ranks, fmt::format("{}x{}", run.run.rows, run.run.cols), run.seconds,
+        run.cpu_s(), cpu_ns, cpu_ns / (1e9 * first->cpu_s() / cells(*first)),
+        static_cast<double>(run.bytes_sent()) / cells(run), static_cast<double>(run.peak_bytes()) / (1024.0 * 1024.0));
+  }
+  return text;
+}
+
+std::string json_of(std::span<const Measured> runs, const Mazes& mazes, unsigned threads) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const Measured& run : runs) {
+    nlohmann::ordered_json ranks = nlohmann::ordered_json::array();
+    for (const Used& used : run.used) {
+      ranks.push_back({{"cpu_s", used.cpu_s}, {"bytes_sent", used.bytes_sent}, {"peak_memory_bytes", used.peak_bytes}});
+    }
+    list.push_back({{"scaling", run.is_strong ? "strong" : "weak"},
+                    {"ranks", run.run.ranks},
+                    {"rows", run.run.rows},
+                    {"cols", run.run.cols},
+                    {"length", run.answer.length},
+                    {"clock_s", run.seconds},
+                    {"cpu_s", run.cpu_s()},
+                    {"bytes_sent", run.bytes_sent()},
+                    {"by_rank", ranks}});
+  }
+  const nlohmann::ordered_json whole{
+      {"format", "warren.ranks/1"}, {"seed", mazes.seed}, {"loops", mazes.loops}, {"threads", threads}, {"runs", list}};
+  return whole.dump(2) + "\n";
+}
+
+std::vector<unsigned> ranks_asked(const Arguments& arguments, unsigned most) {
+  std::vector<unsigned> ranks = given_values(arguments, "--ranks", "--ranks", [&](auto option, auto text) {
+    return static_cast<unsigned>(count_value(option, text, 1, most));
+  });
+  if (ranks.empty()) ranks = {1, most};
+  std::sort(ranks.begin(), ranks.end());
+  ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+  return ranks;
+}
+
+int lead(const Arguments& arguments, Transport& transport) {
+  const Mazes mazes(arguments);
+  const std::vector<unsigned> ranks = ranks_asked(arguments, transport.ranks());
+  Run run(arguments);
+  std::vector<Measured> runs;
+  for (const bool is_strong : {true, false}) {
+    for (const unsigned count : ranks) {
+      const NextRun next{count, is_strong ? mazes.side : mazes.side * count, mazes.side};
+      runs.push_back(measured(transport, mazes, is_strong, next, run.execution()));
+    }
+  }
+  run.end();
+  write_report(arguments, "--json", [&] { return json_of(runs, mazes, run.threads()); });
+  if (arguments.value("--json") != "-" && !run.quiet()) print_text(table_of(runs));
+  return exit_code::success;
+}
+
+int follow_runs(const Arguments& arguments, Transport& transport) {
+  const Mazes mazes(arguments);
+  ranks_asked(arguments, transport.ranks());
+  const auto memory = given_value(arguments, "--memory", memory_value);
+  const FollowerLimits limits{.threads = given_value(arguments, "--threads", threads_value).value_or(0),
+                              .memory_bytes = memory ? *memory : available_bytes(),
+                              .signal = &signal_flag()};
+  const Deadline waiting(std::numeric_limits<double>::infinity(), limits.memory_bytes, &signal_flag());
+  for (;;) {
+    const Bytes bytes = transport.receive(0, {.deadline = &waiting});
+    if (bytes.size() != sizeof(NextRun)) return exit_code::success;  // the end
+    const auto next = ValueUnpacker(bytes, "rank 0").take<NextRun>();
+    if (transport.rank() >= next.ranks) continue;
+    const UsedMeter meter(transport);
+    FirstRanks first(transport, next.ranks);
+    follow(first, mazes.task(next), limits);
+    const Used used = meter.used();
+    transport.send(0, std::as_bytes(std::span(&used, 1)), {.deadline = &waiting});
+  }
+}
+
+}  // namespace
+
+Command shared_scale_command(Transport& transport) {
+  Command command{"scale", "", "measure how a streamed solve spreads over ranks", {}, {}};
+  add_options(command.options, scale_specs);
+  add_options(command.options, run_option_specs());
+  command.run = [&](const Arguments& arguments) {
+    return transport.rank() > 0 ? follow_runs(arguments, transport) : lead(arguments, transport);
+  };
+  return command;
+}
+
+}  // namespace warren

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "distributed/shared_solve.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "distributed/follower.hpp"
+#include "distributed/leader.hpp"
+#include "scenes/formats/read_world_io.hpp"
+#include "scenes/mazes/maze_generator.hpp"
+#include "solve/mazes/solve_streamed.hpp"
+#include "solve/steps/kind_of_problem.hpp"
+#include "tools/screen/exit_code.hpp"
+#include "tools/screen/last_words.hpp"
+#include "tools/screen/run_of_verb.hpp"
+#include "tools/screen/signals.hpp"
+#include "tools/verbs/answer_command.hpp"
+#include "tools/words/option_values.hpp"
+#include "tools/words/path_words.hpp"
+#include "tools/words/planner_words.hpp"
+#include "tools/words/question_words.hpp"
+
+namespace warren {
+namespace {
+
+/// What is asked, as every rank reads it from the same words.
+struct SharedQuestion {
+  explicit SharedQuestion(const Arguments& arguments)
+      : question(question_words(arguments)), options(solve_words(arguments)) {
+    const std::string& source = arguments.operand(0);
+    if (!is_maze_source(source) || parse_maze_source(source).algorithm != MazeAlgorithm::mst) {
+      throw UsageError("WORLD: ranks share mazes named maze:ROWSxCOLS,algorithm=mst, whose tiles any of them can make");
+    }
+    if (options.roadmap.pipeline.value_or(PipelineKind::streamed) != PipelineKind::streamed) {
+      throw UsageError("@pipeline: ranks share the work of the pipeline streamed alone");
+    }
+    options.roadmap.pipeline = PipelineKind::streamed;
+    scene = unmade_maze_scene(parse_maze_source(source));
+    scene.source = source;
+    question.validate();
+    options.validate();
+    check_solver_options(options);
+    choose_solver(options, scene, question);
+    problem = keeping_off(scene, question, "prm keeps off the walls");
+  }
+  BandTask task() const {
+    return {scene.maze->rows,     scene.maze->cols, scene.formula->seed,
+            scene.formula->loops, problem.reach(),  {.radius = problem.robot.radius, .clearance = problem.clearance}};
+  }
+
+  Question question;
+  SolveOptions options;
+  Scene scene;
+  WallProblem problem;
+};
+
+/// What survivors of a rank that died say last.
+void say_where_stopped(const Transport& transport, const Progress& progress, StopReason reason) {
+  const char* stage = progress.stage();
+  say_on_standard_error(fmt::format("warren-mpi: rank {} of {}: stopped while it was at '{}': {}\n", transport.rank(),
+                                    transport.ranks(), stage != nullptr ? stage : "the start", text_of(reason)));
+}
+
+class SharedSolve : public AnswerCommand {
+ public:
+  SharedSolve(const Arguments& arguments, Transport& transport)
+      : AnswerCommand(arguments, "--save-roadmap"), transport_(transport), asked_(arguments) {
+    if (arguments.has("--explain")) {
+      throw UsageError("--explain: looks at walls that are held, and these are made tile by tile");
+    }
+  }
+
+ private:
+  Answer find(const Run& run, StageTimes&, ByProducts*) override {
+    check_outputs_of(robot_of(asked_.scene, asked_.question));
+    Progress unseen;
+    Execution execution = run.execution();
+    if (execution.progress == nullptr) execution.progress = &unseen;
+    Leader leader(transport_, asked_.task(), execution);
+    Answer answer = solve_streamed_within(asked_.scene, asked_.question, asked_.options, execution,
+                                          {.taker = path_taker(), .team = &leader});
+    answer.figures.push_back({"ranks", std::uint64_t{transport_.ranks()}});
+    if (answer.stop_reason) say_where_stopped(transport_, *execution.progress, *answer.stop_reason);
+    return answer;
+  }
+  Scene scene_drawn(const Execution& execution, ByProducts&) override {
+    return read_world(arguments_.operand(0), execution);
+  }
+  void explain(const Execution&, Answer&, ByProducts&) override {}
+  const Roadmap& roadmap() const override { return roadmap_; }
+
+  Transport& transport_;
+  SharedQuestion asked_;
+  Roadmap roadmap_;
+};
+
+/// Says nothing of words that rank 0 refuses, too.
+int follow_words(const Arguments& arguments, Transport& transport) {
+  const SharedQuestion asked(arguments);
+  Progress progress;
+  const auto memory = given_value(arguments, "--memory", memory_value);
+  const auto threads = given_value(arguments, "--threads", threads_value);
+  try {
+    follow(transport, asked.task(),
+           {.threads = threads.value_or(0),
+            .memory_bytes = memory ? *memory : available_bytes(),
+            .signal = &signal_flag(),
+            .progress = &progress});
+  } catch (const Stopped& stopped) {
+    say_where_stopped(transport, progress, stopped.reason);
+    throw;
+  }
+  return exit_code::success;
+}
+
+}  // namespace
+
+Command shared_solve_command(Transport& transport) {
+  Command command{"solve", "WORLD", "find a path, verify it, print a summary, by all ranks together", {}, {}};
+  add_options(command.options, solve_option_specs());
+  add_options(command.options, question_option_specs());
+  add_options(command.options, answer_output_specs());
+  add_options(command.options, path_option_specs());
+  add_options(command.options, run_option_specs());
+  command.run = [&](const Arguments& arguments) {
+    if (transport.rank() > 0) return follow_words(arguments, transport);
+    return SharedSolve(arguments, transport).run();
+  };
+  return command;
+}
+
+}  // namespace warren

@@ -1,0 +1,174 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""mpi_test.py WARREN WARREN_MPI: warren-mpi under mpirun, on this machine alone. The oracle is `warren solve --pipeline
+streamed`: the same files but for times and ranks. Whatever dies, ends or is refused ends all, in time and in words."""
+import json
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+WARREN, SHARED = (os.path.abspath(p) for p in sys.argv[1:3])
+ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+                   OMPI_MCA_btl_vader_single_copy_mechanism="none", OMPI_MCA_rmaps_base_oversubscribe="1")
+VARIES = ("stages_s", "solve_s", "peak_memory_bytes", "threads", "ranks")
+PATIENCE_S = 10
+
+
+def mpirun(ranks, words, program=None):
+    return ["mpirun", "--oversubscribe", "--bind-to", "none", "-n", str(ranks), program or SHARED] + words
+
+
+def start(command):
+    return subprocess.Popen(command, env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+
+def run(command, patience=300):
+    process = start(command)
+    out, err = process.communicate(timeout=patience)
+    return process.returncode, out, err
+
+
+def timeless(text):
+    answer = json.loads(text)
+    return json.dumps({key: value for key, value in answer.items() if key not in VARIES})
+
+
+def ranks_of(process):
+    """The processes of a run, by rank."""
+    found = {}
+    for name in os.listdir("/proc"):
+        if not name.isdigit():
+            continue
+        try:
+            with open(f"/proc/{name}/status") as status:
+                fields = dict(line.split(":\t", 1) for line in status if ":\t" in line)
+            if int(fields["PPid"]) != process.pid or fields["State"].startswith("Z"):
+                continue
+            with open(f"/proc/{name}/environ", "rb") as environ:
+                words = dict(word.split(b"=", 1) for word in environ.read().split(b"\0") if b"=" in word)
+            found[int(words[b"OMPI_COMM_WORLD_RANK"])] = int(name)
+        except (OSError, KeyError, ValueError):
+            continue
+    return found
+
+
+def is_gone(pid):
+    try:
+        with open(f"/proc/{pid}/status") as status:
+            return any(line.startswith("State:\tZ") for line in status)
+    except OSError:
+        return True
+
+
+class Answers(unittest.TestCase):
+    def same(self, world, words, ranks, threads):
+        with tempfile.TemporaryDirectory() as folder:
+            mine, theirs = (os.path.join(folder, name) for name in ("one", "many"))
+            code, _, err = run([WARREN, "solve", world, "--pipeline", "streamed", "--json", mine + ".json"] +
+                               [word.replace("FILE", mine) for word in words])
+            self.assertEqual(code, 0, err)
+            code, _, err = run(mpirun(ranks, ["solve", world, "--threads", str(threads), "--json", theirs + ".json"] +
+                                      [word.replace("FILE", theirs) for word in words]))
+            self.assertEqual(code, 0, err)
+            with open(mine + ".json") as a, open(theirs + ".json") as b:
+                a, b = a.read(), b.read()
+            self.assertEqual(json.loads(b)["ranks"], ranks)
+            self.assertEqual(timeless(a), timeless(b))
+            if words:
+                with open(mine + ".npy", "rb") as a, open(theirs + ".npy", "rb") as b:
+                    self.assertEqual(a.read(), b.read())
+
+    def test_any_ranks_and_threads_give_the_same_files(self):
+        worlds = ["maze:1x1,algorithm=mst", "maze:63x64,algorithm=mst", "maze:257x65,algorithm=mst,loops=0.1",
+                  "maze:1000x1000,algorithm=mst,seed=4,loops=0.01", "maze:2100x700,algorithm=mst,seed=5"]
+        for number, world in enumerate(worlds):
+            for ranks in (1, 2, 3, 5, 8):
+                with self.subTest(world=world, ranks=ranks):
+                    self.same(world, ["--no-path", "--path", "FILE.npy"] if (number + ranks) % 2 else [], ranks,
+                              1 + ranks % 2)
+
+
+class Faults(unittest.TestCase):
+    WORLD = "maze:9000x9000,algorithm=mst,seed=3,loops=0.01"
+
+    def ends(self, process, pids, since):
+        out, err = process.communicate(timeout=PATIENCE_S)
+        self.assertLess(time.monotonic() - since, PATIENCE_S)
+        self.assertNotEqual(process.returncode, 0)
+        while not all(is_gone(pid) for pid in pids):
+            self.assertLess(time.monotonic() - since, PATIENCE_S, "a rank is still there")
+            time.sleep(0.05)
+        return out, err
+
+    def test_a_rank_that_dies_ends_all_and_a_survivor_names_the_stage(self):
+        named = set()
+        for number in range(9):
+            killed = number % 3
+            process = start(mpirun(3, ["solve", self.WORLD, "--no-path", "--threads", "1", "--quiet"]))
+            while len(ranks_of(process)) < 3:
+                time.sleep(0.01)
+            time.sleep(random.uniform(0.5, 5.0))
+            pids = ranks_of(process)
+            if len(pids) < 3:
+                process.communicate()
+                continue
+            since = time.monotonic()
+            os.kill(pids[killed], signal.SIGKILL)
+            _, err = self.ends(process, pids.values(), since)
+            lines = [line for line in err.splitlines() if "stopped while it was at '" in line]
+            self.assertTrue(lines, f"rank {killed} was killed, and no survivor said a word:\n{err}")
+            named.update(line.split("'")[1] for line in lines)
+        self.assertTrue(named, "no run lived long enough")
+
+    def test_the_launcher_that_is_killed_ends_all(self):
+        for which in (signal.SIGKILL, signal.SIGTERM):
+            process = start(mpirun(3, ["solve", self.WORLD, "--no-path", "--threads", "1", "--quiet"]))
+            while len(ranks_of(process)) < 3:
+                time.sleep(0.01)
+            time.sleep(1.0)
+            pids = list(ranks_of(process).values())
+            since = time.monotonic()
+            process.send_signal(which)
+            self.ends(process, pids, since)
+
+    def test_budget_and_memory_end_all_with_their_code(self):
+        for words in (["--budget", "300ms"], ["--memory", "25MiB"]):
+            with self.subTest(words=words):
+                code, out, err = run(mpirun(3, ["solve", self.WORLD, "--no-path", "--json", "-"] + words), 60)
+                self.assertEqual(code, 124, err)
+                self.assertEqual(json.loads(out)["status"], "stopped")
+
+    def test_ranks_that_were_given_other_words_refuse_each_other(self):
+        other = ["-n", "1", SHARED, "solve", "maze:300x300,algorithm=mst,seed=2"]
+        code, out, err = run(mpirun(2, ["solve", "maze:300x300,algorithm=mst,seed=1", ":"] + other), 60)
+        self.assertEqual(code, 65, err)
+        self.assertIn("rank 2: is another program or was given other words", err)
+
+    def test_ranks_of_another_build_are_refused(self):
+        with tempfile.TemporaryDirectory() as folder:
+            copy = shutil.copy(SHARED, os.path.join(folder, "warren-mpi"))
+            with open(copy, "ab") as program:
+                program.write(b"\0")
+            words = ["solve", "maze:300x300,algorithm=mst"]
+            code, _, err = run(mpirun(1, words + [":", "-n", "1", copy] + words), 60)
+            self.assertEqual(code, 65, err)
+            self.assertIn("another program", err)
+
+    def test_what_cannot_be_asked_is_refused_once(self):
+        for words, code in ((["solve", "maze:30x30"], 2), (["solve", "maze:30x30,algorithm=mst", "--explain"], 2),
+                            (["solve", "maze:30x30,algorithm=mst", "--no-such"], 2), (["dance"], 2),
+                            (["solve", "maze:30x30,algorithm=mst", "--json", "/no/folder/a.json"], 73)):
+            with self.subTest(words=words):
+                found, _, err = run(mpirun(3, words), 60)
+                self.assertEqual(found, code, err)
+                self.assertEqual(sum(line.startswith("warren-mpi:") for line in err.splitlines()), 1, err)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])

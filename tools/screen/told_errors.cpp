@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/screen/told_errors.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <new>
+#include <system_error>
+
+#include "core/base/error.hpp"
+#include "core/base/printable.hpp"
+#include "parallel/deadline.hpp"
+#include "solve/question/limits.hpp"
+#include "tools/screen/exit_code.hpp"
+#include "tools/screen/last_words.hpp"
+#include "tools/screen/run_of_verb.hpp"
+
+namespace warren {
+namespace {
+
+int report_bug(std::string_view program, std::string_view what) {
+  return complain(
+      program, exit_code::internal,
+      fmt::format("internal error: {}\nwarren: this is a bug. Please report it with the whole command line, "
+                  "the input file and the output of 'warren --version'.",
+                  printable(what)));
+}
+
+/// Where the reader of our standard output has gone, say nothing and end as other programs do.
+void die_if_unheard() {
+  pollfd out{STDOUT_FILENO, POLLOUT, 0};
+  if (::poll(&out, 1, 0) == 1 && (out.revents & POLLERR) != 0) std::raise(SIGPIPE);
+}
+
+}  // namespace
+
+int complain(std::string_view program, int code, std::string_view text) {
+  say_on_standard_error(fmt::format("{}: {}\n", program, text));
+  return code;
+}
+
+int run_with_errors_told(std::string_view program, std::string_view hint, const std::function<int()>& run) {
+  try {
+    const int code = run();
+    if (std::fflush(stdout) != 0) throw WriteError("standard output", std::generic_category().message(errno));
+    if (std::ferror(stdout) != 0) throw WriteError("standard output", "it did not take all");
+    return code;
+  } catch (const UsageError& error) {
+    return complain(program, exit_code::usage, fmt::format("{}{}", error.spelled("--", '-'), hint));
+  } catch (const InputError& error) {
+    return complain(program, exit_code::bad_data, error.what());
+  } catch (const ReadError& error) {
+    return complain(program, exit_code::unreadable, error.what());
+  } catch (const WriteError& error) {
+    die_if_unheard();
+    return complain(program, exit_code::unwritable, error.what());
+  } catch (const Stopped& stopped) {
+    return complain(program, exit_code_of(stopped.reason), fmt::format("stopped: {}", text_of(stopped.reason)));
+  } catch (const std::bad_alloc&) {
+    return say_memory_is_out();
+  } catch (const std::exception& error) {
+    return report_bug(program, error.what());
+  }
+}
+
+}  // namespace warren
