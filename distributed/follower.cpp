@@ -85,8 +85,7 @@ class Follower {
       case Request::reduce:
         return reduce(from, to);
       case Request::hand_over:
-        for (const std::byte byte : std::exchange(summaries_, {})) to.add(byte);
-        return;
+        return to.add_bytes(std::exchange(summaries_, {}));
       case Request::steps:
         for (const auto& steps : band_.steps_of(from.take_list<TileChain>(), execution_)) to.add_list(steps);
         return;
@@ -107,7 +106,11 @@ class Follower {
     ends.goal.links = from.take_list<EndLink>();
     std::vector<TileSummary> tiles = band_.reduce(ends, execution_);
     std::size_t bytes = 0;
-    for (const TileSummary& tile : tiles) bytes += tile.bytes();
+    std::uint64_t keys = 0;
+    for (const TileSummary& tile : tiles) {
+      bytes += tile.bytes();
+      keys += tile.keys.size();
+    }
     execution_.reserve(bytes);
     ValuePacker packer;
     for (TileSummary& tile : tiles) {
@@ -116,6 +119,7 @@ class Follower {
     }
     summaries_ = packer.take();
     to.add(std::uint64_t{summaries_.size()});
+    to.add(keys);
   }
   void read(std::size_t number, ValuePacker& to) const {
     if (number < band_.tiles().first || number >= band_.tiles().last) throw InputError("tile", "is of another rank");

@@ -108,6 +108,17 @@ const CellWallSource& Leader::make(const Execution& execution) {
   return cells_;
 }
 
+/// Of a key the overlay has a row, a count, two labels and a parent.
+void Leader::reserve_overlay(std::size_t bytes, std::uint64_t keys, const Execution& execution) {
+  const std::size_t needed = bytes + keys * (32 + 1 + 2 * sizeof(double) + sizeof(VertexId));
+  try {
+    execution.reserve(needed);
+  } catch (const Stopped&) {
+    lacking_bytes_ = needed;
+    throw;
+  }
+}
+
 /// Room for all is asked for before the first comes.
 std::vector<TileSummary> Leader::reduce_all(const OverlayEnds& ends, const Execution& execution) {
   ValuePacker packer;
@@ -118,12 +129,16 @@ std::vector<TileSummary> Leader::reduce_all(const OverlayEnds& ends, const Execu
   const std::vector<Bytes> sizes = answers();
   std::size_t total = 0;
   std::size_t largest = 0;
+  std::uint64_t keys = 0;
+  for (const TileSummary& tile : tiles) keys += tile.keys.size();
   for (unsigned rank = 1; rank < transport_.ranks(); ++rank) {
-    const auto size = ValueUnpacker(sizes[rank], fmt::format("rank {}", rank)).take<std::uint64_t>();
+    ValueUnpacker from(sizes[rank], fmt::format("rank {}", rank));
+    const auto size = from.take<std::uint64_t>();
+    keys += from.take<std::uint64_t>();
     total += size;
     largest = std::max<std::size_t>(largest, size);
   }
-  execution.reserve(total + 2 * largest);
+  reserve_overlay(total + 2 * largest, keys, execution);
   tiles.reserve(band_.grid().count());
   for (unsigned rank = 1; rank < transport_.ranks(); ++rank) {
     execution.check();

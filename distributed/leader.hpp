@@ -11,6 +11,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -36,6 +37,9 @@ class Leader : public StreamedTeam, private OtherTiles, private JudgesElsewhere 
   OtherTiles& tiles() override { return *this; }
   JudgesElsewhere& judges() override { return *this; }
 
+  /// What rank 0 would need beside what it holds, where that was more than its limit: the search runs there.
+  std::optional<std::size_t> lacking_bytes() const { return lacking_bytes_; }
+
   /// A tile of another rank. Any thread.
   CellTile tile(std::size_t number);
 
@@ -47,6 +51,7 @@ class Leader : public StreamedTeam, private OtherTiles, private JudgesElsewhere 
   void begin(std::span<const Vec2> path, double reach) override;
   std::vector<NearestWalls> take() override;
 
+  void reserve_overlay(std::size_t bytes, std::uint64_t keys, const Execution& execution);
   void ask(Request request, std::span<const std::byte> body);
   void ask_one(unsigned rank, Request request, std::span<const std::byte> body);
   /// The answers of all, by rank; that of rank 0 is empty.
@@ -60,6 +65,7 @@ class Leader : public StreamedTeam, private OtherTiles, private JudgesElsewhere 
   RemoteCells cells_;
   Execution execution_;
   OneAtATime asking_;
+  std::optional<std::size_t> lacking_bytes_;
 };
 
 }  // namespace warren

@@ -49,7 +49,7 @@ void add_limits(std::vector<std::string>& words, unsigned ranks_here) {
     words.insert(words.end(), {"--threads", std::to_string(std::max(1U, thread_count(0) / ranks_here))});
   }
   if (!has(words, "--memory")) {
-    words.insert(words.end(), {"--memory", std::to_string(available_bytes() / ranks_here)});
+    words.insert(words.end(), {"--memory", std::to_string((available_bytes() / ranks_here) >> 20U) + "MiB"});
   }
 }
 
@@ -126,6 +126,6 @@ int main(int argc, char** argv) {
     const std::vector<std::string> words(argv + (argc > 0 ? 1 : 0), argv + argc);
     return transport.rank() == 0 ? warren::run_rank_0(words, transport) : warren::run_follower(words, transport);
   } catch (const std::bad_alloc&) {  // also of those who told of another error
-    return warren::say_memory_is_out();
+    transport.end_all(warren::say_memory_is_out());
   }
 }

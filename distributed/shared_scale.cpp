@@ -2,14 +2,12 @@
 #include "distributed/shared_scale.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
@@ -17,6 +15,7 @@
 #include "distributed/agreement.hpp"
 #include "distributed/follower.hpp"
 #include "distributed/leader.hpp"
+#include "distributed/ranks_report_io.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "solve/mazes/solve_streamed.hpp"
 #include "tools/screen/exit_code.hpp"
@@ -62,12 +61,6 @@ struct NextRun {
   std::uint32_t ranks, rows, cols;
 };
 
-/// What a rank has used in one run.
-struct Used {
-  double cpu_s;
-  std::uint64_t bytes_sent, peak_bytes;
-};
-
 class UsedMeter {
  public:
   explicit UsedMeter(const Transport& transport) : transport_(transport), bytes_(transport.bytes_sent()) {
@@ -76,7 +69,7 @@ class UsedMeter {
     [[maybe_unused]] const ssize_t ignored = ::write(file, "5", 1);
     ::close(file);
   }
-  Used used() const { return {cpu() - cpu_, transport_.bytes_sent() - bytes_, peak_resident_bytes()}; }
+  RankUse used() const { return {cpu() - cpu_, transport_.bytes_sent() - bytes_, peak_resident_bytes()}; }
 
  private:
   static double cpu() {
@@ -118,38 +111,15 @@ struct Mazes {
   std::uint64_t seed;
 };
 
-struct Measured {
-  bool is_strong;
-  NextRun run;
-  Answer answer;
-  double seconds;
-  std::vector<Used> used;  // by rank
-
-  double cpu_s() const {
-    double sum = 0.0;
-    for (const Used& rank : used) sum += rank.cpu_s;
-    return sum;
-  }
-  std::uint64_t bytes_sent() const {
-    std::uint64_t sum = 0;
-    for (const Used& rank : used) sum += rank.bytes_sent;
-    return sum;
-  }
-  std::uint64_t peak_bytes() const {
-    std::uint64_t most = 0;
-    for (const Used& rank : used) most = std::max(most, rank.peak_bytes);
-    return most;
-  }
-};
-
-Measured measured(Transport& transport, const Mazes& mazes, bool is_strong, const NextRun& next,
+RanksRun measured(Transport& transport, const Mazes& mazes, bool is_strong, const NextRun& next,
                   const Execution& execution) {
   for (unsigned rank = 1; rank < transport.ranks(); ++rank) {
     transport.send(rank, std::as_bytes(std::span(&next, 1)), execution);
   }
   const UsedMeter meter(transport);
   const auto begin = std::chrono::steady_clock::now();
-  Measured found{is_strong, next, {}, 0.0, {}};
+  RanksRun found{.is_strong = is_strong, .ranks = next.ranks, .rows = next.rows, .cols = next.cols};
+  Answer answer;
   {
     FirstRanks first(transport, next.ranks);
     const EndOfFollowers end(first);
@@ -157,55 +127,16 @@ Measured measured(Transport& transport, const Mazes& mazes, bool is_strong, cons
     NobodysPath nobody;
     SolveOptions options;
     options.roadmap.pipeline = PipelineKind::streamed;
-    found.answer =
-        solve_streamed_within(mazes.scene(next), {}, options, execution, {.taker = &nobody, .team = &leader});
+    answer = solve_streamed_within(mazes.scene(next), {}, options, execution, {.taker = &nobody, .team = &leader});
   }
   found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   found.used.push_back(meter.used());
   for (unsigned rank = 1; rank < next.ranks; ++rank) {
-    found.used.push_back(ValueUnpacker(transport.receive(rank, execution), "rank").take<Used>());
+    found.used.push_back(ValueUnpacker(transport.receive(rank, execution), "rank").take<RankUse>());
   }
-  if (found.answer.stop_reason) throw Stopped(*found.answer.stop_reason);
+  if (answer.stop_reason) throw Stopped(*answer.stop_reason);
+  found.length = answer.length;
   return found;
-}
-
-std::string table_of(std::span<const Measured> runs) {
-  std::string text =
-      "        ranks          maze   clock s     CPU s  CPU a cell  of 1 rank    sent a cell   peak a rank\n";
-  for (const Measured& run : runs) {
-    const auto first =
-        std::find_if(runs.begin(), runs.end(), [&](const Measured& r) { return r.is_strong == run.is_strong; });
-    const auto cells = [](const Measured& r) { return static_cast<double>(r.run.rows) * r.run.cols; };
-    const double cpu_ns = 1e9 * run.cpu_s() / cells(run);
-    text += fmt::format(
-        "{:7} {:5} {:>13} {:9.2f} {:9.2f} {:8.2f} ns {:9.3f} {:12.4f} B {:9.1f} MiB\n",
-        run.is_strong ? "strong" : "weak", run.run.ranks, fmt::format("{}x{}", run.run.rows, run.run.cols), run.seconds,
-        run.cpu_s(), cpu_ns, cpu_ns / (1e9 * first->cpu_s() / cells(*first)),
-        static_cast<double>(run.bytes_sent()) / cells(run), static_cast<double>(run.peak_bytes()) / (1024.0 * 1024.0));
-  }
-  return text;
-}
-
-std::string json_of(std::span<const Measured> runs, const Mazes& mazes, unsigned threads) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const Measured& run : runs) {
-    nlohmann::ordered_json ranks = nlohmann::ordered_json::array();
-    for (const Used& used : run.used) {
-      ranks.push_back({{"cpu_s", used.cpu_s}, {"bytes_sent", used.bytes_sent}, {"peak_memory_bytes", used.peak_bytes}});
-    }
-    list.push_back({{"scaling", run.is_strong ? "strong" : "weak"},
-                    {"ranks", run.run.ranks},
-                    {"rows", run.run.rows},
-                    {"cols", run.run.cols},
-                    {"length", run.answer.length},
-                    {"clock_s", run.seconds},
-                    {"cpu_s", run.cpu_s()},
-                    {"bytes_sent", run.bytes_sent()},
-                    {"by_rank", ranks}});
-  }
-  const nlohmann::ordered_json whole{
-      {"format", "warren.ranks/1"}, {"seed", mazes.seed}, {"loops", mazes.loops}, {"threads", threads}, {"runs", list}};
-  return whole.dump(2) + "\n";
 }
 
 std::vector<unsigned> ranks_asked(const Arguments& arguments, unsigned most) {
@@ -222,7 +153,7 @@ int lead(const Arguments& arguments, Transport& transport) {
   const Mazes mazes(arguments);
   const std::vector<unsigned> ranks = ranks_asked(arguments, transport.ranks());
   Run run(arguments);
-  std::vector<Measured> runs;
+  std::vector<RanksRun> runs;
   for (const bool is_strong : {true, false}) {
     for (const unsigned count : ranks) {
       const NextRun next{count, is_strong ? mazes.side : mazes.side * count, mazes.side};
@@ -230,8 +161,8 @@ int lead(const Arguments& arguments, Transport& transport) {
     }
   }
   run.end();
-  write_report(arguments, "--json", [&] { return json_of(runs, mazes, run.threads()); });
-  if (arguments.value("--json") != "-" && !run.quiet()) print_text(table_of(runs));
+  write_report(arguments, "--json", [&] { return ranks_json(runs, {mazes.seed, mazes.loops, run.threads()}); });
+  if (arguments.value("--json") != "-" && !run.quiet()) print_text(ranks_table(runs));
   return exit_code::success;
 }
 
@@ -251,7 +182,7 @@ int follow_runs(const Arguments& arguments, Transport& transport) {
     const UsedMeter meter(transport);
     FirstRanks first(transport, next.ranks);
     follow(first, mazes.task(next), limits);
-    const Used used = meter.used();
+    const RankUse used = meter.used();
     transport.send(0, std::as_bytes(std::span(&used, 1)), {.deadline = &waiting});
   }
 }

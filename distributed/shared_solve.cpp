@@ -10,6 +10,7 @@
 #include "distributed/leader.hpp"
 #include "scenes/formats/read_world_io.hpp"
 #include "scenes/mazes/maze_generator.hpp"
+#include "scenes/text/human_units.hpp"
 #include "solve/mazes/solve_streamed.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 #include "tools/screen/exit_code.hpp"
@@ -83,6 +84,10 @@ class SharedSolve : public AnswerCommand {
                                           {.taker = path_taker(), .team = &leader});
     answer.figures.push_back({"ranks", std::uint64_t{transport_.ranks()}});
     if (answer.stop_reason) say_where_stopped(transport_, *execution.progress, *answer.stop_reason);
+    if (const auto lacking = leader.lacking_bytes()) {
+      say_on_standard_error(fmt::format("warren-mpi: rank 0 searches alone, and would need {} more\n",
+                                        human_bytes(static_cast<double>(*lacking))));
+    }
     return answer;
   }
   Scene scene_drawn(const Execution& execution, ByProducts&) override {
