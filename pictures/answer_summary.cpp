@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "core/base/printable.hpp"
+#include "scenes/scene/unit_of.hpp"
 #include "scenes/text/human_units.hpp"
 
 namespace warren {
@@ -44,10 +45,16 @@ void line(std::string& text, const Palette& palette, std::string_view name, std:
   text += fmt::format("  {}{}\n", palette.faint(fmt::format("{:<14}", name)), what);
 }
 
-void add_blocked(std::string& text, const BlockedEnd& blocked, const Palette& palette) {
-  if (blocked.depth) line(text, palette, "depth", fmt::format("{:.3g} in it", *blocked.depth));
+/// As far as it is, with its unit where that is no cell.
+std::string length_text(const Answer& answer, double length) {
+  return human_number(length).append(metres_behind(answer.world.unit));
+}
+
+void add_blocked(std::string& text, const Answer& answer, const BlockedEnd& blocked, const Palette& palette) {
+  const std::string_view metres = metres_behind(answer.world.unit);
+  if (blocked.depth) line(text, palette, "depth", fmt::format("{:.3g}{} in it", *blocked.depth, metres));
   if (!blocked.free_place.empty()) {
-    const char* unit = blocked.free_place.size() == 6 ? " rad" : "";
+    const std::string_view unit = blocked.free_place.size() == 6 ? " rad" : metres;
     line(text, palette, "free is",
          fmt::format("{}, {}{} away", fmt::join(blocked.free_place, ","), human_number(blocked.distance), unit));
   }
@@ -84,8 +91,8 @@ std::string planner_text(const Answer& answer) {
 }
 
 void add_path(std::string& text, const Answer& answer, const Palette& palette) {
-  std::string length = palette.strong(human_number(answer.length));
-  if (answer.raw_length) length += fmt::format(" (before --optimise: {})", human_number(*answer.raw_length));
+  std::string length = palette.strong(length_text(answer, answer.length));
+  if (answer.raw_length) length += fmt::format(" (before --optimise: {})", length_text(answer, *answer.raw_length));
   if (answer.optimal) length += " (the shortest there is)";
   line(text, palette, "length", length + fmt::format(", {}", counted(path_points(answer), "point", "points")));
   if (answer.cost) line(text, palette, "cost", human_number(*answer.cost) + ", in steps from cell to cell");
@@ -94,8 +101,8 @@ void add_path(std::string& text, const Answer& answer, const Palette& palette) {
     line(text, palette, "turning", human_number(*answer.turn_rad / degree) + " degrees");
   }
   line(text, palette, "clearance",
-       fmt::format("{} at least; {} asked for", human_number(answer.min_clearance),
-                   human_number(answer.problem.clearance)));
+       fmt::format("{} at least; {} asked for", length_text(answer, answer.min_clearance),
+                   length_text(answer, answer.problem.clearance)));
 }
 
 void add_roadmap(std::string& text, const Answer& answer, const Palette& palette) {
@@ -117,7 +124,7 @@ void add_roadmap(std::string& text, const Answer& answer, const Palette& palette
       text, palette, "start, goal",
       fmt::format("components of {} and {}, {} apart", counted(answer.separation.start_size, "milestone", "milestones"),
                   counted(answer.separation.goal_size, "milestone", "milestones"),
-                  human_number(answer.separation.nearest_gap)));
+                  length_text(answer, answer.separation.nearest_gap)));
 }
 
 void add_times(std::string& text, const Answer& answer, const Palette& palette) {
@@ -141,7 +148,7 @@ std::string summary_of(const Answer& answer, const Palette& palette, std::span<c
     line(text, palette, "planner", planner_text(answer));
   }
   add_strange_headings(text, answer.problem, palette);
-  if (answer.blocked) add_blocked(text, *answer.blocked, palette);
+  if (answer.blocked) add_blocked(text, answer, *answer.blocked, palette);
   if (answer.verified) add_path(text, answer, palette);
   add_roadmap(text, answer, palette);
   add_times(text, answer, palette);

@@ -176,7 +176,7 @@ WARREN_ARCHIVED(BlockedEnd, is_start, by, free_place, distance, hint, room, need
 WARREN_ARCHIVED(Hint, verb, words, why)
 WARREN_ARCHIVED(Explanation, components, narrowest, hints, stopped)
 WARREN_ARCHIVED(Problem, robot, start, goal, clearance, contact)
-WARREN_ARCHIVED(WorldAccount, source, kind, walls, polygons, hash, spheres, boxes)
+WARREN_ARCHIVED(WorldAccount, source, kind, walls, polygons, hash, spheres, boxes, unit)
 WARREN_ARCHIVED(NamedFigure, name, value)
 WARREN_ARCHIVED(HandedPath, points, hash)
 WARREN_ARCHIVED(Answer, outcome, stop_reason, verified, blocked, explained, refuted, length, min_clearance, raw_length,

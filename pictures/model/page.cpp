@@ -11,6 +11,7 @@
 #include "pictures/model/letters.hpp"
 #include "pictures/model/page_axes.hpp"
 #include "pictures/model/ticks.hpp"
+#include "scenes/scene/unit_of.hpp"
 
 namespace warren {
 namespace {

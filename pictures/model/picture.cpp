@@ -32,12 +32,6 @@ Canvas canvas_of(const Picture& picture, const Execution& execution) {
   return canvas;
 }
 
-std::string_view unit_of(const Scene& scene) {
-  if (scene.maze) return "cells";
-  if (!scene.map) return {};
-  return scene.map->format == MapFormat::ros ? "m" : "cells";
-}
-
 double arc_radius(Vec2 from, Vec2 to, double turn) {
   return 0.5 * distance(from, to) / std::abs(portable::sin(0.5 * turn));
 }

@@ -92,9 +92,6 @@ struct Canvas {
 };
 Canvas canvas_of(const Picture& picture, const Execution& execution);
 
-/// What a unit of the scene's coordinates is called: "cells" of mazes and maps, "m" of maps that say so; "" else.
-std::string_view unit_of(const Scene& scene);
-
 /// For each vertex the index of its colour in colors::components: the largest components have colours of their own.
 /// Throws Stopped.
 std::vector<std::uint8_t> component_colors(const Graph& graph, const Execution& execution);

@@ -15,6 +15,7 @@
 #include "pictures/page/page_arm_io.hpp"
 #include "pictures/page/page_files.hpp"
 #include "pictures/page/page_layers_io.hpp"
+#include "scenes/scene/unit_of.hpp"
 
 namespace warren {
 namespace {

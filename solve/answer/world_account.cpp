@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "scenes/formats/scene_io.hpp"
+#include "scenes/scene/unit_of.hpp"
 #include "scenes/text/human_units.hpp"
 
 namespace warren {
@@ -15,13 +16,15 @@ WorldAccount account_of(const Scene& scene, const Execution& execution) {
 }
 
 WorldAccount account_of(const Scene& scene, std::string hash) {
-  if (scene.map) return {scene.source, "map", 0, 0, std::move(hash), 0, 0};
+  std::string unit{unit_of(scene)};
+  if (scene.map) return {scene.source, "map", 0, 0, std::move(hash), 0, 0, std::move(unit)};
   const bool plane = scene.walls.size() > 0 || !has_solids(scene);
   const char* kind = scene.maze ? "maze" : !scene.polygons.empty() ? "polygons" : plane ? "walls" : "solids";
   const bool is_tree = is_unmade(scene) && scene.formula && scene.formula->loops == 0.0;
   const std::size_t walls =
       is_tree ? 4 + (scene.maze->rows - std::size_t{1}) * (scene.maze->cols - std::size_t{1}) : scene.walls.size();
-  return {scene.source, kind, walls, scene.polygons.size(), std::move(hash), scene.spheres.size(), scene.boxes.size()};
+  return {scene.source,       kind,           walls, scene.polygons.size(), std::move(hash), scene.spheres.size(),
+          scene.boxes.size(), std::move(unit)};
 }
 
 std::string description_of(const Scene& scene) {

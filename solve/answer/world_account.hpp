@@ -20,6 +20,7 @@ struct WorldAccount {
   std::string hash;            ///< scene_hash
   std::uint64_t spheres = 0;   ///< that only arms meet
   std::uint64_t boxes = 0;     ///< that only arms meet
+  std::string unit = {};       ///< of its lengths: "m" or "cells"; empty: nobody says
 };
 
 /// Throws Stopped. O(size of the scene), for the hash.

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <utility>
+
 #include "scenes/text/human_units.hpp"
 #include "scenes/text/json_text.hpp"
 #include "solve/answer/world_account.hpp"
@@ -17,14 +20,24 @@ std::string numbers_json(const std::vector<double>& numbers) {
   return text + "]";
 }
 
+/// Without what the last digits of a double may be by rounding.
+std::string rounded_text(double number) {
+  constexpr double most_plain = 1e12;
+  return std::abs(number) < most_plain ? fmt::format("{:.12g}", number) : fmt::format("{}", number);
+}
+
 Fact text_fact(const char* name, const std::string& text) { return {name, text, json_string(text)}; }
-Fact number_fact(const char* name, double number) { return {name, fmt::format("{}", number), json_number(number)}; }
+Fact number_fact(const char* name, double number) { return {name, rounded_text(number), json_number(number)}; }
 Fact count_fact(const char* name, std::size_t count) { return {name, grouped(count), std::to_string(count)}; }
 Fact state_fact(const char* name, const std::vector<double>& state) {
-  return {name, fmt::format("{}", fmt::join(state, ", ")), numbers_json(state)};
+  std::string text;
+  for (const double number : state) text += (text.empty() ? "" : ", ") + rounded_text(number);
+  return {name, std::move(text), numbers_json(state)};
 }
 Fact box_fact(const char* name, const Box& box) {
-  return {name, fmt::format("{} to {}, {} to {}", box.min.x, box.max.x, box.min.y, box.max.y),
+  return {name,
+          fmt::format("{} to {}, {} to {}", rounded_text(box.min.x), rounded_text(box.max.x), rounded_text(box.min.y),
+                      rounded_text(box.max.y)),
           numbers_json({box.min.x, box.min.y, box.max.x, box.max.y})};
 }
 
@@ -41,7 +54,9 @@ std::vector<Fact> map_facts(const Scene& scene, const WorldAccount& world, const
   if (map.format == MapFormat::ros) {
     facts.push_back(count_fact("unknown", map.unknown_count));
     facts.push_back(count_fact("between", map.between));
-    facts.push_back({"origin", fmt::format("{}, {}, yaw {}", map.origin.x, map.origin.y, map.yaw_rad),
+    facts.push_back({"origin",
+                     fmt::format("{}, {}, yaw {}", rounded_text(map.origin.x), rounded_text(map.origin.y),
+                                 rounded_text(map.yaw_rad)),
                      numbers_json({map.origin.x, map.origin.y, map.yaw_rad})});
   }
   if (!map.water.empty()) facts.push_back(count_fact("water", map.water.count()));
@@ -80,7 +95,7 @@ void add_problem_facts(const Scene& scene, std::vector<Fact>& facts) {
   if (!scene.start.empty()) facts.push_back(state_fact("start", scene.start));
   if (!scene.goal.empty()) facts.push_back(state_fact("goal", scene.goal));
   if (scene.grid) {
-    facts.push_back({"grid", fmt::format("cell {}, {} angles", scene.grid->cell, scene.grid->angles),
+    facts.push_back({"grid", fmt::format("cell {}, {} angles", rounded_text(scene.grid->cell), scene.grid->angles),
                      fmt::format("[{}, {}]", json_number(scene.grid->cell), scene.grid->angles)});
   }
 }

@@ -33,6 +33,7 @@ std::string world_json(const WorldAccount& world) {
   if (world.spheres > 0) json.add("spheres", world.spheres);
   if (world.boxes > 0) json.add("boxes", world.boxes);
   json.add("hash", world.hash);
+  if (!world.unit.empty()) json.add("unit", world.unit);
   return json.closed();
 }
 

@@ -269,7 +269,8 @@ void SampledSolve<Body>::settle_ends() {
 }
 
 /// Of bodies whose ways have a price beyond their length: the cheapest of several trees' paths, each shortened a
-/// little. What is dear then stays so, since one that wanders is made better only near where it goes.
+/// little; what is told of work and sizes is of all trees. What is dear then stays so, since one that wanders is made
+/// better only near where it goes.
 template <class Body>
 void SampledSolve<Body>::choose_path() {
   const std::size_t count = by_roadmap() ? 1 : body_.paths_weighed();
@@ -281,6 +282,8 @@ void SampledSolve<Body>::choose_path() {
     Solution<State> other = grow_through_stops();
     execution().check();
     answer_.counters += other.counters;
+    answer_.roadmap.milestones += other.roadmap.milestones;
+    answer_.roadmap.edges += other.roadmap.edges;
     if (other.outcome != Outcome::solved) continue;
     const double price = body_.price_once_shorter(*world_, other.path, answer_);
     if (!(price < least)) continue;

@@ -42,6 +42,7 @@ struct ComparedProblem {
   std::string kind;    ///< whose graph was searched; "" for planners
   std::uint64_t vertices = 0;
   std::uint64_t edges = 0;
+  std::string unit = {};  ///< of lengths, as WorldAccount has it
 };
 
 struct Contender {

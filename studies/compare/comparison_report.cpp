@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/base/printable.hpp"
+#include "scenes/scene/unit_of.hpp"
 #include "scenes/text/human_units.hpp"
 #include "studies/measure/machine_memory.hpp"
 
@@ -37,12 +38,17 @@ std::string median_interval(const Distribution& d) {
   return precise_seconds(d.median_ci95->low) + " to " + precise_seconds(d.median_ci95->high);
 }
 
+/// A column's name, with the unit of its lengths where that is no cell.
+std::string of_lengths(const Comparison& comparison, std::size_t problem, std::string_view name) {
+  return std::string(name).append(metres_behind(comparison.problems[problem].unit).empty() ? "" : " (m)");
+}
+
 /// Searches of one graph: the figures of a path are the same in every run.
 TextTable search_table(const Comparison& comparison, std::size_t problem) {
-  TextTable table{
-      {"search", "queue", "library", "length", "hops", "settled", "trials", "median", "95 % for the median", "mean"},
-      3,
-      {}};
+  TextTable table{{"search", "queue", "library", of_lengths(comparison, problem, "length"), "hops", "settled", "trials",
+                   "median", "95 % for the median", "mean"},
+                  3,
+                  {}};
   const bool with_library = has_peer(comparison);
   for (const Contender& c : comparison.contenders) {
     if (c.problem != problem) continue;
@@ -72,8 +78,9 @@ std::string success_text(const Contender& c, const ComparisonRow& row) {
 
 TextTable planner_table(const Comparison& comparison, std::size_t problem) {
   constexpr double degree = std::numbers::pi / 180.0;
-  TextTable table{{"planner", "solved", "95 %", "length q1", "median", "q3", "hops", "cells", "turning (deg)",
-                   "expanded", "clearance", "time q1", "median", "q3"},
+  const auto of = [&](std::string_view name) { return of_lengths(comparison, problem, name); };
+  TextTable table{{"planner", "solved", "95 %", of("length q1"), "median", "q3", "hops", "cells", "turning (deg)",
+                   "expanded", of("clearance"), "time q1", "median", "q3"},
                   1,
                   {}};
   for (const Contender& c : comparison.contenders) {

@@ -7,6 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "pictures/layers/roadmap_in_the_plane.hpp"
+#include "scenes/scene/unit_of.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 #include "studies/compare/comparison.hpp"
 
@@ -57,6 +58,7 @@ WorldGraph world_graph(const Scene& scene, const Question& question, const Solve
   WorldGraph made = roadmap_graph({options, scene, question, solver.planner, execution}, solver);
   made.graph.source = scene.source;
   made.graph.kind = name_of(solver.planner);
+  made.graph.unit = unit_of(scene);
   return made;
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "parallel/chunks.hpp"
+#include "scenes/scene/unit_of.hpp"
 #include "solve/answer/write_answer_io.hpp"
 #include "solve/question/grid_choice.hpp"
 #include "solve/solve.hpp"
@@ -71,7 +72,7 @@ void PlannerContest::run() {
 
 /// Asks every planner, before the first run, whether it can solve this world with these options.
 void PlannerContest::enter() {
-  comparison_.problems.push_back({.source = scene_.source, .kind = ""});
+  comparison_.problems.push_back({.source = scene_.source, .kind = "", .unit = std::string(unit_of(scene_))});
   if (options_.parallel) {
     comparison_.notes.push_back(fmt::format("times are of runs beside each other, up to {} at once, on a thread each",
                                             thread_count(execution_.threads)));

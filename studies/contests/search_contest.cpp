@@ -81,7 +81,8 @@ class SearchContest {
 };
 
 void SearchContest::enter() {
-  comparison_.problems.push_back({graph_.source, graph_.kind, graph_.graph.vertex_count(), graph_.graph.edge_count()});
+  comparison_.problems.push_back(
+      {graph_.source, graph_.kind, graph_.graph.vertex_count(), graph_.graph.edge_count(), graph_.unit});
   first_contender_ = comparison_.contenders.size();
   for (const SearchVariant& v : options_.variants) {
     entrants_.push_back({v, graph_search(graph_, v), {}, 0});

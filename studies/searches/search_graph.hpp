@@ -22,6 +22,7 @@ struct SearchGraph {
   std::vector<Vec2> at;
   VertexId start = 0;
   VertexId goal = 0;
+  std::string unit = {};  ///< of lengths: "m" or "cells"; empty: nobody says
 };
 
 /// The same edges with the straight distances between their ends as lengths. O(V + E).

@@ -125,6 +125,35 @@ TEST(RosMaps, PathsLieWhereOriginAndYawPutThem) {
   EXPECT_NEAR(answer["min_clearance"].get<double>(), 1.0, 1e-9);
 }
 
+TEST(RosMaps, LengthsAreToldInMetres) {
+  const Folder folder;
+  folder.write("m.pgm", "P2 4 2 255\n254 254 254 254\n254 0 0 254\n");
+  const std::string yaml = folder.write("m.yaml", "image: m.pgm\nresolution: 2\norigin: [10, 20, 0]\n"s + conventional);
+  const std::vector<std::string> solve{"solve", yaml, "--start", "11,21", "--goal", "17,21"};
+  const std::string answer = folder.path("a.json");
+  const Outcome said = run(joined(solve, {"--json", answer, "--svg", folder.path("a.svg")}));
+  ASSERT_EQ(said.code, 0) << said.err;
+  EXPECT_NE(said.out.find("10 m, "), std::string::npos) << said.out;
+  EXPECT_NE(said.out.find("1 m at least; 0 m asked for"), std::string::npos) << said.out;
+  EXPECT_EQ(Json::parse(folder.read("a.json"))["world"]["unit"], "m");
+  EXPECT_NE(folder.read("a.svg").find("length 10 m, clearance 1 m"), std::string::npos);
+  const std::string verdict = run({"verify", yaml, answer}).out;
+  EXPECT_NE(verdict.find("length 10 m, clearance 1 m at least, 0 m asked for"), std::string::npos) << verdict;
+  const std::string table = run({"compare", yaml, "--start", "11,21", "--goal", "17,21", "--planners", "grid"}).out;
+  EXPECT_NE(table.find("length q1 (m)"), std::string::npos) << table;
+  const Outcome cells = run({"solve", "maze:5x5"});
+  EXPECT_EQ(cells.out.find(" m, "), std::string::npos) << cells.out;
+}
+
+TEST(RosMaps, InfoRoundsWhatItComputesForPeopleAndNotForScripts) {
+  const Folder folder;
+  folder.write("m.pgm", "P2 2 1 255\n254 254\n");
+  const std::string yaml =
+      folder.write("m.yaml", "image: m.pgm\nresolution: 0.1\norigin: [0.1, 0.2, 0]\n"s + conventional);
+  EXPECT_NE(run({"info", yaml}).out.find("0.1 to 0.3, 0.2 to 0.3\n"), std::string::npos) << run({"info", yaml}).out;
+  EXPECT_EQ(Json::parse(run({"info", yaml, "--json", "-"}).out)["box"][2], 0.1 + 2 * 0.1);
+}
+
 TEST(RosMaps, RulesAreRefusedWhereTheyMeanNothing) {
   const Folder folder;
   const std::string scene = folder.write("w.scene", "bounds 0 0 6 4\nwall 2.5 1 2.5 2.5\nstart 1 1\ngoal 5 3\n");

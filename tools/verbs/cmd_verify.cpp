@@ -5,8 +5,10 @@
 #include <new>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "core/base/error.hpp"
+#include "scenes/scene/unit_of.hpp"
 #include "scenes/text/human_units.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "solve/answer/explanation_text.hpp"
@@ -39,15 +41,16 @@ std::string verdict_json(const Verification& v, const std::string& more) {
       v.verified, json_number(v.length), json_number(v.min_clearance), violation, more);
 }
 
-void print_verdict(const Verdict& v, const Palette& palette) {
+void print_verdict(const Verdict& v, std::string_view metres, const Palette& palette) {
   const double clearance = v.problem.clearance;
   if (v.verified) {
-    print_text(fmt::format("{}: length {}, clearance {} at least, {} asked for\n", palette.good("verified"),
-                           human_number(v.length), human_number(v.min_clearance), human_number(clearance)));
+    print_text(fmt::format("{0}: length {2}{1}, clearance {3}{1} at least, {4}{1} asked for\n",
+                           palette.good("verified"), metres, human_number(v.length), human_number(v.min_clearance),
+                           human_number(clearance)));
   } else {
     const Violation violation = v.first_violation.value_or(Violation{});
-    print_text(fmt::format("{} at leg {}: {}, distance {}, {} asked for\n", palette.bad("refuted"), violation.leg,
-                           violation.obstacle, human_number(violation.distance),
+    print_text(fmt::format("{0} at leg {2}: {3}, distance {4}{1}, {5}{1} asked for\n", palette.bad("refuted"), metres,
+                           violation.leg, violation.obstacle, human_number(violation.distance),
                            human_number(clearance + v.problem.robot.radius)));
   }
 }
@@ -90,7 +93,7 @@ int verify_answer(const Arguments& arguments) {
   const std::string more = explains ? ",\n \"narrowest\": " + narrowest_json(narrow) : "";
   if (json) write_file(*json, verdict_json(verdict, more), run.execution_for_what_is_left());
   if (!run.quiet() && json != "-") {
-    print_verdict(verdict, run.palette());
+    print_verdict(verdict, metres_behind(unit_of(scene)), run.palette());
     if (narrow) print_text(text_of(*narrow) + "\n");
   }
   return verdict.verified ? exit_code::success : exit_code::no_path;

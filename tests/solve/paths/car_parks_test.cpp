@@ -59,5 +59,18 @@ TEST(CarParks, EachTakesThreeChangesOfGearAtMostAndTheLimitsAreKept) {
   }
 }
 
+/// Each tree is kept with its two roots once more.
+TEST(CarParks, SizesAreThoseOfAllTreesThatWereWeighed) {
+  const Scene park = read_world(test::source_dir() + "/examples/worlds/parking-lot.scene");
+  ByProducts made;
+  const Answer answer = solve(park, {}, {.optimise = true}, {}, &made);
+  ASSERT_EQ(answer.outcome, Outcome::solved);
+  ASSERT_EQ(made.pose_roadmaps.size(), 4U);
+  std::size_t states = 0;
+  for (const PlannedRoadmap<Se2>& trees : made.pose_roadmaps) states += trees.states.size() - 2;
+  EXPECT_EQ(answer.roadmap.milestones, states);
+  EXPECT_EQ(answer.roadmap.edges, states - made.pose_roadmaps.size());
+}
+
 }  // namespace
 }  // namespace warren
