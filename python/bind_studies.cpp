@@ -51,7 +51,7 @@ void bind_studies(py::module_& module) {
       .def("runs_csv", &comparison_runs)
       .def("table_csv", &comparison_csv)
       .def("json", &comparison_json)
-      .def("svg", &comparison_svg)
+      .def("svg", [](const Comparison& comparison) { return comparison_plots(comparison).svg(); })
       .def("summary", [](const Comparison& comparison) { return comparison_summary(comparison, Palette(false)); });
   module.def("compare", &compare, py::arg().none(true), py::arg());
   module.def("compare_keywords", [] { return keyword_table(made_once<comparing>()); });

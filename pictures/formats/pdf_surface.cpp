@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "pictures/formats/drawn_files.hpp"
 #include "pictures/formats/painter.hpp"
-#include "pictures/formats/write_picture.hpp"
 #include "pictures/model/letters.hpp"
 
 #ifdef WARREN_PDF
@@ -45,10 +45,10 @@ class PdfSurface : public Surface {
     bold_ = HPDF_GetFont(document_.get(), "Helvetica-Bold", "WinAnsiEncoding");
     check();
   }
-  void tell(const std::string& title, std::string description) {
-    std::replace(description.begin(), description.end(), '\n', ' ');
-    HPDF_SetInfoAttr(document_.get(), HPDF_INFO_TITLE, latin1_text(title).c_str());
-    HPDF_SetInfoAttr(document_.get(), HPDF_INFO_SUBJECT, latin1_text(description).c_str());
+  void tell(DocumentWords words) {
+    std::replace(words.subject.begin(), words.subject.end(), '\n', ' ');
+    HPDF_SetInfoAttr(document_.get(), HPDF_INFO_TITLE, latin1_text(words.title).c_str());
+    HPDF_SetInfoAttr(document_.get(), HPDF_INFO_SUBJECT, latin1_text(words.subject).c_str());
   }
   void finish(const Write& write);
 
@@ -171,6 +171,7 @@ void PdfSurface::paint_path() {
 }
 
 void PdfSurface::text(const PlacedText& text) {
+  paint_path();
   const std::string words = latin1_text(text.text);
   HPDF_Page_SetFontAndSize(sheet_, text.bold ? bold_ : regular_, real(points_a_pixel * text.size));
   const double width = HPDF_Page_TextWidth(sheet_, words.c_str());
@@ -224,15 +225,14 @@ void PdfSurface::finish(const Write& write) {
 
 bool can_write_pdf() { return true; }
 
-std::vector<std::string> write_pdf(const Picture& picture, const PictureOptions& options, const Execution& execution,
-                                   const Write& write) {
-  const Page page = page_of(picture, options, false, execution);
+std::vector<std::string> draw_pdf(const Page& page, const DocumentWords& words, const DrawOn& draw,
+                                  const Execution& execution, const Write& write) {
   if (points_a_pixel * std::max(page.width, page.height) > largest_side) {
     throw UsageError("@size: a page of PDF is at most 5080 mm wide and high");
   }
   PdfSurface surface(page, execution);
-  surface.tell(options.title.value_or(picture.title), picture.description);
-  std::vector<std::string> notes = paint(picture, options.parts, page, surface, execution);
+  surface.tell(words);
+  std::vector<std::string> notes = draw(surface);
   surface.finish(write);
   return notes;
 }
@@ -245,9 +245,20 @@ namespace warren {
 
 bool can_write_pdf() { return false; }
 
-std::vector<std::string> write_pdf(const Picture&, const PictureOptions&, const Execution&, const Write&) {
+std::vector<std::string> draw_pdf(const Page&, const DocumentWords&, const DrawOn&, const Execution&, const Write&) {
   throw UsageError("this warren was built without libharu and writes no .pdf; say .svg, or build it with libhpdf-dev");
 }
 
 }  // namespace warren
 #endif
+
+namespace warren {
+
+std::vector<std::string> write_pdf(const Picture& picture, const PictureOptions& options, const Execution& execution,
+                                   const Write& write) {
+  const Page page = page_of(picture, options, false, execution);
+  const auto draw = [&](Surface& surface) { return paint(picture, options.parts, page, surface, execution); };
+  return draw_pdf(page, {options.title.value_or(picture.title), picture.description}, draw, execution, write);
+}
+
+}  // namespace warren

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "pictures/formats/drawn_files.hpp"
 #include "pictures/formats/painter.hpp"
 #include "pictures/formats/png_file.hpp"
-#include "pictures/formats/write_picture.hpp"
 #include "pictures/model/letters.hpp"
 
 namespace warren {
@@ -83,13 +83,14 @@ void PngSurface::text(const PlacedText& text) {
     p.x -= back;
     p = from + (text.upright ? Vec2{p.y, -p.x} : p);
   }
-  image_.fill(outlines, colors::text, 1.0, execution_);
+  const Rgb ink = pen_.fill.value_or(colors::text);
+  image_.fill(outlines, ink, 1.0, execution_);
   if (!text.bold) return;
   constexpr double stroke = 0.055;  // of the size
   for (std::size_t i = 0; i < outlines.size(); ++i) {
     Vec2 a = outlines[i].back();
     for (const Vec2 b : outlines[i]) {
-      image_.draw_line(a, b, stroke * size, colors::text);
+      image_.draw_line(a, b, stroke * size, ink);
       a = b;
     }
   }
@@ -116,13 +117,20 @@ void PngSurface::image(const Image& image, const Box& at) {
 
 }  // namespace
 
+std::vector<std::string> draw_png(const Page& page, const DrawOn& draw, const Execution& execution,
+                                  const Write& write) {
+  PngSurface surface(page, execution);
+  std::vector<std::string> notes = draw(surface);
+  write_png_file(surface.image(), page.dpi, execution, write);
+  return notes;
+}
+
 std::vector<std::string> write_png(const Picture& picture, const PictureOptions& options, const Execution& execution,
                                    const Write& write) {
   const Page page = page_of(picture, options, true, execution);
-  PngSurface surface(page, execution);
-  std::vector<std::string> notes = paint(picture, options.parts, page, surface, execution);
-  write_png_file(surface.image(), page.dpi, execution, write);
-  return notes;
+  return draw_png(
+      page, [&](Surface& surface) { return paint(picture, options.parts, page, surface, execution); }, execution,
+      write);
 }
 
 }  // namespace warren

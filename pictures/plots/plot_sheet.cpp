@@ -3,46 +3,135 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <iterator>
+#include <numbers>
 
-#include "pictures/model/colors.hpp"
+#include "core/base/trigonometry.hpp"
 #include "pictures/model/xml_text.hpp"
-#include "pictures/plots/plot_svg.hpp"
 
 namespace warren {
+namespace {
+
+std::string web_color(Rgb c) { return fmt::format("#{:02x}{:02x}{:02x}", c.red, c.green, c.blue); }
+
+std::string svg_of(const PlotWords& words) {
+  constexpr std::array<std::string_view, 3> anchors{"start", "middle", "end"};
+  const PlacedText& text = words.text;
+  std::string more;
+  if (text.size != plot_text_size) more += fmt::format(" font-size=\"{}\"", text.size);
+  if (text.bold) more += " font-weight=\"bold\"";
+  if (text.upright) more += fmt::format(" transform=\"rotate(-90 {:.1f} {:.1f})\"", text.at.x, text.at.y);
+  if (!(words.color == colors::text)) more += fmt::format(" fill=\"{}\"", web_color(words.color));
+  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", text.at.x, text.at.y,
+                     anchors[static_cast<std::size_t>(text.anchor)], more, xml_text(text.text));
+}
+
+std::string svg_of(const PlotShape& shape) {
+  std::string text;
+  const Vec2 first = shape.points.front();
+  if (shape.kind == PlotShape::Kind::disc) {
+    text = fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"", first.x, first.y, shape.radius);
+  } else if (shape.kind == PlotShape::Kind::box) {
+    const Vec2 size = shape.points.back() - first;
+    text = fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"", first.x, first.y, size.x,
+                       size.y);
+  } else {
+    text = "<path d=\"";
+    for (const Vec2 p : shape.points)
+      fmt::format_to(std::back_inserter(text), "{}{:.1f} {:.1f}", text.back() == '"' ? 'M' : 'L', p.x, p.y);
+    text += '"';
+  }
+  text += fmt::format(" fill=\"{}\"", shape.pen.fill ? web_color(*shape.pen.fill) : "none");
+  if (shape.pen.stroke) text += fmt::format(" stroke=\"{}\"", web_color(*shape.pen.stroke));
+  if (shape.pen.stroke && shape.pen.width != 1.0) text += fmt::format(" stroke-width=\"{}\"", shape.pen.width);
+  if (shape.dash.x > 0.0) text += fmt::format(" stroke-dasharray=\"{} {}\"", shape.dash.x, shape.dash.y);
+  if (!shape.tip.empty()) text += fmt::format(" data-tip=\"{}\"", xml_text(shape.tip));
+  return text + "/>\n";
+}
+
+/// The parts of a line that are drawn.
+std::vector<std::vector<Vec2>> dashes_of(const std::vector<Vec2>& line, Vec2 dash) {
+  std::vector<std::vector<Vec2>> dashes{{line.front()}};
+  bool is_drawn = true;
+  double left = dash.x;
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    Vec2 from = line[i - 1];
+    for (double leg = distance(from, line[i]); left <= leg; leg = distance(from, line[i])) {
+      from = from + left / leg * (line[i] - from);
+      is_drawn ? dashes.back().push_back(from) : dashes.push_back({from});
+      is_drawn = !is_drawn;
+      left = is_drawn ? dash.x : dash.y;
+    }
+    left -= distance(from, line[i]);
+    if (is_drawn) dashes.back().push_back(line[i]);
+  }
+  return dashes;
+}
+
+std::vector<Vec2> disc_outline(Vec2 middle, double radius) {
+  constexpr std::size_t corners = 24;
+  std::vector<Vec2> outline;
+  for (std::size_t i = 0; i < corners; ++i) {
+    const double turn = 2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(corners);
+    outline.push_back(middle + radius * Vec2{portable::cos(turn), portable::sin(turn)});
+  }
+  return outline;
+}
+
+/// Its points are the page's.
+void draw_shape(Surface& surface, const PlotShape& shape, const std::vector<Vec2>& points) {
+  const Vec2 low = points.front();
+  const Vec2 high = points.back();
+  surface.take_pen(shape.pen);
+  if (shape.kind == PlotShape::Kind::disc) return surface.chain(disc_outline(low, shape.radius), {}, true);
+  if (shape.kind == PlotShape::Kind::box)
+    return surface.chain(std::array{low, Vec2{high.x, low.y}, high, Vec2{low.x, high.y}}, {}, true);
+  if (shape.dash.x <= 0.0) return surface.chain(points, {}, false);
+  for (const std::vector<Vec2>& dash : dashes_of(points, shape.dash)) surface.chain(dash, {}, false);
+}
+
+}  // namespace
 
 void PlotSheet::begin(const std::string& title, const Box& frame, const std::string& x_label,
                       const std::string& y_label, double y_label_at) {
-  text_ = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" role=\"img\" "
-      "font-family=\"sans-serif\" font-size=\"12\" fill=\"#222222\">\n<title>{2}</title>\n"
-      "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n",
-      plot_size.x, plot_size.y, xml_text(title));
-  label(frame.min.x, frame.min.y - 16.0, "start", title, " font-size=\"15\" font-weight=\"bold\"");
-  label((frame.min.x + frame.max.x) / 2.0, plot_size.y - 18.0, "middle", x_label);
+  constexpr double title_size = 15.0;
+  title_ = title;
+  add({{frame.min.x, frame.min.y - 16.0}, title, title_size, Anchor::start, true}, colors::text);
+  label({(frame.min.x + frame.max.x) / 2.0, plot_size.y - 18.0}, Anchor::middle, x_label);
   if (y_label.empty()) return;
-  const double middle = (frame.min.y + frame.max.y) / 2.0;
-  label(y_label_at, middle, "middle", y_label, fmt::format(" transform=\"rotate(-90 {} {:.1f})\"", y_label_at, middle));
+  add({{y_label_at, (frame.min.y + frame.max.y) / 2.0}, y_label, plot_text_size, Anchor::middle, false, true},
+      colors::text);
 }
 
-void PlotSheet::label(double x, double y, std::string_view anchor, std::string_view text, std::string_view more) {
-  fmt::format_to(std::back_inserter(text_), "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y,
-                 anchor, more, xml_text(text));
+std::string PlotSheet::svg() const {
+  std::string text = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" role=\"img\" "
+      "font-family=\"sans-serif\" font-size=\"{2}\" fill=\"{3}\">\n<title>{4}</title>\n"
+      "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n",
+      plot_size.x, plot_size.y, plot_text_size, web_color(colors::text), xml_text(title_));
+  for (const auto& part : parts_) text += std::visit([](const auto& one) { return svg_of(one); }, part);
+  return text + "</svg>\n";
 }
 
-void PlotSheet::line(Vec2 from, Vec2 to, std::string_view style) {
-  fmt::format_to(std::back_inserter(text_), "<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" {}/>\n", from.x, from.y, to.x,
-                 to.y, style);
-}
-
-void PlotSheet::box(const Box& box, std::string_view style) {
-  fmt::format_to(std::back_inserter(text_), "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" {}/>\n",
-                 box.min.x, box.min.y, box.width(), box.height(), style);
-}
-
-std::string series_color(std::size_t i) {
-  const Rgb c = colors::series[i % colors::series.size()];
-  return fmt::format("#{:02x}{:02x}{:02x}", c.red, c.green, c.blue);
+void PlotSheet::draw(Surface& surface, Vec2 at, const Execution& execution) const {
+  surface.begin_group("plot", title_, {});
+  for (const auto& part : parts_) {
+    execution.check();
+    if (const auto* shape = std::get_if<PlotShape>(&part)) {
+      std::vector<Vec2> points = shape->points;
+      for (Vec2& p : points) p = at + p;
+      draw_shape(surface, *shape, points);
+    } else {
+      PlotWords words = std::get<PlotWords>(part);
+      words.text.at = at + words.text.at;
+      surface.take_pen({.fill = words.color});
+      surface.text(words.text);
+    }
+  }
+  surface.end_group();
 }
 
 }  // namespace warren

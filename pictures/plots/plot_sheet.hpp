@@ -1,39 +1,77 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What all plots are written on: one <svg> element of plot_size with its title, and lines and words on it. Places are
-// pixels, y down.
+// What all plots are written on: lines, areas and words in the order in which they are drawn, on a sheet of plot_size.
+// Places are pixels, y down. A sheet is an <svg> element for pages of HTML, or is drawn on any surface.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "core/base/types.hpp"
+#include "parallel/execution.hpp"
+#include "pictures/formats/surface.hpp"
 
 namespace warren {
+
+inline constexpr Vec2 plot_size{760.0, 420.0};
+inline constexpr double plot_text_size = 12.0;
+
+/// A line through its points, a box between two corners, or a disc.
+struct PlotShape {
+  enum class Kind : std::uint8_t { line, box, disc };
+  Kind kind = Kind::line;
+  std::vector<Vec2> points = {};  ///< of a disc its middle
+  Pen pen = {};                   ///< opaque
+  double radius = 0.0;            ///< of a disc
+  Vec2 dash = {};                 ///< of a line: how long it is drawn and left out in turn; 0: drawn wholly
+  std::string tip = {};           ///< what a page tells of it at the pointer; empty: nothing
+};
+
+struct PlotWords {
+  PlacedText text;
+  Rgb color = colors::text;
+};
 
 class PlotSheet {
  public:
   /// The title above the frame, the axes' names below it and, unless empty, upright at `y_label_at`.
   void begin(const std::string& title, const Box& frame, const std::string& x_label, const std::string& y_label,
              double y_label_at);
-  /// more: attributes, each after a blank.
-  void label(double x, double y, std::string_view anchor, std::string_view text, std::string_view more = "");
-  void line(Vec2 from, Vec2 to, std::string_view style);
-  void box(const Box& box, std::string_view style);
-  /// SVG as it is.
-  void add(std::string_view svg) { text_ += svg; }
-  /// The element whole.
-  std::string take() { return std::move(text_) + "</svg>\n"; }
+  void label(Vec2 at, Anchor anchor, std::string text, Rgb color = colors::text) {
+    add({at, std::move(text), plot_text_size, anchor}, color);
+  }
+  void line(std::vector<Vec2> points, const Pen& pen, Vec2 dash = {}) {
+    parts_.emplace_back(PlotShape{.points = std::move(points), .pen = pen, .dash = dash});
+  }
+  void box(const Box& box, const Pen& pen, std::string tip = {}) {
+    parts_.emplace_back(
+        PlotShape{.kind = PlotShape::Kind::box, .points = {box.min, box.max}, .pen = pen, .tip = std::move(tip)});
+  }
+  void disc(Vec2 at, double radius, const Pen& pen, std::string tip = {}) {
+    parts_.emplace_back(
+        PlotShape{.kind = PlotShape::Kind::disc, .points = {at}, .pen = pen, .radius = radius, .tip = std::move(tip)});
+  }
+
+  /// One element with its namespace; it needs nothing but what is in it.
+  std::string svg() const;
+  /// With the upper left corner at a point of the page. Throws Stopped.
+  void draw(Surface& surface, Vec2 at, const Execution& execution) const;
 
  private:
-  std::string text_;
+  void add(PlacedText text, Rgb color) { parts_.emplace_back(PlotWords{std::move(text), color}); }
+
+  std::string title_;
+  std::vector<std::variant<PlotShape, PlotWords>> parts_;
 };
 
-/// "#0072b2": of the i-th series; after the eighth they come again.
-std::string series_color(std::size_t i);
+/// Of the i-th series; after the eighth they come again.
+inline Rgb series_color(std::size_t i) { return colors::series[i % colors::series.size()]; }
 
-inline constexpr std::string_view faint_line = "stroke=\"#e2e2e2\"";
-inline constexpr std::string_view frame_line = "fill=\"none\" stroke=\"#888888\"";
+inline constexpr Pen faint_line{.stroke = Rgb{226, 226, 226}};
+inline constexpr Pen frame_line{.stroke = colors::frame};
 
 }  // namespace warren

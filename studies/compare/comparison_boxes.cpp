@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "scenes/scene/unit_of.hpp"
 #include "scenes/text/human_units.hpp"
 #include "studies/compare/comparison_report.hpp"
 #include "studies/measure/statistics.hpp"
@@ -17,7 +18,7 @@ namespace {
 struct BoxedFigure {
   std::string_view name;
   std::string_view label;  ///< of its axis
-  bool may_be_logarithmic;
+  bool is_time;            ///< may be logarithmic; the others are lengths
   std::optional<double> (*value)(const ComparedRun& run);
   std::string (*text)(double value);
 };
@@ -71,8 +72,9 @@ bool is_spread(const BoxPlot& plot) {
 /// Nothing where no contender's runs differ.
 std::optional<BoxPlot> box_plot(const Comparison& comparison, std::size_t problem, const BoxedFigure& figure) {
   const bool planners = comparison.problems[problem].kind.empty();
+  const bool is_metres = !metres_behind(comparison.problems[problem].unit).empty();
   BoxPlot plot{.title = fmt::format("{}: {}", comparison.problems[problem].source, figure.name),
-               .label = std::string(figure.label),
+               .label = std::string(figure.label).append(is_metres && !figure.is_time ? " (m)" : ""),
                .remarks = "solved",
                .text = figure.text};
   bool any_differ = false;
@@ -82,7 +84,7 @@ std::optional<BoxPlot> box_plot(const Comparison& comparison, std::size_t proble
     any_differ =
         any_differ || (box.figures && (box.figures->low < box.figures->high || !box.figures->outliers.empty()));
   }
-  plot.logarithmic = figure.may_be_logarithmic && is_spread(plot);
+  plot.logarithmic = figure.is_time && is_spread(plot);
   return any_differ ? std::optional(std::move(plot)) : std::nullopt;
 }
 
@@ -103,12 +105,12 @@ std::optional<BoxFigures> box_figures_of(std::vector<double> values) {
   return box;
 }
 
-std::vector<std::string> box_panels(const Comparison& comparison) {
-  std::vector<std::string> panels;
+std::vector<PlotSheet> box_panels(const Comparison& comparison) {
+  std::vector<PlotSheet> panels;
   for (std::size_t problem = 0; problem < comparison.problems.size(); ++problem) {
     if (contenders_of(comparison, problem).size() > most_boxes) continue;
     for (const BoxedFigure& figure : boxed_figures) {
-      if (const auto plot = box_plot(comparison, problem, figure)) panels.push_back(box_plot_svg(*plot));
+      if (const auto plot = box_plot(comparison, problem, figure)) panels.push_back(sheet_of(*plot));
     }
   }
   return panels;

@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <map>
 
-#include "pictures/plots/plot_svg.hpp"
+#include "pictures/plots/plot.hpp"
 #include "scenes/text/human_units.hpp"
 #include "studies/compare/comparison_report.hpp"
-#include "studies/compare/heat_map_svg.hpp"
+#include "studies/compare/heat_map.hpp"
 
 namespace warren {
 namespace {
@@ -145,12 +145,12 @@ std::optional<PlotSeries> series_of(const Family& family, const ShownFigure& fig
 }
 
 /// Planners that take the values of the same option are in one plot.
-std::vector<std::string> line_panels(const std::vector<Family>& families) {
+std::vector<PlotSheet> line_panels(const std::vector<Family>& families) {
   std::vector<std::string> options;
   for (const Family& family : families) {
     if (family.axes.size() == 1) add_once(options, family.axes[0]);
   }
-  std::vector<std::string> panels;
+  std::vector<PlotSheet> panels;
   for (const std::string& option : options) {
     for (const ShownFigure& figure : figures) {
       Plot plot{.title = fmt::format("{} against {}", figure.name, option),
@@ -162,7 +162,7 @@ std::vector<std::string> line_panels(const std::vector<Family>& families) {
         if (family.axes.size() != 1 || family.axes[0] != option) continue;
         if (auto series = series_of(family, figure)) plot.series.push_back(std::move(*series));
       }
-      if (!plot.series.empty()) panels.push_back(plot_svg(plot));
+      if (!plot.series.empty()) panels.push_back(sheet_of(plot));
     }
   }
   return panels;
@@ -180,13 +180,12 @@ std::string note_on_heat_maps(const Comparison& comparison) {
   return fmt::format("{} of {} heat maps are drawn: shorten a list, or take the figures from --csv FILE", drawn, maps);
 }
 
-std::vector<std::string> list_panels(const Comparison& comparison) {
+std::vector<PlotSheet> list_panels(const Comparison& comparison) {
   const std::vector<Family> families = families_of(comparison);
-  std::vector<std::string> panels = line_panels(families);
+  std::vector<PlotSheet> panels = line_panels(families);
   for (const Family& family : families) {
     for (const ShownFigure& figure : figures) {
-      if (family.axes.size() == 2 && panels.size() < most_panels)
-        panels.push_back(heat_map_svg(heat_map(family, figure)));
+      if (family.axes.size() == 2 && panels.size() < most_panels) panels.push_back(sheet_of(heat_map(family, figure)));
     }
   }
   return panels;

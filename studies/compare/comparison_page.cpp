@@ -9,9 +9,9 @@ namespace warren {
 std::string comparison_page(const Comparison& comparison, const std::string& command_line) {
   ReportPage page{.title = "Planners and searches side by side",
                   .command_line = command_line,
-                  .plots = comparison_panels(comparison),
                   .tables = comparison_tables(comparison),
                   .remarks = comparison.notes};
+  for (const PlotSheet& sheet : comparison_panels(comparison)) page.plots.push_back(sheet.svg());
   page.notes.push_back(fmt::format("Machine: {}.{}", text_of(this_machine()),
                                    comparison.stopped ? " Interrupted: these are the runs so far." : ""));
   return page.html();

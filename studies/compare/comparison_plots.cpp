@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <array>
 
-#include "pictures/plots/plot_svg.hpp"
+#include "pictures/plots/plot.hpp"
 #include "studies/compare/comparison_report.hpp"
 #include "studies/compare/queue_crossings.hpp"
 
@@ -101,25 +101,24 @@ std::vector<Plot> share_plots(const Comparison& comparison) {
 
 }  // namespace
 
-std::vector<std::string> comparison_panels(const Comparison& comparison) {
+std::vector<PlotSheet> comparison_panels(const Comparison& comparison) {
   constexpr std::size_t colours = 8;  // beyond them lines of equal colour would be told apart by nobody
-  std::vector<std::string> panels = list_panels(comparison);
+  std::vector<PlotSheet> panels = list_panels(comparison);
   const std::vector<SweepCurve> curves = sweep_curves(comparison);
   const bool is_alone = panels.empty();
   for (const Plot& plot : curves.empty() ? share_plots(comparison) : sweep_plots(curves)) {
-    if (!curves.empty() || is_alone || plot.series.size() <= colours) panels.push_back(plot_svg(plot));
+    if (!curves.empty() || is_alone || plot.series.size() <= colours) panels.push_back(sheet_of(plot));
   }
   if (curves.empty()) {
-    for (std::string& panel : box_panels(comparison)) panels.push_back(std::move(panel));
+    for (PlotSheet& panel : box_panels(comparison)) panels.push_back(std::move(panel));
   }
   return panels;
 }
 
-std::string comparison_svg(const Comparison& comparison) {
+PlotsPage comparison_plots(const Comparison& comparison) {
   constexpr std::size_t side_by_side = 2;
   constexpr std::size_t figures = 3;
-  const std::size_t columns = list_panels(comparison).empty() ? side_by_side : figures;
-  return panels_svg(comparison_panels(comparison), columns);
+  return {comparison_panels(comparison), list_panels(comparison).empty() ? side_by_side : figures};
 }
 
 }  // namespace warren

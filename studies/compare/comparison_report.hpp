@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "pictures/plots/box_plot_svg.hpp"
+#include "pictures/plots/box_plot.hpp"
+#include "pictures/plots/plots_page.hpp"
 #include "scenes/text/palette.hpp"
 #include "studies/compare/comparison.hpp"
 #include "studies/measure/report_page.hpp"
@@ -19,7 +20,7 @@ namespace warren {
 std::string comparison_summary(const Comparison& comparison, const Palette& palette);
 /// The tables of the summary.
 std::vector<ReportTable> comparison_tables(const Comparison& comparison);
-/// All of it as a page (comparison_page.cpp): tables and the plots of comparison_svg().
+/// All of it as a page (comparison_page.cpp): tables and the plots of comparison_plots().
 std::string comparison_page(const Comparison& comparison, const std::string& command_line);
 std::string comparison_json(const Comparison& comparison);
 std::string comparison_csv(const Comparison& comparison);
@@ -29,21 +30,21 @@ std::string comparison_runs(const Comparison& comparison);
 /// Median times against size, a line a size, and where arrays and heaps cross; none without random graphs.
 std::vector<ReportTable> sweep_tables(const Comparison& comparison);
 
-/// Plots as SVG (comparison_plots.cpp): of random graphs times and ratios against size; else what options that were
-/// dealt out do, and the share of runs that had found a path, against time.
-std::string comparison_svg(const Comparison& comparison);
-/// The same plots, an SVG element each.
-std::vector<std::string> comparison_panels(const Comparison& comparison);
+/// Plots (comparison_plots.cpp): of random graphs times and ratios against size; else what options that were dealt out
+/// do, and the share of runs that had found a path, against time.
+std::vector<PlotSheet> comparison_panels(const Comparison& comparison);
+/// The same plots on one page.
+PlotsPage comparison_plots(const Comparison& comparison);
 
-/// Success, lengths and times against the options that were dealt out, as lines or heat maps (comparison_lists.cpp):
-/// SVG elements of plot_size; none where none was. At most 60.
-std::vector<std::string> list_panels(const Comparison& comparison);
+/// Success, lengths and times against the options that were dealt out, as lines or heat maps (comparison_lists.cpp);
+/// none where none was. At most 60.
+std::vector<PlotSheet> list_panels(const Comparison& comparison);
 /// How many heat maps list_panels() leaves out; empty: none.
 std::string note_on_heat_maps(const Comparison& comparison);
 
 /// Lengths, times and clearances of each problem's contenders as box plots (comparison_boxes.cpp), those that differ
-/// from run to run: SVG elements of plot_size. None of a problem with more than most_boxes contenders.
-std::vector<std::string> box_panels(const Comparison& comparison);
+/// from run to run. None of a problem with more than most_boxes contenders.
+std::vector<PlotSheet> box_panels(const Comparison& comparison);
 /// Whiskers end at the last values within 1.5 times the quartiles' distance from the quartiles, the others are outliers
 /// (Tukey 1977). Nothing of no values.
 std::optional<BoxFigures> box_figures_of(std::vector<double> values);

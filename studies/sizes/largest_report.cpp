@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "pictures/plots/plot_svg.hpp"
+#include "pictures/plots/plot.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "scenes/text/human_units.hpp"
 #include "solve/answer/answer.hpp"
@@ -183,7 +183,7 @@ std::string largest_json(const LargestOptions& options, const LargestResult& res
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string largest_plot(const LargestOptions& options, const LargestResult& result) {
+PlotSheet largest_plot(const LargestOptions& options, const LargestResult& result) {
   PlotSeries tried{.name = "solved, fastest of a size", .points = {}};
   PlotSeries cut{.name = "cut or unsolved", .points = {}, .joined = false};
   PlotSeries largest{.name = "largest size, a seed each", .points = {}, .joined = false};
@@ -209,7 +209,7 @@ std::string largest_plot(const LargestOptions& options, const LargestResult& res
   for (const PlotSeries& series : {tried, cut, largest}) {
     if (!series.points.empty()) plot.series.push_back(series);
   }
-  return plot_svg(plot);
+  return sheet_of(plot);
 }
 
 }  // namespace warren

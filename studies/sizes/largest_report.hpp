@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "pictures/plots/plot_sheet.hpp"
 #include "scenes/text/palette.hpp"
 #include "studies/sizes/largest_maze.hpp"
 
@@ -11,7 +12,7 @@ namespace warren {
 
 std::string largest_summary(const LargestOptions& options, const LargestResult& result, const Palette& palette);
 std::string largest_json(const LargestOptions& options, const LargestResult& result);
-/// Every run that came to its end, the runs at the largest size, and the budget's line; a whole SVG file.
-std::string largest_plot(const LargestOptions& options, const LargestResult& result);
+/// Every run that came to its end, the runs at the largest size, and the budget's line.
+PlotSheet largest_plot(const LargestOptions& options, const LargestResult& result);
 
 }  // namespace warren

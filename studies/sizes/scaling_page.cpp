@@ -8,7 +8,7 @@
 #include <set>
 
 #include "pictures/model/xml_text.hpp"
-#include "pictures/plots/plot_svg.hpp"
+#include "pictures/plots/plot.hpp"
 #include "scenes/text/human_units.hpp"
 #include "studies/measure/machine_memory.hpp"
 #include "studies/measure/report_page.hpp"
@@ -223,7 +223,7 @@ std::string scaling_page(const ScalingResult& result, const std::string& command
     return page.html();
   }
   for (const ThreadGain& gain : thread_gains(result, this_machine().cores)) page.notes.push_back(text_of(gain) + ".");
-  for (const Plot& plot : plots_of(rows)) page.plots.push_back(plot_svg(plot));
+  for (const Plot& plot : plots_of(rows)) page.plots.push_back(sheet_of(plot).svg());
   page.tables = {{"Runs", table_of(rows)}, {"Counts of the fastest runs", counts_of(result, rows)}};
   if (!result.no_hardware_counts.empty()) {
     page.remarks.push_back(fmt::format("The processor's own counters are not to be had here (perf_event_open: {}).",

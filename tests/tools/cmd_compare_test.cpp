@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "pictures/formats/write_picture.hpp"
 #include "studies/searches/graph_search.hpp"
 #include "tests/paths.hpp"
 #include "tests/tools/compared.hpp"
@@ -198,6 +199,21 @@ TEST(Compare, APageHasTheTablesOfTheSummaryAndThePlots) {
   }
 }
 
+TEST(Compare, PlotsAreWrittenInTheFormatThatTheirEndingSays) {
+  const Folder folder;
+  const auto plotted = [&](const std::string& name) {
+    EXPECT_EQ(run_program("compare maze:5x5 --planners prm --seeds 2 --quiet --svg " + folder.path(name)).exit_code, 0);
+    return folder.read(name);
+  };
+  EXPECT_TRUE(plotted("k.svg").starts_with("<svg "));
+  EXPECT_TRUE(plotted("k.png").starts_with("\x89PNG"));
+  if (can_write_pdf()) {
+    EXPECT_TRUE(plotted("k.pdf").starts_with("%PDF"));
+  }
+  check(
+      {{"compare", "maze:5x5", "--svg", folder.path("k.html")}, 2, "--svg: a picture here ends in one of: .svg .png"});
+}
+
 TEST(Compare, OutputsAreWrittenSideBySide) {
   const Folder folder;
   const ProgramRun run =
@@ -262,7 +278,7 @@ TEST(Compare, BadOptionsAreUsageErrorsOfOneLineThatNameTheOption) {
       {"maze:5x5 --budget 0s", "--budget"},
       {"maze:5x5 --threads 0", "--threads"},
       {"maze:5x5 --json - --csv -", "--csv"},
-      {"maze:5x5 --svg plot.png", "--svg"},
+      {"maze:5x5 --svg plot.html", "--svg"},
       {"maze:5x5 --planners prm,nobody", "nobody"},
       {"maze:5x5 --planners prm --peer boost", "--peer"},
       {"maze:5x5 --planners prm --sizes 10", "--sizes"},

@@ -143,9 +143,9 @@ TEST_F(OutputConflicts, WhatIsNoConflictIsWritten) {
 
 TEST_F(OutputConflicts, APictureOfAnotherKindIsRefused) {
   refused("solve @w.scene --svg @x.gif", ".svg .png .pdf .html");
-  refused("compare @w.scene --svg @x.png", ".svg");
-  refused("largest --svg @x.pdf", ".svg");
-  EXPECT_FALSE(std::filesystem::exists(path("x.pdf")));
+  refused("compare @w.scene --svg @x.html", ".svg .png .pdf");
+  refused("largest --svg @x.gif", ".svg .png .pdf");
+  EXPECT_FALSE(std::filesystem::exists(path("x.html")));
 }
 
 TEST_F(OutputConflicts, AMapIsWrittenUnderAnyNameAndReadBack) {

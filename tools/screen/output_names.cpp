@@ -6,10 +6,12 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <limits>
 #include <system_error>
 
 #include "core/base/error.hpp"
 #include "core/base/printable.hpp"
+#include "parallel/deadline.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "tools/screen/last_words.hpp"
@@ -75,6 +77,22 @@ bool check_reports(const Arguments& arguments, std::initializer_list<std::string
 
 void write_report(const Arguments& arguments, std::string_view option, const std::function<std::string()>& text) {
   if (const auto file = arguments.value(option)) write_file(*file, text(), Execution{});
+}
+
+void check_plots(const Arguments& arguments) {
+  const std::string file = arguments.value("--svg").value_or("");
+  check_picture_ending("--svg", file, plot_endings);
+  check_picture("--svg", file);
+}
+
+void write_plots(const Arguments& arguments, const Execution& execution, bool was_stopped,
+                 const std::function<PlotsPage()>& plots) {
+  const auto file = arguments.value("--svg");
+  if (!file) return;
+  const Deadline memory_alone(std::numeric_limits<double>::infinity(), execution.deadline->memory_bytes());
+  Execution within = execution;
+  if (was_stopped) within.deadline = &memory_alone;
+  plots().write(*file, arguments.command_line(), within);
 }
 
 }  // namespace warren

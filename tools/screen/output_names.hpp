@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "parallel/execution.hpp"
+#include "pictures/plots/plots_page.hpp"
 #include "tools/words/arguments.hpp"
 
 namespace warren {
@@ -31,6 +33,12 @@ bool check_reports(const Arguments& arguments, std::initializer_list<std::string
 
 /// Writes what `text` makes to the file that an option names, if it is given; whatever has stopped meanwhile.
 void write_report(const Arguments& arguments, std::string_view option, const std::function<std::string()>& text);
+
+/// Throws UsageError unless --svg, where it is given, names a file that plots can be written to.
+void check_plots(const Arguments& arguments);
+/// Writes plots to the file that --svg names, if it is given; of a run that was stopped, too: within its memory alone.
+void write_plots(const Arguments& arguments, const Execution& execution, bool was_stopped,
+                 const std::function<PlotsPage()>& plots);
 
 /// "a" of "a/b.svg"; "." of "b.svg".
 std::string folder_of(const std::string& path);

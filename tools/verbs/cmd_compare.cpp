@@ -30,14 +30,16 @@ constexpr OptionSpec output_specs[] = {
     {"--csv", "FILE", "write a line a planner or search; - is standard output"},
     {"--html", "FILE", "write a page of tables and plots that needs no network; - is standard output"},
     {"--runs", "FILE", "write a line a run as CSV; - is standard output"},
-    {"--svg", "FILE", "plot times against size, or the share solved against time and box plots; - is standard output"},
+    {"--svg", "FILE",
+     "plot times against size, or the share solved against time and box plots, as .svg, .png or .pdf by ending; - is "
+     "standard output"},
     {"--log", "FILE", "write every run as OMPL's benchmarks do; - is standard output"},
 };
 
 /// Throws unless every output can be written; says whether one of them takes standard output.
 bool check_outputs_of_compare(const Arguments& arguments) {
   const bool taken = check_reports(arguments, {"--json", "--csv", "--runs", "--svg", "--html", "--log"});
-  check_picture_ending("--svg", arguments.value("--svg").value_or(""), ".svg");
+  check_plots(arguments);
   if (const auto folder = arguments.value("--pictures")) make_folder(*folder);
   if (arguments.has("--log") && arguments.has("--sizes")) {
     throw UsageError("--log: holds the runs on one world; --sizes has many graphs");
@@ -102,7 +104,7 @@ void CompareCommand::write_outputs() const {
   write_report(arguments_, "--json", [&] { return comparison_json(comparison_); });
   write_report(arguments_, "--csv", [&] { return comparison_csv(comparison_); });
   write_report(arguments_, "--runs", [&] { return comparison_runs(comparison_); });
-  write_report(arguments_, "--svg", [&] { return comparison_svg(comparison_); });
+  write_plots(arguments_, execution_, comparison_.stopped.has_value(), [&] { return comparison_plots(comparison_); });
   write_report(arguments_, "--html", [&] { return comparison_page(comparison_, arguments_.command_line()); });
   write_report(arguments_, "--log", [&] { return ompl_log(comparison_, experiment()); });
 }

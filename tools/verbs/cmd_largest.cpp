@@ -38,7 +38,7 @@ constexpr OptionSpec search_specs[] = {
     {"--seed", "N", "the first maze's seed, and its sampling's (default: 1)"},
     {"--seeds", "N", "mazes that must all be solved at the largest size (default: 3)"},
     {"--json", "FILE", "write warren.largest/1; - is standard output"},
-    {"--svg", "FILE", "plot time against cells with the budget; - is standard output"},
+    {"--svg", "FILE", "plot time against cells with the budget, as .svg, .png or .pdf by ending; - is standard output"},
 };
 
 /// "5" or "5%".
@@ -107,12 +107,13 @@ int exit_code(const LargestResult& result) {
 int largest(const Arguments& arguments) {
   const LargestOptions options = largest_options(arguments);
   const bool standard_output_taken = check_reports(arguments, {"--json", "--svg"});
-  check_picture_ending("--svg", arguments.value("--svg").value_or(""), ".svg");
+  check_plots(arguments);
   Run run(arguments, RunScope::each_run);
   const LargestResult result = find_largest(options, run.execution(), [&](std::string_view line) { run.note(line); });
   run.end();
   write_report(arguments, "--json", [&] { return largest_json(options, result); });
-  write_report(arguments, "--svg", [&] { return largest_plot(options, result); });
+  write_plots(arguments, run.execution(), result.signal.has_value(),
+              [&] { return PlotsPage{{largest_plot(options, result)}}; });
   run.conclude(standard_output_taken, result.signal, [&] { return largest_summary(options, result, run.palette()); });
   return exit_code(result);
 }

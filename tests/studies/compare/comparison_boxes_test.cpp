@@ -49,14 +49,14 @@ TEST(BoxFigures, WhiskersNeverEndInsideTheBox) {
 TEST(BoxPanels, ShowWhatDiffersFromRunToRunAndSayFailures) {
   const auto panels = box_panels(of_planners(2, {10.0, 12.0, 0.0, 11.0}));
   ASSERT_EQ(panels.size(), 2U) << "length and time; no run has a clearance";
-  EXPECT_NE(panels[0].find("maze:4x4: length"), std::string::npos);
-  EXPECT_NE(panels[0].find(">3 of 4<"), std::string::npos);
-  EXPECT_NE(panels[1].find("seconds, of all runs"), std::string::npos);
+  EXPECT_NE(panels[0].svg().find("maze:4x4: length"), std::string::npos);
+  EXPECT_NE(panels[0].svg().find(">3 of 4<"), std::string::npos);
+  EXPECT_NE(panels[1].svg().find("seconds, of all runs"), std::string::npos);
   EXPECT_TRUE(box_panels(of_planners(2, {10.0})).empty()) << "one run is no spread";
 }
 
 TEST(BoxPanels, TimesOverMoreThanADecadeAreLogarithmic) {
-  const auto decades = [](double slowest) { return box_panels(of_planners(1, {1.0, 1.0, 0.0}, slowest)).at(0); };
+  const auto decades = [](double slowest) { return box_panels(of_planners(1, {1.0, 1.0, 0.0}, slowest)).at(0).svg(); };
   EXPECT_NE(decades(200.0).find(">100<"), std::string::npos);
   EXPECT_NE(decades(200.0).find(">1<"), std::string::npos) << "powers of ten";
   EXPECT_EQ(decades(1.0).find(">5<"), std::string::npos);

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "studies/compare/comparison_report.hpp"
-#include "studies/compare/heat_map_svg.hpp"
+#include "studies/compare/heat_map.hpp"
 
 namespace warren {
 namespace {
@@ -45,11 +45,11 @@ TEST(ListPanels, TwoListsMakeHeatMapsOfSuccessLengthAndTime) {
                                       contender("prm", {{"samples", "90"}, {"neighbours", "8"}}, 4, 15.5)}));
   ASSERT_EQ(panels.size(), 3U);
   for (const char* text : {">0 %<", ">25 %<", ">50 %<", ">100 %<", ">samples<", ">neighbours<"}) {
-    EXPECT_EQ(count(panels[0], text), 1U) << text;
+    EXPECT_EQ(count(panels[0].svg(), text), 1U) << text;
   }
-  EXPECT_EQ(count(panels[1], ">none<"), 1U) << "no path, no length";
-  EXPECT_EQ(count(panels[1], ">17.5<"), 1U);
-  EXPECT_EQ(count(panels[2], ">250 ms<"), 4U);
+  EXPECT_EQ(count(panels[1].svg(), ">none<"), 1U) << "no path, no length";
+  EXPECT_EQ(count(panels[1].svg(), ">17.5<"), 1U);
+  EXPECT_EQ(count(panels[2].svg(), ">250 ms<"), 4U);
 }
 
 TEST(ListPanels, TheListsWithMostValuesAreTheAxesAndOthersMakeMapsOfTheirOwn) {
@@ -63,8 +63,8 @@ TEST(ListPanels, TheListsWithMostValuesAreTheAxesAndOthersMakeMapsOfTheirOwn) {
   }
   const auto panels = list_panels(of(all));
   ASSERT_EQ(panels.size(), 6U);
-  EXPECT_EQ(count(panels[0], "prm, sampler uniform: runs solved"), 2U) << "title and heading";
-  EXPECT_EQ(count(panels[5], "prm, sampler halton: median time"), 2U);
+  EXPECT_EQ(count(panels[0].svg(), "prm, sampler uniform: runs solved"), 2U) << "title and heading";
+  EXPECT_EQ(count(panels[5].svg(), "prm, sampler halton: median time"), 2U);
 }
 
 TEST(ListPanels, OneListOfNumbersIsALineAPlannerWithBars) {
@@ -73,8 +73,8 @@ TEST(ListPanels, OneListOfNumbersIsALineAPlannerWithBars) {
                       contender("lazy-prm", {{"samples", "50"}}, 2, 17.0),
                       contender("lazy-prm", {{"samples", "100"}}, 4, 15.5), contender("voronoi", {}, 4, 20.0)}));
   ASSERT_EQ(panels.size(), 3U);
-  EXPECT_EQ(count(panels[0], "<circle"), 4U + 2U) << "points and legend";
-  EXPECT_EQ(count(panels[0], ">voronoi<"), 0U);
+  EXPECT_EQ(count(panels[0].svg(), "<circle"), 4U + 2U) << "points and legend";
+  EXPECT_EQ(count(panels[0].svg(), ">voronoi<"), 0U);
 }
 
 TEST(ListPanels, WordsAndOptionsThatNobodyListsHaveNone) {
@@ -86,7 +86,7 @@ TEST(ListPanels, WordsAndOptionsThatNobodyListsHaveNone) {
 
 TEST(HeatMap, EqualValuesAndNoneAreDrawnToo) {
   const std::string svg =
-      heat_map_svg({.title = "a < b", .columns = {"1", "2"}, .rows = {"x"}, .cells = {{}, {2.0, "2"}}});
+      sheet_of(HeatMap{.title = "a < b", .columns = {"1", "2"}, .rows = {"x"}, .cells = {{}, {2.0, "2"}}}).svg();
   EXPECT_EQ(count(svg, "<rect"), 3U);
   EXPECT_EQ(count(svg, "nan"), 0U);
   EXPECT_EQ(count(svg, "a &lt; b"), 2U);

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A plot of a few series as one <svg> element: axes with round ticks, linear or logarithmic, legend at the right. Needs
-// nothing but what is in it, so it stands alone in a file and inside an HTML page.
+// A plot of a few series: axes with round ticks, linear or logarithmic, legend at the right.
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "core/base/types.hpp"
+#include "pictures/plots/plot_sheet.hpp"
 
 namespace warren {
 
@@ -33,13 +32,6 @@ struct Plot {
   std::string level_name = {};
 };
 
-inline constexpr Vec2 plot_size{760.0, 420.0};
-
-/// The element with its namespace, of that size.
-std::string plot_svg(const Plot& plot);
-
-/// Elements of that size, row by row, as one element.
-std::string panels_svg(std::span<const std::string> panels, std::size_t columns);
-std::string plots_svg(std::span<const Plot> plots, std::size_t columns);
+PlotSheet sheet_of(const Plot& plot);
 
 }  // namespace warren

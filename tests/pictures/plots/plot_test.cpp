@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pictures/plots/plot_svg.hpp"
+#include "pictures/plots/plot.hpp"
 
 #include <gtest/gtest.h>
 
 namespace warren {
 namespace {
+
+std::string plot_svg(const Plot& plot) { return sheet_of(plot).svg(); }
 
 std::size_t count_of(const std::string& text, std::string_view what) {
   std::size_t count = 0;
@@ -21,18 +23,18 @@ Plot plot_of(std::vector<Vec2> points, bool logarithmic) {
           .series = {{.name = "solve", .points = std::move(points)}}};
 }
 
-TEST(PlotSvg, EveryPointHasAMarkAndTheLegendOneMore) {
+TEST(Plot, EveryPointHasAMarkAndTheLegendOneMore) {
   EXPECT_EQ(count_of(plot_svg(plot_of({{1, 1}, {2, 5}, {3, 2}}, false)), "<circle"), 4U);
 }
 
-TEST(PlotSvg, WhatALogarithmCantShowIsLeftOut) {
+TEST(Plot, WhatALogarithmCantShowIsLeftOut) {
   const std::string text = plot_svg(plot_of({{10, 1}, {100, 0}, {0, 5}, {-1, -1}, {1000, 2}}, true));
   EXPECT_EQ(count_of(text, "<circle"), 3U);
   EXPECT_EQ(text.find("nan"), std::string::npos);
   EXPECT_EQ(text.find("inf"), std::string::npos);
 }
 
-TEST(PlotSvg, EmptyAndSinglePointsStillGiveAPlot) {
+TEST(Plot, EmptyAndSinglePointsStillGiveAPlot) {
   for (const std::vector<Vec2>& points : {std::vector<Vec2>{}, {{5, 5}}, {{0, 0}}, {{3, 7}, {3, 7}}}) {
     for (const bool logarithmic : {false, true}) {
       const std::string text = plot_svg(plot_of(points, logarithmic));
@@ -43,7 +45,7 @@ TEST(PlotSvg, EmptyAndSinglePointsStillGiveAPlot) {
   }
 }
 
-TEST(PlotSvg, TheLevelIsInsideTheFrameAndNamed) {
+TEST(Plot, TheLevelIsInsideTheFrameAndNamed) {
   Plot plot = plot_of({{1, 1}, {10, 2}}, true);
   plot.level = 20.0;  // above all points
   plot.level_name = "budget 20 s";
@@ -59,7 +61,7 @@ double frame_end(const std::string& text) {
   return left + std::stod(text.substr(text.find("width=\"", at) + 7));
 }
 
-TEST(PlotSvg, LongNamesHaveRoomBesideTheFrame) {
+TEST(Plot, LongNamesHaveRoomBesideTheFrame) {
   Plot plot = plot_of({{1, 1}, {2, 2}}, false);
   const double usual = frame_end(plot_svg(plot));
   plot.series[0].name = std::string(40, 'w');
@@ -69,7 +71,7 @@ TEST(PlotSvg, LongNamesHaveRoomBesideTheFrame) {
   EXPECT_GT(frame_end(plot_svg(plot)), 300.0) << "some of the plot is left";
 }
 
-TEST(PlotSvg, WhatIsCountedHasNoTicksBetweenWholeNumbers) {
+TEST(Plot, WhatIsCountedHasNoTicksBetweenWholeNumbers) {
   Plot plot = plot_of({{1, 1}, {2, 2}}, false);
   EXPECT_NE(plot_svg(plot).find(">1.2<"), std::string::npos);
   plot.whole_x = true;
@@ -79,13 +81,13 @@ TEST(PlotSvg, WhatIsCountedHasNoTicksBetweenWholeNumbers) {
   EXPECT_NE(plot_svg(plot).find(">2<"), std::string::npos);
 }
 
-TEST(PlotSvg, SmallPowersOfTenAreShort) {
+TEST(Plot, SmallPowersOfTenAreShort) {
   const std::string text = plot_svg(plot_of({{1e-6, 1e-7}, {1e3, 1e-2}}, true));
   EXPECT_NE(text.find(">1e-6<"), std::string::npos);
   EXPECT_EQ(text.find("e-0"), std::string::npos);
 }
 
-TEST(PlotSvg, TextIsEscaped) {
+TEST(Plot, TextIsEscaped) {
   const std::string text = plot_svg(plot_of({{1, 1}}, false));
   EXPECT_NE(text.find("times &amp; &lt;sizes&gt;"), std::string::npos);
   EXPECT_EQ(text.find("<sizes>"), std::string::npos);

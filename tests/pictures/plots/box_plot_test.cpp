@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pictures/plots/box_plot_svg.hpp"
+#include "pictures/plots/box_plot.hpp"
 
 #include <gtest/gtest.h>
 
 namespace warren {
 namespace {
+
+std::string box_plot_svg(const BoxPlot& plot) { return sheet_of(plot).svg(); }
 
 std::size_t times_in(const std::string& text, std::string_view what) {
   std::size_t count = 0;
@@ -19,7 +21,7 @@ BoxPlot boxes_with(std::vector<double> outliers, bool logarithmic) {
   return plot;
 }
 
-TEST(BoxPlotSvg, EveryRowHasItsNameAndRemarkAndOnlyFiguresABox) {
+TEST(BoxPlot, EveryRowHasItsNameAndRemarkAndOnlyFiguresABox) {
   const std::string text = box_plot_svg(boxes_with({20.0}, false));
   for (const char* word : {">prm<", ">rrt<", ">9 of 9<", ">none of 9<", ">solved<", ">seconds<"}) {
     EXPECT_EQ(times_in(text, word), 1U) << word;
@@ -29,19 +31,19 @@ TEST(BoxPlotSvg, EveryRowHasItsNameAndRemarkAndOnlyFiguresABox) {
   EXPECT_NE(text.find("maze &amp; more"), std::string::npos);
 }
 
-TEST(BoxPlotSvg, OutliersOnOnePixelAreDrawnOnce) {
+TEST(BoxPlot, OutliersOnOnePixelAreDrawnOnce) {
   EXPECT_EQ(times_in(box_plot_svg(boxes_with(std::vector<double>(100'000, 20.0), false)), "<circle"), 1U);
   EXPECT_EQ(times_in(box_plot_svg(boxes_with({10.0, 15.0, 20.0}, false)), "<circle"), 3U);
 }
 
-TEST(BoxPlotSvg, ALogarithmicAxisShowsDecadesAndZeroKeepsItLinear) {
+TEST(BoxPlot, ALogarithmicAxisShowsDecadesAndZeroKeepsItLinear) {
   EXPECT_NE(box_plot_svg(boxes_with({5000.0}, true)).find(">1k<"), std::string::npos);
   const std::string linear = box_plot_svg(boxes_with({0.0, 5000.0}, true));
   EXPECT_EQ(linear.find("nan"), std::string::npos);
   EXPECT_EQ(linear.find("inf"), std::string::npos);
 }
 
-TEST(BoxPlotSvg, PlacesAreInsideTheElementWithAnyNamesAndFigures) {
+TEST(BoxPlot, PlacesAreInsideTheElementWithAnyNamesAndFigures) {
   for (const double value : {0.0, 1e-9, 7.0, 1e12}) {
     BoxPlot plot{.title = "one",
                  .boxes = {{std::string(400, 'w'), "1 of 1", BoxFigures{value, value, value, value, value}}}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pictures/plots/box_plot_svg.hpp"
+#include "pictures/plots/box_plot.hpp"
 
 #include <fmt/format.h>
 
@@ -8,15 +8,11 @@
 #include <limits>
 
 #include "pictures/model/letters.hpp"
-#include "pictures/model/xml_text.hpp"
 #include "pictures/plots/plot_axis.hpp"
-#include "pictures/plots/plot_sheet.hpp"
-#include "pictures/plots/plot_svg.hpp"
 
 namespace warren {
 namespace {
 
-constexpr double text_size = 12.0;
 constexpr double most_name = 300.0;      // pixels
 constexpr double room_of_remark = 96.0;  // beside the frame
 
@@ -25,24 +21,24 @@ class BoxDrawing {
  public:
   explicit BoxDrawing(const BoxPlot& plot) : plot_(plot), frame_(frame_between_words()), axis_(axis()) {}
 
-  std::string text() {
+  PlotSheet sheet() {
     sheet_.begin(plot_.title, frame_, plot_.label, "", 0.0);
-    sheet_.label(frame_.max.x + 10.0, frame_.min.y - 8.0, "start", plot_.remarks);
+    sheet_.label({frame_.max.x + 10.0, frame_.min.y - 8.0}, Anchor::start, plot_.remarks);
     for (const double tick : axis_.ticks()) {
-      sheet_.line({place(tick), frame_.min.y}, {place(tick), frame_.max.y}, faint_line);
-      sheet_.label(place(tick), frame_.max.y + 17.0, "middle", short_text(tick));
+      sheet_.line({{place(tick), frame_.min.y}, {place(tick), frame_.max.y}}, faint_line);
+      sheet_.label({place(tick), frame_.max.y + 17.0}, Anchor::middle, short_text(tick));
     }
     sheet_.box(frame_, frame_line);
     for (std::size_t i = 0; i < plot_.boxes.size(); ++i) row(i);
-    return sheet_.take();
+    return std::move(sheet_);
   }
 
  private:
   Box frame_between_words() const;
   PlotAxis axis() const;
   void row(std::size_t i);
-  void box(const PlottedBox& box, double y, const std::string& color);
-  void outliers(const std::vector<double>& values, double y, const std::string& color);
+  void box(const PlottedBox& box, double y, Rgb color);
+  void outliers(const std::vector<double>& values, double y, Rgb color);
   double place(double value) const { return frame_.min.x + axis_.at(value) * frame_.width(); }
   double row_height() const { return frame_.height() / static_cast<double>(plot_.boxes.size()); }
 
@@ -56,7 +52,7 @@ Box BoxDrawing::frame_between_words() const {
   constexpr double least = 60.0;
   constexpr double margin = 20.0;
   double widest = least;
-  for (const PlottedBox& box : plot_.boxes) widest = std::max(widest, text_width(box.name, text_size));
+  for (const PlottedBox& box : plot_.boxes) widest = std::max(widest, text_width(box.name, plot_text_size));
   return {{std::min(widest, most_name) + margin, 48.0}, {plot_size.x - room_of_remark, 366.0}};
 }
 
@@ -78,47 +74,46 @@ PlotAxis BoxDrawing::axis() const {
 void BoxDrawing::row(std::size_t i) {
   const PlottedBox& one = plot_.boxes[i];
   const double y = frame_.min.y + (static_cast<double>(i) + 0.5) * row_height();
-  sheet_.label(frame_.min.x - 8.0, y + 4.0, "end", fitting_text(one.name, text_size, most_name));
-  sheet_.label(frame_.max.x + 10.0, y + 4.0, "start", one.remark);
+  sheet_.label({frame_.min.x - 8.0, y + 4.0}, Anchor::end, fitting_text(one.name, plot_text_size, most_name));
+  sheet_.label({frame_.max.x + 10.0, y + 4.0}, Anchor::start, one.remark);
   if (one.figures) box(one, y, series_color(i));
 }
 
-void BoxDrawing::box(const PlottedBox& box, double y, const std::string& color) {
+void BoxDrawing::box(const PlottedBox& box, double y, Rgb color) {
   constexpr double thickest = 26.0;
+  constexpr unsigned pale = 25;
   const BoxFigures& f = *box.figures;
   const double half = 0.5 * std::min(0.6 * row_height(), thickest);
-  const std::string line = fmt::format("stroke=\"{}\" stroke-width=\"1.5\"", color);
-  const auto upright = [&](double value, double height, std::string_view style) {
-    sheet_.line({place(value), y - height}, {place(value), y + height}, style);
+  const Pen line{.stroke = color, .width = 1.5};
+  const auto upright = [&](double value, double height, const Pen& pen) {
+    sheet_.line({{place(value), y - height}, {place(value), y + height}}, pen);
   };
-  sheet_.line({place(f.low), y}, {place(f.q1), y}, line);
-  sheet_.line({place(f.q3), y}, {place(f.high), y}, line);
+  sheet_.line({{place(f.low), y}, {place(f.q1), y}}, line);
+  sheet_.line({{place(f.q3), y}, {place(f.high), y}}, line);
   upright(f.low, 0.5 * half, line);
   upright(f.high, 0.5 * half, line);
   const auto said = [&](double value) { return plot_.text != nullptr ? plot_.text(value) : short_text(value); };
-  const std::string tip = fmt::format("{}: median {}, half of the runs from {} to {}; {} {}", box.name, said(f.median),
-                                      said(f.q1), said(f.q3), box.remark, plot_.remarks);
   sheet_.box({{place(f.q1), y - half}, {place(f.q3), y + half}},
-             fmt::format("fill=\"{0}\" fill-opacity=\"0.25\" stroke=\"{0}\" stroke-width=\"1.5\" data-tip=\"{1}\"",
-                         color, xml_text(tip)));
-  upright(f.median, half, fmt::format("stroke=\"{}\" stroke-width=\"3\"", color));
+             {.stroke = color, .width = 1.5, .fill = mixed(color, colors::paper, pale)},
+             fmt::format("{}: median {}, half of the runs from {} to {}; {} {}", box.name, said(f.median), said(f.q1),
+                         said(f.q3), box.remark, plot_.remarks));
+  upright(f.median, half, {.stroke = color, .width = 3.0});
   outliers(f.outliers, y, color);
 }
 
 /// One of those that lie on the same half pixel.
-void BoxDrawing::outliers(const std::vector<double>& values, double y, const std::string& color) {
+void BoxDrawing::outliers(const std::vector<double>& values, double y, Rgb color) {
   double last = -1.0;
   for (const double value : values) {
     const double x = 0.5 * std::round(2.0 * place(value));
     if (x == last) continue;
     last = x;
-    sheet_.add(
-        fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.5\" fill=\"none\" stroke=\"{}\"/>\n", x, y, color));
+    sheet_.disc({x, y}, 2.5, {.stroke = color});
   }
 }
 
 }  // namespace
 
-std::string box_plot_svg(const BoxPlot& plot) { return BoxDrawing(plot).text(); }
+PlotSheet sheet_of(const BoxPlot& plot) { return BoxDrawing(plot).sheet(); }
 
 }  // namespace warren

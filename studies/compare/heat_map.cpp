@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "studies/compare/heat_map_svg.hpp"
+#include "studies/compare/heat_map.hpp"
 
 #include <fmt/format.h>
 
@@ -7,11 +7,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <string_view>
 
 #include "core/base/types.hpp"
-#include "pictures/model/xml_text.hpp"
-#include "pictures/plots/plot_sheet.hpp"
 
 namespace warren {
 namespace {
@@ -33,7 +30,10 @@ Color color_at(double share) {
   return color;
 }
 
-std::string text_of(const Color& c) { return fmt::format("rgb({:.0f},{:.0f},{:.0f})", c[0], c[1], c[2]); }
+Rgb rounded(const Color& c) {
+  const auto part = [](double value) { return static_cast<std::uint8_t>(std::lround(value)); };
+  return {part(c[0]), part(c[1]), part(c[2])};
+}
 
 bool is_dark(const Color& c) { return 0.3 * c[0] + 0.59 * c[1] + 0.11 * c[2] < 128.0; }
 
@@ -59,12 +59,12 @@ class HeatMapDrawing {
     scale_.high = map.high.value_or(scale_.high);
   }
 
-  std::string text() {
+  PlotSheet sheet() {
     begin();
     for (std::size_t row = 0; row < map_.rows.size(); ++row) {
       for (std::size_t column = 0; column < map_.columns.size(); ++column) draw_cell(column, row);
     }
-    return sheet_.take();
+    return std::move(sheet_);
   }
 
  private:
@@ -82,10 +82,10 @@ class HeatMapDrawing {
 void HeatMapDrawing::begin() {
   sheet_.begin(map_.title, frame, map_.x_label, map_.y_label, 40.0);
   for (std::size_t i = 0; i < map_.columns.size(); ++i) {
-    sheet_.label(x_of(i) + 0.5 * cell_.x, frame.max.y + 18.0, "middle", map_.columns[i]);
+    sheet_.label({x_of(i) + 0.5 * cell_.x, frame.max.y + 18.0}, Anchor::middle, map_.columns[i]);
   }
   for (std::size_t i = 0; i < map_.rows.size(); ++i) {
-    sheet_.label(frame.min.x - 8.0, y_of(i) + 0.5 * cell_.y + 4.0, "end", map_.rows[i]);
+    sheet_.label({frame.min.x - 8.0, y_of(i) + 0.5 * cell_.y + 4.0}, Anchor::end, map_.rows[i]);
   }
 }
 
@@ -93,16 +93,15 @@ void HeatMapDrawing::draw_cell(std::size_t column, std::size_t row) {
   const HeatMap::Cell& cell = map_.cells[row * map_.columns.size() + column];
   const Color color = cell.value ? color_at(scale_.share(*cell.value)) : Color{232, 232, 232};
   const Vec2 low{x_of(column), y_of(row)};
-  sheet_.box({low, low + cell_},
-             fmt::format("fill=\"{}\" stroke=\"#ffffff\" data-tip=\"{}\"", text_of(color),
-                         xml_text(fmt::format("{} {}, {} {}: {}", map_.x_label, map_.columns[column], map_.y_label,
-                                              map_.rows[row], cell.text))));
-  const std::string_view ink = is_dark(color) ? " fill=\"#ffffff\"" : "";
-  sheet_.label(x_of(column) + 0.5 * cell_.x, y_of(row) + 0.5 * cell_.y + 4.0, "middle", cell.text, ink);
+  sheet_.box(
+      {low, low + cell_}, {.stroke = colors::paper, .fill = rounded(color)},
+      fmt::format("{} {}, {} {}: {}", map_.x_label, map_.columns[column], map_.y_label, map_.rows[row], cell.text));
+  sheet_.label(low + Vec2{0.5 * cell_.x, 0.5 * cell_.y + 4.0}, Anchor::middle, cell.text,
+               is_dark(color) ? colors::paper : colors::text);
 }
 
 }  // namespace
 
-std::string heat_map_svg(const HeatMap& map) { return HeatMapDrawing(map).text(); }
+PlotSheet sheet_of(const HeatMap& map) { return HeatMapDrawing(map).sheet(); }
 
 }  // namespace warren

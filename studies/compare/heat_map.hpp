@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A table of numbers as coloured cells, each with its number in it: one <svg> element as large as a plot of plot_svg.
+// A table of numbers as coloured cells, each with its number in it, as large as a plot.
 // The colours (viridis) rise in lightness, so they are told apart by all eyes and in grey.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "pictures/plots/plot_sheet.hpp"
 
 namespace warren {
 
@@ -24,6 +26,6 @@ struct HeatMap {
   std::vector<Cell> cells = {};           ///< row by row, columns.size() * rows.size() of them
 };
 
-std::string heat_map_svg(const HeatMap& map);
+PlotSheet sheet_of(const HeatMap& map);
 
 }  // namespace warren

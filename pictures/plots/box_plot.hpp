@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A box plot as one <svg> element as large as a plot of plot_svg: a row a box with its name before it and a remark
-// behind it, one axis below. A box reaches from the first quartile to the third, its strong line is the median.
+// A box plot: a row a box with its name before it and a remark behind it, one axis below. A box reaches from the first
+// quartile to the third, its strong line is the median.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "pictures/plots/plot_sheet.hpp"
 
 namespace warren {
 
@@ -37,6 +39,6 @@ struct BoxPlot {
 /// More have no room for their names.
 inline constexpr std::size_t most_boxes = 18;
 
-std::string box_plot_svg(const BoxPlot& plot);
+PlotSheet sheet_of(const BoxPlot& plot);
 
 }  // namespace warren
