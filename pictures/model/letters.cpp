@@ -81,6 +81,20 @@ std::vector<Vec2> contour_of(const std::vector<CurvePoint>& points) {
   return contour;
 }
 
+/// Cut at the blanks that stand behind one of these letters; none: at all blanks.
+std::vector<std::string> parts_between(const std::string& text, std::string_view behind) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    std::string& last = parts.back();
+    if (c == ' ' && (behind.empty() || (!last.empty() && behind.find(last.back()) != std::string_view::npos))) {
+      parts.emplace_back();
+    } else {
+      last += c;
+    }
+  }
+  return parts;
+}
+
 }  // namespace
 
 std::string latin1_text(std::string_view text) {
@@ -137,21 +151,21 @@ std::string fitting_text(const std::string& text, double size, double width) {
 }
 
 std::vector<std::string> wrapped_text(const std::string& text, double size, double width) {
-  std::vector<std::string> lines;
-  std::string line;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find(' ', at), text.size());
-    const std::string word = text.substr(at, end - at);
-    const std::string longer = line.empty() ? word : line + ' ' + word;
-    if (!line.empty() && text_width(longer, size) > width) {
-      lines.push_back(line);
-      line = word;
-    } else {
+  if (text.empty()) return {};
+  std::vector<std::string> lines(1);
+  const auto add = [&](const std::string& part) {
+    std::string& line = lines.back();
+    const std::string longer = line.empty() ? part : line + ' ' + part;
+    if (line.empty() || text_width(longer, size) <= width) {
       line = longer;
+    } else {
+      lines.push_back(part);
     }
-    at = end + 1;
+  };
+  for (const std::string& part : parts_between(text, ",;")) {
+    const auto words = text_width(part, size) <= width ? std::vector{part} : parts_between(part, "");
+    for (const std::string& word : words) add(word);
   }
-  if (!line.empty()) lines.push_back(line);
   for (std::string& some : lines) some = fitting_text(some, size, width);
   return lines;
 }

@@ -22,7 +22,8 @@ PolygonSet text_outlines(std::string_view text, double size);
 /// The line cut to what fits, with "..." where something is left out.
 std::string fitting_text(const std::string& text, double size, double width);
 
-/// The text in as few lines as fit, cut at blanks.
+/// The text in as few lines as fit, cut behind commas and semicolons, and at other blanks only between two of those
+/// that are further apart than a line.
 std::vector<std::string> wrapped_text(const std::string& text, double size, double width);
 
 /// The characters of ISO 8859-1, a byte each; others are question marks.

@@ -43,6 +43,22 @@ TEST(Letters, LinesAreCutWhereTheyDoNotFit) {
   for (const std::string& line : lines) EXPECT_LE(text_width(line, 10), 50) << line;
 }
 
+TEST(Letters, WrappedLinesKeepAKeyAndItsValueTogether) {
+  const std::string text = "prm, uniform, length 485, seed 1; a disc of radius 0.25";
+  for (double width = 80.0; width < 400.0; width += 1.0) {
+    const auto lines = wrapped_text(text, 10, width);
+    std::string joined;
+    for (const std::string& line : lines) {
+      joined += (joined.empty() ? "" : " ") + line;
+      EXPECT_LE(text_width(line, 10), width);
+      EXPECT_NE(line, "1;") << width;
+      EXPECT_FALSE(line.ends_with("seed") || line.ends_with("length")) << line;
+    }
+    EXPECT_EQ(joined, text) << width;
+  }
+  EXPECT_TRUE(wrapped_text("", 10, 50).empty());
+}
+
 TEST(Ticks, AreRoundAndCoverTheRange) {
   EXPECT_DOUBLE_EQ(tick_step(10, 5), 2.0);
   EXPECT_DOUBLE_EQ(tick_step(0.07, 7), 0.01);
