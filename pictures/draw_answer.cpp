@@ -115,9 +115,7 @@ void add_roadmap(Drawing& drawing, const Answer& answer, ByProducts& made, const
 }
 
 std::vector<PictureLayer> ground_of(const Scene& scene, const Execution& execution) {
-  std::vector<PictureLayer> ground;
-  if (scene.map) ground.push_back(map_layer(*scene.map, execution));
-  return ground;
+  return scene.map ? cells_of_map(*scene.map, execution) : std::vector<PictureLayer>{};
 }
 
 /// Views instead of the world.

@@ -72,7 +72,7 @@ class RoadmapDrawing {
     Drawing drawing;
     drawing.start = plane_point(scene_.start);
     drawing.goal = plane_point(scene_.goal);
-    if (scene_.map) drawing.layers.push_back(map_layer(*scene_.map, execution_));
+    if (scene_.map) drawing.layers = cells_of_map(*scene_.map, execution_);
     if (heading_rad) {
       add_heading(drawing, scene_, roadmap_.robot, roadmap_.clearance, poses(), *heading_rad, execution_);
     }

@@ -16,6 +16,26 @@
 namespace warren {
 namespace {
 
+/// Of a convex outline (Sutherland and Hodgman, 1974); empty where nothing of it is in the box.
+std::vector<Vec2> part_in_box(std::span<const Vec2> outline, const Box& box) {
+  std::vector<Vec2> part(outline.begin(), outline.end());
+  const auto cut = [&part](const auto& depth) {  // >= 0 inside
+    std::vector<Vec2> kept;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      const Vec2 a = part[i];
+      const Vec2 b = part[(i + 1) % part.size()];
+      if (depth(a) >= 0.0) kept.push_back(a);
+      if ((depth(a) < 0.0) != (depth(b) < 0.0)) kept.push_back(a + depth(a) / (depth(a) - depth(b)) * (b - a));
+    }
+    part = std::move(kept);
+  };
+  cut([&](Vec2 p) { return p.x - box.min.x; });
+  cut([&](Vec2 p) { return box.max.x - p.x; });
+  cut([&](Vec2 p) { return p.y - box.min.y; });
+  cut([&](Vec2 p) { return box.max.y - p.y; });
+  return part;
+}
+
 class Painter {
  public:
   Painter(const Picture& picture, Parts parts, const Page& page, Surface& surface, const Execution& execution)
@@ -119,7 +139,14 @@ void Painter::layer(const PictureLayer& layer) {
     group.thinned();
   }
   group.begin(layer.id, layer.label, layer.lines.corners.size());
+  const bool is_cut = page_.canvas.whole && layer.part == Part::world;  // cells of a map that is not shown wholly
+  const Box shown = page_.view.box_of(page_.data);
   for (std::size_t i = 0; i < layer.lines.size(); ++i) {
+    if (is_cut) {
+      const std::vector<Vec2> part = part_in_box(layer.lines[i], shown);
+      if (part.size() > 2) group.chain(part, {}, true);
+      continue;
+    }
     group.chain(layer.lines[i], layer.turns_of(i), layer.closed || layer.fill,
                 layer.opacities.empty() ? 1.0 : layer.opacities[i]);
   }

@@ -20,6 +20,19 @@ std::vector<CellRun> runs_of(const Bitmap& cells, std::uint32_t y) {
   return runs;
 }
 
+/// Its blocked cells but the unknown ones.
+Bitmap known_of(const OccupancyMap& map, const Execution& execution) {
+  execution.reserve(map.blocked.bytes());
+  Bitmap known = map.blocked;
+  for (std::uint32_t y = 0; y < map.unknown.height(); ++y) {
+    execution.check();
+    const auto unknown = map.unknown.row(y);
+    const auto row = known.row(y);
+    for (std::size_t w = 0; w < row.size(); ++w) row[w] &= ~unknown[w];
+  }
+  return known;
+}
+
 }  // namespace
 
 PictureLayer cells_layer(std::string id, std::string label, const Bitmap& cells, const std::function<Vec2(Vec2)>& at,
@@ -52,9 +65,15 @@ PictureLayer cells_layer(std::string id, std::string label, const Bitmap& cells,
   return layer;
 }
 
-PictureLayer map_layer(const OccupancyMap& map, const Execution& execution) {
-  return cells_layer(
-      "blocked", "blocked cells", map.blocked, [&](Vec2 p) { return world_point(map, p); }, execution);
+std::vector<PictureLayer> cells_of_map(const OccupancyMap& map, const Execution& execution) {
+  const auto at = [&](Vec2 p) { return world_point(map, p); };
+  if (map.format != MapFormat::ros) return {cells_layer("blocked", "blocked cells", map.blocked, at, execution)};
+  std::vector<PictureLayer> layers;
+  const std::string_view occupied = map.between > 0 ? "occupied cells, and those between" : "occupied cells";
+  layers.push_back(cells_layer("occupied", std::string(occupied), known_of(map, execution), at, execution));
+  layers.back().fill = colors::occupied_cell;
+  if (!map.unknown.empty()) layers.push_back(cells_layer("unknown", "unknown cells", map.unknown, at, execution));
+  return layers;
 }
 
 }  // namespace warren

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "core/base/bitmap.hpp"
 #include "core/base/types.hpp"
@@ -17,7 +18,7 @@ namespace warren {
 PictureLayer cells_layer(std::string id, std::string label, const Bitmap& cells, const std::function<Vec2(Vec2)>& at,
                          const Execution& execution);
 
-/// The blocked cells of a map.
-PictureLayer map_layer(const OccupancyMap& map, const Execution& execution);
+/// The blocked cells of a map; of a map server's the occupied ones and the unknown ones, a layer each.
+std::vector<PictureLayer> cells_of_map(const OccupancyMap& map, const Execution& execution);
 
 }  // namespace warren

@@ -28,8 +28,9 @@ inline constexpr Rgb frame{136, 136, 136};
 inline constexpr Rgb wall{30, 41, 59};
 inline constexpr Rgb polygon{217, 221, 227};
 inline constexpr Rgb blocked_cell{190, 197, 207};
-inline constexpr Rgb no_room{250, 224, 193};  ///< for the reference point, at one heading
-inline constexpr Rgb outline{102, 113, 127};  ///< of polygons
+inline constexpr Rgb occupied_cell{110, 121, 138};  ///< of maps that know of unknown ones, which are as blocked_cell
+inline constexpr Rgb no_room{250, 224, 193};        ///< for the reference point, at one heading
+inline constexpr Rgb outline{102, 113, 127};        ///< of polygons
 inline constexpr Rgb search_tree{240, 180, 41};
 inline constexpr Rgb path{200, 16, 46};
 inline constexpr Rgb start{0, 114, 178};

@@ -12,6 +12,7 @@
 #include "pictures/model/page_axes.hpp"
 #include "pictures/model/ticks.hpp"
 #include "scenes/scene/unit_of.hpp"
+#include "scenes/text/human_units.hpp"
 
 namespace warren {
 namespace {
@@ -68,6 +69,7 @@ class PageMaker {
   void place_world();
   void title();
   void axes();
+  std::string axis_name(char axis, std::optional<Vec2> of) const;
   void legend();
   void wrap_title();
   double title_height() const;
@@ -247,13 +249,25 @@ void PageMaker::title() {
   }
 }
 
+/// of: what the whole map takes of the axis, where not all of it is shown.
+std::string PageMaker::axis_name(char axis, std::optional<Vec2> of) const {
+  const std::string_view unit = unit_of(picture_.scene);
+  std::string name = unit.empty() ? std::string(1, axis) : fmt::format("{} ({})", axis, unit);
+  if (of) name += fmt::format(", part of {} to {}: the rest is unknown", human_number(of->x), human_number(of->y));
+  return name;
+}
+
 void PageMaker::axes() {
   if (picture_.panels.empty()) {
-    const std::string_view unit = unit_of(picture_.scene);
-    const auto name = [&](char axis) {
-      return unit.empty() ? std::string(1, axis) : fmt::format("{} ({})", axis, unit);
-    };
-    add_axes(page_, {.x_label = name('x'), .y_label = name('y')}, page_.data, margin + page_text_size);
+    const auto& whole = page_.canvas.whole;
+    const Box& data = page_.data;
+    const std::string x = axis_name('x', whole ? std::optional(Vec2{whole->min.x, whole->max.x}) : std::nullopt);
+    const std::string y = axis_name('y', whole ? std::optional(Vec2{whole->min.y, whole->max.y}) : std::nullopt);
+    const auto fits = [](const std::string& words, double room) { return text_width(words, text_size) <= room; };
+    add_axes(page_,
+             {.x_label = fits(x, data.width()) ? x : axis_name('x', std::nullopt),
+              .y_label = fits(y, data.height()) ? y : axis_name('y', std::nullopt)},
+             data, margin + page_text_size);
     return;
   }
   for (const AxesPanel& panel : picture_.panels) {

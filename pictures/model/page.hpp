@@ -34,6 +34,11 @@ struct View {
   double scale = 1.0;  ///< pixels a unit of the world
   Vec2 origin;         ///< the page's point of the world's (0, 0)
   Vec2 at(Vec2 p) const { return {origin.x + scale * p.x, origin.y - scale * p.y}; }
+  /// The world's, of a box of the page.
+  Box box_of(const Box& on_page) const {
+    return {{(on_page.min.x - origin.x) / scale, (origin.y - on_page.max.y) / scale},
+            {(on_page.max.x - origin.x) / scale, (origin.y - on_page.min.y) / scale}};
+  }
 };
 
 struct Page {

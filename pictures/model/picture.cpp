@@ -8,14 +8,19 @@
 
 #include "core/base/trigonometry.hpp"
 #include "parallel/components.hpp"
+#include "pictures/model/known_part.hpp"
 
 namespace warren {
 
 Canvas canvas_of(const Picture& picture, const Execution& execution) {
   Canvas canvas;
-  canvas.box = obstacle_box(picture.scene, execution);
+  const auto known = picture.scene.map ? known_part(*picture.scene.map, execution) : std::nullopt;
+  const Box all = obstacle_box(picture.scene, execution);
+  if (known) canvas.whole = all;
+  canvas.box = known.value_or(all);
   if (picture.scene.bounds) canvas.box.include(*picture.scene.bounds);
   for (const PictureLayer& layer : picture.layers) {
+    if (known && layer.part == Part::world) continue;  // all of the map's cells
     for (const Vec2 p : layer.lines.corners) canvas.box.include(p);
   }
   for (const AxesPanel& panel : picture.panels) canvas.box.include(panel.box);

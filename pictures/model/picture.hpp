@@ -89,6 +89,7 @@ struct Picture {
 struct Canvas {
   Box box;
   double unit = 1.0;
+  std::optional<Box> whole = {};  ///< the map that it is the known part of; none: all is shown
 };
 Canvas canvas_of(const Picture& picture, const Execution& execution);
 

@@ -7,7 +7,7 @@ const view = {x: 0, y: 0, scale: 1};  // the world's point in the middle, CSS pi
 const [boxX0, boxY0, boxX1, boxY1] = picture.box;
 const ratio = () => Math.min(window.devicePixelRatio || 1, 3);
 /// Of inks that a dark paper swallows, what stands for them there.
-const darkInks = {"#1e293b": "#cbd5e1", "#d9dde3": "#475569", "#66717f": "#94a3b8", "#c8102e": "#fb7185", "#0072b2": "#7dd3fc", "#6a0dad": "#d8b4fe", "#fae0c1": "#4a3527"};
+const darkInks = {"#1e293b": "#cbd5e1", "#d9dde3": "#475569", "#66717f": "#94a3b8", "#c8102e": "#fb7185", "#0072b2": "#7dd3fc", "#6a0dad": "#d8b4fe", "#fae0c1": "#4a3527", "#bec5cf": "#475569", "#6e798a": "#94a3b8"};
 const isDark = () => document.documentElement.classList.contains("dark");
 const shade = color => isDark() && darkInks[color] || color;
 const inkOf = layer => shade(layer.color);

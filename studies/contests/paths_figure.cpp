@@ -30,7 +30,7 @@ double dash_of(const std::vector<std::vector<Vec2>>& paths) {
 void draw_paths(const std::string& file, const Scene& scene, const PathsFigure& figure, const PictureOptions& look,
                 const Execution& execution) {
   std::vector<PictureLayer> layers;
-  if (scene.map) layers.push_back(map_layer(*scene.map, execution));
+  if (scene.map) layers = cells_of_map(*scene.map, execution);
   std::vector<std::vector<Vec2>> points;
   for (const NamedPath& path : figure.paths) points.push_back(path.points);
   std::vector<PolygonSet> lines = lines_side_by_side(points, dash_of(points), execution);

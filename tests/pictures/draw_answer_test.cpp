@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "pictures/formats/write_picture.hpp"
+#include "pictures/layers/draw_cells.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "solve/solve.hpp"
 
@@ -68,6 +70,69 @@ TEST(DrawAnswer, ShowsTheBodyAlongThePath) {
   const Drawing fixed = drawn(scene, {.planner = PlannerKind::cells});
   EXPECT_EQ(ids_of(fixed.layers),
             (std::vector<std::string>{"cells", "blocked", "sweep", "bodies", "body_start", "body_goal", "fronts"}));
+}
+
+/// 40 x 20 cells of 0.5 m, known in a room of 10 x 8 whose lower left corner is cell (20, 6).
+Scene room_in_the_unknown(std::uint64_t between) {
+  Scene scene;
+  OccupancyMap& map = scene.map.emplace();
+  map.format = MapFormat::ros;
+  map.blocked = map.unknown = Bitmap(40, 20, true);
+  map.cell = 0.5;
+  map.origin = {-1.0, 0.0};
+  map.between = between;
+  for (std::uint32_t y = 6; y < 14; ++y) {
+    for (std::uint32_t x = 20; x < 30; ++x) {
+      map.unknown.clear(x, y);
+      if (x > 20 && x < 29 && y > 6 && y < 13) map.blocked.clear(x, y);
+    }
+  }
+  return scene;
+}
+
+double area_of(const PictureLayer& layer) {
+  double area = 0.0;
+  for (std::size_t i = 0; i < layer.lines.size(); ++i) {
+    area += distance(layer.lines[i][0], layer.lines[i][1]) * distance(layer.lines[i][1], layer.lines[i][2]);
+  }
+  return area;
+}
+
+TEST(DrawAnswer, TellsUnknownCellsOfAMapFromOccupiedOnes) {
+  Scene scene = room_in_the_unknown(0);
+  scene.start = {10.0, 4.0};
+  scene.goal = {12.0, 6.0};
+  const Drawing drawing = drawn(scene, {});
+  ASSERT_EQ(ids_of(drawing.layers), (std::vector<std::string>{"occupied", "unknown"}));
+  EXPECT_EQ(drawing.layers[0].label, "occupied cells");
+  EXPECT_EQ(drawing.layers[1].label, "unknown cells");
+  EXPECT_DOUBLE_EQ(area_of(drawing.layers[0]), 32 * 0.25);
+  EXPECT_DOUBLE_EQ(area_of(drawing.layers[1]), (800 - 80) * 0.25);
+  EXPECT_FALSE(drawing.layers[0].fill == drawing.layers[1].fill);
+  EXPECT_EQ(cells_of_map(*room_in_the_unknown(3).map, {})[0].label, "occupied cells, and those between");
+  scene.map->format = MapFormat::moving_ai;
+  EXPECT_EQ(ids_of(drawn(scene, {}).layers), std::vector<std::string>{"blocked"});
+}
+
+TEST(DrawAnswer, CutsAMapToWhatIsKnownAndSaysSoAtTheAxes) {
+  Scene scene = room_in_the_unknown(0);
+  scene.start = {10.0, 4.0};
+  scene.goal = {12.0, 6.0};
+  const Drawing drawing = drawn(scene, {});
+  std::string svg;
+  write_svg(picture_of(scene, drawing), {}, {}, [&](std::string_view bytes) { svg += bytes; });
+  EXPECT_NE(svg.find(">x (m), part of -1 to 19: the rest is unknown<"), std::string::npos);
+  EXPECT_NE(svg.find(">y (m), part of 0 to 10: the rest is unknown<"), std::string::npos);
+  // Two cells around columns 20 to 30 and rows 6 to 14; what is drawn of the unknown ends there.
+  const Canvas canvas = canvas_of(picture_of(scene, drawing), {});
+  EXPECT_EQ(canvas.box.min, (Vec2{8.0, 2.0}));
+  EXPECT_EQ(canvas.box.max, (Vec2{15.0, 8.0}));
+  const std::size_t at = svg.find("id=\"unknown\"");
+  const std::string unknown = svg.substr(at, svg.find("</g>", at) - at);
+  EXPECT_EQ(unknown.find("19"), std::string::npos) << unknown;
+  EXPECT_NE(unknown.find("15"), std::string::npos) << unknown;
+  scene.start = {-0.75, 0.25};  // in the unknown: shown, all the same
+  EXPECT_EQ(canvas_of({.scene = scene, .start = plane_point(scene.start)}, {}).box.min, (Vec2{-0.75, 0.25}));
 }
 
 TEST(DrawAnswer, DrawsCarsInCurves) {

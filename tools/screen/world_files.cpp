@@ -12,6 +12,7 @@
 #include "core/base/printable.hpp"
 #include "pictures/draw_answer.hpp"
 #include "pictures/formats/write_picture.hpp"
+#include "pictures/layers/draw_cells.hpp"
 #include "pictures/subtitle.hpp"
 #include "scenes/formats/maze_file_io.hpp"
 #include "scenes/formats/npy_maze_io.hpp"
@@ -134,6 +135,7 @@ std::vector<std::string> write_world(const Scene& scene, const std::string& file
   picture.subtitle = description_of(scene);
   picture.description = command_line;
   Drawing drawing;
+  if (scene.map) drawing.layers = cells_of_map(*scene.map, execution);
   if (options.heading) add_heading_of_world(drawing, scene, *options.heading, execution);
   picture.layers = drawing.layers;
   return write_picture(file, picture, options, execution);

@@ -89,6 +89,15 @@ TEST(Colors, EveryRoleShowsOnPaper) {
   }
 }
 
+TEST(Colors, CellsOfAMapKeepApartForAllEyes) {
+  constexpr std::array<Rgb, 4> cells{colors::occupied_cell, colors::blocked_cell, colors::paper, colors::wall};
+  for (const Eyes& eyes : all_eyes) {
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) EXPECT_GT(difference(cells[i], cells[j], eyes.seen), 20.0) << eyes.name;
+    }
+  }
+}
+
 /// The simulation notices: red and green of one lightness are one colour without cones for green.
 TEST(Colors, TheSimulationSeesAConfusion) {
   const Rgb red{190, 100, 60};

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The part of a map that a picture shows: a map server's image often reaches far beyond what its robot has seen.
+#pragma once
+
+#include <optional>
+
+#include "core/base/types.hpp"
+#include "parallel/execution.hpp"
+#include "scenes/scene/occupancy_map.hpp"
+
+namespace warren {
+
+/// The box, in the world, of all cells that are not unknown, with a fortieth of its longer side around them, two cells
+/// at least. Nothing where it would leave out less than a tenth of the map's width and of its height, or where all is
+/// unknown. O(cells / 64). Throws Stopped.
+std::optional<Box> known_part(const OccupancyMap& map, const Execution& execution);
+
+}  // namespace warren
