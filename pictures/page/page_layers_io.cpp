@@ -209,7 +209,7 @@ void PageLayers::wall_image() {
 /// Of an arm that doesn't move there; the page's script draws the others.
 void PageLayers::perspective(const SolidView& view) {
   constexpr std::size_t pixels = 1024;
-  begin_layer({{"id", "perspective"}, {"label", "perspective"}});
+  begin_layer({{"id", "perspective"}, {"label", "perspective"}, {"isOpaque", true}});
   const double scale = static_cast<double>(pixels) / std::max(view.box.width(), view.box.height());
   const Image image = draw_solids(view, parts_, static_cast<std::size_t>(std::ceil(scale * view.box.width())),
                                   static_cast<std::size_t>(std::ceil(scale * view.box.height())), execution_);

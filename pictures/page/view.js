@@ -176,9 +176,16 @@ function drawImage(context, layer) {
   if (!layer.image.complete) return;
   const [x0, y0, x1, y1] = layer.box;
   context.imageSmoothingEnabled = view.scale < 2 * fitted();
+  const place = [screenX(x0), screenY(y1), (x1 - x0) * view.scale, (y1 - y0) * view.scale];
+  if (isDark() && layer.isOpaque) {  // white, which becomes black, shall be the page's paper
+    context.fillStyle = paper();
+    context.fillRect(...place);
+    context.globalCompositeOperation = "screen";
+  }
   context.filter = isDark() ? "invert(1) hue-rotate(180deg)" : "none";
-  context.drawImage(layer.image, screenX(x0), screenY(y1), (x1 - x0) * view.scale, (y1 - y0) * view.scale);
+  context.drawImage(layer.image, ...place);
   context.filter = "none";
+  context.globalCompositeOperation = "source-over";
 }
 
 function drawLayer(context, layer) {

@@ -22,6 +22,7 @@ class Pictures(BrowserTest):
                   'car.html': [WORLDS + '/parking.scene', '--seed', '1'],
                   'town.html': [WORLDS + '/town.geojson', '--start', '1.5,1.5', '--goal', '9.5,8.5', '--planner', 'prm', '--samples', '300'],
                   'arm.html': [WORLDS + '/puma-seed.scene', '--optimise'],
+                  'still.html': [WORLDS + '/puma-seed.scene', '--optimise', '--show', 'world,path,axes'],
                   'large.html': ['maze:700x700']}
         for name, words in worlds.items():
             subprocess.run([WARREN, 'solve', *words, '--svg', cls.folder.name + '/' + name, '--quiet'], check=True)
@@ -251,6 +252,13 @@ class Pictures(BrowserTest):
         self.browser.find_element(By.ID, 'dark').click()
         self.frames()
         self.assertGreater(self.ink()[0][0], 0xf0f0f0)
+
+    def test_a_perspective_without_its_body_has_the_pages_paper(self):
+        self.media(color_scheme='dark')
+        self.shown('still.html')
+        colours = dict(self.ink())
+        self.assertLess(colours.get(0, 0), colours.get(0x0f172a, 0) / 10, 'black is no paper here')
+        self.assertGreater(colours.get(0x0f172a, 0), 1000)
 
     def test_a_phone_sees_all_of_it(self):
         self.browser.execute_cdp_cmd('Emulation.setDeviceMetricsOverride', {'width': 390, 'height': 780, 'deviceScaleFactor': 2, 'mobile': True})
