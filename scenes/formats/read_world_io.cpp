@@ -208,6 +208,7 @@ std::vector<std::string_view> parts_left_out(const Scene& scene, std::string_vie
   std::vector<std::string_view> lost;
   if (!is_geojson && !is_cells && !is_map && !path.ends_with(".wkt")) return lost;
   const bool keeps_ends = is_geojson || (is_cells && scene.maze);
+  if (scene.bounds && path.ends_with(".wkt")) lost.push_back("bounds");
   if (!scene.start.empty() && !keeps_ends) lost.push_back("start");
   if (!scene.goal.empty() && !keeps_ends) lost.push_back("goal");
   if (scene.robot) lost.push_back("robot");

@@ -50,8 +50,8 @@ Scene read_scene(const InputFile& file, const Execution& execution, MapServerRul
 /// endings, InputError for what the format can't hold, WriteError, Stopped.
 void write_scene(const Scene& scene, const std::string& path, const Execution& execution = {});
 
-/// Of "start", "goal", "robot" and "clearance" what the scene has and a file of that ending, a world's or a map's, has
-/// no words for. A maze read anew from .npy has the same start and goal.
+/// Of "bounds", "start", "goal", "robot" and "clearance" what the scene has and a file of that ending, a world's or a
+/// map's, has no words for; bounds are told of WKT alone. A maze read anew from .npy has the same start and goal.
 std::vector<std::string_view> parts_left_out(const Scene& scene, std::string_view path);
 
 /// Is this the ending of a map: .map (Moving AI), .yaml (map server, with a .pgm beside it) or .pgm?

@@ -110,6 +110,18 @@ TEST(Polygons, ThatAreNoneAreRefusedByEveryVerbWithFileAndLine) {
   EXPECT_FALSE(std::filesystem::exists(folder.path("out.scene")));
 }
 
+TEST(Polygons, AreGeneratedAsWktWithoutItsBoundsAndEndsAndThisIsSaid) {
+  const Folder folder;
+  const std::string file = folder.path("town.wkt");
+  check({{"generate", "polygons", "30", "-o", file},
+         0,
+         "town.wkt: its format has no bounds, start, goal, robot: left out"});
+  const Json info = json_of({"info", file});
+  EXPECT_EQ(info["polygons"], 30);
+  EXPECT_FALSE(info.contains("bounds") || info.contains("start"));
+  check({{"generate", "polygons", "30", "-o", file, "--quiet"}, 0, ""});
+}
+
 TEST(Polygons, ImpossibleWordsOfGenerateAreUsageErrors) {
   check({{"generate", "polygons", "0", "-o", "/tmp/x.scene"}, 2, "COUNT"});
   check({{"generate", "polygons", "-5", "-o", "/tmp/x.scene"}, 2, ""});

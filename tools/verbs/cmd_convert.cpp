@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "core/base/printable.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "scenes/formats/read_world_io.hpp"
 #include "scenes/formats/ros_map_io.hpp"
@@ -53,14 +52,6 @@ bool becomes_map(const Scene& scene, std::string_view file, const Arguments& arg
   return is_map_ending(file) || (file.ends_with(".png") && (scene.map || arguments.has("--cell")));
 }
 
-/// What a format has no words for is not lost without one.
-void note_left_out(const Scene& scene, const std::string& file) {
-  const std::vector<std::string_view> lost = parts_left_out(scene, file);
-  if (lost.empty()) return;
-  say_on_standard_error(
-      fmt::format("warren: note: {}: its format has no {}: left out\n", printable(file), fmt::join(lost, ", ")));
-}
-
 void write_any(Scene& scene, const std::string& file, const Arguments& arguments, const PictureOptions& options,
                const Execution& execution) {
   if (becomes_map(scene, file, arguments)) {
@@ -72,12 +63,12 @@ void write_any(Scene& scene, const std::string& file, const Arguments& arguments
           "warren: note: no cell of the map is free, each touches a wall; a smaller --cell leaves some\n");
     }
     write_map(map, file, execution);
-    if (!arguments.has("--quiet")) note_left_out(scene, file);
+    note_left_out(arguments, scene, file);
     return;
   }
   add_map_walls(scene, execution);
   say_of_picture(arguments, file, write_world(scene, file, options, arguments.command_line(), execution));
-  if (!arguments.has("--quiet") && !is_picture(ending_of(file))) note_left_out(scene, file);
+  if (!is_picture(ending_of(file))) note_left_out(arguments, scene, file);
 }
 
 /// Throws as check_world_file does; a YAML has its image beside it.
