@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <system_error>
@@ -15,7 +16,6 @@
 
 #include "core/base/error.hpp"
 #include "pictures/draw_answer.hpp"
-#include "pictures/formats/write_picture.hpp"
 #include "pictures/subtitle.hpp"
 #include "scenes/text/human_units.hpp"
 #include "solve/answer/world_account.hpp"
@@ -81,8 +81,10 @@ class ContestPictures {
   void draw_paths() {
     if (paths_.paths.size() < 2) return;
     paths_.subtitle = fmt::format("{}\nof each planner the path of median length", description_of(scene_));
-    warren::draw_paths(file_of(unused("paths")), scene_, paths_, options_.look, execution_);
+    keep(warren::draw_paths(folder_, unused("paths") + ".svg", scene_, paths_, options_.look, execution_));
   }
+  /// What was drawn otherwise than usual.
+  std::vector<std::string> take_notes() { return std::move(notes_); }
 
  private:
   std::string unused(const std::string& wanted) {
@@ -98,11 +100,11 @@ class ContestPictures {
     paths_.start = drawing.start;
     paths_.goal = drawing.goal;
   }
-  std::string file_of(const std::string& name) const { return folder_ + "/" + name + ".svg"; }
-  void write(const std::string& name, const std::string& title, Picture picture) const {
+  void keep(std::vector<std::string> notes) { std::move(notes.begin(), notes.end(), std::back_inserter(notes_)); }
+  void write(const std::string& name, const std::string& title, Picture picture) {
     picture.title = title;
     picture.description = description_of(scene_);
-    write_picture(file_of(name), picture, options_.look, execution_);
+    keep(write_named(folder_, name + ".svg", picture, options_.look, execution_));
   }
 
   const Scene& scene_;
@@ -111,18 +113,21 @@ class ContestPictures {
   const Execution& execution_;
   std::set<std::string> names_;
   PathsFigure paths_;
+  std::vector<std::string> notes_;
 };
 
 }  // namespace
 
-void draw_contest(const Scene& scene, const PlannerContestOptions& options, const Comparison& comparison,
-                  const std::string& folder, const Execution& execution) {
+std::vector<std::string> draw_contest(const Scene& scene, const PlannerContestOptions& options,
+                                      const Comparison& comparison, const std::string& folder,
+                                      const Execution& execution) {
   ContestPictures pictures(scene, options, folder, execution);
   for (std::size_t i = 0; i < options.contenders.size(); ++i) {
     execution.check();
     pictures.draw(comparison.contenders[i], options.contenders[i]);
   }
   pictures.draw_paths();
+  return pictures.take_notes();
 }
 
 void make_folder(const std::string& folder) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "parallel/execution.hpp"
 #include "scenes/scene/scene.hpp"
@@ -14,9 +15,11 @@
 namespace warren {
 
 /// Writes FOLDER/NAME.svg, NAME a contender's planner and options ("prm_samples_50"), and paths.svg. The folder must
-/// exist. Solves each of the runs once more. A map's scene has its border walls. Throws WriteError, Stopped.
-void draw_contest(const Scene& scene, const PlannerContestOptions& options, const Comparison& comparison,
-                  const std::string& folder, const Execution& execution);
+/// exist. Solves each of the runs once more. A map's scene has its border walls. Returns what is drawn otherwise than
+/// usual, a line each. Throws WriteError, Stopped.
+std::vector<std::string> draw_contest(const Scene& scene, const PlannerContestOptions& options,
+                                      const Comparison& comparison, const std::string& folder,
+                                      const Execution& execution);
 
 /// Makes the folder where there is none; throws WriteError where that fails or it can't be written in.
 void make_folder(const std::string& folder);

@@ -27,8 +27,15 @@ double dash_of(const std::vector<std::vector<Vec2>>& paths) {
 
 }  // namespace
 
-void draw_paths(const std::string& file, const Scene& scene, const PathsFigure& figure, const PictureOptions& look,
-                const Execution& execution) {
+std::vector<std::string> write_named(const std::string& folder, const std::string& name, const Picture& picture,
+                                     const PictureOptions& look, const Execution& execution) {
+  std::vector<std::string> notes = write_picture(folder + "/" + name, picture, look, execution);
+  for (std::string& note : notes) note = fmt::format("{}: drawn {}", name, note);
+  return notes;
+}
+
+std::vector<std::string> draw_paths(const std::string& folder, const std::string& name, const Scene& scene,
+                                    const PathsFigure& figure, const PictureOptions& look, const Execution& execution) {
   std::vector<PictureLayer> layers;
   if (scene.map) layers = cells_of_map(*scene.map, execution);
   std::vector<std::vector<Vec2>> points;
@@ -50,7 +57,7 @@ void draw_paths(const std::string& file, const Scene& scene, const PathsFigure& 
                         .title = title_of(scene),
                         .subtitle = figure.subtitle,
                         .description = description_of(scene)};
-  write_picture(file, picture, look, execution);
+  return write_named(folder, name, picture, look, execution);
 }
 
 }  // namespace warren

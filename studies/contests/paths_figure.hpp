@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One figure of several paths through a world, each in a colour of its own with its name in the legend; where paths run
-// along the same legs they take turns in dashes.
+// along the same stretches they take turns in dashes.
 #pragma once
 
 #include <optional>
@@ -27,8 +27,13 @@ struct PathsFigure {
   std::string subtitle = {};
 };
 
-/// Draws it into the file, an SVG. A map's scene has its border walls. Throws WriteError, Stopped.
-void draw_paths(const std::string& file, const Scene& scene, const PathsFigure& figure, const PictureOptions& look,
-                const Execution& execution);
+/// Writes FOLDER/NAME. Returns what is drawn otherwise than usual, a line each that begins with the name. Throws
+/// WriteError, Stopped.
+std::vector<std::string> write_named(const std::string& folder, const std::string& name, const Picture& picture,
+                                     const PictureOptions& look, const Execution& execution);
+
+/// The same of the figure. A map's scene has its border walls.
+std::vector<std::string> draw_paths(const std::string& folder, const std::string& name, const Scene& scene,
+                                    const PathsFigure& figure, const PictureOptions& look, const Execution& execution);
 
 }  // namespace warren

@@ -64,8 +64,9 @@ std::string label_of(const FoundPath& found, const std::vector<FoundPath>& all, 
 
 }  // namespace
 
-void draw_searches(const Scene& world, const SearchGraph& graph, const SearchContestOptions& options,
-                   const std::string& folder, const PictureOptions& look, const Execution& execution) {
+std::vector<std::string> draw_searches(const Scene& world, const SearchGraph& graph,
+                                       const SearchContestOptions& options, const std::string& folder,
+                                       const PictureOptions& look, const Execution& execution) {
   Scene scene = world;
   add_map_walls(scene, execution);
   PlannedRoadmap<Vec2> roadmap{.states = {}, .graph = graph.graph, .search_tree = {}};
@@ -82,7 +83,7 @@ void draw_searches(const Scene& world, const SearchGraph& graph, const SearchCon
     for (const VertexId v : found.path) path.points.push_back(graph.at[v]);
   }
   if (all.empty()) figure.subtitle += "; no search found a path";
-  draw_paths(folder + "/searches.svg", scene, figure, look, execution);
+  return draw_paths(folder, "searches.svg", scene, figure, look, execution);
 }
 
 }  // namespace warren

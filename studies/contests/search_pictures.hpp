@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "parallel/execution.hpp"
 #include "pictures/model/picture_options.hpp"
@@ -15,8 +16,9 @@ namespace warren {
 
 /// Writes FOLDER/searches.svg, in a folder that exists. Runs each search once more, within its budget; those that find
 /// nothing have no path. Variants of one search that differ in nothing but their queues or library are one path in the
-/// legend. Throws WriteError, Stopped.
-void draw_searches(const Scene& scene, const SearchGraph& graph, const SearchContestOptions& options,
-                   const std::string& folder, const PictureOptions& look, const Execution& execution);
+/// legend. Returns what is drawn otherwise than usual, a line each. Throws WriteError, Stopped.
+std::vector<std::string> draw_searches(const Scene& scene, const SearchGraph& graph,
+                                       const SearchContestOptions& options, const std::string& folder,
+                                       const PictureOptions& look, const Execution& execution);
 
 }  // namespace warren

@@ -214,6 +214,17 @@ TEST(Compare, PlotsAreWrittenInTheFormatThatTheirEndingSays) {
       {{"compare", "maze:5x5", "--svg", folder.path("k.html")}, 2, "--svg: a picture here ends in one of: .svg .png"});
 }
 
+TEST(Compare, WhatAPictureDrawsOtherwiseThanUsualIsANote) {
+  const Folder folder;
+  const std::string town = folder.path("town.scene");
+  ASSERT_EQ(run_program("generate polygons 300 --quiet -o " + town).exit_code, 0);
+  const Json searches = compared(town + " --searches astar --queues heap --trials 1 --pictures " + folder.path("s"));
+  EXPECT_NE(searches["notes"].dump().find("searches.svg: drawn thinner and paler, being so many"), std::string::npos)
+      << searches["notes"];
+  const Json planners = compared(town + " --planners visibility --pictures " + folder.path("p"));
+  EXPECT_NE(planners["notes"].dump().find("visibility.svg: drawn thinner"), std::string::npos) << planners["notes"];
+}
+
 TEST(Compare, OutputsAreWrittenSideBySide) {
   const Folder folder;
   const ProgramRun run =

@@ -3,7 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/base/error.hpp"
 #include "pictures/layers/heading_layer.hpp"
@@ -29,6 +33,11 @@ bool needs_map_walls(const Scene& scene, const PlannerContestOptions& contest) {
   return !contest.pictures.empty() || (body != RobotKind::point && body != RobotKind::disc);
 }
 
+void add_pictures(Comparison& comparison, const std::string& folder, std::vector<std::string> notes) {
+  comparison.notes.push_back("pictures: " + folder);
+  std::move(notes.begin(), notes.end(), std::back_inserter(comparison.notes));
+}
+
 void compare_planners(const Scene& scene, const PlannerContestOptions& contest, const Execution& execution,
                       Comparison& comparison) {
   std::optional<Scene> bordered;
@@ -43,8 +52,7 @@ void compare_planners(const Scene& scene, const PlannerContestOptions& contest, 
     throw UsageError(about_planners(error));
   }
   if (contest.pictures.empty()) return;
-  draw_contest(world, contest, comparison, contest.pictures, execution);
-  comparison.notes.push_back("pictures: " + contest.pictures);
+  add_pictures(comparison, contest.pictures, draw_contest(world, contest, comparison, contest.pictures, execution));
 }
 
 /// The planner that was asked for, else the one that `solve` would take, with those of the options that it takes.
@@ -74,8 +82,8 @@ std::optional<Outcome> compare_searches(const CompareOptions& options, const Sce
                    made.graph.graph.edge_count(), options.searches.variants.size()));
   run_search_contest(made.graph, options.searches, execution, comparison);
   if (options.pictures.empty()) return std::nullopt;
-  draw_searches(scene, made.graph, options.searches, options.pictures, options.look, execution);
-  comparison.notes.push_back("pictures: " + options.pictures);
+  add_pictures(comparison, options.pictures,
+               draw_searches(scene, made.graph, options.searches, options.pictures, options.look, execution));
   return std::nullopt;
 }
 
