@@ -252,6 +252,18 @@ TEST(Compare, ARunCutByItsBudgetIs124WithTheRunsSoFar) {
   EXPECT_EQ(run_program("compare --sizes 3000 --seeds 1 --searches bfs --budget 0.001us --quiet").exit_code, 124);
 }
 
+/// The program is stopped once it has said so; it would run on for some twenty times as long.
+TEST(Compare, TellsHowLongAllRunsWillTake) {
+  const Folder folder;
+  const std::string said = folder.path("said");
+  const ProgramRun run =
+      run_program("compare maze:9x9 --planners prm --sampler uniform --seeds 20000 --progress plain --quiet 2>" + said +
+                  " & p=$!; while kill -0 $p 2>/dev/null && ! grep -q 'left in all' " + said +
+                  "; do sleep 0.05; done; kill -INT $p; wait $p");
+  const std::string progress = folder.read("said");
+  EXPECT_NE(progress.find("left of it, about "), std::string::npos) << progress;
+}
+
 TEST(Compare, AnInterruptPrintsWhatThereIs) {
   for (const char* words : {"compare maze:9x9 --planners prm --sampler uniform --seeds 1000000 --quiet --json -",
                             "compare maze:9x9 --trials 1000000 --quiet --json -"}) {

@@ -47,7 +47,8 @@ OccupancyMap read_its_map(const Arguments& arguments, const std::string& map, co
 
 int bench_scen(const Arguments& arguments) {
   const auto json = output_file(arguments, "--json");
-  Run run(arguments);
+  static constexpr ExpectedStage searches[] = {{"scenarios", 1.0}};  // little comes before and after
+  Run run(arguments, RunScope::whole_command, searches);
   const std::string& file = arguments.operand(0);
   const std::vector<Scenario> scenarios = read_scenarios(InputFile(file, run.execution()), run.execution());
   for (const Scenario& s : scenarios) {

@@ -57,7 +57,7 @@ class CompareCommand {
         begin_(std::chrono::system_clock::now()) {}
 
   int run() {
-    Run run(arguments_, RunScope::each_run);
+    Run run(arguments_, RunScope::each_run, expected_stages());
     execution_ = run.execution();
     compare(run);
     run.end();
@@ -73,6 +73,7 @@ class CompareCommand {
   }
 
  private:
+  ExpectedStages expected_stages() const;
   void compare(const Run& run);
   void write_outputs() const;
   OmplExperiment experiment() const;
@@ -86,6 +87,13 @@ class CompareCommand {
   Comparison comparison_;
   std::optional<Outcome> no_graph_;  // why the world gave none
 };
+
+/// The runs are counted, and those of all take turns; of graphs of several sizes, and of pictures, nobody knows.
+ExpectedStages CompareCommand::expected_stages() const {
+  static constexpr ExpectedStage runs[] = {{"compare", 1.0}};
+  const bool more_follows = arguments_.has("--sizes") || arguments_.has("--pictures");
+  return more_follows ? ExpectedStages{} : ExpectedStages(runs);
+}
 
 void CompareCommand::compare(const Run& run) {
   std::optional<Scene> scene;
