@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 
@@ -16,6 +17,32 @@ struct Difference {
   unsigned rank;
   std::string facts;
 };
+
+constexpr double patience_s = 4.0;
+
+bool is(const Bytes& message, Reply reply) {
+  const auto bytes = std::as_bytes(std::span(&reply, 1));
+  return std::equal(message.begin(), message.end(), bytes.begin(), bytes.end());
+}
+
+/// False where one of them does not say that last word in time. Whoever does not hear it is ended by what ended it.
+bool end_others(Transport& transport, Reply last_word) {
+  const Deadline patience(patience_s);
+  const Execution patiently{.deadline = &patience};
+  try {
+    const Request end = Request::end;
+    for (unsigned rank = 1; rank < transport.ranks(); ++rank) {
+      transport.send(rank, std::as_bytes(std::span(&end, 1)), patiently);
+    }
+    for (unsigned rank = 1; rank < transport.ranks(); ++rank) {
+      while (!is(transport.receive(rank, patiently), last_word)) {
+      }
+    }
+    return true;
+  } catch (const Stopped&) {
+    return false;
+  }
+}
 
 }  // namespace
 
@@ -41,15 +68,14 @@ bool agree(Transport& transport, std::string_view facts, const Execution& execut
       fmt::format("is another program or was given other words than rank 0: '{}', not '{}'", first->facts, facts));
 }
 
-EndOfFollowers::~EndOfFollowers() {
-  const Deadline patience(5.0);
-  for (unsigned rank = 1; rank < transport_.ranks(); ++rank) {
-    try {
-      const Request end = Request::end;
-      transport_.send(rank, std::as_bytes(std::span(&end, 1)), {.deadline = &patience});
-    } catch (...) {  // whoever does not hear it is ended by what ended the run
-    }
-  }
+EndOfFollowers::~EndOfFollowers() { end_others(transport_, Reply::ended); }
+
+bool all_have_left(Transport& transport) { return end_others(transport, Reply::gone); }
+
+void leave(Transport& transport) {
+  const Deadline patience(patience_s);
+  const Reply gone = Reply::gone;
+  transport.send(0, std::as_bytes(std::span(&gone, 1)), {.deadline = &patience});
 }
 
 }  // namespace warren

@@ -13,11 +13,12 @@ namespace warren {
 /// at the others where a rank differs. Throws Stopped.
 bool agree(Transport& transport, std::string_view facts, const Execution& execution);
 
-/// Lives at rank 0 from the agreement to its end.
+/// Lives at rank 0 while the others follow().
 class EndOfFollowers {
  public:
   explicit EndOfFollowers(Transport& transport) : transport_(transport) {}
-  /// Tells the others, whatever they are doing.
+  /// Tells the others, whatever they are doing, and hears them out: what they were sending, too, and that they have
+  /// ended. Waits for some seconds at most.
   ~EndOfFollowers();
   EndOfFollowers(const EndOfFollowers&) = delete;
   EndOfFollowers& operator=(const EndOfFollowers&) = delete;
@@ -25,5 +26,12 @@ class EndOfFollowers {
  private:
   Transport& transport_;
 };
+
+/// The last that rank 0 does; the others, who may still wait for it, are told the end. False where one of them does not
+/// leave() within some seconds: they can't part in order then.
+bool all_have_left(Transport& transport);
+
+/// The last that every other rank does.
+void leave(Transport& transport);
 
 }  // namespace warren

@@ -29,6 +29,8 @@ class Follower {
   void run() {
     while (serve(transport_.receive(0, {.deadline = &waiting_}))) {
     }
+    const Reply ended = Reply::ended;
+    transport_.send(0, std::as_bytes(std::span(&ended, 1)), {.deadline = &waiting_});
   }
 
  private:

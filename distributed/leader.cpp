@@ -39,6 +39,8 @@ void Leader::ask_one(unsigned rank, Request request, std::span<const std::byte> 
   const auto head = std::as_bytes(std::span(&request, 1));
   Bytes message(head.begin(), head.end());
   message.insert(message.end(), body.begin(), body.end());
+  asked_ = request;
+  traffic_[static_cast<std::size_t>(request)] += message.size();
   transport_.send(rank, message, execution_);
 }
 
@@ -47,7 +49,8 @@ void Leader::ask(Request request, std::span<const std::byte> body) {
 }
 
 /// Throws what kept the other from it.
-Bytes Leader::opened(unsigned rank, const Bytes& message) const {
+Bytes Leader::opened(unsigned rank, const Bytes& message) {
+  traffic_[static_cast<std::size_t>(asked_)] += message.size();
   ValueUnpacker from(message, fmt::format("rank {}", rank));
   switch (from.take<Reply>()) {
     case Reply::done:
@@ -56,6 +59,9 @@ Bytes Leader::opened(unsigned rank, const Bytes& message) const {
       throw Stopped(from.take<StopReason>());
     case Reply::refused:
       throw InputError(fmt::format("rank {}", rank), from.take_text());
+    case Reply::ended:
+    case Reply::gone:
+      break;
   }
   from.refuse();
 }

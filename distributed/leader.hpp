@@ -10,6 +10,8 @@
 //   verify    every rank looks at the walls of its own tiles                              16 bytes a point to each rank
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -40,6 +42,9 @@ class Leader : public StreamedTeam, private OtherTiles, private JudgesElsewhere 
   /// What rank 0 would need beside what it holds, where that was more than its limit: the search runs there.
   std::optional<std::size_t> lacking_bytes() const { return lacking_bytes_; }
 
+  /// Bytes that this rank has sent and received for each kind of request: all that went over the wire.
+  const std::array<std::uint64_t, request_count>& traffic() const { return traffic_; }
+
   /// A tile of another rank. Any thread.
   CellTile tile(std::size_t number);
 
@@ -56,7 +61,7 @@ class Leader : public StreamedTeam, private OtherTiles, private JudgesElsewhere 
   void ask_one(unsigned rank, Request request, std::span<const std::byte> body);
   /// The answers of all, by rank; that of rank 0 is empty.
   std::vector<Bytes> answers();
-  Bytes opened(unsigned rank, const Bytes& message) const;
+  Bytes opened(unsigned rank, const Bytes& message);
   std::size_t tile_rows() const { return band_.grid().tile_rows; }
 
   Transport& transport_;
@@ -65,6 +70,8 @@ class Leader : public StreamedTeam, private OtherTiles, private JudgesElsewhere 
   RemoteCells cells_;
   Execution execution_;
   OneAtATime asking_;
+  Request asked_ = Request::make;  // last
+  std::array<std::uint64_t, request_count> traffic_{};
   std::optional<std::size_t> lacking_bytes_;
 };
 

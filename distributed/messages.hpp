@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -12,11 +13,14 @@ namespace warren {
 
 /// The stages of a run, as messages name them.
 enum class Request : std::uint32_t { make, turn, reduce, hand_over, steps, judge, read, end };
+inline constexpr std::size_t request_count = 8;
 constexpr auto enum_names(Request) {
-  return std::array<std::string_view, 8>{"generate", "join", "connect", "gather", "expand", "verify", "search", "end"};
+  return std::array<std::string_view, request_count>{"generate", "join",   "connect", "gather",
+                                                     "expand",   "verify", "search",  "end"};
 }
 
-/// How an answer begins: what follows is what was asked for, a StopReason, or the line of an error.
-enum class Reply : std::uint32_t { done, stopped, refused };
+/// How an answer begins: what follows is what was asked for, a StopReason, or the line of an error. Alone stand the
+/// answer to Request::end, and what a rank says last of all.
+enum class Reply : std::uint32_t { done, stopped, refused, ended, gone };
 
 }  // namespace warren

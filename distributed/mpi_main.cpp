@@ -90,21 +90,24 @@ std::string facts_of(const std::vector<std::string>& words) {
 }
 
 int run_rank_0(const std::vector<std::string>& words, MpiTransport& transport) {
-  return run_with_errors_told("warren-mpi", " (see 'warren-mpi --help')", [&] {
+  const int code = run_with_errors_told("warren-mpi", " (see 'warren-mpi --help')", [&] {
     const Deadline forever(std::numeric_limits<double>::infinity(), available_bytes(), &signal_flag());
     agree(transport, facts_of(words), {.deadline = &forever});
-    const EndOfFollowers end(transport);
     return dispatch(words, transport);
   });
+  if (!all_have_left(transport)) transport.end_all(code);
+  return code;
 }
 
 /// Whatever rank 0 says as well, only rank 0 says, and gives its code.
 int run_follower(const std::vector<std::string>& words, MpiTransport& transport) {
   try {
     const Deadline forever(std::numeric_limits<double>::infinity(), available_bytes(), &signal_flag());
-    if (agree(transport, facts_of(words), {.deadline = &forever})) dispatch(words, transport);
-    return exit_code::success;
-  } catch (const UsageError&) {
+    try {
+      if (agree(transport, facts_of(words), {.deadline = &forever})) dispatch(words, transport);
+    } catch (const UsageError&) {  // rank 0 says it
+    }
+    leave(transport);
     return exit_code::success;
   } catch (const Stopped&) {
     transport.end_all(exit_code::internal);

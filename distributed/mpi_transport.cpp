@@ -43,6 +43,7 @@ MpiTransport::MpiTransport(int* argc, char*** argv) {
   rank_ = static_cast<unsigned>(rank);
   ranks_ = static_cast<unsigned>(ranks);
   ranks_here_ = static_cast<unsigned>(here);
+  unread_.resize(ranks_);
 }
 
 MpiTransport::~MpiTransport() { MPI_Finalize(); }
@@ -71,17 +72,31 @@ void MpiTransport::send_piece(unsigned to, std::span<const std::byte> bytes, con
   bytes_sent_ += bytes.size();
 }
 
+/// A stop in the midst of a message leaves its rest to the next call, which skips it.
 Bytes MpiTransport::receive(unsigned from, const Execution& execution) {
+  skip_rest(from, execution);
   std::uint64_t size = 0;
   receive_piece(from, std::as_writable_bytes(std::span(&size, 1)), execution);
+  unread_[from] = size;
   execution.reserve(size);
   Bytes bytes(size);
   for (std::span<std::byte> left(bytes); !left.empty(); left = left.subspan(std::min(piece_bytes, left.size()))) {
-    receive_piece(from, left.first(std::min(piece_bytes, left.size())), execution);
+    const std::span<std::byte> piece = left.first(std::min(piece_bytes, left.size()));
+    receive_piece(from, piece, execution);
+    unread_[from] -= piece.size();
   }
   return bytes;
 }
 
+void MpiTransport::skip_rest(unsigned from, const Execution& execution) {
+  while (unread_[from] > 0) {
+    Bytes piece(std::min<std::uint64_t>(piece_bytes, unread_[from]));
+    receive_piece(from, piece, execution);
+    unread_[from] -= piece.size();
+  }
+}
+
+/// Stops before the piece has begun to come, or not at all.
 void MpiTransport::receive_piece(unsigned from, std::span<std::byte> bytes, const Execution& execution) {
   MPI_Request request = MPI_REQUEST_NULL;
   MPI_Irecv(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, static_cast<int>(from), tag, MPI_COMM_WORLD,
@@ -89,9 +104,12 @@ void MpiTransport::receive_piece(unsigned from, std::span<std::byte> bytes, cons
   try {
     wait_for(request, execution);
   } catch (const Stopped&) {
+    MPI_Status status;
+    int is_cancelled = 0;
     MPI_Cancel(&request);
-    MPI_Request_free(&request);
-    throw;
+    MPI_Wait(&request, &status);
+    MPI_Test_cancelled(&status, &is_cancelled);
+    if (is_cancelled != 0) throw;
   }
 }
 

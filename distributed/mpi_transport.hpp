@@ -5,6 +5,7 @@
 
 #include <list>
 #include <span>
+#include <vector>
 
 #include "distributed/transport.hpp"
 
@@ -30,11 +31,13 @@ class MpiTransport : public Transport {
  private:
   void send_piece(unsigned to, std::span<const std::byte> bytes, const Execution& execution);
   void receive_piece(unsigned from, std::span<std::byte> bytes, const Execution& execution);
+  void skip_rest(unsigned from, const Execution& execution);
 
   unsigned rank_ = 0;
   unsigned ranks_ = 1;
   unsigned ranks_here_ = 1;
-  std::list<Bytes> left_;  // pieces whose sending a stop has cut short: MPI still has them
+  std::list<Bytes> left_;              // pieces whose sending a stop has cut short: MPI still has them
+  std::vector<std::uint64_t> unread_;  // by rank: bytes of a message whose receiving a stop has cut short
 };
 
 }  // namespace warren

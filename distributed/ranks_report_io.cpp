@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "core/base/enum_names.hpp"
+
 namespace warren {
 
 double RanksRun::cpu_s() const {
@@ -49,6 +51,10 @@ std::string ranks_json(std::span<const RanksRun> runs, const RanksSettings& sett
     for (const RankUse& used : run.used) {
       ranks.push_back({{"cpu_s", used.cpu_s}, {"bytes_sent", used.bytes_sent}, {"peak_memory_bytes", used.peak_bytes}});
     }
+    nlohmann::ordered_json traffic = nlohmann::ordered_json::object();
+    for (std::size_t i = 0; i < request_count; ++i) {
+      if (run.traffic[i] > 0) traffic[std::string(name_of(static_cast<Request>(i)))] = run.traffic[i];
+    }
     list.push_back({{"scaling", run.is_strong ? "strong" : "weak"},
                     {"ranks", run.ranks},
                     {"rows", run.rows},
@@ -57,6 +63,7 @@ std::string ranks_json(std::span<const RanksRun> runs, const RanksSettings& sett
                     {"clock_s", run.seconds},
                     {"cpu_s", run.cpu_s()},
                     {"bytes_sent", run.bytes_sent()},
+                    {"bytes_by_request", traffic},
                     {"by_rank", ranks}});
   }
   const nlohmann::ordered_json whole{{"schema", "warren.ranks/1"},

@@ -2,10 +2,13 @@
 // What `warren-mpi scale` measured, as a table for people and as JSON (warren.ranks/1).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "distributed/messages.hpp"
 
 namespace warren {
 
@@ -20,7 +23,8 @@ struct RanksRun {
   std::uint32_t ranks, rows, cols;
   double length = 0.0;
   double seconds = 0.0;
-  std::vector<RankUse> used = {};  ///< by rank
+  std::vector<RankUse> used = {};                         ///< by rank
+  std::array<std::uint64_t, request_count> traffic = {};  ///< bytes, by what was asked
 
   double cells() const { return static_cast<double>(rows) * cols; }
   double cpu_s() const;

@@ -128,6 +128,7 @@ RanksRun measured(Transport& transport, const Mazes& mazes, bool is_strong, cons
     SolveOptions options;
     options.roadmap.pipeline = PipelineKind::streamed;
     answer = solve_streamed_within(mazes.scene(next), {}, options, execution, {.taker = &nobody, .team = &leader});
+    found.traffic = leader.traffic();
   }
   found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   found.used.push_back(meter.used());

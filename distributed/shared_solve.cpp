@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "distributed/agreement.hpp"
 #include "distributed/follower.hpp"
 #include "distributed/leader.hpp"
 #include "scenes/formats/read_world_io.hpp"
@@ -79,6 +80,7 @@ class SharedSolve : public AnswerCommand {
     Progress unseen;
     Execution execution = run.execution();
     if (execution.progress == nullptr) execution.progress = &unseen;
+    const EndOfFollowers end(transport_);
     Leader leader(transport_, asked_.task(), execution);
     Answer answer = solve_streamed_within(asked_.scene, asked_.question, asked_.options, execution,
                                           {.taker = path_taker(), .team = &leader});

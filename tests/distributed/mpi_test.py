@@ -94,6 +94,21 @@ class Answers(unittest.TestCase):
                               1 + ranks % 2)
 
 
+    def test_scale_tells_of_each_run(self):
+        code, out, err = run(mpirun(3, ["scale", "--side", "600", "--ranks", "1,2,3", "--json", "-"]))
+        self.assertEqual(code, 0, err)
+        runs = json.loads(out)["runs"]
+        self.assertEqual([(r["scaling"], r["ranks"], r["rows"]) for r in runs],
+                         [("strong", 1, 600), ("strong", 2, 600), ("strong", 3, 600), ("weak", 1, 600),
+                          ("weak", 2, 1200), ("weak", 3, 1800)])
+        self.assertEqual(len({r["length"] for r in runs if r["scaling"] == "strong"}), 1)
+        for r in runs:
+            self.assertEqual(len(r["by_rank"]), r["ranks"])
+            self.assertEqual(sum(rank["bytes_sent"] for rank in r["by_rank"]), r["bytes_sent"])
+            self.assertLessEqual(sum(r["bytes_by_request"].values()), r["bytes_sent"])
+            self.assertEqual(r["bytes_sent"] == 0, r["ranks"] == 1)
+
+
 class Faults(unittest.TestCase):
     WORLD = "maze:9000x9000,algorithm=mst,seed=3,loops=0.01"
 
