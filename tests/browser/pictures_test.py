@@ -257,8 +257,8 @@ class Pictures(BrowserTest):
         self.media(color_scheme='dark')
         self.shown('still.html')
         colours = dict(self.ink())
-        self.assertLess(colours.get(0, 0), colours.get(0x0f172a, 0) / 10, 'black is no paper here')
-        self.assertGreater(colours.get(0x0f172a, 0), 1000)
+        self.assertLess(colours.get(0, 0), 1000, 'black is no paper here')
+        self.assertGreater(colours.get(0x0f172a, 0), 100000)
 
     def test_a_phone_sees_all_of_it(self):
         self.browser.execute_cdp_cmd('Emulation.setDeviceMetricsOverride', {'width': 390, 'height': 780, 'deviceScaleFactor': 2, 'mobile': True})
