@@ -11,30 +11,11 @@
 
 #include "pictures/formats/line_group.hpp"
 #include "pictures/formats/solid_raster.hpp"
+#include "pictures/model/known_part.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 
 namespace warren {
 namespace {
-
-/// Of a convex outline (Sutherland and Hodgman, 1974); empty where nothing of it is in the box.
-std::vector<Vec2> part_in_box(std::span<const Vec2> outline, const Box& box) {
-  std::vector<Vec2> part(outline.begin(), outline.end());
-  const auto cut = [&part](const auto& depth) {  // >= 0 inside
-    std::vector<Vec2> kept;
-    for (std::size_t i = 0; i < part.size(); ++i) {
-      const Vec2 a = part[i];
-      const Vec2 b = part[(i + 1) % part.size()];
-      if (depth(a) >= 0.0) kept.push_back(a);
-      if ((depth(a) < 0.0) != (depth(b) < 0.0)) kept.push_back(a + depth(a) / (depth(a) - depth(b)) * (b - a));
-    }
-    part = std::move(kept);
-  };
-  cut([&](Vec2 p) { return p.x - box.min.x; });
-  cut([&](Vec2 p) { return box.max.x - p.x; });
-  cut([&](Vec2 p) { return p.y - box.min.y; });
-  cut([&](Vec2 p) { return box.max.y - p.y; });
-  return part;
-}
 
 class Painter {
  public:

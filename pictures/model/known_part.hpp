@@ -3,6 +3,8 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "core/base/types.hpp"
 #include "parallel/execution.hpp"
@@ -14,5 +16,9 @@ namespace warren {
 /// at least. Nothing where it would leave out less than a tenth of the map's width and of its height, or where all is
 /// unknown. O(cells / 64). Throws Stopped.
 std::optional<Box> known_part(const OccupancyMap& map, const Execution& execution);
+
+/// What lies in the box of an outline that is convex (Sutherland and Hodgman, 1974), in the same order; fewer than
+/// three points where nothing does.
+std::vector<Vec2> part_in_box(std::span<const Vec2> outline, const Box& box);
 
 }  // namespace warren

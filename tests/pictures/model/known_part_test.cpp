@@ -62,5 +62,21 @@ TEST(KnownPart, IsTheWholeMapWhereLittleIsGainedOrNothingKnown) {
   EXPECT_FALSE(known_part(map, {})) << "all is known";
 }
 
+double area_of(std::span<const Vec2> outline) {
+  double twice = 0.0;
+  for (std::size_t i = 0; i < outline.size(); ++i) twice += cross(outline[i], outline[(i + 1) % outline.size()]);
+  return 0.5 * twice;
+}
+
+TEST(KnownPart, CellsThatReachBeyondThePictureAreCut) {
+  const Box box{{0.0, 0.0}, {4.0, 2.0}};
+  const auto cut = [&](const std::vector<Vec2>& outline) { return area_of(part_in_box(outline, box)); };
+  EXPECT_DOUBLE_EQ(cut({{1, 1}, {2, 1}, {2, 2}, {1, 2}}), 1.0) << "within";
+  EXPECT_DOUBLE_EQ(cut({{-5, -5}, {9, -5}, {9, 9}, {-5, 9}}), 8.0) << "all of the box";
+  EXPECT_DOUBLE_EQ(cut({{3, 1}, {9, 1}, {9, 9}, {3, 9}}), 1.0);
+  EXPECT_DOUBLE_EQ(cut({{-1, 0}, {0, -1}, {1, 0}, {0, 1}}), 0.5) << "a turned map's";
+  EXPECT_LT(part_in_box(std::vector<Vec2>{{5, 5}, {6, 5}, {6, 6}, {5, 6}}, box).size(), 3U);
+}
+
 }  // namespace
 }  // namespace warren
