@@ -40,9 +40,8 @@ void png_warn(png_structp, png_const_charp) {}
 /// False when libpng gave up; rows are written while `sink` takes them.
 bool encode(png_structp png, png_infop info, const PngRows& rows, PngSink& sink, const Execution& execution) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
-  constexpr int fast_compression = 4;
   png_set_write_fn(png, &sink, png_write, png_flush);
-  png_set_compression_level(png, fast_compression);
+  png_set_compression_level(png, rows.compression);
   png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
   const bool has_palette = !rows.palette.empty();
   png_set_IHDR(png, info, rows.width, rows.height, has_palette ? 8 : 1,

@@ -22,6 +22,7 @@ struct PngRows {
   std::vector<std::array<std::uint8_t, 3>> palette = {};
   std::vector<std::uint8_t> alphas = {};  ///< of the palette's first colours, 255 opaque; empty: all are
   double dpi = 0.0;                       ///< 0: nothing is said of it
+  int compression = 4;                    ///< 1 quick .. 9 small
   /// The bytes of row y, from the top; valid until the next call. Must not throw.
   std::function<const std::uint8_t*(std::size_t)> row;
 };

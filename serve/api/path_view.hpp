@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A path as it can be seen: its pieces in a box, without points that lie in the same pixel as the one before. Of a path
+// of millions of points that is what a screen shows of it.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/base/path.hpp"
+#include "core/base/types.hpp"
+#include "parallel/execution.hpp"
+#include "solve/answer/answer.hpp"
+
+namespace warren {
+
+/// The curve of the reference point as straight pieces: a car's arcs as chords that turn by at most five degrees.
+/// Throws Stopped.
+Path<Vec2> curve_of(const Answer& answer, const Execution& execution);
+
+struct PathView {
+  Box box = {};        ///< legs that don't meet it are left out
+  double pixel = 0.0;  ///< points nearer than that to the last one that was kept are, too; 0: none
+};
+
+/// Chains of at least two points, in the path's order; a path of one point is one chain of it. The ends of the path and
+/// of each chain are kept. Throws Stopped.
+std::vector<std::vector<Vec2>> seen_of(const Path<Vec2>& path, const PathView& view, const Execution& execution);
+
+}  // namespace warren

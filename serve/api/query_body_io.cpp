@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "serve/api/query_body_io.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "serve/http/http_message.hpp"
+
+namespace warren {
+namespace {
+
+using Json = nlohmann::json;
+
+[[noreturn]] void refuse(std::string_view where, std::string_view expected) {
+  throw HttpError(400, "bad_request", where, fmt::format("{}: expected {}", where, expected));
+}
+
+std::vector<double> state_of(const Json& json, std::string_view key) {
+  constexpr std::size_t most = 6;
+  std::vector<double> state;
+  if (!json.is_array() || json.size() > most) refuse(key, "a list of numbers");
+  for (const Json& number : json) {
+    if (!number.is_number()) refuse(key, "a list of numbers");
+    state.push_back(number.get<double>());
+  }
+  return state;
+}
+
+bool flag_of(const Json& json, std::string_view key) {
+  if (!json.is_boolean()) refuse(key, "true or false");
+  return json.get<bool>();
+}
+
+double budget_of(const Json& json) {
+  constexpr double a_ms = 1e-3;
+  if (!json.is_number() || !(json.get<double>() > 0.0)) refuse("budget_ms", "a number above 0");
+  return a_ms * json.get<double>();
+}
+
+PlannerKind planner_of(const Json& json) {
+  if (json.is_string()) {
+    for (const PlannerKind planner : all_planners) {
+      if (name_of(planner) == json.get<std::string>()) return planner;
+    }
+  }
+  refuse("planner", "the name of a planner");
+}
+
+void take(const std::string& key, const Json& value, QueryBody& body) {
+  if (key == "start") {
+    body.question.start = state_of(value, "start");
+  } else if (key == "goal") {
+    body.question.goal = state_of(value, "goal");
+  } else if (key == "optimise") {
+    body.question.optimise = flag_of(value, "optimise");
+  } else if (key == "path") {
+    body.tells_path = flag_of(value, "path");
+  } else if (key == "planner") {
+    body.question.planner = planner_of(value);
+  } else if (key == "budget_ms") {
+    body.question.budget_s = budget_of(value);
+  } else {
+    refuse("body", "the keys start, goal, optimise, planner, budget_ms, path");
+  }
+}
+
+}  // namespace
+
+std::size_t nesting_of(std::string_view lines) {
+  std::size_t deepest = 0;
+  std::size_t depth = 0;
+  bool in_text = false;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const char c = lines[i];
+    if (c == '\n') {  // a text holds none
+      depth = 0;
+      in_text = false;
+    } else if (in_text) {
+      i += c == '\\' ? 1 : 0;
+      in_text = c != '"';
+    } else if (c == '"') {
+      in_text = true;
+    } else if (c == '[' || c == '{') {
+      deepest = std::max(deepest, ++depth);
+    } else if ((c == ']' || c == '}') && depth > 0) {
+      --depth;
+    }
+  }
+  return deepest;
+}
+
+QueryBody read_query_body(std::string_view text) {
+  std::string line(text);
+  std::replace(line.begin(), line.end(), '\n', ' ');  // all of it is one
+  if (nesting_of(line) > deepest_json) refuse("body", "JSON that is nested at most 8 deep");
+  QueryBody body;
+  try {
+    const Json json = Json::parse(line);
+    if (!json.is_object()) refuse("body", "one JSON object");
+    for (const auto& [key, value] : json.items()) take(key, value, body);
+  } catch (const Json::exception&) {
+    refuse("body", "one JSON object");
+  }
+  return body;
+}
+
+}  // namespace warren

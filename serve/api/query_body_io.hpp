@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The body of POST /api/query: one JSON object.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+#include "serve/api/served_world.hpp"
+
+namespace warren {
+
+/// What it asks, and how the answer shall be told.
+struct QueryBody {
+  ServedQuestion question;
+  bool tells_path = true;  ///< else the path is kept, to be seen part by part
+};
+
+/// Throws HttpError: 400 for what is no such object, nested deeper than deepest_json or has another key.
+QueryBody read_query_body(std::string_view json);
+
+inline constexpr std::size_t deepest_json = 8;
+/// How deep brackets and braces lie in each other, in the deepest line; no JSON is parsed.
+std::size_t nesting_of(std::string_view lines);
+
+}  // namespace warren

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "serve/api/served_world.hpp"
+
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "solve/question/plannable.hpp"
+#include "solve/solve.hpp"
+#include "solve/steps/blocked_end.hpp"
+
+namespace warren {
+namespace {
+
+void refuse_arms(const RobotSpec& robot) {
+  if (state_size(robot) <= 3) return;
+  throw UsageError("arms move in space, and this shows a plane; 'warren solve' plans them, 'warren render' draws them");
+}
+
+bool is_large_maze(const Scene& scene) {
+  return scene.maze && std::uint64_t{scene.maze->rows} * scene.maze->cols >= fewest_indexed_cells;
+}
+
+/// Where a roadmap's answers are as long as those of solve(): of a maze's lattice.
+bool is_asked_by_roadmap(const Scene& scene, const Question& body, const SolveOptions& options) {
+  if (!is_large_maze(scene)) return false;
+  try {
+    check_buildable(scene, body, options);
+    return true;
+  } catch (const UsageError&) {
+    return false;
+  }
+}
+
+/// Of a file whose walls stand wherever its lattice has no passage: these say where walls are, and nobody makes them.
+std::unique_ptr<WorldTiles> tiles_of_file(const Roadmap& roadmap, const Execution& execution) {
+  const RoadmapFile& file = *roadmap.file;
+  for (const std::string_view name : {"passages.right", "passages.up"}) file.check_section(*file.find(name), execution);
+  const LatticePassages& lattice = roadmap.lattice->passages();
+  return maze_tiles({lattice.size(), lattice.right_words(), lattice.up_words()}, MazeOutline::of_course(lattice.size()),
+                    execution);
+}
+
+bool lattice_is_walls(const Roadmap& roadmap) {
+  return roadmap.file != nullptr && roadmap.file->find("maze.walls") == nullptr &&
+         roadmap.file->find("world.walls") == nullptr && roadmap.world.outline().walls.size() == 0 &&
+         !roadmap.world.outline().bounds && roadmap.world.outline().polygons.empty();
+}
+
+}  // namespace
+
+ServedWorld::ServedWorld(Scene scene, const Question& body, const Execution& execution) : body_(body) {
+  body.validate();
+  robot_ = robot_of(scene, body);
+  refuse_arms(robot_);
+  check_plannable(scene, body);
+  clearance_ = clearance_of(scene, body);
+  const SolveOptions as_usual{.planner = PlannerKind::prm};
+  if (is_asked_by_roadmap(scene, body, as_usual)) {
+    roadmap_ = std::make_unique<Roadmap>(build_within(std::move(scene), body, as_usual, execution));
+  } else {
+    hash_ = scene_hash(scene, execution);
+    scene_ = std::make_unique<Scene>(std::move(scene));
+  }
+  describe(execution);
+}
+
+ServedWorld::ServedWorld(Roadmap roadmap, const Execution& execution)
+    : roadmap_(std::make_unique<Roadmap>(std::move(roadmap))), is_roadmap_(true) {
+  refuse_arms(roadmap_->robot);
+  robot_ = roadmap_->robot;
+  clearance_ = roadmap_->clearance;
+  describe(execution);
+}
+
+void ServedWorld::describe(const Execution& execution) {
+  if (roadmap_) {
+    hash_ = roadmap_->world_hash;
+    query_ = std::make_unique<RoadmapQuery>(*roadmap_, execution, Questions::many);
+  }
+  if (roadmap_ && roadmap_->lattice != nullptr && lattice_is_walls(*roadmap_)) {
+    tiles_ = tiles_of_file(*roadmap_, execution);
+    const MazeHint maze = *roadmap_->world.outline().maze;
+    box_ = {{0.5, 0.5}, {maze.cols + 0.5, maze.rows + 0.5}};
+    return;
+  }
+  const Scene& scene = roadmap_ ? roadmap_->world.whole(execution) : *scene_;
+  tiles_ = tiles_of(scene, execution);
+  box_ = scene.map || scene.walls.size() + scene.polygons.size() > 0 ? obstacle_box(scene, execution) : Box{};
+  if (scene.bounds) box_.include(*scene.bounds);
+}
+
+void ServedWorld::prepare(const Execution& execution) const {
+  if (query_) query_->prepare_paths(execution);
+}
+
+Answer ServedWorld::ask(const ServedQuestion& question, const Execution& execution) const {
+  if (query_) {
+    if (question.planner && *question.planner != roadmap_->options.planner) {
+      throw UsageError("@planner: the roadmap was built with its own");
+    }
+    QuestionScratch scratch;
+    const RoadmapSearchFields how{.optimise = question.optimise};
+    Answer answer = query_->ask_within(question.start, question.goal, how, execution, scratch);
+    if (is_blocked(answer.outcome)) explain_blocked_end(roadmap_->world.whole(execution), answer, execution);
+    return answer;
+  }
+  Question asked = body_;
+  asked.start = question.start;
+  asked.goal = question.goal;
+  const SolveOptions options{.planner = question.planner, .optimise = question.optimise};
+  Answer answer = solve_within(*scene_, asked, options, execution);
+  explain_blocked_end(*scene_, answer, execution);
+  return answer;
+}
+
+}  // namespace warren

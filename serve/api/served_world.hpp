@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a service serves: a world that each question is solved in, or a roadmap that is asked. A large maze becomes a
+// roadmap of its lattice when it is opened: its answers are as long and come a thousand times as fast; of several ways
+// of one length it may take another.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "parallel/execution.hpp"
+#include "scenes/scene/scene.hpp"
+#include "serve/tiles/world_tiles.hpp"
+#include "solve/answer/answer.hpp"
+#include "solve/question/solve_options.hpp"
+#include "solve/roadmaps/roadmap.hpp"
+#include "solve/roadmaps/roadmap_query.hpp"
+
+namespace warren {
+
+/// What one request asks.
+struct ServedQuestion {
+  std::vector<double> start = {};           ///< as Question has it; empty: the world's own
+  std::vector<double> goal = {};            ///< the same
+  bool optimise = false;                    ///< pull the path taut
+  std::optional<PlannerKind> planner = {};  ///< none: the usual one; of a roadmap its own alone
+  std::optional<double> budget_s = {};      ///< none: the service's
+};
+
+/// Any number of threads may ask.
+class ServedWorld {
+ public:
+  /// body: what moves, and its clearance; start and goal mean nothing. Throws UsageError for arms and for bodies that
+  /// can't be planned in this world, InputError, Stopped.
+  ServedWorld(Scene scene, const Question& body, const Execution& execution);
+  /// The same of a roadmap.
+  ServedWorld(Roadmap roadmap, const Execution& execution);
+
+  /// All but the walls, which may be there too.
+  const Scene& outline() const { return roadmap_ ? roadmap_->world.outline() : *scene_; }
+  const std::string& hash() const { return hash_; }
+  const RobotSpec& robot() const { return robot_; }
+  double clearance() const { return clearance_; }
+  const WorldTiles& tiles() const { return *tiles_; }
+  /// The box of all that there is.
+  const Box& box() const { return box_; }
+  /// nullptr: each question is solved by itself.
+  const RoadmapQuery* query() const { return query_.get(); }
+  /// Was it opened as a roadmap, or else as a world?
+  bool is_roadmap() const { return is_roadmap_; }
+
+  /// Makes what first questions would wait for. Throws Stopped, InputError.
+  void prepare(const Execution& execution) const;
+  /// A verified answer, or why there is none; a blocked end is explained. Throws UsageError, InputError, Stopped.
+  Answer ask(const ServedQuestion& question, const Execution& execution) const;
+
+ private:
+  void describe(const Execution& execution);
+
+  Question body_ = {};
+  std::unique_ptr<Scene> scene_;  // nullptr where there is a roadmap
+  std::unique_ptr<Roadmap> roadmap_;
+  std::unique_ptr<RoadmapQuery> query_;
+  std::unique_ptr<WorldTiles> tiles_;
+  std::string hash_;
+  RobotSpec robot_ = {};
+  double clearance_ = 0.0;
+  Box box_ = {};
+  bool is_roadmap_ = false;
+};
+
+}  // namespace warren

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "serve/api/world_service.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "scenes/text/input_file_io.hpp"
+#include "scenes/text/json_text.hpp"
+#include "serve/api/path_view.hpp"
+#include "serve/api/query_body_io.hpp"
+#include "serve/api/world_description.hpp"
+#include "serve/page/served_files.hpp"
+#include "solve/answer/path_hash.hpp"
+#include "solve/answer/write_answer_io.hpp"
+#include "solve/batches/ask_batch_io.hpp"
+
+namespace warren {
+namespace {
+
+/// Changes whenever tiles of a world look otherwise than before.
+constexpr int tile_style = 1;
+
+std::string tile_name(const TilePlace& tile) { return fmt::format("{}/{}/{}", tile.zoom, tile.x, tile.y); }
+
+HttpResponse not_modified(std::string tag) {
+  return {.status = 304, .fields = {{"ETag", std::move(tag)}, {"Cache-Control", "no-cache"}}};
+}
+
+}  // namespace
+
+WorldService::WorldService(const ServedWorld& world, const ServiceLimits& limits)
+    : world_(world),
+      limits_(limits),
+      world_json_(description_json(world, limits.budget_s)),
+      tiles_(limits.tile_bytes),
+      paths_(limits.path_bytes) {}
+
+Route WorldService::route(const HttpRequest& request) const {
+  return route_of(request, world_.tiles().grid(), world_.hash());
+}
+
+std::size_t WorldService::most_body(const HttpRequest& head) const {
+  const Route asked = route(head);
+  if (asked.place == Place::file) file(head, asked.name);  // or there is none
+  if (asked.place == Place::batch) return limits_.batch_body;
+  return asked.place == Place::query ? limits_.small_body : 0;
+}
+
+void WorldService::prepare(const SignalFlag& gone) {
+  const Deadline deadline(std::numeric_limits<double>::infinity(), limits_.memory_bytes, &gone);
+  world_.prepare({.threads = limits_.threads, .deadline = &deadline});
+}
+
+std::optional<HttpResponse> WorldService::at_once(const HttpRequest& request, const HttpFigures& figures) {
+  const Route asked = route(request);
+  switch (asked.place) {
+    case Place::file:
+      return file(request, asked.name);
+    case Place::health:
+      return HttpResponse{.body = "{\"status\":\"ok\"}\n"};
+    case Place::metrics:
+      return metrics(figures);
+    case Place::world:
+      return HttpResponse{.body = world_json_};
+    case Place::tile: {
+      if (request.if_none_match == tile_tag()) return not_modified(tile_tag());
+      std::optional<HttpResponse> known;
+      tiles_.look(tile_name(asked.tile), [&](const std::string& bytes) { known = tile_response(asked, bytes); });
+      return known;
+    }
+    default:
+      return std::nullopt;
+  }
+}
+
+HttpResponse WorldService::work(const HttpRequest& request, const SignalFlag& gone) {
+  const Route asked = route(request);
+  if (asked.place == Place::query) return query(request, gone);
+  const Deadline deadline(limits_.budget_s, limits_.memory_bytes, &gone);
+  const Execution execution{.threads = limits_.threads, .deadline = &deadline};
+  execution.check();
+  if (asked.place == Place::tile) return tile(asked, execution);
+  if (asked.place == Place::batch) return batch(request, execution);
+  return path(request, asked.name, execution);
+}
+
+HttpResponse WorldService::file(const HttpRequest& request, const std::string& name) const {
+  const ServedFile* found = served_file(name);
+  if (found == nullptr) throw HttpError(404, "not_found", "path", "there is nothing at this address");
+  const std::string tag = fmt::format("\"{}\"", found->tag);
+  if (request.if_none_match == tag) return not_modified(tag);
+  return {.type = std::string(found->type),
+          .body = std::string(found->bytes),
+          .fields = {{"ETag", tag}, {"Cache-Control", "no-cache"}}};
+}
+
+std::string WorldService::tile_tag() const { return fmt::format("\"{}-{}\"", world_.hash(), tile_style); }
+
+HttpResponse WorldService::tile_response(const Route& route, std::string bytes) const {
+  return {.type = "image/png",
+          .body = std::move(bytes),
+          .fields = {{"ETag", tile_tag()},
+                     {"Cache-Control", route.has_its_hash ? "public, max-age=31536000, immutable" : "no-cache"}}};
+}
+
+HttpResponse WorldService::tile(const Route& route, const Execution& execution) {
+  std::string bytes = world_.tiles().draw(route.tile, execution);
+  constexpr std::size_t of_an_entry = 256;
+  tiles_.put(tile_name(route.tile), bytes, bytes.size() + of_an_entry);
+  return tile_response(route, std::move(bytes));
+}
+
+HttpResponse WorldService::query(const HttpRequest& request, const SignalFlag& gone) {
+  const QueryBody body = read_query_body(request.body);
+  const double budget_s = std::min(limits_.budget_s, body.question.budget_s.value_or(limits_.budget_s));
+  const Deadline deadline(budget_s, limits_.memory_bytes, &gone);
+  const Execution execution{.threads = limits_.threads, .deadline = &deadline};
+  execution.check();
+  Answer answer = world_.ask(body.question, execution);
+  if (answer.outcome == Outcome::stopped) throw Stopped(answer.stop_reason.value_or(StopReason::time));
+  HttpResponse response;
+  if (answer.verified) {
+    const std::string name = path_hash(answer, execution);
+    KeptPath kept{curve_of(answer, execution), answer.length};
+    const std::size_t bytes = kept.curve.size() * sizeof(Vec2);
+    response.fields.emplace_back("Warren-Path", name);
+    paths_.put(name, std::move(kept), bytes + sizeof(KeptPath));
+  }
+  answer.tells_path = body.tells_path && path_points(answer) <= limits_.most_points;
+  write_answer_json(answer, execution, [&](std::string_view piece) { response.body += piece; });
+  return response;
+}
+
+HttpResponse WorldService::batch(const HttpRequest& request, const Execution& execution) const {
+  if (world_.query() == nullptr) {
+    throw HttpError(400, "no_roadmap", "",
+                    "many questions are for roadmaps; serve what 'warren build' makes of this world");
+  }
+  if (nesting_of(request.body) > deepest_json) {
+    throw HttpError(400, "bad_request", "body", "JSON that is nested at most 8 deep is expected");
+  }
+  const BatchOptions options{.how = {.optimise = flag_parameter(request, "optimise")},
+                             .lengths_only = flag_parameter(request, "lengths_only")};
+  const InputFile questions = InputFile::of_bytes("body", request.body);
+  HttpResponse response{.type = "application/x-ndjson"};
+  ask_batch(*world_.query(), questions, options, execution, [&](std::string_view piece) {
+    response.body += piece;
+    if (response.body.size() <= limits_.batch_answers) return;
+    throw HttpError(413, "answers_too_large", "body",
+                    "the answers are more than 32 MiB; ask fewer questions, or lengths_only=1");
+  });
+  return response;
+}
+
+HttpResponse WorldService::path(const HttpRequest& request, const std::string& name, const Execution& execution) {
+  constexpr double everything = std::numeric_limits<double>::infinity();
+  PathView view{.box = {{-everything, -everything}, {everything, everything}}};
+  if (const auto box = numbers_parameter(request, "bbox", 4))
+    view.box = {{(*box)[0], (*box)[1]}, {(*box)[2], (*box)[3]}};
+  if (const auto zoom = numbers_parameter(request, "z", 1)) {
+    const TileGrid& grid = world_.tiles().grid();
+    view.pixel = grid.pixel(static_cast<unsigned>(std::clamp((*zoom)[0], 0.0, grid.levels - 1.0)));
+  }
+  JsonObject json;
+  const bool is_there = paths_.look(name, [&](const KeptPath& kept) {
+    std::string text = "[";
+    std::size_t points = 0;
+    for (const std::vector<Vec2>& chain : seen_of(kept.curve, view, execution)) {
+      execution.check();
+      points += chain.size();
+      if (points > limits_.most_view_points) {
+        throw HttpError(413, "path_too_long", "query",
+                        "more than 500,000 points; ask for a part of them by bbox and z");
+      }
+      text += text.size() > 1 ? ",[" : "[";
+      for (const Vec2 p : chain) {
+        if (text.back() == ']') text += ',';
+        append_json_list(text, std::array{p.x, p.y});
+      }
+      text += ']';
+    }
+    json.add("length", kept.length);
+    json.add("points", std::uint64_t{kept.curve.size()});
+    json.add_json("chains", text + "]");
+  });
+  if (!is_there) throw HttpError(404, "not_found", "path", "this path is not kept any more; ask again");
+  return {.body = json.closed() + "\n"};
+}
+
+HttpResponse WorldService::metrics(const HttpFigures& figures) const {
+  return {.type = "text/plain; version=0.0.4",
+          .body = metrics_text(figures, {.tile_bytes = tiles_.bytes(), .path_bytes = paths_.bytes()})};
+}
+
+}  // namespace warren

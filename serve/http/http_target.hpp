@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a request is for: the target of its first line, taken apart and decoded once.
+#pragma once
+
+#include <string_view>
+
+#include "serve/http/http_message.hpp"
+
+namespace warren {
+
+inline constexpr std::size_t longest_target = 2048;
+
+/// Fills in path and query. Throws HttpError: 414 for more than longest_target bytes; 400 for what begins with no /,
+/// for broken escapes, and for escaped bytes that no name here has: controls, beyond ASCII.
+void read_target(std::string_view target, HttpRequest& request);
+
+}  // namespace warren

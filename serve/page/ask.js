@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The question, and the answer to it. While an answer is under way the latest question waits, so that a drag asks as
+// often as answers come.
+"use strict";
+const question = {start: null, goal: null, planner: "", optimise: false, startHeading: null, goalHeading: null};
+const answer = {text: null, json: null, id: null};
+let asking = false;
+let askAgain = false;
+
+const turns = () => world.state_size === 3;
+function stateOf(place, heading) {
+  const state = [place.x, place.y];
+  if (turns() && heading !== null) state.push(heading);
+  return state;
+}
+function bodyOf(q) {
+  const body = {start: stateOf(q.start, q.startHeading === null ? 0 : q.startHeading), goal: stateOf(q.goal, q.goalHeading), optimise: q.optimise};
+  if (q.planner) body.planner = q.planner;
+  return body;
+}
+
+/// Milliseconds by name, as Server-Timing has them.
+function serverTimes(reply) {
+  return (reply.headers.get("Server-Timing") || "").split(",").map(part => {
+    const [name, time] = part.trim().split(";dur=");
+    return [name, Number(time)];
+  }).filter(([name]) => name);
+}
+
+async function ask() {
+  if (!question.start || !question.goal) return;
+  if (asking) return void (askAgain = true);
+  asking = true;
+  const began = performance.now();
+  try {
+    const reply = await fetch("/api/query", {method: "POST", headers: {"Content-Type": "application/json"}, body: JSON.stringify(bodyOf(question))});
+    const text = await reply.text();
+    take(reply, text, performance.now() - began);
+  } catch (error) {
+    forgetAnswer();
+    say("The service does not answer any more.");
+  }
+  asking = false;
+  if (askAgain) {
+    askAgain = false;
+    ask();
+  }
+}
+function forgetAnswer() {
+  clearPath();
+  answer.text = answer.json = answer.id = null;
+}
+function take(reply, text, passed) {
+  const json = JSON.parse(text);
+  forgetAnswer();
+  if (!question.start || !question.goal) return;  // taken away meanwhile
+  if (json.error) {
+    say(json.error.message);
+    return showAnswer(null, []);
+  }
+  answer.text = text;
+  answer.json = json;
+  answer.id = reply.headers.get("Warren-Path");
+  if (answer.id) showPath(json.path.map(p => [p[0], p[1]]), curved() ? answer.id : answer.id);
+  say(inWords(json));
+  showAnswer(json, [...serverTimes(reply), ["there and back", passed]]);
+}
+const curved = () => world.robot.startsWith("car");
+
+const shown = number => Number(number.toPrecision(6));
+function inWords(json) {
+  const unit = world.unit ? " " + world.unit : "";
+  if (json.status === "solved") return "Solved: " + shown(json.length) + unit + (json.optimal ? ", the shortest there is" : "");
+  if (json.status === "start_blocked") return "The body does not fit at the start" + reason(json);
+  if (json.status === "goal_blocked") return "The body does not fit at the goal" + reason(json);
+  if (json.status === "not_connected") return "No path was found.";
+  if (json.status === "infeasible") return "There is no path.";
+  return json.status;
+}
+function reason(json) {
+  if (!json.blocked) return ".";
+  return ": " + json.blocked.by + (json.blocked.hint ? "; " + json.blocked.hint : "") + ".";
+}

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Everything around the map: fields, buttons, keys, the link that holds all of it, and what people take along. Words of
+// files and of the service become text, never markup.
+"use strict";
+const marks = {};
+
+const say = text => { byId("status").textContent = text; };
+
+function fillTable(id, rows) {
+  const body = byId(id).tBodies[0];
+  body.replaceChildren(...rows.map(([name, value]) => {
+    const row = document.createElement("tr"), head = document.createElement("th"), cell = document.createElement("td");
+    head.textContent = name;
+    cell.textContent = value;
+    row.append(head, cell);
+    return row;
+  }));
+}
+const asTime = ms => ms < 1 ? (1000 * ms).toFixed(0) + " µs" : ms < 1000 ? ms.toPrecision(3) + " ms" : (ms / 1000).toPrecision(3) + " s";
+
+function showAnswer(json, times) {
+  const rows = [];
+  if (json) {
+    const add = (name, value) => { if (value !== null && value !== undefined) rows.push([name, String(value)]); };
+    add("length", json.verified ? shown(json.length) : null);
+    add("clearance", json.verified ? shown(json.min_clearance) : null);
+    add("points", json.path_points || (json.path.length || null));
+    add("verified", json.verified ? "yes" : null);
+    add("planner", json.planner);
+    add("milestones", json.roadmap.milestones);
+    for (const [name, count] of Object.entries(json.counters)) if (count > 0) add(name.replaceAll("_", " "), count);
+  }
+  fillTable("figures", rows);
+  const stages = json ? Object.entries(json.stages_s).filter(([, s]) => s > 0).map(([name, s]) => [name, 1000 * s]) : [];
+  fillTable("times", [...stages, ...times].map(([name, ms]) => [name, asTime(ms)]));
+  const blocked = json && json.blocked && json.blocked.free_place ? json.blocked : null;
+  const move = byId("move");
+  move.hidden = !blocked;
+  if (blocked) {
+    move.textContent = "Move the " + blocked.end + " to where it fits, " + shown(blocked.distance) + " away";
+    move.onclick = () => { setEnd(blocked.end, {x: blocked.free_place[0], y: blocked.free_place[1]}); };
+  }
+  for (const id of ["save-geojson", "save-csv"]) byId(id).disabled = !(json && json.verified);
+  byId("save-json").disabled = !json;
+  byId("copy-command").disabled = !question.start || !question.goal;
+}
+
+/// Where an end is, in its field: x, y and of a body that turns its heading in degrees.
+function fieldText(end) {
+  const place = question[end], heading = question[end + "Heading"];
+  if (!place) return "";
+  return place.x + ", " + place.y + (turns() && heading !== null ? ", " + shown(heading * 180 / Math.PI) : "");
+}
+function setEnd(end, place, keepsField) {
+  question[end] = place && {x: rounded(place.x), y: rounded(place.y)};
+  showEnd(end, keepsField);
+  ask();
+}
+function showEnd(end, keepsField) {
+  putMark(marks[end], question[end]);
+  if (!keepsField) byId(end).value = fieldText(end);
+  if (!question.start || !question.goal) {
+    forgetAnswer();
+    showAnswer(null, []);
+    say(question.start ? "Click where to go." : question.goal ? "Click where to start." : "Click where to start, then where to go.");
+  }
+  keepLink();
+}
+function readField(end) {
+  const text = byId(end).value.trim();
+  const numbers = text.split(/[\s,;]+/).map(Number);
+  if (text === "") return void setEnd(end, null);
+  if (numbers.length < 2 || numbers.length > (turns() ? 3 : 2) || !numbers.every(Number.isFinite)) {
+    return void say("The " + end + " is x, y" + (turns() ? " and degrees" : "") + ".");
+  }
+  question[end + "Heading"] = numbers.length > 2 ? numbers[2] * Math.PI / 180 : null;
+  question[end] = {x: numbers[0], y: numbers[1]};  // as it was written
+  showEnd(end, true);
+  ask();
+}
+
+// The link: everything behind the #, so that it never leaves the browser.
+function linkText() {
+  const words = [], at = map.getCenter();
+  const state = end => stateOf(question[end], question[end + "Heading"]).join(",");
+  for (const end of ["start", "goal"]) if (question[end]) words.push(end + "=" + state(end));
+  if (question.planner) words.push("planner=" + encodeURIComponent(question.planner));
+  if (question.optimise) words.push("optimise=1");
+  words.push("at=" + [rounded(at.lng), rounded(at.lat), map.getZoom()].join(","));
+  return "#" + words.join("&");
+}
+function keepLink() { history.replaceState(null, "", linkText()); }
+function readLink() {
+  const words = new URLSearchParams(location.hash.slice(1));
+  const numbers = name => (words.get(name) || "").split(",").filter(word => word !== "").map(Number);
+  for (const end of ["start", "goal"]) {
+    const state = numbers(end);
+    const isState = state.length >= 2 && state.length <= world.state_size && state.every(Number.isFinite);
+    question[end] = isState ? {x: state[0], y: state[1]} : null;
+    question[end + "Heading"] = isState && state.length > 2 ? state[2] : null;
+  }
+  question.planner = world.planners.includes(words.get("planner")) ? words.get("planner") : "";
+  question.optimise = words.get("optimise") === "1";
+  const at = numbers("at");
+  if (at.length === 3 && at.every(Number.isFinite)) map.setView([at[1], at[0]], at[2], {animate: false});
+  else map.fitBounds(map.whole, {animate: false});
+  return words.has("start") || words.has("goal");
+}
+function showQuestion() {
+  byId("planner").value = question.planner;
+  byId("optimise").checked = question.optimise;
+  showEnd("start");
+  showEnd("goal");
+  ask();
+}
+
+// What people take along.
+const quoted = word => /^[-\w.,:=/+@%]+$/.test(word) ? word : "'" + word.replaceAll("'", "'\\''") + "'";
+function commandText() {
+  const words = ["warren", world.opened_as === "roadmap" ? "query" : "solve", world.source];
+  if (world.opened_as === "world") words.push("--robot", world.robot, "--clearance", String(world.clearance));
+  words.push("--start", stateOf(question.start, question.startHeading === null ? 0 : question.startHeading).join(","));
+  words.push("--goal", stateOf(question.goal, question.goalHeading).join(","));
+  if (question.planner) words.push("--planner", question.planner);
+  if (question.optimise) words.push("--optimise");
+  return words.map(quoted).join(" ");
+}
+async function copy(text) {
+  const field = byId("copied");
+  field.value = text;
+  field.hidden = false;
+  field.select();
+  try {
+    await navigator.clipboard.writeText(text);
+  } catch (error) {  // it is there to be copied by hand
+  }
+}
+function save(name, type, text) {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob([text], {type}));
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+}
+/// The states of the path, those of a long one as points.
+async function wholePath() {
+  if (answer.json.path.length > 0) return answer.json.path;
+  const reply = await fetch("/api/path/" + answer.id);
+  const json = await reply.json();
+  if (json.error) throw new Error(json.error.message);
+  return json.chains.flat();
+}
+async function savePath(make) {
+  try {
+    make(await wholePath());
+  } catch (error) {
+    say(error.message);
+  }
+}
+function saveGeojson(path) {
+  const line = path.length === 1 ? [path[0], path[0]] : path;
+  const properties = {frame: "map", length: answer.json.length, planner: answer.json.planner};
+  if (path[0].length === 3) properties.theta = line.map(p => p[2]);
+  save("path.geojson", "application/geo+json", JSON.stringify({type: "Feature", geometry: {type: "LineString", coordinates: line.map(p => [p[0], p[1]])}, properties}) + "\n");
+}
+function saveCsv(path) {
+  let along = 0;
+  const rows = path.map((p, i) => {
+    if (i > 0) along += Math.hypot(p[0] - path[i - 1][0], p[1] - path[i - 1][1]);
+    return along + "," + p.join(",");
+  });
+  save("path.csv", "text/csv", (path[0].length === 3 ? "s,x,y,theta\n" : "s,x,y\n") + rows.join("\n") + "\n");
+}
+
+function setDark(on) {
+  document.documentElement.classList.toggle("dark", on);
+  byId("dark").setAttribute("aria-pressed", String(on));
+  if (pathLine.line) pathLine.line.setStyle({color: on ? "#ff6b81" : "#c8102e"});
+}
+function wireControls() {
+  byId("question").addEventListener("submit", event => { event.preventDefault(); ask(); });
+  for (const end of ["start", "goal"]) byId(end).addEventListener("change", () => readField(end));
+  byId("planner").addEventListener("change", event => { question.planner = event.target.value; keepLink(); ask(); });
+  byId("optimise").addEventListener("change", event => { question.optimise = event.target.checked; keepLink(); ask(); });
+  byId("swap").addEventListener("click", () => {
+    for (const part of ["", "Heading"]) [question["start" + part], question["goal" + part]] = [question["goal" + part], question["start" + part]];
+    showQuestion();
+  });
+  byId("clear").addEventListener("click", () => { question.start = question.goal = question.startHeading = question.goalHeading = null; showQuestion(); });
+  byId("copy-command").addEventListener("click", () => copy(commandText()));
+  byId("copy-link").addEventListener("click", () => copy(location.origin + location.pathname + linkText()));
+  byId("save-geojson").addEventListener("click", () => savePath(saveGeojson));
+  byId("save-csv").addEventListener("click", () => savePath(saveCsv));
+  byId("save-json").addEventListener("click", () => save("answer.json", "application/json", answer.text));
+  byId("whole").addEventListener("click", () => map.fitBounds(map.whole));
+  byId("dark").addEventListener("click", () => setDark(!document.documentElement.classList.contains("dark")));
+  byId("show-world").addEventListener("change", event => event.target.checked ? tiles.addTo(map) : tiles.remove());
+  byId("show-path").addEventListener("change", event => { if (pathLine.line) event.target.checked ? pathLine.line.addTo(map) : pathLine.line.remove(); });
+}
+function wireMap() {
+  for (const end of ["start", "goal"]) marks[end] = makeMark(end, place => setEnd(end, place));
+  map.on("click", event => setEnd(question.start ? "goal" : "start", placeOf(event.latlng)));
+  map.on("moveend", keepLink);
+  byId("map").addEventListener("keydown", event => {
+    const end = {s: "start", g: "goal"}[event.key];
+    if (end && !event.ctrlKey && !event.metaKey && !event.altKey) setEnd(end, placeOf(map.getCenter()));
+  });
+  window.addEventListener("hashchange", () => { readLink(); showQuestion(); });
+}
+/// The world's own ends, where it has some and the link says nothing.
+function takeOwnEnds() {
+  for (const end of ["start", "goal"]) {
+    const state = world[end];
+    if (state.length < 2) continue;
+    question[end] = {x: state[0], y: state[1]};
+    question[end + "Heading"] = state.length > 2 && turns() ? state[2] : null;
+  }
+}
+async function begin() {
+  world = await (await fetch("/api/world")).json();
+  const name = world.source.split("/").pop();
+  document.title = name + " – warren";
+  byId("title").textContent = name;
+  byId("about").textContent = world.description + ", " + world.robot + (world.clearance > 0 ? ", clearance " + world.clearance : "");
+  for (const planner of world.planners) byId("planner").add(new Option(planner, planner));
+  byId("planners").hidden = world.planners.length === 0;
+  for (const end of ["start", "goal"]) byId(end).placeholder = turns() ? (end === "start" ? "x, y, degrees" : "x, y, degrees or none") : "x, y";
+  setDark(matchMedia("(prefers-color-scheme: dark)").matches);
+  openMap();
+  wireControls();
+  const hasEnds = readLink();
+  wireMap();
+  if (!hasEnds) takeOwnEnds();
+  showQuestion();
+}
+begin();

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The world as tiles, start and goal as marks that can be dragged, the path as a line. A place is {x, y} of the world;
+// Leaflet has it as latitude y and longitude x.
+"use strict";
+const byId = id => document.getElementById(id);
+const latLng = p => L.latLng(p.y, p.x);
+const placeOf = at => ({x: at.lng, y: at.lat});
+let world = null;  // what /api/world says
+let map = null;
+let tiles = null;
+const pathLine = {line: null, id: null, whole: true};
+
+/// Digits that a pixel can tell; none in mazes whose cells are pixels or less, where that is the middle of a cell.
+function digits() {
+  const pixel = world.tiles.span / world.tiles.pixels / 2 ** Math.max(0, map.getZoom());
+  return Math.min(12, Math.max(0, Math.ceil(-Math.log10(pixel))));
+}
+const rounded = number => Number(number.toFixed(digits()));
+
+function openMap() {
+  const t = world.tiles, scale = t.pixels / t.span;
+  const crs = L.extend({}, L.CRS.Simple, {transformation: new L.Transformation(scale, -t.corner[0] * scale, -scale, t.corner[1] * scale)});
+  map = L.map("map", {crs, minZoom: -3, maxZoom: t.levels, zoomSnap: 1, attributionControl: false, preferCanvas: true});
+  L.control.attribution({prefix: false}).addAttribution('<a href="/leaflet-license.txt">Leaflet</a>').addTo(map);
+  L.control.scale({imperial: false, metric: false}).addTo(map);
+  const [left, low, right, high] = world.box;
+  map.whole = L.latLngBounds([low, left], [high, right]);
+  tiles = L.tileLayer(t.url, {tileSize: t.pixels, minZoom: -3, maxZoom: t.levels, minNativeZoom: 0, maxNativeZoom: t.levels - 1,
+                              bounds: map.whole, noWrap: true, keepBuffer: 1, updateInterval: 60, className: "tiles"}).addTo(map);
+  map.on("mousemove", e => { byId("readout").textContent = rounded(e.latlng.lng) + ", " + rounded(e.latlng.lat) + (world.unit ? " " + world.unit : ""); });
+  map.on("moveend", showSeenPath);
+}
+
+/// A mark of that name; moved(place, is_over) is called while it is dragged, and at the end.
+function makeMark(name, moved) {
+  const icon = L.divIcon({className: "mark " + name, iconSize: [22, 22]});
+  const mark = L.marker([0, 0], {icon, draggable: true, autoPan: true, keyboard: true, title: name, alt: name});
+  mark.on("drag", () => moved(placeOf(mark.getLatLng()), false));
+  mark.on("dragend", () => moved(placeOf(mark.getLatLng()), true));
+  mark.on("add", () => mark.getElement().addEventListener("keydown", event => {
+    const step = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]}[event.key];
+    if (!step) return;
+    event.preventDefault();
+    event.stopPropagation();
+    const far = event.shiftKey ? 40 : 8;
+    moved(placeOf(map.containerPointToLatLng(map.latLngToContainerPoint(mark.getLatLng()).add([far * step[0], far * step[1]]))), true);
+  }));
+  return mark;
+}
+function putMark(mark, place) {
+  if (!place) return void mark.remove();
+  mark.setLatLng(latLng(place));
+  if (!map.hasLayer(mark)) mark.addTo(map);
+}
+
+function clearPath() {
+  if (pathLine.line) pathLine.line.remove();
+  pathLine.line = pathLine.id = null;
+}
+function drawChains(chains) {
+  if (pathLine.line) pathLine.line.remove();
+  const points = chains.map(chain => chain.map(p => L.latLng(p[1], p[0])));
+  pathLine.line = L.polyline(points, {color: document.documentElement.classList.contains("dark") ? "#ff6b81" : "#c8102e", weight: 4, opacity: 0.9, smoothFactor: 1, interactive: false});
+  if (byId("show-path").checked) pathLine.line.addTo(map);
+}
+/// points: all of them where the answer listed them, else they are fetched by what is seen.
+function showPath(points, id) {
+  pathLine.id = id;
+  pathLine.whole = points.length > 0;
+  if (pathLine.whole) return drawChains([points]);
+  showSeenPath();
+}
+async function showSeenPath() {
+  if (pathLine.whole || !pathLine.id) return;
+  const id = pathLine.id, seen = map.getBounds().pad(0.5);
+  const box = [seen.getWest(), seen.getSouth(), seen.getEast(), seen.getNorth()].join(",");
+  const reply = await fetch("/api/path/" + id + "?z=" + Math.max(0, map.getZoom()) + "&bbox=" + box);
+  if (!reply.ok || pathLine.id !== id) return;
+  drawChains((await reply.json()).chains);
+}

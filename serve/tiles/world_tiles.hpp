@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A world as tiles of any zoom, each drawn when it is asked for: one kind of world a file.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "parallel/execution.hpp"
+#include "planners/route_trees/lattice_passages.hpp"
+#include "scenes/scene/scene.hpp"
+#include "serve/tiles/tile_grid.hpp"
+
+namespace warren {
+
+/// Immutable; any number of threads may draw.
+class WorldTiles {
+ public:
+  explicit WorldTiles(const TileGrid& grid) : grid_(grid) {}
+  virtual ~WorldTiles() = default;
+  WorldTiles(const WorldTiles&) = delete;
+  WorldTiles& operator=(const WorldTiles&) = delete;
+
+  const TileGrid& grid() const { return grid_; }
+  /// A PNG. The tile is one of the grid. Throws Stopped.
+  virtual std::string draw(const TilePlace& tile, const Execution& execution) const = 0;
+
+ private:
+  TileGrid grid_;
+};
+
+/// The walls around a maze, unit by unit: of each row the left and the right one, of each column the lower and the
+/// upper.
+struct MazeOutline {
+  std::vector<bool> left, right;
+  std::vector<bool> lower, upper;
+
+  /// As the course's mazes have it: open left of the first cell and right of the last.
+  static MazeOutline of_course(LatticeSize size);
+  /// Of walls on the maze's grid. Throws Stopped.
+  static MazeOutline of_walls(const WallSet& walls, LatticeSize size, const Execution& execution);
+};
+
+/// Of a maze in which a wall stands wherever the lattice has no passage.
+std::unique_ptr<WorldTiles> maze_tiles(LatticePassages passages, MazeOutline outline, const Execution& execution);
+/// Of a map; refers to it.
+std::unique_ptr<WorldTiles> map_tiles(const OccupancyMap& map, const Execution& execution);
+/// Of walls, polygons and bounds; refers to the scene. Throws UsageError for more than most_shapes of them.
+std::unique_ptr<WorldTiles> shape_tiles(const Scene& scene, const Execution& execution);
+/// By the scene's kind. Throws as they do.
+std::unique_ptr<WorldTiles> tiles_of(const Scene& scene, const Execution& execution);
+
+/// The index of shapes is made on one thread, and can't be stopped: two seconds for so many.
+inline constexpr std::size_t most_shapes = std::size_t{1} << 21U;
+
+}  // namespace warren

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "serve/api/path_view.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace warren {
+namespace {
+
+constexpr double far_away = std::numeric_limits<double>::infinity();
+constexpr Box everything{{-far_away, -far_away}, {far_away, far_away}};
+
+Path<Vec2> staircase(std::size_t points) {
+  Path<Vec2> path;
+  for (std::size_t i = 0; i < points; ++i) {
+    path.push_back({static_cast<double>(i / 2 + i % 2), static_cast<double>(i / 2)});
+  }
+  return path;
+}
+
+double distance_from(const std::vector<Vec2>& chain, Vec2 p) {
+  double least = far_away;
+  for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+    const Vec2 along = chain[i + 1] - chain[i];
+    const double share = std::clamp(dot(p - chain[i], along) / std::max(dot(along, along), 1e-300), 0.0, 1.0);
+    least = std::min(least, distance(p, chain[i] + share * along));
+  }
+  return least;
+}
+
+TEST(PathView, WithoutPixelsItIsThePath) {
+  const Path<Vec2> path = staircase(101);
+  const auto chains = seen_of(path, {.box = everything}, {});
+  ASSERT_EQ(chains.size(), 1U);
+  EXPECT_EQ(chains[0], std::vector<Vec2>(path.begin(), path.end()));
+}
+
+TEST(PathView, PointsOfAPixelAreOneAndNoneIsFartherThanThatFromWhatIsDrawn) {
+  const Path<Vec2> path = staircase(10'001);
+  for (const double pixel : {0.5, 2.0, 30.0, 1e6}) {
+    SCOPED_TRACE(pixel);
+    const auto chains = seen_of(path, {.box = everything, .pixel = pixel}, {});
+    ASSERT_EQ(chains.size(), 1U);
+    EXPECT_EQ(chains[0].front(), path.front());
+    EXPECT_EQ(chains[0].back(), path.back());
+    EXPECT_LE(static_cast<double>(chains[0].size()), 7072.0 / pixel + 10'001.0 * (pixel <= 1.0 ? 1.0 : 0.0) + 3.0);
+    double worst = 0.0;
+    for (std::size_t i = 0; i < path.size(); i += 77) worst = std::max(worst, distance_from(chains[0], path[i]));
+    EXPECT_LE(worst, pixel);
+  }
+}
+
+TEST(PathView, OnlyLegsThatMeetTheBoxAreThere) {
+  // In, out, far round and in again.
+  const Path<Vec2> path{{0, 0}, {5, 0}, {20, 0}, {20, 20}, {0, 20}, {0, 8}, {4, 8}};
+  const auto chains = seen_of(path, {.box = {{-1, -1}, {9, 9}}}, {});
+  const std::vector<std::vector<Vec2>> expected{{{0, 0}, {5, 0}, {20, 0}}, {{0, 20}, {0, 8}, {4, 8}}};
+  EXPECT_EQ(chains, expected);
+  EXPECT_TRUE(seen_of(path, {.box = {{100, 100}, {101, 101}}}, {}).empty());
+}
+
+TEST(PathView, AChainEndsWhereThePathLeaves) {
+  const Path<Vec2> path{{0, 0}, {1, 0}, {1.1, 0}, {1.2, 0}, {1.2, 50}, {60, 50}, {60, 60}};
+  const auto chains = seen_of(path, {.box = {{-1, -1}, {9, 9}}, .pixel = 1.0}, {});
+  ASSERT_EQ(chains.size(), 1U);
+  EXPECT_EQ(chains[0].back(), (Vec2{1.2, 50}));
+}
+
+TEST(PathView, APathOfOnePointIsSeenWhereItIs) {
+  EXPECT_EQ(seen_of({{3, 4}}, {.box = {{0, 0}, {9, 9}}}, {}), (std::vector<std::vector<Vec2>>{{{3, 4}}}));
+  EXPECT_TRUE(seen_of({{30, 4}}, {.box = {{0, 0}, {9, 9}}}, {}).empty());
+}
+
+TEST(PathView, ArcsOfCarsAreChords) {
+  Answer answer;
+  answer.problem.robot = {.kind = RobotKind::car, .turning_radius = 2.0};
+  const double quarter = std::acos(-1.0) / 2.0;
+  answer.states.width = 3;
+  answer.states.numbers = {0.0, 0.0, 0.0, 2.0, 2.0, quarter};
+  answer.path = {{0, 0}, {2, 2}};
+  const Path<Vec2> curve = curve_of(answer, {});
+  EXPECT_GT(curve.size(), 15U);
+  for (const Vec2 p : curve) EXPECT_NEAR(distance(p, {0, 2}), 2.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace warren

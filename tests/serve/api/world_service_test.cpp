@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The whole interface without sockets, held against solve() and RoadmapQuery themselves.
+#include "serve/api/world_service.hpp"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "scenes/formats/read_world_io.hpp"
+#include "scenes/text/input_file_io.hpp"
+#include "solve/answer/path_hash.hpp"
+#include "solve/solve.hpp"
+
+namespace warren {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* town =
+    "bounds 0 0 100 60\nwall 10 10 50 40\npolygon 60 10 90 10 90 50 60 50\nstart 5 30\ngoal 95 30\n";
+
+Scene scene_of(const std::string& text) { return read_scene(InputFile::of_bytes("test.scene", text), {}); }
+
+/// What a client sees.
+class Served {
+ public:
+  explicit Served(Scene scene, const Question& body = {}, const ServiceLimits& limits = {})
+      : world_(std::move(scene), body, {}), service_(world_, limits) {}
+  explicit Served(Roadmap roadmap, const ServiceLimits& limits = {})
+      : world_(std::move(roadmap), {}), service_(world_, limits) {}
+
+  HttpResponse asked(const HttpRequest& request, int gone = 0) {
+    try {
+      const std::size_t most = service_.most_body(request);
+      if (request.body.size() > most) return error_response(413, "body_too_large", "body", "");
+      if (auto said = service_.at_once(request, {})) return *said;
+    } catch (const HttpError& error) {
+      return error_response(error);
+    }
+    const SignalFlag flag{gone};
+    return answer_of(service_, request, flag);
+  }
+  HttpResponse get(const std::string& path, std::vector<std::pair<std::string, std::string>> query = {}) {
+    return asked({.path = path, .query = std::move(query)});
+  }
+  HttpResponse post(const std::string& path, const std::string& body) {
+    return asked({.method = "POST", .path = path, .body = body});
+  }
+  HttpResponse query(const Json& body) { return post("/api/query", body.dump()); }
+  const ServedWorld& world() const { return world_; }
+  WorldService& service() { return service_; }
+
+ private:
+  ServedWorld world_;
+  WorldService service_;
+};
+
+std::string field(const HttpResponse& response, const std::string& name) {
+  for (const auto& [key, value] : response.fields) {
+    if (key == name) return value;
+  }
+  return "none";
+}
+
+std::string code_of(const HttpResponse& response) { return Json::parse(response.body).at("error").at("code"); }
+
+TEST(WorldService, AQuestionIsAnsweredAsSolveAnswersIt) {
+  Served served(scene_of(town));
+  const Answer expected = solve(scene_of(town), {.start = {5, 5}, .goal = {95, 55}});
+  const HttpResponse response = served.query({{"start", {5, 5}}, {"goal", {95, 55}}});
+  ASSERT_EQ(response.status, 200U) << response.body;
+  const Json answer = Json::parse(response.body);
+  EXPECT_EQ(answer.at("schema"), "warren.answer/1");
+  EXPECT_EQ(answer.at("status"), "solved");
+  EXPECT_EQ(answer.at("verified"), true);
+  EXPECT_EQ(answer.at("length").get<double>(), expected.length);
+  ASSERT_EQ(answer.at("path").size(), expected.path.size());
+  for (std::size_t i = 0; i < expected.path.size(); ++i) {
+    EXPECT_EQ(answer.at("path")[i][0].get<double>(), expected.path[i].x);
+    EXPECT_EQ(answer.at("path")[i][1].get<double>(), expected.path[i].y);
+  }
+  EXPECT_EQ(field(response, "Warren-Path"), path_hash(expected, {}));
+}
+
+TEST(WorldService, WhatIsNotSaidIsTheWorlds) {
+  Served served(scene_of(town), {.robot = RobotSpec{.kind = RobotKind::disc, .radius = 1.0}, .clearance = 0.25});
+  const Json world = Json::parse(served.get("/api/world").body);
+  EXPECT_EQ(world.at("robot"), "disc 1");
+  EXPECT_EQ(world.at("clearance"), 0.25);
+  EXPECT_EQ(world.at("start"), Json({5.0, 30.0}));
+  EXPECT_EQ(world.at("box"), Json({0.0, 0.0, 100.0, 60.0}));
+  EXPECT_EQ(world.at("asks_roadmap"), false);
+  const Json answer = Json::parse(served.query(Json::object()).body);
+  EXPECT_EQ(answer.at("start"), Json({5.0, 30.0}));
+  EXPECT_EQ(answer.at("robot"), "disc 1");
+  EXPECT_GE(answer.at("min_clearance").get<double>(), 0.25);
+}
+
+TEST(WorldService, EachPlannerThatItNamesAnswers) {
+  Served served(scene_of(town));
+  const Json world = Json::parse(served.get("/api/world").body);
+  EXPECT_GE(world.at("planners").size(), 5U);
+  for (const Json& planner : world.at("planners")) {
+    SCOPED_TRACE(planner.dump());
+    const HttpResponse response = served.query({{"planner", planner}});
+    ASSERT_EQ(response.status, 200U) << response.body;
+    EXPECT_EQ(Json::parse(response.body).at("planner"), planner);
+  }
+}
+
+TEST(WorldService, ABlockedEndIsAnAnswerThatSaysWhy) {
+  Served served(scene_of(town));
+  const HttpResponse response = served.query({{"start", {75, 30}}});
+  ASSERT_EQ(response.status, 200U) << response.body;
+  const Json answer = Json::parse(response.body);
+  EXPECT_EQ(answer.at("status"), "start_blocked");
+  EXPECT_EQ(answer.at("blocked").at("end"), "start");
+  EXPECT_EQ(answer.at("blocked").at("free_place").size(), 2U);
+  EXPECT_EQ(field(response, "Warren-Path"), "none");
+}
+
+TEST(WorldService, WhatCanNotBeAskedIsRefusedInOneForm) {
+  Served served(scene_of(town));
+  struct Case {
+    Json body;
+    unsigned status;
+    std::string code;
+  };
+  for (const Case& c : {Case{{{"start", {1}}}, 400, "usage"}, Case{{{"start", {1, 2, 3, 4}}}, 400, "usage"},
+                        Case{{{"start", {1e70, 2}}}, 400, "usage"}, Case{{{"begin", {1, 2}}}, 400, "bad_request"},
+                        Case{{{"planner", "grid"}, {"optimise", true}, {"start", "x"}}, 400, "bad_request"}}) {
+    SCOPED_TRACE(c.body.dump());
+    const HttpResponse response = served.query(c.body);
+    EXPECT_EQ(response.status, c.status) << response.body;
+    EXPECT_EQ(code_of(response), c.code) << response.body;
+  }
+  EXPECT_EQ(served.post("/api/query", std::string(70'000, ' ')).status, 413U);
+  EXPECT_EQ(served.get("/api/query").status, 405U);
+  EXPECT_EQ(served.get("/etc/passwd").status, 404U);
+}
+
+TEST(WorldService, WhoTakesTooLongOrLeavesIsStopped) {
+  Served served(read_world("maze:200x200", {}));
+  const HttpResponse late = served.query({{"start", {1, 1}}, {"goal", {200, 200}}, {"budget_ms", 0.001}});
+  EXPECT_EQ(late.status, 504U) << late.body;
+  EXPECT_EQ(code_of(late), "budget");
+  const HttpResponse left = served.asked({.method = "POST", .path = "/api/query", .body = "{}"}, SIGTERM);
+  EXPECT_EQ(left.status, 504U) << left.body;
+  Served poor(read_world("maze:20x20", {}), {}, {.memory_bytes = 1 << 20});
+  EXPECT_EQ(poor.query({{"start", {1, 1}}, {"goal", {20, 20}}}).status, 503U);
+}
+
+TEST(WorldService, ALongPathIsSeenByParts) {
+  Served served(read_world("maze:60x60,seed=3", {}), {}, {.most_points = 10});
+  const HttpResponse response = served.query({{"start", {1, 1}}, {"goal", {60, 60}}});
+  const Json answer = Json::parse(response.body);
+  ASSERT_EQ(answer.at("status"), "solved");
+  EXPECT_TRUE(answer.at("path").empty());
+  const std::string name = field(response, "Warren-Path");
+  EXPECT_EQ(answer.at("path_hash"), name);
+  const Json whole = Json::parse(served.get("/api/path/" + name).body);
+  EXPECT_EQ(whole.at("points"), answer.at("path_points"));
+  ASSERT_EQ(whole.at("chains").size(), 1U);
+  EXPECT_EQ(whole.at("chains")[0].size(), answer.at("path_points").get<std::size_t>());
+  EXPECT_EQ(whole.at("chains")[0][0], Json({1.0, 1.0}));
+  const Json seen = Json::parse(served.get("/api/path/" + name, {{"z", "0"}, {"bbox", "0,0,8,8"}}).body);
+  EXPECT_LT(seen.at("chains").size() * 2, whole.at("chains")[0].size());
+  EXPECT_EQ(served.get("/api/path/0123456789abcdef").status, 404U);
+  EXPECT_EQ(served.get("/api/path/" + name, {{"bbox", "0,0,8"}}).status, 400U);
+  Served strict(read_world("maze:60x60,seed=3", {}), {}, {.most_view_points = 5});
+  const HttpResponse kept = strict.query({{"start", {1, 1}}, {"goal", {60, 60}}});
+  EXPECT_EQ(strict.get("/api/path/" + field(kept, "Warren-Path")).status, 413U);
+}
+
+TEST(WorldService, TilesAreKeptAndSayThatTheyNeverChange) {
+  Served served(scene_of(town));
+  const std::string hash = Json::parse(served.get("/api/world").body).at("hash");
+  const HttpResponse first = served.get("/v/" + hash + "/tiles/1/0/0.png");
+  ASSERT_EQ(first.status, 200U);
+  EXPECT_EQ(first.type, "image/png");
+  EXPECT_TRUE(first.body.starts_with("\x89PNG"));
+  EXPECT_NE(field(first, "Cache-Control").find("immutable"), std::string::npos);
+  const auto again = served.service().at_once({.path = "/tiles/1/0/0.png"}, {});
+  ASSERT_TRUE(again.has_value()) << "it is not drawn anew";
+  EXPECT_EQ(again->body, first.body);
+  EXPECT_EQ(field(*again, "Cache-Control"), "no-cache");
+  const HttpResponse same = served.asked({.path = "/tiles/1/0/0.png", .if_none_match = field(first, "ETag")});
+  EXPECT_EQ(same.status, 304U);
+  EXPECT_EQ(served.get("/v/0000000000000000/tiles/1/0/0.png").status, 404U);
+}
+
+TEST(WorldService, ALargeMazeIsARoadmapWithTheSameAnswers) {
+  const Scene maze = read_world("maze:300x300,seed=7,loops=0.05", {});
+  Served served(read_world("maze:300x300,seed=7,loops=0.05", {}));
+  EXPECT_EQ(Json::parse(served.get("/api/world").body).at("asks_roadmap"), true);
+  for (const auto& [start, goal] :
+       {std::pair<Vec2, Vec2>{{1, 1}, {300, 300}}, {{17, 250}, {281, 3}}, {{4.3, 4.2}, {100.1, 99.8}}}) {
+    const Answer expected = solve(maze, {.start = {start.x, start.y}, .goal = {goal.x, goal.y}});
+    const Json answer = Json::parse(served.query({{"start", {start.x, start.y}}, {"goal", {goal.x, goal.y}}}).body);
+    EXPECT_EQ(answer.at("status"), name_of(expected.outcome));
+    EXPECT_NEAR(answer.at("length").get<double>(), expected.length, 1e-9 * expected.length);
+  }
+}
+
+TEST(WorldService, ABatchIsForRoadmapsAndAnswersLineByLine) {
+  Served served(build(scene_of(town)));
+  EXPECT_EQ(Json::parse(served.get("/api/world").body).at("opened_as"), "roadmap");
+  const HttpResponse response = served.post(
+      "/api/query/batch",
+      "{\"id\": 7, \"start\": [5, 5], \"goal\": [95, 55]}\n{\"start\": [75, 30], \"goal\": [5, 5]}\n{\"x\": 1}\n");
+  ASSERT_EQ(response.status, 200U) << response.body;
+  EXPECT_EQ(response.type, "application/x-ndjson");
+  std::istringstream lines(response.body);
+  std::string line;
+  std::vector<Json> answers;
+  while (std::getline(lines, line)) answers.push_back(Json::parse(line));
+  ASSERT_EQ(answers.size(), 3U);
+  EXPECT_EQ(answers[0].at("id"), 7);
+  EXPECT_EQ(answers[0].at("status"), "solved");
+  EXPECT_EQ(answers[1].at("status"), "start_blocked");
+  EXPECT_TRUE(answers[2].contains("error"));
+  EXPECT_EQ(served.post("/api/query/batch", "{\"start\": " + std::string(20, '[') + "\n").status, 400U);
+  EXPECT_EQ(served.query({{"planner", "rrt"}}).status, 400U) << "the roadmap has its own";
+  Served small(build(scene_of(town)), {.batch_answers = 100});
+  EXPECT_EQ(small.post("/api/query/batch", "{\"start\": [5, 5], \"goal\": [95, 55]}\n").status, 413U);
+  Served world(scene_of(town));
+  EXPECT_EQ(code_of(world.post("/api/query/batch", "{}\n")), "no_roadmap");
+}
+
+TEST(WorldService, ArmsAreRefused) {
+  EXPECT_THROW(Served(scene_of("robot puma560 radius 0.05\nsphere 1 1 1 0.1\n")), UsageError);
+}
+
+TEST(WorldService, SaysHowItIs) {
+  Served served(scene_of(town));
+  EXPECT_EQ(served.get("/api/health").body, "{\"status\":\"ok\"}\n");
+  const HttpResponse metrics = served.asked({.path = "/api/metrics"});
+  EXPECT_TRUE(metrics.type.starts_with("text/plain"));
+  EXPECT_NE(metrics.body.find("\n# TYPE warren_connections gauge\nwarren_connections 0\n"), std::string::npos);
+  EXPECT_NE(metrics.body.find("warren_responses_total{status=\"2xx\"} 0\n"), std::string::npos);
+}
+
+TEST(WorldService, ThePageIsInTheProgram) {
+  Served served(scene_of(town));
+  const HttpResponse page = served.get("/");
+  EXPECT_EQ(page.status, 200U);
+  EXPECT_EQ(served.get("/index.html").body, page.body);
+  EXPECT_EQ(served.asked({.path = "/", .if_none_match = field(page, "ETag")}).status, 304U);
+  EXPECT_EQ(served.get("/nothing.js").status, 404U);
+}
+
+}  // namespace
+}  // namespace warren
