@@ -59,6 +59,7 @@ Command man_command();
 Command query_command();
 Command render_command();
 Command scale_command();
+Command serve_command();
 Command solve_command();
 Command update_command();
 Command verify_command();

@@ -36,6 +36,7 @@ constexpr NamedGroup option_groups[] = {
 constexpr NamedGroup command_groups[] = {
     {"Paths", "solve verify render compare"},
     {"Roadmaps that are kept", "build query update export"},
+    {"In the browser", "serve"},
     {"Worlds", "example generate info convert"},
     {"Measuring", "largest scale bench-scen"},
     {"Words", "help man completion"},

@@ -1,0 +1,194 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""service_test.py WARREN EXAMPLES: the page of `warren serve` as people use it, in a headless Chromium: clicks, drags, keys, the
+link, zooms, dark, phone. A word on the console, of the page's policy too, fails a test."""
+import json
+import math
+import os
+import subprocess
+import sys
+import unittest
+
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+from selenium.webdriver.support.ui import WebDriverWait
+
+from browser import BrowserTest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', 'acceptance'))
+from service import Service  # noqa: E402
+
+WARREN, WORLDS = sys.argv.pop(1), sys.argv.pop(1)
+MAZE = 'maze:300x300,seed=3,loops=0.1'
+
+
+def length_of(path):
+    return sum(math.dist(a, b) for a, b in zip(path, path[1:]))
+
+
+class ServicePage(BrowserTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        for name in ('block.scene', '<img src=x onerror=alert(1)>.scene'):
+            with open(os.path.join(cls.folder.name, name), 'w', encoding='utf-8') as file:
+                file.write('bounds 0 0 10 10\npolygon 4 4 6 4 6 6 4 6\nstart 4.2 5\ngoal 9 9\n')
+        cls.maze = Service(WARREN, MAZE)
+        cls.town = Service(WARREN, WORLDS + '/town.geojson')
+
+    @classmethod
+    def tearDownClass(cls):
+        for service in (cls.maze, cls.town):
+            assert service.stop() == 0
+        super().tearDownClass()
+
+    def shown(self, service, link=''):
+        self.browser.get('about:blank')  # the part behind # alone would load nothing
+        self.browser.get(service.url + link)
+        self.wait(lambda: self.run_script('return world !== null && map !== null && map._loaded === true && !tiles._loading'))
+
+    def wait(self, holds):
+        WebDriverWait(self.browser, 60, 0.05).until(lambda _: holds())
+
+    def by_id(self, name):
+        return self.browser.find_element(By.ID, name)
+
+    def status(self):
+        return self.by_id('status').text
+
+    def wait_for(self, words):
+        self.wait(lambda: words in self.status())
+
+    def click_at(self, x, y):
+        """A place of the world."""
+        at = self.run_script('const p = map.latLngToContainerPoint([arguments[1], arguments[0]]), b = map.getContainer().getBoundingClientRect();'
+                             'return [p.x - b.width / 2, p.y - b.height / 2]', x, y)
+        ActionChains(self.browser).move_to_element_with_offset(self.by_id('map'), round(at[0]), round(at[1])).click().perform()
+
+    def drawn(self):
+        """The path as the page draws it."""
+        return self.run_script('return pathLine.line ? pathLine.line.getLatLngs().flat().map(p => [p.lng, p.lat]) : []')
+
+    def solved(self, *words):
+        text = subprocess.run([WARREN, 'solve', *words, '--json', '-'], capture_output=True, text=True, check=True).stdout
+        return json.loads(text)
+
+    def end_of(self, name):
+        return self.run_script('return [question[arguments[0]].x, question[arguments[0]].y]', name)
+
+    def test_two_clicks_draw_the_path_that_solve_finds(self):
+        self.shown(self.maze)
+        self.wait_for('Solved')  # between the world's own ends
+        self.by_id('clear').click()
+        self.wait_for('Click where to start')
+        self.click_at(40, 260)
+        self.wait_for('Click where to go')
+        self.click_at(250, 30)
+        self.wait_for('Solved')
+        ends = [','.join(map(repr, self.end_of(name))) for name in ('start', 'goal')]
+        expected = self.solved(MAZE, '--start', ends[0], '--goal', ends[1])
+        self.assertEqual(length_of(self.drawn()), expected['length'])  # of ways of one length, a roadmap may take another
+        self.assertEqual(self.drawn()[-1], expected['goal'])
+        self.assertIn('verified', self.by_id('figures').text)
+        self.assertIn('work', self.by_id('times').text)
+
+    def test_a_dragged_mark_takes_the_path_with_it(self):
+        self.shown(self.maze, '#start=1,1&goal=300,300')
+        self.wait_for('Solved')
+        before = self.drawn()
+        goal = self.browser.find_element(By.CSS_SELECTOR, '.mark.goal')
+        asked = self.run_script('return performance.getEntriesByType("resource").filter(e => e.name.endsWith("/api/query")).length')
+        ActionChains(self.browser).click_and_hold(goal).move_by_offset(-60, 40).move_by_offset(-60, 40).pause(0.3).perform()
+        self.wait(lambda: self.run_script('return performance.getEntriesByType("resource").filter(e => e.name.endsWith("/api/query")).length') > asked)
+        ActionChains(self.browser).release().perform()
+        self.wait(lambda: self.drawn() and self.drawn() != before and self.drawn()[-1] == self.end_of('goal'))
+
+    def test_the_link_holds_all_of_it(self):
+        self.shown(self.town, '#start=1.5,1.5&goal=9.5,8.5&planner=prm&optimise=1&at=5,5,2')
+        self.wait_for('Solved')
+        link = self.run_script('return location.href')
+        state = 'return [JSON.stringify(question), map.getZoom(), byId("planner").value, byId("optimise").checked]'
+        before, path = self.run_script(state), self.drawn()
+        self.assertEqual(before[1:], [2, 'prm', True])
+        self.browser.get('about:blank')
+        self.browser.get(link)
+        self.wait_for('Solved')
+        self.assertEqual(self.run_script(state), before)
+        self.assertEqual(self.drawn(), path)
+
+    def test_the_command_gives_the_same_path(self):
+        self.shown(self.town, '#start=1.5,1.5&goal=9.5,8.5&planner=voronoi')
+        self.wait_for('Solved')
+        self.assertGreater(len(self.drawn()), 2)
+        self.by_id('copy-command').click()
+        line = self.by_id('copied').get_attribute('value')
+        self.assertTrue(line.startswith('warren solve '), line)
+        words = subprocess.run(['sh', '-c', 'printf "%s\\n" ' + line], capture_output=True, text=True, check=True).stdout.splitlines()
+        self.assertEqual(self.solved(*words[2:])['path'], self.drawn())
+
+    def test_by_keys_alone(self):
+        self.shown(self.town)
+        self.by_id('start').send_keys('1.5, 1.5', Keys.ENTER)
+        self.by_id('goal').send_keys('9.5 8.5', Keys.ENTER)
+        self.wait_for('Solved')
+        mark = self.browser.find_element(By.CSS_SELECTOR, '.mark.start')
+        before = self.end_of('start')
+        mark.send_keys(Keys.ARROW_RIGHT)
+        self.assertGreater(self.end_of('start')[0], before[0])
+        self.by_id('clear').click()
+        self.by_id('map').send_keys('s')
+        self.wait_for('Click where to go')
+        self.by_id('map').send_keys('+')
+        self.wait(lambda: self.run_script('return map.getZoom()') > 0)
+        self.by_id('start').clear()
+        self.by_id('start').send_keys('one, two', Keys.TAB)
+        self.wait_for('The start is x, y.')
+
+    def test_a_blocked_end_is_moved_to_where_it_fits(self):
+        with Service(WARREN, self.path('block.scene')) as service:
+            self.shown(service)
+            self.wait_for('does not fit at the start')
+            self.by_id('move').click()
+            self.wait_for('Solved')
+
+    def test_titles_are_text(self):
+        with Service(WARREN, self.path('<img src=x onerror=alert(1)>.scene')) as service:
+            self.shown(service)
+            self.assertEqual(self.by_id('title').text, '<img src=x onerror=alert(1)>.scene')
+
+    def test_bodies_that_turn_have_headings(self):
+        with Service(WARREN, WORLDS + '/parking.scene') as service:
+            self.shown(service)
+            self.wait(lambda: self.status() != '' and 'Click' not in self.status())
+            self.assertIn('Solved', self.status())
+            self.assertGreater(len(self.drawn()), len(self.run_script('return answer.json.path')) // 2)
+            self.assertEqual(len(self.by_id('start').get_attribute('value').split(',')), 3)
+
+    def test_every_zoom_shows_the_maze(self):
+        self.shown(self.maze)
+        for zoom in range(self.run_script('return world.tiles.levels')):
+            self.run_script('map.setView([150.5, 150.5], arguments[0], {animate: false})', zoom)
+            self.wait(lambda: not self.run_script('return tiles._loading'))
+            shown = self.run_script('return [...document.querySelectorAll(".tiles img.leaflet-tile-loaded")].filter(i => i.naturalWidth === 512).length')
+            self.assertGreater(shown, 0, zoom)
+            self.assertEqual(self.run_script('return [...document.querySelectorAll(".tiles img")].filter(i => i.complete && i.naturalWidth === 0).length'), 0)
+
+    def test_layers_dark_and_phone(self):
+        self.media(color_scheme='dark')
+        self.shown(self.maze, '#start=1,1&goal=300,300')
+        self.wait_for('Solved')
+        self.assertTrue(self.run_script('return document.documentElement.classList.contains("dark")'))
+        self.by_id('dark').click()
+        self.assertFalse(self.run_script('return document.documentElement.classList.contains("dark")'))
+        self.by_id('show-path').click()
+        self.assertFalse(self.run_script('return map.hasLayer(pathLine.line)'))
+        self.by_id('show-world').click()
+        self.assertEqual(self.browser.find_elements(By.CSS_SELECTOR, '.tiles'), [])
+        self.browser.set_window_size(500, 900)
+        self.frames()
+        self.assertGreater(self.run_script('return map.getContainer().clientHeight'), 200)
+        self.assertLessEqual(self.run_script('return document.documentElement.scrollWidth'), self.run_script('return innerWidth'))
+
+
+if __name__ == '__main__':
+    unittest.main()

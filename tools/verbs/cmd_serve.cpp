@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// warren serve: a world or a roadmap in the browser, and for programs that ask by HTTP.
+#include <fmt/format.h>
+
+#include <csignal>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "serve/api/served_world.hpp"
+#include "serve/api/world_service.hpp"
+#include "serve/http/http_server.hpp"
+#include "tools/screen/exit_code.hpp"
+#include "tools/screen/last_words.hpp"
+#include "tools/screen/roadmap_files.hpp"
+#include "tools/screen/run_of_verb.hpp"
+#include "tools/screen/signals.hpp"
+#include "tools/screen/terminal.hpp"
+#include "tools/screen/world_files.hpp"
+#include "tools/words/command.hpp"
+#include "tools/words/option_values.hpp"
+#include "tools/words/question_words.hpp"
+
+namespace warren {
+namespace {
+
+constexpr std::uint16_t usual_port = 8765;
+
+constexpr OptionSpec serve_specs[] = {
+    {"--port", "N", "where to listen; 0 takes a port that is free (default: 8765)"},
+    {"--listen", "ADDRESS", "listen there instead of on this machine alone: whoever reaches it may ask"},
+    {"--budget", "TIME", "most time for each request (default: 10s)"},
+    roadmap_world_option,
+};
+
+std::unique_ptr<ServedWorld> load_served(const Arguments& arguments, const Run& run) {
+  const std::string& file = arguments.operand(0);
+  const Question body = question_words(arguments);
+  StageTimes seconds;
+  if (is_roadmap_named(file)) {
+    for (const std::string_view name : {"--robot", "--clearance"}) {
+      if (arguments.has(name)) throw UsageError(fmt::format("{}: the roadmap was built with its own", name));
+    }
+    check_rules_of_maps(arguments);
+    return std::make_unique<ServedWorld>(load_roadmap(arguments, run.execution(), seconds), run.execution());
+  }
+  if (arguments.has("--world")) throw UsageError("--world: is for a roadmap whose file has none, and this is a world");
+  return std::make_unique<ServedWorld>(load_world(file, arguments, run.execution(), seconds), body, run.execution());
+}
+
+HttpPlace place_of(const Arguments& arguments) {
+  constexpr std::uint64_t last_port = 65535;
+  HttpPlace place{.port = usual_port};
+  if (const auto port = arguments.value("--port")) {
+    place.port = static_cast<std::uint16_t>(count_value("--port", *port, 0, last_port));
+  }
+  if (const auto address = arguments.value("--listen")) place.addresses = {*address};
+  return place;
+}
+
+void say_where(const HttpServer& server) {
+  print_text(fmt::format("listening on {}\n", server.address()));
+  if (std::fflush(stdout) != 0) throw WriteError("standard output", "it did not take all");
+}
+
+int serve(const Arguments& arguments) {
+  const HttpPlace place = place_of(arguments);
+  const auto budget_s = given_value(arguments, "--budget", duration_value);
+  Run run(arguments, RunScope::each_run);
+  const std::unique_ptr<ServedWorld> world = load_served(arguments, run);
+  run.end();
+  ServiceLimits limits{.memory_bytes = run.execution().deadline->memory_bytes(), .threads = run.execution().threads};
+  if (budget_s) limits.budget_s = *budget_s;
+  WorldService service(*world, limits);
+  HttpServer server(place, {.threads = std::max(2U, run.threads())}, service);
+  if (!server.is_loopback()) {
+    say_on_standard_error("warren: warning: whoever reaches this address may ask, and see the world\n");
+  }
+  say_where(server);
+  server.run(signal_flag());
+  return signal_flag() == SIGHUP ? exit_code::hung_up : exit_code::success;
+}
+
+}  // namespace
+
+Command serve_command() {
+  Command command{"serve", "FILE", "show a world or a roadmap in the browser, and answer by HTTP", {}, serve};
+  add_options(command.options, serve_specs);
+  add_options(command.options, question_option_specs(), {"--start", "--goal", "--contact"});
+  add_options(command.options, world_option_specs());
+  add_options(command.options, run_option_specs(), {"--budget", "--trace"});
+  constexpr std::string_view in_the_page = "is chosen in the page, or in each request";
+  for (const std::string_view name : {"--start", "--goal", "--planner", "--optimise"}) {
+    command.foreign.emplace_back(name, in_the_page);
+  }
+  return command;
+}
+
+}  // namespace warren
