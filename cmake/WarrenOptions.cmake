@@ -24,6 +24,9 @@ set(CMAKE_OPTIMIZE_DEPENDENCIES ON)  # a library's sources are compiled before t
 
 # Every machine computes the same bits: no contraction into fused operations, no fast-math.
 add_compile_options(-ffp-contract=off -fno-fast-math)
+if(WARREN_PYTHON)  # what the module calls nothing of is left out of it, by the function
+  add_compile_options($<$<CONFIG:Release>:-ffunction-sections> $<$<CONFIG:Release>:-fdata-sections>)
+endif()
 # Warnings are the developers' business: at -O3 the compiler also warns of paths in the libraries' headers that don't exist.
 if(WARREN_WERROR)
   add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Wnull-dereference -Werror)
