@@ -144,9 +144,11 @@ int generate(const Arguments& arguments) {
   double write_seconds = 0.0;
   {
     const StageTimer timer(run.execution(), "write", write_seconds);
-    if (!is_picture(ending_of(*file))) note_left_out(arguments, scene, *file);
+    const auto bounds = scene.bounds;
     if (ending_of(*file) == ".wkt") scene.bounds.reset();  // or no polygons could be written there
     say_of_picture(arguments, *file, write_world(scene, *file, options, arguments.command_line(), run.execution()));
+    scene.bounds = bounds;
+    if (!is_picture(ending_of(*file))) note_left_out(arguments, scene, *file);
   }
   run.end();
   if (!run.quiet() && *file != "-") {
