@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <tuple>
 
 #include "core/base/error.hpp"
 #include "planners/tiled/lattice_tiles.hpp"
@@ -86,10 +87,38 @@ std::vector<std::vector<std::uint8_t>> Band::steps_of(std::span<const TileChain>
   return steps;
 }
 
-NearestWalls Band::judge(std::span<const Vec2> path, double reach, const Execution& execution) const {
-  if (!is_empty()) return nearest_among_cells(*maze_, tiles(), path, task_.judged, reach, execution);
-  constexpr std::uint64_t none = std::numeric_limits<std::uint64_t>::max();
-  return {std::numeric_limits<double>::infinity(), none, 0};
+NearestWalls Band::judge(std::span<const NearLegs> legs, double reach, const Execution& execution) const {
+  NearestWalls nearest{std::numeric_limits<double>::infinity(), std::numeric_limits<std::uint64_t>::max(), 0};
+  for (const NearLegs& run : legs) {
+    NearestWalls found = nearest_among_cells(*maze_, tiles(), run.points, task_.judged, reach, execution);
+    nearest.least = std::min(nearest.least, found.least);
+    if (found.leg == std::numeric_limits<std::uint64_t>::max()) continue;
+    found.leg += run.first;
+    if (std::tie(found.leg, found.wall) < std::tie(nearest.leg, nearest.wall)) {
+      nearest.leg = found.leg;
+      nearest.wall = found.wall;
+    }
+  }
+  return nearest;
+}
+
+std::vector<NearLegs> legs_near(std::span<const Vec2> path, TileRows rows, const TileGrid& grid, double reach) {
+  std::vector<NearLegs> runs;
+  if (rows.first == rows.last) return runs;
+  constexpr double far = std::numeric_limits<double>::infinity();
+  const double margin = reach + 1.0;  // a cell more than is asked for
+  const auto y = [&](std::size_t row) { return static_cast<double>(row << grid.side_log2) + 0.5; };
+  const double low = rows.first == 0 ? -far : y(rows.first) - margin;
+  const double high = rows.last == grid.tile_rows ? far : y(rows.last) + margin;
+  bool goes_on = false;
+  for (std::size_t leg = 0; leg + 1 < path.size(); ++leg) {
+    const auto [least, most] = std::minmax({path[leg].y, path[leg + 1].y});
+    const bool is_near = most >= low && least <= high;
+    if (is_near && !goes_on) runs.push_back({leg, {path[leg]}});
+    if (is_near) runs.back().points.push_back(path[leg + 1]);
+    goes_on = is_near;
+  }
+  return runs;
 }
 
 }  // namespace warren

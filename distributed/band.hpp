@@ -34,6 +34,15 @@ TileRows band_rows(std::size_t tile_rows, unsigned rank, unsigned ranks);
 /// The rank that has a tile row.
 unsigned rank_of_row(std::size_t row, std::size_t tile_rows, unsigned ranks);
 
+/// Legs in a row that come near a band.
+struct NearLegs {
+  std::uint64_t first;  ///< leg of the path
+  std::vector<Vec2> points;
+};
+
+/// Those of a path that come within `reach` of rows of tiles; whatever leaves the maze is near its outermost rows.
+std::vector<NearLegs> legs_near(std::span<const Vec2> path, TileRows rows, const TileGrid& grid, double reach);
+
 class Band {
  public:
   /// own may be empty.
@@ -53,7 +62,7 @@ class Band {
   std::vector<TileSummary> reduce(const OverlayEnds& ends, const Execution& execution);
   /// Directions of chains of own tiles; of others nothing.
   std::vector<std::vector<std::uint8_t>> steps_of(std::span<const TileChain> chains, const Execution& execution) const;
-  NearestWalls judge(std::span<const Vec2> path, double reach, const Execution& execution) const;
+  NearestWalls judge(std::span<const NearLegs> legs, double reach, const Execution& execution) const;
 
  private:
   const BandTask task_;

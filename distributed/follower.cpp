@@ -6,6 +6,7 @@
 #include <limits>
 #include <new>
 #include <utility>
+#include <vector>
 
 #include "core/base/enum_names.hpp"
 #include "core/base/error.hpp"
@@ -93,7 +94,12 @@ class Follower {
         return;
       case Request::judge: {
         const auto reach = from.take<double>();
-        return to.add(band_.judge(from.take_list<Vec2>(), reach, execution_));
+        std::vector<NearLegs> legs;
+        while (!from.is_done()) {
+          const auto first = from.take<std::uint64_t>();
+          legs.push_back({first, from.take_list<Vec2>()});
+        }
+        return to.add(band_.judge(legs, reach, execution_));
       }
       case Request::read:
         return read(from.take<std::size_t>(), to);

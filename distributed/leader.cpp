@@ -182,10 +182,15 @@ std::vector<std::vector<std::uint8_t>> Leader::steps_of(std::span<const TileChai
 }
 
 void Leader::begin(std::span<const Vec2> path, double reach) {
-  ValuePacker packer;
-  packer.add(reach);
-  packer.add_list(path);
-  ask(Request::judge, packer.bytes());
+  for (unsigned rank = 1; rank < transport_.ranks(); ++rank) {
+    ValuePacker packer;
+    packer.add(reach);
+    for (const NearLegs& run : legs_near(path, band_rows(tile_rows(), rank, transport_.ranks()), band_.grid(), reach)) {
+      packer.add(run.first);
+      packer.add_list(run.points);
+    }
+    ask_one(rank, Request::judge, packer.bytes());
+  }
 }
 
 std::vector<NearestWalls> Leader::take() {

@@ -7,7 +7,7 @@
 //   there connect   each rank reduces its tiles and peels its band; what is left comes here     about 0.05 bytes a cell
 //   search    here, by the code of one process
 //   expand    chains of the path by their tiles' ranks                                    a byte a step
-//   verify    every rank looks at the walls of its own tiles                              16 bytes a point to each rank
+//   verify    every rank looks at the walls of its own tiles                              16 bytes a point near them
 #pragma once
 
 #include <array>

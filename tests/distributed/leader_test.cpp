@@ -11,9 +11,11 @@
 #include "distributed/agreement.hpp"
 #include "distributed/follower.hpp"
 #include "scenes/mazes/maze_generator.hpp"
+#include "scenes/mazes/spanning_maze.hpp"
 #include "solve/answer/write_answer_io.hpp"
 #include "solve/mazes/solve_streamed.hpp"
 #include "tests/distributed/thread_ranks.hpp"
+#include "verify/cells/verify_cells.hpp"
 
 namespace warren {
 namespace {
@@ -91,6 +93,47 @@ TEST(Leader, AnyNumberOfRanksGivesTheBytesOfOneProcess) {
     for (const unsigned ranks : {1U, 2U, 3U, 5U, 8U}) {
       SCOPED_TRACE(ranks);
       EXPECT_EQ(bytes_of(solved_by(ranks, asked, {.threads = 1 + ranks % 2}).answer), expected);
+    }
+  }
+}
+
+/// Straight across walls, along borders of tiles, out of the maze, and one that meets none for long.
+std::vector<Path<Vec2>> bad_paths() {
+  return {{{0.5, 1.0}, {300.0, 700.0}, {299.0, 3.0}, {10.0, 511.0}},
+          {{0.5, 1.0}, {20.0, 256.5}, {290.0, 256.4}, {290.0, 512.6}, {5.0, 512.5}},
+          {{0.5, 1.0}, {40.0, -30.0}, {400.0, 900.0}},
+          {{0.5, 1.0}}};
+}
+
+TEST(Leader, JudgesOfAllRanksSayWhatOneSays) {
+  for (const double loops : {0.0, 1.0}) {
+    const Asked asked{mst(760, 300, 2, loops)};
+    const BandTask task = task_of(asked);
+    const SpanningMaze maze(760, 300, 2, loops, {.threads = 1});
+    VerifyOptions options = task.judged;
+    options.start = Vec2{0.5, 1.0};
+    options.goal = Vec2{300.5, 760.0};
+    for (const Path<Vec2>& path : bad_paths()) {
+      const Verification expected = verify_among_cells(maze, path, options, {.threads = 1});
+      for (const unsigned ranks : {2U, 3U, 5U}) {
+        ThreadRanks team(ranks);
+        team.run([&](Transport& transport) {
+          if (transport.rank() > 0)
+            return follow(transport, task, {.threads = 1, .memory_bytes = std::size_t{1} << 40U});
+          const EndOfFollowers end(transport);
+          Leader leader(transport, task, {.threads = 1});
+          JudgeAmongCells judge(leader.make({.threads = 1}), options, {.threads = 1}, &leader.judges());
+          judge.add(path);
+          const Verification found = judge.verdict();
+          EXPECT_EQ(found.verified, expected.verified);
+          EXPECT_EQ(found.min_clearance, expected.min_clearance);
+          EXPECT_EQ(found.length, expected.length);
+          ASSERT_EQ(found.first_violation.has_value(), expected.first_violation.has_value());
+          if (!expected.first_violation) return;
+          EXPECT_EQ(found.first_violation->leg, expected.first_violation->leg);
+          EXPECT_EQ(found.first_violation->obstacle, expected.first_violation->obstacle);
+        });
+      }
     }
   }
 }
