@@ -6,7 +6,6 @@
 #include <array>
 
 #include "parallel/deadline.hpp"
-#include "pictures/model/picture.hpp"
 #include "scenes/scene/unit_of.hpp"
 #include "scenes/text/human_units.hpp"
 #include "scenes/text/json_text.hpp"
