@@ -2,6 +2,7 @@
 // Values by name, the last used ones up to so many bytes: tiles and paths that will be asked for again.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <list>
 #include <map>
@@ -37,10 +38,8 @@ class KeptValues {
     look(std::as_const(found->second->value));
     return true;
   }
-  std::size_t bytes() const {
-    const std::lock_guard lock(mutex_);
-    return bytes_;
-  }
+  /// Never waits for who looks.
+  std::size_t bytes() const { return bytes_.load(std::memory_order_relaxed); }
 
  private:
   struct Entry {
@@ -57,10 +56,10 @@ class KeptValues {
   }
 
   const std::size_t most_bytes_;
-  mutable std::mutex mutex_;  // guards what follows
-  std::list<Entry> order_;    // the last used first
+  std::mutex mutex_;        // guards what follows; bytes_ is only written under it
+  std::list<Entry> order_;  // the last used first
   std::map<std::string, typename std::list<Entry>::iterator> places_;
-  std::size_t bytes_ = 0;
+  std::atomic<std::size_t> bytes_{0};
 };
 
 }  // namespace warren

@@ -17,9 +17,13 @@ bool TaskCrew::offer(std::function<void()> task) {
   {
     const std::lock_guard lock(mutex_);
     if (ended_ || tasks_.size() >= most_waiting_) return false;
-    if (!threads_.empty()) tasks_.push_back(std::move(task));
+    if (!threads_.empty()) {
+      tasks_.push_back(std::move(task));
+      wake_.notify_one();
+      return true;
+    }
   }
-  threads_.empty() ? task() : wake_.notify_one();
+  task();
   return true;
 }
 
