@@ -408,7 +408,6 @@ class HttpServer::Connections {
   void look(const SignalFlag& stop) {
     if (stop.load() != 0 && ending_ == never) begin_end();
     if (Clock::now() >= ending_) {
-      ended_ = SIGTERM;
       for (const auto& [number, job] : jobs_) job->gone = SIGTERM;
       close_all([](const Connection&) { return true; });
     }
@@ -422,6 +421,7 @@ class HttpServer::Connections {
   }
   void begin_end() {
     ending_ = in(limits_.patience_s);
+    ended_ = SIGTERM;
     Code ignored;
     for (Tcp::acceptor& acceptor : acceptors_) acceptor.close(ignored);
     close_all([](const Connection& c) { return c.stage <= Stage::body; });
