@@ -129,7 +129,11 @@ std::vector<Tcp::acceptor> acceptors_at(const HttpPlace& place, asio::io_context
     if (!code && address.is_v6()) acceptor.set_option(asio::ip::v6_only(true), code);
     if (!code) acceptor.bind({address, port}, code);
     if (!code) acceptor.listen(asio::socket_base::max_listen_connections, code);
-    if (code && acceptors.empty()) throw WriteError(fmt::format("{}, port {}", name, port), code.message());
+    if (code == asio::error::address_in_use && acceptors.empty()) {
+      throw UsageError(fmt::format("@port: {} of {} is taken; 0 takes a free one", port, name));
+    }
+    if (code && acceptors.empty())
+      throw UsageError(fmt::format("@listen: {}, port {}: {}", name, port, code.message()));
     if (code) continue;
     port = acceptor.local_endpoint().port();
     acceptors.push_back(std::move(acceptor));

@@ -43,7 +43,7 @@ struct HttpPlace {
 
 class HttpServer {
  public:
-  /// Listens. Throws WriteError, naming address and port, where that can't be done.
+  /// Listens. Throws UsageError, naming address and port, where that can't be done.
   HttpServer(const HttpPlace& place, const HttpLimits& limits, HttpService& service);
   ~HttpServer();
   HttpServer(const HttpServer&) = delete;
