@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/ip/v6_only.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
@@ -15,12 +14,14 @@
 #include <csignal>
 #include <limits>
 #include <map>
-#include <optional>
+#include <memory>
 #include <utility>
 
-#include "core/base/error.hpp"
+#include "serve/http/beast_words.hpp"
+#include "serve/http/connection_places.hpp"
+#include "serve/http/http_connection.hpp"
 #include "serve/http/http_names.hpp"
-#include "serve/http/http_target.hpp"
+#include "serve/http/listening.hpp"
 #include "serve/http/task_crew.hpp"
 
 namespace warren {
@@ -30,115 +31,15 @@ namespace asio = boost::asio;
 namespace http = boost::beast::http;
 using Tcp = asio::ip::tcp;
 using Code = boost::system::error_code;
-using Clock = std::chrono::steady_clock;
+using Clock = ServerClock;
 
 constexpr auto between_looks = std::chrono::milliseconds(50);
-constexpr auto never = Clock::time_point::max();
 
 Clock::time_point in(double seconds) {
   return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
 }
 double seconds_between(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
-}
-
-enum class Stage : std::uint8_t { idle, head, body, work, write, linger };
-
-struct Connection;
-
-/// A request that is worked on; outlives its connection.
-struct Job {
-  Connection* connection;  ///< nullptr: it has gone
-  HttpRequest request;
-  HttpResponse response = {};
-  SignalFlag gone{0};
-  Clock::time_point offered = Clock::now();
-  Clock::time_point begun = {};
-};
-
-struct Connection {
-  Connection(std::uint64_t number, Tcp::socket&& its_socket, std::size_t buffer_bytes)
-      : id(number), socket(std::move(its_socket)), buffer(buffer_bytes) {}
-  std::uint64_t id;
-  Tcp::socket socket;
-  asio::ip::address address = {};
-  boost::beast::flat_buffer buffer;
-  std::optional<http::request_parser<http::string_body>> parser = {};
-  std::optional<http::response<http::string_body>> response = {};
-  HttpRequest request = {};
-  Job* job = nullptr;
-  Stage stage = Stage::idle;
-  Clock::time_point waits_since = Clock::now();  ///< for a whole request
-  Clock::time_point end = never;                 ///< of the stage
-  unsigned pending = 0;                          ///< operations that will call back
-  bool closed = false;
-  bool keep_alive = true;
-  bool has_large_body = false;
-};
-
-/// What a parser says of a head or a body.
-HttpError error_of_parser(const Code& code) {
-  if (code == http::error::header_limit || code == http::error::buffer_overflow) {
-    return {431, "head_too_large", "head", "at most 8,192 bytes of head are expected"};
-  }
-  if (code == http::error::body_limit) return {413, "body_too_large", "body", "the body is too large"};
-  return {400, "bad_request", "head", fmt::format("no request of HTTP/1.1: {}", code.message())};
-}
-
-void set_fields(http::response<http::string_body>& response, const HttpResponse& said) {
-  response.set(http::field::content_type, said.type);
-  response.set(
-      "Content-Security-Policy",
-      "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; connect-src 'self'; "
-      "base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
-  response.set("X-Content-Type-Options", "nosniff");
-  response.set("Referrer-Policy", "no-referrer");
-  response.set("Cross-Origin-Opener-Policy", "same-origin");
-  response.set("Cross-Origin-Resource-Policy", "same-origin");
-  response.set(http::field::cache_control, "no-store");
-  for (const auto& [name, value] : said.fields) response.set(name, value);
-}
-
-/// Method, target, fields. Throws HttpError.
-HttpRequest request_of(const http::request<http::string_body>& head) {
-  HttpRequest request;
-  request.method = std::string(head.method_string());
-  if (head.method() != http::verb::get && head.method() != http::verb::head && head.method() != http::verb::post) {
-    throw HttpError(405, "method_not_allowed", "method", "GET, HEAD and POST are expected");
-  }
-  read_target({head.target().data(), head.target().size()}, request);
-  if (head.count(http::field::host) != 1) throw HttpError(400, "bad_request", "Host", "expected once");
-  const auto field = [&](http::field name) { return std::string(head[name]); };
-  request.host = field(http::field::host);
-  request.origin = field(http::field::origin);
-  request.authorization = field(http::field::authorization);
-  request.if_none_match = field(http::field::if_none_match);
-  return request;
-}
-
-/// Listens at all addresses that the machine has, at the first one's port.
-std::vector<Tcp::acceptor> acceptors_at(const HttpPlace& place, asio::io_context& io) {
-  std::vector<Tcp::acceptor> acceptors;
-  std::uint16_t port = place.port;
-  for (const std::string& name : place.addresses) {
-    Code code;
-    const auto address = asio::ip::make_address(name, code);
-    Tcp::acceptor acceptor(io);
-    if (!code) acceptor.open(address.is_v4() ? Tcp::v4() : Tcp::v6(), code);
-    if (!code) acceptor.set_option(Tcp::acceptor::reuse_address(true), code);
-    if (!code && address.is_v6()) acceptor.set_option(asio::ip::v6_only(true), code);
-    if (!code) acceptor.bind({address, port}, code);
-    if (!code) acceptor.listen(asio::socket_base::max_listen_connections, code);
-    if (code == asio::error::address_in_use && acceptors.empty()) {
-      throw UsageError(fmt::format("@port: {} of {} is taken; 0 takes a free one", port, name));
-    }
-    if (code && acceptors.empty())
-      throw UsageError(fmt::format("@listen: {}, port {}: {}", name, port, code.message()));
-    if (code) continue;
-    port = acceptor.local_endpoint().port();
-    acceptors.push_back(std::move(acceptor));
-  }
-  return acceptors;
 }
 
 }  // namespace
@@ -194,24 +95,14 @@ class HttpServer::Connections {
     ++figures_.accepted;
     socket.set_option(Tcp::no_delay(true), code);
     socket.non_blocking(true, code);
-    const std::uint64_t id = next_id_++;
-    auto& place = connections_[id] = std::make_unique<Connection>(id, std::move(socket), limits_.head_bytes + 8192);
-    place->address = peer.address();
+    Connection& c = connections_.add(std::move(socket), peer.address(), limits_.head_bytes + 8192);
     figures_.connections = connections_.size();
-    wait_for_request(*place);
+    wait_for_request(c);
   }
   bool has_place_for(const asio::ip::address& address) {
-    if (!address.is_loopback()) {
-      const auto same = std::count_if(connections_.begin(), connections_.end(),
-                                      [&](const auto& other) { return other.second->address == address; });
-      if (static_cast<std::size_t>(same) >= limits_.of_an_address) return false;
-    }
+    if (!address.is_loopback() && connections_.of_address(address) >= limits_.of_an_address) return false;
     if (connections_.size() < limits_.connections) return true;
-    Connection* longest = nullptr;
-    for (const auto& [id, other] : connections_) {
-      const bool waits = !other->closed && (other->stage <= Stage::body || other->stage == Stage::linger);
-      if (waits && (longest == nullptr || other->waits_since < longest->waits_since)) longest = other.get();
-    }
+    Connection* const longest = connections_.longest_waiting();
     if (longest == nullptr) return false;
     ++figures_.gave_way;
     close(*longest);
@@ -231,7 +122,7 @@ class HttpServer::Connections {
     if (c.pending == 0) forget(c);
   }
   void forget(Connection& c) {
-    connections_.erase(c.id);
+    connections_.forget(c);
     figures_.connections = connections_.size();
   }
   void enter(Connection& c, Stage stage, double seconds) {
@@ -320,7 +211,7 @@ class HttpServer::Connections {
 
   // They are worked on.
   void offer(Connection& c) {
-    const std::uint64_t number = next_id_++;
+    const std::uint64_t number = next_job_++;
     auto& job = jobs_[number] = std::unique_ptr<Job>(new Job{&c, std::move(c.request)});
     Job* const working = c.job = job.get();
     c.stage = Stage::work;
@@ -385,8 +276,7 @@ class HttpServer::Connections {
     Code ignored;
     c.socket.cancel(ignored);  // watch()
     ++figures_.said[std::min<std::size_t>(said.status / 100, 5)];
-    c.response.emplace(static_cast<http::status>(said.status), 11);
-    set_fields(*c.response, said);
+    c.response = beast_response(said);
     c.response->keep_alive(c.keep_alive && ending_ == never);
     c.response->content_length(said.body.size());
     if (c.request.method != "HEAD" && said.status != 304) c.response->body() = std::move(said.body);
@@ -413,9 +303,9 @@ class HttpServer::Connections {
     if (stop.load() != 0 && ending_ == never) begin_end();
     if (Clock::now() >= ending_) {
       for (const auto& [number, job] : jobs_) job->gone = SIGTERM;
-      close_all([](const Connection&) { return true; });
+      connections_.each([this](Connection& c) { close(c); });
     }
-    if (ending_ != never && connections_.empty() && jobs_.empty()) return io_.stop();
+    if (ending_ != never && connections_.size() == 0 && jobs_.empty()) return io_.stop();
     end_stages();
     if (ending_ == never) {
       for (Tcp::acceptor* acceptor : std::exchange(idle_acceptors_, {})) accept(*acceptor);
@@ -428,26 +318,20 @@ class HttpServer::Connections {
     ended_ = SIGTERM;
     Code ignored;
     for (Tcp::acceptor& acceptor : acceptors_) acceptor.close(ignored);
-    close_all([](const Connection& c) { return c.stage <= Stage::body; });
-  }
-  template <class Which>
-  void close_all(const Which& which) {
-    for (auto next = connections_.begin(); next != connections_.end();) {
-      Connection& c = *(next++)->second;
-      if (which(c)) close(c);
-    }
+    connections_.each([this](Connection& c) {
+      if (c.stage <= Stage::body) close(c);
+    });
   }
   void end_stages() {
     const auto now = Clock::now();
-    for (auto next = connections_.begin(); next != connections_.end();) {
-      Connection& c = *(next++)->second;
-      if (c.closed || now < c.end) continue;
-      const bool is_slow = c.stage == Stage::head || c.stage == Stage::body;
-      figures_.timed_out += is_slow ? 1 : 0;
-      is_slow
-          ? refuse(c, {408, "timeout", c.stage == Stage::head ? "head" : "body", "the request did not come in time"})
-          : close(c);
-    }
+    connections_.each([this, now](Connection& c) {
+      if (!c.closed && now >= c.end) end_stage(c);
+    });
+  }
+  void end_stage(Connection& c) {
+    if (c.stage != Stage::head && c.stage != Stage::body) return close(c);
+    ++figures_.timed_out;
+    refuse(c, {408, "timeout", c.stage == Stage::head ? "head" : "body", "the request did not come in time"});
   }
 
   const HttpLimits limits_;
@@ -461,9 +345,9 @@ class HttpServer::Connections {
   HttpFigures figures_;
   Clock::time_point ending_ = never;
   SignalFlag ended_{0};  // stops prepare()
-  std::uint64_t next_id_ = 0;
+  std::uint64_t next_job_ = 0;
   std::size_t large_bodies_ = 0;
-  std::map<std::uint64_t, std::unique_ptr<Connection>> connections_;
+  ConnectionPlaces connections_;
   std::map<std::uint64_t, std::unique_ptr<Job>> jobs_;
   TaskCrew crew_;  // last: it ends before what its tasks look at
 };

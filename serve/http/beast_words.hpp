@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Requests and answers between Beast's words and ours (http_message.hpp).
+#pragma once
+
+#include <boost/beast/http/message.hpp>
+#include <boost/beast/http/string_body.hpp>
+#include <boost/system/error_code.hpp>
+
+#include "serve/http/http_message.hpp"
+
+namespace warren {
+
+using BeastRequest = boost::beast::http::request<boost::beast::http::string_body>;
+using BeastResponse = boost::beast::http::response<boost::beast::http::string_body>;
+
+/// What a parser says of a head or a body.
+HttpError error_of_parser(const boost::system::error_code& code);
+
+/// Method, target, fields. Throws HttpError.
+HttpRequest request_of(const BeastRequest& head);
+
+/// Status and fields, those of every answer too; no body.
+BeastResponse beast_response(const HttpResponse& said);
+
+}  // namespace warren
