@@ -17,5 +17,6 @@ std::span<const FuzzReader> plane_readers();    ///< walls and polygons: plane_r
 std::span<const FuzzReader> map_readers();      ///< cells: map_readers.cpp
 std::span<const FuzzReader> record_readers();   ///< all else: record_readers.cpp
 std::span<const FuzzReader> roadmap_readers();  ///< saved roadmaps: roadmap_readers.cpp
+std::span<const FuzzReader> request_readers();  ///< what comes over a socket: request_readers.cpp
 
 }  // namespace warren::fuzz

@@ -13,8 +13,12 @@
 namespace warren::fuzz {
 namespace {
 
+auto all_readers() {
+  return std::array{plane_readers(), map_readers(), record_readers(), roadmap_readers(), request_readers()};
+}
+
 const FuzzReader* reader_named(std::string_view name) {
-  for (const auto readers : {plane_readers(), map_readers(), record_readers(), roadmap_readers()}) {
+  for (const auto readers : all_readers()) {
     const auto found = std::find_if(readers.begin(), readers.end(), [&](const auto& r) { return r.name == name; });
     if (found != readers.end()) return &*found;
   }
@@ -26,7 +30,7 @@ const FuzzReader& chosen_reader() {
   const FuzzReader* reader = reader_named(name == nullptr ? "" : name);
   if (reader != nullptr) return *reader;
   std::fputs("WARREN_FUZZ_READER must be one of:", stderr);
-  for (const auto readers : {plane_readers(), map_readers(), record_readers(), roadmap_readers()}) {
+  for (const auto readers : all_readers()) {
     for (const FuzzReader& known : readers)
       std::fprintf(stderr, " %.*s", static_cast<int>(known.name.size()), known.name.data());
   }
