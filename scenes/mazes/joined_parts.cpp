@@ -53,20 +53,12 @@ class Joining {
     on_rim_.assign(first_.back(), not_on_rim);
     for (std::size_t p = 0; p < parts_.size(); ++p) {
       const GridPiece& at = parts_[p].at;
-      const auto number = [&](std::uint32_t col, std::uint32_t row) {
+      at.each_on_sides([&](std::uint32_t col, std::uint32_t row) {
         const std::uint32_t whole_col = at.first_col - whole.first_col + col;
         const std::uint32_t whole_row = at.first_row - whole.first_row + row;
         if (!whole.on_rim(whole_col, whole_row)) return;
         on_rim_[first_[p] + at.side_number(col, row)] = whole.side_number(whole_col, whole_row);
-      };
-      for (std::uint32_t row = 0; row < at.height; ++row) {
-        number(0, row);
-        number(at.width - 1, row);
-      }
-      for (std::uint32_t col = 0; col < at.width; ++col) {
-        number(col, 0);
-        number(col, at.height - 1);
-      }
+      });
     }
   }
 

@@ -249,18 +249,10 @@ void SpanningTile::sort_ties() {
 
 void SpanningTile::number_rim() {
   on_rim_.assign(cells_, not_on_rim);
-  const auto number = [&](std::uint32_t col, std::uint32_t row) {
+  piece_.each_on_sides([&](std::uint32_t col, std::uint32_t row) {
     if (!piece_.on_rim(col, row)) return;
     on_rim_[std::size_t{row} * piece_.width + col] = static_cast<std::uint16_t>(piece_.side_number(col, row));
-  };
-  for (std::uint32_t row = 0; row < piece_.height; ++row) {
-    number(0, row);
-    number(piece_.width - 1, row);
-  }
-  for (std::uint32_t col = 0; col < piece_.width; ++col) {
-    number(col, 0);
-    number(col, piece_.height - 1);
-  }
+  });
 }
 
 std::uint16_t SpanningTile::root(std::uint16_t cell) {

@@ -41,6 +41,18 @@ struct GridPiece {
     if (row + 1 == height) return width + col;
     return 2 * width + (col == 0 ? row : height + row);
   }
+  /// Calls visit(col, row) with each cell of a side; with corners twice.
+  template <class Visit>
+  void each_on_sides(const Visit& visit) const {
+    for (std::uint32_t row = 0; row < height; ++row) {
+      visit(0U, row);
+      visit(width - 1, row);
+    }
+    for (std::uint32_t col = 0; col < width; ++col) {
+      visit(col, 0U);
+      visit(col, height - 1);
+    }
+  }
 };
 
 /// Stands for two parts with rim cells that an edge of the tree joins.
