@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -69,36 +68,11 @@ void take(const std::string& key, const Json& value, QueryBody& body) {
 
 }  // namespace
 
-std::size_t nesting_of(std::string_view lines) {
-  std::size_t deepest = 0;
-  std::size_t depth = 0;
-  bool in_text = false;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    const char c = lines[i];
-    if (c == '\n') {  // a text holds none
-      depth = 0;
-      in_text = false;
-    } else if (in_text) {
-      i += c == '\\' ? 1 : 0;
-      in_text = c != '"';
-    } else if (c == '"') {
-      in_text = true;
-    } else if (c == '[' || c == '{') {
-      deepest = std::max(deepest, ++depth);
-    } else if ((c == ']' || c == '}') && depth > 0) {
-      --depth;
-    }
-  }
-  return deepest;
-}
-
 QueryBody read_query_body(std::string_view text) {
-  std::string line(text);
-  std::replace(line.begin(), line.end(), '\n', ' ');  // all of it is one
-  if (nesting_of(line) > deepest_json) refuse("body", "JSON that is nested at most 8 deep");
+  if (nesting_of(text, NestedIn::whole) > deepest_json) refuse("body", "JSON that is nested at most 8 deep");
   QueryBody body;
   try {
-    const Json json = Json::parse(line);
+    const Json json = Json::parse(text);
     if (!json.is_object()) refuse("body", "one JSON object");
     for (const auto& [key, value] : json.items()) take(key, value, body);
   } catch (const Json::exception&) {

@@ -2,10 +2,10 @@
 // The body of POST /api/query: one JSON object.
 #pragma once
 
-#include <cstddef>
 #include <string_view>
 
 #include "serve/api/served_world.hpp"
+#include "serve/http/json_nesting.hpp"
 
 namespace warren {
 
@@ -17,9 +17,5 @@ struct QueryBody {
 
 /// Throws HttpError: 400 for what is no such object, nested deeper than deepest_json or has another key.
 QueryBody read_query_body(std::string_view json);
-
-inline constexpr std::size_t deepest_json = 8;
-/// How deep brackets and braces lie in each other, in the deepest line; no JSON is parsed.
-std::size_t nesting_of(std::string_view lines);
 
 }  // namespace warren

@@ -38,6 +38,10 @@ Route api_route(const std::vector<std::string_view>& words) {
   if (words.size() == 3 && words[2] == "world") return {.place = Place::world};
   if (words.size() == 3 && words[2] == "query") return {.place = Place::query};
   if (words.size() == 4 && words[2] == "query" && words[3] == "batch") return {.place = Place::batch};
+  if (words.size() == 3 && words[2] == "check") return {.place = Place::check};
+  if (words.size() == 3 && words[2] == "graph") return {.place = Place::graph};
+  if (words.size() == 4 && words[2] == "graph" && words[3] == "open") return {.place = Place::open_graph};
+  if (words.size() == 4 && words[2] == "graph" && words[3] == "save") return {.place = Place::save_graph};
   if (words.size() == 4 && words[2] == "path" && !words[3].empty()) {
     return {.place = Place::path, .name = std::string(words[3])};
   }
@@ -59,10 +63,13 @@ Route place_of(std::string_view path, const TileGrid& grid, std::string_view has
 
 }  // namespace
 
+bool is_of_graphs(Place place) { return place >= Place::graph; }
+bool is_posted(Place place) { return place == Place::query || place == Place::batch || is_of_graphs(place); }
+
 Route route_of(const HttpRequest& request, const TileGrid& grid, std::string_view hash) {
   Route route = place_of(request.path, grid, hash);
   const bool is_post = request.method == "POST";
-  if (is_post != (route.place == Place::query || route.place == Place::batch)) {
+  if (is_post != is_posted(route.place)) {
     throw HttpError(405, "method_not_allowed", "method", is_post ? "GET is expected" : "POST is expected");
   }
   return route;

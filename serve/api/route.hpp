@@ -11,7 +11,20 @@
 
 namespace warren {
 
-enum class Place : std::uint8_t { file, health, metrics, world, tile, path, query, batch };
+enum class Place : std::uint8_t {
+  file,
+  health,
+  metrics,
+  world,
+  tile,
+  path,
+  query,
+  batch,
+  graph,
+  open_graph,
+  save_graph,
+  check
+};
 
 struct Route {
   Place place;
@@ -19,6 +32,11 @@ struct Route {
   TilePlace tile = {};
   bool has_its_hash = false;  ///< a tile's address names its world, so what it shows never changes
 };
+
+/// Is it asked by POST?
+bool is_posted(Place place);
+/// Is it a question about a route graph?
+bool is_of_graphs(Place place);
 
 /// hash: of the world. Throws HttpError: 404 for a path that is none, 405 for the wrong method.
 Route route_of(const HttpRequest& request, const TileGrid& grid, std::string_view hash);

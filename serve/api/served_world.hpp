@@ -45,6 +45,8 @@ class ServedWorld {
   const WorldTiles& tiles() const { return *tiles_; }
   /// The box of all that there is.
   const Box& box() const { return box_; }
+  /// All of it. Throws Stopped, InputError.
+  const Scene& whole(const Execution& execution) const { return roadmap_ ? roadmap_->world.whole(execution) : *scene_; }
   /// nullptr: each question is solved by itself.
   const RoadmapQuery* query() const { return query_.get(); }
   /// Was it opened as a roadmap, or else as a world?

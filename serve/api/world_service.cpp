@@ -36,6 +36,7 @@ WorldService::WorldService(const ServedWorld& world, const ServiceLimits& limits
     : world_(world),
       limits_(limits),
       world_json_(description_json(world, limits.budget_s)),
+      graphs_(world),
       tiles_(limits.tile_bytes),
       paths_(limits.path_bytes) {}
 
@@ -46,7 +47,7 @@ Route WorldService::route(const HttpRequest& request) const {
 std::size_t WorldService::most_body(const HttpRequest& head) const {
   const Route asked = route(head);
   if (asked.place == Place::file) file(head, asked.name);  // or there is none
-  if (asked.place == Place::batch) return limits_.batch_body;
+  if (asked.place == Place::batch || is_of_graphs(asked.place)) return limits_.batch_body;
   return asked.place == Place::query ? limits_.small_body : 0;
 }
 
@@ -85,6 +86,7 @@ HttpResponse WorldService::work(const HttpRequest& request, const SignalFlag& go
   execution.check();
   if (asked.place == Place::tile) return tile(asked, execution);
   if (asked.place == Place::batch) return batch(request, execution);
+  if (is_of_graphs(asked.place)) return graphs_.answer(asked.place, request.body, execution);
   return path(request, asked.name, execution);
 }
 

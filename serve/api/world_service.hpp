@@ -7,6 +7,7 @@
 #include <string>
 
 #include "parallel/execution.hpp"
+#include "serve/api/graph_service.hpp"
 #include "serve/api/route.hpp"
 #include "serve/api/served_world.hpp"
 #include "serve/http/http_service.hpp"
@@ -23,7 +24,7 @@ struct ServiceLimits {
   std::size_t most_points = 10'000;                         ///< of a path that an answer lists
   std::size_t most_view_points = 500'000;                   ///< of a path that is told by itself
   std::size_t small_body = std::size_t{64} << 10U;
-  std::size_t batch_body = std::size_t{4} << 20U;
+  std::size_t batch_body = std::size_t{4} << 20U;      ///< of a route graph, too
   std::size_t batch_answers = std::size_t{32} << 20U;  ///< bytes
 };
 
@@ -56,6 +57,7 @@ class WorldService : public HttpService {
   const ServedWorld& world_;
   const ServiceLimits limits_;
   const std::string world_json_;
+  const GraphService graphs_;
   KeptValues<std::string> tiles_;
   KeptValues<KeptPath> paths_;
 };

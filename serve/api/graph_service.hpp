@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is asked about route graphs of the served world (docs/service.md): built, opened, judged edge by edge, saved as
+// Nav2 loads them. The graph itself is the client's.
+#pragma once
+
+#include <string_view>
+
+#include "parallel/execution.hpp"
+#include "parallel/made_once.hpp"
+#include "serve/api/route.hpp"
+#include "serve/api/served_world.hpp"
+#include "serve/graphs/edge_judge.hpp"
+#include "serve/graphs/route_graph.hpp"
+#include "serve/http/http_message.hpp"
+
+namespace warren {
+
+/// Refers to the world. Any number of threads may ask.
+class GraphService {
+ public:
+  explicit GraphService(const ServedWorld& world) : world_(world) {}
+
+  /// One of the places that is_of_graphs() knows. Throws HttpError, UsageError, InputError, Stopped.
+  HttpResponse answer(Place place, std::string_view body, const Execution& execution) const;
+
+ private:
+  const EdgeJudge& judge(const Execution& execution) const;
+  RouteGraph built(std::string_view body, const Execution& execution) const;
+  HttpResponse told(const RouteGraph& graph, const Execution& execution) const;
+  HttpResponse saved(const RouteGraph& graph, const Execution& execution) const;
+
+  const ServedWorld& world_;
+  MadeOnce<EdgeJudge> judge_;
+};
+
+}  // namespace warren

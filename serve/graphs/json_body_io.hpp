@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// JSON of strangers, taken value by value: what is not as it should be is refused with its place.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "parallel/execution.hpp"
+
+namespace warren {
+
+using OrderedJson = nlohmann::ordered_json;  // people find their keys where they wrote them
+
+/// One object. Throws HttpError (400) for what is none or nested deeper, Stopped where memory is out.
+OrderedJson json_object_of(std::string_view text, std::size_t deepest, const Execution& execution);
+
+[[noreturn]] void refuse_json(const std::string& where, std::string_view expected);
+
+/// Each throws HttpError that names `where` for a value that is something else.
+double finite_number(const OrderedJson& json, const std::string& where);
+std::uint64_t whole_number(const OrderedJson& json, const std::string& where, std::uint64_t most);
+const OrderedJson& list_of(const OrderedJson& json, const std::string& where, std::size_t most);
+
+/// nullptr where there is no such key, or it is null.
+const OrderedJson* member(const OrderedJson& json, const char* key);
+
+}  // namespace warren

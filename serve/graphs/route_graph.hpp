@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A route graph as Nav2 has it, as plain data: nodes where a robot may go, edges that it may drive, each one way. What
+// people have written beside places and ends is kept as the JSON that it was.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/types.hpp"
+
+namespace warren {
+
+/// Ids are given once, to a node or to an edge; the largest number of 32 bits means "none" to Nav2.
+struct RouteNode {
+  std::uint32_t id = 0;
+  Vec2 at = {};                      ///< metres of the map's frame
+  std::optional<double> theta = {};  ///< radians; none: whoever stands there may turn
+  std::string more = "{}";           ///< further properties, one JSON object
+};
+
+struct RouteEdge {
+  std::uint32_t id = 0;
+  std::uint32_t from = 0;  ///< ids of nodes
+  std::uint32_t to = 0;
+  std::optional<double> cost = {};  ///< none: its length
+  std::string more = "{}";
+};
+
+struct RouteGraph {
+  std::string frame = "map";
+  std::vector<RouteNode> nodes = {};
+  std::vector<RouteEdge> edges = {};
+  std::string more = "{}";   ///< of the file
+  std::size_t left_out = 0;  ///< features that are neither, which Nav2 passes over
+};
+
+inline constexpr std::uint64_t largest_route_id = 0xfffffffeU;
+inline constexpr std::size_t most_route_nodes = 20'000;
+inline constexpr std::size_t most_route_edges = 100'000;
+
+/// Where each edge leads, as places in graph.nodes. Throws HttpError (400, "bad_graph") where Nav2 would not take the
+/// graph: no nodes, no edges, ids that are given twice, ends that are no nodes; and where it is too large to be edited.
+struct RouteEnds {
+  std::size_t from = 0;
+  std::size_t to = 0;
+};
+std::vector<RouteEnds> ends_of(const RouteGraph& graph);
+
+}  // namespace warren
