@@ -129,7 +129,7 @@ only(mpi "#include <mpi" "^distributed/mpi_transport[.]cpp$")
 only(zip "#include <zlib" "^roadmaps/exports/[a-z0-9_]*_io[.]cpp$")
 only(yaml "#include <yaml-cpp" "^(scenes/formats/[a-z0-9_]*_io[.]cpp$|tests/)")
 only(options "#include <CLI" "${above}")
-only(json "#include <nlohmann" "${above}|^studies/|^distributed/[a-z_]*_io[.]cpp$|^(scenes|solve|pictures|serve)/[a-z]*/[a-z_]*_io[.]cpp$")
+only(json "#include <nlohmann" "${above}|^studies/|^distributed/[a-z_]*_io[.]cpp$|^(scenes|solve|pictures|serve)/[a-z]*/[a-z_]*_io[.]cpp$|^serve/[a-z]*/[a-z_]*_io[.]hpp$")
 only(judges "#include <(gtest|gmock)/" "^tests/")
 only(stopwatches "#include <benchmark/" "^bench/")
 # The library's own bits, other ones with FMA than without: what is computed with goes through one file, tests and pictures

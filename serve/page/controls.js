@@ -175,6 +175,7 @@ function saveCsv(path) {
 function setDark(on) {
   document.documentElement.classList.toggle("dark", on);
   byId("dark").setAttribute("aria-pressed", String(on));
+  graphLayer.draw();
   if (pathLine.line) pathLine.line.setStyle({color: on ? "#ff6b81" : "#c8102e"});
 }
 function wireControls() {
@@ -199,7 +200,7 @@ function wireControls() {
 }
 function wireMap() {
   for (const end of ["start", "goal"]) marks[end] = makeMark(end, place => setEnd(end, place));
-  map.on("click", event => setEnd(question.start ? "goal" : "start", placeOf(event.latlng)));
+  map.on("click", event => takesClick(event) || setEnd(question.start ? "goal" : "start", placeOf(event.latlng)));
   map.on("moveend", keepLink);
   byId("map").addEventListener("keydown", event => {
     const end = {s: "start", g: "goal"}[event.key];
@@ -230,6 +231,7 @@ async function begin() {
   wireControls();
   const hasEnds = readLink();
   wireMap();
+  wireGraph();
   if (!hasEnds) takeOwnEnds();
   showQuestion();
 }
