@@ -43,6 +43,33 @@ unsigned rank_of_row(std::size_t row, std::size_t tile_rows, unsigned ranks) {
   return rank;
 }
 
+ReducedBand ReducedBand::of(std::span<const TileSummary> tiles) {
+  ReducedBand sum;
+  for (const TileSummary& tile : tiles) {
+    sum.add({tile.bytes(), tile.keys.size(), tile.milestones, tile.candidate_edges, tile.free_edges,
+             tile.closed_components});
+  }
+  return sum;
+}
+
+void ReducedBand::add(const ReducedBand& other) {
+  bytes += other.bytes;
+  keys += other.keys;
+  milestones += other.milestones;
+  candidate_edges += other.candidate_edges;
+  free_edges += other.free_edges;
+  closed_components += other.closed_components;
+}
+
+TileSummary ReducedBand::counts() const {
+  TileSummary tile;
+  tile.milestones = milestones;
+  tile.candidate_edges = candidate_edges;
+  tile.free_edges = free_edges;
+  tile.closed_components = closed_components;
+  return tile;
+}
+
 Band::Band(const BandTask& task, TileRows own)
     : task_(task), grid_(TileGrid::of({task.rows, task.cols}, 8)), own_(own) {}
 

@@ -43,6 +43,18 @@ struct NearLegs {
 /// Those of a path that come within `reach` of rows of tiles; whatever leaves the maze is near its outermost rows.
 std::vector<NearLegs> legs_near(std::span<const Vec2> path, TileRows rows, const TileGrid& grid, double reach);
 
+/// A band's tiles, reduced, in sum.
+struct ReducedBand {
+  std::uint64_t bytes = 0;  ///< of their summaries
+  std::uint64_t keys = 0;
+  std::uint64_t milestones = 0, candidate_edges = 0, free_edges = 0, closed_components = 0;
+
+  static ReducedBand of(std::span<const TileSummary> tiles);
+  void add(const ReducedBand& other);
+  /// As a tile that has nothing else.
+  TileSummary counts() const;
+};
+
 class Band {
  public:
   /// own may be empty.

@@ -5,11 +5,13 @@
 #include <csignal>
 #include <limits>
 #include <new>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/base/enum_names.hpp"
 #include "core/base/error.hpp"
+#include "distributed/band_rounds.hpp"
 #include "distributed/messages.hpp"
 #include "parallel/ticker.hpp"
 #include "planners/tiles/packed_tile_summary.hpp"
@@ -41,19 +43,24 @@ class Follower {
     const auto request = from.take<Request>();
     if (request == Request::end) return false;
     if (execution_.progress != nullptr) execution_.progress->begin(name_of(request).data(), 0);
-    const Bytes answer = answered([&](ValuePacker& to) { work(request, from, to); });
+    const bool is_short = request == Request::rounds && rounds_ && rounds_->is_short(from);
+    const Bytes answer = answered(is_short, [&](ValuePacker& to) { work(request, from, to); });
     transport_.send(0, answer, {.deadline = &waiting_});
     return true;
   }
 
-  /// The answer, or why there is none. A message that comes meanwhile is the end.
+  /// The answer, or why there is none. A message that comes meanwhile is the end; of what is short that is found
+  /// afterwards.
   template <class Work>
-  Bytes answered(const Work& work) {
+  Bytes answered(bool is_short, const Work& work) {
     using std::chrono::milliseconds;
-    const Ticker ticker(milliseconds(50), milliseconds(50), [this] {
-      const int signal = outer_ != nullptr ? outer_->load() : 0;
-      stop_.store(signal != 0 ? signal : transport_.has_message(0) ? SIGTERM : 0);
-    });
+    std::optional<Ticker> ticker;
+    if (!is_short) {
+      ticker.emplace(milliseconds(50), milliseconds(50), [this] {
+        const int signal = outer_ != nullptr ? outer_->load() : 0;
+        stop_.store(signal != 0 ? signal : transport_.has_message(0) ? SIGTERM : 0);
+      });
+    }
     ValuePacker packer;
     try {
       packer.add(Reply::done);
@@ -76,6 +83,7 @@ class Follower {
   }
 
   void work(Request request, ValueUnpacker& from, ValuePacker& to) {
+    if (request != Request::rounds) rounds_.reset();
     switch (request) {
       case Request::make:
         if (const auto rim = band_.make(execution_)) rim->pack(to);
@@ -88,7 +96,9 @@ class Follower {
       case Request::reduce:
         return reduce(from, to);
       case Request::hand_over:
-        return to.add_bytes(std::exchange(summaries_, {}));
+        return hand_over(to);
+      case Request::rounds:
+        return rounds(from, to);
       case Request::steps:
         for (const auto& steps : band_.steps_of(from.take_list<TileChain>(), execution_)) to.add_list(steps);
         return;
@@ -109,25 +119,28 @@ class Follower {
   }
 
   void reduce(ValueUnpacker& from, ValuePacker& to) {
-    OverlayEnds ends;
-    ends.start.links = from.take_list<EndLink>();
-    ends.goal.links = from.take_list<EndLink>();
-    std::vector<TileSummary> tiles = band_.reduce(ends, execution_);
+    ends_.start.links = from.take_list<EndLink>();
+    ends_.goal.links = from.take_list<EndLink>();
+    tiles_ = band_.reduce(ends_, execution_);
+    to.add(ReducedBand::of(tiles_));
+  }
+  void hand_over(ValuePacker& to) {
     std::size_t bytes = 0;
-    std::uint64_t keys = 0;
-    for (const TileSummary& tile : tiles) {
-      bytes += tile.bytes();
-      keys += tile.keys.size();
-    }
+    for (const TileSummary& tile : tiles_) bytes += tile.bytes();
     execution_.reserve(bytes);
-    ValuePacker packer;
-    for (TileSummary& tile : tiles) {
-      pack_summary(tile, packer);
+    for (TileSummary& tile : tiles_) {
+      pack_summary(tile, to);
       tile = {};
     }
-    summaries_ = packer.take();
-    to.add(std::uint64_t{summaries_.size()});
-    to.add(keys);
+    tiles_ = {};
+  }
+  void rounds(ValueUnpacker& from, ValuePacker& to) {
+    if (!rounds_) {
+      const TileGrid& grid = band_.grid();
+      rounds_.emplace(grid, band_rows(grid.tile_rows, transport_.rank(), transport_.ranks()), ends_, std::move(tiles_),
+                      execution_);
+    }
+    rounds_->serve(from, to);
   }
   void read(std::size_t number, ValuePacker& to) const {
     if (number < band_.tiles().first || number >= band_.tiles().last) throw InputError("tile", "is of another rank");
@@ -144,7 +157,9 @@ class Follower {
   Deadline deadline_;  // while it works
   Deadline waiting_;   // while it waits
   Execution execution_;
-  Bytes summaries_;  // packed, until they are handed over
+  OverlayEnds ends_;
+  std::vector<TileSummary> tiles_;  // until they are handed over, or searched here
+  std::optional<BandRounds> rounds_;
 };
 
 }  // namespace

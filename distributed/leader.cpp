@@ -28,72 +28,20 @@ std::vector<std::uint64_t> edges_near(std::span<const std::uint64_t> edges, Tile
 
 }  // namespace
 
-Leader::Leader(Transport& transport, const BandTask& task, const Execution& execution)
-    : transport_(transport),
+Leader::Leader(Transport& transport, const BandTask& task, const Execution& execution, std::uint64_t most_keys)
+    : requests_(transport, execution),
       task_(task),
+      most_keys_(most_keys),
       band_(task, band_rows(TileGrid::of({task.rows, task.cols}, 8).tile_rows, 0, transport.ranks())),
-      cells_(band_, *this),
-      execution_(execution) {}
-
-void Leader::ask_one(unsigned rank, Request request, std::span<const std::byte> body) {
-  const auto head = std::as_bytes(std::span(&request, 1));
-  Bytes message(head.begin(), head.end());
-  message.insert(message.end(), body.begin(), body.end());
-  asked_ = request;
-  traffic_[static_cast<std::size_t>(request)] += message.size();
-  transport_.send(rank, message, execution_);
-}
-
-void Leader::ask(Request request, std::span<const std::byte> body) {
-  for (unsigned rank = 1; rank < transport_.ranks(); ++rank) ask_one(rank, request, body);
-}
-
-/// Throws what kept the other from it.
-Bytes Leader::opened(unsigned rank, const Bytes& message) {
-  traffic_[static_cast<std::size_t>(asked_)] += message.size();
-  ValueUnpacker from(message, fmt::format("rank {}", rank));
-  switch (from.take<Reply>()) {
-    case Reply::done:
-      return {message.begin() + sizeof(Reply), message.end()};
-    case Reply::stopped:
-      throw Stopped(from.take<StopReason>());
-    case Reply::refused:
-      throw InputError(fmt::format("rank {}", rank), from.take_text());
-    case Reply::ended:
-    case Reply::gone:
-      break;
-  }
-  from.refuse();
-}
-
-/// Whoever has failed is heard first, whatever its rank.
-std::vector<Bytes> Leader::answers() {
-  std::vector<Bytes> found(transport_.ranks());
-  std::vector<unsigned> awaited;
-  for (unsigned rank = 1; rank < transport_.ranks(); ++rank) awaited.push_back(rank);
-  Patience patience;
-  while (!awaited.empty()) {
-    const auto has_answered = [&](unsigned rank) {
-      if (!transport_.has_message(rank)) return false;
-      found[rank] = opened(rank, transport_.receive(rank, execution_));
-      return true;
-    };
-    if (std::erase_if(awaited, has_answered) > 0) {
-      patience.renew();
-    } else {
-      patience.wait(execution_);
-    }
-  }
-  return found;
-}
+      cells_(band_, *this) {}
 
 const CellWallSource& Leader::make(const Execution& execution) {
-  execution_ = execution;
-  ask(Request::make, {});
+  requests_.wait_as(execution);
+  requests_.ask(Request::make, {});
   std::vector<maze::RimPart> rims;
   if (auto own = band_.make(execution)) rims.push_back(std::move(*own));
-  const std::vector<Bytes> others = answers();
-  for (unsigned rank = 1; rank < transport_.ranks(); ++rank) {
+  const std::vector<Bytes> others = requests_.answers();
+  for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
     ValueUnpacker from(others[rank], fmt::format("rank {}", rank));
     if (!from.is_done()) rims.push_back(maze::RimPart::unpack(from));
   }
@@ -101,27 +49,28 @@ const CellWallSource& Leader::make(const Execution& execution) {
   for (const maze::RimPart& rim : rims) edges += rim.edges.size() + rim.at.width;
   execution.reserve(edges * 64);
   const maze::JoinedParts joined = join_parts(task_.seed, rims, 1, band_.grid().side_log2, execution);
-  for (unsigned rank = 0; rank < transport_.ranks(); ++rank) {
-    const TileRows rows = band_rows(tile_rows(), rank, transport_.ranks());
+  for (unsigned rank = 0; rank < requests_.ranks(); ++rank) {
+    const TileRows rows = band_rows(tile_rows(), rank, requests_.ranks());
     const std::vector<std::uint64_t> near = edges_near(joined.turned, rows, band_.grid().side_log2);
     if (rank == 0 && !band_.is_empty()) band_.turn(near);
     if (rank == 0) continue;
     ValuePacker packer;
     packer.add_list(near);
-    ask_one(rank, Request::turn, packer.bytes());
+    requests_.ask_one(rank, Request::turn, packer.bytes());
   }
-  answers();
+  requests_.answers();
   return cells_;
 }
 
 /// Of a key the overlay has a row, a count, two labels and a parent.
-void Leader::reserve_overlay(std::size_t bytes, std::uint64_t keys, const Execution& execution) {
-  const std::size_t needed = bytes + keys * (32 + 1 + 2 * sizeof(double) + sizeof(VertexId));
+bool Leader::can_hold(std::size_t bytes, std::uint64_t keys, const Execution& execution) const {
+  if (keys > most_keys_) return false;
   try {
-    execution.reserve(needed);
-  } catch (const Stopped&) {
-    lacking_bytes_ = needed;
-    throw;
+    execution.reserve(bytes + keys * (32 + 1 + 2 * sizeof(double) + sizeof(VertexId)));
+    return true;
+  } catch (const Stopped& stopped) {
+    if (stopped.reason != StopReason::memory) throw;
+    return false;
   }
 }
 
@@ -130,26 +79,34 @@ std::vector<TileSummary> Leader::reduce_all(const OverlayEnds& ends, const Execu
   ValuePacker packer;
   pack_links(ends.start, packer);
   pack_links(ends.goal, packer);
-  ask(Request::reduce, packer.bytes());
-  std::vector<TileSummary> tiles = band_.reduce(ends, execution);
-  const std::vector<Bytes> sizes = answers();
-  std::size_t total = 0;
+  requests_.ask(Request::reduce, packer.bytes());
+  std::vector<TileSummary> own = band_.reduce(ends, execution);
+  ReducedBand all = ReducedBand::of(own);
   std::size_t largest = 0;
-  std::uint64_t keys = 0;
-  for (const TileSummary& tile : tiles) keys += tile.keys.size();
-  for (unsigned rank = 1; rank < transport_.ranks(); ++rank) {
-    ValueUnpacker from(sizes[rank], fmt::format("rank {}", rank));
-    const auto size = from.take<std::uint64_t>();
-    keys += from.take<std::uint64_t>();
-    total += size;
-    largest = std::max<std::size_t>(largest, size);
+  std::size_t total = 0;
+  const std::vector<Bytes> others = requests_.answers();
+  for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
+    const auto band = ValueUnpacker(others[rank], fmt::format("rank {}", rank)).take<ReducedBand>();
+    largest = std::max<std::size_t>(largest, band.bytes);
+    total += band.bytes;
+    all.add(band);
   }
-  reserve_overlay(total + 2 * largest, keys, execution);
+  if (can_hold(total + 2 * largest, all.keys, execution)) return hand_over(std::move(own), execution);
+  ends_ = ends;
+  if (!own.empty()) {
+    rounds_.emplace(band_.grid(), band_rows(tile_rows(), 0, requests_.ranks()), ends_, std::move(own), execution);
+  }
+  search_.emplace(requests_, rounds_ ? &*rounds_ : nullptr, band_.grid());
+  return {all.counts()};
+}
+
+std::vector<TileSummary> Leader::hand_over(std::vector<TileSummary> own, const Execution& execution) {
+  std::vector<TileSummary> tiles = std::move(own);
   tiles.reserve(band_.grid().count());
-  for (unsigned rank = 1; rank < transport_.ranks(); ++rank) {
+  for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
     execution.check();
-    ask_one(rank, Request::hand_over, {});
-    const Bytes bytes = opened(rank, transport_.receive(rank, execution));
+    requests_.ask_one(rank, Request::hand_over, {});
+    const Bytes bytes = requests_.answer(rank);
     ValueUnpacker from(bytes, fmt::format("rank {}", rank));
     while (!from.is_done()) tiles.push_back(unpack_summary(from, band_.grid().side()));
   }
@@ -157,21 +114,27 @@ std::vector<TileSummary> Leader::reduce_all(const OverlayEnds& ends, const Execu
   return tiles;
 }
 
+ToldRoute Leader::search(const OverlayEnds& ends, const Execution& execution) {
+  ToldRoute route = search_->run(ends, execution);
+  rounds_.reset();
+  return route;
+}
+
 std::vector<std::vector<std::uint8_t>> Leader::steps_of(std::span<const TileChain> chains, const Execution& execution) {
-  std::vector<std::vector<std::size_t>> of_rank(transport_.ranks());
+  std::vector<std::vector<std::size_t>> of_rank(requests_.ranks());
   for (std::size_t i = 0; i < chains.size(); ++i) {
-    of_rank[rank_of_row(chains[i].tile / band_.grid().tile_cols, tile_rows(), transport_.ranks())].push_back(i);
+    of_rank[rank_of_row(chains[i].tile / band_.grid().tile_cols, tile_rows(), requests_.ranks())].push_back(i);
   }
-  for (unsigned rank = 1; rank < transport_.ranks(); ++rank) {
+  for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
     std::vector<TileChain> own;
     for (const std::size_t i : of_rank[rank]) own.push_back(chains[i]);
     ValuePacker packer;
     packer.add_list(own);
-    ask_one(rank, Request::steps, packer.bytes());
+    requests_.ask_one(rank, Request::steps, packer.bytes());
   }
   std::vector<std::vector<std::uint8_t>> steps = band_.steps_of(chains, execution);
-  const std::vector<Bytes> others = answers();
-  for (unsigned rank = 1; rank < transport_.ranks(); ++rank) {
+  const std::vector<Bytes> others = requests_.answers();
+  for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
     ValueUnpacker from(others[rank], fmt::format("rank {}", rank));
     for (const std::size_t i : of_rank[rank]) {
       steps[i] = from.take_list<std::uint8_t>();
@@ -182,31 +145,31 @@ std::vector<std::vector<std::uint8_t>> Leader::steps_of(std::span<const TileChai
 }
 
 void Leader::begin(std::span<const Vec2> path, double reach) {
-  for (unsigned rank = 1; rank < transport_.ranks(); ++rank) {
+  for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
     ValuePacker packer;
     packer.add(reach);
-    for (const NearLegs& run : legs_near(path, band_rows(tile_rows(), rank, transport_.ranks()), band_.grid(), reach)) {
+    for (const NearLegs& run : legs_near(path, band_rows(tile_rows(), rank, requests_.ranks()), band_.grid(), reach)) {
       packer.add(run.first);
       packer.add_list(run.points);
     }
-    ask_one(rank, Request::judge, packer.bytes());
+    requests_.ask_one(rank, Request::judge, packer.bytes());
   }
 }
 
 std::vector<NearestWalls> Leader::take() {
   std::vector<NearestWalls> found;
-  const std::vector<Bytes> others = answers();
-  for (unsigned rank = 1; rank < transport_.ranks(); ++rank) {
+  const std::vector<Bytes> others = requests_.answers();
+  for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
     found.push_back(ValueUnpacker(others[rank], fmt::format("rank {}", rank)).take<NearestWalls>());
   }
   return found;
 }
 
 CellTile Leader::tile(std::size_t number) {
-  const unsigned rank = rank_of_row(number / band_.grid().tile_cols, tile_rows(), transport_.ranks());
+  const unsigned rank = rank_of_row(number / band_.grid().tile_cols, tile_rows(), requests_.ranks());
   return asking_([&] {
-    ask_one(rank, Request::read, std::as_bytes(std::span(&number, 1)));
-    const Bytes bytes = opened(rank, transport_.receive(rank, execution_));
+    requests_.ask_one(rank, Request::read, std::as_bytes(std::span(&number, 1)));
+    const Bytes bytes = requests_.answer(rank);
     ValueUnpacker from(bytes, fmt::format("rank {}", rank));
     CellTile tile;
     tile.first_col = from.take<std::uint32_t>();

@@ -12,10 +12,10 @@
 namespace warren {
 
 /// The stages of a run, as messages name them.
-enum class Request : std::uint32_t { make, turn, reduce, hand_over, steps, judge, read, end };
-inline constexpr std::size_t request_count = 8;
+enum class Request : std::uint32_t { make, turn, reduce, hand_over, rounds, steps, judge, read, end };
+inline constexpr std::size_t request_count = 9;
 constexpr auto enum_names(Request) {
-  return std::array<std::string_view, request_count>{"generate", "join",   "connect", "gather",
+  return std::array<std::string_view, request_count>{"generate", "join",   "connect", "gather", "rounds",
                                                      "expand",   "verify", "search",  "end"};
 }
 

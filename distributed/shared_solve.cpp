@@ -86,9 +86,9 @@ class SharedSolve : public AnswerCommand {
                                           {.taker = path_taker(), .team = &leader});
     answer.figures.push_back({"ranks", std::uint64_t{transport_.ranks()}});
     if (answer.stop_reason) say_where_stopped(transport_, *execution.progress, *answer.stop_reason);
-    if (const auto lacking = leader.lacking_bytes()) {
-      say_on_standard_error(fmt::format("warren-mpi: rank 0 searches alone, and would need {} more\n",
-                                        human_bytes(static_cast<double>(*lacking))));
+    if (const auto lack = leader.lack()) {
+      say_on_standard_error(fmt::format("warren-mpi: rank {} would need {} more for its share of the search\n",
+                                        lack->rank, human_bytes(static_cast<double>(lack->bytes))));
     }
     return answer;
   }

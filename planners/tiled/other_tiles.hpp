@@ -9,6 +9,7 @@
 
 #include "parallel/execution.hpp"
 #include "planners/tiled/tile_overlay.hpp"
+#include "planners/tiled/told_route.hpp"
 #include "planners/tiles/lattice_tile_reduction.hpp"
 
 namespace warren {
@@ -29,6 +30,11 @@ class OtherTiles {
   /// All tiles' summaries without steps. Dead ends of the overlay may be gone from them, the others' keys in their
   /// order; components that are gone with them are counted as closed. Throws Stopped.
   virtual std::vector<TileSummary> reduce_all(const OverlayEnds& ends, const Execution& execution) = 0;
+  /// After reduce_all(): do the others search, since this process could not hold the overlay? Then the summaries have
+  /// neither keys nor chains, and their counts are those of all tiles together.
+  virtual bool searches() const = 0;
+  /// What the search over all tiles finds. Throws Stopped.
+  virtual ToldRoute search(const OverlayEnds& ends, const Execution& execution) = 0;
   /// The directions of each chain, from its lower end. Throws Stopped.
   virtual std::vector<std::vector<std::uint8_t>> steps_of(std::span<const TileChain> chains,
                                                           const Execution& execution) = 0;

@@ -2,43 +2,52 @@
 #include "planners/tiled/overlay_components.hpp"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "core/search/graph.hpp"
-#include "parallel/chunks.hpp"
 
 namespace warren {
 
-CoreComponents core_components(const Overlay& overlay, const Execution& execution) {
+VertexId OverlayComponents::root(VertexId v) const {
+  while (parent_[v - first_] != v) v = parent_[v - first_];
+  return v;
+}
+
+/// Were they two components until now?
+bool OverlayComponents::join(VertexId v, VertexId w) {
+  const auto halved = [this](VertexId u) {
+    const auto parent = [this](VertexId of) -> VertexId& { return parent_[of - first_]; };
+    while (parent(u) != u) u = parent(u) = parent(parent(u));
+    return u;
+  };
+  const VertexId a = halved(v);
+  const VertexId b = halved(w);
+  parent_[std::max(a, b) - first_] = std::min(a, b);
+  return a != b;
+}
+
+OverlayComponents::OverlayComponents(const Overlay& overlay, Range vertices, const Execution& execution)
+    : first_(static_cast<VertexId>(vertices.first)) {
   constexpr std::size_t grain = std::size_t{1} << 14;
-  const std::size_t n = overlay.vertex_count();
-  execution.reserve(n * sizeof(VertexId));
-  RawVector<VertexId> parent(n);
-  const auto root = [&](VertexId v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
-  const auto join = [&](VertexId v, VertexId w) {  // are they two components until now?
-    const VertexId a = root(v);
-    const VertexId b = root(w);
-    parent[std::max(a, b)] = std::min(a, b);
-    return a != b;
-  };
   struct Part {
     std::size_t members = 0;
     std::size_t joins = 0;
     std::vector<Edge> across;  // to vertices before the chunk
   };
-  std::vector<Part> parts(chunk_count(n, grain));
-  for_chunks(n, grain, execution, [&](Range r) {
+  execution.reserve(vertices.size() * sizeof(VertexId));
+  parent_.resize(vertices.size());
+  std::vector<Part> parts(chunk_count(vertices.size(), grain));
+  for_chunks(vertices.size(), grain, execution, [&](Range r) {
     Part part;
-    for (auto v = static_cast<VertexId>(r.first); v < r.last; ++v) {
-      parent[v] = v;
+    const auto first = static_cast<VertexId>(vertices.first + r.first);
+    for (VertexId v = first; v < vertices.first + r.last; ++v) {
+      parent_[v - first_] = v;
       if (overlay.is_peeled(v)) continue;
       ++part.members;
       for (const OverlayEnd& end : overlay.ends(v)) {
-        if (end.target > v || overlay.is_peeled(end.target)) continue;  // each edge once
-        if (end.target < r.first) {
+        if (end.target > v || end.target < first_ || overlay.is_peeled(end.target)) continue;  // each edge once
+        if (end.target < first) {
           part.across.push_back({v, end.target});
         } else {
           part.joins += join(v, end.target) ? 1 : 0;
@@ -47,14 +56,16 @@ CoreComponents core_components(const Overlay& overlay, const Execution& executio
     }
     parts[r.first / grain] = std::move(part);
   });
-  CoreComponents result;
   for (const Part& part : parts) {
     execution.check();
-    result.count += part.members - part.joins;
-    for (const Edge& edge : part.across) result.count -= join(edge.from, edge.to) ? 1 : 0;
+    count_ += part.members - part.joins;
+    for (const Edge& edge : part.across) count_ -= join(edge.from, edge.to) ? 1 : 0;
   }
-  result.joined = root(overlay.start()) == root(overlay.goal());
-  return result;
+}
+
+CoreComponents core_components(const Overlay& overlay, const Execution& execution) {
+  const OverlayComponents components(overlay, {0, overlay.vertex_count()}, execution);
+  return {components.count(), components.root(overlay.start()) == components.root(overlay.goal())};
 }
 
 }  // namespace warren

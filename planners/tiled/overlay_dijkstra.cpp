@@ -46,9 +46,10 @@ StepBorder agree(const StepBorder& forward, const StepBorder& backward) {
   return agreed;
 }
 
-StepSide::StepSide(const Overlay& overlay, std::uint32_t longest, const Execution& execution)
+StepSide::StepSide(const Overlay& overlay, std::uint32_t longest, const Execution& execution, Range own)
     : overlay_(overlay),
       execution_(execution),
+      own_(own),
       mask_(std::bit_ceil(std::max<std::uint64_t>(64, longest + std::uint64_t{2})) - 1) {
   const std::size_t n = overlay.vertex_count();
   execution.reserve(n * sizeof(double) + n / block_size + mask_ * sizeof(std::uint32_t));
@@ -69,6 +70,7 @@ void StepSide::begin(VertexId key, double length) {
 
 void StepSide::push(VertexId v, double label) {
   label_[v] = label;
+  if (!is_own(v)) return push_asked(told_, {v, label}, execution_);
   is_near_[v / block_size] = 1;
   push_asked(labelled_, v, execution_);
   const auto step = static_cast<std::uint64_t>(label);
@@ -134,16 +136,35 @@ void StepSide::settle(VertexId v) {
   }
 }
 
-void StepSide::advance(const StepSide&, const StepBorder& agreed, double other_least_key, std::uint64_t limit) {
-  const std::uint64_t last = settled_ + limit;
-  least_ = unreached;
+/// A bucket that has nothing but second entries is none: whether there is one depends on the order of pushes.
+double StepSide::least() {
   while (open_ > 0) {
     find_bucket();
-    least_ = static_cast<double>(at_);
+    for (std::uint32_t entry = first_[at_ & mask_]; entry != none; entry = entries_[entry].next) {
+      if (!std::signbit(label_[entries_[entry].vertex])) return static_cast<double>(at_);
+    }
+    empty_bucket();
+  }
+  return unreached;
+}
+
+void StepSide::advance(const StepSide&, const StepBorder& agreed, double other_least_key, std::uint64_t limit) {
+  const std::uint64_t last = settled_ + limit;
+  while ((least_ = least()) < unreached) {
     if (settled_ >= last || least_ + other_least_key >= agreed.best) return;
     empty_bucket();
-    least_ = unreached;
   }
+}
+
+void StepSide::settle_at(std::uint64_t step) {
+  at_ = step;
+  if (first_[at_ & mask_] != none) empty_bucket();
+}
+
+void StepSide::receive(const Told& told) {
+  if (!(told.label < label_[told.key])) return;
+  push(told.key, told.label);
+  at_ = std::min(at_, static_cast<std::uint64_t>(told.label));
 }
 
 void StepSide::exchange(const StepSide& other, bool stop) {
@@ -161,14 +182,19 @@ void StepSide::exchange(const StepSide& other, bool stop) {
 }
 
 RawVector<VertexId> StepSide::path_to(VertexId v) const {
+  RawVector<VertexId> path = path_from(v);
+  std::reverse(path.begin(), path.end());
+  return path;
+}
+
+RawVector<VertexId> StepSide::path_from(VertexId v) const {
   RawVector<VertexId> path;
   push_asked(path, v, execution_);
   const auto is_root = [&](VertexId key) {
     return std::any_of(roots_.begin(), roots_.end(),
                        [&](const Root& root) { return root.key == key && root.length == label(key); });
   };
-  while (!is_root(path.back())) push_asked(path, before(path.back()), execution_);
-  std::reverse(path.begin(), path.end());
+  while (is_own(path.back()) && !is_root(path.back())) push_asked(path, before(path.back()), execution_);
   return path;
 }
 
@@ -185,8 +211,8 @@ VertexId StepSide::before(VertexId v) const {
 SearchResult search_steps(const Overlay& overlay, const OverlayEnds& ends, const Execution& execution) {
   const std::size_t n = overlay.vertex_count();
   const auto longest = std::max(overlay.longest(), static_cast<std::uint32_t>(std::ceil(longest_link(ends))));
-  StepSide forward(overlay, longest, execution);
-  StepSide backward(overlay, longest, execution);
+  StepSide forward(overlay, longest, execution, {0, n});
+  StepSide backward(overlay, longest, execution, {0, n});
   for_chunks(n, std::size_t{1} << 15, execution, [&](Range r) {
     forward.clear(static_cast<VertexId>(r.first), static_cast<VertexId>(r.last));
     backward.clear(static_cast<VertexId>(r.first), static_cast<VertexId>(r.last));

@@ -16,15 +16,21 @@
 //
 // No estimate of the rest of the way: mazes leave it nothing to prune, and open space, where it would, costs the
 // overlay more than this search. Measured against NBA* with an indexed heap: docs/performance.md.
+// What a side has settled when a round ends follows from labels alone, not from the order within a bucket: so processes
+// that have a band of the keys each can search in the same rounds, bucket by bucket (distributed/band_rounds.hpp). A
+// side then settles its own keys, and tells the labels of others instead.
 // Memory: 8 bytes a vertex and side, 16 an open one; parents are found again on the way back, from the labels.
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "core/search/bidirectional_search.hpp"
 #include "core/search/search.hpp"
+#include "parallel/chunks.hpp"
 #include "parallel/execution.hpp"
 #include "planners/tiled/tile_overlay.hpp"
 
@@ -38,8 +44,8 @@ StepBorder agree(const StepBorder& forward, const StepBorder& backward);
 class StepSide {
  public:
   /// longest: no edge or link is longer. Labels are not set yet. Asks for the memory of the labels and, as they grow,
-  /// of its lists: Stopped comes from the constructor, begin(), advance().
-  StepSide(const Overlay& overlay, std::uint32_t longest, const Execution& execution);
+  /// of its lists: Stopped comes from the constructor, begin(), advance(). own: the keys that it may settle.
+  StepSide(const Overlay& overlay, std::uint32_t longest, const Execution& execution, Range own);
   /// Sets the labels of vertices first .. last - 1; any thread. Peeled vertices seem to be reached already.
   void clear(VertexId first, VertexId last);
   /// Where the search begins: a key and its link's length.
@@ -56,6 +62,25 @@ class StepSide {
   std::uint64_t settled() const { return settled_; }
   /// A shortest path from the key where the search began to v, which has a label.
   RawVector<VertexId> path_to(VertexId v) const;
+  /// The same from v on, but no further than to the first vertex that is not its own.
+  RawVector<VertexId> path_from(VertexId v) const;
+
+  /// A label of a key that is not its own, or that another process has found.
+  struct Told {
+    VertexId key;
+    double label;
+  };
+  /// A step at a time: settles the bucket of so many steps; nothing that is open is nearer.
+  void settle_at(std::uint64_t step);
+  /// Label of an own key, from elsewhere; not nearer than the bucket that was settled last.
+  void receive(const Told& told);
+  /// Whole steps of the least open label; infinity: nothing is open.
+  double least();
+  /// Labels of others' keys since it was last asked.
+  std::vector<Told> take_told() { return std::exchange(told_, {}); }
+  /// For path_from(): the labels of others' keys that lead here; infinity: none.
+  void set_label(VertexId key, double label) { label_[key] = label; }
+  double label(VertexId v) const { return std::abs(label_[v]); }
 
  private:
   struct Entry {
@@ -69,7 +94,7 @@ class StepSide {
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   static constexpr std::size_t block_size = 64;
 
-  double label(VertexId v) const { return std::abs(label_[v]); }
+  bool is_own(VertexId v) const { return v >= own_.first && v < own_.last; }
   void push(VertexId v, double label);
   void find_bucket();
   void empty_bucket();
@@ -78,6 +103,7 @@ class StepSide {
 
   const Overlay& overlay_;
   const Execution& execution_;
+  const Range own_;
   std::uint64_t mask_;                  // buckets - 1
   RawVector<double> label_;             // with the sign bit set where settled
   std::vector<std::uint8_t> is_near_;   // one a block of vertices: has it labels?
@@ -86,6 +112,7 @@ class StepSide {
   alignas(apart) std::vector<Entry> entries_;
   std::vector<VertexId> bucket_;    // the one that is emptied
   std::vector<VertexId> labelled_;  // in this round, perhaps more than once
+  std::vector<Told> told_;          // since it was last asked
   std::vector<Root> roots_;
   std::uint32_t free_ = none;
   std::uint64_t at_ = 0;    // least label of the bucket that is emptied next

@@ -13,16 +13,6 @@ namespace {
 
 constexpr std::size_t grain = 1024;  // legs
 
-/// Steps of the shortest edge from key v to key w; there must be one.
-std::uint32_t steps_between(const Overlay& overlay, VertexId v, VertexId w) {
-  std::uint32_t least = no_vertex;
-  for (const OverlayEnd& end : overlay.ends(v)) {
-    if (end.target == w) least = std::min(least, end.steps);
-  }
-  assert(least != no_vertex);
-  return least;
-}
-
 /// The first chain of so many steps between keys from < to of a tile; there must be one.
 const Chain& chain_between(const TileSummary& tile, std::uint32_t from, std::uint32_t to, std::uint32_t steps) {
   const auto first = std::lower_bound(tile.chains.begin(), tile.chains.end(), from,
@@ -127,7 +117,7 @@ Vec2 PathExpansion::place_of(VertexId v, std::span<const TileSummary> tiles) con
 
 std::uint32_t PathExpansion::steps_of(std::size_t leg) const {
   const bool is_link = !overlay_.is_key(path_[leg]) || !overlay_.is_key(path_[leg + 1]);
-  return is_link ? 1 : steps_between(overlay_, path_[leg], path_[leg + 1]);
+  return is_link ? 1 : overlay_.steps_between(path_[leg], path_[leg + 1]);
 }
 
 void PathExpansion::write_leg(std::size_t leg, std::span<const TileSummary> tiles, Vec2* out) const {

@@ -46,6 +46,15 @@ std::span<const OverlayEnd> Overlay::ends(VertexId v) const {
   return {row.data(), count};
 }
 
+std::uint32_t Overlay::steps_between(VertexId v, VertexId w) const {
+  std::uint32_t least = no_vertex;
+  for (const OverlayEnd& end : ends(v)) {
+    if (end.target == w) least = std::min(least, end.steps);
+  }
+  assert(least != no_vertex);
+  return least;
+}
+
 void Overlay::number_keys(std::span<const TileSummary> tiles) {
   first_key_.assign(tiles.size() + 1, 0);
   std::uint64_t keys = 0;
@@ -134,6 +143,16 @@ std::uint64_t Overlay::peel(const Execution& execution) {
   std::uint64_t total = 0;
   for (const std::uint64_t count : closed) total += count;
   return total;
+}
+
+void Overlay::peel_after(VertexId gone) {
+  left_[gone] = peeled;
+  std::uint64_t closed = 0;
+  for (const OverlayEnd& end : ends(gone)) {
+    if (is_peeled(end.target)) continue;
+    --left_[end.target];
+    peel_from(end.target, 0, start(), closed);
+  }
 }
 
 /// Follows the dead end that begins at v, if one does, as long as it stays among first .. last - 1. Edges that leave

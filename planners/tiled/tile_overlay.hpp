@@ -51,6 +51,8 @@ class Overlay {
   std::span<const OverlayEnd> ends(VertexId v) const;
   /// Four ends of a key; those that are none lead to the key itself in 0 steps.
   const std::array<OverlayEnd, 4>& row(VertexId key) const { return rows_[key]; }
+  /// Steps of the shortest edge from key v to key w; there must be one.
+  std::uint32_t steps_between(VertexId v, VertexId w) const;
   /// No edge between keys has more steps.
   std::uint32_t longest() const { return longest_; }
   /// The tile that a key is of; O(log tiles).
@@ -62,6 +64,8 @@ class Overlay {
   /// vertex.
   std::uint64_t peel(const Execution& execution);
   bool is_peeled(VertexId v) const { return left_[v] == peeled; }
+  /// This vertex, so another process has found, is peeled: so are the dead ends that it leaves.
+  void peel_after(VertexId gone);
 
  private:
   static constexpr std::uint8_t peeled = 255;

@@ -44,6 +44,7 @@ class TiledPlan {
     solution_.counters.rounds = 1;
     reduce_tiles();
     solution_.counters.samples = std::uint64_t{grid_.rows} * grid_.cols;
+    if (search_is_elsewhere()) return search_elsewhere();
     build_overlay();
     if (joined()) {
       search();
@@ -64,6 +65,9 @@ class TiledPlan {
   void build_overlay();
   bool joined();
   void search();
+  bool search_is_elsewhere() const { return problem_.others != nullptr && problem_.others->searches(); }
+  void search_elsewhere();
+  void expand_path(const PathExpansion& path);
   void measure_gap();
 
   static constexpr std::size_t most_points = std::size_t{1} << 20;  // of a piece of the path
@@ -123,7 +127,8 @@ void TiledPlan::reduce_tiles() {
     tiles_.resize(grid_.count());
     tiles_made().reduce({0, grid_.count()}, !problem_.forget, tiles_, problem_.kept, execution_);
   }
-  if (problem_.others != nullptr || problem_.kept != nullptr) check_borders(grid_, tiles_, execution_);
+  const bool come_from_elsewhere = problem_.others != nullptr || problem_.kept != nullptr;
+  if (come_from_elsewhere && !search_is_elsewhere()) check_borders(grid_, tiles_, execution_);
   if (!problem_.forget) source_.reset();
   for (const TileSummary& tile : tiles_) {
     solution_.roadmap.milestones += tile.milestones;
@@ -237,6 +242,12 @@ void TiledPlan::give_pieces(const PathExpansion& path, PathTaker& taker) {
   }
 }
 
+void TiledPlan::expand_path(const PathExpansion& path) {
+  PathKeeper keeper(solution_.path, execution_);
+  if (problem_.forget) give_pieces(path, problem_.taker != nullptr ? *problem_.taker : keeper);
+  solution_.outcome = Outcome::solved;
+}
+
 void TiledPlan::search() {
   std::optional<PathExpansion> path;
   SearchResult found;
@@ -247,9 +258,29 @@ void TiledPlan::search() {
     path.emplace(*overlay_, grid_, ends_, found.path, execution_);
     if (!problem_.forget) solution_.path = path->points(tiles_);
   }
-  PathKeeper keeper(solution_.path, execution_);
-  if (problem_.forget) give_pieces(*path, problem_.taker != nullptr ? *problem_.taker : keeper);
-  solution_.outcome = Outcome::solved;
+  expand_path(*path);
+}
+
+/// The overlay is then that of the path alone.
+void TiledPlan::search_elsewhere() {
+  std::optional<PathExpansion> path;
+  RawVector<VertexId> vertices;
+  {
+    const StageTimer timer(execution_, "search", solution_.seconds.search);
+    const ToldRoute route = problem_.others->search(ends_, execution_);
+    solution_.roadmap.components += route.components;
+    solution_.counters.expanded = route.expanded;
+    if (!route.joined) {
+      solution_.outcome = Outcome::not_connected;
+      return;
+    }
+    tiles_ = tiles_of(route, grid_, ends_, execution_);
+    overlay_.emplace(grid_, tiles_, ends_, execution_);
+    for (TileSummary& tile : tiles_) forget(tile);
+    vertices = vertices_of(route, *overlay_, tiles_, execution_);
+    path.emplace(*overlay_, grid_, ends_, vertices, execution_);
+  }
+  expand_path(*path);
 }
 
 }  // namespace

@@ -5,6 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
+#include <csignal>
+#include <limits>
+#include <optional>
 #include <string>
 
 #include "core/base/error.hpp"
@@ -12,14 +17,16 @@
 #include "distributed/follower.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "scenes/mazes/spanning_maze.hpp"
-#include "solve/answer/write_answer_io.hpp"
 #include "solve/mazes/solve_streamed.hpp"
 #include "tests/distributed/thread_ranks.hpp"
+#include "tests/seeds.hpp"
+#include "tests/solve/answer_bytes.hpp"
 #include "verify/cells/verify_cells.hpp"
 
 namespace warren {
 namespace {
 
+using test::bytes_of;
 using test::ThreadRanks;
 
 struct Asked {
@@ -29,16 +36,6 @@ struct Asked {
 
 MazeOptions mst(std::uint32_t rows, std::uint32_t cols, std::uint64_t seed, double loops) {
   return {.rows = rows, .cols = cols, .seed = seed, .algorithm = MazeAlgorithm::mst, .loops = loops};
-}
-
-std::string bytes_of(Answer answer) {
-  answer.seconds = {};
-  answer.solve_s = 0.0;
-  answer.threads = 1;
-  answer.peak_memory_bytes = 0;
-  std::string text;
-  write_answer_json(answer, {}, [&](std::string_view piece) { text += piece; });
-  return text;
 }
 
 BandTask task_of(const Asked& asked) {
@@ -57,10 +54,14 @@ Answer solved(const Asked& asked, const Execution& execution, StreamedTeam* team
 struct Found {
   Answer answer;
   std::uint64_t bytes_sent = 0;
+  std::uint64_t bytes_of_rounds = 0;
+  std::optional<SharedSearch::Lack> lack = {};
 };
 
+constexpr std::uint64_t all_keys = std::numeric_limits<std::uint64_t>::max();
+
 Found solved_by(unsigned ranks, const Asked& asked, const Execution& execution = {.threads = 1},
-                std::size_t followers_memory = std::size_t{1} << 40U) {
+                std::size_t followers_memory = std::size_t{1} << 40U, std::uint64_t most_keys = all_keys) {
   ThreadRanks team(ranks);
   const BandTask task = task_of(asked);
   Found found;
@@ -70,8 +71,10 @@ Found solved_by(unsigned ranks, const Asked& asked, const Execution& execution =
       return;
     }
     const EndOfFollowers end(transport);
-    Leader leader(transport, task, execution);
+    Leader leader(transport, task, execution, most_keys);
     found.answer = solved(asked, execution, &leader);
+    found.bytes_of_rounds = leader.traffic()[static_cast<std::size_t>(Request::rounds)];
+    found.lack = leader.lack();
   });
   found.bytes_sent = team.bytes_sent();
   return found;
@@ -94,6 +97,103 @@ TEST(Leader, AnyNumberOfRanksGivesTheBytesOfOneProcess) {
       SCOPED_TRACE(ranks);
       EXPECT_EQ(bytes_of(solved_by(ranks, asked, {.threads = 1 + ranks % 2}).answer), expected);
     }
+  }
+}
+
+TEST(Leader, ASearchOverAllRanksGivesTheBytesOfOneProcess) {
+  std::vector<Asked> cases = {
+      {mst(1, 1, 1, 0.0)},
+      {mst(257, 256, 3, 0.05)},
+      {mst(600, 300, 6, 1.0)},
+      {mst(900, 520, 7, 0.02), {.start = {4.2, 300.3}, .goal = {500.0, 257.0}, .clearance = 0.2}},
+      {mst(900, 520, 7, 0.02), {.start = {100.3, 256.6}, .goal = {100.6, 256.9}}},
+      {mst(900, 300, 9, 0.1), {.start = {7.0, 512.5}, .goal = {7.0, 512.5}}},
+      {mst(700, 300, 8, 0.0), {.start = {3.0, 256.5}}},
+      {mst(520, 300, 9, 0.0), {.goal = {400.0, 2.0}}}};
+  for (std::uint64_t seed = 1; seed <= test::seeds(6); ++seed) {
+    for (const double loops : {0.0, 0.01, 0.1}) {
+      cases.push_back({mst(static_cast<std::uint32_t>(500 + 130 * seed), 300, seed, loops)});
+    }
+  }
+  for (const Asked& asked : cases) {
+    SCOPED_TRACE(
+        fmt::format("{} x {}, seed {}, loops {}", asked.maze.rows, asked.maze.cols, asked.maze.seed, asked.maze.loops));
+    const std::string expected = bytes_of(solved(asked, {.threads = 1}, nullptr));
+    for (const unsigned ranks : {1U, 2U, 3U, 5U, 8U}) {
+      SCOPED_TRACE(ranks);
+      const Found found = solved_by(ranks, asked, {.threads = 1 + ranks % 2}, std::size_t{1} << 40U, 0);
+      EXPECT_EQ(bytes_of(found.answer), expected);
+      if (found.answer.path.size() > 10) {
+        EXPECT_EQ(found.bytes_of_rounds > 0, ranks > 1);
+      }
+    }
+  }
+}
+
+TEST(Leader, ASearchOverAllRanksIsForWhatOneDoesNotHold) {
+  const Asked asked{mst(700, 300, 1, 0.1)};
+  EXPECT_EQ(solved_by(2, asked).bytes_of_rounds, 0);
+  EXPECT_GT(solved_by(2, asked, {.threads = 1}, std::size_t{1} << 40U, 100).bytes_of_rounds, 0);
+}
+
+TEST(BandRounds, ABandThatLacksMemorySaysHowMuch) {
+  const Deadline tight(std::numeric_limits<double>::infinity(), 1);
+  const TileGrid grid = TileGrid::of({512, 256}, 8);
+  const auto asked = static_cast<std::uint32_t>(RoundStep::hold);
+  TileSummary tile;
+  tile.keys = {3, 7};
+  BandRounds rounds(grid, {0, 1}, {}, {tile}, {.threads = 1});
+  BandRounds poor(grid, {0, 1}, {}, {tile}, {.threads = 1, .deadline = &tight});
+  const auto lacking = [&](BandRounds& band) {
+    ValueUnpacker from(std::as_bytes(std::span(&asked, 1)), "test");
+    ValuePacker to;
+    band.serve(from, to);
+    ValueUnpacker answer(to.bytes(), "test");
+    return HeldBand::unpack(answer).lacking_bytes;
+  };
+  EXPECT_EQ(lacking(rounds), 0);
+  EXPECT_GE(lacking(poor), 2 * 53U);
+}
+
+/// Rank 0's end of a transport, which lets a signal come after so many messages of the rounds.
+class SignalInRounds : public Transport {
+ public:
+  SignalInRounds(Transport& whole, unsigned messages, SignalFlag& signal)
+      : whole_(whole), left_(messages), signal_(signal) {}
+  unsigned rank() const override { return whole_.rank(); }
+  unsigned ranks() const override { return whole_.ranks(); }
+  void send(unsigned to, std::span<const std::byte> bytes, const Execution& execution) override {
+    if (ValueUnpacker(bytes, "test").take<Request>() == Request::rounds && --left_ == 0) signal_ = SIGTERM;
+    whole_.send(to, bytes, execution);
+  }
+  Bytes receive(unsigned from, const Execution& execution) override { return whole_.receive(from, execution); }
+  bool has_message(unsigned from) override { return whole_.has_message(from); }
+
+ private:
+  Transport& whole_;
+  unsigned left_;
+  SignalFlag& signal_;
+};
+
+TEST(Leader, ASignalInTheRoundsStopsAll) {
+  const Asked asked{mst(700, 300, 1, 0.1)};
+  for (const unsigned messages : {1U, 3U, 6U, 9U, 40U, 300U}) {
+    SCOPED_TRACE(messages);
+    SignalFlag signal{0};
+    const Deadline deadline(std::numeric_limits<double>::infinity(), std::size_t{1} << 40U, &signal);
+    ThreadRanks team(3);
+    Answer answer;
+    team.run([&](Transport& transport) {
+      if (transport.rank() > 0)
+        return follow(transport, task_of(asked), {.threads = 1, .memory_bytes = std::size_t{1} << 40U});
+      const Execution execution{.threads = 1, .deadline = &deadline};
+      SignalInRounds signalled(transport, messages, signal);
+      const EndOfFollowers end(transport);
+      Leader leader(signalled, task_of(asked), execution, 0);
+      answer = solved(asked, execution, &leader);
+    });
+    EXPECT_EQ(answer.outcome, Outcome::stopped);
+    EXPECT_EQ(answer.stop_reason, StopReason::terminate);
   }
 }
 

@@ -93,6 +93,19 @@ class Answers(unittest.TestCase):
                     self.same(world, ["--no-path", "--path", "FILE.npy"] if (number + ranks) % 2 else [], ranks,
                               1 + ranks % 2)
 
+    def test_what_rank_0_does_not_hold_all_search_and_what_nobody_holds_is_refused(self):
+        world = "maze:2500x2500,algorithm=mst,seed=1,loops=0.1"
+        code, one, err = run([WARREN, "solve", world, "--pipeline", "streamed", "--no-path", "--json", "-"])
+        self.assertEqual(code, 0, err)
+        ask = ["solve", world, "--no-path", "--threads", "1", "--json", "-", "--memory"]
+        for ranks in (4, 7):
+            code, out, err = run(mpirun(ranks, ask + ["80MiB"]))
+            self.assertEqual(code, 0, err)
+            self.assertEqual(timeless(out), timeless(one))
+            self.assertEqual(json.loads(out)["stages_s"]["graph"], 0.0, "rank 0 held the overlay")
+        code, out, err = run(mpirun(4, ask + ["46MiB"]))
+        self.assertEqual((code, json.loads(out)["status"]), (124, "stopped"), err)
+        self.assertRegex(err, r"warren-mpi: rank \d would need [\d.]+ MiB more for its share of the search")
 
     def test_scale_tells_of_each_run(self):
         code, out, err = run(mpirun(3, ["scale", "--side", "600", "--ranks", "1,2,3", "--json", "-"]))

@@ -9,29 +9,19 @@
 
 #include "core/base/error.hpp"
 #include "scenes/mazes/maze_generator.hpp"
-#include "solve/answer/write_answer_io.hpp"
 #include "solve/mazes/solve_streamed.hpp"
+#include "tests/solve/answer_bytes.hpp"
 #include "tests/tools/process.hpp"
 
 namespace warren {
 namespace {
 
+using test::bytes_of;
+
 struct Asked {
   MazeOptions maze{.rows = 300, .cols = 280, .seed = 3, .algorithm = MazeAlgorithm::mst, .loops = 0.05};
   Question question = {};
 };
-
-/// The answer's bytes (too many to be printed where they differ), but for times and what else may differ from run to
-/// run.
-std::string bytes_of(Answer answer) {
-  answer.seconds = {};
-  answer.solve_s = 0.0;
-  answer.threads = 1;
-  answer.peak_memory_bytes = 0;
-  std::string text;
-  write_answer_json(answer, {}, [&](std::string_view piece) { text += piece; });
-  return text;
-}
 
 std::string solved(const Asked& asked, KeptParts* kept, unsigned threads = 1) {
   const Scene scene = unmade_maze_scene(asked.maze);
