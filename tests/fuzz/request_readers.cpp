@@ -66,7 +66,7 @@ HttpResponse answer_to(std::string_view bytes) {
 
 void read_requests(std::string_view bytes) {
   const HttpResponse said = answer_to(bytes);
-  constexpr std::array statuses{200U, 304U, 400U, 403U, 404U, 405U, 413U, 414U, 431U, 503U, 504U};
+  constexpr std::array statuses{200U, 304U, 400U, 403U, 404U, 405U, 413U, 414U, 422U, 431U, 503U, 504U};
   demand(std::find(statuses.begin(), statuses.end(), said.status) != statuses.end(), "a status that is documented");
   for (const auto& [name, value] : said.fields)
     demand(value.find_first_of("\r\n") == std::string::npos, "a field is one line");
