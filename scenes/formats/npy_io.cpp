@@ -276,6 +276,13 @@ Scene read_npy(const InputFile& file, const Execution& execution) {
   return scene;
 }
 
+void write_npy(const WallStrips& walls, const std::string& path, const Execution& execution) {
+  OutputFile file(path, execution);
+  file.write(walls.holds_floats() ? header_of<float>(walls.wall_count()) : header_of<double>(walls.wall_count()));
+  walls.write([&](std::string_view bytes) { file.write(bytes); }, execution);
+  file.commit();
+}
+
 void write_npy(const Scene& scene, const std::string& path, const Execution& execution) {
   if (!scene.polygons.empty() || has_solids(scene) || scene.bounds) {
     throw InputError(path, "a .npy file holds walls alone; write polygons, spheres and bounds to a .scene file");

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "parallel/execution.hpp"
+#include "scenes/mazes/wall_strips.hpp"
 #include "scenes/scene/scene.hpp"
 #include "scenes/text/input_file_io.hpp"
 
@@ -33,5 +34,7 @@ Scene read_npy(const InputFile& file, const Execution& execution);
 /// Writes the walls, `<f4` where they are held as floats. Throws InputError if the scene holds obstacles of another
 /// kind, and as OutputFile does.
 void write_npy(const Scene& scene, const std::string& path, const Execution& execution);
+/// Writes the walls of a maze while they are made. Throws WriteError, Stopped.
+void write_npy(const WallStrips& walls, const std::string& path, const Execution& execution);
 
 }  // namespace warren

@@ -32,6 +32,7 @@ RUNS = [
     ("solve", "solve w.scene --json a.json --svg a.svg --trace a.trace --threads 1", ["a.json", "a.svg", "a.trace"]),
     ("solve on threads", "solve big.npy --sampler uniform --json a.json --threads 4 --progress plain", ["a.json"]),
     ("generate", "generate maze 9x9 -o m.npy", ["m.npy"]),
+    ("generate what is written while made", "generate maze 9x9 --algorithm mst -o n.npy", ["n.npy"]),
     ("generate polygons", "generate polygons 4 -o p.geojson", ["p.geojson"]),
     ("convert", "convert m.yaml -o n.yaml", ["n.yaml", "n.pgm"]),
     ("convert to a picture", "convert w.scene -o w.png", ["w.png"]),

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the program promises of mazes that are made, reduced and forgotten tile by tile: the answers of walls that are
 // held, the same bytes for any threads, and a little memory.
+#include <signal.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <chrono>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 
 #include "scenes/mazes/maze_generator.hpp"
 #include "tests/scenes/mazes/mazes.hpp"
@@ -205,6 +209,43 @@ TEST(Streamed, MazeFilesGoThroughOtherFormats) {
   EXPECT_EQ(packed["maze"], Json({1500, 1600}));
   EXPECT_EQ(packed["walls"], answered({"info", file})["walls"]);
   check({{"convert", world_file("walls.scene"), "-o", folder.path("c.maze")}, 65, "a .maze file holds a maze alone"});
+}
+
+TEST(Streamed, ArraysLargerThanTheMemoryAreWrittenWhileTheyAreMade) {
+  const Folder folder;
+  std::vector<std::string> words = {"generate", "maze", "1500x1600", "--algorithm", "mst", "--loops", "0.05"};
+  ASSERT_EQ(run(joined(words, {"-o", folder.path("a.maze")})).code, 0);
+  ASSERT_EQ(run({"convert", folder.path("a.maze"), "-o", folder.path("units.npy")}).code, 0);
+  const char* limit = test::memory_is_ours() ? "32MiB" : "1GiB";  // the walls have 33 MB, merged 20
+  words = joined(words, {"--memory", limit, "-o", folder.path("a.npy")});
+  ASSERT_EQ(run(joined(words, {"--unit-walls"})).code, 0);
+  EXPECT_TRUE(folder.read("a.npy") == folder.read("units.npy"));
+  ASSERT_EQ(run(words).code, 0);
+  EXPECT_LT(folder.read("a.npy").size(), folder.read("units.npy").size());
+  EXPECT_EQ(streamed(folder.path("a.npy"), {"--no-path"})["roadmap"],
+            streamed(folder.path("a.maze"), {"--no-path"})["roadmap"]);
+}
+
+TEST(Streamed, AnArrayThatIsNotWrittenToItsEndIsNone) {
+  const Folder folder;
+  const auto words = [&](const std::string& file) {
+    return std::vector<std::string>{"generate", "maze", "3000x3000", "--algorithm", "mst", "-o", file};
+  };
+  for (const char* budget : {"20ms", "300ms", "600ms"}) {
+    check({joined(words(folder.path("a.npy")), {"--budget", budget}), 124, "budget"});
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path("")));
+  }
+  for (const int at : {200, 700}) {
+    Process process(words(folder.path("a.npy")));
+    process.wait_until_it_computed_for(std::chrono::milliseconds(at));
+    process.send(SIGINT);
+    EXPECT_EQ(process.wait().code, 130);
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path("")));
+  }
+  std::filesystem::create_symlink("/dev/full", folder.path("full.npy"));
+  check({words(folder.path("full.npy")), 73, "full.npy"});
+  check({joined(words(folder.path("a.npy")), {"--memory", "4MiB"}), 124, "memory"});
+  EXPECT_FALSE(std::filesystem::exists(folder.path("a.npy")));
 }
 
 TEST(Streamed, ArraysLargerThanTheMemoryAreReadInWindows) {

@@ -10,6 +10,7 @@
 #include "core/base/error.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "scenes/formats/maze_file_io.hpp"
+#include "scenes/formats/npy_io.hpp"
 #include "scenes/formats/read_world_io.hpp"
 #include "scenes/mazes/held_cells.hpp"
 #include "scenes/mazes/maze_generator.hpp"
@@ -95,25 +96,27 @@ std::function<Scene(const Execution&)> generator_of(const Arguments& arguments) 
   throw UsageError("'" + what + "' is nothing that can be generated; did you mean maze or polygons?");
 }
 
-/// A maze as .maze, whose walls nobody needs to hold.
-void generate_maze_file(const MazeOptions& options, const std::string& file, const Execution& execution) {
+/// A maze whose walls nobody needs to hold, as .maze or, of mst, as .npy.
+void generate_maze_file(const MazeOptions& options, bool merged, const std::string& file, const Execution& execution) {
   if (options.algorithm == MazeAlgorithm::mst) {
-    return write_maze_file(SpanningMaze(options.rows, options.cols, options.seed, options.loops, execution), file,
-                           execution);
+    const SpanningMaze maze(options.rows, options.cols, options.seed, options.loops, execution);
+    if (ending_of(file) == ".npy") return write_npy(WallStrips(maze, merged, execution), file, execution);
+    return write_maze_file(maze, file, execution);
   }
   write_maze_file(HeldCells(generate_maze(options, execution), CellBits::usual_side_log2), file, execution);
 }
 
 int generate_packed(const Arguments& arguments, const std::string& file) {
   const MazeOptions options = maze_options(arguments);
-  if (arguments.has("--unit-walls")) throw UsageError("--unit-walls: a .maze file holds cells");
+  const bool is_merged = !arguments.has("--unit-walls");
+  if (!is_merged && ending_of(file) == ".maze") throw UsageError("--unit-walls: a .maze file holds cells");
   check_world_file(file);
   picture_words(arguments, false, "-o FILE.svg or another picture", file);
   Run run(arguments);
   double seconds = 0.0;
   {
     const StageTimer timer(run.execution(), "generate", seconds);
-    generate_maze_file(options, file, run.execution());
+    generate_maze_file(options, is_merged, file, run.execution());
   }
   run.end();
   if (!run.quiet()) {
@@ -123,9 +126,14 @@ int generate_packed(const Arguments& arguments, const std::string& file) {
   return exit_code::success;
 }
 
+bool is_written_while_made(const Arguments& arguments, const std::string& file) {
+  if (arguments.operand(0) != "maze") return false;
+  if (ending_of(file) == ".maze") return true;
+  return ending_of(file) == ".npy" && maze_options(arguments).algorithm == MazeAlgorithm::mst;
+}
+
 int generate(const Arguments& arguments) {
-  if (const auto file = arguments.value("--output");
-      file && ending_of(*file) == ".maze" && arguments.operand(0) == "maze") {
+  if (const auto file = arguments.value("--output"); file && is_written_while_made(arguments, *file)) {
     return generate_packed(arguments, *file);
   }
   const auto make = generator_of(arguments);
