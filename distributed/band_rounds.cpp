@@ -302,10 +302,11 @@ void BandRounds::rims(ValueUnpacker& from, ValuePacker& to) {
       if (labels.size() != crossing_count(border)) from.refuse();
       for (std::uint64_t i = 0; i < labels.size(); ++i) {
         const VertexId there = beyond(border, i);
-        if (come)
+        if (come) {
           side->set_label(there, labels[i]);
-        else
+        } else {
           labels[i] = side->label(within(there));
+        }
       }
       if (!come) to.add_list(labels);
     }

@@ -5,37 +5,75 @@
 #include <chrono>
 #include <string>
 
+#include "tests/seeds.hpp"
 #include "tests/tools/grid_worlds.hpp"
 
 namespace warren::test {
 namespace {
 
-const std::string world = "maze:4200x2100,algorithm=mst,seed=2,loops=0.02";
+const std::string formula = "maze:4200x2100,algorithm=mst,seed=2,loops=0.02";
 
 Json timeless(Json answer) {
   for (const char* key : {"stages_s", "solve_s", "peak_memory_bytes", "threads"}) answer.erase(key);
   return answer;
 }
 
-std::vector<std::string> resumed(const Folder& folder, const char* threads) {
-  return {"solve",     world,   "--pipeline", "streamed", "--no-path", "--resume", folder.path("resume"),
-          "--threads", threads, "--quiet"};
+std::vector<std::string> asked(const std::string& world) {
+  std::vector<std::string> words = {"solve", world, "--pipeline", "streamed", "--no-path"};
+  if (world.ends_with(".npy")) words = joined(words, {"--memory", "80MiB"});  // which does not hold its walls
+  return words;
 }
 
+std::vector<std::string> resumed(const std::string& world, const Folder& folder, const char* threads) {
+  return joined(asked(world), {"--resume", folder.path("resume"), "--threads", threads, "--quiet"});
+}
+
+/// Two runs that end by that signal, at moments from `at` ms of computing on, and one that does not.
+void check_goes_on(const std::string& world, const Json& expected, int signal, int at) {
+  SCOPED_TRACE(at);
+  const Folder folder;
+  for (const int more : {0, 170}) {
+    Process process(resumed(world, folder, "2"));
+    process.wait_until_it_computed_for(std::chrono::milliseconds(at + more));
+    process.send(signal);
+    process.wait();
+  }
+  EXPECT_EQ(timeless(answered(resumed(world, folder, at % 3 == 0 ? "1" : "3"))), expected);
+}
+
+Json expected_of(const std::string& world) { return timeless(answered(asked(world))); }
+
 TEST(Resume, RunsThatWereKilledOrStoppedAnywhereGoOnToTheSameAnswer) {
-  const Json expected = timeless(answered({"solve", world, "--pipeline", "streamed", "--no-path"}));
+  const Json expected = expected_of(formula);
   int at = 0;
   for (const int signal : {SIGKILL, SIGINT, SIGKILL, SIGTERM, SIGKILL}) {
-    const Folder folder;
-    for (int round = 0; round < 2; ++round) {
-      SCOPED_TRACE(at);
-      at += 170;
-      Process process(resumed(folder, "2"));
-      process.wait_until_it_computed_for(std::chrono::milliseconds(at));
-      process.send(signal);
-      process.wait();
+    check_goes_on(formula, expected, signal, at);
+    at += 340;
+  }
+}
+
+TEST(Resume, RunsOverFilesGoOnToTheSameAnswerAndNotOverOtherFiles) {
+  const Folder worlds;
+  for (const char* name : {"a.maze", "a.npy"}) {
+    SCOPED_TRACE(name);
+    if (name == std::string("a.npy") && !memory_is_ours()) continue;
+    const std::string world = worlds.path(name);
+    const auto make = [&](const char* seed) {
+      const std::vector<std::string> words = {"generate", "maze", "2100x2100", "--algorithm", "mst", "--loops", "0.02"};
+      ASSERT_EQ(run(joined(words, {"--seed", seed, "-o", world})).code, 0);
+    };
+    make("2");
+    const Json expected = expected_of(world);
+    int at = 60;
+    for (const int signal : {SIGKILL, SIGINT, SIGKILL}) {
+      check_goes_on(world, expected, signal, at);
+      at += 200;
     }
-    EXPECT_EQ(timeless(answered(resumed(folder, at % 3 == 0 ? "1" : "3"))), expected);
+    const Folder folder;
+    ASSERT_EQ(run(resumed(world, folder, "1")).code, 0);
+    EXPECT_EQ(timeless(answered(resumed(world, folder, "2"))), expected);
+    make("3");
+    check({resumed(world, folder, "1"), 65, "another run"});
   }
 }
 

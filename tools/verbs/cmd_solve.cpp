@@ -53,7 +53,10 @@ class SolveCommand : public AnswerCommand {
  private:
   Answer resumed(const std::string& file, const Run& run) {
     if (!is_unmade(scene_)) {
-      throw UsageError("--resume: keeps tiles of mazes that are made tile by tile; see --pipeline streamed");
+      throw UsageError(
+          "--resume: keeps tiles of mazes that are made tile by tile: of mst and .maze with --pipeline streamed, and "
+          "of "
+          ".npy where --memory does not hold their walls");
     }
     ResumeFile kept(file, run.execution());
     Answer answer =
