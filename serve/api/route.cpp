@@ -38,6 +38,8 @@ Route api_route(const std::vector<std::string_view>& words) {
   if (words.size() == 3 && words[2] == "world") return {.place = Place::world};
   if (words.size() == 3 && words[2] == "query") return {.place = Place::query};
   if (words.size() == 4 && words[2] == "query" && words[3] == "batch") return {.place = Place::batch};
+  if (words.size() == 3 && words[2] == "scene") return {.place = Place::scene};
+  if (words.size() == 3 && words[2] == "update") return {.place = Place::update};
   if (words.size() == 3 && words[2] == "check") return {.place = Place::check};
   if (words.size() == 3 && words[2] == "graph") return {.place = Place::graph};
   if (words.size() == 4 && words[2] == "graph" && words[3] == "open") return {.place = Place::open_graph};
@@ -64,7 +66,9 @@ Route place_of(std::string_view path, const TileGrid& grid, std::string_view has
 }  // namespace
 
 bool is_of_graphs(Place place) { return place >= Place::graph; }
-bool is_posted(Place place) { return place == Place::query || place == Place::batch || is_of_graphs(place); }
+bool is_posted(Place place) {
+  return place == Place::query || place == Place::batch || place == Place::update || is_of_graphs(place);
+}
 
 Route route_of(const HttpRequest& request, const TileGrid& grid, std::string_view hash) {
   Route route = place_of(request.path, grid, hash);

@@ -20,6 +20,8 @@ enum class Place : std::uint8_t {
   path,
   query,
   batch,
+  scene,
+  update,
   graph,
   open_graph,
   save_graph,

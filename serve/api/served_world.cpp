@@ -89,6 +89,14 @@ void ServedWorld::describe(const Execution& execution) {
   if (scene.bounds) box_.include(*scene.bounds);
 }
 
+std::unique_ptr<ServedWorld> ServedWorld::changed(Scene now, const Execution& execution) const {
+  if (query_ == nullptr) return std::make_unique<ServedWorld>(std::move(now), body_, execution);
+  if (roadmap_->lattice != nullptr) {
+    throw UsageError("a large maze is asked by its lattice, which is not changed here; 'warren update' does that");
+  }
+  return std::make_unique<ServedWorld>(update(*roadmap_, std::move(now), execution), execution);
+}
+
 void ServedWorld::prepare(const Execution& execution) const {
   if (query_) query_->prepare_paths(execution);
 }

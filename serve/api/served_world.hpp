@@ -52,6 +52,9 @@ class ServedWorld {
   /// Was it opened as a roadmap, or else as a world?
   bool is_roadmap() const { return is_roadmap_; }
 
+  /// The same body and options in another scene: a roadmap is updated. Throws UsageError where that can't be done here,
+  /// InputError, Stopped.
+  std::unique_ptr<ServedWorld> changed(Scene now, const Execution& execution) const;
   /// Makes what first questions would wait for. Throws Stopped, InputError.
   void prepare(const Execution& execution) const;
   /// A verified answer, or why there is none; a blocked end is explained. Throws UsageError, InputError, Stopped.

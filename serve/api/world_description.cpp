@@ -9,6 +9,7 @@
 #include "scenes/scene/unit_of.hpp"
 #include "scenes/text/human_units.hpp"
 #include "scenes/text/json_text.hpp"
+#include "serve/api/world_service.hpp"
 #include "solve/answer/world_account.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 
@@ -59,7 +60,7 @@ void add_line(std::string& text, std::string_view name, std::string_view kind, s
 
 }  // namespace
 
-std::string description_json(const ServedWorld& world, double budget_s) {
+std::string description_json(const ServedWorld& world, const ServiceLimits& limits) {
   const Scene& outline = world.outline();
   JsonObject json;
   json.add("schema", "warren.service/1");
@@ -76,7 +77,9 @@ std::string description_json(const ServedWorld& world, double budget_s) {
   json.add_json("goal", json_list(std::span<const double>(outline.goal)));
   json.add("asks_roadmap", world.query() != nullptr);
   json.add_json("planners", planners_json(world));
-  json.add("budget_ms", 1e3 * budget_s);
+  json.add("budget_ms", 1e3 * limits.budget_s);
+  json.add("writable", limits.writable && !outline.map);
+  json.add("wants_token", limits.wants_token);
   json.add_json("tiles", tiles_json(world.tiles().grid(), world.hash()));
   return json.closed() + "\n";
 }

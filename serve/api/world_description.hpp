@@ -9,8 +9,10 @@
 
 namespace warren {
 
+struct ServiceLimits;
+
 /// warren.service/1: what a page needs to show the world and to ask.
-std::string description_json(const ServedWorld& world, double budget_s);
+std::string description_json(const ServedWorld& world, const ServiceLimits& limits);
 
 /// What is kept.
 struct KeptBytes {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "scenes/formats/scene_io.hpp"
 #include "scenes/text/input_file_io.hpp"
 #include "scenes/text/json_text.hpp"
 #include "serve/api/path_view.hpp"
@@ -35,7 +36,7 @@ HttpResponse not_modified(std::string tag) {
 WorldService::WorldService(const ServedWorld& world, const ServiceLimits& limits)
     : world_(world),
       limits_(limits),
-      world_json_(description_json(world, limits.budget_s)),
+      world_json_(description_json(world, limits)),
       graphs_(world),
       tiles_(limits.tile_bytes),
       paths_(limits.path_bytes) {}
@@ -47,6 +48,9 @@ Route WorldService::route(const HttpRequest& request) const {
 std::size_t WorldService::most_body(const HttpRequest& head) const {
   const Route asked = route(head);
   if (asked.place == Place::file) file(head, asked.name);  // or there is none
+  if (asked.place == Place::update) {
+    throw HttpError(403, "read_only", "path", "this world is not to be changed; 'serve --writable' lets it");
+  }
   if (asked.place == Place::batch || is_of_graphs(asked.place)) return limits_.batch_body;
   return asked.place == Place::query ? limits_.small_body : 0;
 }
@@ -86,6 +90,7 @@ HttpResponse WorldService::work(const HttpRequest& request, const SignalFlag& go
   execution.check();
   if (asked.place == Place::tile) return tile(asked, execution);
   if (asked.place == Place::batch) return batch(request, execution);
+  if (asked.place == Place::scene) return scene(request, execution);
   if (is_of_graphs(asked.place)) return graphs_.answer(asked.place, request.body, execution);
   return path(request, asked.name, execution);
 }
@@ -191,6 +196,30 @@ HttpResponse WorldService::path(const HttpRequest& request, const std::string& n
   });
   if (!is_there) throw HttpError(404, "not_found", "path", "this path is not kept any more; ask again");
   return {.body = json.closed() + "\n"};
+}
+
+HttpResponse WorldService::scene(const HttpRequest& request, const Execution& execution) const {
+  const Scene& whole = world_.whole(execution);
+  if (whole.map) throw UsageError("this world is the cells of a map, which no scene holds");
+  execution.reserve(whole.walls.size() * sizeof(Segment));
+  Scene told = whole;
+  told.robot = world_.robot();
+  told.clearance = world_.clearance();
+  const std::size_t numbers = state_size(world_.robot());
+  if (auto start = numbers_parameter(request, "start", numbers)) told.start = std::move(*start);
+  const bool any_heading = std::ranges::count(parameter(request, "goal").value_or(""), ',') == 1;
+  if (auto goal = numbers_parameter(request, "goal", any_heading ? 2 : numbers)) told.goal = std::move(*goal);
+  HttpResponse response{.type = "text/plain; charset=utf-8",
+                        .fields = {{"Content-Disposition", "attachment; filename=\"world.scene\""}}};
+  write_scene_text(
+      told,
+      [&](std::string_view piece) {
+        response.body += piece;
+        if (response.body.size() <= limits_.scene_bytes) return;
+        throw HttpError(413, "scene_too_large", "path", "this scene is more than 64 MiB of text");
+      },
+      execution);
+  return response;
 }
 
 HttpResponse WorldService::metrics(const HttpFigures& figures) const {

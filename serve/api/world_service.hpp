@@ -19,6 +19,9 @@ struct ServiceLimits {
   double budget_s = 10.0;  ///< of each request that is worked on; questions may ask for less
   std::size_t memory_bytes = static_cast<std::size_t>(-1);  ///< that the process may hold
   unsigned threads = 0;                                     ///< of each request
+  bool writable = false;                                    ///< does whoever owns the service take changes?
+  bool wants_token = false;                                 ///< from those who change
+  std::size_t scene_bytes = std::size_t{64} << 20U;         ///< of a scene that is told
   std::size_t tile_bytes = std::size_t{64} << 20U;          ///< of tiles that are kept
   std::size_t path_bytes = std::size_t{256} << 20U;         ///< of paths that are kept
   std::size_t most_points = 10'000;                         ///< of a path that an answer lists
@@ -49,6 +52,7 @@ class WorldService : public HttpService {
   HttpResponse tile(const Route& route, const Execution& execution);
   HttpResponse query(const HttpRequest& request, const SignalFlag& gone);
   HttpResponse batch(const HttpRequest& request, const Execution& execution) const;
+  HttpResponse scene(const HttpRequest& request, const Execution& execution) const;
   HttpResponse path(const HttpRequest& request, const std::string& name, const Execution& execution);
   HttpResponse metrics(const HttpFigures& figures) const;
   std::string tile_tag() const;

@@ -200,7 +200,7 @@ function wireControls() {
 }
 function wireMap() {
   for (const end of ["start", "goal"]) marks[end] = makeMark(end, place => setEnd(end, place));
-  map.on("click", event => takesClick(event) || setEnd(question.start ? "goal" : "start", placeOf(event.latlng)));
+  map.on("click", event => drawsClick(event) || takesClick(event) || setEnd(question.start ? "goal" : "start", placeOf(event.latlng)));
   map.on("moveend", keepLink);
   byId("map").addEventListener("keydown", event => {
     const end = {s: "start", g: "goal"}[event.key];
@@ -218,6 +218,7 @@ function takeOwnEnds() {
   }
 }
 async function begin() {
+  takeToken();
   world = await (await fetch("/api/world")).json();
   const name = world.source.split("/").pop();
   document.title = name + " – warren";
@@ -232,6 +233,7 @@ async function begin() {
   const hasEnds = readLink();
   wireMap();
   wireGraph();
+  wireDrawing();
   if (!hasEnds) takeOwnEnds();
   showQuestion();
 }

@@ -11,8 +11,9 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "scenes/text/input_file_io.hpp"
 #include "serve/api/served_world.hpp"
-#include "serve/api/world_service.hpp"
+#include "serve/api/writable_service.hpp"
 #include "serve/http/http_server.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/last_words.hpp"
@@ -34,6 +35,8 @@ constexpr OptionSpec serve_specs[] = {
     {"--port", "N", "where to listen; 0 takes a port that is free (default: 8765)"},
     {"--listen", "ADDRESS", "listen there instead of on this machine alone: whoever reaches it may ask"},
     {"--budget", "TIME", "most time for each request (default: 10s)"},
+    {"--writable", "", "whoever reaches it may draw walls and polygons, and everybody sees them; no file is written"},
+    {"--token-file", "FILE", "who changes the world must know this file's first line, 16 to 256 letters"},
     roadmap_world_option,
 };
 
@@ -67,16 +70,40 @@ void say_where(const HttpServer& server) {
   if (std::fflush(stdout) != 0) throw WriteError("standard output", "it did not take all");
 }
 
+/// It goes into a field of a request and into the address of the page.
+std::string token_of(const Arguments& arguments, const Execution& execution) {
+  constexpr std::size_t shortest = 16;
+  constexpr std::size_t longest = 256;
+  constexpr std::string_view marks = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
+  const auto name = arguments.value("--token-file");
+  if (!name) return {};
+  if (!arguments.has("--writable")) throw UsageError("--token-file: is for --writable");
+  const InputFile file(std::string(*name), execution);
+  std::string_view token = file.bytes().substr(0, file.bytes().find('\n'));
+  if (token.ends_with('\r')) token.remove_suffix(1);
+  if (token.size() < shortest || token.size() > longest || token.find_first_not_of(marks) != token.npos) {
+    throw InputError(std::string(*name), "a first line of 16 to 256 letters, digits, - and _ is expected");
+  }
+  return std::string(token);
+}
+
 int serve(const Arguments& arguments) {
   const HttpPlace place = place_of(arguments);
   const auto budget_s = given_value(arguments, "--budget", duration_value);
   Run run(arguments, RunScope::each_run);
-  const std::unique_ptr<ServedWorld> world = load_served(arguments, run);
+  const std::string token = token_of(arguments, run.execution());
+  std::unique_ptr<ServedWorld> world = load_served(arguments, run);
   run.end();
   ServiceLimits limits{.memory_bytes = run.execution().deadline->memory_bytes(), .threads = run.execution().threads};
   if (budget_s) limits.budget_s = *budget_s;
-  WorldService service(*world, limits);
+  limits.writable = arguments.has("--writable");
+  limits.wants_token = !token.empty();
+  WritableService service(std::move(world), limits, token);
   HttpServer server(place, {.threads = std::max(2U, run.threads())}, service);
+  if (limits.writable && !server.is_loopback() && token.empty()) {
+    throw UsageError(
+        "--listen: whoever reaches this address could change the world; there --writable needs --token-file");
+  }
   if (!server.is_loopback()) {
     say_on_standard_error("warren: warning: whoever reaches this address may ask, and see the world\n");
   }

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Polygons are few beside walls and are looked through; of walls, those to remove are sorted, so a change costs
+// O(n log k) for n walls and k shapes.
+#include "serve/changes/scene_change.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "core/plane/geometry.hpp"
+#include "core/plane/polygon_distance.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
+#include "serve/http/http_message.hpp"
+
+namespace warren {
+namespace {
+
+constexpr std::size_t a_poll = 4096;
+
+using WallKey = std::array<double, 4>;
+WallKey key_of(const Segment& wall) {
+  const std::pair a{wall.a.x, wall.a.y};
+  const std::pair b{wall.b.x, wall.b.y};
+  const auto [low, high] = std::minmax(a, b);
+  return {low.first, low.second, high.first, high.second};
+}
+
+double distance_to(const std::vector<Vec2>& polygon, Vec2 p) {
+  if (contains(polygon, p)) return 0.0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    least = std::min(least, distance(p, Segment{polygon[i], polygon[(i + 1) % polygon.size()]}));
+  }
+  return least;
+}
+
+/// What is erased becomes what is removed.
+class Removal {
+ public:
+  Removal(const Scene& scene, const SceneChange& change, const Execution& execution)
+      : scene_(scene), execution_(execution), is_gone_(scene.polygons.size(), false), shapes_(change.remove) {
+    for (const ErasedPlace& place : change.erase) erase(place);
+    for (const Segment& wall : shapes_.walls) walls_.push_back(key_of(wall));
+    std::sort(walls_.begin(), walls_.end());
+    for (const std::vector<Vec2>& polygon : shapes_.polygons) take(polygon);
+  }
+  const DrawnShapes& shapes() const { return shapes_; }
+
+  std::vector<Segment> walls_left() {
+    execution_.reserve(scene_.walls.size() * sizeof(Segment));
+    std::vector<Segment> left;
+    left.reserve(scene_.walls.size());
+    std::vector<bool> used(walls_.size(), false);
+    for (std::size_t i = 0; i < scene_.walls.size(); ++i) {
+      if (i % a_poll == 0) execution_.check();
+      const Segment wall = scene_.walls.segment(i);
+      if (!is_removed(wall, used)) left.push_back(wall);
+    }
+    if (std::find(used.begin(), used.end(), false) != used.end()) refuse("wall");
+    return left;
+  }
+  std::vector<ScenePolygon> polygons_left() const {
+    std::vector<ScenePolygon> left;
+    for (std::size_t i = 0; i < is_gone_.size(); ++i) {
+      if (!is_gone_[i]) left.push_back(scene_.polygons[i]);
+    }
+    return left;
+  }
+
+ private:
+  [[noreturn]] static void refuse(std::string_view what) {
+    throw HttpError(400, "not_there", "remove", fmt::format("a {} that shall be removed is not in the world", what));
+  }
+  bool is_removed(const Segment& wall, std::vector<bool>& used) const {
+    if (walls_.empty()) return false;
+    const auto [first, last] = std::equal_range(walls_.begin(), walls_.end(), key_of(wall));
+    for (auto it = first; it != last; ++it) {  // each takes one
+      const auto k = static_cast<std::size_t>(it - walls_.begin());
+      if (used[k]) continue;
+      used[k] = true;
+      return true;
+    }
+    return false;
+  }
+  void take(const std::vector<Vec2>& polygon) {
+    execution_.check();
+    for (std::size_t i = 0; i < is_gone_.size(); ++i) {
+      if (is_gone_[i] || scene_.polygons[i].corners != polygon) continue;
+      is_gone_[i] = true;
+      return;
+    }
+    refuse("polygon");
+  }
+  void erase(const ErasedPlace& place) {
+    double least = place.reach;
+    std::size_t wall = scene_.walls.size();
+    std::size_t polygon = scene_.polygons.size();
+    for (std::size_t i = 0; i < scene_.walls.size(); ++i) {
+      if (i % a_poll == 0) execution_.check();
+      const double away = distance(place.at, scene_.walls.segment(i));
+      if (away <= least) std::tie(least, wall) = std::pair(away, i);
+    }
+    for (std::size_t i = 0; i < scene_.polygons.size(); ++i) {
+      if (i % a_poll == 0) execution_.check();
+      const double away = distance_to(scene_.polygons[i].corners, place.at);
+      if (away < least || (away <= least && wall == scene_.walls.size())) std::tie(least, polygon) = std::pair(away, i);
+    }
+    if (polygon < scene_.polygons.size()) {
+      shapes_.polygons.push_back(scene_.polygons[polygon].corners);
+    } else if (wall < scene_.walls.size()) {
+      shapes_.walls.push_back(scene_.walls.segment(wall));
+    }
+  }
+
+  const Scene& scene_;
+  const Execution& execution_;
+  std::vector<bool> is_gone_;  // of polygons
+  DrawnShapes shapes_;
+  std::vector<WallKey> walls_;  // sorted
+};
+
+void check(const Scene& scene, const SceneChange& change) {
+  if (scene.map) {
+    throw UsageError(
+        "this world is the cells of a map, which an image editor draws; walls and polygons are for scenes");
+  }
+  if (change.add.size() + change.remove.size() + change.erase.size() > most_changed_shapes) {
+    throw HttpError(413, "change_too_large", "body", "a change has at most 10,000 walls and polygons");
+  }
+  for (const Segment& wall : change.add.walls) {
+    if (wall.a == wall.b) throw InputError("add.walls", "a wall has two different ends");
+  }
+}
+
+}  // namespace
+
+ChangedScene changed(const Scene& scene, const SceneChange& change, const Execution& execution) {
+  check(scene, change);
+  Removal removal(scene, change, execution);
+  std::vector<Segment> walls = removal.walls_left();
+  walls.insert(walls.end(), change.add.walls.begin(), change.add.walls.end());
+  std::vector<ScenePolygon> polygons = removal.polygons_left();
+  for (const std::vector<Vec2>& corners : change.add.polygons) polygons.push_back({corners});
+
+  ChangedScene result{.scene = {}, .made = {.add = change.add, .remove = removal.shapes()}};
+  Scene& now = result.scene;
+  now.source = scene.source;
+  now.polygons = std::move(polygons);
+  now.walls = WallSet::narrowest(walls);
+  now.seams = scene.seams;
+  now.bounds = scene.bounds;
+  now.clearance = scene.clearance;
+  now.maze = scene.maze;
+  now.robot = scene.robot;
+  now.start = scene.start;
+  now.goal = scene.goal;
+  now.grid = scene.grid;
+  check_polygons(now, execution);
+  return result;
+}
+
+}  // namespace warren

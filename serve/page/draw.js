@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Walls and polygons drawn into the world and taken out of it, where the service lets that be: each change makes a new
+// world, which everybody sees, and the question is asked again. The list of changes, to take them back, is this page's.
+"use strict";
+const drawing = {tool: null, corners: [], pixel: null, undo: [], redo: [], busy: false};
+const token = () => sessionStorage.getItem("warren-token") || "";
+
+/// The token comes behind the # of a link, which never leaves the browser, and is not kept in the address.
+function takeToken() {
+  const given = new URLSearchParams(location.hash.slice(1)).get("token");
+  if (given) sessionStorage.setItem("warren-token", given);
+}
+
+/// Sends a change. Gives what was added and removed; nothing where it is refused, which is said.
+async function sendChange(change) {
+  if (drawing.busy) return null;
+  drawing.busy = true;
+  const headers = {"Content-Type": "application/json"};
+  if (token()) headers.Authorization = "Bearer " + token();
+  let json = null;
+  try {
+    const reply = await fetch("/api/update", {method: "POST", headers, body: JSON.stringify(change)});
+    json = await reply.json();
+  } catch (error) {
+    say("The service does not answer any more.");
+  }
+  drawing.busy = false;
+  if (json && json.error) say(json.error.message);
+  if (!json || json.error) return null;
+  await takeWorld();
+  return json;
+}
+/// The world as it is now. A page whose tiles lie elsewhere begins anew; the link has all of it.
+async function takeWorld() {
+  const before = world;
+  world = await (await fetch("/api/world")).json();
+  if (JSON.stringify([before.tiles.corner, before.tiles.span]) !== JSON.stringify([world.tiles.corner, world.tiles.span])) return void location.reload();
+  tiles.setUrl(world.tiles.url);
+  graph.verdicts.clear();
+  checkGraph();
+  byId("about").textContent = world.description + ", " + world.robot + (world.clearance > 0 ? ", clearance " + world.clearance : "");
+  ask();
+}
+async function draw(change) {
+  const made = await sendChange(change);
+  if (!made || made.before === made.hash) return;
+  drawing.undo.push({add: made.removed, remove: made.added});
+  drawing.redo = [];
+  showDrawing();
+}
+async function stepDrawing(from, to) {
+  if (from.length === 0) return;
+  const made = await sendChange(from[from.length - 1]);
+  if (!made) return;
+  from.pop();
+  to.push({add: made.removed, remove: made.added});
+  showDrawing();
+}
+
+function setTool(tool) {
+  drawing.tool = drawing.tool === tool ? null : tool;
+  drawing.corners = [];
+  if (drawing.tool) {
+    setEditing(false);
+    say({wall: "Click the corners of the wall; a second click at the last one, or Enter, ends it.", polygon: "Click the corners; a click at the first one, or Enter, closes the polygon.", erase: "Click the wall or polygon to take away."}[drawing.tool]);
+  }
+  map.doubleClickZoom[drawing.tool ? "disable" : "enable"]();
+  sketch.redraw();
+  showDrawing();
+}
+function showDrawing() {
+  for (const tool of ["wall", "polygon", "erase"]) byId("draw-" + tool).setAttribute("aria-pressed", String(drawing.tool === tool));
+  byId("draw-undo").disabled = drawing.undo.length === 0;
+  byId("draw-redo").disabled = drawing.redo.length === 0;
+}
+/// Ends what is being drawn: corners become walls from each to the next, or a polygon.
+function finishDrawing() {
+  const corners = drawing.corners, isPolygon = drawing.tool === "polygon";
+  if (corners.length < (isPolygon ? 3 : 2)) return void say(isPolygon ? "A polygon has three corners or more." : "A wall has two ends.");
+  drawing.corners = [];
+  sketch.redraw();
+  draw({add: isPolygon ? {polygons: [corners]} : {walls: corners.slice(1).map((p, i) => [...corners[i], ...p])}});
+}
+/// Does the drawing take this click?
+function drawsClick(event) {
+  if (!drawing.tool) return false;
+  const place = placeOf(event.latlng), near = corner => corner && pixelOf({at: corner}).distanceTo(event.containerPoint) < 10;
+  if (drawing.tool === "erase") {
+    const aside = map.containerPointToLatLng(event.containerPoint.add([10, 0]));
+    draw({erase: [[place.x, place.y, Math.abs(aside.lng - place.x)]]});
+  } else if (near(drawing.tool === "polygon" ? drawing.corners[0] : drawing.corners[drawing.corners.length - 1])) {
+    finishDrawing();
+  } else {
+    drawing.corners.push([rounded(place.x), rounded(place.y)]);
+    sketch.redraw();
+  }
+  return true;
+}
+function drawsKey(event) {
+  const withControl = event.ctrlKey || event.metaKey, key = event.key.toLowerCase();
+  if (withControl && key === "z" && !editor.on) event.shiftKey ? stepDrawing(drawing.redo, drawing.undo) : stepDrawing(drawing.undo, drawing.redo);
+  else if (withControl && key === "y" && !editor.on) stepDrawing(drawing.redo, drawing.undo);
+  else if (event.key === "Enter" && drawing.corners.length > 0) finishDrawing();
+  else if (event.key === "Escape" && drawing.tool) drawing.corners.length > 0 ? (drawing.corners = [], sketch.redraw()) : setTool(drawing.tool);
+  else return false;
+  return true;
+}
+/// x, y, x, y, ... in the field: what the mouse would click.
+function readShape() {
+  const numbers = byId("draw-shape").value.trim().split(/[\s,;]+/).map(Number);
+  if (numbers.length < 4 || numbers.length % 2 || !numbers.every(Number.isFinite)) return void say("Corners are x, y, x, y and so on.");
+  if (drawing.tool !== "polygon") drawing.tool = "wall";
+  drawing.corners = [];
+  for (let i = 0; i < numbers.length; i += 2) drawing.corners.push([numbers[i], numbers[i + 1]]);
+  showDrawing();
+  finishDrawing();
+}
+
+/// What is being drawn.
+const sketch = {
+  line: null,
+  redraw() {
+    if (this.line) this.line.remove();
+    const points = drawing.corners.map(p => L.latLng(p[1], p[0]));
+    this.line = points.length ? L.layerGroup([L.polyline(points, {color: "#d97706", weight: 3, dashArray: "6 4", interactive: false}), ...points.map(p => L.circleMarker(p, {radius: 4, color: "#d97706", interactive: false}))]).addTo(map) : null;
+  }
+};
+
+async function saveScene() {
+  const words = [];
+  for (const end of ["start", "goal"]) {
+    const state = question[end] && bodyOf({...question, start: question[end], goal: question[end]})[end];
+    if (state) words.push(end + "=" + state.join(","));
+  }
+  const reply = await fetch("/api/scene?" + words.join("&")), text = await reply.text();
+  if (!reply.ok) return void say(JSON.parse(text).error.message);
+  save("world.scene", "text/plain", text);
+  say("Saved: world.scene.");
+}
+function wireDrawing() {
+  byId("drawing").hidden = !world.writable;
+  for (const tool of ["wall", "polygon", "erase"]) byId("draw-" + tool).addEventListener("click", () => setTool(tool));
+  byId("draw-undo").addEventListener("click", () => stepDrawing(drawing.undo, drawing.redo));
+  byId("draw-redo").addEventListener("click", () => stepDrawing(drawing.redo, drawing.undo));
+  byId("draw-save").addEventListener("click", saveScene);
+  byId("draw-shape").addEventListener("change", readShape);
+  map.getContainer().addEventListener("keydown", event => {
+    if (!world.writable || !drawsKey(event)) return;
+    event.preventDefault();
+    event.stopPropagation();
+  }, true);
+  showDrawing();
+}
