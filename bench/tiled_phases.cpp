@@ -37,17 +37,12 @@ double wall_seconds() {
 }
 
 WallSet shuffled(const WallSet& walls) {
-  RawVector<FloatWall> mixed;
-  walls.visit([&](auto given) {
-    for (const auto& w : given) {
-      const Segment s = w.segment();
-      mixed.push_back(
-          {static_cast<float>(s.a.x), static_cast<float>(s.a.y), static_cast<float>(s.b.x), static_cast<float>(s.b.y)});
-    }
+  return walls.visit([]<class Wall>(std::span<const Wall> given) {
+    RawVector<Wall> mixed(given.begin(), given.end());
+    SequentialRng rng(7);
+    for (std::size_t i = mixed.size(); i > 1; --i) std::swap(mixed[i - 1], mixed[rng.below(i)]);
+    return WallSet(std::move(mixed));
   });
-  SequentialRng rng(7);
-  for (std::size_t i = mixed.size(); i > 1; --i) std::swap(mixed[i - 1], mixed[rng.below(i)]);
-  return WallSet(std::move(mixed));
 }
 
 /// The parts of a tile, one thread, by process CPU time.

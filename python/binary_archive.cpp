@@ -123,8 +123,10 @@ requires(!std::is_trivially_copyable_v<std::variant<Ts...>>) void put(Ar& ar, st
 
 template <class Ar>
 void put(Ar& ar, WallSet& walls) {
-  bool floats = walls.holds_floats();
-  put(ar, floats);
+  std::uint8_t bytes = walls.holds_packed()   ? sizeof(PackedWall)
+                       : walls.holds_floats() ? sizeof(FloatWall)
+                                              : sizeof(DoubleWall);
+  put(ar, bytes);
   const auto block = [&]<class Wall>(Wall) {
     RawVector<Wall> list;
     if constexpr (!Ar::reads) {
@@ -137,7 +139,8 @@ void put(Ar& ar, WallSet& walls) {
     put(ar, list);
     if constexpr (Ar::reads) walls = WallSet(std::move(list));
   };
-  floats ? block(FloatWall{}) : block(DoubleWall{});
+  if (bytes == sizeof(PackedWall)) return block(PackedWall());
+  bytes == sizeof(FloatWall) ? block(FloatWall{}) : block(DoubleWall{});
 }
 
 template <class Ar>

@@ -70,11 +70,18 @@ Scene made_of_cells(const py::array& cells, double cell, std::array<double, 2> o
   return scene;
 }
 
+/// As numbers: of packed walls a copy, of others where they lie.
 py::array walls_of(const py::object& self) {
-  return self.cast<const Scene&>().walls.visit([&](auto walls) -> py::array {
+  return self.cast<const Scene&>().walls.visit([&]<class Wall>(std::span<const Wall> walls) -> py::array {
     const auto n = static_cast<py::ssize_t>(walls.size());
-    if (n == 0) return read_only(py::array_t<float>(Shape{0, 4}));
-    return view_of(&walls.data()->x1, {n, 4}, self);
+    if constexpr (std::is_same_v<Wall, PackedWall>) {
+      py::array_t<float> rows(Shape{n, 4});
+      auto* const out = reinterpret_cast<FloatWall*>(rows.mutable_data());  // NOLINT: four floats a wall
+      std::transform(walls.begin(), walls.end(), out, [](const PackedWall& wall) { return unpacked(wall); });
+      return read_only(std::move(rows));
+    } else {
+      return view_of(&walls.data()->x1, {n, 4}, self);
+    }
   });
 }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -36,6 +37,16 @@ Vec2 point(const NumberRows& rows, std::size_t i, const char* name) {
   return {coordinate(rows.numbers[2 * i], name, i), coordinate(rows.numbers[2 * i + 1], name, i)};
 }
 
+/// In 8 bytes each where all fit.
+WallSet narrowed(RawVector<FloatWall> walls) {
+  const auto fits = [](const FloatWall& w) { return PackedWall::fits(w.x1, w.y1, w.x2, w.y2); };
+  if (!std::all_of(walls.begin(), walls.end(), fits)) return WallSet(std::move(walls));
+  RawVector<PackedWall> packed(walls.size());
+  std::transform(walls.begin(), walls.end(), packed.begin(),
+                 [](const FloatWall& w) { return PackedWall::of(w.x1, w.y1, w.x2, w.y2); });
+  return WallSet(std::move(packed));
+}
+
 template <class T>
 RawVector<WallOf<T>> walls_in(const py::array& array) {
   RawVector<WallOf<T>> walls(static_cast<std::size_t>(array.shape(0)));
@@ -50,7 +61,7 @@ RawVector<WallOf<T>> walls_in(const py::array& array) {
 WallSet read_walls(py::handle value) {
   if (py::isinstance<py::array_t<float, py::array::c_style>>(value)) {
     const auto array = py::reinterpret_borrow<py::array>(value);
-    if (array.ndim() == 2 && array.shape(1) == 4) return WallSet(walls_in<float>(array));
+    if (array.ndim() == 2 && array.shape(1) == 4) return narrowed(walls_in<float>(array));
   }
   const bool is_array = py::isinstance<py::array>(value);
   const bool is_float64 = py::isinstance<py::array_t<double, py::array::c_style>>(value);

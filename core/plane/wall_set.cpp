@@ -2,6 +2,7 @@
 #include "core/plane/wall_set.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace warren {
@@ -23,9 +24,18 @@ RawVector<WallOf<T>> converted(std::span<const Segment> segments) {
   return walls;
 }
 
+RawVector<PackedWall> packed(std::span<const Segment> segments) {
+  RawVector<PackedWall> walls(segments.size());
+  std::transform(segments.begin(), segments.end(), walls.begin(),
+                 [](const Segment& s) { return PackedWall::of(s.a.x, s.a.y, s.b.x, s.b.y); });
+  return walls;
+}
+
 }  // namespace
 
 WallSet WallSet::narrowest(std::span<const Segment> segments) {
+  const auto fits = [](const Segment& s) { return PackedWall::fits(s.a.x, s.a.y, s.b.x, s.b.y); };
+  if (std::all_of(segments.begin(), segments.end(), fits)) return WallSet(packed(segments));
   const bool floats = std::all_of(segments.begin(), segments.end(), [](const Segment& s) { return fits_float(s); });
   return floats ? WallSet(converted<float>(segments)) : WallSet(converted<double>(segments));
 }

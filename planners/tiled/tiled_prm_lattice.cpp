@@ -58,6 +58,8 @@ class TiledPlan {
   void partition();
   bool join_ends();
   LatticeTiles tiles_made() const;
+  void reduce_bands();
+  std::vector<std::size_t> begin_band(std::uint32_t band);
   void reduce_tiles();
   void expand(const PathExpansion& path, const PathPiece& piece);
   void forget(TileSummary& tile) const;
@@ -91,7 +93,7 @@ void TiledPlan::partition() {
   } else {
     const StageTimer timer(execution_, "index", solution_.seconds.index, 2 * problem_.walls.size());
     const double halo = 1.0 + clearance_ * (1 + 1e-9) + 0.01;  // an edge's length, its clearance, and rounding
-    source_ = held_tiles(problem_.walls, problem_.more_walls, grid_, halo, execution_);
+    source_ = held_tiles(problem_.walls, problem_.more_walls, grid_, halo, problem_.bands, execution_);
   }
   box_ = problem_.box.value_or(source_->box());
 }
@@ -118,14 +120,35 @@ LatticeTiles TiledPlan::tiles_made() const {
   return {grid_, *source_, box_, clearance_, ends_, grain};
 }
 
+/// Walls that are held, a band after the other.
+void TiledPlan::reduce_bands() {
+  tiles_.resize(grid_.count());
+  for (std::uint32_t band = 0; band < source_->band_count(); ++band) {
+    const std::vector<std::size_t> tiles = begin_band(band);
+    const StageTimer timer(execution_, "connect", solution_.seconds.connect, tiles.size());
+    std::vector<TileSummary> made(tiles.size());
+    tiles_made().reduce(tiles, made, execution_);
+    for (std::size_t i = 0; i < made.size(); ++i) tiles_[tiles[i]] = std::move(made[i]);
+  }
+}
+
+std::vector<std::size_t> TiledPlan::begin_band(std::uint32_t band) {
+  const StageTimer timer(execution_, "index", solution_.seconds.index);
+  return source_->begin_band(band, execution_);
+}
+
 void TiledPlan::reduce_tiles() {
-  const StageTimer timer(execution_, "connect", solution_.seconds.connect, grid_.count());
   execution_.reserve(grid_.count() * sizeof(TileSummary));
-  if (problem_.others != nullptr) {
-    tiles_ = problem_.others->reduce_all(ends_, execution_);
+  if (source_->band_count() > 1) {
+    reduce_bands();
   } else {
-    tiles_.resize(grid_.count());
-    tiles_made().reduce({0, grid_.count()}, !problem_.forget, tiles_, problem_.kept, execution_);
+    const StageTimer timer(execution_, "connect", solution_.seconds.connect, grid_.count());
+    if (problem_.others != nullptr) {
+      tiles_ = problem_.others->reduce_all(ends_, execution_);
+    } else {
+      tiles_.resize(grid_.count());
+      tiles_made().reduce({0, grid_.count()}, !problem_.forget, tiles_, problem_.kept, execution_);
+    }
   }
   const bool come_from_elsewhere = problem_.others != nullptr || problem_.kept != nullptr;
   if (come_from_elsewhere && !search_is_elsewhere()) check_borders(grid_, tiles_, execution_);
@@ -183,7 +206,9 @@ void TiledPlan::measure_gap() {
     return TileReduction(plane).reduce(plane).keys;
   };
   const int margin = WallMarker(clearance_).margin();
-  solution_.separation = tile_separation(*overlay_, grid_, ends_, {margin, keys, remake}, execution_);
+  const auto begin = [&](std::uint32_t band) { return source_->begin_band(band, execution_); };
+  const TileMaker maker{margin, source_->band_count(), begin, keys, remake};
+  solution_.separation = tile_separation(*overlay_, grid_, ends_, maker, execution_);
 }
 
 /// Makes the tiles of a piece again. Where others make them the keys are here, and those hand the chains' steps back.

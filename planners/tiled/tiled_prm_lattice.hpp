@@ -2,7 +2,7 @@
 // The lattice roadmap of planners/roadmap/prm.hpp, every edge checked, fused tile by tile: the way for mazes of
 // hundreds of millions of cells.
 //
-//   partition   walls are filed by tile, in streaming passes                              (wall_partition)
+//   partition   walls are filed by tile, in streaming passes, band by band                 (wall_partition)
 //   tiles       one thread a tile, all in its cache: milestones and edges stand until a    (tile_plane, wall_marking)
 //               wall clears them; dead ends are peeled, chains contracted                   (tile_reduction)
 //   overlay     what is left of all tiles, peeled again across borders                      (overlay)
@@ -12,11 +12,11 @@
 // may differ in their vertices). Peeling and contraction are exact for any set of walls: mazes with loops, open space,
 // crossing and slanted segments; only the gain differs. Borders of tiles and all switches between two ways of working
 // follow from counts, so path and counters are the same for any thread count. Cost in a maze, ns of CPU a cell: see
-// bench/tiled_phases.cpp; memory beside the walls: 8 bytes a wall until the tiles are done, then a fraction of a byte a
-// cell. In open space every milestone is a vertex of the overlay: about 80 bytes each. A tile is a function of its
-// number, its walls and the vertices that start and goal join; tiles share nothing, and what they hand back is plain
-// values. So walls need not be held: where they come from a CellWallSource, each tile's are made, reduced and
-// forgotten, and what stays is the overlay, 0.3 to 0.5 bytes a cell.
+// bench/tiled_phases.cpp; memory beside the walls: 8 bytes a wall of a band (tile_bands) until the tiles are done, then
+// a fraction of a byte a cell. In open space every milestone is a vertex of the overlay: about 80 bytes each. A tile is
+// a function of its number, its walls and the vertices that start and goal join; tiles share nothing, and what they
+// hand back is plain values. So walls need not be held: where they come from a CellWallSource, each tile's are made,
+// reduced and forgotten, and what stays is the overlay, 0.3 to 0.5 bytes a cell.
 #pragma once
 
 #include <optional>
@@ -47,6 +47,7 @@ struct TiledProblem {
   PathTaker* taker = nullptr;             ///< where tiles are forgotten: receives the path instead of Solution::path
   KeptParts* kept = nullptr;              ///< where tiles are forgotten: has reduced tiles of an earlier run
   OtherTiles* others = nullptr;           ///< where tiles are forgotten: makes them instead of this process
+  std::uint32_t bands = 0;                ///< that the tiles of the set are filed in; 0: as order and memory ask for
 };
 
 /// Can tiled_prm give the plain pipeline's answer under these options? The lattice with its own rule of joining (radius

@@ -78,21 +78,24 @@ Separation tile_separation(const Overlay& overlay, const TileGrid& grid, const O
   };
   execution.reserve(grid.count() * sizeof(std::pair<Points, Points>));
   std::vector<std::pair<Points, Points>> parts(grid.count());
-  for_chunks(grid.count(), 1, execution, [&](Range r) {
+  const auto find_points = [&](std::size_t tile) {
     TilePlane plane(grid, maker.margin);
-    for (std::size_t tile = r.first; tile < r.last; ++tile) {
-      if (!is_met(tile)) continue;
-      execution.reserve(std::size_t{grid.side()} * grid.side() * sizeof(Vec2));
-      const std::vector<std::uint16_t> keys = maker.keys(tile, plane);
-      maker.remake(tile, plane);
-      for (std::size_t k = 0; k < keys.size(); ++k) {
-        const std::uint8_t mark = marks[overlay.first_key(tile) + k];
-        if (mark == 0) continue;
-        const int side = static_cast<int>(grid.side());
-        flood_plane(plane, keys[k] % side, keys[k] / side, mark == of_start ? parts[tile].first : parts[tile].second);
-      }
+    execution.reserve(std::size_t{grid.side()} * grid.side() * sizeof(Vec2));
+    const std::vector<std::uint16_t> keys = maker.keys(tile, plane);
+    maker.remake(tile, plane);
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+      const std::uint8_t mark = marks[overlay.first_key(tile) + k];
+      if (mark == 0) continue;
+      const int side = static_cast<int>(grid.side());
+      flood_plane(plane, keys[k] % side, keys[k] / side, mark == of_start ? parts[tile].first : parts[tile].second);
     }
-  });
+  };
+  for (std::uint32_t band = 0; band < maker.bands; ++band) {
+    const std::vector<std::size_t> tiles = maker.begin(band);
+    for_chunks(tiles.size(), 1, execution, [&](Range r) {
+      if (is_met(tiles[r.first])) find_points(tiles[r.first]);
+    });
+  }
   using Part = std::pair<Points, Points>;
   return separation_between<2>(joined(parts, &Part::first, ends.start.at, execution),
                                joined(parts, &Part::second, ends.goal.at, execution), execution);

@@ -19,6 +19,9 @@ namespace warren {
 /// Called from several threads, each with a plane of its own of that margin.
 struct TileMaker {
   int margin;
+  std::uint32_t bands;  ///< of tiles, which are made one after the other
+  /// Returns the band's tiles; called by no thread but the first, while no tile is made.
+  std::function<std::vector<std::size_t>(std::uint32_t band)> begin;
   /// The tile's keys as its reduction gave them; may use the plane up.
   std::function<std::vector<std::uint16_t>(std::size_t tile, TilePlane& plane)> keys;
   /// Makes the tile's roadmap in the plane, as before its reduction.

@@ -10,11 +10,20 @@ namespace {
 
 class HeldTiles : public TileSource {
  public:
-  HeldTiles(const WallSet& walls, std::span<const Segment> more, const TileGrid& grid, double halo,
+  HeldTiles(const WallSet& walls, std::span<const Segment> more, const TileGrid& grid, double halo, std::uint32_t bands,
             const Execution& execution)
-      : walls_(walls), more_(more), partition_(walls, more, grid, halo, execution) {}
+      : walls_(walls),
+        more_(more),
+        execution_(execution),
+        partition_(
+            walls, more, grid, halo, [&](const WallCounts& counts) { return bands_for(bands, counts, grid); },
+            execution) {}
 
-  std::unique_ptr<TileReader> reader() const override { return std::make_unique<Reader>(partition_); }
+  std::uint32_t band_count() const override { return partition_.band_count(); }
+  std::vector<std::size_t> begin_band(std::uint32_t band, const Execution& execution) override {
+    return partition_.file(band, execution);
+  }
+  std::unique_ptr<TileReader> reader() const override { return std::make_unique<Reader>(partition_, execution_); }
   Box box() const override { return partition_.box(); }
   void for_each_near(const Box&, const std::function<void(const Segment&)>& visit) const override {
     walls_.visit([&](auto walls) {
@@ -26,15 +35,24 @@ class HeldTiles : public TileSource {
  private:
   class Reader : public TileReader {
    public:
-    explicit Reader(const WallPartition& partition) : partition_(partition) {}
-    TileWalls read(std::size_t tile) override { return partition_.of(tile); }
+    Reader(const WallPartition& partition, const Execution& execution) : partition_(partition), execution_(execution) {}
+    TileWalls read(std::size_t tile) override {
+      return partition_.is_filed(tile) ? partition_.of(tile) : partition_.look_up(tile, loose_, execution_);
+    }
 
    private:
     const WallPartition& partition_;
+    const Execution& execution_;
+    LooseTile loose_;
   };
+  TileBands bands_for(std::uint32_t asked, const WallCounts& counts, const TileGrid& grid) const {
+    if (asked > 0) return {std::min(asked, grid.tile_cols)};
+    return choose_bands(counts, grid, walls_.holds_doubles() ? sizeof(DoubleWall) : sizeof(FloatWall), execution_);
+  }
 
   const WallSet& walls_;
   std::span<const Segment> more_;
+  const Execution& execution_;
   WallPartition partition_;
 };
 
@@ -42,6 +60,9 @@ class CellTiles : public TileSource {
  public:
   CellTiles(const CellWallSource& cells, const TileGrid& grid) : cells_(cells), grid_(grid) {}
 
+  std::vector<std::size_t> begin_band(std::uint32_t band, const Execution&) override {
+    return TileBands().tiles(grid_, band);
+  }
   std::unique_ptr<TileReader> reader() const override { return std::make_unique<Reader>(cells_, grid_); }
   Box box() const override { return cells_.box(); }
   void for_each_near(const Box& around, const std::function<void(const Segment&)>& visit) const override {
@@ -106,8 +127,8 @@ TileWalls CellTiles::Reader::read(std::size_t tile) {
 }  // namespace
 
 std::unique_ptr<TileSource> held_tiles(const WallSet& walls, std::span<const Segment> more, const TileGrid& grid,
-                                       double halo, const Execution& execution) {
-  return std::make_unique<HeldTiles>(walls, more, grid, halo, execution);
+                                       double halo, std::uint32_t bands, const Execution& execution) {
+  return std::make_unique<HeldTiles>(walls, more, grid, halo, bands, execution);
 }
 
 std::unique_ptr<TileSource> cell_tiles(const CellWallSource& cells, const TileGrid& grid) {

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "core/base/types.hpp"
 #include "core/plane/cell_walls.hpp"
@@ -35,6 +36,10 @@ class TileSource {
   virtual ~TileSource() = default;
   TileSource(const TileSource&) = delete;
   TileSource& operator=(const TileSource&) = delete;
+  /// Tiles are read fastest band by band, each after it was begun.
+  virtual std::uint32_t band_count() const { return 1; }
+  /// Returns the band's tiles, ascending. No reader may be at work. Throws as WallPartition.
+  virtual std::vector<std::size_t> begin_band(std::uint32_t band, const Execution& execution) = 0;
   virtual std::unique_ptr<TileReader> reader() const = 0;
   /// Of all walls.
   virtual Box box() const = 0;
@@ -42,9 +47,10 @@ class TileSource {
   virtual void for_each_near(const Box& around, const std::function<void(const Segment&)>& visit) const = 0;
 };
 
-/// Walls that are held, filed by tile (wall_partition.hpp). Refers to walls and more. Throws as WallPartition.
+/// Walls that are held, filed by tile (wall_partition.hpp), in so many bands of columns; 0: chosen by their number,
+/// order and the memory that is left. Refers to walls, more, grid and execution. Throws as WallPartition.
 std::unique_ptr<TileSource> held_tiles(const WallSet& walls, std::span<const Segment> more, const TileGrid& grid,
-                                       double halo, const Execution& execution);
+                                       double halo, std::uint32_t bands, const Execution& execution);
 
 /// Walls on the sides of unit cells, made tile by tile; the grid's tiles are the source's. A tile is given its own
 /// sides alone, which is enough for clearances below most_cell_clearance: whatever else stands half a step off its

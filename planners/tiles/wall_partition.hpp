@@ -2,8 +2,9 @@
 // The walls of a world, filed by tile: each tile holds every wall whose box, grown by the halo, meets the tile, so that
 // a tile can be worked on without looking elsewhere.
 //
-// Two streaming passes over the walls: count, then scatter; chunk borders depend on the number of walls alone and each
-// chunk has its own places, so there are no atomics and the order is the walls' order. A wall that is a multiple of
+// Two streaming passes over the walls: count (wall_counts), then scatter, all tiles at once or band by band
+// (tile_bands); chunk borders depend on the number of walls alone and each chunk has its own places, so there are no
+// atomics and the order is the walls' order. A wall that is a multiple of
 // 1/128 in every coordinate and at most 64 long along each axis is filed in 8 bytes (NarrowWall), whatever it came as;
 // any other is copied as it is (wide). A long wall is filed in the tiles that it passes, row of tiles by row of tiles,
 // not in all that its box meets: memory is at most 8 bytes a short wall (16 or 32 where it is wide), a few per cent
@@ -13,12 +14,17 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
+#include <vector>
 
 #include "core/base/raw_vector.hpp"
 #include "core/plane/wall_set.hpp"
 #include "parallel/execution.hpp"
+#include "planners/tiles/tile_bands.hpp"
 #include "planners/tiles/tile_grid.hpp"
+#include "planners/tiles/wall_counts.hpp"
+#include "planners/tiles/wall_filer.hpp"
 
 namespace warren {
 
@@ -43,26 +49,64 @@ struct TileWalls {
   }
 };
 
-/// Immutable after construction; any number of threads may read.
+/// The lists of a tile that is read by itself.
+struct LooseTile {
+  RawVector<NarrowWall> narrow;
+  RawVector<FloatWall> floats;
+  RawVector<DoubleWall> doubles;
+};
+
+/// Any number of threads may read, but while a band is filed.
 class WallPartition {
  public:
-  /// `more` are a few walls beside the set (bounds), kept by reference. halo >= 0, in the world's unit. Throws Stopped
-  /// at the deadline or before memory would pass its limit, InputError where walls and tiles make 2^32 entries or more.
+  /// Files all tiles. `more` are a few walls beside the set (bounds), kept by reference, as are the walls, which file()
+  /// and look_up() read. halo >= 0, in the world's unit. Throws Stopped at the deadline or before memory would pass its
+  /// limit, InputError where walls and tiles make 2^32 entries or more.
   WallPartition(const WallSet& walls, std::span<const Segment> more, const TileGrid& grid, double halo,
                 const Execution& execution);
+  /// Where there is one band it is filed; else none is, yet.
+  using Choose = std::function<TileBands(const WallCounts&)>;
+  WallPartition(const WallSet& walls, std::span<const Segment> more, const TileGrid& grid, double halo,
+                const Choose& choose, const Execution& execution);
 
+  std::uint32_t band_count() const { return bands_.count; }
+  /// Files the walls of a band's tiles in the place of those before, and returns the tiles, ascending. Throws as above.
+  std::vector<std::size_t> file(std::uint32_t band, const Execution& execution);
+  bool is_filed(std::size_t tile) const { return bands_.of(grid_, tile) == filed_; }
+  /// Of a tile that is filed.
   TileWalls of(std::size_t tile) const;
+  /// Of any tile: looks through the chunks that have walls of it.
+  TileWalls look_up(std::size_t tile, LooseTile& into, const Execution& execution) const;
   /// Of the set's walls.
-  const Box& box() const { return box_; }
+  const Box& box() const { return counts_.box(); }
 
  private:
-  Box box_;
-  RawVector<std::uint32_t> first_narrow_;  // places of tile t: first_narrow_[t] .. first_narrow_[t + 1] - 1
+  static constexpr std::uint32_t nothing = ~std::uint32_t{0};
+
+  void make_room(std::size_t narrow, std::size_t wide, const Execution& execution);
+  void place(std::span<const std::size_t> tiles);
+  static std::vector<std::uint32_t> places(const ChunkCounts& counts, const RawVector<std::uint32_t>& first,
+                                           std::size_t chunk);
+  template <class Wall>
+  void scatter(std::span<const Wall> walls, std::span<const std::size_t> chunks, const Execution& execution);
+  RawVector<FloatWall>& wide_like(const PackedWall*) { return floats_; }
+  RawVector<FloatWall>& wide_like(const FloatWall*) { return floats_; }
+  RawVector<DoubleWall>& wide_like(const DoubleWall*) { return doubles_; }
+
+  const WallSet& walls_;
+  std::span<const Segment> more_;
+  const TileGrid grid_;
+  const WallFiler filer_;
+  const WallCounts counts_;
+  TileBands bands_;
+  std::uint32_t filed_ = nothing;
+  std::size_t narrow_count_ = 0;  // of the tiles that are filed
+  std::size_t wide_count_ = 0;
+  RawVector<std::uint32_t> first_narrow_;  // where the tile's walls begin; `nothing`: it is not filed
   RawVector<std::uint32_t> first_wide_;
   RawVector<NarrowWall> narrow_;
-  RawVector<FloatWall> floats_;    // wide walls, if the set holds floats
+  RawVector<FloatWall> floats_;    // wide walls, if the set holds floats or packed ones
   RawVector<DoubleWall> doubles_;  // wide walls, if the set holds doubles
-  std::span<const Segment> more_;
 };
 
 }  // namespace warren

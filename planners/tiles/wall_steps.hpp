@@ -20,6 +20,10 @@ namespace warren::detail {
 /// Beyond so many steps coordinates count as not exact: differences of two must fit into 32 bits.
 inline constexpr double most_steps = 0x1p29;
 
+/// From the steps of a packed wall to these.
+inline constexpr int packed_shift = 5;
+static_assert(PackedWall::per_unit << packed_shift == narrow_unit && PackedWall::most + 1 < most_steps / 64);
+
 /// A tile's place, or a place before or after the tiles.
 struct TileCorner {
   std::int32_t col;
@@ -36,6 +40,11 @@ struct WallShape {
 class PlainWallSteps {
  public:
   explicit PlainWallSteps(const FloatWall& w) : PlainWallSteps(std::array<float, 4>{w.x1, w.y1, w.x2, w.y2}) {}
+  explicit PlainWallSteps(const PackedWall& w) {
+    const PackedWall::Ends e = w.ends();
+    constexpr std::int32_t steps = 1 << packed_shift;
+    steps_ = {e.x1 * steps, e.y1 * steps, e.x2 * steps, e.y2 * steps};
+  }
   explicit PlainWallSteps(const DoubleWall& w) : PlainWallSteps(std::array<double, 4>{w.x1, w.y1, w.x2, w.y2}) {}
 
   /// Are all coordinates whole numbers of steps, and not too many? What follows is of use only then.
@@ -92,6 +101,16 @@ inline WallShape plain_wall_shape(const NarrowWall& w, std::int16_t stride) {
 
 class WallSteps {
  public:
+  explicit WallSteps(const PackedWall& w) : exact_(true) {
+    const PackedWall::Ends e = w.ends();
+    const auto pair = [](std::int32_t x, std::int32_t y) {
+      const auto both = std::uint64_t{static_cast<std::uint32_t>(x)} | std::uint64_t{static_cast<std::uint32_t>(y)}
+                                                                           << 32;
+      return _mm_cvtsi64_si128(static_cast<long long>(both));
+    };
+    steps_ = _mm_slli_epi32(_mm_unpacklo_epi64(pair(e.x1, e.y1), pair(e.x2, e.y2)), packed_shift);
+    find_corners();
+  }
   explicit WallSteps(const FloatWall& w) {
     const __m128 limit = _mm_set1_ps(most_steps);
     const __m128 scaled = _mm_mul_ps(_mm_loadu_ps(&w.x1), _mm_set1_ps(narrow_unit));

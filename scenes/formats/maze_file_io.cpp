@@ -210,7 +210,8 @@ Scene read_maze_file(const InputFile& file, const Execution& execution) {
   maze.check(execution);
   Scene scene = scene_of(maze, file.name());
   const std::uint64_t cells = std::uint64_t{maze.rows()} * maze.cols();
-  execution.reserve(cells + (maze.rows() - std::size_t{1}) * (maze.cols() - std::size_t{1}) * sizeof(FloatWall));
+  execution.reserve(cells + (maze.rows() - std::size_t{1}) * (maze.cols() - std::size_t{1}) *
+                                maze_wall_bytes(maze.rows(), maze.cols()));
   scene.walls = maze_walls(cells_from(maze, execution), false, execution);
   return scene;
 }

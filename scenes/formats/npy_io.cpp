@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <charconv>
@@ -175,16 +176,16 @@ class Rows {
   Rows(const InputFile& file, const NpyWalls& header, const Execution& execution)
       : file_(file), header_(header), execution_(execution), bad_(chunk_count(header.walls, npy_grain), header.walls) {}
 
-  template <class Out>
+  template <class Wall>
   WallSet copy() {
-    execution_.reserve(header_.walls * sizeof(WallOf<Out>));
-    RawVector<WallOf<Out>> walls(header_.walls);
+    execution_.reserve(header_.walls * sizeof(Wall));
+    RawVector<Wall> walls(header_.walls);
     for_chunks(header_.walls, npy_grain, execution_, [&](Range r) {
       bool good = true;
       for (std::size_t i = r.first; i < r.last; ++i) {
         const WallOf<In> w = row(i);
-        good = good && is_sane(w);
-        walls[i] = {as<Out>(w.x1), as<Out>(w.y1), as<Out>(w.x2), as<Out>(w.y2)};
+        good = good && is_sane(w) && holds<Wall>(w);  // the file may have changed since it was looked at
+        walls[i] = as<Wall>(w);
       }
       if (!good) bad_[r.first / npy_grain] = first_bad(r);
       forget(r);
@@ -195,17 +196,13 @@ class Rows {
     return WallSet(std::move(walls));
   }
   bool fit_floats() const {
-    std::vector<std::uint8_t> fit(bad_.size(), 0);
-    for_chunks(header_.walls, npy_grain, {execution_.threads, execution_.deadline}, [&](Range r) {
-      bool all = true;
-      for (std::size_t i = r.first; i < r.last && all; ++i) {
-        const WallOf<In> w = row(i);
-        all = fits_float(w.x1) && fits_float(w.y1) && fits_float(w.x2) && fits_float(w.y2);
-      }
-      fit[r.first / npy_grain] = all ? 1 : 0;
-      forget(r);
+    return all([](const WallOf<In>& w) {
+      return fits_float(w.x1) && fits_float(w.y1) && fits_float(w.x2) && fits_float(w.y2);
     });
-    return std::all_of(fit.begin(), fit.end(), [](std::uint8_t all) { return all == 1; });
+  }
+  /// A word for each row that differs from the file's in nothing but by as().
+  bool can_be_packed() const {
+    return all([](const WallOf<In>& w) { return PackedWall::fits(w.x1, w.y1, w.x2, w.y2); });
   }
 
  private:
@@ -218,12 +215,37 @@ class Rows {
     return std::abs(x) <= static_cast<In>(std::min<double>(largest_coordinate, std::numeric_limits<In>::max()));
   }
   static bool is_sane(const WallOf<In>& w) { return is_sane(w.x1) && is_sane(w.y1) && is_sane(w.x2) && is_sane(w.y2); }
+  /// Ends at the first row of each chunk that says no.
+  template <class Test>
+  bool all(const Test& test) const {
+    std::vector<std::uint8_t> passed(bad_.size(), 0);
+    for_chunks(header_.walls, npy_grain, {execution_.threads, execution_.deadline}, [&](Range r) {
+      bool every = true;
+      for (std::size_t i = r.first; i < r.last && every; ++i) every = test(row(i));
+      passed[r.first / npy_grain] = every ? 1 : 0;
+      forget(r);
+    });
+    return std::all_of(passed.begin(), passed.end(), [](std::uint8_t every) { return every == 1; });
+  }
   static bool fits_float(In x) {
     return !(std::abs(x) > std::numeric_limits<float>::max()) && static_cast<In>(static_cast<float>(x)) == x;
   }
   template <class Out>
-  static Out as(In x) {
+  static Out number(In x) {
     return std::abs(static_cast<double>(x)) < smallest_coordinate ? Out{0} : static_cast<Out>(x);
+  }
+  template <class Wall>
+  static bool holds(const WallOf<In>& w) {
+    return !std::is_same_v<Wall, PackedWall> || PackedWall::fits(w.x1, w.y1, w.x2, w.y2);
+  }
+  template <class Wall>
+  static Wall as(const WallOf<In>& w) {
+    if constexpr (std::is_same_v<Wall, PackedWall>) {
+      return holds<Wall>(w) ? PackedWall::of(w.x1, w.y1, w.x2, w.y2) : PackedWall::level(0, 0, 0);
+    } else {
+      using Out = typename Wall::Number;
+      return {number<Out>(w.x1), number<Out>(w.y1), number<Out>(w.x2), number<Out>(w.y2)};
+    }
   }
   std::size_t first_bad(Range r) const {
     std::size_t i = r.first;
@@ -246,9 +268,15 @@ class Rows {
 };
 
 WallSet walls_of(const InputFile& file, const NpyWalls& header, const Execution& execution) {
-  if (header.is_float) return Rows<float>(file, header, execution).copy<float>();
+  const auto floats_of = [](auto& rows) {
+    return rows.can_be_packed() ? rows.template copy<PackedWall>() : rows.template copy<FloatWall>();
+  };
+  if (header.is_float) {
+    Rows<float> rows(file, header, execution);
+    return floats_of(rows);
+  }
   Rows<double> rows(file, header, execution);
-  return rows.fit_floats() ? rows.copy<float>() : rows.copy<double>();
+  return rows.fit_floats() ? floats_of(rows) : rows.copy<DoubleWall>();
 }
 
 template <class T>
@@ -287,17 +315,19 @@ void write_npy(const Scene& scene, const std::string& path, const Execution& exe
   if (!scene.polygons.empty() || has_solids(scene) || scene.bounds) {
     throw InputError(path, "a .npy file holds walls alone; write polygons, spheres and bounds to a .scene file");
   }
-  constexpr std::size_t block = std::size_t{4} << 20;
-  if (execution.progress != nullptr) execution.progress->begin("write", scene.walls.bytes());
+  constexpr std::size_t block = std::size_t{1} << 16;  // walls
+  if (execution.progress != nullptr) execution.progress->begin("write", scene.walls.size());
   OutputFile file(path, execution);
-  scene.walls.visit([&](auto walls) {
-    file.write(header_of<decltype(walls.front().x1)>(walls.size()));
-    std::string_view bytes(reinterpret_cast<const char*>(walls.data()), walls.size_bytes());
-    while (!bytes.empty()) {
-      const std::string_view some = bytes.substr(0, block);
-      file.write(some);
-      execution.advance(some.size());
-      bytes.remove_prefix(some.size());
+  scene.walls.visit([&]<class Wall>(std::span<const Wall> walls) {
+    using Row = WallOf<typename Wall::Number>;
+    file.write(header_of<typename Wall::Number>(walls.size()));
+    std::vector<Row> rows;
+    for (std::size_t first = 0; first < walls.size(); first += rows.size()) {
+      const auto some = walls.subspan(first, std::min(block, walls.size() - first));
+      rows.resize(some.size());
+      std::transform(some.begin(), some.end(), rows.begin(), [](const Wall& wall) { return unpacked(wall); });
+      file.write({reinterpret_cast<const char*>(rows.data()), rows.size() * sizeof(Row)});  // NOLINT: the rows' bytes
+      execution.advance(rows.size());
     }
   });
   file.commit();

@@ -57,19 +57,45 @@ bool all_on_grid_exactly(std::span<const FloatWall> walls, MazeHint hint) {
   });
 }
 bool all_on_grid_exactly(std::span<const DoubleWall> walls, MazeHint hint) { return all_on_grid(walls, hint); }
+/// Packed walls are never oblique.
+bool all_on_grid_exactly(std::span<const PackedWall> walls, MazeHint hint) {
+  constexpr std::int32_t half = PackedWall::per_unit / 2;
+  const auto most = [](std::uint32_t lines) {
+    return static_cast<std::int32_t>(std::min<std::uint32_t>(lines, PackedWall::most / PackedWall::per_unit)) *
+           PackedWall::per_unit;
+  };
+  const std::int32_t last_x = most(hint.cols);
+  const std::int32_t last_y = most(hint.rows);
+  std::int32_t off = 0;
+  std::int32_t beyond = 0;  // below 0: a wall is
+  for (const PackedWall& w : walls) {
+    const auto [x1, y1, x2, y2] = w.ends();
+    const std::int32_t lines[] = {x1 - half, y1 - half, x2 - half, y2 - half};
+    off |= (lines[0] | lines[1] | lines[2] | lines[3]) & (PackedWall::per_unit - 1);
+    beyond |= lines[0] | lines[1] | lines[2] | lines[3];
+    beyond |= (last_x - lines[0]) | (last_y - lines[1]) | (last_x - lines[2]) | (last_y - lines[3]);
+  }
+  return off == 0 && beyond >= 0;
+}
 
 /// A wall in grid lines, lower ends first.
 struct GridWall {
   std::int64_t x1, y1, x2, y2;
 };
 
+GridWall grid_wall(std::int64_t x1, std::int64_t y1, std::int64_t x2, std::int64_t y2) {
+  return {std::min(x1, x2), std::min(y1, y2), std::max(x1, x2), std::max(y1, y2)};
+}
 /// Of a wall that lies on the grid.
 template <class T>
 GridWall grid_wall(const WallOf<T>& w) {
   const auto line = [](T x) { return static_cast<std::int64_t>(x - T{0.5}); };
-  const auto [x1, x2] = std::minmax({line(w.x1), line(w.x2)});
-  const auto [y1, y2] = std::minmax({line(w.y1), line(w.y2)});
-  return {x1, y1, x2, y2};
+  return grid_wall(line(w.x1), line(w.y1), line(w.x2), line(w.y2));
+}
+GridWall grid_wall(const PackedWall& w) {
+  const PackedWall::Ends e = w.ends();
+  const auto line = [](std::int32_t steps) { return (steps - PackedWall::per_unit / 2) / PackedWall::per_unit; };
+  return grid_wall(line(e.x1), line(e.y1), line(e.x2), line(e.y2));
 }
 
 /// Sets the bits of the cells along a wall; walls on the outline are no cells' business. Returns how many.

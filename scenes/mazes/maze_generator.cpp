@@ -146,7 +146,10 @@ Scene unmade_maze_scene(const MazeOptions& options) {
 Scene maze_scene(const MazeOptions& options, bool merged, const Execution& execution) {
   check_size(options.rows, options.cols);
   const std::uint64_t interior = (std::uint64_t{options.rows} - 1) * (options.cols - 1);
-  if (!merged) execution.reserve(std::uint64_t{options.rows} * options.cols + interior * sizeof(FloatWall));
+  if (!merged) {
+    const std::size_t wall_bytes = maze_wall_bytes(options.rows, options.cols);
+    execution.reserve(std::uint64_t{options.rows} * options.cols + interior * wall_bytes);
+  }
   const MazeCells cells = generate_maze(options, execution);
   Scene scene;
   scene.walls = maze_walls(cells, merged, execution);

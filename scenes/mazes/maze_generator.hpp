@@ -93,9 +93,12 @@ MazeCells generate_maze(const MazeOptions& options, const Execution& execution);
 
 /// The walls in the course's order: four outline segments (bottom, top, left from y = 1.5 up, right up to rows - 0.5),
 /// then unit walls column by column, a cell's right wall before its upper one, ends in ascending order. merged:
-/// interior walls that join in a line become one segment, which stands where its first unit wall stood. Floats up to
-/// 2^23 rows and columns, doubles beyond.
+/// interior walls that join in a line become one segment, which stands where its first unit wall stood. Packed below
+/// 2^18 rows and columns, floats up to 2^23, doubles beyond.
 WallSet maze_walls(const MazeCells& cells, bool merged, const Execution& execution);
+
+/// Bytes of a wall that maze_walls() makes for so many rows and columns.
+std::size_t maze_wall_bytes(std::uint32_t rows, std::uint32_t cols);
 
 /// Are these, to the bit, the walls that maze_walls() makes of the cells, not merged? Makes none.
 bool has_maze_walls(const WallSet& walls, const MazeCells& cells, const Execution& execution);

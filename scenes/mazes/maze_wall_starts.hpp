@@ -21,10 +21,35 @@ namespace warren::maze {
 inline constexpr std::size_t wall_grain = std::size_t{1} << 16;
 inline constexpr std::uint32_t largest_float_side = (1U << 23U) - 1;  // side + 0.5 is a float up to here
 
-/// Are the walls of a maze of this size floats?
+/// Are the walls of a maze of this size floats in a file?
 inline bool walls_are_floats(std::uint32_t rows, std::uint32_t cols) {
   return std::max(rows, cols) <= largest_float_side;
 }
+
+/// Makes walls from grid lines: line k is the coordinate k + 0.5.
+template <class Wall>
+struct GridLines;
+template <class T>
+struct GridLines<WallOf<T>> {
+  static T at(std::uint32_t line) { return static_cast<T>(line) + T{0.5}; }
+  static WallOf<T> upright(std::uint32_t x, std::uint32_t y, std::uint32_t length) {
+    return {at(x), at(y), at(x), at(y + length)};
+  }
+  static WallOf<T> level(std::uint32_t x, std::uint32_t y, std::uint32_t length) {
+    return {at(x), at(y), at(x + length), at(y)};
+  }
+};
+template <>
+struct GridLines<PackedWall> {
+  static std::int32_t steps(std::uint32_t units) { return static_cast<std::int32_t>(units) * PackedWall::per_unit; }
+  static std::int32_t at(std::uint32_t line) { return steps(line) + PackedWall::per_unit / 2; }
+  static PackedWall upright(std::uint32_t x, std::uint32_t y, std::uint32_t length) {
+    return PackedWall::upright(at(x), at(y), steps(length));
+  }
+  static PackedWall level(std::uint32_t x, std::uint32_t y, std::uint32_t length) {
+    return PackedWall::level(at(x), at(y), steps(length));
+  }
+};
 
 /// Where columns of cells lie in a maze of which they are a part.
 struct ColumnsOfMaze {
@@ -119,10 +144,10 @@ class WallStarts {
 };
 
 /// Collects the walls of one chunk and hands them on in blocks.
-template <class T>
+template <class Wall>
 class WallWriter {
  public:
-  explicit WallWriter(WallOf<T>* out) : out_(out) {}
+  explicit WallWriter(Wall* out) : out_(out) {}
   ~WallWriter() { std::copy_n(block_.data(), used_, out_); }
   WallWriter(const WallWriter&) = delete;
   WallWriter& operator=(const WallWriter&) = delete;
@@ -133,56 +158,52 @@ class WallWriter {
     used_ = 0;
   }
   /// Keeps the wall if `keep` is 1, forgets it if 0.
-  void add(T x1, T y1, T x2, T y2, unsigned keep) {
-    block_[used_] = {x1, y1, x2, y2};
+  void add(const Wall& wall, unsigned keep) {
+    block_[used_] = wall;
     used_ += keep;
   }
 
  private:
-  WallOf<T>* out_;
-  std::array<WallOf<T>, 512> block_;
+  Wall* out_;
+  std::array<Wall, 512> block_;
   std::size_t used_ = 0;
 };
 
-template <class T, class Writer>
+template <class Wall, class Writer>
 void write_units(const MazeCells& cells, const WallStarts& starts, const Run& run, Writer& writer) {
   const std::uint8_t* bytes = cells.bytes().data() + cells.index(run.col, 0);
+  using Lines = GridLines<Wall>;
   const unsigned interior = starts.interior_of(run.col);
-  const T left = static_cast<T>(starts.col_of(run.col)) + T{0.5};
-  const T right = left + T{1};
+  const std::uint32_t col = starts.col_of(run.col);
   for (std::uint32_t row = run.row_first; row < run.row_last; ++row) {
     const unsigned bits = bytes[row] & interior & (row + 1 == cells.rows() ? 1U : 3U);
-    const T low = static_cast<T>(row) + T{0.5};
-    const T high = low + T{1};
     writer.make_room();
-    writer.add(right, low, right, high, bits & 1U);
-    writer.add(left, high, right, high, bits >> 1U);
+    writer.add(Lines::upright(col + 1, row, 1), bits & 1U);
+    writer.add(Lines::level(col, row + 1, 1), bits >> 1U);
   }
 }
 
-template <class T>
-void write_merged(const WallStarts& starts, const Run& run, WallWriter<T>& writer) {
+template <class Wall>
+void write_merged(const WallStarts& starts, const Run& run, WallWriter<Wall>& writer) {
+  using Lines = GridLines<Wall>;
+  const std::uint32_t col = starts.col_of(run.col);
   for (std::uint32_t row = run.row_first; row < run.row_last; ++row) {
     const unsigned bits = starts.at(run.col, row);
-    const T left = static_cast<T>(starts.col_of(run.col)) + T{0.5};
-    const T low = static_cast<T>(row) + T{0.5};
-    const T high = low + T{1};
     writer.make_room();
     if ((bits & MazeCells::right_wall) != 0) {
-      writer.add(left + T{1}, low, left + T{1}, low + static_cast<T>(starts.rows_along(run.col, row)), 1);
+      writer.add(Lines::upright(col + 1, row, starts.rows_along(run.col, row)), 1);
     }
     if ((bits & MazeCells::upper_wall) != 0) {
-      writer.add(left, high, left + static_cast<T>(starts.cols_along(run.col, row)), high, 1);
+      writer.add(Lines::level(col, row + 1, starts.cols_along(run.col, row)), 1);
     }
   }
 }
 
-template <class T>
-std::array<WallOf<T>, 4> outline(std::uint32_t rows, std::uint32_t cols) {
-  const T right = static_cast<T>(cols) + T{0.5};
-  const T top = static_cast<T>(rows) + T{0.5};
-  constexpr T low = 0.5;
-  return {{{low, low, right, low}, {low, top, right, top}, {low, low + 1, low, top}, {right, low, right, top - 1}}};
+template <class Wall>
+std::array<Wall, 4> outline(std::uint32_t rows, std::uint32_t cols) {
+  using Lines = GridLines<Wall>;
+  return {Lines::level(0, 0, cols), Lines::level(0, rows, cols), Lines::upright(0, 1, rows - 1),
+          Lines::upright(cols, 0, rows - 1)};
 }
 
 /// Where the walls of each chunk of these cells stand, behind the first `before`; and the end.
@@ -200,13 +221,13 @@ inline std::vector<std::size_t> places_of(const MazeCells& cells, const WallStar
 }
 
 /// Writes the walls of these cells, whose chunks' places places_of() has told.
-template <class T>
+template <class Wall>
 void write_walls(const MazeCells& cells, const WallStarts& starts, Range some, std::span<const std::size_t> places,
-                 WallOf<T>* walls, const Execution& execution) {
+                 Wall* walls, const Execution& execution) {
   for_chunks(some.size(), wall_grain, execution, [&](Range r) {
-    WallWriter<T> writer(walls + places[r.first / wall_grain]);
+    WallWriter<Wall> writer(walls + places[r.first / wall_grain]);
     for_runs(cells, {some.first + r.first, some.first + r.last}, [&](const Run& run) {
-      starts.merged() ? write_merged<T>(starts, run, writer) : write_units<T>(cells, starts, run, writer);
+      starts.merged() ? write_merged<Wall>(starts, run, writer) : write_units<Wall>(cells, starts, run, writer);
     });
   });
 }

@@ -117,7 +117,7 @@ void WallStrips::write_strip(const Strip& strip, const std::function<void(std::s
     const std::vector<std::size_t> places = maze::places_of(strip.cells, starts, some, 0, execution);
     if (places.back() > walls.capacity()) execution.reserve(places.back() * sizeof(WallOf<T>));
     walls.resize(places.back());
-    maze::write_walls<T>(strip.cells, starts, some, places, walls.data(), quietly(execution));
+    maze::write_walls(strip.cells, starts, some, places, walls.data(), quietly(execution));
     take(bytes_of<T>(walls));
   }
 }
@@ -126,7 +126,7 @@ void WallStrips::write(const std::function<void(std::string_view)>& take, const 
   execution.reserve(merged_ ? cells_.rows() * sizeof(std::uint32_t) : 0);
   if (execution.progress != nullptr) execution.progress->begin("write", cells_.tile_count());
   const auto with = [&]<class T>(T) {
-    const auto outline = maze::outline<T>(cells_.rows(), cells_.cols());
+    const auto outline = maze::outline<WallOf<T>>(cells_.rows(), cells_.cols());
     take(bytes_of<T>(outline));
     for (Strip strip = first_strip(execution);; go_on(strip, execution)) {
       write_strip<T>(strip, take, execution);

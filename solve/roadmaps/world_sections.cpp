@@ -26,15 +26,36 @@ void add_point(std::vector<double>& numbers, const std::optional<Vec2>& point) {
 
 std::optional<Vec2> point_of(double x, double y) { return x == x && y == y ? std::optional(Vec2{x, y}) : std::nullopt; }
 
-template <class T>
-RawVector<WallOf<T>> walls_of(std::span<const T> numbers, const Execution& execution) {
-  execution.reserve(numbers.size_bytes());
-  RawVector<WallOf<T>> walls(numbers.size() / 4);
+/// As walls of this kind.
+template <class Wall, class T>
+WallSet walls_as(std::span<const T> numbers, const Execution& execution) {
+  execution.reserve(numbers.size() / 4 * sizeof(Wall));
+  RawVector<Wall> walls(numbers.size() / 4);
   for_chunks(walls.size(), wall_grain, execution, [&](Range r) {
-    for (std::size_t i = r.first; i < r.last; ++i)
-      walls[i] = {numbers[4 * i], numbers[4 * i + 1], numbers[4 * i + 2], numbers[4 * i + 3]};
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      const T* const x = &numbers[4 * i];
+      if constexpr (std::is_same_v<Wall, PackedWall>) {
+        walls[i] = PackedWall::of(x[0], x[1], x[2], x[3]);
+      } else {
+        walls[i] = {x[0], x[1], x[2], x[3]};
+      }
+    }
   });
-  return walls;
+  return WallSet(std::move(walls));
+}
+
+template <class T>
+bool can_be_packed(std::span<const T> numbers, const Execution& execution) {
+  const std::size_t count = numbers.size() / 4;
+  std::vector<std::uint8_t> fit(chunk_count(count, wall_grain), 1);
+  for_chunks(count, wall_grain, execution, [&](Range r) {
+    for (std::size_t i = 4 * r.first; i < 4 * r.last; i += 4) {
+      if (PackedWall::fits(numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3])) continue;
+      fit[r.first / wall_grain] = 0;
+      return;
+    }
+  });
+  return std::find(fit.begin(), fit.end(), 0) == fit.end();
 }
 
 [[noreturn]] void refuse(const RoadmapFile& file, std::string_view section, std::string_view what) {
@@ -60,7 +81,8 @@ template <class T>
 WallSet read_walls(const RoadmapFile& file, const Execution& execution) {
   const auto numbers = file.section<T>("world.walls", execution);
   check_walls(file, "world.walls", numbers, execution);
-  return WallSet(walls_of(numbers, execution));
+  return std::is_same_v<T, float> && can_be_packed(numbers, execution) ? walls_as<PackedWall>(numbers, execution)
+                                                                       : walls_as<WallOf<T>>(numbers, execution);
 }
 
 Bitmap read_bits(const RoadmapFile& file, std::string_view name, std::uint32_t width, std::uint32_t height,
@@ -115,6 +137,7 @@ WorldSections::WorldSections(const Scene& scene, const LatticePassages* lattice,
       without_arrays(scene), [&](std::string_view text) { text_.append(text); }, execution);
   in_lattice_ = lattice != nullptr && has_walls_of(*lattice, scene, execution);
   if (!in_lattice_) maze_ = maze_bits(scene, execution);
+  if (!in_lattice_ && !maze_ && scene.walls.holds_packed()) unpack_walls(execution);
   for (const Segment& s : scene.seams) seams_.insert(seams_.end(), {s.a.x, s.a.y, s.b.x, s.b.y});
   if (!scene.map) return;
   const OccupancyMap& map = *scene.map;
@@ -141,12 +164,29 @@ void WorldSections::append_to(std::vector<RoadmapSection>& sections) const {
   if (!scene_.map->water.empty()) sections.push_back(roadmap_section("map.water", scene_.map->water.words()));
 }
 
-void WorldSections::append_walls(std::vector<RoadmapSection>& sections) const {
+void WorldSections::unpack_walls(const Execution& execution) {
+  execution.reserve(scene_.walls.size() * sizeof(FloatWall));
+  unpacked_.resize(scene_.walls.size());
   scene_.walls.visit([&](auto walls) {
-    using Number = decltype(walls.front().x1);
-    const auto* numbers = walls.empty() ? nullptr : &walls.front().x1;
-    sections.push_back(
-        roadmap_section("world.walls", std::span<const std::remove_cvref_t<Number>>(numbers, 4 * walls.size())));
+    for_chunks(walls.size(), wall_grain, execution, [&](Range r) {
+      if constexpr (std::is_same_v<decltype(walls), std::span<const PackedWall>>) {
+        for (std::size_t i = r.first; i < r.last; ++i) unpacked_[i] = unpacked(walls[i]);
+      }
+    });
+  });
+}
+
+void WorldSections::append_walls(std::vector<RoadmapSection>& sections) const {
+  const auto append = [&]<class T>(std::span<const WallOf<T>> walls) {
+    const T* const numbers = walls.empty() ? nullptr : &walls.front().x1;
+    sections.push_back(roadmap_section("world.walls", std::span<const T>(numbers, 4 * walls.size())));
+  };
+  scene_.walls.visit([&](auto walls) {
+    if constexpr (std::is_same_v<decltype(walls), std::span<const PackedWall>>) {
+      append(std::span<const FloatWall>(unpacked_));
+    } else {
+      append(walls);
+    }
   });
 }
 

@@ -29,12 +29,14 @@ class WorldSections {
   void append_to(std::vector<RoadmapSection>& sections) const;
 
  private:
+  void unpack_walls(const Execution& execution);
   void append_walls(std::vector<RoadmapSection>& sections) const;
 
   const Scene& scene_;
   std::string text_;
   bool in_lattice_ = false;  // the walls are
   std::optional<RawVector<std::uint64_t>> maze_;
+  RawVector<FloatWall> unpacked_;  // the walls, where the scene has them packed and they are written one by one
   RawVector<double> seams_;
   std::vector<double> map_place_;
   std::vector<std::uint64_t> map_size_;

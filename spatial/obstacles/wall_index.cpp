@@ -12,7 +12,10 @@
 namespace warren {
 namespace {
 
-bool fits_float(std::span<const Segment> segments) { return WallSet::narrowest(segments).holds_floats(); }
+bool fits_float(std::span<const Segment> segments) {
+  return WallSet::narrowest(segments).visit(
+      []<class Wall>(std::span<const Wall>) { return std::is_same_v<typename Wall::Number, float>; });
+}
 
 template <class T>
 WallOf<T> wall_of(const Segment& s) {
@@ -92,7 +95,7 @@ WallIndex::WallIndex(const WallSet& walls, std::span<const Segment> more, const 
     : wall_count_(walls.size() + more.size()) {
   if (wall_count_ > (std::size_t{1} << 31)) throw InputError("walls", "at most 2^31 walls can be indexed");
   walls.visit([&]<class Span>(Span given) {
-    using T = decltype(Span::element_type::x1);
+    using T = typename Span::element_type::Number;
     const auto build = [&]<class U>(U) {
       const auto filed = [&](std::size_t i) {
         if (i >= given.size()) return FiledWall<U>{wall_of<U>(more[i - given.size()]), more[i - given.size()]};

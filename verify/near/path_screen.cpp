@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
+#include <type_traits>
 
 #include "parallel/chunks.hpp"
 
@@ -207,10 +209,6 @@ struct PathScreen::Block {
   struct Cells {
     alignas(64) std::array<std::int32_t, block_size> column_first, column_last, row_first, row_last;
   };
-  /// From coordinate to cell.
-  struct Axis {
-    double per_unit, before_first, before_last, end;
-  };
   template <class T>
   struct Lanes {
     static constexpr std::size_t count = 8;
@@ -221,6 +219,16 @@ struct PathScreen::Block {
   [[gnu::always_inline]] static inline void find_boxes(const WallOf<T>* walls, Boxes<T>& boxes) {
     for (std::size_t i = 0; i < block_size; ++i) {
       const WallOf<T> w = walls[i];
+      boxes.x_min[i] = w.x1 < w.x2 ? w.x1 : w.x2;
+      boxes.x_max[i] = w.x1 < w.x2 ? w.x2 : w.x1;
+      boxes.y_min[i] = w.y1 < w.y2 ? w.y1 : w.y2;
+      boxes.y_max[i] = w.y1 < w.y2 ? w.y2 : w.y1;
+    }
+  }
+
+  [[gnu::always_inline]] static inline void find_boxes(const PackedWall* walls, Boxes<std::int32_t>& boxes) {
+    for (std::size_t i = 0; i < block_size; ++i) {
+      const PackedWall::Ends w = walls[i].ends();
       boxes.x_min[i] = w.x1 < w.x2 ? w.x1 : w.x2;
       boxes.x_max[i] = w.x1 < w.x2 ? w.x2 : w.x1;
       boxes.y_min[i] = w.y1 < w.y2 ? w.y1 : w.y2;
@@ -246,6 +254,22 @@ struct PathScreen::Block {
     return static_cast<std::int32_t>(above < end ? above : end) >> quantum_bits;
   }
 
+  [[gnu::always_inline]] static inline std::int32_t cell(std::int32_t units, std::int32_t before, std::int32_t end) {
+    const std::int32_t at = units - before;
+    const std::int32_t above = at > 0 ? at : 0;
+    return (above < end ? above : end) >> quantum_bits;
+  }
+  [[gnu::always_inline]] static inline void find_cells(const std::array<std::int32_t, block_size>& low,
+                                                       const std::array<std::int32_t, block_size>& high,
+                                                       const StepAxis& axis,
+                                                       std::array<std::int32_t, block_size>& first,
+                                                       std::array<std::int32_t, block_size>& last) {
+    for (std::size_t i = 0; i < block_size; ++i) {
+      first[i] = cell(low[i] << axis.shift, axis.before_first, axis.end);
+      last[i] = cell(high[i] << axis.shift, axis.before_last, axis.end);
+    }
+  }
+
   template <class T>
   [[gnu::always_inline]] static inline void find_cells(const std::array<T, block_size>& low,
                                                        const std::array<T, block_size>& high, const Axis& axis,
@@ -259,8 +283,8 @@ struct PathScreen::Block {
     }
   }
 
-  template <class T>
-  [[gnu::always_inline]] static inline void work(const WallOf<T>* walls, const Axis& x, const Axis& y, Cells& cells,
+  template <class Wall, class Scale, class T>
+  [[gnu::always_inline]] static inline void work(const Wall* walls, const Scale& x, const Scale& y, Cells& cells,
                                                  Lanes<T>& lanes) {
     Boxes<T> boxes;
     find_boxes(walls, boxes);
@@ -278,23 +302,36 @@ void PathScreen::keep_all(std::span<const Wall> walls, std::size_t first_number,
   }
 }
 
-template <class Wall>
-void PathScreen::sift_all(std::span<const Wall> walls, std::size_t first_number, Rest& rest) const {
-  using T = decltype(Wall::x1);
+PathScreen::Axis PathScreen::axis(double first_cell, std::int32_t count) const {
   constexpr double units = 1 << quantum_bits;
-  const auto axis = [&](double first_cell, std::int32_t count) {
-    return Block::Axis{per_cell_ * units, first_cell * units + reach_, first_cell * units - reach_ + 1.0,
-                       static_cast<double>(count) * units - 1.0};
-  };
-  const typename Block::Axis x = axis(first_column_, columns_);
-  const typename Block::Axis y = axis(first_row_, rows_);
+  return {per_cell_ * units, first_cell * units + reach_, first_cell * units - reach_ + 1.0,
+          static_cast<double>(count) * units - 1.0};
+}
+
+/// Of packed walls, where nothing is rounded and nothing overflows.
+std::optional<PathScreen::StepAxis> PathScreen::step_axis(double first_cell, std::int32_t count) const {
+  constexpr double most = 1 << 29;
+  const Axis by_units = axis(first_cell, count);
+  const double per_step = by_units.per_unit / PackedWall::per_unit;
+  const bool fits = std::max({std::abs(by_units.before_first), std::abs(by_units.before_last), by_units.end,
+                              2.0 * PackedWall::most * per_step}) <= most;
+  if (!fits || per_step < 1.0) return std::nullopt;
+  const auto whole = [](double x) { return static_cast<std::int32_t>(x); };
+  return StepAxis{std::ilogb(per_step), whole(by_units.before_first), whole(by_units.before_last), whole(by_units.end)};
+}
+
+template <class Wall, class Scale>
+void PathScreen::sift_along(std::span<const Wall> walls, std::size_t first_number, const Scale& x, const Scale& y,
+                            Rest& rest) const {
+  using T = std::conditional_t<std::is_same_v<Wall, PackedWall>, std::int32_t, typename Wall::Number>;
+  constexpr double unit = std::is_same_v<Wall, PackedWall> ? 1.0 / PackedWall::per_unit : 1.0;
+  using Limits = std::numeric_limits<T>;
   typename Block::Cells cells;
   typename Block::template Lanes<T> lanes;
-  lanes.x_min.fill(std::numeric_limits<T>::infinity());
+  lanes.x_min.fill(Limits::has_infinity ? Limits::infinity() : Limits::max());
   lanes.y_min = lanes.x_min;
-  lanes.x_max.fill(-std::numeric_limits<T>::infinity());
+  lanes.x_max.fill(Limits::has_infinity ? -Limits::infinity() : Limits::lowest());
   lanes.y_max = lanes.x_max;
-  if (!usable_) return keep_all(walls, first_number, rest);
   std::size_t budget = 65536 + 64 * walls.size();  // words of cells: for many short walls and a few long ones
   std::array<Wall, block_size> tail;
   for (std::size_t begin = 0; begin < walls.size(); begin += block_size) {
@@ -326,9 +363,25 @@ void PathScreen::sift_all(std::span<const Wall> walls, std::size_t first_number,
     }
   }
   for (std::size_t k = 0; k < lanes.count && !walls.empty(); ++k) {
-    rest.box.include(Vec2{static_cast<double>(lanes.x_min[k]), static_cast<double>(lanes.y_min[k])});
-    rest.box.include(Vec2{static_cast<double>(lanes.x_max[k]), static_cast<double>(lanes.y_max[k])});
+    rest.box.include(unit * Vec2{static_cast<double>(lanes.x_min[k]), static_cast<double>(lanes.y_min[k])});
+    rest.box.include(unit * Vec2{static_cast<double>(lanes.x_max[k]), static_cast<double>(lanes.y_max[k])});
   }
+}
+
+template <class Wall>
+void PathScreen::sift_all(std::span<const Wall> walls, std::size_t first_number, Rest& rest) const {
+  if (!usable_) return keep_all(walls, first_number, rest);
+  sift_along(walls, first_number, axis(first_column_, columns_), axis(first_row_, rows_), rest);
+}
+
+void PathScreen::sift(std::span<const PackedWall> walls, std::size_t first_number, Rest& rest) const {
+  if (!usable_) return keep_all(walls, first_number, rest);
+  const auto x = step_axis(first_column_, columns_);
+  const auto y = step_axis(first_row_, rows_);
+  if (x && y) return sift_along(walls, first_number, *x, *y, rest);
+  std::vector<FloatWall> floats(walls.size());
+  std::transform(walls.begin(), walls.end(), floats.begin(), [](const PackedWall& wall) { return unpacked(wall); });
+  sift_all(std::span<const FloatWall>(floats), first_number, rest);
 }
 
 void PathScreen::sift(std::span<const FloatWall> walls, std::size_t first_number, Rest& rest) const {

@@ -22,6 +22,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -54,6 +55,7 @@ class PathScreen {
     Box box;                            ///< of all walls
   };
   /// Walls are numbered from `first_number`; what they say is added to `rest`.
+  void sift(std::span<const PackedWall> walls, std::size_t first_number, Rest& rest) const;
   void sift(std::span<const FloatWall> walls, std::size_t first_number, Rest& rest) const;
   void sift(std::span<const DoubleWall> walls, std::size_t first_number, Rest& rest) const;
 
@@ -87,6 +89,20 @@ class PathScreen {
   void mark_cell(std::int32_t column, std::int32_t row, const Stripe& stripe);
   void set(std::int32_t column, std::int32_t row, unsigned which, const Stripe& stripe);
   bool is_clear(const Window& window, std::size_t& budget) const;
+  /// From coordinate to cell.
+  struct Axis {
+    double per_unit, before_first, before_last, end;
+  };
+  /// The same from the steps of a packed wall, in whole numbers.
+  struct StepAxis {
+    int shift;  ///< left: from steps to units
+    std::int32_t before_first, before_last, end;
+  };
+  Axis axis(double first_cell, std::int32_t count) const;
+  std::optional<StepAxis> step_axis(double first_cell, std::int32_t count) const;
+  template <class Wall, class Scale>
+  void sift_along(std::span<const Wall> walls, std::size_t first_number, const Scale& x, const Scale& y,
+                  Rest& rest) const;
   template <class Wall>
   static void keep_all(std::span<const Wall> walls, std::size_t first_number, Rest& rest);
   template <class Wall>

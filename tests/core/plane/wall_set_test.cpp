@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -34,6 +35,52 @@ TEST(WallSet, KeepsEveryCoordinateExactlyInTheNarrowestType) {
       EXPECT_EQ(walls.segment(1), segments[1]);
       EXPECT_EQ(walls.bytes(), c.as_float ? 32U : 64U);
     }
+  }
+}
+
+TEST(WallSet, PacksLevelAndUprightWallsOfQuarters) {
+  constexpr double most = 262143.75;
+  struct Case {
+    Segment wall;
+    bool is_packed;
+  };
+  const Case cases[] = {{{{0.5, 1.5}, {0.5, 2.5}}, true},           {{{0.5, 2.5}, {0.5, -1.25}}, true},
+                        {{{-3.5, 2.5}, {1.25, 2.5}}, true},         {{{-3.5, 2.5}, {-3.5, 2.5}}, true},
+                        {{{-most, most}, {0.0, most}}, true},       {{{most, -most}, {most, 0.0}}, true},
+                        {{{most, -most}, {most, 0.25}}, false},     {{{most + 0.25, 0.0}, {1.0, 0.0}}, false},
+                        {{{0.0, 0.0}, {0.0, -most - 0.25}}, false}, {{{0.5, 0.5}, {1.0, 1.0}}, false},
+                        {{{0.125, 0.5}, {1.0, 0.5}}, false},        {{{0.0, 0.5}, {-0.0, 0.75}}, false},
+                        {{{-0.0, 0.5}, {1.0, 0.5}}, false}};
+  for (const Case& c : cases) {
+    const auto& [a, b] = c.wall;
+    SCOPED_TRACE(testing::Message() << a.x << " " << a.y << " " << b.x << " " << b.y);
+    EXPECT_EQ(PackedWall::fits(a.x, a.y, b.x, b.y), c.is_packed);
+    const WallSet walls = WallSet::narrowest(std::vector<Segment>{{{4.0, 4.0}, {4.0, 5.0}}, c.wall});
+    EXPECT_EQ(walls.holds_packed(), c.is_packed);
+    EXPECT_EQ(walls.bytes(), c.is_packed ? 16U : 32U);
+    EXPECT_EQ(walls.segment(1), c.wall);
+    EXPECT_EQ(std::signbit(walls.segment(1).b.x), std::signbit(b.x));
+    if (!c.is_packed) continue;
+    const FloatWall numbers = unpacked(PackedWall::of(a.x, a.y, b.x, b.y));
+    EXPECT_EQ(numbers.segment(), c.wall);
+  }
+  EXPECT_FALSE(PackedWall::fits(0.0, 0.0, 0.0, std::nan("")));
+  EXPECT_FALSE(PackedWall::fits(HUGE_VALF, 0.0F, HUGE_VALF, 0.0F));
+}
+
+TEST(WallSet, PackedWallsAreReadBackToTheBit) {
+  for (std::uint64_t i = 0; i < 20000; ++i) {
+    const auto steps = [&](std::uint64_t axis) {
+      return static_cast<std::int32_t>(random_bits(4, i, axis) % 2097151) - PackedWall::most;
+    };
+    const bool is_upright = i % 2 == 0;
+    const PackedWall wall = is_upright ? PackedWall::upright(steps(0), steps(1), steps(2))
+                                       : PackedWall::level(steps(0), steps(1), steps(2));
+    const PackedWall::Ends e = wall.ends();
+    EXPECT_EQ(e.x1, steps(0));
+    EXPECT_EQ(e.y1, steps(1));
+    EXPECT_EQ(e.x2, is_upright ? steps(0) : steps(0) + steps(2));
+    EXPECT_EQ(e.y2, is_upright ? steps(1) + steps(2) : steps(1));
   }
 }
 

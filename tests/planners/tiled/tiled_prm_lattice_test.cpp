@@ -116,6 +116,52 @@ void expect_same_answer(const TiledCase& c, const Solution<Vec2>& expected, cons
   }
 }
 
+void expect_same_bytes(const Solution<Vec2>& expected, const Solution<Vec2>& found) {
+  ASSERT_EQ(name_of(found.outcome), name_of(expected.outcome));
+  EXPECT_EQ(found.path, expected.path);
+  EXPECT_EQ(found.counters, expected.counters);
+  EXPECT_EQ(found.roadmap.milestones, expected.roadmap.milestones);
+  EXPECT_EQ(found.roadmap.edges, expected.roadmap.edges);
+  EXPECT_EQ(found.roadmap.components, expected.roadmap.components);
+  EXPECT_EQ(found.separation.start_size, expected.separation.start_size);
+  EXPECT_EQ(found.separation.goal_size, expected.separation.goal_size);
+  if (found.outcome == Outcome::not_connected) {
+    EXPECT_EQ(found.separation.nearest_gap, expected.separation.nearest_gap);
+  }
+}
+
+TEST(TiledPrm, BandsAndFormsOfWallsChangeNothing) {
+  for (const double loops : {0.0, 0.05, -1.0}) {  // below 0: start and goal are apart
+    SCOPED_TRACE(loops);
+    TiledCase c = maze_case({500, 640, 5, MazeAlgorithm::backtracker, std::max(loops, 0.0)});
+    if (loops < 0.0) {
+      std::vector<Segment> walls = segments_of(c.scene.walls);
+      walls.push_back({{300.5, 0.5}, {300.5, 500.5}});
+      c.scene.walls = WallSet::narrowest(walls);
+    }
+    ASSERT_TRUE(c.scene.walls.holds_packed());
+    RawVector<FloatWall> floats;
+    RawVector<DoubleWall> doubles;
+    for (const Segment& s : segments_of(c.scene.walls)) {
+      doubles.push_back({s.a.x, s.a.y, s.b.x, s.b.y});
+      floats.push_back(unpacked(PackedWall::of(s.a.x, s.a.y, s.b.x, s.b.y)));
+    }
+    const WallSet sets[] = {c.scene.walls, WallSet(std::move(floats)), WallSet(std::move(doubles))};
+    const Solution<Vec2> expected = tiled(c);
+    EXPECT_EQ(expected.outcome, loops < 0.0 ? Outcome::not_connected : Outcome::solved);
+    for (const WallSet& walls : sets) {
+      for (const std::uint32_t bands : {1U, 2U, 3U, 7U}) {
+        for (const unsigned threads : {1U, 3U}) {
+          SCOPED_TRACE(testing::Message() << walls.bytes() << " " << bands << " " << threads);
+          TiledProblem problem{walls, {}, {}, c.clearance, c.start, c.goal};
+          problem.bands = bands;
+          expect_same_bytes(expected, tiled_prm(problem, options_of(c), {.threads = threads}));
+        }
+      }
+    }
+  }
+}
+
 void expect_same_answer(const TiledCase& c) { expect_same_answer(c, plain(c), tiled(c)); }
 
 TEST(TiledPrm, GivesThePlainAnswerWhereTilesAreMadeWhenTheyAreAskedFor) {

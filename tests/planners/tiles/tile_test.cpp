@@ -112,6 +112,83 @@ TEST(WallPartition, ThreadsChangeNothing) {
   }
 }
 
+/// Walls of mazes, some of them long, in both directions and of no length, in the forms that hold them.
+std::vector<WallSet> in_each_form(std::uint64_t seed, Box box, int count) {
+  SequentialRng rng(seed);
+  RawVector<PackedWall> packed;
+  RawVector<FloatWall> floats;
+  RawVector<DoubleWall> doubles;
+  for (int i = 0; i < count; ++i) {
+    const auto steps = [&](double low, double high) { return static_cast<std::int32_t>(4.0 * number(rng, low, high)); };
+    const std::int32_t x = steps(box.min.x - 9, box.max.x + 9);
+    const std::int32_t y = steps(box.min.y - 9, box.max.y + 9);
+    const std::int32_t length = i % 9 == 0 ? steps(-300.0, 300.0) : i % 8 == 0 ? 0 : steps(-3.0, 3.0);
+    packed.push_back(i % 2 == 0 ? PackedWall::level(x, y, length) : PackedWall::upright(x, y, length));
+    floats.push_back(unpacked(packed.back()));
+    const FloatWall& w = floats.back();
+    doubles.push_back({w.x1, w.y1, w.x2, w.y2});
+  }
+  std::vector<WallSet> sets;
+  sets.emplace_back(std::move(packed));
+  sets.emplace_back(std::move(floats));
+  sets.emplace_back(std::move(doubles));
+  return sets;
+}
+
+TEST(WallPartition, NeitherFormNorBandsChangeWhatATileHolds) {
+  const TileGrid grid = TileGrid::of({500, 700}, 6);
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const std::vector<WallSet> sets = in_each_form(seed, grid.area(), 60'000);
+    const WallPartition expected(sets[2], {}, grid, 1.11, {});
+    for (const WallSet& walls : sets) {
+      for (const TileBands bands : {TileBands{1, false}, {2, false}, {3, true}, {7, false}, {8, true}, {11, false}}) {
+        SCOPED_TRACE(testing::Message() << bands.count << (bands.by_rows ? " of rows" : " of columns"));
+        WallPartition found(walls, {}, grid, 1.11, [&](const WallCounts&) { return bands; }, {});
+        EXPECT_EQ(found.box().min, expected.box().min);
+        EXPECT_EQ(found.box().max, expected.box().max);
+        std::size_t tiles = 0;
+        for (std::uint32_t band = 0; band < found.band_count(); ++band) {
+          for (const std::size_t tile : found.file(band, {})) {
+            ASSERT_TRUE(found.is_filed(tile));
+            ASSERT_EQ(walls_of(found, grid, tile), walls_of(expected, grid, tile)) << tile;
+            ++tiles;
+          }
+        }
+        EXPECT_EQ(tiles, grid.count());
+        for (std::size_t tile = 0; tile < grid.count(); tile += 5) {
+          LooseTile loose;
+          std::vector<Segment> looked_up;
+          found.look_up(tile, loose, {}).for_each(grid, tile, [&](const Segment& w) { looked_up.push_back(w); });
+          ASSERT_EQ(looked_up, walls_of(expected, grid, tile)) << tile;
+        }
+      }
+    }
+  }
+}
+
+TEST(TileBands, AreManyWhereWallsComeInOrderAndAsTheMemoryAsksWhereTheyDoNot) {
+  const TileGrid grid = TileGrid::of({3000, 3000}, 8);
+  RawVector<PackedWall> in_order;
+  for (std::int32_t col = 0; col < 3000; ++col) {
+    for (std::int32_t row = 0; row < 3000; ++row) in_order.push_back(PackedWall::upright(4 * col + 2, 4 * row + 2, 4));
+  }
+  RawVector<PackedWall> in_no_order = in_order;
+  SequentialRng rng(3);
+  for (std::size_t i = in_no_order.size(); i > 1; --i) std::swap(in_no_order[i - 1], in_no_order[rng.below(i)]);
+  const auto bands_of = [&](const WallSet& walls, const Execution& execution) {
+    const WallFiler filer(grid, 1.11);
+    return choose_bands(WallCounts(walls, filer, grid.count(), {}), grid, sizeof(FloatWall), execution).count;
+  };
+  const WallSet ordered(std::move(in_order));
+  const WallSet mixed(std::move(in_no_order));
+  EXPECT_EQ(bands_of(ordered, {}), 2U);
+  EXPECT_EQ(bands_of(mixed, {}), 1U);
+  Execution execution;
+  const Deadline little(1e6, 1);
+  execution.deadline = &little;
+  EXPECT_EQ(bands_of(mixed, execution), 2U);
+}
+
 /// What the plane must hold: every milestone and edge put to WallIndex.
 unsigned expected_bits(const WallIndex& index, const TileGrid& grid, std::int64_t col, std::int64_t row, double r) {
   const auto in_lattice = [&](std::int64_t c, std::int64_t w) {

@@ -19,8 +19,8 @@ bool same(const NarrowWall& a, const NarrowWall& b) {
   return a.x1 == b.x1 && a.y1 == b.y1 && a.x2 == b.x2 && a.y2 == b.y2;
 }
 
-template <class T>
-void expect_alike(const WallOf<T>& wall, bool is_whole) {
+template <class Wall>
+void expect_alike(const Wall& wall, bool is_whole) {
   const WallSteps steps(wall);
   const PlainWallSteps plain(wall);
   EXPECT_EQ(steps.exact(), is_whole);
@@ -54,6 +54,26 @@ TEST(WallSteps, AreAlikeOnEveryProcessor) {
     DoubleWall same_wall{wall.x1, wall.y1, wall.x2, wall.y2};
     if (!is_whole) same_wall.y1 = i % 2 == 0 ? 1e300 : 1.0 / 3.0;
     expect_alike(same_wall, is_whole);
+  }
+}
+
+TEST(WallSteps, OfPackedWallsAreThoseOfTheirFloats) {
+  for (std::uint64_t i = 0; i < 20000; ++i) {
+    const std::int32_t spread = i % 3 == 0 ? 40 : i % 3 == 1 ? 4000 : PackedWall::most;
+    const auto steps = [&](std::uint64_t axis) {
+      return static_cast<std::int32_t>(random_bits(5, i, axis) % (2 * static_cast<std::uint32_t>(spread) + 1)) - spread;
+    };
+    const PackedWall wall = i % 2 == 0 ? PackedWall::upright(steps(0), steps(1), steps(2))
+                                       : PackedWall::level(steps(0), steps(1), steps(2));
+    expect_alike(wall, true);
+    const WallSteps expected(unpacked(wall));
+    const WallSteps found(wall);
+    for (const int log2 : {7, 13, 15}) {
+      EXPECT_TRUE(same(found.first(64, log2), expected.first(64, log2)));
+      EXPECT_TRUE(same(found.last(-64, log2), expected.last(-64, log2)));
+    }
+    EXPECT_TRUE(same(found.from(1000), expected.from(1000)));
+    EXPECT_EQ(found.is_short(8192), expected.is_short(8192));
   }
 }
 

@@ -38,7 +38,7 @@ TEST(MazeWalls, StandInTheCoursesOrder) {
                                          {{2.5, 1.5}, {2.5, 2.5}},   // right of (1, 1)
                                          {{2.5, 1.5}, {3.5, 1.5}}};  // above (2, 0)
   ASSERT_EQ(walls.size(), expected.size());
-  EXPECT_TRUE(walls.holds_floats());
+  EXPECT_TRUE(walls.holds_packed());
   for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(walls.segment(i), expected[i]) << i;
 
   const WallSet merged = maze_walls(cells, true, {});
@@ -56,9 +56,9 @@ TEST(MazeWalls, AreComparedWithoutBeingMade) {
   EXPECT_FALSE(has_maze_walls(maze_walls(cells, true, {}), cells, {}));
   EXPECT_FALSE(has_maze_walls(walls, maze(70, 1100, 4, MazeAlgorithm::kruskal), {}));
   walls.visit([&](auto all) {
-    if constexpr (std::is_same_v<decltype(all), std::span<const FloatWall>>) {
+    if constexpr (std::is_same_v<decltype(all), std::span<const PackedWall>>) {
       for (const std::size_t i : {std::size_t{2}, std::size_t{4}, all.size() / 2, all.size() - 2}) {
-        RawVector<FloatWall> other(all.begin(), all.end());
+        RawVector<PackedWall> other(all.begin(), all.end());
         std::swap(other[i], other[i + 1]);
         EXPECT_FALSE(has_maze_walls(WallSet(std::move(other)), cells, {})) << i;
       }
@@ -112,10 +112,7 @@ TEST(MazeWalls, AreTheSameForAnyThreadCount) {
   for (const unsigned threads : {2U, 3U, 8U}) {
     const WallSet many = maze_walls(cells, false, {.threads = threads});
     ASSERT_EQ(one.size(), many.size());
-    one.visit([&](auto a) {
-      const FloatWall* b = many.visit([](auto span) { return reinterpret_cast<const FloatWall*>(span.data()); });
-      for (std::size_t i = 0; i < a.size(); ++i) ASSERT_EQ(a[i].segment(), b[i].segment());
-    });
+    for (std::size_t i = 0; i < one.size(); ++i) ASSERT_EQ(one.segment(i), many.segment(i));
   }
 }
 
@@ -125,6 +122,12 @@ TEST(MazeWalls, TurnToDoublesWhereFloatsWouldRound) {
     std::fill(cells.bytes().begin(), cells.bytes().end(), MazeCells::upper_wall);
     return maze_walls(cells, false, {});
   };
+  EXPECT_TRUE(corridor(262142).holds_packed());
+  EXPECT_EQ(corridor(262142).segment(1).b.x, 262142.5);
+  EXPECT_TRUE(corridor(262143).holds_floats());
+  EXPECT_EQ(corridor(262143).segment(1).b.x, 262143.5);
+  EXPECT_EQ(maze_wall_bytes(1, 262142), sizeof(PackedWall));
+  EXPECT_EQ(maze_wall_bytes(262143, 1), sizeof(FloatWall));
   EXPECT_TRUE(corridor(8388607).holds_floats());
   const WallSet wide = corridor(8388608);
   EXPECT_FALSE(wide.holds_floats());

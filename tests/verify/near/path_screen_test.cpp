@@ -23,6 +23,24 @@ bool fits_float(const Segment& s) {
   return fits(s.a.x) && fits(s.a.y) && fits(s.b.x) && fits(s.b.y);
 }
 
+/// Those of the walls that can be packed, asked in doubles and packed: both must say the same.
+void expect_same_packed(const PathScreen& screen, const std::vector<Segment>& walls) {
+  std::vector<DoubleWall> doubles;
+  std::vector<PackedWall> packed;
+  for (const Segment& s : walls) {
+    if (!PackedWall::fits(s.a.x, s.a.y, s.b.x, s.b.y)) continue;
+    doubles.push_back({s.a.x, s.a.y, s.b.x, s.b.y});
+    packed.push_back(PackedWall::of(s.a.x, s.a.y, s.b.x, s.b.y));
+  }
+  PathScreen::Rest expected;
+  PathScreen::Rest found;
+  screen.sift(std::span<const DoubleWall>(doubles), 7, expected);
+  screen.sift(std::span<const PackedWall>(packed), 7, found);
+  EXPECT_EQ(found.doubtful, expected.doubtful);
+  EXPECT_EQ(found.box.min, expected.box.min);
+  EXPECT_EQ(found.box.max, expected.box.max);
+}
+
 /// Numbers of the walls that the screen drops, asked in doubles and, where they fit, in floats: both must say the same.
 std::vector<std::size_t> clear_walls(const PathScreen& screen, const std::vector<Segment>& walls) {
   constexpr std::size_t first_number = 1000;
@@ -46,6 +64,7 @@ std::vector<std::size_t> clear_walls(const PathScreen& screen, const std::vector
     EXPECT_EQ(rest_of_floats.box.min, box.min);
     EXPECT_EQ(rest_of_floats.box.max, box.max);
   }
+  expect_same_packed(screen, walls);
   EXPECT_TRUE(std::is_sorted(rest.doubtful.begin(), rest.doubtful.end()));
   std::vector<std::size_t> clear;
   for (std::size_t i = 0; i < walls.size(); ++i) {
@@ -80,6 +99,29 @@ TEST(PathScreen, NoNearWallIsDropped) {
       }
     }
     EXPECT_GT(dropped, 1000U);
+  }
+}
+
+TEST(PathScreen, SaysOfPackedWallsWhatItSaysOfTheirNumbers) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    const double middle = seed % 4 == 0 ? 261000.0 : seed % 4 == 1 ? -700.0 : 0.0;
+    const auto number = [&](std::uint64_t axis, std::uint64_t i, double spread) {
+      return std::floor(spread * (uniform(seed, i, axis) - 0.5) * PackedWall::per_unit) / PackedWall::per_unit;
+    };
+    std::vector<Vec2> path;
+    for (std::uint64_t i = 0; i < 50; ++i) path.push_back({middle + number(0, i, 90.0), middle + number(1, i, 90.0)});
+    std::vector<Segment> walls;
+    for (std::uint64_t i = 0; i < 1000; ++i) {
+      const Vec2 a{middle + number(2, i, 100.0), middle + number(3, i, 100.0)};
+      const double length = number(4, i, i % 40 == 0 ? 400.0 : i % 7 == 0 ? 0.1 : 4.0);
+      walls.push_back({a, i % 2 == 0 ? Vec2{a.x + length, a.y} : Vec2{a.x, a.y + length}});
+    }
+    for (const double unit : {0.125, 0.5, 1.0, 16.0, 256.0}) {
+      PathScreen screen = screen_of(path, 1 << 16, unit);
+      screen.set_reach(0.4 * unit, 0.1);
+      expect_same_packed(screen, walls);
+    }
   }
 }
 
