@@ -154,6 +154,25 @@ class Faults(unittest.TestCase):
             named.update(line.split("'")[1] for line in lines)
         self.assertTrue(named, "no run lived long enough")
 
+    def test_each_rank_that_dies_in_each_stage_ends_all(self):
+        """Rank 0 tells the stages that it comes to; the search is one in rounds. Shorter stages are for the moments above."""
+        world = ["solve", "maze:4000x4000,algorithm=mst,seed=3,loops=0.1", "--memory", "130MiB", "--progress", "plain"]
+        for stage in ("generate", "connect", "search"):
+            for killed in range(3):
+                with self.subTest(stage=stage, killed=killed):
+                    process = start(mpirun(3, world + ["--no-path", "--threads", "1"]))
+                    pids = {}
+                    for line in process.stderr:
+                        if line.startswith(stage):
+                            pids = ranks_of(process)
+                            break
+                    self.assertEqual(len(pids), 3, "the stage was not seen")
+                    since = time.monotonic()
+                    os.kill(pids[killed], signal.SIGKILL)
+                    _, err = self.ends(process, pids.values(), since)
+                    self.assertRegex(err, "stopped while it was at '[a-z]+'")
+                    process.stderr.close()
+
     def test_the_launcher_that_is_killed_ends_all(self):
         for which in (signal.SIGKILL, signal.SIGTERM):
             process = start(mpirun(3, ["solve", self.WORLD, "--no-path", "--threads", "1", "--quiet"]))
