@@ -90,11 +90,13 @@ void ServedWorld::describe(const Execution& execution) {
 }
 
 std::unique_ptr<ServedWorld> ServedWorld::changed(Scene now, const Execution& execution) const {
-  if (query_ == nullptr) return std::make_unique<ServedWorld>(std::move(now), body_, execution);
-  if (roadmap_->lattice != nullptr) {
+  if (roadmap_ && roadmap_->lattice != nullptr) {
     throw UsageError("a large maze is asked by its lattice, which is not changed here; 'warren update' does that");
   }
-  return std::make_unique<ServedWorld>(update(*roadmap_, std::move(now), execution), execution);
+  auto next = roadmap_ ? std::make_unique<ServedWorld>(update(*roadmap_, std::move(now), execution), execution)
+                       : std::make_unique<ServedWorld>(std::move(now), body_, execution);
+  next->is_changed_ = true;
+  return next;
 }
 
 void ServedWorld::prepare(const Execution& execution) const {

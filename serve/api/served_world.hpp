@@ -51,6 +51,8 @@ class ServedWorld {
   const RoadmapQuery* query() const { return query_.get(); }
   /// Was it opened as a roadmap, or else as a world?
   bool is_roadmap() const { return is_roadmap_; }
+  /// Is it another one than its source holds?
+  bool is_changed() const { return is_changed_; }
 
   /// The same body and options in another scene: a roadmap is updated. Throws UsageError where that can't be done here,
   /// InputError, Stopped.
@@ -73,6 +75,7 @@ class ServedWorld {
   double clearance_ = 0.0;
   Box box_ = {};
   bool is_roadmap_ = false;
+  bool is_changed_ = false;
 };
 
 }  // namespace warren

@@ -78,6 +78,7 @@ std::string description_json(const ServedWorld& world, const ServiceLimits& limi
   json.add("asks_roadmap", world.query() != nullptr);
   json.add_json("planners", planners_json(world));
   json.add("budget_ms", 1e3 * limits.budget_s);
+  json.add("changed", world.is_changed());
   json.add("writable", limits.writable && !outline.map);
   json.add("wants_token", limits.wants_token);
   json.add_json("tiles", tiles_json(world.tiles().grid(), world.hash()));

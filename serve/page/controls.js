@@ -117,7 +117,7 @@ function showQuestion() {
 // What people take along.
 const quoted = word => /^[-\w.,:=/+@%]+$/.test(word) ? word : "'" + word.replaceAll("'", "'\\''") + "'";
 function commandText() {
-  const words = ["warren", world.opened_as === "roadmap" ? "query" : "solve", world.source];
+  const words = ["warren", world.opened_as === "roadmap" && !world.changed ? "query" : "solve", world.changed ? "world.scene" : world.source];
   if (world.opened_as === "world") words.push("--robot", world.robot, "--clearance", String(world.clearance));
   words.push("--start", stateOf(question.start, question.startHeading === null ? 0 : question.startHeading).join(","));
   words.push("--goal", stateOf(question.goal, question.goalHeading).join(","));
@@ -188,7 +188,10 @@ function wireControls() {
     showQuestion();
   });
   byId("clear").addEventListener("click", () => { question.start = question.goal = question.startHeading = question.goalHeading = null; showQuestion(); });
-  byId("copy-command").addEventListener("click", () => copy(commandText()));
+  byId("copy-command").addEventListener("click", () => {
+    copy(commandText());
+    if (world.changed) say("The command asks the scene that is drawn; save it as world.scene.");
+  });
   byId("copy-link").addEventListener("click", () => copy(location.origin + location.pathname + linkText()));
   byId("save-geojson").addEventListener("click", () => savePath(saveGeojson));
   byId("save-csv").addEventListener("click", () => savePath(saveCsv));

@@ -80,6 +80,8 @@ class Drawing(BrowserTest):
         self.wait_for_length(lambda length: length == 90)
         self.press('draw-redo')
         self.wait_for_length(lambda length: length == around)
+        self.press('copy-command')
+        self.assertTrue(self.by_id('copied').get_attribute('value').startswith('warren solve world.scene '))
         self.press('draw-save')
         self.wait(lambda: self.run_script('return saved.length') == 1)
         with open(self.path('saved.scene'), 'w', encoding='utf-8') as file:

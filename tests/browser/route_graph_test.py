@@ -219,6 +219,21 @@ class RouteGraph(BrowserTest):
         self.by_id('graph-file').send_keys(path)
         self.wait(lambda: 'edge 8: there is no node 7' in self.status())
 
+    def test_by_finger(self):
+        self.press('graph-edit')
+        self.click_at(-1, 0)
+        a, b = (self.run_script('const p = map.latLngToContainerPoint([arguments[1], arguments[0]]), b = map.getContainer().getBoundingClientRect();'
+                                'return [p.x + b.left, p.y + b.top]', *place) for place in ((-1, 0), (0, 0)))
+        middle = self.run_script('return [map.getCenter().lng, map.getCenter().lat]')
+        self.touch('touchStart', a)
+        for k in range(1, 5):
+            self.touch('touchMove', [a[0] + (b[0] - a[0]) * k / 4, a[1] + (b[1] - a[1]) * k / 4])
+        self.touch('touchEnd')
+        at = self.run_script('return [...graph.nodes.values()][0].at')
+        self.assertAlmostEqual(at[0], 0, delta=0.1)
+        self.assertEqual(self.run_script('return [map.getCenter().lng, map.getCenter().lat]'), middle)
+        self.assertEqual(self.counts(), [1, 0, 0])
+
     def test_dark_and_phone(self):
         self.build()
         self.by_id('dark').click()

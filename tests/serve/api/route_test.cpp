@@ -21,13 +21,14 @@ unsigned status_of(const std::string& method, const std::string& path) {
 
 TEST(Route, LeadsToEachPlaceByItsMethodAlone) {
   for (const char* path : {"/", "/service.css", "/api/health", "/api/metrics", "/api/world", "/tiles/0/0/0.png",
-                           "/v/cafe/tiles/3/7/7.png", "/api/path/0123"}) {
+                           "/v/cafe/tiles/3/7/7.png", "/api/path/0123", "/api/scene"}) {
     SCOPED_TRACE(path);
     EXPECT_EQ(status_of("GET", path), 200U);
     EXPECT_EQ(status_of("HEAD", path), 200U);
     EXPECT_EQ(status_of("POST", path), 405U);
   }
-  for (const char* path : {"/api/query", "/api/query/batch"}) {
+  for (const char* path : {"/api/query", "/api/query/batch", "/api/update", "/api/check", "/api/graph",
+                           "/api/graph/open", "/api/graph/save"}) {
     SCOPED_TRACE(path);
     EXPECT_EQ(status_of("POST", path), 200U);
     EXPECT_EQ(status_of("GET", path), 405U);
