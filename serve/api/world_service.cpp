@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -132,12 +133,14 @@ HttpResponse WorldService::query(const HttpRequest& request, const SignalFlag& g
   HttpResponse response;
   if (answer.verified) {
     const std::string name = path_hash(answer, execution);
-    KeptPath kept{curve_of(answer, execution), answer.length};
+    answer.tells_path = body.tells_path && path_points(answer) <= limits_.most_points;
+    if (!answer.tells_path) answer.handed = HandedPath{path_points(answer), name};
+    const bool is_its_own_curve = answer.handed && answer.states.empty();
+    KeptPath kept{is_its_own_curve ? std::move(answer.path) : curve_of(answer, execution), answer.length};
     const std::size_t bytes = kept.curve.size() * sizeof(Vec2);
     response.fields.emplace_back("Warren-Path", name);
     paths_.put(name, std::move(kept), bytes + sizeof(KeptPath));
   }
-  answer.tells_path = body.tells_path && path_points(answer) <= limits_.most_points;
   write_answer_json(answer, execution, [&](std::string_view piece) { response.body += piece; });
   return response;
 }
@@ -170,7 +173,8 @@ HttpResponse WorldService::path(const HttpRequest& request, const std::string& n
     view.box = {{(*box)[0], (*box)[1]}, {(*box)[2], (*box)[3]}};
   if (const auto zoom = numbers_parameter(request, "z", 1)) {
     const TileGrid& grid = world_.tiles().grid();
-    view.pixel = grid.pixel(static_cast<unsigned>(std::clamp((*zoom)[0], 0.0, grid.levels - 1.0)));
+    constexpr double farthest = -8.0;
+    view.pixel = std::ldexp(grid.pixel(0), -static_cast<int>(std::clamp((*zoom)[0], farthest, grid.levels - 1.0)));
   }
   JsonObject json;
   const bool is_there = paths_.look(name, [&](const KeptPath& kept) {

@@ -74,7 +74,8 @@ async function showSeenPath() {
   if (pathLine.whole || !pathLine.id) return;
   const id = pathLine.id, seen = map.getBounds().pad(0.5);
   const box = [seen.getWest(), seen.getSouth(), seen.getEast(), seen.getNorth()].join(",");
-  const reply = await fetch("/api/path/" + id + "?z=" + Math.max(0, map.getZoom()) + "&bbox=" + box);
+  const z = map.getZoom() - 1;  // the line is wider than two pixels
+  const reply = await fetch("/api/path/" + id + "?z=" + z + "&bbox=" + box);
   if (!reply.ok || pathLine.id !== id) return;
   drawChains((await reply.json()).chains);
 }

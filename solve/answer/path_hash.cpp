@@ -3,12 +3,29 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <bit>
+#include <cstddef>
+#include <cstdint>
 
 namespace warren {
+namespace {
+
+constexpr std::array<std::uint64_t, 9> powers_of(std::uint64_t factor) {
+  std::array<std::uint64_t, 9> powers{1};
+  for (std::size_t i = 1; i < powers.size(); ++i) powers[i] = powers[i - 1] * factor;
+  return powers;
+}
+
+}  // namespace
+
+/// A byte of zeros changes nothing but for the factor, and coordinates of cells begin with some.
 void PathHash::add(double number) {
+  constexpr auto powers = powers_of(0x100000001b3U);
   const auto bits = std::bit_cast<std::uint64_t>(number);
-  for (unsigned shift = 0; shift < 64; shift += 8) hash_ = (hash_ ^ (bits >> shift & 0xffU)) * 0x100000001b3U;
+  const auto zeros = static_cast<unsigned>(std::countr_zero(bits)) / 8;
+  hash_ *= powers[zeros];
+  for (unsigned shift = 8 * zeros; shift < 64; shift += 8) hash_ = (hash_ ^ (bits >> shift & 0xffU)) * powers[1];
 }
 
 std::string PathHash::text() const { return fmt::format("{:016x}", hash_); }

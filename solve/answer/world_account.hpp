@@ -28,6 +28,9 @@ WorldAccount account_of(const Scene& scene, const Execution& execution);
 /// The same where the hash is known. O(1).
 WorldAccount account_of(const Scene& scene, std::string hash);
 
+/// Of a scene whose walls are left out and are so many.
+WorldAccount account_of(const Scene& scene, std::string hash, std::size_t walls);
+
 /// "41 x 41 maze, 1,604 walls": what a person wants to know first.
 std::string description_of(const Scene& scene);
 

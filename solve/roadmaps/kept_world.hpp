@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The world of a roadmap. Whoever asks a lattice in a file for a length needs none of its walls, and making those of
-// 10^8 cells takes a second and 1.6 GB: there they are made when a judge, an end off the lattice or a picture first
-// needs them.
+// 10^8 cells takes a second and 1.6 GB: there they are made when a picture or an explanation first needs them. A judge
+// and ends off the lattice look them up one by one, where bits say them.
 #pragma once
 
 #include <functional>
@@ -11,6 +11,7 @@
 #include "parallel/execution.hpp"
 #include "parallel/made_once.hpp"
 #include "scenes/scene/scene.hpp"
+#include "solve/roadmaps/kept_cells.hpp"
 
 namespace warren {
 
@@ -18,12 +19,14 @@ namespace warren {
 class KeptWorld {
  public:
   using Make = std::function<Scene(const Execution&)>;
+  using LookUp = std::function<std::unique_ptr<KeptCells>(const Execution&)>;
 
   KeptWorld() = default;
   explicit KeptWorld(Scene whole) : outline_(std::move(whole)) {}
   /// `outline`: all but the walls; make() gives the whole, or throws what whole() shall.
-  KeptWorld(Scene outline, Make make)
-      : outline_(std::move(outline)), later_(std::make_unique<Later>(std::move(make))) {}
+  /// look_up: what looked_up() shall give, or nothing.
+  KeptWorld(Scene outline, Make make, LookUp look_up = {})
+      : outline_(std::move(outline)), later_(std::make_unique<Later>(std::move(make), std::move(look_up))) {}
 
   /// Name, maze, bounds, body and what else a world says in a few words; its walls may be missing.
   const Scene& outline() const { return outline_; }
@@ -32,12 +35,20 @@ class KeptWorld {
     if (later_ == nullptr) return outline_;
     return later_->whole.get(execution, [&] { return std::make_unique<Scene>(later_->make(execution)); });
   }
+  /// Its walls as they can be looked up without being made, which are all that there is; nullptr: they can't be. Throws
+  /// as whole() does.
+  const KeptCells* looked_up(const Execution& execution) const {
+    if (later_ == nullptr || !later_->look_up) return nullptr;
+    return &later_->cells.get(execution, [&] { return later_->look_up(execution); });
+  }
 
  private:
   struct Later {
-    explicit Later(Make how) : make(std::move(how)) {}
+    Later(Make how, LookUp look) : make(std::move(how)), look_up(std::move(look)) {}
     Make make;
+    LookUp look_up;
     MadeOnce<Scene> whole;
+    MadeOnce<KeptCells> cells;
   };
   Scene outline_;
   std::unique_ptr<Later> later_;  // nullptr: the outline is the whole

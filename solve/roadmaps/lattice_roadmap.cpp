@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "parallel/chunks.hpp"
 #include "planners/roadmap/milestones.hpp"
 #include "planners/route_trees/wall_passages.hpp"
 #include "planners/tiled/tiled_prm_lattice.hpp"
@@ -130,15 +131,16 @@ Path<Vec2> LatticeQuestion::path() const {
   if (direct_) return {problem_.start, problem_.goal};
   const RawVector<CellId> cells = query_.path(from_, to_);
   execution_.reserve((cells.size() + 2) * sizeof(Vec2));
-  Path<Vec2> path;
-  path.reserve(cells.size() + 2);
-  const auto add = [&](Vec2 p) {
-    if (path.empty() || path.back() != p) path.push_back(p);
-  };
-  add(problem_.start);
-  for (const CellId cell : cells) add(lattice_point(index_.passages().size(), cell));
-  add(problem_.goal);
-  if (path.size() == 1) path.push_back(problem_.goal);
+  const LatticeSize size = index_.passages().size();
+  const std::size_t before = lattice_point(size, cells.front()) != problem_.start ? 1 : 0;
+  const bool ends_there = lattice_point(size, cells.back()) == problem_.goal && before + cells.size() > 1;
+  const std::size_t behind = ends_there ? 0 : 1;
+  Path<Vec2> path(before + cells.size() + behind);
+  for_chunks(cells.size(), std::size_t{1} << 14, execution_, [&](Range r) {
+    for (std::size_t i = r.first; i < r.last; ++i) path[before + i] = lattice_point(size, cells[i]);
+  });
+  path.front() = problem_.start;
+  path.back() = problem_.goal;
   return path;
 }
 

@@ -116,7 +116,13 @@ KeptWorld world_inside(const RoadmapFile& file, const Roadmap& roadmap, const Ex
     return scene;
   };
   if (lattice == nullptr) return KeptWorld(make(execution));
-  return {std::move(outline), std::move(make)};
+  KeptWorld::LookUp look_up;
+  if (walls_are_passages(file, outline)) {
+    look_up = [&file, maze = *outline.maze, hash = roadmap.world_hash](const Execution& on) {
+      return cells_of_file(file, maze, hash, on);
+    };
+  }
+  return {std::move(outline), std::move(make), std::move(look_up)};
 }
 
 void append_graph(const RoadmapParts& parts, std::vector<RoadmapSection>& sections) {

@@ -12,7 +12,9 @@
 #include "solve/question/planner_choice.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 #include "solve/steps/planned_scene.hpp"
+#include "solve/steps/settled_ends.hpp"
 #include "solve/steps/solve_steps.hpp"
+#include "verify/cells/verify_steps.hpp"
 #include "worlds/plane/maze_world.hpp"
 
 namespace warren {
@@ -90,6 +92,7 @@ struct RoadmapQuery::Walls {
             wall_problem(roadmap.world.outline(), question_of(roadmap, anywhere(roadmap), anywhere(roadmap))).reach()) {
   }
   WallsNearEnds near_ends;
+  MadeOnce<std::unique_ptr<KeptCells>> cells;  // of walls that are held
   MadeOnce<ObstacleIndex> judged;
 };
 
@@ -154,6 +157,15 @@ Answer RoadmapQuery::ask_within(const std::vector<double>& start, const std::vec
   return finished(std::move(answer), execution);
 }
 
+const KeptCells* RoadmapQuery::cells_of_lattice(const Execution& execution) const {
+  if (const KeptCells* cells = roadmap_.world.looked_up(execution); cells != nullptr) return cells;
+  if (questions_ == Questions::one) return nullptr;
+  const auto make = [&] {
+    return std::make_unique<std::unique_ptr<KeptCells>>(cells_of_scene(roadmap_.world.whole(execution), execution));
+  };
+  return walls_->cells.get(execution, make).get();
+}
+
 const ObstacleIndex* RoadmapQuery::judge_of_lattice(const Execution& execution) const {
   const Scene& scene = roadmap_.world.whole(execution);
   if (questions_ == Questions::one || scene.walls.size() > most_indexed_walls) return nullptr;
@@ -161,7 +173,8 @@ const ObstacleIndex* RoadmapQuery::judge_of_lattice(const Execution& execution) 
 }
 
 void RoadmapQuery::prepare_paths(const Execution& execution) const {
-  if (roadmap_.lattice != nullptr) judge_of_lattice(execution);
+  if (roadmap_.lattice == nullptr || cells_of_lattice(execution) != nullptr) return;
+  judge_of_lattice(execution);
 }
 
 void RoadmapQuery::expect(const std::vector<double>& place, const Execution& execution) const {
@@ -188,17 +201,38 @@ Answer RoadmapQuery::ask_lattice(const Question& question, const RoadmapSearchFi
         answer.roadmap.milestones = count_states(roadmap_) + 2;
         if (answer.outcome == Outcome::solved) answer.path = asked.path();
       }
-      const Scene& scene = roadmap_.world.whole(execution);
-      answer.world = account_of(scene, roadmap_.world_hash);
-      const ObstacleIndex* judged = judge_of_lattice(execution);
-      settle_blocked_ends(answer, scene, problem, execution, judged);
-      if (how.optimise && answer.outcome == Outcome::solved) shorten(answer, scene, problem, execution);
-      verify_solved(answer, scene, problem, execution, judged);
+      settle_and_verify(answer, problem, how.optimise, execution);
     });
   } catch (const RefutedPathError& error) {
     refuse_roadmap(roadmap_, error);
   }
   return finished(std::move(answer), execution);
+}
+
+void RoadmapQuery::settle_and_verify(Answer& answer, const WallProblem& problem, bool optimise,
+                                     const Execution& execution) const {
+  const KeptCells* cells = cells_of_lattice(execution);
+  const Scene& outline = roadmap_.world.outline();
+  answer.world = cells != nullptr ? account_of(outline, roadmap_.world_hash, cells->wall_count)
+                                  : account_of(roadmap_.world.whole(execution), roadmap_.world_hash);
+  if (optimise && answer.outcome == Outcome::solved) {
+    shorten(answer, roadmap_.world.whole(execution), problem, execution);
+  }
+  if (cells == nullptr) {
+    const Scene& scene = roadmap_.world.whole(execution);
+    const ObstacleIndex* judged = judge_of_lattice(execution);
+    settle_blocked_ends(answer, scene, problem, execution, judged);
+    return verify_solved(answer, scene, problem, execution, judged);
+  }
+  const auto stands_free = [&](Vec2 p) {
+    const VerifyOptions options{.radius = problem.robot.radius, .clearance = problem.clearance};
+    return verify_steps(*cells->walls, std::span(&p, 1), options, execution).verified;
+  };
+  answer.outcome = settled_ends(
+      answer.outcome, [&] { return stands_free(problem.start); }, [&] { return stands_free(problem.goal); });
+  if (answer.outcome != Outcome::solved) return;
+  const StageTimer timer(execution, "verify", answer.seconds.verify, answer.path.size());
+  take_verdict(answer, verify_steps(*cells->walls, answer.path, verify_options(problem), execution));
 }
 
 LengthAnswer RoadmapQuery::length_within(const std::vector<double>& start, const std::vector<double>& goal,

@@ -43,8 +43,8 @@ struct LengthAnswer {
   double length = 0.0;                       ///< only for solved
 };
 
-/// What will be asked: one path, whose judge then passes over all obstacles; many paths, for which the judge makes an
-/// index of its own first; lengths alone.
+/// What will be asked: one path, whose judge then passes over all obstacles; many paths, for which the judge makes bits
+/// or an index of its own first; lengths alone. Where a lattice's file says its walls, the judge looks them up there.
 enum class Questions : std::uint8_t { one, many, lengths };
 
 /// Refers to the roadmap. Any number of threads may ask; while they do, learnt() is nobody's.
@@ -86,8 +86,12 @@ class RoadmapQuery {
   struct Walls;
   Answer ask_lattice(const Question& question, const RoadmapSearchFields& how, const Execution& execution,
                      QuestionScratch& scratch) const;
+  /// nullptr where the walls can't be looked up.
+  const KeptCells* cells_of_lattice(const Execution& execution) const;
   /// nullptr where a pass over all obstacles does.
   const ObstacleIndex* judge_of_lattice(const Execution& execution) const;
+  /// The judge's part of ask_lattice(), by one of the three.
+  void settle_and_verify(Answer& answer, const WallProblem& problem, bool optimise, const Execution& execution) const;
   const Roadmap& roadmap_;
   const Questions questions_;
   std::unique_ptr<Opened> opened_;  // nullptr for a lattice

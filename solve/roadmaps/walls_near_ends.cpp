@@ -30,9 +30,7 @@ const WallsNearEnds::Indexed* WallsNearEnds::index(const Execution& execution) c
 /// which the reference point stays in, is theirs too.
 Scene WallsNearEnds::around(const Scene& scene, Vec2 p, const Execution& execution) const {
   constexpr std::size_t polled = std::size_t{1} << 20;
-  Box near;
-  near.include(p);
-  near = near.grown(widest_look + 1.0 + 2.0 * reach_);
+  const Box near = room_of_motions(p);
   std::vector<Segment> walls;
   Box all;
   std::array<Segment, 4> farthest{};

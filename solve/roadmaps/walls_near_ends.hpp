@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The walls near ends that are no milestones of a lattice. The first few such ends cost a pass over all walls each;
-// from then on an index of them all is asked, which takes as long as some forty passes and 20 to 40 bytes a wall. Where
-// the memory does not hold it, each end goes on costing a pass.
+// The walls near ends that are no milestones of a lattice. Where they can be looked up, that is all there is to it;
+// else the first few such ends cost a pass over all walls each; from then on an index of them all is asked, which takes
+// as long as some forty passes and 20 to 40 bytes a wall. Where the memory does not hold it, each end goes on costing a
+// pass.
 #pragma once
 
 #include <optional>
@@ -28,18 +29,28 @@ class WallsNearEnds {
   /// Throws Stopped, InputError.
   template <class Look>
   void look(Vec2 p, const Execution& execution, const Look& look) const {
+    if (const KeptCells* cells = world_.looked_up(execution); cells != nullptr) {
+      return look(MazeWorld(cells->walls_in(room_of_motions(p)), reach_, execution));
+    }
     const Scene& whole = world_.whole(execution);
     if (const Indexed* indexed = index(execution); indexed != nullptr && indexed->world) return look(*indexed->world);
     look(MazeWorld(around(whole, p, execution), reach_, execution));
   }
   /// An end will be looked at: the index is made now, on the execution's threads, if its turn has come.
-  void expect(const Execution& execution) const { index(execution); }
+  void expect(const Execution& execution) const {
+    if (world_.looked_up(execution) == nullptr) index(execution);
+  }
 
  private:
   struct Indexed {
     std::optional<MazeWorld> world;  // none: too large
   };
   const Indexed* index(const Execution& execution) const;
+  Box room_of_motions(Vec2 p) const {
+    Box near;
+    near.include(p);
+    return near.grown(widest_look + 1.0 + 2.0 * reach_);
+  }
   Scene around(const Scene& whole, Vec2 p, const Execution& execution) const;
 
   const KeptWorld& world_;

@@ -21,6 +21,8 @@ void add(StageTimes& to, const StageTimes& more) {
   to.search += more.search;
 }
 
+}  // namespace
+
 VerifyOptions verify_options(const WallProblem& problem) {
   return {.radius = problem.robot.radius,
           .clearance = problem.clearance,
@@ -28,8 +30,6 @@ VerifyOptions verify_options(const WallProblem& problem) {
           .start = problem.start,
           .goal = problem.goal};
 }
-
-}  // namespace
 
 void describe_roadmap_planner(Answer& answer, const WallProblem& problem, const PlannerOptions& options) {
   answer.problem = problem.general();
@@ -110,11 +110,14 @@ void verify_solved(Answer& answer, const Scene& scene, const WallProblem& proble
                    const ObstacleIndex* judged) {
   if (answer.outcome != Outcome::solved) return;
   const StageTimer timer(execution, "verify", answer.seconds.verify, answer.path.size() + scene.walls.size());
-  const Verification verification = verify_path(scene, answer.path, verify_options(problem), execution, judged);
-  if (!verification.verified) fail_verification(answer, verification.first_violation);
+  take_verdict(answer, verify_path(scene, answer.path, verify_options(problem), execution, judged));
+}
+
+void take_verdict(Answer& answer, const Verification& verdict) {
+  if (!verdict.verified) fail_verification(answer, verdict.first_violation);
   answer.verified = true;
-  answer.length = verification.length;
-  answer.min_clearance = verification.min_clearance;
+  answer.length = verdict.length;
+  answer.min_clearance = verdict.min_clearance;
 }
 
 Verdict verify_plane_answer(const Scene& scene, const WallProblem& problem, const RecordedAnswer& answer,

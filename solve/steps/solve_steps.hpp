@@ -64,6 +64,11 @@ struct RefutedPathError : std::logic_error {
 void verify_solved(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution,
                    const ObstacleIndex* judged = nullptr);
 
+/// What the judge of points is asked for the problem.
+VerifyOptions verify_options(const WallProblem& problem);
+/// The judge's word on the path of a solved answer: as verify_solved().
+void take_verdict(Answer& answer, const Verification& verdict);
+
 /// verify_path for the problem: all of it, or of one point only.
 Verdict verify_plane_answer(const Scene& scene, const WallProblem& problem, const RecordedAnswer& answer,
                             const Execution& execution);

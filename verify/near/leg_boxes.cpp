@@ -17,7 +17,7 @@ bool is_skew(Vec2 way) {
 }  // namespace
 
 LegBoxes::LegBoxes(std::span<const Vec2> path, const Execution& execution) : path_(path) {
-  constexpr std::size_t grain = 1024;  // blocks: so that long paths fill all threads
+  constexpr std::size_t grain = legs_a_sum / 8;  // blocks: so that long paths fill all threads
   const std::size_t block_count = (leg_count() + 7) / 8;
   execution.reserve(block_count * sizeof(Box));
   RawVector<Box> blocks(block_count);

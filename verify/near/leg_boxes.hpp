@@ -19,6 +19,7 @@ namespace warren {
 /// Refers to the path, which must outlive it. Immutable: any number of threads may ask.
 class LegBoxes {
  public:
+  static constexpr std::size_t legs_a_sum = 8192;  ///< of length()
   /// path: at least two points.
   LegBoxes(std::span<const Vec2> path, const Execution& execution);
 
@@ -26,7 +27,7 @@ class LegBoxes {
   std::size_t leg_count() const { return path_.size() - 1; }
   Segment leg(std::size_t i) const { return {path_[i], path_[i + 1]}; }
   Box box() const { return levels_.back().front(); }  ///< of the whole path
-  double length() const { return length_; }           ///< of the path: sums of 8192 legs in a row, added up
+  double length() const { return length_; }           ///< of the path: sums of legs_a_sum legs in a row, added up
   /// Does some leg run along an axis but for a millionth of its length?
   bool has_skew() const { return has_skew_; }
 

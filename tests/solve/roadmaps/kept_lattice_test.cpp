@@ -90,6 +90,44 @@ TEST(KeptLattice, LengthsNeedNoWallsAndPathsRefuseAWorldThatIsAnother) {
   }
 }
 
+TEST(KeptLattice, BitsOfAFileAnswerAsWallsThatAreHeldDo) {
+  for (const char* maze : {"maze:256x260,loops=0.05", "maze:300x230,algorithm=kruskal,seed=4"}) {
+    const Roadmap held = build(read_world(maze));
+    const KeptFile file(held);
+    const Roadmap read = read_roadmap(file.path());
+    ASSERT_NE(read.world.looked_up({}), nullptr);
+    ASSERT_EQ(held.world.looked_up({}), nullptr);
+    const RoadmapQuery by_pass(held, Execution{}, Questions::one);
+    const RoadmapQuery by_own_bits(held, Execution{}, Questions::many);
+    const RoadmapQuery by_file(read, Execution{}, Questions::one);
+    std::mt19937_64 random(7);
+    const auto place = [&](double step) {  // beside the maze and on its walls, too
+      const auto number = [&] {
+        return step * static_cast<double>(random() % static_cast<std::uint64_t>(262.0 / step));
+      };
+      return std::vector<double>{number(), number()};
+    };
+    for (unsigned i = 0; i < 60; ++i) {
+      SCOPED_TRACE(i);
+      const double step = i % 3 == 0 ? 1.0 : i % 3 == 1 ? 0.5 : 0.37;
+      const std::vector<double> start = place(step);
+      const std::vector<double> goal = place(step);
+      const RoadmapSearchFields how{.optimise = i % 10 == 0};
+      const Answer expected = by_pass.ask(start, goal, how);
+      for (const RoadmapQuery* query : {&by_own_bits, &by_file}) {
+        const Answer found = query->ask(start, goal, how);
+        EXPECT_EQ(found.outcome, expected.outcome);
+        EXPECT_EQ(found.path, expected.path);
+        EXPECT_EQ(found.length, expected.length);
+        EXPECT_EQ(found.min_clearance, expected.min_clearance);
+        EXPECT_EQ(found.world.walls, expected.world.walls);
+        EXPECT_EQ(found.world.hash, expected.world.hash);
+        EXPECT_EQ(found.world.kind, expected.world.kind);
+      }
+    }
+  }
+}
+
 /// The oracle: a breadth-first search of the cells between the maze's walls as they stand in the world.
 class MazeFlood {
  public:
