@@ -18,13 +18,14 @@ namespace warren {
 
 /// Immutable; any number of threads may look.
 struct KeptCells {
+  /// Looks for a wall on each side of the rim.
   KeptCells(std::unique_ptr<const LookedUpWalls> cells, std::size_t count);
   /// The walls around the cells that meet a box, unit by unit, and some of the rim: what a scene of them all says of
   /// motions in the box, this one does.
   Scene walls_in(const Box& box) const;
 
-  std::unique_ptr<const LookedUpWalls> walls;
-  std::size_t wall_count;  ///< of the world: not of units
+  std::unique_ptr<const LookedUpWalls> walls;  ///< as the judge sees them
+  std::size_t wall_count;                      ///< of the world: not of units
  private:
   std::vector<Segment> rim_;  // a unit of each side: the reference point stays in the box of all walls
 };
