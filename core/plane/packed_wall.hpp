@@ -35,7 +35,7 @@ class PackedWall {
   }
   /// As level(), upwards.
   static constexpr PackedWall upright(std::int32_t x, std::int32_t y, std::int32_t length) {
-    return PackedWall(level(x, y, length).word_ | std::uint64_t{length > 0} << 63);
+    return PackedWall(level(x, y, length).word_ | std::uint64_t{length != 0} << 63);
   }
   /// Is there a word for this wall, to the sign of each zero?
   template <class T>

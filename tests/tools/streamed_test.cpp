@@ -292,7 +292,7 @@ TEST(Streamed, ArraysOfOtherWallsAreRefusedWhereTheMemoryDoesNotHoldThem) {
   refused(with_row(11, {3.5F, 3.5F, 4.5F, 4.5F}), 65, "b.npy: row 11: is no wall on the unit grid");
   refused(with_row(12, {1500.5F, 3.5F, 1501.5F, 3.5F}), 65, "b.npy: row 12: is no wall on the unit grid");
   refused(with_row(13, {0.5F, 0.5F, 0.5F, 1.5F}), 65, "b.npy: row 13: closes a door");
-  refused(with_row(2, {0.5F, 2.5F, 0.5F, 1500.5F}), 124, "");
+  check({{"solve", with_row(2, {0.5F, 2.5F, 0.5F, 1500.5F}), "--memory", "20MiB"}, 124, ""});
   const std::string slit = with_row(10, {3.5F, 3.5F, 3.7F, 3.5F});
   const Json held = answered({"solve", slit, "--no-path", "--start", "0.5,1", "--goal", "1500.5,1500"});
   EXPECT_EQ(held["verified"], true);
