@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <thread>
 #include <vector>
 
@@ -25,15 +26,21 @@ class Trace {
 
   Trace() : start_(Clock::now()) { lanes_.push_back({std::this_thread::get_id(), {}}); }
 
-  void record(const char* name, Clock::time_point begin, Clock::time_point end, bool is_stage) {
+  /// Destructors call it, also while an exception is on its way: where memory is out, events() says so.
+  void record(const char* name, Clock::time_point begin, Clock::time_point end, bool is_stage) noexcept {
     const auto micros = [](Clock::duration d) { return std::chrono::duration<double, std::micro>(d).count(); };
     const std::lock_guard lock(mutex_);  // once a chunk, so it is never contended for long
-    const std::uint32_t lane = lane_of(std::this_thread::get_id());
-    lanes_[lane].events.push_back({name, micros(begin - start_), micros(end - begin), lane, is_stage});
+    try {
+      const std::uint32_t lane = lane_of(std::this_thread::get_id());
+      lanes_[lane].events.push_back({name, micros(begin - start_), micros(end - begin), lane, is_stage});
+    } catch (const std::bad_alloc&) {
+      is_whole_ = false;
+    }
   }
 
-  /// All events, thread by thread. Call when no worker runs.
+  /// All events, thread by thread. Call when no worker runs. Throws std::bad_alloc where one could not be recorded.
   std::vector<Event> events() const {
+    if (!is_whole_) throw std::bad_alloc();
     std::vector<Event> all;
     for (const Lane& lane : lanes_) all.insert(all.end(), lane.events.begin(), lane.events.end());
     return all;
@@ -56,6 +63,7 @@ class Trace {
   Clock::time_point start_;
   std::mutex mutex_;  // guards lanes_
   std::vector<Lane> lanes_;
+  bool is_whole_ = true;
 };
 
 }  // namespace warren

@@ -40,8 +40,9 @@ class PackedWall {
   /// Is there a word for this wall, to the sign of each zero?
   template <class T>
   static bool fits(T x1, T y1, T x2, T y2) {
-    return is_step(x1) & is_step(y1) & is_step(x2) & is_step(y2) & ((x1 == x2) | (y1 == y2)) &&
-           std::abs(x1 - x2) + std::abs(y1 - y2) <= T{most} / per_unit;
+    const unsigned all_steps =
+        unsigned{is_step(x1)} & unsigned{is_step(y1)} & unsigned{is_step(x2)} & unsigned{is_step(y2)};
+    return all_steps != 0 && (x1 == x2 || y1 == y2) && std::abs(x1 - x2) + std::abs(y1 - y2) <= T{most} / per_unit;
   }
   /// Of a wall that fits().
   template <class T>
@@ -84,7 +85,7 @@ class PackedWall {
     const T steps = x * per_unit;
     const bool is_small = std::abs(steps) <= T{most};
     const auto whole = static_cast<std::int32_t>(is_small ? steps : T{0});
-    return is_small & (static_cast<T>(whole) == steps) & !(whole == 0 && std::signbit(x));
+    return is_small && static_cast<T>(whole) == steps && !(whole == 0 && std::signbit(x));
   }
 
   std::uint64_t word_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The oracle holds the maze: maze_walls() of the same cells, byte for byte, however wide the strips are.
+// The oracle holds the maze: maze_walls() of the same cells as floats, byte for byte, however wide the strips are.
 #include "scenes/mazes/wall_strips.hpp"
 
 #include <gtest/gtest.h>
@@ -13,9 +13,15 @@ namespace warren {
 namespace {
 
 std::string held(const MazeCells& cells, bool merged) {
-  return maze_walls(cells, merged, {}).visit([](auto walls) {
-    return std::string(reinterpret_cast<const char*>(walls.data()), walls.size_bytes());
-  });
+  const WallSet walls = maze_walls(cells, merged, {});
+  std::string bytes;
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    const Segment s = walls.segment(i);
+    const FloatWall wall{static_cast<float>(s.a.x), static_cast<float>(s.a.y), static_cast<float>(s.b.x),
+                         static_cast<float>(s.b.y)};
+    bytes.append(reinterpret_cast<const char*>(&wall), sizeof wall);
+  }
+  return bytes;
 }
 
 std::string streamed(const CellWallSource& cells, bool merged, unsigned threads) {
