@@ -130,7 +130,7 @@ class BandRounds {
 
   const TileGrid grid_;
   const TileRows rows_;
-  const OverlayEnds& ends_;
+  const OverlayEnds ends_;
   const Execution execution_;
   TileGrid seen_;  // the band and the rows of tiles beside it
   TileRows seen_rows_;
