@@ -8,6 +8,9 @@ import unittest
 from selenium import webdriver
 from selenium.webdriver.chrome.options import Options
 from selenium.webdriver.chrome.service import Service
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.by import By
+from selenium.webdriver.support.ui import WebDriverWait
 
 FLAGS = ('--headless=new --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking '
          '--disable-component-update --disable-sync --disable-default-apps --window-size=1200,800').split()
@@ -65,3 +68,40 @@ class BrowserTest(unittest.TestCase):
     def touch(self, kind, *points):
         self.browser.execute_cdp_cmd('Input.dispatchTouchEvent',
                                      {'type': kind, 'touchPoints': [{'x': x, 'y': y, 'id': i} for i, (x, y) in enumerate(points)]})
+
+    def wait(self, holds):
+        WebDriverWait(self.browser, 60, 0.05).until(lambda _: holds())
+
+    def by_id(self, name):
+        return self.browser.find_element(By.ID, name)
+
+    def press(self, name):
+        element = self.by_id(name)
+        self.run_script('arguments[0].scrollIntoView({block: "center"})', element)
+        element.click()
+
+
+class MapTest(BrowserTest):
+    """The page of `warren serve`: places are those of the world."""
+
+    def show_map(self, address):
+        self.browser.get('about:blank')  # the part behind # alone would load nothing
+        self.browser.get(address)
+        self.wait(lambda: self.run_script('return world !== null && map !== null && map._loaded === true && !tiles._loading'))
+
+    def status(self):
+        return self.by_id('status').text
+
+    def wait_for(self, words):
+        self.wait(lambda: words in self.status())
+
+    def offset(self, x, y):
+        """Pixels from the map's middle."""
+        return self.run_script('const p = map.latLngToContainerPoint([arguments[1], arguments[0]]), b = map.getContainer().getBoundingClientRect();'
+                               'return [Math.round(p.x - b.width / 2), Math.round(p.y - b.height / 2)]', x, y)
+
+    def at(self, x, y):
+        return ActionChains(self.browser).move_to_element_with_offset(self.by_id('map'), *self.offset(x, y))
+
+    def click_at(self, x, y):
+        self.at(x, y).click().perform()

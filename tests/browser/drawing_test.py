@@ -7,12 +7,9 @@ import subprocess
 import sys
 import unittest
 
-from selenium.webdriver.common.action_chains import ActionChains
-from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
-from selenium.webdriver.support.ui import WebDriverWait
 
-from browser import BrowserTest
+from browser import MapTest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', 'acceptance'))
 from service import Service  # noqa: E402
@@ -22,7 +19,7 @@ YARD = 'bounds 0 0 100 60\nwall 30 0 30 20\nstart 5 30\ngoal 95 30\n'
 TOKEN = 'a-token-of-20-letters'
 
 
-class Drawing(BrowserTest):
+class Drawing(MapTest):
     def setUp(self):
         super().setUp()
         with open(self.path('yard.scene'), 'w', encoding='utf-8') as file:
@@ -37,36 +34,15 @@ class Drawing(BrowserTest):
     def served(self, *words, link=''):
         service = Service(WARREN, self.path('yard.scene'), *words)
         self.addCleanup(service.stop)
-        self.browser.get('about:blank')
-        self.browser.get(service.url + link)
-        self.wait(lambda: self.run_script('return world !== null && map !== null && map._loaded === true && !tiles._loading'))
+        self.show_map(service.url + link)
         self.run_script('byId("drawing").open = true; window.saved = []; save = (name, type, text) => saved.push(text);')
         return service
-
-    def wait(self, holds):
-        WebDriverWait(self.browser, 60, 0.05).until(lambda _: holds())
-
-    def by_id(self, name):
-        return self.browser.find_element(By.ID, name)
-
-    def press(self, name):
-        element = self.by_id(name)
-        self.run_script('arguments[0].scrollIntoView({block: "center"})', element)
-        element.click()
-
-    def status(self):
-        return self.by_id('status').text
 
     def length(self):
         return self.run_script('return answer.json && answer.json.verified ? answer.json.length : null')
 
     def wait_for_length(self, fits):
         self.wait(lambda: self.length() is not None and fits(self.length()))
-
-    def click_at(self, x, y):
-        at = self.run_script('const p = map.latLngToContainerPoint([arguments[1], arguments[0]]), b = map.getContainer().getBoundingClientRect();'
-                             'return [Math.round(p.x - b.width / 2), Math.round(p.y - b.height / 2)]', x, y)
-        ActionChains(self.browser).move_to_element_with_offset(self.by_id('map'), *at).click().perform()
 
     def test_a_wall_across_the_path_is_gone_around_and_taken_back(self):
         self.served('--writable', link='#planner=visibility')

@@ -6,12 +6,9 @@ import os
 import sys
 import unittest
 
-from selenium.webdriver.common.action_chains import ActionChains
-from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
-from selenium.webdriver.support.ui import WebDriverWait
 
-from browser import BrowserTest
+from browser import MapTest
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, '..', 'acceptance'))
@@ -52,7 +49,7 @@ def nav2(text):
     return nodes, edges
 
 
-class RouteGraph(BrowserTest):
+class RouteGraph(MapTest):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
@@ -65,9 +62,7 @@ class RouteGraph(BrowserTest):
 
     def setUp(self):
         super().setUp()
-        self.browser.get('about:blank')
-        self.browser.get(self.service.url)
-        self.wait(lambda: self.run_script('return world !== null && map !== null && map._loaded === true && !tiles._loading'))
+        self.show_map(self.service.url)
         self.run_script('byId("graph").open = true; window.saved = []; save = (name, type, text) => saved.push(text);')
 
     def tearDown(self):
@@ -76,36 +71,12 @@ class RouteGraph(BrowserTest):
         said = [entry for entry in self.browser.get_log('browser') if entry['source'] != 'network' or '/api/graph' not in entry['message']]
         self.assertEqual(said, [])
 
-    def wait(self, holds):
-        WebDriverWait(self.browser, 60, 0.05).until(lambda _: holds())
-
-    def by_id(self, name):
-        return self.browser.find_element(By.ID, name)
-
-    def press(self, name):
-        element = self.by_id(name)
-        self.run_script('arguments[0].scrollIntoView({block: "center"})', element)
-        element.click()
-
-    def status(self):
-        return self.by_id('status').text
-
     def settled(self):
         """All edges have been judged."""
         self.wait(lambda: self.run_script('return [...graph.edges.values()].every(verdictOf)'))
 
     def counts(self):
         return self.run_script('return [graph.nodes.size, graph.edges.size, blockedEdges().length]')
-
-    def offset(self, x, y):
-        return self.run_script('const p = map.latLngToContainerPoint([arguments[1], arguments[0]]), b = map.getContainer().getBoundingClientRect();'
-                               'return [Math.round(p.x - b.width / 2), Math.round(p.y - b.height / 2)]', x, y)
-
-    def at(self, x, y):
-        return ActionChains(self.browser).move_to_element_with_offset(self.by_id('map'), *self.offset(x, y))
-
-    def click_at(self, x, y):
-        self.at(x, y).click().perform()
 
     def drag(self, start, end):
         a, b = self.offset(*start), self.offset(*end)

@@ -11,9 +11,8 @@ import unittest
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
-from selenium.webdriver.support.ui import WebDriverWait
 
-from browser import BrowserTest
+from browser import MapTest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', 'acceptance'))
 from service import Service  # noqa: E402
@@ -26,7 +25,7 @@ def length_of(path):
     return sum(math.dist(a, b) for a, b in zip(path, path[1:]))
 
 
-class ServicePage(BrowserTest):
+class ServicePage(MapTest):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
@@ -43,27 +42,7 @@ class ServicePage(BrowserTest):
         super().tearDownClass()
 
     def shown(self, service, link=''):
-        self.browser.get('about:blank')  # the part behind # alone would load nothing
-        self.browser.get(service.url + link)
-        self.wait(lambda: self.run_script('return world !== null && map !== null && map._loaded === true && !tiles._loading'))
-
-    def wait(self, holds):
-        WebDriverWait(self.browser, 60, 0.05).until(lambda _: holds())
-
-    def by_id(self, name):
-        return self.browser.find_element(By.ID, name)
-
-    def status(self):
-        return self.by_id('status').text
-
-    def wait_for(self, words):
-        self.wait(lambda: words in self.status())
-
-    def click_at(self, x, y):
-        """A place of the world."""
-        at = self.run_script('const p = map.latLngToContainerPoint([arguments[1], arguments[0]]), b = map.getContainer().getBoundingClientRect();'
-                             'return [p.x - b.width / 2, p.y - b.height / 2]', x, y)
-        ActionChains(self.browser).move_to_element_with_offset(self.by_id('map'), round(at[0]), round(at[1])).click().perform()
+        self.show_map(service.url + link)
 
     def drawn(self):
         """The path as the page draws it."""
