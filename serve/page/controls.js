@@ -58,6 +58,7 @@ function setEnd(end, place, keepsField) {
 }
 function showEnd(end, keepsField) {
   putMark(marks[end], question[end]);
+  showHeading(end);
   if (!keepsField) byId(end).value = fieldText(end);
   if (!question.start || !question.goal) {
     forgetAnswer();
@@ -203,7 +204,7 @@ function wireControls() {
 }
 function wireMap() {
   for (const end of ["start", "goal"]) marks[end] = makeMark(end, place => setEnd(end, place));
-  map.on("click", event => drawsClick(event) || takesClick(event) || setEnd(question.start ? "goal" : "start", placeOf(event.latlng)));
+  map.on("click", event => endsTurn() || measures(event) || drawsClick(event) || takesClick(event) || setEnd(question.start ? "goal" : "start", placeOf(event.latlng)));
   map.on("moveend", keepLink);
   byId("map").addEventListener("keydown", event => {
     const end = {s: "start", g: "goal"}[event.key];
@@ -235,6 +236,8 @@ async function begin() {
   wireControls();
   const hasEnds = readLink();
   wireMap();
+  wireHeadings();
+  wireMeasuring();
   wireGraph();
   wireDrawing();
   if (!hasEnds) takeOwnEnds();

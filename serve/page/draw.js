@@ -61,6 +61,7 @@ function setTool(tool) {
   drawing.tool = drawing.tool === tool ? null : tool;
   drawing.corners = [];
   if (drawing.tool) {
+    if (measuring.on) setMeasuring(false);
     setEditing(false);
     say({wall: "Click the corners of the wall; a second click at the last one, or Enter, ends it.", polygon: "Click the corners; a click at the first one, or Enter, closes the polygon.", erase: "Click the wall or polygon to take away."}[drawing.tool]);
   }

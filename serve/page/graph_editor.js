@@ -10,6 +10,7 @@ function setEditing(on) {
   byId("graph-edit").setAttribute("aria-pressed", String(on));
   byId("map").classList.toggle("editing", on);
   if (on) {
+    if (measuring.on) setMeasuring(false);
     if (drawing.tool) setTool(drawing.tool);
     if (!map.hasLayer(graphLayer)) graphLayer.addTo(map);
     say("Click to add a node, joined to the chosen one; click a node or an edge to choose it; drag a node to move it.");

@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""page_tools_test.py WARREN: what lies around the path on the page of `warren serve`, in a headless Chromium: headings
+of bodies that turn and lengths by mouse."""
+import math
+import os
+import sys
+import unittest
+
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+
+from browser import MapTest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', 'acceptance'))
+from service import Service  # noqa: E402
+
+WARREN = sys.argv.pop(1)
+YARD = 'bounds 0 0 100 60\nwall 50 0 50 20\nstart 5 30\ngoal 95 30\n'
+HALL = 'bounds 0 0 100 60\nrobot polygon -4 -1 4 -1 4 1 -4 1\nstart 10 30 0\ngoal 90 30\n'
+
+
+class PageTools(MapTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.services = {}
+        for name, text in (('yard', YARD), ('hall', HALL)):
+            with open(os.path.join(cls.folder.name, name + '.scene'), 'w', encoding='utf-8') as file:
+                file.write(text)
+            cls.services[name] = Service(WARREN, os.path.join(cls.folder.name, name + '.scene'), '--writable')
+
+    @classmethod
+    def tearDownClass(cls):
+        for service in cls.services.values():
+            assert service.stop() == 0
+        super().tearDownClass()
+
+    def shown(self, name, link=''):
+        self.show_map(self.services[name].url + link)
+        self.wait_for('Solved')
+
+    def heading(self, end):
+        """In degrees."""
+        heading = self.run_script('return question[arguments[0] + "Heading"]', end)
+        return None if heading is None else math.degrees(heading)
+
+    def wait_for_heading_of_path(self, index, degrees):
+        self.wait(lambda: self.run_script('return answer.json && answer.json.verified'))
+        self.wait(lambda: abs(math.remainder(self.run_script('return answer.json ? answer.json.path.at(arguments[0])[2] : 100', index) -
+                                             math.radians(degrees), 2 * math.pi)) < 1e-9)
+
+    def test_a_dragged_arrow_sets_the_heading(self):
+        self.shown('hall')
+        self.assertIsNone(self.heading('goal'))
+        reach = self.run_script('return handleReach')
+        for end, index, (x, y), degrees in (('start', 0, (0, -60), 90), ('goal', -1, (-80, 80), -135)):
+            handle = self.browser.find_element(By.CSS_SELECTOR, '.handle.' + end)
+            ActionChains(self.browser).click_and_hold(handle).move_by_offset(5, 5).move_by_offset(x - reach - 5, y - 5).pause(0.3).release().perform()
+            self.assertAlmostEqual(self.heading(end), degrees, delta=2)
+            self.wait_for_heading_of_path(index, self.heading(end))
+        link = self.run_script('return location.href')
+        headings = [self.heading('start'), self.heading('goal')]
+        places = self.run_script('return [question.start, question.goal]')
+        self.assertEqual(places, [{'x': 10, 'y': 30}, {'x': 90, 'y': 30}])  # it was the arrow that was dragged
+        self.show_map(link)
+        self.wait_for('Solved')
+        self.assertEqual([self.heading('start'), self.heading('goal')], headings)
+
+    def test_a_finger_turns_the_arrow(self):
+        self.shown('hall')
+        box = self.run_script('const b = handles.goal.getElement().getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]')
+        reach = self.run_script('return handleReach')
+        self.touch('touchStart', box)
+        self.touch('touchMove', (box[0] - reach / 2, box[1] - reach))
+        self.touch('touchMove', (box[0] - reach, box[1] - 2 * reach))
+        self.wait(lambda: self.heading('goal') is not None and abs(self.heading('goal') - 90) < 2)
+        self.touch('touchEnd')
+        self.wait_for_heading_of_path(-1, self.heading('goal'))
+
+    def test_keys_turn_the_mark(self):
+        self.shown('hall')
+        mark = self.browser.find_element(By.CSS_SELECTOR, '.mark.start')
+        mark.send_keys('[')
+        self.assertAlmostEqual(self.heading('start'), 5)
+        mark.send_keys(']' + ']')
+        self.assertAlmostEqual(self.heading('start'), -5)
+        mark.send_keys(Keys.SHIFT + '[' + Keys.NULL)
+        self.assertAlmostEqual(self.heading('start'), 40)
+        self.wait_for_heading_of_path(0, 40)
+        self.assertIn('heading 40 degrees', mark.get_attribute('aria-label'))
+        self.assertEqual(self.by_id('start').get_attribute('value'), '10, 30, 40')
+
+    def test_bodies_that_do_not_turn_have_no_arrow(self):
+        self.shown('yard')
+        self.assertEqual(self.browser.find_elements(By.CSS_SELECTOR, '.handle'), [])
+
+    def test_lengths_by_mouse_set_no_ends(self):
+        self.shown('yard')
+        ends = self.run_script('return JSON.stringify([question.start, question.goal])')
+        self.by_id('map').send_keys('m')
+        self.click_at(20, 10)
+        self.click_at(50, 50)
+        self.wait_for('Length so far')
+        points = self.run_script('return measuring.points.map(p => [p.x, p.y])')
+        self.assertEqual(len(points), 2)
+        self.assertAlmostEqual(float(self.run_script('return document.querySelector(".measured").textContent')), math.dist(*points), places=2)
+        self.assertAlmostEqual(math.dist(*points), 50, delta=1)
+        zoom = self.run_script('return map.getZoom()')
+        self.at(80, 50).double_click().perform()
+        self.wait_for('Measured: ')
+        self.assertEqual(self.run_script('return [measuring.on, measuring.points.length, map.getZoom()]'), [False, 3, zoom])
+        self.assertEqual(self.run_script('return JSON.stringify([question.start, question.goal])'), ends)
+        self.by_id('map').send_keys(Keys.ESCAPE)
+        self.wait(lambda: self.browser.find_elements(By.CSS_SELECTOR, '.measured') == [])  # it fades
+        self.click_at(80, 50)
+        self.assertNotEqual(self.run_script('return JSON.stringify([question.start, question.goal])'), ends)
+
+    def test_lengths_by_keys_and_beside_other_tools(self):
+        self.shown('yard')
+        self.run_script('byId("drawing").open = true')
+        self.by_id('draw-wall').click()
+        self.by_id('measure').click()
+        self.assertIsNone(self.run_script('return drawing.tool'))
+        self.by_id('map').send_keys(Keys.ENTER)
+        self.run_script('map.panBy([100, 0], {animate: false})')
+        self.by_id('map').send_keys(Keys.ENTER)
+        self.wait_for('Length so far')
+        self.by_id('map').send_keys(Keys.ESCAPE)
+        self.assertEqual(self.run_script('return measuring.points.length'), 2)
+        self.by_id('measure').click()
+        self.assertEqual(self.run_script('return measuring.points.length'), 0)
+        self.by_id('draw-wall').click()
+        self.assertFalse(self.run_script('return measuring.on'))
+
+
+if __name__ == '__main__':
+    unittest.main()
