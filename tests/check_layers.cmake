@@ -205,7 +205,7 @@ endfunction()
 
 # The judges share plain data with what they judge, and loops over cores; no index, no predicate, no motion. What they
 # stand on, however many includes away, is theirs alone or one of these.
-set(shared_with_judges "^(parallel/|core/base/|core/plane/(cell_walls|packed_wall|se2|wall_set)[.]|scenes/scene/(dh_table|occupancy_map|scene)[.])")
+set(shared_with_judges "^(parallel/|core/base/|core/plane/(cell_walls|packed_wall|se2|wall_set)[.]|scenes/scene/(dh_table|occupancy_map|scene|wall_fold)[.])")
 function(check_judges)
   reach("^verify/" judges)
   reach("^(spatial|planners|worlds)/" judged)

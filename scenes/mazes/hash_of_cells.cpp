@@ -1,158 +1,201 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Strips of columns are looked at twice: how many walls each has says where the chunks of the hash begin in it. What a
-// strip has before its first chunk and behind its last is joined with its neighbours'.
+// Strips of columns are looked at twice: how many walls each has says where the chunks of the hash begin in it. The
+// walls that a part has before its first chunk are those of its neighbour's last one, which they end.
 #include "scenes/mazes/hash_of_cells.hpp"
 
 #include <algorithm>
-#include <span>
+#include <bit>
+#include <cstring>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "parallel/chunks.hpp"
 #include "scenes/scene/scene.hpp"
+#include "scenes/scene/wall_fold.hpp"
 
 namespace warren {
 namespace {
 
 constexpr std::size_t grain = WallsHash::grain;
-constexpr std::size_t most_parts = 16;  // each holds up to two chunks of walls
+constexpr std::size_t most_parts = 16;  // each holds up to a chunk of walls
 
-/// A byte a cell, column by column, of one column of tiles.
+/// Two bits of each of 8 bytes, side by side.
+std::uint64_t pairs_of(std::uint64_t bytes) {
+  bytes = (bytes | bytes >> 6U) & 0x000f000f000f000fU;
+  bytes = (bytes | bytes >> 12U) & 0x000000ff000000ffU;
+  return (bytes | bytes >> 24U) & 0xffffU;
+}
+
+/// One column of tiles.
 class Strip {
  public:
   explicit Strip(const CellWallSource& cells) : cells_(cells), reader_(cells.reader()) {}
 
+  std::size_t wall_count(std::size_t number, const Execution& execution) {
+    std::size_t count = 0;
+    for_each_tile(number, execution, [&] {
+      for (std::uint32_t row = 0; row < tile_.height; ++row) {
+        const std::uint8_t* const walls = tile_.walls.data() + tile_.index(0, row);
+        for (std::uint32_t col = 0; col < tile_.width; ++col) count += (walls[col] & 1U) + (walls[col] >> 1U & 1U);
+      }
+    });
+    return count;
+  }
+  /// A byte a cell, column by column.
   void read(std::size_t number, const Execution& execution) {
     const std::size_t rows = cells_.rows();
-    for (std::size_t place = number; place < cells_.tile_count(); place += cells_.tile_cols()) {
-      execution.check();
-      reader_->read(place, tile_);
-      first_col_ = tile_.first_col;
+    for_each_tile(number, execution, [&] {
       bytes_.resize(tile_.width * rows);
       for (std::uint32_t row = 0; row < tile_.height; ++row) {
         const std::uint8_t* from = tile_.walls.data() + tile_.index(0, row);
         std::uint8_t* to = bytes_.data() + tile_.first_row + row;
         for (std::uint32_t col = 0; col < tile_.width; ++col) to[col * rows] = from[col];
       }
-    }
-    leave_out_the_outline();
+    });
   }
-  std::size_t wall_count() const {
-    std::size_t count = 0;
-    for (const std::uint8_t walls : bytes_) count += (walls & 1U) + (walls >> 1U & 1U);
-    return count;
-  }
-  /// Hands on the walls of each column, in the course's order: written without branches, for half of them stand.
+  /// Calls take(x, first row, bits) for each column's cells of what was read, 32 at a time, in the course's order: the
+  /// bits are the right and the upper wall of a cell, of the next one, and so on; the right ones stand at x.
   template <class Take>
-  void for_each_column(const Take& take) {
+  void for_each_word(const Take& take) const {
     const std::size_t rows = cells_.rows();
-    walls_.resize(2 * rows + 1);
     for (std::size_t first = 0; first < bytes_.size(); first += rows) {
-      const double right = static_cast<double>(first_col_ + first / rows) + 1.5;
-      std::size_t count = 0;
-      for (std::size_t row = 0; row < rows; ++row) {
-        const double high = static_cast<double>(row) + 1.5;
-        walls_[count] = {right, high - 1, right, high};
-        count += bytes_[first + row] & 1U;
-        walls_[count] = {right - 1, high, right, high};
-        count += bytes_[first + row] >> 1U & 1U;
-      }
-      take(std::span<const DoubleWall>(walls_).first(count));
+      const double x = static_cast<double>(tile_.first_col + first / rows) + 1.5;
+      for (std::size_t row = 0; row < rows; row += 32)
+        take(x, row, word_at(first + row, std::min<std::size_t>(32, rows - row)));
     }
   }
 
  private:
+  template <class See>
+  void for_each_tile(std::size_t number, const Execution& execution, const See& see) {
+    for (std::size_t place = number; place < cells_.tile_count(); place += cells_.tile_cols()) {
+      execution.check();
+      reader_->read(place, tile_);
+      leave_out_the_outline();
+      see();
+    }
+  }
   void leave_out_the_outline() {
-    const std::size_t rows = cells_.rows();
-    for (std::size_t i = rows; i <= bytes_.size(); i += rows)
-      bytes_[i - 1] = static_cast<std::uint8_t>(bytes_[i - 1] & ~CellTile::upper_wall);
-    if (first_col_ + bytes_.size() / rows < cells_.cols()) return;
-    for (std::size_t i = bytes_.size() - rows; i < bytes_.size(); ++i)
-      bytes_[i] = static_cast<std::uint8_t>(bytes_[i] & ~CellTile::right_wall);
+    const auto keep = [&](std::uint32_t col, std::uint32_t row, std::uint8_t kept) {
+      tile_.walls[tile_.index(col, row)] &= kept;
+    };
+    if (tile_.first_row + tile_.height == cells_.rows()) {
+      for (std::uint32_t col = 0; col < tile_.width; ++col) keep(col, tile_.height - 1, CellTile::right_wall);
+    }
+    if (tile_.first_col + tile_.width < cells_.cols()) return;
+    for (std::uint32_t row = 0; row < tile_.height; ++row) keep(tile_.width - 1, row, CellTile::upper_wall);
+  }
+  std::uint64_t word_at(std::size_t at, std::size_t cells) const {
+    std::uint8_t bytes[32] = {};
+    std::memcpy(bytes, bytes_.data() + at, cells);
+    std::uint64_t word = 0;
+    for (unsigned i = 0; i < 4; ++i) {
+      std::uint64_t eight = 0;
+      for (unsigned k = 0; k < 8; ++k) eight |= std::uint64_t{bytes[8 * i + k]} << (8 * k);
+      word |= pairs_of(eight) << (16 * i);
+    }
+    return word;
   }
 
   const CellWallSource& cells_;
   std::unique_ptr<CellWallReader> reader_;
   CellTile tile_;
-  std::size_t first_col_ = 0;
   std::vector<std::uint8_t> bytes_;
-  std::vector<DoubleWall> walls_;  // of a column
 };
 
-/// The walls of some strips: those before the first chunk that begins in them, chunks, and what is left.
-struct Part {
-  std::vector<DoubleWall> head;
-  std::vector<std::uint64_t> chunks;
-  std::vector<DoubleWall> tail;
-
-  /// Walls in a row, of which the first has this number among all.
-  void add(std::size_t number, std::span<const DoubleWall> walls) {
-    if (!is_begun) {
-      const std::size_t before = std::min(walls.size(), (grain - number % grain) % grain);
-      head.insert(head.end(), walls.begin(), walls.begin() + static_cast<std::ptrdiff_t>(before));
-      walls = walls.subspan(before);
-      is_begun = !walls.empty();
-    }
-    while (!walls.empty()) {
-      const std::size_t count = std::min(walls.size(), grain - tail.size());
-      tail.insert(tail.end(), walls.begin(), walls.begin() + static_cast<std::ptrdiff_t>(count));
-      walls = walls.subspan(count);
-      if (tail.size() < grain) continue;
-      chunks.push_back(WallsHash::of_chunk(std::span<const DoubleWall>(tail)));
-      tail.clear();
-    }
-  }
-  bool is_begun = false;
-};
-
-std::vector<DoubleWall> outline(const CellWallSource& cells) {
-  const double right = cells.cols() + 0.5;
-  const double top = cells.rows() + 0.5;
-  return {{0.5, 0.5, right, 0.5}, {0.5, top, right, top}, {0.5, 1.5, 0.5, top}, {right, 0.5, right, top - 1}};
+/// The wall of a bit that for_each_word() gave.
+Segment wall_of(double x, std::size_t first_row, unsigned bit) {
+  const double upper = static_cast<double>(bit & 1U);
+  const double high = static_cast<double>(first_row + (bit >> 1U)) + 1.5;
+  return {{x - upper, high - 1.0 + upper}, {x, high}};
 }
 
-/// Joins the parts.
-class Joined {
- public:
-  explicit Joined(std::size_t walls) : hash_(walls) {}
-  void add(std::span<const DoubleWall> walls) {
-    for (const DoubleWall& wall : walls) {
-      open_.push_back(wall);
-      if (open_.size() == grain) close();
-    }
-  }
-  void add(const Part& part) {
-    add(part.head);
-    for (const std::uint64_t chunk : part.chunks) hash_.add(chunk);
-    add(part.tail);
-  }
-  std::string text() {
-    if (!open_.empty()) close();
-    return hash_.text();
-  }
+/// Chunks of the hash, wall by wall.
+struct Chunks {
+  std::vector<std::uint64_t> whole;
+  WallFold open;  ///< the last one
+  std::size_t open_walls = 0;
 
- private:
-  void close() {
-    hash_.add(WallsHash::of_chunk(std::span<const DoubleWall>(open_)));
-    open_.clear();
+  void add(const Segment& wall) {
+    open.add(wall);
+    if (++open_walls == grain) close();
   }
-  WallsHash hash_;
-  std::vector<DoubleWall> open_;  // of a chunk that is not whole
+  /// As add() for each of the bits, from the lowest.
+  void add(double x, std::size_t first_row, std::uint64_t bits) {
+    const auto count = static_cast<std::size_t>(std::popcount(bits));
+    if (open_walls + count >= grain) {
+      for (; bits != 0; bits &= bits - 1) add(wall_of(x, first_row, static_cast<unsigned>(std::countr_zero(bits))));
+      return;
+    }
+    WallFold fold = open;  // in registers
+    for (; bits != 0; bits &= bits - 1) fold.add(wall_of(x, first_row, static_cast<unsigned>(std::countr_zero(bits))));
+    open = fold;
+    open_walls += count;
+  }
+  void close() {
+    whole.push_back(open.value(open_walls));
+    open = {};
+    open_walls = 0;
+  }
 };
+
+/// The walls of some strips: those before the first chunk that begins in them, and chunks.
+struct Part {
+  std::vector<Segment> head;
+  Chunks chunks;
+
+  /// first: the number of its first wall among all.
+  void add(Strip& strip, std::size_t first) {
+    const std::size_t before = (grain - first % grain) % grain;
+    strip.for_each_word([&](double x, std::size_t row, std::uint64_t bits) {
+      for (; bits != 0 && head.size() < before; bits &= bits - 1) {
+        head.push_back(wall_of(x, row, static_cast<unsigned>(std::countr_zero(bits))));
+      }
+      chunks.add(x, row, bits);
+    });
+  }
+};
+
+std::vector<Segment> outline(const CellWallSource& cells) {
+  const double right = cells.cols() + 0.5;
+  const double top = cells.rows() + 0.5;
+  return {{{0.5, 0.5}, {right, 0.5}},
+          {{0.5, top}, {right, top}},
+          {{0.5, 1.5}, {0.5, top}},
+          {{right, 0.5}, {right, top - 1}}};
+}
+
+std::string joined(std::size_t walls, const std::vector<Segment>& frame, const std::vector<Part>& parts) {
+  WallsHash hash(walls);
+  Chunks all;
+  const auto add = [&](const std::vector<Segment>& some) {
+    for (const Segment& wall : some) all.add(wall);
+  };
+  add(frame);
+  for (const Part& part : parts) {
+    add(part.head);
+    if (part.chunks.whole.empty() && part.chunks.open_walls == 0) continue;
+    all.whole.insert(all.whole.end(), part.chunks.whole.begin(), part.chunks.whole.end());
+    all.open = part.chunks.open;
+    all.open_walls = part.chunks.open_walls;
+  }
+  if (all.open_walls > 0) all.close();
+  for (const std::uint64_t chunk : all.whole) hash.add(chunk);
+  return hash.text();
+}
 
 }  // namespace
 
 HashedCells hash_of_cells(const CellWallSource& cells, const Execution& execution) {
   const std::size_t strips = cells.tile_cols();
   const std::size_t size = std::max<std::size_t>(1, (strips + most_parts - 1) / most_parts);
-  execution.reserve(2 * most_parts * grain * sizeof(DoubleWall));
-  const std::vector<DoubleWall> frame = outline(cells);
+  execution.reserve(most_parts * grain * sizeof(Segment));
+  const std::vector<Segment> frame = outline(cells);
   std::vector<std::size_t> first(strips + 1, frame.size());
   for_chunks(strips, size, execution, [&](Range r) {
     Strip strip(cells);
-    for (std::size_t i = r.first; i < r.last; ++i) {
-      strip.read(i, execution);
-      first[i + 1] = strip.wall_count();
-    }
+    for (std::size_t i = r.first; i < r.last; ++i) first[i + 1] = strip.wall_count(i, execution);
   });
   for (std::size_t i = 0; i < strips; ++i) first[i + 1] += first[i];
   std::vector<Part> parts(chunk_count(strips, size));
@@ -160,17 +203,10 @@ HashedCells hash_of_cells(const CellWallSource& cells, const Execution& executio
     Strip strip(cells);
     for (std::size_t i = r.first; i < r.last; ++i) {
       strip.read(i, execution);
-      std::size_t number = first[i];
-      strip.for_each_column([&](std::span<const DoubleWall> walls) {
-        parts[r.first / size].add(number, walls);
-        number += walls.size();
-      });
+      parts[r.first / size].add(strip, first[r.first]);
     }
   });
-  Joined joined(first.back());
-  joined.add(frame);
-  for (const Part& part : parts) joined.add(part);
-  return {joined.text(), first.back()};
+  return {joined(first.back(), frame, parts), first.back()};
 }
 
 }  // namespace warren

@@ -9,46 +9,27 @@
 
 #include <fmt/format.h>
 
-#include <bit>
 #include <span>
 #include <vector>
 
 #include "core/base/rng.hpp"
 #include "parallel/chunks.hpp"
+#include "scenes/scene/wall_fold.hpp"
 
 namespace warren {
 namespace {
 
 constexpr std::size_t scene_grain = WallsHash::grain;
 
-__extension__ using Wide = unsigned __int128;
-
-/// Folds two words into one: the halves of their product.
-std::uint64_t fold(std::uint64_t a, std::uint64_t b) {
-  const Wide product = static_cast<Wide>(a) * b;
-  return static_cast<std::uint64_t>(product) ^ static_cast<std::uint64_t>(product >> 64);
-}
-
-/// The words of a double, where -0 is 0; never equal to a secret, which are no doubles of a sane size.
-std::uint64_t word(double x) { return std::bit_cast<std::uint64_t>(x + 0.0); }
-
-constexpr std::uint64_t secret_a = 0xa0761d6478bd642fU;
-constexpr std::uint64_t secret_b = 0xe7037ed1a0b428dbU;
-
 template <class Wall>
 std::uint64_t hash_of(std::span<const Wall> walls) {
-  std::uint64_t first = secret_a;
-  std::uint64_t second = secret_b;
-  for (const Wall& wall : walls) {
-    const Segment s = wall.segment();
-    first = fold(word(s.a.x) ^ secret_a, word(s.a.y) ^ first);
-    second = fold(word(s.b.x) ^ secret_b, word(s.b.y) ^ second);
-  }
-  return fold(first ^ secret_b, second ^ secret_a ^ walls.size());
+  WallFold fold;
+  for (const Wall& wall : walls) fold.add(wall.segment());
+  return fold.value(walls.size());
 }
 
 std::uint64_t folded(std::uint64_t hash, std::span<const std::uint64_t> parts) {
-  for (const std::uint64_t part : parts) hash = fold(hash ^ secret_a, part ^ secret_b);
+  for (const std::uint64_t part : parts) hash = folded_words(hash ^ fold_secret_a, part ^ fold_secret_b);
   return hash;
 }
 
@@ -65,8 +46,8 @@ std::uint64_t hash_of(const WallSet& set, const Execution& execution) {
 class Hasher {
  public:
   explicit Hasher(std::uint64_t state) : state_(state) {}
-  void add(std::uint64_t bits) { state_ = fold(state_ ^ secret_a, bits ^ secret_b); }
-  void add(double x) { add(word(x)); }
+  void add(std::uint64_t bits) { state_ = folded_words(state_ ^ fold_secret_a, bits ^ fold_secret_b); }
+  void add(double x) { add(hashed_word(x)); }
   std::uint64_t value() const { return mix64(state_); }
 
  private:

@@ -10,7 +10,7 @@
 
 namespace warren {
 
-/// FNV-1a of 64 bits over numbers in their order, each as the eight bytes of a double from low to high. 10 ns a number.
+/// FNV-1a of 64 bits over numbers in their order, each as the eight bytes of a double from low to high.
 class PathHash {
  public:
   void add(double number);
@@ -18,7 +18,8 @@ class PathHash {
   std::string text() const;
 
  private:
-  std::uint64_t hash_ = 0xcbf29ce484222325U;
+  // The hash but for its last factor, by which the next number begins: that of nothing is 0xcbf29ce484222325.
+  std::uint64_t last_ = 0x1d10331a6b696bc7U;
 };
 
 /// Of the numbers of the answer's states, or points. Throws Stopped.

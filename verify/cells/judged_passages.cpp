@@ -1,9 +1,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "verify/cells/judged_passages.hpp"
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+
 #include "core/base/error.hpp"
 
 namespace warren {
+namespace {
+
+/// Eight bits as the low bits of eight bytes, in the order of memory.
+using EightBytes = std::array<std::uint8_t, 8>;
+constexpr std::array<EightBytes, 256> bytes_of_bits() {
+  std::array<EightBytes, 256> bytes{};
+  for (unsigned bits = 0; bits < 256; ++bits) {
+    for (unsigned i = 0; i < 8; ++i) bytes[bits][i] = static_cast<std::uint8_t>(bits >> i & 1U);
+  }
+  return bytes;
+}
+constexpr std::array<EightBytes, 256> spread = bytes_of_bits();
+
+/// The walls of eight cells of a row.
+std::uint64_t walls_of(std::uint64_t right, std::uint64_t above) {
+  return std::bit_cast<std::uint64_t>(spread[right & 0xffU]) | std::bit_cast<std::uint64_t>(spread[above & 0xffU])
+                                                                   << 1U;
+}
+
+}  // namespace
+
 JudgedPassages::JudgedPassages(const std::string& where, std::uint32_t rows, std::uint32_t cols,
                                std::span<const std::uint64_t> right, std::span<const std::uint64_t> up)
     : LookedUpWalls(rows, cols, usual_side_log2), right_(right), up_(up), words_a_row_((std::size_t{cols} + 63) / 64) {
@@ -36,8 +62,9 @@ class JudgedPassages::Reader : public CellWallReader {
       const std::uint64_t right = ~passages_.right_[word];
       const std::uint64_t above = ~passages_.up_[word];
       std::uint8_t* to = tile.walls.data() + tile.index(0, row);
-      for (std::ptrdiff_t col = 0; col < width; ++col) {
-        to[col] = static_cast<std::uint8_t>((right >> col & 1U) | (above >> col & 1U) << 1);
+      for (std::ptrdiff_t col = 0; col < width; col += 8) {
+        const std::uint64_t walls = walls_of(right >> col, above >> col);
+        std::memcpy(to + col, &walls, static_cast<std::size_t>(std::min<std::ptrdiff_t>(8, width - col)));
       }
       look_up(tile, -1, row);
       look_up(tile, width - 1, row);
