@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -46,9 +45,7 @@ const EdgeJudge& GraphService::judge(const Execution& execution) const {
   if (world_.query() != nullptr && world_.query()->roadmap().lattice != nullptr) {
     throw UsageError("a large maze is asked by its lattice, and route graphs are for maps and scenes");
   }
-  return judge_.get(execution, [&] {
-    return std::make_unique<EdgeJudge>(world_.whole(execution), world_.box(), world_.robot(), world_.clearance());
-  });
+  return world_.judge(execution);
 }
 
 RouteGraph GraphService::built(std::string_view body, const Execution& execution) const {

@@ -6,7 +6,6 @@
 #include <string_view>
 
 #include "parallel/execution.hpp"
-#include "parallel/made_once.hpp"
 #include "serve/api/route.hpp"
 #include "serve/api/served_world.hpp"
 #include "serve/graphs/edge_judge.hpp"
@@ -30,7 +29,6 @@ class GraphService {
   HttpResponse saved(const RouteGraph& graph, const Execution& execution) const;
 
   const ServedWorld& world_;
-  MadeOnce<EdgeJudge> judge_;
 };
 
 }  // namespace warren

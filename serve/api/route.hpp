@@ -18,6 +18,7 @@ enum class Place : std::uint8_t {
   world,
   tile,
   path,
+  clearance,
   query,
   batch,
   scene,

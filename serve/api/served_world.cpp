@@ -99,6 +99,16 @@ std::unique_ptr<ServedWorld> ServedWorld::changed(Scene now, const Execution& ex
   return next;
 }
 
+const EdgeJudge& ServedWorld::judge(const Execution& execution) const {
+  return judge_.get(execution, [&] { return std::make_unique<EdgeJudge>(whole(execution), box_, robot_, clearance_); });
+}
+
+double ServedWorld::clearance_at(std::span<const double> state, const Execution& execution) const {
+  const Vec2 at{state[0], state[1]};
+  if (roadmap_ && roadmap_->lattice != nullptr) return query_->clearance_at(at, execution);
+  return judge(execution).clearance_at({at, state.size() > 2 ? std::optional(state[2]) : std::nullopt}, execution);
+}
+
 void ServedWorld::prepare(const Execution& execution) const {
   if (query_) query_->prepare_paths(execution);
 }

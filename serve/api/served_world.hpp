@@ -6,11 +6,14 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "parallel/execution.hpp"
+#include "parallel/made_once.hpp"
 #include "scenes/scene/scene.hpp"
+#include "serve/graphs/edge_judge.hpp"
 #include "serve/tiles/world_tiles.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/question/solve_options.hpp"
@@ -47,6 +50,10 @@ class ServedWorld {
   const Box& box() const { return box_; }
   /// All of it. Throws Stopped, InputError.
   const Scene& whole(const Execution& execution) const { return roadmap_ ? roadmap_->world.whole(execution) : *scene_; }
+  /// Of its body, among all of it. Throws Stopped, InputError.
+  const EdgeJudge& judge(const Execution& execution) const;
+  /// Least distance between the body in this state and anything, as paths are judged. Throws Stopped, InputError.
+  double clearance_at(std::span<const double> state, const Execution& execution) const;
   /// nullptr: each question is solved by itself.
   const RoadmapQuery* query() const { return query_.get(); }
   /// Was it opened as a roadmap, or else as a world?
@@ -70,6 +77,7 @@ class ServedWorld {
   std::unique_ptr<Roadmap> roadmap_;
   std::unique_ptr<RoadmapQuery> query_;
   std::unique_ptr<WorldTiles> tiles_;
+  MadeOnce<EdgeJudge> judge_;
   std::string hash_;
   RobotSpec robot_ = {};
   double clearance_ = 0.0;

@@ -12,6 +12,7 @@
 #include "scenes/formats/scene_io.hpp"
 #include "scenes/text/input_file_io.hpp"
 #include "scenes/text/json_text.hpp"
+#include "serve/api/path_places.hpp"
 #include "serve/api/path_view.hpp"
 #include "serve/api/query_body_io.hpp"
 #include "serve/api/world_description.hpp"
@@ -27,6 +28,18 @@ namespace {
 constexpr int tile_style = 1;
 
 std::string tile_name(const TilePlace& tile) { return fmt::format("{}/{}/{}", tile.zoom, tile.x, tile.y); }
+
+[[noreturn]] void refuse_forgotten() {
+  throw HttpError(404, "not_found", "path", "this path is not kept any more; ask again");
+}
+
+/// Of a profile.
+std::size_t sample_count(const HttpRequest& request) {
+  constexpr double most = 2000.0;
+  const double count = numbers_parameter(request, "samples", 1).value_or(std::vector{200.0})[0];
+  if (count >= 2.0 && count <= most && count == std::floor(count)) return static_cast<std::size_t>(count);
+  throw HttpError(400, "bad_request", "query", "samples: expected a whole number, 2 to 2000");
+}
 
 HttpResponse not_modified(std::string tag) {
   return {.status = 304, .fields = {{"ETag", std::move(tag)}, {"Cache-Control", "no-cache"}}};
@@ -93,6 +106,7 @@ HttpResponse WorldService::work(const HttpRequest& request, const SignalFlag& go
   if (asked.place == Place::batch) return batch(request, execution);
   if (asked.place == Place::scene) return scene(request, execution);
   if (is_of_graphs(asked.place)) return graphs_.answer(asked.place, request.body, execution);
+  if (asked.place == Place::clearance) return clearance(request, asked.name, execution);
   return path(request, asked.name, execution);
 }
 
@@ -131,18 +145,32 @@ HttpResponse WorldService::query(const HttpRequest& request, const SignalFlag& g
   Answer answer = world_.ask(body.question, execution);
   if (answer.outcome == Outcome::stopped) throw Stopped(answer.stop_reason.value_or(StopReason::time));
   HttpResponse response;
+  std::string name;
   if (answer.verified) {
-    const std::string name = path_hash(answer, execution);
+    name = path_hash(answer, execution);
     answer.tells_path = body.tells_path && path_points(answer) <= limits_.most_points;
     if (!answer.tells_path) answer.handed = HandedPath{path_points(answer), name};
-    const bool is_its_own_curve = answer.handed && answer.states.empty();
-    KeptPath kept{is_its_own_curve ? std::move(answer.path) : curve_of(answer, execution), answer.length};
-    const std::size_t bytes = kept.curve.size() * sizeof(Vec2);
     response.fields.emplace_back("Warren-Path", name);
-    paths_.put(name, std::move(kept), bytes + sizeof(KeptPath));
   }
   write_answer_json(answer, execution, [&](std::string_view piece) { response.body += piece; });
+  if (answer.verified) {
+    KeptPath path = kept(std::move(answer), execution);
+    const std::size_t points = path.way.path.size() + path.chords.size();
+    const std::size_t bytes = points * sizeof(Vec2) + path.way.states.numbers.size() * sizeof(double);
+    paths_.put(name, std::move(path), bytes + sizeof(KeptPath));
+  }
   return response;
+}
+
+WorldService::KeptPath WorldService::kept(Answer answer, const Execution& execution) {
+  KeptPath kept;
+  if (!answer.states.empty() && answer.problem.robot.kind == RobotKind::car) kept.chords = curve_of(answer, execution);
+  kept.way.path = std::move(answer.path);
+  kept.way.states = std::move(answer.states);
+  kept.way.problem.robot = std::move(answer.problem.robot);
+  kept.way.length = answer.length;
+  kept.way.min_clearance = answer.min_clearance;
+  return kept;
 }
 
 HttpResponse WorldService::batch(const HttpRequest& request, const Execution& execution) const {
@@ -180,7 +208,7 @@ HttpResponse WorldService::path(const HttpRequest& request, const std::string& n
   const bool is_there = paths_.look(name, [&](const KeptPath& kept) {
     std::string text = "[";
     std::size_t points = 0;
-    for (const std::vector<Vec2>& chain : seen_of(kept.curve, view, execution)) {
+    for (const std::vector<Vec2>& chain : seen_of(kept.curve(), view, execution)) {
       execution.check();
       points += chain.size();
       if (points > limits_.most_view_points) {
@@ -194,11 +222,35 @@ HttpResponse WorldService::path(const HttpRequest& request, const std::string& n
       }
       text += ']';
     }
-    json.add("length", kept.length);
-    json.add("points", std::uint64_t{kept.curve.size()});
+    json.add("length", kept.way.length);
+    json.add("points", std::uint64_t{kept.curve().size()});
     json.add_json("chains", text + "]");
   });
-  if (!is_there) throw HttpError(404, "not_found", "path", "this path is not kept any more; ask again");
+  if (!is_there) refuse_forgotten();
+  return {.body = json.closed() + "\n"};
+}
+
+HttpResponse WorldService::clearance(const HttpRequest& request, const std::string& name, const Execution& execution) {
+  JsonObject json;
+  std::vector<PathPlace> places;
+  const std::size_t count = sample_count(request);
+  const bool is_there = paths_.look(name, [&](const KeptPath& kept) {
+    places = places_along(kept.way, count, execution);
+    json.add("length", kept.way.length);
+    json.add_or_null("min_clearance", std::isfinite(kept.way.min_clearance), kept.way.min_clearance);
+  });
+  if (!is_there) refuse_forgotten();
+  std::string text;
+  for (const PathPlace& place : places) {
+    execution.check();
+    const double clearance = world_.clearance_at(place.state.used(), execution);
+    JsonObject told;
+    told.add("along", place.along);
+    told.add_json("at", json_list(place.state.used()));
+    told.add_or_null("clearance", std::isfinite(clearance), clearance);
+    text += (text.empty() ? "" : ",") + told.closed();
+  }
+  json.add_json("places", "[" + text + "]");
   return {.body = json.closed() + "\n"};
 }
 

@@ -44,9 +44,11 @@ class WorldService : public HttpService {
  private:
   /// A path that was found, and what it costs to keep.
   struct KeptPath {
-    Path<Vec2> curve;
-    double length = 0.0;
+    Answer way;         // path, states, body, length and clearance alone
+    Path<Vec2> chords;  // of a car
+    const Path<Vec2>& curve() const { return chords.empty() ? way.path : chords; }
   };
+  static KeptPath kept(Answer answer, const Execution& execution);
   Route route(const HttpRequest& request) const;
   HttpResponse file(const HttpRequest& request, const std::string& name) const;
   HttpResponse tile(const Route& route, const Execution& execution);
@@ -54,6 +56,7 @@ class WorldService : public HttpService {
   HttpResponse batch(const HttpRequest& request, const Execution& execution) const;
   HttpResponse scene(const HttpRequest& request, const Execution& execution) const;
   HttpResponse path(const HttpRequest& request, const std::string& name, const Execution& execution);
+  HttpResponse clearance(const HttpRequest& request, const std::string& name, const Execution& execution);
   HttpResponse metrics(const HttpFigures& figures) const;
   std::string tile_tag() const;
   HttpResponse tile_response(const Route& route, std::string bytes) const;

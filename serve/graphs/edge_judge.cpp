@@ -66,16 +66,29 @@ EdgeJudge::EdgeJudge(const Scene& scene, const Box& room, RobotSpec robot, doubl
 std::vector<EdgeVerdict> EdgeJudge::judge(const std::vector<DrawnEdge>& edges, const Execution& execution) const {
   check_drives_edges(robot_);
   execution.reserve(edges.size() * sizeof(EdgeVerdict));
-  const ObstacleIndex* index = nullptr;
-  if (!scene_.map && !edges.empty()) {
-    index = &index_.get(execution, [&] { return std::make_unique<ObstacleIndex>(scene_, execution); });
-  }
+  const ObstacleIndex* near = edges.empty() ? nullptr : index(execution);
   std::vector<EdgeVerdict> verdicts;
   for (const DrawnEdge& edge : edges) {
     execution.check();
-    verdicts.push_back(judge(edge, index, execution));
+    verdicts.push_back(judge(edge, near, execution));
   }
   return verdicts;
+}
+
+const ObstacleIndex* EdgeJudge::index(const Execution& execution) const {
+  if (scene_.map) return nullptr;
+  return &index_.get(execution, [&] { return std::make_unique<ObstacleIndex>(scene_, execution); });
+}
+
+double EdgeJudge::clearance_at(const EdgePlace& place, const Execution& execution) const {
+  if (state_size(robot_) > 3) throw UsageError("an arm has no place in the plane");
+  if (!robot_.outline.empty()) {
+    const Se2 pose{place.at.x, place.at.y, place.theta.value()};
+    const PoseVerifyOptions options{.clearance = clearance_};
+    return verify_se2(scene_, robot_.outline, {&pose, 1}, options, execution, index(execution)).min_clearance;
+  }
+  const VerifyOptions options{.radius = robot_.radius, .clearance = clearance_};
+  return verify_path(scene_, {&place.at, 1}, options, execution, index(execution)).min_clearance;
 }
 
 EdgeVerdict EdgeJudge::judge(const DrawnEdge& edge, const ObstacleIndex* index, const Execution& execution) const {

@@ -37,7 +37,8 @@ struct EdgeVerdict {
   double needed = 0.0;     ///< what that should be
 };
 
-/// Refers to the scene. Any number of threads may ask.
+/// Whether bodies of the plane fit along edges, and how much room they have. Refers to the scene. Any number of threads
+/// may ask.
 class EdgeJudge {
  public:
   /// room: the box of all that there is; nothing is free outside of it.
@@ -46,8 +47,12 @@ class EdgeJudge {
   /// One verdict an edge. Throws UsageError for bodies that have none, InputError for places that are no numbers,
   /// Stopped.
   std::vector<EdgeVerdict> judge(const std::vector<DrawnEdge>& edges, const Execution& execution) const;
+  /// Least distance between the body that stands there, in the room, and anything; infinite where there is nothing.
+  /// theta is there where the body's outline turns. Throws UsageError for arms, Stopped.
+  double clearance_at(const EdgePlace& place, const Execution& execution) const;
 
  private:
+  const ObstacleIndex* index(const Execution& execution) const;
   EdgeVerdict judge(const DrawnEdge& edge, const ObstacleIndex* index, const Execution& execution) const;
 
   const Scene& scene_;

@@ -48,6 +48,7 @@ async function ask() {
 }
 function forgetAnswer() {
   clearPath();
+  forgetClearance();
   answer.text = answer.json = answer.id = null;
 }
 function take(reply, text, passed) {
@@ -64,6 +65,7 @@ function take(reply, text, passed) {
   if (answer.id) showPath(json.path.map(p => [p[0], p[1]]), curved() ? answer.id : answer.id);
   say(inWords(json));
   showAnswer(json, [...serverTimes(reply), ["there and back", passed]]);
+  showClearance();
 }
 const curved = () => world.robot.startsWith("car");
 

@@ -238,6 +238,7 @@ async function begin() {
   wireMap();
   wireHeadings();
   wireMeasuring();
+  wireClearance();
   wireGraph();
   wireDrawing();
   if (!hasEnds) takeOwnEnds();

@@ -177,6 +177,15 @@ void RoadmapQuery::prepare_paths(const Execution& execution) const {
   judge_of_lattice(execution);
 }
 
+double RoadmapQuery::clearance_at(Vec2 place, const Execution& execution) const {
+  const VerifyOptions options{.radius = roadmap_.robot.radius, .clearance = roadmap_.clearance};
+  if (const KeptCells* cells = cells_of_lattice(execution)) {
+    return verify_steps(*cells->walls, {&place, 1}, options, execution).min_clearance;
+  }
+  const ObstacleIndex* judged = judge_of_lattice(execution);
+  return verify_path(roadmap_.world.whole(execution), {&place, 1}, options, execution, judged).min_clearance;
+}
+
 void RoadmapQuery::expect(const std::vector<double>& place, const Execution& execution) const {
   if (roadmap_.lattice == nullptr || place.size() != 2) return;
   if (!lattice_cell(*roadmap_.lattice, {place[0], place[1]})) walls_->near_ends.expect(execution);

@@ -74,6 +74,9 @@ class RoadmapQuery {
   /// A question from or to there will follow: what many such ends need is then made on all threads; else the thread of
   /// a question does it alone. Throws InputError, Stopped.
   void expect(const std::vector<double>& place, const Execution& execution) const;
+  /// Least distance between the body at a place of a lattice and any wall, by the judge of its paths. Throws Stopped,
+  /// InputError.
+  double clearance_at(Vec2 place, const Execution& execution) const;
   /// That it refers to.
   const Roadmap& roadmap() const { return roadmap_; }
   /// Length of the motion between two of the roadmap's states, in the world's metric.

@@ -133,6 +133,29 @@ class PageTools(MapTest):
         self.by_id('draw-wall').click()
         self.assertFalse(self.run_script('return measuring.on'))
 
+    def test_clearance_along_the_path_is_shown_place_by_place(self):
+        self.shown('yard')
+        self.press('clearance-summary')
+        self.wait(lambda: self.by_id('clearance-text').text.count(',') > 0)
+        least = self.run_script('return answer.json.min_clearance')
+        self.assertAlmostEqual(self.run_script('return profile.places[Number(byId("clearance-at").value)].clearance'), least, delta=0.1)
+        self.assertIn('least', self.by_id('clearance-text').text)
+        slider = self.by_id('clearance-at')
+        slider.send_keys(Keys.HOME)
+        at_start = self.run_script('const p = profile.dot.getLatLng(); return [p.lng, p.lat]')
+        self.assertEqual(at_start, [5, 30])
+        self.assertTrue(self.by_id('clearance-text').text.startswith('5 after 0'))
+        slider.send_keys(Keys.ARROW_RIGHT)
+        self.assertIn(' after ', slider.get_attribute('aria-valuetext'))
+        self.assertNotEqual(self.run_script('const p = profile.dot.getLatLng(); return [p.lng, p.lat]'), at_start)
+        ActionChains(self.browser).move_to_element(self.by_id('clearance-chart')).perform()
+        self.wait(lambda: abs(self.run_script('return profile.dot.getLatLng().lng') - 50) < 5)
+        before = self.run_script('return profile.id')
+        self.run_script('setEnd("goal", {x: 90, y: 50})')
+        self.wait(lambda: self.run_script('return profile.id !== null && profile.places.length > 0') and self.run_script('return profile.id') != before)
+        self.press('clear')
+        self.assertFalse(slider.is_displayed())
+
 
 if __name__ == '__main__':
     unittest.main()

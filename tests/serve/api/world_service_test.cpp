@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <csignal>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -166,6 +167,51 @@ TEST(WorldService, ALongPathIsSeenByParts) {
   Served strict(read_world("maze:60x60,seed=3", {}), {}, {.most_view_points = 5});
   const HttpResponse kept = strict.query({{"start", {1, 1}}, {"goal", {60, 60}}});
   EXPECT_EQ(strict.get("/api/path/" + field(kept, "Warren-Path")).status, 413U);
+}
+
+TEST(WorldService, ClearanceAlongAPathIsThatOfItsJudgeForEveryBody) {
+  const std::string hall = "bounds 0 0 100 60\nwall 50 0 50 25\nwall 50 40 50 60\nstart 10 30 0\ngoal 90 30 0\n";
+  for (const auto& [scene, robot] :
+       {std::pair{std::string(town), "point"}, std::pair{std::string(town), "disc 2"},
+        std::pair{hall, "polygon -4 -1 4 -1 4 1 -4 1"}, std::pair{hall, "car polygon -1 -1 4 -1 4 1 -1 1 turning 5"}}) {
+    SCOPED_TRACE(robot);
+    Served served(scene_of(scene), {.robot = robot_value("robot", robot)});
+    const HttpResponse answer = served.query(Json::object());
+    const double least_of_all = Json::parse(answer.body).at("min_clearance");
+    const std::string address = "/api/path/" + field(answer, "Warren-Path") + "/clearance";
+    const Json told = Json::parse(served.get(address, {{"samples", "2000"}}).body);
+    EXPECT_EQ(told.at("min_clearance"), least_of_all);
+    ASSERT_EQ(told.at("places").size(), 2000U);
+    double least = 1e9;
+    for (const Json& place : told.at("places")) least = std::min(least, place.at("clearance").get<double>());
+    EXPECT_GE(least, least_of_all - 1e-9);
+    EXPECT_LE(least, least_of_all + 0.1);
+    EXPECT_NEAR(told.at("places").back().at("along").get<double>(), told.at("length").get<double>(), 1e-9);
+    EXPECT_EQ(Json::parse(served.get(address).body).at("places").size(), 200U);
+    for (const char* count : {"1", "2001", "2.5", "x", "-3", ""}) {
+      EXPECT_EQ(served.get(address, {{"samples", count}}).status, 400U) << count;
+    }
+  }
+  Served served(scene_of(town));
+  EXPECT_EQ(served.get("/api/path/0123456789abcdef/clearance").status, 404U);
+}
+
+TEST(WorldService, ClearanceAlongAPathOfALargeMazeIsHalfACorridor) {
+  Served served(read_world("maze:300x300,seed=7,loops=0.05", {}));
+  const HttpResponse answer = served.query(Json::object());
+  const Json told = Json::parse(served.get("/api/path/" + field(answer, "Warren-Path") + "/clearance").body);
+  for (const Json& place : told.at("places")) {
+    EXPECT_GE(place.at("clearance"), 0.5);
+    EXPECT_LT(place.at("clearance"), 1.5);
+  }
+}
+
+TEST(WorldService, APathThatGoesNowhereHasTheClearanceOfItsPlace) {
+  Served served(scene_of("wall 0 0 0 0.5\nbounds -10 -10 10 10\nstart -5 0\ngoal -5 0\n"));
+  const HttpResponse answer = served.query(Json::object());
+  const Json told = Json::parse(served.get("/api/path/" + field(answer, "Warren-Path") + "/clearance").body);
+  EXPECT_EQ(told.at("places").size(), 1U);
+  EXPECT_DOUBLE_EQ(told.at("places")[0].at("clearance"), 5.0);
 }
 
 TEST(WorldService, TilesAreKeptAndSayThatTheyNeverChange) {
