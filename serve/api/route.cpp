@@ -63,6 +63,16 @@ Route place_of(std::string_view path, const TileGrid& grid, std::string_view has
     route.has_its_hash = true;
     return route;
   }
+  const bool is_of_layers = words.size() >= 6 && words[1] == "v" && words[2] == hash && words[3] == "layers";
+  if (is_of_layers && words.size() == 6 && words[5] == "legend") {
+    return {.place = Place::legend, .name = std::string(words[4])};
+  }
+  if (is_of_layers && words.size() == 8) {
+    Route route = tile_route(words[5], words[6], words[7], grid);
+    route.place = Place::layer;
+    route.name = words[4];
+    return route;
+  }
   refuse_path();
 }
 

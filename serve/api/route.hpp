@@ -17,6 +17,8 @@ enum class Place : std::uint8_t {
   metrics,
   world,
   tile,
+  layer,
+  legend,
   path,
   clearance,
   query,
@@ -31,7 +33,7 @@ enum class Place : std::uint8_t {
 
 struct Route {
   Place place;
-  std::string name = {};  ///< of a file, of a path
+  std::string name = {};  ///< of a file, of a path, of a layer
   TilePlace tile = {};
   bool has_its_hash = false;  ///< a tile's address names its world, so what it shows never changes
 };

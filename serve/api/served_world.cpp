@@ -32,10 +32,7 @@ bool is_asked_by_roadmap(const Scene& scene, const Question& body, const SolveOp
 }
 
 /// Of a file whose walls stand wherever its lattice has no passage: these say where walls are, and nobody makes them.
-std::unique_ptr<WorldTiles> tiles_of_file(const Roadmap& roadmap, const Execution& execution) {
-  const RoadmapFile& file = *roadmap.file;
-  for (const std::string_view name : {"passages.right", "passages.up"}) file.check_section(*file.find(name), execution);
-  const LatticePassages& lattice = roadmap.lattice->passages();
+std::unique_ptr<WorldTiles> tiles_of_file(const LatticePassages& lattice, const Execution& execution) {
   return maze_tiles({lattice.size(), lattice.right_words(), lattice.up_words()}, MazeOutline::of_course(lattice.size()),
                     execution);
 }
@@ -78,7 +75,7 @@ void ServedWorld::describe(const Execution& execution) {
     query_ = std::make_unique<RoadmapQuery>(*roadmap_, execution, Questions::many);
   }
   if (roadmap_ && roadmap_->lattice != nullptr && lattice_is_walls(*roadmap_)) {
-    tiles_ = tiles_of_file(*roadmap_, execution);
+    tiles_ = tiles_of_file(*passages(execution), execution);
     const MazeHint maze = *roadmap_->world.outline().maze;
     box_ = {{0.5, 0.5}, {maze.cols + 0.5, maze.rows + 0.5}};
     return;
@@ -107,6 +104,14 @@ double ServedWorld::clearance_at(std::span<const double> state, const Execution&
   const Vec2 at{state[0], state[1]};
   if (roadmap_ && roadmap_->lattice != nullptr) return query_->clearance_at(at, execution);
   return judge(execution).clearance_at({at, state.size() > 2 ? std::optional(state[2]) : std::nullopt}, execution);
+}
+
+const LatticePassages* ServedWorld::passages(const Execution& execution) const {
+  if (!roadmap_ || roadmap_->lattice == nullptr) return nullptr;
+  if (const RoadmapFile* file = roadmap_->file.get()) {
+    for (const char* name : {"passages.right", "passages.up"}) file->check_section(*file->find(name), execution);
+  }
+  return &roadmap_->lattice->passages();
 }
 
 void ServedWorld::prepare(const Execution& execution) const {

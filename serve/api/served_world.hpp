@@ -56,6 +56,8 @@ class ServedWorld {
   double clearance_at(std::span<const double> state, const Execution& execution) const;
   /// nullptr: each question is solved by itself.
   const RoadmapQuery* query() const { return query_.get(); }
+  /// Of a maze's lattice, held against its file's checksums; nullptr where there is none. Throws InputError, Stopped.
+  const LatticePassages* passages(const Execution& execution) const;
   /// Was it opened as a roadmap, or else as a world?
   bool is_roadmap() const { return is_roadmap_; }
   /// Is it another one than its source holds?

@@ -60,7 +60,7 @@ void add_line(std::string& text, std::string_view name, std::string_view kind, s
 
 }  // namespace
 
-std::string description_json(const ServedWorld& world, const ServiceLimits& limits) {
+std::string description_json(const ServedWorld& world, const WorldLayers& layers, const ServiceLimits& limits) {
   const Scene& outline = world.outline();
   JsonObject json;
   json.add("schema", "warren.service/1");
@@ -82,6 +82,7 @@ std::string description_json(const ServedWorld& world, const ServiceLimits& limi
   json.add("writable", limits.writable && !outline.map);
   json.add("wants_token", limits.wants_token);
   json.add_json("tiles", tiles_json(world.tiles().grid(), world.hash()));
+  json.add_json("layers", layers.json());
   return json.closed() + "\n";
 }
 

@@ -10,9 +10,10 @@
 namespace warren {
 
 struct ServiceLimits;
+class WorldLayers;
 
 /// warren.service/1: what a page needs to show the world and to ask.
-std::string description_json(const ServedWorld& world, const ServiceLimits& limits);
+std::string description_json(const ServedWorld& world, const WorldLayers& layers, const ServiceLimits& limits);
 
 /// What is kept.
 struct KeptBytes {

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "roadmaps/file/checksum.hpp"
 #include "scenes/formats/scene_io.hpp"
 #include "scenes/text/input_file_io.hpp"
 #include "scenes/text/json_text.hpp"
@@ -26,6 +28,7 @@ namespace {
 
 /// Changes whenever tiles of a world look otherwise than before.
 constexpr int tile_style = 1;
+constexpr std::size_t of_an_entry = 256;  // bytes of a kept tile beside its own
 
 std::string tile_name(const TilePlace& tile) { return fmt::format("{}/{}/{}", tile.zoom, tile.x, tile.y); }
 
@@ -41,8 +44,17 @@ std::size_t sample_count(const HttpRequest& request) {
   throw HttpError(400, "bad_request", "query", "samples: expected a whole number, 2 to 2000");
 }
 
+std::string layer_name(const Route& route) { return route.name + "/" + tile_name(route.tile); }
+
 HttpResponse not_modified(std::string tag) {
   return {.status = 304, .fields = {{"ETag", std::move(tag)}, {"Cache-Control", "no-cache"}}};
+}
+
+/// The address names the world but not its roadmap, so that a client asks anew and is told whether it has changed.
+HttpResponse layer_response(const HttpRequest& request, const std::string& bytes) {
+  std::string tag = fmt::format("\"{:016x}\"", checksum(std::as_bytes(std::span(bytes))));
+  if (request.if_none_match == tag) return not_modified(std::move(tag));
+  return {.type = "image/png", .body = bytes, .fields = {{"ETag", std::move(tag)}, {"Cache-Control", "no-cache"}}};
 }
 
 }  // namespace
@@ -50,7 +62,8 @@ HttpResponse not_modified(std::string tag) {
 WorldService::WorldService(const ServedWorld& world, const ServiceLimits& limits)
     : world_(world),
       limits_(limits),
-      world_json_(description_json(world, limits)),
+      layers_(world),
+      world_json_(description_json(world, layers_, limits)),
       graphs_(world),
       tiles_(limits.tile_bytes),
       paths_(limits.path_bytes) {}
@@ -62,6 +75,9 @@ Route WorldService::route(const HttpRequest& request) const {
 std::size_t WorldService::most_body(const HttpRequest& head) const {
   const Route asked = route(head);
   if (asked.place == Place::file) file(head, asked.name);  // or there is none
+  if ((asked.place == Place::layer || asked.place == Place::legend) && !layers_.knows(asked.name)) {
+    throw HttpError(404, "not_found", "path", "there is no layer of this name; /api/world lists them");
+  }
   if (asked.place == Place::update) {
     throw HttpError(403, "read_only", "path", "this world is not to be changed; 'serve --writable' lets it");
   }
@@ -91,6 +107,11 @@ std::optional<HttpResponse> WorldService::at_once(const HttpRequest& request, co
       tiles_.look(tile_name(asked.tile), [&](const std::string& bytes) { known = tile_response(asked, bytes); });
       return known;
     }
+    case Place::layer: {
+      std::optional<HttpResponse> known;
+      tiles_.look(layer_name(asked), [&](const std::string& bytes) { known = layer_response(request, bytes); });
+      return known;
+    }
     default:
       return std::nullopt;
   }
@@ -103,6 +124,8 @@ HttpResponse WorldService::work(const HttpRequest& request, const SignalFlag& go
   const Execution execution{.threads = limits_.threads, .deadline = &deadline};
   execution.check();
   if (asked.place == Place::tile) return tile(asked, execution);
+  if (asked.place == Place::layer) return layer(request, asked, execution);
+  if (asked.place == Place::legend) return {.body = layers_.legend(asked.name, execution) + "\n"};
   if (asked.place == Place::batch) return batch(request, execution);
   if (asked.place == Place::scene) return scene(request, execution);
   if (is_of_graphs(asked.place)) return graphs_.answer(asked.place, request.body, execution);
@@ -131,9 +154,14 @@ HttpResponse WorldService::tile_response(const Route& route, std::string bytes) 
 
 HttpResponse WorldService::tile(const Route& route, const Execution& execution) {
   std::string bytes = world_.tiles().draw(route.tile, execution);
-  constexpr std::size_t of_an_entry = 256;
   tiles_.put(tile_name(route.tile), bytes, bytes.size() + of_an_entry);
   return tile_response(route, std::move(bytes));
+}
+
+HttpResponse WorldService::layer(const HttpRequest& request, const Route& route, const Execution& execution) {
+  const std::string bytes = layers_.draw(route.name, route.tile, execution);
+  tiles_.put(layer_name(route), bytes, bytes.size() + of_an_entry);
+  return layer_response(request, bytes);
 }
 
 HttpResponse WorldService::query(const HttpRequest& request, const SignalFlag& gone) {

@@ -10,6 +10,7 @@
 #include "serve/api/graph_service.hpp"
 #include "serve/api/route.hpp"
 #include "serve/api/served_world.hpp"
+#include "serve/api/world_layers.hpp"
 #include "serve/http/http_service.hpp"
 #include "serve/http/kept_values.hpp"
 
@@ -52,6 +53,7 @@ class WorldService : public HttpService {
   Route route(const HttpRequest& request) const;
   HttpResponse file(const HttpRequest& request, const std::string& name) const;
   HttpResponse tile(const Route& route, const Execution& execution);
+  HttpResponse layer(const HttpRequest& request, const Route& route, const Execution& execution);
   HttpResponse query(const HttpRequest& request, const SignalFlag& gone);
   HttpResponse batch(const HttpRequest& request, const Execution& execution) const;
   HttpResponse scene(const HttpRequest& request, const Execution& execution) const;
@@ -63,6 +65,7 @@ class WorldService : public HttpService {
 
   const ServedWorld& world_;
   const ServiceLimits limits_;
+  WorldLayers layers_;
   const std::string world_json_;
   const GraphService graphs_;
   KeptValues<std::string> tiles_;

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The layers that a service draws above its world: which there are, what their colours mean, and their tiles.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "parallel/execution.hpp"
+#include "parallel/made_once.hpp"
+#include "serve/api/served_world.hpp"
+#include "serve/tiles/roadmap_layer.hpp"
+
+namespace warren {
+
+/// What a page says of a layer before it is looked at.
+struct LayerAccount {
+  std::string_view name;   ///< in its address, a literal
+  std::string why = {};    ///< there is none in this world; empty: there is
+  unsigned from_zoom = 0;  ///< tiles of smaller zooms are empty
+};
+
+/// Any number of threads may draw. What a layer needs is made when it is first looked at.
+class WorldLayers {
+ public:
+  /// Refers to the world.
+  explicit WorldLayers(const ServedWorld& world);
+
+  /// All of them as JSON.
+  std::string json() const;
+  bool knows(std::string_view name) const;
+  /// Colours and what they mean, with figures, as JSON. Throws as draw().
+  std::string legend(std::string_view name, const Execution& execution) const;
+  /// A PNG. Throws UsageError where this world has no such layer, InputError for a damaged file, Stopped.
+  std::string draw(std::string_view name, const TilePlace& tile, const Execution& execution) const;
+
+ private:
+  void refuse_missing(std::string_view name) const;
+  const RoadmapLayer& roadmap(const Execution& execution) const;
+
+  const ServedWorld& world_;
+  std::vector<LayerAccount> accounts_;
+  MadeOnce<RoadmapLayer> roadmap_;
+};
+
+}  // namespace warren

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Layers by the interface: which there are, why others are not, and that nobody keeps those of another roadmap.
+#include "serve/api/world_layers.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "scenes/text/human_units.hpp"
+#include "serve/api/world_service.hpp"
+#include "tests/serve/tiles/read_inks.hpp"
+#include "tests/serve/town.hpp"
+
+namespace warren {
+namespace {
+
+using Json = nlohmann::json;
+
+HttpResponse asked(WorldService& service, const HttpRequest& request) {
+  try {
+    service.most_body(request);
+    if (auto said = service.at_once(request, {})) return *said;
+  } catch (const HttpError& error) {
+    return error_response(error);
+  }
+  const SignalFlag flag{0};
+  return answer_of(service, request, flag);
+}
+
+std::string tag_of(const HttpResponse& response) { return response.fields.empty() ? "" : response.fields[0].second; }
+
+Json layer_of(WorldService& service, const std::string& name) {
+  const Json world = Json::parse(asked(service, {.path = "/api/world"}).body);
+  for (const Json& layer : world.at("layers")) {
+    if (layer.at("name") == name) return layer;
+  }
+  return {};
+}
+
+Json legend_of(WorldService& service, const std::string& name) {
+  return Json::parse(asked(service, {.path = layer_of(service, name).at("legend")}).body);
+}
+
+TEST(WorldLayers, AWorldWithoutARoadmapSaysWhyItHasNone) {
+  const ServedWorld world(scene_of(town), {}, {});
+  WorldService service(world, {});
+  for (const char* name : {"roadmap", "components"}) {
+    const Json layer = layer_of(service, name);
+    EXPECT_EQ(layer.at("there"), false);
+    EXPECT_NE(layer.at("why").get<std::string>().find("warren build"), std::string::npos);
+    const HttpResponse refused = asked(service, {.path = "/v/" + world.hash() + "/layers/" + name + "/0/0/0.png"});
+    EXPECT_EQ(refused.status, 400U);
+    EXPECT_EQ(Json::parse(refused.body).at("error").at("code"), "usage");
+    EXPECT_EQ(asked(service, {.path = "/v/" + world.hash() + "/layers/" + name + "/legend"}).status, 400U);
+  }
+}
+
+TEST(WorldLayers, ARoadmapHasBothAndATagOfWhatIsDrawn) {
+  const ServedWorld world(build(scene_of(town)), {});
+  WorldService service(world, {});
+  const std::string whole = "/v/" + world.hash() + "/layers/roadmap/0/0/0.png";
+  const HttpResponse first = asked(service, {.path = whole});
+  ASSERT_EQ(first.status, 200U) << first.body;
+  EXPECT_EQ(first.type, "image/png");
+  EXPECT_EQ(layer_of(service, "components").at("there"), true);
+  ASSERT_TRUE(service.at_once({.path = whole}, {}));
+  EXPECT_EQ(service.at_once({.path = whole}, {})->body, first.body) << "kept";
+  EXPECT_EQ(asked(service, {.path = whole, .if_none_match = tag_of(first)}).status, 304U);
+  const HttpResponse components = asked(service, {.path = "/v/" + world.hash() + "/layers/components/0/0/0.png"});
+  EXPECT_EQ(components.status, 200U);
+  EXPECT_NE(components.body, first.body);
+
+  const ServedWorld other(build(scene_of(town), {}, {.seed = 5}), {});
+  ASSERT_EQ(other.hash(), world.hash());
+  WorldService again(other, {});
+  EXPECT_EQ(asked(again, {.path = whole, .if_none_match = tag_of(first)}).status, 200U) << "another roadmap";
+}
+
+TEST(WorldLayers, AnEdgeIsInkAndWhatThereIsNoRoomForIsNone) {
+  const ServedWorld world(build(scene_of(town)), {});
+  WorldService service(world, {});
+  const TileGrid& grid = world.tiles().grid();
+  constexpr unsigned zoom = 3;
+  const auto opacity_at = [&](Vec2 p) {
+    const double side = grid.pixel(zoom) * TileGrid::pixels;
+    const double x = (p.x - grid.corner.x) / side;
+    const double y = (grid.corner.y - p.y) / side;
+    const std::string url = "/v/" + world.hash() + "/layers/roadmap/3/" + std::to_string(static_cast<int>(x)) + "/" +
+                            std::to_string(static_cast<int>(y)) + ".png";
+    const auto of = [](double in) { return static_cast<std::size_t>((in - std::floor(in)) * TileGrid::pixels); };
+    return test::read_inks(asked(service, {.path = url}).body)[of(y) * TileGrid::pixels + of(x)][3];
+  };
+  const RoadmapParts parts = world.query()->roadmap().arrays.parts();
+  const auto at = [&](VertexId v) { return Vec2{parts.state(v)[0], parts.state(v)[1]}; };
+  unsigned seen = 0;
+  for (VertexId v = 0; v < parts.vertex_count() && seen < 5; v += 7) {
+    const std::size_t end = parts.first[v];
+    if (end == parts.first[v + 1] || parts.state_of_end(end) != EdgeState::free) continue;
+    EXPECT_GT(opacity_at(0.5 * (at(v) + at(parts.to[end]))), 60U);
+    ++seen;
+  }
+  EXPECT_EQ(seen, 5U);
+  for (const Vec2 inside : {Vec2{75, 30}, {62, 12}, {88, 48}}) EXPECT_EQ(opacity_at(inside), 0U);
+}
+
+TEST(WorldLayers, TheLegendHasFigures) {
+  const ServedWorld world(build(scene_of("bounds 0 0 100 60\nwall 50 -1 50 61\n")), {});
+  WorldService service(world, {});
+  const RoadmapParts parts = world.query()->roadmap().arrays.parts();
+  const auto words = [&](const std::string& name, std::size_t i) {
+    return legend_of(service, name).at(i).at("words").get<std::string>();
+  };
+  EXPECT_TRUE(words("roadmap", 0)
+                  .starts_with(counted(parts.vertex_count(), "milestone", "milestones") + " and " +
+                               counted(count_edges(world.query()->roadmap(), {}).free, "free edge", "free edges")))
+      << words("roadmap", 0);
+  std::map<VertexId, std::uint64_t> sizes;
+  for (const VertexId root : parts.component) ++sizes[root];
+  ASSERT_EQ(sizes.size(), 2U) << "one on each side of the wall";
+  const std::uint64_t most = std::max(sizes.begin()->second, sizes.rbegin()->second);
+  EXPECT_EQ(words("components", 0), "largest: " + counted(most, "milestone", "milestones"));
+  EXPECT_EQ(words("components", 1), "number 2: " + counted(parts.vertex_count() - most, "milestone", "milestones"));
+  EXPECT_EQ(legend_of(service, "components").size(), 2U);
+}
+
+TEST(WorldLayers, WhatIsNoLayerIsNotFound) {
+  const ServedWorld world(build(scene_of(town)), {});
+  WorldService service(world, {});
+  for (const std::string path :
+       {"/layers/Roadmap/0/0/0.png", "/layers/walls/0/0/0.png", "/layers//0/0/0.png", "/layers/roadmap/0/1/0.png",
+        "/layers/roadmap/0/0/0", "/layers/walls/legend", "/layers/roadmap/words"}) {
+    EXPECT_EQ(asked(service, {.path = "/v/" + world.hash() + path}).status, 404U) << path;
+  }
+  EXPECT_EQ(asked(service, {.path = "/v/0000000000000000/layers/roadmap/0/0/0.png"}).status, 404U);
+}
+
+TEST(WorldLayers, ALatticeShowsItsPassagesFromNear) {
+  const ServedWorld world(read_world("maze:300x300,seed=7", {}), {}, {});
+  WorldService service(world, {});
+  const Json roadmap = layer_of(service, "roadmap");
+  ASSERT_EQ(roadmap.at("there"), true);
+  const unsigned zoom = roadmap.at("from_zoom");
+  EXPECT_LE(world.tiles().grid().pixel(zoom), 1.0 / 8.0);
+  EXPECT_GT(world.tiles().grid().pixel(zoom - 1), 1.0 / 8.0);
+  const auto is_empty = [&](unsigned z) {
+    const std::string path = "/v/" + world.hash() + "/layers/roadmap/" + std::to_string(z) + "/0/0.png";
+    for (const test::InkPixel& pixel : test::read_inks(asked(service, {.path = path}).body)) {
+      if (pixel[3] > 0) return false;
+    }
+    return true;
+  };
+  const std::string words = legend_of(service, "roadmap").at(0).at("words");
+  EXPECT_TRUE(words.starts_with(counted(89'999, "passage", "passages"))) << words << ", a perfect maze";
+  EXPECT_TRUE(is_empty(zoom - 1));
+  EXPECT_FALSE(is_empty(zoom));
+  EXPECT_EQ(layer_of(service, "components").at("there"), false);
+}
+
+}  // namespace
+}  // namespace warren
