@@ -87,6 +87,7 @@ function linkText() {
   for (const end of ["start", "goal"]) if (question[end]) words.push(end + "=" + state(end));
   if (question.planner) words.push("planner=" + encodeURIComponent(question.planner));
   if (question.optimise) words.push("optimise=1");
+  if (shownLayers()) words.push("layers=" + shownLayers());
   words.push("at=" + [rounded(at.lng), rounded(at.lat), map.getZoom()].join(","));
   return "#" + words.join("&");
 }
@@ -102,6 +103,7 @@ function readLink() {
   }
   question.planner = world.planners.includes(words.get("planner")) ? words.get("planner") : "";
   question.optimise = words.get("optimise") === "1";
+  takeLayers(words.get("layers"));
   const at = numbers("at");
   if (at.length === 3 && at.every(Number.isFinite)) map.setView([at[1], at[0]], at[2], {animate: false});
   else map.fitBounds(map.whole, {animate: false});
@@ -233,6 +235,7 @@ async function begin() {
   for (const end of ["start", "goal"]) byId(end).placeholder = turns() ? (end === "start" ? "x, y, degrees" : "x, y, degrees or none") : "x, y";
   setDark(matchMedia("(prefers-color-scheme: dark)").matches);
   openMap();
+  wireLayers();
   wireControls();
   const hasEnds = readLink();
   wireMap();

@@ -36,6 +36,7 @@ async function takeWorld() {
   world = await (await fetch("/api/world")).json();
   if (JSON.stringify([before.tiles.corner, before.tiles.span]) !== JSON.stringify([world.tiles.corner, world.tiles.span])) return void location.reload();
   tiles.setUrl(world.tiles.url);
+  renewLayers();
   graph.verdicts.clear();
   checkGraph();
   byId("about").textContent = world.description + ", " + world.robot + (world.clearance > 0 ? ", clearance " + world.clearance : "");

@@ -35,15 +35,14 @@ Vec2 RoadmapLayer::at(VertexId v) const {
   return {state[0], state[1]};
 }
 
-std::size_t RoadmapLayer::column(double x) const {
-  const double share = (x - box_.min.x) / std::max(box_.width(), 1e-300);
-  return static_cast<std::size_t>(std::clamp(share, 0.0, 1.0) * static_cast<double>(side_ - 1) + 0.5);
+std::size_t RoadmapLayer::cell_at(double share) const {
+  const auto side = static_cast<double>(side_);
+  return static_cast<std::size_t>(std::clamp(share * side, 0.0, side - 1.0));
 }
 
-std::size_t RoadmapLayer::row(double y) const {
-  const double share = (y - box_.min.y) / std::max(box_.height(), 1e-300);
-  return static_cast<std::size_t>(std::clamp(share, 0.0, 1.0) * static_cast<double>(side_ - 1) + 0.5);
-}
+std::size_t RoadmapLayer::column(double x) const { return cell_at((x - box_.min.x) / std::max(box_.width(), 1e-300)); }
+
+std::size_t RoadmapLayer::row(double y) const { return cell_at((y - box_.min.y) / std::max(box_.height(), 1e-300)); }
 
 void RoadmapLayer::file_milestones(const Execution& execution) {
   constexpr std::size_t milestones_a_cell = 8;

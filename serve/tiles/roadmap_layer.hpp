@@ -52,6 +52,7 @@ class RoadmapLayer {
     VertexId from, to;
   };
   Vec2 at(VertexId v) const;
+  std::size_t cell_at(double share) const;
   std::size_t column(double x) const;
   std::size_t row(double y) const;
   void file_milestones(const Execution& execution);

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Layers above the world, as the service draws them: a check box each with what its colours mean, or why this world
+// has none.
+"use strict";
+const layers = new Map();  // by name: its account in `world`, and its elements and tiles on this page
+
+function elementOf(kind, properties, ...children) {
+  const element = Object.assign(document.createElement(kind), properties);
+  element.append(...children);
+  return element;
+}
+function makeLayer(account) {
+  const id = "layer-" + account.name, pane = map.createPane(id);
+  pane.style.zIndex = 210 + layers.size;
+  pane.style.pointerEvents = "none";
+  const layer = {account, tiles: null, box: elementOf("input", {type: "checkbox", id}), words: elementOf("ul", {className: "legend", id: id + "-legend"})};
+  layer.box.setAttribute("aria-describedby", layer.words.id);
+  layer.words.setAttribute("aria-live", "polite");
+  layer.box.addEventListener("change", () => { showLayer(layer); keepLink(); });
+  byId("layers").append(elementOf("div", {className: "row"}, elementOf("label", {}, layer.box, " " + account.name)), layer.words);
+  return layer;
+}
+function fillLegend(layer, entries) {
+  layer.words.replaceChildren(...entries.map(({color, words}) => {
+    const line = elementOf("li", {}, words);
+    if (color) line.prepend(elementOf("span", {className: "ink"}));
+    if (color) line.firstChild.style.background = color;
+    return line;
+  }));
+}
+async function showLegend(layer) {
+  const account = layer.account;
+  const told = await fetch(account.legend).then(reply => reply.json(), () => ({error: {message: "The service does not answer any more."}}));
+  if (account !== layer.account || !layer.box.checked) return;
+  const far = map.getZoom() < account.from_zoom && !told.error ? [{words: "Zoom in to see it."}] : [];
+  fillLegend(layer, told.error ? [{words: told.error.message}] : [...told, ...far]);
+}
+function showLayer(layer) {
+  const {account, box} = layer, t = world.tiles;
+  if (layer.tiles) layer.tiles.remove();
+  layer.tiles = null;
+  box.disabled = !account.there;
+  if (!account.there) box.checked = false;
+  fillLegend(layer, account.there ? [] : [{words: "None: " + account.why + "."}]);
+  if (!box.checked) return;
+  layer.tiles = L.tileLayer(account.url, {pane: "layer-" + account.name, tileSize: t.pixels, minZoom: account.from_zoom > 0 ? account.from_zoom : -3, maxZoom: t.levels,
+                                          minNativeZoom: 0, maxNativeZoom: t.levels - 1, bounds: map.whole, noWrap: true, keepBuffer: 1, updateInterval: 60, className: "layer"});
+  layer.tiles.on("tileerror", () => say("A part of the layer " + account.name + " was not drawn; move or zoom to ask again."));
+  layer.tiles.addTo(map);
+  showLegend(layer);
+}
+/// Those of the world as it is now.
+function renewLayers() {
+  for (const account of world.layers) {
+    if (!layers.has(account.name)) layers.set(account.name, makeLayer(account));
+    const layer = layers.get(account.name);
+    layer.account = account;
+    showLayer(layer);
+  }
+}
+/// For the link: the names of those that are shown.
+const shownLayers = () => [...layers].filter(([, layer]) => layer.box.checked).map(([name]) => name).join(",");
+function takeLayers(names) {
+  for (const [name, layer] of layers) {
+    const isShown = (names || "").split(",").includes(name);
+    if (isShown === layer.box.checked) continue;
+    layer.box.checked = isShown;
+    showLayer(layer);
+  }
+}
+function wireLayers() {
+  renewLayers();
+  map.on("zoomend", () => { for (const layer of layers.values()) if (layer.tiles && layer.account.from_zoom > 0) showLegend(layer); });
+}

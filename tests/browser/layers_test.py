@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""layers_test.py WARREN: layers above the world on the page of `warren serve`, in a headless Chromium: check boxes by mouse and
+keys, what is drawn, the legend, reasons, the link, dark, phone. A word on the console fails a test."""
+import os
+import subprocess
+import sys
+import unittest
+
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+from selenium.webdriver.support.ui import WebDriverWait
+
+from browser import BrowserTest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', 'acceptance'))
+from service import Service  # noqa: E402
+
+WARREN = sys.argv.pop(1)
+ROOMS = 'bounds 0 0 100 60\nwall 50 -1 50 61\nstart 5 30\ngoal 40 30\n'
+
+
+class Layers(BrowserTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        scene, roadmap = (os.path.join(cls.folder.name, name) for name in ('rooms.scene', 'rooms.roadmap'))
+        with open(scene, 'w', encoding='utf-8') as file:
+            file.write(ROOMS)
+        subprocess.run([WARREN, 'build', scene, '--samples', '400', '-o', roadmap, '--quiet'], check=True)
+        cls.rooms = Service(WARREN, roadmap, '--writable')
+        cls.scene = Service(WARREN, scene)
+        cls.maze = Service(WARREN, 'maze:300x300,seed=3')
+
+    @classmethod
+    def tearDownClass(cls):
+        for service in (cls.rooms, cls.scene, cls.maze):
+            assert service.stop() == 0
+        super().tearDownClass()
+
+    def wait(self, holds):
+        WebDriverWait(self.browser, 60, 0.05).until(lambda _: holds())
+
+    def shown(self, service, link=''):
+        self.browser.get('about:blank')  # the part behind # alone would load nothing
+        self.browser.get(service.url + link)
+        self.wait(lambda: self.run_script('return world !== null && map !== null && map._loaded === true && !tiles._loading'))
+
+    def box(self, name):
+        return self.browser.find_element(By.ID, 'layer-' + name)
+
+    def legend(self, name):
+        return self.browser.find_element(By.ID, 'layer-' + name + '-legend').text
+
+    def drawn(self, name):
+        """Pixels of the layer's tiles that have ink, and how many colours these are."""
+        self.wait(lambda: self.run_script('const t = layers.get(arguments[0]).tiles; return t && !t._loading', name))
+        return self.run_script('''
+            const colors = new Set();
+            let inked = 0;
+            for (const image of map.getPane("layer-" + arguments[0]).querySelectorAll("img.leaflet-tile-loaded")) {
+              const canvas = Object.assign(document.createElement("canvas"), {width: 512, height: 512}), on = canvas.getContext("2d");
+              on.drawImage(image, 0, 0);
+              const data = on.getImageData(0, 0, 512, 512).data;
+              for (let i = 0; i < data.length; i += 4) {
+                if (data[i + 3] > 0) ++inked;
+                if (data[i + 3] === 255) colors.add(data.slice(i, i + 3).join());
+              }
+            }
+            return [inked, colors.size];''', name)
+
+    def test_a_roadmap_and_its_components_with_legends(self):
+        self.shown(self.rooms)
+        self.box('roadmap').click()
+        self.wait(lambda: '400 milestones' in self.legend('roadmap'))
+        inked, colors = self.drawn('roadmap')
+        self.assertGreater(inked, 5000)
+        self.assertEqual(colors, 1)
+        self.box('components').click()
+        self.wait(lambda: 'largest' in self.legend('components'))
+        self.assertEqual(len(self.legend('components').splitlines()), 2)  # a room on each side of the wall
+        self.assertEqual(self.drawn('components')[1], 2)
+        self.box('roadmap').click()
+        self.assertEqual(self.browser.find_elements(By.CSS_SELECTOR, '.leaflet-layer-roadmap-pane img'), [])
+        self.assertEqual(self.legend('roadmap'), '')
+
+    def test_the_link_and_the_keys(self):
+        self.shown(self.rooms, '#start=5,30&goal=40,30')
+        self.box('roadmap').send_keys(Keys.SPACE)
+        self.wait(lambda: 'free edges' in self.legend('roadmap'))
+        link = self.run_script('return location.hash')
+        self.assertIn('layers=roadmap', link)
+        self.shown(self.rooms, link)
+        self.assertEqual([self.box(name).is_selected() for name in ('roadmap', 'components')], [True, False])
+        self.assertGreater(self.drawn('roadmap')[0], 5000)
+        self.shown(self.rooms, '#layers=walls,constructor')
+        self.assertFalse(self.box('roadmap').is_selected())
+
+    def test_a_world_without_a_roadmap_says_why(self):
+        self.shown(self.scene, '#layers=roadmap')
+        for name in ('roadmap', 'components'):
+            self.assertFalse(self.box(name).is_enabled())
+            self.assertFalse(self.box(name).is_selected())
+            self.assertIn('open a roadmap', self.legend(name))
+
+    def test_passages_are_seen_from_near(self):
+        self.shown(self.maze)
+        self.box('roadmap').click()
+        self.wait(lambda: 'Zoom in' in self.legend('roadmap'))
+        self.assertIn('89 999 passages', self.legend('roadmap').replace('\u202f', ' '))
+        self.run_script('map.setView([150, 150], layers.get("roadmap").account.from_zoom, {animate: false})')
+        self.wait(lambda: 'Zoom in' not in self.legend('roadmap'))
+        self.assertGreater(self.drawn('roadmap')[0], 5000)
+        self.assertFalse(self.box('components').is_enabled())
+
+    def test_a_changed_world_has_its_own(self):
+        self.shown(self.rooms, '#layers=components')
+        before, _ = self.drawn('components')
+        old = self.run_script('return layers.get("components").tiles._url')
+        self.async_script('draw({add: {polygons: [[[60, 10], [90, 10], [90, 50], [60, 50]]]}}).then(done)')
+        self.assertNotEqual(self.run_script('return layers.get("components").tiles._url'), old)
+        self.assertLess(self.drawn('components')[0], 0.8 * before)
+        self.async_script('stepDrawing(drawing.undo, drawing.redo).then(done)')
+        self.assertEqual(self.drawn('components')[0], before)
+
+    def test_dark_and_phone(self):
+        self.media(color_scheme='dark')
+        self.shown(self.rooms, '#layers=roadmap,components')
+        self.wait(lambda: 'largest' in self.legend('components'))
+        self.browser.set_window_size(500, 900)
+        self.async_script('setTimeout(done, 300)')
+        box = self.box('components')
+        self.run_script('arguments[0].scrollIntoView({block: "center"})', box)
+        box.click()
+        self.assertFalse(box.is_selected())
+        self.assertLessEqual(self.run_script('return document.documentElement.scrollWidth'), self.run_script('return innerWidth'))
+
+
+if __name__ == '__main__':
+    unittest.main()
