@@ -148,6 +148,7 @@ struct Part {
   /// first: the number of its first wall among all.
   void add(Strip& strip, std::size_t first) {
     const std::size_t before = (grain - first % grain) % grain;
+    head.reserve(before);
     strip.for_each_word([&](double x, std::size_t row, std::uint64_t bits) {
       for (; bits != 0 && head.size() < before; bits &= bits - 1) {
         head.push_back(wall_of(x, row, static_cast<unsigned>(std::countr_zero(bits))));

@@ -18,7 +18,7 @@ struct PathPlace {
 };
 
 /// count >= 2 places, start and goal among them, even by PathLegs::length(), so that turns on the spot have some, too;
-/// the one state of a path that has no other. The answer has a path. O(states + count). Throws Stopped.
+/// of a path without length its one place. The answer has a path. O(states + count). Throws Stopped.
 std::vector<PathPlace> places_along(const Answer& answer, std::size_t count, const Execution& execution);
 
 }  // namespace warren

@@ -62,12 +62,11 @@ function take(reply, text, passed) {
   answer.text = text;
   answer.json = json;
   answer.id = reply.headers.get("Warren-Path");
-  if (answer.id) showPath(json.path.map(p => [p[0], p[1]]), curved() ? answer.id : answer.id);
+  if (answer.id) showPath(json.path.map(p => [p[0], p[1]]), answer.id);
   say(inWords(json));
   showAnswer(json, [...serverTimes(reply), ["there and back", passed]]);
   showClearance();
 }
-const curved = () => world.robot.startsWith("car");
 
 const shown = number => Number(number.toPrecision(6));
 function inWords(json) {

@@ -2,6 +2,7 @@
 // The whole interface without sockets, held against solve() and RoadmapQuery themselves.
 #include "serve/api/world_service.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 
 #include "solve/answer/path_hash.hpp"
 #include "solve/solve.hpp"
+#include "tests/scenes/text/temporary_directory.hpp"
 #include "tests/serve/town.hpp"
 
 namespace warren {
@@ -169,6 +171,20 @@ TEST(WorldService, ALongPathIsSeenByParts) {
   EXPECT_EQ(strict.get("/api/path/" + field(kept, "Warren-Path")).status, 413U);
 }
 
+/// No place has less than the whole path, and of many places one has hardly more.
+void expect_the_judges_clearance(Served& served, const HttpResponse& answer) {
+  const double least_of_all = Json::parse(answer.body).at("min_clearance");
+  const std::string address = "/api/path/" + field(answer, "Warren-Path") + "/clearance";
+  const Json told = Json::parse(served.get(address, {{"samples", "2000"}}).body);
+  EXPECT_EQ(told.at("min_clearance"), least_of_all);
+  ASSERT_EQ(told.at("places").size(), 2000U);
+  double least = 1e9;
+  for (const Json& place : told.at("places")) least = std::min(least, place.at("clearance").get<double>());
+  EXPECT_GE(least, least_of_all - 1e-9);
+  EXPECT_LE(least, least_of_all + 0.1);
+  EXPECT_NEAR(told.at("places").back().at("along").get<double>(), told.at("length").get<double>(), 1e-9);
+}
+
 TEST(WorldService, ClearanceAlongAPathIsThatOfItsJudgeForEveryBody) {
   const std::string hall = "bounds 0 0 100 60\nwall 50 0 50 25\nwall 50 40 50 60\nstart 10 30 0\ngoal 90 30 0\n";
   for (const auto& [scene, robot] :
@@ -177,16 +193,8 @@ TEST(WorldService, ClearanceAlongAPathIsThatOfItsJudgeForEveryBody) {
     SCOPED_TRACE(robot);
     Served served(scene_of(scene), {.robot = robot_value("robot", robot)});
     const HttpResponse answer = served.query(Json::object());
-    const double least_of_all = Json::parse(answer.body).at("min_clearance");
+    expect_the_judges_clearance(served, answer);
     const std::string address = "/api/path/" + field(answer, "Warren-Path") + "/clearance";
-    const Json told = Json::parse(served.get(address, {{"samples", "2000"}}).body);
-    EXPECT_EQ(told.at("min_clearance"), least_of_all);
-    ASSERT_EQ(told.at("places").size(), 2000U);
-    double least = 1e9;
-    for (const Json& place : told.at("places")) least = std::min(least, place.at("clearance").get<double>());
-    EXPECT_GE(least, least_of_all - 1e-9);
-    EXPECT_LE(least, least_of_all + 0.1);
-    EXPECT_NEAR(told.at("places").back().at("along").get<double>(), told.at("length").get<double>(), 1e-9);
     EXPECT_EQ(Json::parse(served.get(address).body).at("places").size(), 200U);
     for (const char* count : {"1", "2001", "2.5", "x", "-3", ""}) {
       EXPECT_EQ(served.get(address, {{"samples", count}}).status, 400U) << count;
@@ -194,6 +202,30 @@ TEST(WorldService, ClearanceAlongAPathIsThatOfItsJudgeForEveryBody) {
   }
   Served served(scene_of(town));
   EXPECT_EQ(served.get("/api/path/0123456789abcdef/clearance").status, 404U);
+}
+
+TEST(WorldService, ClearanceAlongAPathIsThatOfItsJudgeOnMapsAndRoadmaps) {
+  std::string map = "type octile\nheight 20\nwidth 40\nmap\n";
+  for (int row = 0; row < 20; ++row)
+    map += std::string(18, '.') + std::string(4, row < 12 ? '@' : '.') + std::string(18, '.') + "\n";
+  const TemporaryDirectory folder;
+  folder.write("a.map", map);
+  const std::string three = "{\"start\":[6,14,0],\"goal\":[34,14,0]}";
+  for (const auto& [robot, ends] : {std::pair{"point", std::string("{\"start\":[6,14],\"goal\":[34,14]}")},
+                                    std::pair{"disc 1.5", std::string("{\"start\":[6,14],\"goal\":[34,14]}")},
+                                    std::pair{"polygon -2 -1 2 -1 2 1 -2 1", three},
+                                    std::pair{"car polygon -1 -1 2 -1 2 1 -1 1 turning 2", three}}) {
+    for (const bool asks_roadmap : {false, true}) {
+      SCOPED_TRACE(fmt::format("{}, {}", robot, asks_roadmap));
+      const Question body{.robot = robot_value("robot", robot)};
+      Scene world = read_world(folder.file("a.map"), {});
+      Served served = asks_roadmap ? Served(build(std::move(world), body, {.planner = PlannerKind::prm}))
+                                   : Served(std::move(world), body);
+      const HttpResponse answer = served.post("/api/query", ends);
+      ASSERT_EQ(Json::parse(answer.body).at("status"), "solved") << answer.body.substr(0, 300);
+      expect_the_judges_clearance(served, answer);
+    }
+  }
 }
 
 TEST(WorldService, ClearanceAlongAPathOfALargeMazeIsHalfACorridor) {
