@@ -53,16 +53,23 @@ class PackedWall {
 
   /// The whole wall.
   std::uint64_t word() const { return word_; }
-  /// Exact.
-  Ends ends() const {
+  /// The first end, x in the lower half and y in the upper one, each in steps and `most` + 1 more.
+  std::uint64_t raised_end() const { return word_ & (std::uint64_t{field_mask} << 32 | field_mask); }
+  /// Steps from the first end to the second, to the right or upwards.
+  std::int32_t length() const {
     const auto low = static_cast<std::uint32_t>(word_);
     const auto high = static_cast<std::uint32_t>(word_ >> 32);
-    const auto signed_of = [](std::uint32_t field) { return static_cast<std::int32_t>(field) - (most + 1); };
-    const std::int32_t x = signed_of(low & field_mask);
+    return signed_of(low >> field_bits | (high >> (field_bits - low_bits) & high_mask));
+  }
+  /// Is the second end above or below the first?
+  bool is_upright() const { return word_ >> 63 != 0; }
+  /// Exact.
+  Ends ends() const {
+    const auto high = static_cast<std::uint32_t>(word_ >> 32);
+    const std::int32_t x = signed_of(static_cast<std::uint32_t>(word_) & field_mask);
     const std::int32_t y = signed_of(high & field_mask);
-    const std::int32_t length = signed_of(low >> field_bits | (high >> (field_bits - low_bits) & high_mask));
     const std::int32_t up = static_cast<std::int32_t>(high) >> 31;
-    return {x, y, x + (length & ~up), y + (length & up)};
+    return {x, y, x + (length() & ~up), y + (length() & up)};
   }
   /// As doubles; exact.
   Segment segment() const {
@@ -80,6 +87,7 @@ class PackedWall {
 
   explicit constexpr PackedWall(std::uint64_t word) : word_(word) {}
   static constexpr std::uint64_t field(std::int32_t steps) { return static_cast<std::uint32_t>(steps + most + 1); }
+  static constexpr std::int32_t signed_of(std::uint32_t field) { return static_cast<std::int32_t>(field) - (most + 1); }
   template <class T>
   static bool is_step(T x) {
     const T steps = x * per_unit;

@@ -13,29 +13,13 @@ namespace {
 /// The box of the walls that it has been shown.
 class GrowingBox {
  public:
-  /// A few at once, for vector code.
-  void include(std::span<const PackedWall> walls) {
-    PackedWall::Ends low = walls.front().ends();
-    PackedWall::Ends high = low;
-    for (const PackedWall& wall : walls) {
-      const PackedWall::Ends e = wall.ends();
-      low.x1 = std::min(low.x1, e.x1);
-      low.x2 = std::min(low.x2, e.x2);
-      low.y1 = std::min(low.y1, e.y1);
-      low.y2 = std::min(low.y2, e.y2);
-      high.x1 = std::max(high.x1, e.x1);
-      high.x2 = std::max(high.x2, e.x2);
-      high.y1 = std::max(high.y1, e.y1);
-      high.y2 = std::max(high.y2, e.y2);
-    }
-    constexpr double step = 1.0 / PackedWall::per_unit;
-    doubles_.include(Vec2{step * std::min(low.x1, low.x2), step * std::min(low.y1, low.y2)});
-    doubles_.include(Vec2{step * std::max(high.x1, high.x2), step * std::max(high.y1, high.y2)});
+  void include(const PackedWall& w) { include(detail::WallSteps(w).numbers() * (1.0F / narrow_unit)); }
+  void include(const FloatWall& w) {
+    detail::Four ends;
+    std::memcpy(&ends, &w, sizeof ends);
+    include(ends);
   }
-  template <class T>
-  void include(std::span<const WallOf<T>> walls) {
-    for (const WallOf<T>& wall : walls) include(wall);
-  }
+  void include(const DoubleWall& w) { doubles_.include(box_of(w.segment())); }
   Box box() const {
     Box box = doubles_;
     box.include({{std::min(low_[0], low_[2]), std::min(low_[1], low_[3])},
@@ -44,17 +28,13 @@ class GrowingBox {
   }
 
  private:
-  void include(const FloatWall& w) {
-    Four ends;
-    std::memcpy(&ends, &w, sizeof ends);
+  void include(detail::Four ends) {
     low_ = low_ < ends ? low_ : ends;
     high_ = high_ > ends ? high_ : ends;
   }
-  void include(const DoubleWall& w) { doubles_.include(box_of(w.segment())); }
 
-  using Four = float __attribute__((vector_size(16)));
-  Four low_ = Four{} + std::numeric_limits<float>::infinity();
-  Four high_ = Four{} - std::numeric_limits<float>::infinity();
+  detail::Four low_ = detail::Four{} + std::numeric_limits<float>::infinity();
+  detail::Four high_ = detail::Four{} - std::numeric_limits<float>::infinity();
   Box doubles_;
 };
 
@@ -85,7 +65,6 @@ void WallCounts::count(std::span<const Wall> walls, const WallFiler& filer, cons
   std::vector<Box> boxes(chunks());
   std::vector<std::uint8_t> wide_found(chunks());
   for_chunks(walls.size(), grain_, execution, [&](Range r) {
-    constexpr std::size_t some = 512;  // walls: they stay in the first cache
     const std::size_t chunk = r.first / grain_;
     std::uint32_t* const narrow = narrow_.counts(chunk);
     std::uint32_t* const wide = wide_.counts(chunk);
@@ -99,10 +78,9 @@ void WallCounts::count(std::span<const Wall> walls, const WallFiler& filer, cons
       ++wide[tile];
       any_wide = true;
     };
-    for (std::size_t first = r.first; first < r.last; first += some) {
-      const auto part = walls.subspan(first, std::min(some, r.last - first));
-      box.include(part);
-      for (const Wall& wall : part) own.file(wall, count_narrow, count_wide);
+    for (const Wall& wall : walls.subspan(r.first, r.size())) {
+      box.include(wall);
+      own.file(wall, count_narrow, count_wide);
     }
     boxes[chunk] = box.box();
     wide_found[chunk] = any_wide ? 1 : 0;

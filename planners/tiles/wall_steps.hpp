@@ -24,6 +24,8 @@ inline constexpr double most_steps = 0x1p29;
 inline constexpr int packed_shift = 5;
 static_assert(PackedWall::per_unit << packed_shift == narrow_unit && PackedWall::most + 1 < most_steps / 64);
 
+using Four = float __attribute__((vector_size(16)));
+
 /// A tile's place, or a place before or after the tiles.
 struct TileCorner {
   std::int32_t col;
@@ -49,6 +51,11 @@ class PlainWallSteps {
 
   /// Are all coordinates whole numbers of steps, and not too many? What follows is of use only then.
   bool exact() const { return exact_; }
+  /// x1 y1 x2 y2 in steps, rounded; of a packed wall exact.
+  Four numbers() const {
+    const auto number = [this](std::size_t i) { return static_cast<float>(steps_[i]); };
+    return Four{number(0), number(1), number(2), number(3)};
+  }
   /// Is the wall at most `longest` steps long along each axis?
   bool is_short(std::int32_t longest) const {
     return std::abs(steps_[0] - steps_[2]) <= longest && std::abs(steps_[1] - steps_[3]) <= longest;
@@ -101,15 +108,17 @@ inline WallShape plain_wall_shape(const NarrowWall& w, std::int16_t stride) {
 
 class WallSteps {
  public:
+  /// The corners follow from the first end and the length, without a comparison.
   explicit WallSteps(const PackedWall& w) : exact_(true) {
-    const PackedWall::Ends e = w.ends();
-    const auto pair = [](std::int32_t x, std::int32_t y) {
-      const auto both = std::uint64_t{static_cast<std::uint32_t>(x)} | std::uint64_t{static_cast<std::uint32_t>(y)}
-                                                                           << 32;
-      return _mm_cvtsi64_si128(static_cast<long long>(both));
-    };
-    steps_ = _mm_slli_epi32(_mm_unpacklo_epi64(pair(e.x1, e.y1), pair(e.x2, e.y2)), packed_shift);
-    find_corners();
+    const auto lanes = [](std::uint64_t both) { return _mm_cvtsi64_si128(static_cast<long long>(both)); };
+    const __m128i end = _mm_sub_epi32(lanes(w.raised_end()), _mm_set1_epi32(PackedWall::most + 1));
+    const auto length = static_cast<std::uint32_t>(w.length());
+    const __m128i way = lanes(std::uint64_t{length} << (w.is_upright() ? 32 : 0));
+    const __m128i back = _mm_and_si128(way, _mm_srai_epi32(way, 31));
+    const __m128i other = _mm_add_epi32(end, way);
+    steps_ = _mm_slli_epi32(_mm_unpacklo_epi64(end, other), packed_shift);
+    low_ = _mm_slli_epi32(_mm_add_epi32(end, back), packed_shift);
+    high_ = _mm_slli_epi32(_mm_sub_epi32(other, back), packed_shift);
   }
   explicit WallSteps(const FloatWall& w) {
     const __m128 limit = _mm_set1_ps(most_steps);
@@ -137,6 +146,7 @@ class WallSteps {
   }
 
   bool exact() const { return exact_; }
+  Four numbers() const { return _mm_cvtepi32_ps(steps_); }
   bool is_short(std::int32_t longest) const {
     return _mm_movemask_epi8(_mm_cmpgt_epi32(_mm_sub_epi32(high_, low_), _mm_set1_epi32(longest))) == 0;
   }
@@ -162,8 +172,8 @@ class WallSteps {
   }
 
   __m128i steps_;
-  __m128i low_;   // x y x y of the box's lower left corner
-  __m128i high_;  // and of the upper right one
+  __m128i low_;   // x y of the lower left corner of the box
+  __m128i high_;  // and of the upper right one; the other halves are as far apart, or not at all
   bool exact_;
 };
 

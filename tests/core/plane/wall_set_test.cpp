@@ -84,6 +84,16 @@ TEST(WallSet, PackedWallsAreReadBackToTheBit) {
   }
 }
 
+TEST(WallSet, AWallOfLengthZeroHasOneWord) {
+  for (const std::int32_t x : {-PackedWall::most, -3, 0, 7, PackedWall::most}) {
+    for (const std::int32_t y : {-PackedWall::most, 0, 1, PackedWall::most}) {
+      EXPECT_EQ(PackedWall::upright(x, y, 0), PackedWall::level(x, y, 0));
+      EXPECT_FALSE(PackedWall::upright(x, y, 0).is_upright());
+    }
+  }
+  EXPECT_NE(PackedWall::upright(1, 2, 3), PackedWall::level(1, 2, 3));
+}
+
 TEST(WallSet, WithoutWallsIsEmpty) {
   EXPECT_EQ(WallSet().size(), 0U);
   EXPECT_EQ(WallSet::narrowest({}).size(), 0U);

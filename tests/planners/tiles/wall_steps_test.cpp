@@ -26,6 +26,7 @@ void expect_alike(const Wall& wall, bool is_whole) {
   EXPECT_EQ(steps.exact(), is_whole);
   EXPECT_EQ(plain.exact(), is_whole);
   if (!is_whole) return;
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(steps.numbers()[i], plain.numbers()[i]) << i;
   for (const std::int32_t longest : {0, 127, 128, 8192, 1 << 30}) {
     EXPECT_EQ(steps.is_short(longest), plain.is_short(longest)) << longest;
   }
