@@ -12,7 +12,6 @@
 
 #include "core/base/error.hpp"
 #include "core/base/raw_vector.hpp"
-#include "parallel/chunks.hpp"
 #include "scenes/mazes/held_cells.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "scenes/mazes/maze_outline.hpp"
@@ -152,14 +151,16 @@ bool MazeFile::has_outline(std::uint32_t first_row, std::uint32_t last_row) cons
   return stands;
 }
 
-void MazeFile::check(const Execution& execution) const {
-  if (execution.progress != nullptr) execution.progress->begin("read", bands_of(rows()));
+void MazeFile::check(Range tile_rows, const Execution& execution) const {
+  static_assert(rows_a_band == 1U << CellBits::usual_side_log2, "a row of tiles has a checksum");
+  if (execution.progress != nullptr) execution.progress->begin("read", tile_rows.size());
   enum : std::uint8_t { good, damaged, open };
-  std::vector<std::uint8_t> found(bands_of(rows()), good);
+  std::vector<std::uint8_t> found(tile_rows.size(), good);
   for_chunks(found.size(), 1, execution, [&](Range r) {
-    const auto first_row = static_cast<std::uint32_t>(r.first * rows_a_band);
-    const std::string_view bytes = band(r.first);
-    if (crc32(bytes) != sum_of_band(r.first)) {
+    const std::size_t number = tile_rows.first + r.first;
+    const auto first_row = static_cast<std::uint32_t>(number * rows_a_band);
+    const std::string_view bytes = band(number);
+    if (crc32(bytes) != sum_of_band(number)) {
       found[r.first] = damaged;
     } else if (!has_outline(first_row, std::min(rows(), first_row + rows_a_band))) {
       found[r.first] = open;
@@ -167,12 +168,12 @@ void MazeFile::check(const Execution& execution) const {
     const auto at = static_cast<std::size_t>(bytes.data() - file_.bytes().data());
     file_.forget(at, at + bytes.size());
   });
-  for (std::size_t number = 0; number < found.size(); ++number) {
-    if (found[number] == good) continue;
-    const std::uint64_t first = number * std::uint64_t{rows_a_band};
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (found[i] == good) continue;
+    const std::uint64_t first = (tile_rows.first + i) * std::uint64_t{rows_a_band};
     const std::string where =
         fmt::format("{}: rows {} to {}", file_.name(), first, std::min<std::uint64_t>(rows(), first + rows_a_band) - 1);
-    throw InputError(where, found[number] == damaged
+    throw InputError(where, found[i] == damaged
                                 ? "are damaged: their checksum is another"
                                 : "do not close the maze's outline, which is open left of the first cell and right of "
                                   "the last one alone");

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "core/plane/cell_walls.hpp"
+#include "parallel/chunks.hpp"
 #include "parallel/execution.hpp"
 #include "scenes/mazes/cell_bits.hpp"
 #include "scenes/scene/scene.hpp"
@@ -27,7 +28,9 @@ class MazeFile : public CellBits {
   /// Looks at the header and the file's size alone. Throws InputError.
   explicit MazeFile(const InputFile& file);
   /// Holds all cells against their checksums, and the outline against what a maze has. Throws InputError, Stopped.
-  void check(const Execution& execution) const;
+  void check(const Execution& execution) const { check({0, tile_count() / tile_cols()}, execution); }
+  /// The same of these rows of tiles, and looks at no others.
+  void check(Range tile_rows, const Execution& execution) const;
   /// Unit walls, and the outline's four, as the generator has them; of a checked file. Throws Stopped.
   std::uint64_t wall_count(const Execution& execution) const;
   /// Tells two mazes apart, of any size: made of rows, columns and checksums.

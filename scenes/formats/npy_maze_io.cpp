@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "parallel/chunks.hpp"
 #include "scenes/formats/maze_file_io.hpp"
 
 namespace warren {
@@ -46,8 +45,15 @@ std::optional<MazeHint> size_of(std::span<const WallOf<T>> walls) {
   return MazeHint{static_cast<std::uint32_t>(rows), static_cast<std::uint32_t>(cols)};
 }
 
-RawVector<std::uint8_t> empty_maze(MazeHint maze, const Execution& execution) {
-  const std::size_t bytes = maze.rows * bytes_a_row(maze.cols);
+/// With the row below the first.
+Range cell_rows(MazeHint maze, std::optional<TileRows> held) {
+  if (!held) return {0, maze.rows};
+  const std::size_t first = held->first << CellBits::usual_side_log2;
+  return {first > 0 ? first - 1 : 0, std::min<std::size_t>(maze.rows, held->last << CellBits::usual_side_log2)};
+}
+
+RawVector<std::uint8_t> empty_maze(Range rows, std::uint32_t cols, const Execution& execution) {
+  const std::size_t bytes = rows.size() * bytes_a_row(cols);
   execution.reserve(bytes);
   RawVector<std::uint8_t> bits;
   assign_polled(bits, bytes, std::uint8_t{0}, [&] { execution.check(); });
@@ -75,11 +81,13 @@ std::optional<Scene> unmade_npy(const InputFile& file) {
   return scene;
 }
 
-NpyMaze::NpyMaze(const InputFile& file, MazeHint maze, const Execution& execution)
+NpyMaze::NpyMaze(const InputFile& file, MazeHint maze, const Execution& execution, std::optional<TileRows> held)
     : array_(npy_walls(file)),
       maze_(maze),
-      bits_(empty_maze(maze, execution)),
-      cells_(maze.rows, maze.cols, bits_.data()) {
+      rows_(cell_rows(maze, held)),
+      bits_(empty_maze(rows_, maze.cols, execution)),
+      cells_(maze.rows, maze.cols, bits_.data(), {}, CellBits::usual_side_log2,
+             static_cast<std::uint32_t>(rows_.first)) {
   for (std::uint32_t row = 0; row + 1 < maze.rows; ++row) stand(maze.cols - 1, row, CellTile::right_wall);
   for (std::uint32_t col = 0; col < maze.cols; ++col) stand(col, maze.rows - 1, CellTile::upper_wall);
   if (execution.progress != nullptr) execution.progress->begin("read", array_.walls);

@@ -9,9 +9,11 @@
 #include <string>
 
 #include "core/base/raw_vector.hpp"
+#include "parallel/chunks.hpp"
 #include "parallel/execution.hpp"
 #include "scenes/formats/npy_io.hpp"
 #include "scenes/mazes/cell_bits.hpp"
+#include "scenes/mazes/spanning_maze.hpp"
 #include "scenes/scene/scene.hpp"
 #include "scenes/text/input_file_io.hpp"
 
@@ -24,9 +26,10 @@ std::optional<Scene> unmade_npy(const InputFile& file);
 /// Holds the cells, not the file.
 class NpyMaze {
  public:
-  /// maze: as unmade_npy() says. Throws InputError for a wall off the grid, outside the outline or in one of its doors;
+  /// maze: as unmade_npy() says; held: rows of tiles whose cells are kept, and the row of cells below them, of all that
+  /// are looked at; none: all. Throws InputError for a wall off the grid, outside the outline or in one of its doors;
   /// Stopped.
-  NpyMaze(const InputFile& file, MazeHint maze, const Execution& execution);
+  NpyMaze(const InputFile& file, MazeHint maze, const Execution& execution, std::optional<TileRows> held = {});
   const CellBits& cells() const { return cells_; }
   std::size_t wall_count() const { return array_.walls; }
   /// scene_hash() of the scene with the walls.
@@ -38,11 +41,14 @@ class NpyMaze {
   template <class T>
   void add(const InputFile& file, std::size_t row, const WallOf<T>& wall);
   void stand(std::uint32_t col, std::uint32_t row, unsigned wall) {
-    bits_[row * bytes_a_row(maze_.cols) + col / 4] |= static_cast<std::uint8_t>(wall << (2 * (col % 4)));
+    if (row < rows_.first || row >= rows_.last) return;
+    bits_[(row - rows_.first) * bytes_a_row(maze_.cols) + col / 4] |=
+        static_cast<std::uint8_t>(wall << (2 * (col % 4)));
   }
 
   NpyWalls array_;
   MazeHint maze_;
+  Range rows_;  // of cells that are held
   RawVector<std::uint8_t> bits_;
   CellBits cells_;
   std::string hash_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cstring>
 #include <limits>
 
@@ -60,7 +61,8 @@ class CellBits::Reader : public CellWallReader {
     last_row_ = std::max<std::size_t>(last_row_, std::size_t{tile.first_row} + tile.height);
     for (std::ptrdiff_t row = tile.first_row > 0 ? -1 : 0; row < std::ptrdiff_t{tile.height}; ++row) {
       const auto maze_row = static_cast<std::size_t>(std::ptrdiff_t{tile.first_row} + row);
-      const std::uint8_t* const bits = cells_.bits_ + maze_row * row_bytes_;
+      assert(maze_row >= cells_.first_row_);
+      const std::uint8_t* const bits = cells_.bits_ + (maze_row - cells_.first_row_) * row_bytes_;
       std::uint8_t* const out = tile.walls.data() + tile.index(-1, row);
       const std::uint32_t left = tile.first_col - 1;
       if (tile.first_col > 0) *out = bits[left / 4] >> (2 * (left % 4)) & 3U;

@@ -22,23 +22,25 @@ constexpr std::size_t bytes_a_row(std::uint32_t cols) { return (std::size_t{cols
 /// cells a side share no bytes.
 void pack_tile(const CellTile& tile, std::size_t row_bytes, std::uint8_t* rows);
 
-/// Bits that somebody holds, tile by tile. Refers to them.
+/// Bits that somebody holds, tile by tile, of all rows or of some. Refers to them.
 class CellBits : public CellWallSource {
  public:
   static constexpr unsigned usual_side_log2 = 8;
   /// Called for bytes first .. last - 1 that a reader has looked at and may not look at again.
   using Forget = std::function<void(std::size_t first, std::size_t last)>;
 
-  /// side_log2 >= 2.
+  /// side_log2 >= 2. first_row: that of the first bits; no tile is read that needs those of a row below, or above the
+  /// last that is held.
   CellBits(std::uint32_t rows, std::uint32_t cols, const std::uint8_t* bits, Forget forget = {},
-           unsigned side_log2 = usual_side_log2)
-      : CellWallSource(rows, cols, side_log2), bits_(bits), forget_(std::move(forget)) {}
+           unsigned side_log2 = usual_side_log2, std::uint32_t first_row = 0)
+      : CellWallSource(rows, cols, side_log2), bits_(bits), forget_(std::move(forget)), first_row_(first_row) {}
   std::unique_ptr<CellWallReader> reader() const override;
 
  private:
   class Reader;
   const std::uint8_t* bits_;
   Forget forget_;
+  std::uint32_t first_row_;
 };
 
 }  // namespace warren

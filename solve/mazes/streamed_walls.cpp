@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solve/mazes/streamed_walls.hpp"
 
+#include <algorithm>
+
 #include "core/base/error.hpp"
 #include "scenes/formats/maze_file_io.hpp"
 #include "scenes/formats/npy_maze_io.hpp"
@@ -12,11 +14,17 @@
 namespace warren {
 namespace {
 
+constexpr unsigned tile_side_log2 = CellBits::usual_side_log2;
+
+Range cell_rows(MazeHint size, TileRows own) {
+  return {own.first << tile_side_log2, std::min<std::size_t>(size.rows, own.last << tile_side_log2)};
+}
+
 /// The formula is what the maze is, for the judge, too.
 class FormulaWalls : public StreamedWalls {
  public:
   FormulaWalls(MazeHint size, const MazeFormula& formula, const Execution& execution, KeptParts* kept)
-      : maze_(size.rows, size.cols, formula.seed, formula.loops, execution, CellBits::usual_side_log2, kept) {}
+      : maze_(size.rows, size.cols, formula.seed, formula.loops, execution, tile_side_log2, kept) {}
   const CellWallSource& planned() const override { return maze_; }
   const CellWallSource& judged() const override { return maze_; }
 
@@ -26,12 +34,12 @@ class FormulaWalls : public StreamedWalls {
 
 class FileWalls : public StreamedWalls {
  public:
-  FileWalls(const PackedMaze& packed, const Execution& execution)
+  FileWalls(const PackedMaze& packed, TileRows own, const Execution& execution)
       : file_(packed.file, execution),
         planned_(file_),
         judged_(file_.name(), file_.bytes(),
                 [this](std::size_t first, std::size_t last) { file_.forget(first, last); }) {
-    planned_.check(execution);
+    planned_.check({own.first, own.last}, execution);
     if (planned_.hash() != packed.hash) throw InputError(packed.file, "has changed since it was looked at first");
   }
   const CellWallSource& planned() const override { return planned_; }
@@ -46,11 +54,11 @@ class FileWalls : public StreamedWalls {
 /// Two passes over an array: the planner's, and the judge's.
 class ArrayWalls : public StreamedWalls {
  public:
-  ArrayWalls(const PackedMaze& packed, MazeHint size, const Execution& execution)
+  ArrayWalls(const PackedMaze& packed, MazeHint size, TileRows own, const Execution& execution)
       : file_(packed.file, execution),
-        planned_(file_, size, execution),
+        planned_(file_, size, execution, own),
         judged_(
-            file_.name(), file_.bytes(), size.rows, size.cols,
+            file_.name(), file_.bytes(), size.rows, size.cols, cell_rows(size, own),
             [this](std::size_t first, std::size_t last) { file_.forget(first, last); }, execution) {}
   const CellWallSource& planned() const override { return planned_.cells(); }
   const CellWallSource& judged() const override { return judged_; }
@@ -65,11 +73,13 @@ class ArrayWalls : public StreamedWalls {
 
 }  // namespace
 
+std::unique_ptr<StreamedWalls> streamed_walls(const Scene& unmade, TileRows own, const Execution& execution) {
+  if (unmade.packed->hash) return std::make_unique<FileWalls>(*unmade.packed, own, execution);
+  return std::make_unique<ArrayWalls>(*unmade.packed, *unmade.maze, own, execution);
+}
+
 std::unique_ptr<StreamedWalls> streamed_walls(const Scene& unmade, const Execution& execution, KeptParts* kept) {
-  if (unmade.packed && !unmade.packed->hash) {
-    return std::make_unique<ArrayWalls>(*unmade.packed, *unmade.maze, execution);
-  }
-  if (unmade.packed) return std::make_unique<FileWalls>(*unmade.packed, execution);
+  if (unmade.packed) return streamed_walls(unmade, {0, ((unmade.maze->rows - 1) >> tile_side_log2) + 1}, execution);
   return std::make_unique<FormulaWalls>(*unmade.maze, *unmade.formula, execution, kept);
 }
 

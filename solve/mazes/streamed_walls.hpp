@@ -11,6 +11,7 @@
 #include "core/base/kept_parts.hpp"
 #include "core/plane/cell_walls.hpp"
 #include "parallel/execution.hpp"
+#include "scenes/mazes/spanning_maze.hpp"
 #include "scenes/scene/scene.hpp"
 
 namespace warren {
@@ -34,5 +35,10 @@ class StreamedWalls {
 /// kept, where given, was begun, and has parts of a maze that an earlier run made.
 std::unique_ptr<StreamedWalls> streamed_walls(const Scene& unmade, const Execution& execution,
                                               KeptParts* kept = nullptr);
+
+/// The walls that a file (Scene::packed) has of some rows of tiles, at least one, and of the row of cells below them;
+/// no others are asked for. Of a .maze no more is read; an array has no order that could be relied on, so all of it is,
+/// and these walls stay.
+std::unique_ptr<StreamedWalls> streamed_walls(const Scene& unmade, TileRows own, const Execution& execution);
 
 }  // namespace warren

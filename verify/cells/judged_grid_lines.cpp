@@ -2,6 +2,7 @@
 #include "verify/cells/judged_grid_lines.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 #include "core/base/error.hpp"
 
@@ -13,10 +14,11 @@ void set_bit(RawVector<std::uint64_t>& bits, std::uint64_t at) { bits[at / 64] |
 
 }  // namespace
 
-JudgedGridLines::JudgedGridLines(std::uint32_t rows, std::uint32_t cols, unsigned side_log2, const Execution& execution)
-    : LookedUpWalls(rows, cols, side_log2) {
-  const std::size_t upright = ((cols + std::size_t{1}) * rows + 63) / 64;
-  const std::size_t level = ((rows + std::size_t{1}) * cols + 63) / 64;
+JudgedGridLines::JudgedGridLines(std::uint32_t rows, std::uint32_t cols, unsigned side_log2, Range held,
+                                 const Execution& execution)
+    : LookedUpWalls(rows, cols, side_log2), held_(held) {
+  const std::size_t upright = ((cols + std::size_t{1}) * held.size() + 63) / 64;
+  const std::size_t level = ((held.size() + 1) * cols + 63) / 64;
   execution.reserve((upright + level) * sizeof(std::uint64_t));
   const auto poll = [&] { execution.check(); };
   assign_polled(upright_, upright, std::uint64_t{0}, poll);
@@ -25,7 +27,7 @@ JudgedGridLines::JudgedGridLines(std::uint32_t rows, std::uint32_t cols, unsigne
 
 JudgedGridLines::JudgedGridLines(const WallSet& walls, std::uint32_t rows, std::uint32_t cols,
                                  const Execution& execution)
-    : JudgedGridLines(rows, cols, usual_side_log2, execution) {
+    : JudgedGridLines(rows, cols, usual_side_log2, {0, rows}, execution) {
   constexpr std::size_t polled = std::size_t{1} << 16;
   Box around;
   walls.visit([&](auto held) {
@@ -52,10 +54,11 @@ void JudgedGridLines::take(const std::string& where, double x1, double y1, doubl
   for (; x1 != x2 || y1 != y2; x1 += dx, y1 += dy) {
     const auto col = static_cast<std::uint64_t>(dx < 0 ? x1 - 1 : x1);  // of the unit's lower or left end, from 0
     const auto row = static_cast<std::uint64_t>(dy < 0 ? y1 - 1 : y1);
-    if (dx == 0) {
-      set_bit(upright_, col * rows() + row);
-    } else {
-      set_bit(level_, row * cols() + col);
+    if (row < held_.first || row > held_.last) continue;
+    if (dx != 0) {
+      set_bit(level_, (row - held_.first) * cols() + col);
+    } else if (row < held_.last) {
+      set_bit(upright_, col * held_.size() + row - held_.first);
     }
   }
 }
@@ -64,8 +67,9 @@ void JudgedGridLines::take(const std::string& where, double x1, double y1, doubl
 unsigned JudgedGridLines::walls_at(std::ptrdiff_t col, std::ptrdiff_t row) const {
   const auto x = static_cast<std::uint64_t>(col + 1);
   const auto y = static_cast<std::uint64_t>(row + 1);
-  const bool right = y > 0 && bit(upright_, x * rows() + y - 1);
-  const bool above = x > 0 && bit(level_, y * cols() + x - 1);
+  assert(y >= held_.first && y <= held_.last);
+  const bool right = y > held_.first && bit(upright_, x * held_.size() + y - 1 - held_.first);
+  const bool above = x > 0 && bit(level_, (y - held_.first) * cols() + x - 1);
   return (right ? CellTile::right_wall : 0U) | (above ? CellTile::upper_wall : 0U);
 }
 

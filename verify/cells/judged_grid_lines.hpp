@@ -10,6 +10,7 @@
 #include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
 #include "core/plane/wall_set.hpp"
+#include "parallel/chunks.hpp"
 #include "parallel/execution.hpp"
 #include "verify/cells/looked_up_walls.hpp"
 
@@ -23,12 +24,14 @@ class JudgedGridLines : public LookedUpWalls {
   unsigned walls_at(std::ptrdiff_t col, std::ptrdiff_t row) const override;
 
  protected:
-  /// No wall yet.
-  JudgedGridLines(std::uint32_t rows, std::uint32_t cols, unsigned side_log2, const Execution& execution);
+  /// No wall yet. held: rows of cells whose walls are kept; no others are asked for, but for the walls above the row
+  /// below the first.
+  JudgedGridLines(std::uint32_t rows, std::uint32_t cols, unsigned side_log2, Range held, const Execution& execution);
   /// Unit by unit, from one end to the other. Throws InputError naming `where`.
   void take(const std::string& where, double x1, double y1, double x2, double y2);
 
  private:
+  const Range held_;
   RawVector<std::uint64_t> upright_;
   RawVector<std::uint64_t> level_;
 };

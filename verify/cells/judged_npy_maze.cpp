@@ -25,8 +25,8 @@ std::size_t begin_of_numbers(const std::string& name, std::string_view bytes) {
 }  // namespace
 
 JudgedNpyMaze::JudgedNpyMaze(const std::string& name, std::string_view bytes, std::uint32_t rows, std::uint32_t cols,
-                             const Forget& forget, const Execution& execution)
-    : JudgedGridLines(rows, cols, npy_side_log2, execution) {
+                             Range held, const Forget& forget, const Execution& execution)
+    : JudgedGridLines(rows, cols, npy_side_log2, held, execution) {
   constexpr std::size_t window = std::size_t{1} << 23;  // bytes
   const std::size_t begin = begin_of_numbers(name, bytes);
   const bool is_float = bytes.substr(0, begin).find("<f4") != std::string_view::npos;

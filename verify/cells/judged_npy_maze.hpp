@@ -19,8 +19,9 @@ class JudgedNpyMaze : public JudgedGridLines {
   /// Called for bytes first .. last - 1 that have been looked at.
   using Forget = std::function<void(std::size_t first, std::size_t last)>;
 
-  /// Throws InputError for what is no array (n, 4) of <f4 or <f8, and for walls that are none of such a maze; Stopped.
-  JudgedNpyMaze(const std::string& name, std::string_view bytes, std::uint32_t rows, std::uint32_t cols,
+  /// held: rows of cells whose walls are kept. Throws InputError for what is no array (n, 4) of <f4 or <f8, and for
+  /// walls that are none of such a maze; Stopped.
+  JudgedNpyMaze(const std::string& name, std::string_view bytes, std::uint32_t rows, std::uint32_t cols, Range held,
                 const Forget& forget, const Execution& execution);
 
  private:
