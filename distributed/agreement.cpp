@@ -46,7 +46,7 @@ bool end_others(Transport& transport, Reply last_word) {
 
 }  // namespace
 
-bool agree(Transport& transport, std::string_view facts, const Execution& execution) {
+bool agree(Transport& transport, std::string_view facts, const Execution& execution, std::string_view difference) {
   const auto bytes = std::as_bytes(std::span(facts));
   if (transport.rank() > 0) {
     transport.send(0, bytes, execution);
@@ -63,9 +63,8 @@ bool agree(Transport& transport, std::string_view facts, const Execution& execut
   const Bytes answer{first ? std::byte{0} : std::byte{1}};
   for (unsigned rank = 1; rank < transport.ranks(); ++rank) transport.send(rank, answer, execution);
   if (!first) return true;
-  throw InputError(
-      fmt::format("rank {}", first->rank),
-      fmt::format("is another program or was given other words than rank 0: '{}', not '{}'", first->facts, facts));
+  throw InputError(fmt::format("rank {}", first->rank),
+                   fmt::format("{}: '{}', not '{}'", difference, first->facts, facts));
 }
 
 EndOfFollowers::~EndOfFollowers() { end_others(transport_, Reply::ended); }

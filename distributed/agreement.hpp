@@ -9,9 +9,11 @@
 
 namespace warren {
 
-/// Every rank calls it first, with all that must be the same everywhere. Throws InputError at rank 0 and returns false
-/// at the others where a rank differs. Throws Stopped.
-bool agree(Transport& transport, std::string_view facts, const Execution& execution);
+/// Every rank calls it first, with all that must be the same everywhere. Throws InputError at rank 0, which says what a
+/// rank that differs does, and returns false at the others. These return false, too, where rank 0 has failed before it.
+/// Throws Stopped.
+bool agree(Transport& transport, std::string_view facts, const Execution& execution,
+           std::string_view difference = "is another program or was given other words than rank 0");
 
 /// Lives at rank 0 while the others follow().
 class EndOfFollowers {

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "planners/tiled/lattice_tiles.hpp"
 #include "planners/tiled/peeled_band.hpp"
 #include "planners/tiles/tile_source.hpp"
+#include "scenes/mazes/cell_bits.hpp"
 
 namespace warren {
 namespace {
@@ -32,6 +34,30 @@ std::span<const std::uint8_t> steps_in(const TileSummary& tile, const TileChain&
 }
 
 }  // namespace
+
+BandTask BandTask::of(const Scene& unmade, const WallProblem& problem) {
+  return {*unmade.maze,
+          unmade.formula.value_or(MazeFormula{}),
+          unmade.packed,
+          problem.reach(),
+          {.radius = problem.robot.radius, .clearance = problem.clearance}};
+}
+
+TileGrid BandTask::grid() const { return TileGrid::of({size.rows, size.cols}, CellBits::usual_side_log2); }
+
+KnownWalls KnownWalls::of(const StreamedWalls& read) {
+  return {read.hash().value_or(std::string{}), read.wall_count().value_or(0)};
+}
+
+void KnownWalls::pack(ValuePacker& to) const {
+  to.add_text(hash);
+  to.add(count);
+}
+
+KnownWalls KnownWalls::unpack(ValueUnpacker& from) {
+  std::string hash = from.take_text();
+  return {std::move(hash), from.take<std::uint64_t>()};
+}
 
 TileRows band_rows(std::size_t tile_rows, unsigned rank, unsigned ranks) {
   return {tile_rows * rank / ranks, tile_rows * (rank + std::size_t{1}) / ranks};
@@ -70,25 +96,37 @@ TileSummary ReducedBand::counts() const {
   return tile;
 }
 
-Band::Band(const BandTask& task, TileRows own)
-    : task_(task), grid_(TileGrid::of({task.rows, task.cols}, 8)), own_(own) {}
+Band::Band(const BandTask& task, TileRows own) : task_(task), grid_(task.grid()), own_(own) {}
 
 std::optional<maze::RimPart> Band::make(const Execution& execution) {
   if (is_empty()) return std::nullopt;
+  if (task_.packed) {
+    Scene unmade;
+    unmade.maze = task_.size;
+    unmade.packed = task_.packed;
+    read_ = streamed_walls(unmade, own_, execution);
+    return std::nullopt;
+  }
   maze::RimPart rim;
-  maze_.emplace(task_.rows, task_.cols, task_.seed, task_.loops, own_, rim, execution, grid_.side_log2);
+  const auto [seed, loops] = task_.formula;
+  maze_.emplace(task_.size.rows, task_.size.cols, seed, loops, own_, rim, execution, grid_.side_log2);
   return rim;
 }
 
-std::vector<TileSummary> Band::reduce(const OverlayEnds& ends, const Execution& execution) {
+const CellWallSource& Band::walls(WallsFor who) const {
+  if (!read_) return *maze_;
+  return who == WallsFor::judge ? read_->judged() : read_->planned();
+}
+
+std::vector<TileSummary> Band::reduce(const OverlayEnds& ends, BandPeeling peeling, const Execution& execution) {
   ends_ = ends;
   if (is_empty()) return {};
-  const auto source = cell_tiles(*maze_, grid_);
+  const auto source = cell_tiles(walls(WallsFor::planner), grid_);
   execution.reserve(tiles().size() * sizeof(TileSummary));
   std::vector<TileSummary> summaries(tiles().size());
   LatticeTiles(grid_, *source, source->box(), task_.clearance * (1 + 1e-9), ends_, grain)
       .reduce(tiles(), false, summaries, nullptr, execution);
-  peel_band(grid_, own_.first, own_.last, ends_, summaries, execution);
+  if (peeling == BandPeeling::band) peel_band(grid_, own_.first, own_.last, ends_, summaries, execution);
   return summaries;
 }
 
@@ -102,7 +140,7 @@ std::vector<std::vector<std::uint8_t>> Band::steps_of(std::span<const TileChain>
   if (own.empty()) return steps;
   std::sort(own.begin(), own.end());
   own.erase(std::unique(own.begin(), own.end()), own.end());
-  const auto source = cell_tiles(*maze_, grid_);
+  const auto source = cell_tiles(walls(WallsFor::planner), grid_);
   std::vector<TileSummary> made(own.size());
   LatticeTiles(grid_, *source, source->box(), task_.clearance * (1 + 1e-9), ends_, grain).reduce(own, made, execution);
   for (std::size_t i = 0; i < chains.size(); ++i) {
@@ -117,7 +155,8 @@ std::vector<std::vector<std::uint8_t>> Band::steps_of(std::span<const TileChain>
 NearestWalls Band::judge(std::span<const NearLegs> legs, double reach, const Execution& execution) const {
   NearestWalls nearest{std::numeric_limits<double>::infinity(), std::numeric_limits<std::uint64_t>::max(), 0};
   for (const NearLegs& run : legs) {
-    NearestWalls found = nearest_among_cells(*maze_, tiles(), run.points, task_.judged, reach, execution);
+    NearestWalls found =
+        nearest_among_cells(walls(WallsFor::judge), tiles(), run.points, task_.judged, reach, execution);
     nearest.least = std::min(nearest.least, found.least);
     if (found.leg == std::numeric_limits<std::uint64_t>::max()) continue;
     found.leg += run.first;

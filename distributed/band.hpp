@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One rank's share of a streamed run: rows of tiles of a maze of mst, which it makes, reduces and peels, expands and
+// One rank's share of a streamed run: rows of tiles of a maze, which it makes or reads, reduces and peels, expands and
 // judges. It knows nothing of other ranks.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "core/base/packed_values.hpp"
 #include "core/plane/cell_walls.hpp"
 #include "parallel/chunks.hpp"
 #include "parallel/execution.hpp"
@@ -16,17 +19,33 @@
 #include "planners/tiles/tile_grid.hpp"
 #include "scenes/mazes/spanning_maze.hpp"
 #include "scenes/scene/scene.hpp"
+#include "solve/mazes/streamed_walls.hpp"
+#include "solve/question/question.hpp"
 #include "verify/cells/verify_cells.hpp"
 
 namespace warren {
 
 /// What all ranks know before the first message: they are given the same words.
 struct BandTask {
-  std::uint32_t rows, cols;
-  std::uint64_t seed;
-  double loops;
-  double clearance;      ///< of body and question
-  VerifyOptions judged;  ///< of the judge
+  MazeHint size;
+  MazeFormula formula;               ///< of the walls
+  std::optional<PackedMaze> packed;  ///< instead: the file that has them, as this rank sees it
+  double clearance;                  ///< of body and question
+  VerifyOptions judged;              ///< of the judge
+
+  static BandTask of(const Scene& unmade, const WallProblem& problem);
+  TileGrid grid() const;
+};
+
+/// What is known of a file's walls by reading them; the same at all ranks that have read all of it.
+struct KnownWalls {
+  std::string hash;  ///< empty: not known
+  std::uint64_t count = 0;
+
+  static KnownWalls of(const StreamedWalls& read);
+  void pack(ValuePacker& to) const;
+  static KnownWalls unpack(ValueUnpacker& from);
+  bool operator==(const KnownWalls&) const = default;
 };
 
 /// Rows of tiles first .. last - 1 of rank r: R r / p to R (r + 1) / p.
@@ -55,23 +74,32 @@ struct ReducedBand {
   TileSummary counts() const;
 };
 
+/// How much of its tiles a rank hands on: dead ends that end within its band say nothing of the way between the ends.
+enum class BandPeeling : std::uint32_t { none, band };
+
+/// Who asks for walls: of files both have readers of their own.
+enum class WallsFor : std::uint32_t { planner, judge };
+
 class Band {
  public:
   /// own may be empty.
   Band(const BandTask& task, TileRows own);
 
-  /// Makes the own tiles' trees; what they say to the rest of the maze. Nothing where there are no tiles.
+  /// Reads what a file has of the own tiles, which can be read then, or makes their trees; what these say to the rest
+  /// of the maze. Nothing where there are no tiles. Throws InputError, ReadError, Stopped.
   std::optional<maze::RimPart> make(const Execution& execution);
-  /// What the rest of the maze makes of them, of the row below as well. From now on tiles can be read.
+  /// What the rest of the maze makes of trees, of the row below as well. From now on tiles can be read.
   void turn(std::span<const std::uint64_t> edges) { maze_->turn(edges); }
+  /// What was read of a file; nullptr where nothing was.
+  const StreamedWalls* read() const { return read_.get(); }
 
   bool is_empty() const { return own_.first == own_.last; }
   Range tiles() const { return {own_.first * grid_.tile_cols, own_.last * grid_.tile_cols}; }
   const TileGrid& grid() const { return grid_; }
-  const SpanningMaze& maze() const { return *maze_; }
+  const CellWallSource& walls(WallsFor who) const;
 
-  /// Summaries of the own tiles without steps, but for dead ends that end within the band.
-  std::vector<TileSummary> reduce(const OverlayEnds& ends, const Execution& execution);
+  /// Summaries of the own tiles without steps.
+  std::vector<TileSummary> reduce(const OverlayEnds& ends, BandPeeling peeling, const Execution& execution);
   /// Directions of chains of own tiles; of others nothing.
   std::vector<std::vector<std::uint8_t>> steps_of(std::span<const TileChain> chains, const Execution& execution) const;
   NearestWalls judge(std::span<const NearLegs> legs, double reach, const Execution& execution) const;
@@ -80,8 +108,9 @@ class Band {
   const BandTask task_;
   const TileGrid grid_;
   const TileRows own_;
-  std::optional<SpanningMaze> maze_;
-  OverlayEnds ends_;  // as reduce() was told
+  std::optional<SpanningMaze> maze_;     // made
+  std::unique_ptr<StreamedWalls> read_;  // or read
+  OverlayEnds ends_;                     // as reduce() was told
 };
 
 }  // namespace warren

@@ -23,7 +23,7 @@ class Follower {
  public:
   Follower(Transport& transport, const BandTask& task, const FollowerLimits& limits)
       : transport_(transport),
-        band_(task, band_rows(TileGrid::of({task.rows, task.cols}, 8).tile_rows, transport.rank(), transport.ranks())),
+        band_(task, band_rows(task.grid().tile_rows, transport.rank(), transport.ranks())),
         outer_(limits.signal),
         deadline_(std::numeric_limits<double>::infinity(), limits.memory_bytes, &stop_),
         waiting_(std::numeric_limits<double>::infinity(), limits.memory_bytes, limits.signal),
@@ -87,6 +87,7 @@ class Follower {
     switch (request) {
       case Request::make:
         if (const auto rim = band_.make(execution_)) rim->pack(to);
+        if (band_.read() != nullptr) KnownWalls::of(*band_.read()).pack(to);
         return;
       case Request::turn: {
         const auto edges = from.take_list<std::uint64_t>();
@@ -112,7 +113,7 @@ class Follower {
         return to.add(band_.judge(legs, reach, execution_));
       }
       case Request::read:
-        return read(from.take<std::size_t>(), to);
+        return read(from, to);
       case Request::end:
         return;
     }
@@ -121,7 +122,7 @@ class Follower {
   void reduce(ValueUnpacker& from, ValuePacker& to) {
     ends_.start.links = from.take_list<EndLink>();
     ends_.goal.links = from.take_list<EndLink>();
-    tiles_ = band_.reduce(ends_, execution_);
+    tiles_ = band_.reduce(ends_, from.take<BandPeeling>(), execution_);
     to.add(ReducedBand::of(tiles_));
   }
   void hand_over(ValuePacker& to) {
@@ -142,10 +143,11 @@ class Follower {
     }
     rounds_->serve(from, to);
   }
-  void read(std::size_t number, ValuePacker& to) const {
+  void read(ValueUnpacker& from, ValuePacker& to) const {
+    const auto number = from.take<std::size_t>();
     if (number < band_.tiles().first || number >= band_.tiles().last) throw InputError("tile", "is of another rank");
     CellTile tile;
-    band_.maze().reader()->read(number, tile);
+    band_.walls(from.take<WallsFor>()).reader()->read(number, tile);
     for (const std::uint32_t value : {tile.first_col, tile.first_row, tile.width, tile.height}) to.add(value);
     to.add_list(tile.walls);
   }

@@ -28,27 +28,62 @@ std::vector<std::uint64_t> edges_near(std::span<const std::uint64_t> edges, Tile
 
 }  // namespace
 
+class Leader::Walls : public StreamedWalls {
+ public:
+  explicit Walls(const Leader& leader) : leader_(leader) {}
+  const CellWallSource& planned() const override { return leader_.planned_; }
+  const CellWallSource& judged() const override { return leader_.judged_; }
+  std::optional<std::size_t> wall_count() const override {
+    return leader_.known_.hash.empty() ? std::nullopt : std::optional<std::size_t>(leader_.known_.count);
+  }
+  std::optional<std::string> hash() const override {
+    return leader_.known_.hash.empty() ? std::nullopt : std::optional(leader_.known_.hash);
+  }
+
+ private:
+  const Leader& leader_;
+};
+
 Leader::Leader(Transport& transport, const BandTask& task, const Execution& execution, std::uint64_t most_keys)
     : requests_(transport, execution),
       task_(task),
       most_keys_(most_keys),
-      band_(task, band_rows(TileGrid::of({task.rows, task.cols}, 8).tile_rows, 0, transport.ranks())),
-      cells_(band_, *this) {}
+      band_(task, band_rows(task.grid().tile_rows, 0, transport.ranks())),
+      planned_(band_, *this, WallsFor::planner),
+      judged_(band_, *this, WallsFor::judge) {}
 
-const CellWallSource& Leader::make(const Execution& execution) {
+std::unique_ptr<StreamedWalls> Leader::make(const Execution& execution) {
   requests_.wait_as(execution);
   requests_.ask(Request::make, {});
   std::vector<maze::RimPart> rims;
   if (auto own = band_.make(execution)) rims.push_back(std::move(*own));
+  if (band_.read() != nullptr) known_ = KnownWalls::of(*band_.read());
   const std::vector<Bytes> others = requests_.answers();
   for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
     ValueUnpacker from(others[rank], fmt::format("rank {}", rank));
-    if (!from.is_done()) rims.push_back(maze::RimPart::unpack(from));
+    if (from.is_done()) continue;
+    if (task_.packed) {
+      learn(KnownWalls::unpack(from), rank);
+    } else {
+      rims.push_back(maze::RimPart::unpack(from));
+    }
   }
+  if (!task_.packed) join_trees(std::move(rims), execution);
+  return std::make_unique<Walls>(*this);
+}
+
+void Leader::learn(const KnownWalls& theirs, unsigned rank) {
+  if (known_.hash.empty()) known_ = theirs;
+  if (known_ == theirs) return;
+  throw InputError(fmt::format("rank {}", rank), "sees another file than a lower rank: its walls have another hash",
+                   fmt::format("{}, not {}", theirs.hash, known_.hash));
+}
+
+void Leader::join_trees(std::vector<maze::RimPart> rims, const Execution& execution) {
   std::size_t edges = 0;
   for (const maze::RimPart& rim : rims) edges += rim.edges.size() + rim.at.width;
   execution.reserve(edges * 64);
-  const maze::JoinedParts joined = join_parts(task_.seed, rims, 1, band_.grid().side_log2, execution);
+  const maze::JoinedParts joined = join_parts(task_.formula.seed, rims, 1, band_.grid().side_log2, execution);
   for (unsigned rank = 0; rank < requests_.ranks(); ++rank) {
     const TileRows rows = band_rows(tile_rows(), rank, requests_.ranks());
     const std::vector<std::uint64_t> near = edges_near(joined.turned, rows, band_.grid().side_log2);
@@ -59,7 +94,6 @@ const CellWallSource& Leader::make(const Execution& execution) {
     requests_.ask_one(rank, Request::turn, packer.bytes());
   }
   requests_.answers();
-  return cells_;
 }
 
 /// Of a key the overlay has a row, a count, two labels and a parent.
@@ -74,30 +108,44 @@ bool Leader::can_hold(std::size_t bytes, std::uint64_t keys, const Execution& ex
   }
 }
 
-/// Room for all is asked for before the first comes.
-std::vector<TileSummary> Leader::reduce_all(const OverlayEnds& ends, const Execution& execution) {
+/// Each reduces its tiles, and keeps them. own: those of this rank.
+Leader::Reduced Leader::reduce_bands(const OverlayEnds& ends, BandPeeling peeling, const Execution& execution) {
   ValuePacker packer;
   pack_links(ends.start, packer);
   pack_links(ends.goal, packer);
+  packer.add(peeling);
   requests_.ask(Request::reduce, packer.bytes());
-  std::vector<TileSummary> own = band_.reduce(ends, execution);
-  ReducedBand all = ReducedBand::of(own);
+  Reduced reduced{band_.reduce(ends, peeling, execution), {}, 0};
+  reduced.all = ReducedBand::of(reduced.own);
   std::size_t largest = 0;
-  std::size_t total = 0;
   const std::vector<Bytes> others = requests_.answers();
   for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
     const auto band = ValueUnpacker(others[rank], fmt::format("rank {}", rank)).take<ReducedBand>();
     largest = std::max<std::size_t>(largest, band.bytes);
-    total += band.bytes;
-    all.add(band);
+    reduced.bytes_to_come += band.bytes;
+    reduced.all.add(band);
   }
-  if (can_hold(total + 2 * largest, all.keys, execution)) return hand_over(std::move(own), execution);
+  reduced.bytes_to_come += 2 * largest;
+  return reduced;
+}
+
+/// Room for all is asked for before the first comes.
+std::vector<TileSummary> Leader::reduce_all(const OverlayEnds& ends, const Execution& execution) {
+  Reduced reduced = reduce_bands(ends, BandPeeling::band, execution);
+  if (can_hold(reduced.bytes_to_come, reduced.all.keys, execution)) return hand_over(std::move(reduced.own), execution);
   ends_ = ends;
-  if (!own.empty()) {
-    rounds_.emplace(band_.grid(), band_rows(tile_rows(), 0, requests_.ranks()), ends_, std::move(own), execution);
+  if (!reduced.own.empty()) {
+    rounds_.emplace(band_.grid(), band_rows(tile_rows(), 0, requests_.ranks()), ends_, std::move(reduced.own),
+                    execution);
   }
   search_.emplace(requests_, rounds_ ? &*rounds_ : nullptr, band_.grid());
-  return {all.counts()};
+  return {reduced.all.counts()};
+}
+
+std::vector<TileSummary> Leader::reduce_whole(const OverlayEnds& ends, const Execution& execution) {
+  Reduced reduced = reduce_bands(ends, BandPeeling::none, execution);
+  execution.reserve(reduced.bytes_to_come);
+  return hand_over(std::move(reduced.own), execution);
 }
 
 std::vector<TileSummary> Leader::hand_over(std::vector<TileSummary> own, const Execution& execution) {
@@ -165,10 +213,13 @@ std::vector<NearestWalls> Leader::take() {
   return found;
 }
 
-CellTile Leader::tile(std::size_t number) {
+CellTile Leader::tile(std::size_t number, WallsFor who) {
   const unsigned rank = rank_of_row(number / band_.grid().tile_cols, tile_rows(), requests_.ranks());
   return asking_([&] {
-    requests_.ask_one(rank, Request::read, std::as_bytes(std::span(&number, 1)));
+    ValuePacker packer;
+    packer.add(number);
+    packer.add(who);
+    requests_.ask_one(rank, Request::read, packer.bytes());
     const Bytes bytes = requests_.answer(rank);
     ValueUnpacker from(bytes, fmt::format("rank {}", rank));
     CellTile tile;

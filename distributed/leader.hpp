@@ -4,6 +4,7 @@
 // process.
 //
 //   generate  each rank makes its band's trees; the bands' rims are joined here           16 bytes a cell of a rim
+//   index     or each reads what a file has of its band
 //   there connect   each rank reduces its tiles and peels its band; what is left comes here     about 0.05 bytes a cell
 //   search    here, by the code of one process; where this rank can't hold what would come, by all ranks in rounds
 //   expand    chains of the path by their tiles' ranks                                    a byte a step
@@ -41,7 +42,7 @@ class Leader : public StreamedTeam, private OtherTiles, private JudgesElsewhere 
   Leader(Transport& transport, const BandTask& task, const Execution& execution,
          std::uint64_t most_keys = std::numeric_limits<std::uint64_t>::max());
 
-  const CellWallSource& make(const Execution& execution) override;
+  std::unique_ptr<StreamedWalls> make(const Execution& execution) override;
   OtherTiles& tiles() override { return *this; }
   JudgesElsewhere& judges() override { return *this; }
 
@@ -50,10 +51,12 @@ class Leader : public StreamedTeam, private OtherTiles, private JudgesElsewhere 
   const std::array<std::uint64_t, request_count>& traffic() const { return requests_.traffic(); }
 
   /// A tile of another rank. Any thread.
-  CellTile tile(std::size_t number);
+  CellTile tile(std::size_t number, WallsFor who);
 
  private:
+  class Walls;
   std::vector<TileSummary> reduce_all(const OverlayEnds& ends, const Execution& execution) override;
+  std::vector<TileSummary> reduce_whole(const OverlayEnds& ends, const Execution& execution) override;
   bool searches() const override { return search_.has_value(); }
   ToldRoute search(const OverlayEnds& ends, const Execution& execution) override;
   std::vector<std::vector<std::uint8_t>> steps_of(std::span<const TileChain> chains,
@@ -62,6 +65,16 @@ class Leader : public StreamedTeam, private OtherTiles, private JudgesElsewhere 
   void begin(std::span<const Vec2> path, double reach) override;
   std::vector<NearestWalls> take() override;
 
+  /// All bands' tiles: those of this rank, what they are in sum, and what handing them over takes.
+  struct Reduced {
+    std::vector<TileSummary> own;
+    ReducedBand all;
+    std::size_t bytes_to_come;
+  };
+
+  void learn(const KnownWalls& theirs, unsigned rank);
+  void join_trees(std::vector<maze::RimPart> rims, const Execution& execution);
+  Reduced reduce_bands(const OverlayEnds& ends, BandPeeling peeling, const Execution& execution);
   bool can_hold(std::size_t bytes, std::uint64_t keys, const Execution& execution) const;
   std::vector<TileSummary> hand_over(std::vector<TileSummary> own, const Execution& execution);
   std::size_t tile_rows() const { return band_.grid().tile_rows; }
@@ -70,7 +83,9 @@ class Leader : public StreamedTeam, private OtherTiles, private JudgesElsewhere 
   const BandTask task_;
   const std::uint64_t most_keys_;
   Band band_;
-  RemoteCells cells_;
+  const RemoteCells planned_;
+  const RemoteCells judged_;
+  KnownWalls known_;  // of a file
   OneAtATime asking_;
   OverlayEnds ends_;  // where the others search, too
   std::optional<BandRounds> rounds_;

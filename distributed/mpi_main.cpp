@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The program `warren-mpi`: mpirun -n RANKS warren-mpi solve maze:ROWSxCOLS,algorithm=mst. Every rank reads the same
-// words; rank 0 alone prints, and its exit code is the run's. A rank that can't go on ends all.
+// words, and its part of the same file; rank 0 alone prints, and its exit code is the run's. A rank that can't go on
+// ends all.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The whole maze as rank 0 sees it: its own tiles are made here, others by their ranks, when they are asked for. For
-// the few tiles that no rank's share is about: those around start and goal.
+// the few tiles that no rank's share is about: those around start and goal; and for those of two components that are
+// apart.
 #pragma once
 
 #include <memory>
@@ -15,7 +16,7 @@ class Leader;
 /// Refers to both, which must outlive it.
 class RemoteCells : public CellWallSource {
  public:
-  RemoteCells(const Band& band, Leader& leader);
+  RemoteCells(const Band& band, Leader& leader, WallsFor who);
   std::unique_ptr<CellWallReader> reader() const override;
 
  private:
@@ -23,6 +24,7 @@ class RemoteCells : public CellWallSource {
 
   const Band& band_;
   Leader& leader_;
+  const WallsFor who_;
 };
 
 }  // namespace warren

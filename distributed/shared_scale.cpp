@@ -102,9 +102,8 @@ struct Mazes {
         {.rows = run.rows, .cols = run.cols, .seed = seed, .algorithm = MazeAlgorithm::mst, .loops = loops});
   }
   BandTask task(const NextRun& run) const {
-    const WallProblem problem = keeping_off(scene(run), {}, "");
-    return {run.rows, run.cols,        seed,
-            loops,    problem.reach(), {.radius = problem.robot.radius, .clearance = problem.clearance}};
+    const Scene unmade = scene(run);
+    return BandTask::of(unmade, keeping_off(unmade, {}, ""));
   }
   std::uint32_t side;
   double loops;

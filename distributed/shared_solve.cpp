@@ -3,14 +3,17 @@
 
 #include <fmt/format.h>
 
+#include <exception>
+#include <limits>
+#include <string>
 #include <utility>
 
 #include "core/base/error.hpp"
 #include "distributed/agreement.hpp"
 #include "distributed/follower.hpp"
 #include "distributed/leader.hpp"
+#include "distributed/shared_world.hpp"
 #include "scenes/formats/read_world_io.hpp"
-#include "scenes/mazes/maze_generator.hpp"
 #include "scenes/text/human_units.hpp"
 #include "solve/mazes/solve_streamed.hpp"
 #include "solve/steps/kind_of_problem.hpp"
@@ -27,35 +30,51 @@
 namespace warren {
 namespace {
 
-/// What is asked, as every rank reads it from the same words.
+/// What is asked, as every rank reads it from the same words, and from a file that has to be the same.
 struct SharedQuestion {
   explicit SharedQuestion(const Arguments& arguments)
-      : question(question_words(arguments)), options(solve_words(arguments)) {
-    const std::string& source = arguments.operand(0);
-    if (!is_maze_source(source) || parse_maze_source(source).algorithm != MazeAlgorithm::mst) {
-      throw UsageError("WORLD: ranks share mazes named maze:ROWSxCOLS,algorithm=mst, whose tiles any of them can make");
-    }
+      : source(arguments.operand(0)), question(question_words(arguments)), options(solve_words(arguments)) {
     if (options.roadmap.pipeline.value_or(PipelineKind::streamed) != PipelineKind::streamed) {
       throw UsageError("@pipeline: ranks share the work of the pipeline streamed alone");
     }
     options.roadmap.pipeline = PipelineKind::streamed;
-    scene = unmade_maze_scene(parse_maze_source(source));
-    scene.source = source;
     question.validate();
     options.validate();
     check_solver_options(options);
-    choose_solver(options, scene, question);
-    problem = keeping_off(scene, question, "prm keeps off the walls");
   }
-  BandTask task() const {
-    return {scene.maze->rows,     scene.maze->cols, scene.formula->seed,
-            scene.formula->loops, problem.reach(),  {.radius = problem.robot.radius, .clearance = problem.clearance}};
+  /// Every rank calls it, and they tell what they see. False where that is not the same; at rank 0 then throws who sees
+  /// what, or what keeps all of them from it.
+  bool open(Transport& transport, const Execution& execution) {
+    std::exception_ptr wrong;
+    std::string seen;
+    try {
+      look(execution);
+      seen = world.facts;
+    } catch (const Stopped&) {
+      throw;
+    } catch (const Error& error) {
+      wrong = std::current_exception();
+      seen = error.what();
+    }
+    const bool is_same = agree(transport, seen, execution, "does not see what rank 0 sees of the world");
+    if (wrong && transport.rank() == 0) std::rethrow_exception(wrong);
+    return is_same && !wrong;
   }
+  const Scene& scene() const { return world.scene; }
+  BandTask task() const { return BandTask::of(scene(), problem); }
 
+  std::string source;
   Question question;
   SolveOptions options;
-  Scene scene;
+  SharedWorld world;
   WallProblem problem;
+
+ private:
+  void look(const Execution& execution) {
+    world = shared_world(source, execution);
+    choose_solver(options, scene(), question);
+    problem = keeping_off(scene(), question, "prm keeps off the walls");
+  }
 };
 
 /// What survivors of a rank that died say last.
@@ -76,13 +95,14 @@ class SharedSolve : public AnswerCommand {
 
  private:
   Answer find(const Run& run, StageTimes&, ByProducts*) override {
-    check_outputs_of(robot_of(asked_.scene, asked_.question));
     Progress unseen;
     Execution execution = run.execution();
     if (execution.progress == nullptr) execution.progress = &unseen;
+    asked_.open(transport_, execution);
+    check_outputs_of(robot_of(asked_.scene(), asked_.question));
     const EndOfFollowers end(transport_);
     Leader leader(transport_, asked_.task(), execution);
-    Answer answer = solve_streamed_within(asked_.scene, asked_.question, asked_.options, execution,
+    Answer answer = solve_streamed_within(asked_.scene(), asked_.question, asked_.options, execution,
                                           {.taker = path_taker(), .team = &leader});
     answer.figures.push_back({"ranks", std::uint64_t{transport_.ranks()}});
     if (answer.stop_reason) say_where_stopped(transport_, *execution.progress, *answer.stop_reason);
@@ -105,10 +125,12 @@ class SharedSolve : public AnswerCommand {
 
 /// Says nothing of words that rank 0 refuses, too.
 int follow_words(const Arguments& arguments, Transport& transport) {
-  const SharedQuestion asked(arguments);
+  SharedQuestion asked(arguments);
   Progress progress;
   const auto memory = given_value(arguments, "--memory", memory_value);
   const auto threads = given_value(arguments, "--threads", threads_value);
+  const Deadline looking(std::numeric_limits<double>::infinity(), available_bytes(), &signal_flag());
+  if (!asked.open(transport, {.deadline = &looking})) return exit_code::success;
   try {
     follow(transport, asked.task(),
            {.threads = threads.value_or(0),

@@ -30,6 +30,9 @@ class OtherTiles {
   /// All tiles' summaries without steps. Dead ends of the overlay may be gone from them, the others' keys in their
   /// order; components that are gone with them are counted as closed. Throws Stopped.
   virtual std::vector<TileSummary> reduce_all(const OverlayEnds& ends, const Execution& execution) = 0;
+  /// The same with all their keys, where the walk along dead ends matters. Throws Stopped, also where this process
+  /// can't hold them.
+  virtual std::vector<TileSummary> reduce_whole(const OverlayEnds& ends, const Execution& execution) = 0;
   /// After reduce_all(): do the others search, since this process could not hold the overlay? Then the summaries have
   /// neither keys nor chains, and their counts are those of all tiles together.
   virtual bool searches() const = 0;

@@ -192,9 +192,14 @@ bool TiledPlan::joined() {
   return components.joined;
 }
 
-/// The tiles have been let go of, so those that are met are made again: an answer without a path is not hurried.
+/// The tiles have been let go of, so those that are met are made again: an answer without a path is not hurried. What
+/// others have handed on lacks dead ends, and where they search it is nothing.
 void TiledPlan::measure_gap() {
   if (source_ == nullptr) partition();
+  if (problem_.others != nullptr) {
+    tiles_ = problem_.others->reduce_whole(ends_, execution_);
+    overlay_.emplace(grid_, tiles_, ends_, execution_);
+  }
   const auto remake = [&](std::size_t tile, TilePlane& plane) {
     WallMarker marker(clearance_);
     tiles_made().make_plane(tile, *source_->reader(), marker, plane);
@@ -297,7 +302,7 @@ void TiledPlan::search_elsewhere() {
     solution_.counters.expanded = route.expanded;
     if (!route.joined) {
       solution_.outcome = Outcome::not_connected;
-      return;
+      return measure_gap();
     }
     tiles_ = tiles_of(route, grid_, ends_, execution_);
     overlay_.emplace(grid_, tiles_, ends_, execution_);

@@ -33,17 +33,6 @@ VerifyOptions judged_as(const WallProblem& problem) {
   return {.radius = problem.robot.radius, .clearance = problem.clearance, .start = problem.start, .goal = problem.goal};
 }
 
-/// Made by several processes.
-class TeamWalls : public StreamedWalls {
- public:
-  TeamWalls(StreamedTeam& team, const Execution& execution) : cells_(team.make(execution)) {}
-  const CellWallSource& planned() const override { return cells_; }
-  const CellWallSource& judged() const override { return cells_; }
-
- private:
-  const CellWallSource& cells_;
-};
-
 /// Judges a path as it comes, and hands it on.
 class JudgedPath : public PathTaker {
  public:
@@ -110,11 +99,7 @@ class StreamedSolve {
     const StageTimer timer(execution_, scene_.packed ? "index" : "generate", seconds, groups);
     const std::string hash = unmade_hash(scene_);
     if (help_.kept != nullptr && !hash.empty()) help_.kept->begin(work(hash));
-    if (help_.team != nullptr) {
-      walls_ = std::make_unique<TeamWalls>(*help_.team, execution_);
-    } else {
-      walls_ = streamed_walls(scene_, execution_, help_.kept);
-    }
+    walls_ = help_.team != nullptr ? help_.team->make(execution_) : streamed_walls(scene_, execution_, help_.kept);
     if (help_.kept != nullptr && hash.empty()) help_.kept->begin(work(walls_->hash().value()));
   }
   /// All that the tiles' reductions depend on.

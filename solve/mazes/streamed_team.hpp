@@ -3,9 +3,11 @@
 // (distributed/leader.hpp).
 #pragma once
 
-#include "core/plane/cell_walls.hpp"
+#include <memory>
+
 #include "parallel/execution.hpp"
 #include "planners/tiled/other_tiles.hpp"
+#include "solve/mazes/streamed_walls.hpp"
 #include "verify/cells/verify_cells.hpp"
 
 namespace warren {
@@ -16,8 +18,9 @@ class StreamedTeam {
   virtual ~StreamedTeam() = default;
   StreamedTeam(const StreamedTeam&) = delete;
   StreamedTeam& operator=(const StreamedTeam&) = delete;
-  /// Makes what the tiles need to be made each by itself; once, before all else. Throws Stopped.
-  virtual const CellWallSource& make(const Execution& execution) = 0;
+  /// Makes or reads what the tiles need to be had each by itself; once, before all else. Refers to the team. Throws
+  /// InputError, ReadError, Stopped.
+  virtual std::unique_ptr<StreamedWalls> make(const Execution& execution) = 0;
   virtual OtherTiles& tiles() = 0;
   virtual JudgesElsewhere& judges() = 0;
 };

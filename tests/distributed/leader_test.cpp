@@ -9,16 +9,14 @@
 
 #include <csignal>
 #include <limits>
-#include <optional>
 #include <string>
+#include <vector>
 
 #include "core/base/error.hpp"
 #include "distributed/agreement.hpp"
-#include "distributed/follower.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "scenes/mazes/spanning_maze.hpp"
-#include "solve/mazes/solve_streamed.hpp"
-#include "tests/distributed/thread_ranks.hpp"
+#include "tests/distributed/solved_by_ranks.hpp"
 #include "tests/seeds.hpp"
 #include "tests/solve/answer_bytes.hpp"
 #include "verify/cells/verify_cells.hpp"
@@ -26,58 +24,17 @@
 namespace warren {
 namespace {
 
+using test::Asked;
 using test::bytes_of;
+using test::Found;
+using test::much_memory;
+using test::solved;
+using test::solved_by;
+using test::task_of;
 using test::ThreadRanks;
 
-struct Asked {
-  MazeOptions maze;
-  Question question = {};
-};
-
-MazeOptions mst(std::uint32_t rows, std::uint32_t cols, std::uint64_t seed, double loops) {
-  return {.rows = rows, .cols = cols, .seed = seed, .algorithm = MazeAlgorithm::mst, .loops = loops};
-}
-
-BandTask task_of(const Asked& asked) {
-  const Scene scene = unmade_maze_scene(asked.maze);
-  const WallProblem problem = keeping_off(scene, asked.question, "");
-  return {asked.maze.rows,  asked.maze.cols, asked.maze.seed,
-          asked.maze.loops, problem.reach(), {.radius = problem.robot.radius, .clearance = problem.clearance}};
-}
-
-Answer solved(const Asked& asked, const Execution& execution, StreamedTeam* team) {
-  SolveOptions options;
-  options.roadmap.pipeline = PipelineKind::streamed;
-  return solve_streamed_within(unmade_maze_scene(asked.maze), asked.question, options, execution, {.team = team});
-}
-
-struct Found {
-  Answer answer;
-  std::uint64_t bytes_sent = 0;
-  std::uint64_t bytes_of_rounds = 0;
-  std::optional<SharedSearch::Lack> lack = {};
-};
-
-constexpr std::uint64_t all_keys = std::numeric_limits<std::uint64_t>::max();
-
-Found solved_by(unsigned ranks, const Asked& asked, const Execution& execution = {.threads = 1},
-                std::size_t followers_memory = std::size_t{1} << 40U, std::uint64_t most_keys = all_keys) {
-  ThreadRanks team(ranks);
-  const BandTask task = task_of(asked);
-  Found found;
-  team.run([&](Transport& transport) {
-    if (transport.rank() > 0) {
-      follow(transport, task, {.threads = execution.threads, .memory_bytes = followers_memory});
-      return;
-    }
-    const EndOfFollowers end(transport);
-    Leader leader(transport, task, execution, most_keys);
-    found.answer = solved(asked, execution, &leader);
-    found.bytes_of_rounds = leader.traffic()[static_cast<std::size_t>(Request::rounds)];
-    found.lack = leader.lack();
-  });
-  found.bytes_sent = team.bytes_sent();
-  return found;
+Scene mst(std::uint32_t rows, std::uint32_t cols, std::uint64_t seed, double loops) {
+  return unmade_maze_scene({.rows = rows, .cols = cols, .seed = seed, .algorithm = MazeAlgorithm::mst, .loops = loops});
 }
 
 TEST(Leader, AnyNumberOfRanksGivesTheBytesOfOneProcess) {
@@ -91,8 +48,8 @@ TEST(Leader, AnyNumberOfRanksGivesTheBytesOfOneProcess) {
                          {mst(700, 300, 8, 0.0), {.start = {3.0, 256.5}}},
                          {mst(520, 300, 9, 0.0), {.goal = {400.0, 2.0}}}};
   for (const Asked& asked : cases) {
-    SCOPED_TRACE(std::to_string(asked.maze.rows) + "x" + std::to_string(asked.maze.cols));
-    const std::string expected = bytes_of(solved(asked, {.threads = 1}, nullptr));
+    SCOPED_TRACE(fmt::format("{} x {}", asked.scene.maze->rows, asked.scene.maze->cols));
+    const std::string expected = bytes_of(solved(asked));
     for (const unsigned ranks : {1U, 2U, 3U, 5U, 8U}) {
       SCOPED_TRACE(ranks);
       EXPECT_EQ(bytes_of(solved_by(ranks, asked, {.threads = 1 + ranks % 2}).answer), expected);
@@ -116,12 +73,12 @@ TEST(Leader, ASearchOverAllRanksGivesTheBytesOfOneProcess) {
     }
   }
   for (const Asked& asked : cases) {
-    SCOPED_TRACE(
-        fmt::format("{} x {}, seed {}, loops {}", asked.maze.rows, asked.maze.cols, asked.maze.seed, asked.maze.loops));
-    const std::string expected = bytes_of(solved(asked, {.threads = 1}, nullptr));
+    SCOPED_TRACE(fmt::format("{} x {}, seed {}, loops {}", asked.scene.maze->rows, asked.scene.maze->cols,
+                             asked.scene.formula->seed, asked.scene.formula->loops));
+    const std::string expected = bytes_of(solved(asked));
     for (const unsigned ranks : {1U, 2U, 3U, 5U, 8U}) {
       SCOPED_TRACE(ranks);
-      const Found found = solved_by(ranks, asked, {.threads = 1 + ranks % 2}, std::size_t{1} << 40U, 0);
+      const Found found = solved_by(ranks, asked, {.threads = 1 + ranks % 2}, much_memory, 0);
       EXPECT_EQ(bytes_of(found.answer), expected);
       if (found.answer.path.size() > 10) {
         EXPECT_EQ(found.bytes_of_rounds > 0, ranks > 1);
@@ -133,7 +90,7 @@ TEST(Leader, ASearchOverAllRanksGivesTheBytesOfOneProcess) {
 TEST(Leader, ASearchOverAllRanksIsForWhatOneDoesNotHold) {
   const Asked asked{mst(700, 300, 1, 0.1)};
   EXPECT_EQ(solved_by(2, asked).bytes_of_rounds, 0);
-  EXPECT_GT(solved_by(2, asked, {.threads = 1}, std::size_t{1} << 40U, 100).bytes_of_rounds, 0);
+  EXPECT_GT(solved_by(2, asked, {.threads = 1}, much_memory, 100).bytes_of_rounds, 0);
 }
 
 TEST(BandRounds, ABandThatLacksMemorySaysHowMuch) {
@@ -180,12 +137,11 @@ TEST(Leader, ASignalInTheRoundsStopsAll) {
   for (const unsigned messages : {1U, 3U, 6U, 9U, 40U, 300U}) {
     SCOPED_TRACE(messages);
     SignalFlag signal{0};
-    const Deadline deadline(std::numeric_limits<double>::infinity(), std::size_t{1} << 40U, &signal);
+    const Deadline deadline(std::numeric_limits<double>::infinity(), much_memory, &signal);
     ThreadRanks team(3);
     Answer answer;
     team.run([&](Transport& transport) {
-      if (transport.rank() > 0)
-        return follow(transport, task_of(asked), {.threads = 1, .memory_bytes = std::size_t{1} << 40U});
+      if (transport.rank() > 0) return follow(transport, task_of(asked), {.threads = 1, .memory_bytes = much_memory});
       const Execution execution{.threads = 1, .deadline = &deadline};
       SignalInRounds signalled(transport, messages, signal);
       const EndOfFollowers end(transport);
@@ -218,11 +174,11 @@ TEST(Leader, JudgesOfAllRanksSayWhatOneSays) {
       for (const unsigned ranks : {2U, 3U, 5U}) {
         ThreadRanks team(ranks);
         team.run([&](Transport& transport) {
-          if (transport.rank() > 0)
-            return follow(transport, task, {.threads = 1, .memory_bytes = std::size_t{1} << 40U});
+          if (transport.rank() > 0) return follow(transport, task, {.threads = 1, .memory_bytes = much_memory});
           const EndOfFollowers end(transport);
           Leader leader(transport, task, {.threads = 1});
-          JudgeAmongCells judge(leader.make({.threads = 1}), options, {.threads = 1}, &leader.judges());
+          const auto walls = leader.make({.threads = 1});
+          JudgeAmongCells judge(walls->judged(), options, {.threads = 1}, &leader.judges());
           judge.add(path);
           const Verification found = judge.verdict();
           EXPECT_EQ(found.verified, expected.verified);

@@ -7,6 +7,7 @@ import os
 import random
 import shutil
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
@@ -39,6 +40,18 @@ def timeless(text):
     return json.dumps({key: value for key, value in answer.items() if key not in VARIES})
 
 
+def close(source, target):
+    """An array of a maze's walls with one more, in the middle from side to side."""
+    with open(source, "rb") as file:
+        head, walls = file.read(128), file.read()
+    right, top = struct.unpack("<f", walls[8:12])[0], struct.unpack("<f", walls[20:24])[0]
+    middle = (top + 0.5) // 2 + 0.5
+    count = len(walls) // 16
+    with open(target, "wb") as file:
+        file.write(head.replace(b"(%d, 4)" % count, b"(%d, 4)" % (count + 1)).rstrip().ljust(127) + b"\n")
+        file.write(walls + struct.pack("<4f", 0.5, middle, right, middle))
+
+
 def ranks_of(process):
     """The processes of a run, by rank."""
     found = {}
@@ -67,15 +80,16 @@ def is_gone(pid):
 
 
 class Answers(unittest.TestCase):
-    def same(self, world, words, ranks, threads):
+    def same(self, world, words, ranks, threads, expected=0, alone=()):
+        """alone: further words for the one process."""
         with tempfile.TemporaryDirectory() as folder:
             mine, theirs = (os.path.join(folder, name) for name in ("one", "many"))
-            code, _, err = run([WARREN, "solve", world, "--pipeline", "streamed", "--json", mine + ".json"] +
+            code, _, err = run([WARREN, "solve", world, "--pipeline", "streamed", "--json", mine + ".json", *alone] +
                                [word.replace("FILE", mine) for word in words])
-            self.assertEqual(code, 0, err)
+            self.assertEqual(code, expected, err)
             code, _, err = run(mpirun(ranks, ["solve", world, "--threads", str(threads), "--json", theirs + ".json"] +
                                       [word.replace("FILE", theirs) for word in words]))
-            self.assertEqual(code, 0, err)
+            self.assertEqual(code, expected, err)
             with open(mine + ".json") as a, open(theirs + ".json") as b:
                 a, b = a.read(), b.read()
             self.assertEqual(json.loads(b)["ranks"], ranks)
@@ -106,6 +120,41 @@ class Answers(unittest.TestCase):
         code, out, err = run(mpirun(4, ask + ["46MiB"]))
         self.assertEqual((code, json.loads(out)["status"]), (124, "stopped"), err)
         self.assertRegex(err, r"warren-mpi: rank \d would need [\d.]+ MiB more for its share of the search")
+
+    def test_files_are_read_by_bands(self):
+        """One process reads an array by its cells only where its memory does not hold the walls, which then suffices for a
+        path, not to measure the gap."""
+        with tempfile.TemporaryDirectory() as folder:
+            for number, (size, loops) in enumerate((("300x300", 0.1), ("1500x1000", 0.01), ("2100x700", 0))):
+                made = os.path.join(folder, "made.npy")
+                self.generate(size, "--seed", number + 1, "--loops", loops, "-o", made)
+                closed = os.path.join(folder, "closed.npy")
+                close(made, closed)
+                for world in (made, closed):
+                    packed = world.replace(".npy", ".maze")
+                    code, _, err = run([WARREN, "convert", world, "-o", packed])
+                    self.assertEqual(code, 0, err)
+                    files = (packed, world) if world == made and size != "300x300" else (packed,)
+                    for at, (file, ranks) in enumerate((f, r) for f in files for r in (1, 2, 3, 5, 8)):
+                        with self.subTest(file=file, size=size, ranks=ranks):
+                            words = ["--no-path", "--path", "FILE.npy"] if at % 3 == 0 and world == made else []
+                            self.same(file, words, ranks, 1 + (at + number) % 2, 0 if world == made else 1,
+                                      ["--memory", "32MiB"] if file == world else [])
+
+    def generate(self, size, *words):
+        code, _, err = run([WARREN, "generate", "maze", size, "--algorithm", "mst"] + [str(word) for word in words])
+        self.assertEqual(code, 0, err)
+
+    def test_files_that_rank_0_does_not_hold_are_searched_by_all(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "a.maze")
+            self.generate("2500x2500", "--loops", 0.1, "-o", file)
+            code, one, err = run([WARREN, "solve", file, "--pipeline", "streamed", "--no-path", "--json", "-"])
+            self.assertEqual(code, 0, err)
+            code, out, err = run(mpirun(4, ["solve", file, "--no-path", "--threads", "1", "--json", "-", "--memory", "80MiB"]))
+            self.assertEqual(code, 0, err)
+            self.assertEqual(timeless(out), timeless(one))
+            self.assertEqual(json.loads(out)["stages_s"]["graph"], 0.0, "rank 0 held the overlay")
 
     def test_scale_tells_of_each_run(self):
         code, out, err = run(mpirun(3, ["scale", "--side", "600", "--ranks", "1,2,3", "--json", "-"]))
@@ -197,6 +246,55 @@ class Faults(unittest.TestCase):
         self.assertEqual(code, 65, err)
         self.assertIn("rank 2: is another program or was given other words", err)
 
+    def test_ranks_that_see_other_files_refuse_each_other(self):
+        with tempfile.TemporaryDirectory() as top:
+            folders = [os.path.join(top, name) for name in ("here", "there")]
+            for seed, folder in enumerate(folders):
+                os.mkdir(folder)
+                for kind in ("maze", "npy"):
+                    code, _, err = run([WARREN, "generate", "maze", "700x300", "--seed", str(seed), "-o",
+                                        os.path.join(folder, "a." + kind)])
+                    self.assertEqual(code, 0, err)
+            there = {kind: os.path.join(folders[1], "a." + kind) for kind in ("maze", "npy")}
+
+            def refused(kind, code, *said, others=1):
+                words = ["solve", "a." + kind]
+                hosts = ["-wdir", folders[0], SHARED] + words + [":", "-n", str(others), "-wdir", folders[1], SHARED] + words
+                command = ["mpirun", "--oversubscribe", "--bind-to", "none", "-n", "2"] + hosts
+                found, _, err = run(command, 60)
+                self.assertEqual(found, code, err)
+                lines = [line for line in err.splitlines() if line.startswith("warren-mpi:")]
+                self.assertEqual(len(lines), 1, err)
+                for text in said:
+                    self.assertIn(text, lines[0])
+
+            refused("maze", 65, "rank 2: does not see what rank 0 sees", "checksums")
+            refused("npy", 65, "rank 2: ")
+            for kind, file in there.items():
+                with open(file, "r+b") as changed:
+                    changed.truncate(os.path.getsize(file) - 16)
+                refused(kind, 65, "rank 2: does not see what rank 0 sees", "bytes")
+                os.remove(file)
+                refused(kind, 65, "rank 2: does not see what rank 0 sees", "can't be read: No such file")
+                os.remove(os.path.join(folders[0], "a." + kind))
+                refused(kind, 66, "can't be read: No such file")
+                with open(file, "wb") as empty:
+                    empty.write(b"x")
+                refused(kind, 65, "rank 2: does not see what rank 0 sees", "can't be read: No such file")
+
+    def test_damaged_rows_are_told_by_the_rank_that_reads_them(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "a.maze")
+            code, _, err = run([WARREN, "generate", "maze", "1000x300", "-o", file])
+            self.assertEqual(code, 0, err)
+            with open(file, "r+b") as damaged:
+                damaged.seek(64 + 600 * 75 + 3)
+                damaged.write(b"\x5a\xa5")
+            for ranks, rank in ((2, "rank 1: "), (4, "rank 2: "), (8, "rank 5: ")):
+                code, _, err = run(mpirun(ranks, ["solve", file]), 60)
+                self.assertEqual(code, 65, err)
+                self.assertIn(f"{rank}{file}: rows 512 to 767: are damaged", err)
+
     def test_ranks_of_another_build_are_refused(self):
         with tempfile.TemporaryDirectory() as folder:
             copy = shutil.copy(SHARED, os.path.join(folder, "warren-mpi"))
@@ -208,7 +306,8 @@ class Faults(unittest.TestCase):
             self.assertIn("another program", err)
 
     def test_what_cannot_be_asked_is_refused_once(self):
-        for words, code in ((["solve", "maze:30x30"], 2), (["solve", "maze:30x30,algorithm=mst", "--explain"], 2),
+        for words, code in ((["solve", "maze:30x30"], 2), (["solve", "/dev/null"], 2), (["solve", "/no/such.maze"], 66),
+                            (["solve", SHARED], 2), (["solve", "maze:30x30,algorithm=mst", "--explain"], 2),
                             (["solve", "maze:30x30,algorithm=mst", "--no-such"], 2), (["dance"], 2),
                             (["solve", "maze:30x30,algorithm=mst", "--json", "/no/folder/a.json"], 73)):
             with self.subTest(words=words):
