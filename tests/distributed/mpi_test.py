@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""mpi_test.py WARREN WARREN_MPI: warren-mpi under mpirun, on this machine alone. The oracle is `warren solve --pipeline
+"""mpi_test.py WARREN WARREN_MPI DEATH_SHIM: warren-mpi under mpirun, on this machine alone. The oracle is `warren solve --pipeline
 streamed`: the same files but for times and ranks. Whatever dies, ends or is refused ends all, in time and in words."""
 import json
 import os
@@ -14,7 +14,7 @@ import tempfile
 import time
 import unittest
 
-WARREN, SHARED = (os.path.abspath(p) for p in sys.argv[1:3])
+WARREN, SHARED, SHIM = (os.path.abspath(p) for p in sys.argv[1:4])
 ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
                    OMPI_MCA_btl_vader_single_copy_mechanism="none", OMPI_MCA_rmaps_base_oversubscribe="1")
 VARIES = ("stages_s", "solve_s", "peak_memory_bytes", "threads", "ranks")
@@ -222,6 +222,19 @@ class Faults(unittest.TestCase):
                     self.assertRegex(err, "stopped while it was at '[a-z]+'")
                     process.stderr.close()
 
+    def test_each_rank_that_dies_in_a_short_stage_ends_all(self):
+        """Killed from within, by their messages: the stages' numbers are those of distributed/messages.hpp."""
+        world = ["solve", "maze:900x300,algorithm=mst,seed=3", "--no-path", "--threads", "1", "--quiet"]
+        for stage, number in (("expand", 5), ("verify", 6)):
+            for killed in range(3):
+                with self.subTest(stage=stage, killed=killed):
+                    preload = ["LD_PRELOAD=" + SHIM, f"WARREN_DEATH={killed}:{number}", SHARED]
+                    process = start(mpirun(3, preload + world, "env"))
+                    since = time.monotonic()
+                    _, err = self.ends(process, [], since)
+                    self.assertIn(f"stopped while it was at '{stage}'", err)
+                    self.assertNotIn(f"rank {killed} of 3: stopped", err)
+
     def test_the_launcher_that_is_killed_ends_all(self):
         for which in (signal.SIGKILL, signal.SIGTERM):
             process = start(mpirun(3, ["solve", self.WORLD, "--no-path", "--threads", "1", "--quiet"]))
@@ -317,4 +330,4 @@ class Faults(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
+    unittest.main(argv=sys.argv[:1] + sys.argv[4:])
