@@ -14,7 +14,7 @@ namespace {
 
 }  // namespace
 
-void FrontUnpacking::write(std::span<const FrontStep> steps, CellId* cells) {
+void FrontUnpacking::write(std::span<const FrontStep> steps, CellId* cells, const Execution& execution) {
   todo_.clear();
   hops_.clear();
   for (const FrontStep& step : steps) {
@@ -23,6 +23,7 @@ void FrontUnpacking::write(std::span<const FrontStep> steps, CellId* cells) {
     todo_.push_back({&front, place_in(front, low, high), low, high, step.length, step.from > step.to, cells});
     cells += step.length;
   }
+  if (!steps.empty()) *cells = index_.places().cell_of(index_.gate_place(steps.back().to));
   while (!todo_.empty()) {  // ranks become less
     read_ways();
     find_halves();
@@ -30,7 +31,7 @@ void FrontUnpacking::write(std::span<const FrontStep> steps, CellId* cells) {
   }
   // Along the path neighbours share tiles.
   std::sort(hops_.begin(), hops_.end(), [](const Hop& a, const Hop& b) { return a.first < b.first; });
-  write_hops(index_, hops_);
+  write_hops(index_, hops_, execution);
 }
 
 /// What goes over a gate becomes a middle.

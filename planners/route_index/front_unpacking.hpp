@@ -22,8 +22,8 @@ class FrontUnpacking {
 
   /// Writes the cells of the ways, one after the other, from the first gate on, which is `cells` itself: one more than
   /// their lengths together. Throws InputError where fronts contradict each other, after as many looks as there are
-  /// cells at most.
-  void write(std::span<const FrontStep> steps, CellId* cells);
+  /// cells at most. Throws Stopped.
+  void write(std::span<const FrontStep> steps, CellId* cells, const Execution& execution);
 
  private:
   /// An entry whose way's cells have their place: from its lower gate on, or the other way round.

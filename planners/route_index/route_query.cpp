@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include "core/base/error.hpp"
 
@@ -39,7 +40,7 @@ std::uint32_t RouteQuery::direct_length(LatticePlace goal) const {
   return seen == CoreSearch::none ? no_way : near_start_.seen(seen).steps;
 }
 
-RawVector<CellId> RouteQuery::path(CellId start, CellId goal) {
+RawVector<CellId> RouteQuery::path(CellId start, CellId goal, const Execution& execution) {
   const LatticePlace a = checked(start);
   const LatticePlace b = checked(goal);
   const TreeJoin join = trees_.join(a, b);
@@ -47,18 +48,23 @@ RawVector<CellId> RouteQuery::path(CellId start, CellId goal) {
   if (join.start_steps > most || join.goal_steps > most) {
     refuse_length();
   }
+  execution.reserve((std::size_t{join.start_steps} + 1 + join.goal_steps) * sizeof(CellId));
   RawVector<CellId> cells(std::size_t{join.start_steps} + 1 + (join.in_tree() ? join.goal_steps : 0));
   cells[join.start_steps] = index_.places().cell_of(join.start_core);
   if (!join.in_tree()) {
-    if (!append_core_path(join.start_core, join.goal_core, cells)) return {};
+    if (!append_core_path(join.start_core, join.goal_core, cells, execution)) return {};
     cells.resize(cells.size() + join.goal_steps);
   }
-  trees_.write_climbs({a, join.start_steps, cells.data(), 1}, {b, join.goal_steps, &cells.back(), -1});
+  std::vector<ClimbLeg> legs;
+  trees_.cut({a, join.start_core, join.start_steps, 1, cells.data()}, legs);
+  trees_.cut({b, join.goal_core, join.goal_steps, -1, &cells.back()}, legs);
+  write_climbs(index_, legs, execution);
   return cells;
 }
 
 /// The first cell stands already.
-bool RouteQuery::append_core_path(LatticePlace start, LatticePlace goal, RawVector<CellId>& cells) {
+bool RouteQuery::append_core_path(LatticePlace start, LatticePlace goal, RawVector<CellId>& cells,
+                                  const Execution& execution) {
   near_start_.search(start);
   near_goal_.search(goal);
   const std::uint32_t direct = direct_length(goal);
@@ -73,8 +79,9 @@ bool RouteQuery::append_core_path(LatticePlace start, LatticePlace goal, RawVect
   if (way.length > index_.places().place_count()) refuse_length();
   std::size_t between = 0;
   for (const FrontStep& step : way.steps) between += step.length;
+  execution.reserve(between * sizeof(CellId));
   cells.resize(cells.size() + between);
-  unpacking_.write(way.steps, cells.data() + gate);
+  unpacking_.write(way.steps, cells.data() + gate, execution);
   RawVector<CellId> tail{index_.places().cell_of(goal)};
   near_goal_.append_way(near_goal_.gates()[way.last].seen, tail);
   tail.pop_back();  // the gate, which stands already; or the goal, where it is the gate

@@ -25,14 +25,14 @@ class RouteQuery {
 
   /// In steps; none where no path joins the cells. Throws InputError for a cell outside the lattice.
   std::optional<std::uint32_t> length(CellId start, CellId goal);
-  /// The cells of a shortest path, both ends included; empty where there is none.
-  RawVector<CellId> path(CellId start, CellId goal);
+  /// The cells of a shortest path, both ends included; empty where there is none. Throws Stopped.
+  RawVector<CellId> path(CellId start, CellId goal, const Execution& execution = {.threads = 1});
 
  private:
   LatticePlace checked(CellId cell) const;
   std::uint32_t core_length(LatticePlace start, LatticePlace goal);
   std::uint32_t direct_length(LatticePlace goal) const;
-  bool append_core_path(LatticePlace start, LatticePlace goal, RawVector<CellId>& cells);
+  bool append_core_path(LatticePlace start, LatticePlace goal, RawVector<CellId>& cells, const Execution& execution);
 
   const RouteIndex& index_;
   TreeRoutes trees_;

@@ -49,45 +49,6 @@ class TileWalk {
   std::array<std::uint16_t, LatticePlaces::tile_places> trail_;  // where it was after so many steps
 };
 
-/// Writes cell after cell of a climb.
-class CellWriter {
- public:
-  CellWriter(const RouteIndex& index, const TreeRoutes::WrittenClimb& climb)
-      : index_(index),
-        marks_(index.marks()),
-        next_{1, index.places().size().cols, ~CellId{0}, ~index.places().size().cols + 1},
-        at_(climb.from),
-        cell_(index.places().cell_of(climb.from)),
-        to_(climb.to),
-        direction_(climb.direction) {
-    index.look_at_tile(at_);
-  }
-  void write() {
-    if (marks_.is_core(at_)) refuse();
-    *to_ = cell_;
-    to_ += direction_;
-    const unsigned way = marks_.direction(at_);
-    cell_ += next_[way];
-    if (LatticePlaces::leaves_tile(at_, way)) {
-      at_ = index_.places().step(at_, way);
-      if (at_ >= index_.places().place_count()) refuse();
-      index_.look_at_tile(at_);
-      marks_.prefetch_tile(LatticePlaces::tile_of(at_));
-    } else {
-      at_ = index_.places().step_inside(at_, way);
-    }
-  }
-
- private:
-  const RouteIndex& index_;
-  const CellMarks marks_;
-  const std::array<CellId, 4> next_;  // what a motion adds to a cell, modulo 2^32
-  LatticePlace at_;
-  CellId cell_;
-  CellId* to_;
-  const int direction_;
-};
-
 }  // namespace
 
 TreeRoutes::Climber TreeRoutes::climber(LatticePlace from, const Climb& climb) const {
@@ -188,15 +149,28 @@ TreeJoin TreeRoutes::meet_at_core(Climber& start, Climber& goal) const {
   return {apart.start_steps - left_a, apart.goal_steps - left_a, a.place(), a.place()};
 }
 
-void TreeRoutes::write_climbs(WrittenClimb one, WrittenClimb other) const {
-  CellWriter a(index_, one);
-  CellWriter b(index_, other);
-  for (std::uint32_t both = std::min(one.steps, other.steps); both > 0; --both) {
-    a.write();
-    b.write();
+/// Pieces become less on the way, and their depths say how far on it their doors are.
+void TreeRoutes::cut(ClimbLeg climb, std::vector<ClimbLeg>& legs) const {
+  constexpr std::uint32_t fewest_steps = 1024;  // of a leg that is cut off
+  if (climb.steps > 2 * fewest_steps) {
+    const Climber climber = this->climber(climb.from, pieces_.climb(climb.from));
+    std::uint32_t done = 0;
+    for (PieceId number = climber.piece; number != no_piece;) {
+      const TreePiece& piece = pieces_.piece(number);
+      const std::uint32_t at = climber.depth - piece.depth + 1;
+      if (at >= climb.steps + done) break;
+      if (at <= done) refuse();
+      if (at - done >= fewest_steps) {
+        legs.push_back({climb.from, piece.door, at - done, climb.direction, climb.first});
+        climb.from = piece.door;
+        climb.first += climb.direction * static_cast<std::ptrdiff_t>(at - done);
+        climb.steps -= at - done;
+        done = at;
+      }
+      number = number == piece.head ? piece.up : number - 1;
+    }
   }
-  for (std::uint32_t left = one.steps; left > other.steps; --left) a.write();
-  for (std::uint32_t left = other.steps; left > one.steps; --left) b.write();
+  if (climb.steps > 0) legs.push_back(climb);
 }
 
 }  // namespace warren

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
+#include "planners/route_index/climb_walk.hpp"
 #include "planners/route_index/route_index.hpp"
 
 namespace warren {
@@ -26,15 +28,8 @@ class TreeRoutes {
       : index_(index), places_(index.places()), marks_(index.marks()), pieces_(index.pieces()) {}
 
   TreeJoin join(LatticePlace start, LatticePlace goal) const;
-  /// A cell and those after it on its way to the core, so many as steps, go to `to`, `to` + direction, ...
-  struct WrittenClimb {
-    LatticePlace from;
-    std::uint32_t steps;
-    CellId* to;
-    int direction;
-  };
-  /// Two of them side by side: each cell waits for the one before it. Throws InputError where a way is shorter.
-  void write_climbs(WrittenClimb one, WrittenClimb other) const;
+  /// Adds the legs of a climb to its end, cut at doors, so that many threads may write them. Throws InputError.
+  void cut(ClimbLeg climb, std::vector<ClimbLeg>& legs) const;
 
  private:
   /// A cell on its way to the core: it stands in a piece, or in none where the core is in its tile.

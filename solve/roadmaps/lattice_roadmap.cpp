@@ -129,7 +129,7 @@ void LatticeQuestion::join() {
 
 Path<Vec2> LatticeQuestion::path() const {
   if (direct_) return {problem_.start, problem_.goal};
-  const RawVector<CellId> cells = query_.path(from_, to_);
+  const RawVector<CellId> cells = query_.path(from_, to_, execution_);
   execution_.reserve((cells.size() + 2) * sizeof(Vec2));
   const LatticeSize size = index_.passages().size();
   const std::size_t before = lattice_point(size, cells.front()) != problem_.start ? 1 : 0;

@@ -54,6 +54,7 @@ void expect_exact(LatticePassages passages, const RouteIndexOptions& options, Ce
         EXPECT_TRUE(path.empty());
       } else {
         expect_path(index.passages(), path, start, goal, found);
+        EXPECT_EQ(query.path(start, goal, {.threads = 3}), path);
       }
     }
   }
