@@ -9,12 +9,13 @@
 #include "core/base/path.hpp"
 #include "core/base/types.hpp"
 #include "parallel/execution.hpp"
+#include "serve/api/kept_curve.hpp"
 #include "solve/answer/answer.hpp"
 
 namespace warren {
 
-/// The curve of the reference point as straight pieces: a car's arcs as chords that turn by at most five degrees.
-/// Throws Stopped.
+/// The curve of a car's reference point as straight pieces: arcs as chords that turn by at most five degrees. Throws
+/// Stopped.
 Path<Vec2> curve_of(const Answer& answer, const Execution& execution);
 
 struct PathView {
@@ -23,7 +24,7 @@ struct PathView {
 };
 
 /// Chains of at least two points, in the path's order; a path of one point is one chain of it. The ends of the path and
-/// of each chain are kept. Throws Stopped.
-std::vector<std::vector<Vec2>> seen_of(const Path<Vec2>& path, const PathView& view, const Execution& execution);
+/// of each chain are kept, and up to two points of each block. Throws Stopped.
+std::vector<std::vector<Vec2>> seen_of(const KeptCurve& curve, const PathView& view, const Execution& execution);
 
 }  // namespace warren

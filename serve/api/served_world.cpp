@@ -5,6 +5,7 @@
 
 #include "core/base/error.hpp"
 #include "solve/question/plannable.hpp"
+#include "solve/roadmaps/walls_let_go.hpp"
 #include "solve/solve.hpp"
 #include "solve/steps/blocked_end.hpp"
 
@@ -31,16 +32,10 @@ bool is_asked_by_roadmap(const Scene& scene, const Question& body, const SolveOp
   }
 }
 
-/// Of a file whose walls stand wherever its lattice has no passage: these say where walls are, and nobody makes them.
-std::unique_ptr<WorldTiles> tiles_of_file(const LatticePassages& lattice, const Execution& execution) {
+/// Where walls stand wherever the lattice has no passage: it says where they are, and nobody makes them.
+std::unique_ptr<WorldTiles> tiles_of_lattice(const LatticePassages& lattice, const Execution& execution) {
   return maze_tiles({lattice.size(), lattice.right_words(), lattice.up_words()}, MazeOutline::of_course(lattice.size()),
                     execution);
-}
-
-bool lattice_is_walls(const Roadmap& roadmap) {
-  return roadmap.file != nullptr && roadmap.file->find("maze.walls") == nullptr &&
-         roadmap.file->find("world.walls") == nullptr && roadmap.world.outline().walls.size() == 0 &&
-         !roadmap.world.outline().bounds && roadmap.world.outline().polygons.empty();
 }
 
 }  // namespace
@@ -54,6 +49,7 @@ ServedWorld::ServedWorld(Scene scene, const Question& body, const Execution& exe
   const SolveOptions as_usual{.planner = PlannerKind::prm};
   if (is_asked_by_roadmap(scene, body, as_usual)) {
     roadmap_ = std::make_unique<Roadmap>(build_within(std::move(scene), body, as_usual, execution));
+    let_walls_go(*roadmap_, execution);
   } else {
     hash_ = scene_hash(scene, execution);
     scene_ = std::make_unique<Scene>(std::move(scene));
@@ -74,8 +70,8 @@ void ServedWorld::describe(const Execution& execution) {
     hash_ = roadmap_->world_hash;
     query_ = std::make_unique<RoadmapQuery>(*roadmap_, execution, Questions::many);
   }
-  if (roadmap_ && roadmap_->lattice != nullptr && lattice_is_walls(*roadmap_)) {
-    tiles_ = tiles_of_file(*passages(execution), execution);
+  if (roadmap_ && roadmap_->lattice != nullptr && roadmap_->world.is_looked_up()) {
+    tiles_ = tiles_of_lattice(*passages(execution), execution);
     const MazeHint maze = *roadmap_->world.outline().maze;
     box_ = {{0.5, 0.5}, {maze.cols + 0.5, maze.rows + 0.5}};
     return;
@@ -118,12 +114,14 @@ void ServedWorld::prepare(const Execution& execution) const {
   if (query_) query_->prepare_paths(execution);
 }
 
-Answer ServedWorld::ask(const ServedQuestion& question, const Execution& execution) const {
+Answer ServedWorld::ask(const ServedQuestion& question, const Execution& execution,
+                        std::function<void(const Answer&)> beside_judge) const {
   if (query_) {
     if (question.planner && *question.planner != roadmap_->options.planner) {
       throw UsageError("@planner: the roadmap was built with its own");
     }
     QuestionScratch scratch;
+    scratch.beside_judge = std::move(beside_judge);
     const RoadmapSearchFields how{.optimise = question.optimise};
     Answer answer = query_->ask_within(question.start, question.goal, how, execution, scratch);
     if (is_blocked(answer.outcome)) explain_blocked_end(roadmap_->world.whole(execution), answer, execution);

@@ -4,6 +4,7 @@
 // of one length it may take another.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -68,8 +69,10 @@ class ServedWorld {
   std::unique_ptr<ServedWorld> changed(Scene now, const Execution& execution) const;
   /// Makes what first questions would wait for. Throws Stopped, InputError.
   void prepare(const Execution& execution) const;
-  /// A verified answer, or why there is none; a blocked end is explained. Throws UsageError, InputError, Stopped.
-  Answer ask(const ServedQuestion& question, const Execution& execution) const;
+  /// A verified answer, or why there is none; a blocked end is explained. beside_judge: as QuestionScratch has it.
+  /// Throws UsageError, InputError, Stopped.
+  Answer ask(const ServedQuestion& question, const Execution& execution,
+             std::function<void(const Answer&)> beside_judge = {}) const;
 
  private:
   void describe(const Execution& execution);

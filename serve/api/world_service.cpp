@@ -170,12 +170,13 @@ HttpResponse WorldService::query(const HttpRequest& request, const SignalFlag& g
   const Deadline deadline(budget_s, limits_.memory_bytes, &gone);
   const Execution execution{.threads = limits_.threads, .deadline = &deadline};
   execution.check();
-  Answer answer = world_.ask(body.question, execution);
+  std::string name;
+  Answer answer =
+      world_.ask(body.question, execution, [&](const Answer& found) { name = path_hash(found, execution); });
   if (answer.outcome == Outcome::stopped) throw Stopped(answer.stop_reason.value_or(StopReason::time));
   HttpResponse response;
-  std::string name;
   if (answer.verified) {
-    name = path_hash(answer, execution);
+    if (name.empty()) name = path_hash(answer, execution);
     answer.tells_path = body.tells_path && path_points(answer) <= limits_.most_points;
     if (!answer.tells_path) answer.handed = HandedPath{path_points(answer), name};
     response.fields.emplace_back("Warren-Path", name);
@@ -183,8 +184,7 @@ HttpResponse WorldService::query(const HttpRequest& request, const SignalFlag& g
   write_answer_json(answer, execution, [&](std::string_view piece) { response.body += piece; });
   if (answer.verified) {
     KeptPath path = kept(std::move(answer), execution);
-    const std::size_t points = path.way.path.size() + path.chords.size();
-    const std::size_t bytes = points * sizeof(Vec2) + path.way.states.numbers.size() * sizeof(double);
+    const std::size_t bytes = path.curve.bytes() + path.way.states.numbers.size() * sizeof(double);
     paths_.put(name, std::move(path), bytes + sizeof(KeptPath));
   }
   return response;
@@ -192,8 +192,8 @@ HttpResponse WorldService::query(const HttpRequest& request, const SignalFlag& g
 
 WorldService::KeptPath WorldService::kept(Answer answer, const Execution& execution) {
   KeptPath kept;
-  if (!answer.states.empty() && answer.problem.robot.kind == RobotKind::car) kept.chords = curve_of(answer, execution);
-  kept.way.path = std::move(answer.path);
+  const bool is_driven = !answer.states.empty() && answer.problem.robot.kind == RobotKind::car;
+  kept.curve = KeptCurve(is_driven ? curve_of(answer, execution) : std::move(answer.path), execution);
   kept.way.states = std::move(answer.states);
   kept.way.problem.robot = std::move(answer.problem.robot);
   kept.way.length = answer.length;
@@ -236,7 +236,7 @@ HttpResponse WorldService::path(const HttpRequest& request, const std::string& n
   const bool is_there = paths_.look(name, [&](const KeptPath& kept) {
     std::string text = "[";
     std::size_t points = 0;
-    for (const std::vector<Vec2>& chain : seen_of(kept.curve(), view, execution)) {
+    for (const std::vector<Vec2>& chain : seen_of(kept.curve, view, execution)) {
       execution.check();
       points += chain.size();
       if (points > limits_.most_view_points) {
@@ -251,7 +251,7 @@ HttpResponse WorldService::path(const HttpRequest& request, const std::string& n
       text += ']';
     }
     json.add("length", kept.way.length);
-    json.add("points", std::uint64_t{kept.curve().size()});
+    json.add("points", std::uint64_t{kept.curve.size()});
     json.add_json("chains", text + "]");
   });
   if (!is_there) refuse_forgotten();
@@ -263,7 +263,9 @@ HttpResponse WorldService::clearance(const HttpRequest& request, const std::stri
   std::vector<PathPlace> places;
   const std::size_t count = sample_count(request);
   const bool is_there = paths_.look(name, [&](const KeptPath& kept) {
-    places = places_along(kept.way, count, execution);
+    Answer way = kept.way;
+    if (way.states.empty()) way.path = kept.curve.whole(execution);
+    places = places_along(way, count, execution);
     json.add("length", kept.way.length);
     json.add_or_null("min_clearance", std::isfinite(kept.way.min_clearance), kept.way.min_clearance);
   });

@@ -8,6 +8,7 @@
 
 #include "parallel/execution.hpp"
 #include "serve/api/graph_service.hpp"
+#include "serve/api/kept_curve.hpp"
 #include "serve/api/route.hpp"
 #include "serve/api/served_world.hpp"
 #include "serve/api/world_layers.hpp"
@@ -43,11 +44,10 @@ class WorldService : public HttpService {
   void prepare(const SignalFlag& gone) override;
 
  private:
-  /// A path that was found, and what it costs to keep.
+  /// A path that was found.
   struct KeptPath {
-    Answer way;         // path, states, body, length and clearance alone
-    Path<Vec2> chords;  // of a car
-    const Path<Vec2>& curve() const { return chords.empty() ? way.path : chords; }
+    Answer way;  // states, body, length and clearance alone
+    KeptCurve curve;
   };
   static KeptPath kept(Answer answer, const Execution& execution);
   Route route(const HttpRequest& request) const;

@@ -1,10 +1,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "serve/http/task_crew.hpp"
 
+#include <new>
+#include <optional>
 #include <system_error>
 #include <utility>
 
+#include "core/base/page_pool.hpp"
+
 namespace warren {
+namespace {
+
+/// The pages of a task's large blocks are the next one's: fresh ones take longer to touch than a path to find.
+class PagesOfTasks {
+ public:
+  PagesOfTasks() { renew(); }
+  void end_task() {
+    constexpr std::size_t most_idle_bytes = std::size_t{128} << 20U;
+    if (PagePool::idle_bytes() > most_idle_bytes) renew();
+  }
+
+ private:
+  void renew() {
+    try {
+      pool_.emplace();
+    } catch (const std::bad_alloc&) {  // then all pages are fresh
+    }
+  }
+  std::optional<PagePool> pool_;
+};
+
+}  // namespace
 
 TaskCrew::TaskCrew(unsigned threads, std::size_t most_waiting) : most_waiting_(most_waiting) {
   try {
@@ -44,6 +70,7 @@ void TaskCrew::end() {
 }
 
 void TaskCrew::work() {
+  PagesOfTasks pages;
   std::unique_lock lock(mutex_);
   while (true) {
     wake_.wait(lock, [this] { return ended_ || !tasks_.empty(); });
@@ -52,6 +79,7 @@ void TaskCrew::work() {
     tasks_.pop_front();
     lock.unlock();
     task();
+    pages.end_task();
     lock.lock();
   }
 }

@@ -17,10 +17,6 @@
 namespace warren {
 namespace {
 
-bool is_nothing_but_maze(const Scene& scene) {
-  return scene.maze && !scene.bounds && scene.polygons.empty() && !scene.map && !has_solids(scene);
-}
-
 Segment right_of(std::ptrdiff_t col, std::ptrdiff_t row) {
   const Vec2 corner{static_cast<double>(col) + 1.5, static_cast<double>(row) + 1.5};
   return {{corner.x, corner.y - 1}, corner};
@@ -32,18 +28,27 @@ Segment above(std::ptrdiff_t col, std::ptrdiff_t row) {
 
 }  // namespace
 
+bool is_nothing_but_maze(const Scene& scene) {
+  return scene.maze && !scene.bounds && scene.polygons.empty() && !scene.map && !has_solids(scene);
+}
+
 bool walls_are_passages(const RoadmapFile& file, const Scene& outline) {
   return is_nothing_but_maze(outline) && file.find("maze.walls") == nullptr && file.find("world.walls") == nullptr;
 }
 
 std::unique_ptr<KeptCells> cells_of_file(const RoadmapFile& file, MazeHint maze, const std::string& hash,
                                          const Execution& execution) {
-  auto walls = std::make_unique<JudgedPassages>(file.name(), maze.rows, maze.cols,
-                                                file.section<std::uint64_t>("passages.right", execution),
-                                                file.section<std::uint64_t>("passages.up", execution));
+  return cells_of_words(file.name(), maze, file.section<std::uint64_t>("passages.right", execution),
+                        file.section<std::uint64_t>("passages.up", execution), hash, execution);
+}
+
+std::unique_ptr<KeptCells> cells_of_words(const std::string& where, MazeHint maze, std::span<const std::uint64_t> right,
+                                          std::span<const std::uint64_t> up, const std::string& hash,
+                                          const Execution& execution) {
+  auto walls = std::make_unique<JudgedPassages>(where, maze.rows, maze.cols, right, up);
   const HashedCells found = hash_of_cells(*walls, execution);
   if (found.hash == hash) return std::make_unique<KeptCells>(std::move(walls), found.walls);
-  throw InputError(file.name(), fmt::format("the world inside is not its own, {}", hash), found.hash);
+  throw InputError(where, fmt::format("the world inside is not its own, {}", hash), found.hash);
 }
 
 std::unique_ptr<KeptCells> cells_of_scene(const Scene& scene, const Execution& execution) {

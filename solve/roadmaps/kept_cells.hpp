@@ -4,7 +4,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,9 +34,15 @@ struct KeptCells {
 
 /// Is the world inside a maze whose walls stand wherever its lattice has no passage, and nothing else?
 bool walls_are_passages(const RoadmapFile& file, const Scene& outline);
+/// Is it a maze, and nothing else?
+bool is_nothing_but_maze(const Scene& scene);
 /// Of such a file, which must outlive it. Throws InputError for a world of another hash, Stopped.
 std::unique_ptr<KeptCells> cells_of_file(const RoadmapFile& file, MazeHint maze, const std::string& hash,
                                          const Execution& execution);
+/// Of the words of a lattice, which must outlive it; `where` names them. Throws as above.
+std::unique_ptr<KeptCells> cells_of_words(const std::string& where, MazeHint maze, std::span<const std::uint64_t> right,
+                                          std::span<const std::uint64_t> up, const std::string& hash,
+                                          const Execution& execution);
 /// Of walls that are held. Nothing for worlds that hold more than a maze of units on its grid. Throws Stopped.
 std::unique_ptr<KeptCells> cells_of_scene(const Scene& scene, const Execution& execution);
 

@@ -35,10 +35,12 @@ class KeptWorld {
     if (later_ == nullptr) return outline_;
     return later_->whole.get(execution, [&] { return std::make_unique<Scene>(later_->make(execution)); });
   }
+  /// Can its walls be looked up without being made?
+  bool is_looked_up() const { return later_ != nullptr && later_->look_up; }
   /// Its walls as they can be looked up without being made, which are all that there is; nullptr: they can't be. Throws
   /// as whole() does.
   const KeptCells* looked_up(const Execution& execution) const {
-    if (later_ == nullptr || !later_->look_up) return nullptr;
+    if (!is_looked_up()) return nullptr;
     return &later_->cells.get(execution, [&] { return later_->look_up(execution); });
   }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "parallel/chunks.hpp"
 #include "planners/shorten/taut_path.hpp"
 #include "roadmaps/graph/free_components.hpp"
 #include "solve/question/planner_choice.hpp"
@@ -59,6 +60,24 @@ void shorten(Answer& answer, const Scene& scene, const WallProblem& problem, con
   const MazeWorld world(scene, problem.reach(), execution);
   answer.raw_length = path_length(answer.path, MazeWorld::distance);
   answer.path = taut_path(world.walls(), answer.path, world.planning_clearance(), execution);
+}
+
+/// What judge() says, while something else is done with the same path.
+template <class Judge>
+Verification judged_beside(const std::function<void(const Answer&)>& beside, const Answer& answer,
+                           const Execution& execution, const Judge& judge) {
+  if (!beside) return judge();
+  Verification verdict;
+  Execution quiet = execution;
+  quiet.progress = nullptr;
+  for_chunks(2, 1, quiet, [&](Range r) {
+    if (r.first == 0) {
+      beside(answer);
+    } else {
+      verdict = judge();
+    }
+  });
+  return verdict;
 }
 
 std::vector<double> anywhere(const Roadmap& roadmap) { return std::vector<double>(state_size(roadmap.robot), 0.0); }
@@ -210,7 +229,7 @@ Answer RoadmapQuery::ask_lattice(const Question& question, const RoadmapSearchFi
         answer.roadmap.milestones = count_states(roadmap_) + 2;
         if (answer.outcome == Outcome::solved) answer.path = asked.path();
       }
-      settle_and_verify(answer, problem, how.optimise, execution);
+      settle_and_verify(answer, problem, how.optimise, execution, scratch);
     });
   } catch (const RefutedPathError& error) {
     refuse_roadmap(roadmap_, error);
@@ -219,7 +238,7 @@ Answer RoadmapQuery::ask_lattice(const Question& question, const RoadmapSearchFi
 }
 
 void RoadmapQuery::settle_and_verify(Answer& answer, const WallProblem& problem, bool optimise,
-                                     const Execution& execution) const {
+                                     const Execution& execution, const QuestionScratch& scratch) const {
   const KeptCells* cells = cells_of_lattice(execution);
   const Scene& outline = roadmap_.world.outline();
   answer.world = cells != nullptr ? account_of(outline, roadmap_.world_hash, cells->wall_count)
@@ -241,7 +260,9 @@ void RoadmapQuery::settle_and_verify(Answer& answer, const WallProblem& problem,
       answer.outcome, [&] { return stands_free(problem.start); }, [&] { return stands_free(problem.goal); });
   if (answer.outcome != Outcome::solved) return;
   const StageTimer timer(execution, "verify", answer.seconds.verify, answer.path.size());
-  take_verdict(answer, verify_steps(*cells->walls, answer.path, verify_options(problem), execution));
+  take_verdict(answer, judged_beside(scratch.beside_judge, answer, execution, [&] {
+                 return verify_steps(*cells->walls, answer.path, verify_options(problem), execution);
+               }));
 }
 
 LengthAnswer RoadmapQuery::length_within(const std::vector<double>& start, const std::vector<double>& goal,

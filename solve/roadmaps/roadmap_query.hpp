@@ -4,6 +4,7 @@
 // that of the states.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -35,6 +36,9 @@ struct RoadmapSearchFields {
 struct QuestionScratch {
   AskScratch search;                ///< of searches
   std::optional<RouteQuery> route;  ///< of a lattice's index
+  /// Called with the answer while the judge looks at its path, where that pays; what it makes means nothing unless the
+  /// answer comes out verified. May be empty.
+  std::function<void(const Answer&)> beside_judge = {};
 };
 
 /// How long the shortest way of the roadmap is.
@@ -94,7 +98,8 @@ class RoadmapQuery {
   /// nullptr where a pass over all obstacles does.
   const ObstacleIndex* judge_of_lattice(const Execution& execution) const;
   /// The judge's part of ask_lattice(), by one of the three.
-  void settle_and_verify(Answer& answer, const WallProblem& problem, bool optimise, const Execution& execution) const;
+  void settle_and_verify(Answer& answer, const WallProblem& problem, bool optimise, const Execution& execution,
+                         const QuestionScratch& scratch) const;
   const Roadmap& roadmap_;
   const Questions questions_;
   std::unique_ptr<Opened> opened_;  // nullptr for a lattice

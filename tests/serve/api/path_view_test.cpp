@@ -33,7 +33,7 @@ double distance_from(const std::vector<Vec2>& chain, Vec2 p) {
 
 TEST(PathView, WithoutPixelsItIsThePath) {
   const Path<Vec2> path = staircase(101);
-  const auto chains = seen_of(path, {.box = everything}, {});
+  const auto chains = seen_of(KeptCurve(path, {}), {.box = everything}, {});
   ASSERT_EQ(chains.size(), 1U);
   EXPECT_EQ(chains[0], std::vector<Vec2>(path.begin(), path.end()));
 }
@@ -42,11 +42,13 @@ TEST(PathView, PointsOfAPixelAreOneAndNoneIsFartherThanThatFromWhatIsDrawn) {
   const Path<Vec2> path = staircase(10'001);
   for (const double pixel : {0.5, 2.0, 30.0, 1e6}) {
     SCOPED_TRACE(pixel);
-    const auto chains = seen_of(path, {.box = everything, .pixel = pixel}, {});
+    const auto chains = seen_of(KeptCurve(path, {}), {.box = everything, .pixel = pixel}, {});
     ASSERT_EQ(chains.size(), 1U);
     EXPECT_EQ(chains[0].front(), path.front());
     EXPECT_EQ(chains[0].back(), path.back());
-    EXPECT_LE(static_cast<double>(chains[0].size()), 7072.0 / pixel + 10'001.0 * (pixel <= 1.0 ? 1.0 : 0.0) + 3.0);
+    const double of_blocks = 2.0 * static_cast<double>(KeptCurve(path, {}).block_count() - 1);
+    EXPECT_LE(static_cast<double>(chains[0].size()) - of_blocks,
+              7072.0 / pixel + 10'001.0 * (pixel <= 1.0 ? 1.0 : 0.0) + 3.0);
     double worst = 0.0;
     for (std::size_t i = 0; i < path.size(); i += 77) worst = std::max(worst, distance_from(chains[0], path[i]));
     EXPECT_LE(worst, pixel);
@@ -56,22 +58,52 @@ TEST(PathView, PointsOfAPixelAreOneAndNoneIsFartherThanThatFromWhatIsDrawn) {
 TEST(PathView, OnlyLegsThatMeetTheBoxAreThere) {
   // In, out, far round and in again.
   const Path<Vec2> path{{0, 0}, {5, 0}, {20, 0}, {20, 20}, {0, 20}, {0, 8}, {4, 8}};
-  const auto chains = seen_of(path, {.box = {{-1, -1}, {9, 9}}}, {});
+  const auto chains = seen_of(KeptCurve(path, {}), {.box = {{-1, -1}, {9, 9}}}, {});
   const std::vector<std::vector<Vec2>> expected{{{0, 0}, {5, 0}, {20, 0}}, {{0, 20}, {0, 8}, {4, 8}}};
   EXPECT_EQ(chains, expected);
-  EXPECT_TRUE(seen_of(path, {.box = {{100, 100}, {101, 101}}}, {}).empty());
+  EXPECT_TRUE(seen_of(KeptCurve(path, {}), {.box = {{100, 100}, {101, 101}}}, {}).empty());
 }
 
 TEST(PathView, AChainEndsWhereThePathLeaves) {
   const Path<Vec2> path{{0, 0}, {1, 0}, {1.1, 0}, {1.2, 0}, {1.2, 50}, {60, 50}, {60, 60}};
-  const auto chains = seen_of(path, {.box = {{-1, -1}, {9, 9}}, .pixel = 1.0}, {});
+  const auto chains = seen_of(KeptCurve(path, {}), {.box = {{-1, -1}, {9, 9}}, .pixel = 1.0}, {});
   ASSERT_EQ(chains.size(), 1U);
   EXPECT_EQ(chains[0].back(), (Vec2{1.2, 50}));
 }
 
+/// What is seen, leg by leg, without blocks.
+std::vector<std::vector<Vec2>> legs_in(const Path<Vec2>& path, const Box& box) {
+  std::vector<std::vector<Vec2>> chains;
+  bool is_open = false;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    const bool is_seen = box_of({path[i], path[i + 1]}).meets(box);
+    if (is_seen && !is_open) chains.push_back({path[i]});
+    if (is_seen) chains.back().push_back(path[i + 1]);
+    is_open = is_seen;
+  }
+  return chains;
+}
+
+TEST(PathView, LongPathsAreSeenAsIfTheyHadNoBlocks) {
+  const auto side = static_cast<double>(KeptCurve::block_points / 2);
+  Path<Vec2> path = staircase(5 * KeptCurve::block_points + 77);
+  for (std::size_t i = 0; i < 99; ++i) path.push_back({path.back().x - 1.0, path.back().y});
+  for (const Box& box : {everything, Box{{side - 5.0, 0.0}, {side + 5.0, 1e9}}, Box{{side, side}, {side, side}},
+                         Box{{2.5 * side, 0.0}, {3.5 * side, 1e9}}, Box{{0.0, 0.0}, {2.0 * side, side}}}) {
+    for (const unsigned threads : {1U, 2U, 3U}) {
+      EXPECT_EQ(seen_of(KeptCurve(path, {}), {.box = box}, {.threads = threads}), legs_in(path, box));
+    }
+  }
+  const auto alone = seen_of(KeptCurve(path, {}), {.box = everything, .pixel = 9.0}, {.threads = 1});
+  EXPECT_EQ(seen_of(KeptCurve(path, {}), {.box = everything, .pixel = 9.0}, {.threads = 3}), alone);
+  ASSERT_EQ(alone.size(), 1U);
+  for (std::size_t i = 0; i < path.size(); i += 777) EXPECT_LE(distance_from(alone[0], path[i]), 9.0);
+}
+
 TEST(PathView, APathOfOnePointIsSeenWhereItIs) {
-  EXPECT_EQ(seen_of({{3, 4}}, {.box = {{0, 0}, {9, 9}}}, {}), (std::vector<std::vector<Vec2>>{{{3, 4}}}));
-  EXPECT_TRUE(seen_of({{30, 4}}, {.box = {{0, 0}, {9, 9}}}, {}).empty());
+  EXPECT_EQ(seen_of(KeptCurve({{3, 4}}, {}), {.box = {{0, 0}, {9, 9}}}, {}),
+            (std::vector<std::vector<Vec2>>{{{3, 4}}}));
+  EXPECT_TRUE(seen_of(KeptCurve({{30, 4}}, {}), {.box = {{0, 0}, {9, 9}}}, {}).empty());
 }
 
 TEST(PathView, ArcsOfCarsAreChords) {

@@ -149,6 +149,30 @@ TEST(WorldService, WhoTakesTooLongOrLeavesIsStopped) {
   EXPECT_EQ(poor.query({{"start", {1, 1}}, {"goal", {20, 20}}}).status, 503U);
 }
 
+TEST(WorldService, ALargeMazeHoldsItsWallsAsBits) {
+  const char* source = "maze:300x300,seed=7,loops=0.05";
+  Scene maze = read_world(source, {});
+  Served served(read_world(source, {}));
+  EXPECT_EQ(served.world().outline().walls.size(), 0U);
+  EXPECT_EQ(served.world().hash(), scene_hash(maze));
+  EXPECT_EQ(scene_hash(served.world().whole({})), scene_hash(maze));
+  const Json asked = Json::parse(served.query({{"start", {1, 1}}, {"goal", {300, 300}}, {"path", true}}).body);
+  const Roadmap roadmap = build(read_world(source, {}));
+  const Answer expected = RoadmapQuery(roadmap).ask({1, 1}, {300, 300});
+  EXPECT_EQ(asked.at("world").at("walls"), maze.walls.size());
+  EXPECT_EQ(asked.at("min_clearance"), expected.min_clearance);
+  ASSERT_EQ(asked.at("path").size(), expected.path.size());
+
+  std::vector<Segment> walls;  // in another order: that is another world, which the cells don't tell
+  for (std::size_t i = maze.walls.size(); i > 0; --i) walls.push_back(maze.walls.segment(i - 1));
+  maze.walls = WallSet::narrowest(walls);
+  const std::string hash = scene_hash(maze);
+  Served other(std::move(maze));
+  EXPECT_EQ(other.world().outline().walls.size(), walls.size());
+  EXPECT_EQ(other.world().hash(), hash);
+  EXPECT_EQ(Json::parse(other.query({{"start", {1, 1}}, {"goal", {300, 300}}}).body).at("verified"), true);
+}
+
 TEST(WorldService, ALongPathIsSeenByParts) {
   Served served(read_world("maze:60x60,seed=3", {}), {}, {.most_points = 10});
   const HttpResponse response = served.query({{"start", {1, 1}}, {"goal", {60, 60}}});

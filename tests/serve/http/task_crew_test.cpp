@@ -6,6 +6,9 @@
 #include <atomic>
 #include <future>
 
+#include "core/base/page_pool.hpp"
+#include "core/base/raw_vector.hpp"
+
 namespace warren {
 namespace {
 
@@ -60,6 +63,20 @@ TEST(TaskCrew, AllTasksAreDoneOnceByAnyNumberOfThreads) {
     crew.end();
     EXPECT_EQ(sum, 500'500);
   }
+}
+
+TEST(TaskCrew, TasksInARowShareThePagesOfLargeBlocksUpToSoMany) {
+  constexpr std::size_t block = std::size_t{32} << 20U;
+  TaskCrew crew(1, 8);
+  const auto idle_after = [&](std::size_t bytes) {
+    crew.offer([bytes] { const RawVector<char> large(bytes); });
+    std::promise<std::size_t> idle;
+    crew.offer([&] { idle.set_value(PagePool::idle_bytes()); });
+    return idle.get_future().get();
+  };
+  EXPECT_EQ(idle_after(block), block);
+  EXPECT_EQ(idle_after(block), block);
+  EXPECT_EQ(idle_after(8 * block), 0U);
 }
 
 }  // namespace
