@@ -41,6 +41,11 @@ TEST(JsonText, NumbersReadBackAsTheSameDouble) {
   }
   EXPECT_EQ(json_number(1.0), "1.0");
   EXPECT_EQ(json_number(-0.0), "-0.0");
+  EXPECT_EQ(json_number(0.0), "0.0");
+  EXPECT_EQ(json_number(-10'000.0), "-10000.0");
+  EXPECT_EQ(json_number(999'999'999'999'999.0), "999999999999999.0");
+  EXPECT_EQ(json_number(1e15), "1000000000000000.0");
+  EXPECT_EQ(json_number(1e16), "1e+16");
   EXPECT_EQ(json_number(0.1), "0.1");
   EXPECT_EQ(json_number(std::numeric_limits<double>::infinity()), "null");
   EXPECT_EQ(json_number(std::numeric_limits<double>::quiet_NaN()), "null");
