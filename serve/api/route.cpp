@@ -50,6 +50,9 @@ Route api_route(const std::vector<std::string_view>& words) {
   if (words.size() == 5 && words[2] == "path" && !words[3].empty() && words[4] == "clearance") {
     return {.place = Place::clearance, .name = std::string(words[3])};
   }
+  if (words.size() == 5 && words[2] == "path" && !words[3].empty() && words[4] == "sweep") {
+    return {.place = Place::sweep, .name = std::string(words[3])};
+  }
   refuse_path();
 }
 

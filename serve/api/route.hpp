@@ -21,6 +21,7 @@ enum class Place : std::uint8_t {
   legend,
   path,
   clearance,
+  sweep,
   query,
   batch,
   scene,

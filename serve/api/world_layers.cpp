@@ -9,6 +9,7 @@
 #include "core/base/error.hpp"
 #include "scenes/text/human_units.hpp"
 #include "scenes/text/json_text.hpp"
+#include "serve/api/swept_bodies.hpp"
 
 namespace warren {
 namespace {
@@ -35,12 +36,22 @@ LayerAccount components_account(const ServedWorld& world) {
   return account;
 }
 
+LayerAccount sweep_account(const ServedWorld& world) {
+  LayerAccount account{.name = "sweep", .is_of_path = true};
+  if (!(reach_of(world.robot()) > 0.0)) account.why = "a point has no extent, so it sweeps no more than its path";
+  return account;
+}
+
 std::string json_of_account(const LayerAccount& account, const std::string& hash) {
   JsonObject json;
   json.add("name", account.name);
   json.add("there", account.why.empty());
   if (!account.why.empty()) {
     json.add("why", account.why);
+    return json.closed();
+  }
+  if (account.is_of_path) {
+    json.add("of_path", std::string("/api/path/{id}/") + std::string(account.name));
     return json.closed();
   }
   const std::string address = fmt::format("/v/{}/layers/{}/", hash, account.name);
@@ -100,7 +111,7 @@ std::string components_legend(const RoadmapLayer& layer) {
 }  // namespace
 
 WorldLayers::WorldLayers(const ServedWorld& world)
-    : world_(world), accounts_{roadmap_account(world), components_account(world)} {}
+    : world_(world), accounts_{roadmap_account(world), components_account(world), sweep_account(world)} {}
 
 std::string WorldLayers::json() const {
   std::string text = "[";
@@ -116,9 +127,9 @@ bool WorldLayers::knows(std::string_view name) const {
 
 void WorldLayers::refuse_missing(std::string_view name) const {
   for (const LayerAccount& account : accounts_) {
-    if (account.name == name && !account.why.empty()) {
-      throw UsageError(fmt::format("there is no layer '{}': {}", name, account.why));
-    }
+    if (account.name != name) continue;
+    if (!account.why.empty()) throw UsageError(fmt::format("there is no layer '{}': {}", name, account.why));
+    if (account.is_of_path) throw UsageError(fmt::format("'{0}' is no tiles; ask /api/path/ID/{0}", name));
   }
 }
 

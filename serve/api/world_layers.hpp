@@ -15,9 +15,10 @@ namespace warren {
 
 /// What a page says of a layer before it is looked at.
 struct LayerAccount {
-  std::string_view name;   ///< in its address, a literal
-  std::string why = {};    ///< there is none in this world; empty: there is
-  unsigned from_zoom = 0;  ///< tiles of smaller zooms are empty
+  std::string_view name;    ///< in its address, a literal
+  std::string why = {};     ///< there is none in this world; empty: there is
+  unsigned from_zoom = 0;   ///< tiles of smaller zooms are empty
+  bool is_of_path = false;  ///< it has no tiles: what it shows goes along a path
 };
 
 /// Any number of threads may draw. What a layer needs is made when it is first looked at.

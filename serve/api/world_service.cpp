@@ -15,8 +15,8 @@
 #include "scenes/text/input_file_io.hpp"
 #include "scenes/text/json_text.hpp"
 #include "serve/api/path_places.hpp"
-#include "serve/api/path_view.hpp"
 #include "serve/api/query_body_io.hpp"
+#include "serve/api/swept_bodies.hpp"
 #include "serve/api/world_description.hpp"
 #include "serve/page/served_files.hpp"
 #include "solve/answer/path_hash.hpp"
@@ -130,6 +130,7 @@ HttpResponse WorldService::work(const HttpRequest& request, const SignalFlag& go
   if (asked.place == Place::scene) return scene(request, execution);
   if (is_of_graphs(asked.place)) return graphs_.answer(asked.place, request.body, execution);
   if (asked.place == Place::clearance) return clearance(request, asked.name, execution);
+  if (asked.place == Place::sweep) return sweep(request, asked.name, execution);
   return path(request, asked.name, execution);
 }
 
@@ -222,7 +223,8 @@ HttpResponse WorldService::batch(const HttpRequest& request, const Execution& ex
   return response;
 }
 
-HttpResponse WorldService::path(const HttpRequest& request, const std::string& name, const Execution& execution) {
+/// What of a path is seen: everything where the request doesn't say.
+PathView WorldService::view_of(const HttpRequest& request) const {
   constexpr double everything = std::numeric_limits<double>::infinity();
   PathView view{.box = {{-everything, -everything}, {everything, everything}}};
   if (const auto box = numbers_parameter(request, "bbox", 4))
@@ -232,6 +234,11 @@ HttpResponse WorldService::path(const HttpRequest& request, const std::string& n
     constexpr double farthest = -8.0;
     view.pixel = std::ldexp(grid.pixel(0), -static_cast<int>(std::clamp((*zoom)[0], farthest, grid.levels - 1.0)));
   }
+  return view;
+}
+
+HttpResponse WorldService::path(const HttpRequest& request, const std::string& name, const Execution& execution) {
+  const PathView view = view_of(request);
   JsonObject json;
   const bool is_there = paths_.look(name, [&](const KeptPath& kept) {
     std::string text = "[";
@@ -281,6 +288,26 @@ HttpResponse WorldService::clearance(const HttpRequest& request, const std::stri
     text += (text.empty() ? "" : ",") + told.closed();
   }
   json.add_json("places", "[" + text + "]");
+  return {.body = json.closed() + "\n"};
+}
+
+HttpResponse WorldService::sweep(const HttpRequest& request, const std::string& name, const Execution& execution) {
+  const PathView view = view_of(request);
+  SweptBodies bodies;
+  const bool is_there =
+      paths_.look(name, [&](const KeptPath& kept) { bodies = swept_bodies(kept.way, kept.curve, view, execution); });
+  if (!is_there) refuse_forgotten();
+  std::string outline;
+  for (const Vec2 corner : world_.robot().outline) {
+    outline += (outline.empty() ? "" : ",") + json_list(std::span<const double>(std::array{corner.x, corner.y}));
+  }
+  std::string places;
+  for (const PathState& place : bodies.places) places += (places.empty() ? "" : ",") + json_list(place.used());
+  JsonObject json;
+  json.add("radius", world_.robot().outline.empty() ? world_.robot().radius : 0.0);
+  json.add_json("outline", "[" + outline + "]");
+  json.add("apart", bodies.apart);
+  json.add_json("places", "[" + places + "]");
   return {.body = json.closed() + "\n"};
 }
 

@@ -9,6 +9,7 @@
 #include "parallel/execution.hpp"
 #include "serve/api/graph_service.hpp"
 #include "serve/api/kept_curve.hpp"
+#include "serve/api/path_view.hpp"
 #include "serve/api/route.hpp"
 #include "serve/api/served_world.hpp"
 #include "serve/api/world_layers.hpp"
@@ -59,6 +60,8 @@ class WorldService : public HttpService {
   HttpResponse scene(const HttpRequest& request, const Execution& execution) const;
   HttpResponse path(const HttpRequest& request, const std::string& name, const Execution& execution);
   HttpResponse clearance(const HttpRequest& request, const std::string& name, const Execution& execution);
+  HttpResponse sweep(const HttpRequest& request, const std::string& name, const Execution& execution);
+  PathView view_of(const HttpRequest& request) const;
   HttpResponse metrics(const HttpFigures& figures) const;
   std::string tile_tag() const;
   HttpResponse tile_response(const Route& route, std::string bytes) const;

@@ -49,6 +49,7 @@ async function ask() {
 function forgetAnswer() {
   clearPath();
   forgetClearance();
+  forgetSweep();
   answer.text = answer.json = answer.id = null;
 }
 function take(reply, text, passed) {
@@ -66,6 +67,7 @@ function take(reply, text, passed) {
   say(inWords(json));
   showAnswer(json, [...serverTimes(reply), ["there and back", passed]]);
   showClearance();
+  showSweep();
 }
 
 const shown = number => Number(number.toPrecision(6));

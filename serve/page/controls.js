@@ -41,6 +41,7 @@ function showAnswer(json, times) {
     move.onclick = () => { setEnd(blocked.end, {x: blocked.free_place[0], y: blocked.free_place[1]}); };
   }
   for (const id of ["save-geojson", "save-csv"]) byId(id).disabled = !(json && json.verified);
+  if (!json) showSweep();  // its words say why there is none
   byId("save-json").disabled = !json;
   byId("copy-command").disabled = !question.start || !question.goal;
 }
@@ -179,6 +180,7 @@ function setDark(on) {
   document.documentElement.classList.toggle("dark", on);
   byId("dark").setAttribute("aria-pressed", String(on));
   graphLayer.draw();
+  showSweep();
   if (pathLine.line) pathLine.line.setStyle({color: on ? "#ff6b81" : "#c8102e"});
 }
 function wireControls() {

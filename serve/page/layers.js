@@ -39,10 +39,11 @@ function showLayer(layer) {
   const {account, box} = layer, t = world.tiles;
   if (layer.tiles) layer.tiles.remove();
   layer.tiles = null;
+  if (account.name === "sweep") showSweep();
   box.disabled = !account.there;
   if (!account.there) box.checked = false;
   fillLegend(layer, account.there ? [] : [{words: "None: " + account.why + "."}]);
-  if (!box.checked) return;
+  if (!box.checked || account.of_path) return;
   layer.tiles = L.tileLayer(account.url, {pane: "layer-" + account.name, tileSize: t.pixels, minZoom: account.from_zoom > 0 ? account.from_zoom : -3, maxZoom: t.levels,
                                           minNativeZoom: 0, maxNativeZoom: t.levels - 1, bounds: map.whole, noWrap: true, keepBuffer: 1, updateInterval: 60, className: "layer"});
   layer.tiles.on("tileerror", () => say("A part of the layer " + account.name + " was not drawn; move or zoom to ask again."));
@@ -70,5 +71,6 @@ function takeLayers(names) {
 }
 function wireLayers() {
   renewLayers();
+  map.on("moveend", showSweep);
   map.on("zoomend", () => { for (const layer of layers.values()) if (layer.tiles && layer.account.from_zoom > 0) showLegend(layer); });
 }

@@ -30,10 +30,11 @@ class Layers(BrowserTest):
         cls.rooms = Service(WARREN, roadmap, '--writable')
         cls.scene = Service(WARREN, scene)
         cls.maze = Service(WARREN, 'maze:300x300,seed=3')
+        cls.bar = Service(WARREN, scene, '--robot', 'polygon -3 -1 3 -1 3 1 -3 1')
 
     @classmethod
     def tearDownClass(cls):
-        for service in (cls.rooms, cls.scene, cls.maze):
+        for service in (cls.rooms, cls.scene, cls.maze, cls.bar):
             assert service.stop() == 0
         super().tearDownClass()
 
@@ -111,6 +112,34 @@ class Layers(BrowserTest):
         self.wait(lambda: 'Zoom in' not in self.legend('roadmap'))
         self.assertGreater(self.drawn('roadmap')[0], 5000)
         self.assertFalse(self.box('components').is_enabled())
+
+    def sweep(self):
+        """Bodies that are drawn, the box around them and the legend's words."""
+        return self.run_script('''
+            const bodies = sweep.bodies ? sweep.bodies.getLayers() : [];
+            const box = L.latLngBounds(bodies.flatMap(body => body.getLatLngs ? body.getLatLngs() : [body.getLatLng()]).flat());
+            return [bodies.length, bodies.length ? [box.getWest(), box.getEast()] : null];''')
+
+    def test_the_sweep_follows_the_path(self):
+        self.shown(self.bar, '#start=8,30,0&goal=40,30,0&layers=sweep')
+        self.wait(lambda: 'along the path' in self.legend('sweep'))
+        count, (west, east) = self.sweep()
+        self.assertGreater(count, 10)  # 32 of way, a body every 12 pixels
+        self.assertLess(abs(west - 5), 1e-9)  # the reference point at 8, its outline 3 before it
+        self.assertLess(abs(east - 43), 1e-9)
+        self.run_script('setEnd("goal", {x: 20, y: 30})')
+        self.wait(lambda: self.sweep()[0] and self.sweep()[1][1] < 24)
+        self.assertIn('layers=sweep', self.run_script('return location.hash'))
+        self.run_script('byId("clear").click()')
+        self.wait(lambda: 'where there is a path' in self.legend('sweep'))
+        self.assertEqual(self.sweep()[0], 0)
+        self.box('sweep').click()
+        self.assertEqual(self.legend('sweep'), '')
+
+    def test_a_point_has_no_sweep(self):
+        self.shown(self.scene)
+        self.assertFalse(self.box('sweep').is_enabled())
+        self.assertIn('no extent', self.legend('sweep'))
 
     def test_a_changed_world_has_its_own(self):
         self.shown(self.rooms, '#layers=components')

@@ -20,9 +20,10 @@ unsigned status_of(const std::string& method, const std::string& path) {
 }
 
 TEST(Route, LeadsToEachPlaceByItsMethodAlone) {
-  for (const char* path : {"/", "/service.css", "/api/health", "/api/metrics", "/api/world", "/tiles/0/0/0.png",
-                           "/v/cafe/tiles/3/7/7.png", "/api/path/0123", "/api/path/0123/clearance", "/api/scene",
-                           "/v/cafe/layers/roadmap/3/7/7.png", "/v/cafe/layers/roadmap/legend"}) {
+  for (const char* path :
+       {"/", "/service.css", "/api/health", "/api/metrics", "/api/world", "/tiles/0/0/0.png", "/v/cafe/tiles/3/7/7.png",
+        "/api/path/0123", "/api/path/0123/clearance", "/api/path/0123/sweep", "/api/scene",
+        "/v/cafe/layers/roadmap/3/7/7.png", "/v/cafe/layers/roadmap/legend"}) {
     SCOPED_TRACE(path);
     EXPECT_EQ(status_of("GET", path), 200U);
     EXPECT_EQ(status_of("HEAD", path), 200U);

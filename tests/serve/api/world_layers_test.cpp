@@ -127,6 +127,17 @@ TEST(WorldLayers, TheLegendHasFigures) {
   EXPECT_EQ(legend_of(service, "components").size(), 2U);
 }
 
+TEST(WorldLayers, TheSweepIsAskedOfThePathAndABodyWithoutExtentHasNone) {
+  const ServedWorld disc(scene_of(town), {.robot = RobotSpec{.kind = RobotKind::disc, .radius = 1.0}}, {});
+  WorldService service(disc, {});
+  EXPECT_EQ(layer_of(service, "sweep").at("of_path"), "/api/path/{id}/sweep");
+  EXPECT_EQ(asked(service, {.path = "/v/" + disc.hash() + "/layers/sweep/0/0/0.png"}).status, 400U);
+  const ServedWorld point(scene_of(town), {}, {});
+  WorldService other(point, {});
+  EXPECT_EQ(layer_of(other, "sweep").at("there"), false);
+  EXPECT_NE(layer_of(other, "sweep").at("why").get<std::string>().find("point"), std::string::npos);
+}
+
 TEST(WorldLayers, WhatIsNoLayerIsNotFound) {
   const ServedWorld world(build(scene_of(town)), {});
   WorldService service(world, {});

@@ -252,6 +252,38 @@ TEST(WorldService, ClearanceAlongAPathIsThatOfItsJudgeOnMapsAndRoadmaps) {
   }
 }
 
+TEST(WorldService, TheSweepIsTheBodyOnItsWay) {
+  const std::string hall = "bounds 0 0 100 60\nwall 50 0 50 25\nwall 50 40 50 60\nstart 10 30 0\ngoal 90 30 0\n";
+  for (const char* robot : {"disc 2", "polygon -4 -1 4 -1 4 1 -4 1", "car polygon -1 -1 4 -1 4 1 -1 1 turning 5"}) {
+    SCOPED_TRACE(robot);
+    Served served(scene_of(hall), {.robot = robot_value("robot", robot)});
+    const bool is_disc = served.world().robot().kind == RobotKind::disc;
+    const HttpResponse answer = served.query(is_disc ? Json{{"start", {10, 30}}, {"goal", {90, 30}}} : Json::object());
+    const std::string address = "/api/path/" + field(answer, "Warren-Path") + "/sweep";
+    const Json told = Json::parse(served.get(address).body);
+    EXPECT_EQ(told.at("outline").size(), is_disc ? 0U : 4U);
+    EXPECT_EQ(told.at("radius"), is_disc ? 2.0 : 0.0);
+    ASSERT_GT(told.at("places").size(), 20U);
+    EXPECT_EQ(told.at("places").front()[0], 10.0);
+    EXPECT_EQ(told.at("places").back()[0], 90.0);
+    const double needed = Json::parse(answer.body).at("min_clearance");
+    for (const Json& place : told.at("places")) {
+      EXPECT_GE(served.world().clearance_at(place.get<std::vector<double>>(), {}), needed - 1e-9) << place;
+    }
+    const Json seen = Json::parse(served.get(address, {{"bbox", "40,0,60,60"}}).body);
+    EXPECT_GT(seen.at("places").size(), 5U);
+    EXPECT_LT(seen.at("places").size(), told.at("places").size());
+    EXPECT_EQ(served.get(address, {{"bbox", "40,0,60"}}).status, 400U);
+  }
+}
+
+TEST(WorldService, APointHasNoSweep) {
+  Served served(scene_of(town));
+  const HttpResponse answer = served.query(Json::object());
+  EXPECT_EQ(served.get("/api/path/" + field(answer, "Warren-Path") + "/sweep").status, 400U);
+  EXPECT_EQ(served.get("/api/path/0123456789abcdef/sweep").status, 404U);
+}
+
 TEST(WorldService, ClearanceAlongAPathOfALargeMazeIsHalfACorridor) {
   Served served(read_world("maze:300x300,seed=7,loops=0.05", {}));
   const HttpResponse answer = served.query(Json::object());

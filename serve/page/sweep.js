@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The layer of the body along the path: outlines at the places that the service names, as far as they are seen.
+"use strict";
+const sweep = {bodies: null, asked: 0};
+
+function forgetSweep() {
+  ++sweep.asked;
+  if (sweep.bodies) sweep.bodies.remove();
+  sweep.bodies = null;
+}
+async function showSweep() {
+  const layer = layers.get("sweep");
+  if (!layer || !layer.box.checked) return forgetSweep();
+  if (!answer.id) return fillLegend(layer, [{words: "Shown where there is a path."}]);
+  const mine = ++sweep.asked, seen = map.getBounds().pad(0.25);
+  const box = [seen.getWest(), seen.getSouth(), seen.getEast(), seen.getNorth()].join(",");
+  let json;
+  try {
+    json = await (await fetch(layer.account.of_path.replace("{id}", answer.id) + "?z=" + map.getZoom() + "&bbox=" + box)).json();
+  } catch (error) {
+    json = {error: {message: "The service does not answer any more."}};
+  }
+  if (mine !== sweep.asked) return;  // another path or place came meanwhile
+  forgetSweep();
+  if (json.error) return fillLegend(layer, [{words: json.error.message}]);
+  drawSweep(layer, json);
+}
+function ringAt(json, [x, y, theta = 0]) {
+  const cos = Math.cos(theta), sin = Math.sin(theta);
+  return json.outline.map(([a, b]) => L.latLng(y + sin * a + cos * b, x + cos * a - sin * b));
+}
+/// Of a car that is a disc a line shows where it goes.
+function bodyAt(json, place, style) {
+  if (json.outline.length > 0) return [L.polygon(ringAt(json, place), style)];
+  const at = [place[1], place[0]], body = L.circle(at, {...style, radius: json.radius});
+  if (place.length < 3) return [body];
+  return [body, L.polyline([at, [place[1] + json.radius * Math.sin(place[2]), place[0] + json.radius * Math.cos(place[2])]], style)];
+}
+function drawSweep(layer, json) {
+  const color = document.documentElement.classList.contains("dark") ? "#5eead4" : "#0f766e";
+  const style = {pane: "layer-sweep", color, weight: 1, opacity: 0.8, fillOpacity: 0.08, interactive: false};
+  sweep.bodies = L.layerGroup(json.places.flatMap(place => bodyAt(json, place, style))).addTo(map);
+  const unit = world.unit ? " " + world.unit : "";
+  fillLegend(layer, [{color, words: world.robot + " along the path, every " + shown(json.apart) + unit + " and at its end; " + json.places.length + " in sight"}]);
+}
