@@ -75,7 +75,7 @@ void append_json_number(std::string& text, double value) {
     return;
   }
   std::array<char, 32> digits;  // of a double: 24 at most
-  // Paths over cells are whole numbers: these are written in a third of the time, and below 1e15 without an exponent.
+  // Paths over cells are whole numbers: these are written without a formatter, below 1e15 without an exponent.
   if (std::abs(value) < 1e15 && std::trunc(value) == value && (value != 0.0 || !std::signbit(value))) {
     const auto [end, error] =
         std::to_chars(digits.data(), digits.data() + digits.size(), static_cast<std::int64_t>(value));

@@ -53,11 +53,13 @@ class Run {
   /// Where the answer is there in time and what came after it was stopped: for writing it, which a further signal or
   /// the memory alone ends; else execution().
   Execution execution_for_what_is_left();
+  /// Gives back the pages that stages left: for a verb that stays. On the thread that made the run.
+  void give_back_pages() { pages_.reset(); }
   /// Ends the progress bar and writes the trace, if one was asked for; further calls do nothing.
   void end();
 
  private:
-  PagePool pages_;  // what one stage leaves is warm for the next
+  std::optional<PagePool> pages_{std::in_place};  // what one stage leaves is warm for the next
   Deadline deadline_;
   Deadline last_deadline_;  // without the budget
   Progress progress_;

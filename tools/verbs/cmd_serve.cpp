@@ -94,6 +94,7 @@ int serve(const Arguments& arguments) {
   const std::string token = token_of(arguments, run.execution());
   std::unique_ptr<ServedWorld> world = load_served(arguments, run);
   run.end();
+  run.give_back_pages();
   ServiceLimits limits{.memory_bytes = run.execution().deadline->memory_bytes(), .threads = run.execution().threads};
   if (budget_s) limits.budget_s = *budget_s;
   limits.writable = arguments.has("--writable");
