@@ -19,7 +19,7 @@ WARREN, SHARED = (os.path.abspath(p) for p in sys.argv[1:3])
 VARIES = ("stages_s", "solve_s", "peak_memory_bytes", "threads", "ranks")
 NET = "10.213.77"
 PATIENCE_S = 10
-WORLD = "maze:9000x9000,algorithm=mst,seed=3,loops=0.01"
+WORLD = "maze:20000x20000,algorithm=mst,seed=3,loops=0.01"
 AGENT = """#!/bin/sh
 host=${1##*.}; shift
 export TMPDIR={folder}/$host
