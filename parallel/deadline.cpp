@@ -8,6 +8,9 @@
 
 #include <sys/resource.h>
 #include <unistd.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include <algorithm>
 #include <cmath>
@@ -39,6 +42,13 @@ std::size_t machine_available_bytes() {
     if (std::sscanf(line, "MemAvailable: %llu", &kilobytes) == 1) return static_cast<std::size_t>(kilobytes) * 1024;
   }
   return std::numeric_limits<std::size_t>::max();
+}
+
+/// Small pieces that other threads have freed stay resident until somebody asks for them.
+void give_freed_pages_back() {
+#ifdef __GLIBC__
+  ::malloc_trim(0);
+#endif
 }
 
 StopReason reason_of_signal(int number) {
@@ -79,8 +89,13 @@ void Deadline::reserve(std::size_t bytes) const {
   while (bytes < unasked) {
     if (unasked_.compare_exchange_weak(unasked, unasked - bytes, std::memory_order_relaxed)) return;
   }
-  const std::size_t held = resident_bytes();
-  if (held >= memory_bytes_ || bytes > memory_bytes_ - held) throw Stopped{StopReason::memory};
+  const auto fits = [&](std::size_t held) { return held < memory_bytes_ && bytes <= memory_bytes_ - held; };
+  std::size_t held = resident_bytes();
+  if (!fits(held)) {
+    give_freed_pages_back();
+    held = resident_bytes();
+  }
+  if (!fits(held)) throw Stopped{StopReason::memory};
   unasked_.store((memory_bytes_ - held - bytes) / 64, std::memory_order_relaxed);
 }
 

@@ -6,6 +6,7 @@
 
 #include <csignal>
 #include <limits>
+#include <thread>
 #include <vector>
 
 #include "parallel/execution.hpp"
@@ -64,6 +65,31 @@ TEST(Deadline, GrantsThatItGaveUnaskedCountTowardsTheLimit) {
   };
   EXPECT_THROW(take_all(), Stopped);
   EXPECT_LT(held.size(), 1100U);
+}
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool keeps_freed_pages = false;
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
+constexpr bool keeps_freed_pages = false;
+#else
+constexpr bool keeps_freed_pages = true;
+#endif
+#else
+constexpr bool keeps_freed_pages = true;
+#endif
+
+TEST(Deadline, PagesThatAnotherThreadHasFreedAreNoReasonToStop) {
+  if (!keeps_freed_pages) GTEST_SKIP() << "a sanitizer's allocator";
+  constexpr std::size_t piece = std::size_t{1} << 14;
+  std::vector<char> last;
+  std::thread([&] {
+    std::vector<std::vector<char>> pieces(3000);
+    for (std::vector<char>& one : pieces) one.assign(piece, 'x');
+    last.assign(piece, 'x');  // above all others, so that they can't go by themselves
+  }).join();
+  const Deadline deadline(forever, resident_bytes());
+  EXPECT_NO_THROW(deadline.reserve(1000 * piece));
 }
 
 TEST(Deadline, NamesTheSignalThatCame) {
