@@ -84,11 +84,20 @@ concept BunchWorld = World<W> && requires(const W& w, typename W::Query& q) {
   { w.free_motions(std::span<const Motion<typename W::State>>(), q) } -> std::same_as<std::uint32_t>;
 };
 
-/// A world of the plane that looks at a row of points faster than at one after the other.
-/// w.keep_free(y, bits)  of the points (1, y), (2, y), ..., which have a bit each, clears those that are not free
+/// Rows of lattice points (1, y), (2, y), ..., a bit each in whole words; y = first, first + 1, ...
+struct LatticeRows {
+  double first;
+  std::size_t rows;
+  std::size_t words_a_row;
+};
+
+/// A world of the plane that looks at rows of lattice points faster than at one after the other.
+/// w.keep_free(rows, points, right, up)  of `points` clears those that are not free; of `right` and `up` those from
+///                                       which the motion to (x + 1, y), to (x, y + 1), is not free: of both or, where
+///                                       they are empty, of neither
 template <class W>
-concept RowWorld = World<W> && requires(const W& w, std::span<std::uint64_t> bits) {
-  w.keep_free(1.0, bits);
+concept RowWorld = World<W> && requires(const W& w, const LatticeRows& rows, std::span<std::uint64_t> bits) {
+  w.keep_free(rows, bits, bits, bits);
 };
 
 /// Motions that this query saw refused: neither proved free nor blocked. 0 for worlds whose checks are exact.

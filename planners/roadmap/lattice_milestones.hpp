@@ -17,18 +17,26 @@
 #include "core/base/types.hpp"
 #include "core/base/world.hpp"
 #include "parallel/chunks.hpp"
+#include "planners/roadmap/lattice_steps.hpp"
 #include "planners/roadmap/roadmap_options.hpp"
 #include "spatial/points/tile_order.hpp"
 
 namespace warren {
 namespace detail {
 
+/// A wall near the border of two chunks is looked at by both, so a chunk has some rows at least.
+inline std::size_t lattice_rows_a_chunk(LatticeSize size) {
+  constexpr std::size_t points = std::size_t{1} << 15;
+  constexpr std::size_t least = 32;
+  return points / size.cols + least;
+}
+
 /// Which points of the lattice are free: rows of whole words.
 class LatticeBits {
  public:
   /// The free ones of the first `count` points, row by row.
   template <World W>
-  LatticeBits(const W& world, LatticeSize size, std::uint64_t count, const Execution& execution);
+  LatticeBits(const W& world, LatticeSize size, std::uint64_t count, const Execution& execution, LatticeSteps* steps);
 
   LatticeSize size() const { return size_; }
   std::uint64_t count() const { return count_; }
@@ -53,10 +61,16 @@ class LatticeBits {
   }
 
  private:
-  /// Sets the bits of the free ones of the first `cols` points of a row, whose words are 0.
+  /// Columns of a row that are among the first `count` points.
+  std::uint64_t cols_of(std::size_t row, std::uint64_t count) const {
+    const std::uint64_t first = row * size_.cols;
+    return std::min<std::uint64_t>(size_.cols, count - std::min(count, first));
+  }
+  /// Sets the bits of the free ones of the first `count` points in some rows.
   template <World W>
-  void fill_row(const W& world, std::size_t row, std::uint64_t cols, std::uint64_t* words,
-                typename W::Query& query) const;
+  void fill_rows(const W& world, Range rows, std::uint64_t count, LatticeSteps* steps);
+  /// The box of a row's free points; empty where there are none.
+  Box box_of_row(std::size_t row) const;
   /// The bits of word w that stand for columns first .. last - 1.
   static std::uint64_t columns_mask(std::uint32_t w, std::uint32_t first, std::uint32_t last) {
     std::uint64_t mask = ~std::uint64_t{0};
@@ -74,29 +88,22 @@ class LatticeBits {
 };
 
 template <World W>
-LatticeBits::LatticeBits(const W& world, LatticeSize size, std::uint64_t count, const Execution& execution)
+LatticeBits::LatticeBits(const W& world, LatticeSize size, std::uint64_t count, const Execution& execution,
+                         LatticeSteps* steps)
     : size_(size), words_a_row_((std::size_t{size.cols} + 63) / 64), words_(words_a_row_ * size.rows) {
-  constexpr std::size_t points_a_chunk = std::size_t{1} << 15;
-  const std::size_t grain = points_a_chunk / size.cols + 1;
+  if (steps != nullptr) steps->reset(size.rows, words_a_row_);
+  const std::size_t grain = lattice_rows_a_chunk(size);
   struct Part {
     std::uint64_t count = 0;
     Box box;
   };
   std::vector<Part> parts(chunk_count(size.rows, grain));
   for_chunks(size.rows, grain, execution, [&](Range r) {
-    auto query = world.make_query();
+    fill_rows(world, r, count, steps);
     Part part;
     for (std::size_t row = r.first; row < r.last; ++row) {
-      std::uint64_t* const words = &words_[row * words_a_row_];
-      std::fill_n(words, words_a_row_, 0);
-      const std::uint64_t first = row * size.cols;
-      const std::uint64_t cols = std::min<std::uint64_t>(size.cols, count - std::min(count, first));
-      fill_row(world, row, cols, words, query);
-      const auto number = static_cast<std::uint32_t>(row);
-      for_each_in_row(number, 0, size.cols, [&](std::uint32_t col) {
-        ++part.count;
-        part.box.include(Vec2{static_cast<double>(col) + 1.0, static_cast<double>(row) + 1.0});
-      });
+      part.count += count_in_row(static_cast<std::uint32_t>(row), 0, size.cols);
+      part.box.include(box_of_row(row));
     }
     parts[r.first / grain] = part;
   });
@@ -106,19 +113,40 @@ LatticeBits::LatticeBits(const W& world, LatticeSize size, std::uint64_t count, 
   }
 }
 
-template <World W>
-void LatticeBits::fill_row(const W& world, std::size_t row, std::uint64_t cols, std::uint64_t* words,
-                           typename W::Query& query) const {
+inline Box LatticeBits::box_of_row(std::size_t row) const {
+  const std::span<const std::uint64_t> words(&words_[row * words_a_row_], words_a_row_);
+  const auto is_set = [](std::uint64_t word) { return word != 0; };
+  const auto first = std::find_if(words.begin(), words.end(), is_set);
+  if (first == words.end()) return {};
+  const auto last = std::find_if(words.rbegin(), words.rend(), is_set);
+  const auto low = (first - words.begin()) * 64 + std::countr_zero(*first);
+  const auto high = (words.rend() - last) * 64 - 1 - std::countl_zero(*last);
   const double y = static_cast<double>(row) + 1.0;
-  if constexpr (RowWorld<W>) {
-    for (std::size_t w = 0; w * 64 < cols; ++w)
-      words[w] = columns_mask(static_cast<std::uint32_t>(w), 0, static_cast<std::uint32_t>(cols));
-    world.keep_free(y, {words, words_a_row_});
-  } else {
-    for (std::uint64_t col = 0; col < cols; ++col) {
-      const bool is_free = world.is_free({static_cast<double>(col + 1), y}, query);
-      words[col / 64] |= std::uint64_t{is_free} << (col % 64);
+  return {{static_cast<double>(low) + 1.0, y}, {static_cast<double>(high) + 1.0, y}};
+}
+
+template <World W>
+void LatticeBits::fill_rows(const W& world, Range rows, std::uint64_t count, LatticeSteps* steps) {
+  const std::span<std::uint64_t> words(&words_[rows.first * words_a_row_], rows.size() * words_a_row_);
+  std::fill(words.begin(), words.end(), std::uint64_t{0});
+  auto query = world.make_query();
+  for (std::size_t row = rows.first; row < rows.last; ++row) {
+    const std::uint64_t cols = cols_of(row, count);
+    std::uint64_t* const its_words = &words_[row * words_a_row_];
+    if constexpr (RowWorld<W>) {
+      for (std::size_t w = 0; w * 64 < cols; ++w)
+        its_words[w] = columns_mask(static_cast<std::uint32_t>(w), 0, static_cast<std::uint32_t>(cols));
+    } else {
+      for (std::uint64_t col = 0; col < cols; ++col) {
+        const Vec2 point{static_cast<double>(col + 1), static_cast<double>(row) + 1.0};
+        its_words[col / 64] |= std::uint64_t{world.is_free(point, query)} << (col % 64);
+      }
     }
+  }
+  if constexpr (RowWorld<W>) {
+    using Bits = std::span<std::uint64_t>;
+    world.keep_free({static_cast<double>(rows.first) + 1.0, rows.size(), words_a_row_}, words,
+                    steps != nullptr ? steps->right(rows) : Bits(), steps != nullptr ? steps->up(rows) : Bits());
   }
 }
 
@@ -212,16 +240,18 @@ inline Vec2* LatticeInTileOrder::write_row(std::uint32_t row, std::uint32_t firs
 
 }  // namespace detail
 
-/// The free ones of the first `count` points of the lattice, in tile order; room for `spare` more. Throws InputError
+/// The free ones of the first `count` points of the lattice, in tile order; room for `spare` more. steps: where given,
+/// which of a RowWorld's are free is found, too. Throws InputError
 /// for a lattice with more points than milestones can be numbered, and Stopped.
 template <World W>
 RawVector<Vec2> lattice_milestones(const W& world, LatticeSize size, std::uint64_t count, const Execution& execution,
-                                   std::size_t spare) {
+                                   std::size_t spare, LatticeSteps* steps = nullptr) {
   if (std::uint64_t{size.rows} * size.cols > std::uint64_t{1} << 31) {
     throw InputError("lattice", "has more than 2^31 cells; use the tiled pipeline");
   }
-  execution.reserve(std::size_t{size.rows} * (size.cols / 8 + 8));
-  const detail::LatticeBits free(world, size, count, execution);
+  const std::size_t bits_a_point = steps != nullptr ? 3 : 1;
+  execution.reserve(std::size_t{size.rows} * (size.cols / 8 + 8) * bits_a_point);
+  const detail::LatticeBits free(world, size, count, execution, steps);
   return detail::LatticeInTileOrder(free, execution).points(spare);
 }
 

@@ -14,6 +14,7 @@
 
 #include "parallel/assemble_graph.hpp"
 #include "parallel/components.hpp"
+#include "planners/roadmap/lattice_steps.hpp"
 #include "planners/roadmap/plan_in_rounds.hpp"
 #include "planners/roadmap/roadmap_search.hpp"
 
@@ -34,7 +35,8 @@ class PrmPlan : public Rounds<W> {
   bool round(std::uint64_t samples) {
     reduced_.reset();
     graph_ = Graph();
-    this->draw(samples);
+    if (RowWorld<W> && are_lattice_steps(this->options_, this->rule_for(samples))) steps_.emplace();
+    this->draw(samples, steps_ ? &*steps_ : nullptr);
     assemble(connect(samples));
     return search();
   }
@@ -49,6 +51,7 @@ class PrmPlan : public Rounds<W> {
   using Rounds<W>::goal_vertex;
 
   EdgeParts connect(std::uint64_t samples);
+  EdgeParts free_edges(const StateIndex<W>& index, const ConnectionRule& rule);
   void assemble(const EdgeParts& edges);
   bool search();
   bool joined() const {
@@ -57,6 +60,7 @@ class PrmPlan : public Rounds<W> {
   }
 
   bool keep_;
+  std::optional<LatticeSteps> steps_;  // where they are all the candidates
   Graph graph_;
   std::optional<TwiceReducedGraphView> reduced_;
   Components components_;  // of the graph; empty if reduced_ knows them
@@ -69,10 +73,22 @@ EdgeParts PrmPlan<W>::connect(std::uint64_t samples) {
   const auto milestones = this->milestones();
   const StageTimer timer(execution_, "connect", solution_.seconds.connect, milestones.size());
   const ConnectionRule rule = this->rule_for(samples);
-  EdgeParts edges = connect_milestones(world_, milestones, index, rule, execution_, solution_.counters);
+  EdgeParts edges = free_edges(index, rule);
   edges.push_back(
       attach_start_and_goal(world_, milestones, index, rule, this->start_, this->goal_, solution_.counters));
+  steps_.reset();
   return edges;
+}
+
+template <World W>
+EdgeParts PrmPlan<W>::free_edges(const StateIndex<W>& index, const ConnectionRule& rule) {
+  if constexpr (RowWorld<W>) {
+    if (steps_) {
+      const auto free = [&](std::span<const Motion<State>> motions, auto&) { return steps_->free_motions(motions); };
+      return connect_milestones(world_, this->milestones(), index, rule, execution_, solution_.counters, free);
+    }
+  }
+  return connect_milestones(world_, this->milestones(), index, rule, execution_, solution_.counters);
 }
 
 template <World W>

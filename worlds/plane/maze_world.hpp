@@ -38,9 +38,9 @@ class MazeWorld {
     return index_.keeps_clearance(a, b, planning_clearance_);
   }
   std::uint32_t free_motions(std::span<const Motion<State>> motions, Query& query) const noexcept;
-  /// Of the points (1, y), (2, y), ..., a bit each, clears those that are not free. Asked wall by wall: O(walls near
-  /// the row), whatever it has points.
-  void keep_free(double y, std::span<std::uint64_t> bits) const noexcept;
+  /// As RowWorld says. Asked wall by wall: O(walls near the rows), whatever they have points.
+  void keep_free(const LatticeRows& rows, std::span<std::uint64_t> points, std::span<std::uint64_t> right,
+                 std::span<std::uint64_t> up) const noexcept;
   static double distance(const State& a, const State& b) { return warren::distance(a, b); }
   State interpolate(const State& a, const State& b, double t) const {
     return t <= 0.0 ? a : t >= 1.0 ? b : a + t * (b - a);

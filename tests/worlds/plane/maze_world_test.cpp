@@ -15,25 +15,31 @@
 namespace warren {
 namespace {
 
-/// Every point of every row, asked for alone.
-void expect_rows_as_points(const MazeWorld& world, std::size_t rows, std::size_t cols) {
+using Bits = std::vector<std::uint64_t>;
+
+bool bit(const Bits& bits, std::size_t i) { return (bits[i / 64] >> (i % 64) & 1U) != 0; }
+
+/// Every point and step of a band of rows, asked for alone; what is out before stays out.
+void expect_band_as_points(const MazeWorld& world, const LatticeRows& rows) {
   MazeWorld::Query query;
-  for (std::size_t row = 0; row <= rows; ++row) {
-    const double y = static_cast<double>(row);
-    std::vector<std::uint64_t> bits((cols + 63) / 64, ~std::uint64_t{0});
-    if (row % 3 == 0) bits[0] = 0x5555;  // points that are out already stay out
-    const std::vector<std::uint64_t> before = bits;
-    world.keep_free(y, bits);
-    for (std::size_t i = 0; i < bits.size() * 64; ++i) {
-      const bool was_in = (before[i / 64] >> (i % 64) & 1U) != 0;
-      const bool is_in = (bits[i / 64] >> (i % 64) & 1U) != 0;
-      ASSERT_EQ(is_in, was_in && world.is_free({static_cast<double>(i + 1), y}, query))
-          << "row " << row << " point " << i;
-    }
+  Bits before(rows.rows * rows.words_a_row, ~std::uint64_t{0});
+  before.at(0) = 0x5555;
+  Bits points = before;
+  Bits right = before;
+  Bits up = before;
+  world.keep_free(rows, points, right, up);
+  for (std::size_t i = 0; i < before.size() * 64; ++i) {
+    const std::size_t cols = rows.words_a_row * 64;
+    const Vec2 at{static_cast<double>(i % cols + 1), rows.first + static_cast<double>(i / cols)};
+    ASSERT_EQ(bit(points, i), bit(before, i) && world.is_free(at, query)) << at.x << ", " << at.y;
+    ASSERT_EQ(bit(right, i), bit(before, i) && world.is_free_motion(at, {at.x + 1.0, at.y}, query))
+        << at.x << ", " << at.y;
+    ASSERT_EQ(bit(up, i), bit(before, i) && world.is_free_motion(at, {at.x, at.y + 1.0}, query))
+        << at.x << ", " << at.y;
   }
 }
 
-TEST(MazeWorld, LooksAtRowsOfPointsAsAtEachPointAlone) {
+TEST(MazeWorld, LooksAtRowsOfPointsAndStepsAsAtEachAlone) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE(seed);
     constexpr double side = 90.0;
@@ -52,7 +58,9 @@ TEST(MazeWorld, LooksAtRowsOfPointsAsAtEachPointAlone) {
     if (seed % 2 == 0) scene.bounds = Box{{10.0, 5.0}, {80.5, 70.0}};
     for (const double clearance : {0.0, 0.1, 1.0, 3.7}) {
       SCOPED_TRACE(clearance);
-      expect_rows_as_points(MazeWorld(scene, clearance, Execution{1}), 92, 100);
+      const MazeWorld world(scene, clearance, Execution{1});
+      for (double row = 0.0; row <= 92.0; row += 7.0) expect_band_as_points(world, {row, 7, 2});
+      expect_band_as_points(world, {40.0, 1, 1});
     }
   }
 }
