@@ -93,11 +93,11 @@ void CoreSearch::grow() {
   }
 }
 
-void CoreSearch::append_way(std::uint32_t to, RawVector<CellId>& cells) const {
-  const std::size_t first = cells.size();
+void CoreSearch::write_way(std::uint32_t to, CellId* start, int direction) const {
   const std::uint32_t cols = index_.places().size().cols;
-  for (; to != 0; to = seen_[to].from) cells.push_back(seen_[to].row * cols + seen_[to].col);
-  std::reverse(cells.begin() + static_cast<std::ptrdiff_t>(first), cells.end());
+  for (; to != 0; to = seen_[to].from) {
+    start[std::ptrdiff_t{direction} * seen_[to].steps] = seen_[to].row * cols + seen_[to].col;
+  }
 }
 
 }  // namespace warren

@@ -41,8 +41,9 @@ class CoreSearch {
   static constexpr std::uint32_t none = ~std::uint32_t{0};
   std::uint32_t number_of(LatticePlace p) const;
   const SeenCell& seen(std::uint32_t number) const { return seen_[number]; }
-  /// Appends the cells on the way from the start, not included, to a seen cell, included.
-  void append_way(std::uint32_t to, RawVector<CellId>& cells) const;
+  /// Writes the cells on the way from the start, not included, to a seen cell, included: each as many places from
+  /// `start` as it is steps from the start, in `direction`, 1 or -1.
+  void write_way(std::uint32_t to, CellId* start, int direction) const;
 
  private:
   SeenCell first_cell(LatticePlace start) const;

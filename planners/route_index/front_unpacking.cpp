@@ -38,6 +38,7 @@ void FrontUnpacking::write(std::span<const FrontStep> steps, CellId* cells, cons
 void FrontUnpacking::read_ways() {
   middles_.clear();
   for (const Entry& entry : todo_) {
+    if (entry.length == 0) refuse_front();  // a hop without steps would write beside its cells
     const std::uint64_t way = front_way(fronts_, *entry.front, entry.place);
     if ((way & 1U) != 0) {
       hops_.push_back({index_.gate_place(entry.low), index_.gate_place(entry.high), entry.length,

@@ -11,7 +11,7 @@ namespace warren {
 namespace {
 
 [[noreturn]] void refuse_length() {
-  throw InputError("route index", "a way in it is longer than the lattice: build it again");
+  throw InputError("route index", "a way in it is longer than the lattice, or than its parts: build it again");
 }
 
 }  // namespace
@@ -44,17 +44,18 @@ RawVector<CellId> RouteQuery::path(CellId start, CellId goal, const Execution& e
   const LatticePlace a = checked(start);
   const LatticePlace b = checked(goal);
   const TreeJoin join = trees_.join(a, b);
-  const std::size_t most = index_.places().place_count();
-  if (join.start_steps > most || join.goal_steps > most) {
-    refuse_length();
+  FrontQuery::Way between{};
+  if (!join.in_tree()) between = core_way(join.start_core, join.goal_core);
+  if (between.length >= no_way) return {};
+  for (const std::uint32_t length : {join.start_steps, between.length, join.goal_steps}) {
+    if (length > index_.places().place_count()) refuse_length();
   }
-  execution.reserve((std::size_t{join.start_steps} + 1 + join.goal_steps) * sizeof(CellId));
-  RawVector<CellId> cells(std::size_t{join.start_steps} + 1 + (join.in_tree() ? join.goal_steps : 0));
-  cells[join.start_steps] = index_.places().cell_of(join.start_core);
-  if (!join.in_tree()) {
-    if (!append_core_path(join.start_core, join.goal_core, cells, execution)) return {};
-    cells.resize(cells.size() + join.goal_steps);
-  }
+  const std::size_t count = std::size_t{join.start_steps} + between.length + join.goal_steps + 1;
+  execution.reserve(count * sizeof(CellId));
+  RawVector<CellId> cells(count);
+  CellId* const core = cells.data() + join.start_steps;
+  *core = index_.places().cell_of(join.start_core);
+  if (!join.in_tree()) write_core_way(between, join.goal_core, core, execution);
   std::vector<ClimbLeg> legs;
   trees_.cut({a, join.start_core, join.start_steps, 1, cells.data()}, legs);
   trees_.cut({b, join.goal_core, join.goal_steps, -1, &cells.back()}, legs);
@@ -62,31 +63,28 @@ RawVector<CellId> RouteQuery::path(CellId start, CellId goal, const Execution& e
   return cells;
 }
 
-/// The first cell stands already.
-bool RouteQuery::append_core_path(LatticePlace start, LatticePlace goal, RawVector<CellId>& cells,
-                                  const Execution& execution) {
+/// As long as its parts together, or refused.
+FrontQuery::Way RouteQuery::core_way(LatticePlace start, LatticePlace goal) {
   near_start_.search(start);
   near_goal_.search(goal);
   const std::uint32_t direct = direct_length(goal);
-  const FrontQuery::Way way = fronts_.way(near_start_.gates(), near_goal_.gates(), direct);
-  if (way.length >= no_way) return false;
-  if (way.length == direct) {
-    near_start_.append_way(near_start_.number_of(goal), cells);
-    return true;
-  }
-  near_start_.append_way(near_start_.gates()[way.first].seen, cells);
-  const std::size_t gate = cells.size() - 1;
-  if (way.length > index_.places().place_count()) refuse_length();
-  std::size_t between = 0;
-  for (const FrontStep& step : way.steps) between += step.length;
-  execution.reserve(between * sizeof(CellId));
-  cells.resize(cells.size() + between);
-  unpacking_.write(way.steps, cells.data() + gate, execution);
-  RawVector<CellId> tail{index_.places().cell_of(goal)};
-  near_goal_.append_way(near_goal_.gates()[way.last].seen, tail);
-  tail.pop_back();  // the gate, which stands already; or the goal, where it is the gate
-  cells.insert(cells.end(), tail.rbegin(), tail.rend());
-  return true;
+  FrontQuery::Way way = fronts_.way(near_start_.gates(), near_goal_.gates(), direct);
+  if (way.length == direct) return way;
+  std::size_t length = std::size_t{near_start_.gates()[way.first].steps} + near_goal_.gates()[way.last].steps;
+  for (const FrontStep& step : way.steps) length += step.length;
+  if (length != way.length) refuse_length();
+  return way;
+}
+
+/// cells: the first one stands already.
+void RouteQuery::write_core_way(const FrontQuery::Way& way, LatticePlace goal, CellId* cells,
+                                const Execution& execution) {
+  if (way.length == direct_length(goal)) return near_start_.write_way(near_start_.number_of(goal), cells, 1);
+  const SeenGate& first = near_start_.gates()[way.first];
+  near_start_.write_way(first.seen, cells, 1);
+  unpacking_.write(way.steps, cells + first.steps, execution);
+  cells[way.length] = index_.places().cell_of(goal);
+  near_goal_.write_way(near_goal_.gates()[way.last].seen, cells + way.length, -1);
 }
 
 }  // namespace warren

@@ -32,7 +32,8 @@ class RouteQuery {
   LatticePlace checked(CellId cell) const;
   std::uint32_t core_length(LatticePlace start, LatticePlace goal);
   std::uint32_t direct_length(LatticePlace goal) const;
-  bool append_core_path(LatticePlace start, LatticePlace goal, RawVector<CellId>& cells, const Execution& execution);
+  FrontQuery::Way core_way(LatticePlace start, LatticePlace goal);
+  void write_core_way(const FrontQuery::Way& way, LatticePlace goal, CellId* cells, const Execution& execution);
 
   const RouteIndex& index_;
   TreeRoutes trees_;

@@ -4,11 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
+#include "parallel/deadline.hpp"
+#include "planners/route_index/tree_routes.hpp"
 #include "tests/planners/route_index/lattice_mazes.hpp"
 #include "tests/seeds.hpp"
 
@@ -28,6 +31,7 @@ RouteIndexOptions small_leaves(std::uint32_t leaf) { return {.leaf = leaf, .open
 void expect_path(const LatticePassages& passages, const RawVector<CellId>& path, CellId start, CellId goal,
                  std::uint32_t length) {
   ASSERT_EQ(path.size(), std::size_t{length} + 1);
+  EXPECT_EQ(path.capacity(), path.size()) << "no more memory than is asked for";
   EXPECT_EQ(path.front(), start);
   EXPECT_EQ(path.back(), goal);
   for (std::size_t i = 1; i < path.size(); ++i) {
@@ -140,6 +144,39 @@ TEST(RouteQuery, LongWaysBetweenGates) {
   EXPECT_FALSE(index.arrays().fronts.lengths.empty());
   EXPECT_FALSE(index.arrays().fronts.short_lengths.empty());
   expect_exact({size, std::move(words)}, small_leaves(1), 39989, 211, 4001);
+}
+
+/// How many legs a way's climbs are cut into.
+std::size_t legs_of(const RouteIndex& index, CellId start, CellId goal) {
+  const TreeRoutes trees(index);
+  const LatticePlace a = index.places().place_of(start);
+  const LatticePlace b = index.places().place_of(goal);
+  const TreeJoin join = trees.join(a, b);
+  RawVector<CellId> cells(std::size_t{join.start_steps} + join.goal_steps + 1);  // that nobody writes
+  std::vector<ClimbLeg> legs;
+  trees.cut({a, join.start_core, join.start_steps, 1, cells.data()}, legs);
+  trees.cut({b, join.goal_core, join.goal_steps, -1, &cells.back()}, legs);
+  return legs.size();
+}
+
+/// Equal for any number of threads, and stopped between chunks.
+void expect_the_same_by_all_threads(const RouteIndex& index, CellId start, CellId goal) {
+  RouteQuery query(index);
+  const RawVector<CellId> path = query.path(start, goal);
+  expect_path(index.passages(), path, start, goal, flood_lengths(index.passages(), start)[goal]);
+  const Deadline over(0.0);
+  for (const unsigned threads : {1U, 2U, 3U, 8U}) {
+    EXPECT_EQ(query.path(start, goal, {.threads = threads}), path) << threads;
+    EXPECT_THROW(query.path(start, goal, {.threads = threads, .deadline = &over}), Stopped);
+  }
+}
+
+/// A thread writes 16 legs before it takes more.
+TEST(RouteQuery, ManyLegsAreWrittenByAnyNumberOfThreads) {
+  const RouteIndex index(maze_passages({1000, 1000, 1, MazeAlgorithm::backtracker, 0.0}), {}, {});
+  const CellId last = 1000 * 1000 - 1;
+  EXPECT_GT(legs_of(index, 0, last), 2 * 16U);
+  expect_the_same_by_all_threads(index, 0, last);
 }
 
 TEST(RouteQuery, CellsOutsideTheLatticeAreRefused) {
