@@ -119,7 +119,7 @@ void add_roadmap(std::string& text, const Answer& answer, const Palette& palette
   line(text, palette, "work",
        fmt::format("{} checked, {} expanded, {}", counted(answer.counters.edges_checked, "edge", "edges"),
                    grouped(answer.counters.expanded), counted(answer.counters.rounds, "round", "rounds")));
-  if (answer.outcome != Outcome::not_connected || answer.refuted) return;
+  if (answer.outcome != Outcome::not_connected || answer.refuted || !answer.separation.is_known()) return;
   line(
       text, palette, "start, goal",
       fmt::format("components of {} and {}, {} apart", counted(answer.separation.start_size, "milestone", "milestones"),

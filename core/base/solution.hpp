@@ -37,7 +37,7 @@ struct RoadmapSize {
 };
 
 /// Why start and goal are not joined: sizes of their components, and the shortest distance between a milestone of one
-/// and a milestone of the other (in the world's metric).
+/// and a milestone of the other (in the world's metric). Where nobody measured it, nothing of it is known.
 struct Separation {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();  ///< a distance that nobody measured
   std::uint64_t start_size = 0;                        ///< milestones that the start can reach, itself included
@@ -45,6 +45,8 @@ struct Separation {
   double nearest_gap = unknown;                        ///< shortest distance between the two; unknown: not measured
   std::array<double, 2> near_start{unknown, unknown};  ///< where these two stand, of bodies of the plane: x and y
   std::array<double, 2> near_goal{unknown, unknown};   ///< the one of the goal's
+  /// Was it measured? A start that can reach anything reaches itself.
+  bool is_known() const { return start_size > 0; }
 };
 
 /// What a planner gives back, in its own states.

@@ -71,6 +71,7 @@ class TiledPlan {
   void search_elsewhere();
   void expand_path(const PathExpansion& path);
   void measure_gap();
+  Separation gap();
 
   static constexpr std::size_t most_points = std::size_t{1} << 20;  // of a piece of the path
   static constexpr std::size_t most_tiles = 1024;
@@ -192,12 +193,24 @@ bool TiledPlan::joined() {
   return components.joined;
 }
 
+/// That there is no way is known by now: a budget that does not suffice for the gap leaves it unknown.
+void TiledPlan::measure_gap() {
+  try {
+    solution_.separation = gap();
+  } catch (const Stopped& stopped) {
+    if (is_signal(stopped.reason)) throw;
+  }
+}
+
 /// The tiles have been let go of, so those that are met are made again: an answer without a path is not hurried. What
 /// others have handed on lacks dead ends, and where they search it is nothing.
-void TiledPlan::measure_gap() {
+Separation TiledPlan::gap() {
   if (source_ == nullptr) partition();
   if (problem_.others != nullptr) {
+    overlay_.reset();
+    tiles_ = std::vector<TileSummary>();  // before the next ones come; `{}` would keep the memory
     tiles_ = problem_.others->reduce_whole(ends_, execution_);
+    check_borders(grid_, tiles_, execution_);
     overlay_.emplace(grid_, tiles_, ends_, execution_);
   }
   const auto remake = [&](std::size_t tile, TilePlane& plane) {
@@ -213,7 +226,7 @@ void TiledPlan::measure_gap() {
   const int margin = WallMarker(clearance_).margin();
   const auto begin = [&](std::uint32_t band) { return source_->begin_band(band, execution_); };
   const TileMaker maker{margin, source_->band_count(), begin, keys, remake};
-  solution_.separation = tile_separation(*overlay_, grid_, ends_, maker, execution_);
+  return tile_separation(*overlay_, grid_, ends_, maker, execution_);
 }
 
 /// Makes the tiles of a piece again. Where others make them the keys are here, and those hand the chains' steps back.
@@ -300,17 +313,17 @@ void TiledPlan::search_elsewhere() {
     const ToldRoute route = problem_.others->search(ends_, execution_);
     solution_.roadmap.components += route.components;
     solution_.counters.expanded = route.expanded;
-    if (!route.joined) {
-      solution_.outcome = Outcome::not_connected;
-      return measure_gap();
+    if (route.joined) {
+      tiles_ = tiles_of(route, grid_, ends_, execution_);
+      overlay_.emplace(grid_, tiles_, ends_, execution_);
+      for (TileSummary& tile : tiles_) forget(tile);
+      vertices = vertices_of(route, *overlay_, tiles_, execution_);
+      path.emplace(*overlay_, grid_, ends_, vertices, execution_);
     }
-    tiles_ = tiles_of(route, grid_, ends_, execution_);
-    overlay_.emplace(grid_, tiles_, ends_, execution_);
-    for (TileSummary& tile : tiles_) forget(tile);
-    vertices = vertices_of(route, *overlay_, tiles_, execution_);
-    path.emplace(*overlay_, grid_, ends_, vertices, execution_);
   }
-  expand_path(*path);
+  if (path) return expand_path(*path);
+  solution_.outcome = Outcome::not_connected;
+  measure_gap();
 }
 
 }  // namespace

@@ -54,7 +54,8 @@ struct TiledProblem {
 /// 1), a shortest-path search, and a clearance of at most 8 steps of the lattice.
 bool tiled_prm_applies(const RoadmapOptions& options, double clearance);
 
-/// Plans as prm() does. Never throws Stopped: a budget's end gives Outcome::stopped. InputError where
+/// Plans as prm() does. Never throws Stopped: a budget's end gives Outcome::stopped, or, once it is known that there is
+/// no way, not_connected without a separation. InputError where
 /// tiled_prm_applies() is false, for cells and a clearance of half a cell, or for options out of range.
 Solution<Vec2> tiled_prm(const TiledProblem& problem, const RoadmapOptions& options, const Execution& execution);
 

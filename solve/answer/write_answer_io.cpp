@@ -88,6 +88,7 @@ std::string roadmap_json(const Answer& answer) {
 }
 
 std::string separation_json(const Separation& separation) {
+  if (!separation.is_known()) return "null";
   JsonObject json;
   json.add("start_size", separation.start_size);
   json.add("goal_size", separation.goal_size);

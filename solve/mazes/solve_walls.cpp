@@ -116,7 +116,9 @@ bool WallSolve::proved_infeasible() {
 
 /// As SampledSolve says it of other bodies.
 void WallSolve::tell_cause() {
-  const auto tell = [&](std::string_view cause) { answer_.figures.push_back({"cause", std::string(cause)}); };
+  const auto tell = [&](std::string_view cause) {
+    if (!cause.empty()) answer_.figures.push_back({"cause", std::string(cause)});
+  };
   if (answer_.outcome == Outcome::start_blocked) tell("start_in_collision");
   if (answer_.outcome == Outcome::goal_blocked) tell("goal_in_collision");
   if (answer_.outcome == Outcome::not_connected) tell(cause_of_separation(answer_, true));

@@ -39,7 +39,7 @@ class FileWalls : public StreamedWalls {
         planned_(file_),
         judged_(file_.name(), file_.bytes(),
                 [this](std::size_t first, std::size_t last) { file_.forget(first, last); }) {
-    planned_.check({own.first, own.last}, execution);
+    planned_.check({own.first > 0 ? own.first - 1 : 0, own.last}, execution);  // tiles have the row below them, too
     if (planned_.hash() != packed.hash) throw InputError(packed.file, "has changed since it was looked at first");
   }
   const CellWallSource& planned() const override { return planned_; }

@@ -37,8 +37,8 @@ std::unique_ptr<StreamedWalls> streamed_walls(const Scene& unmade, const Executi
                                               KeptParts* kept = nullptr);
 
 /// The walls that a file (Scene::packed) has of some rows of tiles, at least one, and of the row of cells below them;
-/// no others are asked for. Of a .maze no more is read; an array has no order that could be relied on, so all of it is,
-/// and these walls stay.
+/// no others are asked for. Of a .maze the row of tiles below is read as well, for its checksum, and no more; an array
+/// has no order that could be relied on, so all of it is, and these walls stay.
 std::unique_ptr<StreamedWalls> streamed_walls(const Scene& unmade, TileRows own, const Execution& execution);
 
 }  // namespace warren

@@ -35,6 +35,10 @@ class KeptWorld {
     if (later_ == nullptr) return outline_;
     return later_->whole.get(execution, [&] { return std::make_unique<Scene>(later_->make(execution)); });
   }
+  /// The same, which nobody keeps: for what is seldom asked. Throws as whole() does.
+  Scene copy_of_whole(const Execution& execution) const {
+    return later_ == nullptr ? outline_ : later_->make(execution);
+  }
   /// Can its walls be looked up without being made?
   bool is_looked_up() const { return later_ != nullptr && later_->look_up; }
   /// Its walls as they can be looked up without being made, which are all that there is; nullptr: they can't be. Throws

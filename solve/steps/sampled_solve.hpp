@@ -297,7 +297,7 @@ template <class Body>
 void SampledSolve<Body>::finish() {
   if (answer_.outcome == Outcome::stopped) return;
   if (answer_.outcome != Outcome::solved) {
-    answer_.figures.push_back({"cause", std::string(cause())});
+    if (const std::string_view why = cause(); !why.empty()) answer_.figures.push_back({"cause", std::string(why)});
     return;
   }
   if (request_.options.optimise) {

@@ -72,6 +72,7 @@ void settle_blocked_ends(Answer& answer, const Scene& scene, const WallProblem& 
 
 std::string_view cause_of_separation(const Answer& answer, bool by_roadmap) {
   if (by_roadmap && answer.roadmap.milestones <= 2) return "no_free_sample";
+  if (!answer.separation.is_known()) return {};
   if (answer.separation.start_size <= 1) return "start_unconnected";
   return answer.separation.goal_size <= 1 ? "goal_unconnected" : "different_components";
 }

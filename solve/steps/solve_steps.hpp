@@ -42,7 +42,8 @@ bool stands_free(const Scene& scene, const WallProblem& problem, Vec2 p, const E
 void settle_blocked_ends(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution,
                          const ObstacleIndex* judged = nullptr);
 
-/// Why a roadmap or trees do not join start and goal, one word a cause.
+/// Why a roadmap or trees do not join start and goal, one word a cause; empty where nobody measured how far they are
+/// apart.
 std::string_view cause_of_separation(const Answer& answer, bool by_roadmap);
 
 /// Forgets all that an answer says of a path: only what a judge has verified is claimed.
