@@ -9,9 +9,10 @@
 
 namespace warren {
 
-/// Every rank calls it first, with all that must be the same everywhere. Throws InputError at rank 0, which says what a
-/// rank that differs does, and returns false at the others. These return false, too, where rank 0 has failed before it.
-/// Throws Stopped.
+/// Every rank calls it before what it is about begins, as often and in the same order as the others, with all that must
+/// be the same everywhere: its words first, then what it sees of the world. Throws InputError at rank 0, which says
+/// what a rank that differs does, and returns false at the others. These return false, too, where rank 0 has failed
+/// before it. Throws Stopped.
 bool agree(Transport& transport, std::string_view facts, const Execution& execution,
            std::string_view difference = "is another program or was given other words than rank 0");
 

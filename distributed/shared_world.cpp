@@ -11,6 +11,7 @@
 #include "scenes/formats/maze_file_io.hpp"
 #include "scenes/formats/npy_io.hpp"
 #include "scenes/formats/npy_maze_io.hpp"
+#include "scenes/formats/read_world_io.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "scenes/text/input_file_io.hpp"
 

@@ -15,7 +15,8 @@ struct SharedWorld {
   std::string facts;  ///< what all ranks must see of it; of a .maze all its checksums, of a .npy its size and outline
 };
 
-/// Looks at a file's header alone. Throws UsageError for what ranks do not share, InputError, ReadError, Stopped.
+/// Reads what a file says of itself: a .maze's header and checksums, a .npy's header and the four walls of the outline,
+/// no other walls. Throws UsageError for what ranks do not share, InputError, ReadError, Stopped.
 SharedWorld shared_world(const std::string& source, const Execution& execution);
 
 }  // namespace warren

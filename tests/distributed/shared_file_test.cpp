@@ -10,6 +10,7 @@
 
 #include "core/base/error.hpp"
 #include "distributed/shared_world.hpp"
+#include "planners/tiles/packed_tile_summary.hpp"
 #include "scenes/formats/maze_file_io.hpp"
 #include "scenes/formats/npy_maze_io.hpp"
 #include "scenes/formats/read_world_io.hpp"
@@ -110,6 +111,103 @@ TEST(SharedFile, EndsThatAreNotJoinedAreAsFarApartAsOneProcessSays) {
   }
 }
 
+/// Rank 0's end of a transport, which stops when all are asked to reduce their tiles a second time: for the gap.
+class StopAtTheGap : public Transport {
+ public:
+  StopAtTheGap(Transport& whole, StopReason reason) : whole_(whole), left_(whole.ranks()), reason_(reason) {}
+  unsigned rank() const override { return whole_.rank(); }
+  unsigned ranks() const override { return whole_.ranks(); }
+  void send(unsigned to, std::span<const std::byte> bytes, const Execution& execution) override {
+    if (ValueUnpacker(bytes, "test").take<Request>() == Request::reduce && --left_ == 0) throw Stopped(reason_);
+    whole_.send(to, bytes, execution);
+  }
+  Bytes receive(unsigned from, const Execution& execution) override { return whole_.receive(from, execution); }
+  bool has_message(unsigned from) override { return whole_.has_message(from); }
+
+ private:
+  Transport& whole_;
+  unsigned left_;
+  const StopReason reason_;
+};
+
+Answer stopped_at_the_gap(const Asked& asked, StopReason reason, std::uint64_t most_keys) {
+  test::ThreadRanks team(3);
+  Answer answer;
+  team.run([&](Transport& transport) {
+    if (transport.rank() > 0) return follow(transport, task_of(asked), {.threads = 1, .memory_bytes = much_memory});
+    StopAtTheGap stopping(transport, reason);
+    const EndOfFollowers end(transport);
+    Leader leader(stopping, task_of(asked), {.threads = 1}, most_keys);
+    answer = solved(asked, {.threads = 1}, &leader);
+  });
+  return answer;
+}
+
+TEST(SharedFile, NoWayStaysTheAnswerWhereNobodyHoldsTheGap) {
+  const TemporaryDirectory directory;
+  const MazeOptions maze{700, 300, 1, MazeAlgorithm::kruskal, 0.1};
+  const Asked asked{unmade(files_of({maze, {barrier(maze, 300)}}, directory).front())};
+  for (const std::uint64_t most_keys : {test::all_keys, std::uint64_t{0}}) {
+    for (const StopReason reason : {StopReason::memory, StopReason::time}) {
+      const Answer answer = stopped_at_the_gap(asked, reason, most_keys);
+      EXPECT_EQ(answer.outcome, Outcome::not_connected);
+      EXPECT_FALSE(answer.separation.is_known());
+      EXPECT_NE(bytes_of(answer).find("\"components\": null"), std::string::npos) << bytes_of(answer);
+    }
+    EXPECT_EQ(stopped_at_the_gap(asked, StopReason::terminate, most_keys).stop_reason, StopReason::terminate);
+  }
+}
+
+/// The second rank's end of a transport, by which the tiles that it hands over lack a crossing to those of the first.
+class OtherCrossings : public Transport {
+ public:
+  OtherCrossings(Transport& whole, std::uint32_t side) : whole_(whole), side_(side) {}
+  unsigned rank() const override { return whole_.rank(); }
+  unsigned ranks() const override { return whole_.ranks(); }
+  void send(unsigned to, std::span<const std::byte> bytes, const Execution& execution) override {
+    if (asked_ != Request::hand_over) return whole_.send(to, bytes, execution);
+    ValueUnpacker from(bytes, "test");
+    ValuePacker changed;
+    changed.add(from.take<Reply>());
+    bool is_first = true;
+    while (!from.is_done()) {
+      TileSummary tile = unpack_summary(from, side_);
+      if (is_first) tile.crossings[3].pop_back();
+      is_first = false;
+      pack_summary(tile, changed);
+    }
+    whole_.send(to, changed.bytes(), execution);
+  }
+  Bytes receive(unsigned from, const Execution& execution) override {
+    Bytes bytes = whole_.receive(from, execution);
+    asked_ = ValueUnpacker(bytes, "test").take<Request>();
+    return bytes;
+  }
+  bool has_message(unsigned from) override { return whole_.has_message(from); }
+
+ private:
+  Transport& whole_;
+  const std::uint32_t side_;
+  Request asked_ = Request::make;
+};
+
+TEST(SharedFile, TilesForTheGapThatDisagreeAreRefused) {
+  const TemporaryDirectory directory;
+  const MazeOptions maze{700, 300, 1, MazeAlgorithm::kruskal, 0.1};
+  const Asked asked{unmade(files_of({maze, {barrier(maze, 300)}}, directory).front())};
+  test::ThreadRanks team(2);
+  const auto run = [&](Transport& transport) {
+    if (transport.rank() > 0) {
+      OtherCrossings other(transport, task_of(asked).grid().side());
+      return follow(other, task_of(asked), {.threads = 1, .memory_bytes = much_memory});
+    }
+    const EndOfFollowers end(transport);
+    Leader leader(transport, task_of(asked), {.threads = 1}, 0);  // hands over for the gap alone
+    solved(asked, {.threads = 1}, &leader);
+  };
+  EXPECT_THROW(team.run(run), InputError);
+}
+
 /// With the bits of some cell turned.
 std::string damaged(std::string bytes, std::size_t row, std::size_t cols) {
   char& byte = bytes[64 + row * ((cols + 3) / 4) + 10];
@@ -138,6 +236,19 @@ TEST(SharedFile, DamagedRowsAreToldByTheRankThatReadsThem) {
     const std::string found = error_of(std::vector<BandTask>(3, task_of(asked)), asked);
     EXPECT_NE(found.find(fmt::format(fmt::runtime(said), directory.file("b.maze"))), std::string::npos) << found;
   }
+}
+
+TEST(SharedFile, DamageBelowTheRowsOfARankIsToldByItWhereTheCopyIsItsOwn) {
+  const TemporaryDirectory directory;
+  const Walls walls{{1300, 300, 4, MazeAlgorithm::kruskal, 0.0}};
+  write_scene(made(walls, false), directory.file("a.maze"));
+  const Asked asked{unmade(directory.file("a.maze"))};
+  std::vector<BandTask> tasks(3, task_of(asked));
+  tasks[1].packed->file = directory.write("b.maze", damaged(directory.read("a.maze"), 511, 300));
+  const std::string found = error_of(tasks, asked);
+  EXPECT_NE(found.find(fmt::format("rank 1: {}: rows 256 to 511: are damaged", tasks[1].packed->file)),
+            std::string::npos)
+      << found;
 }
 
 TEST(SharedFile, ARankThatReadsOtherWallsIsRefused) {
