@@ -80,7 +80,7 @@ room(studies/compare ${libraries} solve pictures studies/measure studies/searche
 room(studies/contests ${libraries} solve pictures studies)
 room(studies/sizes ${libraries} solve pictures studies/measure)
 room(serve/http core scenes/text parallel)
-room(serve/tiles ${ground} scenes planners/route_trees roadmaps/graph solve/roadmaps pictures/model pictures/formats spatial/obstacles)
+room(serve/tiles ${ground} scenes planners/route_trees roadmaps/graph solve/roadmaps pictures/model pictures/formats spatial/obstacles spatial/maps)
 room(serve/graphs ${libraries} solve serve/http)
 room(serve/changes ${libraries} solve serve/http serve/graphs)
 room(serve/page core/base)

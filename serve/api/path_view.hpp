@@ -3,7 +3,8 @@
 // of millions of points that is what a screen shows of it.
 #pragma once
 
-#include <optional>
+#include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "core/base/path.hpp"
@@ -21,10 +22,12 @@ Path<Vec2> curve_of(const Answer& answer, const Execution& execution);
 struct PathView {
   Box box = {};        ///< legs that don't meet it are left out
   double pixel = 0.0;  ///< points nearer than that to the last one that was kept are, too; 0: none
+  std::size_t most_points = std::numeric_limits<std::size_t>::max();  ///< of all that are left
 };
 
 /// Chains of at least two points, in the path's order; a path of one point is one chain of it. The ends of the path and
-/// of each chain are kept, and up to two points of each block. Throws Stopped.
+/// of each chain are kept, and the last point of each block. Memory: of those that are left, and of 64 blocks; the rest
+/// of a path that has too many is not looked at. Throws HttpError for more than view.most_points, Stopped.
 std::vector<std::vector<Vec2>> seen_of(const KeptCurve& curve, const PathView& view, const Execution& execution);
 
 }  // namespace warren

@@ -5,6 +5,7 @@
 
 #include "core/base/error.hpp"
 #include "solve/question/plannable.hpp"
+#include "solve/roadmaps/kept_cells.hpp"
 #include "solve/roadmaps/walls_let_go.hpp"
 #include "solve/solve.hpp"
 #include "solve/steps/blocked_end.hpp"
@@ -82,10 +83,20 @@ void ServedWorld::describe(const Execution& execution) {
   if (scene.bounds) box_.include(*scene.bounds);
 }
 
-std::unique_ptr<ServedWorld> ServedWorld::changed(Scene now, const Execution& execution) const {
+std::size_t ServedWorld::wall_count(const Execution& execution) const {
+  const KeptCells* cells = roadmap_ ? roadmap_->world.looked_up(execution) : nullptr;
+  return cells != nullptr ? cells->wall_count : whole(execution).walls.size();
+}
+
+std::string_view ServedWorld::why_fixed() const {
   if (roadmap_ && roadmap_->lattice != nullptr) {
-    throw UsageError("a large maze is asked by its lattice, which is not changed here; 'warren update' does that");
+    return "a large maze is asked by its lattice, which is not changed here; 'warren update' does that";
   }
+  return {};
+}
+
+std::unique_ptr<ServedWorld> ServedWorld::changed(Scene now, const Execution& execution) const {
+  if (const std::string_view why = why_fixed(); !why.empty()) throw UsageError(std::string(why));
   auto next = roadmap_ ? std::make_unique<ServedWorld>(update(*roadmap_, std::move(now), execution), execution)
                        : std::make_unique<ServedWorld>(std::move(now), body_, execution);
   next->is_changed_ = true;

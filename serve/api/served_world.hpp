@@ -4,11 +4,13 @@
 // of one length it may take another.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "parallel/execution.hpp"
@@ -51,6 +53,12 @@ class ServedWorld {
   const Box& box() const { return box_; }
   /// All of it. Throws Stopped, InputError.
   const Scene& whole(const Execution& execution) const { return roadmap_ ? roadmap_->world.whole(execution) : *scene_; }
+  /// The same for one request. Throws Stopped, InputError.
+  Scene copy_of_whole(const Execution& execution) const {
+    return roadmap_ ? roadmap_->world.copy_of_whole(execution) : *scene_;
+  }
+  /// Costs no walls where cells say them. Throws Stopped, InputError.
+  std::size_t wall_count(const Execution& execution) const;
   /// Of its body, among all of it. Throws Stopped, InputError.
   const EdgeJudge& judge(const Execution& execution) const;
   /// Least distance between the body in this state and anything, as paths are judged. Throws Stopped, InputError.
@@ -64,6 +72,8 @@ class ServedWorld {
   /// Is it another one than its source holds?
   bool is_changed() const { return is_changed_; }
 
+  /// Why it is not changed here, whatever the change; empty: ask changed().
+  std::string_view why_fixed() const;
   /// The same body and options in another scene: a roadmap is updated. Throws UsageError where that can't be done here,
   /// InputError, Stopped.
   std::unique_ptr<ServedWorld> changed(Scene now, const Execution& execution) const;

@@ -9,7 +9,8 @@
 #include "scenes/scene/unit_of.hpp"
 #include "scenes/text/human_units.hpp"
 #include "scenes/text/json_text.hpp"
-#include "serve/api/world_service.hpp"
+#include "serve/api/service_limits.hpp"
+#include "serve/api/world_layers.hpp"
 #include "solve/answer/world_account.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 
@@ -79,7 +80,7 @@ std::string description_json(const ServedWorld& world, const WorldLayers& layers
   json.add_json("planners", planners_json(world));
   json.add("budget_ms", 1e3 * limits.budget_s);
   json.add("changed", world.is_changed());
-  json.add("writable", limits.writable && !outline.map);
+  json.add("writable", limits.writable && !outline.map && world.why_fixed().empty());
   json.add("wants_token", limits.wants_token);
   json.add_json("tiles", tiles_json(world.tiles().grid(), world.hash()));
   json.add_json("layers", layers.json());

@@ -2,14 +2,19 @@
 #include "serve/api/world_layers.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 
 #include "core/base/error.hpp"
+#include "scenes/scene/unit_of.hpp"
 #include "scenes/text/human_units.hpp"
 #include "scenes/text/json_text.hpp"
 #include "serve/api/swept_bodies.hpp"
+#include "serve/graphs/built_graph.hpp"
+#include "solve/question/question.hpp"
 
 namespace warren {
 namespace {
@@ -17,12 +22,18 @@ namespace {
 constexpr const char* no_roadmap =
     "each question of this world is solved by itself; open a roadmap, which 'warren build' makes of it";
 
+/// The first one whose pixels are no larger.
+unsigned zoom_of(double pixel, const TileGrid& grid) {
+  unsigned zoom = 0;
+  while (zoom + 1 < grid.levels && grid.pixel(zoom) > pixel) ++zoom;
+  return zoom;
+}
+
 LayerAccount roadmap_account(const ServedWorld& world) {
   LayerAccount account{.name = "roadmap"};
   if (world.query() == nullptr) account.why = no_roadmap;
   if (world.query() == nullptr || world.query()->roadmap().lattice == nullptr) return account;
-  const TileGrid& grid = world.tiles().grid();
-  while (account.from_zoom + 1 < grid.levels && !shows_passages(grid.pixel(account.from_zoom))) ++account.from_zoom;
+  account.from_zoom = zoom_of(largest_pixel_of_passages, world.tiles().grid());
   return account;
 }
 
@@ -32,6 +43,64 @@ LayerAccount components_account(const ServedWorld& world) {
     account.why = no_roadmap;
   } else if (world.query()->roadmap().lattice != nullptr) {
     account.why = "the roadmap of a maze's lattice holds passages and no components";
+  }
+  return account;
+}
+
+/// Up to one more than are shown.
+std::size_t side_count(const Scene& scene) {
+  std::size_t count = scene.walls.size();
+  for (const ScenePolygon& polygon : scene.polygons) {
+    count += polygon.corners.size();
+    if (count > most_shapes) break;
+  }
+  return count;
+}
+
+LayerAccount clearance_account(const ServedWorld& world) {
+  LayerAccount account{.name = "clearance"};
+  const Scene& outline = world.outline();
+  account.from_zoom = zoom_of(world.tiles().largest_pixel_of_distances(), world.tiles().grid());
+  if (outline.maze || outline.map) return account;
+  if (side_count(outline) > most_shapes) {
+    account.why = fmt::format("at most {} walls and sides are measured", grouped(most_shapes));
+  }
+  return account;
+}
+
+/// Distance that the middle of a round body must have; 0 of others, whose place alone doesn't say whether they fit.
+double needed_around(const ServedWorld& world) {
+  const bool is_round = world.robot().kind == RobotKind::point || world.robot().kind == RobotKind::disc;
+  return is_round ? world.robot().radius + world.clearance() : 0.0;
+}
+
+LayerAccount axis_account(const ServedWorld& world) {
+  LayerAccount account{.name = "axis"};
+  if (world.query() != nullptr && world.query()->roadmap().lattice != nullptr) {
+    account.why = "the axis of a maze is its passages; see 'roadmap'";
+    return account;
+  }
+  try {
+    check_has_axis(world.outline(), world.robot(), world.clearance());
+  } catch (const UsageError& error) {
+    account.why = error.what();
+  }
+  return account;
+}
+
+LayerAccount search_account(const ServedWorld& world) {
+  LayerAccount account{.name = "search", .is_of_start = true};
+  const bool is_round = world.robot().kind == RobotKind::point || world.robot().kind == RobotKind::disc;
+  if (world.query() == nullptr) {
+    account.why = no_roadmap;
+  } else if (world.query()->roadmap().lattice != nullptr) {
+    account.why = "the index of a maze's lattice finds its paths without a search";
+  } else if (!is_round) {
+    account.why = "the distances of a roadmap are drawn for points and discs";
+  } else if (world.query()->roadmap().options.planner == PlannerKind::lazy_prm) {
+    account.why = "this roadmap's edges are checked while it is asked; one of 'build --planner prm' has distances";
+  } else if (world.query()->roadmap().options.planner != PlannerKind::prm) {
+    account.why = "distances are drawn of roadmaps of samples; one of 'build --planner prm' has them";
   }
   return account;
 }
@@ -58,14 +127,16 @@ std::string json_of_account(const LayerAccount& account, const std::string& hash
   json.add("url", address + "{z}/{x}/{y}.png");
   json.add("legend", address + "legend");
   json.add("from_zoom", std::uint32_t{account.from_zoom});
+  if (account.is_of_start) json.add("of_start", true);
   return json.closed();
 }
 
 class Legend {
  public:
-  void add(Rgb color, std::string_view words) {
+  /// opacity: as two hexadecimal digits; empty: opaque.
+  void add(Rgb color, std::string_view words, std::string_view opacity = {}) {
     JsonObject entry;
-    entry.add("color", fmt::format("#{:02x}{:02x}{:02x}", color.red, color.green, color.blue));
+    entry.add("color", fmt::format("#{:02x}{:02x}{:02x}{}", color.red, color.green, color.blue, opacity));
     entry.add("words", words);
     text_ += (text_.size() > 1 ? "," : "") + entry.closed();
   }
@@ -80,6 +151,15 @@ std::string passages_legend(const Roadmap& roadmap, const Execution& execution) 
   legend.add(component_inks[0], fmt::format("{} between {}, drawn where a cell has 8 pixels or more",
                                             counted(count_edges(roadmap, execution).free, "passage", "passages"),
                                             counted(count_states(roadmap), "cell", "cells")));
+  return legend.closed();
+}
+
+std::string axis_legend(const RoadmapLayer& layer, bool turns) {
+  Legend legend;
+  legend.add(component_inks[0], fmt::format("{} and {}, as far from all obstacles as can be{}",
+                                            counted(layer.milestones(), "place", "places"),
+                                            counted(layer.free_edges(), "free edge", "free edges"),
+                                            turns ? ", of the disc around the body" : ""));
   return legend.closed();
 }
 
@@ -108,10 +188,65 @@ std::string components_legend(const RoadmapLayer& layer) {
   return legend.closed();
 }
 
+constexpr std::array<Rgb, unreached_ink + 1> search_inks = [] {
+  std::array<Rgb, unreached_ink + 1> inks{};
+  std::copy(step_inks.begin(), step_inks.end(), inks.begin());
+  inks.back() = component_inks.back();
+  return inks;
+}();
+
+std::string search_legend(const StartDistances& found, const ServedWorld& world) {
+  Legend legend;
+  const std::string_view unit = unit_of(world.outline());
+  const std::string behind = unit.empty() ? "" : " " + std::string(unit);
+  for (std::size_t step = 0; step < found.steps.count && found.reached > 0; ++step) {
+    const bool is_last = step + 1 == found.steps.count;
+    const double high = is_last ? found.farthest : static_cast<double>(step + 1) * found.steps.each;
+    legend.add(step_inks[step],
+               fmt::format("{} to {}{} from the start", human_number(static_cast<double>(step) * found.steps.each),
+                           human_number(high), behind));
+  }
+  if (const std::uint64_t others = found.inks.size() - found.reached; others > 0) {
+    legend.add(search_inks.back(), counted(others, "milestone", "milestones") + " that it does not reach");
+  }
+  return legend.closed();
+}
+
+/// Of a scale whose steps below `needed` are not seen.
+void add_steps(Legend& legend, const Steps& steps, double needed, std::string_view unit) {
+  const std::string opacity = fmt::format("{:02x}", step_opacity);
+  const std::string behind = unit.empty() ? "" : " " + std::string(unit);
+  for (std::size_t step = 0; step < steps.count; ++step) {
+    const double low = std::max(needed, static_cast<double>(step) * steps.each);
+    const double high = static_cast<double>(step + 1) * steps.each;
+    const bool is_last = step + 1 == steps.count;
+    if (!is_last && high <= needed) continue;
+    legend.add(step_inks[step],
+               is_last ? fmt::format("{}{} and more", human_number(low), behind)
+                       : fmt::format("{} to {}{}", human_number(low), human_number(high), behind),
+               opacity);
+  }
+}
+
+std::string clearance_legend(const Steps& steps, const ServedWorld& world) {
+  Legend legend;
+  const std::string_view unit = unit_of(world.outline());
+  const double needed = needed_around(world);
+  if (needed > 0.0) {
+    legend.add(too_near_ink,
+               fmt::format("nearer than {}{}{}: too near for {}", human_number(needed), unit.empty() ? "" : " ", unit,
+                           robot_text(world.robot())),
+               fmt::format("{:02x}", step_opacity));
+  }
+  add_steps(legend, steps, needed, unit);
+  return legend.closed();
+}
+
 }  // namespace
 
 WorldLayers::WorldLayers(const ServedWorld& world)
-    : world_(world), accounts_{roadmap_account(world), components_account(world), sweep_account(world)} {}
+    : world_(world), accounts_{roadmap_account(world), components_account(world), clearance_account(world),
+                               axis_account(world),    search_account(world),     sweep_account(world)} {}
 
 std::string WorldLayers::json() const {
   std::string text = "[";
@@ -123,6 +258,11 @@ std::string WorldLayers::json() const {
 
 bool WorldLayers::knows(std::string_view name) const {
   return std::ranges::any_of(accounts_, [&](const LayerAccount& account) { return account.name == name; });
+}
+
+bool WorldLayers::is_of_start(std::string_view name) const {
+  return std::ranges::any_of(accounts_,
+                             [&](const LayerAccount& account) { return account.name == name && account.is_of_start; });
 }
 
 void WorldLayers::refuse_missing(std::string_view name) const {
@@ -138,18 +278,53 @@ const RoadmapLayer& WorldLayers::roadmap(const Execution& execution) const {
       execution, [&] { return std::make_unique<RoadmapLayer>(world_.query()->roadmap().arrays.parts(), execution); });
 }
 
-std::string WorldLayers::legend(std::string_view name, const Execution& execution) const {
+const ClearanceLayer& WorldLayers::clearance(const Execution& execution) const {
+  return clearance_.get(execution, [&] {
+    return std::make_unique<ClearanceLayer>(world_.tiles(), world_.box(), needed_around(world_), execution);
+  });
+}
+
+const RoadmapLayer& WorldLayers::axis(const Execution& execution) const {
+  const RoadmapArrays& arrays = axis_arrays_.get(execution, [&] {
+    const Scene& whole = world_.whole(execution);
+    return std::make_unique<RoadmapArrays>(
+        built_roadmap(whole, world_.robot(), world_.clearance(), {.kind = GraphKind::axis}, execution).arrays);
+  });
+  return axis_.get(execution, [&] { return std::make_unique<RoadmapLayer>(arrays.parts(), execution); });
+}
+
+KeptValues<StartDistances>::Lease WorldLayers::from_start(const std::optional<std::vector<double>>& from,
+                                                          const Execution& execution) const {
+  if (!from) throw UsageError("from: the start of the search is expected, as ?from=x,y");
+  const std::string name = fmt::format("{}", fmt::join(*from, ","));
+  if (auto known = starts_.find(name)) return known;
+  StartDistances found = start_distances(*world_.query(), *from, execution);
+  const std::size_t bytes = found.inks.size() + sizeof found;
+  return starts_.put(name, std::move(found), bytes);
+}
+
+std::string WorldLayers::legend(std::string_view name, const std::optional<std::vector<double>>& from,
+                                const Execution& execution) const {
   refuse_missing(name);
+  if (name == "search") return search_legend(*from_start(from, execution), world_);
+  if (name == "clearance") return clearance_legend(clearance(execution).steps(), world_);
+  if (name == "axis") return axis_legend(axis(execution), !world_.robot().outline.empty());
   if (world_.passages(execution) != nullptr) return passages_legend(world_.query()->roadmap(), execution);
   if (name == "components") return components_legend(roadmap(execution));
   return edges_legend(roadmap(execution), world_.robot().kind == RobotKind::car);
 }
 
-std::string WorldLayers::draw(std::string_view name, const TilePlace& tile, const Execution& execution) const {
+std::string WorldLayers::draw(std::string_view name, const TilePlace& tile,
+                              const std::optional<std::vector<double>>& from, const Execution& execution) const {
   refuse_missing(name);
+  if (name == "clearance") return clearance(execution).draw(tile, execution);
   const TileGrid& grid = world_.tiles().grid();
   const Box box = grid.box_of(tile);
   const double pixel = grid.pixel(tile.zoom);
+  if (name == "axis") return axis(execution).draw(box, pixel, RoadmapInk::one, execution);
+  if (name == "search") {
+    return roadmap(execution).draw(box, pixel, search_inks, from_start(from, execution)->inks, execution);
+  }
   if (const LatticePassages* passages = world_.passages(execution)) {
     return draw_passages(*passages, box, pixel, execution);
   }

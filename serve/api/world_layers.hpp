@@ -2,6 +2,7 @@
 // The layers that a service draws above its world: which there are, what their colours mean, and their tiles.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,16 +10,20 @@
 #include "parallel/execution.hpp"
 #include "parallel/made_once.hpp"
 #include "serve/api/served_world.hpp"
+#include "serve/api/start_distances.hpp"
+#include "serve/http/kept_values.hpp"
+#include "serve/tiles/clearance_layer.hpp"
 #include "serve/tiles/roadmap_layer.hpp"
 
 namespace warren {
 
 /// What a page says of a layer before it is looked at.
 struct LayerAccount {
-  std::string_view name;    ///< in its address, a literal
-  std::string why = {};     ///< there is none in this world; empty: there is
-  unsigned from_zoom = 0;   ///< tiles of smaller zooms are empty
-  bool is_of_path = false;  ///< it has no tiles: what it shows goes along a path
+  std::string_view name;     ///< in its address, a literal
+  std::string why = {};      ///< there is none in this world; empty: there is
+  unsigned from_zoom = 0;    ///< tiles of smaller zooms are empty
+  bool is_of_path = false;   ///< it has no tiles: what it shows goes along a path
+  bool is_of_start = false;  ///< its addresses want the start: ?from=x,y
 };
 
 /// Any number of threads may draw. What a layer needs is made when it is first looked at.
@@ -30,18 +35,30 @@ class WorldLayers {
   /// All of them as JSON.
   std::string json() const;
   bool knows(std::string_view name) const;
+  bool is_of_start(std::string_view name) const;
   /// Colours and what they mean, with figures, as JSON. Throws as draw().
-  std::string legend(std::string_view name, const Execution& execution) const;
+  /// from: the start, of layers that want one.
+  std::string legend(std::string_view name, const std::optional<std::vector<double>>& from,
+                     const Execution& execution) const;
   /// A PNG. Throws UsageError where this world has no such layer, InputError for a damaged file, Stopped.
-  std::string draw(std::string_view name, const TilePlace& tile, const Execution& execution) const;
+  std::string draw(std::string_view name, const TilePlace& tile, const std::optional<std::vector<double>>& from,
+                   const Execution& execution) const;
 
  private:
   void refuse_missing(std::string_view name) const;
+  KeptValues<StartDistances>::Lease from_start(const std::optional<std::vector<double>>& from,
+                                               const Execution& execution) const;
   const RoadmapLayer& roadmap(const Execution& execution) const;
+  const ClearanceLayer& clearance(const Execution& execution) const;
+  const RoadmapLayer& axis(const Execution& execution) const;
 
   const ServedWorld& world_;
   std::vector<LayerAccount> accounts_;
   MadeOnce<RoadmapLayer> roadmap_;
+  MadeOnce<ClearanceLayer> clearance_;
+  MadeOnce<RoadmapArrays> axis_arrays_;
+  MadeOnce<RoadmapLayer> axis_;
+  mutable KeptValues<StartDistances> starts_{std::size_t{64} << 20U};
 };
 
 }  // namespace warren

@@ -59,6 +59,7 @@ HttpResponse WritableService::update(const HttpRequest& request, const Execution
     return busy;
   }
   const auto before = current_.now();
+  if (const std::string_view why = before->world->why_fixed(); !why.empty()) throw UsageError(std::string(why));
   ChangedScene now = changed(before->world->whole(execution), wanted, execution);
   auto next = std::make_unique<Version>(before->world->changed(std::move(now.scene), execution), limits_);
   JsonObject json;

@@ -59,18 +59,27 @@ RouteGraph graph_of_roadmap(const Roadmap& roadmap, const Execution& execution) 
   return graph_of(arrays.parts(), execution);
 }
 
-RouteGraph built_graph(const Scene& scene, const RobotSpec& robot, double clearance, const GraphOptions& options,
-                       const Execution& execution) {
-  check_drives_edges(robot);
+void check_has_axis(const Scene& scene, const RobotSpec& robot, double clearance) {
+  check_buildable(scene, {.robot = disc_around(robot), .clearance = clearance}, {.planner = PlannerKind::voronoi});
+}
+
+Roadmap built_roadmap(const Scene& scene, const RobotSpec& robot, double clearance, const GraphOptions& options,
+                      const Execution& execution) {
   const bool is_axis = options.kind == GraphKind::axis;
   const Question body{.robot = is_axis ? disc_around(robot) : robot, .clearance = clearance};
   SolveOptions how{.planner = is_axis ? PlannerKind::voronoi : PlannerKind::prm, .seed = options.seed};
   how.roadmap = {.samples = options.samples, .neighbours = options.neighbours};
   how.validate();
   check_buildable(scene, body, how);
-  if (options.samples) check_size(*options.samples, 0);
   execution.reserve(scene.walls.size() * sizeof(Segment));
-  return graph_of_roadmap(build_within(scene, body, how, execution, IndexChoice::none), execution);
+  return build_within(scene, body, how, execution, IndexChoice::none);
+}
+
+RouteGraph built_graph(const Scene& scene, const RobotSpec& robot, double clearance, const GraphOptions& options,
+                       const Execution& execution) {
+  check_drives_edges(robot);
+  if (options.samples) check_size(*options.samples, 0);
+  return graph_of_roadmap(built_roadmap(scene, robot, clearance, options, execution), execution);
 }
 
 }  // namespace warren

@@ -27,7 +27,12 @@ struct GraphOptions {
   std::uint64_t seed = 1;
 };
 
-/// Throws UsageError for what can't be built in this world, HttpError for more than can be edited, Stopped.
+/// Throws UsageError where there is no axis in such a world; any walls will do.
+void check_has_axis(const Scene& scene, const RobotSpec& robot, double clearance);
+/// Throws UsageError for what can't be built in this world, Stopped.
+Roadmap built_roadmap(const Scene& scene, const RobotSpec& robot, double clearance, const GraphOptions& options,
+                      const Execution& execution);
+/// The same as a graph. Throws HttpError, too, for more than can be edited.
 RouteGraph built_graph(const Scene& scene, const RobotSpec& robot, double clearance, const GraphOptions& options,
                        const Execution& execution);
 

@@ -12,53 +12,90 @@
 
 namespace warren {
 
-/// Any number of threads may call.
+/// Any number of threads may call. It outlives its leases.
 template <class Value>
 class KeptValues {
- public:
-  explicit KeptValues(std::size_t most_bytes) : most_bytes_(most_bytes) {}
-
-  /// Replaces what had the name. The oldest go; a value of more than half of the bytes isn't kept.
-  void put(const std::string& name, Value value, std::size_t bytes) {
-    const std::lock_guard lock(mutex_);
-    forget(name);
-    if (bytes > most_bytes_ / 2) return;
-    while (bytes_ + bytes > most_bytes_) forget(std::string(order_.back().name));
-    order_.push_front({name, std::move(value), bytes});
-    places_[name] = order_.begin();
-    bytes_ += bytes;
-  }
-  /// Shows the value of that name; false: there is none. Nobody else looks meanwhile.
-  template <class Look>
-  bool look(const std::string& name, const Look& look) {
-    const std::lock_guard lock(mutex_);
-    const auto found = places_.find(name);
-    if (found == places_.end()) return false;
-    order_.splice(order_.begin(), order_, found->second);
-    look(std::as_const(found->second->value));
-    return true;
-  }
-  /// Never waits for who looks.
-  std::size_t bytes() const { return bytes_.load(std::memory_order_relaxed); }
-
- private:
   struct Entry {
     std::string name;
     Value value;
     std::size_t bytes;
+    std::size_t leases = 0;
+    bool is_kept = true;
   };
-  void forget(const std::string& name) {
+  using Entries = std::list<Entry>;
+  using Place = typename Entries::iterator;
+
+ public:
+  explicit KeptValues(std::size_t most_bytes) : most_bytes_(most_bytes) {}
+
+  /// A value, or none. It stays while the lease does, even if it is forgotten meanwhile.
+  class Lease {
+   public:
+    Lease() = default;
+    Lease(Lease&& other) noexcept : owner_(std::exchange(other.owner_, nullptr)), place_(other.place_) {}
+    Lease& operator=(Lease&&) = delete;
+    ~Lease() {
+      if (owner_ != nullptr) owner_->give_back(place_);
+    }
+    explicit operator bool() const { return owner_ != nullptr; }
+    const Value& operator*() const { return place_->value; }
+    const Value* operator->() const { return &place_->value; }
+
+   private:
+    friend class KeptValues;
+    Lease(KeptValues* owner, Place place) : owner_(owner), place_(place) { ++place->leases; }
+    KeptValues* owner_ = nullptr;
+    Place place_ = {};
+  };
+
+  /// Replaces what had the name. The oldest go; a value of more than half of the bytes isn't kept.
+  Lease put(const std::string& name, Value value, std::size_t bytes) {
+    Entries gone;  // ends after the lock
+    const std::lock_guard lock(mutex_);
+    forget(name, gone);
+    if (bytes > most_bytes_ / 2) {
+      held_.push_front({name, std::move(value), bytes, 0, false});
+      return Lease(this, held_.begin());
+    }
+    while (bytes_ + bytes > most_bytes_) forget(std::string(order_.back().name), gone);
+    order_.push_front({name, std::move(value), bytes});
+    places_[name] = order_.begin();
+    bytes_ += bytes;
+    return Lease(this, order_.begin());
+  }
+  /// The value of that name; none: it was never put or is forgotten.
+  Lease find(const std::string& name) {
+    const std::lock_guard lock(mutex_);
+    const auto found = places_.find(name);
+    if (found == places_.end()) return {};
+    order_.splice(order_.begin(), order_, found->second);
+    return Lease(this, found->second);
+  }
+  /// Of those that are kept.
+  std::size_t bytes() const { return bytes_.load(std::memory_order_relaxed); }
+
+ private:
+  void forget(const std::string& name, Entries& gone) {
     const auto found = places_.find(name);
     if (found == places_.end()) return;
-    bytes_ -= found->second->bytes;
-    order_.erase(found->second);
+    const Place place = found->second;
+    bytes_ -= place->bytes;
     places_.erase(found);
+    place->is_kept = false;
+    Entries& there = place->leases > 0 ? held_ : gone;
+    there.splice(there.begin(), order_, place);
+  }
+  void give_back(Place place) {
+    Entries gone;
+    const std::lock_guard lock(mutex_);
+    if (--place->leases == 0 && !place->is_kept) gone.splice(gone.begin(), held_, place);
   }
 
   const std::size_t most_bytes_;
-  std::mutex mutex_;        // guards what follows; bytes_ is only written under it
-  std::list<Entry> order_;  // the last used first
-  std::map<std::string, typename std::list<Entry>::iterator> places_;
+  std::mutex mutex_;  // guards what follows; bytes_ is only written under it
+  Entries order_;     // the last used first
+  Entries held_;      // not kept any more, but leased
+  std::map<std::string, Place> places_;
   std::atomic<std::size_t> bytes_{0};
 };
 

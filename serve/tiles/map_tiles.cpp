@@ -3,10 +3,12 @@
 // may be turned, so each row of pixels is a line through the cells.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "serve/tiles/shade_png.hpp"
 #include "serve/tiles/shade_pyramid.hpp"
 #include "serve/tiles/world_tiles.hpp"
+#include "spatial/maps/distance_field.hpp"
 
 namespace warren {
 namespace {
@@ -21,6 +23,23 @@ Box box_of_map(const OccupancyMap& map) {
   }
   return box;
 }
+
+/// Of a cell's middle, from the squares of blocked cells and of those around the map; four bytes a cell.
+class MapDistances : public PlaceDistances {
+ public:
+  MapDistances(const OccupancyMap& map, const Execution& execution)
+      : map_(map), field_(map.blocked, CellDistance::squares, true, execution) {}
+
+  double at(Vec2 place) const override {
+    const std::optional<Cell> cell = cell_at(map_, place);
+    if (!cell || map_.blocked.test(cell->x, cell->y)) return std::numeric_limits<double>::quiet_NaN();
+    return map_.cell * field_.distance(cell->x, cell->y);
+  }
+
+ private:
+  const OccupancyMap& map_;
+  DistanceField field_;
+};
 
 class MapTiles : public WorldTiles {
  public:
@@ -46,6 +65,10 @@ class MapTiles : public WorldTiles {
       }
     }
     return png_of(tile, colors::wall, execution);
+  }
+
+  std::unique_ptr<PlaceDistances> distances(const Execution& execution) const override {
+    return std::make_unique<MapDistances>(map_, execution);
   }
 
  private:

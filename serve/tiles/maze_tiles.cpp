@@ -4,8 +4,10 @@
 // decide, so a tile costs 512 x 512 looks at bits or bytes at most, whatever the maze's size.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
+#include "core/plane/geometry.hpp"
 #include "serve/tiles/shade_png.hpp"
 #include "serve/tiles/shade_pyramid.hpp"
 #include "serve/tiles/world_tiles.hpp"
@@ -38,7 +40,10 @@ class MazeTiles : public WorldTiles {
     return png_of(tile, colors::wall, execution);
   }
 
- private:
+  std::unique_ptr<PlaceDistances> distances(const Execution& execution) const override;
+  double largest_pixel_of_distances() const override { return 1.0 / 8.0; }
+
+  LatticeSize size() const { return passages_.size(); }
   /// Column and row from 0; -1: the outline's left and lower side.
   bool has_right_wall(std::int64_t col, std::int64_t row) const {
     if (col < 0) return outline_.left[static_cast<std::size_t>(row)];
@@ -50,6 +55,8 @@ class MazeTiles : public WorldTiles {
     if (row + 1 == passages_.size().rows) return outline_.upper[static_cast<std::size_t>(col)];
     return (open_at(col, row) & 2U) == 0;
   }
+
+ private:
   unsigned open_at(std::int64_t col, std::int64_t row) const {
     return passages_.open_at(static_cast<std::uint32_t>(col), static_cast<std::uint32_t>(row));
   }
@@ -120,6 +127,50 @@ class MazeTiles : public WorldTiles {
   CellsOnTiles cells_;
   ShadePyramid far_;
 };
+
+/// By the walls of the cells around the place's own, ring by ring, until those farther out can't be nearer.
+class MazeDistances : public PlaceDistances {
+ public:
+  explicit MazeDistances(const MazeTiles& tiles) : tiles_(tiles) {}
+
+  double at(Vec2 place) const override {
+    const double cols = tiles_.size().cols;
+    const double rows = tiles_.size().rows;
+    const bool is_inside = place.x >= 0.5 && place.y >= 0.5 && place.x <= cols + 0.5 && place.y <= rows + 0.5;
+    if (!is_inside) return std::numeric_limits<double>::quiet_NaN();
+    const auto col = static_cast<std::int64_t>(std::min(place.x - 0.5, cols - 1.0));
+    const auto row = static_cast<std::int64_t>(std::min(place.y - 0.5, rows - 1.0));
+    double least = farthest;
+    for (std::int64_t ring = 0; ring == 0 || least > static_cast<double>(ring - 1); ++ring) {
+      for (std::int64_t y = row - ring; y <= row + ring; ++y) {
+        const bool is_whole = y == row - ring || y == row + ring;
+        const std::int64_t step = is_whole || ring == 0 ? 1 : 2 * ring;
+        for (std::int64_t x = col - ring; x <= col + ring; x += step) least = std::min(least, to_walls(place, x, y));
+      }
+    }
+    return least;
+  }
+
+ private:
+  static constexpr double farthest = 4.0;  // cells; what is farther is as far
+
+  /// To the right and the upper wall of a cell; any column and row.
+  double to_walls(Vec2 place, std::int64_t col, std::int64_t row) const {
+    const LatticeSize size = tiles_.size();
+    if (col < -1 || row < -1 || col >= size.cols || row >= size.rows) return farthest;
+    const Vec2 corner{static_cast<double>(col) + 1.5, static_cast<double>(row) + 1.5};  // upper right
+    double least = farthest;
+    if (row >= 0 && tiles_.has_right_wall(col, row)) least = distance(place, {{corner.x, corner.y - 1.0}, corner});
+    if (col < 0 || !tiles_.has_upper_wall(col, row)) return least;
+    return std::min(least, distance(place, {{corner.x - 1.0, corner.y}, corner}));
+  }
+
+  const MazeTiles& tiles_;
+};
+
+std::unique_ptr<PlaceDistances> MazeTiles::distances(const Execution&) const {
+  return std::make_unique<MazeDistances>(*this);
+}
 
 }  // namespace
 

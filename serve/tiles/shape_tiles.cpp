@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/plane/geometry.hpp"
 #include "pictures/formats/png_file.hpp"
 #include "pictures/formats/raster.hpp"
 #include "serve/tiles/world_tiles.hpp"
@@ -47,19 +49,55 @@ Box box_of_world(const Scene& scene, const Execution& execution) {
   return box.empty() ? Box{{0, 0}, {1, 1}} : box;
 }
 
-/// With the lower end first, as those of sides and seams are compared.
-std::array<double, 4> ordered(Vec2 a, Vec2 b) {
-  if (b.x < a.x || (b.x == a.x && b.y < a.y)) std::swap(a, b);
-  return {a.x, a.y, b.x, b.y};
+/// Sides along which parts of one polygon are joined.
+class SeamSides {
+ public:
+  explicit SeamSides(const Scene& scene) {
+    for (const Segment& seam : scene.seams) sides_.push_back(ordered(seam.a, seam.b));
+    std::sort(sides_.begin(), sides_.end());
+  }
+  bool holds(Vec2 a, Vec2 b) const { return std::binary_search(sides_.begin(), sides_.end(), ordered(a, b)); }
+
+ private:
+  /// With the lower end first, as sides and seams are compared.
+  static std::array<double, 4> ordered(Vec2 a, Vec2 b) {
+    if (b.x < a.x || (b.x == a.x && b.y < a.y)) std::swap(a, b);
+    return {a.x, a.y, b.x, b.y};
+  }
+  std::vector<std::array<double, 4>> sides_;
+};
+
+/// Walls, sides of polygons but seams, and bounds.
+std::vector<Segment> sides_of(const Scene& scene, const SeamSides& seams, const Execution& execution) {
+  std::size_t count = scene.walls.size();
+  for (const ScenePolygon& polygon : scene.polygons) count += polygon.corners.size();
+  execution.reserve(count * (sizeof(Segment) + 3 * sizeof(BoxOf<2>)));
+  std::vector<Segment> sides = bounds_walls(scene);
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) sides.push_back(scene.walls.segment(i));
+  for (const ScenePolygon& polygon : scene.polygons) {
+    execution.check();
+    Vec2 a = polygon.corners.back();
+    for (const Vec2 b : polygon.corners) {
+      if (!seams.holds(a, b)) sides.push_back({a, b});
+      a = b;
+    }
+  }
+  return sides;
+}
+
+std::vector<BoxOf<2>> boxes_of(const std::vector<Segment>& sides) {
+  std::vector<BoxOf<2>> boxes;
+  for (const Segment& side : sides) boxes.push_back(as_item(box_of(side)));
+  return boxes;
 }
 
 class ShapeTiles : public WorldTiles {
  public:
   ShapeTiles(const Scene& scene, const Execution& execution)
-      : WorldTiles(grid_around(box_of_world(scene, execution))), scene_(scene), tree_(boxes_of(scene, execution)) {
-    for (const Segment& seam : scene.seams) seams_.push_back(ordered(seam.a, seam.b));
-    std::sort(seams_.begin(), seams_.end());
-  }
+      : WorldTiles(grid_around(box_of_world(scene, execution))),
+        scene_(scene),
+        tree_(boxes_of(scene, execution)),
+        seams_(scene) {}
 
   std::string draw(const TilePlace& place, const Execution& execution) const override {
     Image image(TileGrid::pixels, TileGrid::pixels, colors::paper, execution);
@@ -74,6 +112,25 @@ class ShapeTiles : public WorldTiles {
     std::string bytes;
     write_png_file(image, 0.0, execution, [&](std::string_view piece) { bytes += piece; });
     return bytes;
+  }
+  std::unique_ptr<PlaceDistances> distances(const Execution& execution) const override;
+
+  const Scene& scene() const { return scene_; }
+  const SeamSides& seams() const { return seams_; }
+  /// How much of each pixel lies inside of polygons. Throws Stopped.
+  Mask insides(const Box& box, double pixel, const Execution& execution) const {
+    Mask mask(TileGrid::pixels, TileGrid::pixels, execution);
+    for (const std::uint32_t i : shapes_in(box)) {
+      if (i < scene_.walls.size()) continue;
+      PolygonSet one;
+      std::vector<Vec2> corners;
+      for (const Vec2 p : scene_.polygons[i - scene_.walls.size()].corners) {
+        corners.push_back({(p.x - box.min.x) / pixel, (box.max.y - p.y) / pixel});
+      }
+      one.add(corners);
+      mask.fill(one, 1.0, execution);
+    }
+    return mask;
   }
 
  private:
@@ -110,16 +167,52 @@ class ShapeTiles : public WorldTiles {
     brush.execution.check();
     Vec2 a = polygon.corners.back();
     for (const Vec2 b : polygon.corners) {
-      const bool is_seam = !seams_.empty() && std::binary_search(seams_.begin(), seams_.end(), ordered(a, b));
-      if (!is_seam) brush.line({a, b}, outline_pixels);
+      if (!seams_.holds(a, b)) brush.line({a, b}, outline_pixels);
       a = b;
     }
   }
 
   const Scene& scene_;
   BoxTree<2> tree_;
-  std::vector<std::array<double, 4>> seams_;
+  SeamSides seams_;
 };
+
+/// By a tree of sides; 132 bytes a side.
+class ShapeDistances : public PlaceDistances {
+ public:
+  ShapeDistances(const ShapeTiles& tiles, const Execution& execution)
+      : tiles_(tiles),
+        sides_(sides_of(tiles.scene(), tiles.seams(), execution)),
+        tree_(boxes_of(sides_)),
+        room_(tiles.scene().bounds ? *tiles.scene().bounds : box_of_world(tiles.scene(), execution)) {}
+
+  double at(Vec2 place) const override {
+    double least = std::numeric_limits<double>::infinity();
+    tree_.search({{place.x, place.y}, {place.x, place.y}}, least,
+                 [&](std::uint32_t i) { return least = std::min(least, distance(place, sides_[tree_.order()[i]])); });
+    return least;
+  }
+  bool are_dear() const override { return true; }
+  void leave_out(StepTile& tile, const Box& box, double pixel, const Execution& execution) const override {
+    const Mask inside = tiles_.insides(box, pixel, execution);
+    for (std::size_t i = 0; i < tile.steps.size(); ++i) {
+      const Vec2 middle{static_cast<double>(i % TileGrid::pixels) + 0.5,
+                        static_cast<double>(i / TileGrid::pixels) + 0.5};
+      const bool is_outside = !room_.contains({box.min.x + middle.x * pixel, box.max.y - middle.y * pixel});
+      if (is_outside || inside.pixels()[i] >= 128) tile.steps[i] = 0;
+    }
+  }
+
+ private:
+  const ShapeTiles& tiles_;
+  std::vector<Segment> sides_;
+  BoxTree<2> tree_;
+  Box room_;
+};
+
+std::unique_ptr<PlaceDistances> ShapeTiles::distances(const Execution& execution) const {
+  return std::make_unique<ShapeDistances>(*this, execution);
+}
 
 }  // namespace
 

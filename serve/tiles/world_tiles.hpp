@@ -2,6 +2,7 @@
 // A world as tiles of any zoom, each drawn when it is asked for: one kind of world a file.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,9 +10,23 @@
 #include "parallel/execution.hpp"
 #include "planners/route_trees/lattice_passages.hpp"
 #include "scenes/scene/scene.hpp"
+#include "serve/tiles/step_tile.hpp"
 #include "serve/tiles/tile_grid.hpp"
 
 namespace warren {
+
+/// How far places of a world are from the nearest obstacle. Immutable; any number of threads may ask.
+class PlaceDistances {
+ public:
+  virtual ~PlaceDistances() = default;
+
+  /// No number inside of cells that are blocked and outside of mazes and maps.
+  virtual double at(Vec2 place) const = 0;
+  /// Is one a pixel too many?
+  virtual bool are_dear() const { return false; }
+  /// Takes out what lies inside of shapes or outside of the world, where at() doesn't. Throws Stopped.
+  virtual void leave_out(StepTile&, const Box&, double /*pixel*/, const Execution&) const {}
+};
 
 /// Immutable; any number of threads may draw.
 class WorldTiles {
@@ -24,6 +39,10 @@ class WorldTiles {
   const TileGrid& grid() const { return grid_; }
   /// A PNG. The tile is one of the grid. Throws Stopped.
   virtual std::string draw(const TilePlace& tile, const Execution& execution) const = 0;
+  /// Refers to what the tiles refer to, and to them. Throws Stopped.
+  virtual std::unique_ptr<PlaceDistances> distances(const Execution& execution) const = 0;
+  /// Tiles whose pixels are larger don't show them.
+  virtual double largest_pixel_of_distances() const { return std::numeric_limits<double>::infinity(); }
 
  private:
   TileGrid grid_;

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "serve/http/http_message.hpp"
+
 namespace warren {
 namespace {
 
@@ -46,7 +48,7 @@ TEST(PathView, PointsOfAPixelAreOneAndNoneIsFartherThanThatFromWhatIsDrawn) {
     ASSERT_EQ(chains.size(), 1U);
     EXPECT_EQ(chains[0].front(), path.front());
     EXPECT_EQ(chains[0].back(), path.back());
-    const double of_blocks = 2.0 * static_cast<double>(KeptCurve(path, {}).block_count() - 1);
+    const double of_blocks = static_cast<double>(KeptCurve(path, {}).block_count() - 1);
     EXPECT_LE(static_cast<double>(chains[0].size()) - of_blocks,
               7072.0 / pixel + 10'001.0 * (pixel <= 1.0 ? 1.0 : 0.0) + 3.0);
     double worst = 0.0;
@@ -98,6 +100,18 @@ TEST(PathView, LongPathsAreSeenAsIfTheyHadNoBlocks) {
   EXPECT_EQ(seen_of(KeptCurve(path, {}), {.box = everything, .pixel = 9.0}, {.threads = 3}), alone);
   ASSERT_EQ(alone.size(), 1U);
   for (std::size_t i = 0; i < path.size(); i += 777) EXPECT_LE(distance_from(alone[0], path[i]), 9.0);
+}
+
+TEST(PathView, OfALongPathNoMoreIsMadeThanMayBeTold) {
+  const KeptCurve curve(staircase(3'000'000), {});
+  constexpr double forever = far_away;
+  const Deadline enough(forever, resident_bytes() + (std::size_t{128} << 20U));
+  EXPECT_THROW(seen_of(curve, {.box = everything, .most_points = 100'000}, {.deadline = &enough}), HttpError);
+  const std::size_t few = seen_of(curve, {.box = everything, .pixel = 99.0}, {.deadline = &enough})[0].size();
+  EXPECT_EQ(seen_of(curve, {.box = everything, .pixel = 99.0, .most_points = few}, {})[0].size(), few);
+  EXPECT_THROW(seen_of(curve, {.box = everything, .pixel = 99.0, .most_points = few - 1}, {}), HttpError);
+  const Deadline poor(forever, resident_bytes() + (std::size_t{4} << 20U));
+  EXPECT_THROW(seen_of(curve, {.box = everything}, {.deadline = &poor}), Stopped);
 }
 
 TEST(PathView, APathOfOnePointIsSeenWhereItIs) {

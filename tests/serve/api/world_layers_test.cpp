@@ -12,6 +12,7 @@
 
 #include "scenes/text/human_units.hpp"
 #include "serve/api/world_service.hpp"
+#include "tests/scenes/text/temporary_directory.hpp"
 #include "tests/serve/tiles/read_inks.hpp"
 #include "tests/serve/town.hpp"
 
@@ -125,6 +126,142 @@ TEST(WorldLayers, TheLegendHasFigures) {
   EXPECT_EQ(words("components", 0), "largest: " + counted(most, "milestone", "milestones"));
   EXPECT_EQ(words("components", 1), "number 2: " + counted(parts.vertex_count() - most, "milestone", "milestones"));
   EXPECT_EQ(legend_of(service, "components").size(), 2U);
+}
+
+TEST(WorldLayers, ClearanceIsThereForWorldsOfEveryKindAndItsLegendSaysWhatUnit) {
+  const TemporaryDirectory folder;
+  folder.write("a.map", "type octile\nheight 3\nwidth 4\nmap\n....\n..@.\n....\n");
+  for (const std::string source : {"maze:20x20,seed=3", "maze:300x300,seed=3", "a.map"}) {
+    SCOPED_TRACE(source);
+    const ServedWorld world(read_world(source == "a.map" ? folder.file("a.map") : source, {}), {}, {});
+    WorldService service(world, {});
+    const Json layer = layer_of(service, "clearance");
+    ASSERT_EQ(layer.at("there"), true);
+    const std::string zoom = std::to_string(layer.at("from_zoom").get<unsigned>());
+    const std::string path = "/v/" + world.hash() + "/layers/clearance/" + zoom + "/0/0.png";
+    const HttpResponse drawn = asked(service, {.path = path});
+    ASSERT_EQ(drawn.status, 200U) << drawn.body;
+    std::size_t inked = 0;
+    for (const test::InkPixel& pixel : test::read_inks(drawn.body)) inked += pixel[3] > 0 ? 1 : 0;
+    EXPECT_GT(inked, 10'000U);
+    EXPECT_NE(inked, test::read_inks(drawn.body).size()) << "nothing outside of the world";
+    const Json legend = legend_of(service, "clearance");
+    const bool has_clearance = world.clearance() > 0.0;  // mazes of the course
+    EXPECT_TRUE(legend.front().at("words").get<std::string>().starts_with(has_clearance ? "nearer than " : "0 to "));
+    EXPECT_TRUE(legend.back().at("words").get<std::string>().ends_with(" cells and more"));
+  }
+}
+
+TEST(WorldLayers, ClearanceSaysWhereADiscDoesNotFitAndWhyACrowdHasNone) {
+  const Question disc{.robot = RobotSpec{.kind = RobotKind::disc, .radius = 4.0}, .clearance = 2.0};
+  const ServedWorld world(scene_of(town), disc, {});
+  WorldService service(world, {});
+  const Json legend = legend_of(service, "clearance");
+  EXPECT_EQ(legend.at(0).at("words"), "nearer than 6: too near for disc 4");
+  EXPECT_EQ(legend.at(0).at("color"), "#c8102e99");
+  EXPECT_TRUE(legend.at(1).at("words").get<std::string>().starts_with("6 ")) << legend.at(1);
+  Scene scene = scene_of(town);
+  for (int i = 0; i <= (1 << 21) / 4; ++i) {
+    const Vec2 at{0.1 * (i % 1000), 0.1 * static_cast<double>(i / 1000)};
+    scene.polygons.push_back({{at, at + Vec2{0.05, 0}, at + Vec2{0.05, 0.05}, at + Vec2{0, 0.05}}});
+  }
+  const ServedWorld crowd(std::move(scene), {}, {});
+  WorldService other(crowd, {});
+  EXPECT_EQ(layer_of(other, "clearance").at("there"), false);
+  EXPECT_NE(layer_of(other, "clearance").at("why").get<std::string>().find("walls and sides"), std::string::npos);
+  EXPECT_EQ(asked(other, {.path = "/v/" + crowd.hash() + "/layers/clearance/0/0/0.png"}).status, 400U);
+}
+
+TEST(WorldLayers, TheSearchGoesOutFromTheStartThatIsAskedFor) {
+  const ServedWorld world(build(scene_of("bounds 0 0 100 60\nwall 50 -1 50 61\n")), {});
+  WorldService service(world, {});
+  ASSERT_EQ(layer_of(service, "search").at("of_start"), true);
+  const std::string tile = "/v/" + world.hash() + "/layers/search/0/0/0.png";
+  const HttpResponse left = asked(service, {.path = tile, .query = {{"from", "5,30"}}});
+  const HttpResponse right = asked(service, {.path = tile, .query = {{"from", "95,30"}}});
+  ASSERT_EQ(left.status, 200U) << left.body;
+  ASSERT_EQ(right.status, 200U) << right.body;
+  EXPECT_NE(left.body, right.body);
+  EXPECT_EQ(service.at_once({.path = tile, .query = {{"from", "95,30"}}}, {})->body, right.body);
+  EXPECT_EQ(service.at_once({.path = tile, .query = {{"from", "5,30"}}}, {})->body, left.body);
+  EXPECT_EQ(asked(service, {.path = tile}).status, 400U);
+  for (const char* wrong : {"", "5", "5,nan", "50,30", "500,30"}) {
+    EXPECT_EQ(asked(service, {.path = tile, .query = {{"from", wrong}}}).status, 400U) << wrong;
+  }
+  const std::string legend = "/v/" + world.hash() + "/layers/search/legend";
+  const std::string words = asked(service, {.path = legend, .query = {{"from", "5,30"}}}).body;
+  EXPECT_NE(words.find("0 to "), std::string::npos) << words;
+  EXPECT_NE(words.find("that it does not reach"), std::string::npos) << "those behind the wall: " << words;
+}
+
+TEST(WorldLayers, TheSearchSaysWhyThereIsNone) {
+  const auto why = [](const ServedWorld& world) {
+    WorldService service(world, {});
+    return layer_of(service, "search").value("why", "");
+  };
+  const ServedWorld plain(scene_of(town), {}, {});
+  EXPECT_NE(why(plain).find("warren build"), std::string::npos);
+  const ServedWorld lazy(build(scene_of(town), {}, {.planner = PlannerKind::lazy_prm}), {});
+  EXPECT_NE(why(lazy).find("while it is asked"), std::string::npos);
+  for (const PlannerKind planner : {PlannerKind::visibility, PlannerKind::voronoi, PlannerKind::cells}) {
+    const ServedWorld other(build(scene_of(town), {}, {.planner = planner}), {});
+    EXPECT_NE(why(other).find("build --planner prm"), std::string::npos);
+  }
+  const ServedWorld lattice(build(read_world("maze:300x300,seed=3", {})), {});
+  EXPECT_NE(why(lattice).find("without a search"), std::string::npos);
+}
+
+TEST(WorldLayers, TheAxisRunsInTheMiddleOfACorridor) {
+  const TemporaryDirectory folder;
+  folder.write(
+      "a.map", "type octile\nheight 5\nwidth 30\nmap\n" + [] {
+        std::string rows = std::string(30, '@') + "\n";
+        for (int row = 0; row < 3; ++row) rows += "@" + std::string(28, '.') + "@\n";
+        return rows + std::string(30, '@') + "\n";
+      }());
+  const ServedWorld rooms(
+      scene_of("bounds 0 0 100 60\npolygon 40 0 60 0 60 25 40 25\npolygon 40 35 60 35 60 60 40 60\n"), {}, {});
+  const ServedWorld map(read_world(folder.file("a.map"), {}), {}, {});
+  const ServedWorld roadmap(build(scene_of("bounds 0 0 100 60\npolygon 40 0 60 0 60 25 40 25\n"
+                                           "polygon 40 35 60 35 60 60 40 60\n")),
+                            {});
+  struct Case {
+    const ServedWorld& world;
+    Vec2 on, off;
+  };
+  for (const Case& c :
+       {Case{rooms, {50, 30}, {50, 33}}, Case{map, {15, 2.5}, {15, 1.5}}, Case{roadmap, {50, 30}, {50, 33}}}) {
+    WorldService service(c.world, {});
+    ASSERT_EQ(layer_of(service, "axis").at("there"), true);
+    const std::vector<test::InkPixel> pixels =
+        test::read_inks(asked(service, {.path = "/v/" + c.world.hash() + "/layers/axis/0/0/0.png"}).body);
+    const TileGrid& grid = c.world.tiles().grid();
+    const auto at = [&](Vec2 p) {
+      const auto x = static_cast<std::size_t>((p.x - grid.corner.x) / grid.pixel(0));
+      const auto y = static_cast<std::size_t>((grid.corner.y - p.y) / grid.pixel(0));
+      unsigned most = 0;
+      for (const std::size_t row : {y - 1, y, y + 1}) most = std::max(most, pixels[row * TileGrid::pixels + x][3]);
+      return most;
+    };
+    EXPECT_GT(at(c.on), 60U);
+    EXPECT_EQ(at(c.off), 0U);
+    const std::string words = legend_of(service, "axis").at(0).at("words");
+    EXPECT_NE(words.find("as far from all obstacles"), std::string::npos) << words;
+  }
+}
+
+TEST(WorldLayers, AWorldWithoutAnAxisSaysWhy) {
+  const RobotSpec car{.kind = RobotKind::car, .turning_radius = 3.0, .outline = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
+  const ServedWorld cars(scene_of("bounds 0 0 100 60\nstart 5 30 0\ngoal 90 30 0\n"), {.robot = car}, {});
+  const ServedWorld maze(read_world("maze:300x300,seed=7", {}), {}, {});
+  for (const ServedWorld* world : {&cars, &maze}) {
+    WorldService service(*world, {});
+    const Json layer = layer_of(service, "axis");
+    EXPECT_EQ(layer.at("there"), false);
+    EXPECT_GT(layer.value("why", "").size(), 20U);
+    EXPECT_EQ(layer.value("why", "").find('@'), std::string::npos);
+    EXPECT_EQ(asked(service, {.path = "/v/" + world->hash() + "/layers/axis/0/0/0.png"}).status, 400U);
+  }
 }
 
 TEST(WorldLayers, TheSweepIsAskedOfThePathAndABodyWithoutExtentHasNone) {

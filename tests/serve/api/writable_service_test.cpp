@@ -151,10 +151,24 @@ TEST(WritableService, WhatCanNotBeDrawnIsRefusedAndChangesNothing) {
 TEST(WritableService, LargeMazesAndReadersAreToldWhy) {
   Writable maze(read_world("maze:300x300,seed=1", {}));
   EXPECT_NE(maze.update(wall_across).body.find("warren update"), std::string::npos);
+  EXPECT_EQ(Json::parse(maze.asked({.path = "/api/world"}).body).at("writable"), false);
   Writable reader(town, {}, false);
   const HttpResponse said = reader.update(wall_across);
   EXPECT_EQ(said.status, 403U);
   EXPECT_EQ(Json::parse(said.body).at("error").at("code"), "read_only");
+}
+
+TEST(WritableService, WallsOfALargeMazeAreNotMadeForAChangeThatIsRefused) {
+  auto world = std::make_unique<ServedWorld>(read_world("maze:1500x1500,seed=1", {}), Question{}, Execution{});
+  WritableService service(std::move(world), {.writable = true, .scene_bytes = 1000}, {});
+  const SignalFlag flag{0};
+  const std::size_t held = resident_bytes();
+  const HttpResponse change =
+      answer_of(service, {.method = "POST", .path = "/api/update", .body = wall_across.dump()}, flag);
+  EXPECT_EQ(change.status, 400U) << change.body;
+  const HttpResponse scene = answer_of(service, {.path = "/api/scene"}, flag);
+  EXPECT_EQ(scene.status, 413U) << scene.body;
+  EXPECT_LT(resident_bytes(), held + (std::size_t{4} << 20U));
 }
 
 TEST(WritableService, OnlyWhoKnowsTheTokenChanges) {

@@ -9,9 +9,8 @@ namespace warren {
 namespace {
 
 std::string seen(KeptValues<std::string>& kept, const std::string& name) {
-  std::string text = "none";
-  kept.look(name, [&](const std::string& value) { text = value; });
-  return text;
+  const auto value = kept.find(name);
+  return value ? *value : "none";
 }
 
 TEST(KeptValues, ForgetTheOnesThatWereNotLookedAtForLongest) {
@@ -40,6 +39,16 @@ TEST(KeptValues, DoNotKeepWhatWouldThrowOutMostOthers) {
   kept.put("large", "L", 51);
   EXPECT_EQ(seen(kept, "large"), "none");
   EXPECT_EQ(seen(kept, "a"), "A");
+}
+
+TEST(KeptValues, StayWhileSomebodyHoldsThem) {
+  KeptValues<std::string> kept(100);
+  const auto held = kept.put("a", "A", 50);
+  kept.put("b", "B", 50);
+  kept.put("c", "C", 50);
+  EXPECT_EQ(seen(kept, "a"), "none");
+  EXPECT_EQ(*held, "A");
+  EXPECT_EQ(*kept.put("large", "L", 51), "L");
 }
 
 }  // namespace
