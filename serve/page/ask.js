@@ -3,7 +3,7 @@
 // often as answers come.
 "use strict";
 const question = {start: null, goal: null, planner: "", optimise: false, startHeading: null, goalHeading: null};
-const answer = {text: null, json: null, id: null};
+const answer = {text: null, json: null, id: null, start: null};
 let asking = false;
 let askAgain = false;
 
@@ -38,6 +38,7 @@ async function ask() {
     take(reply, text, performance.now() - began);
   } catch (error) {
     forgetAnswer();
+    showAnswer(null, []);
     say("The service does not answer any more.");
   }
   asking = false;
@@ -50,10 +51,11 @@ function forgetAnswer() {
   clearPath();
   forgetClearance();
   forgetSweep();
-  answer.text = answer.json = answer.id = null;
+  answer.text = answer.json = answer.id = answer.start = null;
 }
 function take(reply, text, passed) {
   const json = JSON.parse(text);
+  if (json.world && json.world.hash !== world.hash) noticeWorld();
   forgetAnswer();
   if (!question.start || !question.goal) return;  // taken away meanwhile
   if (json.error) {
@@ -62,6 +64,7 @@ function take(reply, text, passed) {
   }
   answer.text = text;
   answer.json = json;
+  answer.start = json.status === "start_blocked" ? null : json.start.slice(0, 2).join(",");
   answer.id = reply.headers.get("Warren-Path");
   if (answer.id) showPath(json.path.map(p => [p[0], p[1]]), answer.id);
   say(inWords(json));

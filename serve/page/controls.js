@@ -19,6 +19,7 @@ function fillTable(id, rows) {
 const asTime = ms => ms < 1 ? (1000 * ms).toFixed(0) + " µs" : ms < 1000 ? ms.toPrecision(3) + " ms" : (ms / 1000).toPrecision(3) + " s";
 
 function showAnswer(json, times) {
+  showSearch();
   const rows = [];
   if (json) {
     const add = (name, value) => { if (value !== null && value !== undefined) rows.push([name, String(value)]); };
@@ -214,7 +215,7 @@ function wireMap() {
     const end = {s: "start", g: "goal"}[event.key];
     if (end && !event.ctrlKey && !event.metaKey && !event.altKey) setEnd(end, placeOf(map.getCenter()));
   });
-  window.addEventListener("hashchange", () => { readLink(); showQuestion(); });
+  window.addEventListener("hashchange", () => { takeToken(); readLink(); showQuestion(); });
 }
 /// The world's own ends, where it has some and the link says nothing.
 function takeOwnEnds() {

@@ -30,12 +30,30 @@ async function sendChange(change) {
   await takeWorld();
   return json;
 }
-/// The world as it is now. A page whose tiles lie elsewhere begins anew; the link has all of it.
-async function takeWorld() {
-  const before = world;
-  world = await (await fetch("/api/world")).json();
-  if (JSON.stringify([before.tiles.corner, before.tiles.span]) !== JSON.stringify([world.tiles.corner, world.tiles.span])) return void location.reload();
-  tiles.setUrl(world.tiles.url);
+let taken = Promise.resolve(), noticing = null;
+/// Takes the world as it is now, one call after the other, so that an older world never replaces a newer one. True where
+/// it is another one than before.
+const takeWorld = () => taken = taken.then(fetchWorld);
+/// An answer or a tile is not of this world: somebody else may have changed it. Tiles fail in bursts, which ask once.
+const noticeWorld = () => noticing ||= takeWorld().finally(() => { noticing = null; });
+async function fetchWorld() {
+  try {
+    const now = await (await fetch("/api/world")).json();
+    if (now.error || now.hash === world.hash) return false;
+    showWorld(now);
+    return true;
+  } catch (error) {
+    say("The service does not answer any more.");
+    return false;
+  }
+}
+/// All that lies on the map stays, the page's own lists too; where the new tiles lie elsewhere, the map follows them.
+function showWorld(now) {
+  const center = map.getCenter(), zoom = Math.floor(map.getZoom() + Math.log2(now.tiles.span / world.tiles.span));
+  const lies = w => JSON.stringify([w.tiles.corner, w.tiles.span, w.tiles.levels, w.box]), stays = lies(now) === lies(world);
+  world = now;
+  if (stays) tiles.setUrl(world.tiles.url);
+  else placeMap(center, zoom);
   renewLayers();
   graph.verdicts.clear();
   checkGraph();

@@ -76,8 +76,10 @@ async function checkGraph() {
   for (const edge of graph.edges.values()) if (!verdictOf(edge) && asked.size < 2000) asked.set(edgeNumbers(edge).join(), edgeNumbers(edge));
   if (asked.size === 0) return;
   checking = true;
+  const hash = world.hash;
   const json = await posted("/api/check", JSON.stringify({edges: [...asked.values()]}));
   checking = false;
+  if (world.hash !== hash) return checkGraph();  // of a world that is no more
   if (!json) return;
   if (graph.verdicts.size > 200000) graph.verdicts.clear();
   [...asked.keys()].forEach((key, i) => graph.verdicts.set(key, json.edges[i]));

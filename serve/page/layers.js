@@ -28,27 +28,38 @@ function fillLegend(layer, entries) {
     return line;
   }));
 }
+/// Of a layer that goes out from the start: with the start of the last answer.
+const withStart = (account, address) => account.of_start ? address + "?from=" + answer.start : address;
 async function showLegend(layer) {
-  const account = layer.account;
-  const told = await fetch(account.legend).then(reply => reply.json(), () => ({error: {message: "The service does not answer any more."}}));
-  if (account !== layer.account || !layer.box.checked) return;
-  const far = map.getZoom() < account.from_zoom && !told.error ? [{words: "Zoom in to see it."}] : [];
+  const account = layer.account, start = answer.start;
+  const told = await fetch(withStart(account, account.legend)).then(reply => reply.json(), () => ({error: {message: "The service does not answer any more."}}));
+  if (account !== layer.account || !layer.box.checked || (account.of_start && start !== answer.start)) return;
+  const far = account.from_zoom > 0 && map.getZoom() < account.from_zoom && !told.error ? [{words: "Zoom in to see it."}] : [];
   fillLegend(layer, told.error ? [{words: told.error.message}] : [...told, ...far]);
 }
 function showLayer(layer) {
   const {account, box} = layer, t = world.tiles;
   if (layer.tiles) layer.tiles.remove();
   layer.tiles = null;
-  if (account.name === "sweep") showSweep();
+  layer.shownFrom = answer.start;
   box.disabled = !account.there;
   if (!account.there) box.checked = false;
   fillLegend(layer, account.there ? [] : [{words: "None: " + account.why + "."}]);
-  if (!box.checked || account.of_path) return;
-  layer.tiles = L.tileLayer(account.url, {pane: "layer-" + account.name, tileSize: t.pixels, minZoom: account.from_zoom > 0 ? account.from_zoom : -3, maxZoom: t.levels,
+  if (account.of_path) return void showSweep();
+  if (!box.checked) return;
+  if (account.of_start && !answer.start) return fillLegend(layer, [{words: "Shown where there is an answer."}]);
+  layer.tiles = L.tileLayer(withStart(account, account.url), {pane: "layer-" + account.name, tileSize: t.pixels, minZoom: account.from_zoom > 0 ? account.from_zoom : -3, maxZoom: t.levels,
                                           minNativeZoom: 0, maxNativeZoom: t.levels - 1, bounds: map.whole, noWrap: true, keepBuffer: 1, updateInterval: 60, className: "layer"});
-  layer.tiles.on("tileerror", () => say("A part of the layer " + account.name + " was not drawn; move or zoom to ask again."));
+  layer.tiles.on("tileerror", async () => {
+    if (!await noticeWorld()) say("A part of the layer " + account.name + " was not drawn; move or zoom to ask again.");
+  });
   layer.tiles.addTo(map);
   showLegend(layer);
+}
+/// After another answer, or none.
+function showSearch() {
+  const layer = layers.get("search");
+  if (layer && layer.shownFrom !== answer.start) showLayer(layer);
 }
 /// Those of the world as it is now.
 function renewLayers() {

@@ -8,7 +8,7 @@ const placeOf = at => ({x: at.lng, y: at.lat});
 let world = null;  // what /api/world says
 let map = null;
 let tiles = null;
-const pathLine = {line: null, id: null, whole: true};
+const pathLine = {line: null, id: null, whole: true, asked: 0};
 
 /// Digits that a pixel can tell; none in mazes whose cells are pixels or less, where that is the middle of a cell.
 function digits() {
@@ -17,16 +17,33 @@ function digits() {
 }
 const rounded = number => Number(number.toFixed(digits()));
 
-function openMap() {
+/// Where the world's places lie among its tiles.
+function crsOfWorld() {
   const t = world.tiles, scale = t.pixels / t.span;
-  const crs = L.extend({}, L.CRS.Simple, {transformation: new L.Transformation(scale, -t.corner[0] * scale, -scale, t.corner[1] * scale)});
-  map = L.map("map", {crs, minZoom: -3, maxZoom: t.levels, zoomSnap: 1, attributionControl: false, preferCanvas: true});
-  L.control.attribution({prefix: false}).addAttribution('<a href="/leaflet-license.txt">Leaflet</a>').addTo(map);
-  L.control.scale({imperial: false, metric: false}).addTo(map);
-  const [left, low, right, high] = world.box;
+  return L.extend({}, L.CRS.Simple, {transformation: new L.Transformation(scale, -t.corner[0] * scale, -scale, t.corner[1] * scale)});
+}
+function addTiles() {
+  const t = world.tiles, [left, low, right, high] = world.box;
   map.whole = L.latLngBounds([low, left], [high, right]);
   tiles = L.tileLayer(t.url, {tileSize: t.pixels, minZoom: -3, maxZoom: t.levels, minNativeZoom: 0, maxNativeZoom: t.levels - 1,
-                              bounds: map.whole, noWrap: true, keepBuffer: 1, updateInterval: 60, className: "tiles"}).addTo(map);
+                              bounds: map.whole, noWrap: true, keepBuffer: 1, updateInterval: 60, className: "tiles"});
+  tiles.on("tileerror", noticeWorld);
+  if (byId("show-world").checked) tiles.addTo(map);
+}
+/// Of a world whose tiles lie elsewhere: what is on the map is placed anew.
+function placeMap(center, zoom) {
+  tiles.remove();
+  map.options.crs = crsOfWorld();
+  map.options.maxZoom = world.tiles.levels;
+  map.setView(center, zoom, {reset: true});
+  addTiles();
+  for (const end of ["start", "goal"]) showHeading(end);  // by pixels, which are others at the same zoom
+}
+function openMap() {
+  map = L.map("map", {crs: crsOfWorld(), minZoom: -3, maxZoom: world.tiles.levels, zoomSnap: 1, attributionControl: false, preferCanvas: true});
+  L.control.attribution({prefix: false}).addAttribution('<a href="/leaflet-license.txt">Leaflet</a>').addTo(map);
+  L.control.scale({imperial: false, metric: false}).addTo(map);
+  addTiles();
   map.on("mousemove", e => { byId("readout").textContent = rounded(e.latlng.lng) + ", " + rounded(e.latlng.lat) + (world.unit ? " " + world.unit : ""); });
   map.on("moveend", showSeenPath);
 }
@@ -56,6 +73,7 @@ function putMark(mark, place) {
 function clearPath() {
   if (pathLine.line) pathLine.line.remove();
   pathLine.line = pathLine.id = null;
+  ++pathLine.asked;
 }
 function drawChains(chains) {
   if (pathLine.line) pathLine.line.remove();
@@ -65,6 +83,7 @@ function drawChains(chains) {
 }
 /// points: all of them where the answer listed them, else they are fetched by what is seen.
 function showPath(points, id) {
+  ++pathLine.asked;
   pathLine.id = id;
   pathLine.whole = points.length > 0;
   if (pathLine.whole) return drawChains([points]);
@@ -72,10 +91,14 @@ function showPath(points, id) {
 }
 async function showSeenPath() {
   if (pathLine.whole || !pathLine.id) return;
-  const id = pathLine.id, seen = map.getBounds().pad(0.5);
+  const mine = ++pathLine.asked, seen = map.getBounds().pad(0.5);
   const box = [seen.getWest(), seen.getSouth(), seen.getEast(), seen.getNorth()].join(",");
   const z = map.getZoom() - 1;  // the line is wider than two pixels
-  const reply = await fetch("/api/path/" + id + "?z=" + z + "&bbox=" + box);
-  if (!reply.ok || pathLine.id !== id) return;
-  drawChains((await reply.json()).chains);
+  try {
+    const reply = await fetch("/api/path/" + pathLine.id + "?z=" + z + "&bbox=" + box);
+    const told = reply.ok ? await reply.json() : null;
+    if (told && mine === pathLine.asked) drawChains(told.chains);  // else another path or view came meanwhile
+  } catch (error) {
+    // what was seen stays; the next question says that the service is gone
+  }
 }

@@ -103,6 +103,37 @@ class Layers(BrowserTest):
             self.assertFalse(self.box(name).is_selected())
             self.assertIn('open a roadmap', self.legend(name))
 
+    def test_clearance_and_axis_with_legends(self):
+        self.shown(self.scene)
+        self.box('clearance').click()
+        self.wait(lambda: self.legend('clearance').endswith('and more'))
+        self.assertTrue(self.legend('clearance').startswith('0 to '))
+        self.assertGreater(self.drawn('clearance')[0], 50000)
+        self.box('axis').click()
+        self.wait(lambda: 'as far from all obstacles' in self.legend('axis'))
+        self.assertGreater(self.drawn('axis')[0], 100)  # a ridge of 10 units in the middle of each room
+        self.assertIn('layers=clearance,axis', self.run_script('return decodeURIComponent(location.hash)'))
+        self.browser.set_window_size(400, 860)
+        self.shown(self.scene, '#layers=clearance')
+        self.wait(lambda: 'and more' in self.legend('clearance'))
+        self.assertNotIn('Zoom in', self.legend('clearance'))  # the whole world is smaller than a tile
+        self.shown(self.maze)
+        self.assertIn('passages', self.legend('axis'))
+
+    def test_the_search_follows_the_start(self):
+        self.shown(self.rooms, '#start=5,30&goal=40,30')
+        self.box('search').click()
+        self.wait(lambda: 'from the start' in self.legend('search'))
+        self.assertIn('does not reach', self.legend('search'))  # the other room
+        self.assertGreater(self.drawn('search')[1], 4)
+        before = self.legend('search')
+        self.run_script('setEnd("start", {x: 25, y: 30})')
+        self.wait(lambda: self.legend('search') not in ('', before))
+        self.run_script('byId("clear").click()')
+        self.wait(lambda: 'where there is an answer' in self.legend('search'))
+        self.shown(self.scene)
+        self.assertFalse(self.box('search').is_enabled())
+
     def test_passages_are_seen_from_near(self):
         self.shown(self.maze)
         self.box('roadmap').click()
@@ -135,6 +166,8 @@ class Layers(BrowserTest):
         self.assertEqual(self.sweep()[0], 0)
         self.box('sweep').click()
         self.assertEqual(self.legend('sweep'), '')
+        self.box('sweep').click()
+        self.assertIn('where there is a path', self.legend('sweep'))
 
     def test_a_point_has_no_sweep(self):
         self.shown(self.scene)

@@ -152,6 +152,19 @@ class ServicePage(MapTest):
             self.assertGreater(shown, 0, zoom)
             self.assertEqual(self.run_script('return [...document.querySelectorAll(".tiles img")].filter(i => i.complete && i.naturalWidth === 0).length'), 0)
 
+    def test_nothing_of_the_last_answer_stays_when_the_service_is_gone(self):
+        service = Service(WARREN, self.path('block.scene'))
+        self.addCleanup(service.stop)
+        self.shown(service, '#start=1,1&goal=9,9')
+        self.wait_for('Solved')
+        self.assertEqual(service.stop(), 0)
+        self.by_id('question').submit()
+        self.wait_for('does not answer any more')
+        for name in ('save-geojson', 'save-csv', 'save-json'):
+            self.assertFalse(self.by_id(name).is_enabled(), name)
+        self.assertEqual(self.by_id('figures').text, '')
+        self.assertEqual([entry['source'] for entry in self.browser.get_log('browser')], ['network'])
+
     def test_layers_dark_and_phone(self):
         self.media(color_scheme='dark')
         self.shown(self.maze, '#start=1,1&goal=300,300')
