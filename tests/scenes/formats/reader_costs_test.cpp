@@ -4,6 +4,9 @@
 // not by a page, and a promise that the file can't keep is refused before anything is held for it.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include <csignal>
 #include <limits>
@@ -115,8 +118,11 @@ TEST(ReaderCosts, ASignalIsSeenWhateverTheFileIsFullOf) {
   }
 }
 
-/// How much more the process may hold from now on.
+/// How much more the process may hold from now on. What it has freed must be gone before, or it could be held anew.
 Deadline limit_from_here(std::size_t bytes) {
+#ifdef __GLIBC__
+  ::malloc_trim(0);
+#endif
   return Deadline(std::numeric_limits<double>::infinity(), resident_bytes() + bytes);
 }
 
