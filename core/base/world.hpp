@@ -69,7 +69,7 @@ concept CellWorld = World<W> && requires(const W& w) {
   { w.milestone_reach() } -> std::convertible_to<double>;
 };
 
-/// Motions that a world may check faster together than one by one.
+/// Motions and states that a world may check faster together than one by one.
 template <class State>
 struct Motion {
   State from;
@@ -79,9 +79,11 @@ inline constexpr std::size_t bunch_size = 16;
 
 /// w.free_motions(motions, q)  bit i is is_free_motion(from, to) of the i-th motion; at most bunch_size, best if they
 ///                             are near each other
+/// w.free_states(states, q)    bit i is is_free(state) of the i-th state, likewise
 template <class W>
 concept BunchWorld = World<W> && requires(const W& w, typename W::Query& q) {
   { w.free_motions(std::span<const Motion<typename W::State>>(), q) } -> std::same_as<std::uint32_t>;
+  { w.free_states(std::span<const typename W::State>(), q) } -> std::same_as<std::uint32_t>;
 };
 
 /// Rows of lattice points (1, y), (2, y), ..., a bit each in whole words; y = first, first + 1, ...

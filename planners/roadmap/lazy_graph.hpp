@@ -7,6 +7,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -59,6 +62,8 @@ class LazyGraph {
  private:
   static constexpr std::uint64_t checks_per_poll = 64;
 
+  /// What helps is put to the world bunch by bunch: that v is joined to one neighbour does not change what it is to
+  /// another.
   template <class Visit>
   void visit_milestones(VertexId v, const Visit& visit) {
     ++counters_.neighbour_queries;
@@ -66,18 +71,38 @@ class LazyGraph {
       if (!visit.wants(w, at_least) || w == v) return;  // most are settled already
       const double length = world_.distance(states_[v], states_[w]);
       if (!visit.wants(w, length)) return;
-      if (++counters_.edges_checked % checks_per_poll == 0) execution_->check();
-      if (!world_.is_free_motion(states_[std::min(v, w)], states_[std::max(v, w)], query_)) return;
-      ++counters_.edges_free;
-      ++free_edges_;
-      if (recorded_ != nullptr) recorded_->push_back({std::min(v, w), std::max(v, w)});
-      visit(w, length);
+      lengths_[wanted_.edges().size()] = length;
+      wanted_.add({v, w}, states_[std::min(v, w)], states_[std::max(v, w)]);
+      if (wanted_.full()) visit_free(visit);
     };
     if (rule_.neighbours == 0) {
       index_.for_each_within(index_.point(v), radius_, try_edge);
-      return;
+    } else {
+      for (const VertexId w : candidates_.neighbours(v)) try_edge(w, 0.0);
     }
-    for (const VertexId w : candidates_.neighbours(v)) try_edge(w, 0.0);
+    visit_free(visit);
+  }
+
+  /// Those of the wanted edges that are free.
+  template <class Visit>
+  void visit_free(const Visit& visit) {
+    const std::size_t count = wanted_.edges().size();
+    if (count == 0) return;
+    if ((unpolled_ += count) >= checks_per_poll) {
+      unpolled_ = 0;
+      execution_->check();
+    }
+    std::uint32_t free = detail::free_motions(world_, wanted_.motions(), query_);
+    counters_.edges_checked += count;
+    counters_.edges_free += static_cast<std::uint64_t>(std::popcount(free));
+    free_edges_ += static_cast<std::uint64_t>(std::popcount(free));
+    for (; free != 0; free &= free - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(free));
+      const auto [v, w] = wanted_.edges()[i];
+      if (recorded_ != nullptr) recorded_->push_back({std::min(v, w), std::max(v, w)});
+      visit(w, lengths_[i]);
+    }
+    wanted_.clear();
   }
 
   const W& world_;
@@ -90,6 +115,9 @@ class LazyGraph {
   const Execution* execution_;
   Counters counters_;
   typename W::Query query_;
+  detail::Bunch<State> wanted_;
+  std::array<double, bunch_size> lengths_;  ///< of what is wanted
+  std::size_t unpolled_ = 0;
   std::vector<Edge>* recorded_ = nullptr;
   std::uint64_t free_edges_ = 0;
 };

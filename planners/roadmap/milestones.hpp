@@ -104,6 +104,37 @@ void for_each_sample(const W& world, const RoadmapOptions& options, Range range,
   for (std::size_t i = range.first; i < range.last; ++i) visit(sample_state(world, options, i, count));
 }
 
+/// Bit i is set if states[i] is free; at most bunch_size states.
+template <World W>
+std::uint32_t free_states(const W& world, std::span<const typename W::State> states, typename W::Query& query) {
+  std::uint32_t free = 0;
+  if constexpr (BunchWorld<W>) {
+    free = world.free_states(states, query);
+  } else {
+    for (std::size_t i = 0; i < states.size(); ++i) free |= std::uint32_t{world.is_free(states[i], query)} << i;
+  }
+  return free;
+}
+
+/// The free ones of a range of samples.
+template <World W>
+void append_free_samples(const W& world, const RoadmapOptions& options, Range range, std::uint64_t count,
+                         RawVector<typename W::State>& free) {
+  auto query = world.make_query();
+  std::array<typename W::State, bunch_size> bunch;
+  std::size_t held = 0;
+  const auto flush = [&] {
+    std::uint32_t bits = free_states(world, std::span<const typename W::State>(bunch.data(), held), query);
+    for (; bits != 0; bits &= bits - 1) free.push_back(bunch[static_cast<std::size_t>(std::countr_zero(bits))]);
+    held = 0;
+  };
+  for_each_sample(world, options, range, count, [&](const typename W::State& state) {
+    bunch[held++] = state;
+    if (held == bunch_size) flush();
+  });
+  flush();
+}
+
 /// Joins parts in their order.
 template <class T>
 RawVector<T> joined(const std::vector<RawVector<T>>& parts, const Execution& execution, std::size_t spare = 0) {
@@ -196,18 +227,16 @@ RawVector<typename W::State> draw_milestones(const W& world, const RoadmapOption
   execution.reserve(count * sizeof(typename W::State));
   std::vector<RawVector<typename W::State>> parts(chunk_count(count, grain));
   for_chunks(count, grain, execution, [&](Range r) {
-    auto query = world.make_query();
     RawVector<typename W::State>& part = parts[r.first / grain];
     part.reserve(r.size());
     if (looks_at_obstacles(options.sampler)) {
+      auto query = world.make_query();
       for (std::size_t i = r.first; i < r.last; ++i) {
         if (const auto state = obstacle_sample(world, options.sampler, options.seed, i, query)) part.push_back(*state);
       }
       return;
     }
-    detail::for_each_sample(world, options, r, count, [&](const typename W::State& state) {
-      if (world.is_free(state, query)) part.push_back(state);
-    });
+    detail::append_free_samples(world, options, r, count, part);
   });
   RawVector<typename W::State> states = detail::joined(parts, execution, spare);
   parts.clear();

@@ -38,6 +38,15 @@ std::uint32_t MazeWorld::free_motions(std::span<const Motion<State>> motions, Qu
   return index_.keep_clearance({query.motions.data(), motions.size()}, planning_clearance_);
 }
 
+std::uint32_t MazeWorld::free_states(std::span<const State> states, Query& query) const noexcept {
+  std::uint32_t in_box = 0;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    query.motions[i] = {states[i], states[i]};
+    in_box |= std::uint32_t{box_.contains(states[i])} << i;
+  }
+  return in_box & index_.keep_clearance({query.motions.data(), states.size()}, planning_clearance_);
+}
+
 void MazeWorld::keep_free(const LatticeRows& rows, std::span<std::uint64_t> points, std::span<std::uint64_t> right,
                           std::span<std::uint64_t> up) const noexcept {
   keep_points_in_box(box_, rows, points);

@@ -38,6 +38,7 @@ class MazeWorld {
     return index_.keeps_clearance(a, b, planning_clearance_);
   }
   std::uint32_t free_motions(std::span<const Motion<State>> motions, Query& query) const noexcept;
+  std::uint32_t free_states(std::span<const State> states, Query& query) const noexcept;
   /// As RowWorld says. Asked wall by wall: O(walls near the rows), whatever they have points.
   void keep_free(const LatticeRows& rows, std::span<std::uint64_t> points, std::span<std::uint64_t> right,
                  std::span<std::uint64_t> up) const noexcept;

@@ -94,7 +94,7 @@ TEST(MazeWorld, StatesAndMotionsAreFreeWhereWallsAndBoundsAreFarEnough) {
   }
 }
 
-TEST(MazeWorld, ChecksBunchesOfMotionsAsEachAlone) {
+TEST(MazeWorld, ChecksBunchesOfMotionsAndStatesAsEachAlone) {
   MazeOptions options;
   options.rows = options.cols = 12;
   for (options.seed = 1; options.seed <= 20; ++options.seed) {
@@ -111,6 +111,13 @@ TEST(MazeWorld, ChecksBunchesOfMotionsAsEachAlone) {
       const std::uint32_t free = world.free_motions(motions, query);
       for (std::size_t i = 0; i < motions.size(); ++i) {
         ASSERT_EQ((free >> i & 1U) != 0, world.is_free_motion(motions[i].from, motions[i].to, query));
+      }
+      std::vector<Vec2> states;
+      for (const Motion<Vec2>& motion : motions)
+        states.push_back(2.0 * motion.to - Vec2{6, 6});  // some of them outside
+      const std::uint32_t standing = world.free_states(states, query);
+      for (std::size_t i = 0; i < states.size(); ++i) {
+        ASSERT_EQ((standing >> i & 1U) != 0, world.is_free(states[i], query));
       }
     }
   }
