@@ -82,11 +82,12 @@ function readField(end) {
   ask();
 }
 
-// The link: everything behind the #, so that it never leaves the browser.
+// The link: everything behind the #, so that it never leaves the browser. An end that is empty is none; where the link
+// has neither, they are the world's own.
 function linkText() {
   const words = [], at = map.getCenter();
-  const state = end => stateOf(question[end], question[end + "Heading"]).join(",");
-  for (const end of ["start", "goal"]) if (question[end]) words.push(end + "=" + state(end));
+  const state = end => question[end] ? stateOf(question[end], question[end + "Heading"]).join(",") : "";
+  for (const end of ["start", "goal"]) words.push(end + "=" + state(end));
   if (question.planner) words.push("planner=" + encodeURIComponent(question.planner));
   if (question.optimise) words.push("optimise=1");
   if (shownLayers()) words.push("layers=" + shownLayers());
@@ -103,13 +104,22 @@ function readLink() {
     question[end] = isState ? {x: state[0], y: state[1]} : null;
     question[end + "Heading"] = isState && state.length > 2 ? state[2] : null;
   }
+  if (!words.has("start") && !words.has("goal")) takeOwnEnds();
   question.planner = world.planners.includes(words.get("planner")) ? words.get("planner") : "";
   question.optimise = words.get("optimise") === "1";
   takeLayers(words.get("layers"));
   const at = numbers("at");
   if (at.length === 3 && at.every(Number.isFinite)) map.setView([at[1], at[0]], at[2], {animate: false});
   else map.fitBounds(map.whole, {animate: false});
-  return words.has("start") || words.has("goal");
+}
+/// The world's own ends, where it has some.
+function takeOwnEnds() {
+  for (const end of ["start", "goal"]) {
+    const state = world[end];
+    if (state.length < 2) continue;
+    question[end] = {x: state[0], y: state[1]};
+    question[end + "Heading"] = state.length > 2 && turns() ? state[2] : null;
+  }
 }
 function showQuestion() {
   byId("planner").value = question.planner;
@@ -217,15 +227,6 @@ function wireMap() {
   });
   window.addEventListener("hashchange", () => { takeToken(); readLink(); showQuestion(); });
 }
-/// The world's own ends, where it has some and the link says nothing.
-function takeOwnEnds() {
-  for (const end of ["start", "goal"]) {
-    const state = world[end];
-    if (state.length < 2) continue;
-    question[end] = {x: state[0], y: state[1]};
-    question[end + "Heading"] = state.length > 2 && turns() ? state[2] : null;
-  }
-}
 async function begin() {
   takeToken();
   world = await (await fetch("/api/world")).json();
@@ -240,14 +241,13 @@ async function begin() {
   openMap();
   wireLayers();
   wireControls();
-  const hasEnds = readLink();
+  readLink();
   wireMap();
   wireHeadings();
   wireMeasuring();
   wireClearance();
   wireGraph();
   wireDrawing();
-  if (!hasEnds) takeOwnEnds();
   showQuestion();
 }
 begin();

@@ -95,6 +95,22 @@ class ServicePage(MapTest):
         self.assertEqual(self.run_script(state), before)
         self.assertEqual(self.drawn(), path)
 
+    def test_the_link_holds_that_there_are_no_ends(self):
+        self.shown(self.maze)
+        self.wait_for('Solved')  # between the world's own ends
+        self.by_id('clear').click()
+        self.wait_for('Click where to start')
+        link = self.run_script('return location.href')
+        self.shown(self.maze, link[link.index('#'):])
+        self.assertEqual(self.run_script('return [question.start, question.goal]'), [None, None])
+        self.assertIn('Click where to start', self.status())
+        self.click_at(40, 260)
+        link = self.run_script('return location.href')
+        self.shown(self.maze, link[link.index('#'):])
+        self.assertEqual(self.run_script('return [question.start !== null, question.goal]'), [True, None])
+        self.run_script('location.hash = "#at=150,150,1"')  # one that says nothing of ends
+        self.wait_for('Solved')
+
     def test_the_command_gives_the_same_path(self):
         self.shown(self.town, '#start=1.5,1.5&goal=9.5,8.5&planner=voronoi')
         self.wait_for('Solved')
