@@ -91,6 +91,7 @@ function linkText() {
   if (question.planner) words.push("planner=" + encodeURIComponent(question.planner));
   if (question.optimise) words.push("optimise=1");
   if (shownLayers()) words.push("layers=" + shownLayers());
+  if (hiddenParts()) words.push("hide=" + hiddenParts());
   words.push("at=" + [rounded(at.lng), rounded(at.lat), map.getZoom()].join(","));
   return "#" + words.join("&");
 }
@@ -108,6 +109,7 @@ function readLink() {
   question.planner = world.planners.includes(words.get("planner")) ? words.get("planner") : "";
   question.optimise = words.get("optimise") === "1";
   takeLayers(words.get("layers"));
+  hideParts(words.get("hide"));
   const at = numbers("at");
   if (at.length === 3 && at.every(Number.isFinite)) map.setView([at[1], at[0]], at[2], {animate: false});
   else map.fitBounds(map.whole, {animate: false});
@@ -214,8 +216,7 @@ function wireControls() {
   byId("save-json").addEventListener("click", () => save("answer.json", "application/json", answer.text));
   byId("whole").addEventListener("click", () => map.fitBounds(map.whole));
   byId("dark").addEventListener("click", () => setDark(!document.documentElement.classList.contains("dark")));
-  byId("show-world").addEventListener("change", event => event.target.checked ? tiles.addTo(map) : tiles.remove());
-  byId("show-path").addEventListener("change", event => { if (pathLine.line) event.target.checked ? pathLine.line.addTo(map) : pathLine.line.remove(); });
+  for (const part of parts) byId("show-" + part).addEventListener("change", () => { showParts(); keepLink(); });
 }
 function wireMap() {
   for (const end of ["start", "goal"]) marks[end] = makeMark(end, place => setEnd(end, place));

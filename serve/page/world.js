@@ -28,7 +28,20 @@ function addTiles() {
   tiles = L.tileLayer(t.url, {tileSize: t.pixels, minZoom: -3, maxZoom: t.levels, minNativeZoom: 0, maxNativeZoom: t.levels - 1,
                               bounds: map.whole, noWrap: true, keepBuffer: 1, updateInterval: 60, className: "tiles"});
   tiles.on("tileerror", noticeWorld);
-  if (byId("show-world").checked) tiles.addTo(map);
+  showParts();
+}
+// What lies on the map without being a layer, each with a box.
+const parts = ["world", "path"];
+function showParts() {
+  for (const [part, drawn] of [["world", tiles], ["path", pathLine.line]]) {
+    if (drawn) byId("show-" + part).checked ? drawn.addTo(map) : drawn.remove();
+  }
+}
+/// For the link: the names of those that are not shown.
+const hiddenParts = () => parts.filter(part => !byId("show-" + part).checked).join(",");
+function hideParts(names) {
+  for (const part of parts) byId("show-" + part).checked = !(names || "").split(",").includes(part);
+  showParts();
 }
 /// Of a world whose tiles lie elsewhere: what is on the map is placed anew.
 function placeMap(center, zoom) {
@@ -79,7 +92,7 @@ function drawChains(chains) {
   if (pathLine.line) pathLine.line.remove();
   const points = chains.map(chain => chain.map(p => L.latLng(p[1], p[0])));
   pathLine.line = L.polyline(points, {color: document.documentElement.classList.contains("dark") ? "#ff6b81" : "#c8102e", weight: 4, opacity: 0.9, smoothFactor: 1, interactive: false});
-  if (byId("show-path").checked) pathLine.line.addTo(map);
+  showParts();
 }
 /// points: all of them where the answer listed them, else they are fetched by what is seen.
 function showPath(points, id) {

@@ -111,6 +111,26 @@ class ServicePage(MapTest):
         self.run_script('location.hash = "#at=150,150,1"')  # one that says nothing of ends
         self.wait_for('Solved')
 
+    def test_the_link_holds_what_is_switched_off(self):
+        self.shown(self.maze, '#start=1,1&goal=300,300')
+        self.wait_for('Solved')
+        for name in ('show-path', 'show-world'):
+            self.press(name)
+        for link in (self.run_script('return location.hash'), '#start=1,1&goal=300,300&hide=path,world,name'):
+            self.shown(self.maze, link)
+            self.wait_for('Solved')
+            self.assertEqual([self.by_id(name).is_selected() for name in ('show-world', 'show-path')], [False, False])
+            self.assertEqual(self.browser.find_elements(By.CSS_SELECTOR, '.tiles'), [])
+            self.assertFalse(self.run_script('return map.hasLayer(pathLine.line)'))
+        self.press('show-world')
+        link = self.run_script('return location.hash')
+        self.assertIn('hide=path&', link)
+        self.shown(self.maze, link)
+        self.wait_for('Solved')
+        self.assertGreater(len(self.browser.find_elements(By.CSS_SELECTOR, '.tiles img')), 0)
+        self.run_script('location.hash = "#start=1,1&goal=300,300"')
+        self.wait(lambda: self.run_script('return pathLine.line !== null && map.hasLayer(pathLine.line)'))
+
     def test_the_command_gives_the_same_path(self):
         self.shown(self.town, '#start=1.5,1.5&goal=9.5,8.5&planner=voronoi')
         self.wait_for('Solved')
