@@ -62,7 +62,7 @@ KeptCurve::KeptCurve(Path<Vec2> path, const Execution& execution)
     const std::size_t last = first + points_in(r.first);
     Box box;
     for (std::size_t i = first; i < last; ++i) box.include(points_[i]);
-    blocks_[r.first] = {points_[std::min(std::max<std::size_t>(first, 1), size_ - 1)], box};
+    blocks_[r.first] = {.first = points_[std::min(std::max<std::size_t>(first, 1), size_ - 1)], .box = box};
     const bool begins_well = is_lattice_point(blocks_[r.first].first) || size_ < 4;
     are_steps[r.first] = begins_well && pack(points_, first, last - 1, steps_) ? 1 : 0;
   });
@@ -70,7 +70,25 @@ KeptCurve::KeptCurve(Path<Vec2> path, const Execution& execution)
     points_ = Path<Vec2>();
   } else {
     steps_ = std::vector<std::uint64_t>();
+    measure_blocks(execution);
   }
+}
+
+void KeptCurve::measure_blocks(const Execution& execution) {
+  for_chunks(blocks_.size(), 1, execution, [&](Range r) {
+    const std::size_t first = r.first * block_points;
+    double length = 0.0;
+    for (std::size_t i = first; i + 1 < first + points_in(r.first); ++i) length += distance(points_[i], points_[i + 1]);
+    if (r.last < blocks_.size()) blocks_[r.last].length_before = length;
+  });
+  for (std::size_t block = 1; block < blocks_.size(); ++block) {
+    blocks_[block].length_before += blocks_[block - 1].length_before;
+  }
+}
+
+double KeptCurve::length_before(std::size_t block) const {
+  if (steps_.empty() || block == 0) return blocks_[block].length_before;
+  return distance(ends_[0], blocks_[0].first) + static_cast<double>(block * block_points - 1);
 }
 
 std::size_t KeptCurve::bytes() const {

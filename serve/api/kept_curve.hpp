@@ -31,6 +31,8 @@ class KeptCurve {
   std::size_t block_count() const { return blocks_.size(); }
   /// Around all points of a block.
   const Box& box(std::size_t block) const { return blocks_[block].box; }
+  /// How long the curve is up to a block's first point.
+  double length_before(std::size_t block) const;
   /// The points of a block; `room` may hold them.
   std::span<const Vec2> points(std::size_t block, std::vector<Vec2>& room) const;
   /// All of them. Throws Stopped.
@@ -40,7 +42,9 @@ class KeptCurve {
   struct Block {
     Vec2 first;  // where the first of its steps begins: that of block 0 at the path's second point
     Box box;
+    double length_before = 0.0;  // of points; steps say theirs by themselves
   };
+  void measure_blocks(const Execution& execution);
   std::size_t points_in(std::size_t block) const;
   void unpack(std::size_t block, Vec2* to) const;
 

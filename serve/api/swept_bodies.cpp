@@ -42,7 +42,9 @@ class BodyWalk {
   BodyWalk(const Box& box, double apart, const Execution& execution)
       : box_(box), apart_(apart), execution_(execution) {}
 
-  void go(const PathLegs& legs) {
+  /// Legs that begin so far along the way.
+  void go(const PathLegs& legs, double along) {
+    along_ = along;
     for (std::size_t leg = 0; leg < legs.leg_count() && !is_full(); ++leg) {
       poll();
       const double length = legs.length(leg);
@@ -75,7 +77,7 @@ class BodyWalk {
   Box box_;
   double apart_;
   const Execution& execution_;
-  double along_ = 0.0;  // of the legs that were walked
+  double along_ = 0.0;  // the way up to the next leg
   std::size_t steps_ = 0;
   std::vector<PathState> places_;
 };
@@ -87,7 +89,7 @@ void walk_curve(const KeptCurve& curve, const Box& box, BodyWalk& walk) {
     if (!curve.box(block).meets(box)) continue;
     const std::span<const Vec2> points = curve.points(block, room);
     piece.path.assign(points.begin(), points.end());
-    walk.go(PathLegs(piece));
+    walk.go(PathLegs(piece), curve.length_before(block));
   }
 }
 
@@ -122,7 +124,7 @@ SweptBodies swept_bodies(const Answer& way, const KeptCurve& curve, const PathVi
     if (way.states.empty()) {
       walk_curve(curve, box, walk);
     } else {
-      walk.go(PathLegs(way));
+      walk.go(PathLegs(way), 0.0);
     }
     walk.add(goal_of(way, curve));
     if (!walk.is_full()) return {apart, walk.places()};

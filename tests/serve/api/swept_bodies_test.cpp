@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -59,6 +60,25 @@ TEST(SweptBodies, ManyAreFartherApart) {
   EXPECT_LE(bodies.places.size(), most_swept_bodies);
   const double pixel = 30.0;
   EXPECT_GE(swept_bodies(way_of(disc), curve, {.box = everything.box, .pixel = pixel}, {}).apart, 12 * pixel);
+}
+
+TEST(SweptBodies, StandWhereTheyStoodWhenLessIsInSight) {
+  for (const double step : {1.0, 0.7}) {  // over a lattice and elsewhere
+    SCOPED_TRACE(step);
+    Path<Vec2> path{{0.75, 1.0}};
+    while (path.size() < 3 * KeptCurve::block_points) path.push_back({step * static_cast<double>(path.size()), 1.0});
+    const KeptCurve curve(path, {});
+    const Answer way = way_of({.kind = RobotKind::disc, .radius = 50.0});
+    const SweptBodies all = swept_bodies(way, curve, everything, {});
+    const double middle = step * (2.5 * KeptCurve::block_points);
+    const SweptBodies some = swept_bodies(way, curve, {.box = {{middle, 0}, {middle + 500, 2}}}, {});
+    ASSERT_EQ(some.apart, all.apart);
+    ASSERT_NEAR(static_cast<double>(some.places.size()), 600.0 / all.apart, 1.0);
+    for (const PathState& place : some.places) {
+      EXPECT_TRUE(std::ranges::any_of(all.places, [&](const PathState& p) { return p.numbers == place.numbers; }))
+          << place.numbers[0];
+    }
+  }
 }
 
 TEST(SweptBodies, TurnsOnTheSpotAreSeen) {
