@@ -10,6 +10,7 @@
 
 #include "core/base/error.hpp"
 #include "core/plane/geometry.hpp"
+#include "parallel/polled_sort.hpp"
 #include "pictures/formats/png_file.hpp"
 #include "pictures/formats/raster.hpp"
 #include "serve/tiles/world_tiles.hpp"
@@ -20,6 +21,7 @@ namespace {
 
 constexpr double wall_pixels = 2.0;
 constexpr double outline_pixels = 1.0;
+constexpr std::size_t shapes_a_poll = std::size_t{1} << 12U;
 
 std::size_t shape_count(const Scene& scene) { return scene.walls.size() + scene.polygons.size(); }
 
@@ -38,8 +40,12 @@ std::vector<BoxOf<2>> boxes_of(const Scene& scene, const Execution& execution) {
   }
   execution.reserve(2 * shape_count(scene) * sizeof(BoxOf<2>) + shape_count(scene) * 64);
   std::vector<BoxOf<2>> boxes;
-  for (std::size_t i = 0; i < scene.walls.size(); ++i) boxes.push_back(as_item(box_of(scene.walls.segment(i))));
-  for (const ScenePolygon& polygon : scene.polygons) boxes.push_back(as_item(box_of_corners(polygon)));
+  const auto add = [&](const Box& box) {
+    if (boxes.size() % shapes_a_poll == 0) execution.check();
+    boxes.push_back(as_item(box));
+  };
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) add(box_of(scene.walls.segment(i)));
+  for (const ScenePolygon& polygon : scene.polygons) add(box_of_corners(polygon));
   return boxes;
 }
 
@@ -52,9 +58,9 @@ Box box_of_world(const Scene& scene, const Execution& execution) {
 /// Sides along which parts of one polygon are joined.
 class SeamSides {
  public:
-  explicit SeamSides(const Scene& scene) {
+  SeamSides(const Scene& scene, const Execution& execution) {
     for (const Segment& seam : scene.seams) sides_.push_back(ordered(seam.a, seam.b));
-    std::sort(sides_.begin(), sides_.end());
+    polled_sort(sides_.begin(), sides_.end(), execution);
   }
   bool holds(Vec2 a, Vec2 b) const { return std::binary_search(sides_.begin(), sides_.end(), ordered(a, b)); }
 
@@ -73,7 +79,10 @@ std::vector<Segment> sides_of(const Scene& scene, const SeamSides& seams, const 
   for (const ScenePolygon& polygon : scene.polygons) count += polygon.corners.size();
   execution.reserve(count * (sizeof(Segment) + 3 * sizeof(BoxOf<2>)));
   std::vector<Segment> sides = bounds_walls(scene);
-  for (std::size_t i = 0; i < scene.walls.size(); ++i) sides.push_back(scene.walls.segment(i));
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) {
+    if (i % shapes_a_poll == 0) execution.check();
+    sides.push_back(scene.walls.segment(i));
+  }
   for (const ScenePolygon& polygon : scene.polygons) {
     execution.check();
     Vec2 a = polygon.corners.back();
@@ -85,9 +94,12 @@ std::vector<Segment> sides_of(const Scene& scene, const SeamSides& seams, const 
   return sides;
 }
 
-std::vector<BoxOf<2>> boxes_of(const std::vector<Segment>& sides) {
+std::vector<BoxOf<2>> boxes_of(const std::vector<Segment>& sides, const Execution& execution) {
   std::vector<BoxOf<2>> boxes;
-  for (const Segment& side : sides) boxes.push_back(as_item(box_of(side)));
+  for (const Segment& side : sides) {
+    if (boxes.size() % shapes_a_poll == 0) execution.check();
+    boxes.push_back(as_item(box_of(side)));
+  }
   return boxes;
 }
 
@@ -96,18 +108,21 @@ class ShapeTiles : public WorldTiles {
   ShapeTiles(const Scene& scene, const Execution& execution)
       : WorldTiles(grid_around(box_of_world(scene, execution))),
         scene_(scene),
-        tree_(boxes_of(scene, execution)),
-        seams_(scene) {}
+        tree_(boxes_of(scene, execution), execution),
+        seams_(scene, execution) {}
 
   std::string draw(const TilePlace& place, const Execution& execution) const override {
     Image image(TileGrid::pixels, TileGrid::pixels, colors::paper, execution);
     const Brush brush{image, grid().box_of(place), grid().pixel(place.zoom), execution};
-    const std::vector<std::uint32_t> shapes = shapes_in(brush.box.grown(2.0 * wall_pixels * brush.pixel));
+    const std::vector<std::uint32_t> shapes = shapes_in(brush.box.grown(2.0 * wall_pixels * brush.pixel), execution);
     const auto walls = static_cast<std::uint32_t>(scene_.walls.size());
     const auto polygons = std::lower_bound(shapes.begin(), shapes.end(), walls);
     std::for_each(polygons, shapes.end(), [&](std::uint32_t i) { fill(brush, scene_.polygons[i - walls]); });
     std::for_each(polygons, shapes.end(), [&](std::uint32_t i) { outline(brush, scene_.polygons[i - walls]); });
-    std::for_each(shapes.begin(), polygons, [&](std::uint32_t i) { brush.line(scene_.walls.segment(i), wall_pixels); });
+    std::for_each(shapes.begin(), polygons, [&](std::uint32_t i) {
+      if (i % 256 == 0) execution.check();
+      brush.line(scene_.walls.segment(i), wall_pixels);
+    });
     for (const Segment& s : bounds_walls(scene_)) brush.line(s, wall_pixels);
     std::string bytes;
     write_png_file(image, 0.0, execution, [&](std::string_view piece) { bytes += piece; });
@@ -120,7 +135,7 @@ class ShapeTiles : public WorldTiles {
   /// How much of each pixel lies inside of polygons. Throws Stopped.
   Mask insides(const Box& box, double pixel, const Execution& execution) const {
     Mask mask(TileGrid::pixels, TileGrid::pixels, execution);
-    for (const std::uint32_t i : shapes_in(box)) {
+    for (const std::uint32_t i : shapes_in(box, execution)) {
       if (i < scene_.walls.size()) continue;
       PolygonSet one;
       std::vector<Vec2> corners;
@@ -147,13 +162,14 @@ class ShapeTiles : public WorldTiles {
   };
 
   /// Walls and then polygons, each in the order of the world.
-  std::vector<std::uint32_t> shapes_in(const Box& box) const {
+  std::vector<std::uint32_t> shapes_in(const Box& box, const Execution& execution) const {
     std::vector<std::uint32_t> shapes;
     tree_.search(as_item(box), 0.0, [&](std::uint32_t place) {
+      if (shapes.size() % shapes_a_poll == 0) execution.check();
       shapes.push_back(tree_.order()[place]);
       return 0.0;
     });
-    std::sort(shapes.begin(), shapes.end());
+    polled_sort(shapes.begin(), shapes.end(), execution);
     return shapes;
   }
   static void fill(const Brush& brush, const ScenePolygon& polygon) {
@@ -183,7 +199,7 @@ class ShapeDistances : public PlaceDistances {
   ShapeDistances(const ShapeTiles& tiles, const Execution& execution)
       : tiles_(tiles),
         sides_(sides_of(tiles.scene(), tiles.seams(), execution)),
-        tree_(boxes_of(sides_)),
+        tree_(boxes_of(sides_, execution), execution),
         room_(tiles.scene().bounds ? *tiles.scene().bounds : box_of_world(tiles.scene(), execution)) {}
 
   double at(Vec2 place) const override {

@@ -3,10 +3,13 @@
 
 #include <numeric>
 
+#include "parallel/polled_sort.hpp"
+
 namespace warren {
 namespace {
 
 constexpr std::uint32_t box_leaf_size = 4;
+constexpr std::uint32_t polled_boxes = 1U << 12U;  // or comparisons of them
 
 template <int D>
 BoxOf<D> joined(const BoxOf<D>& a, const BoxOf<D>& b) {
@@ -45,17 +48,21 @@ std::size_t widest_axis(std::span<const BoxOf<D>> boxes, std::span<const std::ui
 }  // namespace
 
 template <int D>
-BoxTree<D>::BoxTree(std::span<const BoxOf<D>> boxes) : order_(boxes.size()) {
+BoxTree<D>::BoxTree(std::span<const BoxOf<D>> boxes, const Execution& execution) : order_(boxes.size()) {
   if (boxes.empty()) return;
   std::iota(order_.begin(), order_.end(), 0U);
   nodes_.reserve(boxes.size());
-  build(0, static_cast<std::uint32_t>(boxes.size()), boxes);
+  build(0, static_cast<std::uint32_t>(boxes.size()), boxes, execution);
+  execution.check();
+  boxes_.reserve(boxes.size());
   for (const std::uint32_t id : order_) boxes_.push_back(boxes[id]);
 }
 
 /// Depth of the tree: the halves differ by one, so at most 31 for 2^31 boxes.
 template <int D>
-void BoxTree<D>::build(std::uint32_t first, std::uint32_t last, std::span<const BoxOf<D>> boxes) {
+void BoxTree<D>::build(std::uint32_t first, std::uint32_t last, std::span<const BoxOf<D>> boxes,
+                       const Execution& execution) {
+  if (last - first >= polled_boxes) execution.check();
   const std::span<std::uint32_t> ids(order_.data() + first, last - first);
   BoxOf<D> box = boxes[ids.front()];
   for (const std::uint32_t id : ids) box = joined(box, boxes[id]);
@@ -63,19 +70,22 @@ void BoxTree<D>::build(std::uint32_t first, std::uint32_t last, std::span<const 
   nodes_.push_back({box, first, last - first});
   if (ids.size() <= box_leaf_size) return;
   const std::size_t axis = widest_axis<D>(boxes, ids);
+  std::uint32_t comparisons = 0;
   const auto less = [&](std::uint32_t a, std::uint32_t b) {
+    if (++comparisons % polled_boxes == 0) execution.check();
     const double left = doubled_centre(boxes[a], axis);
     const double right = doubled_centre(boxes[b], axis);
     return left != right ? left < right : a < b;
   };
   const std::uint32_t middle = first + (last - first) / 2;
   std::nth_element(ids.begin(), ids.begin() + (middle - first), ids.end(), less);
-  std::sort(ids.begin(), ids.begin() + (middle - first));  // nth_element leaves an order that libraries differ in
-  std::sort(ids.begin() + (middle - first), ids.end());
-  build(first, middle, boxes);
+  // nth_element leaves an order that libraries differ in.
+  polled_sort(ids.begin(), ids.begin() + (middle - first), execution);
+  polled_sort(ids.begin() + (middle - first), ids.end(), execution);
+  build(first, middle, boxes, execution);
   nodes_[node].first = static_cast<std::uint32_t>(nodes_.size());
   nodes_[node].count = 0;
-  build(middle, last, boxes);
+  build(middle, last, boxes, execution);
 }
 
 template class BoxTree<2>;

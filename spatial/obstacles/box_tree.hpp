@@ -14,6 +14,8 @@
 #include <span>
 #include <vector>
 
+#include "parallel/execution.hpp"
+
 namespace warren {
 
 /// A closed box of D dimensions.
@@ -39,8 +41,8 @@ template <int D>
 class BoxTree {
  public:
   BoxTree() = default;  ///< no boxes
-  /// Copies the boxes: finite, low <= high, below 2^31.
-  explicit BoxTree(std::span<const BoxOf<D>> boxes);
+  /// Copies the boxes: finite, low <= high, below 2^31. Throws Stopped.
+  explicit BoxTree(std::span<const BoxOf<D>> boxes, const Execution& execution = {});
 
   std::size_t size() const { return boxes_.size(); }
   /// Which box, of those given, stands at each place.
@@ -104,7 +106,7 @@ class BoxTree {
     }
     return node;
   }
-  void build(std::uint32_t first, std::uint32_t last, std::span<const BoxOf<D>> boxes);
+  void build(std::uint32_t first, std::uint32_t last, std::span<const BoxOf<D>> boxes, const Execution& execution);
 
   std::vector<Node> nodes_;
   std::vector<BoxOf<D>> boxes_;       // by place

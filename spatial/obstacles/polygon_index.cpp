@@ -35,7 +35,7 @@ PolygonIndex::PolygonIndex(PolygonSet polygons, const Execution& execution) : po
       boxes[polygon] = {{box.min.x, box.min.y}, {box.max.x, box.max.y}};
     }
   });
-  tree_ = BoxTree<2>(boxes);
+  tree_ = BoxTree<2>(boxes, execution);
   for (const Vec2 p : polygons_.corners) box_.include(p);
   for (std::size_t count = n; count > 1;) {
     std::vector<Box> blocks((count + (std::size_t{1} << fan_bits) - 1) >> fan_bits);

@@ -134,31 +134,31 @@ ObstacleTree::ObstacleTree(const Scene& scene, double reach, const Execution& ex
       a = b;
     }
   }
-  file_sides(sides);
-  file_polygons(others);
-  file_convex(convex);
+  file_sides(sides, execution);
+  file_polygons(others, execution);
+  file_convex(convex, execution);
 }
 
 ObstacleTree::Side ObstacleTree::side_between(Vec2 a, Vec2 b) { return {a, b - a, inverse_square(b - a)}; }
 
-void ObstacleTree::file_sides(const std::vector<Segment>& sides) {
+void ObstacleTree::file_sides(const std::vector<Segment>& sides, const Execution& execution) {
   std::vector<BoxOf<2>> boxes;
   for (const Segment& s : sides) boxes.push_back(box_of_body(box_of(s)));
-  side_tree_ = BoxTree<2>(boxes);
+  side_tree_ = BoxTree<2>(boxes, execution);
   for (const std::uint32_t id : side_tree_.order()) sides_.push_back(side_between(sides[id].a, sides[id].b));
 }
 
-void ObstacleTree::file_polygons(const std::vector<std::span<const Vec2>>& polygons) {
+void ObstacleTree::file_polygons(const std::vector<std::span<const Vec2>>& polygons, const Execution& execution) {
   std::vector<BoxOf<2>> boxes;
   for (const auto corners : polygons) boxes.push_back(box_of_body(box_of(corners)));
-  polygon_tree_ = BoxTree<2>(boxes);
+  polygon_tree_ = BoxTree<2>(boxes, execution);
   for (const std::uint32_t id : polygon_tree_.order()) polygons_.emplace_back(polygons[id].begin(), polygons[id].end());
 }
 
-void ObstacleTree::file_convex(const std::vector<std::span<const Vec2>>& polygons) {
+void ObstacleTree::file_convex(const std::vector<std::span<const Vec2>>& polygons, const Execution& execution) {
   std::vector<BoxOf<2>> boxes;
   for (const auto corners : polygons) boxes.push_back(box_of_body(box_of(corners)));
-  convex_tree_ = BoxTree<2>(boxes);
+  convex_tree_ = BoxTree<2>(boxes, execution);
   for (const std::uint32_t id : convex_tree_.order()) {
     const std::span<const Vec2> corners = polygons[id];
     const auto first = static_cast<std::uint32_t>(convex_sides_.size());

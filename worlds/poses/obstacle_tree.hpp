@@ -109,9 +109,9 @@ class ObstacleTree {
   bool swallows(const Footprint& body) const;
   Room room_in_bounds(const Footprint& body, const Move& move, double reach) const;
   bool passes(const Footprint& body, const Move& move, const ConvexPolygon& polygon, double reach) const;
-  void file_sides(const std::vector<Segment>& sides);
-  void file_polygons(const std::vector<std::span<const Vec2>>& polygons);
-  void file_convex(const std::vector<std::span<const Vec2>>& polygons);
+  void file_sides(const std::vector<Segment>& sides, const Execution& execution);
+  void file_polygons(const std::vector<std::span<const Vec2>>& polygons, const Execution& execution);
+  void file_convex(const std::vector<std::span<const Vec2>>& polygons, const Execution& execution);
 
   std::optional<Box> bounds_;
   Box box_;

@@ -82,6 +82,12 @@ TEST(BoxTree, EndsWhenToldTo) {
   EXPECT_EQ(visits, 1);
 }
 
+TEST(BoxTree, OfManyIsNotBuiltToItsEndWhenASignalCame) {
+  const SignalFlag signal{15};
+  const Deadline deadline(std::numeric_limits<double>::infinity(), std::numeric_limits<std::size_t>::max(), &signal);
+  EXPECT_THROW(BoxTree<2>(random_boxes<2>(1, 5000), {.deadline = &deadline}), Stopped);
+}
+
 TEST(BoxTree, OfNothingFindsNothing) {
   BoxTree<3>(std::vector<BoxOf<3>>{}).search({{0, 0, 0}, {1, 1, 1}}, 1.0, [&](std::uint32_t) {
     ADD_FAILURE();
