@@ -146,11 +146,10 @@ class Legend {
   std::string text_ = "[";
 };
 
-std::string passages_legend(const Roadmap& roadmap, const Execution& execution) {
+std::string passages_legend(std::uint64_t passages, std::uint64_t cells) {
   Legend legend;
   legend.add(component_inks[0], fmt::format("{} between {}, drawn where a cell has 8 pixels or more",
-                                            counted(count_edges(roadmap, execution).free, "passage", "passages"),
-                                            counted(count_states(roadmap), "cell", "cells")));
+                                            counted(passages, "passage", "passages"), counted(cells, "cell", "cells")));
   return legend.closed();
 }
 
@@ -291,6 +290,12 @@ const RoadmapLayer& WorldLayers::axis(const Execution& execution) const {
         built_roadmap(whole, world_.robot(), world_.clearance(), {.kind = GraphKind::axis}, execution).arrays);
   });
   return axis_.get(execution, [&] { return std::make_unique<RoadmapLayer>(arrays.parts(), execution); });
+std::uint64_t WorldLayers::passages(const Execution& execution) const {
+  return passages_.get(execution, [&] {
+    return std::make_unique<std::uint64_t>(count_edges(world_.query()->roadmap(), execution).free);
+  });
+}
+
 }
 
 KeptValues<StartDistances>::Lease WorldLayers::from_start(const std::optional<std::vector<double>>& from,
@@ -309,7 +314,9 @@ std::string WorldLayers::legend(std::string_view name, const std::optional<std::
   if (name == "search") return search_legend(*from_start(from, execution), world_);
   if (name == "clearance") return clearance_legend(clearance(execution).steps(), world_);
   if (name == "axis") return axis_legend(axis(execution), !world_.robot().outline.empty());
-  if (world_.passages(execution) != nullptr) return passages_legend(world_.query()->roadmap(), execution);
+  if (world_.passages(execution) != nullptr) {
+    return passages_legend(passages(execution), count_states(world_.query()->roadmap()));
+  }
   if (name == "components") return components_legend(roadmap(execution));
   return edges_legend(roadmap(execution), world_.robot().kind == RobotKind::car);
 }

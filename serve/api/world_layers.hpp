@@ -2,6 +2,8 @@
 // The layers that a service draws above its world: which there are, what their colours mean, and their tiles.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -49,12 +51,14 @@ class WorldLayers {
   KeptValues<StartDistances>::Lease from_start(const std::optional<std::vector<double>>& from,
                                                const Execution& execution) const;
   const RoadmapLayer& roadmap(const Execution& execution) const;
+  std::uint64_t passages(const Execution& execution) const;
   const ClearanceLayer& clearance(const Execution& execution) const;
   const RoadmapLayer& axis(const Execution& execution) const;
 
   const ServedWorld& world_;
   std::vector<LayerAccount> accounts_;
   MadeOnce<RoadmapLayer> roadmap_;
+  MadeOnce<std::uint64_t> passages_;  // how many
   MadeOnce<ClearanceLayer> clearance_;
   MadeOnce<RoadmapArrays> axis_arrays_;
   MadeOnce<RoadmapLayer> axis_;

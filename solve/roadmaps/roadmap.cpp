@@ -42,10 +42,14 @@ Question without_ends(const Scene& scene, Question question) {
   return question;
 }
 
-EdgeCounts edges_of(const LatticePassages& passages) {
-  const auto bits_in = [](std::span<const std::uint64_t> words) {
+EdgeCounts edges_of(const LatticePassages& passages, const Execution& execution) {
+  const auto bits_in = [&](std::span<const std::uint64_t> words) {
+    constexpr std::size_t polled = std::size_t{1} << 16;
     std::uint64_t bits = 0;
-    for (const std::uint64_t word : words) bits += static_cast<std::uint64_t>(std::popcount(word));
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      if (i % polled == 0) execution.check();
+      bits += static_cast<std::uint64_t>(std::popcount(words[i]));
+    }
     return bits;
   };
   const auto [rows, cols] = passages.size();
@@ -132,7 +136,7 @@ bool grows(const SolveOptions& options, const Scene& scene, const RobotSpec& rob
 }
 
 EdgeCounts count_edges(const Roadmap& roadmap, const Execution& execution) {
-  if (roadmap.lattice != nullptr) return edges_of(roadmap.lattice->passages());
+  if (roadmap.lattice != nullptr) return edges_of(roadmap.lattice->passages(), execution);
   const RoadmapArrays& arrays = roadmap.arrays;
   constexpr std::size_t polled = std::size_t{1} << 20;
   EdgeCounts counts;
