@@ -52,6 +52,7 @@ StartDistances start_distances(const RoadmapQuery& query, const std::vector<doub
   const SearchState state = searched(roadmap, execution);
   constexpr VertexId polled = VertexId{1} << 16U;
   StartDistances found;
+  execution.reserve(roadmap.states.size());
   found.inks.assign(roadmap.states.size() - 2, unreached_ink);
   for (VertexId v = 0; v < found.inks.size(); ++v) {
     if (v % polled == 0) execution.check();

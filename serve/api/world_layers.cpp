@@ -216,6 +216,11 @@ void add_steps(Legend& legend, const Steps& steps, double needed, std::string_vi
   const std::string opacity = fmt::format("{:02x}", step_opacity);
   const std::string behind = unit.empty() ? "" : " " + std::string(unit);
   for (std::size_t step = 0; step < steps.count; ++step) {
+/// Two at least, however large: tiles are asked for one by one, and none of them may search anew.
+std::size_t most_bytes_of_starts(std::size_t bytes_a_start) {
+  return std::max(std::size_t{64} << 20U, 2 * bytes_a_start);
+}
+
     const double low = std::max(needed, static_cast<double>(step) * steps.each);
     const double high = static_cast<double>(step + 1) * steps.each;
     const bool is_last = step + 1 == steps.count;
@@ -244,8 +249,11 @@ std::string clearance_legend(const Steps& steps, const ServedWorld& world) {
 }  // namespace
 
 WorldLayers::WorldLayers(const ServedWorld& world)
-    : world_(world), accounts_{roadmap_account(world), components_account(world), clearance_account(world),
-                               axis_account(world),    search_account(world),     sweep_account(world)} {}
+    : world_(world),
+      accounts_{roadmap_account(world), components_account(world), clearance_account(world),
+                axis_account(world),    search_account(world),     sweep_account(world)},
+      bytes_a_start_(sizeof(StartDistances) + (world.query() == nullptr ? 0 : count_states(world.query()->roadmap()))),
+      starts_(most_bytes_of_starts(bytes_a_start_)) {}
 
 std::string WorldLayers::json() const {
   std::string text = "[";
@@ -298,14 +306,13 @@ std::uint64_t WorldLayers::passages(const Execution& execution) const {
 
 }
 
-KeptValues<StartDistances>::Lease WorldLayers::from_start(const std::optional<std::vector<double>>& from,
+MadeByName<StartDistances>::Lease WorldLayers::from_start(const std::optional<std::vector<double>>& from,
                                                           const Execution& execution) const {
   if (!from) throw UsageError("from: the start of the search is expected, as ?from=x,y");
   const std::string name = fmt::format("{}", fmt::join(*from, ","));
-  if (auto known = starts_.find(name)) return known;
-  StartDistances found = start_distances(*world_.query(), *from, execution);
-  const std::size_t bytes = found.inks.size() + sizeof found;
-  return starts_.put(name, std::move(found), bytes);
+  return starts_.get(name, bytes_a_start_, execution, [&] {
+    return std::make_unique<StartDistances>(start_distances(*world_.query(), *from, execution));
+  });
 }
 
 std::string WorldLayers::legend(std::string_view name, const std::optional<std::vector<double>>& from,

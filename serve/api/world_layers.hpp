@@ -13,7 +13,7 @@
 #include "parallel/made_once.hpp"
 #include "serve/api/served_world.hpp"
 #include "serve/api/start_distances.hpp"
-#include "serve/http/kept_values.hpp"
+#include "serve/http/made_by_name.hpp"
 #include "serve/tiles/clearance_layer.hpp"
 #include "serve/tiles/roadmap_layer.hpp"
 
@@ -48,7 +48,7 @@ class WorldLayers {
 
  private:
   void refuse_missing(std::string_view name) const;
-  KeptValues<StartDistances>::Lease from_start(const std::optional<std::vector<double>>& from,
+  MadeByName<StartDistances>::Lease from_start(const std::optional<std::vector<double>>& from,
                                                const Execution& execution) const;
   const RoadmapLayer& roadmap(const Execution& execution) const;
   std::uint64_t passages(const Execution& execution) const;
@@ -62,7 +62,8 @@ class WorldLayers {
   MadeOnce<ClearanceLayer> clearance_;
   MadeOnce<RoadmapArrays> axis_arrays_;
   MadeOnce<RoadmapLayer> axis_;
-  mutable KeptValues<StartDistances> starts_{std::size_t{64} << 20U};
+  std::size_t bytes_a_start_;
+  mutable MadeByName<StartDistances> starts_;
 };
 
 }  // namespace warren

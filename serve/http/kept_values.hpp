@@ -52,6 +52,32 @@ class KeptValues {
   Lease put(const std::string& name, Value value, std::size_t bytes) {
     Entries gone;  // ends after the lock
     const std::lock_guard lock(mutex_);
+    return put(name, std::move(value), bytes, gone);
+  }
+  /// The value of that name, or what make() gives, which is put: one alone of many who ask for it at once.
+  template <class Make>
+  Lease find_or_put(const std::string& name, std::size_t bytes, const Make& make) {
+    Entries gone;
+    const std::lock_guard lock(mutex_);
+    if (auto known = look(name)) return known;
+    return put(name, make(), bytes, gone);
+  }
+  /// The value of that name; none: it was never put or is forgotten.
+  Lease find(const std::string& name) {
+    const std::lock_guard lock(mutex_);
+    return look(name);
+  }
+  /// Of those that are kept.
+  std::size_t bytes() const { return bytes_.load(std::memory_order_relaxed); }
+
+ private:
+  Lease look(const std::string& name) {
+    const auto found = places_.find(name);
+    if (found == places_.end()) return {};
+    order_.splice(order_.begin(), order_, found->second);
+    return Lease(this, found->second);
+  }
+  Lease put(const std::string& name, Value value, std::size_t bytes, Entries& gone) {
     forget(name, gone);
     if (bytes > most_bytes_ / 2) {
       held_.push_front({name, std::move(value), bytes, 0, false});
@@ -63,18 +89,6 @@ class KeptValues {
     bytes_ += bytes;
     return Lease(this, order_.begin());
   }
-  /// The value of that name; none: it was never put or is forgotten.
-  Lease find(const std::string& name) {
-    const std::lock_guard lock(mutex_);
-    const auto found = places_.find(name);
-    if (found == places_.end()) return {};
-    order_.splice(order_.begin(), order_, found->second);
-    return Lease(this, found->second);
-  }
-  /// Of those that are kept.
-  std::size_t bytes() const { return bytes_.load(std::memory_order_relaxed); }
-
- private:
   void forget(const std::string& name, Entries& gone) {
     const auto found = places_.find(name);
     if (found == places_.end()) return;
