@@ -187,12 +187,17 @@ std::string components_legend(const RoadmapLayer& layer) {
   return legend.closed();
 }
 
-constexpr std::array<Rgb, unreached_ink + 1> search_inks = [] {
-  std::array<Rgb, unreached_ink + 1> inks{};
-  std::copy(step_inks.begin(), step_inks.end(), inks.begin());
-  inks.back() = component_inks.back();
-  return inks;
-}();
+/// Of lines on the page's white: the darker part of the scale of steps alone. The page turns them over where it is
+/// dark.
+constexpr std::array<Rgb, unreached_ink + 1> search_inks{{{68, 1, 84},
+                                                          {72, 30, 111},
+                                                          {69, 56, 130},
+                                                          {60, 80, 139},
+                                                          {50, 102, 142},
+                                                          {41, 122, 142},
+                                                          {34, 142, 140},
+                                                          {31, 161, 135},
+                                                          component_inks.back()}};
 
 std::string search_legend(const StartDistances& found, const ServedWorld& world) {
   Legend legend;
@@ -201,7 +206,7 @@ std::string search_legend(const StartDistances& found, const ServedWorld& world)
   for (std::size_t step = 0; step < found.steps.count && found.reached > 0; ++step) {
     const bool is_last = step + 1 == found.steps.count;
     const double high = is_last ? found.farthest : static_cast<double>(step + 1) * found.steps.each;
-    legend.add(step_inks[step],
+    legend.add(search_inks[step],
                fmt::format("{} to {}{} from the start", human_number(static_cast<double>(step) * found.steps.each),
                            human_number(high), behind));
   }
@@ -211,16 +216,16 @@ std::string search_legend(const StartDistances& found, const ServedWorld& world)
   return legend.closed();
 }
 
-/// Of a scale whose steps below `needed` are not seen.
-void add_steps(Legend& legend, const Steps& steps, double needed, std::string_view unit) {
-  const std::string opacity = fmt::format("{:02x}", step_opacity);
-  const std::string behind = unit.empty() ? "" : " " + std::string(unit);
-  for (std::size_t step = 0; step < steps.count; ++step) {
 /// Two at least, however large: tiles are asked for one by one, and none of them may search anew.
 std::size_t most_bytes_of_starts(std::size_t bytes_a_start) {
   return std::max(std::size_t{64} << 20U, 2 * bytes_a_start);
 }
 
+/// Of a scale whose steps below `needed` are not seen.
+void add_steps(Legend& legend, const Steps& steps, double needed, std::string_view unit) {
+  const std::string opacity = fmt::format("{:02x}", step_opacity);
+  const std::string behind = unit.empty() ? "" : " " + std::string(unit);
+  for (std::size_t step = 0; step < steps.count; ++step) {
     const double low = std::max(needed, static_cast<double>(step) * steps.each);
     const double high = static_cast<double>(step + 1) * steps.each;
     const bool is_last = step + 1 == steps.count;
@@ -285,6 +290,12 @@ const RoadmapLayer& WorldLayers::roadmap(const Execution& execution) const {
       execution, [&] { return std::make_unique<RoadmapLayer>(world_.query()->roadmap().arrays.parts(), execution); });
 }
 
+std::uint64_t WorldLayers::passages(const Execution& execution) const {
+  return passages_.get(execution, [&] {
+    return std::make_unique<std::uint64_t>(count_edges(world_.query()->roadmap(), execution).free);
+  });
+}
+
 const ClearanceLayer& WorldLayers::clearance(const Execution& execution) const {
   return clearance_.get(execution, [&] {
     return std::make_unique<ClearanceLayer>(world_.tiles(), world_.box(), needed_around(world_), execution);
@@ -298,12 +309,6 @@ const RoadmapLayer& WorldLayers::axis(const Execution& execution) const {
         built_roadmap(whole, world_.robot(), world_.clearance(), {.kind = GraphKind::axis}, execution).arrays);
   });
   return axis_.get(execution, [&] { return std::make_unique<RoadmapLayer>(arrays.parts(), execution); });
-std::uint64_t WorldLayers::passages(const Execution& execution) const {
-  return passages_.get(execution, [&] {
-    return std::make_unique<std::uint64_t>(count_edges(world_.query()->roadmap(), execution).free);
-  });
-}
-
 }
 
 MadeByName<StartDistances>::Lease WorldLayers::from_start(const std::optional<std::vector<double>>& from,

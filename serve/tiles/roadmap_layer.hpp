@@ -27,7 +27,7 @@ inline constexpr std::array<Rgb, 8> component_inks{{colors::series[0],
                                                     colors::series[4],
                                                     colors::series[5],
                                                     colors::series[7],
-                                                    {148, 156, 168}}};
+                                                    {138, 146, 158}}};
 
 enum class RoadmapInk : std::uint8_t { one, by_component };
 

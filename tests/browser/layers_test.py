@@ -184,6 +184,35 @@ class Layers(BrowserTest):
         self.async_script('stepDrawing(drawing.undo, drawing.redo).then(done)')
         self.assertEqual(self.drawn('components')[0], before)
 
+    def rewritten(self, name, script):
+        """How often the legend is written while the script runs, which calls done()."""
+        self.run_script('''
+            window.writes = 0;
+            new MutationObserver(records => { writes += records.length; }).observe(byId("layer-" + arguments[0] + "-legend"), {childList: true, subtree: true});''', name)
+        self.async_script(script)
+        self.frames()
+        return self.run_script('return writes')
+
+    def test_a_legend_that_says_the_same_is_not_read_out_again(self):
+        self.shown(self.maze, '#layers=roadmap')
+        self.wait(lambda: 'Zoom in' in self.legend('roadmap'))
+        self.assertEqual(self.rewritten('roadmap', 'showLegend(layers.get("roadmap")).then(done)'), 0)
+        self.assertGreater(self.rewritten('roadmap', 'map.setZoom(layers.get("roadmap").account.from_zoom, {animate: false}); showLegend(layers.get("roadmap")).then(done)'), 0)
+        self.shown(self.bar, '#start=8,30,0&goal=40,30,0&layers=sweep')
+        self.wait(lambda: 'along the path' in self.legend('sweep'))
+        self.assertEqual(self.rewritten('sweep', 'map.panBy([5, 5], {animate: false}); showSweep().then(done)'), 0)
+        self.assertGreater(self.sweep()[0], 10)
+
+    def test_lines_stand_out_in_dark_too(self):
+        self.shown(self.rooms, '#start=5,30&goal=40,30&layers=search')
+        self.wait(lambda: 'from the start' in self.legend('search'))
+        self.drawn('search')
+        for dark in (False, True):
+            self.run_script('setDark(arguments[0])', dark)
+            filters = self.run_script('''return [map.getPane("layer-search").querySelector(".layer"), layers.get("search").words.querySelector(".ink")]
+                .map(element => getComputedStyle(element).filter)''')
+            self.assertEqual([kind.startswith('invert') for kind in filters], [dark, dark])
+
     def test_dark_and_phone(self):
         self.media(color_scheme='dark')
         self.shown(self.rooms, '#layers=roadmap,components')

@@ -194,6 +194,39 @@ TEST(WorldLayers, TheSearchGoesOutFromTheStartThatIsAskedFor) {
   EXPECT_NE(words.find("that it does not reach"), std::string::npos) << "those behind the wall: " << words;
 }
 
+/// Of two luminances, as WCAG has it.
+double contrast(double one, double other) { return (std::max(one, other) + 0.05) / (std::min(one, other) + 0.05); }
+
+/// Of a color as legends have it, "#rrggbb".
+double luminance(const std::string& color) {
+  const auto part = [&](std::size_t from) {
+    const double share = std::stoi(color.substr(from, 2), nullptr, 16) / 255.0;
+    return share <= 0.04045 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4);
+  };
+  return 0.2126 * part(1) + 0.7152 * part(3) + 0.0722 * part(5);
+}
+
+TEST(WorldLayers, LinesStandOutOnWhiteAndDarkerOnesAreNearer) {
+  const ServedWorld world(build(scene_of("bounds 0 0 100 60\nwall 50 -1 50 61\n")), {});
+  WorldService service(world, {});
+  const std::string legend = "/v/" + world.hash() + "/layers/search/legend";
+  const Json search = Json::parse(asked(service, {.path = legend, .query = {{"from", "5,30"}}}).body);
+  ASSERT_GT(search.size(), 4U);
+  double last = -1.0;
+  for (const Json& entry : search) {
+    EXPECT_GE(contrast(luminance(entry.at("color")), 1.0), 3.0) << entry;
+    EXPECT_GT(luminance(entry.at("color")), last) << entry;
+    last = luminance(entry.at("color"));
+  }
+  for (const char* name : {"roadmap", "components", "axis"}) {
+    const Json told = legend_of(service, name);
+    for (const Json& entry : {told.front(), told.back()}) {
+      EXPECT_GE(contrast(luminance(entry.at("color")), 1.0), 3.0) << name;
+      EXPECT_GE(contrast(luminance(entry.at("color")), 0.0), 3.0) << name;
+    }
+  }
+}
+
 TEST(WorldLayers, TheSearchSaysWhyThereIsNone) {
   const auto why = [](const ServedWorld& world) {
     WorldService service(world, {});
