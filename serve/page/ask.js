@@ -4,6 +4,7 @@
 "use strict";
 const question = {start: null, goal: null, planner: "", optimise: false, startHeading: null, goalHeading: null};
 const answer = {text: null, json: null, id: null, start: null};
+const lost = {id: null, json: null};  // the path that the service had let go last, and the answer that it was of
 let asking = false;
 let askAgain = false;
 
@@ -71,6 +72,19 @@ function take(reply, text, passed) {
   showAnswer(json, [...serverTimes(reply), ["there and back", passed]]);
   showClearance();
   showSweep();
+}
+
+/// Each look at the path of an answer ends here. The service keeps the last paths alone: where it let this one go, the
+/// question is asked anew, but once until it is seen, for a path that is too large is never kept.
+function looked(reply, json) {
+  if (json !== answer.json || json === lost.json) return;  // another answer came, or this one is asked for anew
+  if (reply.ok) lost.id = null;
+  if (reply.status !== 404) return;
+  const asksAnew = lost.id !== answer.id;
+  lost.id = answer.id;
+  lost.json = json;
+  if (asksAnew) ask();
+  else say("The service does not keep this path, so no more of it can be seen.");
 }
 
 const shown = number => Number(number.toPrecision(6));

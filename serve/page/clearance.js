@@ -6,10 +6,12 @@ const chart = {width: 280, height: 90, samples: 200};
 
 async function showClearance() {
   if (!byId("clearance").open || !answer.id || profile.id === answer.id) return;
-  const id = profile.id = answer.id;
+  const id = profile.id = answer.id, of = answer.json;
   let json;
   try {
-    json = await (await fetch("/api/path/" + id + "/clearance?samples=" + chart.samples)).json();
+    const reply = await fetch("/api/path/" + id + "/clearance?samples=" + chart.samples);
+    looked(reply, of);
+    json = await reply.json();
   } catch (error) {
     json = {error: {message: "The service does not answer any more."}};
   }

@@ -12,11 +12,13 @@ async function showSweep() {
   const layer = layers.get("sweep");
   if (!layer || !layer.box.checked) return forgetSweep();
   if (!answer.id) return fillLegend(layer, [{words: "Shown where there is a path."}]);
-  const mine = ++sweep.asked, seen = map.getBounds().pad(0.25);
+  const mine = ++sweep.asked, of = answer.json, seen = map.getBounds().pad(0.25);
   const box = [seen.getWest(), seen.getSouth(), seen.getEast(), seen.getNorth()].join(",");
   let json;
   try {
-    json = await (await fetch(layer.account.of_path.replace("{id}", answer.id) + "?z=" + map.getZoom() + "&bbox=" + box)).json();
+    const reply = await fetch(layer.account.of_path.replace("{id}", answer.id) + "?z=" + map.getZoom() + "&bbox=" + box);
+    looked(reply, of);
+    json = await reply.json();
   } catch (error) {
     json = {error: {message: "The service does not answer any more."}};
   }

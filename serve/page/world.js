@@ -104,11 +104,12 @@ function showPath(points, id) {
 }
 async function showSeenPath() {
   if (pathLine.whole || !pathLine.id) return;
-  const mine = ++pathLine.asked, seen = map.getBounds().pad(0.5);
+  const mine = ++pathLine.asked, of = answer.json, seen = map.getBounds().pad(0.5);
   const box = [seen.getWest(), seen.getSouth(), seen.getEast(), seen.getNorth()].join(",");
   const z = map.getZoom() - 1;  // the line is wider than two pixels
   try {
     const reply = await fetch("/api/path/" + pathLine.id + "?z=" + z + "&bbox=" + box);
+    looked(reply, of);
     const told = reply.ok ? await reply.json() : null;
     if (told && mine === pathLine.asked) drawChains(told.chains);  // else another path or view came meanwhile
   } catch (error) {

@@ -156,6 +156,48 @@ class PageTools(MapTest):
         self.press('clear')
         self.assertFalse(slider.is_displayed())
 
+    def forget_paths(self, times):
+        """So many looks at paths find none, and questions are counted."""
+        self.run_script('''
+            window.forgets = arguments[0];
+            window.questions = 0;
+            const asks = fetch;
+            fetch = async (place, ...more) => {
+              if (place === "/api/query") ++questions;
+              if (!place.startsWith("/api/path/") || forgets-- <= 0) return asks(place, ...more);
+              return new Response(JSON.stringify({error: {code: "not_found", where: "path", message: "forgotten"}}), {status: 404});
+            };
+            pathLine.whole = false;  // as one of many points, of which a part is seen
+            map.fire("moveend");''', times)
+
+    def test_a_path_that_the_service_let_go_is_asked_for_anew(self):
+        self.shown('yard')
+        self.press('clearance-summary')
+        self.wait(lambda: self.by_id('clearance-text').text.count(',') > 0)
+        self.forget_paths(1)
+        self.wait(lambda: self.run_script('return questions') == 1 and self.by_id('clearance-text').text.count(',') > 0)
+        self.assertIn('Solved', self.status())
+        self.shown('hall', '#layers=sweep')
+        self.wait(lambda: self.run_script('return sweep.bodies !== null'))
+        self.forget_paths(2)  # the look at the path and that at its sweep
+        self.wait(lambda: self.run_script('return questions') == 1)
+        self.wait(lambda: self.run_script('return sweep.bodies !== null'))
+        self.assertIn('Solved', self.status())
+
+    def test_a_path_that_is_never_kept_is_said_to_be_so(self):
+        self.shown('hall', '#layers=sweep')
+        self.forget_paths(1000)
+        self.wait_for('does not keep this path')
+        self.run_script('map.fire("moveend")')
+        self.frames()
+        self.assertEqual(self.run_script('return questions'), 1)
+
+    def test_the_place_of_the_pointer_is_not_read_out(self):
+        self.shown('yard')
+        self.assertEqual(self.by_id('readout').get_attribute('aria-live'), 'off')
+        self.at(20, 10).perform()
+        self.assertTrue(self.by_id('readout').text.startswith('20'))
+
 
 if __name__ == '__main__':
     unittest.main()
