@@ -65,13 +65,16 @@ TEST(SweptBodies, ManyAreFartherApart) {
 TEST(SweptBodies, StandWhereTheyStoodWhenLessIsInSight) {
   for (const double step : {1.0, 0.7}) {  // over a lattice and elsewhere
     SCOPED_TRACE(step);
-    Path<Vec2> path{{0.75, 1.0}};
+    Path<Vec2> path{{0.5, 1.0}};
     while (path.size() < 3 * KeptCurve::block_points) path.push_back({step * static_cast<double>(path.size()), 1.0});
     const KeptCurve curve(path, {});
     const Answer way = way_of({.kind = RobotKind::disc, .radius = 50.0});
     const SweptBodies all = swept_bodies(way, curve, everything, {});
     const double middle = step * (2.5 * KeptCurve::block_points);
     const SweptBodies some = swept_bodies(way, curve, {.box = {{middle, 0}, {middle + 500, 2}}}, {});
+    for (std::size_t i = 1; i + 1 < all.places.size(); ++i) {
+      ASSERT_NEAR(all.places[i].numbers[0] - all.places[i - 1].numbers[0], all.apart, 1e-8) << i;
+    }
     ASSERT_EQ(some.apart, all.apart);
     ASSERT_NEAR(static_cast<double>(some.places.size()), 600.0 / all.apart, 1.0);
     for (const PathState& place : some.places) {
