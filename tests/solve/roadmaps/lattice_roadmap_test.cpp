@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <limits>
 #include <random>
 #include <string>
 #include <vector>
@@ -54,6 +55,14 @@ TEST(LatticeRoadmap, AnswersAsSolveDoesWhereverTheEndsAre) {
       EXPECT_NEAR(length.length, expected.length, 1e-9 * expected.length);
     }
   }
+}
+
+TEST(LatticeRoadmap, IsCountedUntilASignalComes) {
+  const Roadmap roadmap = indexed("maze:256x256,seed=2");
+  EXPECT_EQ(count_edges(roadmap, {}).free, 256U * 256U - 1) << "a perfect maze";
+  const SignalFlag signal{15};
+  const Deadline deadline(std::numeric_limits<double>::infinity(), std::numeric_limits<std::size_t>::max(), &signal);
+  EXPECT_THROW(count_edges(roadmap, {.deadline = &deadline}), Stopped);
 }
 
 TEST(LatticeRoadmap, ManyEndsBesideTheLatticeAreAskedOfAnIndexAndAnswerTheSame) {
