@@ -3,8 +3,6 @@
 
 #include <numeric>
 
-#include "parallel/polled_sort.hpp"
-
 namespace warren {
 namespace {
 
@@ -48,21 +46,30 @@ std::size_t widest_axis(std::span<const BoxOf<D>> boxes, std::span<const std::ui
 }  // namespace
 
 template <int D>
+struct BoxTree<D>::Building {
+  std::span<const BoxOf<D>> boxes;
+  const Execution& execution;
+  std::vector<std::uint32_t> room;  // of ids
+};
+
+template <int D>
 BoxTree<D>::BoxTree(std::span<const BoxOf<D>> boxes, const Execution& execution) : order_(boxes.size()) {
   if (boxes.empty()) return;
   std::iota(order_.begin(), order_.end(), 0U);
   nodes_.reserve(boxes.size());
-  build(0, static_cast<std::uint32_t>(boxes.size()), boxes, execution);
+  Building building{boxes, execution, std::vector<std::uint32_t>(boxes.size())};
+  build(0, static_cast<std::uint32_t>(boxes.size()), building);
   execution.check();
   boxes_.reserve(boxes.size());
   for (const std::uint32_t id : order_) boxes_.push_back(boxes[id]);
 }
 
-/// Depth of the tree: the halves differ by one, so at most 31 for 2^31 boxes.
+/// Depth of the tree: the halves differ by one, so at most 31 for 2^31 boxes. Ids are in order, and stay so in both
+/// halves: nth_element leaves one that libraries differ in.
 template <int D>
-void BoxTree<D>::build(std::uint32_t first, std::uint32_t last, std::span<const BoxOf<D>> boxes,
-                       const Execution& execution) {
-  if (last - first >= polled_boxes) execution.check();
+void BoxTree<D>::build(std::uint32_t first, std::uint32_t last, Building& building) {
+  if (last - first >= polled_boxes) building.execution.check();
+  const std::span<const BoxOf<D>> boxes = building.boxes;
   const std::span<std::uint32_t> ids(order_.data() + first, last - first);
   BoxOf<D> box = boxes[ids.front()];
   for (const std::uint32_t id : ids) box = joined(box, boxes[id]);
@@ -72,20 +79,24 @@ void BoxTree<D>::build(std::uint32_t first, std::uint32_t last, std::span<const 
   const std::size_t axis = widest_axis<D>(boxes, ids);
   std::uint32_t comparisons = 0;
   const auto less = [&](std::uint32_t a, std::uint32_t b) {
-    if (++comparisons % polled_boxes == 0) execution.check();
+    if (++comparisons % polled_boxes == 0) building.execution.check();
     const double left = doubled_centre(boxes[a], axis);
     const double right = doubled_centre(boxes[b], axis);
     return left != right ? left < right : a < b;
   };
   const std::uint32_t middle = first + (last - first) / 2;
-  std::nth_element(ids.begin(), ids.begin() + (middle - first), ids.end(), less);
-  // nth_element leaves an order that libraries differ in.
-  polled_sort(ids.begin(), ids.begin() + (middle - first), execution);
-  polled_sort(ids.begin() + (middle - first), ids.end(), execution);
-  build(first, middle, boxes, execution);
+  const std::span<std::uint32_t> room(building.room.data(), ids.size());
+  std::ranges::copy(ids, room.begin());
+  std::nth_element(room.begin(), room.begin() + (middle - first), room.end(), less);
+  const std::uint32_t median = room[middle - first];
+  std::size_t before = 0;
+  std::size_t behind = 0;
+  for (const std::uint32_t id : ids) (less(id, median) ? ids[before++] : room[behind++]) = id;
+  std::ranges::copy(room.first(behind), ids.begin() + (middle - first));
+  build(first, middle, building);
   nodes_[node].first = static_cast<std::uint32_t>(nodes_.size());
   nodes_[node].count = 0;
-  build(middle, last, boxes, execution);
+  build(middle, last, building);
 }
 
 template class BoxTree<2>;

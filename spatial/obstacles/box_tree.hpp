@@ -3,7 +3,7 @@
 // up to four boxes a leaf; items are numbered anew in the order of the leaves, so that a leaf is one run of memory.
 // Build O(n log n), a function of the boxes alone; a search visits the nearer child first and skips what is farther
 // than the best answer so far, so distance queries cost O(log n) where obstacles are scattered. Memory: 32 D / 2 bytes
-// an item and as much for the nodes. bench/certified_motion_bench.cpp has it beside a plain loop.
+// an item, as much for the nodes, 4 more while it is built. bench/certified_motion_bench.cpp: beside a plain loop.
 #pragma once
 
 #include <algorithm>
@@ -106,7 +106,8 @@ class BoxTree {
     }
     return node;
   }
-  void build(std::uint32_t first, std::uint32_t last, std::span<const BoxOf<D>> boxes, const Execution& execution);
+  struct Building;
+  void build(std::uint32_t first, std::uint32_t last, Building& building);
 
   std::vector<Node> nodes_;
   std::vector<BoxOf<D>> boxes_;       // by place
