@@ -16,6 +16,7 @@
 #include "distributed/mpi_transport.hpp"
 #include "distributed/shared_scale.hpp"
 #include "distributed/shared_solve.hpp"
+#include "distributed/stopped_line.hpp"
 #include "parallel/deadline.hpp"
 #include "roadmaps/file/checksum.hpp"
 #include "scenes/text/input_file_io.hpp"
@@ -84,16 +85,17 @@ int dispatch(std::vector<std::string> words, MpiTransport& transport) {
   return command->run(arguments);
 }
 
-std::string facts_of(const std::vector<std::string>& words) {
+/// Before anything begins, whose first stage has no name.
+bool agree_on(const std::vector<std::string>& words, MpiTransport& transport) {
   std::string facts = this_program();
   for (const std::string& word : words) facts += " " + word;
-  return facts;
+  const Deadline forever(std::numeric_limits<double>::infinity(), available_bytes(), &signal_flag());
+  return telling_where_stopped(transport, Progress(), [&] { return agree(transport, facts, {.deadline = &forever}); });
 }
 
 int run_rank_0(const std::vector<std::string>& words, MpiTransport& transport) {
   const int code = run_with_errors_told("warren-mpi", " (see 'warren-mpi --help')", [&] {
-    const Deadline forever(std::numeric_limits<double>::infinity(), available_bytes(), &signal_flag());
-    agree(transport, facts_of(words), {.deadline = &forever});
+    agree_on(words, transport);
     return dispatch(words, transport);
   });
   if (!all_have_left(transport)) transport.end_all(code);
@@ -103,9 +105,8 @@ int run_rank_0(const std::vector<std::string>& words, MpiTransport& transport) {
 /// Whatever rank 0 says as well, only rank 0 says, and gives its code.
 int run_follower(const std::vector<std::string>& words, MpiTransport& transport) {
   try {
-    const Deadline forever(std::numeric_limits<double>::infinity(), available_bytes(), &signal_flag());
     try {
-      if (agree(transport, facts_of(words), {.deadline = &forever})) dispatch(words, transport);
+      if (agree_on(words, transport)) dispatch(words, transport);
     } catch (const UsageError&) {  // rank 0 says it
     }
     leave(transport);

@@ -16,6 +16,7 @@
 #include "distributed/follower.hpp"
 #include "distributed/leader.hpp"
 #include "distributed/ranks_report_io.hpp"
+#include "distributed/stopped_line.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "solve/mazes/solve_streamed.hpp"
 #include "tools/screen/exit_code.hpp"
@@ -110,32 +111,40 @@ struct Mazes {
   std::uint64_t seed;
 };
 
+/// The line of a stop comes before the others are ended, which may take longer than a launcher waits.
 RanksRun measured(Transport& transport, const Mazes& mazes, bool is_strong, const NextRun& next,
                   const Execution& execution) {
-  for (unsigned rank = 1; rank < transport.ranks(); ++rank) {
-    transport.send(rank, std::as_bytes(std::span(&next, 1)), execution);
-  }
+  const auto told = [&](const auto& work) { telling_where_stopped(transport, *execution.progress, work); };
+  told([&] {
+    for (unsigned rank = 1; rank < transport.ranks(); ++rank) {
+      transport.send(rank, std::as_bytes(std::span(&next, 1)), execution);
+    }
+  });
   const UsedMeter meter(transport);
   const auto begin = std::chrono::steady_clock::now();
   RanksRun found{.is_strong = is_strong, .ranks = next.ranks, .rows = next.rows, .cols = next.cols};
-  Answer answer;
   {
     FirstRanks first(transport, next.ranks);
     const EndOfFollowers end(first);
-    Leader leader(first, mazes.task(next), execution);
-    NobodysPath nobody;
-    SolveOptions options;
-    options.roadmap.pipeline = PipelineKind::streamed;
-    answer = solve_streamed_within(mazes.scene(next), {}, options, execution, {.taker = &nobody, .team = &leader});
-    found.traffic = leader.traffic();
+    told([&] {
+      Leader leader(first, mazes.task(next), execution);
+      NobodysPath nobody;
+      SolveOptions options;
+      options.roadmap.pipeline = PipelineKind::streamed;
+      const Answer answer =
+          solve_streamed_within(mazes.scene(next), {}, options, execution, {.taker = &nobody, .team = &leader});
+      if (answer.stop_reason) throw Stopped(*answer.stop_reason);
+      found.length = answer.length;
+      found.traffic = leader.traffic();
+    });
   }
   found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   found.used.push_back(meter.used());
-  for (unsigned rank = 1; rank < next.ranks; ++rank) {
-    found.used.push_back(ValueUnpacker(transport.receive(rank, execution), "rank").take<RankUse>());
-  }
-  if (answer.stop_reason) throw Stopped(*answer.stop_reason);
-  found.length = answer.length;
+  told([&] {
+    for (unsigned rank = 1; rank < next.ranks; ++rank) {
+      found.used.push_back(ValueUnpacker(transport.receive(rank, execution), "rank").take<RankUse>());
+    }
+  });
   return found;
 }
 
@@ -153,11 +162,14 @@ int lead(const Arguments& arguments, Transport& transport) {
   const Mazes mazes(arguments);
   const std::vector<unsigned> ranks = ranks_asked(arguments, transport.ranks());
   Run run(arguments);
+  Progress unseen;
+  Execution execution = run.execution();
+  if (execution.progress == nullptr) execution.progress = &unseen;
   std::vector<RanksRun> runs;
   for (const bool is_strong : {true, false}) {
     for (const unsigned count : ranks) {
       const NextRun next{count, is_strong ? mazes.side : mazes.side * count, mazes.side};
-      runs.push_back(measured(transport, mazes, is_strong, next, run.execution()));
+      runs.push_back(measured(transport, mazes, is_strong, next, execution));
     }
   }
   run.end();
@@ -166,17 +178,11 @@ int lead(const Arguments& arguments, Transport& transport) {
   return exit_code::success;
 }
 
-int follow_runs(const Arguments& arguments, Transport& transport) {
-  const Mazes mazes(arguments);
-  ranks_asked(arguments, transport.ranks());
-  const auto memory = given_value(arguments, "--memory", memory_value);
-  const FollowerLimits limits{.threads = given_value(arguments, "--threads", threads_value).value_or(0),
-                              .memory_bytes = memory ? *memory : available_bytes(),
-                              .signal = &signal_flag()};
-  const Deadline waiting(std::numeric_limits<double>::infinity(), limits.memory_bytes, &signal_flag());
+void follow_until_end(Transport& transport, const Mazes& mazes, const FollowerLimits& limits) {
+  const Deadline waiting(std::numeric_limits<double>::infinity(), limits.memory_bytes, limits.signal);
   for (;;) {
     const Bytes bytes = transport.receive(0, {.deadline = &waiting});
-    if (bytes.size() != sizeof(NextRun)) return exit_code::success;  // the end
+    if (bytes.size() != sizeof(NextRun)) return;  // the end
     const auto next = ValueUnpacker(bytes, "rank 0").take<NextRun>();
     if (transport.rank() >= next.ranks) continue;
     const UsedMeter meter(transport);
@@ -185,6 +191,19 @@ int follow_runs(const Arguments& arguments, Transport& transport) {
     const RankUse used = meter.used();
     transport.send(0, std::as_bytes(std::span(&used, 1)), {.deadline = &waiting});
   }
+}
+
+int follow_runs(const Arguments& arguments, Transport& transport) {
+  const Mazes mazes(arguments);
+  ranks_asked(arguments, transport.ranks());
+  Progress progress;
+  const auto memory = given_value(arguments, "--memory", memory_value);
+  const FollowerLimits limits{.threads = given_value(arguments, "--threads", threads_value).value_or(0),
+                              .memory_bytes = memory ? *memory : available_bytes(),
+                              .signal = &signal_flag(),
+                              .progress = &progress};
+  telling_where_stopped(transport, progress, [&] { follow_until_end(transport, mazes, limits); });
+  return exit_code::success;
 }
 
 }  // namespace

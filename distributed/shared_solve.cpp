@@ -13,6 +13,7 @@
 #include "distributed/follower.hpp"
 #include "distributed/leader.hpp"
 #include "distributed/shared_world.hpp"
+#include "distributed/stopped_line.hpp"
 #include "scenes/formats/read_world_io.hpp"
 #include "scenes/text/human_units.hpp"
 #include "solve/mazes/solve_streamed.hpp"
@@ -44,9 +45,10 @@ struct SharedQuestion {
   }
   /// Every rank calls it, and they tell what they see. False where that is not the same; at rank 0 then throws who sees
   /// what, or what keeps all of them from it.
-  bool open(Transport& transport, const Execution& execution) {
+  bool open(Transport& transport, const Execution& execution, double& seconds) {
     std::exception_ptr wrong;
     std::string seen;
+    const StageTimer timer(execution, "read", seconds);
     try {
       look(execution);
       seen = world.facts;
@@ -77,13 +79,6 @@ struct SharedQuestion {
   }
 };
 
-/// What survivors of a rank that died say last.
-void say_where_stopped(const Transport& transport, const Progress& progress, StopReason reason) {
-  const char* stage = progress.stage();
-  say_on_standard_error(fmt::format("warren-mpi: rank {} of {}: stopped while it was at '{}': {}\n", transport.rank(),
-                                    transport.ranks(), stage != nullptr ? stage : "the start", text_of(reason)));
-}
-
 class SharedSolve : public AnswerCommand {
  public:
   SharedSolve(const Arguments& arguments, Transport& transport)
@@ -94,11 +89,14 @@ class SharedSolve : public AnswerCommand {
   }
 
  private:
-  Answer find(const Run& run, StageTimes&, ByProducts*) override {
+  Answer find(const Run& run, StageTimes& before, ByProducts*) override {
     Progress unseen;
     Execution execution = run.execution();
     if (execution.progress == nullptr) execution.progress = &unseen;
-    asked_.open(transport_, execution);
+    return telling_where_stopped(transport_, *execution.progress, [&] { return found(execution, before); });
+  }
+  Answer found(const Execution& execution, StageTimes& before) {
+    asked_.open(transport_, execution, before.read);
     check_outputs_of(robot_of(asked_.scene(), asked_.question));
     const EndOfFollowers end(transport_);
     Leader leader(transport_, asked_.task(), execution);
@@ -130,17 +128,16 @@ int follow_words(const Arguments& arguments, Transport& transport) {
   const auto memory = given_value(arguments, "--memory", memory_value);
   const auto threads = given_value(arguments, "--threads", threads_value);
   const Deadline looking(std::numeric_limits<double>::infinity(), available_bytes(), &signal_flag());
-  if (!asked.open(transport, {.deadline = &looking})) return exit_code::success;
-  try {
-    follow(transport, asked.task(),
-           {.threads = threads.value_or(0),
-            .memory_bytes = memory ? *memory : available_bytes(),
-            .signal = &signal_flag(),
-            .progress = &progress});
-  } catch (const Stopped& stopped) {
-    say_where_stopped(transport, progress, stopped.reason);
-    throw;
-  }
+  const FollowerLimits limits{.threads = threads.value_or(0),
+                              .memory_bytes = memory ? *memory : available_bytes(),
+                              .signal = &signal_flag(),
+                              .progress = &progress};
+  telling_where_stopped(transport, progress, [&] {
+    double seconds = 0.0;
+    if (asked.open(transport, {.deadline = &looking, .progress = &progress}, seconds)) {
+      follow(transport, asked.task(), limits);
+    }
+  });
   return exit_code::success;
 }
 

@@ -212,8 +212,9 @@ class Faults(unittest.TestCase):
                   ("verify", 6, held))
         for stage, number, world in stages:
             for killed in range(3):
-                with self.subTest(stage=stage, killed=killed):
-                    preload = ["LD_PRELOAD=" + SHIM, f"WARREN_DEATH={killed}:{number}", SHARED, "solve"]
+                with self.subTest(stage=stage, killed=killed), tempfile.TemporaryDirectory() as folder:
+                    preload = ["LD_PRELOAD=" + SHIM, f"WARREN_DEATH={killed}:{number}", "WARREN_EVENTS=" + folder,
+                               SHARED, "solve"]
                     process = start(mpirun(3, preload + world + ["--no-path", "--threads", "1", "--quiet"], "env"))
                     since = time.monotonic()
                     _, err = self.ends(process, [], since)
@@ -237,6 +238,40 @@ class Faults(unittest.TestCase):
                 code, out, err = run(mpirun(3, ["solve", self.WORLD, "--no-path", "--json", "-"] + words), 60)
                 self.assertEqual(code, 124, err)
                 self.assertEqual(json.loads(out)["status"], "stopped")
+
+    def test_a_stop_before_the_search_names_its_stage_once(self):
+        """No budget at all ends a run where the file is opened, or the ranks compare what they see."""
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "a.maze")
+            code, _, err = run([WARREN, "generate", "maze", "300x300", "-o", file])
+            self.assertEqual(code, 0, err)
+            for words in (["solve", file], ["solve", "maze:300x300,algorithm=mst"], ["scale", "--side", "300"]):
+                for ranks in (1, 3):
+                    with self.subTest(words=words, ranks=ranks):
+                        code, _, err = run(mpirun(ranks, words + ["--budget", "1us", "--quiet"]), 60)
+                        self.assertEqual(code, 124, err)
+                        lines = [line for line in err.splitlines() if "stopped while it was at '" in line]
+                        self.assertEqual(len(lines), 1, err)
+                        self.assertRegex(lines[0], rf"rank 0 of {ranks}: .* at '[a-z ]+': the time budget ended")
+                        if file in words:
+                            self.assertIn("at 'read'", lines[0])
+
+    def test_an_interrupt_before_the_search_is_told_by_the_rank_that_heard_it(self):
+        """Rank 2 falls silent where the ranks compare what they see of the world: the second that each says."""
+        for rank, stage, code in ((0, "read", 130), (1, "(read|the start)", None)):
+            with self.subTest(rank=rank), tempfile.TemporaryDirectory() as folder:
+                preload = ["LD_PRELOAD=" + SHIM, "WARREN_SILENCE=2:1", "WARREN_EVENTS=" + folder, SHARED]
+                process = start(mpirun(3, preload + ["solve", "maze:300x300,algorithm=mst", "--quiet"], "env"))
+                while not os.path.exists(os.path.join(folder, "2")):
+                    self.assertIsNone(process.poll(), "it ended before")
+                    time.sleep(0.01)
+                since = time.monotonic()
+                pids = ranks_of(process)
+                os.kill(pids[rank], signal.SIGINT)
+                _, err = self.ends(process, pids.values(), since)
+                self.assertRegex(err, rf"warren-mpi: rank {rank} of 3: stopped while it was at '{stage}': interrupted")
+                if code is not None:
+                    self.assertEqual(process.returncode, code, err)
 
     def test_ranks_that_were_given_other_words_refuse_each_other(self):
         other = ["-n", "1", SHARED, "solve", "maze:300x300,algorithm=mst,seed=2"]
