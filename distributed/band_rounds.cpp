@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "core/base/error.hpp"
+#include "core/base/let_go.hpp"
 #include "planners/tiled/overlay_components.hpp"
 #include "planners/tiled/tile_borders.hpp"
 
@@ -175,7 +176,7 @@ void BandRounds::hold(ValuePacker& to) {
   own_ = {overlay_->first_key(own_tiles.first), overlay_->first_key(own_tiles.last)};
   for (const Border border : borders) is_gone_[number(border)].assign(crossing_count(border), false);
   for (TileSummary& tile : tiles_) {
-    tile.chains = {};
+    let_go(tile.chains);
     tile.crossings = {};
   }
   held().pack(to);

@@ -11,6 +11,7 @@
 
 #include "core/base/enum_names.hpp"
 #include "core/base/error.hpp"
+#include "core/base/let_go.hpp"
 #include "distributed/band_rounds.hpp"
 #include "distributed/messages.hpp"
 #include "parallel/ticker.hpp"
@@ -133,7 +134,7 @@ class Follower {
       pack_summary(tile, to);
       tile = {};
     }
-    tiles_ = {};
+    let_go(tiles_);
   }
   void rounds(ValueUnpacker& from, ValuePacker& to) {
     if (!rounds_) {

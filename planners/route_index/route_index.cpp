@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/let_go.hpp"
 #include "core/base/page_pool.hpp"
 #include "parallel/chunks.hpp"
 #include "parallel/scan.hpp"
@@ -48,7 +49,7 @@ RouteIndex::RouteIndex(LatticePassages passages, const RouteIndexOptions& option
         std::to_string(graph.size()) + " of " + std::to_string(passages_.cell_count()));
   }
   RawVector<std::uint64_t> marks = mark_words(peeled, places_, execution);
-  peeled = {};
+  let_go(peeled);
   arrays_.pieces = build_pieces(places_, CellMarks(marks.data()), execution);
   arrays_.fronts =
       build_fronts(graph, dissect(graph, options.leaf == 0 ? leaf_size(graph) : options.leaf, execution), execution);

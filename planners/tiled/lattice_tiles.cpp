@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "core/base/let_go.hpp"
 #include "planners/tiles/packed_tile_summary.hpp"
 
 namespace warren {
@@ -78,7 +79,7 @@ void LatticeTiles::reduce(Range tiles, bool with_steps, std::span<TileSummary> s
     Maker maker(*this);
     for (std::size_t i = 0; i < part.size(); ++i) {
       part[i] = maker.make(tiles.first + r.first + i, execution);
-      if (!with_steps) part[i].steps = {};
+      if (!with_steps) let_go(part[i].steps);
     }
     if (kept != nullptr) keep(*kept, tiles.first + r.first, part);
   });

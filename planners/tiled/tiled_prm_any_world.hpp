@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/base/let_go.hpp"
 #include "planners/roadmap/prm.hpp"
 #include "planners/roadmap/search_from_both_ends.hpp"
 #include "planners/tiled/roadmap_tile.hpp"
@@ -109,12 +110,7 @@ class TiledRoadmapPlan : public Rounds<W> {
 /// What the last round has left.
 template <World W>
 void TiledRoadmapPlan<W>::release() {
-  states_ = {};
-  crossing_ = {};
-  is_kept_ = {};
-  tiles_ = {};
-  first_key_ = {};
-  vertices_ = {};
+  let_go(states_, crossing_, is_kept_, tiles_, first_key_, vertices_);
   overlay_ = Graph();
 }
 
@@ -248,10 +244,10 @@ void TiledRoadmapPlan<W>::assemble() {
   EdgeParts parts;
   for (ReducedTile& tile : tiles_) {
     for (RawVector<Edge>& part : tile.edges) parts.push_back(std::move(part));
-    tile.edges = {};
+    let_go(tile.edges);
   }
   for (RawVector<Edge>& part : crossing_) parts.push_back(std::move(part));
-  crossing_ = {};
+  let_go(crossing_);
   parts.emplace_back();
   for (const Edge& edge : end_edges_) parts.back().push_back({key_of(edge.from), key_of(edge.to)});
   const auto has_chain = [](const ReducedTile& tile) { return !tile.chains.empty(); };

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/base/let_go.hpp"
 #include "parallel/chunks.hpp"
 #include "planners/roadmap/stopped_solution.hpp"
 #include "planners/tiled/lattice_tiles.hpp"
@@ -176,7 +177,7 @@ void TiledPlan::build_overlay() {
   {
     const StageTimer timer(execution_, "graph", solution_.seconds.graph, grid_.count());
     overlay_.emplace(grid_, tiles_, ends_, execution_);
-    if (problem_.forget && problem_.others == nullptr) tiles_ = {};
+    if (problem_.forget && problem_.others == nullptr) let_go(tiles_);
     for (TileSummary& tile : tiles_) {
       if (problem_.forget) forget(tile);
     }
@@ -208,7 +209,7 @@ Separation TiledPlan::gap() {
   if (source_ == nullptr) partition();
   if (problem_.others != nullptr) {
     overlay_.reset();
-    tiles_ = std::vector<TileSummary>();  // before the next ones come; `{}` would keep the memory
+    let_go(tiles_);  // before the next ones come
     tiles_ = problem_.others->reduce_whole(ends_, execution_);
     check_borders(grid_, tiles_, execution_);
     overlay_.emplace(grid_, tiles_, ends_, execution_);
@@ -259,9 +260,8 @@ void TiledPlan::expand(const PathExpansion& path, const PathPiece& piece) {
 }
 
 void TiledPlan::forget(TileSummary& tile) const {
-  if (problem_.others == nullptr) tile.keys = {};
-  tile.chains = {};
-  tile.steps = {};
+  if (problem_.others == nullptr) let_go(tile.keys);
+  let_go(tile.chains, tile.steps);
   tile.crossings = {};
 }
 

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "core/base/error.hpp"
+#include "core/base/let_go.hpp"
 #include "parallel/chunks.hpp"
 #include "parallel/first_touch.hpp"
 #include "planners/tiles/wall_steps.hpp"
@@ -36,7 +37,7 @@ template <class Wall>
 void resize_touched(RawVector<Wall>& walls, std::size_t count, const Execution& execution) {
   const std::size_t room = walls.capacity();
   if (count > room) {
-    walls = {};
+    let_go(walls);
     execution.reserve(count * sizeof(Wall));
   }
   walls.resize(count);

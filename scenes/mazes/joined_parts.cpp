@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/base/let_go.hpp"
 #include "scenes/mazes/disjoint_regions.hpp"
 
 namespace warren::maze {
@@ -69,7 +70,7 @@ class Joining {
       RimPart& part = parts_[p];
       const GridPiece& at = part.at;
       for (const RimEdge& e : part.edges) add(first_[p] + e.a, first_[p] + e.b, e.edge);
-      part.edges = {};
+      let_go(part.edges);
       if ((p + 1) % cols_ != 0) {
         const GridPiece& other = parts_[p + 1].at;
         for (std::uint32_t row = 0; row < at.height; ++row) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/base/let_go.hpp"
 #include "core/base/raw_vector.hpp"
 #include "parallel/asked_growth.hpp"
 #include "parallel/chunks.hpp"
@@ -121,7 +122,7 @@ class LegsAmongCells {
     runs_.reserve(total);
     for (RawVector<Run>& part : parts) {
       runs_.insert(runs_.end(), part.begin(), part.end());
-      part = {};
+      let_go(part);
     }
     const auto before = [](const Run& a, const Run& b) {
       return std::tie(a.tile, a.first) < std::tie(b.tile, b.first);
