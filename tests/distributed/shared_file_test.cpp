@@ -11,9 +11,8 @@
 #include "core/base/error.hpp"
 #include "distributed/shared_world.hpp"
 #include "planners/tiles/packed_tile_summary.hpp"
-#include "scenes/formats/maze_file_io.hpp"
-#include "scenes/formats/npy_maze_io.hpp"
 #include "scenes/formats/read_world_io.hpp"
+#include "scenes/formats/unmade_maze_io.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "tests/distributed/solved_by_ranks.hpp"
 #include "tests/scenes/text/temporary_directory.hpp"
@@ -30,10 +29,7 @@ using test::solved;
 using test::solved_by;
 using test::task_of;
 
-Scene unmade(const std::string& path) {
-  const InputFile file(path, {});
-  return is_maze_file(file.bytes()) ? unmade_maze_file(file) : unmade_npy(file).value();
-}
+Scene unmade(const std::string& path) { return unmade_maze(InputFile(path, {})).value(); }
 
 struct Walls {
   MazeOptions maze;

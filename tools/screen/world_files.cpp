@@ -14,9 +14,9 @@
 #include "pictures/formats/write_picture.hpp"
 #include "pictures/layers/draw_cells.hpp"
 #include "pictures/subtitle.hpp"
-#include "scenes/formats/maze_file_io.hpp"
-#include "scenes/formats/npy_maze_io.hpp"
+#include "scenes/formats/npy_io.hpp"
 #include "scenes/formats/read_world_io.hpp"
+#include "scenes/formats/unmade_maze_io.hpp"
 #include "scenes/text/human_units.hpp"
 #include "solve/answer/world_account.hpp"
 #include "solve/question/question.hpp"
@@ -78,22 +78,16 @@ Scene load_planned_world(const std::string& source, std::optional<PipelineKind> 
   const bool is_streamed = pipeline == PipelineKind::streamed;
   const auto is_left_out = [&](MazeHint maze) { return is_streamed || (!pipeline && is_large(maze)); };
   if (is_maze_source(source)) {
-    const MazeOptions maze = parse_maze_source(source);
-    if (maze.algorithm != MazeAlgorithm::mst || !is_left_out({maze.rows, maze.cols})) {
-      return load_world(source, arguments, execution, seconds);
-    }
-    Scene scene = unmade_maze_scene(maze);
-    scene.source = source;
-    return scene;
+    std::optional<Scene> scene = unmade_maze(source);
+    if (scene && is_left_out(*scene->maze)) return std::move(*scene);
+    return load_world(source, arguments, execution, seconds);
   }
   const InputFile file(source, execution);
-  const bool is_array = is_npy(file.bytes());
   std::error_code ignored;
-  if ((is_array || is_maze_file(file.bytes())) && std::filesystem::is_regular_file(source, ignored) &&
-      !arguments.has("--map-rules")) {
-    std::optional<Scene> scene = is_array ? unmade_npy(file) : unmade_maze_file(file);
-    const bool fits =
-        is_array && scene && !is_large(*scene->maze);  // all of an array's walls can be planned among then
+  if (std::filesystem::is_regular_file(source, ignored) && !arguments.has("--map-rules")) {
+    std::optional<Scene> scene = unmade_maze(file);
+    // All of an array's walls can be planned among then.
+    const bool fits = scene && is_npy(file.bytes()) && !is_large(*scene->maze);
     if (scene && !fits && is_left_out(*scene->maze)) return std::move(*scene);
   }
   return load_world(file, arguments, execution, seconds);

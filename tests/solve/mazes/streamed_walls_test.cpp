@@ -6,9 +6,8 @@
 #include <string>
 
 #include "core/base/error.hpp"
-#include "scenes/formats/maze_file_io.hpp"
-#include "scenes/formats/npy_maze_io.hpp"
 #include "scenes/formats/read_world_io.hpp"
+#include "scenes/formats/unmade_maze_io.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "tests/scenes/text/temporary_directory.hpp"
 
@@ -18,10 +17,7 @@ namespace {
 constexpr std::uint32_t rows = 800;
 constexpr std::uint32_t cols = 523;
 
-Scene unmade(const std::string& path) {
-  const InputFile file(path, {});
-  return is_maze_file(file.bytes()) ? unmade_maze_file(file) : unmade_npy(file).value();
-}
+Scene unmade(const std::string& path) { return unmade_maze(InputFile(path, {})).value(); }
 
 /// Of these rows of tiles: but for the corner, and the sides that are not the tile's.
 void expect_the_same_tiles(const CellWallSource& part, const CellWallSource& whole, TileRows own) {
