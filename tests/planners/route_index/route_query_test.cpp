@@ -11,6 +11,7 @@
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
 #include "parallel/deadline.hpp"
+#include "parallel/trace.hpp"
 #include "planners/route_index/tree_routes.hpp"
 #include "tests/planners/route_index/lattice_mazes.hpp"
 #include "tests/seeds.hpp"
@@ -177,6 +178,25 @@ TEST(RouteQuery, ManyLegsAreWrittenByAnyNumberOfThreads) {
   const CellId last = 1000 * 1000 - 1;
   EXPECT_GT(legs_of(index, 0, last), 2 * 16U);
   expect_the_same_by_all_threads(index, 0, last);
+}
+
+/// How many chunks of hops a path is written in: all but those of its climbs' legs.
+std::size_t hop_chunks_of(const RouteIndex& index, CellId start, CellId goal) {
+  constexpr std::size_t legs_a_chunk = 16;
+  Trace trace;
+  RouteQuery(index).path(start, goal, {.threads = 1, .trace = &trace});
+  return trace.events().size() - (legs_of(index, start, goal) + legs_a_chunk - 1) / legs_a_chunk;
+}
+
+/// A thread writes 512 hops before it takes more; ways through long mazes with small leaves have that many.
+TEST(RouteQuery, ManyHopsAreWrittenByAnyNumberOfThreads) {
+  for (const MazeAlgorithm algorithm : {MazeAlgorithm::backtracker, MazeAlgorithm::kruskal}) {
+    const RouteIndex index(maze_passages({40, 4000, 3, algorithm, 0.1}), small_leaves(1), {});
+    const auto last = static_cast<CellId>(index.passages().cell_count() - 1);
+    EXPECT_GE(hop_chunks_of(index, 0, last), 3U);
+    expect_the_same_by_all_threads(index, 0, last);
+    expect_the_same_by_all_threads(index, last, 0);  // from their hops' other ends
+  }
 }
 
 TEST(RouteQuery, CellsOutsideTheLatticeAreRefused) {
