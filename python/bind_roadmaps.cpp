@@ -12,9 +12,9 @@
 #include "python/kept_roadmap.hpp"
 #include "python/keywords.hpp"
 #include "python/roadmap_arrays.hpp"
+#include "solve/roadmaps/blocked_end_of_roadmap.hpp"
 #include "solve/roadmaps/export_of_roadmap.hpp"
 #include "solve/roadmaps/roadmap_file_io.hpp"
-#include "solve/steps/blocked_end.hpp"
 #include "solve/steps/explain_answer.hpp"
 #include "solve/steps/heuristic_price.hpp"
 #include "tools/words/option_values.hpp"
@@ -125,7 +125,7 @@ KeptAnswer ask(KeptRoadmap& kept, py::dict keywords, bool keep, bool explain) {
       return query.ask_within(question.start, question.goal, again, execution, scratch);
     });
     const Roadmap& roadmap = kept.roadmap();
-    if (is_blocked(answer.outcome)) explain_blocked_end(roadmap.world.whole(execution), answer, execution);
+    explain_blocked_end(roadmap, answer, execution);
     if (explain) {
       const AskedWith asked{.options = roadmap.options, .samples = roadmap.samples, .is_kept = true};
       explain_in_time(answer,

@@ -5,6 +5,7 @@
 
 #include "core/base/error.hpp"
 #include "solve/question/plannable.hpp"
+#include "solve/roadmaps/blocked_end_of_roadmap.hpp"
 #include "solve/roadmaps/kept_cells.hpp"
 #include "solve/roadmaps/walls_let_go.hpp"
 #include "solve/solve.hpp"
@@ -135,7 +136,7 @@ Answer ServedWorld::ask(const ServedQuestion& question, const Execution& executi
     scratch.beside_judge = std::move(beside_judge);
     const RoadmapSearchFields how{.optimise = question.optimise};
     Answer answer = query_->ask_within(question.start, question.goal, how, execution, scratch);
-    if (is_blocked(answer.outcome)) explain_blocked_end(roadmap_->world.whole(execution), answer, execution);
+    explain_blocked_end(*roadmap_, answer, execution);
     return answer;
   }
   Question asked = body_;

@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <span>
@@ -21,6 +19,7 @@
 #include "solve/answer/world_account.hpp"
 #include "solve/mazes/streamed_walls.hpp"
 #include "solve/question/planner_choice.hpp"
+#include "solve/steps/blocked_cell.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 #include "solve/steps/settled_ends.hpp"
 #include "solve/steps/solve_steps.hpp"
@@ -87,7 +86,7 @@ class StreamedSolve {
     plan_and_verify();
     answer_.outcome = settled_ends(
         answer_.outcome, [&] { return stands_free(problem_.start); }, [&] { return stands_free(problem_.goal); });
-    explain_blocked();
+    explain_blocked_cell(problem_, *scene_.maze, answer_, [&](Vec2 p) { return met_at(p); });
     count_walls();
   }
   Answer& answer() { return answer_; }
@@ -142,25 +141,6 @@ class StreamedSolve {
     return verify_among_cells(walls_->judged(), std::span(&p, 1), options, execution_).first_violation;
   }
   bool stands_free(Vec2 p) const { return !met_at(p); }
-  /// As explain_blocked_end() does where walls are held. In the middle of a cell the body fits.
-  void explain_blocked() {
-    if (!is_blocked(answer_.outcome)) return;
-    const bool is_start = answer_.outcome == Outcome::start_blocked;
-    const Vec2 at = is_start ? problem_.start : problem_.goal;
-    const auto met = met_at(at);
-    if (!met) return;
-    const Vec2 middle{std::clamp(std::round(at.x), 1.0, static_cast<double>(scene_.maze->cols)),
-                      std::clamp(std::round(at.y), 1.0, static_cast<double>(scene_.maze->rows))};
-    const bool is_outside = met->obstacle.starts_with("box: ");
-    answer_.blocked = BlockedEnd{.is_start = is_start,
-                                 .by = is_outside ? "outside of the bounds " + met->obstacle.substr(5) : met->obstacle,
-                                 .free_place = {middle.x, middle.y},
-                                 .distance = norm(middle - at),
-                                 .room = met->distance,
-                                 .needed = problem_.reach()};
-    const double depth = problem_.robot.radius - met->distance;
-    if (!is_outside && depth > 0.0) answer_.blocked->depth = depth;
-  }
   /// Below half a cell nothing but a wall between two cells blocks a step, so the steps that are free say how many
   /// walls stand; the outline counts as four, as in maze_walls.
   void count_walls() {

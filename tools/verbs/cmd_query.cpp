@@ -14,8 +14,8 @@
 #include "scenes/text/human_units.hpp"
 #include "solve/batches/ask_batch_io.hpp"
 #include "solve/batches/ask_matrix_io.hpp"
+#include "solve/roadmaps/blocked_end_of_roadmap.hpp"
 #include "solve/roadmaps/roadmap_file_io.hpp"
-#include "solve/steps/blocked_end.hpp"
 #include "solve/steps/explain_answer.hpp"
 #include "solve/steps/heuristic_price.hpp"
 #include "tools/screen/exit_code.hpp"
@@ -65,7 +65,7 @@ class QueryCommand : public AnswerCommand {
       again.optimise = false;
       return query.ask_within(question_.start, question_.goal, again, run.execution(), scratch);
     });
-    if (is_blocked(answer.outcome)) explain_blocked_end(roadmap_.world.whole(run.execution()), answer, run.execution());
+    explain_blocked_end(roadmap_, answer, run.execution());
     if (keeps_roadmap()) learn(roadmap_, query, run.execution());
     return answer;
   }

@@ -10,6 +10,7 @@
 #include "scenes/formats/read_world_io.hpp"
 #include "solve/mazes/resume_file_io.hpp"
 #include "solve/mazes/solve_streamed.hpp"
+#include "solve/roadmaps/blocked_end_of_roadmap.hpp"
 #include "solve/roadmaps/solve_and_keep.hpp"
 #include "solve/solve.hpp"
 #include "solve/steps/blocked_end.hpp"
@@ -76,8 +77,10 @@ class SolveCommand : public AnswerCommand {
                         : solve_within(scene_, question_, options_, run.execution(), keep, path_taker());
     price_heuristic(keeps_roadmap() ? roadmap_.world.whole(run.execution()) : scene_, question_, options_,
                     run.execution(), answer);
-    if (is_blocked(answer.outcome)) {
-      explain_blocked_end(keeps_roadmap() ? roadmap_.world.whole(run.execution()) : scene_, answer, run.execution());
+    if (keeps_roadmap()) {
+      explain_blocked_end(roadmap_, answer, run.execution());
+    } else {
+      explain_blocked_end(scene_, answer, run.execution());
     }
     return answer;
   }

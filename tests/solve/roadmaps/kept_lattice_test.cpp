@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "core/base/error.hpp"
 #include "roadmaps/file/roadmap_file.hpp"
 #include "scenes/formats/read_world_io.hpp"
+#include "solve/roadmaps/blocked_end_of_roadmap.hpp"
 #include "solve/roadmaps/roadmap_file_io.hpp"
 #include "solve/roadmaps/roadmap_query.hpp"
 
@@ -126,6 +128,46 @@ TEST(KeptLattice, BitsOfAFileAnswerAsWallsThatAreHeldDo) {
       }
     }
   }
+}
+
+TEST(KeptLattice, ABlockedEndIsExplainedWithoutMakingAllWalls) {
+  const std::string maze = "maze:256x260,loops=0.05";
+  const Roadmap held = build(read_world(maze), {.robot = RobotSpec{.kind = RobotKind::disc, .radius = 0.15}});
+  const KeptFile file(held);
+  Roadmap read = read_roadmap(file.path());
+  const Scene outline = read.world.outline();
+  read.world = KeptWorld(
+      outline, [](const Execution&) -> Scene { throw std::logic_error("all walls are made"); },
+      [&](const Execution& execution) { return cells_of_file(*read.file, *outline.maze, read.world_hash, execution); });
+  const RoadmapQuery by_walls(held);
+  const RoadmapQuery by_bits(read, Execution{}, Questions::many);
+  const std::vector<std::vector<double>> places{{7.3, 8.45},  {0.6, 100.2}, {20.5, 30.5}, {99.55, 3.1}, {-4, 7},
+                                                {100, 258.5}, {300, 300},   {258, 12.2},  {258, 259},   {12.5, 260.45}};
+  std::size_t blocked = 0;
+  for (const std::vector<double>& place : places) {
+    SCOPED_TRACE(std::to_string(place[0]) + " " + std::to_string(place[1]));
+    for (const bool is_start : {true, false}) {
+      const std::vector<double> other{5, 5};
+      Answer expected = by_walls.ask(is_start ? place : other, is_start ? other : place, {});
+      Answer found = by_bits.ask(is_start ? place : other, is_start ? other : place, {});
+      ASSERT_EQ(found.outcome, expected.outcome);
+      explain_blocked_end(held, expected, {});
+      explain_blocked_end(read, found, {});
+      ASSERT_EQ(found.blocked.has_value(), expected.blocked.has_value());
+      if (!found.blocked) continue;
+      ++blocked;
+      EXPECT_EQ(found.blocked->is_start, is_start);
+      EXPECT_EQ(found.blocked->by.substr(0, 4), expected.blocked->by.substr(0, 4));
+      EXPECT_EQ(found.blocked->room, expected.blocked->room);
+      EXPECT_EQ(found.blocked->needed, expected.blocked->needed);
+      EXPECT_EQ(found.blocked->hint, expected.blocked->hint);
+      EXPECT_EQ(found.blocked->depth.has_value(), expected.blocked->depth.has_value());
+      ASSERT_EQ(found.blocked->free_place.size(), 2U);
+      EXPECT_LT(found.blocked->distance, expected.blocked->distance + 1.0);
+      EXPECT_EQ(by_walls.ask(found.blocked->free_place, found.blocked->free_place, {}).outcome, Outcome::solved);
+    }
+  }
+  EXPECT_GT(blocked, 10U);
 }
 
 /// The oracle: a breadth-first search of the cells between the maze's walls as they stand in the world.

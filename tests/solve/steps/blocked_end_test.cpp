@@ -196,10 +196,12 @@ TEST(BlockedEnd, HoldsWhereWallsAreMadeTileByTile) {
   const BlockedEnd wall = told(maze, question);
   EXPECT_TRUE(wall.by.starts_with("wall: ")) << wall.by;
   EXPECT_NEAR(wall.depth.value_or(0.0), 0.1, 1e-12) << "of the outline";
-  EXPECT_EQ(wall.free_place, (std::vector<double>{1, 7}));
+  EXPECT_EQ(wall.free_place, (std::vector<double>{0.803, 7}));
   const BlockedEnd outside = told(maze, {.goal = {50, 12}});
   EXPECT_EQ(outside.by, "outside of the bounds 0.5 0.5 40.5 30.5");
-  EXPECT_EQ(outside.free_place, (std::vector<double>{40, 12}));
+  EXPECT_EQ(outside.free_place, (std::vector<double>{40.396, 12}));
+  EXPECT_TRUE(outside.hint.empty()) << outside.hint;
+  EXPECT_EQ(told(maze, {.goal = {12, 35}}).hint, "x comes before y: 35,12 is free");
 }
 
 TEST(BlockedEnd, IsNotToldOfOtherAnswers) { EXPECT_FALSE(solve(world("walls.scene")).blocked.has_value()); }
