@@ -62,11 +62,16 @@ void shorten(Answer& answer, const Scene& scene, const WallProblem& problem, con
   answer.path = taut_path(world.walls(), answer.path, world.planning_clearance(), execution);
 }
 
-/// What judge() says, while something else is done with the same path.
+/// What judge() says, while something else is done with the same answer, which is not changed meanwhile. seconds: those
+/// of the judge alone are added.
 template <class Judge>
 Verification judged_beside(const std::function<void(const Answer&)>& beside, const Answer& answer,
-                           const Execution& execution, const Judge& judge) {
-  if (!beside) return judge();
+                           const Execution& execution, double& seconds, const Judge& judge) {
+  const auto timed = [&] {
+    const StageTimer timer(execution, "verify", seconds, answer.path.size());
+    return judge();
+  };
+  if (!beside) return timed();
   Verification verdict;
   Execution quiet = execution;
   quiet.progress = nullptr;
@@ -74,7 +79,7 @@ Verification judged_beside(const std::function<void(const Answer&)>& beside, con
     if (r.first == 0) {
       beside(answer);
     } else {
-      verdict = judge();
+      verdict = timed();
     }
   });
   return verdict;
@@ -259,10 +264,12 @@ void RoadmapQuery::settle_and_verify(Answer& answer, const WallProblem& problem,
   answer.outcome = settled_ends(
       answer.outcome, [&] { return stands_free(problem.start); }, [&] { return stands_free(problem.goal); });
   if (answer.outcome != Outcome::solved) return;
-  const StageTimer timer(execution, "verify", answer.seconds.verify, answer.path.size());
-  take_verdict(answer, judged_beside(scratch.beside_judge, answer, execution, [&] {
-                 return verify_steps(*cells->walls, answer.path, verify_options(problem), execution);
-               }));
+  double seconds = 0.0;
+  const Verification verdict = judged_beside(scratch.beside_judge, answer, execution, seconds, [&] {
+    return verify_steps(*cells->walls, answer.path, verify_options(problem), execution);
+  });
+  answer.seconds.verify += seconds;
+  take_verdict(answer, verdict);
 }
 
 LengthAnswer RoadmapQuery::length_within(const std::vector<double>& start, const std::vector<double>& goal,

@@ -5,6 +5,7 @@
 
 #include <unistd.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -168,6 +169,29 @@ TEST(KeptLattice, ABlockedEndIsExplainedWithoutMakingAllWalls) {
     }
   }
   EXPECT_GT(blocked, 10U);
+}
+
+/// What is done beside the judge takes longer than all before it, and it comes first on one thread: counted as the
+/// judge's it would be there twice.
+TEST(KeptLattice, WhatIsDoneBesideTheJudgeIsNotTakenForVerification) {
+  using Clock = std::chrono::steady_clock;
+  const KeptFile file(build(read_world("maze:256x260")));
+  const Roadmap read = read_roadmap(file.path());
+  const RoadmapQuery query(read);
+  double beside_s = 0.0;
+  Clock::time_point asked;
+  QuestionScratch scratch;
+  scratch.beside_judge = [&](const Answer&) {
+    const Clock::time_point begin = Clock::now();
+    while (Clock::now() - begin <= 2 * (begin - asked)) {
+    }
+    beside_s = std::chrono::duration<double>(Clock::now() - begin).count();
+  };
+  asked = Clock::now();
+  const Answer answer = query.ask_within({1, 1}, {260, 256}, {}, {.threads = 1}, scratch);
+  ASSERT_TRUE(answer.verified);
+  EXPECT_GT(beside_s, 0.0);
+  EXPECT_LE(answer.seconds.verify + beside_s, answer.solve_s);
 }
 
 /// The oracle: a breadth-first search of the cells between the maze's walls as they stand in the world.
