@@ -5,10 +5,17 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "core/base/enum_names.hpp"
+#include "scenes/text/human_units.hpp"
 
 namespace warren {
+namespace {
+
+std::string_view scaling_of(const RanksRun& run) { return run.is_strong ? "strong" : "weak"; }
+
+}  // namespace
 
 double RanksRun::cpu_s() const {
   double sum = 0.0;
@@ -28,20 +35,21 @@ std::uint64_t RanksRun::peak_bytes() const {
   return most;
 }
 
-std::string ranks_table(std::span<const RanksRun> runs) {
-  std::string text =
-      "        ranks          maze   clock s     CPU s  CPU a cell  of 1 rank    sent a cell   peak a rank\n";
+TextTable ranks_table(std::span<const RanksRun> runs) {
+  TextTable table{
+      {"scaling", "ranks", "maze", "clock", "CPU", "CPU a cell", "of 1 rank", "sent a cell", "peak a rank"}, 1, {}};
   for (const RanksRun& run : runs) {
     const auto first =
         std::find_if(runs.begin(), runs.end(), [&](const RanksRun& r) { return r.is_strong == run.is_strong; });
     const double cpu_ns = 1e9 * run.cpu_s() / run.cells();
-    text += fmt::format("{:7} {:5} {:>13} {:9.2f} {:9.2f} {:8.2f} ns {:9.3f} {:12.4f} B {:9.1f} MiB\n",
-                        run.is_strong ? "strong" : "weak", run.ranks, fmt::format("{}x{}", run.rows, run.cols),
-                        run.seconds, run.cpu_s(), cpu_ns, cpu_ns / (1e9 * first->cpu_s() / first->cells()),
-                        static_cast<double>(run.bytes_sent()) / run.cells(),
-                        static_cast<double>(run.peak_bytes()) / (1024.0 * 1024.0));
+    table.rows.push_back({std::string(scaling_of(run)), std::to_string(run.ranks),
+                          fmt::format("{}x{}", run.rows, run.cols), fmt::format("{:.2f} s", run.seconds),
+                          fmt::format("{:.2f} s", run.cpu_s()), fmt::format("{:.2f} ns", cpu_ns),
+                          fmt::format("{:.3f}", cpu_ns / (1e9 * first->cpu_s() / first->cells())),
+                          fmt::format("{:.4f} B", static_cast<double>(run.bytes_sent()) / run.cells()),
+                          human_bytes(static_cast<double>(run.peak_bytes()))});
   }
-  return text;
+  return table;
 }
 
 std::string ranks_json(std::span<const RanksRun> runs, const RanksSettings& settings) {
@@ -55,7 +63,7 @@ std::string ranks_json(std::span<const RanksRun> runs, const RanksSettings& sett
     for (std::size_t i = 0; i < request_count; ++i) {
       if (run.traffic[i] > 0) traffic[std::string(name_of(static_cast<Request>(i)))] = run.traffic[i];
     }
-    list.push_back({{"scaling", run.is_strong ? "strong" : "weak"},
+    list.push_back({{"scaling", scaling_of(run)},
                     {"ranks", run.ranks},
                     {"rows", run.rows},
                     {"cols", run.cols},

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "distributed/messages.hpp"
+#include "studies/measure/text_table.hpp"
 
 namespace warren {
 
@@ -39,7 +40,7 @@ struct RanksSettings {
   unsigned threads;
 };
 
-std::string ranks_table(std::span<const RanksRun> runs);
+TextTable ranks_table(std::span<const RanksRun> runs);
 std::string ranks_json(std::span<const RanksRun> runs, const RanksSettings& settings);
 
 }  // namespace warren

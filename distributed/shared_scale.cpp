@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "distributed/shared_scale.hpp"
 
-#include <fcntl.h>
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 #include <limits>
@@ -19,6 +15,8 @@
 #include "distributed/stopped_line.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "solve/mazes/solve_streamed.hpp"
+#include "studies/measure/machine_memory.hpp"
+#include "studies/measure/process_counters.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_names.hpp"
 #include "tools/screen/run_of_verb.hpp"
@@ -65,26 +63,17 @@ struct NextRun {
 class UsedMeter {
  public:
   explicit UsedMeter(const Transport& transport) : transport_(transport), bytes_(transport.bytes_sent()) {
-    const int file = ::open("/proc/self/clear_refs", O_WRONLY | O_CLOEXEC);  // 5: the peak begins anew
-    if (file < 0) return;
-    [[maybe_unused]] const ssize_t ignored = ::write(file, "5", 1);
-    ::close(file);
+    restart_peak_memory();
   }
-  RankUse used() const { return {cpu() - cpu_, transport_.bytes_sent() - bytes_, peak_resident_bytes()}; }
+  RankUse used() const {
+    return {(process_.read() - before_).cpu_s, transport_.bytes_sent() - bytes_, peak_resident_bytes()};
+  }
 
  private:
-  static double cpu() {
-    rusage usage{};
-    ::getrusage(RUSAGE_SELF, &usage);
-    const auto seconds = [](const timeval& t) {
-      return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-    };
-    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-  }
-
   const Transport& transport_;
   const std::uint64_t bytes_;
-  const double cpu_ = cpu();
+  const RunCounters process_{std::span<const PerfEvent>()};
+  const RunCounts before_ = process_.read();
 };
 
 class NobodysPath : public PathTaker {
@@ -96,19 +85,19 @@ class NobodysPath : public PathTaker {
 struct Mazes {
   explicit Mazes(const Arguments& arguments)
       : side(given_count(arguments, "--side", 1, 1'000'000).value_or(4000)),
-        loops(given_value(arguments, "--loops", number_value, 0.0, 1.0).value_or(0.0)),
-        seed(seed_word(arguments)) {}
+        made(maze_words(arguments, {.seed = seed_word(arguments), .algorithm = MazeAlgorithm::mst})) {}
   Scene scene(const NextRun& run) const {
-    return unmade_maze_scene(
-        {.rows = run.rows, .cols = run.cols, .seed = seed, .algorithm = MazeAlgorithm::mst, .loops = loops});
+    MazeOptions sized = made;
+    sized.rows = run.rows;
+    sized.cols = run.cols;
+    return unmade_maze_scene(sized);
   }
   BandTask task(const NextRun& run) const {
     const Scene unmade = scene(run);
     return BandTask::of(unmade, keeping_off(unmade, {}, ""));
   }
   std::uint32_t side;
-  double loops;
-  std::uint64_t seed;
+  MazeOptions made;  // but for its size
 };
 
 /// The line of a stop comes before the others are ended, which may take longer than a launcher waits.
@@ -173,8 +162,10 @@ int lead(const Arguments& arguments, Transport& transport) {
     }
   }
   run.end();
-  write_report(arguments, "--json", [&] { return ranks_json(runs, {mazes.seed, mazes.loops, run.threads()}); });
-  if (arguments.value("--json") != "-" && !run.quiet()) print_text(ranks_table(runs));
+  write_report(arguments, "--json", [&] {
+    return ranks_json(runs, {mazes.made.seed, mazes.made.loops, run.threads()});
+  });
+  if (arguments.value("--json") != "-" && !run.quiet()) print_text(ranks_table(runs).text(run.palette()));
   return exit_code::success;
 }
 
