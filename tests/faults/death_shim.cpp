@@ -4,7 +4,7 @@
 //   WARREN_DEATH=RANK:REQUEST  kills it, by the number of a request of distributed/messages.hpp: a rank above 0 when
 //                              all others above 0 are at it, too; rank 0 as the next message comes in after it has
 //                              asked
-//   WARREN_SILENCE=RANK:COUNT  after so many messages it says nothing more, and does not end
+//   WARREN_SILENCE=RANK:COUNT  after so many messages it says nothing more until there is a file named go
 //   WARREN_EVENTS=FOLDER       where ranks tell each other, and the test, how far they are: an empty file each
 #include <mpi.h>
 #include <unistd.h>
@@ -53,13 +53,17 @@ struct {
   int count = 0;
 } awaited;
 
-std::string event_of(unsigned rank) {
+std::string event(const std::string& name) {
   const char* const folder = std::getenv("WARREN_EVENTS");
-  return std::string(folder != nullptr ? folder : ".") + "/" + std::to_string(rank);
+  return std::string(folder != nullptr ? folder : ".") + "/" + name;
 }
 
 void tell() {
-  if (std::FILE* const file = std::fopen(event_of(own_rank).c_str(), "w")) std::fclose(file);
+  if (std::FILE* const file = std::fopen(event(std::to_string(own_rank)).c_str(), "w")) std::fclose(file);
+}
+
+void wait_for(const std::string& name) {
+  while (::access(event(name).c_str(), F_OK) != 0) ::usleep(1000);
 }
 
 void tell_if_at_it() {
@@ -68,7 +72,7 @@ void tell_if_at_it() {
 
 void wait_for_others() {
   for (unsigned rank = 1; rank < rank_count; ++rank) {
-    while (rank != own_rank && ::access(event_of(rank).c_str(), F_OK) != 0) ::usleep(1000);
+    if (rank != own_rank) wait_for(std::to_string(rank));
   }
 }
 
@@ -91,7 +95,7 @@ extern "C" int MPI_Isend(const void* bytes, int count, MPI_Datatype type, int to
   has_asked = has_asked || (own_rank == 0 && death.is_here && is_it(bytes, count));
   if (silence.is_here && said == silence.number) {
     tell();
-    for (;;) ::pause();
+    wait_for("go");
   }
   if (is_message(count)) ++said;
   return PMPI_Isend(bytes, count, type, to, tag, all, request);
