@@ -9,6 +9,7 @@
 
 #include "core/base/rng.hpp"
 #include "parallel/asked_growth.hpp"
+#include "tests/memory_limit.hpp"
 
 namespace warren {
 namespace {
@@ -44,7 +45,7 @@ TEST(PolledSort, EndsSoonAfterTheDeadline) {
 
 TEST(AskedGrowth, AsksForMemoryBeforeAListGrows) {
   RawVector<std::uint64_t> list;
-  const Deadline narrow(1e9, resident_bytes() + (std::size_t{16} << 20));
+  const Deadline narrow = test::limit_from_here(std::size_t{16} << 20);
   Execution execution;
   execution.deadline = &narrow;
   EXPECT_THROW(

@@ -12,6 +12,7 @@
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
 #include "scenes/mazes/maze_generator.hpp"
+#include "tests/memory_limit.hpp"
 #include "tests/scenes/text/temporary_directory.hpp"
 
 namespace warren {
@@ -274,7 +275,7 @@ TEST(Npy, ReadingAndWritingStopAtTheDeadlineAndAskForMemoryFirst) {
   write_npy(maze, directory.file("m.npy"), {});
   const InputFile file(directory.file("m.npy"), {});
   const Deadline over(0.0);
-  const Deadline small(1e9, resident_bytes() + 1000);
+  const Deadline small = test::limit_from_here(1000);
   EXPECT_THROW(read_npy(file, {.deadline = &over}), Stopped);
   EXPECT_THROW(read_npy(file, {.deadline = &small}), Stopped);
   EXPECT_THROW(write_npy(maze, directory.file("n.npy"), {.deadline = &over}), Stopped);

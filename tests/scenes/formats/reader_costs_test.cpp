@@ -4,9 +4,6 @@
 // not by a page, and a promise that the file can't keep is refused before anything is held for it.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 
 #include <csignal>
 #include <limits>
@@ -24,6 +21,7 @@
 #include "scenes/formats/ros_map_io.hpp"
 #include "scenes/formats/scene_io.hpp"
 #include "scenes/formats/wkt_io.hpp"
+#include "tests/memory_limit.hpp"
 #include "tests/scenes/images/test_images.hpp"
 
 namespace warren {
@@ -118,14 +116,6 @@ TEST(ReaderCosts, ASignalIsSeenWhateverTheFileIsFullOf) {
   }
 }
 
-/// How much more the process may hold from now on. What it has freed must be gone before, or it could be held anew.
-Deadline limit_from_here(std::size_t bytes) {
-#ifdef __GLIBC__
-  ::malloc_trim(0);
-#endif
-  return Deadline(std::numeric_limits<double>::infinity(), resident_bytes() + bytes);
-}
-
 TEST(ReaderCosts, MemoryIsAskedForBeforeItIsTaken) {
   for (const LongFile& file : {
            LongFile{"walls", scene, "", "0 0 1 1\n", ""},
@@ -146,14 +136,14 @@ TEST(ReaderCosts, MemoryIsAskedForBeforeItIsTaken) {
        }) {
     SCOPED_TRACE(file.what);
     const InputFile input = InputFile::of_bytes("long", file.bytes(8 * mebi));
-    const Deadline deadline = limit_from_here(10 * mebi);
+    const Deadline deadline = test::limit_from_here(10 * mebi);
     EXPECT_THROW(file.read(input, Execution{1, &deadline}), Stopped);
   }
 }
 
 TEST(ReaderCosts, AMapServersYamlIsSmall) {
   const LongFile yaml{"keys", ros_map, "image: a\n", "a: b\n", ""};
-  const Deadline deadline = limit_from_here(64 * mebi);
+  const Deadline deadline = test::limit_from_here(64 * mebi);
   EXPECT_THROW(yaml.read(InputFile::of_bytes("a.yaml", yaml.bytes(mebi + 1)), {}), InputError);
   EXPECT_THROW(yaml.read(InputFile::of_bytes("a.yaml", yaml.bytes(mebi / 2)), Execution{1, &deadline}), Stopped);
   const SignalFlag signal{SIGINT};
@@ -183,7 +173,7 @@ TEST(ReaderCosts, WhatAHeaderPromisesMustFitIntoItsFile) {
                        npy_header + std::string(16, '\0')},
        }) {
     SCOPED_TRACE(promise.what);
-    const Deadline deadline = limit_from_here(4 * mebi);
+    const Deadline deadline = test::limit_from_here(4 * mebi);
     EXPECT_THROW(promise.read(InputFile::of_bytes("small", promise.bytes), Execution{1, &deadline}), InputError);
   }
 }
@@ -209,7 +199,7 @@ TEST(ReaderCosts, AliasesInYamlAreSharedAndNotCopied) {
     for (int k = 0; k < 9; ++k) yaml += (k == 0 ? "*a" : ", *a") + std::to_string(i - 1);
     yaml += "]\n";
   }
-  const Deadline deadline = limit_from_here(64 * mebi);
+  const Deadline deadline = test::limit_from_here(64 * mebi);
   for (const std::string_view key :
        {"image: *a39\n", "image: i\nresolution: *a39\n", "image: i\nresolution: 1\norigin: *a39\n"}) {
     SCOPED_TRACE(key);

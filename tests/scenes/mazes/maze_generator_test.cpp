@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "tests/memory_limit.hpp"
 #include "tests/scenes/mazes/mazes.hpp"
 
 namespace warren {
@@ -175,7 +176,7 @@ TEST(MazeGenerator, RefusesSizesAlgorithmsAndLoopsOutOfRange) {
 
 TEST(MazeGenerator, StopsAtTheDeadlineAndAsksForMemoryFirst) {
   const Deadline over(0.0);
-  const Deadline small(1e9, resident_bytes() + (std::size_t{64} << 20));
+  const Deadline small = test::limit_from_here(std::size_t{64} << 20);
   for (const MazeAlgorithm algorithm : all_algorithms) {
     EXPECT_THROW(generate_maze({2000, 2000, 1, algorithm, 0.0}, {.deadline = &over}), Stopped);
     EXPECT_THROW(generate_maze({65535, 65535, 1, algorithm, 0.0}, {.deadline = &small}), Stopped);

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "serve/http/http_message.hpp"
+#include "tests/memory_limit.hpp"
 
 namespace warren {
 namespace {
@@ -110,7 +111,7 @@ TEST(PathView, OfALongPathNoMoreIsMadeThanMayBeTold) {
   const std::size_t few = seen_of(curve, {.box = everything, .pixel = 99.0}, {.deadline = &enough})[0].size();
   EXPECT_EQ(seen_of(curve, {.box = everything, .pixel = 99.0, .most_points = few}, {})[0].size(), few);
   EXPECT_THROW(seen_of(curve, {.box = everything, .pixel = 99.0, .most_points = few - 1}, {}), HttpError);
-  const Deadline poor(forever, resident_bytes() + (std::size_t{4} << 20U));
+  const Deadline poor = test::limit_from_here(std::size_t{4} << 20U);
   EXPECT_THROW(seen_of(curve, {.box = everything}, {.deadline = &poor}), Stopped);
 }
 
