@@ -137,4 +137,4 @@ marks.addEventListener("pointermove", event => {
 });
 marks.addEventListener("pointerleave", () => { pointed = null; redraw("marks"); });
 marks.addEventListener("dblclick", () => { if (!isMeasuring) { fit(); redraw(); } });
-new ResizeObserver(() => { if (!view.fitted) fit(); view.fitted = true; redraw(); }).observe(stage);
+new ResizeObserver(() => { if (view.isFitted) fit(); redraw(); }).observe(stage);

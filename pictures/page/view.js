@@ -3,7 +3,7 @@
 // which takes milliseconds where strokes take seconds.
 "use strict";
 const still = document.getElementById("still"), marks = document.getElementById("marks"), stage = document.getElementById("stage");
-const view = {x: 0, y: 0, scale: 1};  // the world's point in the middle, CSS pixels a world unit
+const view = {x: 0, y: 0, scale: 1, isFitted: true};  // the world's point in the middle, CSS pixels a world unit; the whole, in windows of any size
 const [boxX0, boxY0, boxX1, boxY1] = picture.box;
 const ratio = () => Math.min(window.devicePixelRatio || 1, 3);
 /// Of inks that a dark paper swallows, what stands for them there.
@@ -24,6 +24,7 @@ function fit() {
   view.scale = fitted();
   view.x = (boxX0 + boxX1) / 2 - axisWidth / 2 / view.scale;
   view.y = (boxY0 + boxY1) / 2 - axisHeight / 2 / view.scale;
+  view.isFitted = true;
 }
 const fitted = () => Math.max(1e-12, Math.min((stage.clientWidth - axisWidth - 12) / (boxX1 - boxX0 || 1), (stage.clientHeight - axisHeight - 12) / (boxY1 - boxY0 || 1)));
 
@@ -44,6 +45,7 @@ function pan(dx, dy) {
 function moved() {
   view.x = Math.min(Math.max(view.x, boxX0), boxX1);
   view.y = Math.min(Math.max(view.y, boxY0), boxY1);
+  view.isFitted = false;
   redraw();
 }
 

@@ -45,6 +45,10 @@ class Pictures(BrowserTest):
     def scale(self):
         return self.run_script('return view.scale')
 
+    def whole(self):
+        """The scale at which all is seen in the window as it is."""
+        return self.run_script('return fitted()')
+
     def told(self):
         return self.browser.find_element(By.ID, 'readout').text
 
@@ -71,6 +75,7 @@ class Pictures(BrowserTest):
     def test_the_wheel_zooms_at_the_pointer_within_limits(self):
         marks = self.shown('maze.html')
         home = self.scale()
+        self.assertAlmostEqual(home, self.whole())
         under = 'const b = marks.getBoundingClientRect(); return [worldX(400 - b.x), worldY(300 - b.y)]'
         before = self.run_script(under)
         turn = 'marks.dispatchEvent(new WheelEvent("wheel", {deltaY: arguments[0], cancelable: true, clientX: 400, clientY: 300}))'
@@ -83,7 +88,7 @@ class Pictures(BrowserTest):
                 self.run_script(turn, amount)
             self.assertTrue(home / 5 < self.scale() < home * 5000)
         marks.send_keys('0')
-        self.assertAlmostEqual(self.scale(), home)
+        self.assertAlmostEqual(self.scale(), self.whole())
 
     def test_a_drag_moves_and_ends_with_a_cancel(self):
         marks = self.shown('maze.html')
@@ -123,7 +128,21 @@ class Pictures(BrowserTest):
         marks.send_keys(Keys.ARROW_RIGHT)
         self.assertGreater(self.run_script('return view.x'), x)
         self.browser.find_element(By.ID, 'whole').click()
-        self.assertAlmostEqual(self.scale(), home)
+        self.assertAlmostEqual(self.scale(), self.whole())
+
+    def test_the_whole_stays_in_a_window_of_another_size_until_somebody_moves(self):
+        marks = self.shown('maze.html')
+        for width, height in ((900, 700), (1100, 500)):
+            before = self.scale()
+            self.browser.set_window_size(width, height)
+            self.wait(lambda: self.scale() != before)
+            self.assertAlmostEqual(self.scale(), self.whole())
+        marks.send_keys('+')
+        closer = self.scale()
+        self.browser.set_window_size(900, 700)
+        self.wait(lambda: self.run_script('return innerHeight') > 500)
+        self.frames()
+        self.assertEqual(self.scale(), closer)
 
     def at(self, x, y):
         """Points at a place of the world."""
