@@ -123,6 +123,8 @@ class SearchSide {
     VertexId from;
     double g;
     bool wants(VertexId w, double length) const { return side.state_.improves(w, g + length) && !other.has_closed(w); }
+    double through() const { return g; }
+    std::span<const double> labels() const { return side.state_.labels(); }
     void operator()(VertexId w, double length) const {
       if (!wants(w, length)) return;
       side.state_.reach(w, g + length, from);

@@ -4,7 +4,7 @@
 //
 // A graph is any callable neighbours(v, visit) that calls visit(w, length) for each neighbour in ascending order; a
 // lazily checked roadmap tests an edge there, and asks visit.wants(w, length) first, whether an edge of at least this
-// length could help.
+// length could help: it never does unless visit.through() + length < visit.labels()[w].
 // Heuristics must be consistent and lengths non-negative, so that each vertex is settled once. Ties break by vertex
 // number, therefore the path and the counts don't depend on the queue. Time O((V + E) log V); memory 12 bytes a vertex
 // and the queue.
@@ -55,6 +55,9 @@ class SearchState {
   bool closed(VertexId v) const { return std::signbit(g_[v]); }
   /// Is v open or unreached, and would a path of this length (>= 0) be shorter than the one it has?
   bool improves(VertexId v, double through) const { return through < g_[v]; }
+  /// What improves() compares with, of all vertices at once: infinity, the way's length, or minus that where it is
+  /// settled.
+  std::span<const double> labels() const { return g_; }
   VertexId parent(VertexId v) const { return parent_[v]; }
   std::size_t vertex_count() const { return vertex_count_; }
 
@@ -107,6 +110,8 @@ struct BestFirstVisit {
   VertexId from;
   double g;
   bool wants(VertexId w, double length) const { return state.improves(w, g + length); }
+  double through() const { return g; }
+  std::span<const double> labels() const { return state.labels(); }
   void operator()(VertexId w, double length) const {
     if (!wants(w, length)) return;
     state.reach(w, g + length, from);

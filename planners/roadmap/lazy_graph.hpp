@@ -49,7 +49,7 @@ class LazyGraph {
     return all;
   }
 
-  /// The free edges of v of which visit.wants(w, length) says that they help.
+  /// The free edges of v of which visit.wants(w, length) says that they help. visit.labels(): of all vertices.
   template <class Visit>
   void operator()(VertexId v, const Visit& visit) {
     if (v < index_.size()) visit_milestones(v, visit);
@@ -76,7 +76,7 @@ class LazyGraph {
       if (wanted_.full()) visit_free(visit);
     };
     if (rule_.neighbours == 0) {
-      index_.for_each_within(index_.point(v), radius_, try_edge);
+      index_.for_each_relaxable(index_.point(v), radius_, visit.through(), visit.labels(), try_edge);
     } else {
       for (const VertexId w : candidates_.neighbours(v)) try_edge(w, 0.0);
     }

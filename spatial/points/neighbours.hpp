@@ -4,6 +4,8 @@
 // trees. The answers are the same bits either way. bench/neighbours_bench.cpp has the crossing point of the two.
 #pragma once
 
+#include <span>
+#include <type_traits>
 #include <vector>
 
 #include "parallel/chunks.hpp"
@@ -59,6 +61,21 @@ class Neighbours {
   template <class Visit>
   void for_each_within(const Point& p, const SearchRadius& radius, const Visit& visit) const {
     with([&](const auto& index) { index.for_each_within(p, radius, visit); });
+  }
+  /// Those of them with through + distance < labels[id], the labels of a search: visit may lower only those of ids that
+  /// it has been called with.
+  template <class Visit>
+  void for_each_relaxable(const Point& p, const SearchRadius& radius, double through, std::span<const double> labels,
+                          const Visit& visit) const {
+    with([&](const auto& index) {
+      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(index)>, PointGrid>) {
+        index.for_each_relaxable(p, radius, through, labels, visit);
+      } else {
+        index.for_each_within(p, radius, [&](VertexId id, double distance) {
+          if (through + distance < labels[id]) visit(id, distance);
+        });
+      }
+    });
   }
   /// Calls visit(i, j) for each point i of the range, ascending, and all points j > i at a distance <= radius from it:
   /// over all points, each pair once.
