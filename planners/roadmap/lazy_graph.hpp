@@ -10,6 +10,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "core/base/world.hpp"
 #include "core/search/graph.hpp"
 #include "planners/roadmap/connection.hpp"
+#include "planners/roadmap/dead_ends.hpp"
 #include "planners/roadmap/roadmap_growth.hpp"
 
 namespace warren {
@@ -39,6 +41,10 @@ class LazyGraph {
         execution_(&execution),
         query_(world.make_query()) {}
 
+  /// Leaves milestones of dead ends unexpanded where nothing depends on them. Radius rule, in the plane.
+  void leave_out(const DeadEnds& dead_ends) {
+    if constexpr (CellSideWorld<W>) seals_.emplace(dead_ends, index_, rule_.radius);
+  }
   /// Keeps the free edges that were used, for pictures.
   void record(std::vector<Edge>* edges) { recorded_ = edges; }
   std::uint64_t free_edges() const { return free_edges_; }
@@ -52,7 +58,10 @@ class LazyGraph {
   /// The free edges of v of which visit.wants(w, length) says that they help. visit.labels(): of all vertices.
   template <class Visit>
   void operator()(VertexId v, const Visit& visit) {
-    if (v < index_.size()) visit_milestones(v, visit);
+    if (v < index_.size()) {
+      if (seals_ && seals_->holds(v, visit.labels())) return;
+      visit_milestones(v, visit);
+    }
     for (const Edge& e : end_edges_) {
       if (e.from == v) visit(e.to, world_.distance(states_[v], states_[e.to]));
       if (e.to == v) visit(e.from, world_.distance(states_[v], states_[e.from]));
@@ -117,6 +126,7 @@ class LazyGraph {
   typename W::Query query_;
   detail::Bunch<State> wanted_;
   std::array<double, bunch_size> lengths_;  ///< of what is wanted
+  std::optional<DeadEndSeals> seals_;
   std::size_t unpolled_ = 0;
   std::vector<Edge>* recorded_ = nullptr;
   std::uint64_t free_edges_ = 0;

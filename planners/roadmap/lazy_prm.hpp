@@ -6,7 +6,8 @@
 // the best path so far (lazy_path_search.hpp). Both find the shortest path of the same roadmap as prm. In mazes the
 // first wins: most candidate edges lead through walls, and each of them costs the second one a repair.
 // From 50,000 milestones on the first one searches from both ends (NBA*), each end with a graph and a thread of its
-// own; below that, two threads do not repay their start. The number of threads changes neither path nor counters.
+// own; below that, two threads do not repay their start. The number of threads changes neither path nor counters. There
+// it also leaves out the dead ends of a maze (dead_ends.hpp).
 #pragma once
 
 #include <array>
@@ -63,6 +64,7 @@ class LazyPlan : public Rounds<W> {
   void attach_ends();
   RawVector<VertexId> search_expanding();
   RawVector<VertexId> search_from_both_ends();
+  DeadEnds find_dead_ends() const;
   RawVector<VertexId> search_paths();
   SearchResult expand_from(VertexId from, VertexId to, SearchState& state, std::vector<Edge>* record);
   LazyGraph<W> lazy_graph() const { return {world_, states_, index_, rule_, candidates_, end_edges_, execution_}; }
@@ -135,7 +137,11 @@ RawVector<VertexId> LazyPlan<W>::search_expanding() {
 template <World W>
 RawVector<VertexId> LazyPlan<W>::search_from_both_ends() {
   execution_.reserve(states_.size() * 36);
+  const DeadEnds dead_ends = find_dead_ends();
   std::array<LazyEnd<W>, 2> ends{LazyEnd<W>{lazy_graph(), {}, {}}, LazyEnd<W>{lazy_graph(), {}, {}}};
+  for (LazyEnd<W>& end : ends) {
+    if (!dead_ends.empty()) end.graph.leave_out(dead_ends);
+  }
   if (keep_) {
     for (LazyEnd<W>& end : ends) end.graph.record(&end.edges);
   }
@@ -153,6 +159,25 @@ RawVector<VertexId> LazyPlan<W>::search_from_both_ends() {
   }
   if (keep_) tree_ = search_trees(ends[0].state, ends[1].state);
   return found.path;
+}
+
+/// None where the cells are as many as half of the milestones, or where motions are longer than two cells. What start
+/// and goal are joined to may lie farther than the radius, so its cells are kept, too.
+template <World W>
+DeadEnds LazyPlan<W>::find_dead_ends() const {
+  constexpr double longest_motion = 2.0;
+  if constexpr (CellSideWorld<W>) {
+    if (rule_.neighbours != 0 || !(rule_.radius <= longest_motion)) return {};
+    CellSides cells = world_.cell_sides(states_.size() / 2, execution_);
+    if (cells.open.empty()) return {};
+    std::vector<std::size_t> kept{cells.cell_of(this->start_), cells.cell_of(this->goal_)};
+    for (const Edge& e : end_edges_) {
+      kept.push_back(cells.cell_of(states_[e.from]));
+      kept.push_back(cells.cell_of(states_[e.to]));
+    }
+    return DeadEnds(std::move(cells), kept, execution_);
+  }
+  return {};
 }
 
 template <World W>

@@ -75,7 +75,7 @@ std::uint64_t relaxable_baseline(const Vec2* points, const double* labels, std::
     __mmask8 found = _mm512_mask_cmp_pd_mask(lanes, sum, _mm512_set1_pd(by.square), _CMP_LE_OQ);
     found = _mm512_mask_cmp_pd_mask(found, through, label, _CMP_LT_OQ);
     if (found == 0) continue;
-    found = _mm512_mask_cmp_pd_mask(found, _mm512_add_pd(through, _mm512_sqrt_pd(sum)), label, _CMP_LT_OQ);
+    found = _mm512_mask_cmp_pd_mask(found, _mm512_add_pd(through, _mm512_maskz_sqrt_pd(found, sum)), label, _CMP_LT_OQ);
     bits |= std::uint64_t{found} << i;
   }
   return bits;

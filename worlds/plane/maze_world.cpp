@@ -11,6 +11,7 @@
 #include "core/plane/geometry.hpp"
 #include "worlds/plane/corridor_width.hpp"
 #include "worlds/plane/lattice_rows.hpp"
+#include "worlds/plane/open_sides.hpp"
 
 namespace warren {
 namespace {
@@ -51,6 +52,10 @@ void MazeWorld::keep_free(const LatticeRows& rows, std::span<std::uint64_t> poin
                           std::span<std::uint64_t> up) const noexcept {
   keep_points_in_box(box_, rows, points);
   keep_off_walls(index_, planning_clearance_, rows, points, right, up);
+}
+
+CellSides MazeWorld::cell_sides(std::size_t most_cells, const Execution& execution) const {
+  return open_sides(index_, box_, clearance_, most_cells, execution);
 }
 
 double MazeWorld::suggested_samples(const Execution& execution) const {

@@ -10,6 +10,7 @@
 
 #include "core/base/types.hpp"
 #include "core/base/world.hpp"
+#include "core/plane/cell_sides.hpp"
 #include "parallel/execution.hpp"
 #include "scenes/scene/scene.hpp"
 #include "spatial/obstacles/wall_index.hpp"
@@ -42,6 +43,8 @@ class MazeWorld {
   /// As RowWorld says. Asked wall by wall: O(walls near the rows), whatever they have points.
   void keep_free(const LatticeRows& rows, std::span<std::uint64_t> points, std::span<std::uint64_t> right,
                  std::span<std::uint64_t> up) const noexcept;
+  /// See open_sides().
+  CellSides cell_sides(std::size_t most_cells, const Execution& execution) const;
   static double distance(const State& a, const State& b) { return warren::distance(a, b); }
   State interpolate(const State& a, const State& b, double t) const {
     return t <= 0.0 ? a : t >= 1.0 ? b : a + t * (b - a);

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "worlds/plane/open_sides.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/plane/geometry.hpp"
+#include "parallel/chunks.hpp"
+
+namespace warren {
+namespace {
+
+constexpr double least_clearance = 1e-3;
+constexpr double largest_place = 1e9;
+constexpr double surely_near = 1.0 - 1e-6;  // of the clearance: so near, all tests say so
+
+/// What a wall closes in some rows of cells. Axis 0: sides that stand, between columns; 1: sides that lie, between
+/// rows.
+class ClosedBy {
+ public:
+  ClosedBy(CellSides& cells, Range rows, double r) : cells_(cells), rows_(rows), r_(r * surely_near) {}
+
+  void close(const Segment& wall) const {
+    if (std::abs(wall.a.x - wall.b.x) < 2.0 * r_) close_along(wall, wall.a.x, wall.b.x, wall.a.y, wall.b.y, 0);
+    if (std::abs(wall.a.y - wall.b.y) < 2.0 * r_) close_along(wall, wall.a.y, wall.b.y, wall.a.x, wall.b.x, 1);
+  }
+
+ private:
+  /// across: coordinates of the ends on the axis on which the sides lie apart; along: on the other one.
+  void close_along(const Segment& wall, double across_a, double across_b, double along_a, double along_b,
+                   int axis) const {
+    const double origin = axis == 0 ? cells_.corner.x : cells_.corner.y;
+    const double start = axis == 0 ? cells_.corner.y : cells_.corner.x;
+    const double line = std::round(0.5 * (across_a + across_b) - origin);
+    const double lines = axis == 0 ? cells_.cols : cells_.rows;
+    if (line < 1.0 || line > lines - 1.0) return;
+    const auto first_row = static_cast<double>(rows_.first);
+    const auto last_row = static_cast<double>(rows_.last);
+    const double from = std::max(std::min(along_a, along_b) - r_ - start, axis == 0 ? first_row : 0.0);
+    const double to = std::min(std::max(along_a, along_b) + r_ - start, axis == 0 ? last_row : cells_.cols);
+    bool was_near = false;
+    for (double place = std::ceil(from); place <= to; place += 1.0) {
+      const Vec2 end = axis == 0 ? cells_.corner + Vec2{line, place} : cells_.corner + Vec2{place, line};
+      const bool is_near = distance_sq(end, wall) < r_ * r_;
+      if (is_near && was_near) close_side(axis, static_cast<std::size_t>(line), static_cast<std::size_t>(place) - 1);
+      was_near = is_near;
+    }
+  }
+  /// The side on line `line`, >= 1, at place `place` of it.
+  void close_side(int axis, std::size_t line, std::size_t place) const {
+    const std::size_t col = axis == 0 ? line : place;
+    const std::size_t row = axis == 0 ? place : line;
+    const std::size_t cell = row * cells_.cols + col;
+    if (axis == 0) {
+      clear(cell, CellSides::left);
+      clear(cell - 1, CellSides::right);
+      return;
+    }
+    if (row >= rows_.first && row < rows_.last) clear(cell, CellSides::down);
+    if (row - 1 >= rows_.first && row - 1 < rows_.last) clear(cell - cells_.cols, CellSides::up);
+  }
+  void clear(std::size_t cell, std::uint8_t side) const {
+    cells_.open[cell] &= static_cast<std::uint8_t>(CellSides::all - side);
+  }
+
+  CellSides& cells_;
+  Range rows_;
+  double r_;
+};
+
+/// All sides but those of the rim.
+void open_all(CellSides& cells, Range rows) {
+  for (std::size_t row = rows.first; row < rows.last; ++row) {
+    std::uint8_t sides = CellSides::all;
+    if (row == 0) sides &= CellSides::all - CellSides::down;
+    if (row + 1 == cells.rows) sides &= CellSides::all - CellSides::up;
+    std::uint8_t* const its = cells.open.data() + row * cells.cols;
+    std::fill_n(its, cells.cols, sides);
+    its[0] &= CellSides::all - CellSides::left;
+    its[cells.cols - 1] &= CellSides::all - CellSides::right;
+  }
+}
+
+}  // namespace
+
+CellSides open_sides(const WallIndex& walls, const Box& box, double clearance, std::size_t most_cells,
+                     const Execution& execution) {
+  const double largest = std::max(std::max(-box.min.x, -box.min.y), std::max(box.max.x, box.max.y));
+  if (box.empty() || !(clearance >= least_clearance) || !(largest <= largest_place)) return {};
+  const Vec2 first{std::floor(box.min.x + 0.5), std::floor(box.min.y + 0.5)};
+  const double cols = std::max(std::ceil(box.max.x - 0.5) - first.x, 0.0) + 1.0;
+  const double rows = std::max(std::ceil(box.max.y - 0.5) - first.y, 0.0) + 1.0;
+  if (cols * rows > static_cast<double>(most_cells)) return {};
+  CellSides cells{first - Vec2{0.5, 0.5}, static_cast<std::uint32_t>(cols), static_cast<std::uint32_t>(rows), {}};
+  execution.reserve(std::size_t{cells.cols} * cells.rows);
+  cells.open.resize(std::size_t{cells.cols} * cells.rows);
+  const std::size_t grain = (std::size_t{1} << 16) / cells.cols + 16;
+  for_chunks(cells.rows, grain, execution, [&](Range range) {
+    open_all(cells, range);
+    const ClosedBy closed(cells, range, clearance);
+    const auto height = static_cast<double>(range.last - range.first);
+    const Vec2 low = cells.corner + Vec2{0.0, static_cast<double>(range.first)};
+    walls.for_each_near(Box{low, low + Vec2{cols, height}}.grown(clearance), [&](const Segment& wall) {
+      closed.close(wall);
+      return true;
+    });
+  });
+  return cells;
+}
+
+}  // namespace warren
