@@ -161,8 +161,9 @@ RawVector<VertexId> LazyPlan<W>::search_from_both_ends() {
   return found.path;
 }
 
-/// None where the cells are as many as half of the milestones, or where motions are longer than two cells. What start
-/// and goal are joined to may lie farther than the radius, so its cells are kept, too.
+/// None where the cells are more than half of the milestones, or where motions are longer than two cells. What start
+/// and goal are joined to has its cells kept, too: it may lie farther than the radius, and the ends themselves are no
+/// milestones, so that before a dead end nobody would wait for them.
 template <World W>
 DeadEnds LazyPlan<W>::find_dead_ends() const {
   constexpr double longest_motion = 2.0;

@@ -12,7 +12,9 @@ namespace {
 
 constexpr double least_clearance = 1e-3;
 constexpr double largest_place = 1e9;
-constexpr double surely_near = 1.0 - 1e-6;  // of the clearance: so near, all tests say so
+// Of the clearance: so near, all tests say so, and a free point beside a closed side is a millionth of a cell away from
+// it at least, which is more than cell_of() may round at the largest place.
+constexpr double surely_near = 0.999;
 
 /// What a wall closes in some rows of cells. Axis 0: sides that stand, between columns; 1: sides that lie, between
 /// rows.

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -36,19 +38,24 @@ CellSides random_cells(std::uint32_t cols, std::uint32_t rows, double share, std
   return cells;
 }
 
-/// Is a kept cell to be had from the cell without that side of it?
-bool reaches_kept(const CellSides& cells, std::size_t from, std::uint8_t without,
-                  const std::vector<std::size_t>& kept) {
+/// What can be had from the cell without that side of it.
+std::vector<std::size_t> cells_without(const CellSides& cells, std::size_t from, std::uint8_t without) {
   std::vector<std::size_t> found{from};
   for (std::size_t i = 0; i < found.size(); ++i) {
-    if (std::find(kept.begin(), kept.end(), found[i]) != kept.end()) return true;
     for (const std::uint8_t side : sides) {
       if ((cells.open[found[i]] & side) == 0 || (found[i] == from && side == without)) continue;
       const std::size_t next = cells.beyond(found[i], side);
       if (std::find(found.begin(), found.end(), next) == found.end()) found.push_back(next);
     }
   }
-  return false;
+  return found;
+}
+
+bool reaches_kept(const CellSides& cells, std::size_t from, std::uint8_t without,
+                  const std::vector<std::size_t>& kept) {
+  const std::vector<std::size_t> found = cells_without(cells, from, without);
+  return std::any_of(found.begin(), found.end(),
+                     [&](std::size_t cell) { return std::find(kept.begin(), kept.end(), cell) != kept.end(); });
 }
 
 /// Which cells are left when cells with one open side are closed until there is none: one pass after the other.
@@ -92,6 +99,96 @@ TEST(DeadEnds, AreLeftOverTheirWayOutAlone) {
     }
   }
   EXPECT_GT(some, 500U);
+}
+
+/// Free motions from what lies behind a cell's way out to what lies beyond.
+struct Leaving {
+  std::size_t cell;
+  VertexId from, to;
+};
+
+std::vector<Leaving> all_that_leave(const MazeWorld& world, const DeadEnds& dead_ends, const std::vector<Vec2>& points,
+                                    double radius) {
+  const CellSides& cells = dead_ends.cells();
+  std::vector<Edge> motions;
+  MazeWorld::Query query = world.make_query();
+  for (VertexId v = 0; v < points.size(); ++v) {
+    for (VertexId w = 0; w < points.size(); ++w) {
+      if (distance(points[v], points[w]) <= radius && world.is_free_motion(points[v], points[w], query))
+        motions.push_back({v, w});
+    }
+  }
+  std::vector<Leaving> leaving;
+  for (std::size_t cell = 0; cell < cells.open.size(); ++cell) {
+    const std::uint8_t out = dead_ends.way_out(cell);
+    if (out == 0) continue;
+    const auto is_behind = [&, found = cells_without(cells, cell, out)](VertexId v) {
+      return std::find(found.begin(), found.end(), cells.cell_of(points[v])) != found.end();
+    };
+    for (const Edge& e : motions) {
+      if (is_behind(e.from) && !is_behind(e.to)) leaving.push_back({cell, e.from, e.to});
+    }
+  }
+  return leaving;
+}
+
+/// From behind which ways out does a motion come to a milestone that is not settled?
+std::vector<bool> left_for_unsettled(std::size_t cells, const std::vector<Leaving>& leaving,
+                                     const std::vector<double>& labels) {
+  std::vector<bool> is_left(cells, false);
+  for (const Leaving& motion : leaving) {
+    if (!std::signbit(labels[motion.to])) is_left[motion.cell] = true;
+  }
+  return is_left;
+}
+
+std::vector<Vec2> free_points(const MazeWorld& world, std::size_t count, std::uint64_t seed) {
+  std::vector<Vec2> points;
+  MazeWorld::Query query = world.make_query();
+  for (std::uint64_t i = 0; points.size() < count; ++i) {
+    const Vec2 p = world.at_unit({uniform(seed, i, 0), uniform(seed, i, 1)});
+    if (world.is_free(p, query)) points.push_back(p);
+  }
+  return points;
+}
+
+/// Brute force over all motions: a milestone left unexpanded lies behind a way out, its cell's or a later one, over
+/// which all motions come to settled milestones.
+TEST(DeadEnds, AreSealedWhereAllThatMotionsOutOfThemComeToIsSettled) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  std::size_t held = 0;
+  std::size_t open = 0;
+  for (const double radius : {0.3, 0.8, 1.4, 2.0}) {
+    const Scene scene = maze_scene({9, 9, 5, MazeAlgorithm::kruskal, 0.05}, false, {});
+    const MazeWorld world(scene, 0.02, {});
+    const std::vector<std::size_t> kept{0, 80};
+    const DeadEnds dead_ends(world.cell_sides(81, {}), kept, {});
+    const std::vector<Vec2> points = free_points(world, 600, 7);
+    const Neighbours<2> index(points, {});
+    const std::vector<Leaving> leaving = all_that_leave(world, dead_ends, points, radius);
+    for (std::uint64_t trial = 0; trial < 300; ++trial) {
+      std::vector<double> labels(points.size(), -1.0);
+      for (std::uint64_t i = 0; i <= trial % 3; ++i)
+        labels[random_bits(trial, i, 0) % points.size()] = i % 2 == 0 ? infinite : 1.0;
+      DeadEndSeals seals(dead_ends, index, radius);
+      std::vector<bool> is_held(dead_ends.cells().open.size(), false);
+      for (VertexId v = 0; v < points.size(); ++v) {
+        const bool holds = seals.holds(v, labels);
+        if (holds) is_held[dead_ends.cells().cell_of(points[v])] = true;
+        ++(holds ? held : open);
+      }
+      const std::vector<bool> is_left = left_for_unsettled(dead_ends.cells().open.size(), leaving, labels);
+      for (std::size_t cell = 0; cell < is_held.size(); ++cell) {
+        if (!is_held[cell]) continue;
+        std::size_t at = cell;
+        while (is_left[at] && dead_ends.way_out(at) != 0) at = dead_ends.cells().beyond(at, dead_ends.way_out(at));
+        ASSERT_FALSE(is_left[at] || dead_ends.way_out(at) == 0)
+            << "radius " << radius << ", trial " << trial << ": cell " << cell;
+      }
+    }
+  }
+  EXPECT_GT(held, 100'000U);
+  EXPECT_GT(open, 10'000U);
 }
 
 void add_walls(Scene& scene, const std::vector<Segment>& more) {
@@ -151,6 +248,32 @@ TEST(DeadEnds, DoNotChangeThePathOfALazySearch) {
       }
     }
   }
+}
+
+/// Start and goal stand in two slits before a dead end, where no milestones are, and the way between them leads
+/// through it: nothing lies before its way out that could be settled.
+TEST(DeadEnds, AreNotWhereMilestonesOfAnEndAre) {
+  std::vector<Segment> walls{
+      {{0.5, 0.5}, {30.5, 0.5}}, {{0.5, 30.5}, {30.5, 30.5}}, {{0.5, 0.5}, {0.5, 30.5}}, {{30.5, 0.5}, {30.5, 30.5}}};
+  for (const double side : {-1.0, 1.0}) {
+    walls.push_back({{9.5, 10.0 + 0.5 * side}, {11.5, 10.0 + 0.5 * side}});
+    walls.push_back({{9.5, 10.0 + 0.451 * side}, {10.5, 10.0 + 0.451 * side}});
+    walls.push_back({{9.5, 10.0 + 0.25 * side}, {10.5, 10.0 + 0.25 * side}});
+  }
+  walls.push_back({{11.5, 9.5}, {11.5, 10.5}});
+  for (const double x : {10.4, 10.5}) walls.push_back({{x, 9.75}, {x, 10.25}});
+  Scene scene;
+  scene.walls = WallSet::narrowest(walls);
+  const MazeWorld world(scene, 0.1, {});
+  RoadmapOptions options;
+  options.samples = 100'000;
+  options.radius = 0.15;
+  const auto eager = prm(world, Vec2{10.499, 9.6495}, Vec2{10.499, 10.3505}, options, {});
+  const auto lazy = lazy_prm(world, Vec2{10.499, 9.6495}, Vec2{10.499, 10.3505}, options, {});
+  ASSERT_EQ(eager.outcome, Outcome::solved);
+  ASSERT_GE(lazy.roadmap.milestones, fewest_for_both_ends);
+  EXPECT_GT(lazy.path.size(), 4U);
+  EXPECT_EQ(lazy.path, eager.path);
 }
 
 TEST(DeadEnds, AreLeftUnexpandedInAMaze) {

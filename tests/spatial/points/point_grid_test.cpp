@@ -101,7 +101,8 @@ TEST(PointGrid, RelaxableAreThoseWithinThatAWayReachesSooner) {
       SCOPED_TRACE(name + ", seed " + std::to_string(seed));
       const PointGrid grid(points, {});
       const Neighbours<2> index(points, {});
-      for (const auto& [p, except] : queries(points, seed)) {
+      for (const auto& [place, except] : queries(points, seed)) {
+        const Vec2 p = place;  // clang++ 14 has no bindings in lambdas
         const std::vector<Neighbour> all = all_by_distance<2>(points, p, no_vertex);
         const std::vector<double> labels = labels_around(all, points.size(), 1.5, seed);
         for (const double radius : {-1.0, 0.0, 0.1, 1.0, all.empty() ? 2.0 : all[all.size() / 2].distance, 1e300}) {

@@ -129,6 +129,7 @@ TEST(OpenSides, AreThoseOfAMazeThatHaveNoWall) {
 TEST(OpenSides, AreTheSameForAnyNumberOfThreads) {
   const Scene scene = maze_scene({400, 700, 2}, false, {});
   const CellSides one = MazeWorld(scene, 0.1, {}).cell_sides(any_number, Execution{1});
+  expect_sides_shared(one);  // between chunks of rows, too
   for (const unsigned threads : {2U, 3U, 8U}) {
     const CellSides more = MazeWorld(scene, 0.1, {}).cell_sides(any_number, Execution{threads});
     EXPECT_TRUE(std::equal(one.open.begin(), one.open.end(), more.open.begin(), more.open.end())) << threads;
