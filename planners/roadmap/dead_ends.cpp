@@ -28,7 +28,7 @@ void peel_from(std::size_t cell, CellSides& cells, RawVector<std::uint8_t>& left
 double distance_to_box(const Segment& s, const Box& box) {
   const double dx = std::max({box.min.x - std::max(s.a.x, s.b.x), std::min(s.a.x, s.b.x) - box.max.x, 0.0});
   const double dy = std::max({box.min.y - std::max(s.a.y, s.b.y), std::min(s.a.y, s.b.y) - box.max.y, 0.0});
-  return std::hypot(dx, dy);
+  return std::sqrt(dx * dx + dy * dy);
 }
 
 }  // namespace
