@@ -9,6 +9,7 @@
 #include "core/base/types.hpp"
 #include "serve/http/http_message.hpp"
 #include "serve/http/json_nesting.hpp"
+#include "scenes/text/human_units.hpp"
 
 namespace warren {
 
@@ -49,7 +50,7 @@ std::uint64_t whole_number(const OrderedJson& json, const std::string& where, st
 
 const OrderedJson& list_of(const OrderedJson& json, const std::string& where, std::size_t most) {
   if (!json.is_array()) refuse_json(where, "a list");
-  if (json.size() > most) refuse_json(where, fmt::format("a list of at most {}", most));
+  if (json.size() > most) refuse_json(where, fmt::format("a list of at most {}", grouped(most)));
   return json;
 }
 

@@ -87,7 +87,11 @@ function looked(reply, json) {
   else say("The service does not keep this path, so no more of it can be seen.");
 }
 
-const shown = number => Number(number.toPrecision(6));
+/// As the program writes numbers: six significant digits, and all before the point.
+const written = number => String(Math.abs(number) >= 1e6 && Math.abs(number) < 1e15 ? Math.round(number) : Number(number.toPrecision(6)));
+/// What is before the point in groups of three, as the program groups counts; no line ends between them.
+const grouped = text => String(text).replace(/^(-?)(\d+)/, (_, sign, whole) => sign + whole.replace(/\B(?=(\d{3})+$)/g, "\u00a0"));
+const shown = number => grouped(written(number));
 function inWords(json) {
   const unit = world.unit ? " " + world.unit : "";
   if (json.status === "solved") return "Solved: " + shown(json.length) + unit + (json.optimal ? ", the shortest there is" : "");

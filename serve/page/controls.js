@@ -16,15 +16,19 @@ function fillTable(id, rows) {
     return row;
   }));
 }
-const asTime = ms => ms < 1 ? (1000 * ms).toFixed(0) + " µs" : ms < 1000 ? ms.toPrecision(3) + " ms" : (ms / 1000).toPrecision(3) + " s";
+function asTime(ms) {
+  if (ms < 0.9995) return (1000 * ms).toFixed(0) + " µs";
+  const [time, unit] = ms < 999.5 ? [ms, " ms"] : [ms / 1000, " s"];
+  return (time < 99.95 ? time.toPrecision(3) : grouped(time.toFixed(0))) + unit;
+}
 
 function showAnswer(json, times) {
   showSearch();
   const rows = [];
   if (json) {
-    const add = (name, value) => { if (value !== null && value !== undefined) rows.push([name, String(value)]); };
+    const add = (name, value) => { if (value !== null && value !== undefined) rows.push([name, typeof value === "number" ? grouped(value) : value]); };
     add("length", json.verified ? shown(json.length) : null);
-    add("clearance", json.verified ? shown(json.min_clearance) : null);
+    add("clearance", json.verified && json.min_clearance !== null ? shown(json.min_clearance) : null);
     add("points", json.path_points || (json.path.length || null));
     add("verified", json.verified ? "yes" : null);
     add("planner", json.planner);
@@ -51,7 +55,7 @@ function showAnswer(json, times) {
 function fieldText(end) {
   const place = question[end], heading = question[end + "Heading"];
   if (!place) return "";
-  return place.x + ", " + place.y + (turns() && heading !== null ? ", " + shown(heading * 180 / Math.PI) : "");
+  return place.x + ", " + place.y + (turns() && heading !== null ? ", " + written(heading * 180 / Math.PI) : "");
 }
 function setEnd(end, place, keepsField) {
   question[end] = place && {x: rounded(place.x), y: rounded(place.y)};
@@ -234,7 +238,7 @@ async function begin() {
   const name = world.source.split("/").pop();
   document.title = name + " – warren";
   byId("title").textContent = name;
-  byId("about").textContent = world.description + ", " + world.robot + (world.clearance > 0 ? ", clearance " + world.clearance : "");
+  byId("about").textContent = world.description + ", " + world.robot + (world.clearance > 0 ? ", clearance " + shown(world.clearance) : "");
   for (const planner of world.planners) byId("planner").add(new Option(planner, planner));
   byId("planners").hidden = world.planners.length === 0;
   for (const end of ["start", "goal"]) byId(end).placeholder = turns() ? (end === "start" ? "x, y, degrees" : "x, y, degrees or none") : "x, y";

@@ -57,7 +57,7 @@ function showWorld(now) {
   renewLayers();
   graph.verdicts.clear();
   checkGraph();
-  byId("about").textContent = world.description + ", " + world.robot + (world.clearance > 0 ? ", clearance " + world.clearance : "");
+  byId("about").textContent = world.description + ", " + world.robot + (world.clearance > 0 ? ", clearance " + shown(world.clearance) : "");
   ask();
 }
 async function draw(change) {

@@ -26,7 +26,7 @@ function fillLegend(layer, entries) {
   if (text === layer.text) return;
   layer.text = text;
   layer.words.replaceChildren(...entries.map(({color, words}) => {
-    const line = elementOf("li", {}, words);
+    const line = elementOf("li", {}, words.replace(/(\d) (?=\d{3}(?!\d))/g, "$1\u00a0"));  // no line ends in a number
     if (color) line.prepend(elementOf("span", {className: "ink"}));
     if (color) line.firstChild.style.background = color;
     return line;

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "scenes/text/human_units.hpp"
 #include "solve/solve.hpp"
 #include "tests/serve/town.hpp"
 
@@ -137,7 +138,7 @@ TEST(WritableService, WhatCanNotBeDrawnIsRefusedAndChangesNothing) {
            Case{R"({"remove":{"walls":[[1,1,2,2]]}})", 400, "not in the world"},
            Case{R"({"wall":[]})", 400, "the keys add, remove, erase"},
            Case{"{\"add\":" + std::string(10'000, '[') + "}", 400, "nested"},
-           Case{many, 400, "a list of at most 10000"},
+           Case{many, 400, "a list of at most " + grouped(10'000)},
        }) {
     SCOPED_TRACE(c.said);
     const HttpResponse said = served.asked({.method = "POST", .path = "/api/update", .body = c.body});
