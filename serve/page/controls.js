@@ -163,28 +163,33 @@ function save(name, type, text) {
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
-/// The states of the path, those of a long one as points.
-async function wholePath() {
-  if (answer.json.path.length > 0) return answer.json.path;
-  const reply = await fetch("/api/path/" + answer.id);
-  const json = await reply.json();
-  if (json.error) throw new Error(json.error.message);
-  return json.chains.flat();
-}
+/// make(answer, path): the states of the path, those of a long one as points. Where the service has let the path go,
+/// the question is asked anew first.
 async function savePath(make) {
+  const of = answer.json, asked = answer.asked;
+  if (of.path.length > 0) return make(of, of.path);
+  let reply, json;
+    reply = await fetch("/api/path/" + answer.id);
   try {
-    make(await wholePath());
+    json = await reply.json();
   } catch (error) {
-    say(error.message);
+    return void say("The service does not answer any more.");
   }
+  if (reply.ok) return make(of, json.chains.flat());
+  if (reply.ok) looked(reply, of);
+  if (reply.status === 413) return void say("This path has more points than the page saves; the line of Copy as command writes it, with --path FILE.");
+  if (reply.status !== 404) return void say(json.error.message);
+  if (of !== answer.json && asked === answer.asked) return savePath(make);  // it was asked anew meanwhile
+  if (looked(reply, of)) lost.saving = {asked, make};
+  else if (of === answer.json) say("The service does not keep this path, so it can't be saved.");
 }
-function saveGeojson(path) {
+function saveGeojson(of, path) {
   const line = path.length === 1 ? [path[0], path[0]] : path;
-  const properties = {frame: "map", length: answer.json.length, planner: answer.json.planner};
+  const properties = {frame: "map", length: of.length, planner: of.planner};
   if (path[0].length === 3) properties.theta = line.map(p => p[2]);
   save("path.geojson", "application/geo+json", JSON.stringify({type: "Feature", geometry: {type: "LineString", coordinates: line.map(p => [p[0], p[1]])}, properties}) + "\n");
 }
-function saveCsv(path) {
+function saveCsv(of, path) {
   let along = 0;
   const rows = path.map((p, i) => {
     if (i > 0) along += Math.hypot(p[0] - path[i - 1][0], p[1] - path[i - 1][1]);
