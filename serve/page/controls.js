@@ -115,7 +115,8 @@ function readLink() {
   takeLayers(words.get("layers"));
   hideParts(words.get("hide"));
   const at = numbers("at");
-  if (at.length === 3 && at.every(Number.isFinite)) map.setView([at[1], at[0]], at[2], {animate: false});
+  const isNear = at.length === 3 && at.every(Number.isFinite) && map.whole.pad(2).contains([at[1], at[0]]);  // else nothing would be seen
+  if (isNear) map.setView([at[1], at[0]], at[2], {animate: false});
   else map.fitBounds(map.whole, {animate: false});
 }
 /// The world's own ends, where it has some.
@@ -169,14 +170,14 @@ async function savePath(make) {
   const of = answer.json, asked = answer.asked;
   if (of.path.length > 0) return make(of, of.path);
   let reply, json;
-    reply = await fetch("/api/path/" + answer.id);
   try {
+    reply = await fetch("/api/path/" + answer.id);
     json = await reply.json();
   } catch (error) {
     return void say("The service does not answer any more.");
   }
-  if (reply.ok) return make(of, json.chains.flat());
   if (reply.ok) looked(reply, of);
+  if (reply.ok) return make(of, json.chains.flat());
   if (reply.status === 413) return void say("This path has more points than the page saves; the line of Copy as command writes it, with --path FILE.");
   if (reply.status !== 404) return void say(json.error.message);
   if (of !== answer.json && asked === answer.asked) return savePath(make);  // it was asked anew meanwhile

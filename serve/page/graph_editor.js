@@ -30,7 +30,7 @@ function wordsOfChosen() {
   const {name, id} = graph.selected, unit = world.unit ? " " + world.unit : "";
   if (name === "nodes") {
     const node = graph.nodes.get(id), blocked = edgesAt(id).filter(e => (verdictOf(e) || {free: true}).free === false);
-    return "Node " + id + " at " + node.at.map(shown).join(", ") + ", " + edgesAt(id).length + " edges" + (blocked.length ? "; not free: " + verdictOf(blocked[0]).why : "");
+    return "Node " + id + " at " + node.at.map(written).join(", ") + ", " + edgesAt(id).length + " edges" + (blocked.length ? "; not free: " + verdictOf(blocked[0]).why : "");
   }
   const edge = graph.edges.get(id), verdict = verdictOf(edge);
   const state = !verdict ? "" : verdict.free ? ", free" + (verdict.clearance === null ? "" : ", clearance " + shown(verdict.clearance) + unit) : "; not free: " + verdict.why;
@@ -151,9 +151,11 @@ function takesKey(event) {
 }
 
 async function buildGraph() {
-  const body = {kind: byId("graph-kind").value}, samples = Number(byId("graph-samples").value);
-  if (body.kind === "roadmap" && samples > 0) body.samples = samples;
-  if (body.kind === "roadmap" && samples > 0) body.neighbours = 4;
+  const body = {kind: byId("graph-kind").value}, samples = byId("graph-samples").value.trim();
+  if (body.kind === "roadmap" && samples !== "") {
+    if (!/^[1-9]\d{0,8}$/.test(samples)) return void say("Samples are a whole number, or nothing for as many as it takes.");
+    Object.assign(body, {samples: Number(samples), neighbours: 4});
+  }
   say("Building.");
   const json = await posted("/api/graph", JSON.stringify(body));
   if (json) openGraph(json, "Built: ");
