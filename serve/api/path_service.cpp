@@ -40,7 +40,11 @@ void PathService::keep(const std::string& name, Answer answer, const Execution& 
 
 HttpResponse PathService::answer(const Route& route, const HttpRequest& request, const Execution& execution) {
   const auto kept = paths_.find(route.name);
-  if (!kept) throw HttpError(404, "not_found", "path", "this path is not kept any more; ask again");
+  if (!kept) {
+    throw HttpError(404, "not_found", "path",
+                    "no path of this name is kept, or none any more; POST its question to /api/query again, and the "
+                    "field Warren-Path of the answer names it");
+  }
   if (route.place == Place::clearance) return clearance(*kept, request, execution);
   if (route.place == Place::sweep) return sweep(*kept, request, execution);
   return told(*kept, request, execution);

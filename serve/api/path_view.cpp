@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "serve/api/path_view.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +10,7 @@
 #include <utility>
 
 #include "parallel/chunks.hpp"
+#include "scenes/text/human_units.hpp"
 #include "serve/http/http_message.hpp"
 #include "solve/paths/path_legs.hpp"
 
@@ -65,7 +68,8 @@ class JoinedChains {
       }
     }
     if (points_ > most_points_) {
-      throw HttpError(413, "path_too_long", "query", "more than 500,000 points; ask for a part of them by bbox and z");
+      throw HttpError(413, "path_too_long", "query",
+                      fmt::format("more than {} points; ask for a part of them by bbox and z", grouped(most_points_)));
     }
     ends_seen_ = part.ends_seen;
   }

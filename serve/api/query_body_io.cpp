@@ -3,43 +3,41 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
 #include <string>
 
+#include "serve/graphs/json_body_io.hpp"
 #include "serve/http/http_message.hpp"
 
 namespace warren {
 namespace {
 
-using Json = nlohmann::json;
-
 [[noreturn]] void refuse(std::string_view where, std::string_view expected) {
   throw HttpError(400, "bad_request", where, fmt::format("{}: expected {}", where, expected));
 }
 
-std::vector<double> state_of(const Json& json, std::string_view key) {
+std::vector<double> state_of(const OrderedJson& json, std::string_view key) {
   constexpr std::size_t most = 6;
   std::vector<double> state;
-  if (!json.is_array() || json.size() > most) refuse(key, "a list of numbers");
-  for (const Json& number : json) {
+  if (!json.is_array() || json.size() > most) refuse(key, "a list of at most 6 numbers");
+  for (const OrderedJson& number : json) {
     if (!number.is_number()) refuse(key, "a list of numbers");
     state.push_back(number.get<double>());
   }
   return state;
 }
 
-bool flag_of(const Json& json, std::string_view key) {
+bool flag_of(const OrderedJson& json, std::string_view key) {
   if (!json.is_boolean()) refuse(key, "true or false");
   return json.get<bool>();
 }
 
-double budget_of(const Json& json) {
+double budget_of(const OrderedJson& json) {
   constexpr double a_ms = 1e-3;
   if (!json.is_number() || !(json.get<double>() > 0.0)) refuse("budget_ms", "a number above 0");
   return a_ms * json.get<double>();
 }
 
-PlannerKind planner_of(const Json& json) {
+PlannerKind planner_of(const OrderedJson& json) {
   if (json.is_string()) {
     for (const PlannerKind planner : all_planners) {
       if (name_of(planner) == json.get<std::string>()) return planner;
@@ -48,7 +46,7 @@ PlannerKind planner_of(const Json& json) {
   refuse("planner", "the name of a planner");
 }
 
-void take(const std::string& key, const Json& value, QueryBody& body) {
+void take(const std::string& key, const OrderedJson& value, QueryBody& body) {
   if (key == "start") {
     body.question.start = state_of(value, "start");
   } else if (key == "goal") {
@@ -69,15 +67,9 @@ void take(const std::string& key, const Json& value, QueryBody& body) {
 }  // namespace
 
 QueryBody read_query_body(std::string_view text) {
-  if (nesting_of(text, NestedIn::whole) > deepest_json) refuse("body", "JSON that is nested at most 8 deep");
   QueryBody body;
-  try {
-    const Json json = Json::parse(text);
-    if (!json.is_object()) refuse("body", "one JSON object");
-    for (const auto& [key, value] : json.items()) take(key, value, body);
-  } catch (const Json::exception&) {
-    refuse("body", "one JSON object");
-  }
+  const OrderedJson json = json_object_of(text, deepest_json, {});
+  for (const auto& [key, value] : json.items()) take(key, value, body);
   return body;
 }
 

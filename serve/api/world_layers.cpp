@@ -5,13 +5,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <memory>
 
 #include "core/base/error.hpp"
-#include "scenes/scene/unit_of.hpp"
 #include "scenes/text/human_units.hpp"
 #include "scenes/text/json_text.hpp"
+#include "serve/api/layer_legends.hpp"
 #include "serve/api/swept_bodies.hpp"
 #include "serve/graphs/built_graph.hpp"
 #include "solve/question/question.hpp"
@@ -131,124 +130,9 @@ std::string json_of_account(const LayerAccount& account, const std::string& hash
   return json.closed();
 }
 
-class Legend {
- public:
-  /// opacity: as two hexadecimal digits; empty: opaque.
-  void add(Rgb color, std::string_view words, std::string_view opacity = {}) {
-    JsonObject entry;
-    entry.add("color", fmt::format("#{:02x}{:02x}{:02x}{}", color.red, color.green, color.blue, opacity));
-    entry.add("words", words);
-    text_ += (text_.size() > 1 ? "," : "") + entry.closed();
-  }
-  std::string closed() const { return text_ + "]"; }
-
- private:
-  std::string text_ = "[";
-};
-
-std::string passages_legend(std::uint64_t passages, std::uint64_t cells) {
-  Legend legend;
-  legend.add(component_inks[0], fmt::format("{} between {}, drawn where a cell has 8 pixels or more",
-                                            counted(passages, "passage", "passages"), counted(cells, "cell", "cells")));
-  return legend.closed();
-}
-
-std::string axis_legend(const RoadmapLayer& layer, bool turns) {
-  Legend legend;
-  legend.add(component_inks[0], fmt::format("{} and {}, as far from all obstacles as can be{}",
-                                            counted(layer.milestones(), "place", "places"),
-                                            counted(layer.free_edges(), "free edge", "free edges"),
-                                            turns ? ", of the disc around the body" : ""));
-  return legend.closed();
-}
-
-std::string edges_legend(const RoadmapLayer& layer, bool has_curves) {
-  Legend legend;
-  legend.add(component_inks[0],
-             fmt::format("{} and {}{}; where a tile has more than {} edges, milestones alone",
-                         counted(layer.milestones(), "milestone", "milestones"),
-                         counted(layer.free_edges(), "free edge", "free edges"),
-                         has_curves ? ", which cars drive as curves" : "", grouped(most_drawn_edges)));
-  return legend.closed();
-}
-
-std::string components_legend(const RoadmapLayer& layer) {
-  Legend legend;
-  const auto& milestones = layer.milestones_of_ink();
-  for (std::size_t rank = 0; rank + 1 < component_inks.size(); ++rank) {
-    if (milestones[rank] == 0) break;
-    legend.add(component_inks[rank], fmt::format("{}: {}", rank == 0 ? "largest" : fmt::format("number {}", rank + 1),
-                                                 counted(milestones[rank], "milestone", "milestones")));
-  }
-  if (layer.small_components() > 0) {
-    legend.add(component_inks.back(), fmt::format("{}: {}", counted(layer.small_components(), "other", "others"),
-                                                  counted(milestones.back(), "milestone", "milestones")));
-  }
-  return legend.closed();
-}
-
-/// Of lines on the page's white: the darker part of the scale of steps alone. The page turns them over where it is
-/// dark.
-constexpr std::array<Rgb, unreached_ink + 1> search_inks{{{68, 1, 84},
-                                                          {72, 30, 111},
-                                                          {69, 56, 130},
-                                                          {60, 80, 139},
-                                                          {50, 102, 142},
-                                                          {41, 122, 142},
-                                                          {34, 142, 140},
-                                                          {31, 161, 135},
-                                                          component_inks.back()}};
-
-std::string search_legend(const StartDistances& found, const ServedWorld& world) {
-  Legend legend;
-  const std::string_view unit = unit_of(world.outline());
-  const std::string behind = unit.empty() ? "" : " " + std::string(unit);
-  for (std::size_t step = 0; step < found.steps.count && found.reached > 0; ++step) {
-    const bool is_last = step + 1 == found.steps.count;
-    const double high = is_last ? found.farthest : static_cast<double>(step + 1) * found.steps.each;
-    legend.add(search_inks[step],
-               fmt::format("{} to {}{} from the start", human_number(static_cast<double>(step) * found.steps.each),
-                           human_number(high), behind));
-  }
-  if (const std::uint64_t others = found.inks.size() - found.reached; others > 0) {
-    legend.add(search_inks.back(), counted(others, "milestone", "milestones") + " that it does not reach");
-  }
-  return legend.closed();
-}
-
 /// Two at least, however large: tiles are asked for one by one, and none of them may search anew.
 std::size_t most_bytes_of_starts(std::size_t bytes_a_start) {
   return std::max(std::size_t{64} << 20U, 2 * bytes_a_start);
-}
-
-/// Of a scale whose steps below `needed` are not seen.
-void add_steps(Legend& legend, const Steps& steps, double needed, std::string_view unit) {
-  const std::string opacity = fmt::format("{:02x}", step_opacity);
-  const std::string behind = unit.empty() ? "" : " " + std::string(unit);
-  for (std::size_t step = 0; step < steps.count; ++step) {
-    const double low = std::max(needed, static_cast<double>(step) * steps.each);
-    const double high = static_cast<double>(step + 1) * steps.each;
-    const bool is_last = step + 1 == steps.count;
-    if (!is_last && high <= needed) continue;
-    legend.add(step_inks[step],
-               is_last ? fmt::format("{}{} and more", human_number(low), behind)
-                       : fmt::format("{} to {}{}", human_number(low), human_number(high), behind),
-               opacity);
-  }
-}
-
-std::string clearance_legend(const Steps& steps, const ServedWorld& world) {
-  Legend legend;
-  const std::string_view unit = unit_of(world.outline());
-  const double needed = needed_around(world);
-  if (needed > 0.0) {
-    legend.add(too_near_ink,
-               fmt::format("nearer than {}{}{}: too near for {}", human_number(needed), unit.empty() ? "" : " ", unit,
-                           robot_text(world.robot())),
-               fmt::format("{:02x}", step_opacity));
-  }
-  add_steps(legend, steps, needed, unit);
-  return legend.closed();
 }
 
 }  // namespace
@@ -324,7 +208,7 @@ std::string WorldLayers::legend(std::string_view name, const std::optional<std::
                                 const Execution& execution) const {
   refuse_missing(name);
   if (name == "search") return search_legend(*from_start(from, execution), world_);
-  if (name == "clearance") return clearance_legend(clearance(execution).steps(), world_);
+  if (name == "clearance") return clearance_legend(clearance(execution), world_);
   if (name == "axis") return axis_legend(axis(execution), !world_.robot().outline.empty());
   if (world_.passages(execution) != nullptr) {
     return passages_legend(passages(execution), count_states(world_.query()->roadmap()));

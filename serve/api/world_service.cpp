@@ -212,6 +212,7 @@ HttpResponse WorldService::scene(const HttpRequest& request, const Execution& ex
   if (auto start = numbers_parameter(request, "start", numbers)) told.start = std::move(*start);
   const bool any_heading = std::ranges::count(parameter(request, "goal").value_or(""), ',') == 1;
   if (auto goal = numbers_parameter(request, "goal", any_heading ? 2 : numbers)) told.goal = std::move(*goal);
+  Question{.start = told.start, .goal = told.goal}.validate();
   HttpResponse response{.type = "text/plain; charset=utf-8",
                         .fields = {{"Content-Disposition", "attachment; filename=\"world.scene\""}}};
   write_scene_text(

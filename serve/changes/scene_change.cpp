@@ -15,6 +15,7 @@
 #include "core/plane/geometry.hpp"
 #include "core/plane/polygon_distance.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
+#include "scenes/text/human_units.hpp"
 #include "serve/http/http_message.hpp"
 
 namespace warren {
@@ -130,7 +131,8 @@ void check(const Scene& scene, const SceneChange& change) {
         "this world is the cells of a map, which an image editor draws; walls and polygons are for scenes");
   }
   if (change.add.size() + change.remove.size() + change.erase.size() > most_changed_shapes) {
-    throw HttpError(413, "change_too_large", "body", "a change has at most 10,000 walls and polygons");
+    throw HttpError(413, "change_too_large", "body",
+                    fmt::format("a change has at most {} walls and polygons", grouped(most_changed_shapes)));
   }
   for (const Segment& wall : change.add.walls) {
     if (wall.a == wall.b) throw InputError("add.walls", "a wall has two different ends");

@@ -67,6 +67,7 @@ SceneChange read_scene_change(std::string_view text, const Execution& execution)
     } else if (key == "erase") {
       for_each_in(value, "erase", most_changed_shapes, [&](const OrderedJson& item, const std::string& place) {
         const auto [x, y, reach] = numbers_of<3>(item, place);
+        if (reach < 0.0) refuse_json(place, "x, y and a reach of 0 or more");
         change.erase.push_back({{x, y}, reach});
       });
     } else {

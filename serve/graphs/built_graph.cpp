@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "serve/graphs/built_graph.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "scenes/text/human_units.hpp"
 #include "serve/graphs/edge_judge.hpp"
 #include "serve/http/http_message.hpp"
 #include "solve/roadmaps/export_of_roadmap.hpp"
@@ -22,8 +25,9 @@ RobotSpec disc_around(const RobotSpec& robot) {
 void check_size(std::uint64_t nodes, std::uint64_t edge_ends) {
   if (nodes <= most_route_nodes && edge_ends <= most_route_edges) return;
   throw HttpError(413, "graph_too_large", "graph",
-                  "it has more than 20,000 nodes or 100,000 edges, each one way, which nobody edits by hand; "
-                  "'warren build' and 'warren export' write it");
+                  fmt::format("it has more than {} nodes or {} edges, each one way, which nobody edits by hand; "
+                              "'warren build' and 'warren export' write it",
+                              grouped(most_route_nodes), grouped(most_route_edges)));
 }
 
 /// Node v has id v; the i-th edge has that of all nodes and i.

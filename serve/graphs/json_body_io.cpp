@@ -5,12 +5,32 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <vector>
 
 #include "core/base/types.hpp"
+#include "scenes/text/human_units.hpp"
 #include "serve/http/http_message.hpp"
 #include "serve/http/json_nesting.hpp"
 
 namespace warren {
+namespace {
+
+/// Throws HttpError where an object has a key twice.
+OrderedJson parsed(std::string_view text) {
+  std::vector<std::set<std::string>> keys;  // of the objects that are open
+  const auto look = [&](int, OrderedJson::parse_event_t event, OrderedJson& seen) {
+    if (event == OrderedJson::parse_event_t::object_start) keys.emplace_back();
+    if (event == OrderedJson::parse_event_t::object_end) keys.pop_back();
+    if (event != OrderedJson::parse_event_t::key) return true;
+    const auto& key = seen.get_ref<const std::string&>();
+    if (!keys.back().insert(key).second) refuse_json("body", "each key of an object once");
+    return true;
+  };
+  return OrderedJson::parse(text, look);
+}
+
+}  // namespace
 
 [[noreturn]] void refuse_json(const std::string& where, std::string_view expected) {
   throw HttpError(400, "bad_request", "body", fmt::format("{}: expected {}", where, expected));
@@ -22,7 +42,7 @@ OrderedJson json_object_of(std::string_view text, std::size_t deepest, const Exe
     refuse_json("body", fmt::format("JSON that is nested at most {} deep", deepest));
   execution.reserve(bytes_a_byte * text.size());
   try {
-    OrderedJson json = OrderedJson::parse(text);
+    OrderedJson json = parsed(text);
     if (!json.is_object()) refuse_json("body", "one JSON object");
     return json;
   } catch (const OrderedJson::parse_error& error) {
@@ -49,7 +69,7 @@ std::uint64_t whole_number(const OrderedJson& json, const std::string& where, st
 
 const OrderedJson& list_of(const OrderedJson& json, const std::string& where, std::size_t most) {
   if (!json.is_array()) refuse_json(where, "a list");
-  if (json.size() > most) refuse_json(where, fmt::format("a list of at most {}", most));
+  if (json.size() > most) refuse_json(where, fmt::format("a list of at most {}", grouped(most)));
   return json;
 }
 

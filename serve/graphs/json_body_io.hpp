@@ -14,7 +14,8 @@ namespace warren {
 
 using OrderedJson = nlohmann::ordered_json;  // people find their keys where they wrote them
 
-/// One object. Throws HttpError (400) for what is none or nested deeper, Stopped where memory is out.
+/// One object. Throws HttpError (400) for what is none or nested deeper or has a key twice in one object, of which one
+/// would be dropped without a word; Stopped where memory is out.
 OrderedJson json_object_of(std::string_view text, std::size_t deepest, const Execution& execution);
 
 [[noreturn]] void refuse_json(const std::string& where, std::string_view expected);

@@ -5,6 +5,7 @@
 
 #include <map>
 
+#include "scenes/text/human_units.hpp"
 #include "serve/http/http_message.hpp"
 
 namespace warren {
@@ -31,7 +32,8 @@ std::vector<RouteEnds> ends_of(const RouteGraph& graph) {
   if (graph.edges.empty()) refuse("Nav2 loads no route graph without edges, and this one has none");
   if (graph.nodes.size() > most_route_nodes || graph.edges.size() > most_route_edges) {
     throw HttpError(413, "graph_too_large", "graph",
-                    "at most 20,000 nodes and 100,000 edges, each one way, are edited here");
+                    fmt::format("at most {} nodes and {} edges, each one way, are edited here",
+                                grouped(most_route_nodes), grouped(most_route_edges)));
   }
   std::map<std::uint32_t, std::size_t> known;
   for (std::size_t i = 0; i < graph.nodes.size(); ++i) check_id(graph.nodes[i].id, known, i);

@@ -3,8 +3,9 @@
 // often as answers come.
 "use strict";
 const question = {start: null, goal: null, planner: "", optimise: false, startHeading: null, goalHeading: null};
-const answer = {text: null, json: null, id: null, start: null};
-const lost = {id: null, json: null};  // the path that the service had let go last, and the answer that it was of
+const answer = {text: null, json: null, id: null, start: null, asked: null};  // asked: the question, as it was sent
+// The path that the service had let go last, and the answer that it was of; what shall be saved when it is there again.
+const lost = {id: null, json: null, saving: null};
 let asking = false;
 let askAgain = false;
 
@@ -32,11 +33,11 @@ async function ask() {
   if (!question.start || !question.goal) return;
   if (asking) return void (askAgain = true);
   asking = true;
-  const began = performance.now();
+  const began = performance.now(), asked = JSON.stringify(bodyOf(question));
   try {
-    const reply = await fetch("/api/query", {method: "POST", headers: {"Content-Type": "application/json"}, body: JSON.stringify(bodyOf(question))});
+    const reply = await fetch("/api/query", {method: "POST", headers: {"Content-Type": "application/json"}, body: asked});
     const text = await reply.text();
-    take(reply, text, performance.now() - began);
+    take(reply, text, performance.now() - began, asked);
   } catch (error) {
     forgetAnswer();
     showAnswer(null, []);
@@ -52,10 +53,11 @@ function forgetAnswer() {
   clearPath();
   forgetClearance();
   forgetSweep();
-  answer.text = answer.json = answer.id = answer.start = null;
+  answer.text = answer.json = answer.id = answer.start = answer.asked = null;
 }
-function take(reply, text, passed) {
-  const json = JSON.parse(text);
+function take(reply, text, passed, asked) {
+  const json = JSON.parse(text), saving = lost.saving;
+  lost.saving = null;
   if (json.world && json.world.hash !== world.hash) noticeWorld();
   forgetAnswer();
   if (!question.start || !question.goal) return;  // taken away meanwhile
@@ -65,6 +67,7 @@ function take(reply, text, passed) {
   }
   answer.text = text;
   answer.json = json;
+  answer.asked = asked;
   answer.start = json.status === "start_blocked" ? null : json.start.slice(0, 2).join(",");
   answer.id = reply.headers.get("Warren-Path");
   if (answer.id) showPath(json.path.map(p => [p[0], p[1]]), answer.id);
@@ -72,22 +75,30 @@ function take(reply, text, passed) {
   showAnswer(json, [...serverTimes(reply), ["there and back", passed]]);
   showClearance();
   showSweep();
+  if (saving && saving.asked === asked && json.verified) savePath(saving.make);
 }
 
 /// Each look at the path of an answer ends here. The service keeps the last paths alone: where it let this one go, the
-/// question is asked anew, but once until it is seen, for a path that is too large is never kept.
+/// question is asked anew, but once until it is seen, for a path that is too large is never kept. True where another
+/// answer is under way.
 function looked(reply, json) {
-  if (json !== answer.json || json === lost.json) return;  // another answer came, or this one is asked for anew
+  if (json !== answer.json) return false;
+  if (json === lost.json) return asking;
   if (reply.ok) lost.id = null;
-  if (reply.status !== 404) return;
+  if (reply.status !== 404) return false;
   const asksAnew = lost.id !== answer.id;
   lost.id = answer.id;
   lost.json = json;
   if (asksAnew) ask();
   else say("The service does not keep this path, so no more of it can be seen.");
+  return asksAnew;
 }
 
-const shown = number => Number(number.toPrecision(6));
+/// As the program writes numbers: six significant digits, and all before the point.
+const written = number => String(Math.abs(number) >= 1e6 && Math.abs(number) < 1e15 ? Math.round(number) : Number(number.toPrecision(6)));
+/// What is before the point in groups of three, as the program groups counts; no line ends between them.
+const grouped = text => String(text).replace(/^(-?)(\d+)/, (_, sign, whole) => sign + whole.replace(/\B(?=(\d{3})+$)/g, "\u00a0"));
+const shown = number => grouped(written(number));
 function inWords(json) {
   const unit = world.unit ? " " + world.unit : "";
   if (json.status === "solved") return "Solved: " + shown(json.length) + unit + (json.optimal ? ", the shortest there is" : "");

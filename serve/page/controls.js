@@ -16,15 +16,19 @@ function fillTable(id, rows) {
     return row;
   }));
 }
-const asTime = ms => ms < 1 ? (1000 * ms).toFixed(0) + " µs" : ms < 1000 ? ms.toPrecision(3) + " ms" : (ms / 1000).toPrecision(3) + " s";
+function asTime(ms) {
+  if (ms < 0.9995) return (1000 * ms).toFixed(0) + " µs";
+  const [time, unit] = ms < 999.5 ? [ms, " ms"] : [ms / 1000, " s"];
+  return (time < 99.95 ? time.toPrecision(3) : grouped(time.toFixed(0))) + unit;
+}
 
 function showAnswer(json, times) {
   showSearch();
   const rows = [];
   if (json) {
-    const add = (name, value) => { if (value !== null && value !== undefined) rows.push([name, String(value)]); };
+    const add = (name, value) => { if (value !== null && value !== undefined) rows.push([name, typeof value === "number" ? grouped(value) : value]); };
     add("length", json.verified ? shown(json.length) : null);
-    add("clearance", json.verified ? shown(json.min_clearance) : null);
+    add("clearance", json.verified && json.min_clearance !== null ? shown(json.min_clearance) : null);
     add("points", json.path_points || (json.path.length || null));
     add("verified", json.verified ? "yes" : null);
     add("planner", json.planner);
@@ -51,7 +55,7 @@ function showAnswer(json, times) {
 function fieldText(end) {
   const place = question[end], heading = question[end + "Heading"];
   if (!place) return "";
-  return place.x + ", " + place.y + (turns() && heading !== null ? ", " + shown(heading * 180 / Math.PI) : "");
+  return place.x + ", " + place.y + (turns() && heading !== null ? ", " + written(heading * 180 / Math.PI) : "");
 }
 function setEnd(end, place, keepsField) {
   question[end] = place && {x: rounded(place.x), y: rounded(place.y)};
@@ -111,7 +115,8 @@ function readLink() {
   takeLayers(words.get("layers"));
   hideParts(words.get("hide"));
   const at = numbers("at");
-  if (at.length === 3 && at.every(Number.isFinite)) map.setView([at[1], at[0]], at[2], {animate: false});
+  const isNear = at.length === 3 && at.every(Number.isFinite) && map.whole.pad(2).contains([at[1], at[0]]);  // else nothing would be seen
+  if (isNear) map.setView([at[1], at[0]], at[2], {animate: false});
   else map.fitBounds(map.whole, {animate: false});
 }
 /// The world's own ends, where it has some.
@@ -159,28 +164,33 @@ function save(name, type, text) {
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
-/// The states of the path, those of a long one as points.
-async function wholePath() {
-  if (answer.json.path.length > 0) return answer.json.path;
-  const reply = await fetch("/api/path/" + answer.id);
-  const json = await reply.json();
-  if (json.error) throw new Error(json.error.message);
-  return json.chains.flat();
-}
+/// make(answer, path): the states of the path, those of a long one as points. Where the service has let the path go,
+/// the question is asked anew first.
 async function savePath(make) {
+  const of = answer.json, asked = answer.asked;
+  if (of.path.length > 0) return make(of, of.path);
+  let reply, json;
   try {
-    make(await wholePath());
+    reply = await fetch("/api/path/" + answer.id);
+    json = await reply.json();
   } catch (error) {
-    say(error.message);
+    return void say("The service does not answer any more.");
   }
+  if (reply.ok) looked(reply, of);
+  if (reply.ok) return make(of, json.chains.flat());
+  if (reply.status === 413) return void say("This path has more points than the page saves; the line of Copy as command writes it, with --path FILE.");
+  if (reply.status !== 404) return void say(json.error.message);
+  if (of !== answer.json && asked === answer.asked) return savePath(make);  // it was asked anew meanwhile
+  if (looked(reply, of)) lost.saving = {asked, make};
+  else if (of === answer.json) say("The service does not keep this path, so it can't be saved.");
 }
-function saveGeojson(path) {
+function saveGeojson(of, path) {
   const line = path.length === 1 ? [path[0], path[0]] : path;
-  const properties = {frame: "map", length: answer.json.length, planner: answer.json.planner};
+  const properties = {frame: "map", length: of.length, planner: of.planner};
   if (path[0].length === 3) properties.theta = line.map(p => p[2]);
   save("path.geojson", "application/geo+json", JSON.stringify({type: "Feature", geometry: {type: "LineString", coordinates: line.map(p => [p[0], p[1]])}, properties}) + "\n");
 }
-function saveCsv(path) {
+function saveCsv(of, path) {
   let along = 0;
   const rows = path.map((p, i) => {
     if (i > 0) along += Math.hypot(p[0] - path[i - 1][0], p[1] - path[i - 1][1]);
@@ -234,7 +244,7 @@ async function begin() {
   const name = world.source.split("/").pop();
   document.title = name + " – warren";
   byId("title").textContent = name;
-  byId("about").textContent = world.description + ", " + world.robot + (world.clearance > 0 ? ", clearance " + world.clearance : "");
+  byId("about").textContent = world.description + ", " + world.robot + (world.clearance > 0 ? ", clearance " + shown(world.clearance) : "");
   for (const planner of world.planners) byId("planner").add(new Option(planner, planner));
   byId("planners").hidden = world.planners.length === 0;
   for (const end of ["start", "goal"]) byId(end).placeholder = turns() ? (end === "start" ? "x, y, degrees" : "x, y, degrees or none") : "x, y";

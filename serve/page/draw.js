@@ -57,7 +57,7 @@ function showWorld(now) {
   renewLayers();
   graph.verdicts.clear();
   checkGraph();
-  byId("about").textContent = world.description + ", " + world.robot + (world.clearance > 0 ? ", clearance " + world.clearance : "");
+  byId("about").textContent = world.description + ", " + world.robot + (world.clearance > 0 ? ", clearance " + shown(world.clearance) : "");
   ask();
 }
 async function draw(change) {
@@ -127,7 +127,8 @@ function drawsKey(event) {
 }
 /// x, y, x, y, ... in the field: what the mouse would click.
 function readShape() {
-  const numbers = byId("draw-shape").value.trim().split(/[\s,;]+/).map(Number);
+  const text = byId("draw-shape").value.trim(), numbers = text.split(/[\s,;]+/).map(Number);
+  if (text === "") return;
   if (numbers.length < 4 || numbers.length % 2 || !numbers.every(Number.isFinite)) return void say("Corners are x, y, x, y and so on.");
   if (drawing.tool !== "polygon") drawing.tool = "wall";
   drawing.corners = [];

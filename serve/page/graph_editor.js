@@ -30,10 +30,10 @@ function wordsOfChosen() {
   const {name, id} = graph.selected, unit = world.unit ? " " + world.unit : "";
   if (name === "nodes") {
     const node = graph.nodes.get(id), blocked = edgesAt(id).filter(e => (verdictOf(e) || {free: true}).free === false);
-    return "Node " + id + " at " + node.at.map(shown).join(", ") + ", " + edgesAt(id).length + " edges" + (blocked.length ? "; not free: " + verdictOf(blocked[0]).why : "");
+    return "Node " + id + " at " + node.at.map(written).join(", ") + ", " + edgesAt(id).length + " edges" + (blocked.length ? "; not free: " + verdictOf(blocked[0]).why : "");
   }
   const edge = graph.edges.get(id), verdict = verdictOf(edge);
-  const state = !verdict ? "" : verdict.free ? ", free, clearance " + shown(verdict.clearance) + unit : "; not free: " + verdict.why;
+  const state = !verdict ? "" : verdict.free ? ", free" + (verdict.clearance === null ? "" : ", clearance " + shown(verdict.clearance) + unit) : "; not free: " + verdict.why;
   return "Edge " + edge.from + " to " + edge.to + (between(edge.from, edge.to).length > 1 ? " and back" : "") + ", " + shown(lengthOf(edge)) + unit + state;
 }
 
@@ -41,7 +41,7 @@ function wordsOfChosen() {
 function showGraph() {
   const blocked = blockedEdges(), chosen = graph.selected, node = chosen && chosen.name === "nodes" ? graph.nodes.get(chosen.id) : null;
   const joined = new Set([...graph.edges.values()].map(e => Math.min(e.from, e.to) + "-" + Math.max(e.from, e.to)));
-  byId("graph-count").textContent = graph.nodes.size + " nodes, " + graph.edges.size + " edges each one way on " + joined.size + " lines" + (blocked.length ? ", " + blocked.length + " not free" : "");
+  byId("graph-count").textContent = grouped(graph.nodes.size) + " nodes, " + grouped(graph.edges.size) + " edges each one way on " + grouped(joined.size) + " lines" + (blocked.length ? ", " + grouped(blocked.length) + " not free" : "");
   byId("graph-why").hidden = blocked.length === 0;
   if (blocked.length) byId("graph-why").textContent = "Edge " + blocked[0].from + " to " + blocked[0].to + " is not free: " + verdictOf(blocked[0]).why + ". Nothing is saved while there are such edges.";
   byId("graph-drop").hidden = blocked.length === 0;
@@ -151,9 +151,11 @@ function takesKey(event) {
 }
 
 async function buildGraph() {
-  const body = {kind: byId("graph-kind").value}, samples = Number(byId("graph-samples").value);
-  if (body.kind === "roadmap" && samples > 0) body.samples = samples;
-  if (body.kind === "roadmap" && samples > 0) body.neighbours = 4;
+  const body = {kind: byId("graph-kind").value}, samples = byId("graph-samples").value.trim();
+  if (body.kind === "roadmap" && samples !== "") {
+    if (!/^[1-9]\d{0,8}$/.test(samples)) return void say("Samples are a whole number, or nothing for as many as it takes.");
+    Object.assign(body, {samples: Number(samples), neighbours: 4});
+  }
   say("Building.");
   const json = await posted("/api/graph", JSON.stringify(body));
   if (json) openGraph(json, "Built: ");
@@ -167,7 +169,7 @@ async function openGraphFile(file) {
 function openGraph(json, word) {
   takeGraph(json);
   setEditing(true);
-  say(word + json.nodes.length + " nodes, " + json.edges.length + " edges" + (json.left_out ? "; " + json.left_out + " features are neither and left out" : "") + (blockedEdges().length ? "; " + blockedEdges().length + " edges are not free" : "") + ".");
+  say(word + grouped(json.nodes.length) + " nodes, " + grouped(json.edges.length) + " edges" + (json.left_out ? "; " + grouped(json.left_out) + " features are neither and left out" : "") + (blockedEdges().length ? "; " + grouped(blockedEdges().length) + " edges are not free" : "") + ".");
 }
 async function saveGraph() {
   const body = {frame: graph.frame, nodes: [...graph.nodes.values()], edges: [...graph.edges.values()]};

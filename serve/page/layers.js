@@ -13,7 +13,7 @@ function makeLayer(account) {
   const id = "layer-" + account.name, pane = map.createPane(id);
   pane.style.zIndex = 210 + layers.size;
   pane.style.pointerEvents = "none";
-  const layer = {account, tiles: null, box: elementOf("input", {type: "checkbox", id}), words: elementOf("ul", {className: account.of_start ? "legend of-start" : "legend", id: id + "-legend"})};
+  const layer = {account, tiles: null, box: elementOf("input", {type: "checkbox", id}), words: elementOf("ul", {className: "legend " + account.name, id: id + "-legend"})};
   layer.box.setAttribute("aria-describedby", layer.words.id);
   layer.words.setAttribute("aria-live", "polite");
   layer.box.addEventListener("change", () => { showLayer(layer); keepLink(); });
@@ -26,7 +26,7 @@ function fillLegend(layer, entries) {
   if (text === layer.text) return;
   layer.text = text;
   layer.words.replaceChildren(...entries.map(({color, words}) => {
-    const line = elementOf("li", {}, words);
+    const line = elementOf("li", {}, words.replace(/(\d) (?=\d{3}(?!\d))/g, "$1\u00a0"));  // no line ends in a number
     if (color) line.prepend(elementOf("span", {className: "ink"}));
     if (color) line.firstChild.style.background = color;
     return line;
@@ -53,7 +53,7 @@ function showLayer(layer) {
   if (!box.checked) return;
   if (account.of_start && !answer.start) return fillLegend(layer, [{words: "Shown where there is an answer."}]);
   layer.tiles = L.tileLayer(withStart(account, account.url), {pane: "layer-" + account.name, tileSize: t.pixels, minZoom: account.from_zoom > 0 ? account.from_zoom : -3, maxZoom: t.levels,
-                                          minNativeZoom: 0, maxNativeZoom: t.levels - 1, bounds: map.whole, noWrap: true, keepBuffer: 1, updateInterval: 60, className: account.of_start ? "layer of-start" : "layer"});
+                                          minNativeZoom: 0, maxNativeZoom: t.levels - 1, bounds: map.whole, noWrap: true, keepBuffer: 1, updateInterval: 60, className: "layer " + account.name});
   layer.tiles.on("tileerror", async () => {
     if (!await noticeWorld()) say("A part of the layer " + account.name + " was not drawn; move or zoom to ask again.");
   });

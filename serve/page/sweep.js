@@ -43,5 +43,5 @@ function drawSweep(layer, json) {
   const style = {pane: "layer-sweep", color, weight: 1, opacity: 0.8, fillOpacity: 0.08, interactive: false};
   sweep.bodies = L.layerGroup(json.places.flatMap(place => bodyAt(json, place, style))).addTo(map);
   const unit = world.unit ? " " + world.unit : "";
-  fillLegend(layer, [{color, words: world.robot + " along the path, every " + shown(json.apart) + unit + " and at its end; " + json.places.length + " in sight"}]);
+  fillLegend(layer, [{color, words: world.robot + " along the path, every " + shown(json.apart) + unit + " and at its end; " + grouped(json.places.length) + " in sight"}]);
 }

@@ -59,6 +59,7 @@ function openMap() {
   addTiles();
   map.on("mousemove", e => { byId("readout").textContent = rounded(e.latlng.lng) + ", " + rounded(e.latlng.lat) + (world.unit ? " " + world.unit : ""); });
   map.on("moveend", showSeenPath);
+  new ResizeObserver(() => map.invalidateSize({pan: false})).observe(map.getContainer());  // windows are not all that resizes it
 }
 
 /// A mark of that name; moved(place, is_over) is called while it is dragged, and at the end.

@@ -25,6 +25,7 @@ class ClearanceLayer {
   /// A PNG. Throws Stopped.
   std::string draw(const TilePlace& place, const Execution& execution) const;
   const Steps& steps() const { return steps_; }
+  double needed() const { return needed_; }
 
  private:
   std::uint8_t ink_of(double distance) const;

@@ -14,15 +14,16 @@
 
 namespace warren {
 
-/// Inks of a scale from low to high, by their lightness too, so that they are told apart without colours.
+/// Inks of a scale from low to high, by their lightness too, so that they are told apart without colours; all of them
+/// dark enough to stand out on the page's white. The page turns them over where it is dark.
 inline constexpr std::array<Rgb, 8> step_inks{{{68, 1, 84},
-                                               {70, 51, 127},
-                                               {54, 92, 141},
-                                               {39, 127, 142},
-                                               {31, 161, 135},
-                                               {74, 193, 109},
-                                               {160, 218, 57},
-                                               {253, 231, 37}}};
+                                               {72, 30, 111},
+                                               {69, 56, 130},
+                                               {60, 80, 139},
+                                               {50, 102, 142},
+                                               {41, 122, 142},
+                                               {34, 142, 140},
+                                               {31, 161, 135}}};
 /// Of inks that lie above the world's.
 inline constexpr std::uint8_t step_opacity = 153;
 

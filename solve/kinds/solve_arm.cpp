@@ -71,7 +71,7 @@ class Arm : public UsualBody {
     const ArmOptions options{.radius = problem_.robot.radius,
                              .clearance = problem_.clearance,
                              .self_collision = problem_.robot.self_collision};
-    world.emplace(scene_, SerialChain(problem_.table), options);
+    world.emplace(scene_, SerialChain(problem_.table), options, execution_);
   }
   static bool provably_apart(const World&, const std::vector<JointState>&) { return false; }
   bool start_stands_free() const { return goal_stands_free(problem_.start); }

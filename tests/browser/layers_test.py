@@ -138,7 +138,7 @@ class Layers(BrowserTest):
         self.shown(self.maze)
         self.box('roadmap').click()
         self.wait(lambda: 'Zoom in' in self.legend('roadmap'))
-        self.assertIn('89 999 passages', self.legend('roadmap').replace('\u202f', ' '))
+        self.assertIn('89 999 passages', self.legend('roadmap'))
         self.run_script('map.setView([150, 150], layers.get("roadmap").account.from_zoom, {animate: false})')
         self.wait(lambda: 'Zoom in' not in self.legend('roadmap'))
         self.assertGreater(self.drawn('roadmap')[0], 5000)
@@ -183,6 +183,44 @@ class Layers(BrowserTest):
         self.assertLess(self.drawn('components')[0], 0.8 * before)
         self.async_script('stepDrawing(drawing.undo, drawing.redo).then(done)')
         self.assertEqual(self.drawn('components')[0], before)
+
+    def colors(self, *places):
+        """What a screenshot shows there, [red, green, blue] each."""
+        return self.async_script('''
+            const [picture, places] = arguments, frame = map.getContainer().getBoundingClientRect();
+            const bytes = Uint8Array.from(atob(picture), letter => letter.charCodeAt(0));
+            createImageBitmap(new Blob([bytes], {type: "image/png"})).then(image => {
+              const pen = new OffscreenCanvas(image.width, image.height).getContext("2d", {willReadFrequently: true});
+              pen.drawImage(image, 0, 0);
+              done(places.map(([x, y]) => {
+                const at = map.latLngToContainerPoint([y, x]);
+                return [...pen.getImageData(Math.round(frame.x + at.x), Math.round(frame.y + at.y), 1, 1).data].slice(0, 3);
+              }));
+            });''', self.browser.get_screenshot_as_base64(), places)
+
+    def test_clearance_stands_out_on_white_and_on_dark_and_so_do_walls_in_it(self):
+        def luminance(color):
+            shares = [part / 255 for part in color]
+            red, green, blue = [s / 12.92 if s <= 0.04045 else ((s + 0.055) / 1.055) ** 2.4 for s in shares]
+            return 0.2126 * red + 0.7152 * green + 0.0722 * blue
+
+        def contrast(one, other):
+            low, high = sorted(luminance(color) + 0.05 for color in (one, other))
+            return high / low
+
+        for scheme in ('light', 'dark'):
+            self.media(color_scheme=scheme)
+            self.shown(self.scene, '#start=&goal=&layers=clearance')
+            self.drawn('clearance')
+            self.wait(lambda: self.legend('clearance').endswith('and more'))
+            self.frames()
+            paper, wall, *inked = self.colors((-5, 30), (50, 30), (48, 20), (25, 30), (12, 30), (90, 10))
+            self.assertIn(paper, ([255, 255, 255], [0, 0, 0]))
+            for color in inked:
+                self.assertGreater(contrast(color, paper), 1.9, (scheme, color))
+                self.assertGreater(contrast(color, wall), 1.9, (scheme, color, wall))
+            looks = self.run_script('return [".clearance.layer", ".clearance .ink"].map(name => getComputedStyle(document.querySelector(name)).filter)')
+            self.assertEqual(looks[0], looks[1])
 
     def rewritten(self, name, script):
         """How often the legend is written while the script runs, which calls done()."""

@@ -17,6 +17,9 @@ from service import Service  # noqa: E402
 
 WARREN = sys.argv.pop(1)
 YARD = 'bounds 0 0 100 60\nwall 50 0 50 20\nstart 5 30\ngoal 95 30\n'
+PLAIN = 'bounds 0 0 4000000 4000000\nwall 2000000 0 2000000 1000000\nstart 10000 10000\ngoal 3900000 10000\n'
+ROUND = ('bounds 0 0 100 60\nrobot polygon ' + ' '.join(f'{2 * math.cos(i * math.pi / 30):.9f} {2 * math.sin(i * math.pi / 30):.9f}' for i in range(60)) +
+         '\nstart 10 30 0\ngoal 90 30\n')
 HALL = 'bounds 0 0 100 60\nrobot polygon -4 -1 4 -1 4 1 -4 1\nstart 10 30 0\ngoal 90 30\n'
 
 
@@ -25,7 +28,7 @@ class PageTools(MapTest):
     def setUpClass(cls):
         super().setUpClass()
         cls.services = {}
-        for name, text in (('yard', YARD), ('hall', HALL)):
+        for name, text in (('yard', YARD), ('hall', HALL), ('plain', PLAIN), ('round', ROUND)):
             with open(os.path.join(cls.folder.name, name + '.scene'), 'w', encoding='utf-8') as file:
                 file.write(text)
             cls.services[name] = Service(WARREN, os.path.join(cls.folder.name, name + '.scene'), '--writable')
@@ -191,6 +194,120 @@ class PageTools(MapTest):
         self.run_script('map.fire("moveend")')
         self.frames()
         self.assertEqual(self.run_script('return questions'), 1)
+
+    def save_of_many_points(self, times):
+        """Answers list no points, as those of long paths; so many looks find no path. What is saved is `saved`."""
+        self.run_script('''
+            window.saved = [];
+            window.questions = 0;
+            window.forgets = arguments[0];
+            URL.createObjectURL = blob => { blob.text().then(text => saved.push(text)); return "about:blank#"; };
+            HTMLAnchorElement.prototype.click = () => {};
+            const asks = fetch;
+            fetch = async (place, ...more) => {
+              if (place === "/api/query") {
+                ++questions;
+                const reply = await asks(place, ...more), json = await reply.json();
+                return new Response(JSON.stringify({...json, path: [], path_points: json.path.length}), {status: reply.status, headers: reply.headers});
+              }
+              if (!place.startsWith("/api/path/") || forgets-- <= 0) return asks(place, ...more);
+              return new Response(JSON.stringify({error: {code: "not_found", where: "path", message: "forgotten"}}), {status: 404});
+            };
+            ask();''', times)
+        self.wait(lambda: self.run_script('return questions === 1 && answer.json !== null && answer.json.path.length === 0 && pathLine.line !== null'))
+
+    def saved(self):
+        return self.run_script('return saved')
+
+    def test_a_path_that_the_service_let_go_is_asked_for_anew_and_saved(self):
+        for name, words in (('save-geojson', '"LineString"'), ('save-csv', 's,x,y')):
+            self.shown('yard')
+            path = self.run_script('return answer.json.path')
+            self.save_of_many_points(0)
+            self.run_script('forgets = 1')
+            self.press(name)
+            self.wait(lambda: len(self.saved()) == 1)
+            self.assertIn(words, self.saved()[0])
+            for x, y in path:
+                self.assertIn(f'{x:g},{y:g}' if x == int(x) and y == int(y) else f'{x!r},{y!r}', self.saved()[0])
+            self.assertEqual(self.run_script('return questions'), 2)
+            self.assertIn('Solved', self.status())
+            self.press(name)
+            self.wait(lambda: len(self.saved()) == 2)
+            self.assertEqual(self.saved()[0], self.saved()[1])
+            self.assertEqual(self.run_script('return questions'), 2)
+            self.run_script('forgets = 1')  # it is let go once more
+            self.press(name)
+            self.wait(lambda: len(self.saved()) == 3)
+            self.assertEqual(self.run_script('return questions'), 3)
+
+    def test_a_path_that_is_never_kept_is_said_not_to_be_saved(self):
+        self.shown('yard')
+        self.save_of_many_points(0)
+        self.run_script('forgets = 1000')
+        for _ in range(2):
+            self.press('save-csv')
+            self.wait_for("can't be saved")
+            self.run_script('say("")')
+        self.assertEqual(self.run_script('return questions'), 2)
+        self.assertEqual(self.saved(), [])
+
+    def test_a_path_of_too_many_points_is_said_to_be_written_by_the_program(self):
+        self.shown('yard')
+        self.save_of_many_points(0)
+        self.run_script('''
+            fetch = async () => new Response(JSON.stringify({error: {code: "path_too_long", where: "query", message: "bbox and z"}}), {status: 413});''')
+        self.press('save-geojson')
+        self.wait_for('--path FILE')
+
+    def test_another_question_saves_nothing_of_the_last_one(self):
+        self.shown('yard')
+        self.save_of_many_points(0)
+        self.run_script('forgets = 1')
+        self.press('save-csv')
+        self.wait(lambda: self.run_script('return lost.saving !== null || saved.length > 0') or self.run_script('return questions') > 1)
+        self.run_script('setEnd("goal", {x: 20, y: 10})')
+        self.wait(lambda: self.run_script('return !asking && answer.json !== null && answer.json.goal[0] === 20'))
+        self.frames()
+        for text in self.saved():  # it may have come before the other question
+            self.assertIn('95,30', text)
+        self.assertIsNone(self.run_script('return lost.saving'))
+
+    def test_figures_are_in_groups_of_three_as_in_the_program(self):
+        self.shown('plain', '#layers=clearance')
+        self.wait_for('Solved: 4 ')
+        figures = self.by_id('figures').text
+        self.assertRegex(figures, 'length 4 [0-9]{3} [0-9]{3}\n')
+        self.wait(lambda: 'and more' in self.by_id('layer-clearance-legend').text)
+        self.assertIn('1 400 000 and more', self.by_id('layer-clearance-legend').text)
+        self.assertEqual(self.by_id('goal').get_attribute('value'), '3900000, 10000')  # as it would be typed
+        told = self.run_script('''
+            return [0, 0.1234567, 999, 1000, -12345.678, 999999.7, 1234567.89, 1e15].map(shown).concat([0.5, 0.9996, 99.96, 999.6, 1234567].map(asTime));''')
+        self.assertEqual([text.replace('\u00a0', ' ') for text in told],
+                         ['0', '0.123457', '999', '1 000', '-12 345.7', '1 000 000', '1 234 568', '1 000 000 000 000 000',
+                          '500 µs', '1.00 ms', '100 ms', '1.00 s', '1 235 s'])
+
+    def box(self, name):
+        return self.run_script('const b = arguments[0].getBoundingClientRect(); return [b.left, b.top, b.right, b.bottom]',
+                               self.browser.find_element(By.CSS_SELECTOR, name))
+
+    def test_the_picture_is_seen_in_small_windows(self):
+        for width, height in ((390, 780), (320, 480), (200, 200), (120, 90), (300, 100), (700, 150), (1200, 120)):
+            for name in ('hall', 'round'):
+                with self.subTest(width=width, height=height, name=name):
+                    self.browser.execute_cdp_cmd('Emulation.setDeviceMetricsOverride',
+                                                 {'width': width, 'height': height, 'deviceScaleFactor': 1, 'mobile': False})
+                    self.shown(name)
+                    left, top, right, bottom = self.box('main')
+                    self.assertGreaterEqual(bottom - top, 0.4 * height)
+                    self.assertLessEqual(bottom, height)
+                    self.assertGreaterEqual(top, self.box('header')[3])
+                    beside = self.box('aside')
+                    self.assertTrue(beside[0] >= right or beside[1] >= bottom)
+                    self.assertLessEqual(beside[3], height)
+                    self.assertEqual(self.run_script('const s = map.getSize(), b = map.getContainer(); return [s.x - b.clientWidth, s.y - b.clientHeight]'), [0, 0])
+                    self.assertLessEqual(self.run_script('return document.documentElement.scrollWidth'), width)
+        self.browser.execute_cdp_cmd('Emulation.clearDeviceMetricsOverride', {})
 
     def test_the_place_of_the_pointer_is_not_read_out(self):
         self.shown('yard')

@@ -165,6 +165,13 @@ class RouteGraph(MapTest):
         self.assertEqual(self.counts()[:2], [2, 2])
         self.assertEqual(self.run_script('return question.start'), None)
 
+    def test_samples_that_are_no_number_are_not_built_without(self):
+        self.run_script('byId("graph-kind").value = "roadmap"')
+        for text in ('1e3', '-5', '2.5', '0', 'many', '9999999999'):
+            self.run_script('byId("graph-samples").value = arguments[0]; say(""); byId("graph-build").click()', text)
+            self.assertIn('Samples are a whole number', self.status())
+        self.assertEqual(self.counts()[:2], [0, 0])
+
     def test_a_file_of_nav2_is_opened_and_keeps_what_it_says(self):
         path = self.path('route.geojson')
         text = ('{"type":"FeatureCollection","name":"yard","features":['

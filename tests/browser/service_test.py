@@ -95,6 +95,12 @@ class ServicePage(MapTest):
         self.assertEqual(self.run_script(state), before)
         self.assertEqual(self.drawn(), path)
 
+    def test_a_link_to_a_view_far_away_shows_the_whole_world(self):
+        for at in ('1e308,0,5', '1e12,1e12,3', '-100,5,0'):
+            self.shown(self.town, '#start=1.5,1.5&goal=9.5,8.5&at=' + at)
+            self.wait_for('Solved')
+            self.assertTrue(self.run_script('return map.getBounds().contains(map.whole)'), at)
+
     def test_the_link_holds_that_there_are_no_ends(self):
         self.shown(self.maze)
         self.wait_for('Solved')  # between the world's own ends

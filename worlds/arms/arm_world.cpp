@@ -50,9 +50,9 @@ std::vector<ArmLink> links_of(const SerialChain& chain) {
   return links;
 }
 
-ArmWorld::ArmWorld(const Scene& scene, const SerialChain& chain, const ArmOptions& options)
+ArmWorld::ArmWorld(const Scene& scene, const SerialChain& chain, const ArmOptions& options, const Execution& execution)
     : chain_(chain),
-      solids_(scene.spheres, scene.boxes),
+      solids_(scene.spheres, scene.boxes, execution),
       links_(links_of(chain)),
       weights_(options.weights),
       radius_(checked_length("radius", options.radius)),

@@ -62,8 +62,9 @@ class ArmWorld {
     std::uint64_t refused = 0;  ///< motions that were neither proved free nor blocked
   };
 
-  /// Takes the scene's spheres and boxes. Throws InputError for options out of range and an arm without any link.
-  ArmWorld(const Scene& scene, const SerialChain& chain, const ArmOptions& options);
+  /// Takes the scene's spheres and boxes. Throws InputError for options out of range and an arm without any link,
+  /// Stopped.
+  ArmWorld(const Scene& scene, const SerialChain& chain, const ArmOptions& options, const Execution& execution = {});
 
   Query make_query() const { return {}; }
   State at_unit(const std::array<double, dimension>& u) const;

@@ -32,7 +32,7 @@ BoxOf<3> bounds_of(const Sphere& s) {
 
 }  // namespace
 
-SolidIndex::SolidIndex(std::span<const Sphere> spheres, std::span<const SolidBox> boxes)
+SolidIndex::SolidIndex(std::span<const Sphere> spheres, std::span<const SolidBox> boxes, const Execution& execution)
     : boxes_(boxes.begin(), boxes.end()) {
   std::vector<Solid> solids;
   std::vector<BoxOf<3>> bounds;
@@ -60,7 +60,7 @@ SolidIndex::SolidIndex(std::span<const Sphere> spheres, std::span<const SolidBox
     }
     return;
   }
-  tree_ = BoxTree<3>(bounds);
+  tree_ = BoxTree<3>(bounds, execution);
   for (const std::uint32_t i : tree_.order()) solids_.push_back(solids[i]);
 }
 

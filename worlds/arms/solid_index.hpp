@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "parallel/execution.hpp"
 #include "scenes/scene/scene.hpp"
 #include "spatial/obstacles/box_tree.hpp"
 #include "worlds/arms/solid_distance.hpp"
@@ -27,8 +28,9 @@ struct Approach {
 /// Immutable after construction; any number of threads may ask.
 class SolidIndex {
  public:
-  /// Copies the obstacles. Throws InputError for numbers that are not finite, negative radii and boxes upside down.
-  SolidIndex(std::span<const Sphere> spheres, std::span<const SolidBox> boxes);
+  /// Copies the obstacles. Throws InputError for numbers that are not finite, negative radii and boxes upside down,
+  /// Stopped.
+  SolidIndex(std::span<const Sphere> spheres, std::span<const SolidBox> boxes, const Execution& execution = {});
 
   std::size_t size() const { return solids_.size(); }
   /// Distance from the segment to the nearest obstacle; anything above `enough` when it is more.

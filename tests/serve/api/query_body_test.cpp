@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 
 #include "serve/api/query_body_io.hpp"
 #include "serve/http/http_message.hpp"
@@ -43,11 +44,29 @@ TEST(QueryBody, RefusesEverythingElse) {
                                   std::string("{\"budget_ms\": \"1\"}"),
                                   std::string("{\"file\": \"/etc/passwd\"}"),
                                   std::string("{\"start\": [1,2], }"),
+                                  std::string("{\"start\": [1,2], \"start\": [3,4]}"),
                                   std::string("\xff\xfe{}"),
                                   std::string("{\"a\": ") + std::string(9, '[') + std::string(9, ']') + "}",
                                   std::string(60'000, '[')}) {
     SCOPED_TRACE(text.substr(0, 40));
     EXPECT_THROW(read_query_body(text), HttpError);
+  }
+}
+
+TEST(QueryBody, ARefusalSaysWhatIsExpected) {
+  const std::pair<const char*, std::string> cases[] = {
+      {"{\"start\": [1, 2],\n\"goal\": [1, 2}", "line 2: expected JSON"},
+      {"{\"start\": [1e400, 2]}", "body: expected JSON whose numbers a double can hold"},
+      {"{\"start\": [1, 2], \"start\": [3, 4]}", "body: expected each key of an object once"},
+      {"{\"start\": [1, 2, 3, 4, 5, 6, 7]}", "start: expected a list of at most 6 numbers"},
+  };
+  for (const auto& [text, said] : cases) {
+    try {
+      read_query_body(text);
+      ADD_FAILURE() << text;
+    } catch (const HttpError& error) {
+      EXPECT_EQ(error.what(), said);
+    }
   }
 }
 

@@ -2,6 +2,7 @@
 // Layers by the interface: which there are, why others are not, and that nobody keeps those of another roadmap.
 #include "serve/api/world_layers.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -225,6 +226,35 @@ TEST(WorldLayers, LinesStandOutOnWhiteAndDarkerOnesAreNearer) {
       EXPECT_GE(contrast(luminance(entry.at("color")), 0.0), 3.0) << name;
     }
   }
+}
+
+TEST(WorldLayers, StepsOfClearanceStandOutOnWhiteAndDarkerOnesAreNearer) {
+  const ServedWorld world(scene_of(town), {}, {});
+  WorldService service(world, {});
+  const Json legend = legend_of(service, "clearance");
+  ASSERT_EQ(legend.size(), step_inks.size());
+  double last = -1.0;
+  for (const Json& entry : legend) {
+    const std::string color = entry.at("color");
+    const double opacity = std::stoi(color.substr(7), nullptr, 16) / 255.0;
+    std::string seen = "#";
+    for (const std::size_t from : {1U, 3U, 5U}) {
+      const int part = std::stoi(color.substr(from, 2), nullptr, 16);
+      seen += fmt::format("{:02x}", static_cast<int>(opacity * part + (1.0 - opacity) * 255.0));
+    }
+    EXPECT_GE(contrast(luminance(seen), 1.0), 1.9) << entry;
+    EXPECT_GT(luminance(seen), last) << entry;
+    last = luminance(seen);
+  }
+}
+
+TEST(WorldLayers, LegendsGroupDigitsByThree) {
+  const ServedWorld world(build(scene_of("bounds 0 0 8000000 6000000\n")), {});
+  WorldService service(world, {});
+  EXPECT_EQ(legend_of(service, "clearance").back().at("words"), grouped(3'000'000) + " and more");
+  const std::string legend = "/v/" + world.hash() + "/layers/search/legend";
+  const Json search = Json::parse(asked(service, {.path = legend, .query = {{"from", "10,10"}}}).body);
+  EXPECT_EQ(search.at(1).at("words"), grouped(2'000'000) + " to " + grouped(4'000'000) + " from the start");
 }
 
 TEST(WorldLayers, TheSearchSaysWhyThereIsNone) {

@@ -188,7 +188,11 @@ TEST(WorldService, ALongPathIsSeenByParts) {
   EXPECT_EQ(whole.at("chains")[0][0], Json({1.0, 1.0}));
   const Json seen = Json::parse(served.get("/api/path/" + name, {{"z", "0"}, {"bbox", "0,0,8,8"}}).body);
   EXPECT_LT(seen.at("chains").size() * 2, whole.at("chains")[0].size());
-  EXPECT_EQ(served.get("/api/path/0123456789abcdef").status, 404U);
+  const HttpResponse gone = served.get("/api/path/0123456789abcdef");
+  EXPECT_EQ(gone.status, 404U);
+  for (const char* said : {"POST its question to /api/query again", "Warren-Path"}) {
+    EXPECT_NE(gone.body.find(said), std::string::npos) << gone.body;
+  }
   EXPECT_EQ(served.get("/api/path/" + name, {{"bbox", "0,0,8"}}).status, 400U);
   Served strict(read_world("maze:60x60,seed=3", {}), {}, {.most_view_points = 5});
   const HttpResponse kept = strict.query({{"start", {1, 1}}, {"goal", {60, 60}}});

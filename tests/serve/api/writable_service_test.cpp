@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "scenes/text/human_units.hpp"
 #include "solve/solve.hpp"
 #include "tests/serve/town.hpp"
 
@@ -136,8 +137,11 @@ TEST(WritableService, WhatCanNotBeDrawnIsRefusedAndChangesNothing) {
            Case{R"({"add":{"walls":[[1,1,1,1e999]]}})", 400, "double"},
            Case{R"({"remove":{"walls":[[1,1,2,2]]}})", 400, "not in the world"},
            Case{R"({"wall":[]})", 400, "the keys add, remove, erase"},
+           Case{R"({"add":{"walls":[[50,5,50,55]]},"add":{"walls":[]}})", 400, "each key of an object once"},
+           Case{R"({"add":{"walls":[[50,5,50,55]],"walls":[]}})", 400, "each key of an object once"},
+           Case{R"({"erase":[[30,26,-2]]})", 400, "erase[0]: expected x, y and a reach of 0 or more"},
            Case{"{\"add\":" + std::string(10'000, '[') + "}", 400, "nested"},
-           Case{many, 400, "a list of at most 10000"},
+           Case{many, 400, "a list of at most " + grouped(10'000)},
        }) {
     SCOPED_TRACE(c.said);
     const HttpResponse said = served.asked({.method = "POST", .path = "/api/update", .body = c.body});
@@ -146,6 +150,13 @@ TEST(WritableService, WhatCanNotBeDrawnIsRefusedAndChangesNothing) {
   }
   EXPECT_EQ(served.hash(), before);
   EXPECT_EQ(served.asked({.method = "POST", .path = "/api/update", .body = std::string(5'000'000, ' ')}).status, 413U);
+}
+
+TEST(WritableService, NoSceneIsWrittenThatNobodyCouldRead) {
+  Writable served;
+  const HttpResponse said = served.asked({.path = "/api/scene", .query = {{"start", "1e300,1"}}});
+  EXPECT_EQ(said.status, 400U);
+  EXPECT_NE(said.body.find("start: coordinates are numbers of at most 1e60"), std::string::npos) << said.body;
 }
 
 TEST(WritableService, LargeMazesAndReadersAreToldWhy) {

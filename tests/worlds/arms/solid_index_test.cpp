@@ -7,6 +7,8 @@
 
 #include "core/base/error.hpp"
 #include "tests/worlds/arms/arm_oracle.hpp"
+#include "worlds/arms/arm_world.hpp"
+#include "worlds/arms/puma560.hpp"
 
 namespace warren {
 namespace {
@@ -99,6 +101,14 @@ TEST(SolidIndex, DistancesAreThoseOfAPlainLoop) {
       }
     }
   }
+}
+
+TEST(SolidIndex, OfManyIsNotBuiltToItsEndWhenASignalCame) {
+  const Scene scene = scattered_spheres(1, 5000);
+  const SignalFlag signal{15};
+  const Deadline deadline(std::numeric_limits<double>::infinity(), std::numeric_limits<std::size_t>::max(), &signal);
+  EXPECT_THROW(SolidIndex(scene.spheres, scene.boxes, {.deadline = &deadline}), Stopped);
+  EXPECT_THROW(ArmWorld(scene, SerialChain(puma560_table()), {}, {.deadline = &deadline}), Stopped);
 }
 
 TEST(SolidIndex, RefusesWhatIsNoSolid) {
