@@ -2,7 +2,8 @@
 // Which of some points in a row, up to 64, a search relaxes from p: those of a disc that the way through p reaches
 // sooner than the label that they have. Of the 45 points that a roadmap's index looks at, one to six are left, so what
 // costs are branches that can't be foreseen; here are none. With AVX-512 eight points at a time, with AVX2 four, else
-// one by one; the same bits. All rows of a query together take 0.6 of the time (relaxable in bench/neighbours_bench.cpp).
+// one by one; the same bits. All rows of a query together take 0.6 of the time (relaxable in
+// bench/neighbours_bench.cpp).
 #pragma once
 
 #include <cstdint>
