@@ -66,10 +66,12 @@ class Program:
         return self.run("solve", file, *arguments, "--json", "-", code=code, timeout_s=timeout_s, feed=feed)
 
     def interrupt(self, arguments, after_s, number=signal.SIGINT, stdin=subprocess.DEVNULL):
-        """Runs, sends a signal after this long: (exit code, seconds from signal to end, standard output).
-        The seconds are None if the program ended by itself before."""
+        """Runs, sends a signal this long after the program began to wait for signals: (exit code, seconds from signal to
+        end, standard output). The seconds are None if the program ended by itself before."""
         child = subprocess.Popen(self.command(*arguments), stdin=stdin, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
         self.runs += 1
+        while child.poll() is None and not catches(child.pid, number):
+            time.sleep(0.0005)
         try:
             output, _ = child.communicate(timeout=after_s)
             return child.returncode, None, output.decode("utf-8")
@@ -84,6 +86,13 @@ class Program:
             child.communicate()
             return None, 30.0, ""
         return child.returncode, time.monotonic() - begin, output.decode("utf-8")
+
+
+def catches(pid, number):
+    """Has the process a handler for the signal?"""
+    with open(f"/proc/{pid}/status") as status:
+        masks = [line.split()[1] for line in status if line.startswith("SigCgt:")]
+    return int(masks[0], 16) >> (number - 1) & 1 == 1
 
 
 def refuse_constant(name):

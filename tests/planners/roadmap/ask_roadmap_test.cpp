@@ -41,7 +41,8 @@ Solution<typename W::State> planned(const W& world, const typename W::State& sta
   }
 }
 
-/// Asks about all pairs of the states; the counts of edges depend on what was known, all else does not.
+/// Asks about all pairs of the states; the counts of edges depend on what was known, all else does not. A large lazy
+/// planner's search leaves dead ends of a maze out, which that of a kept roadmap doesn't know.
 template <World W>
 std::size_t expect_the_planners_answers(const W& world, const std::vector<typename W::State>& states,
                                         const RoadmapOptions& options, bool lazy) {
@@ -54,7 +55,11 @@ std::size_t expect_the_planners_answers(const W& world, const std::vector<typena
       const auto answer = ask_roadmap(roadmap, start, goal, options, {}, scratch);
       EXPECT_EQ(answer.outcome, expected.outcome);
       EXPECT_TRUE(std::equal(answer.path.begin(), answer.path.end(), expected.path.begin(), expected.path.end()));
-      EXPECT_EQ(answer.counters.expanded, expected.counters.expanded);
+      if (lazy && CellSideWorld<W> && expected.roadmap.milestones >= fewest_for_both_ends) {
+        EXPECT_GE(answer.counters.expanded, expected.counters.expanded);
+      } else {
+        EXPECT_EQ(answer.counters.expanded, expected.counters.expanded);
+      }
       EXPECT_EQ(answer.roadmap.milestones, expected.roadmap.milestones);
       if (!lazy) {
         EXPECT_EQ(answer.roadmap.components, expected.roadmap.components);
