@@ -193,6 +193,10 @@ void explain_answer(const Scene& scene, const AskedWith& asked, Answer& answer, 
   if (explained.narrowest) explained.narrowest->one_sample_in = one_sample_in(scene, answer, execution);
 }
 
+void explain_stop(Answer& answer) {
+  answer.explained.emplace().hints = hints_for(Scene(), {.options = SolveOptions()}, answer);
+}
+
 void explain_in_time(Answer& answer, const std::function<void()>& explain) {
   const auto stop = [&](StopReason reason) {
     if (!answer.explained) answer.explained.emplace();

@@ -21,6 +21,9 @@ namespace warren {
 void explain_answer(const Scene& scene, const AskedWith& asked, Answer& answer, const ByProducts& made,
                     const Execution& execution);
 
+/// The same of an answer that was stopped before its world was read.
+void explain_stop(Answer& answer);
+
 /// Lets `explain` do so; what stops it, a limit or memory, leaves the answer as it is, and the explanation says which.
 void explain_in_time(Answer& answer, const std::function<void()>& explain);
 

@@ -108,8 +108,11 @@ void AnswerCommand::answer(const Run& run) {
 /// What is on disk says the same as the exit code: a stop while something is written makes it a stopped answer, one
 /// before, after the answer was found, does not.
 void AnswerCommand::write_outputs(Run& run) {
-  if (explains_ && !answer_.world.kind.empty()) {
-    explain_in_time(answer_, [&] { explain(run.execution(), answer_, by_products_); });
+  if (explains_) {
+    explain_in_time(answer_, [&] {
+      if (answer_.world.kind.empty()) return explain_stop(answer_);
+      explain(run.execution(), answer_, by_products_);
+    });
   }
   try {
     if (answer_.outcome != Outcome::stopped) return write_finished(run.execution_for_what_is_left());

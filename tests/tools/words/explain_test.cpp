@@ -198,6 +198,15 @@ TEST(Explain, KeptRoadmapsAreToldToBeBuiltWithMore) {
   }
 }
 
+TEST(Explain, ARunThatEndsBeforeItsWorldIsReadIsToldToTakeLonger) {
+  for (const Words& words : {Words{"solve", "maze:9x11"}, Words{"query", "absent.roadmap"}}) {
+    const Json told = explained(joined(words, {"--budget", "1us"}), 124);
+    ASSERT_EQ(told["hints"].size(), 1U) << told;
+    EXPECT_NE(told["hints"][0]["why"].get<std::string>().find("--budget"), std::string::npos) << told;
+    EXPECT_EQ(told["components"], nullptr);
+  }
+}
+
 TEST(Explain, IsTheSameForAnyNumberOfThreads) {
   const Folder folder;
   const std::string world = folder.write("w.scene", gap_world);
