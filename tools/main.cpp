@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tools/screen/exit_code.hpp"
+#include "tools/screen/first_pages.hpp"
 #include "tools/screen/last_words.hpp"
 #include "tools/screen/output_conflicts.hpp"
 #include "tools/screen/signals.hpp"
@@ -67,6 +68,7 @@ int run_program(std::span<const std::string> words) {
 }  // namespace warren
 
 int main(int argc, char** argv) {
+  warren::take_first_pages();
   warren::hold_standard_descriptors();
   warren::install_last_words();
   warren::install_signal_handlers();

@@ -27,7 +27,7 @@ std::vector<Segment> walls_around(const LatticeWorld& world, Vec2 at, double rea
       return static_cast<std::uint32_t>(std::clamp(std::floor(x - 0.5), 0.0, count - 1.0));
     };
     const std::size_t tile = world.grid.tile_at(index(at.x, world.grid.cols), index(at.y, world.grid.rows));
-    world.tiles.reader()->read(tile).for_each(world.grid, tile, take);
+    world.tiles.reader()->read(tile).for_each_around(world.grid, tile, around, take);
     return near;
   }
   world.tiles.for_each_near(around, take);

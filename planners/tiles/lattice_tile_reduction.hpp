@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/raw_vector.hpp"
 #include "planners/tiles/tile_plane.hpp"
 
 namespace warren {
@@ -64,12 +65,12 @@ class TileReduction {
   static constexpr int bulk_passes = 4;
 
   std::array<int, 4> offset_;
-  std::vector<std::uint8_t> found_;    // scratch for a row
-  std::vector<std::uint16_t> number_;  // of a key, by place in the plane
+  std::vector<std::uint8_t> found_;  // scratch for a row
+  RawVector<std::uint16_t> number_;  // of a key, by place in the plane; of others none
   std::vector<std::uint16_t> keys_;
   std::vector<std::int32_t> places_;  // of the keys, in the plane
   std::vector<Chain> chains_;
-  std::vector<std::uint8_t> steps_;  // room for all edges of a tile
+  RawVector<std::uint8_t> steps_;  // room for all edges of a tile
   std::uint32_t step_count_ = 0;
 };
 

@@ -20,6 +20,7 @@ namespace warren {
 struct NarrowWall {
   std::int16_t x1, y1, x2, y2;
 };
+
 inline constexpr int narrow_bits = 7;
 inline constexpr int narrow_unit = 1 << narrow_bits;  ///< steps between lattice points
 
@@ -57,10 +58,12 @@ struct TileGrid {
   /// The area that the tiles cover: half a step around the lattice points.
   Box area() const { return {{0.5, 0.5}, {cols + 0.5, rows + 0.5}}; }
 
+  Vec2 middle_of(std::size_t tile) const { return point(first_col(tile) + side() / 2, first_row(tile) + side() / 2); }
+
   /// The wall that a tile's narrow wall stands for. Exact.
   Segment segment(std::size_t tile, const NarrowWall& w) const {
     constexpr double unit = 1.0 / narrow_unit;
-    const Vec2 middle = point(first_col(tile) + side() / 2, first_row(tile) + side() / 2);
+    const Vec2 middle = middle_of(tile);
     return {{middle.x + w.x1 * unit, middle.y + w.y1 * unit}, {middle.x + w.x2 * unit, middle.y + w.y2 * unit}};
   }
 };

@@ -5,8 +5,21 @@
 #include <cmath>
 #include <vector>
 
+#include "core/base/raw_vector.hpp"
+#include "planners/tiles/growing_box.hpp"
+#include "planners/tiles/wall_filer.hpp"
+#include "planners/tiles/wall_steps.hpp"
+
 namespace warren {
 namespace {
+
+void for_each_held(const WallSet& walls, std::span<const Segment> more,
+                   const std::function<void(const Segment&)>& visit) {
+  walls.visit([&](auto held) {
+    for (const auto& wall : held) visit(wall.segment());
+  });
+  for (const Segment& wall : more) visit(wall);
+}
 
 class HeldTiles : public TileSource {
  public:
@@ -26,10 +39,7 @@ class HeldTiles : public TileSource {
   std::unique_ptr<TileReader> reader() const override { return std::make_unique<Reader>(partition_, execution_); }
   Box box() const override { return partition_.box(); }
   void for_each_near(const Box&, const std::function<void(const Segment&)>& visit) const override {
-    walls_.visit([&](auto walls) {
-      for (const auto& wall : walls) visit(wall.segment());
-    });
-    for (const Segment& wall : more_) visit(wall);
+    for_each_held(walls_, more_, visit);
   }
 
  private:
@@ -54,6 +64,62 @@ class HeldTiles : public TileSource {
   std::span<const Segment> more_;
   const Execution& execution_;
   WallPartition partition_;
+};
+
+/// A few walls among the milestones of one tile: one pass, and nothing is counted.
+class OneTile : public TileSource {
+ public:
+  static bool takes(const WallSet& walls, const TileGrid& grid) {
+    return grid.count() == 1 && walls.size() <= most_walls;
+  }
+  OneTile(const WallSet& walls, std::span<const Segment> more, const TileGrid& grid, double halo)
+      : walls_(walls), more_(more), grid_(grid), narrow_(walls.size()) {
+    walls.visit([&](auto given) { file(given, WallFiler(grid_, halo)); });
+  }
+
+  std::vector<std::size_t> begin_band(std::uint32_t, const Execution&) override { return {0}; }
+  std::unique_ptr<TileReader> reader() const override { return std::make_unique<Reader>(*this); }
+  Box box() const override { return box_; }
+  void for_each_near(const Box&, const std::function<void(const Segment&)>& visit) const override {
+    for_each_held(walls_, more_, visit);
+  }
+
+ private:
+  static constexpr std::size_t most_walls = std::size_t{1} << 14;
+
+  class Reader : public TileReader {
+   public:
+    explicit Reader(const OneTile& tile) : tile_(tile) {}
+    TileWalls read(std::size_t) override { return {tile_.narrow_, tile_.floats_, tile_.doubles_, tile_.more_}; }
+
+   private:
+    const OneTile& tile_;
+  };
+
+  template <class Wall>
+  void file(std::span<const Wall> walls, const WallFiler& filer) {
+    const std::uint64_t middle = detail::middle_of(grid_, 0);
+    NarrowWall* end = narrow_.data();
+    GrowingBox box;
+    for (const Wall& wall : walls) {
+      box.include(wall);
+      filer.file(
+          wall, [&](std::size_t, const detail::WallSteps& steps) { *end++ = steps.from(middle); },
+          [&](std::size_t) { keep_wide(unpacked(wall)); });
+    }
+    narrow_.resize(static_cast<std::size_t>(end - narrow_.data()));
+    box_ = box.box();
+  }
+  void keep_wide(const FloatWall& wall) { floats_.push_back(wall); }
+  void keep_wide(const DoubleWall& wall) { doubles_.push_back(wall); }
+
+  const WallSet& walls_;
+  std::span<const Segment> more_;
+  const TileGrid grid_;
+  RawVector<NarrowWall> narrow_;
+  RawVector<FloatWall> floats_;
+  RawVector<DoubleWall> doubles_;
+  Box box_;
 };
 
 class CellTiles : public TileSource {
@@ -128,6 +194,7 @@ TileWalls CellTiles::Reader::read(std::size_t tile) {
 
 std::unique_ptr<TileSource> held_tiles(const WallSet& walls, std::span<const Segment> more, const TileGrid& grid,
                                        double halo, std::uint32_t bands, const Execution& execution) {
+  if (OneTile::takes(walls, grid)) return std::make_unique<OneTile>(walls, more, grid, halo);
   return std::make_unique<HeldTiles>(walls, more, grid, halo, bands, execution);
 }
 

@@ -48,7 +48,8 @@ class TileSource {
 };
 
 /// Walls that are held, filed by tile (wall_partition.hpp), in so many bands of columns; 0: chosen by their number,
-/// order and the memory that is left. Refers to walls, more, grid and execution. Throws as WallPartition.
+/// order and the memory that is left. A few walls in one tile are filed in one pass, without being counted. Refers to
+/// walls, more, grid and execution. Throws as WallPartition.
 std::unique_ptr<TileSource> held_tiles(const WallSet& walls, std::span<const Segment> more, const TileGrid& grid,
                                        double halo, std::uint32_t bands, const Execution& execution);
 

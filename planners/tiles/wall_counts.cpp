@@ -2,41 +2,13 @@
 #include "planners/tiles/wall_counts.hpp"
 
 #include <algorithm>
-#include <cstring>
-#include <limits>
 #include <span>
 #include <vector>
 
+#include "planners/tiles/growing_box.hpp"
+
 namespace warren {
 namespace {
-
-/// The box of the walls that it has been shown.
-class GrowingBox {
- public:
-  void include(const PackedWall& w) { include(detail::WallSteps(w).numbers() * (1.0F / narrow_unit)); }
-  void include(const FloatWall& w) {
-    detail::Four ends;
-    std::memcpy(&ends, &w, sizeof ends);
-    include(ends);
-  }
-  void include(const DoubleWall& w) { doubles_.include(box_of(w.segment())); }
-  Box box() const {
-    Box box = doubles_;
-    box.include({{std::min(low_[0], low_[2]), std::min(low_[1], low_[3])},
-                 {std::max(high_[0], high_[2]), std::max(high_[1], high_[3])}});
-    return box;
-  }
-
- private:
-  void include(detail::Four ends) {
-    low_ = low_ < ends ? low_ : ends;
-    high_ = high_ > ends ? high_ : ends;
-  }
-
-  detail::Four low_ = detail::Four{} + std::numeric_limits<float>::infinity();
-  detail::Four high_ = detail::Four{} - std::numeric_limits<float>::infinity();
-  Box doubles_;
-};
 
 /// At least 16384 walls, at most 512 chunks: so that their counts stay small beside the walls.
 std::size_t grain_of(std::size_t walls) { return std::max<std::size_t>(16384, (walls + 511) / 512); }

@@ -42,19 +42,15 @@ bool blocks_edge(const Segment& wall, const Segment& edge, double clearance) noe
 }
 
 WallMarker::WallMarker(double clearance)
-    : clearance_(clearance),
-      reach_(static_cast<int>(std::ceil(clearance))),
-      known_(slots, no_key),
-      seen_(slots, no_key),
-      shapes_(slots) {
+    : clearance_(clearance), reach_(static_cast<int>(std::ceil(clearance))), slots_(slot_count), shapes_(slot_count) {
   assert(clearance >= 0.0 && clearance <= largest_clearance * (1 + 1e-8));
 }
 
 void WallMarker::mark(const TileWalls& walls, TilePlane& plane) {
   assert(plane.margin() >= margin());
   if (stride_ != plane.stride()) {
-    std::fill(known_.begin(), known_.end(), no_key);
-    std::fill(seen_.begin(), seen_.end(), no_key);
+    std::fill(slots_.begin(), slots_.end(), Slot());
+    taken_ = 0;
     stride_ = plane.stride();
   }
   mark_narrow(walls.narrow, plane);
@@ -74,14 +70,15 @@ void WallMarker::mark_narrow(std::span<const NarrowWall> walls, TilePlane& plane
 }
 
 inline void WallMarker::mark_shape(std::uint64_t key, const NarrowWall& wall, std::uint8_t* cell, TilePlane& plane) {
-  const std::size_t slot = slot_of(key);
-  if (known_[slot] != key) {
-    const bool came_before = std::exchange(seen_[slot], key) == key;
+  Slot& slot = slots_[slot_of(key)];
+  if (slot.known != key) {
+    const bool came_before = std::exchange(slot.seen, key) == key;
     if (!came_before) return mark_one(plane.grid().segment(plane.tile(), wall), plane);
-    learn(key, shapes_[slot], plane.stride());
-    known_[slot] = key;
+    if (slot.shape == nullptr) slot.shape = &shapes_[taken_++];
+    learn(key, *slot.shape, plane.stride());
+    slot.known = key;
   }
-  const Shape& shape = shapes_[slot];
+  const Shape& shape = *slot.shape;
   if (shape.count > most_clears) return mark_one(plane.grid().segment(plane.tile(), wall), plane);
   for (unsigned c = 0; c < shape.count; ++c) cell[shape.offset[c]] &= shape.keep_bits[c];
 }

@@ -18,6 +18,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
 #include "planners/tiles/tile_plane.hpp"
 #include "planners/tiles/wall_partition.hpp"
@@ -43,7 +44,7 @@ class WallMarker {
  private:
   static constexpr int longest_shape = 16;     // walls of up to so many cells are remembered
   static constexpr unsigned most_clears = 40;  // and if they change no more points than that
-  static constexpr std::size_t slots = 256;
+  static constexpr std::size_t slot_count = 256;
   static constexpr std::uint64_t no_key = ~std::uint64_t{0};
 
   /// What walls of one shape clear, as places relative to the cell of their lower left corner.
@@ -58,12 +59,18 @@ class WallMarker {
   void learn(std::uint64_t key, Shape& shape, int stride) const;
   void mark_one(const Segment& wall, TilePlane& plane) const;
 
+  struct Slot {
+    std::uint64_t known = no_key;  ///< of the shape
+    std::uint64_t seen = no_key;   ///< that came last, known or not
+    Shape* shape = nullptr;
+  };
+
   double clearance_;
-  int reach_;                         // cells that the clearance reaches, rounded up
-  int stride_ = 0;                    // that the shapes' offsets are for
-  std::vector<std::uint64_t> known_;  // keys of shapes_, no_key where the slot is free
-  std::vector<std::uint64_t> seen_;   // the key that came last to this slot, known or not
-  std::vector<Shape> shapes_;
+  int reach_;       // cells that the clearance reaches, rounded up
+  int stride_ = 0;  // that the shapes' offsets are for
+  std::vector<Slot> slots_;
+  RawVector<Shape> shapes_;  // room for one a slot; the first of them are taken, side by side
+  std::size_t taken_ = 0;
 };
 
 }  // namespace warren

@@ -13,13 +13,8 @@
 namespace warren {
 namespace {
 
+using detail::middle_of;
 using detail::WallSteps;
-
-/// Middle of a tile in steps: x in the lower half, y in the upper one.
-std::uint64_t middle_of(const TileGrid& grid, std::size_t tile) {
-  const auto steps = [&](std::uint32_t first) { return (first + grid.side() / 2 + 1) * narrow_unit; };
-  return steps(grid.first_col(tile)) | (std::uint64_t{steps(grid.first_row(tile))} << 32);
-}
 
 /// Where the walls of each of these tiles begin; returns how many there are.
 std::size_t add_up(const ChunkCounts& counts, std::span<const std::size_t> tiles, RawVector<std::uint32_t>& first) {

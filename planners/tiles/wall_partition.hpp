@@ -21,6 +21,7 @@
 #include "core/base/raw_vector.hpp"
 #include "core/plane/wall_set.hpp"
 #include "parallel/execution.hpp"
+#include "planners/tiles/narrow_box.hpp"
 #include "planners/tiles/tile_bands.hpp"
 #include "planners/tiles/tile_grid.hpp"
 #include "planners/tiles/wall_counts.hpp"
@@ -39,6 +40,18 @@ struct TileWalls {
   template <class Visit>
   void for_each(const TileGrid& grid, std::size_t tile, const Visit& visit) const {
     for (const NarrowWall& w : narrow) visit(grid.segment(tile, w));
+    for_each_wide(visit);
+  }
+  /// The same for those whose box meets this one, and perhaps some that nearly do.
+  template <class Visit>
+  void for_each_around(const TileGrid& grid, std::size_t tile, const Box& around, const Visit& visit) const {
+    const NarrowBox box(grid, tile, around);
+    for (std::size_t i = 0; i < narrow.size(); i += 2) {
+      const bool single = i + 1 == narrow.size();
+      const unsigned meet = box.meets(narrow.data() + i, single);
+      if ((meet & 1U) != 0) visit(grid.segment(tile, narrow[i]));
+      if ((meet & 2U) != 0 && !single) visit(grid.segment(tile, narrow[i + 1]));
+    }
     for_each_wide(visit);
   }
   template <class Visit>

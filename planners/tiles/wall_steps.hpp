@@ -26,6 +26,12 @@ static_assert(PackedWall::per_unit << packed_shift == narrow_unit && PackedWall:
 
 using Four = float __attribute__((vector_size(16)));
 
+/// Middle of a tile in steps: x in the lower half, y in the upper one.
+inline std::uint64_t middle_of(const TileGrid& grid, std::size_t tile) {
+  const auto steps = [&](std::uint32_t first) { return (first + grid.side() / 2 + 1) * narrow_unit; };
+  return steps(grid.first_col(tile)) | (std::uint64_t{steps(grid.first_row(tile))} << 32);
+}
+
 /// A tile's place, or a place before or after the tiles.
 struct TileCorner {
   std::int32_t col;
