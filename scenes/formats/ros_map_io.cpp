@@ -342,6 +342,7 @@ void write_ros_map(const OccupancyMap& map, const std::string& path, const Execu
       fmt::format("image: {}\nresolution: {}\norigin: [{}, {}, {}]\nnegate: 0\noccupied_thresh: 0.65\n"
                   "free_thresh: 0.196\n",
                   yaml_text(name), map.cell, map.origin.x, map.origin.y, map.yaw_rad));
+  yaml.complete();  // what comes after the image's place asks no more for the time
   FirstOfTwoFiles first(image);
   write_map_pgm(map, image, UnknownCells::grey, execution);
   yaml.commit();

@@ -244,9 +244,17 @@ void check_path_file(const RobotSpec& robot, const std::string& file, const Path
 PathFileAccount write_path_file(const Answer& answer, const std::string& file, const PathFileOptions& options,
                                 const Execution& execution) {
   check_path_file(answer.problem.robot, file, options);
+  OutputFile out(file, execution);
+  const PathFileAccount account = write_path(answer, file, options, execution, out);
+  out.commit();
+  return account;
+}
+
+PathFileAccount write_path(const Answer& answer, const std::string& file, const PathFileOptions& options,
+                           const Execution& execution, OutputFile& out) {
+  check_path_file(answer.problem.robot, file, options);
   const PathLegs legs(answer);
   Rows rows(legs, options, execution);
-  OutputFile out(file, execution);
   PathFileAccount account{0, rows.duration_s()};
   switch (path_format(file)) {
     case PathFormat::csv:
@@ -262,7 +270,6 @@ PathFileAccount write_path_file(const Answer& answer, const std::string& file, c
       account.places = write_array(rows, legs, out);
       break;
   }
-  out.commit();
   return account;
 }
 

@@ -61,5 +61,8 @@ class PathArrayFile : public PathTaker {
 /// answer: has a path. Throws UsageError as check_path_file does, and for more than 1e9 places; WriteError, Stopped.
 PathFileAccount write_path_file(const Answer& answer, const std::string& file, const PathFileOptions& options,
                                 const Execution& execution);
+/// The same into `out`, which the caller puts into its place; `file` names the format.
+PathFileAccount write_path(const Answer& answer, const std::string& file, const PathFileOptions& options,
+                           const Execution& execution, OutputFile& out);
 
 }  // namespace warren

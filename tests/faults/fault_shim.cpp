@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // For tests alone: loaded before a program's libraries (LD_PRELOAD), it lets the system refuse one call, or all from
 // one on. WARREN_FAULT says which: "KIND:N" the N-th call of a kind, "KIND:N+" that and all later ones; kinds are those
-// of `names` below. WARREN_FAULT_COUNTS names a file that receives the number of calls of each kind when the program
-// ends. The calls that are passed on go to glibc's own names or straight to the kernel, for dlsym itself allocates.
+// of `names` below; "stopping:N": SIGTERM comes right after the N-th renaming. WARREN_FAULT_COUNTS names a file that
+// receives the number of calls of each kind when the program ends. The calls that are passed on go to glibc's own names
+// or straight to the kernel, for dlsym itself allocates.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <pthread.h>
@@ -14,6 +15,7 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
@@ -36,6 +38,7 @@ std::array<std::atomic<long>, kinds> calls{};
 int failing_kind = -1;
 long failing_call = 0;
 bool for_good = false;
+long stopping_call = 0;
 bool counting = false;
 
 using ThreadMaker = int (*)(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*);
@@ -60,6 +63,9 @@ __attribute__((constructor)) void begin() {
   make_thread = reinterpret_cast<ThreadMaker>(::dlsym(RTLD_NEXT, "pthread_create"));
   open_file = reinterpret_cast<FileOpener>(::dlsym(RTLD_NEXT, "fopen"));
   if (const char* const fault = std::getenv("WARREN_FAULT")) {
+    constexpr const char* stopping = "stopping:";
+    if (std::strncmp(fault, stopping, std::strlen(stopping)) == 0)
+      stopping_call = std::atol(fault + std::strlen(stopping));
     for (int kind = 0; kind < kinds; ++kind) {
       const std::size_t size = std::strlen(names[kind]);
       if (std::strncmp(fault, names[kind], size) != 0 || fault[size] != ':') continue;
@@ -137,7 +143,10 @@ ssize_t writev(int file, const iovec* parts, int count) {
 }
 
 int rename(const char* from, const char* to) noexcept {
-  return refused(renaming) ? failed(EIO) : static_cast<int>(::syscall(SYS_renameat, AT_FDCWD, from, AT_FDCWD, to));
+  if (refused(renaming)) return failed(EIO);
+  const auto result = static_cast<int>(::syscall(SYS_renameat, AT_FDCWD, from, AT_FDCWD, to));
+  if (stopping_call > 0 && calls[renaming] == stopping_call) std::raise(SIGTERM);
+  return result;
 }
 int linkat(int folder, const char* from, int other, const char* to, int flags) noexcept {
   return refused(renaming) ? failed(EIO) : static_cast<int>(::syscall(SYS_linkat, folder, from, other, to, flags));

@@ -124,8 +124,8 @@ void AnswerCommand::write_outputs(Run& run) {
   write_stopped(run.execution());
 }
 
-/// A JSON file is put into its place when picture, path and roadmap are in theirs; what is written straight follows the
-/// picture.
+/// All files are complete before the picture is drawn, and none is in its place before the picture is in its own: from
+/// there on nothing asks for the time. A JSON file comes last. What is written straight follows the picture.
 void AnswerCommand::write_finished(const Execution& execution) {
   const bool has_path = !path_.empty() && answer_.verified;
   std::optional<OutputFile> kept;
@@ -133,11 +133,22 @@ void AnswerCommand::write_finished(const Execution& execution) {
   const bool kept_follows = keeps_roadmap() && is_straight(roadmap_);
   if (keeps_roadmap() && !kept_follows) write_kept(kept, execution);
   const bool json_follows = !json_.empty() && is_straight(json_);
-  if (!json_.empty() && !json_follows) write_json(json, execution);
+  if (!json_.empty() && !json_follows) {
+    write_json(json, execution);
+    json->complete();
+  }
+  std::optional<OutputFile> path;
+  const bool path_is_written = has_path && !answer_.handed;
+  if (path_is_written && !is_straight(path_)) {
+    path.emplace(path_, execution);
+    write_path(answer_, path_, path_options_, execution, *path);
+    path->complete();
+  }
   if (!svg_.empty()) draw(execution);
   FirstOfTwoFiles path_first(has_path ? path_ : "-");
   if (has_path && answer_.handed) handed_on_->commit();
-  if (has_path && !answer_.handed) write_path_file(answer_, path_, path_options_, execution);
+  if (path) path->commit();
+  if (path_is_written && !path) write_path_file(answer_, path_, path_options_, execution);
   json_said_ = json_follows;
   if (json_follows) write_json(json, execution);
   if (kept_follows) write_kept(kept, execution);

@@ -66,9 +66,9 @@ int build_roadmap_file(const Arguments& arguments) {
   StageTimes seconds;
   Scene scene = load_world(arguments.operand(0), arguments, run.execution(), seconds);
   const Roadmap roadmap = build_within(std::move(scene), question, options, run.execution(), index);
+  const EdgeCounts edges = count_edges(roadmap, run.execution());
   write_roadmap(roadmap, *file, run.execution(), !arguments.has("--no-world"));
   run.end();
-  const EdgeCounts edges = count_edges(roadmap, run.execution());
   run.conclude(file == "-", {}, [&] {
     return fmt::format("{}: {}, {} states, {} edges free, {} blocked, {} unchecked\n", run.palette().strong(*file),
                        description_of(roadmap.world.outline()), grouped(count_states(roadmap)), grouped(edges.free),

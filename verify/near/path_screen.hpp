@@ -37,10 +37,11 @@ namespace warren {
 /// Holds nothing of the path. After set_reach any number of threads may ask.
 class PathScreen {
  public:
-  /// What is to come; it only decides on the cells.
+  /// What is to come; it decides on the cells, and on the instructions.
   struct Plan {
     std::size_t walls = 0;
     double typical_wall = 0.0;  ///< the extent of most, 0 if not known
+    bool plain = false;         ///< without what this processor can do beyond the baseline
   };
   PathScreen(const LegBoxes& legs, const Plan& plan, const Execution& execution);
 
@@ -108,6 +109,7 @@ class PathScreen {
   template <class Wall>
   void sift_all(std::span<const Wall> walls, std::size_t first_number, Rest& rest) const;
 
+  bool plain_;
   double cell_ = 1.0;
   double per_cell_ = 1.0;
   bool usable_ = true;
