@@ -20,7 +20,6 @@ namespace warren {
 struct NarrowWall {
   std::int16_t x1, y1, x2, y2;
 };
-
 inline constexpr int narrow_bits = 7;
 inline constexpr int narrow_unit = 1 << narrow_bits;  ///< steps between lattice points
 
@@ -58,6 +57,7 @@ struct TileGrid {
   /// The area that the tiles cover: half a step around the lattice points.
   Box area() const { return {{0.5, 0.5}, {cols + 0.5, rows + 0.5}}; }
 
+  /// Where narrow walls of a tile count from.
   Vec2 middle_of(std::size_t tile) const { return point(first_col(tile) + side() / 2, first_row(tile) + side() / 2); }
 
   /// The wall that a tile's narrow wall stands for. Exact.

@@ -30,7 +30,9 @@ ROS_KEYS = "resolution: 1\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\n
 # Name, words, outputs; words and outputs are files of the run's folder.
 RUNS = [
     ("solve", "solve w.scene --json a.json --svg a.svg --trace a.trace --threads 1", ["a.json", "a.svg", "a.trace"]),
-    ("solve and draw the path", "solve w.scene --json a.json --svg a.png --path p.csv --threads 1", ["a.json", "a.png", "p.csv"]),
+    ("solve and draw the path", "solve w.scene --json a.json --svg a.png --path p.csv --threads 1",
+     ["a.json", "a.png", "p.csv"]),
+    ("solve and hand the path on", "solve w.scene --json a.json --no-path --path p.npy --threads 1", ["a.json", "p.npy"]),
     ("solve on threads", "solve big.npy --sampler uniform --json a.json --threads 4 --progress plain", ["a.json"]),
     ("generate", "generate maze 9x9 -o m.npy", ["m.npy"]),
     ("generate what is written while made", "generate maze 9x9 --algorithm mst -o n.npy", ["n.npy"]),

@@ -5,7 +5,7 @@
 
 namespace warren {
 
-/// What is left to the kernel where it knows no such call.
+/// Never fails: a kernel that knows no such call gives the pages one by one, as they are touched.
 void take_first_pages();
 
 }  // namespace warren

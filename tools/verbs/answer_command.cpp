@@ -125,7 +125,8 @@ void AnswerCommand::write_outputs(Run& run) {
 }
 
 /// All files are complete before the picture is drawn, and none is in its place before the picture is in its own: from
-/// there on nothing asks for the time. A JSON file comes last. What is written straight follows the picture.
+/// there on no file asks for the time. A JSON file comes last. What is written straight can't be complete before: it
+/// follows the picture.
 void AnswerCommand::write_finished(const Execution& execution) {
   const bool has_path = !path_.empty() && answer_.verified;
   std::optional<OutputFile> kept;
