@@ -44,19 +44,22 @@ std::size_t machine_available_bytes() {
   return std::numeric_limits<std::size_t>::max();
 }
 
-/// Small pieces that other threads have freed stay resident until somebody asks for them.
-void give_freed_pages_back() {
-#ifdef __GLIBC__
-  ::malloc_trim(0);
-#endif
-}
-
 StopReason reason_of_signal(int number) {
   if (number == SIGTERM) return StopReason::terminate;
   return number == SIGHUP ? StopReason::hang_up : StopReason::interrupt;
 }
 
 }  // namespace
+
+void give_freed_pages_back() noexcept {
+#ifdef __GLIBC__
+  // The first call sets up glibc's allocator where another one stands before it (a sanitizer's, one that is preloaded),
+  // and two threads must not do that at once.
+  static const int first = ::malloc_trim(0);
+  static_cast<void>(first);
+  ::malloc_trim(0);
+#endif
+}
 
 Deadline::Deadline(double seconds, std::size_t memory_bytes, const SignalFlag* signal)
     : memory_bytes_(memory_bytes), signal_(signal) {

@@ -65,6 +65,9 @@ class Deadline {
 std::size_t resident_bytes();
 /// The most that this process has held, as resident_bytes().
 std::size_t peak_resident_bytes();
+/// Gives the system back what has been freed in small pieces, which stays resident until somebody asks for it. Any
+/// thread, whatever allocator the program runs with.
+void give_freed_pages_back() noexcept;
 /// Bytes that this process may hold: the smaller of the machine's memory that is available, less a 16th of it for
 /// everybody else, and the cgroup's limit.
 std::size_t available_bytes();

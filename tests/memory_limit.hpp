@@ -4,9 +4,6 @@
 
 #include <cstddef>
 #include <limits>
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 
 #include "parallel/deadline.hpp"
 
@@ -14,9 +11,7 @@ namespace warren::test {
 
 /// What has been freed goes back before, or it could be held anew.
 inline Deadline limit_from_here(std::size_t bytes) {
-#ifdef __GLIBC__
-  ::malloc_trim(0);
-#endif
+  give_freed_pages_back();
   return Deadline(std::numeric_limits<double>::infinity(), resident_bytes() + bytes);
 }
 

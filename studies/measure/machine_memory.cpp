@@ -2,7 +2,6 @@
 #include "studies/measure/machine_memory.hpp"
 
 #include <fmt/format.h>
-#include <malloc.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -56,9 +55,7 @@ std::string text_of(const Machine& machine) {
 }
 
 void restart_peak_memory() {
-#ifdef __GLIBC__
-  ::malloc_trim(0);  // what earlier runs have freed is no part of this one's peak
-#endif
+  give_freed_pages_back();  // what earlier runs have freed is no part of this one's peak
   std::ofstream("/proc/self/clear_refs") << "5";
   PagePool::watch_idle_bytes();
 }

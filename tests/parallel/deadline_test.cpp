@@ -2,9 +2,10 @@
 #include "parallel/deadline.hpp"
 
 #include <gtest/gtest.h>
-#include <malloc.h>
 
+#include <atomic>
 #include <csignal>
+#include <cstdlib>
 #include <limits>
 #include <thread>
 #include <vector>
@@ -54,7 +55,7 @@ TEST(Deadline, RefusesBytesBeyondItsMemory) {
 
 TEST(Deadline, GrantsThatItGaveUnaskedCountTowardsTheLimit) {
   constexpr std::size_t step = std::size_t{1} << 16;  // far less than a 64th of what is left at first
-  ::malloc_trim(0);                                   // memory that other tests left at hand would be held already
+  give_freed_pages_back();                            // memory that other tests left at hand would be held already
   const Deadline deadline(forever, resident_bytes() + 1024 * step);
   std::vector<std::vector<char>> held;
   const auto take_all = [&] {
@@ -123,6 +124,27 @@ TEST(Memory, FiguresAreInAPlausibleOrder) {
   EXPECT_GT(resident_bytes(), 0U);
   EXPECT_GE(peak_resident_bytes(), resident_bytes() / 2);
   EXPECT_GT(available_bytes(), std::size_t{1} << 20);
+}
+
+/// In a process of its own, where nobody has asked glibc's allocator for anything before: with a sanitizer's allocator
+/// before it, its set-up by two threads at once ended that process.
+TEST(Memory, FreedPagesGoBackOnManyThreadsAtOnce) {
+  const auto give_back_at_once = [] {
+    constexpr int count = 8;
+    std::atomic<int> ready{0};
+    std::vector<std::thread> threads;
+    for (int i = 0; i < count; ++i) {
+      threads.emplace_back([&] {
+        ++ready;
+        while (ready < count) std::this_thread::yield();
+        give_freed_pages_back();
+      });
+    }
+    for (std::thread& t : threads) t.join();
+    std::_Exit(0);
+  };
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(give_back_at_once(), ::testing::ExitedWithCode(0), "");
 }
 
 }  // namespace
