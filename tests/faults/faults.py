@@ -42,6 +42,8 @@ RUNS = [
     ("convert to a page", "convert w.scene -o w.pdf", ["w.pdf"]),
     ("compare", "compare w.scene --planners prm,lazy-prm --seeds 1 --json c.json --csv c.csv --log c.log --threads 1",
      ["c.json", "c.csv", "c.log"]),
+    ("scale", "scale --sizes 5,7 --repeats 1 --threads 1 --json s.json --csv s.csv --html s.html",
+     ["s.json", "s.csv", "s.html"]),
     ("build", "build w.scene --samples 60 -o r.roadmap --threads 1", ["r.roadmap"]),
     ("query", "query kept.roadmap --json a.json --svg a.svg --keep k.roadmap --threads 1",
      ["a.json", "a.svg", "k.roadmap"]),
@@ -78,6 +80,8 @@ def whole(path: Path, clean: bytes) -> bool:
             path.suffix == ".trace" or ours.get("path") == theirs.get("path"))
     if path.suffix in (".csv", ".log"):
         return data.count(b"\n") == clean.count(b"\n")
+    if path.suffix == ".html":
+        return data.startswith(b"<!DOCTYPE html>") and data.endswith(b"</html>\n")
     return data == clean
 
 
@@ -126,7 +130,7 @@ class Campaign:
         said = run.stderr.decode(errors="replace").strip()
         if run.returncode not in ({0} if fault.startswith("stopping") else HONEST):
             return f"exit code {run.returncode}: {said}"
-        tells = "solve" in name or "compare" in name or name == "query"
+        tells = "solve" in name or name in ("compare", "scale", "query")
         is_answer = run.returncode == 124 and tells  # which says that it was stopped
         if run.returncode != 0 and not is_answer and (not said.startswith("warren: ") or "\n" in said):
             return f"exit code {run.returncode} with other than one line: {said!r}"

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tests/tools/process.hpp"
 #include "tests/tools/program.hpp"
 
 namespace warren {
@@ -113,9 +114,12 @@ TEST(Largest, BadOptionsAreUsageErrorsThatNameTheOption) {
 }
 
 TEST(Largest, AnInterruptPrintsWhatThereIs) {
-  // A budget that is never reached, and sizes without end: only the signal ends it.
+  // A budget that is never reached, and sizes without end: only the signal ends it, once a trial was told.
+  const test::Folder folder;
+  const std::string told = folder.path("told");
   const ProgramRun run =
-      run_program("largest --budget 1h --memory 512MiB --quiet --json - & p=$!; sleep 1; kill -INT $p; wait $p");
+      run_program("largest --budget 1h --memory 512MiB --json - 2>" + told + " & p=$!; until grep -qs 'within' " +
+                  told + " || ! kill -0 $p; do sleep 0.1; done; kill -INT $p; wait $p");
   EXPECT_EQ(run.exit_code, 130);
   const Json json = Json::parse(run.out);
   EXPECT_EQ(json["stopped_by"], "SIGINT");

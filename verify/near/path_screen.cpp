@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "parallel/chunks.hpp"
+#include "verify/near/covered_cells.hpp"
 
 namespace warren {
 namespace {
@@ -18,17 +19,6 @@ constexpr double screen_pieces_per_leg = 4;
 constexpr double most_free_cells = 1 << 20;  // for a path of few legs among many walls
 constexpr unsigned up = 0;
 constexpr unsigned right = 1;
-constexpr std::size_t block_size = 128;
-
-constexpr double magic = 6755399441055744.0;  // 1.5 * 2^52: adding it leaves no room for fractions
-[[gnu::always_inline]] inline double whole_below(double u) {
-  const double near = (u + magic) - magic;
-  return near - (near > u ? 1.0 : 0.0);
-}
-[[gnu::always_inline]] inline double whole_above(double u) {
-  const double near = (u + magic) - magic;
-  return near + (near < u ? 1.0 : 0.0);
-}
 
 /// The largest power of two that is at most x > 0.
 double power_of_two_below(double x) { return std::ldexp(1.0, std::ilogb(x)); }
@@ -45,7 +35,7 @@ PathScreen::PathScreen(const LegBoxes& legs, const Plan& plan, const Execution& 
   const double largest =
       std::max({std::abs(box.min.x), std::abs(box.min.y), std::abs(box.max.x), std::abs(box.max.y)}) * per_cell_;
   constexpr double most_units = 1125899906842624.0;  // 2^50
-  usable_ = largest * (1 << quantum_bits) < most_units;
+  usable_ = largest * (1 << cell_quantum_bits) < most_units;
   if (!usable_) return;
   first_column_ = whole_below(box.min.x * per_cell_) - margin;
   first_row_ = whole_below(box.min.y * per_cell_) - margin;
@@ -166,7 +156,7 @@ void PathScreen::set(std::int32_t column, std::int32_t row, unsigned which, cons
 }
 
 void PathScreen::set_reach(double least, double r) {
-  const double units = std::ceil(std::max(least, r * (1.0 + 1e-12)) * per_cell_ * (1 << quantum_bits));
+  const double units = std::ceil(std::max(least, r * (1.0 + 1e-12)) * per_cell_ * (1 << cell_quantum_bits));
   constexpr double most = 1 << 20;        // beyond the slow
   reach_ = std::clamp(units, 1.0, most);  // at least 1, because touching is never clear
   if (!(units <= most)) usable_ = false;
@@ -200,124 +190,6 @@ bool PathScreen::is_clear(const Window& w, std::size_t& budget) const {
   return true;
 }
 
-/// Walls as columns of numbers, and the cells that they cover once grown.
-struct PathScreen::Block {
-  template <class T>
-  struct Boxes {
-    alignas(64) std::array<T, block_size> x_min, y_min, x_max, y_max;
-  };
-  struct Cells {
-    alignas(64) std::array<std::int32_t, block_size> column_first, column_last, row_first, row_last;
-  };
-  template <class T>
-  struct Lanes {
-    static constexpr std::size_t count = 8;
-    std::array<T, count> x_min, y_min, x_max, y_max;
-  };
-
-  template <class T>
-  [[gnu::always_inline]] static inline void find_boxes(const WallOf<T>* walls, Boxes<T>& boxes) {
-    for (std::size_t i = 0; i < block_size; ++i) {
-      const WallOf<T> w = walls[i];
-      boxes.x_min[i] = w.x1 < w.x2 ? w.x1 : w.x2;
-      boxes.x_max[i] = w.x1 < w.x2 ? w.x2 : w.x1;
-      boxes.y_min[i] = w.y1 < w.y2 ? w.y1 : w.y2;
-      boxes.y_max[i] = w.y1 < w.y2 ? w.y2 : w.y1;
-    }
-  }
-
-  [[gnu::always_inline]] static inline void find_boxes(const PackedWall* walls, Boxes<std::int32_t>& boxes) {
-    for (std::size_t i = 0; i < block_size; ++i) {
-      const PackedWall::Ends w = walls[i].ends();
-      boxes.x_min[i] = w.x1 < w.x2 ? w.x1 : w.x2;
-      boxes.x_max[i] = w.x1 < w.x2 ? w.x2 : w.x1;
-      boxes.y_min[i] = w.y1 < w.y2 ? w.y1 : w.y2;
-      boxes.y_max[i] = w.y1 < w.y2 ? w.y2 : w.y1;
-    }
-  }
-
-  template <class T>
-  [[gnu::always_inline]] static inline void widen(const Boxes<T>& boxes, Lanes<T>& lanes) {
-    for (std::size_t i = 0; i < block_size; i += Lanes<T>::count) {
-      for (std::size_t k = 0; k < Lanes<T>::count; ++k) {
-        lanes.x_min[k] = boxes.x_min[i + k] < lanes.x_min[k] ? boxes.x_min[i + k] : lanes.x_min[k];
-        lanes.y_min[k] = boxes.y_min[i + k] < lanes.y_min[k] ? boxes.y_min[i + k] : lanes.y_min[k];
-        lanes.x_max[k] = boxes.x_max[i + k] > lanes.x_max[k] ? boxes.x_max[i + k] : lanes.x_max[k];
-        lanes.y_max[k] = boxes.y_max[i + k] > lanes.y_max[k] ? boxes.y_max[i + k] : lanes.y_max[k];
-      }
-    }
-  }
-
-  [[gnu::always_inline]] static inline std::int32_t cell(double units, double before, double end) {
-    const double at = units - before;
-    const double above = at > 0.0 ? at : 0.0;
-    return static_cast<std::int32_t>(above < end ? above : end) >> quantum_bits;
-  }
-
-  [[gnu::always_inline]] static inline std::int32_t cell(std::int32_t units, std::int32_t before, std::int32_t end) {
-    const std::int32_t at = units - before;
-    const std::int32_t above = at > 0 ? at : 0;
-    return (above < end ? above : end) >> quantum_bits;
-  }
-  [[gnu::always_inline]] static inline void find_cells(const std::array<std::int32_t, block_size>& low,
-                                                       const std::array<std::int32_t, block_size>& high,
-                                                       const StepAxis& axis,
-                                                       std::array<std::int32_t, block_size>& first,
-                                                       std::array<std::int32_t, block_size>& last) {
-    for (std::size_t i = 0; i < block_size; ++i) {
-      first[i] = cell(low[i] << axis.shift, axis.before_first, axis.end);
-      last[i] = cell(high[i] << axis.shift, axis.before_last, axis.end);
-    }
-  }
-
-  template <class T>
-  [[gnu::always_inline]] static inline void find_cells(const std::array<T, block_size>& low,
-                                                       const std::array<T, block_size>& high, const Axis& axis,
-                                                       std::array<std::int32_t, block_size>& first,
-                                                       std::array<std::int32_t, block_size>& last) {
-    for (std::size_t i = 0; i < block_size; ++i) {
-      first[i] = cell(whole_below(static_cast<double>(low[i]) * axis.per_unit), axis.before_first, axis.end);
-    }
-    for (std::size_t i = 0; i < block_size; ++i) {
-      last[i] = cell(whole_above(static_cast<double>(high[i]) * axis.per_unit), axis.before_last, axis.end);
-    }
-  }
-
-  template <class Wall, class Scale, class T>
-  [[gnu::always_inline]] static inline void work(const Wall* walls, const Scale& x, const Scale& y, Cells& cells,
-                                                 Lanes<T>& lanes) {
-    Boxes<T> boxes;
-    find_boxes(walls, boxes);
-    widen(boxes, lanes);
-    find_cells(boxes.x_min, boxes.x_max, x, cells.column_first, cells.column_last);
-    find_cells(boxes.y_min, boxes.y_max, y, cells.row_first, cells.row_last);
-  }
-
-  template <class Wall, class Scale, class T>
-  using Work = void (*)(const Wall*, const Scale&, const Scale&, Cells&, Lanes<T>&);
-  template <class Wall, class Scale, class T>
-  static void work_any(const Wall* walls, const Scale& x, const Scale& y, Cells& cells, Lanes<T>& lanes) {
-    work(walls, x, y, cells, lanes);
-  }
-#if defined(__x86_64__) && !defined(WARREN_PLAIN)
-  template <class Wall, class Scale, class T>
-  [[gnu::target("avx2")]] static void work_avx2(const Wall* walls, const Scale& x, const Scale& y, Cells& cells,
-                                                Lanes<T>& lanes) {
-    work(walls, x, y, cells, lanes);
-  }
-  /// The same instructions, eight numbers of 32 bits at once where this processor can: the same cells.
-  template <class Wall, class Scale, class T>
-  static Work<Wall, Scale, T> fastest(bool plain) {
-    return !plain && __builtin_cpu_supports("avx2") ? work_avx2<Wall, Scale, T> : work_any<Wall, Scale, T>;
-  }
-#else
-  template <class Wall, class Scale, class T>
-  static Work<Wall, Scale, T> fastest(bool) {
-    return work_any<Wall, Scale, T>;
-  }
-#endif
-};
-
 template <class Wall>
 void PathScreen::keep_all(std::span<const Wall> walls, std::size_t first_number, Rest& rest) {
   for (std::size_t i = 0; i < walls.size(); ++i) {
@@ -326,22 +198,23 @@ void PathScreen::keep_all(std::span<const Wall> walls, std::size_t first_number,
   }
 }
 
-PathScreen::Axis PathScreen::axis(double first_cell, std::int32_t count) const {
-  constexpr double units = 1 << quantum_bits;
+CellAxis PathScreen::axis(double first_cell, std::int32_t count) const {
+  constexpr double units = 1 << cell_quantum_bits;
   return {per_cell_ * units, first_cell * units + reach_, first_cell * units - reach_ + 1.0,
           static_cast<double>(count) * units - 1.0};
 }
 
 /// Of packed walls, where nothing is rounded and nothing overflows.
-std::optional<PathScreen::StepAxis> PathScreen::step_axis(double first_cell, std::int32_t count) const {
+std::optional<CellStepAxis> PathScreen::step_axis(double first_cell, std::int32_t count) const {
   constexpr double most = 1 << 29;
-  const Axis by_units = axis(first_cell, count);
+  const CellAxis by_units = axis(first_cell, count);
   const double per_step = by_units.per_unit / PackedWall::per_unit;
   const bool fits = std::max({std::abs(by_units.before_first), std::abs(by_units.before_last), by_units.end,
                               2.0 * PackedWall::most * per_step}) <= most;
   if (!fits || per_step < 1.0) return std::nullopt;
   const auto whole = [](double x) { return static_cast<std::int32_t>(x); };
-  return StepAxis{std::ilogb(per_step), whole(by_units.before_first), whole(by_units.before_last), whole(by_units.end)};
+  return CellStepAxis{std::ilogb(per_step), whole(by_units.before_first), whole(by_units.before_last),
+                      whole(by_units.end)};
 }
 
 template <class Wall, class Scale>
@@ -350,14 +223,15 @@ void PathScreen::sift_along(std::span<const Wall> walls, std::size_t first_numbe
   using T = std::conditional_t<std::is_same_v<Wall, PackedWall>, std::int32_t, typename Wall::Number>;
   constexpr double unit = std::is_same_v<Wall, PackedWall> ? 1.0 / PackedWall::per_unit : 1.0;
   using Limits = std::numeric_limits<T>;
-  typename Block::Cells cells;
-  typename Block::template Lanes<T> lanes;
+  constexpr std::size_t block_size = CoveredCells::block_size;
+  CoveredCells cells;
+  WallLanes<T> lanes;
   lanes.x_min.fill(Limits::has_infinity ? Limits::infinity() : Limits::max());
   lanes.y_min = lanes.x_min;
   lanes.x_max.fill(Limits::has_infinity ? -Limits::infinity() : Limits::lowest());
   lanes.y_max = lanes.x_max;
   std::size_t budget = 65536 + 64 * walls.size();  // words of cells: for many short walls and a few long ones
-  const typename Block::template Work<Wall, Scale, T> work = Block::template fastest<Wall, Scale, T>(plain_);
+  const auto work = CoveredCells::fastest<Wall, Scale, T>(plain_);
   std::array<Wall, block_size> tail;
   for (std::size_t begin = 0; begin < walls.size(); begin += block_size) {
     const std::size_t count = std::min(block_size, walls.size() - begin);

@@ -30,6 +30,7 @@
 #include "core/base/types.hpp"
 #include "core/plane/wall_set.hpp"
 #include "parallel/execution.hpp"
+#include "verify/near/cell_axis.hpp"
 #include "verify/near/leg_boxes.hpp"
 
 namespace warren {
@@ -61,9 +62,6 @@ class PathScreen {
   void sift(std::span<const DoubleWall> walls, std::size_t first_number, Rest& rest) const;
 
  private:
-  struct Block;
-
-  static constexpr int quantum_bits = 8;              ///< a cell has 2^8 units
   static constexpr std::int32_t margin = 2;           ///< empty cells around the path: what is outside falls on these
   static constexpr std::int32_t most_side = 1 << 21;  ///< cells
 
@@ -90,17 +88,8 @@ class PathScreen {
   void mark_cell(std::int32_t column, std::int32_t row, const Stripe& stripe);
   void set(std::int32_t column, std::int32_t row, unsigned which, const Stripe& stripe);
   bool is_clear(const Window& window, std::size_t& budget) const;
-  /// From coordinate to cell.
-  struct Axis {
-    double per_unit, before_first, before_last, end;
-  };
-  /// The same from the steps of a packed wall, in whole numbers.
-  struct StepAxis {
-    int shift;  ///< left: from steps to units
-    std::int32_t before_first, before_last, end;
-  };
-  Axis axis(double first_cell, std::int32_t count) const;
-  std::optional<StepAxis> step_axis(double first_cell, std::int32_t count) const;
+  CellAxis axis(double first_cell, std::int32_t count) const;
+  std::optional<CellStepAxis> step_axis(double first_cell, std::int32_t count) const;
   template <class Wall, class Scale>
   void sift_along(std::span<const Wall> walls, std::size_t first_number, const Scale& x, const Scale& y,
                   Rest& rest) const;
