@@ -1,15 +1,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "parallel/chunks.hpp"
 
+#include <pthread.h>
+
+#include <array>
+#include <cstddef>
+#include <new>
+
 #include "parallel/trace.hpp"
 #include "parallel/worker_crew.hpp"
 
 namespace warren::detail {
+namespace {
+
+alignas(WorkerCrew) std::array<std::byte, sizeof(WorkerCrew)> room;
+WorkerCrew& make_crew() { return *new (room.data()) WorkerCrew; }
+
+/// Of the process. Never ended, for other threads may compute while it ends. A forked process begins with a new one:
+/// the threads stay with the parent, and one of them may have held the mutex.
+WorkerCrew& crew() {
+  static WorkerCrew& made = []() -> WorkerCrew& {
+    ::pthread_atfork(nullptr, nullptr, [] { make_crew(); });
+    return make_crew();
+  }();
+  return made;
+}
+
+}  // namespace
 
 void run_chunks(std::size_t chunks, unsigned threads, const void* body, void (*call)(const void*, std::size_t)) {
-  static WorkerCrew crew;
   SharedLoop loop(chunks, threads, body, call);
-  crew.run(loop);
+  crew().run(loop);
 }
 
 ChunkTrace::ChunkTrace(const Execution& execution) : execution_(execution) {

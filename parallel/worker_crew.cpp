@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "parallel/worker_crew.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <new>
 #include <system_error>
+#include <thread>
 
 #include "parallel/execution.hpp"
 
@@ -61,24 +60,6 @@ void SharedLoop::rethrow() const {
   if (error_) std::rethrow_exception(error_);
 }
 
-WorkerCrew::WorkerCrew() : process_(::getpid()) {}
-
-WorkerCrew::~WorkerCrew() {
-  {
-    const std::lock_guard lock(mutex_);
-    ended_ = true;
-    for (const auto& worker : workers_) worker->wake.notify_one();
-  }
-  const bool forked = ::getpid() != process_;  // the threads stayed with the parent
-  for (const auto& worker : workers_) {
-    if (forked) {
-      worker->thread.detach();
-    } else {
-      worker->thread.join();
-    }
-  }
-}
-
 void WorkerCrew::run(SharedLoop& loop) {
   open(loop);
   loop.work(0);
@@ -117,7 +98,7 @@ void WorkerCrew::grow(std::size_t count) {
     while (workers_.size() < count) {
       workers_.push_back(std::make_unique<Worker>());
       try {
-        workers_.back()->thread = std::thread([this, index = workers_.size() - 1] { help(index); });
+        std::thread([this, index = workers_.size() - 1] { help(index); }).detach();
       } catch (...) {
         workers_.pop_back();
         throw;
@@ -138,7 +119,7 @@ SharedLoop* WorkerCrew::loop_for(std::size_t index) const {
 void WorkerCrew::help(std::size_t index) {
   std::unique_lock lock(mutex_);
   Worker& worker = *workers_[index];
-  while (!ended_) {
+  while (true) {
     SharedLoop* const loop = loop_for(index);
     if (loop == nullptr) {
       wait_for_work(lock, worker, index);
@@ -158,10 +139,10 @@ void WorkerCrew::wait_for_work(std::unique_lock<std::mutex>& lock, Worker& worke
     lock.unlock();
     look_out([&] { return posts_.load() == seen; });
     lock.lock();
-    if (posts_.load() != seen || ended_) return;
+    if (posts_.load() != seen) return;
   }
   worker.asleep = true;
-  worker.wake.wait(lock, [&] { return posts_.load() != seen || ended_; });
+  worker.wake.wait(lock, [&] { return posts_.load() != seen; });
   worker.asleep = false;
 }
 

@@ -17,10 +17,7 @@
 #include <exception>
 #include <memory>
 #include <mutex>
-#include <thread>
 #include <vector>
-
-#include <sys/types.h>
 
 namespace warren {
 
@@ -62,10 +59,11 @@ class SharedLoop {
   SharedLoop* next_loop_ = nullptr;  // under the crew's mutex
 };
 
+/// Is never ended: its threads end with the process.
 class WorkerCrew {
  public:
-  WorkerCrew();
-  ~WorkerCrew();
+  WorkerCrew() = default;
+  ~WorkerCrew() = delete;
   WorkerCrew(const WorkerCrew&) = delete;
   WorkerCrew& operator=(const WorkerCrew&) = delete;
 
@@ -76,11 +74,10 @@ class WorkerCrew {
   struct Worker {
     std::condition_variable wake;
     bool asleep = false;
-    std::thread thread;
   };
 
   void grow(std::size_t count);
-  void help(std::size_t index);
+  [[noreturn]] void help(std::size_t index);
   void wait_for_work(std::unique_lock<std::mutex>& lock, Worker& worker, std::size_t index);
   SharedLoop* loop_for(std::size_t index) const;
   void open(SharedLoop& loop);
@@ -89,9 +86,7 @@ class WorkerCrew {
   std::mutex mutex_;  // guards all below but posts_, which is only written under it
   std::vector<std::unique_ptr<Worker>> workers_;
   SharedLoop* first_loop_ = nullptr;
-  bool ended_ = false;
   std::atomic<unsigned> posts_{0};  // loops opened so far, for those who look for one without the mutex
-  pid_t process_;
 };
 
 }  // namespace warren

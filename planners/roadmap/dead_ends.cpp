@@ -47,29 +47,35 @@ DeadEnds::DeadEnds(CellSides cells, std::span<const std::size_t> kept, const Exe
   for (const std::size_t cell : kept) cells_.open[cell] &= CellSides::all;
 }
 
-DeadEndSeals::DeadEndSeals(const DeadEnds& dead_ends, const Neighbours<2>& milestones, double radius)
-    : dead_ends_(&dead_ends),
-      milestones_(&milestones),
-      radius_(radius),
-      sealed_((dead_ends.cells().open.size() + 63) / 64) {}
+DeadEndSeals::DeadEndSeals(const DeadEnds& dead_ends, const Neighbours<2>& milestones, double radius,
+                           const Execution& execution)
+    : dead_ends_(&dead_ends), milestones_(&milestones), radius_(radius) {
+  const std::size_t cells = dead_ends.cells().open.size();
+  execution.reserve(cells * sizeof(VertexId));
+  waits_for_.resize(cells);
+  std::fill(waits_for_.begin(), waits_for_.end(), nobody);
+}
 
 /// A cell whose way out leads into a sealed one is sealed, too; motions pass over few cells at once, so that the search
 /// may not have come by in each.
 bool DeadEndSeals::is_sealed(std::size_t cell, std::span<const double> labels) {
   constexpr int cells_of_a_motion = 4;
   const CellSides& cells = dead_ends_->cells();
+  VertexId& waits_for = waits_for_[cell];
   std::size_t at = cell;
   for (int step = 0; step < cells_of_a_motion && dead_ends_->way_out(at) != 0; ++step) {
-    if (has_seal(at)) {
-      seal(cell);
+    if (waits_for_[at] == sealed) {
+      waits_for = sealed;
       return true;
     }
     at = cells.beyond(at, dead_ends_->way_out(at));
   }
+  if (waits_for != nobody && !std::signbit(labels[waits_for])) return false;
   const Segment way_out = cells.side_of_cell(cell, dead_ends_->way_out(cell));
-  if (!gather_outside(cell, way_out) || !is_outside_settled(way_out, labels)) return false;
-  seal(cell);
-  return true;
+  if (!gather_outside(cell, way_out)) return false;
+  waits_for = unsettled_outside(way_out, labels);
+  if (waits_for == nobody) waits_for = sealed;
+  return waits_for == sealed;
 }
 
 /// The cells beyond the way out that a motion over it can reach, by open sides; false where they are too many.
@@ -88,17 +94,18 @@ bool DeadEndSeals::gather_outside(std::size_t cell, const Segment& way_out) {
   return true;
 }
 
-bool DeadEndSeals::is_outside_settled(const Segment& way_out, std::span<const double> labels) const {
+/// One of the milestones that a motion over the way out can come to; nobody where all of them are settled.
+VertexId DeadEndSeals::unsettled_outside(const Segment& way_out, std::span<const double> labels) const {
   constexpr double for_rounding = 1e-6;
-  bool all = true;
+  VertexId found = nobody;
   const Vec2 middle = 0.5 * (way_out.a + way_out.b);
   milestones_->for_each_within(middle, radius_ + 0.5 + for_rounding, [&](VertexId w, double) {
-    if (!all || std::signbit(labels[w])) return;
+    if (found != nobody || std::signbit(labels[w])) return;
     const Vec2 p = milestones_->point(w);
     if (distance(p, way_out) > radius_ + for_rounding) return;
-    all = std::find(outside_.begin(), outside_.end(), dead_ends_->cells().cell_of(p)) == outside_.end();
+    if (std::find(outside_.begin(), outside_.end(), dead_ends_->cells().cell_of(p)) != outside_.end()) found = w;
   });
-  return all;
+  return found;
 }
 
 }  // namespace warren

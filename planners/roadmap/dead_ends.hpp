@@ -19,6 +19,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/raw_vector.hpp"
 #include "core/base/world.hpp"
 #include "core/plane/cell_sides.hpp"
 #include "parallel/execution.hpp"
@@ -53,11 +54,11 @@ class DeadEnds {
 /// What one search knows of them: belongs to one thread, or to one side of a search. Refers to all that it is given.
 class DeadEndSeals {
  public:
-  /// The milestones of the search, and the longest of its motions.
-  DeadEndSeals(const DeadEnds& dead_ends, const Neighbours<2>& milestones, double radius);
+  /// The milestones of the search, and the longest of its motions. Throws Stopped: four bytes a cell.
+  DeadEndSeals(const DeadEnds& dead_ends, const Neighbours<2>& milestones, double radius, const Execution& execution);
 
-  /// May milestone v stay unexpanded? labels: of a search, negative where it has settled the vertex. O(milestones near
-  /// the way out), until the answer is yes.
+  /// May milestone v stay unexpanded? labels: of a search, negative where it has settled the vertex. O(1) while the
+  /// milestone that was the reason to say no is not settled; else O(milestones near the way out), a few times a cell.
   bool holds(VertexId v, std::span<const double> labels) {
     const std::size_t cell = dead_ends_->cells().cell_of(milestones_->point(v));
     return dead_ends_->way_out(cell) != 0 && is_sealed(cell, labels);
@@ -65,18 +66,18 @@ class DeadEndSeals {
 
  private:
   static constexpr std::size_t most_near = 64;
+  static constexpr VertexId nobody = 0xffffffff;  // that is known yet
+  static constexpr VertexId sealed = 0xfffffffe;
 
   bool is_sealed(std::size_t cell, std::span<const double> labels);
-  bool has_seal(std::size_t cell) const { return (sealed_[cell / 64] >> (cell % 64) & 1U) != 0; }
-  void seal(std::size_t cell) { sealed_[cell / 64] |= std::uint64_t{1} << (cell % 64); }
   bool gather_outside(std::size_t cell, const Segment& way_out);
-  bool is_outside_settled(const Segment& way_out, std::span<const double> labels) const;
+  VertexId unsettled_outside(const Segment& way_out, std::span<const double> labels) const;
 
   const DeadEnds* dead_ends_;
   const Neighbours<2>* milestones_;
   double radius_;
-  std::vector<std::uint64_t> sealed_;  // a bit a cell
-  std::vector<std::size_t> outside_;   // scratch: cells that a motion over the way out may come to
+  RawVector<VertexId> waits_for_;     // of each cell: an unsettled milestone beyond the way out, nobody or sealed
+  std::vector<std::size_t> outside_;  // scratch: cells that a motion over the way out may come to
 };
 
 }  // namespace warren

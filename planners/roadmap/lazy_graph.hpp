@@ -43,7 +43,7 @@ class LazyGraph {
 
   /// Leaves milestones of dead ends unexpanded where nothing depends on them. Radius rule, in the plane.
   void leave_out(const DeadEnds& dead_ends) {
-    if constexpr (CellSideWorld<W>) seals_.emplace(dead_ends, index_, rule_.radius);
+    if constexpr (CellSideWorld<W>) seals_.emplace(dead_ends, index_, rule_.radius, *execution_);
   }
   /// Keeps the free edges that were used, for pictures.
   void record(std::vector<Edge>* edges) { recorded_ = edges; }

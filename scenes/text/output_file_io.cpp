@@ -108,6 +108,12 @@ void remove_rest(const std::string& part) {
 
 bool is_standard_output(std::string_view path) { return path == "-" || descriptor_named(path) == STDOUT_FILENO; }
 
+bool is_written_straight(const std::string& path) {
+  struct stat status {};
+  if (path == "-") return true;
+  return ::stat(path.c_str(), &status) == 0 && (names_open_file(path) || !S_ISREG(status.st_mode));
+}
+
 std::string behind_links(std::string path) {
   constexpr int most_links = 40;  // as the system has it
   std::string target(PATH_MAX, '\0');
@@ -131,7 +137,7 @@ OutputFile::OutputFile(const std::string& path, const Execution& execution)
   const bool exists = ::stat(path.c_str(), &status) == 0;
   if (!exists && errno != ENOENT) fail(errno);
   if (exists && S_ISDIR(status.st_mode)) fail(EISDIR);
-  if (exists && (names_open_file(path) || !S_ISREG(status.st_mode))) {
+  if (is_written_straight(path)) {
     open_straight(path);
     return;
   }

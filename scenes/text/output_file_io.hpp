@@ -68,6 +68,10 @@ class FirstOfTwoFiles {
 /// Writes a whole file at once.
 void write_file(const std::string& path, std::string_view bytes, const Execution& execution);
 
+/// Does an OutputFile of that name write at once what can't be taken back? "-", the names of open files, and whatever
+/// is there and no regular file.
+bool is_written_straight(const std::string& path);
+
 /// "-" and the system's names for standard output.
 bool is_standard_output(std::string_view path);
 

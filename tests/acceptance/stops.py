@@ -27,10 +27,9 @@ import tempfile
 import time
 
 import stop_cases
-from program import Failure, Program
+from program import Failure, Program, catches
 
 CODES = {"budget": 124, signal.SIGHUP: 129, signal.SIGINT: 130, signal.SIGTERM: 143}
-BEFORE_MAIN_S = 0.02  # computed: so early, a signal may end a process that does not listen yet; shells see the same code
 GIB = 1 << 30
 TICKS_A_SECOND = os.sysconf("SC_CLK_TCK")
 LONGEST_S = 4.0  # of the run's length, from which the moments are drawn
@@ -70,7 +69,7 @@ class Stop:
                                  stdout=subprocess.DEVNULL, stderr=slave, start_new_session=True)
         os.close(slave)
         program.runs += 1
-        said, sent, held, self.code, before_s, self.busy_s = b"", False, 0, None, 0.0, 60.0
+        said, sent, listens, held, self.code, before_s, self.busy_s = b"", False, False, 0, None, 0.0, 60.0
         asked = begin + self.after_s
         while time.monotonic() < asked + 60.0:
             pid, status, used = os.wait4(child.pid, os.WNOHANG)
@@ -85,6 +84,7 @@ class Stop:
             if not sent and time.monotonic() >= asked:
                 before_s, sent = computed_s(child.pid), True
                 if self.kind != "budget":
+                    listens = catches(child.pid, self.kind)
                     os.kill(child.pid, self.kind)  # send_signal() would take the end of one that has just ended
                     asked = time.monotonic()
             time.sleep(0.001)
@@ -92,8 +92,8 @@ class Stop:
             child.kill()
             os.wait4(child.pid, 0)
         child.returncode = self.code
-        if self.kind != "budget" and self.code == -self.kind and before_s < BEFORE_MAIN_S:
-            self.code = CODES[self.kind]
+        if self.kind != "budget" and self.code == -self.kind and not listens:
+            self.code = CODES[self.kind]  # so early a signal ends the process by itself; shells see the same code
         self.late_s = time.monotonic() - asked
         self.limit_s = 0.3 + 0.12 * held / GIB
         os.close(master)

@@ -16,7 +16,6 @@
 #include "scenes/mazes/maze_generator.hpp"
 #include "tests/distributed/solved_by_ranks.hpp"
 #include "tests/scenes/text/temporary_directory.hpp"
-#include "tests/seeds.hpp"
 #include "tests/solve/answer_bytes.hpp"
 
 namespace warren {
@@ -63,7 +62,7 @@ void expect_the_bytes_of_one_process(const Walls& walls) {
   for (const std::string& file : files_of(walls, directory)) {
     const Asked asked{unmade(file), walls.question};
     const std::string expected = bytes_of(solved(asked));
-    for (const unsigned ranks : {1U, 2U, 3U, 5U, 8U}) {
+    for (const unsigned ranks : test::ranks_tried()) {
       for (const std::uint64_t most_keys : {test::all_keys, std::uint64_t{0}}) {
         SCOPED_TRACE(
             fmt::format("{} x {}, {}, {} ranks, {} keys", walls.maze.rows, walls.maze.cols, file, ranks, most_keys));

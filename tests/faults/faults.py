@@ -127,7 +127,8 @@ class Campaign:
             run = self.start(folder, words, WARREN_FAULT=fault)
         except subprocess.TimeoutExpired:
             return "hangs"
-        said = run.stderr.decode(errors="replace").strip()
+        lines = run.stderr.decode(errors="replace").strip().split("\n")
+        said = "\n".join(line for line in lines if "progress" not in words or line.startswith("warren: "))
         if run.returncode not in ({0} if fault.startswith("stopping") else HONEST):
             return f"exit code {run.returncode}: {said}"
         tells = "solve" in name or name in ("compare", "scale", "query")

@@ -190,13 +190,14 @@ TEST(Limits, AndMemoryThatIsTooLittle) {
 TEST(Limits, ProgressIsToldWhileItGoesOn) {
   const Scene maze = read_world("maze:1500x1500");
   std::atomic<int> calls = 0;
-  const Limits limits{.threads = 1, .budget = 400ms, .progress = [&](const ProgressReport& report) {
+  const auto begin = std::chrono::steady_clock::now();
+  const Limits limits{.threads = 1, .budget = 2s, .progress = [&](const ProgressReport& report) {
                         calls += report.stage.empty() ? 0 : 1;
                       }};
   solve(maze, {}, {.sampler = SamplerKind::uniform}, limits);
   const int told = calls;
   EXPECT_GE(told, 1);
-  EXPECT_LE(told, 20);
+  EXPECT_LE(told, (std::chrono::steady_clock::now() - begin) / 100ms + 1);
 }
 
 TEST(Verify, AgreesWithSolveAndRefutesWhatWasChanged) {

@@ -59,7 +59,7 @@ nlohmann::json told_in_time(const Folder& folder, const std::vector<std::string>
 
 TEST(AnswerInTime, StaysWhereTheBudgetEndsItsExplanation) {
   const Folder folder;
-  const auto answer = told_in_time(folder, {"--explain", "--budget", "1s"}, Dawdles::explaining);
+  const auto answer = told_in_time(folder, {"--explain", "--budget", "3s"}, Dawdles::explaining);
   EXPECT_EQ(answer["status"], "solved");
   EXPECT_EQ(answer["verified"], true);
   EXPECT_EQ(answer["explained"]["stopped_by"], "budget");
@@ -67,7 +67,7 @@ TEST(AnswerInTime, StaysWhereTheBudgetEndsItsExplanation) {
 
 TEST(AnswerInTime, StaysWhereASecondSolveIsStoppedSilently) {
   const Folder folder;
-  EXPECT_EQ(told_in_time(folder, {"--budget", "1s"}, Dawdles::finding)["status"], "solved");
+  EXPECT_EQ(told_in_time(folder, {"--budget", "3s"}, Dawdles::finding)["status"], "solved");
 }
 
 TEST(AnswerInTime, ASignalThatEndedAnExplanationIsForgotten) {

@@ -22,6 +22,7 @@ using Json = nlohmann::ordered_json;
 using test::check;
 using test::compared;
 using test::Folder;
+using test::joined;
 
 std::string name_of_row(const Json& row) {
   return row["search"].get<std::string>() + (row["queue"].is_null() ? "" : " " + row["queue"].get<std::string>());
@@ -266,11 +267,16 @@ TEST(Compare, TellsHowLongAllRunsWillTake) {
 }
 
 TEST(Compare, AnInterruptPrintsWhatThereIs) {
-  for (const char* words : {"compare maze:9x9 --planners prm --sampler uniform --seeds 1000000 --quiet --json -",
-                            "compare maze:9x9 --trials 1000000 --quiet --json -"}) {
-    SCOPED_TRACE(words);
-    const ProgramRun run = run_program(std::string{words} + " & p=$!; sleep 1; kill -INT $p; wait $p");
-    EXPECT_EQ(run.exit_code, 130);
+  const std::vector<std::string> common{"compare", "maze:9x9", "--quiet", "--json", "-"};
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{"--planners", "prm", "--sampler", "uniform", "--seeds", "1000000"},
+        {"--trials", "1000000"}}) {
+    SCOPED_TRACE(more.back());
+    test::Process process(joined(common, more));
+    process.wait_until_it_works_for(std::chrono::seconds(1));
+    process.send(SIGINT);
+    const test::Outcome run = process.wait();
+    EXPECT_EQ(run.code, 130);
     const Json json = Json::parse(run.out);
     EXPECT_EQ(json["stopped_by"], "SIGINT");
     EXPECT_GT(json["rows"][0]["runs"], 0);

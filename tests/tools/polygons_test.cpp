@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/paths.hpp"
+#include "tests/seeds.hpp"
 #include "tests/tools/process.hpp"
 
 namespace warren::test {
@@ -201,9 +202,10 @@ TEST(Polygons, StartsInsideOfOneThatWasCutForItsHolesAreBlocked) {
         return json_of({"solve", file, "--planner", planner, "--start", start, "--goal", goal}, 1)["status"];
       };
       // Cuts run from corners of the hole to corners of the outline: of any such line each middle is solid.
-      for (const char* solid : {"1.5,2", "1.5,7", "7.5,7", "7.5,2", "1.5,2.5", "7.5,6.5", "1.5,6.5", "7.5,2.5"}) {
-        EXPECT_EQ(status(solid, "4,4.5"), "start_blocked") << solid;
-        EXPECT_EQ(status("4,4.5", solid), "goal_blocked") << solid;
+      constexpr const char* solid[] = {"1.5,2", "1.5,7", "7.5,7", "7.5,2", "1.5,2.5", "7.5,6.5", "1.5,6.5", "7.5,2.5"};
+      for (std::size_t i = 0; i < seeds(std::size(solid)); ++i) {
+        EXPECT_EQ(status(solid[i], "4,4.5"), "start_blocked") << solid[i];
+        EXPECT_EQ(status("4,4.5", solid[i]), "goal_blocked") << solid[i];
       }
       EXPECT_EQ(status("0,0", "4,4.5"), "infeasible") << "a corner that is cut from";
       EXPECT_EQ(json_of({"solve", file, "--planner", planner, "--start", "3,4", "--goal", "6,5"})["status"], "solved");

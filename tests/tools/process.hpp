@@ -95,12 +95,18 @@ class Process {
     clockid_t clock{};
     timespec used{};
     while (::clock_getcpuclockid(child_, &clock) == 0 && ::clock_gettime(clock, &used) == 0 &&
-           std::chrono::seconds(used.tv_sec) + std::chrono::nanoseconds(used.tv_nsec) < time) {
-      siginfo_t ended{};
-      if (::waitid(P_PID, static_cast<id_t>(child_), &ended, WEXITED | WNOHANG | WNOWAIT) != 0 || ended.si_pid != 0)
-        return;
+           std::chrono::seconds(used.tv_sec) + std::chrono::nanoseconds(used.tv_nsec) < time && !has_ended()) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
+  }
+  /// Waits until it takes SIGTERM its own way, and then until it has computed for so long more, or has ended.
+  void wait_until_it_works_for(std::chrono::milliseconds time) const {
+    while (!catches(SIGTERM) && !has_ended()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    clockid_t clock{};
+    timespec used{};
+    if (::clock_getcpuclockid(child_, &clock) != 0 || ::clock_gettime(clock, &used) != 0) return;
+    const auto before = std::chrono::seconds(used.tv_sec) + std::chrono::milliseconds(used.tv_nsec / 1'000'000);
+    wait_until_it_computed_for(before + time);
   }
 
   Outcome wait() {
@@ -120,6 +126,18 @@ class Process {
   }
 
  private:
+  bool has_ended() const {
+    siginfo_t ended{};
+    const int failed = ::waitid(P_PID, static_cast<id_t>(child_), &ended, WEXITED | WNOHANG | WNOWAIT);
+    return failed != 0 || ended.si_pid != 0;
+  }
+  bool catches(int signal) const {
+    std::ifstream status("/proc/" + std::to_string(child_) + "/status");
+    for (std::string line; std::getline(status, line);) {
+      if (line.starts_with("SigCgt:")) return (std::stoull(line.substr(7), nullptr, 16) >> (signal - 1) & 1U) != 0;
+    }
+    return false;
+  }
   static void redirect(const std::string& path, int flags, int descriptor) {
     const int file = ::open(path.c_str(), flags, 0600);
     if (file < 0 || ::dup2(file, descriptor) < 0) ::_exit(126);

@@ -29,7 +29,7 @@ class FileSizeLimit {
 
 const std::vector<std::string> long_run{"solve", "maze:20000x20000", "--json", "-", "--memory", "64GiB"};
 
-void wait_until_it_works(const Process& process) { process.wait_until_it_computed_for(std::chrono::milliseconds(300)); }
+void wait_until_it_works(const Process& process) { process.wait_until_it_works_for(std::chrono::milliseconds(250)); }
 
 TEST(Stops, SignalsEndItWithTheirCodeAndPartialFigures) {
   struct Stop {

@@ -231,20 +231,23 @@ TEST(Streamed, AnArrayThatIsNotWrittenToItsEndIsNone) {
   const auto words = [&](const std::string& file) {
     return std::vector<std::string>{"generate", "maze", "10000x10000", "--algorithm", "mst", "-o", file};
   };
+  const auto brief = [](const std::string& file) {
+    return std::vector<std::string>{"generate", "maze", "2000x2000", "--algorithm", "mst", "-o", file};
+  };
   for (const char* budget : {"20ms", "300ms", "600ms"}) {
     check({joined(words(folder.path("a.npy")), {"--budget", budget}), 124, "budget"});
     EXPECT_TRUE(std::filesystem::is_empty(folder.path("")));
   }
-  for (const int at : {200, 700}) {
+  for (const int at : {100, 600}) {
     Process process(words(folder.path("a.npy")));
-    process.wait_until_it_computed_for(std::chrono::milliseconds(at));
+    process.wait_until_it_works_for(std::chrono::milliseconds(at));
     process.send(SIGINT);
     EXPECT_EQ(process.wait().code, 130);
     EXPECT_TRUE(std::filesystem::is_empty(folder.path("")));
   }
   std::filesystem::create_symlink("/dev/full", folder.path("full.npy"));
-  check({words(folder.path("full.npy")), 73, "full.npy"});
-  check({joined(words(folder.path("a.npy")), {"--memory", "4MiB"}), 124, "memory"});
+  check({brief(folder.path("full.npy")), 73, "full.npy"});
+  check({joined(brief(folder.path("a.npy")), {"--memory", "4MiB"}), 124, "memory"});
   EXPECT_FALSE(std::filesystem::exists(folder.path("a.npy")));
 }
 

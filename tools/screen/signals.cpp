@@ -46,11 +46,11 @@ std::int64_t now_ms() {
 void remember(int number) {
   constexpr std::int64_t patience_ms = 1000;
   const std::int64_t now = now_ms();
-  if (now - first_ms.load(std::memory_order_relaxed) < patience_ms) return;
+  std::int64_t first = first_ms.load(std::memory_order_relaxed);
+  if (now - first < patience_ms) return;
+  if (!first_ms.compare_exchange_strong(first, now, std::memory_order_relaxed)) return;  // another thread's, right now
   int none = 0;
-  if (flag.compare_exchange_strong(none, number, std::memory_order_relaxed)) {
-    first_ms.store(now, std::memory_order_relaxed);
-  } else {
+  if (!flag.compare_exchange_strong(none, number, std::memory_order_relaxed)) {
     std::signal(number, SIG_DFL);  // the next thing that happens in this thread
     std::raise(number);
   }

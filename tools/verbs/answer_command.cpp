@@ -34,14 +34,6 @@ constexpr OptionSpec output_specs[] = {
     {"--svg", "FILE", "draw the world, roadmap, search and path: .svg .png .pdf .html by ending"},
 };
 
-/// A device, a pipe or standard output: what is written there can't be taken back.
-bool is_straight(const std::string& path) {
-  if (path == "-" || path.starts_with("/dev/") || path.starts_with("/proc/")) return true;
-  std::error_code ignored;
-  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
-  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
-}
-
 }  // namespace
 
 std::vector<OptionSpec> answer_output_specs() {
@@ -84,7 +76,7 @@ bool AnswerCommand::takes_standard_output() const {
 bool AnswerCommand::hands_path_on() const {
   if (!arguments_.has("--no-path") || !svg_.empty() || explains_ || keeps_roadmap()) return false;
   if (path_.empty()) return true;
-  return path_format(path_) == PathFormat::npy && !path_options_.every && !is_straight(path_);
+  return path_format(path_) == PathFormat::npy && !path_options_.every && !is_written_straight(path_);
 }
 
 void AnswerCommand::answer(const Run& run) {
@@ -131,16 +123,16 @@ void AnswerCommand::write_finished(const Execution& execution) {
   const bool has_path = !path_.empty() && answer_.verified;
   std::optional<OutputFile> kept;
   std::optional<OutputFile> json;
-  const bool kept_follows = keeps_roadmap() && is_straight(roadmap_);
+  const bool kept_follows = keeps_roadmap() && is_written_straight(roadmap_);
   if (keeps_roadmap() && !kept_follows) write_kept(kept, execution);
-  const bool json_follows = !json_.empty() && is_straight(json_);
+  const bool json_follows = !json_.empty() && is_written_straight(json_);
   if (!json_.empty() && !json_follows) {
     write_json(json, execution);
     json->complete();
   }
   std::optional<OutputFile> path;
   const bool path_is_written = has_path && !answer_.handed;
-  if (path_is_written && !is_straight(path_)) {
+  if (path_is_written && !is_written_straight(path_)) {
     path.emplace(path_, execution);
     write_path(answer_, path_, path_options_, execution, *path);
     path->complete();

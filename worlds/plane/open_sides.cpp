@@ -16,11 +16,19 @@ constexpr double largest_place = 1e9;
 // it at least, which is more than cell_of() may round at the largest place.
 constexpr double surely_near = 0.999;
 
-/// What a wall closes in some rows of cells. Axis 0: sides that stand, between columns; 1: sides that lie, between
-/// rows.
+/// Cells that are looked at together. The index gives a wall for each of its pieces near them, so that they bound what
+/// a long wall costs, too.
+struct Block {
+  static constexpr std::size_t side = 32;
+  Range rows;
+  Range cols;
+};
+
+/// What a wall closes in a block. Axis 0: sides that stand, between columns, left of the block's columns; 1: sides that
+/// lie, between rows, of the block's cells alone.
 class ClosedBy {
  public:
-  ClosedBy(CellSides& cells, Range rows, double r) : cells_(cells), rows_(rows), r_(r * surely_near) {}
+  ClosedBy(CellSides& cells, const Block& block, double r) : cells_(cells), block_(block), r_(r * surely_near) {}
 
   void close(const Segment& wall) const {
     if (std::abs(wall.a.x - wall.b.x) < 2.0 * r_) close_along(wall, wall.a.x, wall.b.x, wall.a.y, wall.b.y, 0);
@@ -35,11 +43,12 @@ class ClosedBy {
     const double start = axis == 0 ? cells_.corner.y : cells_.corner.x;
     const double line = std::round(0.5 * (across_a + across_b) - origin);
     const double lines = axis == 0 ? cells_.cols : cells_.rows;
+    const Range& across = axis == 0 ? block_.cols : block_.rows;
+    const Range& along = axis == 0 ? block_.rows : block_.cols;
     if (line < 1.0 || line > lines - 1.0) return;
-    const auto first_row = static_cast<double>(rows_.first);
-    const auto last_row = static_cast<double>(rows_.last);
-    const double from = std::max(std::min(along_a, along_b) - r_ - start, axis == 0 ? first_row : 0.0);
-    const double to = std::min(std::max(along_a, along_b) + r_ - start, axis == 0 ? last_row : cells_.cols);
+    if (line < static_cast<double>(across.first) || line > static_cast<double>(across.last)) return;
+    const double from = std::max(std::min(along_a, along_b) - r_ - start, static_cast<double>(along.first));
+    const double to = std::min(std::max(along_a, along_b) + r_ - start, static_cast<double>(along.last));
     bool was_near = false;
     for (double place = std::ceil(from); place <= to; place += 1.0) {
       const Vec2 end = axis == 0 ? cells_.corner + Vec2{line, place} : cells_.corner + Vec2{place, line};
@@ -58,15 +67,16 @@ class ClosedBy {
       clear(cell - 1, CellSides::right);
       return;
     }
-    if (row >= rows_.first && row < rows_.last) clear(cell, CellSides::down);
-    if (row - 1 >= rows_.first && row - 1 < rows_.last) clear(cell - cells_.cols, CellSides::up);
+    const auto is_ours = [&](std::size_t r) { return r >= block_.rows.first && r < block_.rows.last; };
+    if (is_ours(row)) clear(cell, CellSides::down);
+    if (is_ours(row - 1)) clear(cell - cells_.cols, CellSides::up);
   }
   void clear(std::size_t cell, std::uint8_t side) const {
     cells_.open[cell] &= static_cast<std::uint8_t>(CellSides::all - side);
   }
 
   CellSides& cells_;
-  Range rows_;
+  Block block_;
   double r_;
 };
 
@@ -81,6 +91,18 @@ void open_all(CellSides& cells, Range rows) {
     its[0] &= CellSides::all - CellSides::left;
     its[cells.cols - 1] &= CellSides::all - CellSides::right;
   }
+}
+
+void close_sides(const WallIndex& walls, const Block& block, double clearance, CellSides& cells) {
+  const ClosedBy closed(cells, block, clearance);
+  const auto corner = [&](std::size_t col, std::size_t row) {
+    return cells.corner + Vec2{static_cast<double>(col), static_cast<double>(row)};
+  };
+  const Box box{corner(block.cols.first, block.rows.first), corner(block.cols.last, block.rows.last)};
+  walls.for_each_near(box.grown(clearance), [&](const Segment& wall) {
+    closed.close(wall);
+    return true;
+  });
 }
 
 }  // namespace
@@ -99,13 +121,14 @@ CellSides open_sides(const WallIndex& walls, const Box& box, double clearance, s
   const std::size_t grain = (std::size_t{1} << 16) / cells.cols + 16;
   for_chunks(cells.rows, grain, execution, [&](Range range) {
     open_all(cells, range);
-    const ClosedBy closed(cells, range, clearance);
-    const auto height = static_cast<double>(range.last - range.first);
-    const Vec2 low = cells.corner + Vec2{0.0, static_cast<double>(range.first)};
-    walls.for_each_near(Box{low, low + Vec2{cols, height}}.grown(clearance), [&](const Segment& wall) {
-      closed.close(wall);
-      return true;
-    });
+    for (std::size_t row = range.first; row < range.last; row += Block::side) {
+      for (std::size_t col = 0; col < cells.cols; col += Block::side) {
+        execution.check();
+        const Block block{{row, std::min(row + Block::side, range.last)},
+                          {col, std::min<std::size_t>(col + Block::side, cells.cols)}};
+        close_sides(walls, block, clearance, cells);
+      }
+    }
   });
   return cells;
 }

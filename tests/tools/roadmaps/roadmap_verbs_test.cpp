@@ -285,7 +285,7 @@ TEST_F(RoadmapVerbs, AStopLeavesTheFileAsItWas) {
   const Words words{"build", "maze:4000x4000", "-o", file, "--memory", "64GiB"};
   check({joined(words, {"--budget", "100ms"}), 124, "the time budget ended"});
   Process process(joined(words, {"--quiet"}));
-  process.wait_until_it_computed_for(std::chrono::milliseconds(200));
+  process.wait_until_it_works_for(std::chrono::milliseconds(100));
   process.send(SIGTERM);
   const Outcome outcome = process.wait();
   EXPECT_EQ(outcome.code, 143);

@@ -126,6 +126,25 @@ TEST(OpenSides, AreThoseOfAMazeThatHaveNoWall) {
   }
 }
 
+/// Far beyond a block of cells, by walls that reach beyond many.
+TEST(OpenSides, AreThoseOfUnitWallsWhereWallsAreLong) {
+  const auto sides = [](bool merged) {
+    return MazeWorld(maze_scene({75, 300, 9, MazeAlgorithm::backtracker, 0.02}, merged, {}), 0.1, {})
+        .cell_sides(any_number, {});
+  };
+  const CellSides unit = sides(false);
+  const CellSides merged = sides(true);
+  EXPECT_TRUE(std::equal(unit.open.begin(), unit.open.end(), merged.open.begin(), merged.open.end()));
+  Scene shelves;
+  constexpr std::size_t length = 60'000;
+  shelves.walls = WallSet::narrowest(std::vector<Segment>{
+      {{0.5, 0.5}, {length + 0.5, 0.5}}, {{0.5, 1.5}, {length - 0.5, 1.5}}, {{0.5, 2.5}, {length + 0.5, 2.5}}});
+  const CellSides long_ones = MazeWorld(shelves, 0.1, {}).cell_sides(any_number, {});
+  ASSERT_EQ(long_ones.rows, 2U);
+  for (std::size_t col = 0; col < length; ++col)
+    ASSERT_EQ((long_ones.open[col] & CellSides::up) != 0, col + 1 == length) << col;
+}
+
 TEST(OpenSides, AreTheSameForAnyNumberOfThreads) {
   const Scene scene = maze_scene({400, 700, 2}, false, {});
   const CellSides one = MazeWorld(scene, 0.1, {}).cell_sides(any_number, Execution{1});
