@@ -42,7 +42,7 @@ RUNS = [
     ("convert to a page", "convert w.scene -o w.pdf", ["w.pdf"]),
     ("compare", "compare w.scene --planners prm,lazy-prm --seeds 1 --json c.json --csv c.csv --log c.log --threads 1",
      ["c.json", "c.csv", "c.log"]),
-    ("scale", "scale --sizes 5,7 --repeats 1 --threads 1 --json s.json --csv s.csv --html s.html",
+    ("scale", "scale --sizes 5,7 --repeats 1 --threads 1 --quiet --json s.json --csv s.csv --html s.html",
      ["s.json", "s.csv", "s.html"]),
     ("build", "build w.scene --samples 60 -o r.roadmap --threads 1", ["r.roadmap"]),
     ("query", "query kept.roadmap --json a.json --svg a.svg --keep k.roadmap --threads 1",
