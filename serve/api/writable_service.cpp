@@ -60,7 +60,9 @@ HttpResponse WritableService::update(const HttpRequest& request, const Execution
   }
   const auto before = current_.now();
   if (const std::string_view why = before->world->why_fixed(); !why.empty()) throw UsageError(std::string(why));
-  ChangedScene now = changed(before->world->whole(execution), wanted, execution);
+  const Scene& scene = before->world->whole(execution);
+  if (scene.maze) maze_ = scene.maze;
+  ChangedScene now = changed(scene, wanted, maze_, execution);
   auto next = std::make_unique<Version>(before->world->changed(std::move(now.scene), execution), limits_);
   JsonObject json;
   json.add("schema", "warren.change/1");

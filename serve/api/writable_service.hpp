@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "serve/api/served_world.hpp"
@@ -39,6 +40,7 @@ class WritableService : public HttpService {
 
   const ServiceLimits limits_;
   const std::string token_;
+  std::optional<MazeHint> maze_;  // what the walls were of; of whoever changes the world
   mutable CurrentValue<Version> current_;
 };
 

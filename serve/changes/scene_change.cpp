@@ -8,12 +8,14 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 #include <tuple>
 #include <utility>
 
 #include "core/base/error.hpp"
 #include "core/plane/geometry.hpp"
 #include "core/plane/polygon_distance.hpp"
+#include "scenes/mazes/maze_generator.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "scenes/text/human_units.hpp"
 #include "serve/http/http_message.hpp"
@@ -141,7 +143,8 @@ void check(const Scene& scene, const SceneChange& change) {
 
 }  // namespace
 
-ChangedScene changed(const Scene& scene, const SceneChange& change, const Execution& execution) {
+ChangedScene changed(const Scene& scene, const SceneChange& change, const std::optional<MazeHint>& maze,
+                     const Execution& execution) {
   check(scene, change);
   Removal removal(scene, change, execution);
   std::vector<Segment> walls = removal.walls_left();
@@ -157,7 +160,7 @@ ChangedScene changed(const Scene& scene, const SceneChange& change, const Execut
   now.seams = scene.seams;
   now.bounds = scene.bounds;
   now.clearance = scene.clearance;
-  now.maze = scene.maze;
+  if (maze && !first_wall_off_grid(now.walls, *maze, execution)) now.maze = maze;
   now.robot = scene.robot;
   now.start = scene.start;
   now.goal = scene.goal;

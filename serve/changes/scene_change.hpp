@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,8 +41,10 @@ struct ChangedScene {
   Scene scene;
   SceneChange made;
 };
+/// maze: what the walls were once of; they still are where all lie on its grid, and walls like any others where not.
 /// Throws HttpError: 400 "not_there" for shapes to remove that are not in the scene; InputError for polygons that are
 /// not simple and walls without length; UsageError for worlds that are cells; Stopped.
-ChangedScene changed(const Scene& scene, const SceneChange& change, const Execution& execution);
+ChangedScene changed(const Scene& scene, const SceneChange& change, const std::optional<MazeHint>& maze,
+                     const Execution& execution);
 
 }  // namespace warren

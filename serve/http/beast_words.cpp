@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <boost/beast/core/string.hpp>
 #include <boost/beast/http/error.hpp>
 #include <string>
 
@@ -43,6 +44,11 @@ HttpRequest request_of(const BeastRequest& head) {
     throw HttpError(405, "method_not_allowed", "method", "GET, HEAD and POST are expected");
   }
   read_target({head.target().data(), head.target().size()}, request);
+  const bool is_coded = head.count(http::field::transfer_encoding) > 0;
+  if (is_coded && (head.count(http::field::transfer_encoding) > 1 ||
+                   !boost::beast::iequals(head[http::field::transfer_encoding], "chunked"))) {
+    throw HttpError(400, "bad_request", "Transfer-Encoding", "chunked is the only one");  // where bodies end is certain
+  }
   if (head.count(http::field::host) != 1) throw HttpError(400, "bad_request", "Host", "expected once");
   const auto field = [&](http::field name) { return std::string(head[name]); };
   request.host = field(http::field::host);

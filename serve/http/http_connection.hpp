@@ -55,6 +55,7 @@ struct Connection {
   bool closed = false;
   bool keep_alive = true;
   bool has_large_body = false;
+  std::size_t unsent_bytes = 0;  ///< of a large answer on its way
 };
 
 }  // namespace warren

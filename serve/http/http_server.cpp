@@ -2,8 +2,11 @@
 #include "serve/http/http_server.hpp"
 
 #include <fmt/format.h>
+#include <netinet/tcp.h>
+#include <sys/socket.h>
 
 #include <algorithm>
+#include <array>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
@@ -40,6 +43,14 @@ Clock::time_point in(double seconds) {
 }
 double seconds_between(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
+}
+
+/// Has the other end closed the connection? Told even where bytes wait that nobody has read.
+bool has_gone(Tcp::socket& socket) {
+  tcp_info info{};
+  socklen_t size = sizeof info;
+  return ::getsockopt(socket.native_handle(), IPPROTO_TCP, TCP_INFO, &info, &size) == 0 &&
+         info.tcpi_state != TCP_ESTABLISHED;
 }
 
 }  // namespace
@@ -112,6 +123,7 @@ class HttpServer::Connections {
     if (c.closed) return;
     c.closed = true;
     end_large_body(c);
+    end_unsent(c);
     if (c.job != nullptr) {
       c.job->gone = SIGTERM;
       c.job->connection = nullptr;
@@ -222,7 +234,7 @@ class HttpServer::Connections {
       working->response = answer_of(service_, working->request, working->gone);
       asio::post(io_, [this, number] { finish(number); });
     });
-    if (taken) return watch(c);
+    if (taken) return;
     jobs_.erase(number);
     c.job = nullptr;
     figures_.working = jobs_.size();
@@ -230,18 +242,11 @@ class HttpServer::Connections {
     busy.fields.emplace_back("Retry-After", "1");
     write(c, std::move(busy));
   }
-  /// Has the client gone? What it sends on can't be told from its end without reading it, which waits.
-  void watch(Connection& c) {
-    if (c.buffer.size() > 0) return;
-    c.socket.async_wait(Tcp::socket::wait_read, while_open(c, [this, &c](const Code& code) {
-                          Code found;
-                          char byte = 0;
-                          c.socket.receive(asio::buffer(&byte, 1), Tcp::socket::message_peek, found);
-                          if (code || !found) return;
-                          if (found == asio::error::would_block) return watch(c);
-                          ++figures_.abandoned;
-                          close(c);
-                        }));
+  /// Whoever has gone wants no answer, whatever was sent before that.
+  void leave(Connection& c) {
+    if (c.closed || c.stage != Stage::work || !has_gone(c.socket)) return;
+    ++figures_.abandoned;
+    close(c);
   }
   void finish(std::uint64_t number) {
     const auto found = jobs_.find(number);
@@ -274,7 +279,14 @@ class HttpServer::Connections {
   void write(Connection& c, HttpResponse said) {
     enter(c, Stage::write, limits_.write_s);
     Code ignored;
-    c.socket.cancel(ignored);  // watch()
+    c.socket.cancel(ignored);  // a read that took too long; it may still go on for a while, by buffer and parser
+    if (said.body.size() > limits_.small_body && unsent_bytes_ > 0 &&
+        unsent_bytes_ + said.body.size() > limits_.unsent_bytes) {
+      said = error_response(503, "busy", "", "too many large answers are on their way; try again");
+      said.fields.emplace_back("Retry-After", "1");
+    }
+    c.unsent_bytes = said.body.size() > limits_.small_body ? said.body.size() : 0;
+    unsent_bytes_ += c.unsent_bytes;
     ++figures_.said[std::min<std::size_t>(said.status / 100, 5)];
     c.response = beast_response(said);
     c.response->keep_alive(c.keep_alive && ending_ == never);
@@ -282,8 +294,10 @@ class HttpServer::Connections {
     if (c.request.method != "HEAD" && said.status != 304) c.response->body() = std::move(said.body);
     http::async_write(c.socket, *c.response, while_open(c, [this, &c](const Code& code) { wrote(c, code); }));
   }
+  void end_unsent(Connection& c) { unsent_bytes_ -= std::exchange(c.unsent_bytes, 0); }
   void wrote(Connection& c, const Code& code) {
     end_large_body(c);
+    end_unsent(c);
     if (code) return close(c);
     if (c.response->keep_alive()) return wait_for_request(c);
     Code ignored;
@@ -293,8 +307,7 @@ class HttpServer::Connections {
   }
   /// A connection that is closed while the client still sends loses the answer on its way.
   void linger(Connection& c) {
-    c.buffer.clear();
-    c.socket.async_read_some(c.buffer.prepare(4096),
+    c.socket.async_read_some(asio::buffer(unread_),
                              while_open(c, [this, &c](const Code& code) { code ? close(c) : linger(c); }));
   }
 
@@ -307,6 +320,7 @@ class HttpServer::Connections {
     }
     if (ending_ != never && connections_.size() == 0 && jobs_.empty()) return io_.stop();
     end_stages();
+    connections_.each([this](Connection& c) { leave(c); });
     if (ending_ == never) {
       for (Tcp::acceptor* acceptor : std::exchange(idle_acceptors_, {})) accept(*acceptor);
     }
@@ -347,6 +361,8 @@ class HttpServer::Connections {
   SignalFlag ended_{0};  // stops prepare()
   std::uint64_t next_job_ = 0;
   std::size_t large_bodies_ = 0;
+  std::size_t unsent_bytes_ = 0;
+  std::array<char, 4096> unread_{};  // what nobody looks at; all connections may share it
   ConnectionPlaces connections_;
   std::map<std::uint64_t, std::unique_ptr<Job>> jobs_;
   TaskCrew crew_;  // last: it ends before what its tasks look at

@@ -32,8 +32,9 @@ struct HttpLimits {
   std::size_t of_an_address = 16;      ///< the same, but for loopback
   std::size_t small_body = 64 * 1024;  ///< larger bodies are taken few at a time
   std::size_t large_bodies = 8;        ///< at a time, up to the end of their answers
-  std::size_t waiting = 64;            ///< requests that wait for a thread; further ones are told to come again
-  unsigned threads = 1;                ///< that make answers; >= 1
+  std::size_t unsent_bytes = std::size_t{128} << 20;  ///< of large answers on their way; one of any size always may
+  std::size_t waiting = 64;  ///< requests that wait for a thread; further ones are told to come again
+  unsigned threads = 1;      ///< that make answers; >= 1
 };
 
 struct HttpPlace {

@@ -99,7 +99,20 @@ function linkText() {
   words.push("at=" + [rounded(at.lng), rounded(at.lat), map.getZoom()].join(","));
   return "#" + words.join("&");
 }
-function keepLink() { history.replaceState(null, "", linkText()); }
+/// The address follows, at once but for long drags: browsers stop pages that write it hundreds of times in some seconds.
+/// So 25 times at a stretch, then twice a second, the last time for sure.
+const linkWrites = {left: 25, counted: 0, timer: null};
+function keepLink() {
+  const now = performance.now();
+  linkWrites.left = Math.min(25, linkWrites.left + (now - linkWrites.counted) / 500);
+  linkWrites.counted = now;
+  if (linkWrites.left < 1) {
+    linkWrites.timer ||= setTimeout(() => { linkWrites.timer = null; keepLink(); }, 500);
+    return;
+  }
+  linkWrites.left -= 1;
+  history.replaceState(null, "", linkText());
+}
 function readLink() {
   const words = new URLSearchParams(location.hash.slice(1));
   const numbers = name => (words.get(name) || "").split(",").filter(word => word !== "").map(Number);

@@ -11,7 +11,8 @@ function takeToken() {
   if (given) sessionStorage.setItem("warren-token", given);
 }
 
-/// Sends a change. Gives what was added and removed; nothing where it is refused, which is said.
+/// Sends a change. Gives what was added and removed, with the world as it is then; nothing where it is refused, which is
+/// said. One at a time: the next one may depend on the list that this one changes.
 async function sendChange(change) {
   if (drawing.busy) return null;
   drawing.busy = true;
@@ -24,11 +25,11 @@ async function sendChange(change) {
   } catch (error) {
     say("The service does not answer any more.");
   }
-  drawing.busy = false;
   if (json && json.error) say(json.error.message);
-  if (!json || json.error) return null;
-  await takeWorld();
-  return json;
+  const made = json && !json.error ? json : null;
+  if (made) await takeWorld();
+  drawing.busy = false;
+  return made;
 }
 let taken = Promise.resolve(), noticing = null;
 /// Takes the world as it is now, one call after the other, so that an older world never replaces a newer one. True where
@@ -60,12 +61,15 @@ function showWorld(now) {
   byId("about").textContent = world.description + ", " + world.robot + (world.clearance > 0 ? ", clearance " + shown(world.clearance) : "");
   ask();
 }
+/// False where the change was refused.
 async function draw(change) {
   const made = await sendChange(change);
-  if (!made || made.before === made.hash) return;
+  if (!made) return false;
+  if (made.before === made.hash) return true;
   drawing.undo.push({add: made.removed, remove: made.added});
   drawing.redo = [];
   showDrawing();
+  return true;
 }
 async function stepDrawing(from, to) {
   if (from.length === 0) return;
@@ -93,13 +97,17 @@ function showDrawing() {
   byId("draw-undo").disabled = drawing.undo.length === 0;
   byId("draw-redo").disabled = drawing.redo.length === 0;
 }
-/// Ends what is being drawn: corners become walls from each to the next, or a polygon.
-function finishDrawing() {
-  const corners = drawing.corners, isPolygon = drawing.tool === "polygon";
+/// Ends what is being drawn: corners become walls from each to the next, or a polygon. They stay where it is refused.
+async function finishDrawing() {
+  const corners = drawing.corners, tool = drawing.tool, isPolygon = tool === "polygon";
+  if (drawing.busy) return void say("The change before is still on its way; end this one again in a moment.");
   if (corners.length < (isPolygon ? 3 : 2)) return void say(isPolygon ? "A polygon has three corners or more." : "A wall has two ends.");
   drawing.corners = [];
   sketch.redraw();
-  draw({add: isPolygon ? {polygons: [corners]} : {walls: corners.slice(1).map((p, i) => [...corners[i], ...p])}});
+  if (await draw({add: isPolygon ? {polygons: [corners]} : {walls: corners.slice(1).map((p, i) => [...corners[i], ...p])}})) return;
+  if (drawing.tool !== tool || drawing.corners.length > 0) return;
+  drawing.corners = corners;
+  sketch.redraw();
 }
 /// Does the drawing take this click?
 function drawsClick(event) {

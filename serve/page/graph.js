@@ -3,7 +3,7 @@
 // edge, and the layer that draws them. An edge stands for one way; two that lead to and fro are drawn as one line.
 // What a file says beside places and ends (`more`) is a text that is handed back as it came.
 "use strict";
-const graph = {nodes: new Map(), edges: new Map(), frame: "map", more: null, undo: [], redo: [], verdicts: new Map(), selected: null};
+const graph = {nodes: new Map(), edges: new Map(), file: new Map([["frame", "map"]]), undo: [], redo: [], verdicts: new Map(), selected: null};
 
 const headingOf = node => node.theta === undefined ? null : node.theta;
 function edgeNumbers(edge) {
@@ -59,8 +59,7 @@ function takeGraph(json) {
   for (const id of graph.nodes.keys()) change.push(["nodes", id, undefined]);
   for (const node of json.nodes) change.push(["nodes", node.id, node]);
   for (const {verdict, ...edge} of json.edges) change.push(["edges", edge.id, edge]);
-  graph.frame = json.frame;
-  graph.more = json.more;
+  change.push(["file", "frame", json.frame], ["file", "more", json.more || undefined]);
   graph.undo.push(applyChange(change));
   graph.redo = [];
   graph.selected = null;

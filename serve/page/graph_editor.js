@@ -172,8 +172,8 @@ function openGraph(json, word) {
   say(word + grouped(json.nodes.length) + " nodes, " + grouped(json.edges.length) + " edges" + (json.left_out ? "; " + grouped(json.left_out) + " features are neither and left out" : "") + (blockedEdges().length ? "; " + grouped(blockedEdges().length) + " edges are not free" : "") + ".");
 }
 async function saveGraph() {
-  const body = {frame: graph.frame, nodes: [...graph.nodes.values()], edges: [...graph.edges.values()]};
-  if (graph.more) body.more = graph.more;
+  const body = {frame: graph.file.get("frame"), nodes: [...graph.nodes.values()], edges: [...graph.edges.values()]};
+  if (graph.file.has("more")) body.more = graph.file.get("more");
   const reply = await fetch("/api/graph/save", {method: "POST", headers: {"Content-Type": "application/json"}, body: JSON.stringify(body)});
   const text = await reply.text();
   if (!reply.ok) return void say(JSON.parse(text).error.message);

@@ -94,6 +94,30 @@ class Drawing(MapTest):
         self.wait(lambda: 'polygon' in self.status() and 'cross' in self.status())
         self.assertEqual(self.length(), 90)
 
+    def test_an_undo_while_the_one_before_is_on_its_way_takes_nothing_twice(self):
+        service = self.served('--writable', link='#planner=visibility')
+        self.wait_for_length(lambda length: length == 90)
+        self.async_script('(async () => {'
+                          'await draw({add: {walls: [[50, 5, 50, 10]]}}); await draw({add: {walls: [[60, 5, 60, 10]]}});'
+                          'await draw({remove: {walls: [[60, 5, 60, 10]]}}); done(); })();')
+        self.assertEqual(self.run_script('return drawing.undo.length'), 3)
+        self.run_script('window.quick = fetchWorld; fetchWorld = async () => { await new Promise(then => setTimeout(then, 600)); return quick(); };'
+                        'const undo = () => stepDrawing(drawing.undo, drawing.redo); undo(); setTimeout(undo, 300);')
+        self.wait(lambda: self.run_script('return !drawing.busy && drawing.undo.length') == 2)
+        scene = service.request('GET', '/api/scene')[2].decode()
+        self.assertEqual(scene.count('60 5 60 10'), 1, scene)
+        self.assertEqual(self.run_script('fetchWorld = quick; return [drawing.undo.length, drawing.redo.length]'), [2, 1])
+
+    def test_what_is_refused_stays_to_be_mended(self):
+        self.served('--writable', link='#planner=visibility')
+        self.wait_for_length(lambda length: length == 90)
+        self.press('draw-polygon')
+        for place in ((60, 10), (80, 50), (80, 10), (60, 50)):
+            self.click_at(*place)
+        self.by_id('map').send_keys(Keys.ENTER)
+        self.wait(lambda: 'cross' in self.status())
+        self.assertEqual(self.run_script('return drawing.corners.length'), 4)
+
     def test_a_token_comes_by_the_link_and_leaves_the_address(self):
         self.served('--writable', '--token-file', self.path('token'), link='#planner=visibility')
         self.wait_for_length(lambda length: length == 90)

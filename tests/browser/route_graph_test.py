@@ -197,6 +197,13 @@ class RouteGraph(MapTest):
         self.by_id('graph-file').send_keys(path)
         self.wait(lambda: 'edge 8: there is no node 7' in self.status())
 
+    def test_a_second_file_that_is_taken_back_leaves_the_first_one_as_it_was(self):
+        self.run_script('takeGraph({nodes: [{id: 1, at: [-1, 0]}], edges: [], verdicts: [], frame: "map", more: {metadata: {who: "A"}}});'
+                        'takeGraph({nodes: [{id: 2, at: [0, 0]}], edges: [], verdicts: [], frame: "odom", more: null}); undoGraph();')
+        file = self.run_script('return [graph.file.get("frame"), graph.file.get("more"), [...graph.nodes.keys()]]')
+        self.assertEqual(file, ['map', {'metadata': {'who': 'A'}}, [1]])
+        self.assertEqual(self.run_script('redoGraph(); return [graph.file.get("frame"), graph.file.has("more")]'), ['odom', False])
+
     def test_by_finger(self):
         self.press('graph-edit')
         self.click_at(-1, 0)

@@ -95,6 +95,17 @@ class ServicePage(MapTest):
         self.assertEqual(self.run_script(state), before)
         self.assertEqual(self.drawn(), path)
 
+    def test_the_link_follows_long_drags(self):
+        self.shown(self.town, '#start=1.5,1.5&goal=9.5,8.5')
+        self.wait_for('Solved')
+        self.run_script('window.linkCount = 0; const write = history.replaceState.bind(history);'
+                        'history.replaceState = (...words) => { ++linkCount; write(...words); };'
+                        'for (let i = 0; i < 400; ++i) setEnd("start", {x: 1.5 + i / 1000, y: 1.5});')
+        self.assertGreater(self.run_script('return question.start.x'), 1.85)
+        self.wait(lambda: self.run_script('return location.hash === linkText()'))
+        self.assertLess(self.run_script('return linkCount'), 60)
+        self.wait_for('Solved')
+
     def test_a_link_to_a_view_far_away_shows_the_whole_world(self):
         for at in ('1e308,0,5', '1e12,1e12,3', '-100,5,0'):
             self.shown(self.town, '#start=1.5,1.5&goal=9.5,8.5&at=' + at)

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "scenes/mazes/maze_generator.hpp"
 #include "scenes/text/human_units.hpp"
 #include "solve/solve.hpp"
 #include "tests/serve/town.hpp"
@@ -82,6 +83,26 @@ TEST(WritableService, WhatIsTakenBackIsTheOldWorld) {
   ASSERT_EQ(back.status, 200U) << back.body;
   EXPECT_EQ(served.hash(), before);
   EXPECT_EQ(served.scene(), scene);
+}
+
+/// Off the grid it is a maze no more; where that is taken back it is one again.
+TEST(WritableService, AWallAnywhereInAMazeIsGoneAround) {
+  Writable served(maze_scene({12, 12, 3}, false, {}));
+  const std::string before = served.hash();
+  const std::string scene = served.scene();
+  for (const Json& wall :
+       {Json{2.1, 2.2, 2.6, 2.9}, Json{3, 3, 3.4, 3}, Json{-5, 1, -4, 1}, Json{0.5, 3.5, 1.5, 3.5}}) {
+    SCOPED_TRACE(wall.dump());
+    const Json drawn = {{"walls", {wall}}};
+    ASSERT_EQ(served.update({{"add", drawn}}).status, 200U);
+    const Json now = served.query();
+    ASSERT_TRUE(now.contains("status")) << now;
+    EXPECT_EQ(now.at("status"),
+              solve(scene_of(served.scene())).outcome == Outcome::solved ? "solved" : "not_connected");
+    ASSERT_EQ(served.update({{"remove", drawn}}).status, 200U);
+    EXPECT_EQ(served.hash(), before);
+    EXPECT_EQ(served.scene(), scene);
+  }
 }
 
 TEST(WritableService, OldTilesAreGoneAndNewOnesShowTheChange) {

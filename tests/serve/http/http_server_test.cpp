@@ -22,13 +22,15 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// /quick is there at once; /slow takes until somebody leaves or opens the gate; /echo gives its body back; /large,
-/// too.
+/// too; /huge gives much.
 class TestService : public HttpService {
  public:
+  static constexpr std::size_t huge = std::size_t{32} << 20U;
+
   std::size_t most_body(const HttpRequest& head) const override {
     if (head.path == "/echo") return 1000;
     if (head.path == "/large") return std::size_t{1} << 20U;
-    if (head.path == "/quick" || head.path == "/slow" || head.path == "/throw") return 0;
+    if (head.path == "/quick" || head.path == "/slow" || head.path == "/throw" || head.path == "/huge") return 0;
     throw HttpError(404, "not_found", "path", "nothing here");
   }
   std::optional<HttpResponse> at_once(const HttpRequest& request, const HttpFigures& figures) override {
@@ -38,6 +40,7 @@ class TestService : public HttpService {
   }
   HttpResponse work(const HttpRequest& request, const SignalFlag& gone) override {
     if (request.path == "/throw") throw std::runtime_error("a bug");
+    if (request.path == "/huge") return {.body = std::string(huge, 'a')};
     if (request.path != "/slow") return {.body = request.body};
     ++begun;
     while (gone == 0 && !open) std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -194,11 +197,14 @@ TEST(HttpServer, RefusesWhatIsNoRequest) {
   };
   const std::string host = server.host();
   for (const Case& c :
-       {Case{"hello\r\n\r\n", 400}, Case{"GET / HTTP/9.9\r\n" + host + "\r\n", 400},
-        Case{"GET /quick HTTP/1.1\r\n\r\n", 400}, Case{"GET /quick HTTP/1.1\r\n" + host + host + "\r\n", 400},
+       {Case{"hello\r\n\r\n", 400},
+        Case{"GET / HTTP/9.9\r\n" + host + "\r\n", 400},
+        Case{"GET /quick HTTP/1.1\r\n\r\n", 400},
+        Case{"GET /quick HTTP/1.1\r\n" + host + host + "\r\n", 400},
         Case{"GET /quick HTTP/1.1\r\nHost: evil.example\r\n\r\n", 403},
         Case{"POST /echo HTTP/1.1\r\n" + host + "Origin: http://evil.example\r\nContent-Length: 0\r\n\r\n", 403},
-        Case{"DELETE /quick HTTP/1.1\r\n" + host + "\r\n", 405}, Case{"BREW /quick HTTP/1.1\r\n" + host + "\r\n", 405},
+        Case{"DELETE /quick HTTP/1.1\r\n" + host + "\r\n", 405},
+        Case{"BREW /quick HTTP/1.1\r\n" + host + "\r\n", 405},
         Case{"GET /nothing HTTP/1.1\r\n" + host + "\r\n", 404},
         Case{"GET /../../etc/passwd HTTP/1.1\r\n" + host + "\r\n", 404},
         Case{"GET /%2e%2e/etc/passwd HTTP/1.1\r\n" + host + "\r\n", 404},
@@ -208,6 +214,10 @@ TEST(HttpServer, RefusesWhatIsNoRequest) {
         Case{"GET /quick HTTP/1.1\r\n" + host + "Content-Length: 3\r\n\r\nabc", 413},
         Case{"POST /echo HTTP/1.1\r\n" + host + "Content-Length: 1001\r\n\r\n", 413},
         Case{"POST /echo HTTP/1.1\r\n" + host + "Content-Length: 99999999999999999999999\r\n\r\n", 400},
+        Case{"POST /echo HTTP/1.1\r\n" + host + "Transfer-Encoding: xchunked\r\n\r\n", 400},
+        Case{"GET /quick HTTP/1.1\r\n" + host + "Transfer-Encoding: x\r\n\r\n", 400},
+        Case{"POST /echo HTTP/1.1\r\n" + host + "Transfer-Encoding: gzip, chunked\r\n\r\n0\r\n\r\n", 400},
+        Case{"POST /echo HTTP/1.1\r\n" + host + "Transfer-Encoding: chunked, identity\r\n\r\n0\r\n\r\n", 400},
         Case{"POST /echo HTTP/1.1\r\n" + host + "Transfer-Encoding: chunked\r\n\r\n7d0\r\n" + std::string(2000, 'a') +
                  "\r\n0\r\n\r\n",
              413},
@@ -256,6 +266,26 @@ TEST(HttpServer, ABodyThatDoesNotComeIsGivenUp) {
   socket.send("POST /echo HTTP/1.1\r\n" + server.host() + "Content-Length: 10\r\n\r\nabc");
   EXPECT_EQ(status_of(socket.answer()), 408U);
   EXPECT_TRUE(socket.is_closed());
+}
+
+/// Bytes come before, while and after the time of their body ends: what still reads them must not meet what reads on.
+TEST(HttpServer, ABodyWhoseTimeEndsInABurstIsGivenUp) {
+  const RunningServer server({.body_s = 0.3, .linger_s = 0.3});
+  const std::string head = "POST /large HTTP/1.1\r\n" + server.host() + "Content-Length: 65000\r\n\r\n";
+  const std::string burst(1024, 'a');
+  for (int round = 0; round < 3; ++round) {
+    std::vector<std::unique_ptr<Socket>> many;
+    for (int i = 0; i < 60; ++i) {
+      many.push_back(std::make_unique<Socket>(server.server.port()));
+      many.back()->send(head);
+    }
+    const auto end = Clock::now() + std::chrono::milliseconds(900);
+    while (Clock::now() < end) {
+      for (const auto& socket : many) socket->send(burst);
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+  }
+  EXPECT_EQ(status_of(server.asked(server.get("/quick"))), 200U);
 }
 
 TEST(HttpServer, AnIdleConnectionIsClosedWithoutAWord) {
@@ -326,6 +356,33 @@ TEST(HttpServer, AClientThatLeavesEndsTheWork) {
   socket.close();
   while (server.service.left < 1) std::this_thread::yield();
   EXPECT_EQ(status_of(server.asked(server.get("/quick"))), 200U);
+}
+
+TEST(HttpServer, AClientThatSendsOnAndLeavesEndsTheWork) {
+  RunningServer server({});
+  for (const char* more : {"X", "GET /quick HTTP/1.1\r\n"}) {
+    Socket socket(server.server.port());
+    const int before = server.service.begun;
+    socket.send(server.get("/slow") + more);
+    while (server.service.begun == before) std::this_thread::yield();
+    const int left = server.service.left;
+    socket.close();
+    while (server.service.left == left) std::this_thread::yield();
+  }
+  EXPECT_EQ(status_of(server.asked(server.get("/quick"))), 200U);
+}
+
+TEST(HttpServer, LargeAnswersThatNobodyTakesAreFew) {
+  const RunningServer server({.unsent_bytes = TestService::huge + 1});
+  const Socket slow(server.server.port());
+  slow.send(server.get("/huge"));  // more than all buffers hold
+  std::string answer;
+  while (status_of(answer) != 503) {
+    answer = server.asked(server.get("/huge"));
+    ASSERT_TRUE(status_of(answer) == 200 || status_of(answer) == 503);
+  }
+  EXPECT_NE(answer.find("large answers"), std::string::npos) << answer;
+  EXPECT_EQ(status_of(server.asked(server.post("/echo", "small"))), 200U);
 }
 
 TEST(HttpServer, LargeBodiesAreFewAtATime) {
