@@ -16,6 +16,8 @@
 namespace warren {
 namespace {
 
+constexpr std::uint64_t units_per_poll = std::uint64_t{1} << 16;
+
 template <class T>
 std::span<const WallOf<T>> walls_in(const InputFile& file, const NpyWalls& array) {
   const void* const data = file.bytes().data() + array.data;  // numbers lie on a multiple of 64 bytes
@@ -110,15 +112,19 @@ void NpyMaze::read(const InputFile& file, const Execution& execution) {
     for (const std::uint64_t part : parts) hash.add(part);
     for (std::size_t i = 0; i < some.size(); ++i) {
       if (i % WallsHash::grain == 0) execution.check();
-      if (first + i >= 4) add<T>(file, first + i, some[i]);
+      if (first + i >= 4) add<T>(file, first + i, some[i], execution);
     }
     file.forget(array_.data + first * sizeof(WallOf<T>), array_.data + (first + some.size()) * sizeof(WallOf<T>));
   }
   hash_ = hash.text();
 }
 
+/// Any number of walls may be as long as the maze is wide, so that units are counted, not walls.
 template <class T>
-void NpyMaze::add(const InputFile& file, std::size_t row, const WallOf<T>& wall) {
+void NpyMaze::add(const InputFile& file, std::size_t row, const WallOf<T>& wall, const Execution& execution) {
+  const auto poll = [&] {
+    if (++units_ % units_per_poll == 0) execution.check();
+  };
   const double low_x = std::min(wall.x1, wall.x2) - 0.5;  // grid lines, from 0
   const double high_x = std::max(wall.x1, wall.x2) - 0.5;
   const double low_y = std::min(wall.y1, wall.y2) - 0.5;
@@ -141,9 +147,15 @@ void NpyMaze::add(const InputFile& file, std::size_t row, const WallOf<T>& wall)
     if ((col == 0 && first_row == 0) || (col == maze_.cols && last_row == maze_.rows)) {
       refuse("closes a door of the maze; such walls are not read tile by tile, they must fit in memory");
     }
-    for (std::uint32_t r = first_row; col > 0 && r < last_row; ++r) stand(col - 1, r, CellTile::right_wall);
+    for (std::uint32_t r = first_row; col > 0 && r < last_row; ++r) {
+      poll();
+      stand(col - 1, r, CellTile::right_wall);
+    }
   } else {
-    for (std::uint32_t c = col; first_row > 0 && c < last_col; ++c) stand(c, first_row - 1, CellTile::upper_wall);
+    for (std::uint32_t c = col; first_row > 0 && c < last_col; ++c) {
+      poll();
+      stand(c, first_row - 1, CellTile::upper_wall);
+    }
   }
 }
 

@@ -39,7 +39,7 @@ class NpyMaze {
   template <class T>
   void read(const InputFile& file, const Execution& execution);
   template <class T>
-  void add(const InputFile& file, std::size_t row, const WallOf<T>& wall);
+  void add(const InputFile& file, std::size_t row, const WallOf<T>& wall, const Execution& execution);
   void stand(std::uint32_t col, std::uint32_t row, unsigned wall) {
     if (row < rows_.first || row >= rows_.last) return;
     bits_[(row - rows_.first) * bytes_a_row(maze_.cols) + col / 4] |=
@@ -52,6 +52,7 @@ class NpyMaze {
   RawVector<std::uint8_t> bits_;
   CellBits cells_;
   std::string hash_;
+  std::uint64_t units_ = 0;  // of walls, so far
 };
 
 }  // namespace warren

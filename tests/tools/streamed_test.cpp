@@ -301,6 +301,20 @@ TEST(Streamed, ArraysOfOtherWallsAreRefusedWhereTheMemoryDoesNotHoldThem) {
   EXPECT_EQ(held["verified"], true);
 }
 
+/// Walls as long as the maze is wide, one on top of the other: units are polled, not walls, or it took hours.
+TEST(Streamed, AnArrayOfLongWallsStopsWhereItIsToldTo) {
+  const Folder folder;
+  ASSERT_EQ(run({"generate", "maze", "2x1000000", "--algorithm", "mst", "-o", folder.path("a.npy")}).code, 0);
+  std::string bytes = folder.read("a.npy");
+  constexpr std::size_t head = 128;
+  constexpr std::array<float, 4> wall{0.5F, 1.5F, 1000000.5F, 1.5F};
+  for (std::size_t at = head + 4 * sizeof wall; at < bytes.size(); at += sizeof wall)
+    std::memcpy(&bytes[at], wall.data(), sizeof wall);
+  const Json late =
+      answered({"solve", folder.write("b.npy", bytes), "--pipeline", "streamed", "--budget", "300ms"}, 124);
+  EXPECT_EQ(late["stopped_by"], "budget");
+}
+
 TEST(Streamed, TenBillionCellsStopWhereTheyAreToldTo) {
   const std::string world = "maze:100000x100000,algorithm=mst";
   const Json late = answered({"solve", world, "--budget", "1s"}, 124);

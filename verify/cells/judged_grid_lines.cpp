@@ -34,14 +34,16 @@ JudgedGridLines::JudgedGridLines(const WallSet& walls, std::uint32_t rows, std::
     for (std::size_t i = 0; i < held.size(); ++i) {
       if (i % polled == 0) execution.check();
       const Segment s = held[i].segment();
-      take("walls", s.a.x, s.a.y, s.b.x, s.b.y);
+      take("walls", s.a.x, s.a.y, s.b.x, s.b.y, execution);
       around.include(box_of(s));
     }
   });
   if (around.min != box().min || around.max != box().max) throw InputError("walls", "do not reach around their maze");
 }
 
-void JudgedGridLines::take(const std::string& where, double x1, double y1, double x2, double y2) {
+void JudgedGridLines::take(const std::string& where, double x1, double y1, double x2, double y2,
+                           const Execution& execution) {
+  constexpr std::uint64_t units_per_poll = std::uint64_t{1} << 16;  // walls may be as long as the maze is wide
   const double dx = x2 > x1 ? 1 : x2 < x1 ? -1 : 0;
   const double dy = y2 > y1 ? 1 : y2 < y1 ? -1 : 0;
   const auto is_inside = [](double x, double side) {
@@ -52,6 +54,7 @@ void JudgedGridLines::take(const std::string& where, double x1, double y1, doubl
     throw InputError(where, "holds walls off the grid of its maze, which can't be judged");
   }
   for (; x1 != x2 || y1 != y2; x1 += dx, y1 += dy) {
+    if (++units_ % units_per_poll == 0) execution.check();
     const auto col = static_cast<std::uint64_t>(dx < 0 ? x1 - 1 : x1);  // of the unit's lower or left end, from 0
     const auto row = static_cast<std::uint64_t>(dy < 0 ? y1 - 1 : y1);
     if (row < held_.first || row > held_.last) continue;

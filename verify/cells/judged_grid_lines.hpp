@@ -27,11 +27,12 @@ class JudgedGridLines : public LookedUpWalls {
   /// No wall yet. held: rows of cells whose walls are kept; no others are asked for, but for the walls above the row
   /// below the first.
   JudgedGridLines(std::uint32_t rows, std::uint32_t cols, unsigned side_log2, Range held, const Execution& execution);
-  /// Unit by unit, from one end to the other. Throws InputError naming `where`.
-  void take(const std::string& where, double x1, double y1, double x2, double y2);
+  /// Unit by unit, from one end to the other. Throws InputError naming `where`, Stopped.
+  void take(const std::string& where, double x1, double y1, double x2, double y2, const Execution& execution);
 
  private:
   const Range held_;
+  std::uint64_t units_ = 0;  // taken so far
   RawVector<std::uint64_t> upright_;
   RawVector<std::uint64_t> level_;
 };

@@ -43,7 +43,7 @@ void JudgedNpyMaze::take_all(const std::string& name, std::string_view numbers, 
   for (std::size_t at = 0; at + sizeof wall <= numbers.size(); at += sizeof wall) {
     if (at % (std::size_t{1} << 20) == 0) execution.check();
     std::memcpy(wall, numbers.data() + at, sizeof wall);
-    take(name, wall[0], wall[1], wall[2], wall[3]);
+    take(name, wall[0], wall[1], wall[2], wall[3], execution);
   }
 }
 
