@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "core/base/error.hpp"
@@ -80,9 +81,18 @@ void Leader::learn(const KnownWalls& theirs, unsigned rank) {
 }
 
 void Leader::join_trees(std::vector<maze::RimPart> rims, const Execution& execution) {
+  constexpr std::size_t most_on_sides = std::numeric_limits<std::uint32_t>::max();
   std::size_t edges = 0;
-  for (const maze::RimPart& rim : rims) edges += rim.edges.size() + rim.at.width;
-  execution.reserve(edges * 64);
+  std::size_t on_sides = 0;  // cells
+  for (const maze::RimPart& rim : rims) {
+    edges += rim.edges.size() + rim.at.width;
+    on_sides += 2 * (std::size_t{rim.at.width} + rim.at.height);
+  }
+  if (on_sides >= most_on_sides) {
+    throw InputError("maze",
+                     fmt::format("has 2^32 cells or more on the sides of {} bands; take fewer ranks", rims.size()));
+  }
+  execution.reserve(edges * 64 + on_sides * 2 * sizeof(std::uint32_t));
   const maze::JoinedParts joined = join_parts(task_.formula.seed, rims, 1, band_.grid().side_log2, execution);
   for (unsigned rank = 0; rank < requests_.ranks(); ++rank) {
     const TileRows rows = band_rows(tile_rows(), rank, requests_.ranks());
