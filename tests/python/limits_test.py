@@ -62,9 +62,13 @@ def interrupted(number, before="", reading=False):
 
 
 @pytest.mark.parametrize("reading", [False, True])
-def test_control_c_is_a_keyboard_interrupt_at_once(reading):
-    said, seconds = interrupted(signal.SIGINT, reading=reading)  # a hundredth of a second on a quiet machine
-    assert said == "KeyboardInterrupt" and seconds < 5
+def test_control_c_is_a_keyboard_interrupt_within_a_fifth_of_a_second(reading):
+    took = []
+    while len(took) < 5 and min(took, default=1) >= 0.2:  # a busy machine may hold one up, not all
+        said, seconds = interrupted(signal.SIGINT, reading=reading)
+        assert said == "KeyboardInterrupt"
+        took.append(seconds)
+    assert min(took) < 0.2, took
 
 
 def test_a_handler_of_the_program_has_its_say():
