@@ -2,11 +2,14 @@
 // No verb leaves memory behind. The other tests start the program without that question (tests/CMakeLists.txt), which
 // makes half of such a short run under sanitizers; here each verb is asked once, and some refusals.
 #include <cstdlib>
+#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tests/seeds.hpp"
 #include "tests/tools/process.hpp"
+#include "tools/words/command.hpp"
 
 namespace warren::test {
 namespace {
@@ -55,13 +58,19 @@ TEST(Leaks, NoVerbLeavesMemoryBehind) {
       {{"update", file("r.roadmap"), file("walls.scene"), "-o", file("u.roadmap")}, 0, ""},
       {{"export", file("u.roadmap"), "-o", file("x.graphml")}, 0, ""},
       {{"compare", file("m.npy"), "--planners", "prm,lazy-prm", "--seeds", "1", "--quiet"}, 0, ""},
+      {{"scale", "--sizes", "5", "--repeats", "1", "--threads", "1", "--quiet", "--html", file("s.html")}, 0, ""},
       {{"bench-scen", file("m.scen")}, 0, ""},
       {{"largest", "--budget", "60s", "--max-size", "16", "--start-size", "8", "--quiet"}, 0, ""},
       {{"help", "solve"}, 0, ""},
       {{"man"}, 0, ""},
       {{"completion", "bash"}, 0, ""},
   };
-  for (const Case& c : cases) check(c);
+  std::set<std::string_view> asked_of{"serve"};
+  for (const Case& c : cases) {
+    check(c);
+    asked_of.insert(c.arguments.front());
+  }
+  for (const Command& command : command_table()) EXPECT_TRUE(asked_of.contains(command.name)) << command.name;
   Process server({"serve", file("walls.scene"), "--port", "0"}, "/dev/null", file("said"));
   for (int tries = 0; tries < 60'000 && folder.read("said").find("listening") == std::string::npos; ++tries)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -164,6 +164,17 @@ TEST(OutputFile, RefusesWhatCannotBeWrittenAndNamesIt) {
   EXPECT_EQ(directory.entries(), 1U);
 }
 
+/// Whoever puts files into their places together asks this.
+TEST(OutputFile, WhatIsWrittenStraightIsNoRegularFileWhereverThatLies) {
+  const TemporaryDirectory directory;
+  directory.write("a.txt", "old");
+  for (const char* path : {"-", "/dev/null", "/dev/stdout", "/proc/self/fd/1"})
+    EXPECT_TRUE(is_written_straight(path)) << path;
+  EXPECT_FALSE(is_written_straight(directory.file("a.txt")));
+  EXPECT_FALSE(is_written_straight(directory.file("new.txt")));
+  EXPECT_FALSE(is_written_straight("/dev/shm/no_such_file_of_warren"));
+}
+
 TEST(OutputFile, WritesDevicesStraight) {
   write_file("/dev/null", std::string(3'000'000, 'x'), {});
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
