@@ -17,6 +17,7 @@ namespace {
 using test::RunningServer;
 using test::Socket;
 using test::status_of;
+using test::TestService;
 
 TEST(HttpServer, AnswersOneRequestAfterTheOtherOnAConnection) {
   const RunningServer server({});
