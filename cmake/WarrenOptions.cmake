@@ -2,6 +2,7 @@
 # Options of the build and the flags that every target shares.
 
 option(WARREN_TESTS "build the tests" ON)
+set(WARREN_TESTS_OF all CACHE STRING "which tests: units (compiled with the code), program (they ask it from outside), all")
 option(WARREN_BENCH "build the microbenchmarks" OFF)
 option(WARREN_PYTHON "build the Python package" OFF)
 option(WARREN_MPI "build warren-mpi, which needs MPI" OFF)
@@ -54,4 +55,11 @@ if(WARREN_SANITIZE)
   if(WARREN_SANITIZE MATCHES undefined)
     add_compile_options(-fno-sanitize=null,vptr,object-size)
   endif()
+endif()
+
+# Folders where no time goes at run time are compiled with less care: tests' own code and what surrounds planning. What users
+# run of them is as fast (docs/performance.md).
+set(warren_cold_flags -O0)
+if(CMAKE_BUILD_TYPE STREQUAL Release)
+  set(warren_cold_flags -O1)
 endif()

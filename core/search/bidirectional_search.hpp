@@ -113,6 +113,7 @@ class SearchSide {
   const SearchBorder& border() const { return border_; }
   const SearchState& state() const { return state_; }
   bool has_closed(VertexId v) const { return closed_[v] != 0; }  ///< as published
+  const std::uint8_t* closed_marks() const { return closed_.data(); }
   std::uint64_t settled() const { return settled_; }
 
  private:
@@ -125,6 +126,7 @@ class SearchSide {
     bool wants(VertexId w, double length) const { return side.state_.improves(w, g + length) && !other.has_closed(w); }
     double through() const { return g; }
     std::span<const double> labels() const { return side.state_.labels(); }
+    const std::uint8_t* settled_elsewhere() const { return other.closed_marks(); }
     void operator()(VertexId w, double length) const {
       if (!wants(w, length)) return;
       side.state_.reach(w, g + length, from);

@@ -112,6 +112,7 @@ struct BestFirstVisit {
   bool wants(VertexId w, double length) const { return state.improves(w, g + length); }
   double through() const { return g; }
   std::span<const double> labels() const { return state.labels(); }
+  const std::uint8_t* settled_elsewhere() const { return nullptr; }
   void operator()(VertexId w, double length) const {
     if (!wants(w, length)) return;
     state.reach(w, g + length, from);
@@ -119,6 +120,49 @@ struct BestFirstVisit {
   }
 };
 }  // namespace detail
+
+/// A search's visit, whatever its queue and its heuristic, for graphs whose expansion is dear: they are compiled once,
+/// not once a search. What is asked for each edge is answered here; an edge that helps costs a call.
+class AnyVisit {
+ public:
+  template <class Visit>
+  explicit AnyVisit(const Visit& visit)
+      : labels_(visit.labels()),
+        settled_elsewhere_(visit.settled_elsewhere()),
+        through_(visit.through()),
+        visit_(&visit),
+        take_([](const void* visit, VertexId w, double length) { (*static_cast<const Visit*>(visit))(w, length); }) {}
+  bool wants(VertexId w, double length) const {
+    return through_ + length < labels_[w] && (settled_elsewhere_ == nullptr || settled_elsewhere_[w] == 0);
+  }
+  double through() const { return through_; }
+  std::span<const double> labels() const { return labels_; }
+  void operator()(VertexId w, double length) const { take_(visit_, w, length); }
+
+ private:
+  std::span<const double> labels_;
+  const std::uint8_t* settled_elsewhere_;  // by the other side of a search from both ends, a byte a vertex; or nullptr
+  double through_;
+  const void* visit_;
+  void (*take_)(const void*, VertexId, double);
+};
+
+/// The graph of such a search: graph(v, AnyVisit). Refers to the graph.
+class AnyNeighbours {
+ public:
+  template <class AGraph>
+  explicit AnyNeighbours(AGraph& graph)
+      : graph_(&graph),
+        expand_([](void* graph, VertexId v, const AnyVisit& visit) { (*static_cast<AGraph*>(graph))(v, visit); }) {}
+  template <class Visit>
+  void operator()(VertexId v, const Visit& visit) const {
+    expand_(graph_, v, AnyVisit(visit));
+  }
+
+ private:
+  void* graph_;
+  void (*expand_)(void*, VertexId, const AnyVisit&);
+};
 
 /// A* from start to goal. state and queue must be cleared and sized for all vertices; should_stop() is asked every
 /// expansions_per_poll of them, and of stale entries. The heuristic is called once a vertex push.

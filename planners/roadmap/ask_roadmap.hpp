@@ -24,9 +24,7 @@
 #include "planners/roadmap/asked_roadmap.hpp"
 #include "planners/roadmap/plan_in_rounds.hpp"
 #include "planners/roadmap/planned_roadmap.hpp"
-#include "planners/roadmap/queue_choice.hpp"
 #include "planners/roadmap/roadmap_search.hpp"
-#include "planners/roadmap/search_from_both_ends.hpp"
 
 namespace warren {
 
@@ -83,11 +81,12 @@ class Ask {
   AskedNeighbours<W> neighbours(std::vector<Edge>* used) const {
     return {roadmap_, ends_, end_edges_, used, execution_};
   }
-  auto estimate_to(VertexId to) const {
-    const bool informed = options_.search == SearchKind::astar && to != no_vertex;
-    const AskedNeighbours<W> places = neighbours(nullptr);
-    return [this, informed, to, places](VertexId v) {
-      return informed ? estimated_way(world_, options_.heuristic, places.state(v), places.state(to)) : 0.0;
+  ImplicitSearch asked(const VertexDistance& estimate) const {
+    return {estimate, options_.search == SearchKind::astar, options_.queue, vertex_count(), execution_};
+  }
+  auto estimate() const {
+    return [this, places = neighbours(nullptr)](VertexId v, VertexId to) {
+      return estimated_way(world_, options_.heuristic, places.state(v), places.state(to));
     };
   }
 
@@ -221,14 +220,9 @@ void Ask<W>::search() {
 
 template <World W>
 SearchResult Ask<W>::search_plainly(VertexId from, VertexId to, SearchState& state) {
-  state.resize(vertex_count(), [&] { execution_.check(); });
   AskedNeighbours<W> seen = neighbours(keep_ ? &used_ : nullptr);
-  const auto estimate = estimate_to(to);
-  const auto should_stop = [&] { return execution_.should_stop(); };
-  const auto next = [&](VertexId v, const auto& visit) { seen(v, visit); };
-  const SearchResult found = with_queue(options_.queue, vertex_count(), execution_, [&](auto& queue) {
-    return best_first(from, to, next, estimate, queue, state, should_stop);
-  });
+  const auto estimate = this->estimate();
+  const SearchResult found = search_implicit(AnyNeighbours(seen), from, to, asked(VertexDistance(estimate)), state);
   if (found.status == SearchStatus::stopped) execution_.check();
   count(seen);
   return found;
@@ -239,12 +233,10 @@ SearchResult Ask<W>::search_both_ends() {
   std::array<std::vector<Edge>, 2> used;
   std::array<AskedNeighbours<W>, 2> seen{neighbours(keep_ ? &used[0] : nullptr),
                                          neighbours(keep_ ? &used[1] : nullptr)};
-  const auto next_in = [](AskedNeighbours<W>& side) {
-    return [&side](VertexId v, const auto& visit) { side(v, visit); };
-  };
-  const SearchResult found = warren::search_from_both_ends<decltype(next_in(seen[0]))>(
-      options_.queue, vertex_count(), {start_vertex(), goal_vertex()}, {next_in(seen[0]), next_in(seen[1])},
-      [this](VertexId to) { return estimate_to(to); }, {&scratch_.states[0], &scratch_.states[1]}, execution_);
+  const auto estimate = this->estimate();
+  const SearchResult found =
+      search_implicit_from_both_ends({AnyNeighbours(seen[0]), AnyNeighbours(seen[1])}, {start_vertex(), goal_vertex()},
+                                     asked(VertexDistance(estimate)), {&scratch_.states[0], &scratch_.states[1]});
   for (std::size_t side = 0; side < seen.size(); ++side) {
     count(seen[side]);
     used_.insert(used_.end(), used[side].begin(), used[side].end());

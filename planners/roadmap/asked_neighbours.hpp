@@ -34,8 +34,7 @@ class AskedNeighbours {
   }
   double distance(VertexId v, VertexId w) const { return roadmap_->world().distance(state(v), state(w)); }
 
-  template <class Visit>
-  void operator()(VertexId v, const Visit& visit) {
+  void operator()(VertexId v, const AnyVisit& visit) {
     if (v < roadmap_->states().size()) {
       std::size_t end = roadmap_->candidates().first_end(v);
       for (const VertexId w : roadmap_->candidates().neighbours(v)) visit_if_free(v, w, end++, visit);
@@ -56,8 +55,7 @@ class AskedNeighbours {
   static constexpr bool one_way = edge_directions<W>() == EdgeDirections::one;
   static constexpr std::uint64_t checks_per_poll = 64;
 
-  template <class Visit>
-  void visit_if_free(VertexId v, VertexId w, std::size_t end, const Visit& visit) {
+  void visit_if_free(VertexId v, VertexId w, std::size_t end, const AnyVisit& visit) {
     const EdgeState known = roadmap_->known()[end];
     if (known == EdgeState::blocked || !visit.wants(w, 0.0)) return;
     const double length = distance(v, w);
@@ -68,8 +66,7 @@ class AskedNeighbours {
     visit(w, length);
   }
   /// An edge of start or goal. Of lazy roadmaps whose edges lead one way it is asked about here, as one_way_prm does.
-  template <class Visit>
-  void visit_end(VertexId v, VertexId w, const Visit& visit) {
+  void visit_end(VertexId v, VertexId w, const AnyVisit& visit) {
     const double length = distance(v, w);
     if (one_way && roadmap_->is_lazy()) {
       if (!visit.wants(w, length)) return;

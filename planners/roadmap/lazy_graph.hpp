@@ -17,6 +17,7 @@
 #include "core/base/counters.hpp"
 #include "core/base/world.hpp"
 #include "core/search/graph.hpp"
+#include "core/search/search.hpp"
 #include "planners/roadmap/connection.hpp"
 #include "planners/roadmap/dead_ends.hpp"
 #include "planners/roadmap/roadmap_growth.hpp"
@@ -56,8 +57,7 @@ class LazyGraph {
   }
 
   /// The free edges of v of which visit.wants(w, length) says that they help. visit.labels(): of all vertices.
-  template <class Visit>
-  void operator()(VertexId v, const Visit& visit) {
+  void operator()(VertexId v, const AnyVisit& visit) {
     if (v < index_.size()) {
       if (seals_ && seals_->holds(v, visit.labels())) return;
       visit_milestones(v, visit);
@@ -73,8 +73,7 @@ class LazyGraph {
 
   /// What helps is put to the world bunch by bunch: that v is joined to one neighbour does not change what it is to
   /// another.
-  template <class Visit>
-  void visit_milestones(VertexId v, const Visit& visit) {
+  void visit_milestones(VertexId v, const AnyVisit& visit) {
     ++counters_.neighbour_queries;
     const auto try_edge = [&](VertexId w, double at_least) {
       if (!visit.wants(w, at_least) || w == v) return;  // most are settled already
@@ -93,8 +92,7 @@ class LazyGraph {
   }
 
   /// Those of the wanted edges that are free.
-  template <class Visit>
-  void visit_free(const Visit& visit) {
+  void visit_free(const AnyVisit& visit) {
     const std::size_t count = wanted_.edges().size();
     if (count == 0) return;
     if ((unpolled_ += count) >= checks_per_poll) {

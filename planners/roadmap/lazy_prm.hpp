@@ -13,14 +13,13 @@
 #include <array>
 #include <utility>
 
+#include "core/search/bidirectional_search.hpp"
 #include "parallel/assemble_graph.hpp"
 #include "parallel/polled_sort.hpp"
 #include "planners/roadmap/lazy_graph.hpp"
 #include "planners/roadmap/lazy_path_search.hpp"
 #include "planners/roadmap/plan_in_rounds.hpp"
-#include "planners/roadmap/queue_choice.hpp"
 #include "planners/roadmap/roadmap_search.hpp"
-#include "planners/roadmap/search_from_both_ends.hpp"
 
 namespace warren {
 
@@ -69,12 +68,12 @@ class LazyPlan : public Rounds<W> {
   SearchResult expand_from(VertexId from, VertexId to, SearchState& state, std::vector<Edge>* record);
   LazyGraph<W> lazy_graph() const { return {world_, states_, index_, rule_, candidates_, end_edges_, execution_}; }
   void count(const LazyGraph<W>& graph);
-  /// Estimate of the way to `to`; zero for Dijkstra and where there is no target.
-  auto estimate_to(VertexId to) const {
-    const bool informed = options_.search == SearchKind::astar && to != no_vertex;
-    return [this, informed, to](VertexId v) {
-      return informed ? estimated_way(world_, options_.heuristic, states_[v], states_[to]) : 0.0;
-    };
+  ImplicitSearch asked(const VertexDistance& estimate) const {
+    return {estimate, options_.search == SearchKind::astar, options_.queue, states_.size(), execution_};
+  }
+  auto estimate() const {
+    return
+        [this](VertexId v, VertexId to) { return estimated_way(world_, options_.heuristic, states_[v], states_[to]); };
   }
   bool keep_;
   ConnectionRule rule_;
@@ -100,15 +99,10 @@ void LazyPlan<W>::attach_ends() {
 
 template <World W>
 SearchResult LazyPlan<W>::expand_from(VertexId from, VertexId to, SearchState& state, std::vector<Edge>* record) {
-  state.resize(states_.size(), [&] { execution_.check(); });
   LazyGraph<W> graph = lazy_graph();
   graph.record(record);
-  const auto should_stop = [&] { return execution_.should_stop(); };
-  const auto remaining = estimate_to(to);
-  const auto neighbours = [&](VertexId v, const auto& visit) { graph(v, visit); };
-  SearchResult found = with_queue(options_.queue, states_.size(), execution_, [&](auto& queue) {
-    return best_first(from, to, neighbours, remaining, queue, state, should_stop);
-  });
+  const auto estimate = this->estimate();
+  SearchResult found = search_implicit(AnyNeighbours(graph), from, to, asked(VertexDistance(estimate)), state);
   if (found.status == SearchStatus::stopped) execution_.check();
   solution_.counters.expanded += found.expanded;
   count(graph);
@@ -145,13 +139,10 @@ RawVector<VertexId> LazyPlan<W>::search_from_both_ends() {
   if (keep_) {
     for (LazyEnd<W>& end : ends) end.graph.record(&end.edges);
   }
-  const auto neighbours_in = [](LazyGraph<W>& graph) {
-    return [&graph](VertexId v, const auto& visit) { graph(v, visit); };
-  };
-  const SearchResult found = warren::search_from_both_ends<decltype(neighbours_in(ends[0].graph))>(
-      options_.queue, states_.size(), {start_vertex(), goal_vertex()},
-      {neighbours_in(ends[0].graph), neighbours_in(ends[1].graph)}, [this](VertexId to) { return estimate_to(to); },
-      {&ends[0].state, &ends[1].state}, execution_);
+  const auto estimate = this->estimate();
+  const SearchResult found = search_implicit_from_both_ends(
+      {AnyNeighbours(ends[0].graph), AnyNeighbours(ends[1].graph)}, {start_vertex(), goal_vertex()},
+      asked(VertexDistance(estimate)), {&ends[0].state, &ends[1].state});
   solution_.counters.expanded += found.expanded;
   for (const LazyEnd<W>& end : ends) {
     count(end.graph);

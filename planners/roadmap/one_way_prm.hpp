@@ -14,7 +14,6 @@
 
 #include "planners/roadmap/one_way_candidates.hpp"
 #include "planners/roadmap/plan_in_rounds.hpp"
-#include "planners/roadmap/queue_choice.hpp"
 #include "planners/roadmap/roadmap_search.hpp"
 
 namespace warren {
@@ -159,22 +158,17 @@ bool OneWayPlan<W>::search() {
 template <World W>
 SearchResult OneWayPlan<W>::search_best() {
   SearchState state;
-  state.resize(states_.size(), [&] { execution_.check(); });
   auto query = world_.make_query();
   Counters counters;
-  const auto neighbours = [&](VertexId v, const auto& visit) {
+  auto neighbours = [&](VertexId v, const AnyVisit& visit) {
     for (Way& way : ways_[v]) {
       if (visit.wants(way.to, way.length) && is_free(v, way, query, counters)) visit(way.to, way.length);
     }
   };
-  const bool informed = options_.search == SearchKind::astar;
-  const auto estimate = [&](VertexId v) {
-    return informed ? world_.distance(states_[v], states_[goal_vertex()]) : 0.0;
-  };
-  const auto should_stop = [&] { return execution_.should_stop(); };
-  const SearchResult found = with_queue(options_.queue, states_.size(), execution_, [&](auto& queue) {
-    return best_first(start_vertex(), goal_vertex(), neighbours, estimate, queue, state, should_stop);
-  });
+  const auto estimate = [&](VertexId v, VertexId to) { return world_.distance(states_[v], states_[to]); };
+  const ImplicitSearch asked{VertexDistance(estimate), options_.search == SearchKind::astar, options_.queue,
+                             states_.size(), execution_};
+  const SearchResult found = search_implicit(AnyNeighbours(neighbours), start_vertex(), goal_vertex(), asked, state);
   counters.refused = refused_motions(query);
   solution_.counters += counters;
   if (keep_) tree_ = search_tree(state);

@@ -3,13 +3,48 @@
 
 #include <array>
 #include <numeric>
+#include <optional>
 #include <span>
+#include <type_traits>
 
+#include "core/search/search.hpp"
+#include "parallel/bidirectional_search.hpp"
+#include "parallel/chunks.hpp"
 #include "planners/roadmap/queue_choice.hpp"
-#include "planners/roadmap/search_from_both_ends.hpp"
 
 namespace warren {
 namespace {
+
+/// NBA* (core/search/bidirectional_search.hpp), a thread an end: 17 bytes a vertex and end, and the queues.
+/// neighbours[i]: of the side that begins at roots[i]; the two are called from two threads at once. estimate_to(root)
+/// gives a consistent estimate of the way to a root. states[i] keeps what side i has reached. Throws Stopped at the
+/// deadline.
+template <class Neighbours, class EstimateTo>
+SearchResult search_from_both_ends(QueueKind kind, std::size_t vertex_count, const std::array<VertexId, 2>& roots,
+                                   const std::array<Neighbours, 2>& neighbours, const EstimateTo& estimate_to,
+                                   const std::array<SearchState*, 2>& states, const Execution& execution) {
+  using Estimate = decltype(estimate_to(no_vertex));
+  const std::array<Estimate, 2> to_root{estimate_to(roots[0]), estimate_to(roots[1])};
+  const SearchResult found = with_queue(kind, 0, execution, [&](const auto& empty_queue) {
+    using Queue = std::remove_cvref_t<decltype(empty_queue)>;
+    struct alignas(apart) Side {
+      Queue queue;
+      std::optional<SearchSide<Queue, Neighbours, Estimate, Estimate>> search;
+    };
+    std::array<Side, 2> sides{Side{empty_queue, {}}, Side{empty_queue, {}}};
+    // Both at once: the first touch of their memory is half of the cost. Few vertices do not repay a thread's start.
+    const std::size_t grain = vertex_count < fewest_for_both_ends ? 2 : 1;
+    for_chunks(2, grain, execution, [&](Range r) {
+      for (std::size_t i = r.first; i < r.last; ++i) {
+        sides[i].search.emplace(roots[i], vertex_count, neighbours[i], to_root[1 - i], to_root[i], sides[i].queue,
+                                *states[i], [&] { execution.check(); });
+      }
+    });
+    return bidirectional(*sides[0].search, *sides[1].search, execution);
+  });
+  if (found.status == SearchStatus::stopped) execution.check();
+  return found;
+}
 
 /// The edges of a graph, as a search asks for them.
 struct GraphEdges {
@@ -102,6 +137,16 @@ SearchResult search_blindly(const Graph& graph, const RoadmapSearch& asked) {
   return found;
 }
 
+/// Of the way to `to`; zero where there is none.
+struct EstimateTo {
+  VertexDistance estimate;
+  VertexId to;
+  double operator()(VertexId v) const { return to != no_vertex ? estimate(v, to) : 0.0; }
+};
+EstimateTo estimate_to(const ImplicitSearch& asked, VertexId to) {
+  return {asked.estimate, asked.informed ? to : no_vertex};
+}
+
 bool is_blind(SearchKind search) { return search == SearchKind::bfs || search == SearchKind::dfs; }
 
 }  // namespace
@@ -154,6 +199,24 @@ SearchResult search_roadmap(const ReducedGraphView& reduced, const RoadmapSearch
 
 SearchResult search_roadmap(const TwiceReducedGraphView& reduced, const RoadmapSearch& asked) {
   return search_keys(reduced, asked);
+}
+
+SearchResult search_implicit(const AnyNeighbours& neighbours, VertexId from, VertexId to, const ImplicitSearch& asked,
+                             SearchState& state) {
+  const Execution& execution = asked.execution;
+  state.resize(asked.vertex_count, [&] { execution.check(); });
+  return with_queue(asked.queue, asked.vertex_count, execution, [&](auto& queue) {
+    return best_first(from, to, neighbours, estimate_to(asked, to), queue, state,
+                      [&] { return execution.should_stop(); });
+  });
+}
+
+SearchResult search_implicit_from_both_ends(const std::array<AnyNeighbours, 2>& neighbours,
+                                            const std::array<VertexId, 2>& ends, const ImplicitSearch& asked,
+                                            const std::array<SearchState*, 2>& states) {
+  return search_from_both_ends<AnyNeighbours>(
+      asked.queue, asked.vertex_count, ends, neighbours, [&](VertexId to) { return estimate_to(asked, to); }, states,
+      asked.execution);
 }
 
 }  // namespace warren

@@ -8,6 +8,8 @@
 // search runs from both ends. Smaller roadmaps, and breadth- and depth-first search: plainly, on one thread.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -18,6 +20,10 @@
 #include "planners/roadmap/roadmap_options.hpp"
 
 namespace warren {
+
+/// Vertices from which on a search runs from both ends. The number of vertices alone decides, so that path and counters
+/// are the same for any number of threads: two threads do not repay their start on small roadmaps.
+inline constexpr std::size_t fewest_for_both_ends = 50'000;
 
 /// A function of two vertices, such as the world's distance between their states; refers to what it is made of. Called
 /// by several threads at once. 2 ns more than the function itself.
@@ -65,5 +71,22 @@ std::optional<TwiceReducedGraphView> reduced_for_search(const Graph& graph, cons
 SearchResult search_roadmap(const Graph& graph, const RoadmapSearch& asked);
 SearchResult search_roadmap(const ReducedGraphView& reduced, const RoadmapSearch& asked);
 SearchResult search_roadmap(const TwiceReducedGraphView& reduced, const RoadmapSearch& asked);
+
+/// What a search of a graph needs that expands its vertices itself, as lazily checked roadmaps do.
+struct ImplicitSearch {
+  VertexDistance estimate;  ///< of the way between any two: consistent; asked where informed alone
+  bool informed;            ///< false: Dijkstra
+  QueueKind queue;
+  std::size_t vertex_count;
+  const Execution& execution;
+};
+
+/// From `from` to `to`, or (no_vertex) to all that can be reached. Whether it was stopped is in the result.
+SearchResult search_implicit(const AnyNeighbours& neighbours, VertexId from, VertexId to, const ImplicitSearch& asked,
+                             SearchState& state);
+/// From both ends; an end's neighbours and state are its own. Throws Stopped.
+SearchResult search_implicit_from_both_ends(const std::array<AnyNeighbours, 2>& neighbours,
+                                            const std::array<VertexId, 2>& ends, const ImplicitSearch& asked,
+                                            const std::array<SearchState*, 2>& states);
 
 }  // namespace warren

@@ -21,7 +21,7 @@
 #include "core/base/error.hpp"
 #include "core/base/let_go.hpp"
 #include "planners/roadmap/prm.hpp"
-#include "planners/roadmap/search_from_both_ends.hpp"
+#include "planners/roadmap/roadmap_search.hpp"
 #include "planners/tiled/roadmap_tile.hpp"
 
 namespace warren {

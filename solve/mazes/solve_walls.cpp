@@ -6,8 +6,6 @@
 #include <string_view>
 
 #include "core/base/error.hpp"
-#include "planners/roadmap/lazy_prm.hpp"
-#include "planners/roadmap/prm.hpp"
 #include "planners/shorten/taut_path.hpp"
 #include "planners/tiled/tiled_prm_any_world.hpp"
 #include "planners/tiled/tiled_prm_lattice.hpp"

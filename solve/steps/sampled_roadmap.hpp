@@ -19,11 +19,11 @@
 #include "core/base/trigonometry.hpp"
 #include "parallel/polled_sort.hpp"
 #include "planners/contraction/contraction.hpp"
-#include "planners/roadmap/build_roadmap.hpp"
 #include "solve/question/planner_choice.hpp"
 #include "solve/roadmaps/changed_places.hpp"
 #include "solve/roadmaps/roadmap.hpp"
 #include "solve/steps/kind_of_problem.hpp"
+#include "solve/steps/planned_worlds.hpp"
 #include "solve/steps/roadmap_session.hpp"
 
 namespace warren {

@@ -19,7 +19,7 @@ namespace {
 
 using test::Dice;
 using test::disjoint_polygons;
-using test::GridWorld;
+using test::PolygonsInCells;
 using test::length_of;
 using test::obstacles_of;
 using test::scene_around;
@@ -92,7 +92,7 @@ TEST(MedialAxisPlanner, FindsTheWayOfTheFloodInMazes) {
 TEST(MedialAxisPlanner, SolvesGridsExactlyWhereAFloodDoes) {
   for (std::uint64_t seed = 0; seed < 120; ++seed) {
     SCOPED_TRACE(seed);
-    const GridWorld world(seed, 3 + static_cast<int>(seed % 6), seed % 2 == 0);
+    const PolygonsInCells world(seed, 3 + static_cast<int>(seed % 6), seed % 2 == 0);
     const std::vector<int> regions = world.regions();
     Dice dice(seed);
     const int ax = dice.roll(world.side());

@@ -18,7 +18,7 @@ namespace {
 
 using test::Dice;
 using test::disjoint_polygons;
-using test::GridWorld;
+using test::PolygonsInCells;
 using test::obstacles_of;
 
 PlaneObstacles polygons(const std::vector<std::vector<Vec2>>& outlines, std::optional<Box> bounds = {}) {
@@ -164,7 +164,7 @@ TEST(CellDecomposition, DoorsLieBetweenTheirCellsAndBlockNothing) {
 TEST(CellDecomposition, JoinsTheSquaresOfAGridExactlyWhereAFloodDoes) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE(seed);
-    const GridWorld world(seed, 3 + static_cast<int>(seed % 7), seed % 2 == 0);
+    const PolygonsInCells world(seed, 3 + static_cast<int>(seed % 7), seed % 2 == 0);
     std::vector<Vec2> centers;
     for (int y = 0; y < world.side(); ++y) {
       for (int x = 0; x < world.side(); ++x) centers.push_back({x + 0.5, y + 0.5});

@@ -21,7 +21,7 @@ using test::checked_plan;
 using test::Dice;
 using test::disjoint_polygons;
 using test::free_points;
-using test::GridWorld;
+using test::PolygonsInCells;
 using test::length_of;
 
 TEST(CellPlanner, EverySearchAndDoorGivesVerifiedPathsOnDisjointPolygons) {
@@ -41,7 +41,7 @@ TEST(CellPlanner, EverySearchAndDoorGivesVerifiedPathsOnDisjointPolygons) {
 TEST(CellPlanner, SolvesGridsExactlyWhereAFloodDoes) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE(seed);
-    const GridWorld world(seed, 3 + static_cast<int>(seed % 6), seed % 2 == 0);
+    const PolygonsInCells world(seed, 3 + static_cast<int>(seed % 6), seed % 2 == 0);
     const std::vector<int> regions = world.regions();
     Dice dice(seed);
     for (int trial = 0; trial < 4; ++trial) {

@@ -8,13 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "planners/roadmap/lazy_prm.hpp"
-#include "planners/roadmap/one_way_prm.hpp"
-#include "planners/roadmap/prm.hpp"
 #include "scenes/mazes/maze_generator.hpp"
+#include "solve/steps/planned_worlds.hpp"
 #include "tests/worlds/poses/body_scenes.hpp"
-#include "worlds/plane/maze_world.hpp"
-#include "worlds/poses/car_world.hpp"
 
 namespace warren {
 namespace {

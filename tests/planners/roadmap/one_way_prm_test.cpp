@@ -5,13 +5,10 @@
 
 #include <numeric>
 
-#include "planners/roadmap/lazy_prm.hpp"
 #include "planners/shorten/shortcut.hpp"
-#include "planners/trees/rrt.hpp"
-#include "planners/trees/rrt_connect.hpp"
+#include "solve/steps/planned_worlds.hpp"
 #include "tests/worlds/poses/body_scenes.hpp"
 #include "verify/judges/verify_car.hpp"
-#include "worlds/poses/car_world.hpp"
 
 namespace warren {
 namespace {

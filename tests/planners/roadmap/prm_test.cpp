@@ -10,10 +10,9 @@
 
 #include "core/base/error.hpp"
 #include "core/plane/geometry.hpp"
-#include "planners/roadmap/lazy_prm.hpp"
 #include "scenes/mazes/maze_generator.hpp"
+#include "solve/steps/planned_worlds.hpp"
 #include "tests/planners/visibility/plane_worlds.hpp"
-#include "worlds/plane/maze_world.hpp"
 
 namespace warren {
 namespace {

@@ -6,9 +6,8 @@
 
 #include <vector>
 
-#include "planners/roadmap/lazy_prm.hpp"
+#include "solve/steps/planned_worlds.hpp"
 #include "tests/planners/visibility/plane_worlds.hpp"
-#include "worlds/plane/maze_world.hpp"
 
 namespace warren {
 namespace {

@@ -8,12 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "planners/roadmap/prm.hpp"
 #include "planners/tiled/tiled_prm_lattice.hpp"
 #include "scenes/mazes/maze_generator.hpp"
+#include "solve/steps/planned_worlds.hpp"
 #include "tests/planners/visibility/plane_worlds.hpp"
 #include "verify/judges/verify_point.hpp"
-#include "worlds/plane/maze_world.hpp"
 
 namespace warren::test {
 

@@ -6,15 +6,11 @@
 #include <algorithm>
 
 #include "core/base/error.hpp"
-#include "planners/roadmap/lazy_prm.hpp"
-#include "planners/roadmap/prm.hpp"
 #include "planners/shorten/shortcut.hpp"
-#include "planners/trees/rrt.hpp"
-#include "planners/trees/rrt_connect.hpp"
 #include "scenes/formats/read_world_io.hpp"
+#include "solve/steps/planned_worlds.hpp"
 #include "tests/paths.hpp"
 #include "verify/judges/verify_arm.hpp"
-#include "worlds/arms/arm_world.hpp"
 #include "worlds/arms/puma560.hpp"
 
 namespace warren {

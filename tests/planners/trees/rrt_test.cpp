@@ -8,16 +8,12 @@
 #include <string>
 
 #include "core/base/error.hpp"
-#include "planners/roadmap/lazy_prm.hpp"
-#include "planners/roadmap/prm.hpp"
 #include "planners/shorten/shortcut.hpp"
-#include "planners/trees/rrt_connect.hpp"
 #include "scenes/mazes/maze_generator.hpp"
+#include "solve/steps/planned_worlds.hpp"
 #include "tests/worlds/poses/body_scenes.hpp"
 #include "verify/judges/verify_point.hpp"
 #include "verify/judges/verify_turning.hpp"
-#include "worlds/plane/maze_world.hpp"
-#include "worlds/poses/se2_world.hpp"
 
 namespace warren {
 namespace {

@@ -144,9 +144,9 @@ inline PlaneObstacles disjoint_polygons(std::uint64_t seed, int side = 4) {
 
 /// Walls on the lines of a unit grid of `side` squares each way, some of them several units long, and blocks of whole
 /// squares as polygons. Everything touches everything, nothing crosses. Who may go from square to square is simple.
-class GridWorld {
+class PolygonsInCells {
  public:
-  GridWorld(std::uint64_t seed, int side, bool bounded) : side_(side), dice_(seed) {
+  PolygonsInCells(std::uint64_t seed, int side, bool bounded) : side_(side), dice_(seed) {
     right_shut_.assign(square_count(), 0);
     top_shut_.assign(square_count(), 0);
     full_.assign(square_count(), 0);
