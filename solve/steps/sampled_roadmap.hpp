@@ -20,9 +20,9 @@
 #include "parallel/polled_sort.hpp"
 #include "planners/contraction/contraction.hpp"
 #include "planners/roadmap/build_roadmap.hpp"
+#include "roadmaps/graph/roadmap_arrays.hpp"
 #include "solve/question/planner_choice.hpp"
-#include "solve/roadmaps/changed_places.hpp"
-#include "solve/roadmaps/roadmap.hpp"
+#include "solve/steps/changed_places.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 #include "solve/steps/roadmap_session.hpp"
 
