@@ -23,7 +23,7 @@
 #include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 constexpr OptionSpec solve_specs[] = {
@@ -138,4 +138,4 @@ Command solve_command() {
   return command;
 }
 
-}  // namespace warren
+}  // namespace warren::tools
