@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # cmake -DROOT=DIR -P check_layers.cmake: the dependency rule of docs/design.md, checked. Reports every file that includes
-# what its folder may not include, or says a word that its folder may not say, and fails if there is one.
+# what its folder may not include, says a word that its folder may not say, defines a type that another file has defined
+# by that name, or names a file in a comment that is not there, and fails if there is one.
 cmake_minimum_required(VERSION 3.25)
 
 # room(FOLDER MAY...): the tree's rooms, each after all that it may include: a folder named alone is all of its rooms. So
@@ -143,6 +144,26 @@ only(eigen_angles "AngleAxis|Rotation2D|eulerAngles|angularDistance|[.]slerp[(]"
 # Where a table is only looked up, the line says so: its order differs between libraries, so nobody may walk through it.
 only(unordered_tables_unless_lookups_only "unordered_(map|set|multimap|multiset)<[^\n]*" "${above}")
 
+# The ends of all paths, with and without what follows the dot: is_there_NAME.
+set(top ${all} serve tools python distributed bench tests)
+set(others cmake docs examples)
+file(GLOB named RELATIVE ${ROOT} ${ROOT}/*)
+foreach(folder IN LISTS top others)
+  file(GLOB_RECURSE files LIST_DIRECTORIES true RELATIVE ${ROOT} ${ROOT}/${folder}/*)
+  list(APPEND named ${files})
+endforeach()
+foreach(path IN LISTS named)
+  while(NOT path STREQUAL "")
+    string(REGEX REPLACE "[.][a-z]+$" "" stem "${path}")
+    set(is_there_${path} TRUE)
+    set(is_there_${stem} TRUE)
+    if(NOT path MATCHES "/")
+      break()
+    endif()
+    string(REGEX REPLACE "^[^/]*/(.*)" "\\1" path "${path}")
+  endwhile()
+endforeach()
+
 set(complaints 0)
 macro(complain text)
   message(SEND_ERROR "${file}: ${text}")
@@ -230,6 +251,50 @@ function(check_words file text)
   set(complaints ${complaints} PARENT_SCOPE)
 endfunction()
 
+# One name, one type: the linker keeps one of two inline functions of one name, such as their destructors. Counted are the
+# headers and the program's sources, where a type is at the left margin and outside of unnamed namespaces; programs of
+# tests and benches are linked each by itself.
+set(type_line "(class|struct|union|enum|enum class) [A-Z][A-Za-z0-9]*( final)?[ \n]+[:{]")
+function(check_types file text)
+  string(REGEX MATCHALL "\n((inline )?namespace [a-z_:]*[ ]?{|}  // namespace|${type_line}|using [A-Z][A-Za-z0-9]* =)" lines "${text}")
+  set(spaces "")
+  foreach(line IN LISTS lines)
+    if(line MATCHES "namespace ([a-z_:]*)[ ]?{")
+      list(APPEND spaces "${CMAKE_MATCH_1}!")
+    elseif(line MATCHES "// namespace")
+      list(POP_BACK spaces)
+    elseif(NOT "!" IN_LIST spaces AND line MATCHES " ([A-Z][A-Za-z0-9]*)")
+      list(JOIN spaces "::" name)
+      string(REPLACE "!" "" name "${name}::${CMAKE_MATCH_1}")
+      if(DEFINED home_of_${name} AND NOT home_of_${name} STREQUAL file)
+        complain("${name} is defined in ${home_of_${name}} too")
+      endif()
+      set(home_of_${name} ${file})
+      set(home_of_${name} ${file} PARENT_SCOPE)
+    endif()
+  endforeach()
+  set(complaints ${complaints} PARENT_SCOPE)
+endfunction()
+
+# What a comment calls NAME.hpp, ROOM/NAME.cpp or FOLDER/ROOM/NAME is there, by its whole path or the end of it.
+list(JOIN top "|" top_pattern)
+set(named_file "^([a-z0-9][A-Za-z0-9_/.-]*[.](hpp|cpp|py|cmake|js|md)|(${top_pattern})/[A-Za-z0-9_/.-]+)$")
+set(named_elsewhere "^(ompl_benchmark_statistics[.]py|warren/warren[.]hpp)$")  # a stranger's, and the one that is installed
+function(check_named_files file text)
+  string(REGEX MATCHALL "(^|[^:])//[^\n]*" words "${text}")
+  string(REGEX REPLACE "[^A-Za-z0-9_/.-]+" ";" words "${words}")
+  list(FILTER words INCLUDE REGEX "[./]")
+  list(TRANSFORM words REPLACE "[./]+$" "")
+  list(FILTER words INCLUDE REGEX "${named_file}")
+  list(REMOVE_DUPLICATES words)
+  foreach(word IN LISTS words)
+    if(NOT DEFINED is_there_${word} AND NOT word MATCHES "[A-Z]|${named_elsewhere}")
+      complain("a comment names ${word}, which is no file of this tree")
+    endif()
+  endforeach()
+  set(complaints ${complaints} PARENT_SCOPE)
+endfunction()
+
 # Lists of CMake break on brackets and semicolons, so those go; so do comments, but for the words "lookups only".
 function(read_code path result)
   file(READ ${path} text)
@@ -241,7 +306,7 @@ endfunction()
 
 set(count 0)
 set(all_files "")
-foreach(folder IN ITEMS ${all} serve tools python distributed bench tests)
+foreach(folder IN LISTS top)
   file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/${folder}/*.hpp ${ROOT}/${folder}/*.cpp)
   list(FILTER files EXCLUDE REGEX "^tests/package/")  # a stranger's code: it includes what is installed
   list(APPEND all_files ${files})
@@ -250,6 +315,11 @@ foreach(folder IN ITEMS ${all} serve tools python distributed bench tests)
     read_code(${ROOT}/${file} text)
     check_arrows(${file} "${text}")
     check_words(${file} "${text}")
+    file(READ ${ROOT}/${file} text)
+    check_named_files(${file} "${text}")
+    if(file MATCHES "[.]hpp$" OR NOT file MATCHES "^(tests|bench)/")
+      check_types(${file} "${text}")
+    endif()
     if(file MATCHES "(^|/)(utils?|helpers?|common|misc|manager)\\.[ch]pp$")
       complain("a file is named after its one type or its one method")
     endif()
