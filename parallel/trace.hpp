@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Records when each stage and each chunk ran and on which thread, for the Chrome trace format. Each thread has a
-// list of its own; one mutex guards all of them, held for each append: once a chunk.
+// Records when each stage and each chunk ran and on which thread, for the Chrome trace format. Each thread has a list
+// of its own; one mutex guards them all and is held for each append, once a stage or chunk.
 #pragma once
 
 #include <chrono>

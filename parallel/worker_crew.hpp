@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The threads that help with loops: made when a loop first has chunks for them, kept for the next one until the program
 // ends. Where the system makes no more threads, loops run on those there are, at the worst on their caller's alone, and
-// only one in some hundreds asks again; nothing but the time tells the difference. (oneTBB, which stood here before,
+// most loops after that don't ask again; nothing but the time tells the difference. (oneTBB, which stood here before,
 // aborts or hangs then: it starts threads on threads, where nobody can catch what they throw. The same speed, measured
-// with tools/bench.) Whoever runs dry looks for another loop for some tens of microseconds, for the next one often
-// comes at once, and sleeps then. Each thread begins in a share of its own, and helps with the others' where that is
-// done: chunks drawn from one row for all made neighbours work side by side, in the same cache lines where each writes
-// its slot (a quarter of the time of sampling mazes on two cores).
+// with tools/bench.)
+// Whoever runs dry looks for another loop for some tens of microseconds, for the next one often comes at once, and
+// sleeps then.
+// Each thread begins in a share of its own, and helps with the others' where that is done: chunks drawn from one row
+// for all made neighbours work side by side, in the same cache lines where each writes its slot (a quarter of the time
+// of sampling mazes on two cores).
 #pragma once
 
 #include <array>
@@ -86,13 +88,13 @@ class WorkerCrew {
   void open(SharedLoop& loop);
   void close(SharedLoop& loop);
 
-  static constexpr unsigned loops_between_tries = 500;  // a refused thread costs some 20 us under the mutex
+  static constexpr unsigned loops_between_tries = 500;  // a refusal takes its time, and the mutex holds up all loops
 
   const Start start_;
   std::mutex mutex_;  // guards all below but posts_, which is only written under it
   std::vector<std::unique_ptr<Worker>> workers_;
   SharedLoop* first_loop_ = nullptr;
-  unsigned refused_at_ = 0U - loops_between_tries;  // posts_ when the system last made no thread
+  unsigned refused_at_ = 0U - loops_between_tries;  // value of posts_ when the system last made no thread
   std::atomic<unsigned> posts_{0};                  // loops opened so far, for those who look for one without the mutex
 };
 
