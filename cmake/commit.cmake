@@ -16,11 +16,11 @@ endif()
 set(text "// Made by cmake/commit.cmake.
 #include \"tools/words/build_facts.hpp\"
 
-namespace warren {
+namespace warren::tools {
 
 std::string_view build_commit() { return \"${COMMIT}\"; }
 
-}  // namespace warren
+}  // namespace warren::tools
 ")
 set(before)
 if(EXISTS ${TO})

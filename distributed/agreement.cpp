@@ -10,7 +10,7 @@
 #include "core/base/error.hpp"
 #include "distributed/messages.hpp"
 
-namespace warren {
+namespace warren::distributed {
 namespace {
 
 struct Difference {
@@ -77,4 +77,4 @@ void leave(Transport& transport) {
   transport.send(0, std::as_bytes(std::span(&gone, 1)), {.deadline = &patience});
 }
 
-}  // namespace warren
+}  // namespace warren::distributed

@@ -7,7 +7,7 @@
 
 #include "distributed/transport.hpp"
 
-namespace warren {
+namespace warren::distributed {
 
 /// Every rank calls it before what it is about begins, as often and in the same order as the others, with all that must
 /// be the same everywhere: its words first, then what it sees of the world. Throws InputError at rank 0, which says
@@ -37,4 +37,4 @@ bool all_have_left(Transport& transport);
 /// The last that every other rank does.
 void leave(Transport& transport);
 
-}  // namespace warren
+}  // namespace warren::distributed

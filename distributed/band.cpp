@@ -12,7 +12,7 @@
 #include "planners/tiles/tile_source.hpp"
 #include "scenes/mazes/cell_bits.hpp"
 
-namespace warren {
+namespace warren::distributed {
 namespace {
 
 constexpr std::size_t grain = 8;  // tiles: a reader's scratch is large
@@ -187,4 +187,4 @@ std::vector<NearLegs> legs_near(std::span<const Vec2> path, TileRows rows, const
   return runs;
 }
 
-}  // namespace warren
+}  // namespace warren::distributed

@@ -23,7 +23,7 @@
 #include "solve/question/question.hpp"
 #include "verify/cells/verify_cells.hpp"
 
-namespace warren {
+namespace warren::distributed {
 
 /// What all ranks know before the first message: they are given the same words.
 struct BandTask {
@@ -113,4 +113,4 @@ class Band {
   OverlayEnds ends_;                     // as reduce() was told
 };
 
-}  // namespace warren
+}  // namespace warren::distributed

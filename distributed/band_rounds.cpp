@@ -10,7 +10,7 @@
 #include "planners/tiled/overlay_components.hpp"
 #include "planners/tiled/tile_borders.hpp"
 
-namespace warren {
+namespace warren::distributed {
 namespace {
 
 constexpr Border borders[] = {Border::below, Border::above};
@@ -364,4 +364,4 @@ std::pair<Border, std::uint64_t> BandRounds::crossing_of(VertexId beyond) const 
   return {Border::above, beyond - own_.last};
 }
 
-}  // namespace warren
+}  // namespace warren::distributed

@@ -22,7 +22,7 @@
 #include "planners/tiled/tile_overlay.hpp"
 #include "planners/tiled/told_route.hpp"
 
-namespace warren {
+namespace warren::distributed {
 
 /// What rank 0 asks of a band, in this order: peel until nobody has more to tell, settle and exchange until the search
 /// is over, trace until both ways have come to their ends.
@@ -143,4 +143,4 @@ class BandRounds {
   std::array<std::optional<StepSide>, side_count> sides_;
 };
 
-}  // namespace warren
+}  // namespace warren::distributed

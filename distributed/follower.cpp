@@ -17,7 +17,7 @@
 #include "parallel/ticker.hpp"
 #include "planners/tiles/packed_tile_summary.hpp"
 
-namespace warren {
+namespace warren::distributed {
 namespace {
 
 class Follower {
@@ -171,4 +171,4 @@ void follow(Transport& transport, const BandTask& task, const FollowerLimits& li
   Follower(transport, task, limits).run();
 }
 
-}  // namespace warren
+}  // namespace warren::distributed

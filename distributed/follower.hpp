@@ -9,7 +9,7 @@
 #include "parallel/deadline.hpp"
 #include "parallel/execution.hpp"
 
-namespace warren {
+namespace warren::distributed {
 
 /// How a follower runs. It has no time limit of its own: rank 0's ends it.
 struct FollowerLimits {
@@ -22,4 +22,4 @@ struct FollowerLimits {
 /// Returns when rank 0 has said the end. Throws Stopped at a signal.
 void follow(Transport& transport, const BandTask& task, const FollowerLimits& limits);
 
-}  // namespace warren
+}  // namespace warren::distributed

@@ -12,7 +12,7 @@
 #include "planners/tiles/packed_tile_summary.hpp"
 #include "scenes/mazes/joined_parts.hpp"
 
-namespace warren {
+namespace warren::distributed {
 namespace {
 
 void pack_links(const EndLinks& end, ValuePacker& to) { to.add_list(end.links); }
@@ -243,4 +243,4 @@ CellTile Leader::tile(std::size_t number, WallsFor who) {
   });
 }
 
-}  // namespace warren
+}  // namespace warren::distributed

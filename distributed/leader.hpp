@@ -32,7 +32,7 @@
 #include "solve/mazes/streamed_team.hpp"
 #include "verify/cells/verify_cells.hpp"
 
-namespace warren {
+namespace warren::distributed {
 
 /// Refers to the transport, whose rank is 0.
 class Leader : public StreamedTeam, private OtherTiles, private JudgesElsewhere {
@@ -92,4 +92,4 @@ class Leader : public StreamedTeam, private OtherTiles, private JudgesElsewhere 
   std::optional<SharedSearch> search_;
 };
 
-}  // namespace warren
+}  // namespace warren::distributed

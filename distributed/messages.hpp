@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace warren {
+namespace warren::distributed {
 
 /// The stages of a run, as messages name them.
 enum class Request : std::uint32_t { make, turn, reduce, hand_over, rounds, steps, judge, read, end };
@@ -23,4 +23,4 @@ constexpr auto enum_names(Request) {
 /// answer to Request::end, and what a rank says last of all.
 enum class Reply : std::uint32_t { done, stopped, refused, ended, gone };
 
-}  // namespace warren
+}  // namespace warren::distributed

@@ -29,13 +29,13 @@
 #include "tools/words/build_facts.hpp"
 #include "tools/words/help.hpp"
 
-namespace warren {
+namespace warren::distributed {
 namespace {
 
 /// Two builds that differ in anything differ in this.
 std::string this_program() {
   const InputFile file("/proc/self/exe", {});
-  return fmt::format("warren-mpi {} {:016x}", build_commit(), checksum(std::as_bytes(std::span(file.bytes()))));
+  return fmt::format("warren-mpi {} {:016x}", tools::build_commit(), checksum(std::as_bytes(std::span(file.bytes()))));
 }
 
 bool has(const std::vector<std::string>& words, std::string_view option) {
@@ -55,33 +55,33 @@ void add_limits(std::vector<std::string>& words, unsigned ranks_here) {
   }
 }
 
-std::string usage_of(std::span<const Command> commands) {
+std::string usage_of(std::span<const tools::Command> commands) {
   std::string text = "Usage: mpirun -n RANKS warren-mpi COMMAND [operands] [options]\n\n";
-  for (const Command& command : commands) text += fmt::format("  {:6} {}\n", command.name, command.summary);
+  for (const tools::Command& command : commands) text += fmt::format("  {:6} {}\n", command.name, command.summary);
   return text + "\n'warren-mpi COMMAND --help' tells a command's options.\n";
 }
 
 int dispatch(std::vector<std::string> words, MpiTransport& transport) {
-  const Command commands[] = {shared_solve_command(transport), shared_scale_command(transport)};
+  const tools::Command commands[] = {shared_solve_command(transport), shared_scale_command(transport)};
   if (words.empty() || words[0] == "--help" || words[0] == "-h") {
-    if (transport.rank() == 0) print_text(usage_of(commands));
-    return exit_code::success;
+    if (transport.rank() == 0) tools::print_text(usage_of(commands));
+    return tools::exit_code::success;
   }
   if (words[0] == "--version") {
-    if (transport.rank() == 0) print_text(version_text(build_commit()));
-    return exit_code::success;
+    if (transport.rank() == 0) tools::print_text(tools::version_text(tools::build_commit()));
+    return tools::exit_code::success;
   }
   const auto command = std::find_if(std::begin(commands), std::end(commands),
-                                    [&](const Command& known) { return known.name == words[0]; });
+                                    [&](const tools::Command& known) { return known.name == words[0]; });
   if (command == std::end(commands)) throw UsageError("unknown command " + words[0]);
   words.erase(words.begin());
   add_limits(words, transport.ranks_here());
-  const Arguments arguments(*command, words);
+  const tools::Arguments arguments(*command, words);
   if (arguments.wants_help()) {
-    if (transport.rank() == 0) print_text(command_help(*command, terminal_width()));
-    return exit_code::success;
+    if (transport.rank() == 0) tools::print_text(tools::command_help(*command, tools::terminal_width()));
+    return tools::exit_code::success;
   }
-  if (transport.rank() == 0) check_outputs(arguments);
+  if (transport.rank() == 0) tools::check_outputs(arguments);
   return command->run(arguments);
 }
 
@@ -89,12 +89,12 @@ int dispatch(std::vector<std::string> words, MpiTransport& transport) {
 bool agree_on(const std::vector<std::string>& words, MpiTransport& transport) {
   std::string facts = this_program();
   for (const std::string& word : words) facts += " " + word;
-  const Deadline forever(std::numeric_limits<double>::infinity(), available_bytes(), &signal_flag());
+  const Deadline forever(std::numeric_limits<double>::infinity(), available_bytes(), &tools::signal_flag());
   return telling_where_stopped(transport, Progress(), [&] { return agree(transport, facts, {.deadline = &forever}); });
 }
 
 int run_rank_0(const std::vector<std::string>& words, MpiTransport& transport) {
-  const int code = run_with_errors_told("warren-mpi", " (see 'warren-mpi --help')", [&] {
+  const int code = tools::run_with_errors_told("warren-mpi", " (see 'warren-mpi --help')", [&] {
     agree_on(words, transport);
     return dispatch(words, transport);
   });
@@ -110,27 +110,29 @@ int run_follower(const std::vector<std::string>& words, MpiTransport& transport)
     } catch (const UsageError&) {  // rank 0 says it
     }
     leave(transport);
-    return exit_code::success;
+    return tools::exit_code::success;
   } catch (const Stopped&) {
-    transport.end_all(exit_code::internal);
+    transport.end_all(tools::exit_code::internal);
   } catch (const std::exception& error) {
-    complain("warren-mpi", exit_code::internal, fmt::format("rank {}: {}", transport.rank(), error.what()));
-    transport.end_all(exit_code::internal);
+    tools::complain("warren-mpi", tools::exit_code::internal,
+                    fmt::format("rank {}: {}", transport.rank(), error.what()));
+    transport.end_all(tools::exit_code::internal);
   }
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::distributed
 
 int main(int argc, char** argv) {
-  warren::hold_standard_descriptors();
-  warren::install_last_words();
-  warren::MpiTransport transport(&argc, &argv);
-  warren::install_signal_handlers();
+  warren::tools::hold_standard_descriptors();
+  warren::tools::install_last_words();
+  warren::distributed::MpiTransport transport(&argc, &argv);
+  warren::tools::install_signal_handlers();
   try {
     const std::vector<std::string> words(argv + (argc > 0 ? 1 : 0), argv + argc);
-    return transport.rank() == 0 ? warren::run_rank_0(words, transport) : warren::run_follower(words, transport);
+    return transport.rank() == 0 ? warren::distributed::run_rank_0(words, transport)
+                                 : warren::run_follower(words, transport);
   } catch (const std::bad_alloc&) {  // also of those who told of another error
-    transport.end_all(warren::say_memory_is_out());
+    transport.end_all(warren::tools::say_memory_is_out());
   }
 }

@@ -10,7 +10,7 @@
 
 #include "distributed/patience.hpp"
 
-namespace warren {
+namespace warren::distributed {
 namespace {
 
 constexpr std::size_t piece_bytes = std::size_t{1} << 26;
@@ -119,4 +119,4 @@ bool MpiTransport::has_message(unsigned from) {
   return found != 0;
 }
 
-}  // namespace warren
+}  // namespace warren::distributed

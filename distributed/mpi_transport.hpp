@@ -9,7 +9,7 @@
 
 #include "distributed/transport.hpp"
 
-namespace warren {
+namespace warren::distributed {
 
 /// One a process. Calls may come from several threads, one at a time.
 class MpiTransport : public Transport {
@@ -40,4 +40,4 @@ class MpiTransport : public Transport {
   std::vector<std::uint64_t> unread_;  // by rank: bytes of a message whose receiving a stop has cut short
 };
 
-}  // namespace warren
+}  // namespace warren::distributed

@@ -8,7 +8,7 @@
 
 #include "parallel/execution.hpp"
 
-namespace warren {
+namespace warren::distributed {
 
 class Patience {
  public:
@@ -26,4 +26,4 @@ class Patience {
   long pause_ns_ = 50'000;
 };
 
-}  // namespace warren
+}  // namespace warren::distributed

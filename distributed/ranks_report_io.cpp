@@ -10,7 +10,7 @@
 #include "core/base/enum_names.hpp"
 #include "scenes/text/human_units.hpp"
 
-namespace warren {
+namespace warren::distributed {
 namespace {
 
 std::string_view scaling_of(const RanksRun& run) { return run.is_strong ? "strong" : "weak"; }
@@ -35,8 +35,8 @@ std::uint64_t RanksRun::peak_bytes() const {
   return most;
 }
 
-TextTable ranks_table(std::span<const RanksRun> runs) {
-  TextTable table{
+studies::TextTable ranks_table(std::span<const RanksRun> runs) {
+  studies::TextTable table{
       {"scaling", "ranks", "maze", "clock", "CPU", "CPU a cell", "of 1 rank", "sent a cell", "peak a rank"}, 1, {}};
   for (const RanksRun& run : runs) {
     const auto first =
@@ -82,4 +82,4 @@ std::string ranks_json(std::span<const RanksRun> runs, const RanksSettings& sett
   return whole.dump(2) + "\n";
 }
 
-}  // namespace warren
+}  // namespace warren::distributed

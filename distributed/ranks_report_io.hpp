@@ -11,7 +11,7 @@
 #include "distributed/messages.hpp"
 #include "studies/measure/text_table.hpp"
 
-namespace warren {
+namespace warren::distributed {
 
 /// What a rank has used in one run.
 struct RankUse {
@@ -40,7 +40,7 @@ struct RanksSettings {
   unsigned threads;
 };
 
-TextTable ranks_table(std::span<const RanksRun> runs);
+studies::TextTable ranks_table(std::span<const RanksRun> runs);
 std::string ranks_json(std::span<const RanksRun> runs, const RanksSettings& settings);
 
-}  // namespace warren
+}  // namespace warren::distributed

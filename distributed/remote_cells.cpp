@@ -3,7 +3,7 @@
 
 #include "distributed/leader.hpp"
 
-namespace warren {
+namespace warren::distributed {
 
 class RemoteCells::Reader : public CellWallReader {
  public:
@@ -29,4 +29,4 @@ RemoteCells::RemoteCells(const Band& band, Leader& leader, WallsFor who)
 
 std::unique_ptr<CellWallReader> RemoteCells::reader() const { return std::make_unique<Reader>(*this); }
 
-}  // namespace warren
+}  // namespace warren::distributed

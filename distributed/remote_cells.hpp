@@ -9,7 +9,7 @@
 #include "core/plane/cell_walls.hpp"
 #include "distributed/band.hpp"
 
-namespace warren {
+namespace warren::distributed {
 
 class Leader;
 
@@ -27,4 +27,4 @@ class RemoteCells : public CellWallSource {
   const WallsFor who_;
 };
 
-}  // namespace warren
+}  // namespace warren::distributed

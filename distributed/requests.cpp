@@ -9,7 +9,7 @@
 #include "core/base/error.hpp"
 #include "distributed/patience.hpp"
 
-namespace warren {
+namespace warren::distributed {
 
 void Requests::ask_one(unsigned rank, Request request, std::span<const std::byte> body) {
   const auto head = std::as_bytes(std::span(&request, 1));
@@ -67,4 +67,4 @@ std::vector<Bytes> Requests::answers() {
   return answers(std::move(all));
 }
 
-}  // namespace warren
+}  // namespace warren::distributed

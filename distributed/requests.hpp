@@ -10,7 +10,7 @@
 #include "distributed/messages.hpp"
 #include "distributed/transport.hpp"
 
-namespace warren {
+namespace warren::distributed {
 
 /// Refers to the transport, whose rank is 0.
 class Requests {
@@ -39,4 +39,4 @@ class Requests {
   std::array<std::uint64_t, request_count> traffic_{};
 };
 
-}  // namespace warren
+}  // namespace warren::distributed

@@ -26,10 +26,10 @@
 #include "tools/words/option_values.hpp"
 #include "tools/words/planner_words.hpp"
 
-namespace warren {
+namespace warren::distributed {
 namespace {
 
-constexpr OptionSpec scale_specs[] = {
+constexpr tools::OptionSpec scale_specs[] = {
     {"--side", "N", "the maze of the strong runs is N x N; those of k ranks N k x N in the weak ones (default: 4000)"},
     {"--loops", "F", "fraction of the walls left that are taken out (default: 0)"},
     {"--seed", "N", "of the mazes (default: 1)"},
@@ -63,7 +63,7 @@ struct NextRun {
 class UsedMeter {
  public:
   explicit UsedMeter(const Transport& transport) : transport_(transport), bytes_(transport.bytes_sent()) {
-    restart_peak_memory();
+    studies::restart_peak_memory();
   }
   RankUse used() const {
     return {(process_.read() - before_).cpu_s, transport_.bytes_sent() - bytes_, peak_resident_bytes()};
@@ -72,8 +72,8 @@ class UsedMeter {
  private:
   const Transport& transport_;
   const std::uint64_t bytes_;
-  const RunCounters process_{std::span<const PerfEvent>()};
-  const RunCounts before_ = process_.read();
+  const studies::RunCounters process_{std::span<const studies::PerfEvent>()};
+  const studies::RunCounts before_ = process_.read();
 };
 
 class NobodysPath : public PathTaker {
@@ -83,9 +83,9 @@ class NobodysPath : public PathTaker {
 };
 
 struct Mazes {
-  explicit Mazes(const Arguments& arguments)
-      : side(given_count(arguments, "--side", 1, 1'000'000).value_or(4000)),
-        made(maze_words(arguments, {.seed = seed_word(arguments), .algorithm = MazeAlgorithm::mst})) {}
+  explicit Mazes(const tools::Arguments& arguments)
+      : side(tools::given_count(arguments, "--side", 1, 1'000'000).value_or(4000)),
+        made(tools::maze_words(arguments, {.seed = tools::seed_word(arguments), .algorithm = MazeAlgorithm::mst})) {}
   Scene scene(const NextRun& run) const {
     MazeOptions sized = made;
     sized.rows = run.rows;
@@ -137,9 +137,9 @@ RanksRun measured(Transport& transport, const Mazes& mazes, bool is_strong, cons
   return found;
 }
 
-std::vector<unsigned> ranks_asked(const Arguments& arguments, unsigned most) {
-  std::vector<unsigned> ranks = given_values(arguments, "--ranks", "--ranks", [&](auto option, auto text) {
-    return static_cast<unsigned>(count_value(option, text, 1, most));
+std::vector<unsigned> ranks_asked(const tools::Arguments& arguments, unsigned most) {
+  std::vector<unsigned> ranks = tools::given_values(arguments, "--ranks", "--ranks", [&](auto option, auto text) {
+    return static_cast<unsigned>(tools::count_value(option, text, 1, most));
   });
   if (ranks.empty()) ranks = {1, most};
   std::sort(ranks.begin(), ranks.end());
@@ -147,10 +147,10 @@ std::vector<unsigned> ranks_asked(const Arguments& arguments, unsigned most) {
   return ranks;
 }
 
-int lead(const Arguments& arguments, Transport& transport) {
+int lead(const tools::Arguments& arguments, Transport& transport) {
   const Mazes mazes(arguments);
   const std::vector<unsigned> ranks = ranks_asked(arguments, transport.ranks());
-  Run run(arguments);
+  tools::Run run(arguments);
   Progress unseen;
   Execution execution = run.execution();
   if (execution.progress == nullptr) execution.progress = &unseen;
@@ -162,11 +162,11 @@ int lead(const Arguments& arguments, Transport& transport) {
     }
   }
   run.end();
-  write_report(arguments, "--json", [&] {
+  tools::write_report(arguments, "--json", [&] {
     return ranks_json(runs, {mazes.made.seed, mazes.made.loops, run.threads()});
   });
-  if (arguments.value("--json") != "-" && !run.quiet()) print_text(ranks_table(runs).text(run.palette()));
-  return exit_code::success;
+  if (arguments.value("--json") != "-" && !run.quiet()) tools::print_text(ranks_table(runs).text(run.palette()));
+  return tools::exit_code::success;
 }
 
 void follow_until_end(Transport& transport, const Mazes& mazes, const FollowerLimits& limits) {
@@ -184,29 +184,29 @@ void follow_until_end(Transport& transport, const Mazes& mazes, const FollowerLi
   }
 }
 
-int follow_runs(const Arguments& arguments, Transport& transport) {
+int follow_runs(const tools::Arguments& arguments, Transport& transport) {
   const Mazes mazes(arguments);
   ranks_asked(arguments, transport.ranks());
   Progress progress;
-  const auto memory = given_value(arguments, "--memory", memory_value);
-  const FollowerLimits limits{.threads = given_value(arguments, "--threads", threads_value).value_or(0),
+  const auto memory = tools::given_value(arguments, "--memory", tools::memory_value);
+  const FollowerLimits limits{.threads = tools::given_value(arguments, "--threads", tools::threads_value).value_or(0),
                               .memory_bytes = memory ? *memory : available_bytes(),
-                              .signal = &signal_flag(),
+                              .signal = &tools::signal_flag(),
                               .progress = &progress};
   telling_where_stopped(transport, progress, [&] { follow_until_end(transport, mazes, limits); });
-  return exit_code::success;
+  return tools::exit_code::success;
 }
 
 }  // namespace
 
-Command shared_scale_command(Transport& transport) {
-  Command command{"scale", "", "measure how a streamed solve spreads over ranks", {}, {}};
-  add_options(command.options, scale_specs);
-  add_options(command.options, run_option_specs());
-  command.run = [&](const Arguments& arguments) {
+tools::Command shared_scale_command(Transport& transport) {
+  tools::Command command{"scale", "", "measure how a streamed solve spreads over ranks", {}, {}};
+  tools::add_options(command.options, scale_specs);
+  tools::add_options(command.options, tools::run_option_specs());
+  command.run = [&](const tools::Arguments& arguments) {
     return transport.rank() > 0 ? follow_runs(arguments, transport) : lead(arguments, transport);
   };
   return command;
 }
 
-}  // namespace warren
+}  // namespace warren::distributed

@@ -6,9 +6,9 @@
 #include "distributed/transport.hpp"
 #include "tools/words/command.hpp"
 
-namespace warren {
+namespace warren::distributed {
 
 /// The command of this rank: rank 0 leads and prints, the others follow. Refers to the transport.
-Command shared_scale_command(Transport& transport);
+tools::Command shared_scale_command(Transport& transport);
 
-}  // namespace warren
+}  // namespace warren::distributed

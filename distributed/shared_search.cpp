@@ -13,7 +13,7 @@
 #include "core/base/error.hpp"
 #include "core/search/bidirectional_search.hpp"
 
-namespace warren {
+namespace warren::distributed {
 namespace {
 
 constexpr std::size_t below = static_cast<std::size_t>(Border::below);
@@ -306,4 +306,4 @@ std::vector<RouteKey> SharedSearch::trace(std::size_t side) {
   }
 }
 
-}  // namespace warren
+}  // namespace warren::distributed

@@ -18,7 +18,7 @@
 #include "distributed/requests.hpp"
 #include "planners/tiled/told_route.hpp"
 
-namespace warren {
+namespace warren::distributed {
 
 /// Refers to both; rounds is the own band's, nullptr where it has no tiles.
 class SharedSearch {
@@ -69,4 +69,4 @@ class SharedSearch {
   std::optional<Lack> lack_;
 };
 
-}  // namespace warren
+}  // namespace warren::distributed

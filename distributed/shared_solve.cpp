@@ -28,13 +28,15 @@
 #include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"
 
-namespace warren {
+namespace warren::distributed {
 namespace {
 
 /// What is asked, as every rank reads it from the same words, and from a file that has to be the same.
 struct SharedQuestion {
-  explicit SharedQuestion(const Arguments& arguments)
-      : source(arguments.operand(0)), question(question_words(arguments)), options(solve_words(arguments)) {
+  explicit SharedQuestion(const tools::Arguments& arguments)
+      : source(arguments.operand(0)),
+        question(tools::question_words(arguments)),
+        options(tools::solve_words(arguments)) {
     if (options.roadmap.pipeline.value_or(PipelineKind::streamed) != PipelineKind::streamed) {
       throw UsageError("@pipeline: ranks share the work of the pipeline streamed alone");
     }
@@ -79,10 +81,10 @@ struct SharedQuestion {
   }
 };
 
-class SharedSolve : public AnswerCommand {
+class SharedSolve : public tools::AnswerCommand {
  public:
-  SharedSolve(const Arguments& arguments, Transport& transport)
-      : AnswerCommand(arguments, "--save-roadmap"), transport_(transport), asked_(arguments) {
+  SharedSolve(const tools::Arguments& arguments, Transport& transport)
+      : tools::AnswerCommand(arguments, "--save-roadmap"), transport_(transport), asked_(arguments) {
     if (arguments.has("--explain")) {
       throw UsageError("--explain: looks at walls that are held, and these are made tile by tile");
     }
@@ -105,8 +107,8 @@ class SharedSolve : public AnswerCommand {
     answer.figures.push_back({"ranks", std::uint64_t{transport_.ranks()}});
     if (answer.stop_reason) say_where_stopped(transport_, *execution.progress, *answer.stop_reason);
     if (const auto lack = leader.lack()) {
-      say_on_standard_error(fmt::format("warren-mpi: rank {} would need {} more for its share of the search\n",
-                                        lack->rank, human_bytes(static_cast<double>(lack->bytes))));
+      tools::say_on_standard_error(fmt::format("warren-mpi: rank {} would need {} more for its share of the search\n",
+                                               lack->rank, human_bytes(static_cast<double>(lack->bytes))));
     }
     return answer;
   }
@@ -122,15 +124,15 @@ class SharedSolve : public AnswerCommand {
 };
 
 /// Says nothing of words that rank 0 refuses, too.
-int follow_words(const Arguments& arguments, Transport& transport) {
+int follow_words(const tools::Arguments& arguments, Transport& transport) {
   SharedQuestion asked(arguments);
   Progress progress;
-  const auto memory = given_value(arguments, "--memory", memory_value);
-  const auto threads = given_value(arguments, "--threads", threads_value);
-  const Deadline looking(std::numeric_limits<double>::infinity(), available_bytes(), &signal_flag());
+  const auto memory = tools::given_value(arguments, "--memory", tools::memory_value);
+  const auto threads = tools::given_value(arguments, "--threads", tools::threads_value);
+  const Deadline looking(std::numeric_limits<double>::infinity(), available_bytes(), &tools::signal_flag());
   const FollowerLimits limits{.threads = threads.value_or(0),
                               .memory_bytes = memory ? *memory : available_bytes(),
-                              .signal = &signal_flag(),
+                              .signal = &tools::signal_flag(),
                               .progress = &progress};
   telling_where_stopped(transport, progress, [&] {
     double seconds = 0.0;
@@ -138,23 +140,23 @@ int follow_words(const Arguments& arguments, Transport& transport) {
       follow(transport, asked.task(), limits);
     }
   });
-  return exit_code::success;
+  return tools::exit_code::success;
 }
 
 }  // namespace
 
-Command shared_solve_command(Transport& transport) {
-  Command command{"solve", "WORLD", "find a path, verify it, print a summary, by all ranks together", {}, {}};
-  add_options(command.options, solve_option_specs());
-  add_options(command.options, question_option_specs());
-  add_options(command.options, answer_output_specs());
-  add_options(command.options, path_option_specs());
-  add_options(command.options, run_option_specs());
-  command.run = [&](const Arguments& arguments) {
+tools::Command shared_solve_command(Transport& transport) {
+  tools::Command command{"solve", "WORLD", "find a path, verify it, print a summary, by all ranks together", {}, {}};
+  tools::add_options(command.options, tools::solve_option_specs());
+  tools::add_options(command.options, tools::question_option_specs());
+  tools::add_options(command.options, tools::answer_output_specs());
+  tools::add_options(command.options, tools::path_option_specs());
+  tools::add_options(command.options, tools::run_option_specs());
+  command.run = [&](const tools::Arguments& arguments) {
     if (transport.rank() > 0) return follow_words(arguments, transport);
     return SharedSolve(arguments, transport).run();
   };
   return command;
 }
 
-}  // namespace warren
+}  // namespace warren::distributed

@@ -5,9 +5,9 @@
 #include "distributed/transport.hpp"
 #include "tools/words/command.hpp"
 
-namespace warren {
+namespace warren::distributed {
 
 /// The command of this rank: rank 0 answers, the others follow it. Refers to the transport.
-Command shared_solve_command(Transport& transport);
+tools::Command shared_solve_command(Transport& transport);
 
-}  // namespace warren
+}  // namespace warren::distributed

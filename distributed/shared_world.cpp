@@ -14,7 +14,7 @@
 #include "scenes/formats/unmade_maze_io.hpp"
 #include "scenes/text/input_file_io.hpp"
 
-namespace warren {
+namespace warren::distributed {
 namespace {
 
 [[noreturn]] void refuse() {
@@ -54,4 +54,4 @@ SharedWorld shared_world(const std::string& source, const Execution& execution) 
   return {std::move(*scene), std::move(facts)};
 }
 
-}  // namespace warren
+}  // namespace warren::distributed

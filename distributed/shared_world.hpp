@@ -8,7 +8,7 @@
 #include "parallel/execution.hpp"
 #include "scenes/scene/scene.hpp"
 
-namespace warren {
+namespace warren::distributed {
 
 struct SharedWorld {
   Scene scene;        ///< without its walls (is_unmade)
@@ -19,4 +19,4 @@ struct SharedWorld {
 /// no other walls. Throws UsageError for what ranks do not share, InputError, ReadError, Stopped.
 SharedWorld shared_world(const std::string& source, const Execution& execution);
 
-}  // namespace warren
+}  // namespace warren::distributed

@@ -5,12 +5,13 @@
 
 #include "tools/screen/last_words.hpp"
 
-namespace warren {
+namespace warren::distributed {
 
 void say_where_stopped(const Transport& transport, const Progress& progress, StopReason reason) {
   const char* stage = progress.stage();
-  say_on_standard_error(fmt::format("warren-mpi: rank {} of {}: stopped while it was at '{}': {}\n", transport.rank(),
-                                    transport.ranks(), stage != nullptr ? stage : "the start", text_of(reason)));
+  tools::say_on_standard_error(fmt::format("warren-mpi: rank {} of {}: stopped while it was at '{}': {}\n",
+                                           transport.rank(), transport.ranks(), stage != nullptr ? stage : "the start",
+                                           text_of(reason)));
 }
 
-}  // namespace warren
+}  // namespace warren::distributed

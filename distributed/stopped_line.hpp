@@ -6,7 +6,7 @@
 
 #include "distributed/transport.hpp"
 
-namespace warren {
+namespace warren::distributed {
 
 /// One line on standard error.
 void say_where_stopped(const Transport& transport, const Progress& progress, StopReason reason);
@@ -25,4 +25,4 @@ auto telling_where_stopped(const Transport& transport, const Progress& progress,
   }
 }
 
-}  // namespace warren
+}  // namespace warren::distributed

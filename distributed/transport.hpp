@@ -10,7 +10,7 @@
 #include "core/base/packed_values.hpp"
 #include "parallel/execution.hpp"
 
-namespace warren {
+namespace warren::distributed {
 
 /// Messages between two ranks arrive in their order. One call at a time. Waits sleep, poll the deadline and throw
 /// Stopped.
@@ -35,4 +35,4 @@ class Transport {
   std::uint64_t bytes_sent_ = 0;
 };
 
-}  // namespace warren
+}  // namespace warren::distributed

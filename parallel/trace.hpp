@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Records when each stage and each chunk ran and on which thread, for the Chrome trace format. Each worker appends to a
-// list of its own; a mutex guards only the hand-out of lists.
+// Records when each stage and each chunk ran and on which thread, for the Chrome trace format. Each thread has a list
+// of its own; one mutex guards them all and is held for each append, once a stage or chunk.
 #pragma once
 
 #include <chrono>
@@ -29,7 +29,7 @@ class Trace {
   /// Destructors call it, also while an exception is on its way: where memory is out, events() says so.
   void record(const char* name, Clock::time_point begin, Clock::time_point end, bool is_stage) noexcept {
     const auto micros = [](Clock::duration d) { return std::chrono::duration<double, std::micro>(d).count(); };
-    const std::lock_guard lock(mutex_);  // once a chunk, so it is never contended for long
+    const std::lock_guard lock(mutex_);  // never contended for long
     try {
       const std::uint32_t lane = lane_of(std::this_thread::get_id());
       lanes_[lane].events.push_back({name, micros(begin - start_), micros(end - begin), lane, is_stage});

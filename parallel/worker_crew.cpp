@@ -70,7 +70,7 @@ void WorkerCrew::run(SharedLoop& loop) {
 void WorkerCrew::open(SharedLoop& loop) {
   const std::size_t helpers = std::min<std::size_t>(loop.threads_, loop.chunks_) - 1;
   const std::lock_guard lock(mutex_);
-  grow(loop.threads_ - 1);
+  grow(helpers);
   loop.next_loop_ = first_loop_;
   first_loop_ = &loop;
   posts_.fetch_add(1);
@@ -92,20 +92,27 @@ void WorkerCrew::close(SharedLoop& loop) {
   loop.left_.wait(lock, [&] { return loop.inside_.load() == 0; });
 }
 
-/// Makes workers until there are `count`, or as many as the system allows now.
+void WorkerCrew::start_thread(WorkerCrew& crew, std::size_t index) {
+  std::thread([&crew, index] { crew.help(index); }).detach();
+}
+
+/// Makes workers until there are `count`, or as many as the system allows; not again soon after it allowed no more.
 void WorkerCrew::grow(std::size_t count) {
+  if (posts_.load() - refused_at_ < loops_between_tries) return;
   try {
     while (workers_.size() < count) {
       workers_.push_back(std::make_unique<Worker>());
       try {
-        std::thread([this, index = workers_.size() - 1] { help(index); }).detach();
+        start_(*this, workers_.size() - 1);
       } catch (...) {
         workers_.pop_back();
         throw;
       }
     }
   } catch (const std::system_error&) {  // no more threads now
-  } catch (const std::bad_alloc&) {     // nor memory for them
+    refused_at_ = posts_.load();
+  } catch (const std::bad_alloc&) {  // nor memory for them
+    refused_at_ = posts_.load();
   }
 }
 

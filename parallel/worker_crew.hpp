@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The threads that help with loops: made when a loop first asks for them, kept for the next one until the program ends.
-// Where the system makes no more threads, loops run on those there are, at the worst on their caller's alone; nothing
-// but the time tells the difference. (oneTBB, which stood here before, aborts or hangs then: it starts threads on
-// threads, where nobody can catch what they throw. The same speed, measured with tools/bench.)
+// The threads that help with loops: made when a loop first has chunks for them, kept for the next one until the program
+// ends. Where the system makes no more threads, loops run on those there are, at the worst on their caller's alone, and
+// most loops after that don't ask again; nothing but the time tells the difference. (oneTBB, which stood here before,
+// aborts or hangs then: it starts threads on threads, where nobody can catch what they throw. The same speed, measured
+// with tools/bench.)
 // Whoever runs dry looks for another loop for some tens of microseconds, for the next one often comes at once, and
 // sleeps then.
 // Each thread begins in a share of its own, and helps with the others' where that is done: chunks drawn from one row
@@ -62,7 +63,10 @@ class SharedLoop {
 /// Is never ended: its threads end with the process.
 class WorkerCrew {
  public:
-  WorkerCrew() = default;
+  /// Starts a thread that helps as number `index`. Throws std::system_error or std::bad_alloc where none can be made.
+  using Start = void (*)(WorkerCrew& crew, std::size_t index);
+
+  explicit WorkerCrew(Start start = start_thread) : start_(start) {}
   ~WorkerCrew() = delete;
   WorkerCrew(const WorkerCrew&) = delete;
   WorkerCrew& operator=(const WorkerCrew&) = delete;
@@ -76,6 +80,7 @@ class WorkerCrew {
     bool asleep = false;
   };
 
+  static void start_thread(WorkerCrew& crew, std::size_t index);
   void grow(std::size_t count);
   [[noreturn]] void help(std::size_t index);
   void wait_for_work(std::unique_lock<std::mutex>& lock, Worker& worker, std::size_t index);
@@ -83,10 +88,14 @@ class WorkerCrew {
   void open(SharedLoop& loop);
   void close(SharedLoop& loop);
 
+  static constexpr unsigned loops_between_tries = 500;  // a refusal takes its time, and the mutex holds up all loops
+
+  const Start start_;
   std::mutex mutex_;  // guards all below but posts_, which is only written under it
   std::vector<std::unique_ptr<Worker>> workers_;
   SharedLoop* first_loop_ = nullptr;
-  std::atomic<unsigned> posts_{0};  // loops opened so far, for those who look for one without the mutex
+  unsigned refused_at_ = 0U - loops_between_tries;  // value of posts_ when the system last made no thread
+  std::atomic<unsigned> posts_{0};                  // loops opened so far, for those who look for one without the mutex
 };
 
 }  // namespace warren

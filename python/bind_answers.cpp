@@ -25,8 +25,8 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-Command saving_paths() { return command_of("save_path", {path_option_specs()}); }
-Command sampling() { return command_of("sample", {path_option_specs()}, {"--frame"}); }
+tools::Command saving_paths() { return command_of("save_path", {tools::path_option_specs()}); }
+tools::Command sampling() { return command_of("sample", {tools::path_option_specs()}, {"--frame"}); }
 
 py::array path_of(const py::object& self) {
   const Answer& answer = self.cast<const KeptAnswer&>().answer;
@@ -108,7 +108,7 @@ std::pair<RawVector<double>, RawVector<double>> places_in_time(const PathLegs& l
 /// (states, along or times); the keywords are those of paths in files.
 py::tuple sample(const Answer& answer, const py::dict& keywords) {
   keywords["path"] = "-";
-  const PathFileOptions options = path_words(arguments_of(made_once<sampling>(), keywords));
+  const PathFileOptions options = tools::path_words(arguments_of(made_once<sampling>(), keywords));
   check_path_file(answer.problem.robot, "-", options);
   if (answer.path.empty() && answer.states.empty()) {
     return py::make_tuple(read_only(py::array_t<double>(Shape{0, 2})), read_only(py::array_t<double>(Shape{0})));
@@ -125,7 +125,7 @@ py::tuple sample(const Answer& answer, const py::dict& keywords) {
 
 py::dict save_path(const Answer& answer, const std::string& file, const py::dict& keywords) {
   keywords["path"] = file;
-  const PathFileOptions options = path_words(arguments_of(made_once<saving_paths>(), keywords));
+  const PathFileOptions options = tools::path_words(arguments_of(made_once<saving_paths>(), keywords));
   check_path_file(answer.problem.robot, file, options);
   if (!answer.verified) throw py::value_error("save_path: the answer has no path");
   const PathFileAccount account =

@@ -19,10 +19,10 @@ namespace warren::python {
 namespace py = pybind11;
 namespace {
 
-Command drawing() { return command_of("picture", {picture_option_specs()}); }
+tools::Command drawing() { return command_of("picture", {tools::picture_option_specs()}); }
 
 PictureOptions options_of(const std::string& format, const py::dict& keywords) {
-  return picture_words(arguments_of(made_once<drawing>(), keywords), true, "", "picture." + format);
+  return tools::picture_words(arguments_of(made_once<drawing>(), keywords), true, "", "picture." + format);
 }
 
 std::string drawn(const Picture& picture, const std::string& format, const PictureOptions& options,

@@ -29,51 +29,51 @@ using Kept = std::unique_ptr<KeptRoadmap>;
 
 /// Of one of the program's verbs the options that `keeps` chooses.
 template <class Keeps>
-Command of_verb(std::string_view name, const Command& verb, const Keeps& keeps) {
-  Command made{name, "", "", {}, {}};
+tools::Command of_verb(std::string_view name, const tools::Command& verb, const Keeps& keeps) {
+  tools::Command made{name, "", "", {}, {}};
   made.foreign = verb.foreign;
   std::copy_if(verb.options.begin(), verb.options.end(), std::back_inserter(made.options), keeps);
   return made;
 }
 
-bool is_among(std::initializer_list<std::string_view> options, const OptionSpec& spec) {
+bool is_among(std::initializer_list<std::string_view> options, const tools::OptionSpec& spec) {
   return std::find(options.begin(), options.end(), spec.name) != options.end();
 }
 
 /// Those that say how `warren build` works, not where things are written.
-Command building() {
-  return of_verb("build", build_command(), [](const OptionSpec& spec) {
+tools::Command building() {
+  return of_verb("build", tools::build_command(), [](const tools::OptionSpec& spec) {
     return !is_among({"--output", "--no-world", "--map-rules", "--threads", "--budget", "--memory", "--quiet",
                       "--progress", "--color", "--trace"},
                      spec);
   });
 }
 
-bool is_of_search(const OptionSpec& spec) {
+bool is_of_search(const tools::OptionSpec& spec) {
   return is_among({"--search", "--heuristic", "--queue", "--optimise", "--cusp-cost", "--reverse-cost", "--attach"},
                   spec);
 }
 
-Command asking() {
-  return of_verb("query", query_command(), [](const OptionSpec& spec) {
+tools::Command asking() {
+  return of_verb("query", tools::query_command(), [](const tools::OptionSpec& spec) {
     return is_of_search(spec) || is_among({"--start", "--goal"}, spec);
   });
 }
-Command asking_pairs() { return of_verb("lengths", query_command(), is_of_search); }
-Command asking_matrix() { return of_verb("matrix", query_command(), is_of_search); }
+tools::Command asking_pairs() { return of_verb("lengths", tools::query_command(), is_of_search); }
+tools::Command asking_matrix() { return of_verb("matrix", tools::query_command(), is_of_search); }
 
-RoadmapSearchFields how_to_search(const Arguments& arguments) {
-  const SolveOptions words = solve_words(arguments);
+RoadmapSearchFields how_to_search(const tools::Arguments& arguments) {
+  const SolveOptions words = tools::solve_words(arguments);
   return {words.search,           words.queue,    words.roadmap.attach, words.optimise, words.car.cusp_cost,
           words.car.reverse_cost, words.heuristic};
 }
 
 Kept build_roadmap(const Scene& scene, py::dict keywords) {
   CallLimits limits = take_limits(keywords);
-  const Arguments words = arguments_of(made_once<building>(), keywords);
-  const Question question = question_words(words);
-  const SolveOptions options = solve_words(words);
-  const auto index = given_choice<IndexChoice>(words, "--index").value_or(IndexChoice::where_it_pays);
+  const tools::Arguments words = arguments_of(made_once<building>(), keywords);
+  const Question question = tools::question_words(words);
+  const SolveOptions options = tools::solve_words(words);
+  const auto index = tools::given_choice<IndexChoice>(words, "--index").value_or(IndexChoice::where_it_pays);
   return limits.run([&](const Execution& execution) {
     return std::make_unique<KeptRoadmap>(build_within(scene, question, options, execution, index));
   });
@@ -108,8 +108,8 @@ py::tuple update_roadmap(KeptRoadmap& old, const Scene& now, py::dict keywords) 
 
 KeptAnswer ask(KeptRoadmap& kept, py::dict keywords, bool keep, bool explain) {
   CallLimits limits = take_limits(keywords);
-  const Arguments words = arguments_of(made_once<asking>(), keywords);
-  const Question question = question_words(words);
+  const tools::Arguments words = arguments_of(made_once<asking>(), keywords);
+  const Question question = tools::question_words(words);
   const RoadmapSearchFields how = how_to_search(words);
   const Asking asking(kept);
   KeptAnswer said;

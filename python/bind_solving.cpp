@@ -19,16 +19,16 @@ namespace warren::python {
 namespace py = pybind11;
 namespace {
 
-Command solving() { return command_of("solve", {solve_option_specs(), question_option_specs()}); }
-constexpr OptionSpec narrow_spec[] = {{"--explain", "", "say where along the path there is least room"}};
-Command verifying() { return command_of("verify", {question_option_specs(), narrow_spec}); }
+tools::Command solving() { return command_of("solve", {tools::solve_option_specs(), tools::question_option_specs()}); }
+constexpr tools::OptionSpec narrow_spec[] = {{"--explain", "", "say where along the path there is least room"}};
+tools::Command verifying() { return command_of("verify", {tools::question_option_specs(), narrow_spec}); }
 
 /// The answer as the program makes it; a stopped one, too, unless Python's handler of a signal raises.
 KeptAnswer solve_scene(const Scene& scene, py::dict keywords, bool keep, bool explain) {
   CallLimits limits = take_limits(keywords);
-  const Arguments words = arguments_of(made_once<solving>(), keywords);
-  const Question question = question_words(words);
-  const SolveOptions options = solve_words(words);
+  const tools::Arguments words = arguments_of(made_once<solving>(), keywords);
+  const Question question = tools::question_words(words);
+  const SolveOptions options = tools::solve_words(words);
   check_solver_options(options);
   KeptAnswer kept;
   kept.answer = limits.run([&](const Execution& execution) {
@@ -69,8 +69,8 @@ py::dict told(const Verdict& verdict, const std::optional<NarrowPlace>& narrow) 
 /// With explain the narrowest place of a free path, too; "ended" says what stopped the search for it.
 py::dict judge(const Scene& scene, const RecordedAnswer& answer, py::dict keywords) {
   CallLimits limits = take_limits(keywords);
-  const Arguments words = arguments_of(made_once<verifying>(), keywords);
-  const Question question = question_words(words);
+  const tools::Arguments words = arguments_of(made_once<verifying>(), keywords);
+  const Question question = tools::question_words(words);
   std::optional<NarrowPlace> narrow;
   std::optional<StopReason> ended;
   const Verdict verdict = limits.run([&](const Execution& execution) {

@@ -13,9 +13,9 @@ namespace warren::python {
 namespace py = pybind11;
 namespace {
 
-Command comparing() {
-  Command command =
-      command_of("compare", {compare_option_specs()}, {"--pictures", "--show", "--size", "--dpi", "--title"});
+tools::Command comparing() {
+  tools::Command command =
+      command_of("compare", {tools::compare_option_specs()}, {"--pictures", "--show", "--size", "--dpi", "--title"});
   command.operands = "[WORLD]";
   command.options.push_back(
       {"--budget", "TIME", "each run, of a planner or a search, may take so long (default: none)"});
@@ -23,7 +23,7 @@ Command comparing() {
 }
 
 /// Without a world random graphs alone.
-Comparison compare(const Scene* scene, py::dict keywords) {
+studies::Comparison compare(const Scene* scene, py::dict keywords) {
   if (keywords.contains("budget") && !keywords["budget"].is_none()) {
     keywords["budget"] = budget_word(keywords["budget"]);
   }
@@ -32,10 +32,11 @@ Comparison compare(const Scene* scene, py::dict keywords) {
   keywords["budget"] = each_budget;
   std::vector<std::string> world;
   if (scene != nullptr) world.push_back(scene->source);
-  const CompareOptions options = compare_options(arguments_of(made_once<comparing>(), keywords, std::move(world)));
-  Comparison comparison;
+  const tools::CompareOptions options =
+      tools::compare_options(arguments_of(made_once<comparing>(), keywords, std::move(world)));
+  studies::Comparison comparison;
   limits.run([&](const Execution& execution) {
-    run_comparison(options, scene, execution, comparison, [](std::string_view) {});
+    tools::run_comparison(options, scene, execution, comparison, [](std::string_view) {});
   });
   if (comparison.stopped) {
     limits.raise_what_stopped(*comparison.stopped);
@@ -47,12 +48,14 @@ Comparison compare(const Scene* scene, py::dict keywords) {
 }  // namespace
 
 void bind_studies(py::module_& module) {
-  py::class_<Comparison>(module, "Comparison")
-      .def("runs_csv", &comparison_runs)
-      .def("table_csv", &comparison_csv)
-      .def("json", &comparison_json)
-      .def("svg", [](const Comparison& comparison) { return comparison_plots(comparison).svg(); })
-      .def("summary", [](const Comparison& comparison) { return comparison_summary(comparison, Palette(false)); });
+  py::class_<studies::Comparison>(module, "Comparison")
+      .def("runs_csv", &studies::comparison_runs)
+      .def("table_csv", &studies::comparison_csv)
+      .def("json", &studies::comparison_json)
+      .def("svg", [](const studies::Comparison& comparison) { return studies::comparison_plots(comparison).svg(); })
+      .def("summary", [](const studies::Comparison& comparison) {
+        return studies::comparison_summary(comparison, Palette(false));
+      });
   module.def("compare", &compare, py::arg().none(true), py::arg());
   module.def("compare_keywords", [] { return keyword_table(made_once<comparing>()); });
 }

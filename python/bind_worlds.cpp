@@ -26,12 +26,12 @@ namespace warren::python {
 namespace py = pybind11;
 namespace {
 
-Command reading() { return command_of("read_world", {world_option_specs()}); }
-Command question_of_world() { return command_of("scene", {question_option_specs()}, {"--contact"}); }
+tools::Command reading() { return command_of("read_world", {tools::world_option_specs()}); }
+tools::Command question_of_world() { return command_of("scene", {tools::question_option_specs()}, {"--contact"}); }
 
 /// What scene files say beside obstacles: start, goal, robot, clearance.
 void take_question(Scene& scene, const py::dict& keywords) {
-  Question question = question_words(arguments_of(made_once<question_of_world>(), keywords));
+  Question question = tools::question_words(arguments_of(made_once<question_of_world>(), keywords));
   question.validate();
   if (!question.start.empty()) scene.start = std::move(question.start);
   if (!question.goal.empty()) scene.goal = std::move(question.goal);
@@ -41,10 +41,10 @@ void take_question(Scene& scene, const py::dict& keywords) {
 
 Scene read_named(const std::string& source, py::dict keywords) {
   CallLimits limits = take_limits(keywords);
-  const Arguments words = arguments_of(made_once<reading>(), keywords);
+  const tools::Arguments words = arguments_of(made_once<reading>(), keywords);
   return limits.run([&](const Execution& execution) {
     StageTimes seconds;
-    return load_world(source, words, execution, seconds);
+    return tools::load_world(source, words, execution, seconds);
   });
 }
 

@@ -29,16 +29,16 @@ std::string keyword_of(std::string_view option) { return with_keywords(std::stri
                                    py::str(py::type::handle_of(found).attr("__name__")).cast<std::string>()));
 }
 
-[[noreturn]] void refuse_keyword(const Command& command, const std::string& keyword) {
+[[noreturn]] void refuse_keyword(const tools::Command& command, const std::string& keyword) {
   const std::string option = option_of(keyword);
   for (const auto& [name, why] : command.foreign) {
     if (name == option) throw UsageError(fmt::format("{}: {}", name, why));
   }
   std::vector<std::string> known;
-  for (const OptionSpec& spec : command.options) known.push_back(keyword_of(spec.name));
+  for (const tools::OptionSpec& spec : command.options) known.push_back(keyword_of(spec.name));
   const std::vector<std::string_view> names(known.begin(), known.end());
-  throw py::type_error(
-      fmt::format("{}() got an unexpected keyword argument '{}'{}", command.name, keyword, suggestion(keyword, names)));
+  throw py::type_error(fmt::format("{}() got an unexpected keyword argument '{}'{}", command.name, keyword,
+                                   tools::suggestion(keyword, names)));
 }
 
 std::string number_word(double number) { return fmt::format("{}", number); }
@@ -46,7 +46,8 @@ std::string number_word(double number) { return fmt::format("{}", number); }
 /// Numbers that are no float or int of Python: numpy's.
 bool is_number(py::handle value) { return PyNumber_Check(value.ptr()) != 0 && PySequence_Check(value.ptr()) == 0; }
 
-void add_flag(const OptionSpec& spec, const std::string& keyword, py::handle value, std::vector<std::string>& words) {
+void add_flag(const tools::OptionSpec& spec, const std::string& keyword, py::handle value,
+              std::vector<std::string>& words) {
   if (value.is(py::bool_(true))) {
     words.emplace_back(spec.name);
   } else if (spec.value.empty()) {
@@ -58,10 +59,10 @@ void add_flag(const OptionSpec& spec, const std::string& keyword, py::handle val
 
 }  // namespace
 
-Command command_of(std::string_view name, std::initializer_list<std::span<const OptionSpec>> options,
-                   std::initializer_list<std::string_view> without) {
-  Command command{name, "", "", {}, {}};
-  for (const std::span<const OptionSpec> table : options) add_options(command.options, table, without);
+tools::Command command_of(std::string_view name, std::initializer_list<std::span<const tools::OptionSpec>> options,
+                          std::initializer_list<std::string_view> without) {
+  tools::Command command{name, "", "", {}, {}};
+  for (const std::span<const tools::OptionSpec> table : options) tools::add_options(command.options, table, without);
   return command;
 }
 
@@ -94,13 +95,13 @@ std::string word_of(py::handle value, const std::string& keyword) {
   refuse_type(keyword, "a word, a number or numbers", value);
 }
 
-Arguments arguments_of(const Command& command, const py::dict& keywords, std::vector<std::string> words) {
+tools::Arguments arguments_of(const tools::Command& command, const py::dict& keywords, std::vector<std::string> words) {
   for (const auto& [name, value] : keywords) {
     if (value.is_none()) continue;
     const auto keyword = name.cast<std::string>();
     const std::string option = option_of(keyword);
     const auto spec = std::find_if(command.options.begin(), command.options.end(),
-                                   [&](const OptionSpec& known) { return known.name == option; });
+                                   [&](const tools::OptionSpec& known) { return known.name == option; });
     if (spec == command.options.end()) refuse_keyword(command, keyword);
     if (spec->value.empty() || spec->value_optional) {
       if (!value.is(py::bool_(false))) add_flag(*spec, keyword, value, words);
@@ -132,16 +133,16 @@ CallLimits take_limits(py::dict& keywords) {
   const auto memory = word("memory", "B");
   const py::object progress = take("progress");
   if (!progress.is_none() && PyCallable_Check(progress.ptr()) == 0) refuse_type("progress", "a function", progress);
-  return {threads ? threads_value("--threads", *threads) : 0,
-          budget.is_none() ? std::nullopt : std::optional(duration_value("--budget", budget_word(budget))),
-          memory ? std::optional(memory_value("--memory", *memory)) : std::nullopt, progress};
+  return {threads ? tools::threads_value("--threads", *threads) : 0,
+          budget.is_none() ? std::nullopt : std::optional(tools::duration_value("--budget", budget_word(budget))),
+          memory ? std::optional(tools::memory_value("--memory", *memory)) : std::nullopt, progress};
 }
 
-py::list keyword_table(const Command& command) {
+py::list keyword_table(const tools::Command& command) {
   py::list table;
-  for (const OptionSpec& spec : command.options) {
+  for (const tools::OptionSpec& spec : command.options) {
     table.append(py::make_tuple(keyword_of(spec.name), std::string(spec.value), with_keywords(std::string(spec.help)),
-                                words_of(spec.choices), spec.value_optional));
+                                tools::words_of(spec.choices), spec.value_optional));
   }
   return table;
 }

@@ -19,13 +19,13 @@
 namespace warren::python {
 
 /// A command of these options, but for those named `without`.
-Command command_of(std::string_view name, std::initializer_list<std::span<const OptionSpec>> options,
-                   std::initializer_list<std::string_view> without = {});
+tools::Command command_of(std::string_view name, std::initializer_list<std::span<const tools::OptionSpec>> options,
+                          std::initializer_list<std::string_view> without = {});
 
 /// What `make` makes: made when it is first asked for, and kept.
-template <Command make()>
-const Command& made_once() {
-  static const Command command = make();
+template <tools::Command make()>
+const tools::Command& made_once() {
+  static const tools::Command command = make();
   return command;
 }
 
@@ -35,7 +35,8 @@ std::string word_of(pybind11::handle value, const std::string& keyword);
 
 /// The keywords that are not None, nor False where that is a flag left out, after what is there already, such as
 /// operands. Throws TypeError for one that the command has not, UsageError.
-Arguments arguments_of(const Command& command, const pybind11::dict& keywords, std::vector<std::string> words = {});
+tools::Arguments arguments_of(const tools::Command& command, const pybind11::dict& keywords,
+                              std::vector<std::string> words = {});
 
 /// Takes threads, budget (seconds, or a word such as "500ms"), memory (bytes, or a word such as "2GiB") and progress
 /// out of the keywords. Throws UsageError, TypeError.
@@ -44,6 +45,6 @@ CallLimits take_limits(pybind11::dict& keywords);
 std::string budget_word(pybind11::handle value);
 
 /// The keywords of a command: name, what follows it, help, choices.
-pybind11::list keyword_table(const Command& command);
+pybind11::list keyword_table(const tools::Command& command);
 
 }  // namespace warren::python

@@ -92,6 +92,25 @@ complains(core/base/a.cpp "double f(std::complex<double> z) { return std::arg(z)
 passes(worlds/poses/a.cpp "double f(double x) { return portable::sin(x) + std::sqrt(x) + table.log(x) + my_exp(x); }")
 passes(core/base/trigonometry.cpp "double f(double x) { return sin(x); }")
 complains(worlds/arms/a.cpp "Eigen::AngleAxisd turn(0.1, axis);" "rule 'eigen_angles'")
+complains(solve/steps/a.hpp "#include \"solve/roadmaps/roadmap.hpp\"" "solve/steps/ may include")
+complains(solve/roadmaps/a.cpp "#include \"solve/solve.hpp\"" "solve/roadmaps/ may include")
+passes(solve/solve.cpp "#include \"solve/kinds/plane_steps.hpp\"")
+# One name, one type.
+set(comparison "namespace warren {\nstruct Comparison {\n}\n}  // namespace warren\n")
+complains(verify/judges/a.hpp "${comparison}" "warren::Comparison is defined in verify/judges/a.hpp too" studies/compare/b.hpp "${comparison}")
+complains(core/base/a.hpp "${comparison}" "warren::Comparison is defined in core/base/a.hpp too"
+          tools/words/b.cpp "namespace warren {\nclass Comparison final\n    : public Other {\n}\n}  // namespace warren")
+complains(core/base/a.hpp "namespace warren {\nusing Comparison = int\n}  // namespace warren" "warren::Comparison is defined in"
+          core/plane/b.hpp "namespace warren {\nnamespace detail {\nclass A {\n}\n}  // namespace detail\nenum class Comparison : int {}\n}  // namespace warren")
+passes(core/base/a.hpp "${comparison}namespace warren::b {\nclass Comparison {\n}\n}  // namespace warren::b"
+       core/base/b.hpp "namespace warren {\nstruct Comparison\nnamespace detail {\nunion Comparison {\n}\n}  // namespace detail\n}  // namespace warren"
+       core/base/c.cpp "namespace warren {\nnamespace {\nclass Comparison {\n}\n}  // namespace\n}  // namespace warren"
+       tests/core/base/a_test.cpp "${comparison}")
+# Comments name what is there.
+complains(core/base/a.hpp "// As in gone.hpp, only faster." "core/base/a.hpp: a comment names gone.hpp")
+complains(core/base/a.hpp "int a = 1  // (worlds/gone)" "a comment names worlds/gone,")
+complains(core/base/a.hpp "// plane/b.hpp and base/b.hpp\n" "a comment names base/b.hpp," core/plane/b.hpp "#pragma once")
+passes(core/base/a.hpp "// core/plane/b, plane/b.hpp; b.hpp. Of a kind NAME solve_NAME.cpp, see https://x.org/gone.py\n" core/plane/b.hpp "#pragma once")
 complains(core/base/utils.hpp "" "named after its one type")
 complains(README.md "" "holds no sources")
 

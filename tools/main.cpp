@@ -19,7 +19,7 @@
 #include "tools/words/command.hpp"
 #include "tools/words/help.hpp"
 
-namespace warren {
+namespace warren::tools {
 
 namespace {
 
@@ -65,17 +65,17 @@ int run_program(std::span<const std::string> words) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::tools
 
 int main(int argc, char** argv) {
-  warren::take_first_pages();
-  warren::hold_standard_descriptors();
-  warren::install_last_words();
-  warren::install_signal_handlers();
+  warren::tools::take_first_pages();
+  warren::tools::hold_standard_descriptors();
+  warren::tools::install_last_words();
+  warren::tools::install_signal_handlers();
   try {
     const std::vector<std::string> words(argv + (argc > 0 ? 1 : 0), argv + argc);
-    return warren::run_program(words);
+    return warren::tools::run_program(words);
   } catch (const std::bad_alloc&) {  // also of those who told of another error
-    return warren::say_memory_is_out();
+    return warren::tools::say_memory_is_out();
   }
 }

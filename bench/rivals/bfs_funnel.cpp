@@ -85,7 +85,7 @@ void compare(std::uint32_t side, MazeAlgorithm algorithm, int repeats, const Exe
       times.take(watch.read());
       return path;
     };
-    funnel_length = length_of(timed(funnel_times, [&] { return bfs_funnel(scene, execution); }));
+    funnel_length = length_of(timed(funnel_times, [&] { return studies::bfs_funnel(scene, execution); }));
     const auto planned = timed(plan_times, [&] { return plan(scene, clearance, execution); });
     const auto taut = timed(taut_times, [&] { return plan_taut(scene, execution); });
     plan_length = length_of(planned);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // warren beside OMPL (1.5.2 as packaged) on arms: time to a first path, one thread each, the same certified motion
-// check (worlds/arm_world) behind both, so that what is compared is the planning. Contestants: rrt-connect and prm of
-// warren with the program's defaults, og::RRTConnect and og::PRM with theirs. OMPL plans in the joints that move
+// check (worlds/arms/arm_world) behind both, so that what is compared is the planning. Contestants: rrt-connect and prm
+// of warren with the program's defaults, og::RRTConnect and og::PRM with theirs. OMPL plans in the joints that move
 // anything, as warren does. Worlds: scene files that the command line names, or pumas with a tool among spheres from
 // seeds.
 //

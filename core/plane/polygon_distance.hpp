@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Distances of closed polygons, convex or not, either orientation: every pair of sides, decided by the exact predicates
-// of core/geometry. Exactly 0 where they touch, overlap or one lies in the other; else within 1e-14 of the coordinate
-// differences. O(n m): the plain form; worlds/obstacle_tree is the fast one.
+// of core/plane/geometry. Exactly 0 where they touch, overlap or one lies in the other; else within 1e-14 of the
+// coordinate differences. O(n m): the plain form; worlds/poses/obstacle_tree is the fast one.
 #pragma once
 
 #include <cstddef>

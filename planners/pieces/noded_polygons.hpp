@@ -4,10 +4,10 @@
 // no polygon covers one of its sides (the number of polygons above a side is what a sweep counts).
 //
 // Crossings are no doubles in general, so all corners are rounded to multiples of a power of two, 2^-45 of the largest
-// coordinate, and the cutting is repeated until nothing crosses (planners/crossing_cuts); from there on everything is
-// exact. No point of an outline moves by more than 0.71 units a round, and a few rounds do: `error` tells. Corners
-// move, outlines stay closed, so the count of polygons around a point is right for all points farther than `error` from
-// the outlines. Time: O(n + pairs that come near each other) a round; one thread.
+// coordinate, and the cutting is repeated until nothing crosses (planners/pieces/crossing_cuts); from there on
+// everything is exact. No point of an outline moves by more than 0.71 units a round, and a few rounds do: `error`
+// tells. Corners move, outlines stay closed, so the count of polygons around a point is right for all points farther
+// than `error` from the outlines. Time: O(n + pairs that come near each other) a round; one thread.
 #pragma once
 
 #include "core/plane/polygon.hpp"

@@ -4,9 +4,10 @@
 // on the same place becomes one piece. Only pieces that cross inside both are left as they are; crosses() tells whether
 // there are any. Walls of length zero block nothing and are left out.
 //
-// A piece knows by how much the number of polygons changes across it, and a grid of pieces (spatial/segment_grid) knows
-// that number at one point of each cell; so a walk inside one cell tells how deep inside of polygons a point lies.
-// Without bounds the plane has no end. Build O(n log n + pairs that share a cell); 100 bytes a corner.
+// A piece knows by how much the number of polygons changes across it, and a grid of pieces
+// (spatial/obstacles/segment_grid) knows that number at one point of each cell; so a walk inside one cell tells how
+// deep inside of polygons a point lies. Without bounds the plane has no end. Build O(n log n + pairs that share a
+// cell); 100 bytes a corner.
 #pragma once
 
 #include <cstdint>

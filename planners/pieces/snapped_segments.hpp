@@ -5,9 +5,9 @@
 // coordinates that are multiples of the grid's unit are exact. Then segments are split where others end on them, cross
 // them or lie on them; crossings are rounded, which can bend segments into new crossings, so that is repeated until
 // there are none (a few rounds; every round moves points by at most 0.71 units). Doubles are dropped; what has no
-// length is a point. Every decision is exact (integers below 2^53 in core/geometry's predicates). Error: no point of a
-// segment moves by more than 0.71 + 0.71 rounds units of 2^-29 of half the box. Time O(n + pairs that share a square of
-// a grid with about as many squares as segments) a round; one thread.
+// length is a point. Every decision is exact (integers below 2^53 in core/plane/geometry's predicates). Error: no point
+// of a segment moves by more than 0.71 + 0.71 rounds units of 2^-29 of half the box. Time O(n + pairs that share a
+// square of a grid with about as many squares as segments) a round; one thread.
 #pragma once
 
 #include <cstdint>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What can be reached from a point along straight lines (Lee's rotational plane sweep, 1978), exactly, with contact
 // allowed. A ray turns once around the eye, anticlockwise from +x; the pieces that it crosses inside them are kept in
-// order (planners/active_pieces). On each ray that holds ends of pieces these are walked outwards with the lanes on
-// which the way may still run: it is stopped by a piece that crosses the ray; an end with a piece on the left stops the
-// left lane, one with a piece on the right the right one; where the ray runs along no piece the lanes are one.
-// So a way may pass a corner, run along walls and sides, and not slip through where obstacles touch.
+// order (planners/visibility/pieces_on_ray). On each ray that holds ends of pieces these are walked outwards with the
+// lanes on which the way may still run: it is stopped by a piece that crosses the ray; an end with a piece on the left
+// stops the left lane, one with a piece on the right the right one; where the ray runs along no piece the lanes are
+// one. So a way may pass a corner, run along walls and sides, and not slip through where obstacles touch.
 //
 // O(k log k) for k pieces without crossings; with crossings O(k * pieces crossed by a ray). Only orient2d and
 // comparisons of coordinates decide; rounded angles merely sort in advance.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The visibility graph (Lozano-Pérez, Wesley 1979) among polygons and walls, contact allowed: the shortest path for a
-// point is the shortest path in it. Vertices and neighbours are those of planners/visible_corners, each corner's by a
-// rotational sweep over what can be seen from it; corners are spread over the cores.
+// point is the shortest path in it. Vertices and neighbours are those of planners/visibility/visible_corners, each
+// corner's by a rotational sweep over what can be seen from it; corners are spread over the cores.
 //   reduced   tangent edges at convex corners only (Rohnert 1986; Liu, Arimoto 1992): enough for shortest paths
 //   full      all visible edges, sides of polygons included
 // Time O(n (s + k log k)) where a look meets k of the n pieces in s cells, so at worst O(n^2 log n), where everything

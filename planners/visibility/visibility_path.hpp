@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The planner `visibility`: the shortest path for a point among polygons and walls, contact allowed, by the visibility
-// graph (planners/visibility_graph) or lazily (planners/lazy_visibility).
+// graph (planners/visibility/visibility_graph) or lazily (planners/visibility/lazy_visibility).
 #pragma once
 
 #include "core/base/solution.hpp"

@@ -9,7 +9,8 @@
 // Tangent neighbours: both sectors are wider than half a turn, and the line through both leaves the obstacles at each
 // on one side. Shortest paths bend nowhere else.
 //
-// Cost of one look: planners/near_pieces and planners/rotational_sweep, O(k log k) for k pieces that may be seen.
+// Cost of one look: planners/visibility/pieces_in_sight and planners/visibility/rotational_sweep, O(k log k) for k
+// pieces that may be seen.
 #pragma once
 
 #include <cstdint>

@@ -9,7 +9,7 @@
 // To the rest of the maze a tile is its rim: cells with a neighbour beyond. Two parts of the tree that both hold rim
 // cells and are joined by an edge of weight w can't be told from two rim cells, one of each, joined by an edge of that
 // weight: so the tile stands for as many edges as rim cells, less one, and each decides about one edge of the tree
-// (spanning_plan.hpp). For that, parts with rim cells must join in the order of their weights: cells of the rim are not
+// (spanning_maze.hpp). For that, parts with rim cells must join in the order of their weights: cells of the rim are not
 // contracted. (A path through a contracted part has no edge in it that is heavier than those by which it comes and
 // goes, so contraction hides no bottleneck.)
 //

@@ -3,8 +3,8 @@
 // what is blocked and what is free stays the same to the last bit, holes included, and all planners know the pieces.
 //
 // Each hole is tied by two cuts, from its leftmost and from its rightmost corner (of equal x: the lower and the upper
-// one), so every piece is bounded by one outline. A sweep (worlds/ring_sweep) finds the cuts as those of polygons into
-// monotone ones are found (de Berg et al., Computational Geometry, ch. 3), and rings that meet. Every decision is
+// one), so every piece is bounded by one outline. A sweep (scenes/scene/ring_sweep) finds the cuts as those of polygons
+// into monotone ones are found (de Berg et al., Computational Geometry, ch. 3), and rings that meet. Every decision is
 // exact. O(n log n) for n corners in all, however many holes.
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Is a closed outline simple: does it neither cross nor touch itself? Small ones by comparing all sides, others by a
-// sweep (worlds/ring_sweep), which stops at the first contact: O(n log n), exact, whatever the shape.
+// sweep (scenes/scene/ring_sweep), which stops at the first contact: O(n log n), exact, whatever the shape.
 #pragma once
 
 #include <cstddef>

@@ -12,7 +12,7 @@
 #include "serve/graphs/graph_body_io.hpp"
 #include "serve/graphs/nav2_graph_io.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 std::vector<DrawnEdge> edges_of(const RouteGraph& graph, const std::vector<RouteEnds>& ends) {
@@ -69,4 +69,4 @@ HttpResponse GraphService::saved(const RouteGraph& graph, const Execution& execu
   return {.type = "application/geo+json", .body = nav2_graph_text(graph, ends, execution)};
 }
 
-}  // namespace warren
+}  // namespace warren::serve

@@ -12,7 +12,7 @@
 #include "serve/graphs/route_graph.hpp"
 #include "serve/http/http_message.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 /// Refers to the world. Any number of threads may ask.
 class GraphService {
@@ -31,4 +31,4 @@ class GraphService {
   const ServedWorld& world_;
 };
 
-}  // namespace warren
+}  // namespace warren::serve

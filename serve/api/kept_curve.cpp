@@ -6,7 +6,7 @@
 
 #include "parallel/chunks.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 constexpr std::size_t steps_in_word = 32;
@@ -139,4 +139,4 @@ Path<Vec2> KeptCurve::whole(const Execution& execution) const {
   return path;
 }
 
-}  // namespace warren
+}  // namespace warren::serve

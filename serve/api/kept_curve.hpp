@@ -14,7 +14,7 @@
 #include "core/base/types.hpp"
 #include "parallel/execution.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 /// Immutable; any number of threads may look.
 class KeptCurve {
@@ -55,4 +55,4 @@ class KeptCurve {
   std::vector<Block> blocks_;
 };
 
-}  // namespace warren
+}  // namespace warren::serve

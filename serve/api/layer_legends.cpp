@@ -11,7 +11,7 @@
 #include "scenes/text/json_text.hpp"
 #include "solve/question/question.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 class Legend {
@@ -130,4 +130,4 @@ std::string clearance_legend(const ClearanceLayer& layer, const ServedWorld& wor
   return legend.closed();
 }
 
-}  // namespace warren
+}  // namespace warren::serve

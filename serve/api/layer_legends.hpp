@@ -11,7 +11,7 @@
 #include "serve/tiles/clearance_layer.hpp"
 #include "serve/tiles/roadmap_layer.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 /// The steps, and behind them what the start does not reach.
 inline constexpr std::array<Rgb, unreached_ink + 1> search_inks = [] {
@@ -31,4 +31,4 @@ std::string components_legend(const RoadmapLayer& layer);
 std::string search_legend(const StartDistances& found, const ServedWorld& world);
 std::string clearance_legend(const ClearanceLayer& layer, const ServedWorld& world);
 
-}  // namespace warren
+}  // namespace warren::serve

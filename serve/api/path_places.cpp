@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 constexpr std::size_t legs_a_poll = std::size_t{1} << 16U;
@@ -74,4 +74,4 @@ std::vector<PathPlace> places_along(const Answer& answer, std::size_t count, con
   return places;
 }
 
-}  // namespace warren
+}  // namespace warren::serve

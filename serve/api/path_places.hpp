@@ -9,7 +9,7 @@
 #include "solve/answer/answer.hpp"
 #include "solve/paths/path_legs.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 /// The body's state somewhere on a path.
 struct PathPlace {
@@ -21,4 +21,4 @@ struct PathPlace {
 /// of a path without length its one place. The answer has a path. O(states + count). Throws Stopped.
 std::vector<PathPlace> places_along(const Answer& answer, std::size_t count, const Execution& execution);
 
-}  // namespace warren
+}  // namespace warren::serve

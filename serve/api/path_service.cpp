@@ -13,7 +13,7 @@
 #include "serve/api/path_places.hpp"
 #include "serve/api/swept_bodies.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 /// Of a profile.
@@ -127,4 +127,4 @@ HttpResponse PathService::sweep(const KeptPath& kept, const HttpRequest& request
   return {.body = json.closed() + "\n"};
 }
 
-}  // namespace warren
+}  // namespace warren::serve

@@ -16,7 +16,7 @@
 #include "serve/http/kept_values.hpp"
 #include "solve/answer/answer.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 /// Any number of threads may ask.
 class PathService {
@@ -47,4 +47,4 @@ class PathService {
   KeptValues<KeptPath> paths_;
 };
 
-}  // namespace warren
+}  // namespace warren::serve

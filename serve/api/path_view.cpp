@@ -14,7 +14,7 @@
 #include "serve/http/http_message.hpp"
 #include "solve/paths/path_legs.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 constexpr std::size_t points_a_poll = std::size_t{1} << 16U;
@@ -125,4 +125,4 @@ std::vector<std::vector<Vec2>> seen_of(const KeptCurve& curve, const PathView& v
   return joined.chains();
 }
 
-}  // namespace warren
+}  // namespace warren::serve

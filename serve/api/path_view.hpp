@@ -13,7 +13,7 @@
 #include "serve/api/kept_curve.hpp"
 #include "solve/answer/answer.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 /// The curve of a car's reference point as straight pieces: arcs as chords that turn by at most five degrees. Throws
 /// Stopped.
@@ -30,4 +30,4 @@ struct PathView {
 /// of a path that has too many is not looked at. Throws HttpError for more than view.most_points, Stopped.
 std::vector<std::vector<Vec2>> seen_of(const KeptCurve& curve, const PathView& view, const Execution& execution);
 
-}  // namespace warren
+}  // namespace warren::serve

@@ -8,7 +8,7 @@
 #include "serve/graphs/json_body_io.hpp"
 #include "serve/http/http_message.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 [[noreturn]] void refuse(std::string_view where, std::string_view expected) {
@@ -73,4 +73,4 @@ QueryBody read_query_body(std::string_view text) {
   return body;
 }
 
-}  // namespace warren
+}  // namespace warren::serve

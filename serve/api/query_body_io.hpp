@@ -7,7 +7,7 @@
 #include "serve/api/served_world.hpp"
 #include "serve/http/json_nesting.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 /// What it asks, and how the answer shall be told.
 struct QueryBody {
@@ -18,4 +18,4 @@ struct QueryBody {
 /// Throws HttpError: 400 for what is no such object, nested deeper than deepest_json or has another key.
 QueryBody read_query_body(std::string_view json);
 
-}  // namespace warren
+}  // namespace warren::serve

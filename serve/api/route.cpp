@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 [[noreturn]] void refuse_path() { throw HttpError(404, "not_found", "path", "there is nothing at this address"); }
@@ -127,4 +127,4 @@ bool flag_parameter(const HttpRequest& request, std::string_view name) {
   throw HttpError(400, "bad_request", "query", fmt::format("{}: expected 0 or 1", name));
 }
 
-}  // namespace warren
+}  // namespace warren::serve

@@ -9,7 +9,7 @@
 #include "serve/http/http_message.hpp"
 #include "serve/tiles/tile_grid.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 enum class Place : std::uint8_t {
   file,
@@ -55,4 +55,4 @@ std::optional<std::vector<double>> numbers_parameter(const HttpRequest& request,
 /// Is it 1, or else missing or 0? Throws HttpError.
 bool flag_parameter(const HttpRequest& request, std::string_view name);
 
-}  // namespace warren
+}  // namespace warren::serve

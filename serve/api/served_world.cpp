@@ -11,7 +11,7 @@
 #include "solve/solve.hpp"
 #include "solve/steps/blocked_end.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 void refuse_arms(const RobotSpec& robot) {
@@ -148,4 +148,4 @@ Answer ServedWorld::ask(const ServedQuestion& question, const Execution& executi
   return answer;
 }
 
-}  // namespace warren
+}  // namespace warren::serve

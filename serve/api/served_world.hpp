@@ -23,7 +23,7 @@
 #include "solve/roadmaps/roadmap.hpp"
 #include "solve/roadmaps/roadmap_query.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 /// What one request asks.
 struct ServedQuestion {
@@ -101,4 +101,4 @@ class ServedWorld {
   bool is_changed_ = false;
 };
 
-}  // namespace warren
+}  // namespace warren::serve

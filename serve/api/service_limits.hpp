@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-namespace warren {
+namespace warren::serve {
 
 struct ServiceLimits {
   double budget_s = 10.0;  ///< of each request that is worked on; questions may ask for less
@@ -22,4 +22,4 @@ struct ServiceLimits {
   std::size_t batch_answers = std::size_t{32} << 20U;  ///< bytes
 };
 
-}  // namespace warren
+}  // namespace warren::serve

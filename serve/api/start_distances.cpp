@@ -8,7 +8,7 @@
 #include "core/search/indexed_heap.hpp"
 #include "core/search/search.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 /// The free edges, with the start as the last but one: a question from a place to itself links it, and hands them out.
@@ -68,4 +68,4 @@ StartDistances start_distances(const RoadmapQuery& query, const std::vector<doub
   return found;
 }
 
-}  // namespace warren
+}  // namespace warren::serve

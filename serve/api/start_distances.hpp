@@ -9,7 +9,7 @@
 #include "serve/tiles/step_tile.hpp"
 #include "solve/roadmaps/roadmap_query.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 /// Of a milestone that the start does not reach, beside the steps' own numbers.
 inline constexpr std::uint8_t unreached_ink = step_inks.size();
@@ -26,4 +26,4 @@ struct StartDistances {
 /// one, InputError, Stopped.
 StartDistances start_distances(const RoadmapQuery& query, const std::vector<double>& start, const Execution& execution);
 
-}  // namespace warren
+}  // namespace warren::serve

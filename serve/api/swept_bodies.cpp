@@ -9,7 +9,7 @@
 #include "core/base/error.hpp"
 #include "core/plane/geometry.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 constexpr std::size_t steps_a_poll = std::size_t{1} << 12U;
@@ -131,4 +131,4 @@ SweptBodies swept_bodies(const Answer& way, const KeptCurve& curve, const PathVi
   }
 }
 
-}  // namespace warren
+}  // namespace warren::serve

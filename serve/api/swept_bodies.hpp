@@ -11,7 +11,7 @@
 #include "solve/answer/answer.hpp"
 #include "solve/paths/path_legs.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 /// No more are told at once; where there were more, they are farther apart.
 inline constexpr std::size_t most_swept_bodies = 1000;
@@ -29,4 +29,4 @@ double reach_of(const RobotSpec& robot);
 /// UsageError where the body is a point, Stopped.
 SweptBodies swept_bodies(const Answer& way, const KeptCurve& curve, const PathView& view, const Execution& execution);
 
-}  // namespace warren
+}  // namespace warren::serve

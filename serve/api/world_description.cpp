@@ -14,7 +14,7 @@
 #include "solve/answer/world_account.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 std::string box_json(const Box& box) {
@@ -110,4 +110,4 @@ std::string metrics_text(const HttpFigures& f, const KeptBytes& kept) {
   return text;
 }
 
-}  // namespace warren
+}  // namespace warren::serve

@@ -7,7 +7,7 @@
 #include "serve/api/served_world.hpp"
 #include "serve/http/http_service.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 struct ServiceLimits;
 class WorldLayers;
@@ -23,4 +23,4 @@ struct KeptBytes {
 /// In the text format of Prometheus.
 std::string metrics_text(const HttpFigures& figures, const KeptBytes& kept);
 
-}  // namespace warren
+}  // namespace warren::serve

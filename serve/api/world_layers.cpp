@@ -15,7 +15,7 @@
 #include "serve/graphs/built_graph.hpp"
 #include "solve/question/question.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 constexpr const char* no_roadmap =
@@ -235,4 +235,4 @@ std::string WorldLayers::draw(std::string_view name, const TilePlace& tile,
                                  execution);
 }
 
-}  // namespace warren
+}  // namespace warren::serve

@@ -17,7 +17,7 @@
 #include "serve/tiles/clearance_layer.hpp"
 #include "serve/tiles/roadmap_layer.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 /// What a page says of a layer before it is looked at.
 struct LayerAccount {
@@ -66,4 +66,4 @@ class WorldLayers {
   mutable MadeByName<StartDistances> starts_;
 };
 
-}  // namespace warren
+}  // namespace warren::serve

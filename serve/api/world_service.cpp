@@ -21,7 +21,7 @@
 #include "solve/answer/write_answer_io.hpp"
 #include "solve/batches/ask_batch_io.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 /// Changes whenever tiles of a world look otherwise than before.
@@ -231,4 +231,4 @@ HttpResponse WorldService::metrics(const HttpFigures& figures) const {
           .body = metrics_text(figures, {.tile_bytes = tiles_.bytes(), .path_bytes = paths_.bytes()})};
 }
 
-}  // namespace warren
+}  // namespace warren::serve

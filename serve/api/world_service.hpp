@@ -16,7 +16,7 @@
 #include "serve/http/http_service.hpp"
 #include "serve/http/kept_values.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 class WorldService : public HttpService {
  public:
@@ -50,4 +50,4 @@ class WorldService : public HttpService {
   PathService paths_;
 };
 
-}  // namespace warren
+}  // namespace warren::serve

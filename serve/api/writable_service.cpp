@@ -6,7 +6,7 @@
 #include "scenes/text/json_text.hpp"
 #include "serve/changes/scene_change_io.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 bool is_update(const HttpRequest& request) { return request.path == "/api/update" && request.method == "POST"; }
@@ -75,4 +75,4 @@ HttpResponse WritableService::update(const HttpRequest& request, const Execution
   return {.body = json.closed() + "\n"};
 }
 
-}  // namespace warren
+}  // namespace warren::serve

@@ -12,7 +12,7 @@
 #include "serve/http/current_value.hpp"
 #include "serve/http/http_service.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 /// Takes the same time for any wrong guess of the right length.
 bool is_same_secret(std::string_view a, std::string_view b);
@@ -44,4 +44,4 @@ class WritableService : public HttpService {
   mutable CurrentValue<Version> current_;
 };
 
-}  // namespace warren
+}  // namespace warren::serve

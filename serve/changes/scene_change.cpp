@@ -20,7 +20,7 @@
 #include "scenes/text/human_units.hpp"
 #include "serve/http/http_message.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 constexpr std::size_t a_poll = 4096;
@@ -169,4 +169,4 @@ ChangedScene changed(const Scene& scene, const SceneChange& change, const std::o
   return result;
 }
 
-}  // namespace warren
+}  // namespace warren::serve

@@ -12,7 +12,7 @@
 #include "parallel/execution.hpp"
 #include "scenes/scene/scene.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 struct DrawnShapes {
   std::vector<Segment> walls = {};
@@ -47,4 +47,4 @@ struct ChangedScene {
 ChangedScene changed(const Scene& scene, const SceneChange& change, const std::optional<MazeHint>& maze,
                      const Execution& execution);
 
-}  // namespace warren
+}  // namespace warren::serve

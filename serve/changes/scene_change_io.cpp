@@ -9,7 +9,7 @@
 #include "serve/graphs/json_body_io.hpp"
 #include "serve/http/json_nesting.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 constexpr std::size_t most_corners = 10'000;
@@ -98,4 +98,4 @@ std::string shapes_json(const DrawnShapes& shapes) {
   return json.closed();
 }
 
-}  // namespace warren
+}  // namespace warren::serve

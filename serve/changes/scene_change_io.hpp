@@ -9,11 +9,11 @@
 #include "parallel/execution.hpp"
 #include "serve/changes/scene_change.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 /// Throws HttpError with the place of what is none, Stopped.
 SceneChange read_scene_change(std::string_view json, const Execution& execution);
 /// {"walls": ..., "polygons": ...}
 std::string shapes_json(const DrawnShapes& shapes);
 
-}  // namespace warren
+}  // namespace warren::serve

@@ -12,7 +12,7 @@
 #include "serve/http/http_message.hpp"
 #include "solve/roadmaps/export_of_roadmap.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 RobotSpec disc_around(const RobotSpec& robot) {
@@ -86,4 +86,4 @@ RouteGraph built_graph(const Scene& scene, const RobotSpec& robot, double cleara
   return graph_of_roadmap(built_roadmap(scene, robot, clearance, options, execution), execution);
 }
 
-}  // namespace warren
+}  // namespace warren::serve

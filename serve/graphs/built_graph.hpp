@@ -13,7 +13,7 @@
 #include "serve/graphs/route_graph.hpp"
 #include "solve/roadmaps/roadmap.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 /// axis: as far from all obstacles as can be; of a body that turns, that of the disc around it, where it may stand in
 /// all headings. roadmap: of samples.
@@ -39,4 +39,4 @@ RouteGraph built_graph(const Scene& scene, const RobotSpec& robot, double cleara
 /// The free edges of a roadmap. Throws HttpError for more than can be edited, Stopped.
 RouteGraph graph_of_roadmap(const Roadmap& roadmap, const Execution& execution);
 
-}  // namespace warren
+}  // namespace warren::serve

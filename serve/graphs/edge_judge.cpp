@@ -14,7 +14,7 @@
 #include "verify/judges/verify_point.hpp"
 #include "verify/judges/verify_turning.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 /// All round from a heading and back to it, in legs that can be read one way only.
@@ -113,4 +113,4 @@ std::string words_of(const EdgeVerdict& verdict) {
                                                                                     : "it meets " + verdict.by;
 }
 
-}  // namespace warren
+}  // namespace warren::serve

@@ -17,7 +17,7 @@
 #include "scenes/scene/scene.hpp"
 #include "verify/near/obstacle_index.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 struct EdgePlace {
   Vec2 at;
@@ -68,4 +68,4 @@ void check_drives_edges(const RobotSpec& robot);
 /// "cell 3, 4 is 0.1 away, and 0.25 is needed"
 std::string words_of(const EdgeVerdict& verdict);
 
-}  // namespace warren
+}  // namespace warren::serve

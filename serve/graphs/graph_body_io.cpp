@@ -14,7 +14,7 @@
 #include "serve/graphs/nav2_graph_io.hpp"
 #include "serve/http/json_nesting.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 double heading_of(const OrderedJson& json, const std::string& where) {
@@ -195,4 +195,4 @@ RouteGraph read_graph_json(std::string_view text, const Execution& execution) {
   return graph;
 }
 
-}  // namespace warren
+}  // namespace warren::serve

@@ -12,7 +12,7 @@
 #include "serve/graphs/edge_judge.hpp"
 #include "serve/graphs/route_graph.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 /// {"kind": "axis" | "roadmap", "samples", "neighbours", "seed"}. Throws HttpError, as all that follow.
 GraphOptions read_graph_options(std::string_view json);
@@ -27,4 +27,4 @@ std::string graph_json(const RouteGraph& graph, const std::vector<EdgeVerdict>& 
 /// The same read back; what else it holds means nothing.
 RouteGraph read_graph_json(std::string_view json, const Execution& execution);
 
-}  // namespace warren
+}  // namespace warren::serve

@@ -13,7 +13,7 @@
 #include "serve/http/http_message.hpp"
 #include "serve/http/json_nesting.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 /// Throws HttpError where an object has a key twice.
@@ -78,4 +78,4 @@ const OrderedJson* member(const OrderedJson& json, const char* key) {
   return found == json.end() || found->is_null() ? nullptr : &*found;
 }
 
-}  // namespace warren
+}  // namespace warren::serve

@@ -10,7 +10,7 @@
 
 #include "parallel/execution.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 using OrderedJson = nlohmann::ordered_json;  // people find their keys where they wrote them
 
@@ -28,4 +28,4 @@ const OrderedJson& list_of(const OrderedJson& json, const std::string& where, st
 /// nullptr where there is no such key, or it is null.
 const OrderedJson* member(const OrderedJson& json, const char* key);
 
-}  // namespace warren
+}  // namespace warren::serve

@@ -10,7 +10,7 @@
 #include "scenes/text/json_text.hpp"
 #include "serve/http/http_message.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 constexpr std::size_t deepest_geojson = 16;
@@ -197,4 +197,4 @@ std::string nav2_graph_text(const RouteGraph& graph, const std::vector<RouteEnds
   return text + "]}\n";
 }
 
-}  // namespace warren
+}  // namespace warren::serve

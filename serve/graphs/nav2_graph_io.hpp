@@ -12,7 +12,7 @@
 #include "serve/graphs/json_body_io.hpp"
 #include "serve/graphs/route_graph.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 /// Throws HttpError (400) with the feature and what was expected where Nav2 would refuse the file or take something
 /// else for what it says; nodes of several frames, too, since these coordinates are of one.
@@ -24,4 +24,4 @@ void check_properties(const OrderedJson& properties, const std::string& where);
 /// One feature a line; an edge without a cost gets its length. `ends`: ends_of(graph).
 std::string nav2_graph_text(const RouteGraph& graph, const std::vector<RouteEnds>& ends, const Execution& execution);
 
-}  // namespace warren
+}  // namespace warren::serve

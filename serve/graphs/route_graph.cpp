@@ -8,7 +8,7 @@
 #include "scenes/text/human_units.hpp"
 #include "serve/http/http_message.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 [[noreturn]] void refuse(const std::string& message) { throw HttpError(400, "bad_graph", "graph", message); }
@@ -47,4 +47,4 @@ std::vector<RouteEnds> ends_of(const RouteGraph& graph) {
   return ends;
 }
 
-}  // namespace warren
+}  // namespace warren::serve

@@ -11,7 +11,7 @@
 
 #include "core/base/types.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 /// Ids are given once, to a node or to an edge; the largest number of 32 bits means "none" to Nav2.
 struct RouteNode {
@@ -49,4 +49,4 @@ struct RouteEnds {
 };
 std::vector<RouteEnds> ends_of(const RouteGraph& graph);
 
-}  // namespace warren
+}  // namespace warren::serve

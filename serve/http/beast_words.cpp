@@ -9,7 +9,7 @@
 
 #include "serve/http/http_target.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 namespace http = boost::beast::http;
 
@@ -58,4 +58,4 @@ HttpRequest request_of(const BeastRequest& head) {
   return request;
 }
 
-}  // namespace warren
+}  // namespace warren::serve

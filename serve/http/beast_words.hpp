@@ -8,7 +8,7 @@
 
 #include "serve/http/http_message.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 using BeastRequest = boost::beast::http::request<boost::beast::http::string_body>;
 using BeastResponse = boost::beast::http::response<boost::beast::http::string_body>;
@@ -22,4 +22,4 @@ HttpRequest request_of(const BeastRequest& head);
 /// Status and fields, those of every answer too; no body.
 BeastResponse beast_response(const HttpResponse& said);
 
-}  // namespace warren
+}  // namespace warren::serve

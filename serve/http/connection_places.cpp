@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace warren {
+namespace warren::serve {
 
 Connection& ConnectionPlaces::add(boost::asio::ip::tcp::socket socket, const boost::asio::ip::address& address,
                                   std::size_t buffer_bytes) {
@@ -28,4 +28,4 @@ Connection* ConnectionPlaces::longest_waiting() const {
   return longest;
 }
 
-}  // namespace warren
+}  // namespace warren::serve

@@ -9,7 +9,7 @@
 
 #include "serve/http/http_connection.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 /// Owns the connections.
 class ConnectionPlaces {
@@ -32,4 +32,4 @@ class ConnectionPlaces {
   std::map<std::uint64_t, std::unique_ptr<Connection>> connections_;
 };
 
-}  // namespace warren
+}  // namespace warren::serve

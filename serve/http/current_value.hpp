@@ -8,7 +8,7 @@
 #include <mutex>
 #include <utility>
 
-namespace warren {
+namespace warren::serve {
 
 /// Any number of threads may call. It outlives its leases.
 template <class Value>
@@ -89,4 +89,4 @@ class CurrentValue {
   bool is_changing_ = false;
 };
 
-}  // namespace warren
+}  // namespace warren::serve

@@ -17,7 +17,7 @@
 #include "serve/http/beast_words.hpp"
 #include "serve/http/http_message.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 using ServerClock = std::chrono::steady_clock;
 inline constexpr auto never = ServerClock::time_point::max();
@@ -58,4 +58,4 @@ struct Connection {
   std::size_t unsent_bytes = 0;  ///< of a large answer on its way
 };
 
-}  // namespace warren
+}  // namespace warren::serve

@@ -3,7 +3,7 @@
 
 #include "scenes/text/json_text.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 HttpResponse error_response(unsigned status, std::string_view code, std::string_view where, std::string_view message) {
   JsonObject error;
@@ -19,4 +19,4 @@ HttpResponse error_response(const HttpError& error) {
   return error_response(error.status, error.code, error.where, error.what());
 }
 
-}  // namespace warren
+}  // namespace warren::serve

@@ -10,7 +10,7 @@
 
 #include "core/base/error.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 struct HttpRequest {
   std::string method = "GET";  ///< "GET", "HEAD", "POST"; others are refused
@@ -43,4 +43,4 @@ struct HttpError : TextError {
 HttpResponse error_response(unsigned status, std::string_view code, std::string_view where, std::string_view message);
 HttpResponse error_response(const HttpError& error);
 
-}  // namespace warren
+}  // namespace warren::serve

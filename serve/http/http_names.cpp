@@ -8,7 +8,7 @@
 #include <charconv>
 #include <optional>
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 struct HostName {
@@ -63,4 +63,4 @@ void check_names(const HttpRequest& request, const HttpNames& names) {
   }
 }
 
-}  // namespace warren
+}  // namespace warren::serve

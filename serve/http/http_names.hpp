@@ -9,7 +9,7 @@
 
 #include "serve/http/http_message.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 struct HttpNames {
   std::uint16_t port = 0;
@@ -21,4 +21,4 @@ struct HttpNames {
 /// there and is not this service.
 void check_names(const HttpRequest& request, const HttpNames& names);
 
-}  // namespace warren
+}  // namespace warren::serve

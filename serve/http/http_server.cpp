@@ -27,7 +27,7 @@
 #include "serve/http/listening.hpp"
 #include "serve/http/task_crew.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 namespace asio = boost::asio;
@@ -376,4 +376,4 @@ std::uint16_t HttpServer::port() const { return connections_->names().port; }
 bool HttpServer::is_loopback() const { return connections_->names().is_loopback; }
 void HttpServer::run(const SignalFlag& stop) { connections_->run(stop); }
 
-}  // namespace warren
+}  // namespace warren::serve

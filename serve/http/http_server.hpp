@@ -17,7 +17,7 @@
 #include "parallel/deadline.hpp"
 #include "serve/http/http_service.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 /// Seconds are of the wall-clock, each for the whole of what it names.
 struct HttpLimits {
@@ -63,4 +63,4 @@ class HttpServer {
   std::unique_ptr<Connections> connections_;
 };
 
-}  // namespace warren
+}  // namespace warren::serve

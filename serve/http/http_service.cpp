@@ -4,7 +4,7 @@
 #include <exception>
 #include <new>
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 HttpResponse said_of(const Stopped& stopped) {
@@ -42,4 +42,4 @@ HttpResponse answer_of(HttpService& service, const HttpRequest& request, const S
   }
 }
 
-}  // namespace warren
+}  // namespace warren::serve

@@ -10,7 +10,7 @@
 #include "parallel/deadline.hpp"
 #include "serve/http/http_message.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 /// What a server has done so far, and does now.
 struct HttpFigures {
@@ -49,4 +49,4 @@ class HttpService {
 /// Stopped at a budget and by memory, 503 for memory that is out, 500 for bugs.
 HttpResponse answer_of(HttpService& service, const HttpRequest& request, const SignalFlag& gone) noexcept;
 
-}  // namespace warren
+}  // namespace warren::serve

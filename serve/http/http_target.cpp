@@ -4,7 +4,7 @@
 #include <charconv>
 #include <string>
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 std::string decoded(std::string_view text, bool plus_is_blank) {
@@ -52,4 +52,4 @@ void read_target(std::string_view target, HttpRequest& request) {
   }
 }
 
-}  // namespace warren
+}  // namespace warren::serve

@@ -6,7 +6,7 @@
 
 #include "serve/http/http_message.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 inline constexpr std::size_t longest_target = 2048;
 
@@ -14,4 +14,4 @@ inline constexpr std::size_t longest_target = 2048;
 /// for broken escapes, and for escaped bytes that no name here has: controls, beyond ASCII.
 void read_target(std::string_view target, HttpRequest& request);
 
-}  // namespace warren
+}  // namespace warren::serve

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace warren {
+namespace warren::serve {
 
 std::size_t nesting_of(std::string_view text, NestedIn what) {
   std::size_t deepest = 0;
@@ -28,4 +28,4 @@ std::size_t nesting_of(std::string_view text, NestedIn what) {
   return deepest;
 }
 
-}  // namespace warren
+}  // namespace warren::serve

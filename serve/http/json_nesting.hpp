@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace warren {
+namespace warren::serve {
 
 inline constexpr std::size_t deepest_json = 8;
 
@@ -16,4 +16,4 @@ enum class NestedIn : std::uint8_t { lines, whole };
 /// How deep brackets and braces lie in each other, in the deepest line or in the whole.
 std::size_t nesting_of(std::string_view text, NestedIn what = NestedIn::lines);
 
-}  // namespace warren
+}  // namespace warren::serve

@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-namespace warren {
+namespace warren::serve {
 
 /// Any number of threads may call. It outlives its leases.
 template <class Value>
@@ -113,4 +113,4 @@ class KeptValues {
   std::atomic<std::size_t> bytes_{0};
 };
 
-}  // namespace warren
+}  // namespace warren::serve

@@ -9,7 +9,7 @@
 
 #include "core/base/error.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 namespace asio = boost::asio;
 using Tcp = asio::ip::tcp;
@@ -38,4 +38,4 @@ std::vector<Tcp::acceptor> acceptors_at(const HttpPlace& place, asio::io_context
   return acceptors;
 }
 
-}  // namespace warren
+}  // namespace warren::serve

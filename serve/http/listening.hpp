@@ -8,9 +8,9 @@
 
 #include "serve/http/http_server.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 /// Listens at all addresses that the machine has, at the first one's port. Throws UsageError where the first can't be.
 std::vector<boost::asio::ip::tcp::acceptor> acceptors_at(const HttpPlace& place, boost::asio::io_context& io);
 
-}  // namespace warren
+}  // namespace warren::serve

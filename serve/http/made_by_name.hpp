@@ -12,7 +12,7 @@
 #include "parallel/made_once.hpp"
 #include "serve/http/kept_values.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 /// Any number of threads may call. It outlives its leases.
 template <class Value>
@@ -48,4 +48,4 @@ class MadeByName {
   Kept kept_;
 };
 
-}  // namespace warren
+}  // namespace warren::serve

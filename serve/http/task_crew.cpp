@@ -8,7 +8,7 @@
 
 #include "core/base/page_pool.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 /// The pages of a task's large blocks are the next one's: fresh ones take longer to touch than a path to find.
@@ -84,4 +84,4 @@ void TaskCrew::work() {
   }
 }
 
-}  // namespace warren
+}  // namespace warren::serve

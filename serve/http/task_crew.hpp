@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-namespace warren {
+namespace warren::serve {
 
 class TaskCrew {
  public:
@@ -40,4 +40,4 @@ class TaskCrew {
   std::vector<std::thread> threads_;
 };
 
-}  // namespace warren
+}  // namespace warren::serve

@@ -3,7 +3,7 @@
 
 #include <map>
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 std::string_view type_of(std::string_view name) {
@@ -45,4 +45,4 @@ const ServedFile* served_file(std::string_view name) {
 
 bool has_leaflet() { return served_file("leaflet.min.js") != nullptr; }
 
-}  // namespace warren
+}  // namespace warren::serve

@@ -7,7 +7,7 @@
 
 #include "core/base/embedded_file.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 struct ServedFile {
   std::string_view type;  ///< as Content-Type says it
@@ -25,4 +25,4 @@ bool has_leaflet();
 std::span<const EmbeddedFile> service_page_files();
 std::span<const EmbeddedFile> leaflet_files();
 
-}  // namespace warren
+}  // namespace warren::serve

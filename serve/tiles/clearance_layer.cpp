@@ -7,7 +7,7 @@
 
 #include "parallel/chunks.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 constexpr std::size_t row_pixels = TileGrid::pixels;
@@ -102,4 +102,4 @@ void ClearanceLayer::draw_between(StepTile& tile, const Box& box, double pixel, 
   }
 }
 
-}  // namespace warren
+}  // namespace warren::serve

@@ -10,7 +10,7 @@
 #include "serve/tiles/step_tile.hpp"
 #include "serve/tiles/world_tiles.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 /// Where the body does not fit.
 inline constexpr Rgb too_near_ink{200, 16, 46};
@@ -39,4 +39,4 @@ class ClearanceLayer {
   Steps steps_;
 };
 
-}  // namespace warren
+}  // namespace warren::serve

@@ -7,7 +7,7 @@
 #include "scenes/images/png_writer_io.hpp"
 #include "serve/tiles/tile_grid.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 constexpr unsigned shades = 15;  // of an ink, beside none
@@ -56,4 +56,4 @@ std::string InkTile::png() const {
   return bytes;
 }
 
-}  // namespace warren
+}  // namespace warren::serve

@@ -13,7 +13,7 @@
 #include "pictures/formats/raster.hpp"
 #include "pictures/model/colors.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 /// Of one thread.
 class InkTile {
@@ -32,4 +32,4 @@ class InkTile {
   std::vector<std::optional<Mask>> masks_;
 };
 
-}  // namespace warren
+}  // namespace warren::serve

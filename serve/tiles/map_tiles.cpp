@@ -10,7 +10,7 @@
 #include "serve/tiles/world_tiles.hpp"
 #include "spatial/maps/distance_field.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 constexpr std::uint8_t blocked_shade = 255;
@@ -99,4 +99,4 @@ std::unique_ptr<WorldTiles> map_tiles(const OccupancyMap& map, const Execution& 
   return std::make_unique<MapTiles>(map, execution);
 }
 
-}  // namespace warren
+}  // namespace warren::serve

@@ -12,7 +12,7 @@
 #include "serve/tiles/shade_pyramid.hpp"
 #include "serve/tiles/world_tiles.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 constexpr std::int64_t side = TileGrid::pixels;
@@ -215,4 +215,4 @@ std::unique_ptr<WorldTiles> maze_tiles(LatticePassages passages, MazeOutline out
   return std::make_unique<MazeTiles>(std::move(passages), std::move(outline), grid, cells, execution);
 }
 
-}  // namespace warren
+}  // namespace warren::serve

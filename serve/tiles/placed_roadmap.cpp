@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 constexpr std::size_t milestones_a_poll = std::size_t{1} << 14U;
@@ -96,4 +96,4 @@ void PlacedRoadmap::part_long_edges(const Execution& execution) {
   });
 }
 
-}  // namespace warren
+}  // namespace warren::serve

@@ -11,7 +11,7 @@
 #include "parallel/execution.hpp"
 #include "roadmaps/graph/roadmap_parts.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 /// Immutable; any number of threads may look.
 class PlacedRoadmap {
@@ -87,4 +87,4 @@ void PlacedRoadmap::for_each_edge_near(const Box& box, const Execution& executio
   });
 }
 
-}  // namespace warren
+}  // namespace warren::serve

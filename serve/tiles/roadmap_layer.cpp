@@ -7,7 +7,7 @@
 
 #include "serve/tiles/ink_tile.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 constexpr double edge_pixels = 1.3;
@@ -119,4 +119,4 @@ std::string draw_passages(const LatticePassages& passages, const Box& box, doubl
   return tile.png();
 }
 
-}  // namespace warren
+}  // namespace warren::serve

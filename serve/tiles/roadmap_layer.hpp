@@ -15,7 +15,7 @@
 #include "serve/tiles/placed_roadmap.hpp"
 #include "serve/tiles/tile_grid.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 /// A tile with more edges shows its milestones alone, each a pixel, which from afar are a shade.
 inline constexpr std::size_t most_drawn_edges = 20'000;
@@ -67,4 +67,4 @@ std::string draw_passages(const LatticePassages& passages, const Box& box, doubl
 /// Tiles whose pixels are larger show no passages.
 inline constexpr double largest_pixel_of_passages = 1.0 / 8.0;
 
-}  // namespace warren
+}  // namespace warren::serve

@@ -3,7 +3,7 @@
 
 #include "scenes/images/png_writer_io.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 std::string png_of(const ShadeTile& tile, Rgb ink, const Execution& execution) {
   constexpr unsigned shades = 16;
@@ -28,4 +28,4 @@ std::string png_of(const ShadeTile& tile, Rgb ink, const Execution& execution) {
   return bytes;
 }
 
-}  // namespace warren
+}  // namespace warren::serve

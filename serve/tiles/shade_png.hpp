@@ -11,7 +11,7 @@
 #include "pictures/model/colors.hpp"
 #include "serve/tiles/tile_grid.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 /// A byte a pixel: 0 paper, 255 ink; row 0 on top.
 struct ShadeTile {
@@ -22,4 +22,4 @@ struct ShadeTile {
 /// Throws Stopped.
 std::string png_of(const ShadeTile& tile, Rgb ink, const Execution& execution);
 
-}  // namespace warren
+}  // namespace warren::serve

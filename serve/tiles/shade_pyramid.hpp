@@ -12,7 +12,7 @@
 #include "core/base/raw_vector.hpp"
 #include "parallel/chunks.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 /// Immutable; any number of threads may read. What lies beyond the cells is not dark.
 class ShadePyramid {
@@ -68,4 +68,4 @@ class ShadePyramid {
   std::vector<Plane> planes_;  // level 1 first
 };
 
-}  // namespace warren
+}  // namespace warren::serve

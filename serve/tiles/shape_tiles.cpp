@@ -16,7 +16,7 @@
 #include "serve/tiles/world_tiles.hpp"
 #include "spatial/obstacles/box_tree.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 constexpr double wall_pixels = 2.0;
@@ -236,4 +236,4 @@ std::unique_ptr<WorldTiles> shape_tiles(const Scene& scene, const Execution& exe
   return std::make_unique<ShapeTiles>(scene, execution);
 }
 
-}  // namespace warren
+}  // namespace warren::serve

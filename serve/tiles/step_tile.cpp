@@ -7,7 +7,7 @@
 
 #include "scenes/images/png_writer_io.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 /// The least of 1, 2, 2.5 and 5 times a power of ten that is not below.
@@ -56,4 +56,4 @@ std::string png_of(const StepTile& tile, std::span<const Rgb> inks, const Execut
   return bytes;
 }
 
-}  // namespace warren
+}  // namespace warren::serve

@@ -12,7 +12,7 @@
 #include "pictures/model/colors.hpp"
 #include "serve/tiles/tile_grid.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 /// Inks of a scale from low to high, by their lightness too, so that they are told apart without colours; all of them
 /// dark enough to stand out on the page's white. The page turns them over where it is dark.
@@ -47,4 +47,4 @@ struct StepTile {
 /// At most 255 inks. Throws Stopped.
 std::string png_of(const StepTile& tile, std::span<const Rgb> inks, const Execution& execution);
 
-}  // namespace warren
+}  // namespace warren::serve

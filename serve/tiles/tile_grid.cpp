@@ -5,7 +5,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 constexpr int closest = -6;  // 64 pixels a cell
@@ -55,4 +55,4 @@ TileGrid grid_around(const Box& box) {
   return {.corner = {middle.x - 0.5 * span, middle.y + 0.5 * span}, .span = span, .levels = levels};
 }
 
-}  // namespace warren
+}  // namespace warren::serve

@@ -9,7 +9,7 @@
 
 #include "core/base/types.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 struct TilePlace {
   unsigned zoom = 0;
@@ -42,4 +42,4 @@ TileGrid grid_for_cells(std::uint32_t cols, std::uint32_t rows, double cell, Vec
 /// The grid around a box, down to a 2^13th of it a tile.
 TileGrid grid_around(const Box& box);
 
-}  // namespace warren
+}  // namespace warren::serve

@@ -5,7 +5,7 @@
 
 #include "solve/roadmaps/maze_bits.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 std::unique_ptr<WorldTiles> tiles_of(const Scene& scene, const Execution& execution) {
   if (scene.map) return map_tiles(*scene.map, execution);
@@ -19,4 +19,4 @@ std::unique_ptr<WorldTiles> tiles_of(const Scene& scene, const Execution& execut
   return shape_tiles(scene, execution);
 }
 
-}  // namespace warren
+}  // namespace warren::serve

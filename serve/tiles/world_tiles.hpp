@@ -13,7 +13,7 @@
 #include "serve/tiles/step_tile.hpp"
 #include "serve/tiles/tile_grid.hpp"
 
-namespace warren {
+namespace warren::serve {
 
 /// How far places of a world are from the nearest obstacle. Immutable; any number of threads may ask.
 class PlaceDistances {
@@ -72,4 +72,4 @@ std::unique_ptr<WorldTiles> tiles_of(const Scene& scene, const Execution& execut
 /// The index of shapes is made on one thread, and can't be stopped: two seconds for so many.
 inline constexpr std::size_t most_shapes = std::size_t{1} << 21U;
 
-}  // namespace warren
+}  // namespace warren::serve

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// prm, lazy-prm, rrt and rrt-connect for a point or disc on an occupancy map: joins worlds/grid_world with the planners
-// that sample it. Motions are certified against the closed squares of blocked cells, wherever between them they lead.
+// prm, lazy-prm, rrt and rrt-connect for a point or disc on an occupancy map: joins worlds/plane/grid_world with the
+// planners that sample it. Motions are certified against the closed squares of blocked cells, wherever between them
+// they lead.
 #include <fmt/format.h>
 
 #include <optional>

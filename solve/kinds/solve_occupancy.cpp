@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A point or disc on an occupancy map: which planners there are. Polygons on maps turn among the map's border walls
-// (tools/solve_turning).
+// (solve/kinds/solve_turning).
 #include <vector>
 
 #include "solve/kinds/geometric_roadmaps.hpp"

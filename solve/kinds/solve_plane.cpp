@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A point or disc among polygons and walls: joins worlds/polygon_world with the planners that sample it.
+// A point or disc among polygons and walls: joins worlds/plane/polygon_world with the planners that sample it.
 #include <optional>
 
 #include "core/base/error.hpp"

@@ -13,7 +13,7 @@
 #include "core/base/error.hpp"
 #include "parallel/polled_sort.hpp"
 #include "roadmaps/graph/free_components.hpp"
-#include "solve/roadmaps/changed_places.hpp"
+#include "solve/steps/changed_places.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 #include "solve/steps/planned_scene.hpp"
 

@@ -9,14 +9,10 @@
 #include <optional>
 #include <string>
 
-#include "core/base/counters.hpp"
-#include "core/base/raw_vector.hpp"
-#include "core/search/graph.hpp"
-#include "planners/contraction/hierarchy.hpp"
 #include "planners/roadmap/roadmap_growth.hpp"
 #include "planners/route_index/route_index.hpp"
 #include "roadmaps/file/roadmap_file.hpp"
-#include "roadmaps/graph/roadmap_parts.hpp"
+#include "roadmaps/graph/roadmap_arrays.hpp"
 #include "solve/question/limits.hpp"
 #include "solve/question/question.hpp"
 #include "solve/question/solve_options.hpp"
@@ -24,22 +20,6 @@
 #include "solve/roadmaps/lattice_roadmap.hpp"
 
 namespace warren {
-
-/// States and edges, owned. An edge that leads both ways stands in both its rows.
-struct RoadmapArrays {
-  unsigned dimension = 2;                ///< numbers a state
-  bool directed = false;                 ///< do edges lead one way?
-  RawVector<double> states;              ///< `dimension` numbers each
-  Graph candidates;                      ///< edges that are free, blocked or unchecked
-  RawVector<std::uint64_t> edge_states;  ///< two bits an edge end (core/search/edge_states.hpp)
-  RawVector<VertexId> component;         ///< a number each state: the same where free edges join them
-  Hierarchy hierarchy;                   ///< of the free edges; empty: there is none
-
-  /// Views of all of it.
-  RoadmapParts parts() const {
-    return {dimension, directed, states, candidates.offsets(), candidates.targets(), edge_states, component};
-  }
-};
 
 /// A roadmap that outlives its question. Moved, not copied; any number of threads may read.
 struct Roadmap {
@@ -74,12 +54,6 @@ std::uint64_t count_states(const Roadmap& roadmap);
 bool grows(const SolveOptions& options, const Scene& scene, const RobotSpec& robot);
 
 struct OldRoadmap;
-
-/// What building took.
-struct BuildAccount {
-  Counters counters;   ///< exact, the same for any number of threads
-  StageTimes seconds;  ///< wall-clock
-};
 
 /// Builds the roadmap of prm, lazy_prm, visibility, cells or voronoi for any world and body that these solve, but for
 /// bodies at a fixed angle; start and goal of question and scene mean nothing. With lazy_prm no edge is checked, unless

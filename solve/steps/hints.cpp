@@ -11,7 +11,6 @@
 
 #include "core/base/error.hpp"
 #include "solve/question/grid_choice.hpp"
-#include "solve/roadmaps/roadmap.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 
 namespace warren {

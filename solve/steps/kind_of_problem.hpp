@@ -17,6 +17,8 @@
 
 #include "core/base/path_taker.hpp"
 #include "parallel/execution.hpp"
+#include "planners/roadmap/roadmap_growth.hpp"
+#include "roadmaps/graph/roadmap_arrays.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/answer/by_products.hpp"
@@ -25,7 +27,6 @@
 #include "solve/question/planner_choice.hpp"
 #include "solve/question/question.hpp"
 #include "solve/question/solve_options.hpp"
-#include "solve/roadmaps/roadmap.hpp"
 #include "solve/steps/roadmap_session.hpp"
 
 namespace warren {

@@ -2,7 +2,7 @@
 // Where a point lies among polygons: inside which, on whose outline. A tree over the polygons' boxes finds those that
 // come into question; within one, a ray to the right is followed down boxes over 8, 64, 512, ... sides in a row: a run
 // of sides that lies wholly right of the point crosses the ray as often as its two ends say, so only runs around the
-// point are opened. Exact (core/geometry). O(log n) for polygons and outlines that do not crowd around the point.
+// point are opened. Exact (core/plane/geometry). O(log n) for polygons and outlines that do not crowd around the point.
 // Memory: 60 bytes a polygon, 25 a corner.
 #pragma once
 

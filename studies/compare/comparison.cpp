@@ -12,7 +12,7 @@
 #include "core/base/rng.hpp"
 #include "solve/answer/write_answer_io.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 /// The distribution of what `figure` gives for the runs that it gives anything for.
@@ -81,7 +81,7 @@ std::optional<double> number_in_word(const std::string& word) {
   return is_number ? std::optional(value) : std::nullopt;
 }
 
-std::string name_of(const Contender& contender, bool with_planner) {
+std::string contender_name(const Contender& contender, bool with_planner) {
   std::string name = with_planner ? contender.planner : "";
   for (const std::string& part : {contender.search, contender.queue}) {
     if (!part.empty()) name += (name.empty() ? "" : ", ") + part;
@@ -105,7 +105,7 @@ std::string plot_name_of(const Contender& c, bool with_planner) {
     for (const auto& [option, word] : c.dealt) dealt += fmt::format(", {} {}", option, word);
     return dealt;
   }
-  std::string name = name_of(c, with_planner);
+  std::string name = contender_name(c, with_planner);
   if (c.library != "warren") name = c.search + ", " + c.library;
   if (with_planner && !c.options.empty()) name += ", " + options_text(c);
   return name;
@@ -119,4 +119,4 @@ std::vector<std::size_t> turns(std::size_t count, std::uint64_t round) {
   return order;
 }
 
-}  // namespace warren
+}  // namespace warren::studies

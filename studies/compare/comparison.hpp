@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contenders, searches or planners, that took turns at the same problem: every run of each, and what the runs say
-// together. Plain data; comparison_report.hpp, comparison_plots.hpp and comparison_ompl_log.hpp write it.
+// together. Plain data; comparison_report.hpp writes it.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 #include "solve/question/figure.hpp"
 #include "studies/measure/statistics.hpp"
 
-namespace warren {
+namespace warren::studies {
 
 /// One run of one contender. Figures of a path only where it was solved.
 struct ComparedRun {
@@ -90,7 +90,7 @@ std::vector<std::pair<std::string, std::string>> json_options(const std::vector<
 std::optional<double> number_in_word(const std::string& word);
 
 /// "astar, sorted-array", "prm, bfs"; `with_planner` where searches of one graph are not all there is.
-std::string name_of(const Contender& contender, bool with_planner);
+std::string contender_name(const Contender& contender, bool with_planner);
 
 /// The name in a plot. Where options were dealt out, they alone set a planner's contenders apart.
 std::string plot_name_of(const Contender& contender, bool with_planner);
@@ -102,4 +102,4 @@ std::string options_text(const Contender& contender);
 /// follows the same one and whatever else the machine does meets all alike.
 std::vector<std::size_t> turns(std::size_t count, std::uint64_t round);
 
-}  // namespace warren
+}  // namespace warren::studies

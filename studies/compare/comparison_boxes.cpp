@@ -11,7 +11,7 @@
 #include "studies/compare/comparison_report.hpp"
 #include "studies/measure/statistics.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 /// One of the figures that are drawn.
@@ -127,4 +127,4 @@ std::string note_on_box_plots(const Comparison& comparison) {
   return {};
 }
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -7,7 +7,7 @@
 #include "scenes/text/csv_text.hpp"
 #include "studies/compare/comparison_report.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 std::string csv_line(const std::vector<std::string>& fields) {
@@ -132,4 +132,4 @@ std::string comparison_runs(const Comparison& comparison) {
   return text;
 }
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -8,7 +8,7 @@
 #include "studies/compare/queue_crossings.hpp"
 #include "studies/measure/machine_memory.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -122,4 +122,4 @@ std::string comparison_json(const Comparison& comparison) {
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace warren
+}  // namespace warren::studies

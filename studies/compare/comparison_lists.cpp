@@ -12,7 +12,7 @@
 #include "studies/compare/comparison_report.hpp"
 #include "studies/compare/heat_map.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 using Words = std::vector<std::pair<std::string, std::string>>;
@@ -191,4 +191,4 @@ std::vector<PlotSheet> list_panels(const Comparison& comparison) {
   return panels;
 }
 
-}  // namespace warren
+}  // namespace warren::studies

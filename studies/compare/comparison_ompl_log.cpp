@@ -10,7 +10,7 @@
 #include "studies/compare/comparison_report.hpp"
 #include "studies/measure/machine_memory.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 constexpr std::string_view statuses =
@@ -23,7 +23,7 @@ int status_of(Outcome outcome) {
 }
 
 std::string planner_name(const Contender& contender) {
-  std::string name = contender.library + "_" + name_of(contender, true);
+  std::string name = contender.library + "_" + contender_name(contender, true);
   for (const auto& [option, value] : contender.options) name += "_" + option + "_" + value;
   std::string word;
   for (const char c : name) {
@@ -81,4 +81,4 @@ std::string ompl_log(const Comparison& comparison, const OmplExperiment& experim
   return text;
 }
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -4,7 +4,7 @@
 #include "studies/compare/comparison_report.hpp"
 #include "studies/measure/machine_memory.hpp"
 
-namespace warren {
+namespace warren::studies {
 
 std::string comparison_page(const Comparison& comparison, const std::string& command_line) {
   ReportPage page{.title = "Planners and searches side by side",
@@ -17,4 +17,4 @@ std::string comparison_page(const Comparison& comparison, const std::string& com
   return page.html();
 }
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -12,7 +12,7 @@
 #include "studies/compare/comparison_report.hpp"
 #include "studies/compare/queue_crossings.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 std::string curve_name(const SweepCurve& curve) {
@@ -121,4 +121,4 @@ PlotsPage comparison_plots(const Comparison& comparison) {
   return {comparison_panels(comparison), list_panels(comparison).empty() ? side_by_side : figures};
 }
 
-}  // namespace warren
+}  // namespace warren::studies

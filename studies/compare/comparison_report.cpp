@@ -10,7 +10,7 @@
 #include "scenes/text/human_units.hpp"
 #include "studies/measure/machine_memory.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 bool is_sweep(const Comparison& comparison, std::size_t problem) {
@@ -66,7 +66,7 @@ TextTable search_table(const Comparison& comparison, std::size_t problem) {
 }
 
 std::string planner_cell(const Contender& c) {
-  std::string name = name_of(c, true);
+  std::string name = contender_name(c, true);
   const std::string options = options_text(c);
   return options.empty() ? name : name + ", " + printable(options);
 }
@@ -137,4 +137,4 @@ std::string comparison_summary(const Comparison& comparison, const Palette& pale
   return text;
 }
 
-}  // namespace warren
+}  // namespace warren::studies

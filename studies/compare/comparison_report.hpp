@@ -14,7 +14,7 @@
 #include "studies/compare/comparison.hpp"
 #include "studies/measure/report_page.hpp"
 
-namespace warren {
+namespace warren::studies {
 
 /// A table a problem (random graphs: one for all sizes, comparison_sweep.cpp), the crossings, notes, the machine.
 std::string comparison_summary(const Comparison& comparison, const Palette& palette);
@@ -67,4 +67,4 @@ struct OmplExperiment {
 /// properties (comparison_ompl_log.cpp).
 std::string ompl_log(const Comparison& comparison, const OmplExperiment& experiment);
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -11,7 +11,7 @@
 #include "studies/compare/queue_crossings.hpp"
 #include "studies/measure/text_table.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 std::vector<std::string> searches_of(const std::vector<SweepCurve>& curves) {
@@ -88,4 +88,4 @@ std::vector<ReportTable> sweep_tables(const Comparison& comparison) {
   return tables;
 }
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -10,7 +10,7 @@
 
 #include "core/base/types.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 constexpr Box frame{{150.0, 48.0}, {724.0, 350.0}};  // of the cells, y down
@@ -104,4 +104,4 @@ void HeatMapDrawing::draw_cell(std::size_t column, std::size_t row) {
 
 PlotSheet sheet_of(const HeatMap& map) { return HeatMapDrawing(map).sheet(); }
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -9,7 +9,7 @@
 
 #include "pictures/plots/plot_sheet.hpp"
 
-namespace warren {
+namespace warren::studies {
 
 struct HeatMap {
   struct Cell {
@@ -28,4 +28,4 @@ struct HeatMap {
 
 PlotSheet sheet_of(const HeatMap& map);
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -7,7 +7,7 @@
 
 #include "studies/searches/graph_search.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 constexpr double least_s = 1e-9;  // a time that the clock's cost has eaten up
@@ -111,4 +111,4 @@ std::vector<QueueCrossing> queue_crossings(const std::vector<SweepCurve>& curves
   return crossings;
 }
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -11,7 +11,7 @@
 #include "core/base/types.hpp"
 #include "studies/compare/comparison.hpp"
 
-namespace warren {
+namespace warren::studies {
 
 /// Times of one way to search random graphs, against their size.
 struct SweepCurve {
@@ -39,4 +39,4 @@ struct QueueCrossing {
 /// Every array against every heap, search by search; our own library's. Sizes at which either is missing don't count.
 std::vector<QueueCrossing> queue_crossings(const std::vector<SweepCurve>& curves);
 
-}  // namespace warren
+}  // namespace warren::studies

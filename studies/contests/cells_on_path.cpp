@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace warren {
+namespace warren::studies {
 
 std::uint64_t cells_passed(std::span<const Vec2> path, const Raster& raster) {
   if (path.empty()) return 0;
@@ -27,4 +27,4 @@ std::uint64_t cells_passed(std::span<const Vec2> path, const OccupancyMap& map) 
   return cells_passed(in_cells, Raster{{0.5, 0.5}, 1.0});
 }
 
-}  // namespace warren
+}  // namespace warren::studies

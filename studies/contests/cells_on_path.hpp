@@ -9,7 +9,7 @@
 #include "core/base/types.hpp"
 #include "scenes/scene/scene.hpp"
 
-namespace warren {
+namespace warren::studies {
 
 /// Where a raster's cell (0, 0) has its middle, and how far apart middles are.
 struct Raster {
@@ -24,4 +24,4 @@ std::uint64_t cells_passed(std::span<const Vec2> path, const Raster& raster);
 /// The same on a map's own cells.
 std::uint64_t cells_passed(std::span<const Vec2> path, const OccupancyMap& map);
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -21,7 +21,7 @@
 #include "solve/answer/world_account.hpp"
 #include "studies/contests/paths_figure.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 /// Of the runs that were solved, the one whose path is of median length; nullptr where none was.
@@ -81,7 +81,7 @@ class ContestPictures {
   void draw_paths() {
     if (paths_.paths.size() < 2) return;
     paths_.subtitle = fmt::format("{}\nof each planner the path of median length", description_of(scene_));
-    keep(warren::draw_paths(folder_, unused("paths") + ".svg", scene_, paths_, options_.look, execution_));
+    keep(studies::draw_paths(folder_, unused("paths") + ".svg", scene_, paths_, options_.look, execution_));
   }
   /// What was drawn otherwise than usual.
   std::vector<std::string> take_notes() { return std::move(notes_); }
@@ -140,4 +140,4 @@ void make_folder(const std::string& folder) {
   if (::access(folder.c_str(), W_OK | X_OK) != 0) throw WriteError(folder, std::generic_category().message(errno));
 }
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -12,7 +12,7 @@
 #include "studies/compare/comparison.hpp"
 #include "studies/contests/planner_contest.hpp"
 
-namespace warren {
+namespace warren::studies {
 
 /// Writes FOLDER/NAME.svg, NAME a contender's planner and options ("prm_samples_50"), and paths.svg. The folder must
 /// exist. Solves each of the runs once more. A map's scene has its border walls. Returns what is drawn otherwise than
@@ -24,4 +24,4 @@ std::vector<std::string> draw_contest(const Scene& scene, const PlannerContestOp
 /// Makes the folder where there is none; throws WriteError where that fails or it can't be written in.
 void make_folder(const std::string& folder);
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -11,7 +11,7 @@
 #include "solve/steps/kind_of_problem.hpp"
 #include "studies/compare/comparison.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 /// The roadmap that the planner leaves.
@@ -62,4 +62,4 @@ WorldGraph world_graph(const Scene& scene, const Question& question, const Solve
   return made;
 }
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -9,7 +9,7 @@
 #include "solve/question/solve_options.hpp"
 #include "studies/searches/search_graph.hpp"
 
-namespace warren {
+namespace warren::studies {
 
 /// The planner whose graph is searched where none is asked for: the one that `solve` would take, prm for lazy-prm.
 /// Throws UsageError where no planner solves this world.
@@ -25,4 +25,4 @@ struct WorldGraph {
 WorldGraph world_graph(const Scene& scene, const Question& question, const SolveOptions& options,
                        const Execution& execution);
 
-}  // namespace warren
+}  // namespace warren::studies

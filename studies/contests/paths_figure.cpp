@@ -12,7 +12,7 @@
 #include "pictures/subtitle.hpp"
 #include "solve/answer/world_account.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 /// Some sixty dashes across all that is drawn.
@@ -60,4 +60,4 @@ std::vector<std::string> draw_paths(const std::string& folder, const std::string
   return write_named(folder, name, picture, look, execution);
 }
 
-}  // namespace warren
+}  // namespace warren::studies

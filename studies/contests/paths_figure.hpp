@@ -12,7 +12,7 @@
 #include "pictures/model/picture.hpp"
 #include "scenes/scene/scene.hpp"
 
-namespace warren {
+namespace warren::studies {
 
 struct NamedPath {
   std::string label;         ///< in the legend
@@ -36,4 +36,4 @@ std::vector<std::string> write_named(const std::string& folder, const std::strin
 std::vector<std::string> draw_paths(const std::string& folder, const std::string& name, const Scene& scene,
                                     const PathsFigure& figure, const PictureOptions& look, const Execution& execution);
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -15,7 +15,7 @@
 #include "solve/steps/kind_of_problem.hpp"
 #include "studies/contests/cells_on_path.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 /// A turn that a contender takes, and what comes of it.
@@ -230,4 +230,4 @@ void run_planner_contest(const Scene& scene, const PlannerContestOptions& option
   PlannerContest(scene, options, execution, comparison).run();
 }
 
-}  // namespace warren
+}  // namespace warren::studies

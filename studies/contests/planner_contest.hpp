@@ -17,7 +17,7 @@
 #include "studies/compare/comparison.hpp"
 #include "studies/contests/planner_deal.hpp"
 
-namespace warren {
+namespace warren::studies {
 
 struct PlannerContestOptions {
   std::vector<PlannerContender> contenders = {};  ///< each with a planner, as deal_planners() makes them
@@ -45,4 +45,4 @@ Answer solve_contender(const Scene& scene, const PlannerContender& contender, st
 void run_planner_contest(const Scene& scene, const PlannerContestOptions& options, const Execution& execution,
                          Comparison& comparison);
 
-}  // namespace warren
+}  // namespace warren::studies

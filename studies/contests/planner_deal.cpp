@@ -11,7 +11,7 @@
 #include "core/base/error.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 /// Gives one option the value that it has in `from`.
@@ -187,4 +187,4 @@ std::vector<PlannerContender> deal_planners(const PlannerDeal& deal) {
   return all;
 }
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -10,7 +10,7 @@
 #include "solve/question/question.hpp"
 #include "solve/question/solve_options.hpp"
 
-namespace warren {
+namespace warren::studies {
 
 /// One value of a list: an option that is given, and the word that says which.
 struct DealtValue {
@@ -51,4 +51,4 @@ std::vector<PlannerContender> deal_planners(const PlannerDeal& deal);
 /// Gives one option the value that it has in `from`.
 void copy_option(Option option, SolveOptions& to, const SolveOptions& from);
 
-}  // namespace warren
+}  // namespace warren::studies

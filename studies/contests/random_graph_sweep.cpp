@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 constexpr double longest_search_s = 2.0;
@@ -18,7 +18,7 @@ void drop_slow_variants(std::vector<SearchVariant>& variants, std::size_t first,
     const ComparisonRow row = row_of(contender);
     if (!row.time_s || row.time_s->median <= longest_search_s) continue;
     const std::string note = fmt::format("{}: left out beyond {} vertices, where a search takes {:.1f} s",
-                                         name_of(contender, false), size, row.time_s->median);
+                                         contender_name(contender, false), size, row.time_s->median);
     comparison.notes.push_back(note);
     variants.erase(variants.begin() + static_cast<std::ptrdiff_t>(i));
   }
@@ -42,4 +42,4 @@ void run_size_sweep(const SizeSweepOptions& options, const Execution& execution,
   }
 }
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -10,7 +10,7 @@
 #include "studies/compare/comparison.hpp"
 #include "studies/contests/search_contest.hpp"
 
-namespace warren {
+namespace warren::studies {
 
 struct SizeSweepOptions {
   std::vector<std::uint32_t> sizes;  ///< ascending, each >= 2
@@ -25,4 +25,4 @@ struct SizeSweepOptions {
 void run_size_sweep(const SizeSweepOptions& options, const Execution& execution, Comparison& comparison,
                     const std::function<void(std::string_view)>& say);
 
-}  // namespace warren
+}  // namespace warren::studies

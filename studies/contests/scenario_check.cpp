@@ -15,7 +15,7 @@
 #include "scenes/text/human_units.hpp"
 #include "solve/answer/write_answer_io.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 constexpr double least_tolerance = 1e-3;
@@ -169,4 +169,4 @@ std::string scenario_json(const ScenarioCheck& check) {
   return text + "]}\n";
 }
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -14,7 +14,7 @@
 #include "scenes/scene/occupancy_map.hpp"
 #include "studies/measure/text_table.hpp"
 
-namespace warren {
+namespace warren::studies {
 
 /// One method on one scenario.
 struct ScenarioTrial {
@@ -49,4 +49,4 @@ std::string scenario_summary(const ScenarioCheck& check, const Palette& palette)
 /// warren.bench-scen/1
 std::string scenario_json(const ScenarioCheck& check);
 
-}  // namespace warren
+}  // namespace warren::studies

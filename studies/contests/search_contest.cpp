@@ -11,7 +11,7 @@
 
 #include "planners/roadmap/roadmap_options.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -223,4 +223,4 @@ void run_search_contest(const SearchGraph& graph, const SearchContestOptions& op
   SearchContest(graph, options, execution, comparison).run();
 }
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -17,7 +17,7 @@
 #include "studies/compare/comparison.hpp"
 #include "studies/searches/graph_search.hpp"
 
-namespace warren {
+namespace warren::studies {
 
 struct SearchContestOptions {
   std::vector<SearchVariant> variants;  ///< at least one, no two alike
@@ -47,4 +47,4 @@ struct SearchClaim {
 /// settles no more with our queues than there are.
 std::optional<std::string> contradiction_in(std::span<const SearchClaim> claims);
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -14,7 +14,7 @@
 #include "studies/contests/paths_figure.hpp"
 #include "worlds/rasters/map_borders.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 /// A path that one or more variants of a search found.
@@ -86,4 +86,4 @@ std::vector<std::string> draw_searches(const Scene& world, const SearchGraph& gr
   return draw_paths(folder, "searches.svg", scene, figure, look, execution);
 }
 
-}  // namespace warren
+}  // namespace warren::studies

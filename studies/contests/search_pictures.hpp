@@ -12,7 +12,7 @@
 #include "studies/contests/search_contest.hpp"
 #include "studies/searches/search_graph.hpp"
 
-namespace warren {
+namespace warren::studies {
 
 /// Writes FOLDER/searches.svg, in a folder that exists. Runs each search once more, within its budget; those that find
 /// nothing have no path. Variants of one search that differ in nothing but their queues or library are one path in the
@@ -21,4 +21,4 @@ std::vector<std::string> draw_searches(const Scene& scene, const SearchGraph& gr
                                        const SearchContestOptions& options, const std::string& folder,
                                        const PictureOptions& look, const Execution& execution);
 
-}  // namespace warren
+}  // namespace warren::studies

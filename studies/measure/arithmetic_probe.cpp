@@ -8,7 +8,7 @@
 
 #include "parallel/chunks.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 constexpr std::size_t probe_parts = 64;
@@ -64,4 +64,4 @@ double arithmetic_per_second(const Execution& execution) {
   return threads * static_cast<double>(probe_parts * rounds) / seconds;
 }
 
-}  // namespace warren
+}  // namespace warren::studies

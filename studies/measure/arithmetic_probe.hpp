@@ -6,11 +6,11 @@
 
 #include "parallel/execution.hpp"
 
-namespace warren {
+namespace warren::studies {
 
 /// Rounds of integer arithmetic a second that the execution's threads do together, in registers, enough of it at once
 /// to fill a core: latency leaves no room for another thread on the same core. Timed in each thread, so that waking
 /// threads and sharing out the work cost nothing. Takes some 10 ms of CPU. Throws Stopped.
 double arithmetic_per_second(const Execution& execution);
 
-}  // namespace warren
+}  // namespace warren::studies

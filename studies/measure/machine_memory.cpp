@@ -14,7 +14,7 @@
 #include "parallel/chunks.hpp"
 #include "scenes/text/human_units.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 std::string cpu_model() {
@@ -75,4 +75,4 @@ void WarmMemory::prepare(std::size_t bytes, const Execution& execution) {
   touch_ = {.bytes = bytes, .cold_s = again_s + std::max(0.0, first_s - again_s) + earlier_excess_s, .warm_s = again_s};
 }
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -9,7 +9,7 @@
 
 #include "parallel/execution.hpp"
 
-namespace warren {
+namespace warren::studies {
 
 struct Machine {
   std::string cpu;               ///< the model's name; "unknown CPU" where the system doesn't tell
@@ -43,4 +43,4 @@ class WarmMemory {
   MemoryTouch touch_;
 };
 
-}  // namespace warren
+}  // namespace warren::studies

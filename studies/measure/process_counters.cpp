@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 constexpr std::array<PerfEvent, 4> hardware_events{{{PERF_TYPE_HARDWARE, PERF_COUNT_HW_CPU_CYCLES},
@@ -109,4 +109,4 @@ RunCounts RunCounters::read() const {
   return counts;
 }
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace warren {
+namespace warren::studies {
 
 /// Counts since some beginning, or between two readings.
 struct RunCounts {
@@ -57,4 +57,4 @@ class RunCounters {
   std::string refusal_;
 };
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -9,7 +9,7 @@
 #include "pictures/model/xml_text.hpp"
 #include "pictures/page/page_files.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 std::string cells_of(const TextTable& table, const std::vector<std::string>& cells, bool is_head) {
@@ -52,4 +52,4 @@ std::string ReportPage::html() const {
   return page + script_element(script) + "</body>\n</html>\n";
 }
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -8,7 +8,7 @@
 
 #include "studies/measure/text_table.hpp"
 
-namespace warren {
+namespace warren::studies {
 
 struct ReportTable {
   std::string title;  ///< "": none
@@ -27,4 +27,4 @@ struct ReportPage {
   std::string html() const;
 };
 
-}  // namespace warren
+}  // namespace warren::studies

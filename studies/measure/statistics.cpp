@@ -6,7 +6,7 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 constexpr double tail = 0.025;                   // beyond either end of an interval
@@ -87,4 +87,4 @@ Interval wilson_interval(std::uint64_t successes, std::uint64_t trials) {
           successes == trials ? 1.0 : (centre + half_width) / scale};
 }
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace warren {
+namespace warren::studies {
 
 /// Both ends included.
 struct Interval {
@@ -53,4 +53,4 @@ double student_t(std::uint64_t degrees);
 /// fewer than six values.
 std::optional<std::pair<std::size_t, std::size_t>> median_ranks(std::size_t count);
 
-}  // namespace warren
+}  // namespace warren::studies

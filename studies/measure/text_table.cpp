@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 /// Of each column the width of its widest cell, the head included; 0 where no row says anything.
@@ -55,4 +55,4 @@ TextTable TextTable::without_empty_columns() const {
   return table;
 }
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -8,7 +8,7 @@
 
 #include "scenes/text/palette.hpp"
 
-namespace warren {
+namespace warren::studies {
 
 struct TextTable {
   std::vector<std::string> head;
@@ -21,4 +21,4 @@ struct TextTable {
   TextTable without_empty_columns() const;
 };
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <iterator>
 
-namespace warren {
+namespace warren::studies {
 
 std::string trace_json(const Trace& trace) {
   std::string text =
@@ -34,4 +34,4 @@ std::string trace_json(const Trace& trace) {
   return text + "\n]}\n";
 }
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -6,8 +6,8 @@
 
 #include "parallel/trace.hpp"
 
-namespace warren {
+namespace warren::studies {
 
 std::string trace_json(const Trace& trace);
 
-}  // namespace warren
+}  // namespace warren::studies

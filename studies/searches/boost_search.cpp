@@ -11,7 +11,7 @@
 
 #include "studies/searches/graph_search.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 struct Weight {
@@ -183,4 +183,4 @@ std::unique_ptr<GraphSearch> boost_search(const SearchGraph& graph, SearchKind s
   return std::make_unique<BoostSearch>(graph, search);
 }
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -3,7 +3,7 @@
 #include "core/base/error.hpp"
 #include "studies/searches/graph_search.hpp"
 
-namespace warren {
+namespace warren::studies {
 
 bool has_boost_graph() { return false; }
 
@@ -11,4 +11,4 @@ std::unique_ptr<GraphSearch> boost_search(const SearchGraph&, SearchKind) {
   throw UsageError("@peer: this program was built without Boost.Graph (install libboost-dev and build it again)");
 }
 
-}  // namespace warren
+}  // namespace warren::studies

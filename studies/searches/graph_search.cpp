@@ -6,7 +6,7 @@
 
 #include "core/search/search_queues.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 /// A* (with the straight distance as heuristic) or Dijkstra. An array that is sorted at each push can take a second for
@@ -127,4 +127,4 @@ double path_length(const SearchGraph& graph, std::span<const VertexId> path) {
   return length;
 }
 
-}  // namespace warren
+}  // namespace warren::studies

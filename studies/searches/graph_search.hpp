@@ -14,7 +14,7 @@
 #include "planners/roadmap/roadmap_options.hpp"
 #include "studies/searches/search_graph.hpp"
 
-namespace warren {
+namespace warren::studies {
 
 /// QueueKind, and the unordered array that is searched for its least entry, which no planner offers.
 enum class QueuePolicy : std::uint8_t { heap, lazy_heap, sorted_array, resorted_array, linear_scan };
@@ -56,4 +56,4 @@ std::unique_ptr<GraphSearch> boost_search(const SearchGraph& graph, SearchKind s
 /// Sum of the lengths along a path; the path's vertices are neighbours.
 double path_length(const SearchGraph& graph, std::span<const VertexId> path);
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -14,7 +14,7 @@
 #include "spatial/points/point_grid.hpp"
 #include "spatial/points/tile_order.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 constexpr std::size_t vertices_per_poll = 1 << 12;
@@ -103,4 +103,4 @@ SearchGraph geometric_graph(std::uint32_t size, double degree, std::uint64_t see
   return made;
 }
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -12,7 +12,7 @@
 #include "core/search/graph.hpp"
 #include "parallel/execution.hpp"
 
-namespace warren {
+namespace warren::studies {
 
 struct SearchGraph {
   std::string source;                                        ///< "maze:41x41", "geometric:300"
@@ -35,4 +35,4 @@ Graph with_plane_lengths(const Graph& graph, const std::vector<Vec2>& at);
 /// ends.
 SearchGraph geometric_graph(std::uint32_t size, double degree, std::uint64_t seed, const Execution& execution);
 
-}  // namespace warren
+}  // namespace warren::studies

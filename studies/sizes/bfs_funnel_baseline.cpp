@@ -7,7 +7,7 @@
 
 #include "scenes/mazes/maze_generator.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 /// Directions 0 up, 1 right, 2 down, 3 left; d ^ 2 is the opposite one.
@@ -185,4 +185,4 @@ Path<Vec2> bfs_funnel(const Scene& scene, const Execution& execution) {
   return Funnel({0.5, 1.0}, execution).pull(walk.steps(first, last), goal);
 }
 
-}  // namespace warren
+}  // namespace warren::studies

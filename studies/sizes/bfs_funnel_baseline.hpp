@@ -11,10 +11,10 @@
 #include "parallel/execution.hpp"
 #include "scenes/scene/scene.hpp"
 
-namespace warren {
+namespace warren::studies {
 
 /// From the maze's start (0.5, 1) to its goal (cols + 0.5, rows); empty if cells don't connect them. The scene has the
 /// maze hint. Throws InputError if a wall is off the unit grid, Stopped at the deadline.
 Path<Vec2> bfs_funnel(const Scene& scene, const Execution& execution);
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -12,7 +12,7 @@
 #include "scenes/text/human_units.hpp"
 #include "studies/sizes/bfs_funnel_baseline.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 std::uint32_t extent(double cells) {
@@ -186,4 +186,4 @@ LargestResult find_largest(const LargestOptions& options, const Execution& execu
   return std::move(search.result());
 }
 
-}  // namespace warren
+}  // namespace warren::studies

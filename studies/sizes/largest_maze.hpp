@@ -13,7 +13,7 @@
 #include "studies/sizes/largest_size.hpp"
 #include "studies/sizes/maze_trial.hpp"
 
-namespace warren {
+namespace warren::studies {
 
 /// A side n stands for n * n cells in the shape rows : cols.
 struct LargestOptions {
@@ -56,4 +56,4 @@ const MazeTrial& median_trial(const LargestResult& result);
 LargestResult find_largest(const LargestOptions& options, const Execution& execution,
                            const std::function<void(std::string_view)>& note);
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -11,7 +11,7 @@
 #include "scenes/text/human_units.hpp"
 #include "solve/answer/answer.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -212,4 +212,4 @@ PlotSheet largest_plot(const LargestOptions& options, const LargestResult& resul
   return sheet_of(plot);
 }
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -8,11 +8,11 @@
 #include "scenes/text/palette.hpp"
 #include "studies/sizes/largest_maze.hpp"
 
-namespace warren {
+namespace warren::studies {
 
 std::string largest_summary(const LargestOptions& options, const LargestResult& result, const Palette& palette);
 std::string largest_json(const LargestOptions& options, const LargestResult& result);
 /// Every run that came to its end, the runs at the largest size, and the budget's line.
 PlotSheet largest_plot(const LargestOptions& options, const LargestResult& result);
 
-}  // namespace warren
+}  // namespace warren::studies

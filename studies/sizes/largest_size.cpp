@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 /// A side that fits and a larger one that doesn't; 0: not found.
@@ -62,4 +62,4 @@ std::uint32_t side_below(const SizeSearch& search, std::uint32_t side) {
   return next < search.least ? 0 : static_cast<std::uint32_t>(next);
 }
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <functional>
 
-namespace warren {
+namespace warren::studies {
 
 struct SizeSearch {
   std::uint32_t start = 1;  ///< the first side tried; least <= start <= most
@@ -22,4 +22,4 @@ std::uint32_t largest_side(const SizeSearch& search, const std::function<bool(st
 /// The next smaller side to try when one that fitted once doesn't always: a step below, 0 below the least.
 std::uint32_t side_below(const SizeSearch& search, std::uint32_t side);
 
-}  // namespace warren
+}  // namespace warren::studies

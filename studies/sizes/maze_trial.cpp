@@ -10,7 +10,7 @@
 #include "solve/question/question.hpp"
 #include "studies/measure/machine_memory.hpp"
 
-namespace warren {
+namespace warren::studies {
 Scene generate_trial(const MazeOptions& maze, const SolveOptions& options, const Execution& execution,
                      double& seconds) {
   const bool is_streamed = options.roadmap.pipeline == PipelineKind::streamed;
@@ -75,4 +75,4 @@ nlohmann::ordered_json trial_json(const MazeTrial& trial) {
   return json;
 }
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -16,7 +16,7 @@
 #include "solve/question/question.hpp"
 #include "solve/question/solve_options.hpp"
 
-namespace warren {
+namespace warren::studies {
 
 /// An outcome with its figures.
 struct MazeTrial {
@@ -56,4 +56,4 @@ std::string_view verdict_of(const MazeTrial& trial);
 /// The keys that largest and scale share: rows cols seed threads planner sampler status verified solve_s stages_s …
 nlohmann::ordered_json trial_json(const MazeTrial& trial);
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -15,7 +15,7 @@
 #include "studies/sizes/scaling_report.hpp"
 #include "studies/sizes/thread_gains.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 /// Planner and sampler.
@@ -232,4 +232,4 @@ std::string scaling_page(const ScalingResult& result, const std::string& command
   return page.html();
 }
 
-}  // namespace warren
+}  // namespace warren::studies

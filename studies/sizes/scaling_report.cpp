@@ -11,7 +11,7 @@
 #include "studies/measure/machine_memory.hpp"
 #include "studies/sizes/thread_gains.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -167,4 +167,4 @@ std::string scaling_csv(const ScalingResult& result) {
   return text;
 }
 
-}  // namespace warren
+}  // namespace warren::studies

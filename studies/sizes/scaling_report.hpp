@@ -8,7 +8,7 @@
 #include "scenes/text/palette.hpp"
 #include "studies/sizes/scaling_study.hpp"
 
-namespace warren {
+namespace warren::studies {
 
 std::string scaling_summary(const ScalingResult& result, const Palette& palette);
 std::string scaling_json(const ScalingOptions& options, const ScalingResult& result);
@@ -20,4 +20,4 @@ std::string noise_text(std::span<const ScalingRow> rows);
 /// A self-contained HTML page (scaling_page.cpp): plots drawn in it, no script, nothing loaded from anywhere.
 std::string scaling_page(const ScalingResult& result, const std::string& command_line);
 
-}  // namespace warren
+}  // namespace warren::studies

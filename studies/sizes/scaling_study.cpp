@@ -14,7 +14,7 @@
 #include "studies/measure/arithmetic_probe.hpp"
 #include "studies/measure/statistics.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 /// One study: mazes outside, runs inside.
@@ -233,4 +233,4 @@ double seconds_of(const MazeTrial& trial, std::string_view stage) {
   return 0.0;
 }
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -19,7 +19,7 @@
 #include "studies/measure/process_counters.hpp"
 #include "studies/sizes/maze_trial.hpp"
 
-namespace warren {
+namespace warren::studies {
 
 struct ScalingOptions {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> sizes;  ///< rows, cols; ascending cells
@@ -78,4 +78,4 @@ std::vector<std::string> stage_names();
 /// The seconds of one stage, or of "solve".
 double seconds_of(const MazeTrial& trial, std::string_view stage);
 
-}  // namespace warren
+}  // namespace warren::studies

@@ -10,7 +10,7 @@
 
 #include "studies/measure/statistics.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 struct Pair {
@@ -108,4 +108,4 @@ std::string text_of(const ThreadGain& gain) {
   return stages.empty() ? text : text + " (" + stages + ")";
 }
 
-}  // namespace warren
+}  // namespace warren::studies

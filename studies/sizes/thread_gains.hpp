@@ -11,7 +11,7 @@
 
 #include "studies/sizes/scaling_study.hpp"
 
-namespace warren {
+namespace warren::studies {
 
 /// Medians over the pairs of one size, planner, sampler, pipeline and number of threads. Gains are times, scaled so
 /// that the fewest threads gain their own number.
@@ -33,4 +33,4 @@ std::vector<ThreadGain> thread_gains(const ScalingResult& result, unsigned cores
 /// ..."
 std::string text_of(const ThreadGain& gain);
 
-}  // namespace warren
+}  // namespace warren::studies

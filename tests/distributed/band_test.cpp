@@ -8,7 +8,7 @@
 #include "scenes/mazes/maze_generator.hpp"
 #include "solve/question/question.hpp"
 
-namespace warren {
+namespace warren::distributed {
 namespace {
 
 TEST(Band, KeepsNoRoomForStepsThatNobodyAsksFor) {
@@ -27,4 +27,4 @@ TEST(Band, KeepsNoRoomForStepsThatNobodyAsksFor) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::distributed

@@ -21,7 +21,7 @@
 #include "tests/solve/answer_bytes.hpp"
 #include "verify/cells/verify_cells.hpp"
 
-namespace warren {
+namespace warren::distributed {
 namespace {
 
 using test::Asked;
@@ -240,4 +240,4 @@ TEST(Agreement, ARankWithOtherWordsIsRefusedByAll) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::distributed

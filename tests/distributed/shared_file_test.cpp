@@ -18,7 +18,7 @@
 #include "tests/scenes/text/temporary_directory.hpp"
 #include "tests/solve/answer_bytes.hpp"
 
-namespace warren {
+namespace warren::distributed {
 namespace {
 
 using test::Asked;
@@ -299,4 +299,4 @@ TEST(SharedWorld, WhatRanksDoNotShareIsRefused) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::distributed

@@ -29,8 +29,8 @@ struct Asked {
   Question question = {};
 };
 
-inline BandTask task_of(const Asked& asked) {
-  return BandTask::of(asked.scene, keeping_off(asked.scene, asked.question, ""));
+inline distributed::BandTask task_of(const Asked& asked) {
+  return distributed::BandTask::of(asked.scene, keeping_off(asked.scene, asked.question, ""));
 }
 
 inline Answer solved(const Asked& asked, const Execution& execution = {.threads = 1}, StreamedTeam* team = nullptr) {
@@ -42,23 +42,23 @@ inline Answer solved(const Asked& asked, const Execution& execution = {.threads 
 struct Found {
   Answer answer;
   std::uint64_t bytes_of_rounds = 0;
-  std::optional<SharedSearch::Lack> lack = {};
+  std::optional<distributed::SharedSearch::Lack> lack = {};
 };
 
 /// tasks: of each rank, as it sees the world. most_keys: of the overlay, at rank 0.
-inline Found solved_by(const std::vector<BandTask>& tasks, const Asked& asked, const Execution& execution,
+inline Found solved_by(const std::vector<distributed::BandTask>& tasks, const Asked& asked, const Execution& execution,
                        std::size_t followers_memory, std::uint64_t most_keys) {
   ThreadRanks team(static_cast<unsigned>(tasks.size()));
   Found found;
-  team.run([&](Transport& transport) {
-    const BandTask& task = tasks[transport.rank()];
+  team.run([&](distributed::Transport& transport) {
+    const distributed::BandTask& task = tasks[transport.rank()];
     if (transport.rank() > 0) {
-      return follow(transport, task, {.threads = execution.threads, .memory_bytes = followers_memory});
+      return distributed::follow(transport, task, {.threads = execution.threads, .memory_bytes = followers_memory});
     }
-    const EndOfFollowers end(transport);
-    Leader leader(transport, task, execution, most_keys);
+    const distributed::EndOfFollowers end(transport);
+    distributed::Leader leader(transport, task, execution, most_keys);
     found.answer = solved(asked, execution, &leader);
-    found.bytes_of_rounds = leader.traffic()[static_cast<std::size_t>(Request::rounds)];
+    found.bytes_of_rounds = leader.traffic()[static_cast<std::size_t>(distributed::Request::rounds)];
     found.lack = leader.lack();
   });
   return found;
@@ -66,7 +66,8 @@ inline Found solved_by(const std::vector<BandTask>& tasks, const Asked& asked, c
 
 inline Found solved_by(unsigned ranks, const Asked& asked, const Execution& execution = {.threads = 1},
                        std::size_t followers_memory = much_memory, std::uint64_t most_keys = all_keys) {
-  return solved_by(std::vector<BandTask>(ranks, task_of(asked)), asked, execution, followers_memory, most_keys);
+  return solved_by(std::vector<distributed::BandTask>(ranks, task_of(asked)), asked, execution, followers_memory,
+                   most_keys);
 }
 
 }  // namespace warren::test

@@ -23,9 +23,9 @@ class ThreadRanks {
     for (unsigned rank = 0; rank < ranks; ++rank) ends_.emplace_back(*this, rank, ranks);
   }
 
-  Transport& at(unsigned rank) { return ends_[rank]; }
+  distributed::Transport& at(unsigned rank) { return ends_[rank]; }
   /// Runs body(rank) on a thread each, 0 on this one; rethrows the first that threw, by rank.
-  void run(const std::function<void(Transport&)>& body) {
+  void run(const std::function<void(distributed::Transport&)>& body) {
     std::vector<std::exception_ptr> thrown(ends_.size());
     const auto guarded = [&](std::size_t rank) {
       try {
@@ -49,7 +49,7 @@ class ThreadRanks {
   }
 
  private:
-  class End : public Transport {
+  class End : public distributed::Transport {
    public:
     End(ThreadRanks& all, unsigned rank, unsigned ranks) : all_(all), rank_(rank), ranks_(ranks) {}
     unsigned rank() const override { return rank_; }
@@ -60,7 +60,7 @@ class ThreadRanks {
       all_.boxes_[std::size_t{rank_} * ranks_ + to].emplace_back(bytes.begin(), bytes.end());
     }
     Bytes receive(unsigned from, const Execution& execution) override {
-      Patience patience;
+      distributed::Patience patience;
       while (!has_message(from)) patience.wait(execution);
       const std::lock_guard lock(all_.mutex_);
       auto& box = all_.boxes_[std::size_t{from} * ranks_ + rank_];

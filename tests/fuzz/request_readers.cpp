@@ -22,16 +22,16 @@ namespace {
 namespace http = boost::beast::http;
 
 /// The service of a few walls and a polygon; paths and tiles that were asked for stay, as in a service.
-WorldService& small_service() {
+serve::WorldService& small_service() {
   constexpr const char* town =
       "bounds 0 0 100 60\nwall 10 10 50 40\npolygon 60 10 90 10 90 50 60 50\nstart 5 30\ngoal 95 30\n";
-  static const ServedWorld world(read_scene(InputFile::of_bytes("town.scene", town), {}), {}, fuzz_execution());
-  static WorldService service(world, {.budget_s = 1.0, .threads = 1});
+  static const serve::ServedWorld world(read_scene(InputFile::of_bytes("town.scene", town), {}), {}, fuzz_execution());
+  static serve::WorldService service(world, {.budget_s = 1.0, .threads = 1});
   return service;
 }
 
 /// As the server reads it, but in one piece. Throws HttpError.
-HttpRequest request_in(std::string_view bytes) {
+serve::HttpRequest request_in(std::string_view bytes) {
   http::request_parser<http::string_body> parser;
   parser.eager(true);
   parser.header_limit(8192);
@@ -44,28 +44,29 @@ HttpRequest request_in(std::string_view bytes) {
   }
   if (!code && !parser.got_some()) code = http::error::end_of_stream;
   if (!code && !parser.is_done()) parser.put_eof(code);
-  if (code) throw error_of_parser(code);
-  HttpRequest request = request_of(parser.get());
+  if (code) throw serve::error_of_parser(code);
+  serve::HttpRequest request = serve::request_of(parser.get());
   request.body = std::move(parser.get().body());
-  check_names(request, {.port = 8765});
+  serve::check_names(request, {.port = 8765});
   return request;
 }
 
-HttpResponse answer_to(std::string_view bytes) {
+serve::HttpResponse answer_to(std::string_view bytes) {
   try {
-    const HttpRequest request = request_in(bytes);
-    WorldService& service = small_service();
-    if (request.body.size() > service.most_body(request)) return error_response(413, "body_too_large", "body", "large");
+    const serve::HttpRequest request = request_in(bytes);
+    serve::WorldService& service = small_service();
+    if (request.body.size() > service.most_body(request))
+      return serve::error_response(413, "body_too_large", "body", "large");
     if (auto said = service.at_once(request, {})) return std::move(*said);
     const SignalFlag gone{0};
-    return answer_of(service, request, gone);
-  } catch (const HttpError& error) {
-    return error_response(error);
+    return serve::answer_of(service, request, gone);
+  } catch (const serve::HttpError& error) {
+    return serve::error_response(error);
   }
 }
 
 void read_requests(std::string_view bytes) {
-  const HttpResponse said = answer_to(bytes);
+  const serve::HttpResponse said = answer_to(bytes);
   constexpr std::array statuses{200U, 304U, 400U, 403U, 404U, 405U, 413U, 414U, 422U, 431U, 503U, 504U};
   demand(std::find(statuses.begin(), statuses.end(), said.status) != statuses.end(), "a status that is documented");
   for (const auto& [name, value] : said.fields)

@@ -15,9 +15,10 @@ namespace {
 enum class Dawdles { explaining, finding };
 
 /// A solve that is in time with its answer, and takes until it is stopped for what comes after.
-class SlowTalker : public AnswerCommand {
+class SlowTalker : public tools::AnswerCommand {
  public:
-  SlowTalker(const Arguments& arguments, Dawdles where) : AnswerCommand(arguments, "--save-roadmap"), where_(where) {
+  SlowTalker(const tools::Arguments& arguments, Dawdles where)
+      : tools::AnswerCommand(arguments, "--save-roadmap"), where_(where) {
     scene_.source = "field";
     scene_.bounds = Box{{0.0, 0.0}, {10.0, 10.0}};
     scene_.start = {1.0, 1.0};
@@ -50,9 +51,9 @@ nlohmann::json told_in_time(const Folder& folder, const std::vector<std::string>
   std::vector<std::string> words{
       "solve", "field", "--quiet", "--json", folder.path("a.json"), "--svg", folder.path("a.svg")};
   words.insert(words.end(), more.begin(), more.end());
-  const Command command = command_named("solve");
-  const Arguments arguments(command, std::span(words).subspan(1));
-  EXPECT_EQ(SlowTalker(arguments, where).run(), exit_code::success);
+  const tools::Command command = tools::command_named("solve");
+  const tools::Arguments arguments(command, std::span(words).subspan(1));
+  EXPECT_EQ(SlowTalker(arguments, where).run(), tools::exit_code::success);
   EXPECT_NE(folder.read("a.svg"), "");
   return nlohmann::json::parse(folder.read("a.json"));
 }
@@ -72,13 +73,13 @@ TEST(AnswerInTime, StaysWhereASecondSolveIsStoppedSilently) {
 
 TEST(AnswerInTime, ASignalThatEndedAnExplanationIsForgotten) {
   const Folder folder;
-  install_signal_handlers();
+  tools::install_signal_handlers();
   std::raise(SIGTERM);
-  EXPECT_NE(signal_flag().load(), 0);
-  forget_signal();
-  EXPECT_EQ(signal_flag().load(), 0);
+  EXPECT_NE(tools::signal_flag().load(), 0);
+  tools::forget_signal();
+  EXPECT_EQ(tools::signal_flag().load(), 0);
   std::raise(SIGTERM);  // a key pressed twice
-  EXPECT_EQ(signal_flag().load(), 0);
+  EXPECT_EQ(tools::signal_flag().load(), 0);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@
 #include "tests/tools/process.hpp"
 #include "tests/tools/program.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -122,7 +122,7 @@ TEST(Compare, OfTheSummaryEverySearchHasALine) {
 
 TEST(Compare, ThePeerIsComparedOrSaidToBeMissing) {
   const ProgramRun run = run_program("compare maze:15x15,loops=0.2 --peer boost --trials 2 --quiet --json - 2>&1");
-  if (!has_boost_graph()) {
+  if (!studies::has_boost_graph()) {
     EXPECT_EQ(run.exit_code, 2);
     EXPECT_NE(run.out.find("--peer"), std::string::npos);
     EXPECT_EQ(run.out.find('\n'), run.out.size() - 1);
@@ -362,4 +362,4 @@ TEST(Compare, SaysHowManyHeatMapsAreLeftOut) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::tools

@@ -7,7 +7,7 @@
 #include "tests/tools/process.hpp"
 #include "tests/tools/program.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -175,4 +175,4 @@ TEST(Scale, ARunCutByItsBudgetIs124) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::tools

@@ -13,7 +13,7 @@
 #include "tests/tools/process.hpp"
 #include "tests/tools/program.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -135,4 +135,4 @@ TEST(Compare, RunsBesideEachOtherAreTheSameRuns) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::tools

@@ -70,7 +70,8 @@ TEST(Leaks, NoVerbLeavesMemoryBehind) {
     check(c);
     asked_of.insert(c.arguments.front());
   }
-  for (const Command& command : command_table()) EXPECT_TRUE(asked_of.contains(command.name)) << command.name;
+  for (const tools::Command& command : tools::command_table())
+    EXPECT_TRUE(asked_of.contains(command.name)) << command.name;
   Process server({"serve", file("walls.scene"), "--port", "0"}, "/dev/null", file("said"));
   for (int tries = 0; tries < 60'000 && folder.read("said").find("listening") == std::string::npos; ++tries)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));

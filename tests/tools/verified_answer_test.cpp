@@ -12,7 +12,7 @@
 #include "solve/answer/read_answer_io.hpp"
 #include "solve/answer/write_answer_io.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -109,4 +109,4 @@ TEST(VerifiedAnswer, ARefutedPathStandsUnderAKeyOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::tools

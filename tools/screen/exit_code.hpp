@@ -2,7 +2,7 @@
 // What the program's exit code says: the table of docs/file_formats.md.
 #pragma once
 
-namespace warren::exit_code {
+namespace warren::tools::exit_code {
 
 inline constexpr int success = 0;
 inline constexpr int no_path = 1;  ///< or `verify` refutes the answer
@@ -16,4 +16,4 @@ inline constexpr int hung_up = 129;
 inline constexpr int interrupted = 130;
 inline constexpr int terminated = 143;
 
-}  // namespace warren::exit_code
+}  // namespace warren::tools::exit_code

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 constexpr std::size_t heap_bytes = 120 << 10;  // below what malloc() maps by itself, so that it gives them out again
@@ -36,4 +36,4 @@ void take_first_pages() {
   populate(here - stack_bytes, stack_bytes);
 }
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -3,9 +3,9 @@
 // microsecond each on a good day, ten on a bad one. A small question touches no more than these.
 #pragma once
 
-namespace warren {
+namespace warren::tools {
 
 /// Never fails: a kernel that knows no such call gives the pages one by one, as they are touched.
 void take_first_pages();
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -11,7 +11,7 @@
 
 #include "tools/screen/exit_code.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 /// For std::terminate: what was thrown where nothing may be thrown?
@@ -52,4 +52,4 @@ int say_memory_is_out() noexcept {
 
 void install_last_words() { std::set_terminate(end_at_once); }
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -5,7 +5,7 @@
 
 #include <string_view>
 
-namespace warren {
+namespace warren::tools {
 
 /// Where the caller has closed standard input, output or error, what is opened first would take its number, and results
 /// and messages would end up in it. Such a descriptor fails from now on when it is used.
@@ -21,4 +21,4 @@ int say_memory_is_out() noexcept;
 /// it would have been aborted.
 void install_last_words();
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -19,7 +19,7 @@
 #include "tools/screen/output_names.hpp"
 #include "tools/words/option_values.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 /// Of all verbs: the options whose values are files that are written, and that are read. Operands are read.
@@ -187,4 +187,4 @@ void check_not_written(const Arguments& arguments, const std::optional<RobotSpec
   if (robot) check_not_written(arguments, robot->table);
 }
 
-}  // namespace warren
+}  // namespace warren::tools

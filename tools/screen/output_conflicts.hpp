@@ -9,7 +9,7 @@
 #include "scenes/scene/scene.hpp"
 #include "tools/words/arguments.hpp"
 
-namespace warren {
+namespace warren::tools {
 
 /// Throws UsageError where an output that the command line names is one of its inputs or another of its outputs, or
 /// where standard output is to take two or standard input to give two.
@@ -20,4 +20,4 @@ void check_not_written(const Arguments& arguments, const std::string& input);
 /// The same for an arm's table.
 void check_not_written(const Arguments& arguments, const std::optional<RobotSpec>& robot);
 
-}  // namespace warren
+}  // namespace warren::tools

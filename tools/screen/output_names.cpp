@@ -16,7 +16,7 @@
 #include "scenes/text/output_file_io.hpp"
 #include "tools/screen/last_words.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 [[noreturn]] void fail(const std::string& path, int error) {
@@ -95,4 +95,4 @@ void write_plots(const Arguments& arguments, const Execution& execution, bool wa
   plots().write(*file, arguments.command_line(), within);
 }
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -13,7 +13,7 @@
 #include "pictures/plots/plots_page.hpp"
 #include "tools/words/arguments.hpp"
 
-namespace warren {
+namespace warren::tools {
 
 /// Throws WriteError if `path` can't be written as things stand. Creates and changes nothing.
 void check_writable(const std::string& path);
@@ -46,4 +46,4 @@ std::string folder_of(const std::string& path);
 /// Says on standard error what is drawn otherwise than usual, if anything is and --quiet is not given.
 void say_of_picture(const Arguments& arguments, const std::string& file, const std::vector<std::string>& notes);
 
-}  // namespace warren
+}  // namespace warren::tools

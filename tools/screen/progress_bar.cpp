@@ -8,7 +8,7 @@
 
 #include "scenes/text/human_units.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 using namespace std::chrono_literals;
@@ -99,4 +99,4 @@ void ProgressBar::draw() {
   columns_ = line.size();
 }
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -16,7 +16,7 @@
 #include "tools/screen/terminal.hpp"
 #include "tools/screen/whole_run.hpp"
 
-namespace warren {
+namespace warren::tools {
 
 class ProgressBar {
  public:
@@ -54,4 +54,4 @@ std::string erasing(std::size_t columns, std::size_t width);
 std::string progress_line(const RunMoment& moment, double items_per_s, std::string_view of_whole_run,
                           std::size_t width);
 
-}  // namespace warren
+}  // namespace warren::tools

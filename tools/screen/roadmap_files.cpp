@@ -23,7 +23,7 @@
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/world_files.hpp"
 
-namespace warren {
+namespace warren::tools {
 
 void check_rules_of_maps(const Arguments& arguments) {
   if (!arguments.has("--map-rules") || arguments.has("--world")) return;
@@ -73,4 +73,4 @@ int draw_roadmap(const Arguments& arguments, const std::string& file, const Pict
   return exit_code::success;
 }
 
-}  // namespace warren
+}  // namespace warren::tools

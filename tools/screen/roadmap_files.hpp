@@ -10,7 +10,7 @@
 #include "tools/words/arguments.hpp"
 #include "tools/words/command.hpp"
 
-namespace warren {
+namespace warren::tools {
 
 inline constexpr OptionSpec roadmap_world_option{"--world", "WORLD",
                                                  "the world that the roadmap was built for, where its file has none"};
@@ -28,4 +28,4 @@ bool is_roadmap_named(const std::string& file);
 /// The picture of ROADMAP in a file. The exit code; throws as load_roadmap and write_picture do.
 int draw_roadmap(const Arguments& arguments, const std::string& file, const PictureOptions& options);
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -17,7 +17,7 @@
 #include "tools/screen/signals.hpp"
 #include "tools/words/option_values.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 constexpr OptionSpec run_specs[] = {
@@ -94,7 +94,7 @@ void Run::end() {
   bar_.reset();
   if (execution_.trace == nullptr) return;
   execution_.trace = nullptr;
-  write_file(trace_file_, trace_json(*trace_), Execution{});
+  write_file(trace_file_, studies::trace_json(*trace_), Execution{});
 }
 
 int exit_code_of(StopReason reason) {
@@ -110,4 +110,4 @@ int exit_code_of(StopReason reason) {
   }
 }
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -20,7 +20,7 @@
 #include "tools/words/arguments.hpp"
 #include "tools/words/command.hpp"
 
-namespace warren {
+namespace warren::tools {
 
 /// --threads --budget --memory --quiet --progress --color --trace
 std::span<const OptionSpec> run_option_specs();
@@ -75,4 +75,4 @@ class Run {
 /// 124 for a budget, 129, 130 and 143 for signals.
 int exit_code_of(StopReason reason);
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -10,7 +10,7 @@
 #include "parallel/mapped_ranges.hpp"
 #include "tools/screen/exit_code.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 constinit SignalFlag flag{0};
@@ -87,4 +87,4 @@ const SignalFlag& signal_flag() { return flag; }
 
 void forget_signal() { flag.store(0, std::memory_order_relaxed); }
 
-}  // namespace warren
+}  // namespace warren::tools

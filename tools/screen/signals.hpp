@@ -7,7 +7,7 @@
 
 #include "parallel/deadline.hpp"
 
-namespace warren {
+namespace warren::tools {
 
 void install_signal_handlers();
 
@@ -16,4 +16,4 @@ const SignalFlag& signal_flag();
 /// The signal that came has done what it could: the next one stops what runs then.
 void forget_signal();
 
-}  // namespace warren
+}  // namespace warren::tools

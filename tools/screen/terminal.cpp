@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <string>
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 std::string_view environment(const char* name) {
@@ -44,4 +44,4 @@ std::size_t terminal_width() {
 
 void print_text(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); }
 
-}  // namespace warren
+}  // namespace warren::tools

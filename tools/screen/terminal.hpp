@@ -8,7 +8,7 @@
 
 #include "scenes/text/palette.hpp"  // IWYU pragma: export
 
-namespace warren {
+namespace warren::tools {
 
 enum class ColorMode : std::uint8_t { automatic, always, never };
 constexpr auto enum_names(ColorMode) { return std::array<std::string_view, 3>{"auto", "always", "never"}; }
@@ -28,4 +28,4 @@ std::size_t terminal_width();
 /// Appends to standard output; main tells at the end whether it was all written.
 void print_text(std::string_view text);
 
-}  // namespace warren
+}  // namespace warren::tools

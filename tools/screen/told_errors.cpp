@@ -19,7 +19,7 @@
 #include "tools/screen/last_words.hpp"
 #include "tools/screen/run_of_verb.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 int report_bug(std::string_view program, std::string_view what) {
@@ -67,4 +67,4 @@ int run_with_errors_told(std::string_view program, std::string_view hint, const 
   }
 }
 
-}  // namespace warren
+}  // namespace warren::tools

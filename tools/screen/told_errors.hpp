@@ -5,7 +5,7 @@
 #include <functional>
 #include <string_view>
 
-namespace warren {
+namespace warren::tools {
 
 /// Runs the program of that name and gives its exit code; what it has printed is on its way then. hint: follows what is
 /// said of a command line that can't be.
@@ -14,4 +14,4 @@ int run_with_errors_told(std::string_view program, std::string_view hint, const 
 /// "NAME: text" on standard error; gives the code back.
 int complain(std::string_view program, int code, std::string_view text);
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace warren {
+namespace warren::tools {
 
 /// The stage of the moment, or a later one that has begun.
 bool WholeRun::enter(const RunMoment& moment) {
@@ -49,4 +49,4 @@ std::optional<double> WholeRun::seconds_left(const RunMoment& moment) {
   return (moment.seconds - began_s_) * (1.0 - *part) / *part;
 }
 
-}  // namespace warren
+}  // namespace warren::tools

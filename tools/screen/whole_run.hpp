@@ -10,7 +10,7 @@
 #include <span>
 #include <string_view>
 
-namespace warren {
+namespace warren::tools {
 
 /// A stage that a run will come to, and its share of the run's time, in any unit.
 struct ExpectedStage {
@@ -51,4 +51,4 @@ class WholeRun {
   double part_ = 0.0;
 };
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -25,7 +25,7 @@
 #include "tools/screen/output_names.hpp"
 #include "tools/words/option_values.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 constexpr OptionSpec world_specs[] = {
@@ -142,4 +142,4 @@ void note_left_out(const Arguments& arguments, const Scene& scene, const std::st
       fmt::format("warren: note: {}: its format has no {}: left out\n", printable(file), fmt::join(lost, ", ")));
 }
 
-}  // namespace warren
+}  // namespace warren::tools

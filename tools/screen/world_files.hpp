@@ -16,7 +16,7 @@
 #include "tools/words/arguments.hpp"
 #include "tools/words/command.hpp"
 
-namespace warren {
+namespace warren::tools {
 
 /// --map-rules
 std::span<const OptionSpec> world_option_specs();
@@ -45,4 +45,4 @@ void note_left_out(const Arguments& arguments, const Scene& scene, const std::st
 /// Throws UsageError unless `file` has an ending that write_world knows, WriteError unless it can be written.
 void check_world_file(const std::string& file);
 
-}  // namespace warren
+}  // namespace warren::tools

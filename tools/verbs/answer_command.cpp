@@ -23,7 +23,7 @@
 #include "tools/words/picture_words.hpp"
 #include "worlds/rasters/map_borders.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 constexpr OptionSpec output_specs[] = {
@@ -209,4 +209,4 @@ int AnswerCommand::exit_code() const {
   return answer_.verified ? exit_code::success : exit_code::no_path;
 }
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -20,7 +20,7 @@
 #include "tools/words/arguments.hpp"
 #include "tools/words/command.hpp"
 
-namespace warren {
+namespace warren::tools {
 
 /// --json --no-path --svg, and how a picture looks
 std::vector<OptionSpec> answer_output_specs();
@@ -86,4 +86,4 @@ class AnswerCommand {
   bool json_said_ = false;                    ///< some of it is where it can't be taken back
 };
 
-}  // namespace warren
+}  // namespace warren::tools

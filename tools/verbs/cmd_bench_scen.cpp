@@ -16,7 +16,7 @@
 #include "tools/screen/terminal.hpp"
 #include "tools/words/command.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 constexpr OptionSpec bench_scen_specs[] = {
@@ -59,10 +59,10 @@ int bench_scen(const Arguments& arguments) {
   const auto given = arguments.value("--map");
   const OccupancyMap map = given ? read_moving_ai_map(InputFile(*given, run.execution()), run.execution())
                                  : read_its_map(arguments, scenarios.front().map, run.execution());
-  const ScenarioCheck check = check_scenarios(map, scenarios, file, run.execution());
+  const studies::ScenarioCheck check = studies::check_scenarios(map, scenarios, file, run.execution());
   run.end();
-  if (json) write_file(*json, scenario_json(check), run.execution());
-  if (!run.quiet() && json != "-") print_text(scenario_summary(check, run.palette()));
+  if (json) write_file(*json, studies::scenario_json(check), run.execution());
+  if (!run.quiet() && json != "-") print_text(studies::scenario_summary(check, run.palette()));
   return check.differing() == 0 ? exit_code::success : exit_code::no_path;
 }
 
@@ -75,4 +75,4 @@ Command bench_scen_command() {
   return command;
 }
 
-}  // namespace warren
+}  // namespace warren::tools

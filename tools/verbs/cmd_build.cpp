@@ -21,7 +21,7 @@
 #include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 constexpr OptionSpec build_specs[] = {
@@ -89,4 +89,4 @@ Command build_command() {
   return command;
 }
 
-}  // namespace warren
+}  // namespace warren::tools

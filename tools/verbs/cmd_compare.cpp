@@ -21,7 +21,7 @@
 #include "tools/verbs/run_comparison.hpp"
 #include "tools/words/command.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 constexpr OptionSpec output_specs[] = {
@@ -40,7 +40,7 @@ constexpr OptionSpec output_specs[] = {
 bool check_outputs_of_compare(const Arguments& arguments) {
   const bool taken = check_reports(arguments, {"--json", "--csv", "--runs", "--svg", "--html", "--log"});
   check_plots(arguments);
-  if (const auto folder = arguments.value("--pictures")) make_folder(*folder);
+  if (const auto folder = arguments.value("--pictures")) studies::make_folder(*folder);
   if (arguments.has("--log") && arguments.has("--sizes")) {
     throw UsageError("--log: holds the runs on one world; --sizes has many graphs");
   }
@@ -62,13 +62,13 @@ class CompareCommand {
     compare(run);
     run.end();
     if (arguments_.has("--svg") || arguments_.has("--html")) {
-      for (std::string note : {note_on_heat_maps(comparison_), note_on_box_plots(comparison_)}) {
+      for (std::string note : {studies::note_on_heat_maps(comparison_), studies::note_on_box_plots(comparison_)}) {
         if (!note.empty()) comparison_.notes.push_back(std::move(note));
       }
     }
     write_outputs();
     run.conclude(standard_output_taken_, comparison_.stopped,
-                 [&] { return comparison_summary(comparison_, run.palette()); });
+                 [&] { return studies::comparison_summary(comparison_, run.palette()); });
     return exit_code();
   }
 
@@ -76,7 +76,7 @@ class CompareCommand {
   ExpectedStages expected_stages() const;
   void compare(const Run& run);
   void write_outputs() const;
-  OmplExperiment experiment() const;
+  studies::OmplExperiment experiment() const;
   int exit_code() const;
 
   const Arguments& arguments_;
@@ -84,7 +84,7 @@ class CompareCommand {
   bool standard_output_taken_;
   std::chrono::system_clock::time_point begin_;
   Execution execution_;
-  Comparison comparison_;
+  studies::Comparison comparison_;
   std::optional<Outcome> no_graph_;  // why the world gave none
 };
 
@@ -109,18 +109,19 @@ void CompareCommand::compare(const Run& run) {
 }
 
 void CompareCommand::write_outputs() const {
-  write_report(arguments_, "--json", [&] { return comparison_json(comparison_); });
-  write_report(arguments_, "--csv", [&] { return comparison_csv(comparison_); });
-  write_report(arguments_, "--runs", [&] { return comparison_runs(comparison_); });
-  write_plots(arguments_, execution_, comparison_.stopped.has_value(), [&] { return comparison_plots(comparison_); });
-  write_report(arguments_, "--html", [&] { return comparison_page(comparison_, arguments_.command_line()); });
-  write_report(arguments_, "--log", [&] { return ompl_log(comparison_, experiment()); });
+  write_report(arguments_, "--json", [&] { return studies::comparison_json(comparison_); });
+  write_report(arguments_, "--csv", [&] { return studies::comparison_csv(comparison_); });
+  write_report(arguments_, "--runs", [&] { return studies::comparison_runs(comparison_); });
+  write_plots(arguments_, execution_, comparison_.stopped.has_value(),
+              [&] { return studies::comparison_plots(comparison_); });
+  write_report(arguments_, "--html", [&] { return studies::comparison_page(comparison_, arguments_.command_line()); });
+  write_report(arguments_, "--log", [&] { return studies::ompl_log(comparison_, experiment()); });
 }
 
-OmplExperiment CompareCommand::experiment() const {
+studies::OmplExperiment CompareCommand::experiment() const {
   std::array<char, 256> host{};
   if (::gethostname(host.data(), host.size() - 1) != 0) host.fill('\0');
-  OmplExperiment e;
+  studies::OmplExperiment e;
   e.name = "compare_" + options_.world.value_or("");
   for (char& c : e.name) c = c == ' ' || c == '\t' ? '_' : c;
   e.hostname = host[0] == '\0' ? "unknown" : std::string(host.data());
@@ -137,8 +138,8 @@ OmplExperiment CompareCommand::experiment() const {
 int CompareCommand::exit_code() const {
   if (comparison_.stopped) return exit_code_of(*comparison_.stopped);
   bool any_solved = false;
-  for (const Contender& contender : comparison_.contenders) {
-    for (const ComparedRun& run : contender.runs) {
+  for (const studies::Contender& contender : comparison_.contenders) {
+    for (const studies::ComparedRun& run : contender.runs) {
       if (run.outcome == Outcome::stopped) return exit_code::budget;
       any_solved = any_solved || run.solved();
     }
@@ -158,4 +159,4 @@ Command compare_command() {
   return command;
 }
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -6,7 +6,7 @@
 #include "tools/words/command.hpp"
 #include "tools/words/option_values.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 // Bash splits words at "=" and ":" where COMP_WORDBREAKS has them, and replaces only what stands behind the last of
@@ -120,4 +120,4 @@ Command completion_command() {
   return {"completion", "SHELL", "print completions for bash, zsh or fish", {}, completion};
 }
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -24,7 +24,7 @@
 #include "tools/words/picture_words.hpp"
 #include "worlds/rasters/map_borders.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 constexpr OptionSpec convert_specs[] = {
@@ -112,4 +112,4 @@ Command convert_command() {
   return command;
 }
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -18,7 +18,7 @@
 #include "tools/words/command.hpp"
 #include "tools/words/option_values.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 constexpr OptionSpec example_specs[] = {{"--output", "FOLDER", "where to (default: where you are)", {}, "-o"}};
@@ -108,4 +108,4 @@ Command example_command() {
   return command;
 }
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -14,7 +14,7 @@
 #include "tools/words/command.hpp"
 #include "tools/words/picture_words.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 constexpr OptionSpec export_specs[] = {
@@ -67,4 +67,4 @@ Command export_command() {
   return command;
 }
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -29,7 +29,7 @@
 #include "tools/words/picture_words.hpp"
 #include "tools/words/planner_words.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 constexpr OptionSpec generate_specs[] = {
@@ -177,4 +177,4 @@ Command generate_command() {
   return command;
 }
 
-}  // namespace warren
+}  // namespace warren::tools

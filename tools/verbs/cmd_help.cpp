@@ -5,7 +5,7 @@
 #include "tools/words/command.hpp"
 #include "tools/words/help.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 int help(const Arguments& arguments) {
@@ -18,4 +18,4 @@ int help(const Arguments& arguments) {
 
 Command help_command() { return {"help", "[COMMAND]", "the commands, or the options of one", {}, help}; }
 
-}  // namespace warren
+}  // namespace warren::tools

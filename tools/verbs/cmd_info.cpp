@@ -27,7 +27,7 @@
 #include "tools/screen/world_files.hpp"
 #include "tools/words/command.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 constexpr OptionSpec info_specs[] = {
@@ -108,4 +108,4 @@ Command info_command() {
   return command;
 }
 
-}  // namespace warren
+}  // namespace warren::tools

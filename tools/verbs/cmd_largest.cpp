@@ -20,7 +20,7 @@
 #include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 constexpr double most_cells = 4294967295.0;  // of a maze that is held
@@ -47,21 +47,21 @@ double share_value(std::string_view option, std::string_view text) {
   return number_value(option, text, 0.01, 100.0) / 100.0;
 }
 
-SizeSearch size_search(const Arguments& arguments, double shape_rows, double shape_cols, bool is_streamed) {
+studies::SizeSearch size_search(const Arguments& arguments, double shape_rows, double shape_cols, bool is_streamed) {
   const double lean = std::sqrt(std::max(shape_rows / shape_cols, shape_cols / shape_rows));
-  SizeSearch search;
+  studies::SizeSearch search;
   // Rounding the rows and columns of a shape may add half a row: stay a little under the limit.
   const double limit = std::floor(std::sqrt(is_streamed ? most_streamed : most_cells) - 1.0 - lean);
   if (limit < 1.0) throw UsageError("--rows, --cols: too far apart for any maze");
   const auto largest_side = static_cast<std::uint32_t>(limit);
-  search.most = given_count(arguments, "--max-size", 1, largest_side).value_or(largest_side);
+  search.most = given_count(arguments, "--max-size", 1, studies::largest_side).value_or(studies::largest_side);
   search.least = static_cast<std::uint32_t>(std::min(std::ceil(lean), limit));
   if (search.most < search.least) {
     throw UsageError(
         fmt::format("--max-size: with these --rows and --cols at least {} (found: {})", search.least, search.most));
   }
-  search.start =
-      given_count(arguments, "--start-size", 1, largest_side).value_or(std::clamp(128U, search.least, search.most));
+  search.start = given_count(arguments, "--start-size", 1, studies::largest_side)
+                     .value_or(std::clamp(128U, search.least, search.most));
   if (search.start < search.least || search.start > search.most) {
     throw UsageError(fmt::format("--start-size: expected {} to {}, as --max-size and the shape say (found: {})",
                                  search.least, search.most, search.start));
@@ -70,14 +70,14 @@ SizeSearch size_search(const Arguments& arguments, double shape_rows, double sha
   return search;
 }
 
-LargestOptions largest_options(const Arguments& arguments) {
+studies::LargestOptions largest_options(const Arguments& arguments) {
   constexpr double most_shape = 1e6;
   constexpr std::uint64_t most_seeds = 1000;
   constexpr std::uint64_t last_seed = std::numeric_limits<std::uint64_t>::max() - most_seeds;
   const auto shape = [&](std::string_view option) {
     return given_value(arguments, option, number_value, 1.0 / most_shape, most_shape).value_or(1.0);
   };
-  LargestOptions options;
+  studies::LargestOptions options;
   options.budget_s = given_value(arguments, "--budget", duration_value).value_or(default_budget_s);
   options.shape_rows = shape("--rows");
   options.shape_cols = shape("--cols");
@@ -94,27 +94,29 @@ LargestOptions largest_options(const Arguments& arguments) {
   return options;
 }
 
-int exit_code(const LargestResult& result) {
+int exit_code(const studies::LargestResult& result) {
   if (result.signal) return exit_code_of(*result.signal);
   if (!result.best.empty()) return exit_code::success;
   // Nothing fitted: were the smallest mazes unsolvable with these options, or only too slow or too large?
-  const bool unsolved = std::any_of(result.trials.begin(), result.trials.end(), [](const MazeTrial& t) {
+  const bool unsolved = std::any_of(result.trials.begin(), result.trials.end(), [](const studies::MazeTrial& t) {
     return t.outcome != Outcome::solved && t.outcome != Outcome::stopped;
   });
   return unsolved ? exit_code::no_path : exit_code::budget;
 }
 
 int largest(const Arguments& arguments) {
-  const LargestOptions options = largest_options(arguments);
+  const studies::LargestOptions options = largest_options(arguments);
   const bool standard_output_taken = check_reports(arguments, {"--json", "--svg"});
   check_plots(arguments);
   Run run(arguments, RunScope::each_run);
-  const LargestResult result = find_largest(options, run.execution(), [&](std::string_view line) { run.note(line); });
+  const studies::LargestResult result =
+      studies::find_largest(options, run.execution(), [&](std::string_view line) { run.note(line); });
   run.end();
-  write_report(arguments, "--json", [&] { return largest_json(options, result); });
+  write_report(arguments, "--json", [&] { return studies::largest_json(options, result); });
   write_plots(arguments, run.execution(), result.signal.has_value(),
-              [&] { return PlotsPage{{largest_plot(options, result)}}; });
-  run.conclude(standard_output_taken, result.signal, [&] { return largest_summary(options, result, run.palette()); });
+              [&] { return PlotsPage{{studies::largest_plot(options, result)}}; });
+  run.conclude(standard_output_taken, result.signal,
+               [&] { return studies::largest_summary(options, result, run.palette()); });
   return exit_code(result);
 }
 
@@ -130,4 +132,4 @@ Command largest_command() {
   return command;
 }
 
-}  // namespace warren
+}  // namespace warren::tools

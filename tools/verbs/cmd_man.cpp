@@ -17,7 +17,7 @@
 #include "tools/words/help.hpp"
 #include "tools/words/option_groups.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 /// For troff: hyphens as typed, no leading dot or quote.
@@ -172,4 +172,4 @@ Command man_command() {
   return command;
 }
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -29,7 +29,7 @@
 #include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 constexpr OptionSpec query_specs[] = {
@@ -182,4 +182,4 @@ Command query_command() {
   return command;
 }
 
-}  // namespace warren
+}  // namespace warren::tools

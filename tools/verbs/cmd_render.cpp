@@ -19,7 +19,7 @@
 #include "tools/words/picture_words.hpp"
 #include "worlds/rasters/map_borders.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 constexpr OptionSpec render_specs[] = {
@@ -98,4 +98,4 @@ Command render_command() {
   return command;
 }
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -19,7 +19,7 @@
 #include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 constexpr OptionSpec study_specs[] = {
@@ -81,9 +81,9 @@ std::vector<SolveOptions> planners_of(const Arguments& arguments) {
   return all;
 }
 
-ScalingOptions scaling_options(const Arguments& arguments) {
+studies::ScalingOptions scaling_options(const Arguments& arguments) {
   constexpr std::uint32_t most_repeats = 1000;
-  ScalingOptions options;
+  studies::ScalingOptions options;
   options.sizes = sizes_of(arguments);
   options.threads = threads_of(arguments);
   options.planners = planners_of(arguments);
@@ -97,11 +97,11 @@ ScalingOptions scaling_options(const Arguments& arguments) {
   return options;
 }
 
-int exit_code(const ScalingResult& result) {
+int exit_code(const studies::ScalingResult& result) {
   if (result.signal) return exit_code_of(*result.signal);
   bool stopped = !result.ungenerated.empty();
   bool unsolved = false;
-  for (const ScalingRun& run : result.runs) {
+  for (const studies::ScalingRun& run : result.runs) {
     stopped = stopped || run.trial.outcome == Outcome::stopped;
     unsolved = unsolved || !run.trial.verified;
   }
@@ -110,16 +110,16 @@ int exit_code(const ScalingResult& result) {
 }
 
 int scale(const Arguments& arguments) {
-  const ScalingOptions options = scaling_options(arguments);
+  const studies::ScalingOptions options = scaling_options(arguments);
   const bool standard_output_taken = check_reports(arguments, {"--json", "--csv", "--html"});
   Run run(arguments, RunScope::each_run_and_threads);
-  const ScalingResult result =
-      run_scaling_study(options, run.execution(), [&](std::string_view line) { run.note(line); });
+  const studies::ScalingResult result =
+      studies::run_scaling_study(options, run.execution(), [&](std::string_view line) { run.note(line); });
   run.end();
-  write_report(arguments, "--json", [&] { return scaling_json(options, result); });
-  write_report(arguments, "--csv", [&] { return scaling_csv(result); });
-  write_report(arguments, "--html", [&] { return scaling_page(result, arguments.command_line()); });
-  run.conclude(standard_output_taken, result.signal, [&] { return scaling_summary(result, run.palette()); });
+  write_report(arguments, "--json", [&] { return studies::scaling_json(options, result); });
+  write_report(arguments, "--csv", [&] { return studies::scaling_csv(result); });
+  write_report(arguments, "--html", [&] { return studies::scaling_page(result, arguments.command_line()); });
+  run.conclude(standard_output_taken, result.signal, [&] { return studies::scaling_summary(result, run.palette()); });
   return exit_code(result);
 }
 
@@ -135,4 +135,4 @@ Command scale_command() {
   return command;
 }
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -26,7 +26,7 @@
 #include "tools/words/option_values.hpp"
 #include "tools/words/question_words.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 constexpr std::uint16_t usual_port = 8765;
@@ -40,7 +40,7 @@ constexpr OptionSpec serve_specs[] = {
     roadmap_world_option,
 };
 
-std::unique_ptr<ServedWorld> load_served(const Arguments& arguments, const Run& run) {
+std::unique_ptr<serve::ServedWorld> load_served(const Arguments& arguments, const Run& run) {
   const std::string& file = arguments.operand(0);
   const Question body = question_words(arguments);
   StageTimes seconds;
@@ -49,15 +49,16 @@ std::unique_ptr<ServedWorld> load_served(const Arguments& arguments, const Run& 
       if (arguments.has(name)) throw UsageError(fmt::format("{}: the roadmap was built with its own", name));
     }
     check_rules_of_maps(arguments);
-    return std::make_unique<ServedWorld>(load_roadmap(arguments, run.execution(), seconds), run.execution());
+    return std::make_unique<serve::ServedWorld>(load_roadmap(arguments, run.execution(), seconds), run.execution());
   }
   if (arguments.has("--world")) throw UsageError("--world: is for a roadmap whose file has none, and this is a world");
-  return std::make_unique<ServedWorld>(load_world(file, arguments, run.execution(), seconds), body, run.execution());
+  return std::make_unique<serve::ServedWorld>(load_world(file, arguments, run.execution(), seconds), body,
+                                              run.execution());
 }
 
-HttpPlace place_of(const Arguments& arguments) {
+serve::HttpPlace place_of(const Arguments& arguments) {
   constexpr std::uint64_t last_port = 65535;
-  HttpPlace place{.port = usual_port};
+  serve::HttpPlace place{.port = usual_port};
   if (const auto port = arguments.value("--port")) {
     place.port = static_cast<std::uint16_t>(count_value("--port", *port, 0, last_port));
   }
@@ -65,7 +66,7 @@ HttpPlace place_of(const Arguments& arguments) {
   return place;
 }
 
-void say_where(const HttpServer& server) {
+void say_where(const serve::HttpServer& server) {
   print_text(fmt::format("listening on {}\n", server.address()));
   if (std::fflush(stdout) != 0) throw WriteError("standard output", "it did not take all");
 }
@@ -88,19 +89,20 @@ std::string token_of(const Arguments& arguments, const Execution& execution) {
 }
 
 int serve(const Arguments& arguments) {
-  const HttpPlace place = place_of(arguments);
+  const serve::HttpPlace place = place_of(arguments);
   const auto budget_s = given_value(arguments, "--budget", duration_value);
   Run run(arguments, RunScope::each_run);
   const std::string token = token_of(arguments, run.execution());
-  std::unique_ptr<ServedWorld> world = load_served(arguments, run);
+  std::unique_ptr<serve::ServedWorld> world = load_served(arguments, run);
   run.end();
   run.give_back_pages();
-  ServiceLimits limits{.memory_bytes = run.execution().deadline->memory_bytes(), .threads = run.execution().threads};
+  serve::ServiceLimits limits{.memory_bytes = run.execution().deadline->memory_bytes(),
+                              .threads = run.execution().threads};
   if (budget_s) limits.budget_s = *budget_s;
   limits.writable = arguments.has("--writable");
   limits.wants_token = !token.empty();
-  WritableService service(std::move(world), limits, token);
-  HttpServer server(place, {.threads = std::max(2U, run.threads())}, service);
+  serve::WritableService service(std::move(world), limits, token);
+  serve::HttpServer server(place, {.threads = std::max(2U, run.threads())}, service);
   if (limits.writable && !server.is_loopback() && token.empty()) {
     throw UsageError(
         "--listen: whoever reaches this address could change the world; there --writable needs --token-file");
@@ -128,4 +130,4 @@ Command serve_command() {
   return command;
 }
 
-}  // namespace warren
+}  // namespace warren::tools

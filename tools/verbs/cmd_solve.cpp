@@ -11,8 +11,8 @@
 #include "solve/mazes/resume_file_io.hpp"
 #include "solve/mazes/solve_streamed.hpp"
 #include "solve/roadmaps/blocked_end_of_roadmap.hpp"
-#include "solve/roadmaps/solve_and_keep.hpp"
 #include "solve/solve.hpp"
+#include "solve/solve_and_keep.hpp"
 #include "solve/steps/blocked_end.hpp"
 #include "solve/steps/explain_answer.hpp"
 #include "solve/steps/kind_of_problem.hpp"
@@ -23,7 +23,7 @@
 #include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 constexpr OptionSpec solve_specs[] = {
@@ -138,4 +138,4 @@ Command solve_command() {
   return command;
 }
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -15,7 +15,7 @@
 #include "tools/screen/world_files.hpp"
 #include "tools/words/command.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 constexpr OptionSpec update_specs[] = {
@@ -70,4 +70,4 @@ Command update_command() {
   return command;
 }
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -25,7 +25,7 @@
 #include "tools/words/command.hpp"
 #include "tools/words/question_words.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 constexpr OptionSpec verify_specs[] = {
@@ -110,4 +110,4 @@ Command verify_command() {
   return command;
 }
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -11,7 +11,7 @@
 #include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 /// In the order in which they are dealt.
@@ -48,8 +48,8 @@ bool is_list(const Arguments& arguments, std::string_view option) {
   return arguments.value(option).value_or("").find(',') != std::string::npos;
 }
 
-DealtOption dealt_words(const ListOption& option, std::string_view name, const std::string& text) {
-  DealtOption dealt{option.option, {}};
+studies::DealtOption dealt_words(const ListOption& option, std::string_view name, const std::string& text) {
+  studies::DealtOption dealt{option.option, {}};
   for (const std::string& word : list_value(name, text)) {
     dealt.values.push_back({word, solve_words(Arguments::of(option.name, word))});
   }
@@ -75,9 +75,9 @@ void refuse(const Arguments& arguments, std::initializer_list<std::string_view> 
 
 std::span<const ListOption> list_options() { return listed; }
 
-PlannerDeal deal_words(const Arguments& arguments, std::vector<PlannerKind> planners, DealKind kind) {
+studies::PlannerDeal deal_words(const Arguments& arguments, std::vector<PlannerKind> planners, DealKind kind) {
   check_joining(arguments);
-  PlannerDeal deal;
+  studies::PlannerDeal deal;
   deal.planners = std::move(planners);
   std::vector<std::string_view> taken{"--seed"};
   for (const ListOption& option : listed) {
@@ -109,4 +109,4 @@ PlannerDeal deal_words(const Arguments& arguments, std::vector<PlannerKind> plan
   return deal;
 }
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -11,7 +11,7 @@
 #include "studies/contests/planner_deal.hpp"
 #include "tools/words/arguments.hpp"
 
-namespace warren {
+namespace warren::tools {
 
 /// Throws UsageError where one of these is given; `why` says what takes them.
 void refuse(const Arguments& arguments, std::initializer_list<std::string_view> options, std::string_view why);
@@ -29,6 +29,6 @@ std::span<const ListOption> list_options();
 enum class DealKind : std::uint8_t { planners, graph };
 
 /// Options with one value go to all contenders, those with several are dealt. Throws UsageError.
-PlannerDeal deal_words(const Arguments& arguments, std::vector<PlannerKind> planners, DealKind kind);
+studies::PlannerDeal deal_words(const Arguments& arguments, std::vector<PlannerKind> planners, DealKind kind);
 
-}  // namespace warren
+}  // namespace warren::tools

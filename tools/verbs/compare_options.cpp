@@ -15,7 +15,7 @@
 #include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 constexpr std::array<std::string_view, 1> peer_words{"boost"};
@@ -70,15 +70,15 @@ std::uint64_t first_seed(const Arguments& arguments) {
   return given_value(arguments, "--seed", count_value, std::uint64_t{0}, last).value_or(1);
 }
 
-PlannerContestOptions contest_options(const Arguments& arguments) {
+studies::PlannerContestOptions contest_options(const Arguments& arguments) {
   refuse(arguments, {"--sizes", "--degree", "--peer", "--graph"},
          "compares searches, and --planners compares planners; give one of the two");
   if (arguments.has("--trials") && arguments.has("--seeds")) {
     throw UsageError("--trials: with --planners the same as --seeds; give one of the two");
   }
   const auto planners = given_values(arguments, "--planners", "--planner", choice_value<PlannerKind>);
-  PlannerContestOptions options;
-  options.contenders = deal_planners(deal_words(arguments, planners, DealKind::planners));
+  studies::PlannerContestOptions options;
+  options.contenders = studies::deal_planners(deal_words(arguments, planners, DealKind::planners));
   options.pictures = arguments.value("--pictures").value_or("");
   options.look = picture_words(arguments, arguments.has("--pictures"), "--pictures FOLDER");
   options.first_seed = first_seed(arguments);
@@ -94,30 +94,32 @@ std::vector<E> choices(const Arguments& arguments, std::string_view list, std::v
   return given.empty() ? usual : given;
 }
 
-std::vector<SearchVariant> variants_of(const Arguments& arguments) {
+std::vector<studies::SearchVariant> variants_of(const Arguments& arguments) {
   const auto searches = choices<SearchKind>(
       arguments, "--searches", {SearchKind::bfs, SearchKind::dfs, SearchKind::dijkstra, SearchKind::astar});
-  const auto queues = choices<QueuePolicy>(arguments, "--queues",
-                                           {QueuePolicy::heap, QueuePolicy::lazy_heap, QueuePolicy::sorted_array,
-                                            QueuePolicy::resorted_array, QueuePolicy::linear_scan});
+  const auto queues = choices<studies::QueuePolicy>(
+      arguments, "--queues",
+      {studies::QueuePolicy::heap, studies::QueuePolicy::lazy_heap, studies::QueuePolicy::sorted_array,
+       studies::QueuePolicy::resorted_array, studies::QueuePolicy::linear_scan});
   const auto peer = arguments.value("--peer");
   if (peer) choice_value("--peer", *peer, peer_words);
-  std::vector<SearchVariant> variants;
+  std::vector<studies::SearchVariant> variants;
   bool any_queue = false;
   for (const SearchKind search : searches) {
-    any_queue = any_queue || has_queue(search);
-    if (!has_queue(search)) variants.push_back({search, std::nullopt, SearchLibrary::warren});
-    for (const QueuePolicy queue : queues) {
-      if (has_queue(search)) variants.push_back({search, queue, SearchLibrary::warren});
+    any_queue = any_queue || studies::has_queue(search);
+    if (!studies::has_queue(search)) variants.push_back({search, std::nullopt, studies::SearchLibrary::warren});
+    for (const studies::QueuePolicy queue : queues) {
+      if (studies::has_queue(search)) variants.push_back({search, queue, studies::SearchLibrary::warren});
     }
-    if (peer) variants.push_back({search, std::nullopt, SearchLibrary::boost});
+    if (peer) variants.push_back({search, std::nullopt, studies::SearchLibrary::boost});
   }
   if (!any_queue) refuse(arguments, {"--queues"}, "bfs and dfs have no priority queue; astar and dijkstra take one");
-  if (peer && !has_boost_graph()) graph_search({}, {SearchKind::bfs, std::nullopt, SearchLibrary::boost});  // says so
+  if (peer && !studies::has_boost_graph())
+    studies::graph_search({}, {SearchKind::bfs, std::nullopt, studies::SearchLibrary::boost});  // says so
   return variants;
 }
 
-std::optional<SizeSweepOptions> sweep_options(const Arguments& arguments) {
+std::optional<studies::SizeSweepOptions> sweep_options(const Arguments& arguments) {
   constexpr double most_degree = 1e6;
   constexpr std::uint64_t most_size = std::uint64_t{1} << 31;
   if (!arguments.has("--sizes")) {
@@ -125,7 +127,7 @@ std::optional<SizeSweepOptions> sweep_options(const Arguments& arguments) {
     refuse(arguments, {"--seeds"}, "counts the runs of --planners, or the random graphs of --sizes");
     return std::nullopt;
   }
-  SizeSweepOptions options;
+  studies::SizeSweepOptions options;
   options.sizes = given_values(arguments, "--sizes", "--sizes", [](std::string_view option, std::string_view word) {
     return static_cast<std::uint32_t>(count_value(option, word, 2, most_size));
   });
@@ -150,10 +152,10 @@ void take_graph_options(const Arguments& arguments, CompareOptions& options) {
   refuse(arguments, {"--heuristic"}, "is compared by --planners prm --heuristic euclidean,manhattan");
   refuse(arguments, {"--queue"}, "queues are compared; say --queues");
   options.graph = given_choice<PlannerKind>(arguments, "--graph");
-  PlannerDeal& deal = options.graph_deal;
+  studies::PlannerDeal& deal = options.graph_deal;
   deal = deal_words(arguments, options.graph ? std::vector{*options.graph} : planners_there_are(), DealKind::graph);
   deal.common.seed = first_seed(arguments);
-  deal_planners(deal);
+  studies::deal_planners(deal);
 }
 
 }  // namespace
@@ -202,4 +204,4 @@ CompareOptions compare_options(const Arguments& arguments) {
   return options;
 }
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -15,15 +15,15 @@
 #include "tools/words/arguments.hpp"
 #include "tools/words/command.hpp"
 
-namespace warren {
+namespace warren::tools {
 
 struct CompareOptions {
   std::optional<std::string> world;
-  std::optional<PlannerContestOptions> planners;  ///< planners are compared; else searches
-  SearchContestOptions searches;
-  std::optional<SizeSweepOptions> sweep;
+  std::optional<studies::PlannerContestOptions> planners;  ///< planners are compared; else searches
+  studies::SearchContestOptions searches;
+  std::optional<studies::SizeSweepOptions> sweep;
   std::optional<PlannerKind> graph;  ///< the planner whose graph is searched; none: the world's usual one
-  PlannerDeal graph_deal;            ///< options of that planner; its planners are all that may make the graph
+  studies::PlannerDeal graph_deal;   ///< options of that planner; its planners are all that may make the graph
   std::string pictures = {};         ///< the folder that takes the picture of the searches; empty: none is drawn
   PictureOptions look = {};
   double budget_s = std::numeric_limits<double>::infinity();  ///< of each run
@@ -35,4 +35,4 @@ std::vector<OptionSpec> compare_option_specs();
 /// Throws UsageError.
 CompareOptions compare_options(const Arguments& arguments);
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -13,7 +13,7 @@
 #include "tools/words/command.hpp"
 #include "tools/words/maze_words.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 struct Candidates {
@@ -187,4 +187,4 @@ std::string completion_lines(std::span<const std::string> words) {
   return to.text();
 }
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-namespace warren {
+namespace warren::tools {
 
 /// words: those behind the program's name, the last as far as it is typed (perhaps empty). A line a candidate, "WORD"
 /// or "WORD<tab>what it is", whole words that begin with the last one; then a line of ":", of "f" for files and "d" for
@@ -15,4 +15,4 @@ namespace warren {
 /// stands before a file's name, such as "--json=".
 std::string completion_lines(std::span<const std::string> words);
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -6,9 +6,9 @@
 
 #include "core/base/embedded_file.hpp"
 
-namespace warren {
+namespace warren::tools {
 
 /// By name; README.md, whose table says what to see, is one of them.
 std::span<const EmbeddedFile> example_files();
 
-}  // namespace warren
+}  // namespace warren::tools

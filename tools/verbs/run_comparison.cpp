@@ -16,7 +16,7 @@
 #include "studies/contests/search_pictures.hpp"
 #include "worlds/rasters/map_borders.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 /// What is wrong with the planner of one run is wrong with the list.
@@ -28,18 +28,18 @@ std::string about_planners(const UsageError& error) {
 }
 
 /// Bodies that turn plan among a map's borders, and pictures show them.
-bool needs_map_walls(const Scene& scene, const PlannerContestOptions& contest) {
+bool needs_map_walls(const Scene& scene, const studies::PlannerContestOptions& contest) {
   const RobotKind body = robot_of(scene, contest.contenders.front().question).kind;
   return !contest.pictures.empty() || (body != RobotKind::point && body != RobotKind::disc);
 }
 
-void add_pictures(Comparison& comparison, const std::string& folder, std::vector<std::string> notes) {
+void add_pictures(studies::Comparison& comparison, const std::string& folder, std::vector<std::string> notes) {
   comparison.notes.push_back("pictures: " + folder);
   std::move(notes.begin(), notes.end(), std::back_inserter(comparison.notes));
 }
 
-void compare_planners(const Scene& scene, const PlannerContestOptions& contest, const Execution& execution,
-                      Comparison& comparison) {
+void compare_planners(const Scene& scene, const studies::PlannerContestOptions& contest, const Execution& execution,
+                      studies::Comparison& comparison) {
   std::optional<Scene> bordered;
   if (scene.map && scene.walls.size() == 0 && needs_map_walls(scene, contest)) {
     bordered = scene;
@@ -47,43 +47,47 @@ void compare_planners(const Scene& scene, const PlannerContestOptions& contest, 
   }
   const Scene& world = bordered ? *bordered : scene;
   try {
-    run_planner_contest(world, contest, execution, comparison);
+    studies::run_planner_contest(world, contest, execution, comparison);
   } catch (const UsageError& error) {
     throw UsageError(about_planners(error));
   }
   if (contest.pictures.empty()) return;
-  add_pictures(comparison, contest.pictures, draw_contest(world, contest, comparison, contest.pictures, execution));
+  add_pictures(comparison, contest.pictures,
+               studies::draw_contest(world, contest, comparison, contest.pictures, execution));
 }
 
 /// The planner that was asked for, else the one that `solve` would take, with those of the options that it takes.
 SolveOptions graph_options(const CompareOptions& options, const Scene& scene) {
-  PlannerDeal deal = options.graph_deal;
+  studies::PlannerDeal deal = options.graph_deal;
   if (!options.graph) {
     SolveOptions all = deal.common;
-    for (const DealtOption& list : deal.lists) copy_option(list.option, all, list.values.front().value);
-    deal.planners = {usual_graph_planner(scene, deal.question, all)};
+    for (const studies::DealtOption& list : deal.lists)
+      studies::copy_option(list.option, all, list.values.front().value);
+    deal.planners = {studies::usual_graph_planner(scene, deal.question, all)};
   }
-  SolveOptions graph = deal_planners(deal).front().options;
+  SolveOptions graph = studies::deal_planners(deal).front().options;
   if (graph.planner == PlannerKind::prm) graph.roadmap.pipeline = PipelineKind::plain;  // tiles leave no roadmap
   return graph;
 }
 
 std::optional<Outcome> compare_searches(const CompareOptions& options, const Scene& scene, const Execution& execution,
-                                        Comparison& comparison, const std::function<void(std::string_view)>& note) {
+                                        studies::Comparison& comparison,
+                                        const std::function<void(std::string_view)>& note) {
   const Deadline deadline(execution.deadline, options.budget_s);
   Execution within = execution;
   within.deadline = &deadline;
-  const WorldGraph made = world_graph(scene, options.graph_deal.question, graph_options(options, scene), within);
+  const studies::WorldGraph made =
+      studies::world_graph(scene, options.graph_deal.question, graph_options(options, scene), within);
   if (made.graph.at.empty()) {
     comparison.notes.push_back(fmt::format("{}: {}", scene.source, name_of(made.outcome)));
     return made.outcome;
   }
   note(fmt::format("{}: {} vertices, {} edges, {} searches", scene.source, made.graph.graph.vertex_count(),
                    made.graph.graph.edge_count(), options.searches.variants.size()));
-  run_search_contest(made.graph, options.searches, execution, comparison);
+  studies::run_search_contest(made.graph, options.searches, execution, comparison);
   if (options.pictures.empty()) return std::nullopt;
   add_pictures(comparison, options.pictures,
-               draw_searches(scene, made.graph, options.searches, options.pictures, options.look, execution));
+               studies::draw_searches(scene, made.graph, options.searches, options.pictures, options.look, execution));
   return std::nullopt;
 }
 
@@ -97,7 +101,8 @@ void check_heading(const CompareOptions& options, const Scene& scene) {
 }  // namespace
 
 std::optional<Outcome> run_comparison(const CompareOptions& options, const Scene* scene, const Execution& execution,
-                                      Comparison& comparison, const std::function<void(std::string_view)>& note) {
+                                      studies::Comparison& comparison,
+                                      const std::function<void(std::string_view)>& note) {
   std::optional<Outcome> no_graph;
   if (scene != nullptr) check_heading(options, *scene);
   try {
@@ -105,11 +110,11 @@ std::optional<Outcome> run_comparison(const CompareOptions& options, const Scene
     if (scene != nullptr && !options.planners) {
       no_graph = compare_searches(options, *scene, execution, comparison, note);
     }
-    if (options.sweep) run_size_sweep(*options.sweep, execution, comparison, note);
+    if (options.sweep) studies::run_size_sweep(*options.sweep, execution, comparison, note);
   } catch (const Stopped& stopped) {
     comparison.stopped = stopped.reason;
   }
   return no_graph;
 }
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -13,12 +13,13 @@
 #include "studies/compare/comparison.hpp"
 #include "tools/verbs/compare_options.hpp"
 
-namespace warren {
+namespace warren::tools {
 
 /// Runs them and adds what they say; what a signal cuts is there until then, and comparison.stopped names it. `scene`:
 /// the world, nullptr where only random graphs are asked for. `note` is told how far it is. Gives back why the world
 /// has no graph to search, if it has none. Throws UsageError.
 std::optional<Outcome> run_comparison(const CompareOptions& options, const Scene* scene, const Execution& execution,
-                                      Comparison& comparison, const std::function<void(std::string_view)>& note);
+                                      studies::Comparison& comparison,
+                                      const std::function<void(std::string_view)>& note);
 
-}  // namespace warren
+}  // namespace warren::tools

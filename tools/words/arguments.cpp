@@ -9,7 +9,7 @@
 #include "tools/words/closest_match.hpp"
 #include "tools/words/command.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 const OptionSpec* find_option(const Command& command, std::string_view name) {
@@ -136,4 +136,4 @@ Arguments Arguments::without(std::span<const std::string_view> options) const {
   return others;
 }
 
-}  // namespace warren
+}  // namespace warren::tools

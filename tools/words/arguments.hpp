@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace warren {
+namespace warren::tools {
 
 struct Command;
 
@@ -51,4 +51,4 @@ class Arguments {
 /// Those between the blanks.
 std::vector<std::string> words_of(std::string_view text);
 
-}  // namespace warren
+}  // namespace warren::tools

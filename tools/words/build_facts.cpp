@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace warren {
+namespace warren::tools {
 
 std::string build_compiler() {
 #ifdef __clang__
@@ -34,4 +34,4 @@ std::string build_instruction_sets() {
 #endif
 }
 
-}  // namespace warren
+}  // namespace warren::tools

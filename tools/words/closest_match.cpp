@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-namespace warren {
+namespace warren::tools {
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::vector<std::size_t>> cost(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
@@ -36,4 +36,4 @@ std::string suggestion(std::string_view word, std::span<const std::string_view> 
   return best.empty() || best_distance > farthest ? "" : "; did you mean " + std::string{best} + "?";
 }
 
-}  // namespace warren
+}  // namespace warren::tools

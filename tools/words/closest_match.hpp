@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace warren {
+namespace warren::tools {
 
 /// Optimal string alignment distance. O(length a × length b).
 std::size_t edit_distance(std::string_view a, std::string_view b);
@@ -16,4 +16,4 @@ std::size_t edit_distance(std::string_view a, std::string_view b);
 std::string suggestion(std::string_view word, std::span<const std::string_view> known,
                        std::size_t farthest = std::string_view::npos);
 
-}  // namespace warren
+}  // namespace warren::tools

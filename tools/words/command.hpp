@@ -12,7 +12,7 @@
 
 #include "tools/words/arguments.hpp"
 
-namespace warren {
+namespace warren::tools {
 
 /// One long option. `value` names what follows it, a word each; empty for a flag. `choices` lists the words it takes,
 /// blank-separated. What a value is completed with follows from its name: FILE, FOLDER and WORLD are files, folders and
@@ -69,4 +69,4 @@ const std::vector<Command>& command_table();
 /// Throws UsageError, with the closest match.
 const Command& command_named(std::string_view name);
 
-}  // namespace warren
+}  // namespace warren::tools

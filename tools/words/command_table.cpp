@@ -6,7 +6,7 @@
 #include "tools/words/closest_match.hpp"
 #include "tools/words/command.hpp"
 
-namespace warren {
+namespace warren::tools {
 
 const std::vector<Command>& command_table() {
   static const std::vector<Command> table{
@@ -27,4 +27,4 @@ const Command& command_named(std::string_view name) {
   throw UsageError(std::string{what} + std::string{name} + suggestion(name, names));
 }
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -3,7 +3,7 @@
 #include "tools/words/option_values.hpp"
 #include "tools/words/planner_words.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 constexpr OptionSpec grid_specs[] = {
@@ -37,4 +37,4 @@ GridFields grid_words(const Arguments& arguments) {
   return grid;
 }
 
-}  // namespace warren
+}  // namespace warren::tools

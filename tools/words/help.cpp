@@ -8,7 +8,7 @@
 #include "tools/words/build_facts.hpp"
 #include "tools/words/option_groups.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 constexpr std::size_t left_width = 30;  // of options and verbs
@@ -113,4 +113,4 @@ std::string version_text(std::string_view commit) {
       commit, build_compiler(), build_instruction_sets());
 }
 
-}  // namespace warren
+}  // namespace warren::tools

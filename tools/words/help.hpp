@@ -7,7 +7,7 @@
 
 #include "tools/words/command.hpp"
 
-namespace warren {
+namespace warren::tools {
 
 /// The verbs, a line each.
 std::string program_help();
@@ -20,4 +20,4 @@ std::string option_usage(const OptionSpec& option);
 /// What "WORLD", an operand or a value of that name, is; empty where the name says enough.
 std::string_view meaning_of(std::string_view operand);
 
-}  // namespace warren
+}  // namespace warren::tools

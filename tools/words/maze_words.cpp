@@ -3,7 +3,7 @@
 
 #include "tools/words/option_values.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 constexpr OptionSpec maze_specs[] = {
@@ -27,4 +27,4 @@ MazeOptions maze_words(const Arguments& arguments, MazeOptions usual) {
   return usual;
 }
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -8,7 +8,7 @@
 #include "tools/words/arguments.hpp"
 #include "tools/words/command.hpp"
 
-namespace warren {
+namespace warren::tools {
 
 /// --algorithm --loops, where many mazes are made.
 std::span<const OptionSpec> maze_option_specs();
@@ -16,4 +16,4 @@ std::span<const OptionSpec> maze_option_specs();
 /// Algorithm and loops as the command line says, all else as it is in `usual`. Throws UsageError.
 MazeOptions maze_words(const Arguments& arguments, MazeOptions usual = {});
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 struct NamedGroup {
@@ -81,4 +81,4 @@ std::vector<std::pair<std::string_view, std::vector<const Command*>>> grouped_co
   return groups;
 }
 
-}  // namespace warren
+}  // namespace warren::tools

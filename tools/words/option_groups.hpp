@@ -9,7 +9,7 @@
 
 #include "tools/words/command.hpp"
 
-namespace warren {
+namespace warren::tools {
 
 struct OptionGroup {
   std::string_view title;  ///< "Question"
@@ -22,4 +22,4 @@ std::vector<OptionGroup> grouped_options(const Command& command);
 /// The headings of the verbs themselves, in the order of command_table().
 std::vector<std::pair<std::string_view, std::vector<const Command*>>> grouped_commands();
 
-}  // namespace warren
+}  // namespace warren::tools

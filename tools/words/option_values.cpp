@@ -11,7 +11,7 @@
 #include "core/base/error.hpp"
 #include "tools/words/closest_match.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 [[noreturn]] void refuse(std::string_view option, std::string_view expected, std::string_view found) {
@@ -162,4 +162,4 @@ std::vector<std::string> given_list(const Arguments& arguments, std::string_view
   return text ? list_value(option, *text) : std::vector<std::string>{};
 }
 
-}  // namespace warren
+}  // namespace warren::tools

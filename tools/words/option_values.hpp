@@ -14,7 +14,7 @@
 #include "core/base/types.hpp"
 #include "tools/words/arguments.hpp"
 
-namespace warren {
+namespace warren::tools {
 
 /// One finite number, read as C reads it but independent of the locale.
 std::optional<double> number_in(std::string_view text);
@@ -72,4 +72,4 @@ auto given_values(const Arguments& arguments, std::string_view list, std::string
   return values;
 }
 
-}  // namespace warren
+}  // namespace warren::tools

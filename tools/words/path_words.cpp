@@ -10,7 +10,7 @@
 #include "core/base/error.hpp"
 #include "tools/words/option_values.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 constexpr OptionSpec path_specs[] = {
@@ -71,4 +71,4 @@ PathFileOptions path_words(const Arguments& arguments) {
   return options;
 }
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -8,11 +8,11 @@
 #include "tools/words/arguments.hpp"
 #include "tools/words/command.hpp"
 
-namespace warren {
+namespace warren::tools {
 
 /// --path and what goes with it.
 std::span<const OptionSpec> path_option_specs();
 /// Throws UsageError, also for what goes with --path where that is not given.
 PathFileOptions path_words(const Arguments& arguments);
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -6,7 +6,7 @@
 #include "core/base/error.hpp"
 #include "tools/words/option_values.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 constexpr OptionSpec picture_specs[] = {
@@ -69,4 +69,4 @@ PictureOptions picture_words(const Arguments& arguments, bool is_drawn, std::str
   return options;
 }
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -8,7 +8,7 @@
 #include "tools/words/arguments.hpp"
 #include "tools/words/command.hpp"
 
-namespace warren {
+namespace warren::tools {
 
 /// --show --heading --size --dpi --title
 std::span<const OptionSpec> picture_option_specs();
@@ -18,4 +18,4 @@ std::span<const OptionSpec> picture_option_specs();
 PictureOptions picture_words(const Arguments& arguments, bool is_drawn, std::string_view draws,
                              std::string_view file = {});
 
-}  // namespace warren
+}  // namespace warren::tools

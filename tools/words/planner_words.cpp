@@ -8,7 +8,7 @@
 #include "solve/steps/kind_of_problem.hpp"
 #include "tools/words/option_values.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 constexpr OptionSpec roadmap_specs[] = {
@@ -187,4 +187,4 @@ std::vector<OptionSpec> solve_option_specs() {
   return specs;
 }
 
-}  // namespace warren
+}  // namespace warren::tools

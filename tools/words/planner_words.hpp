@@ -13,7 +13,7 @@
 #include "tools/words/arguments.hpp"
 #include "tools/words/command.hpp"
 
-namespace warren {
+namespace warren::tools {
 
 /// --planner --sampler --samples --neighbours --radius --search --queue --lazy --pipeline --optimise --seed: of the
 /// planners that build roadmaps of samples.
@@ -48,4 +48,4 @@ std::string names_of_planners(bool (*are)(PlannerKind));
 /// "--goal-bias" is Option::goal_bias; none: planners are not asked about it.
 std::optional<Option> option_of_words(std::string_view words);
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -4,7 +4,7 @@
 #include "core/base/error.hpp"
 #include "tools/words/option_values.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 constexpr OptionSpec question_specs[] = {
@@ -46,4 +46,4 @@ Question question_words(const Arguments& arguments) {
   return question;
 }
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -8,7 +8,7 @@
 #include "tools/words/arguments.hpp"
 #include "tools/words/command.hpp"
 
-namespace warren {
+namespace warren::tools {
 
 /// --robot --start --goal --clearance --contact
 std::span<const OptionSpec> question_option_specs();
@@ -16,4 +16,4 @@ std::span<const OptionSpec> question_option_specs();
 /// Nothing where nothing is said. Throws UsageError for values that no problem can have.
 Question question_words(const Arguments& arguments);
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -3,7 +3,7 @@
 #include "tools/words/option_values.hpp"
 #include "tools/words/planner_words.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 constexpr OptionSpec tree_specs[] = {
@@ -41,4 +41,4 @@ TreeFields tree_words(const Arguments& arguments) {
   return trees;
 }
 
-}  // namespace warren
+}  // namespace warren::tools

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The verification's own geometry: it shares nothing with core/geometry, so that a mistake there can't confirm itself.
-// A double evaluation with an error bound answers first; what it leaves open is decided by Dyadic numbers. Exact for
-// coordinates within core/base/types.hpp's limits.
+// The verification's own geometry: it shares nothing with core/plane/geometry, so that a mistake there can't confirm
+// itself. A double evaluation with an error bound answers first; what it leaves open is decided by Dyadic numbers.
+// Exact for coordinates within core/base/types.hpp's limits.
 #pragma once
 
 #include <algorithm>

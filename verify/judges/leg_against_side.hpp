@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What obstacles say about a path, one pair of leg and obstacle after the other: the least distance, the first
 // violation, the contacts. Pairs that are too far apart to matter are left out by their boxes; the others go to
-// worlds/exact_segments. Parts of the obstacles may be compared by different threads, each with a Comparison of its
-// own, and their tallies joined in any order.
+// verify/exact/exact_segments. Parts of the obstacles may be compared by different threads, each with a Comparison of
+// its own, and their tallies joined in any order.
 #pragma once
 
 #include <cstddef>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All obstacles of a scene against all legs of a path. The obstacles are streamed past a screen (worlds/path_screen)
-// that drops those surely too far away to matter; what it leaves is compared with the legs near it (worlds/leg_index,
-// worlds/verify_comparison). Where no obstacle comes within some leg lengths of the path the screen is of no use: then
-// the legs are searched by their boxes.
+// All obstacles of a scene against all legs of a path. The obstacles are streamed past a screen
+// (verify/near/path_screen) that drops those surely too far away to matter; what it leaves is compared with the legs
+// near it (verify/near/leg_index, verify/judges/leg_against_side). Where no obstacle comes within some leg lengths of
+// the path the screen is of no use: then the legs are searched by their boxes.
 #pragma once
 
 #include "parallel/execution.hpp"

@@ -34,12 +34,12 @@ struct VerifiedCar {
 };
 
 /// The car among the scene's walls, polygons and bounds; on a map among its cells, whose borders are read from the
-/// bits. Throws InputError for scenes that hold anything else, or nothing (worlds/judged_input). Legs turn by half a
-/// turn at most; where a car that reverses could drive half a turn either way, both must be free. Poses may be off by
-/// some 1e-9 turning radii. The path has at least one pose, all finite (InputError otherwise); a single pose is a leg
-/// of length zero. min_clearance is around the body: a lower bound, sharp up to rounding; where the path is not free,
-/// the least met. The same for any number of threads, with an index of this scene and without; it is for scenes that
-/// are no maps.
+/// bits. Throws InputError for scenes that hold anything else, or nothing (verify/judges/judged_input). Legs turn by
+/// half a turn at most; where a car that reverses could drive half a turn either way, both must be free. Poses may be
+/// off by some 1e-9 turning radii. The path has at least one pose, all finite (InputError otherwise); a single pose is
+/// a leg of length zero. min_clearance is around the body: a lower bound, sharp up to rounding; where the path is not
+/// free, the least met. The same for any number of threads, with an index of this scene and without; it is for scenes
+/// that are no maps.
 Verification verify_car(const Scene& scene, const VerifiedCar& car, std::span<const Se2> path,
                         const PoseVerifyOptions& options, const Execution& execution,
                         const ObstacleIndex* index = nullptr);

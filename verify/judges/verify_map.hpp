@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Is this path free on a map? Each leg is compared with the closed square of every blocked cell near it, in cells; what
 // lies outside of the map is blocked. Independent of what found it: nothing from spatial/ or planners/, orientations
-// and distances by worlds/exact_segments, borders as the cells say and not as walls.
+// and distances by verify/exact/exact_segments, borders as the cells say and not as walls.
 #pragma once
 
 #include <span>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Is this path free? Independent of everything that found it: nothing from spatial/ and no predicate of core/geometry
-// is used; distances and orientations are computed by worlds/exact_segments, exact where they decide. The legs of the
-// path are binned (worlds/leg_index) and the obstacles are streamed past them, so that millions of legs among hundreds
-// of millions of walls take seconds: O(walls + legs), memory of the order of the legs. One pass over the walls and a
-// sample of them; a second pass only where no wall comes within some leg lengths of the path.
+// Is this path free? Independent of everything that found it: nothing from spatial/ and no predicate of
+// core/plane/geometry is used; distances and orientations are computed by verify/exact/exact_segments, exact where they
+// decide. The legs of the path are binned (verify/near/leg_index) and the obstacles are streamed past them, so that
+// millions of legs among hundreds of millions of walls take seconds: O(walls + legs), memory of the order of the legs.
+// One pass over the walls and a sample of them; a second pass only where no wall comes within some leg lengths of the
+// path.
 #pragma once
 
 #include <array>
@@ -37,12 +38,12 @@ struct VerifyOptions {
   double reach() const { return clearance + radius; }
 };
 
-/// Point or disc among the scene's walls, polygons and bounds; on a map by its cells (worlds/verify_map), where contact
-/// can't be allowed. Throws InputError for scenes that hold anything else, or nothing (worlds/judged_input). The path
-/// has at least one point, all finite, fewer than 500 million (InputError otherwise); a single point is a leg of length
-/// zero. The points must lie in the box of walls and polygons, or in the bounds. The result is the same for any number
-/// of threads, with an index of this scene and without: with it a verdict takes what the path does, not the scene. Of a
-/// map there is none: its cells are looked up anyway.
+/// Point or disc among the scene's walls, polygons and bounds; on a map by its cells (verify/judges/verify_map), where
+/// contact can't be allowed. Throws InputError for scenes that hold anything else, or nothing
+/// (verify/judges/judged_input). The path has at least one point, all finite, fewer than 500 million (InputError
+/// otherwise); a single point is a leg of length zero. The points must lie in the box of walls and polygons, or in the
+/// bounds. The result is the same for any number of threads, with an index of this scene and without: with it a verdict
+/// takes what the path does, not the scene. Of a map there is none: its cells are looked up anyway.
 Verification verify_path(const Scene& scene, std::span<const Vec2> path, const VerifyOptions& options,
                          const Execution& execution, const ObstacleIndex* index = nullptr);
 

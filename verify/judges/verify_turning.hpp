@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Is this path of a turning polygon free? Independent of everything that found it: nothing from spatial/, nothing of
 // the fast world's distances, motions or angles. Each leg is compared, at its middle, with all sides of obstacles
-// within the body's radius and the clearance around it (worlds/path_surroundings; farther only where nothing is so
+// within the body's radius and the clearance around it (verify/near/sides_near_legs; farther only where nothing is so
 // near); obstacles that can't be the nearest anywhere on a piece are dropped from its halves, and pieces are halved
 // until the least distance, less the way that any point of the body goes and less all rounding, is proved to exceed the
 // clearance. O(obstacles) once, but for maps, then O(legs * sides near them * corners) and what the halves near
 // obstacles cost.
 // Legs without a turn need no halving: what the body sweeps there is a polygon. Legs that go on straight or turn on the
-// spot are judged as one (worlds/pose_runs), so what is near a path over a lattice is looked at once.
+// spot are judged as one (verify/near/straight_runs), so what is near a path over a lattice is looked at once.
 #pragma once
 
 #include <optional>
@@ -31,13 +31,13 @@ struct PoseVerifyOptions {
 };
 
 /// The body among the scene's walls, polygons and bounds; on a map among its cells, whose borders it reads from the
-/// bits. Throws InputError for scenes that hold anything else, or nothing (worlds/judged_input). On a leg the reference
-/// point goes straight while the body turns evenly the shorter way; a leg of half a turn must be free both ways. The
-/// path has at least one pose, all finite (InputError otherwise); a single pose is a leg of length zero. A turning leg
-/// that runs within some millionths of the body's radius of an obstacle, beyond the clearance, may count as not free.
-/// min_clearance is of the body along the path: a lower bound, within a thousandth of the body's radius; where the path
-/// is not free, the least distance met. The same for any number of threads, with an index of this scene and without; it
-/// is for scenes that are no maps.
+/// bits. Throws InputError for scenes that hold anything else, or nothing (verify/judges/judged_input). On a leg the
+/// reference point goes straight while the body turns evenly the shorter way; a leg of half a turn must be free both
+/// ways. The path has at least one pose, all finite (InputError otherwise); a single pose is a leg of length zero. A
+/// turning leg that runs within some millionths of the body's radius of an obstacle, beyond the clearance, may count as
+/// not free. min_clearance is of the body along the path: a lower bound, within a thousandth of the body's radius;
+/// where the path is not free, the least distance met. The same for any number of threads, with an index of this scene
+/// and without; it is for scenes that are no maps.
 Verification verify_se2(const Scene& scene, std::span<const Vec2> outline, std::span<const Se2> path,
                         const PoseVerifyOptions& options, const Execution& execution,
                         const ObstacleIndex* index = nullptr);

@@ -3,7 +3,7 @@
 // each other, so a search by boxes finds the legs near a place without any index of the plane.
 //
 // Built in one pass over the path by all threads, 4.6 bytes a leg. A search for what is near a wall looks at some tens
-// to hundreds of boxes: dearer than a lookup in worlds/leg_index, but nothing needs to be built for it.
+// to hundreds of boxes: dearer than a lookup in verify/near/leg_index, but nothing needs to be built for it.
 #pragma once
 
 #include <cstddef>

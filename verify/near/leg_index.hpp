@@ -4,7 +4,7 @@
 // A grid over the path's box (cells about as large as a leg): one bit a cell says whether a leg passes, a rank over the
 // bits leads to runs of consecutive legs. A pyramid of coarser copies, widened by the reach, answers "nothing near"
 // with one lookup for a wall of any length: the level is chosen so that half the wall fits a cell, and where the bit is
-// set the wall is halved and asked again one level below. Long runs are searched by worlds/leg_boxes.
+// set the wall is halved and asked again one level below. Long runs are searched by verify/near/leg_boxes.
 //
 // Memory: at most 128 bits a leg four times over, 12 to 80 bytes a leg for the runs (a path of few legs among
 // many walls: 2^18 bits). A leg costs about its length in cells; the cell is chosen so that this is some 5 a

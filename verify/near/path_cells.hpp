@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The path in boxes, cell by cell: a second screen, for the walls that worlds/path_screen calls doubtful because the
-// path runs through their cells, though not near enough to them.
+// The path in boxes, cell by cell: a second screen, for the walls that verify/near/path_screen calls doubtful because
+// the path runs through their cells, though not near enough to them.
 //
 // A grid over the path's box, cells about as large as a wall: one bit a cell says whether the path passes, a rank over
 // the bits leads to two boxes, of what runs rather level there and of what runs rather steep. A wall is clear where all
@@ -10,7 +10,7 @@
 // Memory: a bit and half a byte a cell (at most 64 cells a leg), 32 bytes a cell that the path passes. A leg costs its
 // length in cells, twice; a wall the rows of cells around it and the boxes in them. Conservative: a wall that comes
 // nearer is never called clear (boxes are rounded outwards to floats; gaps are differences of doubles, whose rounding
-// is monotone, squared and added as worlds/exact_segments does).
+// is monotone, squared and added as verify/exact/exact_segments does).
 #pragma once
 
 #include <bit>

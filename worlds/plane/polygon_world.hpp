@@ -3,9 +3,9 @@
 // sides, overlapping (their union is blocked). Every point of a motion keeps the clearance from every wall and outline;
 // with clearance 0 it keeps off them (positive distance, decided exactly). The reference point stays in the box of the
 // obstacles, or strictly inside the bounds. Planning widens the clearance by the factor 1 + 1e-9, so that rounding
-// can't fail the verification. A state costs the walls and outlines near it (spatial/wall_index) and a descent to the
-// polygon around it (spatial/polygon_index), whatever the number of polygons; a motion only the former, since who
-// starts outside and crosses no outline stays outside.
+// can't fail the verification. A state costs the walls and outlines near it (spatial/obstacles/wall_index) and a
+// descent to the polygon around it (spatial/obstacles/polygon_index), whatever the number of polygons; a motion only
+// the former, since who starts outside and crosses no outline stays outside.
 #pragma once
 
 #include <array>

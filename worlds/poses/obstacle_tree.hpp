@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How far is a polygon from the obstacles of the plane? Three box trees: convex polygons of up to 16 sides; the sides
-// of the other polygons and the walls; those other polygons. Distances are those of core/polygon_distance, less a bound
-// of their rounding; only obstacles nearer than the best so far are looked at, so the cost grows with their density
-// around the body, not with their number. A pair of sides costs 15 ns. Of a convex polygon a side that has the whole
-// body farther before it than asked for settles it, for a product a corner; else only the sides that have a corner of
-// the body before them are measured.
+// of the other polygons and the walls; those other polygons. Distances are those of core/plane/polygon_distance, less a
+// bound of their rounding; only obstacles nearer than the best so far are looked at, so the cost grows with their
+// density around the body, not with their number. A pair of sides costs 15 ns. Of a convex polygon a side that has the
+// whole body farther before it than asked for settles it, for a product a corner; else only the sides that have a
+// corner of the body before them are measured.
 #pragma once
 
 #include <cstddef>

@@ -19,9 +19,9 @@ namespace {
 
 using test::Dice;
 using test::disjoint_polygons;
-using test::PolygonsInCells;
 using test::length_of;
 using test::obstacles_of;
+using test::PolygonsInCells;
 using test::scene_around;
 
 /// Plans and lets the path be judged: it keeps the clearance; with clearance 0 it touches nothing.

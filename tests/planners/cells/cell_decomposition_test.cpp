@@ -18,8 +18,8 @@ namespace {
 
 using test::Dice;
 using test::disjoint_polygons;
-using test::PolygonsInCells;
 using test::obstacles_of;
+using test::PolygonsInCells;
 
 PlaneObstacles polygons(const std::vector<std::vector<Vec2>>& outlines, std::optional<Box> bounds = {}) {
   PlaneObstacles obstacles;

@@ -21,8 +21,8 @@ using test::checked_plan;
 using test::Dice;
 using test::disjoint_polygons;
 using test::free_points;
-using test::PolygonsInCells;
 using test::length_of;
+using test::PolygonsInCells;
 
 TEST(CellPlanner, EverySearchAndDoorGivesVerifiedPathsOnDisjointPolygons) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Planners on arms: the study's scene, one with nine spheres, and worlds from seeds. Every path is judged by
-// worlds/verify_arm.
+// verify/judges/verify_arm.
 #include <gtest/gtest.h>
 
 #include <algorithm>

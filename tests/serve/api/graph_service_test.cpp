@@ -12,7 +12,7 @@
 #include "tests/scenes/text/temporary_directory.hpp"
 #include "tests/serve/town.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 using Json = nlohmann::json;
@@ -198,4 +198,4 @@ TEST(GraphService, CarsAreRefusedWithTheReason) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::serve

@@ -8,7 +8,7 @@
 #include "core/base/rng.hpp"
 #include "tests/seeds.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 /// From cell to cell, any way.
@@ -77,4 +77,4 @@ TEST(KeptCurve, KeepsTheSignOfZero) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::serve

@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 TEST(PathPlaces, AreEvenlyApartWithBothEnds) {
@@ -57,4 +57,4 @@ TEST(PathPlaces, ACarsAreOnItsArcs) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::serve

@@ -10,7 +10,7 @@
 #include "serve/http/http_message.hpp"
 #include "tests/memory_limit.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 constexpr double far_away = std::numeric_limits<double>::infinity();
@@ -134,4 +134,4 @@ TEST(PathView, ArcsOfCarsAreChords) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::serve

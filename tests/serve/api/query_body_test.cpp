@@ -7,7 +7,7 @@
 #include "serve/api/query_body_io.hpp"
 #include "serve/http/http_message.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 TEST(QueryBody, SaysWhatIsAsked) {
@@ -81,4 +81,4 @@ TEST(QueryBody, NestingIsOfTheDeepestLineAndNotOfTexts) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::serve

@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 const TileGrid grid{.span = 512.0, .levels = 4};
@@ -91,4 +91,4 @@ TEST(Route, ParametersAreThereOnceAndNumbersAreNumbers) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::serve

@@ -10,7 +10,7 @@
 #include "core/base/error.hpp"
 #include "tests/serve/town.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 constexpr double far_away = std::numeric_limits<double>::infinity();
@@ -77,4 +77,4 @@ TEST(StartDistances, WhatIsBehindAWallIsNotReachedAndABlockedStartIsRefused) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::serve

@@ -10,7 +10,7 @@
 
 #include "core/base/error.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 constexpr double far = std::numeric_limits<double>::infinity();
@@ -108,4 +108,4 @@ TEST(SweptBodies, APointHasNone) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::serve

@@ -17,7 +17,7 @@
 #include "tests/serve/tiles/read_inks.hpp"
 #include "tests/serve/town.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 using Json = nlohmann::json;
@@ -372,4 +372,4 @@ TEST(WorldLayers, ALatticeShowsItsPassagesFromNear) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::serve

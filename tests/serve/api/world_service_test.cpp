@@ -15,7 +15,7 @@
 #include "tests/scenes/text/temporary_directory.hpp"
 #include "tests/serve/town.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 using Json = nlohmann::json;
@@ -384,4 +384,4 @@ TEST(WorldService, ThePageIsInTheProgram) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::serve

@@ -17,7 +17,7 @@
 #include "solve/solve.hpp"
 #include "tests/serve/town.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 using Json = nlohmann::json;
@@ -241,4 +241,4 @@ TEST(WritableService, WhoAsksMeanwhileIsAnsweredInOneWorldOrTheOther) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::serve

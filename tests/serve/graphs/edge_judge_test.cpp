@@ -9,7 +9,7 @@
 #include "solve/solve.hpp"
 #include "tests/serve/town.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 constexpr const char* gap = "bounds 0 0 20 10\nwall 10 0 10 4\nwall 10 6 10 10\n";  // a door of 2, from 4 to 6
@@ -86,4 +86,4 @@ TEST(EdgeJudge, SaysOfEdgesWhatVerifySaysOfPaths) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::serve

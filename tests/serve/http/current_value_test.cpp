@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 /// A number that counts how many of its kind there are.
@@ -78,4 +78,4 @@ TEST(CurrentValue, ManyTakeItWhileItChanges) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::serve

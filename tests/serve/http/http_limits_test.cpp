@@ -10,7 +10,7 @@
 
 #include "tests/serve/http/running_server.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -174,4 +174,4 @@ TEST(HttpServer, LargeBodiesAreFewAtATime) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::serve

@@ -11,7 +11,7 @@
 
 #include "tests/serve/http/running_server.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 using test::RunningServer;
@@ -154,4 +154,4 @@ TEST(HttpServer, SaysWhoHasItsPortAlready) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::serve

@@ -7,7 +7,7 @@
 #include "serve/http/http_names.hpp"
 #include "serve/http/http_target.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 /// The status of the refusal, or 0.
@@ -88,4 +88,4 @@ TEST(HttpNames, APostOfAnotherPageIsRefused) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::serve

@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 std::string seen(KeptValues<std::string>& kept, const std::string& name) {
@@ -52,4 +52,4 @@ TEST(KeptValues, StayWhileSomebodyHoldsThem) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::serve

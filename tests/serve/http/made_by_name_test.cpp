@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 TEST(MadeByName, ManyWhoAskForOneAtOnceGetTheOneThatIsMade) {
@@ -64,4 +64,4 @@ TEST(MadeByName, StayWhileSomebodyHoldsThem) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::serve

@@ -23,22 +23,23 @@ namespace warren::test {
 
 /// /quick is there at once; /slow takes until somebody leaves or opens the gate; /echo gives its body back; /large,
 /// too; /huge gives much.
-class TestService : public HttpService {
+class TestService : public serve::HttpService {
  public:
   static constexpr std::size_t huge = std::size_t{32} << 20U;
 
-  std::size_t most_body(const HttpRequest& head) const override {
+  std::size_t most_body(const serve::HttpRequest& head) const override {
     if (head.path == "/echo") return 1000;
     if (head.path == "/large") return std::size_t{1} << 20U;
     if (head.path == "/quick" || head.path == "/slow" || head.path == "/throw" || head.path == "/huge") return 0;
-    throw HttpError(404, "not_found", "path", "nothing here");
+    throw serve::HttpError(404, "not_found", "path", "nothing here");
   }
-  std::optional<HttpResponse> at_once(const HttpRequest& request, const HttpFigures& figures) override {
+  std::optional<serve::HttpResponse> at_once(const serve::HttpRequest& request,
+                                             const serve::HttpFigures& figures) override {
     if (request.path != "/quick") return std::nullopt;
-    return HttpResponse{.body = "working=" + std::to_string(figures.working) +
-                                " gave_way=" + std::to_string(figures.gave_way)};
+    return serve::HttpResponse{.body = "working=" + std::to_string(figures.working) +
+                                       " gave_way=" + std::to_string(figures.gave_way)};
   }
-  HttpResponse work(const HttpRequest& request, const SignalFlag& gone) override {
+  serve::HttpResponse work(const serve::HttpRequest& request, const SignalFlag& gone) override {
     if (request.path == "/throw") throw std::runtime_error("a bug");
     if (request.path == "/huge") return {.body = std::string(huge, 'a')};
     if (request.path != "/slow") return {.body = request.body};
@@ -117,7 +118,7 @@ class Socket {
 
 class RunningServer {
  public:
-  explicit RunningServer(const HttpLimits& limits) : server({.addresses = {"127.0.0.1"}}, limits, service) {
+  explicit RunningServer(const serve::HttpLimits& limits) : server({.addresses = {"127.0.0.1"}}, limits, service) {
     thread_ = std::thread([this] { server.run(stop_); });
     while (!service.prepared) std::this_thread::yield();  // else it waits for a thread beside the first request
   }
@@ -143,7 +144,7 @@ class RunningServer {
   }
 
   TestService service;
-  HttpServer server;
+  serve::HttpServer server;
 
  private:
   SignalFlag stop_{0};

@@ -9,7 +9,7 @@
 #include "core/base/page_pool.hpp"
 #include "core/base/raw_vector.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 TEST(TaskCrew, SaysNoWhereTooManyWait) {
@@ -80,4 +80,4 @@ TEST(TaskCrew, TasksInARowShareThePagesOfLargeBlocksUpToSoMany) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::serve

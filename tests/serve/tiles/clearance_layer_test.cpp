@@ -17,7 +17,7 @@
 #include "tests/serve/tiles/read_inks.hpp"
 #include "tests/serve/town.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 double to_sides(const Scene& scene, Vec2 p) {
@@ -197,4 +197,4 @@ TEST(ClearanceLayer, PixelsOfMapsHaveTheStepOfTheirCell) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::serve

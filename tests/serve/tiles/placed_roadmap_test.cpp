@@ -12,7 +12,7 @@
 #include "core/plane/geometry.hpp"
 #include "tests/serve/tiles/network.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 constexpr VertexId side = 60;
@@ -105,4 +105,4 @@ TEST(PlacedRoadmap, VisitsEndWhenTheyAreToldTo) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::serve

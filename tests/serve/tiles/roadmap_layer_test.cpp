@@ -12,7 +12,7 @@
 #include "tests/serve/tiles/network.hpp"
 #include "tests/serve/tiles/read_inks.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 using test::Link;
@@ -144,4 +144,4 @@ TEST(RoadmapLayer, PassagesOfALatticeAreLines) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::serve

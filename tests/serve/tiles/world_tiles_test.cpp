@@ -16,7 +16,7 @@
 #include "serve/tiles/shade_pyramid.hpp"
 #include "tests/serve/tiles/read_tile.hpp"
 
-namespace warren {
+namespace warren::serve {
 namespace {
 
 Scene shapes_of(const std::string& text) { return read_scene(InputFile::of_bytes("test.scene", text), {}); }
@@ -208,4 +208,4 @@ TEST(WorldTiles, AreTheSameBytesForAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::serve

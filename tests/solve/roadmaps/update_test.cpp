@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "scenes/formats/read_world_io.hpp"
-#include "solve/roadmaps/changed_places.hpp"
 #include "solve/roadmaps/roadmap.hpp"
+#include "solve/steps/changed_places.hpp"
 #include "tests/paths.hpp"
 
 namespace warren {

@@ -5,7 +5,7 @@
 
 #include "studies/compare/comparison_report.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 Comparison of_planners(std::size_t planners, const std::vector<double>& lengths, double slowest = 0.5) {
@@ -70,4 +70,4 @@ TEST(BoxPanels, MoreContendersThanRowsAreANote) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::studies

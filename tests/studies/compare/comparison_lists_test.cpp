@@ -6,7 +6,7 @@
 #include "studies/compare/comparison_report.hpp"
 #include "studies/compare/heat_map.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 using Words = std::vector<std::pair<std::string, std::string>>;
@@ -93,4 +93,4 @@ TEST(HeatMap, EqualValuesAndNoneAreDrawnToo) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::studies

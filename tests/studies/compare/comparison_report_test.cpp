@@ -10,7 +10,7 @@
 #include "scenes/text/human_units.hpp"
 #include "studies/measure/text_table.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -222,4 +222,4 @@ TEST(PreciseSeconds, ShowsThreeDigitsInTheUnitThatFits) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::studies

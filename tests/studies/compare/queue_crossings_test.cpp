@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 SweepCurve curve_of(const std::string& queue, const std::function<double(double)>& seconds) {
@@ -99,4 +99,4 @@ TEST(SweepCurves, APointIsTheGeometricMeanOfTheMediansOfItsGraphs) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::studies

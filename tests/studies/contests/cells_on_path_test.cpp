@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 TEST(CellsPassed, ALegTakesAsManyStepsAsItsLongerSide) {
@@ -31,4 +31,4 @@ TEST(CellsPassed, AMapCountsOnItsOwnCells) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::studies

@@ -10,7 +10,7 @@
 #include "tests/paths.hpp"
 #include "worlds/rasters/map_borders.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 std::string example(const char* name) { return test::source_dir() + "/examples/worlds/" + name; }
@@ -78,4 +78,4 @@ TEST(PlannerContest, NoSeedChangesWhatIsSaidToBeDeterministic) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::studies

@@ -12,7 +12,7 @@
 #include "core/base/error.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 DealtOption list(Option option, std::vector<DealtValue> values) { return {option, std::move(values)}; }
@@ -155,4 +155,4 @@ TEST(PlannerDeal, EveryOptionReachesThePlannersThatTakeIt) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::studies

@@ -10,7 +10,7 @@
 
 #include "studies/searches/search_graph.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 constexpr QueuePolicy all_queues[] = {QueuePolicy::heap, QueuePolicy::lazy_heap, QueuePolicy::sorted_array,
@@ -220,4 +220,4 @@ TEST(Turns, AreARearrangementThatChangesFromRoundToRound) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::studies

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 constexpr std::size_t page = 4096;
@@ -72,4 +72,4 @@ TEST(RunCounts, AreSubtractedNameByName) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::studies

@@ -12,7 +12,7 @@
 
 #include "core/base/rng.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 TEST(Statistics, QuantilesAreNumpysDefault) {
@@ -160,4 +160,4 @@ TEST(Statistics, OrderOfTheValuesChangesNothing) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::studies

@@ -13,7 +13,7 @@
 #include "spatial/obstacles/wall_index.hpp"
 #include "verify/judges/verify_point.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 double length_of(std::span<const Vec2> path) {
@@ -101,4 +101,4 @@ TEST(BfsFunnel, AWallAcrossLeavesNoPath) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::studies

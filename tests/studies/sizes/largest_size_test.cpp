@@ -5,7 +5,7 @@
 
 #include <set>
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 TEST(SizeSearch, FindsTheLargestSideThatFitsWhateverItIs) {
@@ -57,4 +57,4 @@ TEST(SizeSearch, SideBelowIsSmallerAndEndsBelowTheLeast) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::studies

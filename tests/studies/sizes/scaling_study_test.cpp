@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 ScalingRun run_of(std::uint32_t side, unsigned threads, double seconds, std::uint64_t seed = 1) {
@@ -83,4 +83,4 @@ TEST(StageExponents, TellStagesApartAndLeaveOutWhatIsTooShort) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::studies

@@ -5,7 +5,7 @@
 
 #include "studies/measure/arithmetic_probe.hpp"
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 /// A run of `threads` threads; the machine did `rate` of arithmetic meanwhile.
@@ -111,4 +111,4 @@ TEST(ArithmeticProbe, StopsAtTheDeadline) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::studies

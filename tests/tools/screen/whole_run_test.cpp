@@ -8,7 +8,7 @@
 
 #include "tools/screen/progress_bar.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 constexpr ExpectedStage three[] = {{"read", 1.0}, {"connect", 6.0}, {"search", 3.0}};
@@ -65,4 +65,4 @@ TEST(ProgressLine, TellsOfStageAndWholeAndFits) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::tools

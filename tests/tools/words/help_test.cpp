@@ -11,7 +11,7 @@ namespace warren::test {
 namespace {
 
 TEST(Help, OfAVerbIsTheSameByBothWays) {
-  for (const Command& command : command_table()) {
+  for (const tools::Command& command : tools::command_table()) {
     const std::string name{command.name};
     const Outcome by_verb = run({"help", name});
     EXPECT_EQ(by_verb.code, 0) << name;
@@ -23,23 +23,23 @@ TEST(Help, OfAVerbIsTheSameByBothWays) {
 }
 
 TEST(Help, NamesEveryOptionOnceInAGroupAndEveryVerbOnce) {
-  for (const Command& command : command_table()) {
+  for (const tools::Command& command : tools::command_table()) {
     std::multiset<std::string_view> names;
-    for (const auto& [title, options] : grouped_options(command)) {
+    for (const auto& [title, options] : tools::grouped_options(command)) {
       EXPECT_FALSE(options.empty()) << title;
-      for (const OptionSpec* option : options) names.insert(option->name);
+      for (const tools::OptionSpec* option : options) names.insert(option->name);
     }
-    for (const OptionSpec& option : command.options) EXPECT_EQ(names.count(option.name), 1U) << option.name;
+    for (const tools::OptionSpec& option : command.options) EXPECT_EQ(names.count(option.name), 1U) << option.name;
     EXPECT_EQ(names.size(), command.options.size()) << command.name;
   }
   std::size_t verbs = 0;
-  for (const auto& [title, commands] : grouped_commands()) verbs += commands.size();
-  EXPECT_EQ(verbs, command_table().size());
+  for (const auto& [title, commands] : tools::grouped_commands()) verbs += commands.size();
+  EXPECT_EQ(verbs, tools::command_table().size());
 }
 
 TEST(Help, LinesFitTheScreen) {
-  for (const Command& command : command_table()) {
-    std::istringstream text(command_help(command, 80));
+  for (const tools::Command& command : tools::command_table()) {
+    std::istringstream text(tools::command_help(command, 80));
     for (std::string line; std::getline(text, line);) EXPECT_LE(line.size(), 80U) << line;
   }
 }
@@ -56,10 +56,10 @@ TEST(Help, BuildListsOnlyWhatItTakes) {
 TEST(Help, ManualHasAPageAVerb) {
   const Folder folder;
   EXPECT_EQ(run({"man", "--folder", folder.path("")}).code, 0);
-  for (const Command& command : command_table()) {
+  for (const tools::Command& command : tools::command_table()) {
     const std::string page = folder.read("warren-" + std::string{command.name} + ".1");
     EXPECT_NE(page.find(".SH SYNOPSIS\n.B warren"), std::string::npos) << command.name;
-    for (const OptionSpec& option : command.options) {
+    for (const tools::OptionSpec& option : command.options) {
       std::string name;
       for (const char c : option.name) name += c == '-' ? "\\-" : std::string(1, c);
       EXPECT_NE(page.find("\\fB" + name + "\\fR"), std::string::npos) << command.name << ' ' << option.name;

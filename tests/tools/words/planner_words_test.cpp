@@ -11,7 +11,7 @@
 #include "core/base/error.hpp"
 #include "tools/words/question_words.hpp"
 
-namespace warren {
+namespace warren::tools {
 namespace {
 
 Arguments words_of_solve(const std::vector<std::string>& words) {
@@ -87,4 +87,4 @@ TEST(PlannerWords, ErrorsOfTheLibraryNameTheFlag) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::tools

@@ -106,12 +106,12 @@ TEST(PrintableOutput, AnInputThatShrinksWhileItIsMappedCannotBeRead) {
   const std::string path = folder.write("a\x1b.npy", "0");
   std::filesystem::resize_file(path, std::size_t{16} << 20);
   const auto look_at_what_is_gone = [&] {
-    install_signal_handlers();
+    tools::install_signal_handlers();
     const InputFile file(path, {});
     std::filesystem::resize_file(path, 0);
     ::_exit(file.bytes()[0] == '0' ? 0 : 1);
   };
-  EXPECT_EXIT(look_at_what_is_gone(), ::testing::ExitedWithCode(exit_code::unreadable),
+  EXPECT_EXIT(look_at_what_is_gone(), ::testing::ExitedWithCode(tools::exit_code::unreadable),
               "warren: .*a\\\\x1b.npy: can't be read: it became shorter meanwhile");
 }
 

@@ -107,10 +107,10 @@ TEST(RefusalsThatHelp, AQuietRunThatRunsOutOfTimeSaysSo) {
 }
 
 TEST(RefusalsThatHelp, WhatABarLeftOnANarrowerScreenIsErased) {
-  EXPECT_EQ(erasing(60, 80), "\r\x1b[K");
-  EXPECT_EQ(erasing(80, 80), "\r\x1b[K");
-  EXPECT_EQ(erasing(79, 40), "\r\x1b[1A\x1b[J");
-  EXPECT_EQ(erasing(79, 20), "\r\x1b[3A\x1b[J");
+  EXPECT_EQ(tools::erasing(60, 80), "\r\x1b[K");
+  EXPECT_EQ(tools::erasing(80, 80), "\r\x1b[K");
+  EXPECT_EQ(tools::erasing(79, 40), "\r\x1b[1A\x1b[J");
+  EXPECT_EQ(tools::erasing(79, 20), "\r\x1b[3A\x1b[J");
 }
 
 }  // namespace

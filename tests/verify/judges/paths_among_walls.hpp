@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Walls, paths and exact signs for the tests of worlds/verify.
+// Walls, paths and exact signs for the tests of verify/judges/verify_point.
 #pragma once
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Arms by plain means, for the tests: 4 x 4 matrices multiplied out, distances by golden sections, motions by dense
-// sampling. Shares nothing with worlds/serial_chain and worlds/arm_world but the table.
+// sampling. Shares nothing with worlds/arms/serial_chain and worlds/arms/arm_world but the table.
 #pragma once
 
 #include <algorithm>

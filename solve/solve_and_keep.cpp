@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solve/roadmaps/solve_and_keep.hpp"
+#include "solve/solve_and_keep.hpp"
 
 #include <utility>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solve/roadmaps/changed_places.hpp"
+#include "solve/steps/changed_places.hpp"
 
 #include <algorithm>
 #include <array>
