@@ -29,9 +29,13 @@ function(warren_unity target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
 endfunction()
 
-# warren_cold(TARGET): its sources with less optimisation (WarrenOptions.cmake).
+# warren_cold(TARGET [FLAGS_OF_RELEASE]): its sources with less optimisation (WarrenOptions.cmake).
 function(warren_cold target)
-  target_compile_options(${target} PRIVATE ${warren_cold_flags})
+  set(flags ${warren_cold_flags})
+  if(ARGC GREATER 1 AND CMAKE_BUILD_TYPE STREQUAL "Release")
+    set(flags ${ARGV1})
+  endif()
+  target_compile_options(${target} PRIVATE ${flags})
   warren_headers(${target} warren_cold_headers)
 endfunction()
 
