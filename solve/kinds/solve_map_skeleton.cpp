@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The planner voronoi on an occupancy map: along the skeleton of its free cells, as far from what is blocked as a path
 // can be. min_clearance of the answer is measured on the path by the verification.
+#include <array>
 #include <optional>
 
 #include "planners/grid/skeleton_planner.hpp"
@@ -59,6 +60,10 @@ class SkeletonSolve {
     solution.roadmap = plan.roadmap;
     solution.counters.expanded = plan.expanded;
     solution.separation.nearest_gap *= map_.cell;
+    for (std::array<double, 2>* place : {&solution.separation.near_start, &solution.separation.near_goal}) {
+      const Vec2 in_world = world_point(map_, {(*place)[0], (*place)[1]});
+      *place = {in_world.x, in_world.y};
+    }
     solution.seconds = plan.seconds;
     if (plan.outcome == Outcome::solved) {
       solution.path = path_over_cells(map_, problem_.start, plan.cells, problem_.goal);
