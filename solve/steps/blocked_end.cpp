@@ -215,6 +215,10 @@ void explain_blocked_end(const Scene& scene, Answer& answer, const Execution& ex
     answer.blocked->room = met->distance;
     answer.blocked->needed = answer.problem.clearance + answer.problem.robot.radius;
     answer.blocked->depth = search.depth_in(answer.blocked->by);
+    const bool is_in_it = answer.blocked->depth || !search.room().contains(search.at());
+    if (answer.blocked->hint.empty() && !is_in_it && answer.blocked->needed == 0.0) {
+      answer.blocked->hint = "it only touches it there, and with contact blocked what touches is not free";
+    }
     if (auto place = search.free_place()) {
       answer.blocked->distance = norm(Vec2{(*place)[0], (*place)[1]} - search.at());
       answer.blocked->free_place = std::move(*place);
