@@ -177,8 +177,17 @@ class LatticeSolve {
     return std::any_of(poses.begin(), poses.end(), is_free);
   }
 
+  Outcome settled_ends() const {
+    return warren::settled_ends(
+        Outcome::start_blocked, [&] { return stands_free(start_pose(), false); },
+        [&] { return stands_free(goal_pose(), any_heading()); });
+  }
+
   void search() {
     const StageTimer timer(request_.execution, "search", answer_.seconds.search, layers_.states());
+    const bool is_report = layer_options_.kind == LayerKind::report004;  // its discs say what is blocked
+    if (!is_report) answer_.outcome = settled_ends();
+    if (is_blocked(answer_.outcome)) return;
     const std::vector<LayerEnd> starts = ends_at("@start", start_pose(), false);
     const std::vector<LayerEnd> goals = ends_at("@goal", goal_pose(), any_heading());
     const LayerPath path = layer_search(layers_, starts, goals, search_, request_.execution);
@@ -187,11 +196,7 @@ class LatticeSolve {
                           : !path.goal_free                    ? Outcome::goal_blocked
                           : path.status == SearchStatus::found ? Outcome::solved
                                                                : Outcome::not_connected;
-    const bool is_report = layer_options_.kind == LayerKind::report004;  // its discs say what is blocked
-    answer_.outcome = is_report ? found
-                                : settled_ends(
-                                      found, [&] { return stands_free(start_pose(), false); },
-                                      [&] { return stands_free(goal_pose(), any_heading()); });
+    answer_.outcome = is_blocked(found) && !is_report ? Outcome::not_connected : found;
     if (answer_.outcome == Outcome::solved) take(path);
   }
 

@@ -123,7 +123,7 @@ class BlockedEndSearch {
   /// What room is measured by: the body, a cell, and for a point else the world.
   double size() const {
     if (reach_ > 0.0) return reach_;
-    return scene_.map ? scene_.map->cell : 1e-3 * portable::hypot(room().width(), room().height());
+    return scene_.map ? scene_.map->cell : 1e-2 * portable::hypot(room().width(), room().height());
   }
   Verdict judged(const Scene& scene, const std::vector<double>& state, double more) const {
     RecordedAnswer stay;

@@ -78,7 +78,7 @@ class SampledSolve {
         answer_.outcome = !body_.start_stands_free() ? Outcome::start_blocked
                           : body_.knows_all_goals()  ? Outcome::goal_blocked
                                                      : Outcome::not_connected;
-      } else {
+      } else if (!ends_touch()) {
         bound_growth();
         by_roadmap() ? plan_roadmaps() : plan_trees();
         settle_ends();
@@ -104,6 +104,7 @@ class SampledSolve {
   PlannedRoadmap<State>* kept();
   void take(Solution<State> solution);
   void settle_ends();
+  bool ends_touch();
   void choose_path();
   void finish();
   std::string_view cause() const;
@@ -270,12 +271,24 @@ void SampledSolve<Body>::take(Solution<State> solution) {
 
 template <class Body>
 void SampledSolve<Body>::settle_ends() {
+  const bool has_none = std::is_same_v<State, Se2> && asked_ != nullptr && answer_.outcome == Outcome::not_connected;
+  if (has_none) answer_.outcome = Outcome::start_blocked;
   answer_.outcome = settled_ends(
       answer_.outcome, [this] { return body_.start_stands_free(); },
       [this] {
         return std::any_of(goals_.begin(), goals_.end(),
                            [this](const State& goal) { return body_.goal_stands_free(goal); });
       });
+}
+
+/// A world of poses takes ends with less to spare than others do, from which then nothing leads. Of a roadmap that is
+/// asked they are looked at where it has no way.
+template <class Body>
+bool SampledSolve<Body>::ends_touch() {
+  if (!std::is_same_v<State, Se2> || asked_ != nullptr) return false;
+  answer_.outcome = Outcome::start_blocked;
+  settle_ends();
+  return is_blocked(answer_.outcome);
 }
 
 /// Of bodies whose ways have a price beyond their length: the cheapest of several trees' paths, each shortened a
@@ -308,7 +321,8 @@ void SampledSolve<Body>::finish() {
   if (answer_.outcome == Outcome::stopped) return;
   if (answer_.outcome != Outcome::solved) {
     if (const std::string_view why = cause(); !why.empty()) answer_.figures.push_back({"cause", std::string(why)});
-    if (goals_.empty() && answer_.outcome == Outcome::not_connected) answer_.figures.push_back({"goals_tried", body_.goals_tried()});
+    if (goals_.empty() && answer_.outcome == Outcome::not_connected)
+      answer_.figures.push_back({"goals_tried", body_.goals_tried()});
     return;
   }
   if (request_.options.optimise) {

@@ -55,7 +55,7 @@ class FirstJoints {
     const double forearm = portable::hypot(ahead, tip.z());
     const double side = table.joints[2].d - tip.y();
     if (std::max(side - near, -side - near) > away_) return false;
-    if (!(away_ > 0.0) || !(upper_arm_ > 0.0) || !(forearm > 2.0 * near)) return true;
+    if (!(upper_arm_ > 0.0) || !(forearm > 2.0 * near)) return true;
     const Interval sides{std::clamp(side - near, -away_, away_), std::clamp(side + near, -away_, away_)};
     const Interval square = square_of(sides);
     const Interval forward = root_of({away_ * away_ - square.high, away_ * away_ - square.low});
@@ -78,8 +78,8 @@ class FirstJoints {
     const Interval up = rising(forward);
     const Interval half{std::numbers::pi, std::numbers::pi};
     const auto fits = [&](const Interval& q1, const Interval& rise) {
-      return is_within(0, q1) && ((is_within(1, rise - shoulder) && is_within(2, elbow - bent)) ||
-                                  (is_within(1, rise + shoulder) && is_within(2, -elbow - bent)));
+      return (is_within(0, q1) || away_ == 0.0) && ((is_within(1, rise - shoulder) && is_within(2, elbow - bent)) ||
+                                                    (is_within(1, rise + shoulder) && is_within(2, -elbow - bent)));
     };
     return fits(Interval{turn, turn} + aside, up) || fits(Interval{turn, turn} - half - aside, half - up);
   }
