@@ -28,13 +28,15 @@ add_compile_options(-ffp-contract=off -fno-fast-math)
 if(WARREN_PYTHON)  # what the module calls nothing of is left out of it, by the function
   add_compile_options($<$<CONFIG:Release>:-ffunction-sections> $<$<CONFIG:Release>:-fdata-sections>)
 endif()
-# Warnings are the developers' business: at -O3 the compiler also warns of paths in the libraries' headers that don't exist.
+# Warnings are the developers' business. At -O3 g++ also warns of paths through the libraries' headers that don't exist:
+# what it sees by following them is asked of preset dev, which has asserts.
 if(WARREN_WERROR)
   add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Wnull-dereference -Werror)
   # Between the files of a batch, names may shadow each other; `tools/check alone` looks at each file by itself.
   if(CMAKE_UNITY_BUILD)
     add_compile_options(-Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   endif()
+  add_compile_options("$<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:-Wno-null-dereference;-Wno-restrict;-Wno-array-bounds;-Wno-stringop-overflow;-Wno-stringop-overread;-Wno-maybe-uninitialized;-Wno-free-nonheap-object;-Wno-dangling-pointer>")
   # g++ says it only when asked; clang++ says it, but not of files in batches.
   add_compile_options($<$<CXX_COMPILER_ID:GNU>:-Wunused-const-variable=1>)
 endif()
@@ -50,6 +52,10 @@ if(WARREN_SANITIZE)
     set(CMAKE_POSITION_INDEPENDENT_CODE OFF)
     add_compile_options(-fno-pie)
     add_link_options($<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>:-no-pie>)
+  endif()
+  find_program(WARREN_MOLD mold)
+  if(WARREN_MOLD)
+    add_link_options(-fuse-ld=mold)
   endif()
   # What the address sanitizer sees as well, and no build needs: a tenth of the compilation.
   if(WARREN_SANITIZE MATCHES undefined)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# warren_unity(TARGET): with CMAKE_UNITY_BUILD (all presets), the target's sources are compiled in batches of about ten,
-# because most of a file's time goes to the system's headers: half of the time from nothing. A file's batch is drawn by its name alone:
+# warren_unity(TARGET [MOST]): with CMAKE_UNITY_BUILD (all presets), the target's sources are compiled in batches of about
+# ten, or of MOST at the most, because most of a file's time goes to the system's headers: half of the time from nothing. A file's batch is drawn by its name alone:
 # related files, whose private names tend to be alike, lie apart, and a new file moves no other one (but for a doubling
 # of the batches). Two files of a batch can't give one name to two things: the better name for one of them mends it.
 function(warren_unity target)
@@ -11,7 +11,11 @@ function(warren_unity target)
   list(FILTER sources INCLUDE REGEX "\\.cpp$")
   list(LENGTH sources left)
   set(batches 1)
-  while(left GREATER 14)
+  set(most 14)
+  if(ARGC GREATER 1)
+    set(most ${ARGV1})
+  endif()
+  while(left GREATER most)
     math(EXPR left "${left} / 2")
     math(EXPR batches "${batches} * 2")
   endwhile()
@@ -25,9 +29,13 @@ function(warren_unity target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
 endfunction()
 
-# warren_cold(TARGET): its sources with less optimisation (WarrenOptions.cmake).
+# warren_cold(TARGET [FLAGS_OF_RELEASE]): its sources with less optimisation (WarrenOptions.cmake).
 function(warren_cold target)
-  target_compile_options(${target} PRIVATE ${warren_cold_flags})
+  set(flags ${warren_cold_flags})
+  if(ARGC GREATER 1 AND CMAKE_BUILD_TYPE STREQUAL "Release")
+    set(flags ${ARGV1})
+  endif()
+  target_compile_options(${target} PRIVATE ${flags})
   warren_headers(${target} warren_cold_headers)
 endfunction()
 
@@ -40,6 +48,7 @@ function(warren_headers target headers)
       add_library(${headers} STATIC ${PROJECT_BINARY_DIR}/${headers}.cpp)
       target_precompile_headers(${headers} PRIVATE <Eigen/Geometry> <fmt/format.h> <algorithm> <array> <chrono> <cmath> <filesystem>
         <fstream> <functional> <map> <memory> <numeric> <optional> <span> <sstream> <string> <thread> <variant> <vector> ${ARGN})
+      target_compile_options(${headers} PRIVATE "SHELL:-Xclang -fno-pch-timestamp")  # for a compiler's cache
       target_link_libraries(${headers} PRIVATE Eigen3::Eigen fmt::fmt)
       if(headers MATCHES "test")
         target_link_libraries(${headers} PRIVATE GTest::gtest)

@@ -91,7 +91,7 @@ class SharedSolve : public tools::AnswerCommand {
   }
 
  private:
-  Answer find(const Run& run, StageTimes& before, ByProducts*) override {
+  Answer find(const tools::Run& run, StageTimes& before, ByProducts*) override {
     Progress unseen;
     Execution execution = run.execution();
     if (execution.progress == nullptr) execution.progress = &unseen;

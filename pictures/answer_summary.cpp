@@ -22,6 +22,21 @@ std::string why_blocked(const Answer& answer, std::string_view end) {
   return (is_outside ? "" : "in the way is ") + printable(by);
 }
 
+/// What there is to say beside "not connected": of all that the planner looked at.
+std::string why_not_connected(const Answer& answer) {
+  const Figure* cause = figure_named(answer.figures, "cause");
+  const auto* word = cause == nullptr ? nullptr : std::get_if<std::string>(cause);
+  if (word != nullptr && word->starts_with("disc_blocked")) {
+    return fmt::format("the disc that holds the body does not fit at the {}; other planners take the body itself",
+                       word->ends_with("start") ? "start" : "goal");
+  }
+  if (const Figure* tried = figure_named(answer.figures, "goals_tried")) {
+    return fmt::format("of {} that bring the tool there none is free; others might be",
+                       counted(std::get<std::uint64_t>(*tried), "posture", "postures"));
+  }
+  return "this roadmap does not join start and goal; another might";
+}
+
 std::string headline(const Answer& answer, const Palette& palette) {
   if (answer.refuted) return palette.bad("refuted") + ": the path meets " + answer.refuted->violation.obstacle;
   switch (answer.outcome) {
@@ -34,7 +49,7 @@ std::string headline(const Answer& answer, const Palette& palette) {
     case Outcome::goal_blocked:
       return palette.bad("goal blocked") + ": " + why_blocked(answer, "goal");
     case Outcome::not_connected:
-      return palette.doubtful("not connected") + ": this roadmap does not join start and goal; another might";
+      return palette.doubtful("not connected") + ": " + why_not_connected(answer);
     default:
       return palette.doubtful("stopped") + ": " +
              std::string{answer.stop_reason ? text_of(*answer.stop_reason) : "before the end"};

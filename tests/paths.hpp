@@ -8,6 +8,6 @@
 namespace warren::test {
 
 std::string source_dir();  ///< the root of the tree
-std::string program();     ///< the program `warren` of this build
+std::string program();  ///< the program `warren` of this build, or the one that the environment's WARREN_PROGRAM names
 
 }  // namespace warren::test

@@ -39,8 +39,9 @@ std::string room_note(const Answer& answer) {
   for (const char* other : {"outside", "limits"}) {
     if (answer.blocked->by.starts_with(other)) return {};
   }
-  return fmt::format("{} there, {} needed", human_number(std::max(0.0, answer.blocked->room)),
-                     human_number(answer.blocked->needed));
+  const std::string room = human_number(std::max(0.0, answer.blocked->room));
+  const std::string needed = human_number(answer.blocked->needed);
+  return fmt::format("{} there, {} needed", room, room == needed ? "a hair more" : needed);
 }
 
 std::string lazy_note(const Answer& answer) {

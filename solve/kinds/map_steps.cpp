@@ -24,7 +24,8 @@ Bitmap closed_cells(const OccupancyMap& map, Vec2 start) {
 }
 
 bool stands_free_on_map(const OccupancyMap& map, const WallProblem& problem, Vec2 p, const Execution& execution) {
-  return verify_on_map(map, std::span(&p, 1), {.clearance = problem.reach()}, execution).verified;
+  const double room = problem.reach() + end_margin(problem.reach(), map.cell);
+  return verify_on_map(map, std::span(&p, 1), {.clearance = room}, execution).verified;
 }
 
 bool starts_on_water(const OccupancyMap& map, Vec2 start) {

@@ -29,7 +29,7 @@ WallProblem map_problem(const Scene& scene, const Question& options);
 /// The cells that the robot may not enter, among them the water if it starts on land.
 Bitmap closed_cells(const OccupancyMap& map, Vec2 start);
 
-/// Does the robot fit there, as the verification sees it?
+/// Does the robot fit there as an end, as the verification sees it?
 bool stands_free_on_map(const OccupancyMap& map, const WallProblem& problem, Vec2 p, const Execution& execution);
 /// Then its goal may lie there, too.
 bool starts_on_water(const OccupancyMap& map, Vec2 start);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What turning polygons and cars have in common as bodies of SampledSolve: their states are poses (x, y, theta), and a
-// goal X,Y without a heading is met in any: as 16 poses, evenly turned, of which roadmaps try the roomiest first.
+// goal X,Y without a heading is met in any: as poses_to_meet() has them, of which roadmaps try the roomiest first.
 #pragma once
 
 #include <algorithm>
@@ -30,8 +30,14 @@ class PoseBody : public UsualBody {
   Problem problem() const { return problem_.general(); }
   Se2 start() const { return problem_.start; }
   template <class World>
-  std::vector<Se2> goals(const World&) const {
-    return poses_of(problem_.goal);
+  std::vector<Se2> goals(const World& world) const {
+    return stop_in(world, problem_.goal);
+  }
+  template <class World>
+  std::vector<Se2> stop_in(const World& world, const std::vector<double>& state) const {
+    auto query = world.make_query();
+    return poses_to_meet(scene_, problem_, state, execution_,
+                         [&](const Se2& pose) { return world.is_free(pose, query); });
   }
   static std::vector<Se2> stop_at(const std::vector<double>& point) {
     if (point.size() > 3) throw UsageError("@via: a turning body takes X,Y or X,Y,THETA");

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <string>
@@ -19,6 +20,7 @@
 #include "solve/steps/sampled_solve.hpp"
 #include "solve/steps/solve_steps.hpp"
 #include "worlds/arms/arm_world.hpp"
+#include "worlds/arms/tool_postures.hpp"
 
 namespace warren {
 namespace {
@@ -43,13 +45,15 @@ class Arm : public UsualBody {
   Problem problem() const { return problem_.general(); }
   const JointState& start() const { return problem_.start; }
   /// A place of the tool is met in any posture within the limits; the nearest to the start come first.
-  std::vector<JointState> goals(const World& world) const {
-    std::vector<JointState> goals = goal_states(problem_, world.chain());
+  std::vector<JointState> goals(const World& world) {
+    std::vector<JointState> goals = postures(world);
     std::stable_sort(goals.begin(), goals.end(), [&](const JointState& a, const JointState& b) {
       return world.distance(problem_.start, a) < world.distance(problem_.start, b);
     });
     return goals;
   }
+  std::uint64_t goals_tried() const { return tried_; }
+  bool knows_all_goals() const { return knows_all_; }
   static std::vector<JointState> stop_at(const std::vector<double>& point) {
     if (point.size() != most_joints) throw UsageError("@via: an arm takes six joint angles a way-point");
     return {joint_state(point)};
@@ -82,17 +86,49 @@ class Arm : public UsualBody {
   std::string_view cause_of_blocked(const World& world, Outcome outcome, const std::vector<JointState>& goals) const;
 
  private:
+  std::vector<JointState> postures(const World& world);
+
   const Scene& scene_;
   const Execution& execution_;
   std::optional<GrowingAttach> asked_attach_;
   ArmProblem problem_;
+  std::uint64_t tried_ = 0;
+  bool knows_all_ = true;  // is every posture blocked where none of the goals is free?
 };
+
+/// A few that are quickly found, and where none of these is free others: first those of large pieces of the wrist's
+/// turns, then of smaller ones.
+std::vector<JointState> Arm::postures(const World& world) {
+  std::vector<JointState> states = goal_states(problem_, world.chain());
+  auto query = world.make_query();
+  const auto free_of = [&](const std::vector<JointState>& all) {
+    std::vector<JointState> free;
+    std::ranges::copy_if(all, std::back_inserter(free), [&](const JointState& q) {
+      execution_.check();
+      return world.is_free(q, query);
+    });
+    return free;
+  };
+  if (!problem_.any_posture() || !world.chain().moves(4) || !free_of(states).empty()) return states;
+  if (tip_is_blocked(scene_, problem_)) return states;
+  for (const std::size_t enough : {std::size_t{64}, std::size_t{16'384}}) {
+    const ToolPostures more =
+        tool_postures(world.chain(), problem_.goal_place(), problem_.start[5], enough, execution_);
+    if (more.none_is_left) return {};
+    tried_ = states.size() + more.states.size();
+    if (std::vector<JointState> free = free_of(more.states); !free.empty()) return free;
+  }
+  knows_all_ = false;
+  return {};
+}
 
 bool Arm::goal_stands_free(const JointState& q) const {
   ArmVerifyOptions options = problem_.verify_options();
   options.start.reset();
   options.goal.reset();
   options.goal_place.reset();
+  options.clearance +=
+      end_margin(scene_, problem_.robot, problem_.clearance, SerialChain(problem_.table).reach(), execution_);
   return verify_arm(scene_, problem_.table, std::span(&q, 1), options, execution_).verified;
 }
 
@@ -123,7 +159,7 @@ std::string_view Arm::cause_of_blocked(const World& world, Outcome outcome,
   if (outcome == Outcome::start_blocked) {
     return is_outside(problem_.start) ? "start_outside_limits" : "start_in_collision";
   }
-  if (goals.empty()) return "goal_out_of_reach";
+  if (goals.empty() && !tip_is_blocked(scene_, problem_)) return "goal_out_of_reach";
   return std::all_of(goals.begin(), goals.end(), is_outside) ? "goal_outside_limits" : "goal_in_collision";
 }
 

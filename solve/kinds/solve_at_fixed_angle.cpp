@@ -124,7 +124,7 @@ class FixedAngleSolve {
     const Solution<Se2> solution = plan_at_fixed_angle(request_.scene, problem, request_.execution, request_.keep);
     if (cells_) answer_.cells = CellCount{solution.roadmap.milestones, solution.roadmap.edges};
     take_account(answer_, solution);
-    settle_blocked_poses(answer_, problem_, [this](const Se2& pose) {
+    settle_blocked_poses(answer_, request_.scene, problem_, request_.execution, [this](const Se2& pose) {
       return turning_stands_free(request_.scene, problem_, pose, request_.execution);
     });
     if (answer_.outcome != Outcome::solved) return;

@@ -75,7 +75,8 @@ class Car : public PoseBody {
   }
   bool start_stands_free() const { return goal_stands_free(question().start); }
   bool goal_stands_free(const Se2& pose) const {
-    const PoseVerifyOptions options{.clearance = question().clearance};
+    const double margin = end_margin(scene(), question(), execution());
+    const PoseVerifyOptions options{.clearance = question().clearance + margin};
     return verify_car(scene(), verified_car(question().robot), std::span(&pose, 1), options, execution(), judged())
         .verified;
   }

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <set>
 
@@ -16,6 +15,7 @@
 #include "solve/kinds/ends_on_lattice.hpp"
 #include "solve/question/grid_choice.hpp"
 #include "solve/steps/kind_of_problem.hpp"
+#include "solve/steps/question_of_pose.hpp"
 #include "solve/steps/settled_ends.hpp"
 #include "solve/steps/solve_steps.hpp"
 #include "verify/judges/verify_turning.hpp"
@@ -168,16 +168,26 @@ class LatticeSolve {
 
   /// Does the body fit at an end, in some heading where any will do, as the verification sees it?
   bool stands_free(const Se2& pose, bool any_heading) const {
-    const std::uint32_t headings = any_heading ? layers_.angles : 1;
-    for (std::uint32_t k = 0; k < headings; ++k) {
-      const Se2 turned{pose.x, pose.y, pose.theta + 2.0 * std::numbers::pi * k / headings};
-      if (judged(std::span(&turned, 1), false).verified) return true;
-    }
-    return false;
+    const double margin =
+        end_margin(request_.scene, problem_.robot, problem_.clearance, extent_of(problem_.robot), request_.execution);
+    const auto is_free = [&](const Se2& turned) { return judged(std::span(&turned, 1), false, margin).verified; };
+    if (!any_heading) return is_free(pose);
+    const PoseProblem asked{problem_.robot, start_pose(), problem_.goal, problem_.clearance};
+    const std::vector<Se2> poses = poses_to_meet(request_.scene, asked, problem_.goal, request_.execution, is_free);
+    return std::any_of(poses.begin(), poses.end(), is_free);
+  }
+
+  Outcome settled_ends() const {
+    return warren::settled_ends(
+        Outcome::start_blocked, [&] { return stands_free(start_pose(), false); },
+        [&] { return stands_free(goal_pose(), any_heading()); });
   }
 
   void search() {
     const StageTimer timer(request_.execution, "search", answer_.seconds.search, layers_.states());
+    const bool is_report = layer_options_.kind == LayerKind::report004;  // its discs say what is blocked
+    if (!is_report) answer_.outcome = settled_ends();
+    if (is_blocked(answer_.outcome)) return;
     const std::vector<LayerEnd> starts = ends_at("@start", start_pose(), false);
     const std::vector<LayerEnd> goals = ends_at("@goal", goal_pose(), any_heading());
     const LayerPath path = layer_search(layers_, starts, goals, search_, request_.execution);
@@ -186,11 +196,7 @@ class LatticeSolve {
                           : !path.goal_free                    ? Outcome::goal_blocked
                           : path.status == SearchStatus::found ? Outcome::solved
                                                                : Outcome::not_connected;
-    const bool is_report = layer_options_.kind == LayerKind::report004;  // its discs say what is blocked
-    answer_.outcome = is_report ? found
-                                : settled_ends(
-                                      found, [&] { return stands_free(start_pose(), false); },
-                                      [&] { return stands_free(goal_pose(), any_heading()); });
+    answer_.outcome = is_blocked(found) && !is_report ? Outcome::not_connected : found;
     if (answer_.outcome == Outcome::solved) take(path);
   }
 
@@ -229,9 +235,9 @@ class LatticeSolve {
     if (poses_.size() > 1 || !is_there(goal, start_pose(), !turns())) poses_.push_back(goal);
   }
 
-  Verification judged(std::span<const Se2> poses, bool ends_too) const {
+  Verification judged(std::span<const Se2> poses, bool ends_too, double margin = 0.0) const {
     if (turns()) {
-      PoseVerifyOptions options{.clearance = problem_.clearance};
+      PoseVerifyOptions options{.clearance = problem_.clearance + margin};
       if (ends_too) {
         options.start = start_pose();
         options.goal = goal_pose();
@@ -241,7 +247,7 @@ class LatticeSolve {
     }
     std::vector<Vec2> path;
     for (const Se2& pose : poses) path.push_back(pose.position());
-    const VerifyOptions options{.radius = problem_.robot.radius, .clearance = problem_.clearance};
+    const VerifyOptions options{.radius = problem_.robot.radius, .clearance = problem_.clearance + margin};
     return verify_path(request_.scene, path, options, request_.execution);
   }
 

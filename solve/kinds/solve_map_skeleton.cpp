@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The planner voronoi on an occupancy map: along the skeleton of its free cells, as far from what is blocked as a path
 // can be. min_clearance of the answer is measured on the path by the verification.
+#include <array>
 #include <optional>
 
 #include "planners/grid/skeleton_planner.hpp"
@@ -35,23 +36,23 @@ class SkeletonSolve {
   void run() {
     const auto start = cell_at(map_, problem_.start);
     const auto goal = cell_at(map_, problem_.goal);
-    if (!start) return end(Outcome::start_blocked);
-    if (!goal) return end(Outcome::goal_blocked);
+    answer_.outcome = settled_on_map(Outcome::start_blocked, map_, problem_, request_.execution);
+    if (!goal && answer_.outcome != Outcome::start_blocked) answer_.outcome = Outcome::goal_blocked;
+    if (is_blocked(answer_.outcome)) return;  // what lies outside of the map is
     std::vector<std::pair<Cell, Cell>> steps;
     auto* kept_steps = request_.keep != nullptr ? &steps : nullptr;
     const SkeletonRoadmap* known = asked_roadmap<SkeletonRoadmap>(request_);
     take(known != nullptr ? plan_on_skeleton(*known, *start, *goal, options_, request_.execution, kept_steps)
                           : plan_on_skeleton(closed_cells(map_, problem_.start), *start, *goal, options_,
                                              request_.execution, kept_steps));
-    settle_ends();
+    // The skeleton was asked about the middles of the cells.
+    if (is_blocked(answer_.outcome)) answer_.outcome = Outcome::not_connected;
     if (request_.keep != nullptr) request_.keep->lines.push_back(lines_of(map_, steps));
     verify_solved_on_map(answer_, map_, problem_, true, request_.execution);
   }
   Answer& answer() { return answer_; }
 
  private:
-  void end(Outcome outcome) { answer_.outcome = outcome; }
-
   void take(const SkeletonPath& plan) {
     Solution<Vec2> solution;
     solution.outcome = plan.outcome;
@@ -59,6 +60,10 @@ class SkeletonSolve {
     solution.roadmap = plan.roadmap;
     solution.counters.expanded = plan.expanded;
     solution.separation.nearest_gap *= map_.cell;
+    for (std::array<double, 2>* place : {&solution.separation.near_start, &solution.separation.near_goal}) {
+      const Vec2 in_world = world_point(map_, {(*place)[0], (*place)[1]});
+      *place = {in_world.x, in_world.y};
+    }
     solution.seconds = plan.seconds;
     if (plan.outcome == Outcome::solved) {
       solution.path = path_over_cells(map_, problem_.start, plan.cells, problem_.goal);
@@ -66,13 +71,6 @@ class SkeletonSolve {
       answer_.path_figures.push_back({"axis_clearance", plan.clearance * map_.cell});
     }
     take_solution(answer_, std::move(solution));
-  }
-
-  /// The skeleton was asked about the middles of the cells: where it has no way, the ends themselves may be blocked.
-  void settle_ends() {
-    const bool no_way = answer_.outcome == Outcome::not_connected;
-    answer_.outcome =
-        settled_on_map(no_way ? Outcome::start_blocked : answer_.outcome, map_, problem_, request_.execution);
   }
 
   const SolveRequest& request_;

@@ -80,9 +80,13 @@ class AxisSolve {
 
   /// The disc doesn't fit; the body may.
   void settle_blocked_ends() {
-    settle_blocked_poses(answer_, problem_, [&](const Se2& pose) {
+    const bool at_start = answer_.outcome == Outcome::start_blocked;
+    const bool is_settled = !is_blocked(answer_.outcome);
+    settle_blocked_poses(answer_, request_.scene, problem_, request_.execution, [&](const Se2& pose) {
       return turning_stands_free(request_.scene, problem_, pose, request_.execution, request_.asked.judged());
     });
+    if (is_settled || is_blocked(answer_.outcome)) return;
+    answer_.figures.push_back({"cause", std::string(at_start ? "disc_blocked_at_start" : "disc_blocked_at_goal")});
   }
 
   const SolveRequest& request_;

@@ -34,7 +34,7 @@ Path<Se2> without_half_turns(const Path<Se2>& path) {
 
 bool turning_stands_free(const Scene& scene, const PoseProblem& problem, const Se2& pose, const Execution& execution,
                          const ObstacleIndex* judged) {
-  const PoseVerifyOptions options{.clearance = problem.clearance};
+  const PoseVerifyOptions options{.clearance = problem.clearance + end_margin(scene, problem, execution)};
   return verify_se2(scene, problem.robot.outline, std::span(&pose, 1), options, execution, judged).verified;
 }
 

@@ -13,7 +13,8 @@ namespace warren {
 
 inline constexpr std::string_view turning_body = "a turning body";
 
-/// Does the body stand free at the pose, with its clearance? `judged`, here and below: of the scene, or nullptr.
+/// Does the body stand free at the pose as an end, with its clearance? `judged`, here and below: of the scene, or
+/// nullptr.
 bool turning_stands_free(const Scene& scene, const PoseProblem& problem, const Se2& pose, const Execution& execution,
                          const ObstacleIndex* judged = nullptr);
 

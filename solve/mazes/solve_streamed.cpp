@@ -137,7 +137,8 @@ class StreamedSolve {
     answer_.min_clearance = found.min_clearance;
   }
   std::optional<Violation> met_at(Vec2 p) const {
-    const VerifyOptions options{.radius = problem_.robot.radius, .clearance = problem_.clearance};
+    const VerifyOptions options{.radius = problem_.robot.radius,
+                                .clearance = problem_.clearance + end_margin(problem_.reach())};
     return verify_among_cells(walls_->judged(), std::span(&p, 1), options, execution_).first_violation;
   }
   bool stands_free(Vec2 p) const { return !met_at(p); }

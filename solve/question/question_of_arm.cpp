@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 
 #include "core/base/error.hpp"
 #include "scenes/formats/dh_table_io.hpp"
 #include "worlds/arms/puma560.hpp"
+#include "worlds/arms/solid_distance.hpp"
 
 namespace warren {
 namespace {
@@ -98,6 +100,17 @@ std::vector<JointState> goal_states(const ArmProblem& problem, const SerialChain
     }
   }
   return states;
+}
+
+bool tip_is_blocked(const Scene& scene, const ArmProblem& problem) {
+  const Spine tip(problem.goal_place(), problem.goal_place());
+  const double room = problem.robot.radius + problem.clearance;
+  return std::ranges::any_of(scene.spheres,
+                             [&](const Sphere& s) {
+                               return std::sqrt(distance_square(tip, Vec3(s.x, s.y, s.z))) <= room + s.radius;
+                             }) ||
+         std::ranges::any_of(scene.boxes,
+                             [&](const SolidBox& box) { return std::sqrt(distance_square(tip, box)) <= room; });
 }
 
 }  // namespace warren

@@ -39,6 +39,9 @@ ArmProblem arm_problem(const Scene& scene, const Question& options, const Execut
 /// whose inverse kinematics nobody knows here.
 std::vector<JointState> goal_states(const ArmProblem& problem, const SerialChain& chain);
 
+/// Is the goal's place so near an obstacle that no link could end there, whatever the posture?
+bool tip_is_blocked(const Scene& scene, const ArmProblem& problem);
+
 /// The first six of the numbers, zeros for those that lack.
 JointState joint_state(std::span<const double> numbers);
 

@@ -6,6 +6,7 @@
 #include "core/plane/cell_walls.hpp"
 #include "solve/steps/blocked_cell.hpp"
 #include "solve/steps/blocked_end.hpp"
+#include "solve/steps/settled_ends.hpp"
 #include "verify/cells/verify_steps.hpp"
 
 namespace warren {
@@ -15,7 +16,8 @@ void explain_blocked_end(const Roadmap& roadmap, Answer& answer, const Execution
   const Scene& outline = roadmap.world.outline();
   const KeptCells* cells = roadmap.world.looked_up(execution);
   if (cells == nullptr) return explain_blocked_end(roadmap.world.whole(execution), answer, execution);
-  const VerifyOptions options{.radius = roadmap.robot.radius, .clearance = roadmap.clearance};
+  const double margin = end_margin(roadmap.robot.radius + roadmap.clearance);
+  const VerifyOptions options{.radius = roadmap.robot.radius, .clearance = roadmap.clearance + margin};
   const auto met_at = [&](Vec2 p) {
     return verify_steps(*cells->walls, std::span(&p, 1), options, execution).first_violation;
   };

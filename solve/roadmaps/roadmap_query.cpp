@@ -258,7 +258,8 @@ void RoadmapQuery::settle_and_verify(Answer& answer, const WallProblem& problem,
     return verify_solved(answer, scene, problem, execution, judged);
   }
   const auto stands_free = [&](Vec2 p) {
-    const VerifyOptions options{.radius = problem.robot.radius, .clearance = problem.clearance};
+    const VerifyOptions options{.radius = problem.robot.radius,
+                                .clearance = problem.clearance + end_margin(problem.reach())};
     return verify_steps(*cells->walls, std::span(&p, 1), options, execution).verified;
   };
   answer.outcome = settled_ends(

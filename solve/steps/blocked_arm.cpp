@@ -19,9 +19,11 @@
 #include "scenes/text/human_units.hpp"
 #include "solve/question/question_of_arm.hpp"
 #include "solve/steps/nearest_free.hpp"
+#include "solve/steps/settled_ends.hpp"
 #include "worlds/arms/arm_world.hpp"
 #include "worlds/arms/serial_chain.hpp"
 #include "worlds/arms/solid_distance.hpp"
+#include "worlds/arms/tool_postures.hpp"
 
 namespace warren {
 namespace {
@@ -41,13 +43,17 @@ class BlockedArm {
     problem_.start = joint_state(problem.start);
     problem_.goal = problem.goal;
     problem_.clearance = problem.clearance;
+    margin_ = end_margin(scene, problem.robot, problem.clearance, chain_.reach(), execution);
   }
 
   const SerialChain& chain() const { return chain_; }
-  std::optional<Violation> met(const JointState& q) const {
+  /// What ends have beyond the clearance.
+  double margin() const { return margin_; }
+  /// With so much more room than is asked for.
+  std::optional<Violation> met(const JointState& q, double more) const {
     execution_.check();
     const ArmVerifyOptions options{.radius = problem_.robot.radius,
-                                   .clearance = problem_.clearance,
+                                   .clearance = problem_.clearance + more,
                                    .self_collision = problem_.robot.self_collision};
     return verify_arm(scene_, problem_.table, std::span(&q, 1), options, execution_).first_violation;
   }
@@ -59,6 +65,12 @@ class BlockedArm {
     ArmProblem there = problem_;
     there.goal = {place.x(), place.y(), place.z()};
     return goal_states(there, chain_);
+  }
+  /// One of them, sought where the quickly found ones are none.
+  std::optional<JointState> posture(const Vec3& place) const {
+    std::vector<JointState> states = postures(place);
+    if (states.empty()) states = tool_postures(chain_, place, problem_.start[5], 1, execution_).states;
+    return states.empty() ? std::nullopt : std::optional(states.front());
   }
   /// Which some posture reaches that is free.
   std::optional<Numbers<3>> free_tool_place(const Vec3& place) const;
@@ -79,6 +91,7 @@ class BlockedArm {
   const Execution& execution_;
   SerialChain chain_;
   ArmProblem problem_;
+  double margin_ = 0.0;
 };
 
 std::optional<double> BlockedArm::depth_in(const Violation& violation, const JointState& q) const {
@@ -117,20 +130,24 @@ std::optional<JointState> BlockedArm::free_posture(const JointState& q) const {
     const double high = std::floor(chain_.high(k) * digits) / digits;
     if (low <= high && (q[k] < chain_.low(k) || q[k] > chain_.high(k))) within[k] = std::clamp(q[k], low, high);
   }
-  const auto is_free = [this](const JointState& state) { return !met(state); };
-  if (is_free(within)) return within;
+  const auto is_free = [this](const JointState& state, double spare) {
+    return chain_.joint_outside_limits(state) == most_joints && !met(state, margin_ + spare);
+  };
+  const double size = std::max(problem_.robot.radius, 0.1 * chain_.reach());
+  if (is_free(within, 1e-2 * size)) return within;
   const FreeSearchRange range{1e-3, 2.0 * std::numbers::pi, 1e-3 * norm_between(q, within)};
-  return nearest_free_in_few_digits<most_joints>(within, directions, range, is_free);
+  return nearest_free_in_few_digits<most_joints>(within, directions, range, size, is_free);
 }
 
 std::optional<Numbers<3>> BlockedArm::free_tool_place(const Vec3& place) const {
   static const std::vector<Numbers<3>> directions = directions_around<3>(60);
-  const auto is_free = [this](const Numbers<3>& p) {
+  const auto is_free = [this](const Numbers<3>& p, double spare) {
     const std::vector<JointState> states = postures({p[0], p[1], p[2]});
-    return std::any_of(states.begin(), states.end(), [this](const JointState& q) { return !met(q); });
+    return std::any_of(states.begin(), states.end(), [&](const JointState& q) { return !met(q, margin_ + spare); });
   };
   const FreeSearchRange range{1e-3 * chain_.reach(), chain_.reach()};
-  return nearest_free_in_few_digits<3>({place.x(), place.y(), place.z()}, directions, range, is_free);
+  return nearest_free_in_few_digits<3>({place.x(), place.y(), place.z()}, directions, range, 0.1 * chain_.reach(),
+                                       is_free);
 }
 
 /// Of a place that no posture brings the tool to: how far it is from the base, and how far all links would reach in a
@@ -167,11 +184,11 @@ void tell_free(Answer& answer, const std::optional<Numbers<n>>& free, std::span<
 
 /// Of all postures there, the one that the tool's place is asked about is as good as any: the first.
 void explain_tool_place(Answer& answer, const BlockedArm& arm, const Vec3& place) {
-  const std::vector<JointState> postures = arm.postures(place);
-  if (postures.empty()) return explain_reach(answer, place, arm.chain().table());
-  const auto met = arm.met(postures.front());
+  const std::optional<JointState> posture = arm.posture(place);
+  if (!posture) return explain_reach(answer, place, arm.chain().table());
+  const auto met = arm.met(*posture, arm.margin());
   if (!met) return;
-  tell(answer, false, *met, arm, postures.front());
+  tell(answer, false, *met, arm, *posture);
   tell_free(answer, arm.free_tool_place(place), answer.problem.goal);
 }
 
@@ -204,10 +221,12 @@ void explain_blocked_arm(const Scene& scene, Answer& answer, const Execution& ex
   const BlockedArm arm(scene, answer.problem, execution);
   if (asked.size() == 3) return explain_tool_place(answer, arm, {asked[0], asked[1], asked[2]});
   const JointState q = joint_state(asked);
-  const auto met = arm.met(q);
+  auto met = arm.met(q, 0.0);
+  const bool only_touches = !met;
+  if (only_touches) met = arm.met(q, arm.margin());
   if (!met) return;
   tell(answer, is_start, *met, arm, q);
-  answer.blocked->hint = degrees_hint(asked);
+  answer.blocked->hint = only_touches ? std::string(touching_hint) : degrees_hint(asked);
   tell_free(answer, arm.free_posture(q), q);
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/plane/geometry.hpp"
+#include "solve/steps/settled_ends.hpp"
 
 namespace warren {
 namespace {
@@ -40,6 +41,8 @@ void explain_blocked_cell(const WallProblem& problem, MazeHint maze, Answer& ans
   }
   if (is_outside) {
     if (!met_at({at.y, at.x})) answer.blocked->hint = fmt::format("x comes before y: {},{} is free", at.y, at.x);
+  } else if (met->distance >= problem.reach()) {
+    answer.blocked->hint = touching_hint;
   } else if (const double depth = problem.robot.radius - met->distance; depth > 0.0) {
     answer.blocked->depth = depth;
   }

@@ -14,7 +14,7 @@
 
 namespace warren {
 
-/// What the judge meets at a place; nothing where the body fits.
+/// What the judge meets at a place, with the margin of ends; nothing where the body fits.
 using MetAt = std::function<std::optional<Violation>(Vec2)>;
 
 /// Fills in answer.blocked where an end is blocked. The problem's reach is below half a cell.

@@ -21,6 +21,8 @@
 #include "solve/steps/nearest_free.hpp"
 #include "solve/steps/obstacle_alone.hpp"
 #include "solve/steps/obstacles_near.hpp"
+#include "solve/steps/question_of_pose.hpp"
+#include "solve/steps/settled_ends.hpp"
 
 namespace warren {
 namespace {
@@ -48,12 +50,14 @@ class BlockedEndSearch {
         state_(std::move(state)),
         execution_(execution),
         middle_(at()) {
-    reach_ = problem.clearance + problem.robot.radius;
-    for (const Vec2 corner : problem.robot.outline) reach_ = std::max(reach_, problem.clearance + norm(corner));
+    reach_ = problem.clearance + extent_of(problem.robot);
+    margin_ = end_margin(scene, problem.robot, problem.clearance, extent_of(problem.robot), execution);
   }
 
-  /// What the judge meets there; nothing where the body fits after all.
-  std::optional<Violation> met() const { return judged(scene_, state_).first_violation; }
+  /// What the judge meets there with so much more room than is asked for; nothing where the body fits after all.
+  std::optional<Violation> met(double more) const { return judged(scene_, state_, more).first_violation; }
+  /// What ends have beyond the clearance.
+  double margin() const { return margin_; }
 
   /// Where the reference point may be at all; of obstacles without bounds, the box that they fill.
   Box room() const { return room_of(scene_, execution_); }
@@ -68,10 +72,11 @@ class BlockedEndSearch {
     if (box.contains(at())) middle_ = at();
     const double farthest = portable::hypot(box.width(), box.height());
     const FreeSearchRange range{1e-4 * farthest, farthest, 1e-3 * norm(middle_ - at())};
-    const auto place = nearest_free_in_few_digits(
-        Numbers<2>{middle_.x, middle_.y}, std::span<const Numbers<2>>(directions_), range, [this](const Numbers<2>& p) {
-          return is_free({p[0], p[1]});
-        });
+    const auto place =
+        nearest_free_in_few_digits(Numbers<2>{middle_.x, middle_.y}, std::span<const Numbers<2>>(directions_), range,
+                                   size(), [this](const Numbers<2>& p, double spare) {
+                                     return is_free({p[0], p[1]}, margin_ + spare);
+                                   });
     if (!place) return std::nullopt;
     std::vector<double> state = state_;
     std::copy(place->begin(), place->end(), state.begin());
@@ -86,11 +91,12 @@ class BlockedEndSearch {
     Problem bare = problem_;
     bare.clearance = 0.0;
     BlockedEndSearch there(*alone, bare, state_, execution_);
-    if (!there.met()) return std::nullopt;
+    if (!there.met(0.0)) return std::nullopt;
     return there.way_out();
   }
 
-  bool is_free(Vec2 place) {
+  /// With so much more room than is asked for.
+  bool is_free(Vec2 place, double more) {
     execution_.check();
     const double distance = norm(place - middle_);
     if (!scene_.map && distance + reach_ > near_reach_) {
@@ -100,17 +106,26 @@ class BlockedEndSearch {
     std::vector<double> state = state_;
     state[0] = place.x;
     state[1] = place.y;
-    return judged(scene_.map ? scene_ : near_, state).verified;
+    return judged(scene_.map ? scene_ : near_, state, more).verified;
   }
   Vec2 at() const { return {state_[0], state_[1]}; }
 
  private:
-  Question question_at(const std::vector<double>& state) const {
+  Question question_at(const std::vector<double>& state, double more = 0.0) const {
     Question question = problem_.question();
     question.start = question.goal = state;
+    if (more > 0.0) {
+      question.clearance = problem_.clearance + more;
+      question.contact = Contact::blocked;
+    }
     return question;
   }
-  Verdict judged(const Scene& scene, const std::vector<double>& state) const {
+  /// What room is measured by: the body, a cell, and for a point else the world.
+  double size() const {
+    if (reach_ > 0.0) return reach_;
+    return scene_.map ? scene_.map->cell : 1e-2 * portable::hypot(room().width(), room().height());
+  }
+  Verdict judged(const Scene& scene, const std::vector<double>& state, double more) const {
     RecordedAnswer stay;
     stay.file = "answer";
     if (state.size() == 2) {
@@ -119,12 +134,12 @@ class BlockedEndSearch {
       stay.states.width = state.size();
       stay.states.add(state);
     }
-    return kind_.verify(scene, question_at(state), stay, execution_);
+    return kind_.verify(scene, question_at(state, more), stay, execution_);
   }
   std::optional<double> way_out() {
     const Box box = room();
     const double farthest = portable::hypot(box.width(), box.height());
-    const auto is_out = [this](const Numbers<2>& p) { return is_free({p[0], p[1]}); };
+    const auto is_out = [this](const Numbers<2>& p) { return is_free({p[0], p[1]}, 0.0); };
     NearestFree<2, decltype(is_out)> search({at().x, at().y}, directions_, is_out);
     const double touching = 1e-6 * farthest;
     const auto found = search.find({touching, farthest});
@@ -137,7 +152,8 @@ class BlockedEndSearch {
   std::vector<double> state_;
   const Execution& execution_;
   double reach_ = 0.0;  // of the body, around its reference point
-  Vec2 middle_;         // around which places are looked at
+  double margin_ = 0.0;
+  Vec2 middle_;  // around which places are looked at
   std::vector<Numbers<2>> directions_ = directions_in_the_plane();
   Scene near_;  // what is within near_reach_ of it
   double near_reach_ = 0.0;
@@ -161,7 +177,7 @@ std::string in_the_way(const Scene& scene, const Violation& met, const BlockedEn
 
 /// What may have been meant.
 std::string hint_of(const std::vector<double>& state, BlockedEndSearch& search) {
-  if (!search.room().contains(search.at()) && search.is_free({state[1], state[0]}))
+  if (!search.room().contains(search.at()) && search.is_free({state[1], state[0]}, search.margin()))
     return fmt::format("x comes before y: {},{} is free", state[1], state[0]);
   return {};
 }
@@ -183,18 +199,26 @@ void explain_blocked_end(const Scene& scene, Answer& answer, const Execution& ex
   const bool is_start = answer.outcome == Outcome::start_blocked;
   std::vector<double> state = is_start ? answer.problem.start : answer.problem.goal;
   const std::size_t width = state_size(answer.problem.robot);
-  if (state.size() == 2 && width == 3) state.push_back(0.0);  // any heading: one of them tells enough
+  const bool any_heading = state.size() == 2 && width == 3;
+  if (any_heading) state.push_back(0.0);  // one of them tells enough
   try {
     if (width == 6) return explain_blocked_arm(scene, answer, execution);
     if (state.size() != width) return;
     BlockedEndSearch search(scene, answer.problem, state, execution);
-    const auto met = search.met();
+    auto met = search.met(0.0);
+    const bool only_touches = !met;
+    if (only_touches) met = search.met(search.margin());
     if (!met) return;
     answer.blocked = BlockedEnd{.is_start = is_start, .by = in_the_way(scene, *met, search)};
-    answer.blocked->hint = hint_of(state, search);
+    answer.blocked->hint = only_touches ? std::string(touching_hint) : hint_of(state, search);
+    if (any_heading && answer.blocked->hint.empty()) answer.blocked->hint = "it fits at no heading: all are looked at";
     answer.blocked->room = met->distance;
     answer.blocked->needed = answer.problem.clearance + answer.problem.robot.radius;
     answer.blocked->depth = search.depth_in(answer.blocked->by);
+    const bool is_in_it = answer.blocked->depth || !search.room().contains(search.at());
+    if (answer.blocked->hint.empty() && !is_in_it && answer.blocked->needed == 0.0) {
+      answer.blocked->hint = "it only touches it there, and with contact blocked what touches is not free";
+    }
     if (auto place = search.free_place()) {
       answer.blocked->distance = norm(Vec2{(*place)[0], (*place)[1]} - search.at());
       answer.blocked->free_place = std::move(*place);

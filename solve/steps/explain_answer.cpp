@@ -11,6 +11,7 @@
 #include "solve/steps/blocked_end.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 #include "solve/steps/obstacles_near.hpp"
+#include "solve/steps/question_of_pose.hpp"
 
 namespace warren {
 namespace {
@@ -30,13 +31,6 @@ ComponentFacts facts_of(const Graph& graph, const Execution& execution) {
   facts.of_goal = size[parts.label[vertices - 1]];
   facts.joined = parts.connected(vertices - 2, vertices - 1);
   return facts;
-}
-
-/// How far the body reaches from its reference point.
-double extent_of(const RobotSpec& robot) {
-  double extent = robot.radius;
-  for (const Vec2 corner : robot.outline) extent = std::max(extent, norm(corner));
-  return extent;
 }
 
 /// The graph of the roadmap, whatever its states are; nullptr: none was kept, or its edges lead one way.

@@ -114,7 +114,8 @@ void Hints::add_for_roadmaps() {
   if (!all_places) {
     const std::uint64_t drawn = asked_.samples > 0 ? asked_.samples : answer_.roadmap.samples;
     const std::uint64_t more = four_times(std::max<std::uint64_t>(drawn, options_.roadmap.samples.value_or(1)));
-    if (more > drawn) {
+    const bool any_drawn = drawn > 0 || answer_.counters.samples > 0;
+    if (any_drawn && more > drawn) {
       offer({"--samples", fmt::format("{}", more)},
             options_.roadmap.samples ? "without --samples the roadmap grows until start and goal connect"
                                      : "the roadmap gave up at a fourth of that",

@@ -133,22 +133,29 @@ inline double in_few_digits(double x, double size) {
   return rounded + 0.0;  // no -0
 }
 
-/// The nearest free state, up to a tenth farther where that takes fewer digits: a tenth of its distance from the middle
-/// or of ten times what is near enough.
+/// The nearest state that has room to spare, to as many digits as leave it half of that: up to a tenth farther where
+/// that takes fewer, a tenth of its distance from the middle or of ten times what is near enough. is_free(state,
+/// spare): with so much more room than it must have. Little room is sought only where there is nowhere more; size: what
+/// the body's is, > 0.
 template <std::size_t n, class IsFree>
 std::optional<Numbers<n>> nearest_free_in_few_digits(const Numbers<n>& middle, std::span<const Numbers<n>> directions,
-                                                     const FreeSearchRange& range, const IsFree& is_free) {
-  NearestFree<n, IsFree> search(middle, directions, is_free);
-  const auto found = search.find(range);
-  if (!found) return std::nullopt;
-  // Where a state is sought far from the middle that is there, what is near enough needs few digits, too.
-  const double size = std::max(found->distance, 10.0 * range.enough);
-  for (double more = 0.0; more < 0.1 * size; more += 0.02 * size) {
-    Numbers<n> state = search.at(found->direction, found->distance + more);
-    for (double& x : state) x = in_few_digits(x, size);
-    if (is_free(state)) return state;
+                                                     const FreeSearchRange& range, double size, const IsFree& is_free) {
+  for (const double spare : {1e-2 * size, 1e-5 * size}) {
+    const auto is_roomy = [&](const Numbers<n>& state) { return is_free(state, spare); };
+    NearestFree<n, decltype(is_roomy)> search(middle, directions, is_roomy);
+    const auto found = search.find(range);
+    if (!found) continue;
+    // Where a state is sought far from the middle that is there, what is near enough needs few digits, too.
+    double scale = std::max(found->distance, 10.0 * range.enough);
+    for (; scale > 0.1 * spare; scale *= 0.1) {
+      for (double more = 0.0; more < 0.1 * scale; more += 0.02 * scale) {
+        Numbers<n> state = search.at(found->direction, found->distance + more);
+        for (double& x : state) x = in_few_digits(x, scale);
+        if (is_free(state, 0.5 * spare)) return state;
+      }
+    }
   }
-  return search.at(found->direction, found->distance);
+  return std::nullopt;
 }
 
 }  // namespace warren

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solve/steps/question_of_pose.hpp"
 
+#include <algorithm>
 #include <array>
 #include <numbers>
 
 #include "solve/question/tree_choice.hpp"
 #include "solve/steps/solve_steps.hpp"
+#include "worlds/poses/free_headings.hpp"
 
 namespace warren {
 namespace {
@@ -45,6 +47,27 @@ std::vector<Se2> poses_of(const std::vector<double>& state) {
     poses.push_back({state[0], state[1], wrapped_angle(2.0 * std::numbers::pi * i / headings)});
   }
   return poses;
+}
+
+std::vector<Se2> poses_of_intervals(const Scene& scene, const PoseProblem& problem, Vec2 place,
+                                    const Execution& execution) {
+  std::vector<Se2> poses;
+  if (problem.robot.outline.empty()) return poses;
+  const double room = problem.clearance + end_margin(scene, problem, execution);
+  for (const HeadingInterval& fits : free_headings(scene, problem.robot.outline, place, room, execution)) {
+    poses.push_back({place.x, place.y, fits.middle()});
+  }
+  return poses;
+}
+
+double extent_of(const RobotSpec& robot) {
+  double extent = robot.radius;
+  for (const Vec2 corner : robot.outline) extent = std::max(extent, norm(corner));
+  return extent;
+}
+
+double end_margin(const Scene& scene, const PoseProblem& problem, const Execution& execution) {
+  return end_margin(scene, problem.robot, problem.clearance, extent_of(problem.robot), execution);
 }
 
 std::vector<Se2> recorded_poses(const RecordedAnswer& answer, std::string_view body) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the kinds share whose states are poses (x, y, theta), turning polygons and cars: the question, its options, and
-// how the planners are asked. A goal X,Y without a heading is met in any: trees have it as 16 goals, evenly turned;
-// roadmaps take the one of these that has the most room.
+// how the planners are asked. A goal X,Y without a heading is met in any: trees have it as 16 goals, evenly turned, or
+// where the body fits at none of these as those between at which it does; roadmaps take the one with the most room.
 #pragma once
 
 #include <fmt/format.h>
@@ -38,8 +38,28 @@ struct PoseProblem {
 /// and for contact that is allowed.
 PoseProblem pose_problem(const Scene& scene, const Question& options, std::string_view body);
 
-/// The poses that will do for a state of 2 or 3 numbers.
+/// The poses that will do for a state of 2 or 3 numbers: of 2 those of 16 headings, evenly turned.
 std::vector<Se2> poses_of(const std::vector<double>& state);
+/// At each interval of headings at which an outline fits there as an end, but for obstacles around all of it, the
+/// middle.
+std::vector<Se2> poses_of_intervals(const Scene& scene, const PoseProblem& problem, Vec2 place,
+                                    const Execution& execution);
+/// poses_of(), and where none of several is free those of the intervals: where all of these are blocked, every heading
+/// is.
+template <class IsFree>
+std::vector<Se2> poses_to_meet(const Scene& scene, const PoseProblem& problem, const std::vector<double>& state,
+                               const Execution& execution, const IsFree& is_free) {
+  std::vector<Se2> poses = poses_of(state);
+  if (state.size() == 3 || std::any_of(poses.begin(), poses.end(), is_free)) return poses;
+  const std::vector<Se2> more = poses_of_intervals(scene, problem, {state[0], state[1]}, execution);
+  poses.insert(poses.end(), more.begin(), more.end());
+  return poses;
+}
+
+/// How far the body reaches from its reference point.
+double extent_of(const RobotSpec& robot);
+/// What an end has beyond its clearance (solve/steps/settled_ends.hpp).
+double end_margin(const Scene& scene, const PoseProblem& problem, const Execution& execution);
 /// The path of an answer whose states have three numbers; throws InputError for others.
 std::vector<Se2> recorded_poses(const RecordedAnswer& answer, std::string_view body);
 
@@ -49,14 +69,14 @@ void check_pose_sampler(std::optional<SamplerKind> sampler);
 /// The path, as the answer gives it.
 void record_poses(Answer& answer, std::span<const Se2> path);
 
-/// Planning keeps a little more room than it must, so a body that fits exactly is no blocked one: nobody proved that.
-/// stands_free(pose): by the verification.
+/// What is said of the ends where one is called blocked. stands_free(pose): by the verification, as an end.
 template <class StandsFree>
-void settle_blocked_poses(Answer& answer, const PoseProblem& problem, const StandsFree& stands_free) {
+void settle_blocked_poses(Answer& answer, const Scene& scene, const PoseProblem& problem, const Execution& execution,
+                          const StandsFree& stands_free) {
   answer.outcome = settled_ends(
       answer.outcome, [&] { return stands_free(problem.start); },
       [&] {
-        const std::vector<Se2> goals = poses_of(problem.goal);
+        const std::vector<Se2> goals = poses_to_meet(scene, problem, problem.goal, execution, stands_free);
         return std::any_of(goals.begin(), goals.end(), stands_free);
       });
 }

@@ -8,9 +8,11 @@
 //   World, and State = World::State
 //   has_trees                              does rrt take its world?
 //   problem()                              as the answer repeats it
-//   start(), goals(world)                  all states that will do as the goal
+//   start(), goals(world)                  all states that will do as the goal; of those that are too many, free ones
+//   knows_all_goals(), goals_tried()       where it has no goal: is there none, and else how many were tried?
 //   best_first(world, goals)               in the order in which roadmaps try them
 //   stop_at(numbers)                       the states that will do at a way-point; throws UsageError for other numbers
+//   stop_in(world, numbers)                the same, where the world decides which; else not there
 //   choose_sampler(options)                what is asked for, or what suits; throws UsageError for what is not for it
 //   add_options(answer)                    what else was asked for
 //   index(world, sampler)                  emplaces the world
@@ -68,8 +70,10 @@ class SampledSolve {
     answer_within_limits(answer_, [this] {
       index();
       if (goals_.empty()) {
-        answer_.outcome = Outcome::goal_blocked;
-      } else {
+        answer_.outcome = !body_.start_stands_free() ? Outcome::start_blocked
+                          : body_.knows_all_goals()  ? Outcome::goal_blocked
+                                                     : Outcome::not_connected;
+      } else if (!ends_touch()) {
         bound_growth();
         by_roadmap() ? plan_roadmaps() : plan_trees();
         settle_ends();
@@ -95,6 +99,7 @@ class SampledSolve {
   PlannedRoadmap<State>* kept();
   void take(Solution<State> solution);
   void settle_ends();
+  bool ends_touch();
   void choose_path();
   void finish();
   std::string_view cause() const;
@@ -224,7 +229,13 @@ template <class Body>
 std::vector<std::vector<typename SampledSolve<Body>::State>> SampledSolve<Body>::stops() const {
   std::vector<std::vector<State>> stops;
   for (const std::vector<double>& point : request_.options.trees.via) {
-    const std::vector<State> states = body_.stop_at(point);
+    const std::vector<State> states = [&] {
+      if constexpr (requires { body_.stop_in(*world_, point); }) {
+        return body_.stop_in(*world_, point);
+      } else {
+        return body_.stop_at(point);
+      }
+    }();
     stops.push_back(detail::free_states(*world_, std::span<const State>(states)));
     if (!stops.back().empty()) continue;
     throw UsageError(fmt::format("@via: the {} does not fit at way-point {}", Body::noun, stops.size()));
@@ -255,12 +266,24 @@ void SampledSolve<Body>::take(Solution<State> solution) {
 
 template <class Body>
 void SampledSolve<Body>::settle_ends() {
+  const bool has_none = std::is_same_v<State, Se2> && asked_ != nullptr && answer_.outcome == Outcome::not_connected;
+  if (has_none) answer_.outcome = Outcome::start_blocked;
   answer_.outcome = settled_ends(
       answer_.outcome, [this] { return body_.start_stands_free(); },
       [this] {
         return std::any_of(goals_.begin(), goals_.end(),
                            [this](const State& goal) { return body_.goal_stands_free(goal); });
       });
+}
+
+/// A world of poses takes ends with less to spare than others do, from which then nothing leads. Of a roadmap that is
+/// asked they are looked at where it has no way.
+template <class Body>
+bool SampledSolve<Body>::ends_touch() {
+  if (!std::is_same_v<State, Se2> || asked_ != nullptr) return false;
+  answer_.outcome = Outcome::start_blocked;
+  settle_ends();
+  return is_blocked(answer_.outcome);
 }
 
 /// Of bodies whose ways have a price beyond their length: the cheapest of several trees' paths, each shortened a
@@ -293,6 +316,8 @@ void SampledSolve<Body>::finish() {
   if (answer_.outcome == Outcome::stopped) return;
   if (answer_.outcome != Outcome::solved) {
     if (const std::string_view why = cause(); !why.empty()) answer_.figures.push_back({"cause", std::string(why)});
+    if (goals_.empty() && answer_.outcome == Outcome::not_connected)
+      answer_.figures.push_back({"goals_tried", body_.goals_tried()});
     return;
   }
   if (request_.options.optimise) {
@@ -311,6 +336,7 @@ std::string_view SampledSolve<Body>::cause() const {
   if (answer_.outcome == Outcome::start_blocked || answer_.outcome == Outcome::goal_blocked) {
     return body_.cause_of_blocked(*world_, answer_.outcome, goals_);
   }
+  if (goals_.empty()) return "goal_not_found";
   return cause_of_separation(answer_, by_roadmap());
 }
 

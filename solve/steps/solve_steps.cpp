@@ -58,8 +58,9 @@ void take_solution(Answer& answer, Solution<Vec2> solution) {
 
 bool stands_free(const Scene& scene, const WallProblem& problem, Vec2 p, const Execution& execution,
                  const ObstacleIndex* judged) {
-  const VerifyOptions options{
-      .radius = problem.robot.radius, .clearance = problem.clearance, .contact = problem.contact};
+  const VerifyOptions options{.radius = problem.robot.radius,
+                              .clearance = problem.clearance + end_margin(problem.reach()),
+                              .contact = problem.contact};
   return verify_path(scene, std::span(&p, 1), options, execution, judged).verified;
 }
 

@@ -34,11 +34,11 @@ void take_account(Answer& answer, const Solution<State>& s) {
   take_account(answer, s.outcome, s.stop_reason, s.roadmap, s.separation, s.counters, s.seconds);
 }
 
-/// Does the body fit there, as the verification sees it? `judged`, here and below: of the scene, or nullptr.
+/// Does the body fit there as an end, as the verification sees it? `judged`, here and below: of the scene, or nullptr.
 bool stands_free(const Scene& scene, const WallProblem& problem, Vec2 p, const Execution& execution,
                  const ObstacleIndex* judged = nullptr);
 
-/// Planning keeps 1e-9 more room than it must, so a body that fits exactly is no blocked one: nobody proved that.
+/// What is said of the ends where one is called blocked: by the verification.
 void settle_blocked_ends(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution,
                          const ObstacleIndex* judged = nullptr);
 

@@ -25,6 +25,8 @@ struct UsualBody {
   static std::vector<State> best_first(const World&, const std::vector<State>& goals) {
     return goals;
   }
+  static std::uint64_t goals_tried() { return 0; }
+  static bool knows_all_goals() { return true; }
   static std::optional<GrowingAttach> attach(const SolveOptions&) { return std::nullopt; }
   template <class World, class Goals>
   static std::string_view cause_of_blocked(const World&, Outcome outcome, const Goals&) {

@@ -40,13 +40,13 @@ Json gain_json(const ThreadGain& gain) {
           {"quiet_stage_gains", std::move(stages)}};
 }
 
-std::string size_text(const MazeTrial& t) { return fmt::format("{} x {}", t.rows, t.cols); }
+std::string side_text(const MazeTrial& t) { return fmt::format("{} x {}", t.rows, t.cols); }
 
 std::string table_line(const ScalingRow& row) {
   const MazeTrial& t = row.fastest;
   const auto bytes = static_cast<double>(row.peak_memory_bytes);
   return fmt::format("{:>15}  {:<30} {:>7}  {:>9}  {:>9}  {:>5.1f} %  {:>8.1f}  {:>8.2f}  {:>9}  {:>8.1f}\n",
-                     size_text(t), planner_text(t), t.threads, human_seconds(t.solve_s), human_seconds(row.median_s),
+                     side_text(t), planner_text(t), t.threads, human_seconds(t.solve_s), human_seconds(row.median_s),
                      100.0 * row.spread, t.solve_s * 1e9 / t.cells(), row.speed_up, human_bytes(bytes),
                      bytes / t.cells());
 }
@@ -56,7 +56,7 @@ std::string unsolved_text(const ScalingResult& result) {
   std::set<std::string> said;
   for (const ScalingRun& run : result.runs) {
     if (run.trial.verified) continue;
-    const std::string what = fmt::format("  {}, {}, {} threads: {}\n", size_text(run.trial), planner_text(run.trial),
+    const std::string what = fmt::format("  {}, {}, {} threads: {}\n", side_text(run.trial), planner_text(run.trial),
                                          run.trial.threads, verdict_of(run.trial));
     if (said.insert(what).second) text += what;
   }

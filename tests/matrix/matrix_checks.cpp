@@ -145,14 +145,44 @@ void Matrix::check_path_file(const MatrixBody& body, const std::vector<std::vect
   EXPECT_FALSE(wrong.has_value()) << "between the places of path.csv: " << *wrong;
 }
 
-/// What is told of a blocked end is told, and a place that is called free is.
-void Matrix::check_why_blocked(const MatrixBody& body, bool may_touch, const ProgramAnswer& answer) const {
+/// What is told of a blocked end is told, and a place that is called free is, without touching.
+void Matrix::check_why_blocked(const MatrixBody& body, const ProgramAnswer& answer) const {
   const bool is_blocked = answer.status == "start_blocked" || answer.status == "goal_blocked";
   EXPECT_EQ(answer.says_why_blocked, is_blocked);
   if (answer.free_place.empty()) return;
   const std::vector<double>& place = answer.free_place;
-  const auto wrong = wrong_with(body, {place, place}, clearance_of(body), may_touch, {place});
+  const auto wrong = wrong_with(body, {place, place}, clearance_of(body), false, {place});
   EXPECT_FALSE(wrong.has_value()) << "the free place: " << *wrong;
+}
+
+/// No planner that takes the body calls a place blocked that was offered, and it is written in few digits.
+void Matrix::ask_offered_place(const MatrixBody& body, const ProgramAnswer& offering) {
+  const std::vector<double>& place = offering.free_place;
+  const BodyColumn* column = table_.column_of(body.kind, world().kind);
+  if (place.empty() || column == nullptr) return;
+  for (std::size_t k = 0; k < (body.arm ? place.size() : 2); ++k) {
+    EXPECT_NEAR(place[k] * 1e7, std::round(place[k] * 1e7), 1e-2) << "digits of " << list_of(place);
+  }
+  for (const PlannerRow& planner : table_.planners()) {
+    if (PlannerTable::field(planner, *column) == nullptr) continue;
+    std::vector<std::string> arguments{"solve", world_file(), "--planner", planner.name};
+    for (const std::string& word : question_of(body, true)) {
+      const bool is_end = word.starts_with("--start=") || word.starts_with("--goal=");
+      arguments.push_back(is_end ? word.substr(0, word.find('=') + 1) + list_of(place) : word);
+    }
+    if (planner.name == "grid") {
+      for (const std::string& word : raster_of(body)) arguments.push_back(word);
+    }
+    if (planner.name == "prm" || planner.name == "lazy-prm") arguments.insert(arguments.end(), {"--samples", "20"});
+    if (planner.name == "rrt" || planner.name == "rrt-connect") arguments.insert(arguments.end(), {"--nodes", "200"});
+    arguments.insert(arguments.end(), {"--budget", "30s", "--json", folder_.path("offered.json")});
+    SCOPED_TRACE(shown(arguments));
+    const Outcome outcome = ask(arguments);
+    if (outcome.code == 2) continue;  // cells and voronoi refuse what overlaps
+    const ProgramAnswer answer = read_program_answer(folder_.read("offered.json"));
+    EXPECT_NE(answer.status, "start_blocked");
+    EXPECT_NE(answer.status, "goal_blocked");
+  }
 }
 
 /// What is told of samples and motions adds up, and where there is no path something is said that would help, but where

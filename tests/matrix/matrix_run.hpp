@@ -50,7 +50,8 @@ class Matrix : public testing::TestWithParam<MatrixWorld> {
   std::vector<std::string> path_words(const MatrixBody& body) const;
   void check_path_file(const MatrixBody& body, const std::vector<std::vector<double>>& ends, bool may_touch,
                        const std::vector<std::vector<double>>& path) const;
-  void check_why_blocked(const MatrixBody& body, bool may_touch, const ProgramAnswer& answer) const;
+  void check_why_blocked(const MatrixBody& body, const ProgramAnswer& answer) const;
+  void ask_offered_place(const MatrixBody& body, const ProgramAnswer& answer);
 
   static void check_explained(const ProgramAnswer& answer, const std::string& summary);
 

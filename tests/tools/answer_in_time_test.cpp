@@ -30,7 +30,7 @@ class SlowTalker : public tools::AnswerCommand {
     while (!execution.should_stop()) {
     }
   }
-  Answer find(const Run& run, StageTimes&, ByProducts* keep) override {
+  Answer find(const tools::Run& run, StageTimes&, ByProducts* keep) override {
     Answer answer = solve_within(scene_, {}, {}, run.execution(), keep);
     if (where_ == Dawdles::finding) wait(run.execution());  // as an estimate's price does, which swallows its stop
     return answer;

@@ -11,7 +11,7 @@
 
 #include "tests/paths.hpp"
 
-namespace warren::tools {
+namespace warren {
 
 struct ProgramRun {
   int exit_code = -1;
@@ -32,4 +32,4 @@ inline ProgramRun run_program(const std::string& words) {
   return run;
 }
 
-}  // namespace warren::tools
+}  // namespace warren

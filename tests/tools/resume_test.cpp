@@ -13,7 +13,7 @@ namespace {
 
 const std::string formula = "maze:4200x2100,algorithm=mst,seed=2,loops=0.02";
 
-Json without_times(Json answer) {
+Json free_of_times(Json answer) {
   for (const char* key : {"stages_s", "solve_s", "peak_memory_bytes", "threads"}) answer.erase(key);
   return answer;
 }
@@ -38,10 +38,10 @@ void check_goes_on(const std::string& world, const Json& expected, int signal, i
     process.send(signal);
     process.wait();
   }
-  EXPECT_EQ(without_times(answered(resumed(world, folder, at % 3 == 0 ? "1" : "3"))), expected);
+  EXPECT_EQ(free_of_times(answered(resumed(world, folder, at % 3 == 0 ? "1" : "3"))), expected);
 }
 
-Json expected_of(const std::string& world) { return without_times(answered(asked(world))); }
+Json expected_of(const std::string& world) { return free_of_times(answered(asked(world))); }
 
 TEST(Resume, RunsThatWereKilledOrStoppedAnywhereGoOnToTheSameAnswer) {
   const Json expected = expected_of(formula);
@@ -71,7 +71,7 @@ TEST(Resume, RunsOverFilesGoOnToTheSameAnswerAndNotOverOtherFiles) {
     }
     const Folder folder;
     ASSERT_EQ(run(resumed(world, folder, "1")).code, 0);
-    EXPECT_EQ(without_times(answered(resumed(world, folder, "2"))), expected);
+    EXPECT_EQ(free_of_times(answered(resumed(world, folder, "2"))), expected);
     make("3");
     check({resumed(world, folder, "1"), 65, "another run"});
   }

@@ -54,14 +54,14 @@ studies::SizeSearch size_search(const Arguments& arguments, double shape_rows, d
   const double limit = std::floor(std::sqrt(is_streamed ? most_streamed : most_cells) - 1.0 - lean);
   if (limit < 1.0) throw UsageError("--rows, --cols: too far apart for any maze");
   const auto largest_side = static_cast<std::uint32_t>(limit);
-  search.most = given_count(arguments, "--max-size", 1, studies::largest_side).value_or(studies::largest_side);
+  search.most = given_count(arguments, "--max-size", 1, largest_side).value_or(largest_side);
   search.least = static_cast<std::uint32_t>(std::min(std::ceil(lean), limit));
   if (search.most < search.least) {
     throw UsageError(
         fmt::format("--max-size: with these --rows and --cols at least {} (found: {})", search.least, search.most));
   }
-  search.start = given_count(arguments, "--start-size", 1, studies::largest_side)
-                     .value_or(std::clamp(128U, search.least, search.most));
+  search.start =
+      given_count(arguments, "--start-size", 1, largest_side).value_or(std::clamp(128U, search.least, search.most));
   if (search.start < search.least || search.start > search.most) {
     throw UsageError(fmt::format("--start-size: expected {} to {}, as --max-size and the shape say (found: {})",
                                  search.least, search.most, search.start));

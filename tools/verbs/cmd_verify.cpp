@@ -49,9 +49,11 @@ void print_verdict(const Verdict& v, std::string_view metres, const Palette& pal
                            human_number(clearance)));
   } else {
     const Violation violation = v.first_violation.value_or(Violation{});
-    print_text(fmt::format("{0} at leg {2}: {3}, distance {4}{1}, {5}{1} asked for\n", palette.bad("refuted"), metres,
-                           violation.leg, violation.obstacle, human_number(violation.distance),
-                           human_number(clearance + v.problem.robot.radius)));
+    const std::string distance = human_number(violation.distance);
+    std::string needed = human_number(clearance + v.problem.robot.radius);
+    print_text(fmt::format("{0} at leg {2}: {3}, distance {4}{1}, {5} asked for\n", palette.bad("refuted"), metres,
+                           violation.leg, violation.obstacle, distance,
+                           distance == needed ? "a hair more" : needed.append(metres)));
   }
 }
 

@@ -278,7 +278,7 @@ std::optional<Violation> ArmVerifier::outside_limits(const JointState& q, std::s
     if (beyond <= options_.tolerance) continue;
     constexpr double degree = std::numbers::pi / 180.0;
     return Violation{number, 0.0,
-                     fmt::format("limits: joint {} at {:.6g}, which has {:.6g} to {:.6g} ({:.6g} to {:.6g} degrees)",
+                     fmt::format("limits: joint {} at {:.9g}, which has {:.9g} to {:.9g} ({:.6g} to {:.6g} degrees)",
                                  j + 1, q[j], low, high, low / degree, high / degree)};
   }
   return std::nullopt;

@@ -168,9 +168,36 @@ TEST(RingLists, PolymapsAreFreeInsideAnOddNumberOfRings) {
   const Scene scene = read(
       "poly\n1\n4\n4 0 0 30 0 30 30 0 30\n4 2 2 9 2 9 9 2 9\n3 3 3 4 3 3 4\n"
       "4 12 12 12 15\n15 15 15 12\n");
-  EXPECT_EQ(outlines(scene),
-            (std::vector<Outline>{{{2, 2}, {9, 2}, {9, 9}, {2, 9}}, {{12, 12}, {12, 15}, {15, 15}, {15, 12}}}));
+  EXPECT_EQ(outlines(scene).size(), 3U) << "the first obstacle is cut, for the triangle in it is free";
+  EXPECT_EQ(outlines(scene).back(), (Outline{{12, 12}, {12, 15}, {15, 15}, {15, 12}}));
+  for (const Outline& outline : outlines(scene)) EXPECT_FALSE(strictly_inside(outline, {3.2, 3.2}));
   EXPECT_EQ(scene.walls.size(), 4U);
+}
+
+/// A room with a notch from above.
+constexpr const char* notch = "0 0 10 0 10 8 7 8 7 3 3 3 3 8 0 8\n";
+
+TEST(RingLists, OutsideOfTheOuterRingIsBlocked) {
+  const std::vector<Outline> in_notch{{{7, 8}, {3, 8}, {3, 3}, {7, 3}}};
+  const Scene polymap = read(std::string("poly\n1\n1\n8\n") + notch);
+  EXPECT_EQ(outlines(polymap), in_notch);
+  EXPECT_EQ(polymap.walls.size(), 5U) << "those of the notch are the obstacle's sides";
+  const Scene environment = read("// ring\n0 0\n10 0\n10 8\n7 8\n7 3\n3 3\n3 8\n0 8\n");
+  EXPECT_EQ(outlines(environment), in_notch);
+  const Scene diamond = read("// clockwise\n0 1\n1 2\n2 1\n1 0\n");
+  EXPECT_EQ(outlines(diamond).size(), 4U) << "a triangle in each corner of its box";
+  EXPECT_EQ(diamond.walls.size(), 0U);
+}
+
+TEST(RingLists, InsideAnOddNumberOfRingsIsFreeHoweverDeep) {
+  const Scene scene = read(
+      "poly\n1\n4\n4 0 0 20 0 20 20 0 20\n4 30 0 50 0 50 20 30 20\n"
+      "4 2 2 12 2 12 12 2 12\n4 4 4 8 4 8 8 4 8\n");
+  const auto is_blocked = [&](Vec2 p) {
+    return std::ranges::any_of(outlines(scene), [&](const Outline& outline) { return strictly_inside(outline, p); });
+  };
+  for (const Vec2 p : {Vec2{1, 1}, Vec2{31, 1}, Vec2{5, 5}, Vec2{6, 7.5}}) EXPECT_FALSE(is_blocked(p)) << p.x;
+  for (const Vec2 p : {Vec2{25, 3}, Vec2{3, 3}, Vec2{11, 11}, Vec2{25, 19}}) EXPECT_TRUE(is_blocked(p)) << p.x;
 }
 
 TEST(RingLists, PolyFilesAreObstacles) {

@@ -18,12 +18,12 @@ namespace warren::test {
 using InkPixel = std::array<unsigned, 4>;
 
 inline std::vector<InkPixel> read_inks(const std::string& png) {
-  std::vector<InkPixel> pixels(std::size_t{TileGrid::pixels} * TileGrid::pixels, {0, 0, 0, 0});
+  std::vector<InkPixel> pixels(std::size_t{serve::TileGrid::pixels} * serve::TileGrid::pixels, {0, 0, 0, 0});
   ImageHeader header;
   const ImageSink sink{[&](const ImageHeader& h) { header = h; },
                        [&](const PixelRun& run) {
                          for (std::size_t i = 0; i * header.channels < run.samples.size(); ++i) {
-                           InkPixel& pixel = pixels.at(run.y * TileGrid::pixels + run.first_x + i * run.step_x);
+                           InkPixel& pixel = pixels.at(run.y * serve::TileGrid::pixels + run.first_x + i * run.step_x);
                            for (std::size_t c = 0; c < header.channels && c < 4; ++c) {
                              pixel[c] = static_cast<unsigned>(run.samples[i * header.channels + c]);
                            }

@@ -16,7 +16,7 @@ class GreyTile {
  public:
   bool empty() const { return pixels_.empty(); }
   /// 0 paper .. 1 black.
-  double darkness(std::size_t x, std::size_t y) const { return pixels_.at(y * TileGrid::pixels + x); }
+  double darkness(std::size_t x, std::size_t y) const { return pixels_.at(y * serve::TileGrid::pixels + x); }
   std::vector<double>& pixels() { return pixels_; }
 
  private:
@@ -25,7 +25,7 @@ class GreyTile {
 
 inline GreyTile read_tile(const std::string& png) {
   GreyTile tile;
-  tile.pixels().assign(std::size_t{TileGrid::pixels} * TileGrid::pixels, -1.0);
+  tile.pixels().assign(std::size_t{serve::TileGrid::pixels} * serve::TileGrid::pixels, -1.0);
   ImageHeader header;
   const ImageSink sink{[&](const ImageHeader& h) { header = h; },
                        [&](const PixelRun& run) {
@@ -33,7 +33,7 @@ inline GreyTile read_tile(const std::string& png) {
                            double light = 0.0;
                            const std::size_t colors = header.channels - (header.has_alpha() ? 1 : 0);
                            for (std::size_t c = 0; c < colors; ++c) light += run.samples[i * header.channels + c];
-                           tile.pixels()[run.y * TileGrid::pixels + run.first_x + i * run.step_x] =
+                           tile.pixels()[run.y * serve::TileGrid::pixels + run.first_x + i * run.step_x] =
                                1.0 - light / static_cast<double>(colors * header.maximum);
                          }
                        }};
