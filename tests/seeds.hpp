@@ -28,14 +28,14 @@ constexpr std::uint64_t hash_of(std::string_view text) {
 /// How much is expected of all seeds, of those that are asked.
 inline std::uint64_t share(std::uint64_t all) { return asks_all() ? all : (all + 3) / 4; }
 
-/// 1 to `all`; by day so many of them one after the other, and after the last the first: of what differs with a seed's
-/// remainder there is as much.
-inline std::vector<std::uint64_t> seeds(std::uint64_t all, std::uint64_t by_day) {
+/// So many from the first one on; by day fewer of them one after the other, and after the last the first: of what
+/// differs with a seed's remainder there is as much.
+inline std::vector<std::uint64_t> seeds(std::uint64_t all, std::uint64_t by_day, std::uint64_t first = 1) {
   const std::string_view pick = environment("WARREN_PICK");
   const std::uint64_t count = asks_all() ? all : by_day;
   const std::uint64_t before = asks_all() || pick.empty() ? 0 : (hash_of(pick) >> 32U) % all;
   std::vector<std::uint64_t> asked;
-  for (std::uint64_t i = 0; i < count; ++i) asked.push_back(1 + (before + i) % all);
+  for (std::uint64_t i = 0; i < count; ++i) asked.push_back(first + (before + i) % all);
   return asked;
 }
 

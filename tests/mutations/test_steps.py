@@ -49,7 +49,7 @@ def programs_of(folder):
 def run(command, folder, fault, scratch, limit):
     """The exit code, None for a run that was ended after `limit` seconds, and what it printed."""
     os.makedirs(scratch, exist_ok=True)
-    environment = dict(os.environ, TEST_TMPDIR=scratch + "/", TMPDIR=scratch)
+    environment = dict(os.environ, TEST_TMPDIR=scratch + "/", TMPDIR=scratch, WARREN_SEEDS="all")
     if fault:
         environment[VARIABLE] = str(fault.number)
 

@@ -11,6 +11,7 @@
 #include "core/base/rng.hpp"
 #include "scenes/mazes/held_cells.hpp"
 #include "scenes/mazes/maze_generator.hpp"
+#include "tests/seeds.hpp"
 #include "verify/judges/verify_point.hpp"
 
 namespace warren {
@@ -63,7 +64,7 @@ std::vector<Vec2> walk(std::uint64_t seed, std::uint32_t side, std::size_t steps
 }
 
 TEST(VerifyAmongCells, JudgesAsAmongWallsThatAreHeld) {
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+  for (const std::uint64_t seed : test::seeds(20)) {
     const MazeOptions maze{40, 40, seed, MazeAlgorithm::kruskal, seed % 3 == 0 ? 0.9 : 0.0};
     const MazeCells cells = generate_maze(maze, {});
     for (const unsigned side_log2 : {0U, 3U, 8U}) {

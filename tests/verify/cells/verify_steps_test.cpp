@@ -15,6 +15,7 @@
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
 #include "scenes/mazes/maze_generator.hpp"
+#include "tests/seeds.hpp"
 #include "verify/cells/judged_grid_lines.hpp"
 #include "verify/cells/judged_passages.hpp"
 
@@ -108,7 +109,7 @@ TEST(VerifySteps, JudgesAsAmongWallsThatAreHeld) {
 }
 
 TEST(VerifySteps, EndsBesideTheLatticeAreJudgedAsTheyAre) {
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+  for (const std::uint64_t seed : test::seeds(20)) {
     SCOPED_TRACE(seed);
     const LookedUpMaze judged({60, 75, seed, MazeAlgorithm::kruskal, 0.2});
     SequentialRng rng(seed);

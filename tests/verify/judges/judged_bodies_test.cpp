@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/base/rng.hpp"
+#include "tests/seeds.hpp"
 #include "tests/worlds/poses/body_oracle.hpp"
 #include "tests/worlds/poses/body_scenes.hpp"
 #include "verify/judges/verify_car.hpp"
@@ -91,7 +92,8 @@ double extent(const std::vector<Vec2>& outline) {
 }
 
 /// What is verified is free, what is free by more than a step is verified, and the clearance is that of the samples.
-void compare(const Verification& v, const Sampled& found, double radius, double sharpness, int& free, int& met) {
+void compare(const Verification& v, const Sampled& found, double radius, double sharpness, std::uint64_t& free,
+             std::uint64_t& met) {
   if (found.least <= radius) {
     EXPECT_FALSE(v.verified);
     ++met;
@@ -104,9 +106,9 @@ void compare(const Verification& v, const Sampled& found, double radius, double 
 }
 
 TEST(JudgedBodies, CarsOfAnyBodyAreJudgedAsDenseSamplesAre) {
-  int free = 0;
-  int met = 0;
-  for (std::uint64_t seed = 1; seed <= 48; ++seed) {
+  std::uint64_t free = 0;
+  std::uint64_t met = 0;
+  for (const std::uint64_t seed : test::seeds(48)) {
     const Scene scene = scene_of_seed(seed);
     for (std::uint64_t i = 0; i < 6; ++i) {
       SCOPED_TRACE(testing::Message() << "seed " << seed << " motion " << i);
@@ -125,14 +127,14 @@ TEST(JudgedBodies, CarsOfAnyBodyAreJudgedAsDenseSamplesAre) {
               free, met);
     }
   }
-  EXPECT_GT(free, 40);
-  EXPECT_GT(met, 80);
+  EXPECT_GT(free, test::share(40));
+  EXPECT_GT(met, test::share(80));
 }
 
 TEST(JudgedBodies, TurningBodiesAreJudgedAsDenseSamplesAre) {
-  int free = 0;
-  int met = 0;
-  for (std::uint64_t seed = 101; seed <= 132; ++seed) {
+  std::uint64_t free = 0;
+  std::uint64_t met = 0;
+  for (const std::uint64_t seed : test::seeds(32, 8, 101)) {
     const Scene scene = scene_of_seed(seed);
     for (std::uint64_t i = 0; i < 6; ++i) {
       SCOPED_TRACE(testing::Message() << "seed " << seed << " motion " << i);
@@ -146,8 +148,8 @@ TEST(JudgedBodies, TurningBodiesAreJudgedAsDenseSamplesAre) {
               free, met);
     }
   }
-  EXPECT_GT(free, 30);
-  EXPECT_GT(met, 50);
+  EXPECT_GT(free, test::share(30));
+  EXPECT_GT(met, test::share(50));
 }
 
 }  // namespace

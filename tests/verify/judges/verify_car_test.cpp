@@ -8,6 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "core/plane/polygon_distance.hpp"
+#include "tests/seeds.hpp"
 #include "tests/worlds/poses/body_scenes.hpp"
 #include "worlds/poses/car_world.hpp"
 
@@ -284,8 +285,8 @@ double sampled_clearance(const Scene& scene, const std::vector<Vec2>& body) {
 
 /// Poses of random curves, driven step by step by the curve's own word.
 TEST(VerifyCar, LeastClearanceIsThatOfManyPosesOnTheWay) {
-  int free = 0;
-  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+  std::uint64_t free = 0;
+  for (const std::uint64_t seed : test::seeds(60)) {
     SCOPED_TRACE(seed);
     const Scene scene = scattered(seed, 4, 3);
     const Se2 a = random_pose(seed, 5);
@@ -313,7 +314,7 @@ TEST(VerifyCar, LeastClearanceIsThatOfManyPosesOnTheWay) {
       EXPECT_FALSE(v.verified);
     }
   }
-  EXPECT_GT(free, 10);
+  EXPECT_GT(free, test::share(10));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
+#include "tests/seeds.hpp"
 #include "tests/verify/judges/paths_among_walls.hpp"
 #include "verify/exact/exact_segments.hpp"
 
@@ -102,8 +103,8 @@ void expect_same(const Verification& v, const Expected& e, const std::vector<Seg
 }
 
 TEST(Verify, AgreesWithBruteForceInIntegers) {
-  int solved = 0;
-  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+  std::uint64_t solved = 0;
+  for (const std::uint64_t seed : test::seeds(60, 15, 0)) {
     SCOPED_TRACE(seed);
     const double size = seed % 2 == 0 ? 40.0 : 2000.0;
     const std::vector<Segment> walls = random_walls(10 * seed, 3 + seed * 7, size);
@@ -115,7 +116,7 @@ TEST(Verify, AgreesWithBruteForceInIntegers) {
       solved += v.verified ? 1 : 0;
     }
   }
-  EXPECT_GT(solved, 10);  // else nothing but refusals was compared
+  EXPECT_GT(solved, test::share(10));  // else nothing but refusals was compared
 }
 
 /// There the middle of two coordinates is rounded; the oracle sees the same near the origin.
@@ -323,7 +324,7 @@ TEST(Verify, ManyWallsAreComparedAsByBruteForce) {  // enough of them for the sa
     walls.push_back({at, at + (i % 2 == 0 ? Vec2{4.0, 0.0} : Vec2{0.0, 4.0})});
   }
   walls = with_far_box(walls, -100.0, 6100.0);
-  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+  for (const std::uint64_t seed : test::seeds(6, 2, 0)) {
     SCOPED_TRACE(seed);
     const std::vector<Vec2> path = random_path(seed, 3, 6000.0, 9.0);
     expect_same(verified(scene_of(walls), path, 2.0), by_brute_force(walls, path, 2), walls);

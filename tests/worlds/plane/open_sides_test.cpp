@@ -9,6 +9,7 @@
 
 #include "core/base/rng.hpp"
 #include "scenes/mazes/maze_generator.hpp"
+#include "tests/seeds.hpp"
 #include "worlds/plane/maze_world.hpp"
 
 namespace warren {
@@ -80,7 +81,7 @@ Scene walls_of_any_kind(std::uint64_t seed, double r) {
 TEST(OpenSides, NoFreeMotionCrossesAClosedOne) {
   std::size_t crossed = 0;
   std::size_t closed = 0;
-  for (std::uint64_t seed = 0; seed < 24; ++seed) {
+  for (const std::uint64_t seed : test::seeds(24, 6, 0)) {
     for (const double r : {0.002, 0.1, 0.3}) {
       SCOPED_TRACE(std::to_string(seed) + ", clearance " + std::to_string(r));
       const MazeWorld world(walls_of_any_kind(seed, r), r, {});
@@ -103,8 +104,8 @@ TEST(OpenSides, NoFreeMotionCrossesAClosedOne) {
       }
     }
   }
-  EXPECT_GT(crossed, 10'000U);
-  EXPECT_GT(closed, 10'000U);
+  EXPECT_GT(crossed, test::share(10'000));
+  EXPECT_GT(closed, test::share(10'000));
 }
 
 TEST(OpenSides, AreThoseOfAMazeThatHaveNoWall) {

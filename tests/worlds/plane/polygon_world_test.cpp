@@ -10,6 +10,7 @@
 #include "core/base/rng.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "scenes/scene/polygon_generator.hpp"
+#include "tests/seeds.hpp"
 #include "verify/exact/exact_segments.hpp"
 #include "verify/near/obstacle_sides.hpp"
 
@@ -140,7 +141,7 @@ TEST(PlaneObstacles, RepeatedCornersAreMergedAndAllRunAnticlockwise) {
 }
 
 TEST(PolygonGenerator, PolygonsAreSimpleAndFarFromEachOther) {
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+  for (const std::uint64_t seed : test::seeds(20, 6, 0)) {
     SCOPED_TRACE(seed);
     PolygonOptions options{.count = 40, .corners = {}, .seed = seed};
     if (seed % 2 == 1) options.corners = static_cast<std::uint32_t>(3 + 2 * seed);

@@ -9,6 +9,7 @@
 #include "core/base/rng.hpp"
 #include "core/plane/se2.hpp"
 #include "scenes/scene/scene.hpp"
+#include "tests/seeds.hpp"
 #include "verify/judges/verify_turning.hpp"
 #include "worlds/rasters/map_borders.hpp"
 
@@ -68,7 +69,7 @@ class Oracle {
 };
 
 TEST(MapLayers, EqualTheVerificationOfEveryStandStepAndTurn) {
-  for (std::uint64_t seed = 0; seed < 24; ++seed) {
+  for (const std::uint64_t seed : test::seeds(24, 6, 0)) {
     SCOPED_TRACE(seed);
     const OccupancyMap map = map_of_rooms(seed);
     const std::vector<Vec2> body = body_of(seed, map.cell);

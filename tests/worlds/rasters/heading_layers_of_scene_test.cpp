@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/base/rng.hpp"
+#include "tests/seeds.hpp"
 #include "verify/judges/verify_point.hpp"
 #include "verify/judges/verify_turning.hpp"
 #include "worlds/rasters/convex_pieces.hpp"
@@ -40,7 +41,7 @@ RobotSpec polygon_robot(std::uint64_t seed) {
 }
 
 TEST(OrientationLayers, StandingAgreesWithTheVerificationAndMovesAreSafe) {
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+  for (const std::uint64_t seed : test::seeds(20, 5, 0)) {
     SCOPED_TRACE(seed);
     const Scene scene = random_scene(seed);
     const RobotSpec robot = polygon_robot(seed);
@@ -73,7 +74,7 @@ TEST(OrientationLayers, StandingAgreesWithTheVerificationAndMovesAreSafe) {
 }
 
 TEST(OrientationLayers, PointsAndDiscsHaveOneHeadingAndCertifiedSteps) {
-  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+  for (const std::uint64_t seed : test::seeds(12, 4, 0)) {
     SCOPED_TRACE(seed);
     const Scene scene = random_scene(seed);
     RobotSpec robot;
