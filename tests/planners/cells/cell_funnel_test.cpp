@@ -10,6 +10,7 @@
 
 #include "core/plane/geometry.hpp"
 #include "tests/planners/cells/cell_plans.hpp"
+#include "tests/seeds.hpp"
 
 namespace warren {
 namespace {
@@ -171,7 +172,7 @@ TEST(CellFunnel, IsTheShortestPathThroughItsCells) {
 }
 
 TEST(CellFunnel, SearchedByLengthIsTheShortestPath) {
-  for (std::uint64_t seed = 0; seed < 48; ++seed) {
+  for (const std::uint64_t seed : test::seeds(48, 12, 0)) {
     SCOPED_TRACE(seed);
     const PlaneObstacles obstacles = disjoint_polygons(seed, 1 + static_cast<int>(seed % 3));
     const std::vector<Vec2> ends = free_points(obstacles, seed + 5, 2);

@@ -12,6 +12,7 @@
 
 #include "core/base/error.hpp"
 #include "tests/planners/grid/grid_oracle.hpp"
+#include "tests/seeds.hpp"
 #include "verify/judges/verify_turning.hpp"
 #include "worlds/rasters/heading_layers_of_scene.hpp"
 
@@ -160,8 +161,8 @@ double plain_cost(const HeadingLayers& layers, const LayerState& start, Cell goa
 }
 
 TEST(LayerSearch, CostsEqualAPlainDijkstraAndPathsAreVerified) {
-  int found = 0;
-  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+  std::uint64_t found = 0;
+  for (const std::uint64_t seed : test::seeds(30, 8, 0)) {
     SCOPED_TRACE(seed);
     const Scene scene = random_scene(seed);
     RobotSpec robot;
@@ -186,12 +187,12 @@ TEST(LayerSearch, CostsEqualAPlainDijkstraAndPathsAreVerified) {
     const Verification verified = verify_se2(scene, robot.outline, poses_of(layers, path), {}, {});
     EXPECT_TRUE(verified.verified) << verified.first_violation.value_or(Violation{}).obstacle;
   }
-  EXPECT_GT(found, 5);
+  EXPECT_GT(found, test::share(5));
 }
 
 TEST(LayerSearch, TheCheapestOfSeveralEndsIsTakenWithWhatItCosts) {
-  int found = 0;
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+  std::uint64_t found = 0;
+  for (const std::uint64_t seed : test::seeds(20, 5, 0)) {
     SCOPED_TRACE(seed);
     RobotSpec robot;
     robot.kind = RobotKind::polygon;
@@ -224,7 +225,7 @@ TEST(LayerSearch, TheCheapestOfSeveralEndsIsTakenWithWhatItCosts) {
     ++found;
     EXPECT_NEAR(path.cost, expected, 1e-9);
   }
-  EXPECT_GT(found, 5);
+  EXPECT_GT(found, test::share(5));
 }
 
 TEST(LayerSearch, RefusesStatesOutsideAndCostsOutOfRange) {

@@ -10,6 +10,7 @@
 #include "core/base/rng.hpp"
 #include "planners/grid/skeleton_planner.hpp"
 #include "tests/planners/grid/grid_oracle.hpp"
+#include "tests/seeds.hpp"
 
 namespace warren {
 namespace {
@@ -85,7 +86,7 @@ Topology topology(const Bitmap& blocked) {
 }
 
 TEST(MapSkeleton, KeepsTheTopologyAndCannotBeThinner) {
-  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+  for (const std::uint64_t seed : test::seeds(30, 8, 0)) {
     SCOPED_TRACE(seed);
     const Bitmap map = random_map(seed, 30, 22);
     const DistanceField field(map, CellDistance::squares, true, {});

@@ -13,6 +13,7 @@
 #include "scenes/mazes/maze_generator.hpp"
 #include "solve/steps/planned_worlds.hpp"
 #include "tests/planners/visibility/plane_worlds.hpp"
+#include "tests/seeds.hpp"
 
 namespace warren {
 namespace {
@@ -230,7 +231,7 @@ Question question(std::uint64_t seed, double loops, bool anywhere) {
 
 /// prm, which knows no dead ends, is the oracle.
 TEST(DeadEnds, DoNotChangeThePathOfALazySearch) {
-  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+  for (const std::uint64_t seed : test::seeds(10)) {
     for (const double loops : {0.0, 0.05}) {
       for (const SearchKind search : {SearchKind::astar, SearchKind::dijkstra}) {
         SCOPED_TRACE(std::to_string(seed) + ", loops " + std::to_string(loops) + ", search " +

@@ -15,6 +15,7 @@
 #include "core/plane/geometry.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "tests/planners/visibility/plane_worlds.hpp"
+#include "tests/seeds.hpp"
 #include "verify/judges/verify_point.hpp"
 
 namespace warren {
@@ -197,7 +198,7 @@ class TangentGraph {
 
 TEST(TautPath, ReachesTheOptimumOfPerfectMazes) {
   constexpr MazeAlgorithm algorithms[] = {MazeAlgorithm::backtracker, MazeAlgorithm::kruskal, MazeAlgorithm::wilson};
-  for (std::uint64_t seed = 1; seed <= 21; ++seed) {
+  for (const std::uint64_t seed : test::seeds(21)) {
     SCOPED_TRACE(seed);
     MazeOptions options;
     options.rows = 9;
