@@ -50,28 +50,6 @@ Answer solved(const std::string& name) {
                name == "town.geojson" ? Question{.start = {1.5, 1.5}, .goal = {9.5, 8.5}} : Question{});
 }
 
-Answer driven_in_a_yard(Vec2 corner, PlannerKind planner) {
-  Scene yard;
-  yard.bounds = Box{corner, corner + Vec2{29.5, 28.5}};
-  yard.robot = RobotSpec{.kind = RobotKind::car, .radius = 0.3, .turning_radius = 1.5};
-  SolveOptions options;
-  options.planner = planner;
-  const Question question{.start = {corner.x + 13.0, corner.y + 15.5, 0.3},
-                          .goal = {corner.x + 16.5, corner.y + 13.0, -2.5}};
-  return solve(yard, question, options);
-}
-
-TEST(Cars, DriveAsFarInAnEmptyYardInUtmMetresAsAtTheOrigin) {
-  using enum PlannerKind;
-  for (const PlannerKind planner : {prm, lazy_prm, rrt, rrt_connect}) {
-    SCOPED_TRACE(name_of(planner));
-    const Answer far = driven_in_a_yard({388083.25, 3948980.75}, planner);
-    EXPECT_TRUE(far.verified);
-    EXPECT_NEAR(far.length, driven_in_a_yard({}, planner).length, 1e-6);
-    if (planner == prm) EXPECT_NEAR(far.length, 6.36321059, 1e-7);
-  }
-}
-
 /// Who reads a path joins its places by straight lines.
 TEST(PathFile, ChordsOfACarsArcsTurnByAtMostFiveDegreesInEveryFormat) {
   const Answer answer = solved("car-20.scene");
