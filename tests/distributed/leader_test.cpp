@@ -67,7 +67,7 @@ TEST(Leader, ASearchOverAllRanksGivesTheBytesOfOneProcess) {
       {mst(900, 300, 9, 0.1), {.start = {7.0, 512.5}, .goal = {7.0, 512.5}}},
       {mst(700, 300, 8, 0.0), {.start = {3.0, 256.5}}},
       {mst(520, 300, 9, 0.0), {.goal = {400.0, 2.0}}}};
-  for (std::uint64_t seed = 1; seed <= test::seeds(6); ++seed) {
+  for (const std::uint64_t seed : test::seeds(6)) {
     for (const double loops : {0.0, 0.01, 0.1}) {
       cases.push_back({mst(static_cast<std::uint32_t>(500 + 130 * seed), 300, seed, loops)});
     }

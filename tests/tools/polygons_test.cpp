@@ -203,9 +203,10 @@ TEST(Polygons, StartsInsideOfOneThatWasCutForItsHolesAreBlocked) {
       };
       // Cuts run from corners of the hole to corners of the outline: of any such line each middle is solid.
       constexpr const char* solid[] = {"1.5,2", "1.5,7", "7.5,7", "7.5,2", "1.5,2.5", "7.5,6.5", "1.5,6.5", "7.5,2.5"};
-      for (std::size_t i = 0; i < seeds(std::size(solid)); ++i) {
-        EXPECT_EQ(status(solid[i], "4,4.5"), "start_blocked") << solid[i];
-        EXPECT_EQ(status("4,4.5", solid[i]), "goal_blocked") << solid[i];
+      for (const std::uint64_t seed : seeds(std::size(solid))) {
+        const char* place = solid[seed - 1];
+        EXPECT_EQ(status(place, "4,4.5"), "start_blocked") << place;
+        EXPECT_EQ(status("4,4.5", place), "goal_blocked") << place;
       }
       EXPECT_EQ(status("0,0", "4,4.5"), "infeasible") << "a corner that is cut from";
       EXPECT_EQ(json_of({"solve", file, "--planner", planner, "--start", "3,4", "--goal", "6,5"})["status"], "solved");

@@ -43,7 +43,7 @@ std::uint64_t expect_motions_of_world(const Scene& scene, LatticeSize size, doub
 }
 
 TEST(WallPassages, AreTheFreeMotionsOfMazes) {
-  for (std::uint64_t seed = 1; seed <= test::seeds(4); ++seed) {
+  for (const std::uint64_t seed : test::seeds(4)) {
     for (const double clearance : {0.0, 0.1, 0.499}) {
       SCOPED_TRACE(std::to_string(seed) + " " + std::to_string(clearance));
       const MazeOptions maze{70, 90, seed, MazeAlgorithm::kruskal, seed % 2 == 0 ? 0.1 : 0.0};
@@ -55,7 +55,7 @@ TEST(WallPassages, AreTheFreeMotionsOfMazes) {
 }
 
 TEST(WallPassages, AreTheFreeMotionsAmongSlantedWalls) {
-  for (std::uint64_t seed = 1; seed <= test::seeds(8); ++seed) {
+  for (const std::uint64_t seed : test::seeds(8)) {
     SCOPED_TRACE(seed);
     std::vector<Segment> walls{{{0.5, 0.5}, {80.5, 0.5}}, {{80.5, 0.5}, {80.5, 70.5}}};
     for (std::uint64_t i = 0; i < 150; ++i) {
@@ -70,7 +70,7 @@ TEST(WallPassages, AreTheFreeMotionsAmongSlantedWalls) {
 }
 
 TEST(WallPassages, TheIndexAnswersWhatTheTiledPlannerDoes) {
-  for (std::uint64_t seed = 1; seed <= test::seeds(4); ++seed) {
+  for (const std::uint64_t seed : test::seeds(4)) {
     SCOPED_TRACE(seed);
     const MazeOptions maze{150, 150, seed, MazeAlgorithm::backtracker, seed % 2 == 0 ? 0.05 : 0.0};
     const Scene scene = maze_scene(maze, false, {});

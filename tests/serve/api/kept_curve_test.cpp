@@ -46,7 +46,7 @@ void expect_kept(const Path<Vec2>& path, const char* what) {
 }
 
 TEST(KeptCurve, GivesBackEveryPathToTheBit) {
-  for (std::uint64_t seed = 1; seed <= test::seeds(20); ++seed) {
+  for (const std::uint64_t seed : test::seeds(20)) {
     SCOPED_TRACE(seed);
     for (const std::size_t points : {1U, 2U, 3U, 4U, 5U, 33U, 4095U, 4096U, 4097U, 4098U, 8193U, 30'000U}) {
       SCOPED_TRACE(points);

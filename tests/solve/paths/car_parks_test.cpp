@@ -48,7 +48,7 @@ constexpr Park parks[] = {{"parking", 2}, {"parking-lot", 5}, {"square-place", 5
 TEST(CarParks, EachTakesThreeChangesOfGearAtMostAndTheLimitsAreKept) {
   for (const Park& p : parks) {
     const Scene park = read_world(test::source_dir() + "/examples/worlds/" + p.name + ".scene");
-    for (std::uint64_t seed = 1; seed <= test::seeds(p.seeds); ++seed) {
+    for (const std::uint64_t seed : test::seeds(p.seeds)) {
       SCOPED_TRACE(p.name + (", seed " + std::to_string(seed)));
       const Answer answer = solve(park, {}, {.seed = seed, .optimise = true});
       ASSERT_EQ(answer.outcome, Outcome::solved);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/rng.hpp"
+#include "tests/seeds.hpp"
 #include "tests/verify/judges/same_verdicts.hpp"
 #include "verify/judges/verify_car.hpp"
 #include "verify/judges/verify_turning.hpp"
@@ -14,12 +15,6 @@
 
 namespace warren {
 namespace {
-
-#ifdef WARREN_FEWER_SEEDS
-constexpr std::uint64_t seeds = 20;
-#else
-constexpr std::uint64_t seeds = 150;
-#endif
 
 /// Walls and triangles on whole numbers here and there, some far across; some scenes lie far from the origin.
 Scene random_scene(std::uint64_t seed) {
@@ -64,7 +59,7 @@ PoseVerifyOptions options_of(std::uint64_t seed) { return {.clearance = seed % 4
 
 TEST(BodiesByIndex, TurnAsTheyDoByThePass) {
   int verified = 0;
-  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+  for (const std::uint64_t seed : test::seeds(150, 20)) {
     SCOPED_TRACE(seed);
     const Scene scene = random_scene(seed);
     const ObstacleIndex index(scene, {});
@@ -82,7 +77,7 @@ TEST(BodiesByIndex, TurnAsTheyDoByThePass) {
 
 TEST(BodiesByIndex, DriveAsTheyDoByThePass) {
   int met = 0;
-  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+  for (const std::uint64_t seed : test::seeds(150, 20)) {
     SCOPED_TRACE(seed);
     const Scene scene = random_scene(seed);
     const ObstacleIndex index(scene, {});

@@ -13,6 +13,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
+#include "tests/seeds.hpp"
 #include "tests/verify/judges/same_verdicts.hpp"
 #include "verify/exact/exact_segments.hpp"
 #include "verify/judges/verify_point.hpp"
@@ -20,12 +21,6 @@
 
 namespace warren {
 namespace {
-
-#ifdef WARREN_FEWER_SEEDS
-constexpr std::uint64_t seeds = 60;
-#else
-constexpr std::uint64_t seeds = 600;
-#endif
 
 /// Draws one number after the other.
 class Dice {
@@ -149,7 +144,8 @@ double least_distance(const Scene& scene, const std::vector<Vec2>& path) {
 TEST(LegsAgainstIndex, SayWhatThePassOverAllObstaclesSays) {
   int verified = 0;
   int refuted = 0;
-  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+  const std::vector<std::uint64_t> seeds = test::seeds(600, 60);
+  for (const std::uint64_t seed : seeds) {
     SCOPED_TRACE(seed);
     Dice dice(seed);
     const auto points = static_cast<Points>(seed % kinds_of_points);
@@ -165,8 +161,8 @@ TEST(LegsAgainstIndex, SayWhatThePassOverAllObstaclesSays) {
       (by_pass.verified ? verified : refuted) += 1;
     }
   }
-  EXPECT_GT(verified, static_cast<int>(seeds));
-  EXPECT_GT(refuted, static_cast<int>(seeds));
+  EXPECT_GT(verified, static_cast<int>(seeds.size()));
+  EXPECT_GT(refuted, static_cast<int>(seeds.size()));
 }
 
 /// Unit walls of a maze without ways, and a path through it, through cells' middles and beside them.

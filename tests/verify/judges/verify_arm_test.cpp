@@ -59,7 +59,7 @@ TEST(VerifyArm, AgreesWithDenseSamplingAndNeverPromisesMoreClearanceThanThereIs)
 
 TEST(VerifyArm, PassesEveryMotionThatThePlannersAccept) {
   std::uint64_t accepted = 0;
-  for (std::uint64_t seed = 1; seed <= test::seeds(20); ++seed) {
+  for (const std::uint64_t seed : test::seeds(20)) {
     SCOPED_TRACE(seed);
     Scene scene = scattered_spheres(seed, 5);
     add_boxes(scene, seed, 3);
@@ -77,7 +77,7 @@ TEST(VerifyArm, PassesEveryMotionThatThePlannersAccept) {
       EXPECT_GE(found.min_clearance, 0.01);
     }
   }
-  EXPECT_GT(accepted, test::seeds(200));
+  EXPECT_GT(accepted, test::share(200));
 }
 
 class VerifyArmPath : public ::testing::Test {

@@ -127,7 +127,7 @@ TEST(VerifySe2, SeesBodiesInPolygonsOutsideTheBoundsAndWallsInTheBody) {
 /// to spare is accepted. Least distances against sampled ones.
 TEST(VerifySe2, AgreesWithTheFastWorldAndWithSampledDistances) {
   std::uint64_t free = 0;
-  for (std::uint64_t seed = 1; seed <= test::seeds(20); ++seed) {
+  for (const std::uint64_t seed : test::seeds(20)) {
     SCOPED_TRACE(seed);
     const Scene scene = body_scenes::scattered(seed);
     const auto& outline = seed % 2 == 0 ? kite : hook;
@@ -161,13 +161,13 @@ TEST(VerifySe2, AgreesWithTheFastWorldAndWithSampledDistances) {
       EXPECT_GE(v.min_clearance, sampled - world.travel(a, b) / 400.0 - 1e-3 * world.radius());
     }
   }
-  EXPECT_GT(free, test::seeds(100));
+  EXPECT_GT(free, test::share(100));
 }
 
 /// A path of many short legs, judged in runs, against each of its legs judged alone.
 TEST(VerifySe2, LongRunsOfShortLegsAreJudgedAsEachLegAlone) {
   std::uint64_t refuted = 0;
-  for (std::uint64_t seed = 1; seed <= test::seeds(20); ++seed) {
+  for (const std::uint64_t seed : test::seeds(20)) {
     SCOPED_TRACE(seed);
     const Scene scene = body_scenes::scattered(seed);
     SequentialRng rng(seed);
@@ -198,7 +198,7 @@ TEST(VerifySe2, LongRunsOfShortLegsAreJudgedAsEachLegAlone) {
     ASSERT_TRUE(whole.first_violation);
     EXPECT_EQ(whole.first_violation->leg, *first);
   }
-  EXPECT_GT(refuted, test::seeds(3));
+  EXPECT_GT(refuted, test::share(3));
   EXPECT_LT(refuted, 20);
 }
 

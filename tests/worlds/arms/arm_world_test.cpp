@@ -39,7 +39,7 @@ Setting setting(std::uint64_t seed) {
 bool has_length(const DhTable& table) { return !links_of(SerialChain(table)).empty(); }
 
 TEST(ArmWorld, ClearanceIsTheDistanceOfTheCapsules) {
-  for (std::uint64_t seed = 1; seed <= test::seeds(24); ++seed) {
+  for (const std::uint64_t seed : test::seeds(24)) {
     SCOPED_TRACE(seed);
     const Setting s = setting(seed);
     if (!has_length(s.table)) continue;
@@ -73,7 +73,7 @@ JointState other_state(const DhTable& table, const JointState& a, std::uint64_t 
 
 TEST(ArmWorld, NoPointOfTheBodyGoesFartherThanItsTravel) {
   constexpr int steps = 500;
-  for (std::uint64_t seed = 1; seed <= test::seeds(24); ++seed) {
+  for (const std::uint64_t seed : test::seeds(24)) {
     SCOPED_TRACE(seed);
     const Setting s = setting(seed);
     if (!has_length(s.table)) continue;
@@ -111,7 +111,7 @@ TEST(ArmWorld, AcceptedMotionsAreFreeAndFewFreeOnesAreRefused) {
   int free_by_margin = 0;
   int refused = 0;
   std::uint64_t accepted = 0;
-  for (std::uint64_t seed = 1; seed <= test::seeds(20); ++seed) {
+  for (const std::uint64_t seed : test::seeds(20)) {
     SCOPED_TRACE(seed);
     Setting s = setting(seed);
     s.scene.boxes.clear();
@@ -131,7 +131,7 @@ TEST(ArmWorld, AcceptedMotionsAreFreeAndFewFreeOnesAreRefused) {
       free_by_margin += verdict == MotionVerdict::free ? 1 : 0;
     }
   }
-  EXPECT_GT(accepted, test::seeds(200));
+  EXPECT_GT(accepted, test::share(200));
   EXPECT_EQ(refused, 0) << "of " << free_by_margin;
 }
 
@@ -177,7 +177,8 @@ TEST(ArmWorld, SearchFindsMotionsThatTenSamplesAcceptAndNoneThatItAcceptsItself)
   const ArmWorld world(s.scene, SerialChain(s.table), s.options);
   std::uint64_t accepted_by_study = 0;
   std::uint64_t wrongly = 0;
-  for (std::uint64_t i = 0; i < test::seeds(120); ++i) {
+  for (const std::uint64_t seed : test::seeds(120)) {
+    const std::uint64_t i = seed - 1;
     for (std::uint64_t k = i + 1; k < i + 6; ++k) {
       if (!study_accepts(s, study_state(i), study_state(k))) continue;
       ++accepted_by_study;
@@ -186,12 +187,12 @@ TEST(ArmWorld, SearchFindsMotionsThatTenSamplesAcceptAndNoneThatItAcceptsItself)
       EXPECT_NE(world.judge_motion(study_state(i), study_state(k)), MotionVerdict::free) << i << ' ' << k;
     }
   }
-  EXPECT_GT(accepted_by_study, test::seeds(300));
-  EXPECT_GT(wrongly, test::seeds(5));
+  EXPECT_GT(accepted_by_study, test::share(300));
+  EXPECT_GT(wrongly, test::share(5));
 }
 
 TEST(ArmWorld, SelfCollisionKeepsLinksApartThatAreNoNeighbours) {
-  for (std::uint64_t seed = 1; seed <= test::seeds(12); ++seed) {
+  for (const std::uint64_t seed : test::seeds(12)) {
     SCOPED_TRACE(seed);
     Setting s = setting(seed);
     if (!has_length(s.table)) continue;

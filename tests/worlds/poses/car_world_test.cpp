@@ -48,7 +48,7 @@ double room(const Scene& scene, const CarOptions& car, const Se2& pose) {
 
 TEST(CarWorld, ClearanceEqualsBruteForce) {
   std::uint64_t free = 0;
-  for (std::uint64_t seed = 1; seed <= test::seeds(25); ++seed) {
+  for (const std::uint64_t seed : test::seeds(25)) {
     SCOPED_TRACE(seed);
     const Scene scene = scattered(seed);
     for (const CarOptions& car : {disc(), hooked()}) {
@@ -69,7 +69,7 @@ TEST(CarWorld, ClearanceEqualsBruteForce) {
       }
     }
   }
-  EXPECT_GT(free, test::seeds(300));
+  EXPECT_GT(free, test::share(300));
 }
 
 /// A certified motion is free wherever one looks; a blocked one is blocked somewhere.
@@ -77,7 +77,7 @@ template <class Curve>
 void expect_certificates_to_hold(const CarOptions& car) {
   std::uint64_t accepted = 0;
   std::uint64_t blocked = 0;
-  for (std::uint64_t seed = 1; seed <= test::seeds(20); ++seed) {
+  for (const std::uint64_t seed : test::seeds(20)) {
     SCOPED_TRACE(seed);
     const Scene scene = scattered(seed, 5, 3);
     const CarWorld<Curve> world(scene, car);
@@ -103,8 +103,8 @@ void expect_certificates_to_hold(const CarOptions& car) {
       EXPECT_EQ(world.is_free_motion(a, b, query), verdict == MotionVerdict::free);
     }
   }
-  EXPECT_GT(accepted, test::seeds(5));
-  EXPECT_GT(blocked, test::seeds(50));
+  EXPECT_GT(accepted, test::share(5));
+  EXPECT_GT(blocked, test::share(50));
 }
 
 TEST(CarWorld, CertificatesHoldForDiscsOnDubinsCurves) { expect_certificates_to_hold<DubinsCurve>(disc()); }
@@ -118,7 +118,7 @@ TEST(CarWorld, CertificatesHoldForPolygonsOnReedsSheppCurves) {
 TEST(CarWorld, NoPointOfTheBodyGoesFartherThanItsPace) {
   const Scene scene = scattered(1);
   const CarWorld<ReedsSheppCurve> world(scene, hooked());
-  for (std::uint64_t seed = 1; seed <= test::seeds(20); ++seed) {
+  for (const std::uint64_t seed : test::seeds(20)) {
     SCOPED_TRACE(seed);
     const SteeringCurve curve = world.curve(random_pose(seed, 0), random_pose(seed, 1));
     double begin = 0.0;

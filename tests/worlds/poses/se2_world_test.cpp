@@ -38,7 +38,7 @@ double plain_clearance(const Scene& scene, const std::vector<Vec2>& outline, con
 }
 
 TEST(Se2World, ClearanceIsTheDistanceToTheNearestObstacle) {
-  for (std::uint64_t seed = 1; seed <= test::seeds(20); ++seed) {
+  for (const std::uint64_t seed : test::seeds(20)) {
     SCOPED_TRACE(seed);
     const Scene scene = scattered(seed, seed % 5 == 0 ? 60 : 12);
     for (const auto& outline : {kite, hook}) {
@@ -155,7 +155,7 @@ TEST(Se2World, TouchingIsBlockedAndClearanceIsKept) {
 
 /// 1000 accepted motions, 100 places each against everything: none collides.
 TEST(Se2World, AcceptedMotionsAreFreeEverywhere) {
-  for (std::uint64_t seed = 1; seed <= test::seeds(20); ++seed) {
+  for (const std::uint64_t seed : test::seeds(20)) {
     SCOPED_TRACE(seed);
     const Scene scene = scattered(seed);
     const auto& outline = seed % 2 == 0 ? kite : hook;
@@ -183,7 +183,7 @@ TEST(Se2World, AcceptedMotionsAreFreeEverywhere) {
 /// What keeps a hundredth of the body's radius is accepted, always; what collides at a sampled place never.
 TEST(Se2World, RefusesNothingThatHasAHundredthOfTheRadiusToSpare) {
   std::uint64_t spared = 0;
-  for (std::uint64_t seed = 1; seed <= test::seeds(20); ++seed) {
+  for (const std::uint64_t seed : test::seeds(20)) {
     SCOPED_TRACE(seed);
     const Scene scene = scattered(seed);
     const Se2World world(scene, kite, {});
@@ -206,7 +206,7 @@ TEST(Se2World, RefusesNothingThatHasAHundredthOfTheRadiusToSpare) {
       }
     }
   }
-  EXPECT_GT(spared, test::seeds(1000));
+  EXPECT_GT(spared, test::share(1000));
 }
 
 TEST(Se2World, TurnsTheShorterWayThroughTheWrap) {
@@ -309,7 +309,7 @@ TEST(Se2World, OnAMapABodyIsFreeOnlyAmongFreeCells) {
     ASSERT_FALSE(is_free && !judged.verified) << i;
     ASSERT_FALSE(judged.verified && touches) << i;
   }
-  EXPECT_GT(free, test::seeds(500));
+  EXPECT_GT(free, test::share(500));
 }
 
 }  // namespace
