@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What turning polygons and cars have in common as bodies of SampledSolve: their states are poses (x, y, theta), and a
-// goal X,Y without a heading is met in any: as poses_to_meet() has them. Roadmaps try those first that have at least half
-// of the most room, the nearest to the start of them first, so that in the open nothing turns for nothing; then the
-// others, the roomiest first.
+// goal X,Y without a heading is met in any: as poses_to_meet() has them. Roadmaps try those first that have at least
+// half of the most room, the nearest to the start of them first, so that in the open nothing turns for nothing; then
+// the others, the roomiest first.
 #pragma once
 
 #include <algorithm>
