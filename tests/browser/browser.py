@@ -16,6 +16,9 @@ FLAGS = ('--headless=new --no-sandbox --disable-gpu --disable-quic --no-first-ru
          '--disable-component-update --disable-sync --disable-default-apps --window-size=1200,800').split()
 
 
+shared = None  # all_pages.py starts one for all files
+
+
 def start(folder):
     options = Options()
     options.binary_location = shutil.which('chromium')
@@ -25,18 +28,33 @@ def start(folder):
     return webdriver.Chrome(service=Service(shutil.which('chromedriver')), options=options)
 
 
+def open_anew(browser):
+    """A window without cookies, storage, cache, history or emulation of the one before, which is closed."""
+    old = browser.current_window_handle
+    browser.switch_to.new_window('window')
+    new = browser.current_window_handle
+    browser.switch_to.window(old)
+    browser.close()
+    browser.switch_to.window(new)
+    for command, words in (('Network.clearBrowserCookies', {}), ('Network.clearBrowserCache', {}),
+                           ('Storage.clearDataForOrigin', {'origin': '*', 'storageTypes': 'all'})):
+        browser.execute_cdp_cmd(command, words)
+    browser.set_window_size(1200, 800)
+
+
 class BrowserTest(unittest.TestCase):
     """One browser for all tests of a class; a test fails where the console has a message at its end."""
 
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+        if shared is not None:
+            cls.browser = shared
+            open_anew(shared)
+            return
         cls.browser = start(cls.folder.name)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.browser.quit()
-        cls.folder.cleanup()
+        cls.addClassCleanup(cls.browser.quit)
 
     def tearDown(self):
         self.browser.set_window_size(1200, 800)
@@ -88,6 +106,16 @@ class MapTest(BrowserTest):
         self.browser.get('about:blank')  # the part behind # alone would load nothing
         self.browser.get(address)
         self.wait(lambda: self.run_script('return world !== null && map !== null && map._loaded === true && !tiles._loading'))
+
+    def rest(self):
+        """Until nothing moves: tiles are there and have faded in, zooms have ended, and that is drawn."""
+        self.wait(lambda: self.run_script('''
+            let still = !map._animatingZoom;
+            map.eachLayer(layer => {
+              still &&= !layer._loading && Object.values(layer._tiles ?? {}).every(tile => tile.active || !tile.current);
+            });
+            return still;'''))
+        self.frames()
 
     def status(self):
         return self.by_id('status').text

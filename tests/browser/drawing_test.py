@@ -101,8 +101,10 @@ class Drawing(MapTest):
                           'await draw({add: {walls: [[50, 5, 50, 10]]}}); await draw({add: {walls: [[60, 5, 60, 10]]}});'
                           'await draw({remove: {walls: [[60, 5, 60, 10]]}}); done(); })();')
         self.assertEqual(self.run_script('return drawing.undo.length'), 3)
-        self.run_script('window.quick = fetchWorld; fetchWorld = async () => { await new Promise(then => setTimeout(then, 600)); return quick(); };'
-                        'const undo = () => stepDrawing(drawing.undo, drawing.redo); undo(); setTimeout(undo, 300);')
+        self.run_script('window.quick = fetchWorld; window.go = null;'
+                        'fetchWorld = async () => { await new Promise(then => { go = then; }); return quick(); }; stepDrawing(drawing.undo, drawing.redo);')
+        self.wait(lambda: self.run_script('return go !== null'))
+        self.run_script('stepDrawing(drawing.undo, drawing.redo); go();')
         self.wait(lambda: self.run_script('return !drawing.busy && drawing.undo.length') == 2)
         scene = service.request('GET', '/api/scene')[2].decode()
         self.assertEqual(scene.count('60 5 60 10'), 1, scene)

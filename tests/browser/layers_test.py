@@ -8,9 +8,8 @@ import unittest
 
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
-from selenium.webdriver.support.ui import WebDriverWait
 
-from browser import BrowserTest
+from browser import MapTest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', 'acceptance'))
 from service import Service  # noqa: E402
@@ -19,7 +18,7 @@ WARREN = sys.argv.pop(1)
 ROOMS = 'bounds 0 0 100 60\nwall 50 -1 50 61\nstart 5 30\ngoal 40 30\n'
 
 
-class Layers(BrowserTest):
+class Layers(MapTest):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
@@ -38,13 +37,8 @@ class Layers(BrowserTest):
             assert service.stop() == 0
         super().tearDownClass()
 
-    def wait(self, holds):
-        WebDriverWait(self.browser, 60, 0.05).until(lambda _: holds())
-
     def shown(self, service, link=''):
-        self.browser.get('about:blank')  # the part behind # alone would load nothing
-        self.browser.get(service.url + link)
-        self.wait(lambda: self.run_script('return world !== null && map !== null && map._loaded === true && !tiles._loading'))
+        self.show_map(service.url + link)
 
     def box(self, name):
         return self.browser.find_element(By.ID, 'layer-' + name)
@@ -213,7 +207,7 @@ class Layers(BrowserTest):
             self.shown(self.scene, '#start=&goal=&layers=clearance')
             self.drawn('clearance')
             self.wait(lambda: self.legend('clearance').endswith('and more'))
-            self.frames()
+            self.rest()
             paper, wall, *inked = self.colors((-5, 30), (50, 30), (48, 20), (25, 30), (12, 30), (90, 10))
             self.assertIn(paper, ([255, 255, 255], [0, 0, 0]))
             for color in inked:
@@ -256,7 +250,8 @@ class Layers(BrowserTest):
         self.shown(self.rooms, '#layers=roadmap,components')
         self.wait(lambda: 'largest' in self.legend('components'))
         self.browser.set_window_size(500, 900)
-        self.async_script('setTimeout(done, 300)')
+        self.wait(lambda: self.run_script('return innerHeight') > 600)
+        self.rest()
         box = self.box('components')
         self.run_script('arguments[0].scrollIntoView({block: "center"})', box)
         box.click()

@@ -59,7 +59,7 @@ class PageTools(MapTest):
         reach = self.run_script('return handleReach')
         for end, index, (x, y), degrees in (('start', 0, (0, -60), 90), ('goal', -1, (-80, 80), -135)):
             handle = self.browser.find_element(By.CSS_SELECTOR, '.handle.' + end)
-            ActionChains(self.browser).click_and_hold(handle).move_by_offset(5, 5).move_by_offset(x - reach - 5, y - 5).pause(0.3).release().perform()
+            ActionChains(self.browser).click_and_hold(handle).move_by_offset(5, 5).move_by_offset(x - reach - 5, y - 5).release().perform()
             self.assertAlmostEqual(self.heading(end), degrees, delta=2)
             self.wait_for_heading_of_path(index, self.heading(end))
         link = self.run_script('return location.href')

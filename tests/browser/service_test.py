@@ -77,7 +77,7 @@ class ServicePage(MapTest):
         before = self.drawn()
         goal = self.browser.find_element(By.CSS_SELECTOR, '.mark.goal')
         asked = self.run_script('return performance.getEntriesByType("resource").filter(e => e.name.endsWith("/api/query")).length')
-        ActionChains(self.browser).click_and_hold(goal).move_by_offset(-60, 40).move_by_offset(-60, 40).pause(0.3).perform()
+        ActionChains(self.browser).click_and_hold(goal).move_by_offset(-60, 40).move_by_offset(-60, 40).perform()
         self.wait(lambda: self.run_script('return performance.getEntriesByType("resource").filter(e => e.name.endsWith("/api/query")).length') > asked)
         ActionChains(self.browser).release().perform()
         self.wait(lambda: self.drawn() and self.drawn() != before and self.drawn()[-1] == self.end_of('goal'))

@@ -45,19 +45,28 @@ options = dict(planner="rrt", nodes=2**31)
 """
 
 
+def computed_s(pid):
+    """Processor time of all its threads."""
+    fields = pathlib.Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
 def interrupted(number, before="", reading=False):
-    """What a program prints that gets a signal while it computes, and how long it took to say so."""
+    """What a program prints that gets a signal while it computes, and how long it took or computed to say so: the less, for
+    on a busy machine the clock tells of others."""
     program = subprocess.Popen([sys.executable, "-B", "-c", HARD.format(before=CLOSED + before, reading=reading)],
                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     assert program.stdout.readline() == "ready\n"
     if not reading:
         assert program.stdout.readline() == "begun\n"
-    time.sleep(0.4)
-    sent = time.monotonic()
+    ready_s = computed_s(program.pid)
+    while computed_s(program.pid) < ready_s + 0.3:
+        time.sleep(0.01)
+    sent, sent_s = time.monotonic(), computed_s(program.pid)
     program.send_signal(number)
     said = program.stdout.readline().strip()
-    seconds = time.monotonic() - sent
-    program.wait(30)
+    seconds = min(time.monotonic() - sent, computed_s(program.pid) - sent_s)
+    program.wait(300)
     return said, seconds
 
 
@@ -133,8 +142,11 @@ def closed():
 
 def test_a_budget_raises_a_timeout_with_the_partial_answer():
     world, options = closed()
-    with pytest.raises(TimeoutError) as caught:
-        warren.solve(world, budget=0.5, **options)
+    for budget in (0.5, 5, 50):  # until there is something to tell of
+        with pytest.raises(TimeoutError) as caught:
+            warren.solve(world, budget=budget, **options)
+        if caught.value.answer.to_dict()["counters"]["samples"] > 0:
+            break
     assert isinstance(caught.value, warren.Stopped) and caught.value.reason == "budget"
     answer = caught.value.answer
     assert answer.status == "stopped" and not answer and answer.to_dict()["counters"]["samples"] > 0
@@ -183,7 +195,7 @@ ask = lambda: warren.solve(world, budget={budget}, progress=lambda *_: None, **o
 threading.Thread(target=ask, daemon=True).start()
 time.sleep(0.1)
 """
-    done = subprocess.run([sys.executable, "-B", "-c", program], stderr=subprocess.PIPE, text=True, timeout=30)
+    done = subprocess.run([sys.executable, "-B", "-c", program], stderr=subprocess.PIPE, text=True, timeout=300)
     assert (done.returncode, done.stderr) == (0, "")
 
 

@@ -1,0 +1,50 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""all_pages.py WARREN EXAMPLES [WORD ...]: the tests of all pages in one Chromium, each class in a context of its own; with
+words those whose names hold one. Prints the seconds of each class."""
+import importlib.util
+import pathlib
+import sys
+import tempfile
+import time
+import unittest
+
+import browser
+
+HERE = pathlib.Path(__file__).parent
+
+
+def main():
+    warren, worlds, *words = sys.argv[1:]
+    suite = []
+    for path in sorted(HERE.glob('*_test.py')):
+        sys.argv = [path.name, warren, worlds]  # what each file takes when it is run alone
+        spec = importlib.util.spec_from_file_location('pages.' + path.stem, path)  # the service has tests of this name elsewhere
+        module = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(module)
+        suite += [(group, path.stem) for group in unittest.defaultTestLoader.loadTestsFromModule(module)]
+    with tempfile.TemporaryDirectory() as folder:
+        browser.shared = browser.start(folder)
+        try:
+            return run(suite, words)
+        finally:
+            browser.shared.quit()
+
+
+def run(suite, words):
+    failed, asked = False, 0
+    for group, name in suite:
+        chosen = unittest.TestSuite(test for test in group if not words or any(word in test.id() for word in words))
+        if chosen.countTestCases() == 0:
+            continue
+        began = time.monotonic()
+        result = unittest.TextTestRunner(verbosity=0, stream=sys.stdout).run(chosen)
+        print(f'{name}: {result.testsRun} tests, {time.monotonic() - began:.1f} s', flush=True)
+        failed |= not result.wasSuccessful()
+        asked += result.testsRun
+    print(f'{asked} tests')
+    return 1 if failed or asked == 0 else 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())
