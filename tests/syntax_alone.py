@@ -9,19 +9,20 @@ import subprocess
 import sys
 
 
-def command(entry):
+def split(entry):
+    """What the compiler is told but for -o, and what stands behind that."""
     words = shlex.split(entry["command"])
     at = words.index("-o")
-    return [*words[:at], *words[at + 2:], "-fsyntax-only"]
+    return [*words[:at], *words[at + 2:], "-fsyntax-only", "-w"], words[at + 1]
 
 
 def main():
     entries = json.loads(pathlib.Path(sys.argv[1]).read_text(encoding="utf-8"))
-    wanted = [e for e in entries if f"/{sys.argv[2]}CMakeFiles/" in e["command"]]
+    wanted = [(split(e)[0], e["directory"]) for e in entries if split(e)[1].startswith(sys.argv[2])]
     if not wanted:
         sys.exit(f"{sys.argv[1]}: nothing of {sys.argv[2]}")
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as crew:
-        failed = sum(run.returncode != 0 for run in crew.map(lambda e: subprocess.run(command(e), cwd=e["directory"]), wanted))
+        failed = sum(run.returncode != 0 for run in crew.map(lambda w: subprocess.run(w[0], cwd=w[1]), wanted))
     print(f"{len(wanted)} batches, {failed} failed")
     sys.exit(failed != 0)
 

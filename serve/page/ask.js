@@ -70,7 +70,7 @@ function take(reply, text, passed, asked) {
   answer.asked = asked;
   answer.start = json.status === "start_blocked" ? null : json.start.slice(0, 2).join(",");
   answer.id = reply.headers.get("Warren-Path");
-  if (answer.id) showPath(json.path.map(p => [p[0], p[1]]), answer.id);
+  if (answer.id) showPath(asDriven(json.path).map(p => [p[0], p[1]]), answer.id);
   say(inWords(json));
   showAnswer(json, [...serverTimes(reply), ["there and back", passed]]);
   showClearance();

@@ -181,7 +181,7 @@ function save(name, type, text) {
 /// the question is asked anew first.
 async function savePath(make) {
   const of = answer.json, asked = answer.asked;
-  if (of.path.length > 0) return make(of, of.path);
+  if (of.path.length > 0) return make(of, asDriven(of.path));
   let reply, json;
   try {
     reply = await fetch("/api/path/" + answer.id);

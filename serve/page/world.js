@@ -95,6 +95,22 @@ function drawChains(chains) {
   pathLine.line = L.polyline(points, {color: document.documentElement.classList.contains("dark") ? "#ff6b81" : "#c8102e", weight: 4, opacity: 0.9, smoothFactor: 1, interactive: false});
   showParts();
 }
+/// Of a car, its poses and those between them on its arcs, a chord of at most 5 degrees apart; of others, the path.
+function asDriven(path) {
+  if (!world.robot.startsWith("car") || path.length === 0) return path;
+  const within = angle => Math.atan2(Math.sin(angle), Math.cos(angle)), driven = [path[0]];
+  for (let i = 1; i < path.length; ++i) {
+    const [x, y, theta] = path[i - 1], dx = path[i][0] - x, dy = path[i][1] - y;
+    const turn = within(path[i][2] - theta), parts = Math.ceil(Math.abs(turn) * 36 / Math.PI - 1e-9);
+    for (let k = 1; k < parts; ++k) {
+      const t = k / parts, share = Math.sin(t * turn / 2) / Math.sin(turn / 2), back = (t - 1) * turn / 2;
+      const c = share * Math.cos(back), s = share * Math.sin(back);
+      driven.push([x + c * dx - s * dy, y + s * dx + c * dy, within(theta + t * turn)]);
+    }
+    driven.push(path[i]);
+  }
+  return driven;
+}
 /// points: all of them where the answer listed them, else they are fetched by what is seen.
 function showPath(points, id) {
   ++pathLine.asked;

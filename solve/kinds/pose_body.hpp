@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What turning polygons and cars have in common as bodies of SampledSolve: their states are poses (x, y, theta), and a
-// goal X,Y without a heading is met in any: as poses_to_meet() has them, of which roadmaps try the roomiest first.
+// goal X,Y without a heading is met in any: as poses_to_meet() has them. Roadmaps try those first that have at least
+// half of the most room, the nearest to the start of them first, so that in the open nothing turns for nothing; then
+// the others, the roomiest first.
 #pragma once
 
 #include <algorithm>
@@ -49,12 +51,17 @@ class PoseBody : public UsualBody {
     return roadmap.sampler == SamplerKind::lattice ? SamplerKind::uniform : roadmap.sampler;
   }
   template <class World>
-  static std::vector<Se2> best_first(const World& world, const std::vector<Se2>& goals) {
+  std::vector<Se2> best_first(const World& world, const std::vector<Se2>& goals) const {
     if (goals.size() < 2) return goals;
     auto query = world.make_query();
     std::vector<std::pair<double, Se2>> by_room;
     for (const Se2& goal : goals) by_room.emplace_back(world.clearance(goal, largest_coordinate, query), goal);
     std::stable_sort(by_room.begin(), by_room.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    const auto is_roomy = [enough = 0.5 * by_room.front().first](const auto& goal) { return goal.first >= enough; };
+    const auto roomy = std::partition_point(by_room.begin(), by_room.end(), is_roomy);
+    std::stable_sort(by_room.begin(), roomy, [&](const auto& a, const auto& b) {
+      return world.distance(problem_.start, a.second) < world.distance(problem_.start, b.second);
+    });
     std::vector<Se2> sorted;
     for (const auto& [room, goal] : by_room) sorted.push_back(goal);
     return sorted;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <numbers>
 #include <span>
 #include <string_view>
 
@@ -46,8 +47,11 @@ class Rows {
   }
 
  private:
+  /// Arcs are joined by straight lines where they are read: chords of at most 5 degrees.
   double parts(std::size_t leg) const {
-    return options_.every ? std::max(1.0, std::ceil(legs_.length(leg) / *options_.every * (1.0 - 1e-12))) : 1.0;
+    constexpr double most_rad = std::numbers::pi / 36.0;
+    const double longest = std::min(options_.every.value_or(legs_.length(leg)), most_rad * legs_.radius(leg));
+    return longest > 0.0 ? std::max(1.0, std::ceil(legs_.length(leg) / longest * (1.0 - 1e-12))) : 1.0;
   }
   void check_count() const {
     constexpr double most = 1e9;

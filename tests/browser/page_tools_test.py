@@ -94,6 +94,16 @@ class PageTools(MapTest):
         self.assertIn('heading 40 degrees', mark.get_attribute('aria-label'))
         self.assertEqual(self.by_id('start').get_attribute('value'), '10, 30, 40')
 
+    def test_a_car_is_drawn_as_it_drives(self):
+        self.shown('yard')  # any page has the function
+        turns = self.run_script('''world.robot = 'car radius 0.3';
+            return asDriven([[0, 0, 0], [1, 1, Math.PI / 2], [1, 3, Math.PI / 2]]).map(p => [Math.hypot(p[0], p[1] - 1), p[2]])''')
+        self.assertEqual(len(turns), 20)
+        for off, _ in turns[:-1]:
+            self.assertAlmostEqual(off, 1, 12)
+        for (_, before), (_, after) in zip(turns, turns[1:]):
+            self.assertLess(after - before, math.radians(5) + 1e-9)
+
     def test_bodies_that_do_not_turn_have_no_arrow(self):
         self.shown('yard')
         self.assertEqual(self.browser.find_elements(By.CSS_SELECTOR, '.handle'), [])

@@ -14,7 +14,6 @@ namespace warren {
 namespace {
 
 constexpr double full_turn = 2.0 * std::numbers::pi;
-constexpr double nearly_full = full_turn - 1e-6;
 
 /// The angle in [0, 2 pi).
 double positive_angle(double angle) {
@@ -58,7 +57,7 @@ struct Candidate {
 /// All words of a pair of poses, and what rounding may have made of them.
 class Candidates {
  public:
-  explicit Candidates(const Se2& goal) : goal_(goal) {
+  Candidates(const Se2& goal, double off) : goal_(goal), off_(off) {
     const auto [s, c] = portable::sin_and_cos(goal.theta);
     add(false, goal.y, goal.theta, s, c);
     add(true, -goal.y, -goal.theta, -s, c);
@@ -71,17 +70,18 @@ class Candidates {
       const auto end = list_.begin() + static_cast<std::ptrdiff_t>(count_);
       const auto candidate = std::min_element(list_.begin(), end, shorter);
       const SteeringWord word = candidate->word();
-      if (count_ == 1 || ends_at(word, goal_)) return word;
+      if (count_ == 1 || ends_at(word, goal_, off_)) return word;
       *candidate = list_[--count_];
     }
   }
 
  private:
   void add(bool mirrored, double y, double phi, double s, double c);
-  void add(Candidate candidate, double first);
+  void add(Candidate candidate, double first, double unsure);
 
   Se2 goal_;
-  std::array<Candidate, 24> list_;  // of each of six words at most four
+  double off_;                      // what rounding put it off by
+  std::array<Candidate, 32> list_;  // of each of eight words at most four
   std::size_t count_ = 0;
 };
 
@@ -92,23 +92,27 @@ void Candidates::add(bool mirrored, double y, double phi, double s, double c) {
   const Vec2 to_right{x + s, y - c - 1.0};
   const double left_distance = norm(to_left);
   const double left_angle = portable::atan2(to_left.y, to_left.x);
-  constexpr double one_circle = 1e-9;
-  constexpr double touching = 1e-11;
-  add({Shape::lsl, mirrored, phi, 0.0, left_distance, 0.0}, left_distance > one_circle ? left_angle : 0.0);
+  const double one_circle = 1e-9 + 4.0 * off_;
+  const double touching = 1e-11 + 8.0 * off_;   // distances and their squares, of circles at most four apart
+  const double unsure = 4.0 * std::sqrt(off_);  // of directions where circles all but touch
+  add({Shape::lsl, mirrored, phi, 0.0, left_distance, 0.0}, left_angle, 4.0 * off_ / std::max(left_distance, 1e-300));
+  if (left_distance <= one_circle) add({Shape::lsl, mirrored, phi, 0.0, 0.0, 0.0}, 0.0, 0.0);
   const double straight_sq = dot(to_right, to_right) - 4.0;
   if (straight_sq >= -touching) {  // circles that touch: two arcs and nothing between
     const double straight = std::sqrt(std::max(straight_sq, 0.0));
     add({Shape::lsr, mirrored, phi, 0.0, straight, 0.0},
-        portable::atan2(to_right.y, to_right.x) + portable::atan2(2.0, straight));
+        portable::atan2(to_right.y, to_right.x) + portable::atan2(2.0, straight), unsure);
   }
   if (left_distance <= 4.0 + touching) {
     const double middle = full_turn - 2.0 * portable::asin(std::min(0.25 * left_distance, 1.0));
-    add({Shape::lrl, mirrored, phi, 0.0, middle, 0.0}, left_angle + 0.5 * middle);
+    add({Shape::lrl, mirrored, phi, 0.0, middle, 0.0}, left_angle + 0.5 * middle, unsure);
   }
 }
 
-/// Adds it with this first arc; where an arc is nearly a full circle, also without that arc.
-void Candidates::add(Candidate candidate, double first) {
+/// Adds it with this first arc, which may be `unsure` by rounding; where an arc is so nearly a full circle, also
+/// without that arc.
+void Candidates::add(Candidate candidate, double first, double unsure) {
+  const double nearly_full = full_turn - std::clamp(unsure, 1e-6, 1.0);
   candidate.first = positive_angle(first);
   candidate.last = candidate.last_for(candidate.first);
   list_[count_++] = candidate;
@@ -134,7 +138,7 @@ void Candidates::add(Candidate candidate, double first) {
 
 SteeringWord DubinsCurve::shortest(const Se2& a, const Se2& b, double turning_radius) noexcept {
   if (a == b) return {};
-  return Candidates(seen_from(a, b, turning_radius)).best();
+  return Candidates(seen_from(a, b, turning_radius), off_by_rounding(a, b, turning_radius)).best();
 }
 
 }  // namespace warren

@@ -41,12 +41,13 @@ double PricedCar::distance(const State& a, const State& b) const {
 std::vector<PricedCurve> PricedCar::ways(const State& a, const State& b, double most) const {
   const double radius = car_->turning_radius();
   const Se2 goal = seen_from(a, b, radius);
+  const double off = off_by_rounding(a, b, radius);
   std::array<Recipe, 4> best;
   for (Recipe& recipe : best) recipe.price = most;
   ReedsSheppCurve::for_each_word(a, b, radius, most / radius, [&](const SteeringWord& word) {
     const Recipe recipe = priced(word);
     Recipe& same = best[(recipe.first_gear > 0 ? 2U : 0U) + (recipe.last_gear > 0 ? 1U : 0U)];
-    if (recipe.first_gear != 0 && recipe.price < same.price && ends_at(word, goal)) same = recipe;
+    if (recipe.first_gear != 0 && recipe.price < same.price && ends_at(word, goal, off)) same = recipe;
   });
   std::vector<PricedCurve> ways;
   for (const Recipe& recipe : best) {

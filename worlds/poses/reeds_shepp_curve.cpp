@@ -43,8 +43,6 @@ struct Solved {
   double last = 0.0;
 };
 
-/// Circles that touch up to rounding count as touching; ends_at() decides whether that is true.
-constexpr double touching = 1e-11;
 double root(double square) { return std::sqrt(std::max(square, 0.0)); }
 
 /// Into [-pi, pi], for angles within some turns.
@@ -144,7 +142,8 @@ class All {
 template <class Taker>
 class Enumeration {
  public:
-  Enumeration(const Se2& goal, Taker& taker) : taker_(taker) {
+  /// off: what rounding put the goal off by
+  Enumeration(const Se2& goal, double off, Taker& taker) : taker_(taker), off_(off), touching_(1e-11 + 8.0 * off) {
     const auto [s, c] = portable::sin_and_cos(goal.theta);
     for (const bool mirrored : {false, true}) {
       const double side = mirrored ? -1.0 : 1.0;
@@ -189,23 +188,28 @@ class Enumeration {
   void solve_two_quarters(const Frame& f);
 
   Taker& taker_;
+  double off_;
+  double touching_;  // circles that touch up to rounding count as touching; ends_at() decides whether that is true
 };
 
 template <class Taker>
 void Enumeration<Taker>::solve_all(const Frame& f) {
-  constexpr double one_circle = 1e-9;
+  const double one_circle = 1e-9 + 4.0 * off_;
   if (worth(f.to_left.size)) {
-    const double first = f.to_left.size > one_circle ? f.to_left.angle : 0.0;
+    const double first = f.to_left.angle;
     take(f, Shape::lsl, first, f.to_left.size, wrapped(f.phi - first), f.to_left.size);
+    // What rounding alone turns, or drives between two circles that are one, is no piece.
+    if (f.to_left.size * std::abs(first) <= 4.0 * off_) take(f, Shape::lsl, 0.0, f.to_left.size, f.phi, f.to_left.size);
+    if (f.to_left.size <= one_circle) take(f, Shape::lsl, 0.0, 0.0, f.phi, 0.0);
   }
-  if (f.to_right.size >= 2.0 - touching) {
+  if (f.to_right.size >= 2.0 - touching_) {
     const double straight = root(f.to_right.size * f.to_right.size - 4.0);
     if (worth(straight)) {
       const double first = wrapped(f.to_right.angle + portable::atan2(2.0, straight));
       take(f, Shape::lsr, first, straight, wrapped(first - f.phi), straight);
     }
   }
-  if (f.to_left.size <= 4.0 + touching) {
+  if (f.to_left.size <= 4.0 + touching_) {
     const double arc = 2.0 * portable::asin(std::min(0.25 * f.to_left.size, 1.0));
     if (worth(arc)) {
       const double first = wrapped(f.to_left.angle - 0.5 * arc + std::numbers::pi);
@@ -220,7 +224,7 @@ void Enumeration<Taker>::solve_all(const Frame& f) {
 template <class Taker>
 void Enumeration<Taker>::solve_four_arcs(const Frame& f) {
   const double out_cosine = 0.25 * (2.0 + f.to_right.size);
-  if (out_cosine <= 1.0 + touching) {
+  if (out_cosine <= 1.0 + touching_) {
     const double arc = portable::acos(std::min(out_cosine, 1.0));
     if (worth(2.0 * arc)) {
       const double first = wrapped(f.to_right.angle + arc + quarter);
@@ -228,7 +232,7 @@ void Enumeration<Taker>::solve_four_arcs(const Frame& f) {
     }
   }
   const double in_cosine = (20.0 - f.to_right.size * f.to_right.size) / 16.0;
-  if (in_cosine >= -1.0 && in_cosine <= 1.0 + touching) {
+  if (in_cosine >= -1.0 && in_cosine <= 1.0 + touching_) {
     const double arc = portable::acos(std::min(in_cosine, 1.0));
     if (worth(2.0 * arc)) {
       const double first = wrapped(f.to_right.angle + quarter + portable::atan2(portable::sin(arc), 2.0 - in_cosine));
@@ -239,7 +243,7 @@ void Enumeration<Taker>::solve_four_arcs(const Frame& f) {
 
 template <class Taker>
 void Enumeration<Taker>::solve_quarter(const Frame& f) {
-  if (f.to_left.size >= 2.0 - touching) {
+  if (f.to_left.size >= 2.0 - touching_) {
     const double across = root(f.to_left.size * f.to_left.size - 4.0);
     const double straight = 2.0 - across;
     if (worth(quarter + std::abs(straight))) {
@@ -256,7 +260,7 @@ void Enumeration<Taker>::solve_quarter(const Frame& f) {
 
 template <class Taker>
 void Enumeration<Taker>::solve_two_quarters(const Frame& f) {
-  if (f.to_right.size < 2.0 - touching) return;
+  if (f.to_right.size < 2.0 - touching_) return;
   const double across = root(f.to_right.size * f.to_right.size - 4.0);
   const double straight = 4.0 - across;
   if (!worth(2.0 * quarter + std::abs(straight))) return;
@@ -281,18 +285,19 @@ SteeringWord driven_back(const SteeringWord& word) {
 
 SteeringWord shortest_onwards(const Se2& a, const Se2& b, double turning_radius) noexcept {
   const Se2 goal = seen_from(a, b, turning_radius);
+  const double off = off_by_rounding(a, b, turning_radius);
   double longer_than = -1.0;
   for (;;) {
     Shortest shortest(longer_than);
-    Enumeration<Shortest>(goal, shortest);
+    Enumeration<Shortest>(goal, off, shortest);
     const Solved& solved = shortest.best();
     if (!std::isfinite(solved.length)) break;
     const SteeringWord word = word_of(solved);
-    if (ends_at(word, goal)) return word;
+    if (ends_at(word, goal, off)) return word;
     longer_than = solved.length;
   }
   Shortest any(-1.0);
-  Enumeration<Shortest>(goal, any);
+  Enumeration<Shortest>(goal, off, any);
   return word_of(any.best());
 }
 
@@ -306,7 +311,7 @@ SteeringWord ReedsSheppCurve::shortest(const Se2& a, const Se2& b, double turnin
 void ReedsSheppCurve::for_each_word(const Se2& a, const Se2& b, double turning_radius, double longest,
                                     const std::function<void(const SteeringWord&)>& visit) {
   All all(longest, visit);
-  Enumeration<All>(seen_from(a, b, turning_radius), all);
+  Enumeration<All>(seen_from(a, b, turning_radius), off_by_rounding(a, b, turning_radius), all);
 }
 
 }  // namespace warren

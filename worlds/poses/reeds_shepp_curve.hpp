@@ -24,7 +24,7 @@ struct ReedsSheppCurve {
   /// The shortest word from a to b; turning_radius > 0.
   static SteeringWord shortest(const Se2& a, const Se2& b, double turning_radius) noexcept;
   /// Every word towards b of at most this length, in turning radii, in no order; some of them twice. What is visited
-  /// leads to b only if ends_at(word, seen_from(a, b, turning_radius)).
+  /// leads to b only if ends_at(word, seen_from(a, b, turning_radius), off_by_rounding(a, b, turning_radius)).
   static void for_each_word(const Se2& a, const Se2& b, double turning_radius, double longest,
                             const std::function<void(const SteeringWord&)>& visit);
 };

@@ -43,8 +43,13 @@ Se2 seen_from(const Se2& a, const Se2& b, double turning_radius) noexcept;
 /// Where one piece leads to from a pose; everything in turning radii.
 Se2 after_piece(const Se2& from, const SteeringPiece& piece) noexcept;
 
-/// Does the word, driven from the origin, end at `goal` up to rounding?
-bool ends_at(const SteeringWord& word, const Se2& goal) noexcept;
+/// What rounded coordinates of a and b (and of poses cut from a curve between them) put seen_from(a, b) off by, at
+/// most; in turning radii. Words must not tell goals apart that are so near: a car that misses by less would circle
+/// anew.
+double off_by_rounding(const Se2& a, const Se2& b, double turning_radius) noexcept;
+
+/// Does the word, driven from the origin, end at `goal`, which is `off` (>= 0) by rounding?
+bool ends_at(const SteeringWord& word, const Se2& goal, double off = 0.0) noexcept;
 
 /// A word between two poses, in world units. Pieces of no length to speak of are left out.
 class SteeringCurve {

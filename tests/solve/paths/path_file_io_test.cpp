@@ -7,11 +7,13 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/plane/se2.hpp"
 #include "scenes/formats/read_world_io.hpp"
 #include "solve/solve.hpp"
 #include "tests/paths.hpp"
@@ -46,6 +48,20 @@ Table rows_of(const std::string& csv, std::string& header) {
 Answer solved(const std::string& name) {
   return solve(read_world(test::source_dir() + "/examples/worlds/" + name),
                name == "town.geojson" ? Question{.start = {1.5, 1.5}, .goal = {9.5, 8.5}} : Question{});
+}
+
+/// Who reads a path joins its places by straight lines.
+TEST(PathFile, ChordsOfACarsArcsTurnByAtMostFiveDegreesInEveryFormat) {
+  const Answer answer = solved("car-20.scene");
+  std::string header;
+  const Table rows = rows_of(written(answer, ".csv", {}), header);
+  ASSERT_GT(rows.size(), answer.states.size());
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    EXPECT_LE(std::abs(turn_between(rows[i - 1][3], rows[i][3])), 5.0 * std::numbers::pi / 180.0 + 1e-9) << i;
+  }
+  EXPECT_EQ(nlohmann::json::parse(written(answer, ".geojson", {}))["geometry"]["coordinates"].size(), rows.size());
+  EXPECT_EQ(YAML::Load(written(answer, ".yaml", {}))["poses"].size(), rows.size());
+  EXPECT_GT(rows_of(written(answer, ".csv", {.every = 0.01}), header).size(), rows.size());
 }
 
 TEST(PathFile, CsvHasThePathsOwnStatesWhereNothingElseIsAsked) {

@@ -27,7 +27,7 @@ TEST(ToolPostures, AreFoundWhereverTheToolReaches) {
     for (const PumaLimits limits : {PumaLimits::classic, PumaLimits::symmetric}) {
       const DhTable table = puma560_table(tool, limits);
       const SerialChain chain(table);
-      for (std::uint64_t i = 0; i < test::seeds(200); ++i) {
+      for (const std::uint64_t i : test::seeds(200)) {
         SCOPED_TRACE(i);
         const Point place = points(table, state_within(table, i)).back();
         const ToolPostures found = tool_postures(chain, {place[0], place[1], place[2]}, 0.25, 1, {});

@@ -53,7 +53,7 @@ double depth_in(const std::vector<HeadingInterval>& intervals, double theta) {
 TEST(FreeHeadings, AreThoseAtWhichNoSideIsNear) {
   constexpr int headings = 720;
   std::size_t mixed = 0;
-  for (std::uint64_t seed = 1; seed <= test::seeds(20); ++seed) {
+  for (const std::uint64_t seed : test::seeds(20)) {
     const Scene scene = scattered(seed, 12);
     for (std::uint64_t i = 0; i < 20; ++i) {
       const Vec2 place = random_pose(seed, i).position();

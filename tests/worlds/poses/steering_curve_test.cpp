@@ -73,6 +73,42 @@ void expect_ends_at_the_goal(std::uint64_t seed) {
 TEST(SteeringCurve, IntegratedNumericallyDubinsCurvesEndAtTheGoal) { expect_ends_at_the_goal<DubinsCurve>(1); }
 TEST(SteeringCurve, IntegratedNumericallyReedsSheppCurvesEndAtTheGoal) { expect_ends_at_the_goal<ReedsSheppCurve>(2); }
 
+/// The pair and what is cut from its curve, at the origin and far away: a car that takes rounding for a detour circles.
+template <class Curve>
+void expect_the_same_lengths_anywhere(std::uint64_t seed) {
+  for (std::uint64_t i = 0; i < many / 20; ++i) {
+    SCOPED_TRACE(i);
+    const double offset = std::pow(10.0, 3.0 + static_cast<double>(i % 5));
+    const double rho = std::array{0.1, 1.0, 5.0}[i / 5 % 3];
+    const auto there = [&](Se2 pose) { return Se2{pose.x + offset, pose.y - offset, pose.theta}; };
+    const Se2 a = random_pose(seed, 2 * i);
+    const Se2 b = random_pose(seed, 2 * i + 1);
+    const SteeringCurve curve(a, b, Curve::shortest(a, b, rho), rho);
+    const double length = curve.length();
+    const double rounding = 1e-9 + 100.0 * std::numeric_limits<double>::epsilon() * offset;
+    const auto far_length = [&](const Se2& from, const Se2& to) {
+      return rho * Curve::shortest(there(from), there(to), rho).length;
+    };
+    EXPECT_NEAR(far_length(a, b), length, rounding);
+    std::array<double, 4> at{0.0, uniform(seed, i, 6), uniform(seed, i, 7), 1.0};
+    if (i % 3 == 0) at[2] = std::min(1.0, at[1] + std::pow(10.0, -9.0 * uniform(seed, i, 8)));
+    std::sort(at.begin(), at.end());
+    double sum = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double part = far_length(curve.at(at[k] * length), curve.at(at[k + 1] * length));
+      EXPECT_LE(part, (at[k + 1] - at[k]) * length + rounding) << k;
+      sum += part;
+    }
+    EXPECT_GE(sum, length - rounding);
+  }
+}
+TEST(SteeringCurve, DubinsCurvesAndTheirPartsAreAsLongFarFromTheOrigin) {
+  expect_the_same_lengths_anywhere<DubinsCurve>(21);
+}
+TEST(SteeringCurve, ReedsSheppCurvesAndTheirPartsAreAsLongFarFromTheOrigin) {
+  expect_the_same_lengths_anywhere<ReedsSheppCurve>(22);
+}
+
 TEST(SteeringCurve, BackingUpNeverMakesLongerAndTheWayBackIsAsLong) {
   for (std::uint64_t i = 0; i < many / 4; ++i) {
     const Se2 a = random_pose(3, 2 * i);
