@@ -13,6 +13,7 @@
 #include "core/base/error.hpp"
 #include "scenes/formats/read_world_io.hpp"
 #include "tests/paths.hpp"
+#include "tests/seeds.hpp"
 
 namespace warren {
 namespace {
@@ -53,7 +54,8 @@ TEST(Solve, ABodyMayBeAsSmallAsNumbersAre) {
   Scene scene;
   scene.bounds = Box{{0, 0}, {10, 10}};
   scene.walls = WallSet::narrowest(std::vector<Segment>{{{2, 2}, {2, 8}}, {{4, 3}, {9, 3}}});
-  for (const double size : {1e-90, 1e-10}) {
+  for (const std::uint64_t tiny : test::seeds(2, 1, 0)) {
+    const double size = std::array{1e-90, 1e-10}[tiny];
     const RobotSpec robot{.kind = RobotKind::polygon, .outline = {{0, 0}, {size, 0}, {0, size}}};
     SolveOptions options{.planner = PlannerKind::prm};
     options.roadmap.samples = 100;

@@ -5,11 +5,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <string>
 
 #include "core/base/error.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "solve/mazes/solve_streamed.hpp"
+#include "tests/seeds.hpp"
 #include "tests/solve/answer_bytes.hpp"
 #include "tests/tools/process.hpp"
 
@@ -53,11 +55,11 @@ class EndingAfter : public KeptParts {
 TEST(ResumeFile, ARunGoesOnFromWhereverItEndedToTheSameBytes) {
   const Asked asked{{.rows = 2100, .cols = 2200, .seed = 5, .algorithm = MazeAlgorithm::mst, .loops = 0.01}};
   const std::string expected = solved(asked, nullptr);
-  unsigned threads = 0;
-  for (const int parts : {0, 2, 4, 5, 11}) {  // four groups of the maze, then eleven of tiles
+  for (const std::uint64_t end : test::seeds(5, 2, 0)) {
+    const int parts = std::array{0, 2, 4, 5, 11}[end];  // four groups of the maze, then eleven of tiles
     SCOPED_TRACE(parts);
     const test::Folder folder;
-    threads = threads % 3 + 1;
+    const auto threads = static_cast<unsigned>(end % 3 + 1);
     {
       ResumeFile file(folder.path("resume"), {});
       EndingAfter ending(file, parts);

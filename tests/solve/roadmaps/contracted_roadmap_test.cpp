@@ -17,6 +17,7 @@
 #include "scenes/formats/read_world_io.hpp"
 #include "solve/roadmaps/roadmap_file_io.hpp"
 #include "solve/roadmaps/roadmap_query.hpp"
+#include "tests/seeds.hpp"
 
 namespace warren {
 namespace {
@@ -154,12 +155,14 @@ TEST(ContractedRoadmap, IsMadeAnewByAnUpdateAsByABuild) {
 
 TEST(ContractedRoadmap, ThereIsNoneWhereItDoesNotPay) {
   EXPECT_TRUE(build(read_world("maze:41x41"), {}, uniform_samples(20'000)).arrays.hierarchy.empty());
-  EXPECT_TRUE(build(read_world("maze:90x90,loops=1"), {}, uniform_samples(90'000)).arrays.hierarchy.empty());
-  EXPECT_TRUE(
-      build(read_world("maze:90x90"), {}, uniform_samples(90'000), {}, IndexChoice::none).arrays.hierarchy.empty());
-  SolveOptions lazy = uniform_samples(90'000);
-  lazy.planner = PlannerKind::lazy_prm;
-  EXPECT_TRUE(build(read_world("maze:90x90"), {}, lazy).arrays.hierarchy.empty());
+  SolveOptions options = uniform_samples(90'000);
+  for (const std::uint64_t reason : test::seeds(3, 1)) {
+    SCOPED_TRACE(reason);  // too many ways, nobody wants it, edges that are not known
+    const IndexChoice choice = reason == 2 ? IndexChoice::none : IndexChoice::where_it_pays;
+    options.planner = reason == 3 ? PlannerKind::lazy_prm : SolveOptions{}.planner;
+    const Scene scene = read_world(reason == 1 ? "maze:90x90,loops=1" : "maze:90x90");
+    EXPECT_TRUE(build(scene, {}, options, {}, choice).arrays.hierarchy.empty());
+  }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 // back up, bodies that turn, and arms. Each is refused by one sentence or answered by a path that a judge has verified.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -22,6 +23,7 @@
 #include "solve/roadmaps/roadmap_query.hpp"
 #include "solve/solve.hpp"
 #include "tests/paths.hpp"
+#include "tests/seeds.hpp"
 
 namespace warren {
 namespace {
@@ -113,14 +115,14 @@ TEST_F(ForgedRoadmap, EdgesThatSayTheyAreFreeAreJudged) {
     Roadmap roadmap = built(c, PlannerKind::prm);
     set_all(roadmap.arrays, EdgeState::free);
     refused += fate_of(roadmap).starts_with("refused: ") ? 1U : 0U;
-    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    for (const std::uint64_t seed : test::seeds(12, 3, 0)) {
       join(roadmap.arrays, random_edges(roadmap.arrays, seed, 700), EdgeState::free);
       refused += fate_of(roadmap).find("leads through an obstacle") != std::string::npos ? 1U : 0U;
       join(roadmap.arrays, random_edges(roadmap.arrays, seed, 300), EdgeState::blocked);
       EXPECT_EQ(fate_of(roadmap).find("refused"), std::string::npos);
     }
   }
-  EXPECT_GT(refused, 12U);
+  EXPECT_GT(refused, test::share(12));
 }
 
 TEST_F(ForgedRoadmap, UncheckedEdgesAreAskedAboutWhoeverDrewThem) {
@@ -143,7 +145,8 @@ TEST_F(ForgedRoadmap, UncheckedEdgesAreAskedAboutWhoeverDrewThem) {
 TEST_F(ForgedRoadmap, StatesThatTheBodyCanNotHaveAreRefused) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   for (const ForgedCase& c : forged_cases()) {
-    for (const double value : {std::nan(""), infinity, 1e300, -1e60, 1e59, 1e9, 999.0, 300.0}) {
+    for (const std::uint64_t index : test::seeds(8, 2, 0)) {
+      const double value = std::array{std::nan(""), infinity, 1e300, -1e60, 1e59, 1e9, 999.0, 300.0}[index];
       for (const PlannerKind planner : {PlannerKind::prm, PlannerKind::lazy_prm}) {
         SCOPED_TRACE(c.name + " " + std::to_string(value));
         Roadmap roadmap = built(c, planner);
