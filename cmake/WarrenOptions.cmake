@@ -65,7 +65,9 @@ endif()
 
 # Folders where no time goes at run time are compiled with less care: tests' own code and what surrounds planning. What users
 # run of them is as fast (docs/performance.md).
-set(warren_cold_flags -O0)
-if(CMAKE_BUILD_TYPE STREQUAL Release)
+set(warren_cold_flags)
+if(WARREN_SANITIZE)
+  set(warren_cold_flags -O0)
+elseif(CMAKE_BUILD_TYPE STREQUAL "Release")
   set(warren_cold_flags -O1)
 endif()

@@ -7,6 +7,7 @@ add_library(warren_shared SHARED)
 foreach(folder IN LISTS warren_libraries)
   target_sources(warren_shared PRIVATE $<TARGET_OBJECTS:warren_${folder}>)
 endforeach()
+target_sources(warren_shared PRIVATE $<TARGET_OBJECTS:warren_planned>)  # which warren_solve only takes in
 target_include_directories(warren_shared INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 target_compile_features(warren_shared INTERFACE cxx_std_20)
 target_link_libraries(warren_shared PUBLIC Eigen3::Eigen Threads::Threads PRIVATE fmt::fmt PNG::PNG yaml-cpp ZLIB::ZLIB)

@@ -13,7 +13,7 @@ import time
 from planted_tree import VARIABLE
 
 PROGRAMS = ("core", "spatial", "scenes", "worlds", "verify", "planners", "roadmaps", "solve", "pictures", "studies",
-            "tools", "matrix")  # those that there are, the last ones last
+            "tools", "program", "matrix")  # those that there are, the last ones last
 QUICK_S = 0.2  # tests up to this long are asked before the others
 MOST_MEMORY = 6 << 30
 # Labels: what looks at the sources, what knows no geometry, and what is asked otherwise.
