@@ -6,7 +6,6 @@ import os
 import sys
 import unittest
 
-from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
@@ -59,7 +58,7 @@ class PageTools(MapTest):
         reach = self.run_script('return handleReach')
         for end, index, (x, y), degrees in (('start', 0, (0, -60), 90), ('goal', -1, (-80, 80), -135)):
             handle = self.browser.find_element(By.CSS_SELECTOR, '.handle.' + end)
-            ActionChains(self.browser).click_and_hold(handle).move_by_offset(5, 5).move_by_offset(x - reach - 5, y - 5).release().perform()
+            self.actions().click_and_hold(handle).move_by_offset(5, 5).move_by_offset(x - reach - 5, y - 5).release().perform()
             self.assertAlmostEqual(self.heading(end), degrees, delta=2)
             self.wait_for_heading_of_path(index, self.heading(end))
         link = self.run_script('return location.href')
@@ -161,7 +160,7 @@ class PageTools(MapTest):
         slider.send_keys(Keys.ARROW_RIGHT)
         self.assertIn(' after ', slider.get_attribute('aria-valuetext'))
         self.assertNotEqual(self.run_script('const p = profile.dot.getLatLng(); return [p.lng, p.lat]'), at_start)
-        ActionChains(self.browser).move_to_element(self.by_id('clearance-chart')).perform()
+        self.actions().move_to_element(self.by_id('clearance-chart')).perform()
         self.wait(lambda: abs(self.run_script('return profile.dot.getLatLng().lng') - 50) < 5)
         before = self.run_script('return profile.id')
         self.run_script('setEnd("goal", {x: 90, y: 50})')

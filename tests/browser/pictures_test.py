@@ -5,7 +5,6 @@ import subprocess
 import sys
 import unittest
 
-from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
@@ -94,10 +93,10 @@ class Pictures(BrowserTest):
         marks = self.shown('maze.html')
         where = 'return [view.x, view.y]'
         home = self.run_script(where)
-        ActionChains(self.browser).move_to_element(marks).click_and_hold().move_by_offset(60, 40).release().perform()
+        self.actions().move_to_element(marks).click_and_hold().move_by_offset(60, 40).release().perform()
         moved = self.run_script(where)
         self.assertNotEqual(home, moved)
-        ActionChains(self.browser).move_by_offset(30, 30).perform()
+        self.actions().move_by_offset(30, 30).perform()
         self.assertEqual(self.run_script(where), moved, 'the button is up')
         self.run_script('''marks.setPointerCapture = () => {};
             const say = (kind, x) => marks.dispatchEvent(new PointerEvent(kind, {pointerId: 7, clientX: x, clientY: 300}));
@@ -180,7 +179,7 @@ class Pictures(BrowserTest):
         marks = self.shown('maze.html')
         marks.send_keys('m')
         for dx in (0, 100):
-            ActionChains(self.browser).move_to_element_with_offset(marks, dx, 0).click().perform()
+            self.actions().move_to_element_with_offset(marks, dx, 0).click().perform()
         self.assertRegex(self.told(), r'measured \d')
         length = self.run_script('return measuredLength()')
         self.assertAlmostEqual(length, 100 / self.scale(), 3)
@@ -334,7 +333,7 @@ class Reports(BrowserTest):
             with self.subTest(name):
                 self.open(name)
                 mark = self.browser.find_element(By.CSS_SELECTOR, '.plots [data-tip]')
-                ActionChains(self.browser).move_to_element(mark).perform()
+                self.actions().move_to_element(mark).perform()
                 tip = self.browser.find_element(By.ID, 'tip')
                 self.assertTrue(tip.is_displayed())
                 self.assertRegex(tip.text, r'\d')

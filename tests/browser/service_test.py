@@ -8,7 +8,6 @@ import subprocess
 import sys
 import unittest
 
-from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
@@ -77,9 +76,9 @@ class ServicePage(MapTest):
         before = self.drawn()
         goal = self.browser.find_element(By.CSS_SELECTOR, '.mark.goal')
         asked = self.run_script('return performance.getEntriesByType("resource").filter(e => e.name.endsWith("/api/query")).length')
-        ActionChains(self.browser).click_and_hold(goal).move_by_offset(-60, 40).move_by_offset(-60, 40).perform()
+        self.actions().click_and_hold(goal).move_by_offset(-60, 40).move_by_offset(-60, 40).perform()
         self.wait(lambda: self.run_script('return performance.getEntriesByType("resource").filter(e => e.name.endsWith("/api/query")).length') > asked)
-        ActionChains(self.browser).release().perform()
+        self.actions().release().perform()
         self.wait(lambda: self.drawn() and self.drawn() != before and self.drawn()[-1] == self.end_of('goal'))
 
     def test_the_link_holds_all_of_it(self):

