@@ -25,8 +25,9 @@ constexpr std::uint64_t hash_of(std::string_view text) {
   return hash;
 }
 
-/// How much is expected of all seeds, of those that are asked.
-inline std::uint64_t share(std::uint64_t all) { return asks_all() ? all : (all + 3) / 4; }
+/// What is expected of all seeds, and by day of whichever are asked.
+inline std::uint64_t share(std::uint64_t all, std::uint64_t by_day) { return asks_all() ? all : by_day; }
+inline std::uint64_t share(std::uint64_t all) { return share(all, (all + 3) / 4); }
 
 /// So many from the first one on; by day fewer of them one after the other, and after the last the first: of what
 /// differs with a seed's remainder there is as much.

@@ -103,8 +103,8 @@ void expect_same(const Verification& v, const Expected& e, const std::vector<Seg
 }
 
 TEST(Verify, AgreesWithBruteForceInIntegers) {
-  std::uint64_t solved = 0;
-  for (const std::uint64_t seed : test::seeds(60, 15, 0)) {
+  int solved = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
     SCOPED_TRACE(seed);
     const double size = seed % 2 == 0 ? 40.0 : 2000.0;
     const std::vector<Segment> walls = random_walls(10 * seed, 3 + seed * 7, size);
@@ -116,7 +116,7 @@ TEST(Verify, AgreesWithBruteForceInIntegers) {
       solved += v.verified ? 1 : 0;
     }
   }
-  EXPECT_GT(solved, test::share(10));  // else nothing but refusals was compared
+  EXPECT_GT(solved, 10);  // else nothing but refusals was compared
 }
 
 /// There the middle of two coordinates is rounded; the oracle sees the same near the origin.
