@@ -54,8 +54,7 @@ struct JudgedLeg {
  private:
   double distance_to(const Segment& side) const {
     const double d = exact::distance(segment, side);
-    const double error = exact::distance_error * needed;
-    if (!(std::abs(d - needed) <= error) || needed == 0.0) return d;
+    if (needed == 0.0 || !(std::abs(d - needed) <= 2.0 * exact::distance_error * needed)) return d;
     return exact::closer_than(segment, side, needed) ? std::min(d, std::nextafter(needed, 0.0)) : std::max(d, needed);
   }
 };
@@ -69,9 +68,8 @@ struct Nearest {
 /// The nearest closed cell of those within `reach` of the piece; nothing beyond `reach` is promised.
 Nearest nearest_within(const Closed& closed, const JudgedLeg& leg, const Segment& piece, double reach,
                        const Execution& execution) {
-  constexpr double rounding = 1e-6;  // of a piece's ends
   constexpr std::uint64_t cells_a_poll = 1 << 16;
-  const Box box = box_of(piece).grown(reach + rounding);
+  const Box box = box_of(piece).grown(reach);
   const auto whole = [](double x, double most) { return bounded_whole<std::int64_t>(std::floor(x), -1.0, most); };
   const std::int64_t last_x = whole(box.max.x, closed.box().max.x);
   const std::int64_t last_y = whole(box.max.y, closed.box().max.y);
@@ -99,15 +97,16 @@ Nearest nearest_to(const Closed& closed, const JudgedLeg& leg, double enough, co
     if (!closed.box().contains(end)) return {0.0, whole(end.x), whole(end.y)};
   }
   const double pieces = std::max(std::ceil(distance(a, b) / piece_cells), 1.0);
+  const double rounding = pieces > 1.0 ? 1e-6 : 0.0;  // of a piece's ends
   Nearest nearest;
-  nearest.distance = enough;
+  nearest.distance = std::max(enough, leg.needed);  // what is farther matters neither to this leg nor to the least
   for (double p = 0.0; p < pieces; ++p) {
     execution.check();
     const auto at = [&](double i) { return i == pieces ? b : a + (i / pieces) * (b - a); };
     const Segment piece{at(p), at(p + 1.0)};
     for (double reach = 1.0;; reach *= 2.0) {
       const double window = std::min(reach, nearest.distance);
-      const Nearest found = nearest_within(closed, leg, piece, window, execution);
+      const Nearest found = nearest_within(closed, leg, piece, window + rounding, execution);
       if (found.distance < nearest.distance) nearest = found;
       if (window >= nearest.distance || found.distance <= window) break;
     }

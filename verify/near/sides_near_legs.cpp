@@ -233,7 +233,9 @@ void PathSurroundings::gather(std::span<const Box> boxes, std::vector<NearSide>&
   for (const Box& box : boxes) {
     const Range range = range_of(box);
     for_each_cell(range, [&](std::size_t cell) { cells.push_back(as_whole<std::uint32_t>(cell)); });
-    if (range.count() > most_cells_a_side) sort_once_each(cells);
+    if (range.count() <= most_cells_a_side) continue;
+    execution.check();
+    sort_once_each(cells);
   }
   sort_once_each(cells);
   std::vector<std::uint32_t> found;
@@ -249,7 +251,9 @@ void PathSurroundings::gather(std::span<const Box> boxes, std::vector<NearSide>&
   for (const std::uint32_t n : found) sides.push_back(near_[n]);
   for (const NearSide& side : long_) {
     if (boxes.size() >= most_cells_a_side) execution.check();
-    if (meets(side)) sides.push_back(side);
+    if (!meets(side)) continue;
+    make_room(sides, 1, execution);
+    sides.push_back(side);
   }
 }
 
