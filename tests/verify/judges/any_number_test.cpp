@@ -18,6 +18,7 @@
 #include "verify/judges/verify_map.hpp"
 #include "verify/judges/verify_point.hpp"
 #include "verify/judges/verify_turning.hpp"
+#include "verify/near/obstacle_index.hpp"
 #include "worlds/arms/puma560.hpp"
 
 namespace warren {
