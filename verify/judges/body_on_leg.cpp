@@ -47,7 +47,8 @@ BodyVerifier::BodyVerifier(const Scene& scene, std::span<const Vec2> outline, do
   }
 }
 
-/// Around the body and its reach on parts of the leg, which are about as long as the boxes are wide.
+/// Around the body and its reach on parts of the leg, which are about as long as the boxes are wide. Ends are in the
+/// box of the obstacles, and a turn is half of one at most: so the leg is hardly longer than that box.
 std::vector<Box> BodyVerifier::boxes_of(const Leg& leg) const {
   const double around = (radius_ + reach_) * (1.0 + 1e-9) + rounding_;
   constexpr double most_parts = 65536.0;
@@ -71,12 +72,13 @@ std::vector<Box> BodyVerifier::boxes_of(const Leg& leg) const {
   return boxes;
 }
 
-void BodyVerifier::look_around(std::span<const Leg> legs, double reach) {
+void BodyVerifier::look_around(std::span<const Leg> legs, std::span<const std::uint8_t> settled, double reach) {
   reach_ = reach;
   if (map_ != nullptr) return;  // is read where it is asked
   constexpr std::size_t many = 1024;
   std::vector<Box> boxes;
   for (std::size_t i = 0; i < legs.size(); ++i) {
+    if (settled[i] != 0) continue;
     const std::vector<Box> more = boxes_of(legs[i]);
     if (i % many == 0 || more.size() >= many) execution_.reserve((many + more.size()) * sizeof(Box));  // and polls
     boxes.insert(boxes.end(), more.begin(), more.end());

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/base/whole.hpp"
 #include "core/plane/geometry.hpp"
 #include "parallel/asked_growth.hpp"
 
@@ -89,7 +90,7 @@ class BlockedHeadings {
       // Seen from the body, the end turns the other way.
       meet_line(norm(end), side, [&](double turn, double cosine) { add_angles(angle_of(end) - turn, cosine); });
     }
-    std::sort(events_.begin(), events_.begin() + static_cast<std::ptrdiff_t>(count_));
+    std::sort(events_.begin(), events_.begin() + as_whole<std::ptrdiff_t>(count_));
     if (count_ == 0) return add_between(side, obstacle, -half_turn, half_turn);
     for (std::size_t i = 0; i < count_; ++i) {
       const double next = i + 1 < count_ ? events_[i + 1] : events_[0] + full_turn;

@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Judges and numbers of all sizes that readers admit: coordinates from 1e-60 to 1e60, ends outside of everything, steps
+// of one ulp, paths along obstacles. Points, discs and bodies that don't turn are judged once more by rationals, which
+// share nothing with the judges; where a judge allows for rounding, both verdicts are right within it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/base/rng.hpp"
+#include "parallel/deadline.hpp"
+#include "verify/judges/verify_arm.hpp"
+#include "verify/judges/verify_car.hpp"
+#include "verify/judges/verify_map.hpp"
+#include "verify/judges/verify_point.hpp"
+#include "verify/judges/verify_turning.hpp"
+#include "verify/near/obstacle_index.hpp"
+#include "worlds/arms/puma560.hpp"
+
+namespace warren::any_number {
+namespace {
+
+using Rational = boost::multiprecision::cpp_rational;
+
+struct Point {
+  Rational x, y;
+};
+Point exactly(Vec2 p) { return {Rational(p.x), Rational(p.y)}; }
+Point operator-(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y}; }
+Point operator+(const Point& a, const Point& b) { return {a.x + b.x, a.y + b.y}; }
+Rational dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y; }
+Rational cross(const Point& a, const Point& b) { return a.x * b.y - a.y * b.x; }
+
+Rational square_from(const Point& p, const Point& a, const Point& b) {
+  const Point along = b - a;
+  const Rational length = dot(along, along);
+  const Rational t = length == 0 ? Rational(0) : Rational(dot(p - a, along) / length);
+  if (t <= 0) return dot(p - a, p - a);
+  if (t >= 1) return dot(p - b, p - b);
+  const Rational off = cross(p - a, along);
+  return off * off / length;
+}
+
+/// Square of the distance of two closed segments.
+Rational square_between(const Point& a, const Point& b, const Point& c, const Point& d) {
+  const auto side = [](const Point& p, const Point& q, const Point& r) { return cross(q - p, r - p).sign(); };
+  if (side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0) return 0;
+  return std::min({square_from(a, c, d), square_from(b, c, d), square_from(c, a, b), square_from(d, a, b)});
+}
+
+/// A number of any size that readers admit; half of them near those of the world.
+double any_number(std::uint64_t seed, std::uint64_t i, double size) {
+  const double u = uniform(seed, i, 0);
+  const double sign = random_bits(seed, i, 1) % 2 == 0 ? 1.0 : -1.0;
+  switch (random_bits(seed, i, 2) % 8) {
+    case 0:
+      return sign * std::pow(10.0, 120.0 * u - 60.0);
+    case 1:
+      return std::round(size * u);
+    case 2:
+      return std::nextafter(std::round(size * u), sign * 1e60);
+    case 3:
+      return std::round(2.0 * size * u) / 2.0 * (1.0 + sign * 1e-15);
+    case 4:
+      return sign * std::ldexp(1.0, static_cast<int>(random_bits(seed, i, 3) % 70));
+    default:
+      return size * u;
+  }
+}
+Vec2 any_point(std::uint64_t seed, std::uint64_t i) {
+  return {any_number(seed, 2 * i, 6.0), any_number(seed, 2 * i + 1, 5.0)};
+}
+
+/// Works as fast and as small as a small question may be.
+struct Limits {
+  Deadline deadline{20.0, resident_bytes() + (std::size_t{200} << 20)};
+  Execution execution{.threads = 1, .deadline = &deadline};
+};
+
+OccupancyMap map_of(std::uint64_t seed) {
+  OccupancyMap map;
+  map.blocked = Bitmap(6, 5);
+  for (std::uint64_t i = 0; i < 4; ++i) {
+    map.blocked.set(static_cast<std::uint32_t>(random_bits(seed, i, 50) % 6),
+                    static_cast<std::uint32_t>(random_bits(seed, i, 51) % 5));
+  }
+  constexpr double cells[] = {1.0, 1.0, 0.25, 0.05};
+  map.cell = cells[random_bits(seed, 0, 52) % 4];
+  if (random_bits(seed, 0, 53) % 2 == 0) map.origin = {-51.2, 4e5};
+  return map;
+}
+
+/// The square of a leg's distance from all that is blocked, in cells; below 0 with an end outside.
+Rational square_on_map(const OccupancyMap& map, const Point& a, const Point& b) {
+  const auto width = static_cast<int>(map.width());
+  const auto height = static_cast<int>(map.height());
+  for (const Point& p : {a, b}) {
+    if (p.x < 0 || p.y < 0 || p.x > width || p.y > height) return -1;
+  }
+  Rational least = width + height;
+  for (int y = -1; y <= height; ++y) {
+    for (int x = -1; x <= width; ++x) {
+      if (x >= 0 && y >= 0 && x < width && y < height && !map.blocked.holds(x, y)) continue;
+      const Point corners[] = {{x, y}, {x + 1, y}, {x + 1, y + 1}, {x, y + 1}};
+      for (const Point& p : {a, b}) {
+        if (p.x >= x && p.x <= x + 1 && p.y >= y && p.y <= y + 1) return 0;
+      }
+      for (int side = 0; side < 4; ++side) {
+        least = std::min(least, square_between(a, b, corners[side], corners[(side + 1) % 4]));
+      }
+    }
+  }
+  return least;
+}
+
+TEST(JudgesOfAnyNumber, OnAMapAreThoseOfRationals) {
+  int free = 0;
+  for (std::uint64_t seed = 0; seed < 3000; ++seed) {
+    SCOPED_TRACE(seed);
+    const OccupancyMap map = map_of(seed);
+    const auto placed = [&](Vec2 p) { return map.origin + map.cell * p; };
+    const Vec2 path[] = {placed(any_point(seed, 100)), placed(any_point(seed, 101))};
+    const double wanted = random_bits(seed, 0, 54) % 2 == 0 ? 0.5 : any_number(seed, 300, 1.0);
+    const double radius =
+        std::abs(wanted) * map.cell * (1.0 + 1e-15 * static_cast<double>(random_bits(seed, 0, 55) % 3) - 1e-15);
+    Limits limits;
+    const bool verified = verify_on_map(map, path, {.radius = radius}, limits.execution).verified;
+    const auto in_cells = [&](Vec2 p) {
+      return Point{(Rational(p.x) - Rational(map.origin.x)) / Rational(map.cell),
+                   (Rational(p.y) - Rational(map.origin.y)) / Rational(map.cell)};
+    };
+    const Rational square = square_on_map(map, in_cells(path[0]), in_cells(path[1]));
+    const bool is_plain = map.origin == Vec2{} && map.cell != 0.05;
+    const double size = norm(path[0]) + norm(path[1]) + 2.0 * norm(map.origin);
+    const Rational rounding = is_plain ? Rational(0) : Rational(1e-14 * size / map.cell);
+    const Rational needed = Rational(radius) / Rational(map.cell);
+    const Rational least = std::max(Rational(needed - rounding), Rational(0));
+    const Rational most = needed + rounding;
+    if (verified) {
+      ++free;
+      EXPECT_TRUE(square >= 0 && square >= least * least && (!is_plain || square > 0));
+    } else {
+      EXPECT_TRUE(square < most * most || square <= rounding * rounding);
+    }
+  }
+  EXPECT_GT(free, 100);
+}
+
+TEST(JudgesOfAnyNumber, GiveNothingAwayAlongACorridor) {
+  OccupancyMap map;
+  map.blocked = Bitmap(9, 3);
+  for (std::uint32_t x = 0; x < 9; ++x) {
+    map.blocked.set(x, 0);
+    map.blocked.set(x, 2);
+  }
+  const auto is_free = [&](double y, double radius) {
+    return verify_on_map(map, std::vector<Vec2>{{1.5, y}, {7.5, y}}, {.radius = radius}, {}).verified;
+  };
+  EXPECT_TRUE(is_free(1.5, 0.5));
+  EXPECT_FALSE(is_free(1.5, std::nextafter(0.5, 1.0)));
+  EXPECT_FALSE(is_free(1.5, 0.50000000049));
+  EXPECT_FALSE(is_free(std::nextafter(1.5, 2.0), 0.5));
+  EXPECT_TRUE(is_free(1.5 + 1e-15, 0.5 - 2e-15));
+  for (const double x : {1e16, 1e19, 1e20, 1e21, 1e60}) {  // a leg to far outside
+    Limits limits;
+    for (const std::vector<Vec2>& path :
+         {std::vector<Vec2>{{1.5, 1.5}, {x, 1.5}}, {{-x, 1.5}}, {{1.5, 1.5}, {x, -x}, {1.5, 1.5}}}) {
+      const Verification far = verify_on_map(map, path, {.radius = 0.4}, limits.execution);
+      EXPECT_FALSE(far.verified);
+      EXPECT_EQ(far.first_violation->leg, 0U);
+    }
+  }
+}
+
+Scene plane_of(std::uint64_t seed) {
+  Scene scene;
+  scene.bounds = Box{{0, 0}, {6, 5}};
+  std::vector<Segment> walls;
+  for (std::uint64_t i = 0; i < 3; ++i) {
+    const auto place = [&](std::uint64_t n) { return std::round(10.0 * uniform(seed, n, 60)) / 2.0; };
+    const Vec2 a{place(4 * i), place(4 * i + 1)};
+    const Vec2 b{place(4 * i + 2), place(4 * i + 3)};
+    walls.push_back({a, distance(a, b) < 1.0 ? a + Vec2{1.0, 0.0} : b});  // no body of the tests holds a whole one
+  }
+  scene.walls = WallSet::narrowest(walls);
+  return scene;
+}
+
+/// The sides of walls and bounds.
+std::vector<Segment> sides_of(const Scene& scene, bool with_bounds) {
+  std::vector<Segment> sides;
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) sides.push_back(scene.walls.segment(i));
+  const auto [low, high] = *scene.bounds;
+  const std::vector<Segment> bounds{
+      {low, {high.x, low.y}}, {{high.x, low.y}, high}, {high, {low.x, high.y}}, {{low.x, high.y}, low}};
+  if (with_bounds) sides.insert(sides.end(), bounds.begin(), bounds.end());
+  return sides;
+}
+
+TEST(JudgesOfAnyNumber, AmongWallsAreThoseOfRationals) {
+  int free = 0;
+  for (std::uint64_t seed = 0; seed < 3000; ++seed) {
+    SCOPED_TRACE(seed);
+    const Scene scene = plane_of(seed);
+    const Vec2 path[] = {any_point(seed, 100), any_point(seed, 101)};
+    const double radius = std::abs(random_bits(seed, 0, 54) % 2 == 0 ? 0.5 : any_number(seed, 300, 1.0));
+    Limits limits;
+    const ObstacleIndex index(scene, limits.execution);
+    const bool verified = verify_path(scene, path, {.radius = radius}, limits.execution).verified;
+    EXPECT_EQ(verified, verify_path(scene, path, {.radius = radius}, limits.execution, &index).verified);
+    bool expected = true;
+    for (const Segment& s : sides_of(scene, true)) {
+      const Rational square = square_between(exactly(path[0]), exactly(path[1]), exactly(s.a), exactly(s.b));
+      expected = expected && square > 0 && square >= Rational(radius) * Rational(radius);
+    }
+    for (const Vec2 p : path) expected = expected && scene.bounds->contains(p);
+    EXPECT_EQ(verified, expected);
+    free += verified ? 1 : 0;
+  }
+  EXPECT_GT(free, 100);
+}
+
+const std::vector<Vec2> kite = {{-0.25, 0.0}, {0.0, -0.125}, {0.5, 0.0}, {0.0, 0.125}};
+
+/// Of a body that goes straight, by what it sweeps.
+Rational square_of_sweep(const Scene& scene, Vec2 a, Vec2 b) {
+  Rational least = 1000;
+  for (const Segment& s : sides_of(scene, true)) {
+    for (std::size_t i = 0; i < kite.size(); ++i) {
+      const Point p = exactly(kite[i]);
+      const Point q = exactly(kite[(i + 1) % kite.size()]);
+      least = std::min(least, square_between(exactly(a) + p, exactly(b) + p, exactly(s.a), exactly(s.b)));
+      for (const Vec2 end : {a, b}) {
+        least = std::min(least, square_between(exactly(end) + p, exactly(end) + q, exactly(s.a), exactly(s.b)));
+      }
+      const Point ring[] = {exactly(a) + p, exactly(b) + p, exactly(b) + q, exactly(a) + q};
+      int left = 0;
+      int right = 0;
+      for (int side = 0; side < 4; ++side) {
+        const int sign = cross(ring[(side + 1) % 4] - ring[side], exactly(s.a) - ring[side]).sign();
+        left += sign > 0 ? 1 : 0;
+        right += sign < 0 ? 1 : 0;
+      }
+      if (left == 0 || right == 0) least = left + right == 4 ? Rational(0) : least;
+    }
+  }
+  return least;
+}
+
+TEST(JudgesOfAnyNumber, OfBodiesThatGoStraightAreThoseOfRationals) {
+  int free = 0;
+  for (std::uint64_t seed = 0; seed < 1500; ++seed) {
+    SCOPED_TRACE(seed);
+    const Scene scene = plane_of(seed);
+    const Vec2 a = any_point(seed, 100);
+    const Vec2 b = random_bits(seed, 0, 54) % 4 == 0 ? Vec2{std::nextafter(a.x, 9.0), a.y} : any_point(seed, 101);
+    const Se2 path[] = {{a.x, a.y, 0.0}, {b.x, b.y, 0.0}};
+    Limits limits;
+    const bool verified = verify_se2(scene, kite, path, {}, limits.execution).verified;
+    bool inside = true;
+    for (const Vec2 end : {a, b}) {
+      for (const Vec2 p : kite) inside = inside && scene.bounds->contains(end + p);
+    }
+    const Rational square = inside ? square_of_sweep(scene, a, b) : Rational(-1);
+    const Rational rounding(1e-12);
+    if (verified) EXPECT_GT(square, 0);
+    if (!verified) EXPECT_LE(square, rounding * rounding);
+    free += verified ? 1 : 0;
+  }
+  EXPECT_GT(free, 50);
+}
+
+TEST(JudgesOfAnyNumber, OfTurningBodiesAndCarsAnswerOrRefuseInTimeAndMemory) {
+  OccupancyMap open;
+  open.blocked = Bitmap(6, 5);
+  constexpr double headings[] = {0.0, 0.387, -1.36, 3.14159265358979, 999.9, 9007199254740992.0, 1e-60};
+  for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+    SCOPED_TRACE(seed);
+    Scene scene = plane_of(seed);
+    const bool on_map = random_bits(seed, 0, 56) % 4 == 0;
+    if (on_map) {
+      scene = {};
+      scene.map = open;
+    } else if (random_bits(seed, 0, 57) % 2 == 0) {
+      scene.bounds.reset();
+    }
+    std::vector<Se2> path;
+    for (std::uint64_t i = 0; i < 3; ++i) {
+      const Vec2 p = any_point(seed, 100 + i);
+      path.push_back({p.x, p.y, headings[random_bits(seed, i, 58) % 7]});
+    }
+    const auto in_world = [](const Se2& p) { return p.x >= 0.0 && p.y >= 0.0 && p.x <= 6.0 && p.y <= 5.0; };
+    const bool is_inside = std::all_of(path.begin(), path.end(), in_world);
+    Limits limits;
+    const auto check = [&](const auto& judge) {
+      try {
+        EXPECT_TRUE(!judge().verified || is_inside);
+      } catch (const InputError&) {
+      }
+    };
+    const double size = std::abs(any_number(seed, 300, 0.1));
+    const std::vector<Vec2> body{{0.0, 0.0}, {size, 0.0}, {0.0, size}};
+    check([&] { return verify_se2(scene, body, path, {}, limits.execution); });
+    for (const bool reverses : {false, true}) {
+      const VerifiedCar car{.turning_radius = 0.5, .reverses = reverses, .radius = 0.1};
+      check([&] { return verify_car(scene, car, path, {}, limits.execution); });
+    }
+  }
+}
+
+TEST(JudgesOfAnyNumber, OfArmsAnswerOrRefuse) {
+  const DhTable table = puma560_table(0.1);
+  Scene scene;
+  scene.spheres.push_back({0.5, 0.5, 0.5, 0.1});
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    std::vector<JointState> path(2);
+    for (std::uint64_t i = 0; i < 2; ++i) {
+      path[i].fill(0.0);
+      path[i][seed % 6] = any_number(seed, i, 1.0);
+    }
+    Limits limits;
+    const bool verified = verify_arm(scene, table, path, {}, limits.execution).verified;
+    for (const JointState& q : path) EXPECT_TRUE(!verified || std::abs(q[seed % 6]) < 10.0);
+  }
+}
+
+/// A leg that slides and ends far outside: with boxes for its parts this took 13.5 GB.
+TEST(JudgesOfAnyNumber, ACarsLegToFarOutsideIsSettledBeforeItIsCutIntoBoxes) {
+  Scene scene;
+  std::vector<Segment> walls;
+  for (int i = 0; i < 20000; ++i) {
+    const double x = i % 200;
+    const double y = i / 200;
+    walls.push_back({{x, y}, {x + 0.5, y}});
+  }
+  scene.walls = WallSet::narrowest(walls);
+  const Se2 path[] = {{5.18, 3.16, -1.36}, {1000.0, -150000.0, 0.387}};
+  Limits limits;
+  const Verification far = verify_car(scene, {.turning_radius = 0.5, .radius = 0.1}, path, {}, limits.execution);
+  EXPECT_FALSE(far.verified);
+  EXPECT_EQ(far.first_violation->leg, 0U);
+}
+
+}  // namespace
+}  // namespace warren::any_number
