@@ -127,7 +127,7 @@ void for_each_border_near(const OccupancyMap& map, Vec2 place, double reach, con
   const Vec2 at = map_point(map, place);
   const double cells = reach / map.cell + 2.0;
   const auto within = [](double x, std::uint32_t size) {
-    return static_cast<std::int64_t>(std::clamp(std::floor(x), -1.0, static_cast<double>(size)));
+    return bounded_whole<std::int64_t>(std::floor(x), -1.0, static_cast<double>(size));
   };
   const auto is_blocked = [&](std::int64_t x, std::int64_t y) {
     return x < 0 || y < 0 || x >= map.width() || y >= map.height() || map.blocked.holds(x, y);
