@@ -13,18 +13,16 @@ namespace warren {
 /// A whole number, or the number of an enumerator, as another type of whole numbers. Doubles don't compile.
 template <std::integral Whole, class From>
 requires std::integral<From> || std::is_enum_v<From>
-constexpr Whole as_whole(From number) noexcept { return static_cast<Whole>(number); }
+[[gnu::always_inline]] constexpr Whole as_whole(From number) noexcept { return static_cast<Whole>(number); }
 
 /// The largest number that all doubles up to it tell from the next one: the type's, or 2^53.
 template <std::integral Whole>
 inline constexpr double most_whole = std::numeric_limits<Whole>::digits < 53
                                          ? static_cast<double>(std::numeric_limits<Whole>::max())
                                          : 0x1p53;
-/// The same downwards.
+/// Its negative, or 0.
 template <std::integral Whole>
-inline constexpr double least_whole = !std::is_signed_v<Whole>                  ? 0.0
-                                      : std::numeric_limits<Whole>::digits < 53 ? -most_whole<Whole> - 1.0
-                                                                                : -0x1p53;
+inline constexpr double least_whole = std::is_signed_v<Whole> ? -most_whole<Whole> : 0.0;
 
 /// The double without its fraction, or the end that it lies beyond; `least` for NaN. The ends are numbers of the type.
 /// One instruction after two for the ends; in lanes, too, where the type is int32.

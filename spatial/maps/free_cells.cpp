@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "core/base/error.hpp"
-#include "core/base/whole.hpp"
 
 namespace warren {
 namespace {

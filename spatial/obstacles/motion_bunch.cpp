@@ -8,8 +8,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "core/base/whole.hpp"
-
 namespace warren::detail {
 namespace {
 

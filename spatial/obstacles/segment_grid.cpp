@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/whole.hpp"
-
 namespace warren {
 namespace {
 

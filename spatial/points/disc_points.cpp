@@ -5,8 +5,6 @@
 #include <cstring>
 #include <limits>
 
-#include "core/base/whole.hpp"
-
 namespace warren::detail {
 namespace {
 

@@ -11,7 +11,6 @@
 #include <optional>
 
 #include "core/base/raw_vector.hpp"
-#include "core/base/whole.hpp"
 #include "parallel/sort.hpp"
 
 namespace warren {

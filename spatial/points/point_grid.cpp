@@ -5,7 +5,6 @@
 #include <numbers>
 #include <numeric>
 
-#include "core/base/whole.hpp"
 #include "parallel/sort.hpp"
 #include "spatial/points/disc_points.hpp"
 

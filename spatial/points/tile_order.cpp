@@ -4,7 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include "core/base/whole.hpp"
 #include "parallel/sort.hpp"
 
 namespace warren {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "core/base/whole.hpp"
 #include "parallel/polled_sort.hpp"
 #include "verify/exact/exact_segments.hpp"
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/whole.hpp"
 #include "parallel/chunks.hpp"
 
 namespace warren {

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/base/whole.hpp"
-
 namespace warren {
 namespace {
 

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/base/whole.hpp"
+#include "parallel/asked_growth.hpp"
 #include "parallel/chunks.hpp"
 
 namespace warren {
@@ -26,14 +27,6 @@ Box box_of_ends(const Segment& s) {
 
 double largest_of(const Segment& s) {
   return std::max({std::abs(s.a.x), std::abs(s.a.y), std::abs(s.b.x), std::abs(s.b.y)});
-}
-
-/// Before `more` of them are added: asks for the memory where they don't fit, and polls then.
-void make_room(std::vector<NearSide>& sides, std::size_t more, const Execution& execution) {
-  if (sides.capacity() - sides.size() >= more) return;
-  const std::size_t wanted = std::max(2 * sides.capacity(), sides.size() + more);
-  execution.reserve(wanted * sizeof(NearSide));
-  sides.reserve(wanted);
 }
 
 void sort_once_each(std::vector<std::uint32_t>& numbers) {
@@ -231,29 +224,23 @@ void PathSurroundings::gather(std::span<const Box> boxes, std::vector<NearSide>&
   }
   std::vector<std::uint32_t> cells;  // boxes one beside the other share them
   for (const Box& box : boxes) {
-    const Range range = range_of(box);
-    for_each_cell(range, [&](std::size_t cell) { cells.push_back(as_whole<std::uint32_t>(cell)); });
-    if (range.count() <= most_cells_a_side) continue;
-    execution.check();
-    sort_once_each(cells);
+    for_each_cell(range_of(box),
+                  [&](std::size_t cell) { push_asked(cells, as_whole<std::uint32_t>(cell), execution); });
   }
   sort_once_each(cells);
   std::vector<std::uint32_t> found;
   for (const std::uint32_t cell : cells) {
-    found.insert(found.end(), members_.begin() + begin_[cell], members_.begin() + begin_[cell + 1]);
+    for (std::uint32_t i = begin_[cell]; i < begin_[cell + 1]; ++i) push_asked(found, members_[i], execution);
   }
   sort_once_each(found);
-  make_room(sides, found.size(), execution);
   const auto meets = [&](const NearSide& side) {
     const Box around = box_of_ends(side.segment);
     return std::any_of(boxes.begin(), boxes.end(), [&](const Box& box) { return !apart(box, around); });
   };
-  for (const std::uint32_t n : found) sides.push_back(near_[n]);
+  for (const std::uint32_t n : found) push_asked(sides, near_[n], execution);
   for (const NearSide& side : long_) {
     if (boxes.size() >= most_cells_a_side) execution.check();
-    if (!meets(side)) continue;
-    make_room(sides, 1, execution);
-    sides.push_back(side);
+    if (meets(side)) push_asked(sides, side, execution);
   }
 }
 
@@ -287,25 +274,23 @@ void PathSurroundings::gather_from_map(const Box& box, std::vector<NearSide>& si
   }
   const auto clamped = [](double x, double most) { return bounded_whole<std::int64_t>(x, 0.0, most); };
   constexpr double rounding = 1e-6;  // cells
-  constexpr std::int64_t words_a_poll = 4096;
-  constexpr std::size_t most_a_word = 64 + 2 * 32;  // left of cells, and below runs of them
-  execution.check();
+  constexpr std::size_t words_a_poll = 4096;
   const MapPart part{clamped(std::floor(in_cells.min.x - rounding), map.width()),
                      clamped(std::floor(in_cells.min.y - rounding), map.height()),
                      clamped(std::floor(in_cells.max.x + rounding), map.width()),
                      clamped(std::floor(in_cells.max.y + rounding), map.height())};
+  std::size_t words = 0;
   for (std::int64_t y = part.first_y; y <= part.last_y; ++y) {
     for (std::int64_t w = part.first_x / 64; w <= part.last_x / 64; ++w) {
-      if (w % words_a_poll == words_a_poll - 1) execution.check();
-      make_room(sides, most_a_word, execution);
-      gather_from_word(part, y, w, sides);
+      if (words++ % words_a_poll == 0) execution.check();
+      gather_from_word(part, y, w, sides, execution);
     }
   }
 }
 
 /// The borders below and left of 64 cells.
 void PathSurroundings::gather_from_word(const MapPart& part, std::int64_t y, std::int64_t w,
-                                        std::vector<NearSide>& sides) const {
+                                        std::vector<NearSide>& sides, const Execution& execution) const {
   const auto point = [&](std::int64_t x, std::int64_t row) {
     return world_point(*scene_.map, {static_cast<double>(x), static_cast<double>(row)});
   };
@@ -318,7 +303,7 @@ void PathSurroundings::gather_from_word(const MapPart& part, std::int64_t y, std
   for (std::uint64_t rest = (here ^ left) & wanted; rest != 0 && y < scene_.map->height(); rest &= rest - 1) {
     const std::int64_t x = base + std::countr_zero(rest);
     const bool blocks = (here >> (x - base) & 1U) != 0;
-    sides.push_back({{point(x, y), point(x, y + 1)}, number_of(blocks ? x : x - 1, y)});
+    push_asked(sides, {{point(x, y), point(x, y + 1)}, number_of(blocks ? x : x - 1, y)}, execution);
   }
   const std::uint64_t below = blocked_word(y - 1, w);
   for (const bool blocks : {false, true}) {  // which of the two rows
@@ -327,7 +312,7 @@ void PathSurroundings::gather_from_word(const MapPart& part, std::int64_t y, std
       const int first = std::countr_zero(rest);
       const int length = std::countr_one(rest >> first);
       const std::int64_t x = base + first;
-      sides.push_back({{point(x, y), point(x + length, y)}, number_of(x, blocks ? y : y - 1)});
+      push_asked(sides, {{point(x, y), point(x + length, y)}, number_of(x, blocks ? y : y - 1)}, execution);
       rest = first + length < 64 ? rest & ~std::uint64_t{0} << (first + length) : 0;
     }
   }

@@ -65,7 +65,8 @@ class PathSurroundings {
   void file_in_cells(const Execution& execution);
   struct MapPart;
   void gather_from_map(const Box& box, std::vector<NearSide>& sides, const Execution& execution) const;
-  void gather_from_word(const MapPart& part, std::int64_t y, std::int64_t w, std::vector<NearSide>& sides) const;
+  void gather_from_word(const MapPart& part, std::int64_t y, std::int64_t w, std::vector<NearSide>& sides,
+                        const Execution& execution) const;
   std::uint64_t blocked_word(std::int64_t y, std::int64_t w) const;
   std::uint64_t number_of(std::int64_t x, std::int64_t y) const;
 

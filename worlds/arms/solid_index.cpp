@@ -7,7 +7,6 @@
 #include <string>
 
 #include "core/base/error.hpp"
-#include "core/base/whole.hpp"
 
 namespace warren {
 namespace {

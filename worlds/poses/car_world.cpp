@@ -5,7 +5,6 @@
 #include <string>
 
 #include "core/base/error.hpp"
-#include "core/base/whole.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "worlds/poses/pose_in_bounds.hpp"
 
