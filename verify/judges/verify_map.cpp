@@ -39,8 +39,7 @@ struct JudgedLeg {
   double needed;
 
   /// From a cell's closed square: on the right side of what is needed, whatever the rounding of the distance.
-  double distance_to(std::int64_t x, std::int64_t y) const {
-    const Vec2 low{static_cast<double>(x), static_cast<double>(y)};
+  double distance_to_cell(Vec2 low) const {
     const Box square{low, low + Vec2{1.0, 1.0}};
     if (square.contains(segment.a) || square.contains(segment.b)) return 0.0;
     const Vec2 corners[] = {low, {square.max.x, low.y}, square.max, {low.x, square.max.y}};
@@ -61,8 +60,8 @@ struct JudgedLeg {
 
 struct Nearest {
   double distance = std::numeric_limits<double>::infinity();
-  std::int64_t x = 0;
-  std::int64_t y = 0;
+  double x = 0.0;  // of a cell, which may be anywhere outside
+  double y = 0.0;
 };
 
 /// The nearest closed cell of those within `reach` of the piece; nothing beyond `reach` is promised.
@@ -79,8 +78,9 @@ Nearest nearest_within(const Closed& closed, const JudgedLeg& leg, const Segment
     for (std::int64_t x = whole(box.min.x, closed.box().max.x); x <= last_x; ++x) {
       if (++asked % cells_a_poll == 0) execution.check();
       if (!closed(x, y)) continue;
-      const double distance = leg.distance_to(x, y);
-      if (distance < nearest.distance) nearest = {distance, x, y};
+      const Vec2 low{static_cast<double>(x), static_cast<double>(y)};
+      const double distance = leg.distance_to_cell(low);
+      if (distance < nearest.distance) nearest = {distance, low.x, low.y};
     }
   }
   return nearest;
@@ -93,8 +93,7 @@ Nearest nearest_to(const Closed& closed, const JudgedLeg& leg, double enough, co
   const Vec2 a = leg.segment.a;
   const Vec2 b = leg.segment.b;
   for (const Vec2 end : {a, b}) {
-    const auto whole = [](double x) { return bounded_whole<std::int64_t>(std::floor(x)); };
-    if (!closed.box().contains(end)) return {0.0, whole(end.x), whole(end.y)};
+    if (!closed.box().contains(end)) return {0.0, std::floor(end.x) + 0.0, std::floor(end.y) + 0.0};  // no -0
   }
   const double pieces = std::max(std::ceil(distance(a, b) / piece_cells), 1.0);
   const double rounding = pieces > 1.0 ? 1e-6 : 0.0;  // of a piece's ends
