@@ -32,7 +32,9 @@ inline void solve_far_away(std::uint64_t seed, FarTally& tally) {
   };
   Scene scene;
   if (seed / 12 % 4 == 3) {
-    scene.map = OccupancyMap{.blocked = Bitmap(40, 40), .cell = 1.5 * size, .origin = offset};
+    scene.map.emplace().blocked = Bitmap(40, 40);
+    scene.map->cell = 1.5 * size;
+    scene.map->origin = offset;
     if (seed % 2 == 0) scene.map->yaw_rad = 0.3;
     for (std::uint64_t i = 0; i < 100; ++i) {
       const auto side_cell = [&](std::uint64_t axis) {

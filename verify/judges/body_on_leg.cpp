@@ -37,7 +37,7 @@ BodyVerifier::BodyVerifier(const Scene& scene, std::span<const Vec2> outline, do
   for (const Vec2 p : outline_) radius_ = std::max(radius_, portable::hypot(p.x, p.y));
   bend_ = 1e-15 * surroundings_.largest_coordinate();
   rounding_ = 2e-14 * (surroundings_.largest_coordinate() + 2.0 * radius_ + clearance) + 4.0 * bend_;
-  finest_ = 1e-9 * radius_;
+  finest_ = std::max(1e-9 * radius_, 0.1 * rounding_);  // so no leg is halved more than some 50 times
   close_ = 1e-3 * radius_;
   if (index_ != nullptr) return;
   for (const Ring& ring : obstacles_.rings()) {
