@@ -86,6 +86,14 @@ Vec2 any_point(std::uint64_t seed, std::uint64_t i) {
   return {any_number(seed, 2 * i, 6.0), any_number(seed, 2 * i + 1, 5.0)};
 }
 
+/// Half of them short, within the world: of others hardly one in thirty is free.
+Segment any_leg(std::uint64_t seed) {
+  const Vec2 a = any_point(seed, 100);
+  if (random_bits(seed, 0, 63) % 2 == 0) return {a, any_point(seed, 101)};
+  const Vec2 from{std::round(12.0 * uniform(seed, 0, 64)) / 2.0, std::round(10.0 * uniform(seed, 0, 65)) / 2.0};
+  return {from, {from.x, std::clamp(a.y, from.y - 1.0, from.y + 1.0)}};
+}
+
 /// Works as fast and as small as a small question may be.
 struct Limits {
   Deadline deadline{20.0, resident_bytes() + (std::size_t{200} << 20)};
@@ -142,7 +150,8 @@ TEST(JudgesOfAnyNumber, OnAMapAreThoseOfRationals) {
     SCOPED_TRACE(seed);
     const OccupancyMap map = map_of(seed);
     const auto placed = [&](Vec2 p) { return map.origin + map.cell * p; };
-    const Vec2 path[] = {placed(any_point(seed, 100)), placed(any_point(seed, 101))};
+    const Segment leg = any_leg(seed);
+    const Vec2 path[] = {placed(leg.a), placed(leg.b)};
     const double wanted = random_bits(seed, 0, 54) % 2 == 0 ? 0.5 : any_number(seed, 300, 1.0);
     const double radius =
         std::abs(wanted) * map.cell * (1.0 + 1e-15 * static_cast<double>(random_bits(seed, 0, 55) % 3) - 1e-15);
@@ -162,7 +171,7 @@ TEST(JudgesOfAnyNumber, OnAMapAreThoseOfRationals) {
       EXPECT_TRUE(square < most * most || square <= rounding * rounding);
     }
   }
-  EXPECT_GT(free, seeds.size() / 30);
+  EXPECT_GT(free, seeds.size() / 40);
 }
 
 TEST(JudgesOfAnyNumber, GiveNothingAwayAlongACorridor) {
@@ -222,7 +231,8 @@ TEST(JudgesOfAnyNumber, AmongWallsAreThoseOfRationals) {
   for (const std::uint64_t seed : seeds) {
     SCOPED_TRACE(seed);
     const Scene scene = plane_of(seed);
-    const Vec2 path[] = {any_point(seed, 100), any_point(seed, 101)};
+    const auto [a, b] = any_leg(seed);
+    const Vec2 path[] = {a, b};
     const double radius = std::abs(random_bits(seed, 0, 54) % 2 == 0 ? 0.5 : any_number(seed, 300, 1.0));
     Limits limits;
     const ObstacleIndex index(scene, limits.execution);
@@ -237,7 +247,7 @@ TEST(JudgesOfAnyNumber, AmongWallsAreThoseOfRationals) {
     EXPECT_EQ(verified, expected);
     free += verified ? 1 : 0;
   }
-  EXPECT_GT(free, seeds.size() / 30);
+  EXPECT_GT(free, seeds.size() / 40);
 }
 
 const std::vector<Vec2> kite = {{-0.25, 0.0}, {0.0, -0.125}, {0.5, 0.0}, {0.0, 0.125}};
@@ -288,7 +298,7 @@ TEST(JudgesOfAnyNumber, OfBodiesThatGoStraightAreThoseOfRationals) {
     if (!verified) EXPECT_LE(square, rounding * rounding);
     free += verified ? 1 : 0;
   }
-  EXPECT_GT(free, seeds.size() / 30);
+  EXPECT_GT(free, seeds.size() / 40);
 }
 
 /// By poses along a leg that turns: the least distance, and how far the body travels from one to the next.
@@ -332,9 +342,11 @@ TEST(JudgesOfAnyNumber, OfTurningBodiesAndCarsAnswerOrRefuseInTimeAndMemory) {
     for (const Segment& s : sides_of(scene, scene.bounds.has_value())) room.include(box_of(s));
     std::vector<Se2> path;
     for (std::uint64_t i = 0; i < 2; ++i) {
-      const bool may_be_far = random_bits(seed, 0, 59) % 2 == 0;
-      const Vec2 p =
-          may_be_far ? any_point(seed, 100 + i) : Vec2{6.0 * uniform(seed, i, 61), 5.0 * uniform(seed, i, 62)};
+      Vec2 p = any_point(seed, 100 + i);
+      if (random_bits(seed, 0, 59) % 4 != 0) {  // a short leg within
+        p = Vec2{6.0 * uniform(seed, 0, 61), 5.0 * uniform(seed, 0, 62)} +
+            static_cast<double>(i) * Vec2{uniform(seed, 1, 61) - 0.5, uniform(seed, 1, 62) - 0.5};
+      }
       path.push_back({p.x, p.y, headings[random_bits(seed, i, 58) % 7]});
     }
     const double size = std::abs(any_number(seed, 300, 0.1));
@@ -363,7 +375,7 @@ TEST(JudgesOfAnyNumber, OfTurningBodiesAndCarsAnswerOrRefuseInTimeAndMemory) {
       }
     }
   }
-  EXPECT_GT(free, seeds.size() / 30);
+  EXPECT_GT(free, seeds.size() / 40);
 }
 
 TEST(JudgesOfAnyNumber, OfArmsAnswerOrRefuse) {
