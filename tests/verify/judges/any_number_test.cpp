@@ -96,7 +96,8 @@ Segment any_leg(std::uint64_t seed) {
 
 /// Works as fast and as small as a small question may be.
 struct Limits {
-  Deadline deadline{20.0, resident_bytes() + (std::size_t{200} << 20)};
+  static constexpr std::size_t bytes = std::size_t{test::memory_is_ours() ? 200 : 2000} << 20;
+  Deadline deadline{20.0, resident_bytes() + bytes};
   Execution execution{.threads = 1, .deadline = &deadline};
 };
 
