@@ -141,6 +141,10 @@ set(portable "[^.>_a-zA-Z0-9:]|[^a-z]::|std::")
 set(inexact "a?sinh?|a?cosh?|a?tanh?|atan2|sincos|hypot|exp2?|expm1|log2?|log10|log1p|pow|cbrt|tgamma|lgamma|erfc?|polar|arg|lerp")
 only(trigonometry "(${portable})(${inexact})[(]" "^core/base/trigonometry[.][ch]pp$|^(pictures|studies|bench|tests)/")
 only(eigen_angles "AngleAxis|Rotation2D|eulerAngles|angularDistance|[.]slerp[(]" "^(bench|tests)/")
+# Doubles become whole numbers by core/base/whole.hpp alone, whose other function takes none: so every such cast has bounds.
+set(wholes "int|unsigned|(u?int[a-z0-9_]*|size|ptrdiff)_t")
+only(casts "static_cast<[a-zA-Z:]*(${wholes}|signed|short|long|char|VertexId|Int|Index|__mmask[0-9]*)[a-z ]*>|[^_a-zA-Z0-9](${wholes})[(]|[^_a-z]ll?(round|rint) *[(]"
+     "^(core|parallel|scenes|planners|roadmaps|solve|pictures|studies|serve|tools|python|distributed|bench|tests)/")
 # Where a table is only looked up, the line says so: its order differs between libraries, so nobody may walk through it.
 only(unordered_tables_unless_lookups_only "unordered_(map|set|multimap|multiset)<[^\n]*" "${above}")
 

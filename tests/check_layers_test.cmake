@@ -111,6 +111,13 @@ complains(core/base/a.hpp "// As in gone.hpp, only faster." "core/base/a.hpp: a 
 complains(core/base/a.hpp "int a = 1  // (worlds/gone)" "a comment names worlds/gone,")
 complains(core/base/a.hpp "// plane/b.hpp and base/b.hpp\n" "a comment names base/b.hpp," core/plane/b.hpp "#pragma once")
 passes(core/base/a.hpp "// core/plane/b, plane/b.hpp; b.hpp. Of a kind NAME solve_NAME.cpp, see https://x.org/gone.py\n" core/plane/b.hpp "#pragma once")
+complains(verify/judges/a.cpp "auto cell = static_cast<std::int64_t>(std::floor(x));" "rule 'casts'")
+complains(worlds/plane/a.hpp "int f(double x) { return static_cast<unsigned int>(x); }" "rule 'casts'")
+complains(spatial/points/a.cpp "auto i = static_cast<VertexId>(x * scale);" "rule 'casts'")
+complains(worlds/poses/a.cpp "auto i = std::lround(x) + 1;" "rule 'casts'")
+complains(worlds/poses/a.cpp "const auto i = std::size_t(x / cell);" "rule 'casts'")
+passes(verify/near/a.cpp "auto i = bounded_whole<std::int32_t>(x) + as_whole<int>(n) + std::round(static_cast<double>(n));")
+passes(planners/grid/a.cpp "auto i = static_cast<int>(x);")
 complains(core/base/utils.hpp "" "named after its one type")
 complains(README.md "" "holds no sources")
 

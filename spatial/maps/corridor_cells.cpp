@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/base/whole.hpp"
 #include "parallel/chunks.hpp"
 
 namespace warren {
@@ -34,7 +35,7 @@ class Ridges {
   /// What lies outside of the map is blocked.
   double at(std::int64_t x, std::int64_t y) const {
     if (x < 0 || y < 0 || x >= field_.width() || y >= field_.height()) return 0.0;
-    return field_.distance(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
+    return field_.distance(as_whole<std::uint32_t>(x), as_whole<std::uint32_t>(y));
   }
 
   const DistanceField& field_;
@@ -63,7 +64,7 @@ CorridorCells::CorridorCells(const DistanceField& field, double least, const Exe
   const Ridges ridges(field, least);
   std::vector<std::vector<std::uint32_t>> bands((field.height() + tile - 1) / tile);
   for_chunks(bands.size(), 1, execution,
-             [&](Range r) { bands[r.first] = places_of(field, ridges, static_cast<std::uint32_t>(r.first) * tile); });
+             [&](Range r) { bands[r.first] = places_of(field, ridges, as_whole<std::uint32_t>(r.first) * tile); });
   std::size_t count = 0;
   for (const auto& band : bands) count += band.size();
   execution.reserve(count * (sizeof(std::uint32_t) + sizeof(double)));
@@ -82,7 +83,7 @@ CorridorCells::CorridorCells(const DistanceField& field, double least, const Exe
 
 CorridorCells::Place CorridorCells::at(double share) const {
   const auto found = std::upper_bound(weight_sums_.begin(), weight_sums_.end(), share * weight_sums_.back());
-  const auto i = std::min<std::size_t>(static_cast<std::size_t>(found - weight_sums_.begin()), places_.size() - 1);
+  const auto i = std::min<std::size_t>(as_whole<std::size_t>(found - weight_sums_.begin()), places_.size() - 1);
   const double weight = i == 0 ? weight_sums_[0] : weight_sums_[i] - weight_sums_[i - 1];
   return {{places_[i] % width_, places_[i] / width_}, 1.0 / weight};
 }

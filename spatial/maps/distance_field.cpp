@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/base/whole.hpp"
 #include "parallel/chunks.hpp"
 
 namespace warren {
@@ -111,7 +112,7 @@ void row_pass(std::uint32_t* row, Int width, bool outside_blocked, Envelope& env
   for (std::size_t p = pieces.size(); p-- > 0;) {
     const auto [site, height, first] = pieces[p];
     for (Int x = first; x < end; ++x) {
-      row[x] = static_cast<std::uint32_t>(std::min<Int>(Kind::curve(std::abs(x - site)) + height, nothing));
+      row[x] = as_whole<std::uint32_t>(std::min<Int>(Kind::curve(std::abs(x - site)) + height, nothing));
     }
     end = first;
   }
@@ -149,7 +150,7 @@ Bitmap blocked_for_disc(const Bitmap& blocked, double radius, const Execution& e
   Bitmap result = blocked;
   constexpr std::size_t rows = 64;
   for_chunks(blocked.height(), rows, execution, [&](Range r) {
-    for (auto y = static_cast<std::uint32_t>(r.first); y < r.last; ++y) {
+    for (auto y = as_whole<std::uint32_t>(r.first); y < r.last; ++y) {
       for (std::uint32_t x = 0; x < blocked.width(); ++x) {
         if (field.squared(x, y) < least) result.set(x, y);
       }

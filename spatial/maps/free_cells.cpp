@@ -21,7 +21,7 @@ constexpr std::array<std::uint8_t, 512> steps_of(StepRule rule) {
       if (is_diagonal(s) && rule == StepRule::eight) may = may && is_free(dx, 0) && is_free(0, dy);
       allowed |= may ? 1U << s : 0U;
     }
-    table[around] = static_cast<std::uint8_t>(allowed);
+    table[around] = as_whole<std::uint8_t>(allowed);
   }
   return table;
 }
@@ -53,7 +53,7 @@ Bitmap transposed(const Bitmap& bitmap, const Execution& execution) {
     const auto words = bitmap.row(y);
     for (std::uint32_t w = 0; w < words.size(); ++w) {
       for (std::uint64_t rest = words[w]; rest != 0; rest &= rest - 1) {
-        result.set(y, 64 * w + static_cast<std::uint32_t>(std::countr_zero(rest)));
+        result.set(y, 64 * w + as_whole<std::uint32_t>(std::countr_zero(rest)));
       }
     }
   }
@@ -63,7 +63,7 @@ Bitmap transposed(const Bitmap& bitmap, const Execution& execution) {
 const std::array<std::uint8_t, 512>& allowed_steps(StepRule rule) {
   static constexpr std::array<std::uint8_t, 512> tables[] = {steps_of(StepRule::four), steps_of(StepRule::eight),
                                                              steps_of(StepRule::eight_squeezing)};
-  return tables[static_cast<std::size_t>(rule)];
+  return tables[as_whole<std::size_t>(rule)];
 }
 
 }  // namespace warren

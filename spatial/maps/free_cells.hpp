@@ -10,6 +10,7 @@
 #include "core/base/bitmap.hpp"
 #include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
+#include "core/base/whole.hpp"
 #include "parallel/execution.hpp"
 
 namespace warren {
@@ -31,7 +32,7 @@ class FreeCells {
   VertexId number(Cell c) const { return (c.y + 1) * stride_ + c.x + margin; }
   Cell cell(VertexId v) const {
     const VertexId from_margin = v - margin;
-    auto row = static_cast<VertexId>(from_margin * per_stride_);
+    auto row = bounded_whole<VertexId>(from_margin * per_stride_);
     if (from_margin - row * stride_ >= stride_) from_margin < row* stride_ ? --row : ++row;  // the product was rounded
     return {from_margin - row * stride_, row - 1};
   }
@@ -43,8 +44,8 @@ class FreeCells {
   }
   /// Bits 0-2: the three cells below v, from the left; 3-5: v's row; 6-8: the row above.
   unsigned around(VertexId v) const {
-    return static_cast<unsigned>((from(v - stride_ - 1) & 7U) | (from(v - 1) & 7U) << 3 |
-                                 (from(v + stride_ - 1) & 7U) << 6);
+    return as_whole<unsigned>((from(v - stride_ - 1) & 7U) | (from(v - 1) & 7U) << 3 |
+                              (from(v + stride_ - 1) & 7U) << 6);
   }
 
  private:

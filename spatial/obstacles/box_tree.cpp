@@ -3,6 +3,8 @@
 
 #include <numeric>
 
+#include "core/base/whole.hpp"
+
 namespace warren {
 namespace {
 
@@ -58,7 +60,7 @@ BoxTree<D>::BoxTree(std::span<const BoxOf<D>> boxes, const Execution& execution)
   std::iota(order_.begin(), order_.end(), 0U);
   nodes_.reserve(boxes.size());
   Building building{boxes, execution, std::vector<std::uint32_t>(boxes.size())};
-  build(0, static_cast<std::uint32_t>(boxes.size()), building);
+  build(0, as_whole<std::uint32_t>(boxes.size()), building);
   execution.check();
   boxes_.reserve(boxes.size());
   for (const std::uint32_t id : order_) boxes_.push_back(boxes[id]);
@@ -73,7 +75,7 @@ void BoxTree<D>::build(std::uint32_t first, std::uint32_t last, Building& buildi
   const std::span<std::uint32_t> ids(order_.data() + first, last - first);
   BoxOf<D> box = boxes[ids.front()];
   for (const std::uint32_t id : ids) box = joined(box, boxes[id]);
-  const auto node = static_cast<std::uint32_t>(nodes_.size());
+  const auto node = as_whole<std::uint32_t>(nodes_.size());
   nodes_.push_back({box, first, last - first});
   if (ids.size() <= box_leaf_size) return;
   const std::size_t axis = widest_axis<D>(boxes, ids);
@@ -94,7 +96,7 @@ void BoxTree<D>::build(std::uint32_t first, std::uint32_t last, Building& buildi
   for (const std::uint32_t id : ids) (less(id, median) ? ids[before++] : room[behind++]) = id;
   std::ranges::copy(room.first(behind), ids.begin() + (middle - first));
   build(first, middle, building);
-  nodes_[node].first = static_cast<std::uint32_t>(nodes_.size());
+  nodes_[node].first = as_whole<std::uint32_t>(nodes_.size());
   nodes_[node].count = 0;
   build(middle, last, building);
 }

@@ -70,7 +70,7 @@ template <std::size_t bytes>
       const auto [low_x, low_y, high_x, high_y] = ends_of(walls[i]);
       const IndexLanes meets = (Lanes{} + high_x >= left) & (Lanes{} + low_x <= right) & (Lanes{} + high_y >= bottom) &
                                (Lanes{} + low_y <= top);
-      const IndexLanes index = IndexLanes{} + static_cast<Index>(i);
+      const IndexLanes index = IndexLanes{} + as_whole<Index>(i);
       last = (index & meets) | (last & ~meets);
       first |= index & meets & (count == 0);
       count -= meets;
@@ -109,7 +109,7 @@ template <>
     meets = _mm512_mask_cmp_ps_mask(meets, _mm512_set1_ps(low_x), right, _CMP_LE_OQ);
     meets = _mm512_mask_cmp_ps_mask(meets, _mm512_set1_ps(high_y), bottom, _CMP_GE_OQ);
     meets = _mm512_mask_cmp_ps_mask(meets, _mm512_set1_ps(low_y), top, _CMP_LE_OQ);
-    const __m512i index = _mm512_set1_epi32(static_cast<int>(i));
+    const __m512i index = _mm512_set1_epi32(as_whole<int>(i));
     last = _mm512_mask_mov_epi32(last, meets, index);
     first = _mm512_mask_mov_epi32(first, _mm512_mask_testn_epi32_mask(meets, count, count), index);
     count = _mm512_mask_add_epi32(count, meets, count, _mm512_set1_epi32(1));
@@ -135,7 +135,7 @@ template <>
       meets = _mm512_mask_cmp_pd_mask(meets, _mm512_set1_pd(low_x), right, _CMP_LE_OQ);
       meets = _mm512_mask_cmp_pd_mask(meets, _mm512_set1_pd(high_y), bottom, _CMP_GE_OQ);
       meets = _mm512_mask_cmp_pd_mask(meets, _mm512_set1_pd(low_y), top, _CMP_LE_OQ);
-      const __m512i index = _mm512_set1_epi64(static_cast<std::int64_t>(i));
+      const __m512i index = _mm512_set1_epi64(as_whole<std::int64_t>(i));
       last = _mm512_mask_mov_epi64(last, meets, index);
       first = _mm512_mask_mov_epi64(first, _mm512_mask_testn_epi64_mask(meets, count, count), index);
       count = _mm512_mask_add_epi64(count, meets, count, _mm512_set1_epi64(1));

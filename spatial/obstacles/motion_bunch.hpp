@@ -14,6 +14,7 @@
 #include <type_traits>
 
 #include "core/base/types.hpp"
+#include "core/base/whole.hpp"
 #include "core/plane/wall_set.hpp"
 #include "spatial/obstacles/box_screen.hpp"
 #include "spatial/points/disc_points.hpp"
@@ -66,9 +67,9 @@ class MotionBunch {
   void sift(std::span<const WallOf<T>> walls, InstructionSet set = best_instruction_set()) noexcept;
 
   /// How many of the walls meet the box of motion i, and which is the first and the last of them.
-  std::size_t count(std::size_t i) const { return static_cast<std::size_t>(count_[i]); }
-  std::size_t first(std::size_t i) const { return static_cast<std::size_t>(first_[i]); }
-  std::size_t last(std::size_t i) const { return static_cast<std::size_t>(last_[i]); }
+  std::size_t count(std::size_t i) const { return as_whole<std::size_t>(count_[i]); }
+  std::size_t first(std::size_t i) const { return as_whole<std::size_t>(first_[i]); }
+  std::size_t last(std::size_t i) const { return as_whole<std::size_t>(last_[i]); }
 
  private:
   using Ends = std::array<T, most>;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/whole.hpp"
 #include "core/plane/geometry.hpp"
 #include "parallel/chunks.hpp"
 
@@ -29,7 +30,7 @@ PolygonIndex::PolygonIndex(PolygonSet polygons, const Execution& execution) : po
       const auto [first, last] = sides_of(polygon);
       Box box;
       for (std::size_t i = first; i < last; ++i) {
-        next_[i] = static_cast<std::uint32_t>(i + 1 < last ? i + 1 : first);
+        next_[i] = as_whole<std::uint32_t>(i + 1 < last ? i + 1 : first);
         box.include(polygons_.corners[i]);
       }
       boxes[polygon] = {{box.min.x, box.min.y}, {box.max.x, box.max.y}};
@@ -50,7 +51,7 @@ PolygonIndex::PolygonIndex(PolygonSet polygons, const Execution& execution) : po
 
 std::size_t PolygonIndex::polygon_of(std::size_t side) const noexcept {
   const auto after = std::upper_bound(polygons_.first.begin(), polygons_.first.end(), side);
-  return static_cast<std::size_t>(after - polygons_.first.begin()) - 1;
+  return as_whole<std::size_t>(after - polygons_.first.begin()) - 1;
 }
 
 std::size_t PolygonIndex::level_of(Run run) noexcept {

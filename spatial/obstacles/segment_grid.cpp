@@ -27,8 +27,8 @@ void SegmentGrid::lay_out(const Box& box, std::size_t segments, double scale) {
   if (!(cell_ > 0.0)) cell_ = 1.0;
   slack_ = 1e-6 * cell_ + 1e-15 * magnitude;
   origin_ = {corner.x - 0.5 * cell_, corner.y - 0.5 * cell_};
-  cols_ = static_cast<std::uint32_t>(w / cell_) + 2;
-  rows_ = static_cast<std::uint32_t>(h / cell_) + 2;
+  cols_ = bounded_whole<std::uint32_t>(w / cell_) + 2;
+  rows_ = bounded_whole<std::uint32_t>(h / cell_) + 2;
 }
 
 SegmentGrid::Cell SegmentGrid::cell_of(Vec2 p) const {
@@ -87,8 +87,7 @@ SegmentGrid::SegmentGrid(std::span<const Segment> segments, const Execution& exe
   segments_.resize(sum);
   for (std::size_t i = segments.size(); i-- > 0;) {  // from the last, so that each cell's list ascends
     if (i % segments_per_poll == 0) execution.check();
-    for_each_cell_of(segments[i],
-                     [&](std::size_t cell) { segments_[--offsets_[cell]] = static_cast<std::uint32_t>(i); });
+    for_each_cell_of(segments[i], [&](std::size_t cell) { segments_[--offsets_[cell]] = as_whole<std::uint32_t>(i); });
   }
 }
 

@@ -12,6 +12,7 @@
 
 #include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
+#include "core/base/whole.hpp"
 #include "parallel/execution.hpp"
 
 namespace warren {
@@ -52,7 +53,7 @@ class SegmentGrid {
   template <class Visit>
   void for_each_cell_of(const Segment& s, const Visit& visit) const;
   std::uint32_t clamped(double at, std::uint32_t count) const {
-    return at <= 0.0 ? 0 : at >= count ? count - 1 : static_cast<std::uint32_t>(at);
+    return bounded_whole<std::uint32_t>(at, 0.0, count - 1.0);
   }
 
   Vec2 origin_;

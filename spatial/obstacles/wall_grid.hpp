@@ -8,10 +8,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
+#include "core/base/whole.hpp"
 #include "core/plane/wall_set.hpp"
 #include "spatial/obstacles/box_screen.hpp"
 
@@ -74,7 +76,7 @@ class WallGrid {
     fetch_rows_above(last_row, first_col, last_col);
     return count;
   }
-  static constexpr std::size_t no_room = std::size_t(-1);
+  static constexpr std::size_t no_room = std::numeric_limits<std::size_t>::max();
 
   double cell() const { return cell_; }
   /// Walls in cell order, long ones once a piece.
@@ -89,7 +91,7 @@ class WallGrid {
   static constexpr std::uint32_t no_child = 0xffffffffU;
 
   std::uint32_t clamped(double cell, std::uint32_t count) const {
-    return cell <= 0.0 ? 0 : cell >= count ? count - 1 : static_cast<std::uint32_t>(cell);
+    return bounded_whole<std::uint32_t>(cell, 0.0, count - 1.0);
   }
   std::uint32_t col_of(double x) const { return clamped((x - origin_.x) * inverse_cell_, cols_); }
   std::uint32_t row_of(double y) const { return clamped((y - origin_.y) * inverse_cell_, rows_); }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/whole.hpp"
 #include "parallel/chunks.hpp"
 #include "parallel/first_touch.hpp"
 #include "spatial/obstacles/wall_grid.hpp"
@@ -99,7 +100,7 @@ WallStatistics statistics_of(std::size_t n, const Filed& filed, const Execution&
   for (std::size_t i = 0; i < std::min(n, sampled); ++i)
     lengths.push_back(length_of(filed(i * n / std::min(n, sampled)).part));
   if (!lengths.empty()) {
-    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+    const auto middle = lengths.begin() + as_whole<std::ptrdiff_t>(lengths.size() / 2);
     std::nth_element(lengths.begin(), middle, lengths.end());
     result.median_length = *middle;
   }
@@ -144,11 +145,11 @@ void WallGridBuilder<T>::choose_cell(const WallStatistics& s) {
   grid_.inverse_cell_ = 1.0 / h;
   // Off the lines that walls lie on, so that equal walls fall into equal cells.
   grid_.origin_ = s.box.empty() ? Vec2{} : Vec2{s.box.min.x - 0.43 * h, s.box.min.y - 0.43 * h};
-  grid_.cols_ = static_cast<std::uint32_t>(width / h + 0.43) + 1;
-  grid_.rows_ = static_cast<std::uint32_t>(height / h + 0.43) + 1;
+  grid_.cols_ = bounded_whole<std::uint32_t>(width / h + 0.43) + 1;
+  grid_.rows_ = bounded_whole<std::uint32_t>(height / h + 0.43) + 1;
   const std::size_t cells = std::size_t{grid_.cols_} * grid_.rows_;
-  band_cells_ = static_cast<std::uint32_t>(std::max<std::size_t>(cells / 512 + 1, std::size_t{1} << 14));
-  bands_ = static_cast<std::uint32_t>((cells + band_cells_ - 1) / band_cells_);
+  band_cells_ = as_whole<std::uint32_t>(std::max<std::size_t>(cells / 512 + 1, std::size_t{1} << 14));
+  bands_ = as_whole<std::uint32_t>((cells + band_cells_ - 1) / band_cells_);
 }
 
 template <class T>
@@ -160,7 +161,7 @@ void WallGridBuilder<T>::for_each_piece(const Segment& part, const F& f) const {
     f(0.5 * (part.a + part.b), part);
     return;
   }
-  const auto pieces = static_cast<std::uint32_t>(std::ceil(longest * grid_.inverse_cell_));
+  const auto pieces = bounded_whole<std::uint32_t>(std::ceil(longest * grid_.inverse_cell_));
   Vec2 from = part.a;
   for (std::uint32_t i = 1; i <= pieces; ++i) {
     const Vec2 to = i == pieces ? part.b : part.a + (static_cast<double>(i) / pieces) * along;
@@ -213,7 +214,7 @@ WallGrid<T> WallGridBuilder<T>::build(std::size_t n, const Filed& filed) {
   for_chunks(bands_, 1, execution_, [&](Range r) {
     const std::size_t first = counts[r.first * chunks];
     const std::size_t last = counts[(r.first + 1) * chunks];
-    sort_band({staged.data() + first, last - first}, static_cast<std::uint32_t>(r.first), first);
+    sort_band({staged.data() + first, last - first}, as_whole<std::uint32_t>(r.first), first);
   });
   refine_crowded_cells();
   return std::move(grid_);
@@ -226,11 +227,11 @@ void WallGridBuilder<T>::sort_band(std::span<const Staged> staged, std::uint32_t
   std::uint32_t* offsets = grid_.offsets_.data() + first_cell;
   std::fill(offsets, offsets + cells, 0U);
   for (const Staged& s : staged) ++offsets[s.cell - first_cell];
-  auto at = static_cast<std::uint32_t>(first);
+  auto at = as_whole<std::uint32_t>(first);
   for (std::size_t c = 0; c < cells; ++c) at += std::exchange(offsets[c], at);
   for (const Staged& s : staged) grid_.walls_[offsets[s.cell - first_cell]++] = s.wall;
   for (std::size_t c = cells; c-- > 1;) offsets[c] = offsets[c - 1];  // each offset has moved to its cell's end
-  if (cells > 0) offsets[0] = static_cast<std::uint32_t>(first);
+  if (cells > 0) offsets[0] = as_whole<std::uint32_t>(first);
 }
 
 template <class T>
@@ -241,7 +242,7 @@ void WallGridBuilder<T>::refine_crowded_cells() {
   for_chunks(cells, grain, execution_, [&](Range r) {
     for (std::size_t c = r.first; c < r.last; ++c) {
       if (grid_.offsets_[c + 1] - grid_.offsets_[c] > crowded)
-        found[r.first / grain].push_back(static_cast<std::uint32_t>(c));
+        found[r.first / grain].push_back(as_whole<std::uint32_t>(c));
     }
   });
   for (const auto& part : found) {
@@ -261,7 +262,7 @@ void WallGridBuilder<T>::refine_cell(std::uint32_t cell) {
   WallGridBuilder finer(statistics_of<T>(n, filed, execution_), 64, depth_ + 1, execution_);
   if (finer.cell() > grid_.cell_ / 4) return;  // long or equal walls: a finer grid would hold them all again
   if (grid_.child_of_.empty()) grid_.child_of_.assign(grid_.offsets_.size() - 1, WallGrid<T>::no_child);
-  grid_.child_of_[cell] = static_cast<std::uint32_t>(grid_.children_.size());
+  grid_.child_of_[cell] = as_whole<std::uint32_t>(grid_.children_.size());
   grid_.children_.push_back(finer.build(n, filed));
 }
 

@@ -4,6 +4,7 @@
 #include <bit>
 #include <vector>
 
+#include "core/base/whole.hpp"
 #include "parallel/chunks.hpp"
 
 namespace warren {
@@ -14,7 +15,7 @@ class FreeRow {
  public:
   FreeRow(const Bitmap& blocked, std::int64_t y) : words_((blocked.width() + 63) / 64 + 2, 0) {
     if (y < 0 || y >= blocked.height()) return;
-    const auto row = blocked.row(static_cast<std::uint32_t>(y));
+    const auto row = blocked.row(as_whole<std::uint32_t>(y));
     for (std::size_t w = 0; w < row.size(); ++w) words_[w + 1] = ~row[w];
     if (blocked.width() % 64 != 0) words_[row.size()] &= (std::uint64_t{1} << blocked.width() % 64) - 1;
   }
@@ -37,11 +38,11 @@ Bitmap cell_milestones(const Bitmap& blocked, const Execution& execution) {
   constexpr std::uint64_t odd_columns = 0xAAAAAAAAAAAAAAAAU;
   for_chunks(blocked.height(), rows_a_chunk, execution, [&](Range r) {
     for (std::size_t y = r.first; y < r.last; ++y) {
-      const auto number = static_cast<std::int64_t>(y);
+      const auto number = as_whole<std::int64_t>(y);
       const FreeRow below(blocked, number - 1);
       const FreeRow row(blocked, number);
       const FreeRow above(blocked, number + 1);
-      const auto out = kept.row(static_cast<std::uint32_t>(y));
+      const auto out = kept.row(as_whole<std::uint32_t>(y));
       for (std::size_t w = 0; w < out.size(); ++w) {
         const std::uint64_t sides = row.left(w) & row.right(w);
         const std::uint64_t ends = below.here(w) & above.here(w);
@@ -67,8 +68,8 @@ bool is_narrow(const Bitmap& blocked) {
       const auto square = [&](const FreeRow& other) {
         return (row.left(w) & other.here(w) & other.left(w)) | (row.right(w) & other.here(w) & other.right(w));
       };
-      free += static_cast<std::uint64_t>(std::popcount(row.here(w)));
-      wide += static_cast<std::uint64_t>(std::popcount(row.here(w) & (square(below) | square(above))));
+      free += as_whole<std::uint64_t>(std::popcount(row.here(w)));
+      wide += as_whole<std::uint64_t>(std::popcount(row.here(w) & (square(below) | square(above))));
     }
     below = std::move(row);
     row = std::move(above);

@@ -61,12 +61,12 @@ InstructionSet best_instruction_set() noexcept {
 std::size_t DiscPoints::sort_roughly(std::size_t k, double scale, InstructionSet set) noexcept {
   for (std::size_t i = 0; i < count; ++i) {
     const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(square[i] * scale));
-    key[i] = static_cast<std::int32_t>((bits & ~index_mask) | static_cast<std::uint32_t>(i));
+    key[i] = as_whole<std::int32_t>((bits & ~index_mask) | as_whole<std::uint32_t>(i));
   }
   for (std::size_t i = count; i < count + padding; ++i) key[i] = std::numeric_limits<std::int32_t>::max();
   (set == InstructionSet::baseline ? count_baseline : count_avx2)(key, count, rank);
-  for (std::size_t i = 0; i < count; ++i) by_rank[rank[i]] = static_cast<std::uint32_t>(i);
-  const std::int32_t limit = (key[by_rank[k - 1]] | static_cast<std::int32_t>(index_mask)) + std::int32_t{capacity};
+  for (std::size_t i = 0; i < count; ++i) by_rank[rank[i]] = as_whole<std::uint32_t>(i);
+  const std::int32_t limit = (key[by_rank[k - 1]] | as_whole<std::int32_t>(index_mask)) + std::int32_t{capacity};
   while (k < count && key[by_rank[k]] <= limit) ++k;
   return k;
 }

@@ -11,6 +11,7 @@
 #include <span>
 
 #include "core/base/types.hpp"
+#include "core/base/whole.hpp"
 
 namespace warren::detail {
 
@@ -41,7 +42,7 @@ struct DiscPoints {
       const double sum = dx * dx + dy * dy;
       square[end] = sum;
       place[end] = i;
-      end += static_cast<std::size_t>(sum <= limit) & static_cast<std::size_t>(i != skip);
+      end += as_whole<std::size_t>(sum <= limit) & as_whole<std::size_t>(i != skip);
     }
     count = end;
   }

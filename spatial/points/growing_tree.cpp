@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/whole.hpp"
+
 namespace warren {
 namespace {
 
@@ -47,7 +49,7 @@ Neighbour GrowingTree<D>::nearest(const Point& p) {
   Neighbour best{no_vertex, std::numeric_limits<double>::infinity()};
   for (const Level& level : levels_) {
     const auto consider = [&](VertexId place, double distance) {
-      best = std::min(best, Neighbour{static_cast<VertexId>(level.first + place), distance});
+      best = std::min(best, Neighbour{as_whole<VertexId>(level.first + place), distance});
     };
     if (best.id != no_vertex) {
       level.tree.for_each_within(p, best.distance, consider);
@@ -57,7 +59,7 @@ Neighbour GrowingTree<D>::nearest(const Point& p) {
     consider(found_.front().id, found_.front().distance);
   }
   for (std::size_t i = filed_; i < points_.size(); ++i) {
-    best = std::min(best, Neighbour{static_cast<VertexId>(i), distance_between<D>(points_[i], p)});
+    best = std::min(best, Neighbour{as_whole<VertexId>(i), distance_between<D>(points_[i], p)});
   }
   return best;
 }

@@ -89,7 +89,7 @@ struct TopTree {
     const std::size_t axis = widest_axis(sample);
     const std::size_t half = sample.size() / 2;
     const auto less = [axis](const auto& a, const auto& b) { return coordinate<D>(a, axis) < coordinate<D>(b, axis); };
-    std::nth_element(sample.begin(), sample.begin() + static_cast<std::ptrdiff_t>(half), sample.end(), less);
+    std::nth_element(sample.begin(), sample.begin() + as_whole<std::ptrdiff_t>(half), sample.end(), less);
     cuts[node] = {axis, coordinate<D>(sample[half], axis)};
     cut(2 * node, sample.first(half));
     cut(2 * node + 1, sample.subspan(half));
@@ -113,7 +113,7 @@ struct TopTree {
   std::uint32_t leaf_of(const PointOf<D>& p) const {
     std::size_t node = 1;
     while (node < leaves) node = 2 * node + (coordinate<D>(p, cuts[node].axis) >= cuts[node].value ? 1 : 0);
-    return static_cast<std::uint32_t>(node - leaves);
+    return as_whole<std::uint32_t>(node - leaves);
   }
 };
 
@@ -215,7 +215,7 @@ struct KdTree<D>::Forest {
     trees.resize(top.leaves);
     for_chunks(top.leaves, 1, quiet, [&](Range range) { plant(range.first, input); });
     for_chunks(input.size(), tree_grain, quiet, [&](Range range) {
-      for (std::size_t i = range.first; i < range.last; ++i) place_of[ids[i]] = static_cast<std::uint32_t>(i);
+      for (std::size_t i = range.first; i < range.last; ++i) place_of[ids[i]] = as_whole<std::uint32_t>(i);
     });
   }
 
@@ -228,8 +228,8 @@ struct KdTree<D>::Forest {
     trees[leaf] = std::make_unique<Tree<D>>(points.data() + begin, count);
     auto& index = trees[leaf]->index;
     index.buildIndex();
-    const std::vector<VertexId> unsorted(ids.begin() + static_cast<std::ptrdiff_t>(begin),
-                                         ids.begin() + static_cast<std::ptrdiff_t>(begin + count));
+    const std::vector<VertexId> unsorted(ids.begin() + as_whole<std::ptrdiff_t>(begin),
+                                         ids.begin() + as_whole<std::ptrdiff_t>(begin + count));
     for (std::size_t i = 0; i < count; ++i) {
       ids[begin + i] = unsorted[index.vAcc[i]];
       points[begin + i] = input[ids[begin + i]];

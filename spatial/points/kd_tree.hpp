@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/whole.hpp"
 #include "parallel/chunks.hpp"
 #include "spatial/points/neighbour.hpp"
 
@@ -50,7 +51,7 @@ class KdTree {
   template <class Visit>
   void for_each_later_pair(Range ids, const SearchRadius& radius, const Visit& visit) const {
     for (std::size_t next = ids.first; next < ids.last; ++next) {
-      const auto i = static_cast<VertexId>(next);
+      const auto i = as_whole<VertexId>(next);
       for_each_within(point(i), radius, [&](VertexId j, double) {
         if (j > i) visit(i, j);
       });

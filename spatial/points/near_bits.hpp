@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "core/base/types.hpp"
+#include "core/base/whole.hpp"
 
 namespace warren::detail {
 
@@ -19,7 +20,7 @@ inline std::uint64_t near_bits_plain(const double* x, const double* y, std::uint
   for (std::uint32_t i = 0; i < count; ++i) {
     const double dx = x[i] - p.x;
     const double dy = y[i] - p.y;
-    bits |= static_cast<std::uint64_t>(dx * dx + dy * dy <= square) << i;
+    bits |= as_whole<std::uint64_t>(dx * dx + dy * dy <= square) << i;
   }
   return bits;
 }
@@ -35,7 +36,7 @@ inline std::uint64_t near_bits(const double* x, const double* y, std::uint32_t c
     const __m128d dy = _mm_sub_pd(_mm_loadu_pd(y + i), py);
     const __m128d sum = _mm_add_pd(_mm_mul_pd(dx, dx), _mm_mul_pd(dy, dy));
     const int near = _mm_movemask_pd(_mm_cmple_pd(sum, _mm_set1_pd(square)));
-    bits |= static_cast<std::uint64_t>(near) << i;
+    bits |= as_whole<std::uint64_t>(near) << i;
   }
   return bits & (~std::uint64_t{0} >> (64 - count));
 }

@@ -12,12 +12,13 @@
 #include <type_traits>
 
 #include "core/base/types.hpp"
+#include "core/base/whole.hpp"
 
 namespace warren {
 
 /// A point of D-dimensional space, as the indices take it: Vec2 in the plane, else an array.
 template <int D>
-using PointOf = std::conditional_t<D == 2, Vec2, std::array<double, static_cast<std::size_t>(D)>>;
+using PointOf = std::conditional_t<D == 2, Vec2, std::array<double, as_whole<std::size_t>(D)>>;
 
 struct Neighbour {
   VertexId id;

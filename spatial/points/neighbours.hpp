@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/base/whole.hpp"
 #include "parallel/chunks.hpp"
 #include "spatial/points/kd_tree.hpp"
 #include "spatial/points/point_grid.hpp"
@@ -90,7 +91,7 @@ class Neighbours {
     with([&](const auto& index) {
       std::vector<Neighbour> found;
       for (std::size_t i = ids.first; i < ids.last; ++i) {
-        const auto id = static_cast<VertexId>(i);
+        const auto id = as_whole<VertexId>(i);
         index.nearest(index.point(id), k, id, found);
         visit(id, std::as_const(found));
       }

@@ -69,11 +69,11 @@ void PointGrid::file_points(const Execution& execution) {
     std::size_t next = range.first == 0 ? 0 : std::size_t{frame_.cell_of(points_[range.first - 1])} + 1;  // not filed
     for (std::size_t i = range.first; i < range.last; ++i) {
       const std::size_t cell = frame_.cell_of(points_[i]);
-      for (; next <= cell; ++next) begin_[next] = static_cast<std::uint32_t>(i);
+      for (; next <= cell; ++next) begin_[next] = as_whole<std::uint32_t>(i);
     }
   });
   const std::size_t last = frame_.cell_of(points_.back());
-  std::fill(begin_.begin() + static_cast<std::ptrdiff_t>(last) + 1, begin_.end(), static_cast<std::uint32_t>(n));
+  std::fill(begin_.begin() + as_whole<std::ptrdiff_t>(last) + 1, begin_.end(), as_whole<std::uint32_t>(n));
 }
 
 void PointGrid::sort_points(std::span<const Vec2> points, const Execution& execution) {
@@ -87,7 +87,7 @@ void PointGrid::sort_points(std::span<const Vec2> points, const Execution& execu
   for_chunks(points.size(), grid_grain, detail::quiet(execution), [&](Range range) {
     for (std::size_t place = range.first; place < range.last; ++place) {
       sorted_[place] = points[id_[place]];
-      place_of_[id_[place]] = static_cast<std::uint32_t>(place);
+      place_of_[id_[place]] = as_whole<std::uint32_t>(place);
     }
   });
   points_ = sorted_;
@@ -107,7 +107,7 @@ void PointGrid::nearest_in_window(Vec2 p, const Window& w, double square, std::s
                                   std::vector<Neighbour>& out) const {
   out.clear();
   const auto keep_best = [&] {
-    std::nth_element(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(k) - 1, out.end());
+    std::nth_element(out.begin(), out.begin() + as_whole<std::ptrdiff_t>(k) - 1, out.end());
     out.resize(k);
     square = SearchRadius(out.back().distance).square();
   };

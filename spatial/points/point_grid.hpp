@@ -17,6 +17,7 @@
 
 #include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
+#include "core/base/whole.hpp"
 #include "parallel/chunks.hpp"
 #include "spatial/points/near_bits.hpp"
 #include "spatial/points/neighbour.hpp"
@@ -90,7 +91,7 @@ class PointGrid {
   /// that it belongs to. The points come in tile order.
   VertexId last_of(VertexId i, Range ids, std::uint32_t cells) const {
     const std::size_t cell = frame_.cell_of(point(i)) | (cells - 1);
-    return static_cast<VertexId>(std::min<std::size_t>(begin_[std::min(cell + 1, begin_.size() - 1)], ids.last));
+    return as_whole<VertexId>(std::min<std::size_t>(begin_[std::min(cell + 1, begin_.size() - 1)], ids.last));
   }
   std::size_t nearest_in_disc(Vec2 p, const Window& w, double square, std::size_t k, VertexId except,
                               std::vector<Neighbour>& out) const;
@@ -138,7 +139,7 @@ class PointGrid::Gathering {
         const double sum = along.x * along.x + along.y * along.y;
         place_[count_] = first;
         sum_[count_] = sum;
-        count_ += static_cast<std::uint32_t>(sum <= square_);
+        count_ += as_whole<std::uint32_t>(sum <= square_);
       }
     }
   }
@@ -184,7 +185,7 @@ void PointGrid::for_each_relaxable(Vec2 p, const SearchRadius& radius, double th
       const std::uint32_t count = std::min(last - first, 64U);
       std::uint64_t bits = detail::relaxable_bits(&points_[first], &labels[first], count, by, set);
       for (; bits != 0; bits &= bits - 1) {
-        const std::uint32_t place = first + static_cast<std::uint32_t>(std::countr_zero(bits));
+        const std::uint32_t place = first + as_whole<std::uint32_t>(std::countr_zero(bits));
         visit(place, distance(p, points_[place]));
       }
     }
@@ -222,7 +223,7 @@ class PointGrid::CellCandidates {
   void visit_later(std::uint32_t place, double square, const Visit& visit) const {
     for (std::uint32_t from = place - first_ + 1; from < count_; from += 64) {
       for (std::uint64_t near = near_bits(from, grid_.points_[place], square); near != 0; near &= near - 1)
-        visit(place, place_[from + static_cast<std::uint32_t>(std::countr_zero(near))]);
+        visit(place, place_[from + as_whole<std::uint32_t>(std::countr_zero(near))]);
     }
   }
 
@@ -263,7 +264,7 @@ void PointGrid::for_each_later_pair(Range ids, const SearchRadius& radius, const
   };
   constexpr std::uint32_t cells_together = 4;  // looked around once: fewer looks, but more points for each to compare
   CellCandidates candidates(*this);
-  auto i = static_cast<VertexId>(ids.first);
+  auto i = as_whole<VertexId>(ids.first);
   while (i < ids.last) {
     if (!in_tile_order()) {
       visit_one(i++);

@@ -7,6 +7,8 @@
 
 #include <cmath>
 
+#include "core/base/whole.hpp"
+
 namespace warren::detail {
 namespace {
 
@@ -16,7 +18,7 @@ std::uint64_t relaxable_baseline(const Vec2* points, const double* labels, std::
   for (std::uint32_t i = 0; i < count; ++i) {
     const Vec2 off = points[i] - by.p;
     const double sum = off.x * off.x + off.y * off.y;
-    const bool is_near = static_cast<int>(sum <= by.square) & static_cast<int>(by.through < labels[i]);
+    const bool is_near = as_whole<int>(sum <= by.square) & as_whole<int>(by.through < labels[i]);
     if (is_near && by.through + std::sqrt(sum) < labels[i]) bits |= std::uint64_t{1} << i;
   }
   return bits;
@@ -50,7 +52,7 @@ std::uint64_t relaxable_baseline(const Vec2* points, const double* labels, std::
     if (_mm256_movemask_pd(maybe) == 0) continue;
     const __m256d sooner = _mm256_cmp_pd(_mm256_add_pd(through, _mm256_sqrt_pd(sum)), label, _CMP_LT_OQ);
     const int lanes = _mm256_movemask_pd(_mm256_permute4x64_pd(_mm256_and_pd(maybe, sooner), 0b11011000));
-    bits |= static_cast<std::uint64_t>(lanes) << i;
+    bits |= as_whole<std::uint64_t>(lanes) << i;
   }
   return bits;
 }
@@ -65,9 +67,9 @@ std::uint64_t relaxable_baseline(const Vec2* points, const double* labels, std::
     const std::uint32_t left = count - i < 8 ? count - i : 8;
     const std::uint32_t numbers = (1U << 2 * left) - 1;
     const double* xy = &points[i].x;
-    const __m512d a = _mm512_maskz_loadu_pd(static_cast<__mmask8>(numbers), xy);
-    const __m512d b = _mm512_maskz_loadu_pd(static_cast<__mmask8>(numbers >> 8), xy + 8);
-    const auto lanes = static_cast<__mmask8>((1U << left) - 1);
+    const __m512d a = _mm512_maskz_loadu_pd(as_whole<__mmask8>(numbers), xy);
+    const __m512d b = _mm512_maskz_loadu_pd(as_whole<__mmask8>(numbers >> 8), xy + 8);
+    const auto lanes = as_whole<__mmask8>((1U << left) - 1);
     const __m512d label = _mm512_maskz_loadu_pd(lanes, labels + i);
     const __m512d dx = _mm512_sub_pd(_mm512_permutex2var_pd(a, even, b), _mm512_set1_pd(by.p.x));
     const __m512d dy = _mm512_sub_pd(_mm512_permutex2var_pd(a, odd, b), _mm512_set1_pd(by.p.y));

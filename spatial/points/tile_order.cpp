@@ -22,8 +22,8 @@ CellFrame::CellFrame(const Box& box, std::size_t count, double load) {
   origin_ = box.min;
   cell_size_ = size > 0.0 ? size : 1.0;
   scale_ = 1.0 / cell_size_;
-  columns_ = static_cast<std::uint32_t>(std::floor(width * scale_)) + 1;
-  rows_ = static_cast<std::uint32_t>(std::floor(height * scale_)) + 1;
+  columns_ = bounded_whole<std::uint32_t>(std::floor(width * scale_)) + 1;
+  rows_ = bounded_whole<std::uint32_t>(std::floor(height * scale_)) + 1;
 }
 
 Box bounding_box(PlanarView positions, const Execution& execution) {

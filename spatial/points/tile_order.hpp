@@ -13,6 +13,7 @@
 
 #include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
+#include "core/base/whole.hpp"
 #include "parallel/execution.hpp"
 
 namespace warren {
@@ -73,8 +74,7 @@ class CellFrame {
 
  private:
   static std::uint32_t index(double t, std::uint32_t count) {
-    const double last = static_cast<double>(count - 1);
-    return static_cast<std::uint32_t>(static_cast<std::int64_t>(t < 0.0 ? 0.0 : (t > last ? last : t)));
+    return bounded_whole<std::uint32_t>(t, 0.0, static_cast<double>(count - 1));
   }
 
   Vec2 origin_;

@@ -5,6 +5,7 @@
 #include <cassert>
 
 #include "core/base/error.hpp"
+#include "core/base/whole.hpp"
 
 namespace warren {
 namespace {
@@ -47,7 +48,7 @@ void JudgedGridLines::take(const std::string& where, double x1, double y1, doubl
   const double dx = x2 > x1 ? 1 : x2 < x1 ? -1 : 0;
   const double dy = y2 > y1 ? 1 : y2 < y1 ? -1 : 0;
   const auto is_inside = [](double x, double side) {
-    return x >= 0.5 && x <= side + 0.5 && static_cast<double>(static_cast<std::uint64_t>(x)) + 0.5 == x;
+    return x >= 0.5 && x <= side + 0.5 && static_cast<double>(bounded_whole<std::uint64_t>(x)) + 0.5 == x;
   };
   if ((dx == 0) == (dy == 0) || !is_inside(x1, cols()) || !is_inside(x2, cols()) || !is_inside(y1, rows()) ||
       !is_inside(y2, rows())) {
@@ -55,8 +56,8 @@ void JudgedGridLines::take(const std::string& where, double x1, double y1, doubl
   }
   for (; x1 != x2 || y1 != y2; x1 += dx, y1 += dy) {
     if (++units_ % units_per_poll == 0) execution.check();
-    const auto col = static_cast<std::uint64_t>(dx < 0 ? x1 - 1 : x1);  // of the unit's lower or left end, from 0
-    const auto row = static_cast<std::uint64_t>(dy < 0 ? y1 - 1 : y1);
+    const auto col = bounded_whole<std::uint64_t>(dx < 0 ? x1 - 1 : x1);  // of the unit's lower or left end, from 0
+    const auto row = bounded_whole<std::uint64_t>(dy < 0 ? y1 - 1 : y1);
     if (row < held_.first || row > held_.last) continue;
     if (dx != 0) {
       set_bit(level_, (row - held_.first) * cols() + col);
@@ -68,8 +69,8 @@ void JudgedGridLines::take(const std::string& where, double x1, double y1, doubl
 
 /// The lines right of and above the cell.
 unsigned JudgedGridLines::walls_at(std::ptrdiff_t col, std::ptrdiff_t row) const {
-  const auto x = static_cast<std::uint64_t>(col + 1);
-  const auto y = static_cast<std::uint64_t>(row + 1);
+  const auto x = as_whole<std::uint64_t>(col + 1);
+  const auto y = as_whole<std::uint64_t>(row + 1);
   assert(y >= held_.first && y <= held_.last);
   const bool right = y > held_.first && bit(upright_, x * held_.size() + y - 1 - held_.first);
   const bool above = x > 0 && bit(level_, (y - held_.first) * cols() + x - 1);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/whole.hpp"
 
 namespace warren {
 namespace {
@@ -15,7 +16,7 @@ constexpr unsigned tile_side_log2 = 8;
 
 std::uint64_t number_at(std::string_view bytes, std::size_t at, std::size_t size) {
   std::uint64_t number = 0;
-  for (std::size_t i = size; i > 0; --i) number = number << 8U | static_cast<unsigned char>(bytes[at + i - 1]);
+  for (std::size_t i = size; i > 0; --i) number = number << 8U | as_whole<unsigned char>(bytes[at + i - 1]);
   return number;
 }
 
@@ -26,7 +27,7 @@ std::uint32_t side_at(const std::string& name, std::string_view bytes, std::size
   const bool is_known = bytes.size() >= first_cell && bytes.starts_with("\x89WRMAZE\n") && number_at(bytes, 8, 4) == 1;
   const std::uint64_t side = is_known ? number_at(bytes, at, 8) : 0;
   if (side < 1 || side >= std::uint64_t{1} << 27U) throw InputError(name, "is no .maze file that can be judged");
-  return static_cast<std::uint32_t>(side);
+  return as_whole<std::uint32_t>(side);
 }
 
 }  // namespace
@@ -43,7 +44,7 @@ JudgedMazeFile::JudgedMazeFile(const std::string& name, std::string_view bytes, 
 
 bool JudgedMazeFile::stands(std::uint64_t col, std::uint64_t row, bool above) const {
   const std::uint64_t bit = 2 * col + (above ? 1 : 0);
-  const auto byte = static_cast<unsigned char>(bytes_[first_cell + row * row_bytes(cols()) + bit / 8]);
+  const auto byte = as_whole<unsigned char>(bytes_[first_cell + row * row_bytes(cols()) + bit / 8]);
   return (byte >> (bit % 8) & 1U) != 0;
 }
 
@@ -73,10 +74,10 @@ class JudgedMazeFile::Reader : public CellWallReader {
   std::uint8_t walls_of(std::ptrdiff_t col, std::ptrdiff_t row) const {
     if (col < 0) return row == 0 ? 0 : CellTile::right_wall;
     if (row < 0) return CellTile::upper_wall;
-    const auto c = static_cast<std::uint64_t>(col);
-    const auto r = static_cast<std::uint64_t>(row);
-    return static_cast<std::uint8_t>((file_.stands(c, r, false) ? CellTile::right_wall : 0) |
-                                     (file_.stands(c, r, true) ? CellTile::upper_wall : 0));
+    const auto c = as_whole<std::uint64_t>(col);
+    const auto r = as_whole<std::uint64_t>(row);
+    return as_whole<std::uint8_t>((file_.stands(c, r, false) ? CellTile::right_wall : 0) |
+                                  (file_.stands(c, r, true) ? CellTile::upper_wall : 0));
   }
 
   const JudgedMazeFile& file_;

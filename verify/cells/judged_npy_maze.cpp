@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "core/base/error.hpp"
+#include "core/base/whole.hpp"
 
 namespace warren {
 namespace {
@@ -12,7 +13,7 @@ constexpr unsigned npy_side_log2 = 8;
 
 /// Where the numbers begin: behind a header whose length stands at byte 8, in 2 bytes in version 1, in 4 in others.
 std::size_t begin_of_numbers(const std::string& name, std::string_view bytes) {
-  const auto byte = [&](std::size_t at) { return std::size_t{static_cast<unsigned char>(bytes[at])}; };
+  const auto byte = [&](std::size_t at) { return std::size_t{as_whole<unsigned char>(bytes[at])}; };
   if (bytes.size() < 12 || !bytes.starts_with("\x93NUMPY"))
     throw InputError(name, "is no .npy file that can be judged");
   const std::size_t begin = byte(6) == 1

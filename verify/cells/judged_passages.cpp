@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "core/base/error.hpp"
+#include "core/base/whole.hpp"
 
 namespace warren {
 namespace {
@@ -16,7 +17,7 @@ using EightBytes = std::array<std::uint8_t, 8>;
 constexpr std::array<EightBytes, 256> bytes_of_bits() {
   std::array<EightBytes, 256> bytes{};
   for (unsigned bits = 0; bits < 256; ++bits) {
-    for (unsigned i = 0; i < 8; ++i) bytes[bits][i] = static_cast<std::uint8_t>(bits >> i & 1U);
+    for (unsigned i = 0; i < 8; ++i) bytes[bits][i] = as_whole<std::uint8_t>(bits >> i & 1U);
   }
   return bytes;
 }
@@ -41,8 +42,8 @@ JudgedPassages::JudgedPassages(const std::string& where, std::uint32_t rows, std
 unsigned JudgedPassages::walls_at(std::ptrdiff_t col, std::ptrdiff_t row) const {
   if (col < 0) return row == 0 ? 0U : CellTile::right_wall;
   if (row < 0) return CellTile::upper_wall;
-  const std::size_t word = static_cast<std::size_t>(row) * words_a_row_ + static_cast<std::size_t>(col) / 64;
-  const unsigned bit = static_cast<unsigned>(col) % 64;
+  const std::size_t word = as_whole<std::size_t>(row) * words_a_row_ + as_whole<std::size_t>(col) / 64;
+  const unsigned bit = as_whole<unsigned>(col) % 64;
   const bool is_last_col = col + 1 == std::ptrdiff_t{cols()};
   const bool is_last_row = row + 1 == std::ptrdiff_t{rows()};
   const bool right = is_last_col ? !is_last_row : (right_[word] >> bit & 1U) == 0;
@@ -58,13 +59,13 @@ class JudgedPassages::Reader : public CellWallReader {
     const auto width = std::ptrdiff_t{tile.width};
     for (std::ptrdiff_t row = 0; row < std::ptrdiff_t{tile.height}; ++row) {
       const std::size_t word =
-          (tile.first_row + static_cast<std::size_t>(row)) * passages_.words_a_row_ + tile.first_col / 64;
+          (tile.first_row + as_whole<std::size_t>(row)) * passages_.words_a_row_ + tile.first_col / 64;
       const std::uint64_t right = ~passages_.right_[word];
       const std::uint64_t above = ~passages_.up_[word];
       std::uint8_t* to = tile.walls.data() + tile.index(0, row);
       for (std::ptrdiff_t col = 0; col < width; col += 8) {
         const std::uint64_t walls = walls_of(right >> col, above >> col);
-        std::memcpy(to + col, &walls, static_cast<std::size_t>(std::min<std::ptrdiff_t>(8, width - col)));
+        std::memcpy(to + col, &walls, as_whole<std::size_t>(std::min<std::ptrdiff_t>(8, width - col)));
       }
       look_up(tile, -1, row);
       look_up(tile, width - 1, row);
@@ -78,7 +79,7 @@ class JudgedPassages::Reader : public CellWallReader {
  private:
   /// On the rim of the tile, which may be the maze's.
   void look_up(CellTile& tile, std::ptrdiff_t col, std::ptrdiff_t row) const {
-    tile.walls[tile.index(col, row)] = static_cast<std::uint8_t>(
+    tile.walls[tile.index(col, row)] = as_whole<std::uint8_t>(
         passages_.walls_at(std::ptrdiff_t{tile.first_col} + col, std::ptrdiff_t{tile.first_row} + row));
   }
   const JudgedPassages& passages_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "verify/cells/looked_up_walls.hpp"
 
+#include "core/base/whole.hpp"
+
 namespace warren {
 
 class LookedUpWalls::Reader : public CellWallReader {
@@ -11,7 +13,7 @@ class LookedUpWalls::Reader : public CellWallReader {
     for (std::ptrdiff_t row = -1; row < std::ptrdiff_t{tile.height}; ++row) {
       for (std::ptrdiff_t col = -1; col < std::ptrdiff_t{tile.width}; ++col) {
         tile.walls[tile.index(col, row)] =
-            static_cast<std::uint8_t>(walls_.walls_at(std::ptrdiff_t{tile.first_col} + col, tile.first_row + row));
+            as_whole<std::uint8_t>(walls_.walls_at(std::ptrdiff_t{tile.first_col} + col, tile.first_row + row));
       }
     }
   }

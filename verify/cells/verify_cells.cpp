@@ -13,6 +13,7 @@
 #include "core/base/error.hpp"
 #include "core/base/let_go.hpp"
 #include "core/base/raw_vector.hpp"
+#include "core/base/whole.hpp"
 #include "parallel/asked_growth.hpp"
 #include "parallel/chunks.hpp"
 #include "parallel/polled_sort.hpp"
@@ -79,7 +80,7 @@ class LegsAmongCells {
   Cells around(std::size_t leg) const {
     const Box box = box_of(legs_.leg(leg)).grown(reach_);
     const auto cell = [](double x, std::uint32_t count) {
-      return static_cast<std::uint32_t>(std::clamp(std::floor(x - 0.5), 0.0, count - 1.0));
+      return bounded_whole<std::uint32_t>(x - 0.5, 0.0, count - 1.0);
     };
     return {cell(box.min.x, cells_.cols()), cell(box.min.y, cells_.rows()), cell(box.max.x, cells_.cols()),
             cell(box.max.y, cells_.rows())};
@@ -157,8 +158,8 @@ class LegsAmongCells {
                          Comparison& comparison) {
     const unsigned walls = tile.walls[tile.index(col, row)];
     const auto place = [&](bool is_upper) {
-      return number_of(static_cast<std::uint32_t>(std::ptrdiff_t{tile.first_col} + col + 1),
-                       static_cast<std::uint32_t>(std::ptrdiff_t{tile.first_row} + row + 1), is_upper);
+      return number_of(as_whole<std::uint32_t>(std::ptrdiff_t{tile.first_col} + col + 1),
+                       as_whole<std::uint32_t>(std::ptrdiff_t{tile.first_row} + row + 1), is_upper);
     };
     const auto with = [&](std::size_t wall) { comparison.with_leg(leg, {wall_of(wall), wall}); };
     if ((walls & CellTile::right_wall) != 0 && row >= 0) with(place(false));

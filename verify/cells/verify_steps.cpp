@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/whole.hpp"
 #include "parallel/chunks.hpp"
 #include "verify/cells/verify_cells.hpp"
 #include "verify/judges/leg_reports.hpp"
@@ -24,7 +25,7 @@ struct Cell {
 /// The cell whose middle this is.
 std::optional<Cell> cell_at(const LookedUpWalls& walls, Vec2 p) {
   if (!(p.x >= 1.0 && p.y >= 1.0 && p.x <= walls.cols() && p.y <= walls.rows())) return std::nullopt;
-  const Cell cell{static_cast<std::ptrdiff_t>(p.x) - 1, static_cast<std::ptrdiff_t>(p.y) - 1};
+  const Cell cell{bounded_whole<std::ptrdiff_t>(p.x) - 1, bounded_whole<std::ptrdiff_t>(p.y) - 1};
   const bool is_middle = static_cast<double>(cell.col + 1) == p.x && static_cast<double>(cell.row + 1) == p.y;
   return is_middle ? std::optional(cell) : std::nullopt;
 }

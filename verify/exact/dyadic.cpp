@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "core/base/whole.hpp"
+
 namespace warren {
 namespace {
 
@@ -28,7 +30,7 @@ Limbs sum(Limbs a, const Limbs& b) {
   std::uint64_t carry = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
     carry += std::uint64_t{a[i]} + (i < b.size() ? b[i] : 0);
-    a[i] = static_cast<std::uint32_t>(carry);
+    a[i] = as_whole<std::uint32_t>(carry);
     carry >>= 32;
   }
   return a;
@@ -40,7 +42,7 @@ Limbs difference(Limbs a, const Limbs& b) {
   for (std::size_t i = 0; i < a.size(); ++i) {
     const std::uint64_t taken = borrow + (i < b.size() ? b[i] : 0);
     borrow = taken > a[i] ? 1 : 0;
-    a[i] = static_cast<std::uint32_t>(a[i] - taken);
+    a[i] = as_whole<std::uint32_t>(a[i] - taken);
   }
   return a;
 }
@@ -51,10 +53,10 @@ Limbs product(const Limbs& a, const Limbs& b) {
     std::uint64_t carry = 0;
     for (std::size_t j = 0; j < b.size(); ++j) {
       carry += std::uint64_t{a[i]} * b[j] + result[i + j];
-      result[i + j] = static_cast<std::uint32_t>(carry);
+      result[i + j] = as_whole<std::uint32_t>(carry);
       carry >>= 32;
     }
-    result[i + b.size()] = static_cast<std::uint32_t>(carry);
+    result[i + b.size()] = as_whole<std::uint32_t>(carry);
   }
   return result;
 }
@@ -70,25 +72,24 @@ Dyadic::Dyadic(double value) {
   if (value == 0.0) return;
   int binary_exponent = 0;
   const double fraction = std::frexp(std::abs(value), &binary_exponent);
-  const auto mantissa = static_cast<std::uint64_t>(std::ldexp(fraction, 53));
+  const auto mantissa = bounded_whole<std::uint64_t>(std::ldexp(fraction, 53));
   binary_exponent -= 53;
   const int shift = ((binary_exponent % 32) + 32) % 32;
   const std::uint64_t low = (mantissa & 0xffffffffU) << shift;
   const std::uint64_t high = ((mantissa >> 32) << shift) + (low >> 32);
-  *this = Dyadic(
-      value > 0.0 ? 1 : -1, (binary_exponent - shift) / 32,
-      {static_cast<std::uint32_t>(low), static_cast<std::uint32_t>(high), static_cast<std::uint32_t>(high >> 32)});
+  *this = Dyadic(value > 0.0 ? 1 : -1, (binary_exponent - shift) / 32,
+                 {as_whole<std::uint32_t>(low), as_whole<std::uint32_t>(high), as_whole<std::uint32_t>(high >> 32)});
 }
 
 double Dyadic::rounded() const {
   const std::size_t parts = std::min<std::size_t>(limbs_.size(), 3);  // 65 bits or more, where there are as many
   double value = 0.0;
   for (std::size_t i = 1; i <= parts; ++i) value = 0x1p32 * value + limbs_[limbs_.size() - i];
-  return sign_ * std::ldexp(value, 32 * (exponent_ + static_cast<int>(limbs_.size() - parts)));
+  return sign_ * std::ldexp(value, 32 * (exponent_ + as_whole<int>(limbs_.size() - parts)));
 }
 
 Dyadic::Limbs Dyadic::limbs_from(int exponent) const {
-  Limbs limbs(static_cast<std::size_t>(exponent_ - exponent));
+  Limbs limbs(as_whole<std::size_t>(exponent_ - exponent));
   limbs.insert(limbs.end(), limbs_.begin(), limbs_.end());
   return limbs;
 }

@@ -37,7 +37,7 @@ BodyVerifier::BodyVerifier(const Scene& scene, std::span<const Vec2> outline, do
   for (const Vec2 p : outline_) radius_ = std::max(radius_, portable::hypot(p.x, p.y));
   bend_ = 1e-15 * surroundings_.largest_coordinate();
   rounding_ = 2e-14 * (surroundings_.largest_coordinate() + 2.0 * radius_ + clearance) + 4.0 * bend_;
-  finest_ = 1e-9 * radius_;
+  finest_ = std::max(1e-9 * radius_, 0.1 * rounding_);  // so no leg is halved more than some 50 times
   close_ = 1e-3 * radius_;
   if (index_ != nullptr) return;
   for (const Ring& ring : obstacles_.rings()) {
@@ -47,7 +47,8 @@ BodyVerifier::BodyVerifier(const Scene& scene, std::span<const Vec2> outline, do
   }
 }
 
-/// Around the body and its reach on parts of the leg, which are about as long as the boxes are wide.
+/// Around the body and its reach on parts of the leg, which are about as long as the boxes are wide. Ends are in the
+/// box of the obstacles, and a turn is half of one at most: so the leg is hardly longer than that box.
 std::vector<Box> BodyVerifier::boxes_of(const Leg& leg) const {
   const double around = (radius_ + reach_) * (1.0 + 1e-9) + rounding_;
   constexpr double most_parts = 65536.0;
@@ -71,12 +72,13 @@ std::vector<Box> BodyVerifier::boxes_of(const Leg& leg) const {
   return boxes;
 }
 
-void BodyVerifier::look_around(std::span<const Leg> legs, double reach) {
+void BodyVerifier::look_around(std::span<const Leg> legs, std::span<const std::uint8_t> settled, double reach) {
   reach_ = reach;
   if (map_ != nullptr) return;  // is read where it is asked
   constexpr std::size_t many = 1024;
   std::vector<Box> boxes;
   for (std::size_t i = 0; i < legs.size(); ++i) {
+    if (settled[i] != 0) continue;
     const std::vector<Box> more = boxes_of(legs[i]);
     if (i % many == 0 || more.size() >= many) execution_.reserve((many + more.size()) * sizeof(Box));  // and polls
     boxes.insert(boxes.end(), more.begin(), more.end());

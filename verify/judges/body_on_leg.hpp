@@ -30,17 +30,20 @@ class BodyVerifier {
   BodyVerifier(const Scene& scene, std::span<const Vec2> outline, double clearance, double poses_off,
                const Execution& execution, const ObstacleIndex* index);
 
-  /// What all legs come to: report_of(i, sides) says it of the i-th, with scratch for its sides, once or several times:
-  /// at first with the obstacles up to `reach` away, then with ever more until the least distance is known.
-  template <class ReportOf>
-  LegReport check_all(std::span<const Leg> legs, std::span<const Se2> path, double reach, const ReportOf& report_of);
+  /// What all legs come to. settle(i) says of the i-th what needs no obstacle near it; where that is a violation, the
+  /// leg is looked at no more: it may go anywhere. Of the others report_of(i, sides) says the rest, with scratch for
+  /// the sides, once or several times: at first with the obstacles up to `reach` away, then with ever more until the
+  /// least distance is known.
+  template <class Settle, class ReportOf>
+  LegReport check_all(std::span<const Leg> legs, std::span<const Se2> path, double reach, const Settle& settle,
+                      const ReportOf& report_of);
   double least_reach() const { return 1.01 * clearance_ + radius_; }
 
   /// How far poses may lie beside the line that is checked in their place.
   double bend() const { return bend_; }
 
   /// All sides that may be near the leg or a part of it.
-  void gather(const Leg& leg, Sides& sides) const { surroundings_.gather(boxes_of(leg), sides); }
+  void gather(const Leg& leg, Sides& sides) const { surroundings_.gather(boxes_of(leg), sides, execution_); }
   /// `number` is what a violation calls the leg.
   LegReport check(const Leg& leg, const Sides& sides, std::size_t number) const {
     if (leg.turn == 0.0) return check_straight(leg, sides, number);
@@ -55,8 +58,8 @@ class BodyVerifier {
     std::size_t side;  // of the leg's
     double distance;
   };
-  /// Obstacles farther than `reach` from these legs are left out from now on.
-  void look_around(std::span<const Leg> legs, double reach);
+  /// Obstacles farther than `reach` from these legs, but for the settled ones, are left out from now on.
+  void look_around(std::span<const Leg> legs, std::span<const std::uint8_t> settled, double reach);
   /// Does any reach that is larger find the same?
   bool looks_everywhere(std::span<const Se2> path) const;
   std::vector<Box> boxes_of(const Leg& leg) const;
@@ -99,19 +102,35 @@ class BodyVerifier {
   double close_ = 0.0;     // how sharp the least clearance shall be
 };
 
-template <class ReportOf>
+template <class Settle, class ReportOf>
 LegReport BodyVerifier::check_all(std::span<const Leg> legs, std::span<const Se2> path, double reach,
-                                  const ReportOf& report_of) {
+                                  const Settle& settle, const ReportOf& report_of) {
   constexpr double widening = 8.0;
   constexpr std::size_t legs_a_chunk = 16;
+  Execution quiet = execution_;
+  quiet.progress = nullptr;
+  execution_.reserve(legs.size());
+  std::vector<std::uint8_t> settled(legs.size());
+  const LegReport at_once = report_legs(legs.size(), legs_a_chunk, quiet, [&](Range r) {
+    LegReport part;
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      const LegReport leg = settle(i);
+      settled[i] = leg.violation ? 1 : 0;
+      part.add(leg);
+    }
+    return part;
+  });
   for (;; reach *= widening) {
-    look_around(legs, reach);
-    LegReport whole = report_legs(legs.size(), legs_a_chunk, execution_, [&](Range r) {
+    look_around(legs, settled, reach);
+    LegReport whole = at_once;
+    whole.add(report_legs(legs.size(), legs_a_chunk, execution_, [&](Range r) {
       Sides scratch;
       LegReport part;
-      for (std::size_t i = r.first; i < r.last; ++i) part.add(report_of(i, scratch));
+      for (std::size_t i = r.first; i < r.last; ++i) {
+        if (settled[i] == 0) part.add(report_of(i, scratch));
+      }
       return part;
-    });
+    }));
     if (whole.least <= reach || looks_everywhere(path)) return whole;
   }
 }

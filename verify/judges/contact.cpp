@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/base/whole.hpp"
 #include "verify/exact/exact_segments.hpp"
 
 namespace warren {
@@ -131,7 +132,7 @@ class Surroundings {
     if (n < 2) return 0;
     const DirectionOrder order(at_);
     const auto after = std::upper_bound(directions_.begin(), directions_.end(), p, order);
-    const std::size_t i = static_cast<std::size_t>(after - directions_.begin()) + n - 1;
+    const std::size_t i = as_whole<std::size_t>(after - directions_.begin()) + n - 1;
     const bool on_direction = order.same(directions_[i % n], p);
     return (on_direction && !anticlockwise ? i + n - 1 : i) % n;
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/base/whole.hpp"
 #include "parallel/chunks.hpp"
 
 namespace warren {
@@ -54,8 +55,8 @@ bool runs_along_blocked(const OccupancyMap& map, const Segment& wall) {
     const double rounding = 1e-6 + 4e-15 * (norm(end) + norm(map.origin)) / map.cell;  // cells
     if (!(std::abs(p.x) <= most && std::abs(p.y) <= most)) return false;
     if (std::abs(p.x - std::round(p.x)) > rounding || std::abs(p.y - std::round(p.y)) > rounding) return false;
-    ends[number][0] = std::llround(p.x);
-    ends[number++][1] = std::llround(p.y);
+    ends[number][0] = bounded_whole<std::int64_t>(std::round(p.x));
+    ends[number++][1] = bounded_whole<std::int64_t>(std::round(p.y));
   }
   const bool level = ends[0][1] == ends[1][1];
   if (!level && ends[0][0] != ends[1][0]) return false;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/whole.hpp"
 #include "parallel/chunks.hpp"
 #include "verify/exact/exact_segments.hpp"
 #include "verify/near/leg_boxes.hpp"
@@ -75,7 +76,7 @@ class ObstaclePass {
       halves.push_back(0.5 * std::max(box.width(), box.height()));
     }
     if (halves.empty()) return 0.0;
-    const auto middle = halves.begin() + static_cast<std::ptrdiff_t>(halves.size() / 2);
+    const auto middle = halves.begin() + as_whole<std::ptrdiff_t>(halves.size() / 2);
     std::nth_element(halves.begin(), middle, halves.end());
     return *middle;
   }

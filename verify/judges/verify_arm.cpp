@@ -11,6 +11,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/trigonometry.hpp"
+#include "core/base/whole.hpp"
 #include "verify/judges/judged_input.hpp"
 #include "verify/judges/leg_reports.hpp"
 
@@ -197,7 +198,7 @@ std::vector<Point> ArmVerifier::origins_at(const JointState& q) const {
   }
   Point tool = origins.back();
   for (std::size_t row = 0; row < 3; ++row) {
-    for (std::size_t k = 0; k < 3; ++k) tool[row] += frame[row][k] * table_.tool.translation()[static_cast<int>(k)];
+    for (std::size_t k = 0; k < 3; ++k) tool[row] += frame[row][k] * table_.tool.translation()[as_whole<int>(k)];
   }
   origins.push_back(tool);
   return origins;

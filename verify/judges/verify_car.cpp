@@ -72,7 +72,12 @@ class CarVerifier {
 
   LegReport check() {
     const double reach = std::max(body_.least_reach(), 0.01 * car_.turning_radius);
-    return body_.check_all(motions_, path_, reach, [&](std::size_t i, Sides& sides) { return check_motion(i, sides); });
+    return body_.check_all(
+        motions_, path_, reach, [&](std::size_t i) { return settle(i); },
+        [&](std::size_t i, Sides& sides) {
+          body_.gather(motions_[i], sides);
+          return body_.check(motions_[i], sides, leg_of_motion_[i]);
+        });
   }
   /// Length, turns and gears.
   void measure(Verification& result) const;
@@ -80,14 +85,13 @@ class CarVerifier {
  private:
   static constexpr double small = 1e-9;  // what poses may be off by, in turning radii
 
-  LegReport check_motion(std::size_t motion, Sides& sides) const {
+  LegReport settle(std::size_t motion) const {
     const std::size_t i = leg_of_motion_[motion];
     LegReport report;
     report.violation = check_driving(legs_[i], i);
+    if (report.violation) report.least = report.met = 0.0;  // where it goes nobody knows
     report.add(body_.check_pose(path_[i], i));
     report.add(body_.check_pose(path_[std::min(i + 1, path_.size() - 1)], i));
-    body_.gather(motions_[motion], sides);
-    report.add(body_.check(motions_[motion], sides, i));
     return report;
   }
   std::optional<Violation> check_driving(const CarLeg& leg, std::size_t number) const;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/base/whole.hpp"
 #include "parallel/chunks.hpp"
 #include "verify/exact/exact_segments.hpp"
 #include "verify/judges/contact.hpp"
@@ -151,7 +152,7 @@ std::size_t first_misfit(std::span<const Vec2> path, const Execution& execution)
     const auto fits = [](Vec2 p) { return std::abs(p.x) <= largest_coordinate && std::abs(p.y) <= largest_coordinate; };
     const auto part = path.subspan(r.first, r.size());
     const auto misfit = std::find_if_not(part.begin(), part.end(), fits);
-    if (misfit != part.end()) first[r.first / grain] = r.first + static_cast<std::size_t>(misfit - part.begin());
+    if (misfit != part.end()) first[r.first / grain] = r.first + as_whole<std::size_t>(misfit - part.begin());
   });
   return *std::min_element(first.begin(), first.end());
 }

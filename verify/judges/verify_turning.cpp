@@ -21,25 +21,37 @@ constexpr double full_turn = 2.0 * std::numbers::pi;
 /// A path, cut into runs that are checked as one leg each.
 class PathCheck {
  public:
-  PathCheck(BodyVerifier& body, std::span<const Se2> path, const Execution& execution)
-      : body_(body), path_(path), runs_(pose_runs(path, body.bend(), execution)) {
+  PathCheck(BodyVerifier& body, std::span<const Se2> path, const Execution& execution) : body_(body), path_(path) {
+    for (const PoseRun& run : pose_runs(path, body.bend(), execution)) add(run);
     execution.reserve(runs_.size() * sizeof(Leg));
     for (const PoseRun& run : runs_) legs_.push_back(leg_of(path, run));
   }
 
   LegReport check(double reach) {
-    return body_.check_all(legs_, path_, reach, [&](std::size_t i, Sides& sides) { return check_run(i, sides); });
+    return body_.check_all(
+        legs_, path_, reach, [&](std::size_t i) { return settle(runs_[i]); },
+        [&](std::size_t i, Sides& sides) { return check_run(i, sides); });
   }
 
  private:
+  /// A run to or from where the body may not be goes leg by leg: one before may be the first to blame.
+  void add(const PoseRun& run) {
+    if (run.legs() < 2 || !settle(run).violation) return runs_.push_back(run);
+    for (std::size_t i = run.first; i < run.last; ++i) runs_.push_back({i, i + 1});
+  }
+
+  LegReport settle(const PoseRun& run) const {
+    LegReport report = body_.check_pose(path_[run.first], run.first);
+    report.add(body_.check_pose(path_[run.last], run.last - std::min<std::size_t>(run.legs(), 1)));
+    return report;
+  }
+
   /// A single leg of about half a turn is checked both ways round.
   LegReport check_run(std::size_t number, Sides& sides) const {
     const PoseRun& run = runs_[number];
     const Leg& leg = legs_[number];
-    LegReport report = body_.check_pose(path_[run.first], run.first);
-    report.add(body_.check_pose(path_[run.last], run.last - std::min<std::size_t>(run.legs(), 1)));
     body_.gather(leg, sides);
-    report.add(blamed(run, body_.check(leg, sides, run.first), sides));
+    LegReport report = blamed(run, body_.check(leg, sides, run.first), sides);
     constexpr double nearly_half = 0.5 * full_turn * (1.0 - 1e-12);
     if (std::abs(leg.turn) >= nearly_half) {
       report.add(body_.check({leg.a, leg.way, leg.turn - std::copysign(full_turn, leg.turn)}, sides, run.first));

@@ -14,10 +14,10 @@ void BoxBlocks::put_in_order(RawVector<Middle>& middles, const Execution& execut
   polled_sort(middles.begin(), middles.end(), execution,
               [](const Middle& a, const Middle& b) { return a.x != b.x ? a.x < b.x : a.number < b.number; });
   const std::size_t blocks = chunk_count(count, block_size);
-  const auto stripes = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(blocks))));
+  const auto stripes = bounded_whole<std::size_t>(std::ceil(std::sqrt(static_cast<double>(blocks))));
   order_.resize(count);
   for_chunks(count, chunk_count(blocks, stripes) * block_size, execution, [&](Range r) {
-    const auto at = [&](std::size_t i) { return middles.begin() + static_cast<std::ptrdiff_t>(i); };
+    const auto at = [&](std::size_t i) { return middles.begin() + as_whole<std::ptrdiff_t>(i); };
     polled_sort(at(r.first), at(r.last), execution,
                 [](const Middle& a, const Middle& b) { return a.y != b.y ? a.y < b.y : a.number < b.number; });
     for (std::size_t i = r.first; i < r.last; ++i) order_[i] = middles[i].number;

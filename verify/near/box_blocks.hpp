@@ -18,6 +18,7 @@
 
 #include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
+#include "core/base/whole.hpp"
 #include "parallel/chunks.hpp"
 #include "parallel/execution.hpp"
 
@@ -80,7 +81,7 @@ BoxBlocks::BoxBlocks(std::size_t count, const BoxOf& box_of, const Execution& ex
   for_chunks(count, grain, execution, [&](Range r) {
     for (std::size_t i = r.first; i < r.last; ++i) {
       const Box box = box_of(i);
-      middles[i] = {box.min.x + box.max.x, box.min.y + box.max.y, static_cast<std::uint32_t>(i)};
+      middles[i] = {box.min.x + box.max.x, box.min.y + box.max.y, as_whole<std::uint32_t>(i)};
     }
   });
   put_in_order(middles, execution);

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/base/whole.hpp"
 #include "core/plane/packed_wall.hpp"
 #include "verify/near/cell_axis.hpp"
 
@@ -79,8 +80,7 @@ struct CoveredCells {
 
   [[gnu::always_inline]] static inline std::int32_t cell(double units, double before, double end) {
     const double at = units - before;
-    const double above = at > 0.0 ? at : 0.0;
-    return static_cast<std::int32_t>(above < end ? above : end) >> cell_quantum_bits;
+    return bounded_whole<std::int32_t>(at, 0.0, end) >> cell_quantum_bits;
   }
 
   [[gnu::always_inline]] static inline std::int32_t cell(std::int32_t units, std::int32_t before, std::int32_t end) {

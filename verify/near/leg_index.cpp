@@ -52,14 +52,14 @@ LegIndex::LegIndex(const LegBoxes& legs, const Plan& plan, const Execution& exec
   // Half a cell more, because paths like to run on a lattice, and better through the middle of cells than between two.
   const double before = (static_cast<double>(margin) + 0.5) * cell_;
   origin_ = box_.min - Vec2{before, before};
-  const auto count = [this](double extent) { return static_cast<std::size_t>(extent * per_cell_) + 2 + 2 * margin; };
+  const auto count = [this](double extent) { return bounded_whole<std::size_t>(extent * per_cell_) + 2 + 2 * margin; };
   levels_.push_back(empty_level(count(box_.width()), count(box_.height()), execution));
   mark_cells(execution);
   gather_runs(execution);
   for (std::size_t rows = count(box_.height()); levels_.back().columns > 1 || rows > 1; rows = (rows + 1) / 2) {
     levels_.push_back(halved(levels_.back(), execution));
   }
-  for (std::size_t k = 0; k < levels_.size(); ++k) scale_.push_back(std::ldexp(1.0, -static_cast<int>(k)));
+  for (std::size_t k = 0; k < levels_.size(); ++k) scale_.push_back(std::ldexp(1.0, -as_whole<int>(k)));
 }
 
 void LegIndex::choose_cell(const Plan& plan) {
@@ -118,7 +118,7 @@ void LegIndex::mark_cells(const Execution& execution) {
   std::uint32_t marked = 0;
   for (std::size_t w = 0; w < bits.size(); ++w) {
     rank_[w] = marked;
-    marked += static_cast<std::uint32_t>(std::popcount(bits[w]));
+    marked += as_whole<std::uint32_t>(std::popcount(bits[w]));
   }
   rank_[bits.size()] = marked;
 }
@@ -211,7 +211,7 @@ void LegIndex::set_reach(double reach, const Execution& execution) {
   near_.clear();
   for (std::size_t k = 0; k < levels_.size(); ++k) {
     // A wall's half fits one cell of its level, so its legs pass within 1 + reach of its middle.
-    const auto cells = static_cast<std::size_t>(std::ceil(1.0 + reach_cells_ * scale_[k] + 4.0 * slack));
+    const auto cells = bounded_whole<std::size_t>(std::ceil(1.0 + reach_cells_ * scale_[k] + 4.0 * slack));
     near_.push_back(tiled(widened(levels_[k], cells, execution), execution));
   }
 }

@@ -21,6 +21,7 @@
 
 #include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
+#include "core/base/whole.hpp"
 #include "parallel/execution.hpp"
 #include "verify/near/leg_boxes.hpp"
 
@@ -76,7 +77,7 @@ class LegIndex {
     std::size_t columns = 0, rows = 0, words = 0;  ///< columns and rows of cells; words: of a row of tiles
     RawVector<std::uint64_t> bits;
     std::size_t word(std::size_t column, std::size_t row) const { return row / 8 * words + column / 8; }
-    static int bit(std::size_t column, std::size_t row) { return static_cast<int>(row % 8 * 8 + column % 8); }
+    static int bit(std::size_t column, std::size_t row) { return as_whole<int>(row % 8 * 8 + column % 8); }
   };
 
   static constexpr std::size_t margin = 7;  ///< empty cells around the path's box: walls outside fall on these
@@ -86,8 +87,7 @@ class LegIndex {
   static Point middle(Point a, Point b) { return {0.5 * (a.u + b.u), 0.5 * (a.v + b.v)}; }
   Point cells_of(Vec2 p) const { return {(p.x - origin_.x) * per_cell_, (p.y - origin_.y) * per_cell_}; }
   static std::size_t clamped(double u, std::size_t count) {
-    const auto cell = static_cast<std::int64_t>(std::min(std::max(u, 0.0), static_cast<double>(count - 1)));
-    return static_cast<std::size_t>(cell);  // by way of int64: one instruction
+    return bounded_whole<std::size_t>(u, 0.0, static_cast<double>(count - 1));
   }
   bool passes(std::size_t level, Point p) const {
     const Tiles& near = near_[level];
@@ -103,7 +103,7 @@ class LegIndex {
   void for_each_cell_of_leg(std::size_t leg, const Visit& visit) const;
   std::uint32_t slot_of(std::size_t word, int bit) const {
     const std::uint64_t below = marked_.bits[word] & ((std::uint64_t{1} << bit) - 1);
-    return rank_[word] + static_cast<std::uint32_t>(std::popcount(below));
+    return rank_[word] + as_whole<std::uint32_t>(std::popcount(below));
   }
   void mark_cells(const Execution& execution);
   void gather_runs(const Execution& execution);
@@ -163,7 +163,7 @@ void LegIndex::visit_cells(Point a, Point b, const Visit& visit) const {
 template <class Visit>
 void LegIndex::visit_long(Point a, Point b, const Visit& visit) const {
   const double largest = std::max({std::abs(a.u), std::abs(a.v), std::abs(b.u), std::abs(b.v)});
-  if (!(largest < far_away)) return visit(std::uint32_t{0}, static_cast<std::uint32_t>(legs_.leg_count() - 1));
+  if (!(largest < far_away)) return visit(std::uint32_t{0}, as_whole<std::uint32_t>(legs_.leg_count() - 1));
   if (!clip(a, b)) return;
   const double half = 0.5 * std::max(std::abs(b.u - a.u), std::abs(b.v - a.v));
   std::size_t level = 0;

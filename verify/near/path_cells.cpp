@@ -108,7 +108,7 @@ void PathBoxes::mark_cells(const Execution& execution) {
   for_each_piece(execution, [&](const Segment& piece, const Box&) {
     for_each_cell(piece, [&](std::size_t column, std::size_t row) {
       std::uint8_t& byte = bits_[row * stride_ + column / 8];
-      byte = static_cast<std::uint8_t>(byte | (1U << (column % 8)));
+      byte = as_whole<std::uint8_t>(byte | (1U << (column % 8)));
     });
   });
   rank_.resize(bytes + 1);

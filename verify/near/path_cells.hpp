@@ -20,6 +20,7 @@
 
 #include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
+#include "core/base/whole.hpp"
 #include "parallel/execution.hpp"
 #include "verify/near/leg_boxes.hpp"
 
@@ -70,7 +71,7 @@ class PathBoxes {
   static constexpr std::size_t word_columns = 57;  ///< what 64 bits hold from any bit of their first byte
   static constexpr double slack = 1e-6;            ///< cells; far above the rounding of cell numbers
 
-  static std::size_t cell_number(double u) { return static_cast<std::size_t>(static_cast<std::int64_t>(u)); }
+  static std::size_t cell_number(double u) { return bounded_whole<std::size_t>(u); }
   std::size_t slot_of(std::size_t column, std::size_t row) const {
     const std::size_t byte = row * stride_ + column / 8;
     return rank_[byte] + ones_below(bits_[byte], column % 8);
@@ -99,7 +100,7 @@ class PathBoxes {
         const std::size_t count = std::min(window.column_last - column + 1, word_columns);
         cells = (cells >> (column % 8)) & ((std::uint64_t{1} << count) - 1);
         for (; cells != 0; cells &= cells - 1) {
-          if (!test(slot_of(column + static_cast<std::size_t>(std::countr_zero(cells)), row))) return false;
+          if (!test(slot_of(column + as_whole<std::size_t>(std::countr_zero(cells)), row))) return false;
         }
       }
     }

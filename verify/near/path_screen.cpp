@@ -8,6 +8,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "core/base/whole.hpp"
 #include "parallel/chunks.hpp"
 #include "verify/near/covered_cells.hpp"
 
@@ -41,16 +42,16 @@ PathScreen::PathScreen(const LegBoxes& legs, const Plan& plan, const Execution& 
   first_row_ = whole_below(box.min.y * per_cell_) - margin;
   columns_ = place(box.max.x, first_column_).cell + 1 + margin;
   rows_ = place(box.max.y, first_row_).cell + 1 + margin;
-  stride_ = static_cast<std::size_t>(rows_) / 4 + 1;
-  const std::size_t bytes = static_cast<std::size_t>(columns_) * stride_ + sizeof(std::uint64_t);
+  stride_ = as_whole<std::size_t>(rows_) / 4 + 1;
+  const std::size_t bytes = as_whole<std::size_t>(columns_) * stride_ + sizeof(std::uint64_t);
   execution.reserve(bytes);
   bits_.resize(bytes);
-  const auto columns = static_cast<std::size_t>(columns_);
+  const auto columns = as_whole<std::size_t>(columns_);
   const std::size_t stripe = std::max<std::size_t>(64, chunk_count(columns, 64));
   for_chunks(columns, stripe, execution, [&](Range r) {
     const bool is_last = r.last == columns;
     std::fill(&bits_[r.first * stride_], &bits_[0] + (is_last ? bytes : r.last * stride_), std::uint8_t{0});
-    mark(legs, {static_cast<std::int32_t>(r.first), static_cast<std::int32_t>(r.last)}, execution);
+    mark(legs, {as_whole<std::int32_t>(r.first), as_whole<std::int32_t>(r.last)}, execution);
   });
 }
 
@@ -85,7 +86,7 @@ bool PathScreen::on_lattice(std::span<const Vec2> path, double cell) {
 PathScreen::Place PathScreen::place(double x, double first_cell) const {
   const double u = x * per_cell_;
   const double whole = whole_below(u);
-  return {static_cast<std::int32_t>(whole - first_cell), whole == u};
+  return {bounded_whole<std::int32_t>(whole - first_cell), whole == u};
 }
 
 void PathScreen::mark(const LegBoxes& legs, const Stripe& stripe, const Execution& execution) {
@@ -150,9 +151,9 @@ void PathScreen::mark_cell(std::int32_t column, std::int32_t row, const Stripe& 
 
 void PathScreen::set(std::int32_t column, std::int32_t row, unsigned which, const Stripe& stripe) {
   if (column < stripe.first || column >= stripe.last) return;
-  const auto bit = 2 * static_cast<std::size_t>(row) + which;
-  std::uint8_t& byte = bits_[static_cast<std::size_t>(column) * stride_ + bit / 8];
-  byte = static_cast<std::uint8_t>(byte | (1U << (bit % 8)));
+  const auto bit = 2 * as_whole<std::size_t>(row) + which;
+  std::uint8_t& byte = bits_[as_whole<std::size_t>(column) * stride_ + bit / 8];
+  byte = as_whole<std::uint8_t>(byte | (1U << (bit % 8)));
 }
 
 void PathScreen::set_reach(double least, double r) {
@@ -165,8 +166,8 @@ void PathScreen::set_reach(double least, double r) {
 /// Takes the words that it looks at from the budget; false where that doesn't do.
 bool PathScreen::is_clear(const Window& w, std::size_t& budget) const {
   constexpr std::int32_t word_rows = 28;  // two bits each, from any bit of a word's first byte
-  const std::size_t words = static_cast<std::size_t>(w.column_last - w.column_first + 1) *
-                            (static_cast<std::size_t>(w.row_last - w.row_first) / word_rows + 1);
+  const std::size_t words = as_whole<std::size_t>(w.column_last - w.column_first + 1) *
+                            (as_whole<std::size_t>(w.row_last - w.row_first) / word_rows + 1);
   if (words > budget) return false;
   budget -= words;
   const bool one_row = w.row_first == w.row_last;
@@ -174,9 +175,9 @@ bool PathScreen::is_clear(const Window& w, std::size_t& budget) const {
     const bool last_column = column == w.column_last;
     if (one_row && last_column && w.column_first < w.column_last) break;  // it was right of the one before
     for (std::int32_t row = w.row_first; row <= w.row_last; row += word_rows) {
-      const auto bit = 2 * static_cast<std::size_t>(row);
+      const auto bit = 2 * as_whole<std::size_t>(row);
       std::uint64_t bits = 0;
-      std::memcpy(&bits, &bits_[static_cast<std::size_t>(column) * stride_ + bit / 8], sizeof(bits));
+      std::memcpy(&bits, &bits_[as_whole<std::size_t>(column) * stride_ + bit / 8], sizeof(bits));
       bits >>= bit % 8;
       const std::int32_t rows = std::min(w.row_last - row + 1, word_rows);
       const bool to_the_end = row + rows > w.row_last;
@@ -212,7 +213,7 @@ std::optional<CellStepAxis> PathScreen::step_axis(double first_cell, std::int32_
   const bool fits = std::max({std::abs(by_units.before_first), std::abs(by_units.before_last), by_units.end,
                               2.0 * PackedWall::most * per_step}) <= most;
   if (!fits || per_step < 1.0) return std::nullopt;
-  const auto whole = [](double x) { return static_cast<std::int32_t>(x); };
+  const auto whole = [](double x) { return bounded_whole<std::int32_t>(x); };
   return CellStepAxis{std::ilogb(per_step), whole(by_units.before_first), whole(by_units.before_last),
                       whole(by_units.end)};
 }
@@ -238,21 +239,21 @@ void PathScreen::sift_along(std::span<const Wall> walls, std::size_t first_numbe
     const Wall* block = &walls[begin];
     if (count < block_size) {
       tail.fill(walls.back());
-      std::copy(walls.end() - static_cast<std::ptrdiff_t>(count), walls.end(), tail.begin());
+      std::copy(walls.end() - as_whole<std::ptrdiff_t>(count), walls.end(), tail.begin());
       block = tail.data();
     }
     work(block, x, y, cells, lanes);
     std::array<std::uint32_t, block_size> doubtful;
     std::size_t found = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
-      const auto column = static_cast<std::uint32_t>(cells.column_first[i]);
-      const auto row = static_cast<std::uint32_t>(cells.row_first[i]);
-      const std::uint32_t wide = static_cast<std::uint32_t>(cells.column_last[i]) - column;
-      const std::uint32_t high = static_cast<std::uint32_t>(cells.row_last[i]) - row;
+      const auto column = as_whole<std::uint32_t>(cells.column_first[i]);
+      const auto row = as_whole<std::uint32_t>(cells.row_first[i]);
+      const std::uint32_t wide = as_whole<std::uint32_t>(cells.column_last[i]) - column;
+      const std::uint32_t high = as_whole<std::uint32_t>(cells.row_last[i]) - row;
       const std::uint32_t byte = bits_[column * stride_ + row / 4];
       const std::uint32_t hit = (byte >> (2 * (row % 4) + (wide & 1))) & 1U;
       doubtful[found] = i;
-      found += static_cast<std::size_t>((wide + high > 1) | (hit != 0));
+      found += as_whole<std::size_t>((wide + high > 1) | (hit != 0));
     }
     for (std::size_t k = 0; k < found; ++k) {
       const std::uint32_t i = doubtful[k];

@@ -7,6 +7,8 @@
 #include <bit>
 #include <cmath>
 
+#include "core/base/whole.hpp"
+#include "parallel/asked_growth.hpp"
 #include "parallel/chunks.hpp"
 
 namespace warren {
@@ -25,6 +27,11 @@ Box box_of_ends(const Segment& s) {
 
 double largest_of(const Segment& s) {
   return std::max({std::abs(s.a.x), std::abs(s.a.y), std::abs(s.b.x), std::abs(s.b.y)});
+}
+
+void sort_once_each(std::vector<std::uint32_t>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
 }  // namespace
@@ -73,7 +80,7 @@ PathSurroundings::PathSurroundings(const Scene& scene, const Obstacles& obstacle
 }
 
 /// Cells about as wide as the boxes, but not more than a million.
-void PathSurroundings::lay_grid(std::span<const Box> boxes) {
+void PathSurroundings::lay_grid(std::span<const Box> boxes, const Execution& execution) {
   constexpr double most_cells = 1048576.0;
   grid_ = {};
   double sum = 0.0;
@@ -85,16 +92,19 @@ void PathSurroundings::lay_grid(std::span<const Box> boxes) {
   const double longest = std::max(grid_.width(), grid_.height());
   side_ = std::max({mean, longest / 65536.0, std::sqrt(grid_.width() / most_cells) * std::sqrt(grid_.height())});
   if (!(side_ > 0.0) || !std::isfinite(side_)) side_ = 1.0;
-  columns_ = static_cast<std::uint32_t>(std::min(65536.0, grid_.width() / side_)) + 1;
-  rows_ = static_cast<std::uint32_t>(std::min(65536.0, grid_.height() / side_)) + 1;
+  columns_ = bounded_whole<std::uint32_t>(grid_.width() / side_, 0.0, 65536.0) + 1;
+  rows_ = bounded_whole<std::uint32_t>(grid_.height() / side_, 0.0, 65536.0) + 1;
   marked_.assign(std::size_t{columns_} * rows_, false);
-  for (const Box& box : boxes) for_each_cell(range_of(box), [&](std::size_t cell) { marked_[cell] = true; });
+  for (const Box& box : boxes) {
+    execution.check();
+    for_each_cell(range_of(box), [&](std::size_t cell) { marked_[cell] = true; });
+  }
 }
 
 PathSurroundings::Range PathSurroundings::range_of(const Box& box) const {
   if (apart(box, grid_)) return {1, 1, 0, 0};
   const auto index = [&](double x, double low, std::uint32_t count) {
-    return static_cast<std::uint32_t>(std::clamp((x - low) / side_, 0.0, static_cast<double>(count - 1)));
+    return bounded_whole<std::uint32_t>((x - low) / side_, 0.0, count - 1.0);
   };
   return {index(box.min.x, grid_.min.x, columns_), index(box.min.y, grid_.min.y, rows_),
           index(box.max.x, grid_.min.x, columns_), index(box.max.y, grid_.min.y, rows_)};
@@ -116,7 +126,7 @@ bool PathSurroundings::is_marked(const Range& range) const {
 
 void PathSurroundings::file(std::span<const Box> boxes, const Execution& execution) {
   if (scene_.map || boxes.empty()) return;
-  lay_grid(boxes);
+  lay_grid(boxes, execution);
   if (index_ != nullptr) {
     if (const auto numbers = may_be_marked(boxes, execution)) {
       sift(
@@ -134,6 +144,7 @@ void PathSurroundings::file(std::span<const Box> boxes, const Execution& executi
 std::optional<std::vector<std::size_t>> PathSurroundings::may_be_marked(std::span<const Box> boxes,
                                                                         const Execution& execution) const {
   constexpr std::size_t numbers_a_poll = 4096;
+  execution.reserve(boxes.size() * sizeof(Range));
   std::vector<Range> ranges;
   for (const Box& box : boxes) ranges.push_back(range_of(box));
   std::sort(ranges.begin(), ranges.end());
@@ -192,38 +203,44 @@ void PathSurroundings::file_in_cells(const Execution& execution) {
     for (std::size_t n = 0; n < near_.size(); ++n) {
       if (n % obstacles_a_poll == 0) execution.check();
       for_each_cell(range_of(box_of_ends(near_[n].segment)), [&](std::size_t cell) {
-        if (marked_[cell]) visit(cell, static_cast<std::uint32_t>(n));
+        if (marked_[cell]) visit(cell, as_whole<std::uint32_t>(n));
       });
     }
   };
   for_each_place([&](std::size_t cell, std::uint32_t) { ++begin_[cell + 1]; });
   for (std::size_t cell = 0; cell < marked_.size(); ++cell) begin_[cell + 1] += begin_[cell];
+  execution.reserve(begin_.back() * sizeof(std::uint32_t));
   members_.resize(begin_.back());
   std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
   for_each_place([&](std::size_t cell, std::uint32_t n) { members_[next[cell]++] = n; });
 }
 
-void PathSurroundings::gather(std::span<const Box> boxes, std::vector<NearSide>& sides) const {
+void PathSurroundings::gather(std::span<const Box> boxes, std::vector<NearSide>& sides,
+                              const Execution& execution) const {
   sides.clear();
   if (scene_.map) {
-    for (const Box& box : boxes) gather_from_map(box, sides);
+    for (const Box& box : boxes) gather_from_map(box, sides, execution);
     return;
   }
-  std::vector<std::uint32_t> found;
+  std::vector<std::uint32_t> cells;  // boxes one beside the other share them
   for (const Box& box : boxes) {
-    for_each_cell(range_of(box), [&](std::size_t cell) {
-      found.insert(found.end(), members_.begin() + begin_[cell], members_.begin() + begin_[cell + 1]);
-    });
+    for_each_cell(range_of(box),
+                  [&](std::size_t cell) { push_asked(cells, as_whole<std::uint32_t>(cell), execution); });
   }
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+  sort_once_each(cells);
+  std::vector<std::uint32_t> found;
+  for (const std::uint32_t cell : cells) {
+    for (std::uint32_t i = begin_[cell]; i < begin_[cell + 1]; ++i) push_asked(found, members_[i], execution);
+  }
+  sort_once_each(found);
   const auto meets = [&](const NearSide& side) {
     const Box around = box_of_ends(side.segment);
     return std::any_of(boxes.begin(), boxes.end(), [&](const Box& box) { return !apart(box, around); });
   };
-  for (const std::uint32_t n : found) sides.push_back(near_[n]);
+  for (const std::uint32_t n : found) push_asked(sides, near_[n], execution);
   for (const NearSide& side : long_) {
-    if (meets(side)) sides.push_back(side);
+    if (boxes.size() >= most_cells_a_side) execution.check();
+    if (meets(side)) push_asked(sides, side, execution);
   }
 }
 
@@ -239,36 +256,41 @@ std::uint64_t PathSurroundings::blocked_word(std::int64_t y, std::int64_t w) con
   if (y < 0 || y >= blocked.height() || w < 0 || w >= words) return ~std::uint64_t{0};
   const std::uint64_t beyond =
       w + 1 == words && blocked.width() % 64 != 0 ? ~std::uint64_t{0} << blocked.width() % 64 : 0;
-  return blocked.row(static_cast<std::uint32_t>(y))[static_cast<std::size_t>(w)] | beyond;
+  return blocked.row(as_whole<std::uint32_t>(y))[as_whole<std::size_t>(w)] | beyond;
 }
 
 std::uint64_t PathSurroundings::number_of(std::int64_t x, std::int64_t y) const {
   const OccupancyMap& map = *scene_.map;
   if (x < 0 || y < 0 || x >= map.width() || y >= map.height()) return NearSide::outside;
-  return static_cast<std::uint64_t>(y) * map.width() + static_cast<std::uint64_t>(x);
+  return as_whole<std::uint64_t>(y) * map.width() + as_whole<std::uint64_t>(x);
 }
 
 /// The borders between free and blocked cells.
-void PathSurroundings::gather_from_map(const Box& box, std::vector<NearSide>& sides) const {
+void PathSurroundings::gather_from_map(const Box& box, std::vector<NearSide>& sides, const Execution& execution) const {
   const OccupancyMap& map = *scene_.map;
   Box in_cells;
   for (const Vec2 corner : {box.min, Vec2{box.max.x, box.min.y}, box.max, Vec2{box.min.x, box.max.y}}) {
     in_cells.include(map_point(map, corner));
   }
-  const auto clamped = [](double x, double most) { return static_cast<std::int64_t>(std::clamp(x, 0.0, most)); };
+  const auto clamped = [](double x, double most) { return bounded_whole<std::int64_t>(x, 0.0, most); };
   constexpr double rounding = 1e-6;  // cells
+  constexpr std::size_t words_a_poll = 4096;
   const MapPart part{clamped(std::floor(in_cells.min.x - rounding), map.width()),
                      clamped(std::floor(in_cells.min.y - rounding), map.height()),
                      clamped(std::floor(in_cells.max.x + rounding), map.width()),
                      clamped(std::floor(in_cells.max.y + rounding), map.height())};
+  std::size_t words = 0;
   for (std::int64_t y = part.first_y; y <= part.last_y; ++y) {
-    for (std::int64_t w = part.first_x / 64; w <= part.last_x / 64; ++w) gather_from_word(part, y, w, sides);
+    for (std::int64_t w = part.first_x / 64; w <= part.last_x / 64; ++w) {
+      if (words++ % words_a_poll == 0) execution.check();
+      gather_from_word(part, y, w, sides, execution);
+    }
   }
 }
 
 /// The borders below and left of 64 cells.
 void PathSurroundings::gather_from_word(const MapPart& part, std::int64_t y, std::int64_t w,
-                                        std::vector<NearSide>& sides) const {
+                                        std::vector<NearSide>& sides, const Execution& execution) const {
   const auto point = [&](std::int64_t x, std::int64_t row) {
     return world_point(*scene_.map, {static_cast<double>(x), static_cast<double>(row)});
   };
@@ -281,7 +303,7 @@ void PathSurroundings::gather_from_word(const MapPart& part, std::int64_t y, std
   for (std::uint64_t rest = (here ^ left) & wanted; rest != 0 && y < scene_.map->height(); rest &= rest - 1) {
     const std::int64_t x = base + std::countr_zero(rest);
     const bool blocks = (here >> (x - base) & 1U) != 0;
-    sides.push_back({{point(x, y), point(x, y + 1)}, number_of(blocks ? x : x - 1, y)});
+    push_asked(sides, {{point(x, y), point(x, y + 1)}, number_of(blocks ? x : x - 1, y)}, execution);
   }
   const std::uint64_t below = blocked_word(y - 1, w);
   for (const bool blocks : {false, true}) {  // which of the two rows
@@ -290,7 +312,7 @@ void PathSurroundings::gather_from_word(const MapPart& part, std::int64_t y, std
       const int first = std::countr_zero(rest);
       const int length = std::countr_one(rest >> first);
       const std::int64_t x = base + first;
-      sides.push_back({{point(x, y), point(x + length, y)}, number_of(x, blocks ? y : y - 1)});
+      push_asked(sides, {{point(x, y), point(x + length, y)}, number_of(x, blocks ? y : y - 1)}, execution);
       rest = first + length < 64 ? rest & ~std::uint64_t{0} << (first + length) : 0;
     }
   }

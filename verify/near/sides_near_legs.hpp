@@ -42,7 +42,7 @@ class PathSurroundings {
   /// To be called before gather(): with all boxes that it will be asked for, in any number of calls.
   void file(std::span<const Box> boxes, const Execution& execution);
   /// All sides that meet one of the boxes, and perhaps some others.
-  void gather(std::span<const Box> boxes, std::vector<NearSide>& sides) const;
+  void gather(std::span<const Box> boxes, std::vector<NearSide>& sides, const Execution& execution) const;
   std::string name(std::uint64_t number) const;
 
  private:
@@ -54,7 +54,7 @@ class PathSurroundings {
     friend auto operator<=>(const Range&, const Range&) = default;
     std::uint64_t count() const { return std::uint64_t{last_x - first_x + 1} * (last_y - first_y + 1); }
   };
-  void lay_grid(std::span<const Box> boxes);
+  void lay_grid(std::span<const Box> boxes, const Execution& execution);
   Range range_of(const Box& box) const;
   bool is_marked(const Range& range) const;
   template <class Visit>
@@ -64,8 +64,9 @@ class PathSurroundings {
   void sift(std::size_t count, const Number& number, const Execution& execution);
   void file_in_cells(const Execution& execution);
   struct MapPart;
-  void gather_from_map(const Box& box, std::vector<NearSide>& sides) const;
-  void gather_from_word(const MapPart& part, std::int64_t y, std::int64_t w, std::vector<NearSide>& sides) const;
+  void gather_from_map(const Box& box, std::vector<NearSide>& sides, const Execution& execution) const;
+  void gather_from_word(const MapPart& part, std::int64_t y, std::int64_t w, std::vector<NearSide>& sides,
+                        const Execution& execution) const;
   std::uint64_t blocked_word(std::int64_t y, std::int64_t w) const;
   std::uint64_t number_of(std::int64_t x, std::int64_t y) const;
 

@@ -8,6 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/types.hpp"
+#include "core/base/whole.hpp"
 
 namespace warren {
 
@@ -240,7 +241,7 @@ double ArmWorld::clear_part(const ChainPosture& at, const Turns& turns, double s
   std::uint32_t narrow = 0;
   double least = 1.0;
   for (std::uint32_t left = parts; left != 0;) {
-    const auto number = static_cast<std::size_t>(std::bit_width(left) - 1);
+    const auto number = as_whole<std::size_t>(std::bit_width(left) - 1);
     const std::uint32_t bit = std::uint32_t{1} << number;
     left ^= bit;
     const double part = number < links_.size() ? clear_part(at, turns, links_[number], share)

@@ -10,6 +10,7 @@
 #include "core/base/error.hpp"
 #include "core/base/trigonometry.hpp"
 #include "core/base/types.hpp"
+#include "core/base/whole.hpp"
 
 namespace warren {
 namespace {
@@ -43,7 +44,7 @@ std::array<double, 2> twist_of(double alpha) {
     return {cosine, sine};
   }
   constexpr std::array<std::array<double, 2>, 4> exact{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
-  return exact[static_cast<std::size_t>(static_cast<std::int64_t>(nearest) & 3)];
+  return exact[as_whole<std::size_t>(bounded_whole<std::int64_t>(nearest) & 3)];
 }
 
 /// The frame that moves along the chain.

@@ -45,7 +45,7 @@ SolidIndex::SolidIndex(std::span<const Sphere> spheres, std::span<const SolidBox
     check(boxes[i], i);
     const Vec3 low(boxes[i].low[0], boxes[i].low[1], boxes[i].low[2]);
     const Vec3 high(boxes[i].high[0], boxes[i].high[1], boxes[i].high[2]);
-    solids.push_back({0.5 * (low + high), 0.5 * (high - low).norm(), static_cast<std::int32_t>(i)});
+    solids.push_back({0.5 * (low + high), 0.5 * (high - low).norm(), as_whole<std::int32_t>(i)});
     bounds.push_back({boxes[i].low, boxes[i].high});
   }
   for (const BoxOf<3>& b : bounds) {
@@ -56,7 +56,7 @@ SolidIndex::SolidIndex(std::span<const Sphere> spheres, std::span<const SolidBox
   if (solids.size() <= most_without_tree) {
     solids_ = std::move(solids);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      for (const Solid& solid : solids_) middles_[axis].push_back(solid.centre[static_cast<Eigen::Index>(axis)]);
+      for (const Solid& solid : solids_) middles_[axis].push_back(solid.centre[as_whole<Eigen::Index>(axis)]);
     }
     return;
   }
@@ -82,7 +82,7 @@ std::size_t SolidIndex::squares_from(const Vec3& p, std::array<double, most_with
     const double dz = z[i] - p.z();
     squares[i] = dx * dx + dy * dy + dz * dz;
   }
-  return static_cast<std::size_t>(std::min_element(squares.begin(), squares.begin() + count) - squares.begin());
+  return as_whole<std::size_t>(std::min_element(squares.begin(), squares.begin() + count) - squares.begin());
 }
 
 Approach SolidIndex::box_approach(const Spine& spine, const SolidBox& box) {

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/whole.hpp"
 #include "parallel/execution.hpp"
 #include "scenes/scene/scene.hpp"
 #include "spatial/obstacles/box_tree.hpp"
@@ -59,7 +60,7 @@ class SolidIndex {
   };
   static BoxOf<3> box_around(const Spine& spine);
   Approach approach(const Spine& spine, const Solid& solid) const {
-    if (solid.box != no_box) return box_approach(spine, boxes_[static_cast<std::size_t>(solid.box)]);
+    if (solid.box != no_box) return box_approach(spine, boxes_[as_whole<std::size_t>(solid.box)]);
     const Vec3 off = spine.nearest(solid.centre) - solid.centre;
     const double length = off.norm();
     return {length - solid.radius, length > 0.0 ? Vec3(off / length) : Vec3::Zero(), solid.centre, solid.radius};

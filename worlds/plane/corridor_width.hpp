@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/types.hpp"
+#include "core/base/whole.hpp"
 #include "parallel/execution.hpp"
 #include "spatial/obstacles/wall_index.hpp"
 
@@ -43,7 +44,7 @@ double typical_width(const WallIndex& index, const Box& box, const IsOutside& is
   }
   const double whole = std::sqrt(box.width() * box.height());
   if (widths.empty()) return whole;
-  const auto quartile = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 4);
+  const auto quartile = widths.begin() + as_whole<std::ptrdiff_t>(widths.size() / 4);
   std::nth_element(widths.begin(), quartile, widths.end());
   return std::min(whole, *quartile);
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/base/error.hpp"
+#include "core/base/whole.hpp"
 #include "core/plane/geometry.hpp"
 
 namespace warren {
@@ -61,8 +62,8 @@ GridWorld::GridWorld(const OccupancyMap& map, double radius, const Execution& ex
 bool GridWorld::lies_in_the_open(const Segment& leg) const {
   if (!field_) return false;
   const Vec2 middle = 0.5 * (leg.a + leg.b);
-  const auto x = static_cast<std::uint32_t>(middle.x);
-  const auto y = static_cast<std::uint32_t>(middle.y);
+  const auto x = bounded_whole<std::uint32_t>(middle.x);
+  const auto y = bounded_whole<std::uint32_t>(middle.y);
   const double room = field_->distance(x, y) - warren::distance(middle, Vec2{x + 0.5, y + 0.5});
   return room > 0.5 * warren::distance(leg.a, leg.b) + reach_ + margin;
 }
@@ -75,8 +76,8 @@ bool GridWorld::is_free_motion(const State& a, const State& b, Query&) const {
     return false;  // the outside is blocked, and it is nearest to an end
   }
   if (lies_in_the_open(leg)) return true;
-  const auto first = static_cast<std::int64_t>(std::floor(box.min.y - reach_));
-  const auto last = static_cast<std::int64_t>(std::floor(box.max.y + reach_));
+  const auto first = bounded_whole<std::int64_t>(std::floor(box.min.y - reach_));
+  const auto last = bounded_whole<std::int64_t>(std::floor(box.max.y + reach_));
   for (std::int64_t row = std::max<std::int64_t>(first, 0); row <= std::min<std::int64_t>(last, map_.height() - 1);
        ++row) {
     if (!row_is_free(leg, row)) return false;
@@ -88,9 +89,9 @@ bool GridWorld::row_is_free(const Segment& leg, std::int64_t row) const {
   const double low = static_cast<double>(row);
   const auto [from, to] = range_between(leg, low - reach_ - margin, low + 1.0 + reach_ + margin);
   if (from > to) return true;
-  const auto first = static_cast<std::uint32_t>(std::max(0.0, std::floor(from - reach_ - margin)));
-  const auto last = static_cast<std::uint32_t>(std::min(map_.width() - 1.0, std::floor(to + reach_ + margin)));
-  const auto words = map_.blocked.row(static_cast<std::uint32_t>(row));
+  const auto first = bounded_whole<std::uint32_t>(from - reach_ - margin);
+  const auto last = bounded_whole<std::uint32_t>(to + reach_ + margin, 0.0, map_.width() - 1.0);
+  const auto words = map_.blocked.row(as_whole<std::uint32_t>(row));
   for (std::uint32_t w = first / 64; w <= last / 64; ++w) {
     std::uint64_t blocked = words[w];
     if (w == first / 64) blocked &= ~std::uint64_t{0} << first % 64;

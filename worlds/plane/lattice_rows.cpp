@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/whole.hpp"
 #include "core/plane/geometry.hpp"
 
 namespace warren {
@@ -13,10 +14,8 @@ namespace {
 
 constexpr double beyond_rounding = 1e-6;
 
-double row_count(const LatticeRows& rows) { return static_cast<double>(static_cast<std::int64_t>(rows.rows)); }
-double last_col(const LatticeRows& rows) {
-  return static_cast<double>(static_cast<std::int64_t>(rows.words_a_row * 64));
-}
+double row_count(const LatticeRows& rows) { return static_cast<double>(as_whole<std::int64_t>(rows.rows)); }
+double last_col(const LatticeRows& rows) { return static_cast<double>(as_whole<std::int64_t>(rows.words_a_row * 64)); }
 double last_row(const LatticeRows& rows) { return rows.first + row_count(rows) - 1.0; }
 Box box_of(const LatticeRows& rows) { return {{1.0, rows.first}, {last_col(rows), last_row(rows)}}; }
 
@@ -31,24 +30,23 @@ struct Places {
 /// The whole numbers in [low, high], less `origin`, below count; from a little less than 0. By conversions, which are
 /// faster than floor and ceil where a processor has no instruction for these.
 inline Places places_in(double low, double high, double origin, double count) {
-  const double from = std::max(low - origin, -2.0);
-  const double to = std::max(high - origin, -1.0) + 1.0;
-  const auto first = static_cast<std::int64_t>(std::min(from, count));
-  return {first + static_cast<std::int64_t>(static_cast<double>(first) < from),
-          static_cast<std::int64_t>(std::min(to, count))};
+  const double from = low - origin;
+  const auto first = bounded_whole<std::int64_t>(from, -2.0, count);
+  return {first + as_whole<std::int64_t>(static_cast<double>(first) < from),
+          bounded_whole<std::int64_t>(high - origin + 1.0, 0.0, count)};
 }
 
 /// Calls test(point) for those of a row's points whose bits are set, and clears the bits for which it is false.
 template <class Test>
 void filter_points(const Places& points, std::uint64_t* bits, const Test& test) {
-  const auto end = static_cast<std::size_t>(points.end);
-  for (auto point = static_cast<std::size_t>(points.first); point < end; ++point) {
+  const auto end = as_whole<std::size_t>(points.end);
+  for (auto point = as_whole<std::size_t>(points.first); point < end; ++point) {
     const std::uint64_t rest = bits[point / 64] >> (point % 64);
     if (rest == 0) {
       point |= 63;
       continue;
     }
-    point += static_cast<std::size_t>(std::countr_zero(rest));
+    point += as_whole<std::size_t>(std::countr_zero(rest));
     if (point >= end) return;
     if (!test(static_cast<double>(point + 1))) bits[point / 64] &= ~(std::uint64_t{1} << (point % 64));
   }
@@ -98,7 +96,7 @@ class NearWall {
         const auto [low, high] = extent_in_band(wall_, box_, y - reach(), y + up + reach());
         cols = cols_near(low, high).from_before(right);
       }
-      filter_points(cols, bits + static_cast<std::size_t>(row) * rows_.words_a_row, [&](double x) {
+      filter_points(cols, bits + as_whole<std::size_t>(row) * rows_.words_a_row, [&](double x) {
         return keeps_off({x, y}, {x + right, y + up});
       });
     }
@@ -137,13 +135,13 @@ class NearWall {
 }  // namespace
 
 void keep_points_in_box(const Box& box, const LatticeRows& rows, std::span<std::uint64_t> bits) noexcept {
-  const auto count = static_cast<std::int64_t>(rows.words_a_row * 64);
+  const auto count = as_whole<std::int64_t>(rows.words_a_row * 64);
   const Places cols = places_in(box.min.x, box.max.x, 1.0, last_col(rows)).from_before(0);
   const Places inside = places_in(box.min.y, box.max.y, rows.first, row_count(rows));
   const auto none = [](double) { return false; };
   for (std::size_t row = 0; row < rows.rows; ++row) {
     std::uint64_t* const its = bits.data() + row * rows.words_a_row;
-    const auto number = static_cast<std::int64_t>(row);
+    const auto number = as_whole<std::int64_t>(row);
     const bool is_inside = number >= inside.first && number < inside.end;
     filter_points({0, is_inside ? cols.first : count}, its, none);
     filter_points({std::max(cols.first, cols.end), count}, its, none);

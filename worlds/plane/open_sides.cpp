@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/whole.hpp"
 #include "core/plane/geometry.hpp"
 #include "parallel/chunks.hpp"
 
@@ -53,7 +54,8 @@ class ClosedBy {
     for (double place = std::ceil(from); place <= to; place += 1.0) {
       const Vec2 end = axis == 0 ? cells_.corner + Vec2{line, place} : cells_.corner + Vec2{place, line};
       const bool is_near = distance_sq(end, wall) < r_ * r_;
-      if (is_near && was_near) close_side(axis, static_cast<std::size_t>(line), static_cast<std::size_t>(place) - 1);
+      if (is_near && was_near)
+        close_side(axis, bounded_whole<std::size_t>(line), bounded_whole<std::size_t>(place) - 1);
       was_near = is_near;
     }
   }
@@ -72,7 +74,7 @@ class ClosedBy {
     if (is_ours(row - 1)) clear(cell - cells_.cols, CellSides::up);
   }
   void clear(std::size_t cell, std::uint8_t side) const {
-    cells_.open[cell] &= static_cast<std::uint8_t>(CellSides::all - side);
+    cells_.open[cell] &= as_whole<std::uint8_t>(CellSides::all - side);
   }
 
   CellSides& cells_;
@@ -115,7 +117,7 @@ CellSides open_sides(const WallIndex& walls, const Box& box, double clearance, s
   const double cols = std::max(std::ceil(box.max.x - 0.5) - first.x, 0.0) + 1.0;
   const double rows = std::max(std::ceil(box.max.y - 0.5) - first.y, 0.0) + 1.0;
   if (cols * rows > static_cast<double>(most_cells)) return {};
-  CellSides cells{first - Vec2{0.5, 0.5}, static_cast<std::uint32_t>(cols), static_cast<std::uint32_t>(rows), {}};
+  CellSides cells{first - Vec2{0.5, 0.5}, bounded_whole<std::uint32_t>(cols), bounded_whole<std::uint32_t>(rows), {}};
   execution.reserve(std::size_t{cells.cols} * cells.rows);
   cells.open.resize(std::size_t{cells.cols} * cells.rows);
   const std::size_t grain = (std::size_t{1} << 16) / cells.cols + 16;

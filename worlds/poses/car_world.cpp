@@ -78,12 +78,12 @@ CarBody::CarBody(const Scene& scene, const CarOptions& options, const Execution&
       turning_radius_(positive_size("robot: turning radius", options.turning_radius)),
       reach_(planning_reach(options)),
       resolution_(positive_size("resolution", options.resolution.value_or(usual_resolution(options)))),
-      tree_(scene, outline_radius(outline_) + reach_, execution) {
+      tree_(scene, outline_radius(outline_) + reach_ + turning_radius_, execution) {
   if (!options.outline.empty()) {
     for (const int side : {-1, 1}) {
       const Vec2 center{0.0, side * turning_radius_};
       for (const Vec2 p : outline_) {
-        double& pace = pace_[static_cast<std::size_t>(side + 1)];
+        double& pace = pace_[as_whole<std::size_t>(side + 1)];
         pace = std::max(pace, norm(p - center) / turning_radius_);
       }
     }

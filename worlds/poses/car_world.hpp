@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "core/base/trigonometry.hpp"
+#include "core/base/whole.hpp"
 #include "core/base/world.hpp"
 #include "core/plane/se2.hpp"
 #include "scenes/scene/scene.hpp"
@@ -65,7 +66,7 @@ class CarBody {
   double resolution() const { return resolution_; }
   const Box& box() const { return box_; }  ///< the bounds, else the box of the obstacles
   /// How far any point of the body goes while the reference point goes 1 with this steering.
-  double pace(Steer steer) const { return pace_[static_cast<std::size_t>(static_cast<int>(steer) + 1)]; }
+  double pace(Steer steer) const { return pace_[as_whole<std::size_t>(as_whole<int>(steer) + 1)]; }
 
  private:
   bool confines(const Box& way) const;

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "core/base/trigonometry.hpp"
+#include "core/base/whole.hpp"
 
 namespace warren {
 namespace {
@@ -67,7 +68,7 @@ class Candidates {
   SteeringWord best() {
     const auto shorter = [](const Candidate& a, const Candidate& b) { return a.length() < b.length(); };
     for (;;) {
-      const auto end = list_.begin() + static_cast<std::ptrdiff_t>(count_);
+      const auto end = list_.begin() + as_whole<std::ptrdiff_t>(count_);
       const auto candidate = std::min_element(list_.begin(), end, shorter);
       const SteeringWord word = candidate->word();
       if (count_ == 1 || ends_at(word, goal_, off_)) return word;

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/base/whole.hpp"
 #include "core/plane/geometry.hpp"
 #include "parallel/asked_growth.hpp"
 
@@ -89,7 +90,7 @@ class BlockedHeadings {
       // Seen from the body, the end turns the other way.
       meet_line(norm(end), side, [&](double turn, double cosine) { add_angles(angle_of(end) - turn, cosine); });
     }
-    std::sort(events_.begin(), events_.begin() + static_cast<std::ptrdiff_t>(count_));
+    std::sort(events_.begin(), events_.begin() + as_whole<std::ptrdiff_t>(count_));
     if (count_ == 0) return add_between(side, obstacle, -half_turn, half_turn);
     for (std::size_t i = 0; i < count_; ++i) {
       const double next = i + 1 < count_ ? events_[i + 1] : events_[0] + full_turn;
@@ -126,7 +127,7 @@ void for_each_border_near(const OccupancyMap& map, Vec2 place, double reach, con
   const Vec2 at = map_point(map, place);
   const double cells = reach / map.cell + 2.0;
   const auto within = [](double x, std::uint32_t size) {
-    return static_cast<std::int64_t>(std::clamp(std::floor(x), -1.0, static_cast<double>(size)));
+    return bounded_whole<std::int64_t>(std::floor(x), -1.0, static_cast<double>(size));
   };
   const auto is_blocked = [&](std::int64_t x, std::int64_t y) {
     return x < 0 || y < 0 || x >= map.width() || y >= map.height() || map.blocked.holds(x, y);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/whole.hpp"
 #include "parallel/execution.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "worlds/rasters/blocked_places.hpp"
@@ -115,9 +116,23 @@ void Footprint::finish() {
 ObstacleTree::ObstacleTree(const Scene& scene, double reach, const Execution& execution)
     : bounds_(scene.bounds), box_(warren::obstacle_box(scene)) {
   check_polygons(scene, execution);
-  constexpr double relative = 1e-14;
-  const double inner = largest_coordinate_of(box_);
-  rounding_ = relative * (std::max(inner, bounds_ ? largest_coordinate_of(*bounds_) : 0.0) + reach);
+  // The judge calls free what is farther than 2.7e-14 (L + 2 r + c) by its own doubles, a tenth of it for its last
+  // halving, L being the largest coordinate of obstacles, bounds or map, r the body's radius, c the clearance
+  // (verify/judges/body_on_leg.cpp); `reach` is r + c at least. Corners are off by at most 4 roundings of numbers up to
+  // L + r here and there, distances by 8 more of such: 12 x 1.2e-16 each, 0.3e-14 (L + r) in both. A car's legs are off
+  // by 8 more of numbers up to L + R, R in `reach`, and the judge takes 0.1e-14 R. So what is more than 4e-14
+  // (L + 2 reach) away here is farther than the judge asks for there.
+  constexpr double relative = 4e-14;
+  Box all = box_;
+  if (bounds_) all.include(*bounds_);
+  if (scene.map) {
+    const double width = scene.map->width();
+    const double height = scene.map->height();
+    for (const Vec2 p : {Vec2{}, Vec2{width, 0.0}, Vec2{0.0, height}, Vec2{width, height}}) {
+      all.include(world_point(*scene.map, p));
+    }
+  }
+  rounding_ = relative * (largest_coordinate_of(all) + 2.0 * reach);
   std::vector<Segment> sides;
   std::vector<std::span<const Vec2>> convex;
   std::vector<std::span<const Vec2>> others;
@@ -161,14 +176,14 @@ void ObstacleTree::file_convex(const std::vector<std::span<const Vec2>>& polygon
   convex_tree_ = BoxTree<2>(boxes, execution);
   for (const std::uint32_t id : convex_tree_.order()) {
     const std::span<const Vec2> corners = polygons[id];
-    const auto first = static_cast<std::uint32_t>(convex_sides_.size());
+    const auto first = as_whole<std::uint32_t>(convex_sides_.size());
     const bool left = turning_of(corners) == Turning::left;
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const Side side = side_between(corners[i], corners[(i + 1) % corners.size()]);
       const Vec2 right = (1.0 / norm(side.along)) * Vec2{side.along.y, -side.along.x};
       convex_sides_.push_back({side, left ? right : Vec2{} - right});
     }
-    convex_.push_back({first, static_cast<std::uint32_t>(convex_sides_.size()), box_of(corners)});
+    convex_.push_back({first, as_whole<std::uint32_t>(convex_sides_.size()), box_of(corners)});
   }
 }
 

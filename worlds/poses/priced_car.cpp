@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/base/whole.hpp"
 #include "worlds/poses/reeds_shepp_curve.hpp"
 
 namespace warren {
@@ -64,7 +65,7 @@ Se2 PricedCar::drawn_near(const State& a, const std::array<double, 4>& u, double
   constexpr double turned_rad = 0.25;
   const double radius = car_->turning_radius();
   if (u[0] < share_driven) {
-    const auto steer = static_cast<Steer>(static_cast<int>(3.0 * u[1]) - 1);
+    const auto steer = static_cast<Steer>(bounded_whole<int>(3.0 * u[1]) - 1);
     const double length = (u[2] < 0.5 ? -1.0 : 1.0) * (least + scale * u[3] * u[3]);
     const Se2 to = after_piece({a.x / radius, a.y / radius, a.theta}, {steer, length});
     return {radius * to.x, radius * to.y, wrapped_angle(to.theta)};

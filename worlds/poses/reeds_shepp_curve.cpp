@@ -19,6 +19,7 @@
 #include <numbers>
 
 #include "core/base/trigonometry.hpp"
+#include "core/base/whole.hpp"
 
 namespace warren {
 namespace {
@@ -102,7 +103,7 @@ SteeringWord word_of(const Solved& w) {
   SteeringWord word;
   for (std::size_t i = 0; i < plain.count; ++i) {
     SteeringPiece piece = plain.pieces[w.change.from_goal ? plain.count - 1 - i : i];
-    if (w.change.mirrored) piece.steer = static_cast<Steer>(-static_cast<int>(piece.steer));
+    if (w.change.mirrored) piece.steer = static_cast<Steer>(-as_whole<int>(piece.steer));
     word.add(piece.steer, w.change.reversed ? -piece.length : piece.length);
   }
   return word;

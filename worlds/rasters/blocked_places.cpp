@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/base/whole.hpp"
+
 namespace warren {
 namespace {
 
@@ -61,7 +63,7 @@ class RowSpans {
       const double above = std::clamp(row + reach, p.y, q.y);
       const double from = is_flat ? p.x : p.x + slope * (below - p.y);
       const double to = is_flat ? q.x : p.x + slope * (above - p.y);
-      const auto r = static_cast<std::size_t>(row);
+      const auto r = bounded_whole<std::size_t>(row);
       low_[r] = std::min({low_[r], from - reach, to - reach});
       high_[r] = std::max({high_[r], from + reach, to + reach});
     }
@@ -72,8 +74,8 @@ class RowSpans {
       const double first = std::max(0.0, std::ceil(low_[row]));
       const double last = std::min(last_column, std::floor(high_[row]));
       if (!(first <= last)) continue;
-      const auto count = static_cast<std::size_t>(last - first);  // less one
-      grid.bits[row] &= ~(~std::uint64_t{0} >> (63 - count) << static_cast<std::size_t>(first));
+      const auto count = bounded_whole<std::size_t>(last - first);  // less one
+      grid.bits[row] &= ~(~std::uint64_t{0} >> (63 - count) << bounded_whole<std::size_t>(first));
     }
   }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/base/trigonometry.hpp"
+#include "core/base/whole.hpp"
 #include "core/plane/geometry.hpp"
 
 namespace warren {
@@ -48,7 +49,7 @@ std::vector<ConvexPiece> triangles_of(std::vector<Vec2> ring) {
     while (ear < n && !is_ear(ring, ear)) ++ear;
     if (ear == n) break;  // corners in a row only: what is left has no inside of its own
     triangles.push_back(convex_hull({ring[(ear + n - 1) % n], ring[ear], ring[(ear + 1) % n]}));
-    ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(ear));
+    ring.erase(ring.begin() + as_whole<std::ptrdiff_t>(ear));
   }
   triangles.push_back(convex_hull(ring));
   return triangles;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/rng.hpp"
+#include "core/base/whole.hpp"
 #include "spatial/maps/free_cells.hpp"
 
 namespace warren {
@@ -37,7 +38,7 @@ Vec2 CorridorPoints::along(Cell cell, std::uint64_t seed, std::uint64_t index) c
     }
   }
   if (count == 0) return {};
-  const auto chosen = static_cast<std::size_t>(uniform(seed, index, first_axis + 1) * static_cast<double>(count));
+  const auto chosen = bounded_whole<std::size_t>(uniform(seed, index, first_axis + 1) * static_cast<double>(count));
   return 0.5 * uniform(seed, index, first_axis + 2) * ways[chosen];
 }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/base/whole.hpp"
 #include "core/plane/se2.hpp"
 
 namespace warren {
@@ -24,7 +25,7 @@ LayerJob turn_job(const std::vector<ConvexPiece>& pieces, std::uint32_t angles) 
   LayerJob job;
   const double angle_rad = 2.0 * std::numbers::pi / angles;
   constexpr double widest = std::numbers::pi / 24;
-  const int parts = static_cast<int>(std::ceil(angle_rad / widest));
+  const int parts = bounded_whole<int>(std::ceil(angle_rad / widest));
   for (const ConvexPiece& piece : pieces) {
     for (int part = 0; part < parts; ++part) {
       ConvexPiece from;
@@ -63,7 +64,7 @@ class JobList {
  private:
   std::uint32_t add(LayerJob job) {
     jobs_.push_back(std::move(job));
-    return static_cast<std::uint32_t>(jobs_.size() - 1);
+    return as_whole<std::uint32_t>(jobs_.size() - 1);
   }
 
   HeadingLayers& layers_;
@@ -77,7 +78,7 @@ std::vector<LayerJob> list_layer_jobs(std::span<const Vec2> outline, HeadingLaye
   std::vector<ConvexPiece> keys;
   for (std::uint32_t k = 0; k < layers.angles; ++k) {
     keys.push_back(key_of(turned(outline, k, layers.angles)));
-    const auto same = static_cast<std::size_t>(std::find(keys.begin(), keys.end(), keys.back()) - keys.begin());
+    const auto same = as_whole<std::size_t>(std::find(keys.begin(), keys.end(), keys.back()) - keys.begin());
     if (same < k) {
       jobs.repeat_heading(same);
     } else {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/base/whole.hpp"
 #include "core/plane/minkowski.hpp"
 #include "parallel/chunks.hpp"
 #include "worlds/rasters/heading_footprints.hpp"
@@ -62,10 +63,10 @@ class Widening {
   Widening(const Bitmap& blocked, const Stamp& stamp)
       : blocked_(blocked), stamp_(stamp), result_(blocked.width(), blocked.height()) {
     const int reach = std::max({-stamp.least_x, stamp.most_x, stamp.widest()});
-    margin_ = (static_cast<std::size_t>(reach) / 64 + 1) * 64;
+    margin_ = (as_whole<std::size_t>(reach) / 64 + 1) * 64;
     const std::size_t words = blocked.row(0).size() + 2 * (margin_ / 64) + 2;
-    const auto widest = static_cast<unsigned>(stamp.widest());
-    doubled_.assign(static_cast<std::size_t>(std::bit_width(widest)), std::vector<std::uint64_t>(words, 0));
+    const auto widest = as_whole<unsigned>(stamp.widest());
+    doubled_.assign(as_whole<std::size_t>(std::bit_width(widest)), std::vector<std::uint64_t>(words, 0));
   }
 
   Bitmap run(const Execution& execution) {
@@ -83,7 +84,7 @@ class Widening {
   /// doubled_[n] bit t: is any of the row's bits t .. t + 2^n - 1 set? The row begins at bit margin_.
   void double_row(std::uint32_t y) {
     const auto row = blocked_.row(y);
-    std::copy(row.begin(), row.end(), doubled_[0].begin() + static_cast<std::ptrdiff_t>(margin_ / 64));
+    std::copy(row.begin(), row.end(), doubled_[0].begin() + as_whole<std::ptrdiff_t>(margin_ / 64));
     for (std::size_t n = 1; n < doubled_.size(); ++n) {
       std::vector<std::uint64_t>& wide = doubled_[n];
       wide = doubled_[n - 1];
@@ -98,10 +99,10 @@ class Widening {
     for (const StampRun& run : stamp_.runs) {
       const std::int64_t to = std::int64_t{y} - run.dy;
       if (to < 0 || to >= blocked_.height()) continue;
-      const auto length = static_cast<unsigned>(run.last - run.first + 1);
-      const auto n = static_cast<std::size_t>(std::bit_width(length) - 1);
-      const auto out = result_.row(static_cast<std::uint32_t>(to));
-      const auto at = [&](int dx) { return static_cast<std::size_t>(static_cast<std::int64_t>(margin_) + dx); };
+      const auto length = as_whole<unsigned>(run.last - run.first + 1);
+      const auto n = as_whole<std::size_t>(std::bit_width(length) - 1);
+      const auto out = result_.row(as_whole<std::uint32_t>(to));
+      const auto at = [&](int dx) { return as_whole<std::size_t>(as_whole<std::int64_t>(margin_) + dx); };
       or_from(doubled_[n], at(run.first), out);
       or_from(doubled_[n], at(run.last + 1 - (1 << n)), out);
     }
@@ -117,11 +118,9 @@ class Widening {
   void block_border() {
     const std::int64_t width = blocked_.width();
     const std::int64_t height = blocked_.height();
-    const auto column = [&](std::int64_t x) {
-      return static_cast<std::uint32_t>(std::clamp<std::int64_t>(x, 0, width));
-    };
+    const auto column = [&](std::int64_t x) { return as_whole<std::uint32_t>(std::clamp<std::int64_t>(x, 0, width)); };
     for (std::int64_t y = 0; y < height; ++y) {
-      const auto row = static_cast<std::uint32_t>(y);
+      const auto row = as_whole<std::uint32_t>(y);
       if (y + stamp_.least_y < 0 || y + stamp_.most_y >= height) {
         result_.set_run(row, 0, column(width));
         continue;
@@ -144,7 +143,8 @@ class MapLayers {
       : map_(map), execution_(execution), room_(clearance) {
     // The world's coordinates are rounded: what is free here shall be free there.
     constexpr double rounding = 1e-13;
-    room_ += rounding * (std::abs(map.origin.x) + std::abs(map.origin.y));
+    const double size = map.cell * (double{1} * map.width() + map.height());
+    room_ += rounding * (std::abs(map.origin.x) + std::abs(map.origin.y) + size);
   }
 
   void make(const std::vector<LayerJob>& jobs, std::vector<Bitmap>& bitmaps) const {
@@ -159,15 +159,17 @@ class MapLayers {
  private:
   /// A position touches the square around a point exactly if the point is in the sum of body and square.
   Stamp stamp_of(const LayerJob& job) const {
+    constexpr double most_reach = 1 << 29;  // cells: wider than all that memory holds
     const double half = map_.cell / 2;
     const std::vector<Vec2> square{{-half, -half}, {half, -half}, {half, half}, {-half, half}};
     double reach = 0.0;
     for (const ConvexPiece& piece : job.pieces) {
       for (const Vec2 p : piece) reach = std::max({reach, std::abs(p.x), std::abs(p.y)});
     }
-    const auto most = static_cast<int>(std::ceil((reach + room_ + half) / map_.cell)) + 1;
+    const auto most = bounded_whole<int>(std::ceil((reach + room_ + half) / map_.cell), 0.0, most_reach) + 1;
     const double corner = -most * map_.cell;
-    const auto side = static_cast<std::uint32_t>(2 * most + 1);
+    const auto side = as_whole<std::uint32_t>(2 * most + 1);
+    execution_.reserve(Bitmap::bytes_for(side, side));
     LatticeMarking marking({corner, corner}, map_.cell, side, side);
     for (const ConvexPiece& piece : job.pieces) marking.mark_near(minkowski_sum(piece, square), room_);
     return runs_of(marking.take(), most);
@@ -175,7 +177,7 @@ class MapLayers {
 
   static Stamp runs_of(const Bitmap& marked, int most) {
     Stamp stamp;
-    const auto side = static_cast<int>(marked.width());
+    const auto side = as_whole<int>(marked.width());
     for (int j = 0; j < side; ++j) {
       for (int i = 0; i < side; ++i) {
         if (!marked.holds(i, j)) continue;

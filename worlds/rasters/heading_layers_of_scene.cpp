@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "core/base/error.hpp"
+#include "core/base/whole.hpp"
 #include "core/plane/se2.hpp"
 #include "parallel/chunks.hpp"
 #include "spatial/maps/distance_field.hpp"
@@ -42,8 +43,8 @@ HeadingLayers empty_lattice(const Scene& scene, const RobotSpec& robot, const La
   HeadingLayers layers;
   layers.origin = box.min;
   layers.cell = grid.cell;
-  layers.width = static_cast<std::uint32_t>(width);
-  layers.height = static_cast<std::uint32_t>(height);
+  layers.width = bounded_whole<std::uint32_t>(width);
+  layers.height = bounded_whole<std::uint32_t>(height);
   layers.angles = angles;
   return layers;
 }
@@ -114,7 +115,7 @@ class ExactLayers {
 void draw_two_cells_thick(const Segment& wall, const HeadingLayers& lattice, Bitmap& drawn) {
   const auto set = [&](double i, double j) {
     if (i >= 0.0 && j >= 0.0 && i < lattice.width && j < lattice.height) {
-      drawn.set(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
+      drawn.set(bounded_whole<std::uint32_t>(i), bounded_whole<std::uint32_t>(j));
     }
   };
   const Vec2 a = (1.0 / lattice.cell) * (wall.a - lattice.origin);
@@ -143,7 +144,7 @@ std::uint32_t disc_cells(const RobotSpec& robot, const HeadingLayers& lattice, s
     reach = std::max({reach, std::abs(p.x), std::abs(p.y)});
   }
   constexpr double rounding = 1e-9;
-  return static_cast<std::uint32_t>(std::ceil(reach / lattice.cell - rounding));
+  return bounded_whole<std::uint32_t>(std::ceil(reach / lattice.cell - rounding));
 }
 
 Bitmap drawn_walls(const Scene& scene, const HeadingLayers& lattice, const Execution& execution) {
@@ -174,7 +175,7 @@ HeadingLayers report_layers(const Scene& scene, const RobotSpec& robot, const La
   std::map<std::uint32_t, std::uint32_t> bitmap_of;  // by the disc's radius
   for (std::uint32_t k = 0; k < layers.angles; ++k) {
     const std::uint32_t radius = disc_cells(robot, layers, k);
-    const auto [at, is_new] = bitmap_of.emplace(radius, static_cast<std::uint32_t>(layers.bitmaps.size()));
+    const auto [at, is_new] = bitmap_of.emplace(radius, as_whole<std::uint32_t>(layers.bitmaps.size()));
     layers.standing.push_back(at->second);
     if (!is_new) continue;
     Bitmap blocked(layers.width, layers.height);

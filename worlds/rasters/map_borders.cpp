@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/base/error.hpp"
+#include "core/base/whole.hpp"
 #include "spatial/maps/free_cells.hpp"
 #include "worlds/rasters/convex_pieces.hpp"
 #include "worlds/rasters/polygons_on_lattice.hpp"
@@ -21,17 +22,17 @@ void for_borders_between_rows(const Bitmap& blocked, const Execution& execution,
     if (y < 0 || y >= blocked.height()) return ~std::uint64_t{0};
     const std::uint64_t beyond =
         w + 1 == words && blocked.width() % 64 != 0 ? ~std::uint64_t{0} << blocked.width() % 64 : 0;
-    return blocked.row(static_cast<std::uint32_t>(y))[w] | beyond;
+    return blocked.row(as_whole<std::uint32_t>(y))[w] | beyond;
   };
   for (std::int64_t y = 0; y <= blocked.height(); ++y) {
     if (y % 16 == 0) execution.check();
     std::int64_t first = -1;  // of the run that is open
     for (std::size_t w = 0; w < words; ++w) {
       std::uint64_t differs = solid(y - 1, w) ^ solid(y, w);
-      const auto base = static_cast<std::int64_t>(64 * w);
+      const auto base = as_whole<std::int64_t>(64 * w);
       std::int64_t x = 0;
       while (x < 64) {
-        const auto next = static_cast<std::int64_t>(first < 0 ? std::countr_zero(differs) : std::countr_one(differs));
+        const auto next = as_whole<std::int64_t>(first < 0 ? std::countr_zero(differs) : std::countr_one(differs));
         if (x + next >= 64) break;
         x += next;
         differs >>= next;
@@ -77,15 +78,15 @@ OccupancyMap map_of_scene(const Scene& scene, double cell, const Execution& exec
   const double height = std::max(1.0, std::ceil(box.height() / cell - rounding));
   constexpr double too_many = 4294967295.0;
   if (!(width < too_many && height < too_many)) throw InputError("cell", "is too small for this world");
-  check_map_size("cell", static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height));
-  execution.reserve(static_cast<std::size_t>(width * height / 8));
+  check_map_size("cell", bounded_whole<std::uint64_t>(width), bounded_whole<std::uint64_t>(height));
+  execution.reserve(bounded_whole<std::size_t>(width * height / 8));
   OccupancyMap map;
   map.source = scene.source;
   map.cell = cell;
   map.origin = box.min;
   // A cell is the square around its middle, and the middles are the lattice.
-  LatticeMarking marking(box.min + Vec2{cell / 2, cell / 2}, cell, static_cast<std::uint32_t>(width),
-                         static_cast<std::uint32_t>(height));
+  LatticeMarking marking(box.min + Vec2{cell / 2, cell / 2}, cell, bounded_whole<std::uint32_t>(width),
+                         bounded_whole<std::uint32_t>(height));
   const double half = cell / 2;
   const ConvexPiece square{{-half, -half}, {half, -half}, {half, half}, {-half, half}};
   const auto mark = [&](const Segment& s) { marking.mark_near(touching_positions(square, s), 0.0); };

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/whole.hpp"
+
 namespace warren {
 namespace {
 
@@ -75,8 +77,8 @@ void LatticeMarking::mark_run(std::int64_t row, double from, double to) {
   const double first = std::max(0.0, std::ceil((from - rounding_ - origin_.x) / cell_));
   const double last = std::min<double>(marked_.width() - 1.0, std::floor((to + rounding_ - origin_.x) / cell_));
   if (first > last) return;
-  marked_.set_run(static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(first),
-                  static_cast<std::uint32_t>(last) + 1);
+  marked_.set_run(as_whole<std::uint32_t>(row), bounded_whole<std::uint32_t>(first),
+                  bounded_whole<std::uint32_t>(last) + 1);
 }
 
 void LatticeMarking::mark_near(std::span<const Vec2> convex, double radius) {
@@ -84,7 +86,7 @@ void LatticeMarking::mark_near(std::span<const Vec2> convex, double radius) {
   const double first = std::max(0.0, std::ceil((box.min.y - rounding_ - origin_.y) / cell_));
   const double last = std::min<double>(marked_.height() - 1.0, std::floor((box.max.y + rounding_ - origin_.y) / cell_));
   for (double j = first; j <= last; ++j) {
-    const auto row = static_cast<std::int64_t>(j);
+    const auto row = bounded_whole<std::int64_t>(j);
     const RowInterval interval = slice(convex, radius, std::clamp(row_y(row), box.min.y, box.max.y));
     if (!interval.empty()) mark_run(row, interval.from, interval.to);
   }
@@ -112,8 +114,8 @@ void LatticeMarking::mark_inside(std::span<const Vec2> polygon, Vec2 offset, con
   const double rows = marked_.height();
   // A row more on either side: the heights of rows are rounded, and what lies on none is not marked anyway.
   const auto row_near = [&](double y) { return std::clamp((y - offset.y - origin_.y) / cell_, -2.0, rows + 2.0); };
-  const auto first = std::max<std::int64_t>(0, static_cast<std::int64_t>(std::floor(row_near(box.min.y))) - 1);
-  const auto end = std::min<std::int64_t>(marked_.height(), static_cast<std::int64_t>(row_near(box.max.y)) + 2);
+  const auto first = std::max<std::int64_t>(0, bounded_whole<std::int64_t>(std::floor(row_near(box.min.y))) - 1);
+  const auto end = std::min<std::int64_t>(marked_.height(), bounded_whole<std::int64_t>(row_near(box.max.y)) + 2);
   std::vector<double> crossings;
   std::size_t sides = 0;
   for (std::int64_t j = first; j < end; ++j) {

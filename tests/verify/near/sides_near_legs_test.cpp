@@ -71,7 +71,7 @@ TEST(PathSurroundings, HoldEverySideThatMeetsABox) {
     std::vector<NearSide> sides;
     std::size_t most = 0;
     for (const Box& box : boxes) {
-      around.gather(std::span(&box, 1), sides);
+      around.gather(std::span(&box, 1), sides, {});
       std::set<std::uint64_t> numbers;
       for (const NearSide& side : sides) EXPECT_TRUE(numbers.insert(side.number).second) << "twice";
       for (std::size_t i = 0; i < obstacles.size(); ++i) {
@@ -105,7 +105,7 @@ TEST(PathSurroundings, AreTheBordersOfAMapsCells) {
     std::vector<Box> boxes = random_boxes(seed, map.width(), map.height());
     boxes.push_back({{-5, -5}, {300, 300}});
     for (const Box& box : boxes) {
-      around.gather(std::span(&box, 1), sides);
+      around.gather(std::span(&box, 1), sides, {});
       std::set<Edge> found;
       for (const NearSide& side : sides) {
         const auto x = std::llround(side.segment.a.x);
