@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Lazy PRM (Bohlin, Kavraki, ICRA 2000): milestones as in prm, but a motion is checked only where a search needs it.
 //
-// LazyCheck::expansion, the default: the graph is implicit (lazy_graph.hpp); an edge is checked when expanding one end
-// would improve the other. LazyCheck::path: the candidate graph is built and a motion is checked only when it lies on
-// the best path so far (lazy_path_search.hpp). Both find the shortest path of the same roadmap as prm. In mazes the
-// first wins: most candidate edges lead through walls, and each of them costs the second one a repair.
-// From 50,000 milestones on the first one searches from both ends (NBA*), each end with a graph and a thread of its
+// The graph is implicit (lazy_graph.hpp); an edge is checked when expanding one end would improve the other. The path
+// is the shortest of the same roadmap as prm's. Tried and lost: a motion checked only when it lies on the best path so
+// far, as they have it, for most candidate edges of mazes lead through walls, and each of them cost a repair.
+// From 50,000 milestones on it searches from both ends (NBA*), each end with a graph and a thread of its
 // own; below that, two threads do not repay their start. The number of threads changes neither path nor counters. There
 // it also leaves out the dead ends of a maze (dead_ends.hpp).
 #pragma once
@@ -17,7 +16,6 @@
 #include "parallel/assemble_graph.hpp"
 #include "parallel/polled_sort.hpp"
 #include "planners/roadmap/lazy_graph.hpp"
-#include "planners/roadmap/lazy_path_search.hpp"
 #include "planners/roadmap/plan_in_rounds.hpp"
 #include "planners/roadmap/roadmap_search.hpp"
 
@@ -46,7 +44,7 @@ class LazyPlan : public Rounds<W> {
     index_ = this->index_milestones();
     rule_ = this->rule_for(samples);
     attach_ends();
-    return this->take(options_.lazy == LazyCheck::path ? search_paths() : search_expanding());
+    return this->take(search_expanding());
   }
   void finish(PlannedRoadmap<State>* keep);
 
@@ -64,7 +62,6 @@ class LazyPlan : public Rounds<W> {
   RawVector<VertexId> search_expanding();
   RawVector<VertexId> search_from_both_ends();
   DeadEnds find_dead_ends() const;
-  RawVector<VertexId> search_paths();
   SearchResult expand_from(VertexId from, VertexId to, SearchState& state, std::vector<Edge>* record);
   LazyGraph<W> lazy_graph() const { return {world_, states_, index_, rule_, candidates_, end_edges_, execution_}; }
   void count(const LazyGraph<W>& graph);
@@ -79,7 +76,7 @@ class LazyPlan : public Rounds<W> {
   ConnectionRule rule_;
   StateIndex<W> index_;
   RawVector<Edge> end_edges_;
-  Graph candidates_;  ///< unchecked; only where the strategy or the rule needs them
+  Graph candidates_;  ///< unchecked; only where the rule needs them
   std::vector<Edge> free_edges_;
   std::vector<Edge> tree_;
 };
@@ -91,10 +88,9 @@ void LazyPlan<W>::attach_ends() {
       attach_start_and_goal(world_, milestones(), index_, rule_, this->start_, this->goal_, solution_.counters);
   solution_.roadmap.edges = end_edges_.size();
   candidates_ = Graph();
-  if (options_.lazy == LazyCheck::expansion && rule_.neighbours == 0) return;
-  EdgeParts parts = candidate_edges(world_, milestones(), index_, rule_, execution_, solution_.counters);
-  if (options_.lazy == LazyCheck::path) parts.push_back(end_edges_);
-  candidates_ = assemble_graph(states_.size(), parts, execution_);
+  if (rule_.neighbours == 0) return;
+  candidates_ = assemble_graph(
+      states_.size(), candidate_edges(world_, milestones(), index_, rule_, execution_, solution_.counters), execution_);
 }
 
 template <World W>
@@ -170,24 +166,6 @@ DeadEnds LazyPlan<W>::find_dead_ends() const {
     return DeadEnds(std::move(cells), kept, execution_);
   }
   return {};
-}
-
-template <World W>
-RawVector<VertexId> LazyPlan<W>::search_paths() {
-  const StageTimer timer(execution_, "search", solution_.seconds.search);
-  LazyPathSearch<W> search(world_, candidates_, states_, start_vertex(), goal_vertex(), execution_);
-  RawVector<VertexId> path = search.run();
-  solution_.counters.expanded += search.expanded();
-  solution_.counters.edges_checked += search.checked();
-  solution_.counters.edges_free += search.free_edges().size();
-  solution_.roadmap.edges += search.free_edges().size();
-  free_edges_.assign(end_edges_.begin(), end_edges_.end());
-  free_edges_.insert(free_edges_.end(), search.free_edges().begin(), search.free_edges().end());
-  tree_.clear();
-  for (VertexId v = 0; keep_ && v < states_.size(); ++v) {
-    if (search.reached(v) && search.parent(v) != no_vertex) tree_.push_back({v, search.parent(v)});
-  }
-  return path;
 }
 
 template <World W>

@@ -7,7 +7,6 @@
 
 #include "core/base/error.hpp"
 #include "planners/shorten/taut_path.hpp"
-#include "planners/tiled/tiled_prm_any_world.hpp"
 #include "planners/tiled/tiled_prm_lattice.hpp"
 #include "solve/mazes/maze_infeasible.hpp"
 #include "solve/steps/kind_of_problem.hpp"
@@ -75,16 +74,12 @@ void WallSolve::plan(PlannedRoadmap<Vec2>* keep) {
                                        *asked_.scratch, keep));
     return;
   }
-  if (options_.pipeline == PipelineKind::streamed || (options_.pipeline == PipelineKind::tiled && options_.fused)) {
+  if (options_.pipeline != PipelineKind::plain) {
     take_solution(answer_, plan_tiles());
     return;
   }
   const MazeWorld& world = indexed_world();
   if (grows() && ends_are_free(world) && proved_infeasible()) return;
-  if (options_.pipeline == PipelineKind::tiled) {
-    take_solution(answer_, prm_in_tiles(world, problem_.start, problem_.goal, options_.roadmap, execution_));
-    return;
-  }
   const auto planner = options_.planner == PlannerKind::prm ? prm<MazeWorld> : lazy_prm<MazeWorld>;
   take_solution(answer_, planner(world, problem_.start, problem_.goal, options_.roadmap, execution_, keep));
 }
@@ -174,14 +169,13 @@ Answer solve_walls(const SolveRequest& request) {
   return solve_walls(request.scene, problem, options, request.execution, keep, request.asked);
 }
 
-constexpr std::uint64_t most_drawn = 40'000;  // cells or samples: beyond, a picture's edges would merge
+constexpr std::uint64_t most_drawn = 40'000;  // cells: beyond, a picture's edges would merge
 
 /// Tiles keep no roadmap.
 void make_roadmap(const SolveRequest& request) {
   const WallProblem problem = problem_of(request);
   const PlannerOptions options = planner_options(request.options, request.scene, problem);
   if (options.planner != PlannerKind::prm || options.pipeline == PipelineKind::plain) return;
-  if (!options.fused && options.roadmap.samples.value_or(0) > most_drawn) return;
   draw_roadmap(request.scene, problem, options, request.execution, request.keep->roadmap);
 }
 
