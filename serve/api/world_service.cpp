@@ -148,7 +148,6 @@ namespace {
 
 // What a service says of its world and of itself.
 
-
 /// What is kept.
 struct KeptBytes {
   std::size_t tile_bytes = 0;

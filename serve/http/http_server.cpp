@@ -22,13 +22,57 @@
 
 #include "core/base/error.hpp"
 #include "serve/http/beast_words.hpp"
-#include "serve/http/connection_places.hpp"
 #include "serve/http/http_connection.hpp"
 #include "serve/http/http_names.hpp"
 #include "serve/http/task_crew.hpp"
 
 namespace warren::serve {
 namespace {
+
+// Who is connected, and who gives way where all places are taken.
+
+/// Owns the connections.
+class ConnectionPlaces {
+ public:
+  Connection& add(boost::asio::ip::tcp::socket socket, const boost::asio::ip::address& address,
+                  std::size_t buffer_bytes);
+  void forget(const Connection& connection) { connections_.erase(connection.id); }
+  std::size_t size() const { return connections_.size(); }
+  std::size_t of_address(const boost::asio::ip::address& address) const;
+  /// Who has waited longest without a whole request; nullptr: all are worked on or answered.
+  Connection* longest_waiting() const;
+  /// Calls visit with each; it may forget the one that it is given.
+  template <class Visit>
+  void each(const Visit& visit) {
+    for (auto next = connections_.begin(); next != connections_.end();) visit(*(next++)->second);
+  }
+
+ private:
+  std::uint64_t next_id_ = 0;
+  std::map<std::uint64_t, std::unique_ptr<Connection>> connections_;
+};
+
+Connection& ConnectionPlaces::add(boost::asio::ip::tcp::socket socket, const boost::asio::ip::address& address,
+                                  std::size_t buffer_bytes) {
+  const std::uint64_t id = next_id_++;
+  auto& place = connections_[id] = std::make_unique<Connection>(id, std::move(socket), buffer_bytes);
+  place->address = address;
+  return *place;
+}
+
+std::size_t ConnectionPlaces::of_address(const boost::asio::ip::address& address) const {
+  const auto same = [&](const auto& other) { return other.second->address == address; };
+  return static_cast<std::size_t>(std::count_if(connections_.begin(), connections_.end(), same));
+}
+
+Connection* ConnectionPlaces::longest_waiting() const {
+  Connection* longest = nullptr;
+  for (const auto& [id, other] : connections_) {
+    const bool waits = !other->closed && (other->stage <= Stage::body || other->stage == Stage::linger);
+    if (waits && (longest == nullptr || other->waits_since < longest->waits_since)) longest = other.get();
+  }
+  return longest;
+}
 
 // Where a server listens.
 
