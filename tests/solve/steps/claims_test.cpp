@@ -178,6 +178,15 @@ TEST(Claims, AGoalWithoutAHeadingIsMetBetweenTheHeadingsThatAreTriedFirst) {
   EXPECT_EQ(*word_of(by_disc, "cause"), "disc_blocked_at_goal");
 }
 
+TEST(Claims, InTheOpenNothingTurnsForAGoalWithoutAHeading) {
+  const Scene open = scene_of("bounds 0 0 20 20\nrobot polygon -1 -0.2 1 -0.2 1 0.2 -1 0.2\nwall 1 19 2 19\n");
+  for (const PlannerKind planner : {PlannerKind::prm, PlannerKind::lazy_prm, PlannerKind::rrt_connect}) {
+    const Answer answer = solve(open, {.start = {3.0, 3.0, -0.4275}, .goal = {16.0, 5.0}}, by(planner));
+    ASSERT_EQ(answer.outcome, Outcome::solved) << name_of(planner);
+    EXPECT_EQ(answer.turn_rad, 0.0) << name_of(planner);
+  }
+}
+
 TEST(Claims, APlaceOfTheToolIsMetByWhateverWristReachesIt) {
   const std::string arm = "robot puma560 radius 0.03 tool 0.5 limits classic\nstart 0 0 0 0 0 0\n";
   EXPECT_EQ(solve(scene_of(arm + "sphere 5 5 5 0.1\ngoal -0.059 0.09 0.758\n")).outcome, Outcome::solved);
