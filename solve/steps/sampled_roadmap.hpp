@@ -82,16 +82,6 @@ inline double reach_of(const Problem& problem) {
   return radius + problem.clearance;
 }
 
-/// Where the body may be on its way between two states: the reference point stays within half of the motion's length of
-/// one of them.
-template <World W>
-Box swept_box(const W& world, const typename W::State& from, const typename W::State& to, double reach) {
-  Box box;
-  box.include(Vec2{from.x, from.y});
-  box.include(Vec2{to.x, to.y});
-  return box.grown(0.5 * world.distance(from, to) + reach);
-}
-
 /// A file may say anything of its states; nobody draws one far from the world or beyond the joints' limits, and motions
 /// over there would not end. Throws InputError, Stopped.
 template <World W>
@@ -125,6 +115,7 @@ void check_drawn(const W& world, const SolveRequest& request, const Problem& pro
 template <World W>
 double resolution_of(const W& world) {
   if constexpr (requires { world.resolution(); }) return world.resolution();
+  if constexpr (requires { world.body().resolution(); }) return world.body().resolution();
   return 0.0;
 }
 
@@ -177,7 +168,7 @@ class OldMotions {
   /// Cars drive curves. All others go straight: where a line parts what they sweep from a change, they don't meet it.
   bool may_meet_changes(const State& from, const State& to) const {
     if constexpr (requires { W::one_way; }) {
-      return comes_near(old_.places, swept_box(world_, from, to, reach_), margin);
+      return comes_near(old_.places, world_.curve(from, to).box(), reach_ + kept_);
     } else {
       const Vec2 way{to.x - from.x, to.y - from.y};
       const double length = norm(way);

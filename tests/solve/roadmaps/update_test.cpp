@@ -131,8 +131,8 @@ TEST(Update, AsksOnlyAboutMotionsThatMayMeetTheChange) {
     EXPECT_FALSE(account.built_anew);
     checked.push_back(account.edges_checked);
   }
-  EXPECT_LT(checked[0], 2'000U);
-  EXPECT_LT(checked[1], 2'000U);
+  EXPECT_LT(checked[0], 800U);
+  EXPECT_LT(checked[1], 800U);
 }
 
 TEST(Update, OfTheSameWorldAsksNothing) {
