@@ -116,7 +116,9 @@ TEST(Usage, ContradictionsAreRefusedAndSayWhoTakesTheOption) {
       {{"solve", "maze:5x7", "--contact", "allowed"}, 2, "--contact"},
       {{"solve", "maze:5x7", "--planner", "lazy-prm", "--pipeline", "tiled"}, 2, "the planner prm takes"},
       {{"solve", "maze:5x7", "--pipeline", "tiled", "--search", "bfs"}, 2, "--pipeline plain"},
-      {{"solve", "maze:5x7", "--pipeline", "tiled", "--sampler", "uniform"}, 2, "tiled takes the lattice of a maze"},
+      {{"solve", "maze:5x7", "--planner", "prm", "--pipeline", "tiled", "--sampler", "uniform"},
+       2,
+       "tiled takes the lattice of a maze"},
       {{"solve", "maze:5x7", "--json", "-", "--svg", "-"}, 2, "standard output takes one"},
   };
   for (const Case& c : cases) check(c);
