@@ -20,10 +20,10 @@
 #include <string>
 #include <vector>
 
+#include "core/plane/cell_walls.hpp"
 #include "distributed/band.hpp"
 #include "distributed/band_rounds.hpp"
 #include "distributed/messages.hpp"
-#include "distributed/remote_cells.hpp"
 #include "distributed/requests.hpp"
 #include "distributed/shared_search.hpp"
 #include "distributed/transport.hpp"
@@ -33,6 +33,26 @@
 #include "verify/cells/verify_cells.hpp"
 
 namespace warren::distributed {
+
+// The whole maze as rank 0 sees it: its own tiles are made here, others by their ranks, when they are asked for. For
+// the few tiles that no rank's share is about: those around start and goal; and for those of two components that are
+// apart.
+
+class Leader;
+
+/// Refers to both, which must outlive it.
+class RemoteCells : public CellWallSource {
+ public:
+  RemoteCells(const Band& band, Leader& leader, WallsFor who);
+  std::unique_ptr<CellWallReader> reader() const override;
+
+ private:
+  class Reader;
+
+  const Band& band_;
+  Leader& leader_;
+  const WallsFor who_;
+};
 
 /// Refers to the transport, whose rank is 0.
 class Leader : public StreamedTeam, private OtherTiles, private JudgesElsewhere {

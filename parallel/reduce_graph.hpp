@@ -105,10 +105,6 @@ class ReducedGraphView {
   bool is_key(VertexId vertex) const { return cover_.is_key(vertex); }
   /// Components of the graph that no key stands for. Only where peeling stays within blocks.
   std::size_t keyless_components() const { return cover_.peeled_trees() + cycles_; }
-  /// Is the i-th edge of a key an edge of the graph, and no chain?
-  bool is_plain_edge(VertexId key, std::size_t i) const {
-    return is_key(via_[static_cast<std::size_t>(reduced_.neighbours(key).data() - reduced_.neighbours(0).data()) + i]);
-  }
   /// A path over keys as the path over vertices that it stands for. O(path).
   RawVector<VertexId> expand(std::span<const VertexId> keys, const Execution& execution) const;
 

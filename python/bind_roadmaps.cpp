@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Roadmaps: built, asked, updated, in files, as arrays.
+
+#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -7,11 +9,12 @@
 #include <iterator>
 
 #include "core/base/error.hpp"
+#include "core/search/edge_states.hpp"
 #include "parallel/deadline.hpp"
 #include "python/bind.hpp"
+#include "python/interrupts.hpp"
 #include "python/kept_roadmap.hpp"
 #include "python/keywords.hpp"
-#include "python/roadmap_arrays.hpp"
 #include "solve/roadmaps/blocked_end_of_roadmap.hpp"
 #include "solve/roadmaps/export_of_roadmap.hpp"
 #include "solve/roadmaps/roadmap_file_io.hpp"
@@ -22,6 +25,86 @@
 #include "tools/words/question_words.hpp"
 
 namespace warren::python {
+namespace {
+
+// States and edges of a roadmap as NumPy's arrays.
+
+/// indptr, indices and lengths of all edges: views that keep the roadmap, `self`, alive.
+pybind11::tuple all_rows(const pybind11::object& self);
+/// The same of the free edges, in arrays of their own.
+pybind11::tuple free_rows_of(KeptRoadmap& kept);
+/// 0 unchecked, 1 free, 2 blocked: of each edge end.
+pybind11::array edge_states(KeptRoadmap& kept);
+/// (n, numbers of a state): a view that keeps the roadmap, `self`, alive.
+pybind11::array states_of(const pybind11::object& self);
+/// A copy: what is learnt changes it.
+pybind11::array components_of(KeptRoadmap& kept);
+
+namespace py = pybind11;
+
+template <class List>
+Shape size_of(const List& list) {
+  return {static_cast<py::ssize_t>(list.size())};
+}
+
+py::tuple all_rows(const py::object& self) {
+  auto& kept = self.cast<KeptRoadmap&>();
+  const Asking asking(kept);
+  const RawVector<double>* lengths = nullptr;
+  const RoadmapArrays* arrays = nullptr;
+  CallLimits().run([&](const Execution& execution) {
+    arrays = &kept.arrays(execution);
+    lengths = &kept.lengths(execution);
+  });
+  // Below 2^31 unsigned numbers are the same bits as numbers with a sign, which SciPy has.
+  const auto signed_view = [&](const auto& list) {
+    return view_of(reinterpret_cast<const std::int32_t*>(list.data()), size_of(list), self);  // NOLINT
+  };
+  return py::make_tuple(signed_view(arrays->candidates.offsets()), signed_view(arrays->candidates.targets()),
+                        view_of(lengths->data(), size_of(*lengths), self));
+}
+
+py::tuple free_rows_of(KeptRoadmap& kept) {
+  const Asking asking(kept);
+  EdgeRows rows = CallLimits().run([&](const Execution& execution) { return free_rows(kept, execution); });
+  const Shape first = size_of(rows.first);
+  const Shape ends = size_of(rows.to);
+  return py::make_tuple(array_of<std::int32_t>(std::move(rows.first), first),
+                        array_of<std::int32_t>(std::move(rows.to), ends),
+                        array_of<double>(std::move(rows.lengths), ends));
+}
+
+py::array edge_states(KeptRoadmap& kept) {
+  const Asking asking(kept);
+  const RoadmapArrays* arrays = nullptr;
+  CallLimits().run([&](const Execution& execution) { arrays = &kept.arrays(execution); });
+  py::array_t<std::uint8_t> states(static_cast<py::ssize_t>(arrays->candidates.targets().size()));
+  std::uint8_t* to = states.mutable_data();
+  for (std::size_t i = 0; i < arrays->candidates.targets().size(); ++i) {
+    to[i] = static_cast<std::uint8_t>(edge_state(arrays->edge_states, i));
+  }
+  return read_only(std::move(states));
+}
+
+py::array states_of(const py::object& self) {
+  auto& kept = self.cast<KeptRoadmap&>();
+  const Asking asking(kept);
+  const RoadmapArrays* arrays = nullptr;
+  CallLimits().run([&](const Execution& execution) { arrays = &kept.arrays(execution); });
+  const auto width = static_cast<py::ssize_t>(arrays->dimension);
+  return view_of(arrays->states.data(), {static_cast<py::ssize_t>(arrays->states.size()) / width, width}, self);
+}
+
+py::array components_of(KeptRoadmap& kept) {
+  const Asking asking(kept);
+  RawVector<VertexId> component =
+      CallLimits().run([&](const Execution& execution) { return kept.arrays(execution).component; });
+  const Shape size = size_of(component);
+  return array_of<VertexId>(std::move(component), size);
+}
+
+}  // namespace
+
 namespace py = pybind11;
 namespace {
 

@@ -28,7 +28,7 @@
 
 #include "bench/rivals/ompl_prm.hpp"
 #include "core/base/rng.hpp"
-#include "planners/tiled/tiled_prm_any_world.hpp"
+#include "planners/roadmap/prm.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "solve/roadmaps/roadmap_query.hpp"
 
@@ -222,10 +222,10 @@ void compare(std::uint32_t side, std::uint64_t samples, int count) {
   tell("warren, index", questions, lengths, by({}));
   tell("warren, search", questions, lengths, by({.search = SearchMethod::astar}));
   tell("Boost's A*", questions, lengths, [&](const Asked& asked) { return boost_search.length(asked); });
-  RoadmapOptions tiled;
-  tiled.samples = samples;
-  tell("overlay search", few, lengths, [&](const Asked& asked) {
-    const Solution<Vec2> found = prm_in_tiles(world, asked.start, asked.goal, tiled, {});
+  RoadmapOptions plain_options;
+  plain_options.samples = samples;
+  tell("prm anew", few, lengths, [&](const Asked& asked) {
+    const Solution<Vec2> found = prm(world, asked.start, asked.goal, plain_options, {});
     return path_length(found.path, [](Vec2 a, Vec2 b) { return distance(a, b); });
   });
   std::unique_ptr<GivenPrm> ompl_side;

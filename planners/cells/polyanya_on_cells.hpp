@@ -5,7 +5,7 @@
 // A node stands in a door, sees it from a root (start, or a corner that the path bends at) between two rays through
 // corners, and knows the length of the way to the root. Passing the next door narrows the rays by that door's corner,
 // or bends at a corner that was just passed: what lies behind it is seen from there. As in
-// planners/cells/cell_route.hpp the other ends of doors don't matter, and where the way turns back under a corner it
+// planners/cells/cell_planner.hpp the other ends of doors don't matter, and where the way turns back under a corner it
 // bends there. Whether rays leave anything is an exact orientation; only the order of the search, by length so far and
 // least length to the goal, is rounded: the route is the best but for routes as short within rounding. A corner is a
 // root again only if it is reached by no longer a way. Time: O(nodes log nodes), usually few nodes a cell.

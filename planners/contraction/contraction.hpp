@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Makes the hierarchy (hierarchy.hpp) of an undirected graph. Vertices are taken out in rounds: in each all those whose
 // key, from their degree and how much was taken out around them, is below their neighbours', so that no two of them are
-// neighbours and all can go at once; shortcuts keep the lengths between what is left (witness_search.hpp). Everything
-// is a function of the graph: the same bytes for any number of threads.
+// neighbours and all can go at once; shortcuts keep the lengths between what is left (contraction_rounds.cpp).
+// Everything is a function of the graph: the same bytes for any number of threads.
 //
 // Where ways through a place are few, as in corridors, what is left grows no denser, and a question climbs through a
 // few hundred vertices. In open space it does: then nobody gains, and counting says so, first in samples of the graph,

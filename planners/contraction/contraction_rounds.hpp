@@ -3,15 +3,56 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/base/raw_vector.hpp"
 #include "core/search/graph.hpp"
 #include "parallel/execution.hpp"
 #include "planners/contraction/hierarchy.hpp"
-#include "planners/contraction/shrinking_graph.hpp"
 
 namespace warren {
+
+// What is left of a graph while its vertices are taken out, round by round: rows like those of Graph, whose arcs know
+// their lengths and, where they are shortcuts, the vertex that they lead over. A round makes the next graph of this one
+// in a few passes over its arcs, on all threads; vertices keep their order, so that neighbours in the plane stay
+// neighbours in memory. 16 bytes an arc, twice while a round is made.
+
+/// An arc of a row; an edge stands in the rows of both its ends.
+struct ShrinkingArc {
+  VertexId to;      ///< of the graph that is left
+  VertexId middle;  ///< of the whole graph; no_vertex: an edge of it
+  double length;
+};
+
+/// An edge that stands for the way over a vertex that is taken out.
+struct Shortcut {
+  VertexId from;    ///< of the graph that is left
+  VertexId to;      ///< likewise
+  VertexId middle;  ///< of the whole graph
+  double length;
+};
+
+struct ShrinkingGraph {
+  RawVector<VertexId> vertex;  ///< of the whole graph, ascending
+  RawVector<EdgeEnd> first;    ///< one more than vertices
+  RawVector<ShrinkingArc> arc;
+
+  std::size_t size() const { return vertex.size(); }
+  std::span<const ShrinkingArc> row(VertexId v) const { return {arc.data() + first[v], arc.data() + first[v + 1]}; }
+};
+
+/// The graph, which has lengths, before the first round. Throws Stopped.
+ShrinkingGraph shrinking_graph(const Graph& graph, const Execution& execution);
+
+/// Without the vertices v that have taken[v] != 0, and with the shortcuts, part by part; of two arcs between the same
+/// vertices the shorter one stays. Nothing of `before` is left. Throws Stopped, and InputError for 2^32 arcs or more.
+ShrinkingGraph shrunk(ShrinkingGraph before, std::span<const std::uint8_t> taken,
+                      const std::vector<RawVector<Shortcut>>& shortcuts, const Execution& execution);
+
+/// Turns how many arcs each row has, and a zero behind the last, into where the rows begin; returns their sum. Throws
+/// Stopped, and InputError for 2^32 arcs or more.
+std::size_t scan_rows(RawVector<EdgeEnd>& counts, const Execution& execution);
 
 /// Refers to the execution.
 class ContractionRounds {

@@ -1,27 +1,149 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Lazy PRM (Bohlin, Kavraki, ICRA 2000): milestones as in prm, but a motion is checked only where a search needs it.
 //
-// LazyCheck::expansion, the default: the graph is implicit (lazy_graph.hpp); an edge is checked when expanding one end
-// would improve the other. LazyCheck::path: the candidate graph is built and a motion is checked only when it lies on
-// the best path so far (lazy_path_search.hpp). Both find the shortest path of the same roadmap as prm. In mazes the
-// first wins: most candidate edges lead through walls, and each of them costs the second one a repair.
-// From 50,000 milestones on the first one searches from both ends (NBA*), each end with a graph and a thread of its
+// The graph is implicit (LazyGraph); an edge is checked when expanding one end would improve the other. The path
+// is the shortest of the same roadmap as prm's. Tried and lost: a motion checked only when it lies on the best path so
+// far, as they have it, for most candidate edges of mazes lead through walls, and each of them cost a repair.
+// From 50,000 milestones on it searches from both ends (NBA*), each end with a graph and a thread of its
 // own; below that, two threads do not repay their start. The number of threads changes neither path nor counters. There
 // it also leaves out the dead ends of a maze (dead_ends.hpp).
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
+#include <cstdint>
+#include <optional>
+#include <span>
 #include <utility>
+#include <vector>
 
+#include "core/base/counters.hpp"
+#include "core/base/world.hpp"
 #include "core/search/bidirectional_search.hpp"
+#include "core/search/graph.hpp"
+#include "core/search/search.hpp"
 #include "parallel/assemble_graph.hpp"
 #include "parallel/polled_sort.hpp"
-#include "planners/roadmap/lazy_graph.hpp"
-#include "planners/roadmap/lazy_path_search.hpp"
+#include "planners/roadmap/connection.hpp"
+#include "planners/roadmap/dead_ends.hpp"
 #include "planners/roadmap/plan_in_rounds.hpp"
+#include "planners/roadmap/roadmap_growth.hpp"
 #include "planners/roadmap/roadmap_search.hpp"
 
 namespace warren {
+
+// A roadmap whose edges are not checked before the search needs them: a motion is checked when it would improve a
+// vertex. Radius rule: the graph isn't built either, the neighbours of a milestone are asked of the index when the
+// search expands it. k rule: the candidates are a graph, since a milestone's k nearest alone would miss those that
+// count it among theirs. Either way it is the graph that prm checks as a whole, so the path is the same; one to six
+// checks an expansion instead of one a candidate.
+
+/// Belongs to one thread; each side of a search has its own. Throws Stopped between checks. Vertices: milestones, then
+/// start, then goal (whose edges were checked by attach()).
+template <World W>
+class LazyGraph {
+ public:
+  using State = typename W::State;
+  LazyGraph(const W& world, std::span<const State> states, const StateIndex<W>& index, const ConnectionRule& rule,
+            const Graph& candidates, std::span<const Edge> end_edges, const Execution& execution)
+      : world_(world),
+        states_(states),
+        index_(index),
+        rule_(rule),
+        radius_(rule.radius),
+        candidates_(candidates),
+        end_edges_(end_edges),
+        execution_(&execution),
+        query_(world.make_query()) {}
+
+  /// Leaves milestones of dead ends unexpanded where nothing depends on them. Radius rule, in the plane.
+  void leave_out(const DeadEnds& dead_ends) {
+    if constexpr (CellSideWorld<W>) seals_.emplace(dead_ends, index_, rule_.radius, *execution_);
+  }
+  /// Keeps the free edges that were used, for pictures.
+  void record(std::vector<Edge>* edges) { recorded_ = edges; }
+  std::uint64_t free_edges() const { return free_edges_; }
+  /// Queries and checks so far.
+  Counters counters() const {
+    Counters all = counters_;
+    all.refused = refused_motions(query_);
+    return all;
+  }
+
+  /// The free edges of v of which visit.wants(w, length) says that they help. visit.labels(): of all vertices.
+  void operator()(VertexId v, const AnyVisit& visit) {
+    if (v < index_.size()) {
+      if (seals_ && seals_->holds(v, visit.labels())) return;
+      visit_milestones(v, visit);
+    }
+    for (const Edge& e : end_edges_) {
+      if (e.from == v) visit(e.to, world_.distance(states_[v], states_[e.to]));
+      if (e.to == v) visit(e.from, world_.distance(states_[v], states_[e.from]));
+    }
+  }
+
+ private:
+  static constexpr std::uint64_t checks_per_poll = 64;
+
+  /// What helps is put to the world bunch by bunch: that v is joined to one neighbour does not change what it is to
+  /// another.
+  void visit_milestones(VertexId v, const AnyVisit& visit) {
+    ++counters_.neighbour_queries;
+    const auto try_edge = [&](VertexId w, double at_least) {
+      if (!visit.wants(w, at_least) || w == v) return;  // most are settled already
+      const double length = world_.distance(states_[v], states_[w]);
+      if (!visit.wants(w, length)) return;
+      lengths_[wanted_.edges().size()] = length;
+      wanted_.add({v, w}, states_[std::min(v, w)], states_[std::max(v, w)]);
+      if (wanted_.full()) visit_free(visit);
+    };
+    if (rule_.neighbours == 0) {
+      index_.for_each_relaxable(index_.point(v), radius_, visit.through(), visit.labels(), try_edge);
+    } else {
+      for (const VertexId w : candidates_.neighbours(v)) try_edge(w, 0.0);
+    }
+    visit_free(visit);
+  }
+
+  /// Those of the wanted edges that are free.
+  void visit_free(const AnyVisit& visit) {
+    const std::size_t count = wanted_.edges().size();
+    if (count == 0) return;
+    if ((unpolled_ += count) >= checks_per_poll) {
+      unpolled_ = 0;
+      execution_->check();
+    }
+    std::uint32_t free = detail::free_motions(world_, wanted_.motions(), query_);
+    counters_.edges_checked += count;
+    counters_.edges_free += static_cast<std::uint64_t>(std::popcount(free));
+    free_edges_ += static_cast<std::uint64_t>(std::popcount(free));
+    for (; free != 0; free &= free - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(free));
+      const auto [v, w] = wanted_.edges()[i];
+      if (recorded_ != nullptr) recorded_->push_back({std::min(v, w), std::max(v, w)});
+      visit(w, lengths_[i]);
+    }
+    wanted_.clear();
+  }
+
+  const W& world_;
+  std::span<const State> states_;
+  const StateIndex<W>& index_;
+  ConnectionRule rule_;
+  SearchRadius radius_;
+  const Graph& candidates_;  // k rule only
+  std::span<const Edge> end_edges_;
+  const Execution* execution_;
+  Counters counters_;
+  typename W::Query query_;
+  detail::Bunch<State> wanted_;
+  std::array<double, bunch_size> lengths_;  ///< of what is wanted
+  std::optional<DeadEndSeals> seals_;
+  std::size_t unpolled_ = 0;
+  std::vector<Edge>* recorded_ = nullptr;
+  std::uint64_t free_edges_ = 0;
+};
 
 namespace detail {
 
@@ -46,7 +168,7 @@ class LazyPlan : public Rounds<W> {
     index_ = this->index_milestones();
     rule_ = this->rule_for(samples);
     attach_ends();
-    return this->take(options_.lazy == LazyCheck::path ? search_paths() : search_expanding());
+    return this->take(search_expanding());
   }
   void finish(PlannedRoadmap<State>* keep);
 
@@ -64,7 +186,6 @@ class LazyPlan : public Rounds<W> {
   RawVector<VertexId> search_expanding();
   RawVector<VertexId> search_from_both_ends();
   DeadEnds find_dead_ends() const;
-  RawVector<VertexId> search_paths();
   SearchResult expand_from(VertexId from, VertexId to, SearchState& state, std::vector<Edge>* record);
   LazyGraph<W> lazy_graph() const { return {world_, states_, index_, rule_, candidates_, end_edges_, execution_}; }
   void count(const LazyGraph<W>& graph);
@@ -79,7 +200,7 @@ class LazyPlan : public Rounds<W> {
   ConnectionRule rule_;
   StateIndex<W> index_;
   RawVector<Edge> end_edges_;
-  Graph candidates_;  ///< unchecked; only where the strategy or the rule needs them
+  Graph candidates_;  ///< unchecked; only where the rule needs them
   std::vector<Edge> free_edges_;
   std::vector<Edge> tree_;
 };
@@ -91,10 +212,9 @@ void LazyPlan<W>::attach_ends() {
       attach_start_and_goal(world_, milestones(), index_, rule_, this->start_, this->goal_, solution_.counters);
   solution_.roadmap.edges = end_edges_.size();
   candidates_ = Graph();
-  if (options_.lazy == LazyCheck::expansion && rule_.neighbours == 0) return;
-  EdgeParts parts = candidate_edges(world_, milestones(), index_, rule_, execution_, solution_.counters);
-  if (options_.lazy == LazyCheck::path) parts.push_back(end_edges_);
-  candidates_ = assemble_graph(states_.size(), parts, execution_);
+  if (rule_.neighbours == 0) return;
+  candidates_ = assemble_graph(
+      states_.size(), candidate_edges(world_, milestones(), index_, rule_, execution_, solution_.counters), execution_);
 }
 
 template <World W>
@@ -170,24 +290,6 @@ DeadEnds LazyPlan<W>::find_dead_ends() const {
     return DeadEnds(std::move(cells), kept, execution_);
   }
   return {};
-}
-
-template <World W>
-RawVector<VertexId> LazyPlan<W>::search_paths() {
-  const StageTimer timer(execution_, "search", solution_.seconds.search);
-  LazyPathSearch<W> search(world_, candidates_, states_, start_vertex(), goal_vertex(), execution_);
-  RawVector<VertexId> path = search.run();
-  solution_.counters.expanded += search.expanded();
-  solution_.counters.edges_checked += search.checked();
-  solution_.counters.edges_free += search.free_edges().size();
-  solution_.roadmap.edges += search.free_edges().size();
-  free_edges_.assign(end_edges_.begin(), end_edges_.end());
-  free_edges_.insert(free_edges_.end(), search.free_edges().begin(), search.free_edges().end());
-  tree_.clear();
-  for (VertexId v = 0; keep_ && v < states_.size(); ++v) {
-    if (search.reached(v) && search.parent(v) != no_vertex) tree_.push_back({v, search.parent(v)});
-  }
-  return path;
 }
 
 template <World W>

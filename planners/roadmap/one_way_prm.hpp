@@ -235,7 +235,7 @@ void OneWayPlan<W>::finish(PlannedRoadmap<State>* keep) {
 
 }  // namespace detail
 
-/// Plans from start to goal as prm does, or (lazy) as lazy_prm; LazyCheck makes no difference here. `keep`, where
+/// Plans from start to goal as prm does, or (lazy) as lazy_prm. `keep`, where
 /// given, receives the roadmap of the last round; its graph is directed: w is among the neighbours of v where the
 /// motion from v to w is free.
 template <World W>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What all planners that draw samples in rounds share: prm, lazy_prm, one_way_prm and prm_in_tiles. A round draws
+// What all planners that draw samples in rounds share: prm, lazy_prm and one_way_prm. A round draws
 // milestones in tile order, start and goal after them, and looks for a path; with samples on auto a round that leaves
 // start and goal apart is followed by a larger one (roadmap_growth.hpp), until a documented cap.
 #pragma once

@@ -49,10 +49,6 @@ enum class QueueKind : std::uint8_t { heap, lazy_heap, sorted_array, resorted_ar
 constexpr auto enum_names(QueueKind) {
   return std::array<std::string_view, 4>{"heap", "lazy-heap", "sorted-array", "resorted-array"};
 }
-/// path: Bohlin and Kavraki 2000, check the edges of the path found, drop the bad ones, repair, repeat.
-/// expansion: check an edge when the search first wants to use it.
-enum class LazyCheck : std::uint8_t { expansion, path };
-constexpr auto enum_names(LazyCheck) { return std::array<std::string_view, 2>{"expansion", "path"}; }
 
 /// Cell centres (1..cols) x (1..rows): what SamplerKind::lattice needs to know.
 struct LatticeSize {
@@ -82,7 +78,6 @@ struct RoadmapOptions {
   SearchKind search = SearchKind::astar;  ///< of the roadmap
   QueueKind queue = QueueKind::heap;      ///< of astar and dijkstra
   HeuristicKind heuristic = HeuristicKind::euclidean;  ///< of astar, for points of the plane
-  LazyCheck lazy = LazyCheck::expansion;               ///< only for lazy_prm
   /// How start and goal are joined; none: by the rule, and where that finds nothing to the nearest that will do.
   std::optional<GrowingAttach> attach = {};
 

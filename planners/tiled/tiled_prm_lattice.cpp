@@ -2,14 +2,17 @@
 #include "planners/tiled/tiled_prm_lattice.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <functional>
 #include <memory>
-#include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/base/error.hpp"
 #include "core/base/let_go.hpp"
+#include "parallel/asked_growth.hpp"
 #include "parallel/chunks.hpp"
+#include "planners/roadmap/separation.hpp"
 #include "planners/roadmap/stopped_solution.hpp"
 #include "planners/tiled/lattice_tiles.hpp"
 #include "planners/tiled/overlay_components.hpp"
@@ -18,7 +21,6 @@
 #include "planners/tiled/path_keeper.hpp"
 #include "planners/tiled/tile_borders.hpp"
 #include "planners/tiled/tile_overlay.hpp"
-#include "planners/tiled/tiled_separation.hpp"
 #include "planners/tiles/lattice_end_links.hpp"
 #include "planners/tiles/lattice_tile_reduction.hpp"
 #include "planners/tiles/tile_grid.hpp"
@@ -28,6 +30,112 @@
 
 namespace warren {
 namespace {
+
+// Why start and goal are apart, for the tiled pipeline: the keys of both components are found on the overlay, then the
+// roadmap of each tile that has some of them is made once more and flooded from them. Only asked where there is no
+// path. Cost: as much again as these tiles, one nearest-neighbour query a milestone of the smaller component, and 16 to
+// 40 bytes a milestone of the two.
+
+/// Called from several threads, each with a plane of its own of that margin.
+struct TileMaker {
+  int margin;
+  std::uint32_t bands;  ///< of tiles, which are made one after the other
+  /// Returns the band's tiles; called by no thread but the first, while no tile is made.
+  std::function<std::vector<std::size_t>(std::uint32_t band)> begin;
+  /// The tile's keys as its reduction gave them; may use the plane up.
+  std::function<std::vector<std::uint16_t>(std::size_t tile, TilePlane& plane)> keys;
+  /// Makes the tile's roadmap in the plane, as before its reduction.
+  std::function<void(std::size_t tile, TilePlane& plane)> remake;
+};
+
+using Points = std::vector<Vec2>;
+
+/// Marks the overlay vertices that `from` reaches, peeled ones included.
+void flood(const Overlay& overlay, VertexId from, std::uint8_t mark, RawVector<std::uint8_t>& marks,
+           const Execution& execution) {
+  std::vector<VertexId> stack{from};
+  marks[from] = mark;
+  std::uint64_t seen = 0;
+  while (!stack.empty()) {
+    if (++seen % 65536 == 0) execution.check();
+    const VertexId v = stack.back();
+    stack.pop_back();
+    for (const OverlayEnd& end : overlay.ends(v)) {
+      if (marks[end.target] != 0) continue;
+      marks[end.target] = mark;
+      push_asked(stack, end.target, execution);
+    }
+  }
+}
+
+/// Appends the milestones that the vertex reaches inside the plane's tile, and takes them off the plane.
+void flood_plane(TilePlane& plane, int first_col, int first_row, Points& points) {
+  const TileGrid& grid = plane.grid();
+  std::vector<std::pair<int, int>> stack{{first_col, first_row}};
+  while (!stack.empty()) {
+    const auto [col, row] = stack.back();
+    stack.pop_back();
+    if (col < 0 || row < 0 || col >= plane.width() || row >= plane.height()) continue;
+    const unsigned bits = std::exchange(*plane.at(col, row), std::uint8_t{0});
+    if ((bits & plane_bit::milestone) == 0) continue;
+    points.push_back(TileGrid::point(grid.first_col(plane.tile()) + col, grid.first_row(plane.tile()) + row));
+    if ((bits & plane_bit::right) != 0) stack.emplace_back(col + 1, row);
+    if ((bits & plane_bit::up) != 0) stack.emplace_back(col, row + 1);
+    if ((bits & plane_bit::left) != 0) stack.emplace_back(col - 1, row);
+    if ((bits & plane_bit::down) != 0) stack.emplace_back(col, row - 1);
+  }
+}
+
+Points joined(const std::vector<std::pair<Points, Points>>& parts, Points std::pair<Points, Points>::*side, Vec2 end,
+              const Execution& execution) {
+  std::size_t total = 1;
+  for (const auto& part : parts) total += (part.*side).size();
+  execution.reserve(2 * total * sizeof(Vec2));
+  Points all{end};
+  all.reserve(total);
+  for (const auto& part : parts) all.insert(all.end(), (part.*side).begin(), (part.*side).end());
+  return all;
+}
+
+/// Throws Stopped, also where the memory limit does not allow for the milestones of both.
+Separation tile_separation(const Overlay& overlay, const TileGrid& grid, const OverlayEnds& ends,
+                           const TileMaker& maker, const Execution& execution) {
+  constexpr std::uint8_t of_start = 1;
+  constexpr std::uint8_t of_goal = 2;
+  execution.reserve(overlay.vertex_count());
+  RawVector<std::uint8_t> marks(overlay.vertex_count());
+  std::fill(marks.begin(), marks.end(), std::uint8_t{0});
+  flood(overlay, overlay.start(), of_start, marks, execution);
+  flood(overlay, overlay.goal(), of_goal, marks, execution);
+  const auto is_met = [&](std::size_t tile) {
+    const auto mark_of = [&](VertexId v) { return marks.data() + v; };
+    return std::any_of(mark_of(overlay.first_key(tile)), mark_of(overlay.first_key(tile + 1)),
+                       [](std::uint8_t mark) { return mark != 0; });
+  };
+  execution.reserve(grid.count() * sizeof(std::pair<Points, Points>));
+  std::vector<std::pair<Points, Points>> parts(grid.count());
+  const auto find_points = [&](std::size_t tile) {
+    TilePlane plane(grid, maker.margin);
+    execution.reserve(std::size_t{grid.side()} * grid.side() * sizeof(Vec2));
+    const std::vector<std::uint16_t> keys = maker.keys(tile, plane);
+    maker.remake(tile, plane);
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+      const std::uint8_t mark = marks[overlay.first_key(tile) + k];
+      if (mark == 0) continue;
+      const int side = static_cast<int>(grid.side());
+      flood_plane(plane, keys[k] % side, keys[k] / side, mark == of_start ? parts[tile].first : parts[tile].second);
+    }
+  };
+  for (std::uint32_t band = 0; band < maker.bands; ++band) {
+    const std::vector<std::size_t> tiles = maker.begin(band);
+    for_chunks(tiles.size(), 1, execution, [&](Range r) {
+      if (is_met(tiles[r.first])) find_points(tiles[r.first]);
+    });
+  }
+  using Part = std::pair<Points, Points>;
+  return separation_between<2>(joined(parts, &Part::first, ends.start.at, execution),
+                               joined(parts, &Part::second, ends.goal.at, execution), execution);
+}
 
 /// One plan: what its stages share.
 class TiledPlan {

@@ -20,14 +20,93 @@
 
 #include "core/base/raw_vector.hpp"
 #include "core/plane/wall_set.hpp"
+#include "parallel/chunks.hpp"
 #include "parallel/execution.hpp"
 #include "planners/tiles/narrow_box.hpp"
-#include "planners/tiles/tile_bands.hpp"
 #include "planners/tiles/tile_grid.hpp"
-#include "planners/tiles/wall_counts.hpp"
 #include "planners/tiles/wall_filer.hpp"
 
 namespace warren {
+
+// How many walls of each chunk of the list go to each tile: with that, any tiles can be filed by themselves, each wall
+// where it would stand if all were, and chunks that have nothing for them are passed over. One pass over the walls.
+// Borders of chunks depend on the number of walls alone. Memory: 4 bytes a chunk and tile, twice where walls are wide.
+
+/// Of the narrow or of the wide walls. Immutable after its construction.
+class ChunkCounts {
+ public:
+  ChunkCounts() = default;
+  ChunkCounts(std::size_t chunks, std::size_t tiles) : chunks_(chunks), tiles_(tiles), before_((chunks + 1) * tiles) {}
+
+  /// A chunk's counts, to be filled in.
+  std::uint32_t* counts(std::size_t chunk) { return before_.data() + (chunk + 1) * tiles_; }
+  /// When all are filled in.
+  void add_up();
+
+  /// Walls of the tile in the chunks before this one.
+  std::uint32_t before(std::size_t chunk, std::size_t tile) const { return before_[chunk * tiles_ + tile]; }
+  std::uint32_t of(std::size_t chunk, std::size_t tile) const { return before(chunk + 1, tile) - before(chunk, tile); }
+  std::uint32_t of_tile(std::size_t tile) const { return chunks_ == 0 ? 0 : before(chunks_, tile); }
+
+ private:
+  std::size_t chunks_ = 0;
+  std::size_t tiles_ = 0;
+  RawVector<std::uint32_t> before_;  // first row: nothing; then counts, at last what they sum up to
+};
+
+class WallCounts {
+ public:
+  /// Throws Stopped.
+  WallCounts(const WallSet& walls, const WallFiler& filer, std::size_t tiles, const Execution& execution);
+
+  std::size_t tiles() const { return tiles_; }
+  std::size_t chunks() const { return chunk_count(walls_, grain_); }
+  /// Its walls.
+  Range chunk(std::size_t number) const;
+  const ChunkCounts& narrow() const { return narrow_; }
+  const ChunkCounts& wide() const { return wide_; }
+  bool has(std::size_t chunk, std::size_t tile) const {
+    return narrow_.of(chunk, tile) > 0 || (any_wide_ && wide_.of(chunk, tile) > 0);
+  }
+  bool any_wide() const { return any_wide_; }
+  /// Of all walls.
+  const Box& box() const { return box_; }
+
+ private:
+  template <class Wall>
+  void count(std::span<const Wall> walls, const WallFiler& filer, const Execution& execution);
+
+  std::size_t walls_;
+  std::size_t grain_;
+  std::size_t tiles_;
+  ChunkCounts narrow_;
+  ChunkCounts wide_;  // empty where no wall is
+  bool any_wide_ = false;
+  Box box_;
+};
+
+// Which tiles are filed together: all, or bands of tiles one after the other, so that not all walls are held twice.
+// Where the walls come in some order, a band takes but a part of the list, and many bands cost no more than one: the
+// copies then are a 16th of the walls. Where they come in no order, each band is a pass over all walls, and there are
+// as few as the memory allows. What is made of the tiles is the same for any bands.
+
+/// `count` bands of whole columns (or rows) of tiles.
+struct TileBands {
+  std::uint32_t count = 1;
+  bool by_rows = false;
+
+  /// In which a tile is.
+  std::uint32_t of(const TileGrid& grid, std::size_t tile) const {
+    const std::size_t at = by_rows ? tile / grid.tile_cols : tile % grid.tile_cols;
+    return static_cast<std::uint32_t>(at * count / (by_rows ? grid.tile_rows : grid.tile_cols));
+  }
+  /// Ascending.
+  std::vector<std::size_t> tiles(const TileGrid& grid, std::uint32_t band) const;
+};
+
+/// wall_bytes: of a wide wall. Asks the memory limit how much is left.
+TileBands choose_bands(const WallCounts& counts, const TileGrid& grid, std::size_t wall_bytes,
+                       const Execution& execution);
 
 /// All that a tile needs to know of the walls: each list holds walls of its own.
 struct TileWalls {

@@ -49,7 +49,7 @@ def solve(
     search: _Search | None = ...,
     heuristic: _Heuristic | None = ...,
     queue: _Queue | None = ...,
-    lazy: bool | Literal["expansion", "path"] | None = ...,
+    lazy: bool | Literal["expansion"] | None = ...,
     pipeline: _Pipeline | None = ...,
     optimise: bool | None = ...,
     seed: int | None = ...,

@@ -5,12 +5,7 @@
 #include <string_view>
 
 #include "core/base/error.hpp"
-#include "roadmaps/exports/roadmap_csv_io.hpp"
-#include "roadmaps/exports/roadmap_dimacs_io.hpp"
-#include "roadmaps/exports/roadmap_dot_io.hpp"
-#include "roadmaps/exports/roadmap_geojson_io.hpp"
-#include "roadmaps/exports/roadmap_graphml_io.hpp"
-#include "roadmaps/exports/roadmap_npz_io.hpp"
+#include "roadmaps/exports/roadmap_formats_io.hpp"
 
 namespace warren {
 namespace {

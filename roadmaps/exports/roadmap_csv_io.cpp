@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "roadmaps/exports/roadmap_csv_io.hpp"
+#include "roadmaps/exports/roadmap_formats_io.hpp"
 
 #include <fmt/compile.h>
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Numbers are quoted: a bare numeral of the language has no exponent.
-#include "roadmaps/exports/roadmap_dot_io.hpp"
+#include "roadmaps/exports/roadmap_formats_io.hpp"
 
 #include <fmt/compile.h>
 #include <fmt/format.h>

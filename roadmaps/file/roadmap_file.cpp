@@ -5,10 +5,150 @@
 #include <cstring>
 
 #include "core/base/error.hpp"
-#include "parallel/chunks.hpp"
 #include "roadmaps/file/checksum.hpp"
 
 namespace warren {
+namespace {
+
+bool all_zero(std::span<const std::byte> bytes) {
+  return std::all_of(bytes.begin(), bytes.end(), [](std::byte b) { return b == std::byte{0}; });
+}
+
+class HeaderReader {
+ public:
+  HeaderReader(const std::string& name, std::span<const std::byte> bytes) : name_(name), bytes_(bytes) {}
+
+  CheckedHeader read() {
+    read_fixed();
+    check_size();
+    for (std::size_t i = 0; i < fixed_.sections; ++i)
+      read_entry(at<SectionEntry>(sizeof fixed_ + i * sizeof(SectionEntry)));
+    check_places();
+    result_.header = {fixed_.world_hash, fixed_.recipe_hash, std::string{text_of(fixed_.writer)}};
+    return std::move(result_);
+  }
+
+ private:
+  static std::string number(std::uint64_t n) { return std::to_string(n); }
+  [[noreturn]] void fail(std::string_view what, std::string_view found = {}) const {
+    throw InputError(name_, what, found);
+  }
+  [[noreturn]] void fail_in(const SectionPlace& section, std::string_view what, std::string_view found) const {
+    fail("section `" + section.name + "` " + std::string{what}, found);
+  }
+  template <class T>
+  T at(std::size_t offset) const {
+    T value;
+    std::memcpy(&value, bytes_.data() + offset, sizeof value);
+    return value;
+  }
+  std::string_view text(std::size_t size) const {
+    return {reinterpret_cast<const char*>(bytes_.data()), std::min(size, bytes_.size())};
+  }
+  [[noreturn]] void fail_cut_off(std::uint64_t expected) const {
+    fail("the roadmap file is cut off: expected " + number(expected) + " bytes; make or copy it again",
+         number(bytes_.size()) + " bytes");
+  }
+
+  void read_fixed() {
+    if (!text(roadmap_magic.size()).starts_with(roadmap_magic)) {
+      fail("expected a roadmap file, which begins with \\x89WRRMAP and a line feed", text(roadmap_magic.size()));
+    }
+    if (bytes_.size() < sizeof fixed_) fail_cut_off(sizeof fixed_);
+    fixed_ = at<FixedHeader>(0);
+    if (fixed_.byte_order == __builtin_bswap32(byte_order_mark)) {
+      fail("this roadmap file is big-endian: expected little-endian numbers; make it again", writer());
+    }
+    if (fixed_.major_version != roadmap_major) {
+      fail("this roadmap file has format version " + number(fixed_.major_version) + "." + number(fixed_.minor_version) +
+               " and expected is " + number(roadmap_major) + ": read it with its writer or make it again",
+           writer());
+    }
+  }
+  std::string writer() const { return "written by `" + std::string{text_of(fixed_.writer)} + "`"; }
+
+  /// The checksum comes before all that the header says, so that damage is called damage.
+  void check_size() const {
+    const std::size_t size = fixed_.header_bytes;
+    if (size > bytes_.size()) fail_cut_off(std::max<std::uint64_t>(size, fixed_.file_bytes));
+    const std::size_t end = size - sizeof(std::uint64_t);
+    if (size < header_bytes(0, 0) || size % section_alignment != 0 ||
+        checksum(bytes_.first(end)) != at<std::uint64_t>(end)) {
+      fail("the header of this roadmap file is damaged: its checksum is another one; make or copy it again");
+    }
+    if (fixed_.byte_order != byte_order_mark) fail("the header has no mark of byte order", number(fixed_.byte_order));
+    if (bytes_.size() < fixed_.file_bytes) fail_cut_off(fixed_.file_bytes);
+    if (bytes_.size() > fixed_.file_bytes) {
+      fail("bytes follow the end of this roadmap file: expected " + number(fixed_.file_bytes) + " bytes",
+           number(bytes_.size()) + " bytes");
+    }
+    if (fixed_.sections > most_sections) fail("a roadmap file has at most 64 sections", number(fixed_.sections));
+    if (block_table(fixed_.sections) > end) fail("the header has no room for its sections", number(fixed_.sections));
+    check_text(fixed_.writer, "the writer");
+  }
+  void check_text(std::span<const char> field, const std::string& what) const {
+    const std::size_t size = text_of(field).size();
+    if (!all_zero(std::as_bytes(field).subspan(size))) fail(what + " must be followed by zeros alone");
+  }
+
+  void read_entry(const SectionEntry& entry) {
+    SectionPlace s{std::string{text_of(entry.name)},
+                   entry.type,
+                   entry.flags == optional_flag,
+                   entry.offset,
+                   entry.elements,
+                   result_.blocks};
+    if (!is_section_name(s.name)) fail("a section's name must be 1 to 16 of a-z, 0-9, dot and underscore", s.name);
+    check_text(entry.name, "the name of section `" + s.name + "`");
+    const auto has_name = [&](const SectionPlace& other) { return other.name == s.name; };
+    if (std::any_of(result_.sections.begin(), result_.sections.end(), has_name)) fail_in(s, "stands twice", {});
+    if (!s.type.is_legal()) fail_in(s, "must have elements of a type like <u4 or <f8", text_of(entry.type.code));
+    if (entry.flags > optional_flag) fail_in(s, "has flags that are not known", number(entry.flags));
+    if (!all_zero(std::as_bytes(std::span(entry.reserved)))) fail_in(s, "must have zeros in its reserved bytes", {});
+    if (s.elements > bytes_.size() / s.type.bytes()) {
+      fail_in(s, "has more elements than a file of " + number(bytes_.size()) + " bytes can hold", number(s.elements));
+    }
+    result_.blocks += s.blocks();
+    result_.sections.push_back(std::move(s));
+  }
+
+  void check_places() const {
+    const std::size_t head = header_bytes(fixed_.sections, result_.blocks);
+    if (head != fixed_.header_bytes) {
+      fail("the header must have " + number(head) + " bytes for its sections", number(fixed_.header_bytes));
+    }
+    std::size_t used = block_table(fixed_.sections) + result_.blocks * sizeof(std::uint64_t);
+    check_zeros(used, head - sizeof(std::uint64_t), "the header");
+    std::size_t end = head;
+    for (const SectionPlace& s : result_.sections) {
+      if (s.offset != end)
+        fail_in(s, "must begin at byte " + number(end) + ", after what is before it", number(s.offset));
+      used = end + s.bytes();
+      end = aligned(used);
+      if (end > bytes_.size())
+        fail_in(s, "ends beyond the file, at byte " + number(used), number(bytes_.size()) + " bytes");
+      check_zeros(used, end, "section `" + s.name + "`");
+    }
+    if (end != bytes_.size()) fail("the sections end at byte " + number(end), number(bytes_.size()) + " bytes");
+  }
+  void check_zeros(std::size_t first, std::size_t last, const std::string& what) const {
+    if (!all_zero(bytes_.subspan(first, last - first))) {
+      fail("the bytes behind " + what + " must be zeros, bytes " + number(first) + " to " + number(last - 1));
+    }
+  }
+
+  const std::string& name_;
+  std::span<const std::byte> bytes_;
+  FixedHeader fixed_{};
+  CheckedHeader result_;
+};
+
+}  // namespace
+
+CheckedHeader read_header(const std::string& name, std::span<const std::byte> bytes) {
+  return HeaderReader(name, bytes).read();
+}
+
 namespace {
 
 constexpr std::size_t most_checked_whole = std::size_t{64} << 20;  // a few milliseconds

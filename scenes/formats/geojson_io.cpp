@@ -5,20 +5,126 @@
 #include "scenes/formats/geojson_io.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/base/types.hpp"
 #include "parallel/asked_growth.hpp"
-#include "scenes/formats/geojson_geometries.hpp"
+#include "scenes/scene/holes_cut_open.hpp"
+#include "scenes/text/growing_walls.hpp"
 #include "scenes/text/json_bytes.hpp"
 #include "scenes/text/scene_text.hpp"
 
 namespace warren {
 namespace {
+
+// What GeoJSON's geometries mean for a world: outlines are obstacles, lines walls, points nothing, unless the feature
+// around them says that they are start, goal or bounds. That is known when the feature ends, so geometries wait here.
+// Polygons with holes are cut (scenes/scene/holes_cut_open.hpp).
+
+/// Refers to the file's name, which must outlive it. All that is wrong throws InputError with file and line.
+class GeojsonPieces {
+ public:
+  enum class Kind : std::uint8_t { polygon, wall, point };
+
+  GeojsonPieces(const std::string& file, const Execution& execution)
+      : file_(file), execution_(execution), walls_(execution) {}
+
+  /// How many wait.
+  std::size_t size() const { return waiting_.size(); }
+  /// Rings are not closed.
+  void add(Kind kind, std::vector<Vec2> points, std::size_t line) {
+    push_asked(waiting_, {kind, std::move(points), line, {}}, execution_);
+  }
+  /// Of the polygon that was added last.
+  void add_hole(std::vector<Vec2> ring) { push_asked(waiting_.back().holes, std::move(ring), execution_); }
+  /// Takes those that wait, from the one of that number on, into the world. role: "start", "goal", "bounds", or else
+  /// they are obstacles.
+  void settle(std::size_t first, const std::string& role);
+  /// The world; once.
+  Scene finish();
+
+ private:
+  struct Piece {
+    Kind kind;
+    std::vector<Vec2> points;
+    std::size_t line;
+    std::vector<std::vector<Vec2>> holes;
+  };
+
+  [[noreturn]] void fail_at(std::size_t line, std::string_view what) const;
+  void settle_role(const Piece& piece, const std::string& role);
+  void settle_obstacle(Piece& piece);
+
+  const std::string& file_;
+  const Execution& execution_;
+  Scene scene_;
+  WallCollector walls_;
+  std::vector<Piece> waiting_;
+};
+
+void GeojsonPieces::fail_at(std::size_t line, std::string_view what) const {
+  scene_text::Place{file_, line}.fail(what, {});
+}
+
+void GeojsonPieces::settle(std::size_t first, const std::string& role) {
+  for (std::size_t i = first; i < waiting_.size(); ++i) {
+    if (role == "start" || role == "goal" || role == "bounds") {
+      settle_role(waiting_[i], role);
+    } else {
+      settle_obstacle(waiting_[i]);
+    }
+  }
+  waiting_.resize(first);
+}
+
+void GeojsonPieces::settle_role(const Piece& piece, const std::string& role) {
+  const bool wants_point = role != "bounds";
+  if ((piece.kind == Kind::point) != wants_point || piece.kind == Kind::wall) {
+    fail_at(piece.line, fmt::format("the role \"{}\" is that of a {}", role, wants_point ? "Point" : "Polygon"));
+  }
+  if (wants_point) {
+    std::vector<double>& state = role == "start" ? scene_.start : scene_.goal;
+    if (!state.empty() || piece.points.size() != 1) fail_at(piece.line, fmt::format("a second \"{}\"", role));
+    state = {piece.points[0].x, piece.points[0].y};
+    return;
+  }
+  if (scene_.bounds) fail_at(piece.line, "a second \"bounds\"");
+  Box box;
+  for (const Vec2 p : piece.points) box.include(p);
+  if (!(box.width() > 0.0) || !(box.height() > 0.0)) fail_at(piece.line, "the bounds have no area");
+  scene_.bounds = box;
+}
+
+void GeojsonPieces::settle_obstacle(Piece& piece) {
+  if (piece.kind == Kind::point) return;  // a mark on a map blocks nothing
+  if (piece.kind == Kind::wall) {
+    for (std::size_t i = 1; i < piece.points.size(); ++i) {
+      walls_.add(piece.points[i - 1].x, piece.points[i - 1].y, piece.points[i].x, piece.points[i].y);
+    }
+    return;
+  }
+  if (piece.holes.empty()) {
+    push_asked(scene_.polygons, {std::move(piece.points), piece.line}, execution_);
+  } else if (!add_without_holes(scene_, piece.line, piece.points, piece.holes, execution_)) {
+    fail_at(piece.line, misplaced_hole);
+  }
+}
+
+Scene GeojsonPieces::finish() {
+  scene_.walls = walls_.take();
+  scene_.source = file_;
+  if (scene_.walls.size() == 0 && scene_.polygons.empty() && !scene_.bounds) {
+    throw InputError(file_, "there is no polygon and no line in it; expected GeoJSON with some");
+  }
+  return std::move(scene_);
+}
 
 using Json = nlohmann::json;
 

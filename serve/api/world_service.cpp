@@ -5,24 +5,246 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "core/base/error.hpp"
+#include "parallel/deadline.hpp"
 #include "roadmaps/file/checksum.hpp"
 #include "scenes/formats/scene_io.hpp"
+#include "scenes/scene/unit_of.hpp"
+#include "scenes/text/human_units.hpp"
 #include "scenes/text/input_file_io.hpp"
 #include "scenes/text/json_text.hpp"
+#include "serve/api/path_places.hpp"
 #include "serve/api/query_body_io.hpp"
-#include "serve/api/world_description.hpp"
+#include "serve/api/swept_bodies.hpp"
 #include "serve/page/served_files.hpp"
 #include "solve/answer/path_hash.hpp"
+#include "solve/answer/world_account.hpp"
 #include "solve/answer/write_answer_io.hpp"
 #include "solve/batches/ask_batch_io.hpp"
+#include "solve/steps/kind_of_problem.hpp"
 
 namespace warren::serve {
 namespace {
+
+/// Of a profile.
+std::size_t sample_count(const HttpRequest& request) {
+  constexpr double most = 2000.0;
+  const double count = numbers_parameter(request, "samples", 1).value_or(std::vector{200.0})[0];
+  if (count >= 2.0 && count <= most && count == std::floor(count)) return static_cast<std::size_t>(count);
+  throw HttpError(400, "bad_request", "query", "samples: expected a whole number, 2 to 2000");
+}
+
+}  // namespace
+
+void PathService::keep(const std::string& name, Answer answer, const Execution& execution) {
+  KeptPath kept;
+  const bool is_driven = !answer.states.empty() && answer.problem.robot.kind == RobotKind::car;
+  kept.curve = KeptCurve(is_driven ? curve_of(answer, execution) : std::move(answer.path), execution);
+  kept.way.states = std::move(answer.states);
+  kept.way.problem.robot = std::move(answer.problem.robot);
+  kept.way.length = answer.length;
+  kept.way.min_clearance = answer.min_clearance;
+  const std::size_t bytes = kept.curve.bytes() + kept.way.states.numbers.size() * sizeof(double) + sizeof(KeptPath);
+  paths_.put(name, std::move(kept), bytes);
+}
+
+HttpResponse PathService::answer(const Route& route, const HttpRequest& request, const Execution& execution) {
+  const auto kept = paths_.find(route.name);
+  if (!kept) {
+    throw HttpError(404, "not_found", "path",
+                    "no path of this name is kept, or none any more; POST its question to /api/query again, and the "
+                    "field Warren-Path of the answer names it");
+  }
+  if (route.place == Place::clearance) return clearance(*kept, request, execution);
+  if (route.place == Place::sweep) return sweep(*kept, request, execution);
+  return told(*kept, request, execution);
+}
+
+/// What of a path is seen: everything where the request doesn't say.
+PathView PathService::view_of(const HttpRequest& request) const {
+  constexpr double everything = std::numeric_limits<double>::infinity();
+  PathView view{.box = {{-everything, -everything}, {everything, everything}}};
+  if (const auto box = numbers_parameter(request, "bbox", 4))
+    view.box = {{(*box)[0], (*box)[1]}, {(*box)[2], (*box)[3]}};
+  if (const auto zoom = numbers_parameter(request, "z", 1)) {
+    const TileGrid& grid = world_.tiles().grid();
+    constexpr double farthest = -8.0;
+    view.pixel = std::ldexp(grid.pixel(0), -static_cast<int>(std::clamp((*zoom)[0], farthest, grid.levels - 1.0)));
+  }
+  return view;
+}
+
+HttpResponse PathService::told(const KeptPath& kept, const HttpRequest& request, const Execution& execution) const {
+  constexpr std::size_t bytes_a_point = 96;  // of text that doubles, and of the answer
+  PathView view = view_of(request);
+  view.most_points = most_view_points_;
+  const std::vector<std::vector<Vec2>> chains = seen_of(kept.curve, view, execution);
+  std::size_t points = 0;
+  for (const std::vector<Vec2>& chain : chains) points += chain.size();
+  execution.reserve(points * bytes_a_point);
+  std::string text = "[";
+  for (const std::vector<Vec2>& chain : chains) {
+    execution.check();
+    text += text.size() > 1 ? ",[" : "[";
+    for (const Vec2 p : chain) {
+      if (text.back() == ']') text += ',';
+      append_json_list(text, std::array{p.x, p.y});
+    }
+    text += ']';
+  }
+  JsonObject json;
+  json.add("length", kept.way.length);
+  json.add("points", std::uint64_t{kept.curve.size()});
+  json.add_json("chains", text + "]");
+  return {.body = json.closed() + "\n"};
+}
+
+HttpResponse PathService::clearance(const KeptPath& kept, const HttpRequest& request,
+                                    const Execution& execution) const {
+  const std::size_t count = sample_count(request);
+  Answer way = kept.way;
+  if (way.states.empty()) way.path = kept.curve.whole(execution);
+  std::string text;
+  for (const PathPlace& place : places_along(way, count, execution)) {
+    execution.check();
+    const double clearance = world_.clearance_at(place.state.used(), execution);
+    JsonObject told;
+    told.add("along", place.along);
+    told.add_json("at", json_list(place.state.used()));
+    told.add_or_null("clearance", std::isfinite(clearance), clearance);
+    text += (text.empty() ? "" : ",") + told.closed();
+  }
+  JsonObject json;
+  json.add("length", kept.way.length);
+  json.add_or_null("min_clearance", std::isfinite(kept.way.min_clearance), kept.way.min_clearance);
+  json.add_json("places", "[" + text + "]");
+  return {.body = json.closed() + "\n"};
+}
+
+HttpResponse PathService::sweep(const KeptPath& kept, const HttpRequest& request, const Execution& execution) const {
+  const SweptBodies bodies = swept_bodies(kept.way, kept.curve, view_of(request), execution);
+  std::string outline;
+  for (const Vec2 corner : world_.robot().outline) {
+    outline += (outline.empty() ? "" : ",") + json_list(std::span<const double>(std::array{corner.x, corner.y}));
+  }
+  std::string places;
+  for (const PathState& place : bodies.places) places += (places.empty() ? "" : ",") + json_list(place.used());
+  JsonObject json;
+  json.add("radius", world_.robot().outline.empty() ? world_.robot().radius : 0.0);
+  json.add_json("outline", "[" + outline + "]");
+  json.add("apart", bodies.apart);
+  json.add_json("places", "[" + places + "]");
+  return {.body = json.closed() + "\n"};
+}
+
+namespace {
+
+// What a service says of its world and of itself.
+
+/// What is kept.
+struct KeptBytes {
+  std::size_t tile_bytes = 0;
+  std::size_t path_bytes = 0;
+};
+
+std::string box_json(const Box& box) {
+  return json_list(std::span<const double>(std::array{box.min.x, box.min.y, box.max.x, box.max.y}));
+}
+
+std::string tiles_json(const TileGrid& grid, const std::string& hash) {
+  JsonObject json;
+  json.add("url", "/v/" + hash + "/tiles/{z}/{x}/{y}.png");
+  json.add("pixels", std::uint32_t{TileGrid::pixels});
+  json.add("levels", std::uint32_t{grid.levels});
+  json.add_json("corner", json_list(std::span<const double>(std::array{grid.corner.x, grid.corner.y})));
+  json.add("span", grid.span);
+  return json.closed();
+}
+
+/// Those that a question may name.
+std::string planners_json(const ServedWorld& world) {
+  std::string text = "[";
+  if (world.query() == nullptr) {
+    for (const PlannerKind planner : planners_there_are()) {
+      try {
+        choose_solver({.planner = planner}, world.outline(), {.robot = world.robot(), .clearance = world.clearance()});
+        text += (text.size() > 1 ? "," : "") + json_string(name_of(planner));
+      } catch (const UsageError&) {  // not in this world
+      }
+    }
+  }
+  return text + "]";
+}
+
+/// A lattice in a file has its walls made later.
+std::string words_of_world(const Scene& outline) {
+  if (outline.maze && outline.walls.size() == 0) {
+    return fmt::format("{} x {} maze", grouped(outline.maze->rows), grouped(outline.maze->cols));
+  }
+  return description_of(outline);
+}
+
+void add_line(std::string& text, std::string_view name, std::string_view kind, std::string_view help, double value) {
+  fmt::format_to(std::back_inserter(text), "# HELP warren_{} {}\n# TYPE warren_{} {}\nwarren_{} {}\n", name, help, name,
+                 kind, name, value);
+}
+
+/// warren.service/1: what a page needs to show the world and to ask.
+std::string description_json(const ServedWorld& world, const WorldLayers& layers, const ServiceLimits& limits) {
+  const Scene& outline = world.outline();
+  JsonObject json;
+  json.add("schema", "warren.service/1");
+  json.add("source", outline.source);
+  json.add("opened_as", world.is_roadmap() ? "roadmap" : "world");
+  json.add("description", words_of_world(outline));
+  json.add("hash", world.hash());
+  json.add("unit", unit_of(outline));
+  json.add_json("box", box_json(world.box()));
+  json.add("robot", robot_text(world.robot()));
+  json.add("state_size", std::uint64_t{state_size(world.robot())});
+  json.add("clearance", world.clearance());
+  json.add_json("start", json_list(std::span<const double>(outline.start)));
+  json.add_json("goal", json_list(std::span<const double>(outline.goal)));
+  json.add("asks_roadmap", world.query() != nullptr);
+  json.add_json("planners", planners_json(world));
+  json.add("budget_ms", 1e3 * limits.budget_s);
+  json.add("changed", world.is_changed());
+  json.add("writable", limits.writable && !outline.map && world.why_fixed().empty());
+  json.add("wants_token", limits.wants_token);
+  json.add_json("tiles", tiles_json(world.tiles().grid(), world.hash()));
+  json.add_json("layers", layers.json());
+  return json.closed() + "\n";
+}
+/// In the text format of Prometheus.
+std::string metrics_text(const HttpFigures& f, const KeptBytes& kept) {
+  std::string text;
+  const auto number = [](auto count) { return static_cast<double>(count); };
+  add_line(text, "connections", "gauge", "Open connections.", number(f.connections));
+  add_line(text, "connections_total", "counter", "Connections accepted.", number(f.accepted));
+  add_line(text, "connections_gave_way_total", "counter", "Connections closed for others.", number(f.gave_way));
+  add_line(text, "requests_timed_out_total", "counter", "Requests that did not come in time.", number(f.timed_out));
+  add_line(text, "requests_abandoned_total", "counter", "Clients who left before their answer.", number(f.abandoned));
+  add_line(text, "requests_working", "gauge", "Requests worked on or waiting for it.", number(f.working));
+  add_line(text, "requests_worked_total", "counter", "Requests that were worked on.", number(f.worked));
+  add_line(text, "wait_seconds_total", "counter", "Time that they waited for a thread.", f.waited_s);
+  add_line(text, "work_seconds_total", "counter", "Time that was worked on them.", f.worked_s);
+  text += "# HELP warren_responses_total Answers by the first digit of their status.\n";
+  text += "# TYPE warren_responses_total counter\n";
+  for (std::size_t digit = 1; digit < f.said.size(); ++digit) {
+    fmt::format_to(std::back_inserter(text), "warren_responses_total{{status=\"{}xx\"}} {}\n", digit, f.said[digit]);
+  }
+  add_line(text, "kept_tile_bytes", "gauge", "Tiles that are kept.", number(kept.tile_bytes));
+  add_line(text, "kept_path_bytes", "gauge", "Paths that are kept.", number(kept.path_bytes));
+  add_line(text, "resident_bytes", "gauge", "Memory that the process holds.", number(resident_bytes()));
+  return text;
+}
 
 /// Changes whenever tiles of a world look otherwise than before.
 constexpr int tile_style = 1;

@@ -3,20 +3,73 @@
 // any server of HTTP may ask.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 
 #include "parallel/execution.hpp"
 #include "serve/api/graph_service.hpp"
-#include "serve/api/path_service.hpp"
+#include "serve/api/kept_curve.hpp"
+#include "serve/api/path_view.hpp"
 #include "serve/api/route.hpp"
 #include "serve/api/served_world.hpp"
-#include "serve/api/service_limits.hpp"
 #include "serve/api/world_layers.hpp"
+#include "serve/http/http_message.hpp"
 #include "serve/http/http_service.hpp"
 #include "serve/http/kept_values.hpp"
+#include "solve/answer/answer.hpp"
 
 namespace warren::serve {
+
+// What a service may spend on its clients.
+
+struct ServiceLimits {
+  double budget_s = 10.0;  ///< of each request that is worked on; questions may ask for less
+  std::size_t memory_bytes = static_cast<std::size_t>(-1);  ///< that the process may hold
+  unsigned threads = 0;                                     ///< of each request
+  bool writable = false;                                    ///< does whoever owns the service take changes?
+  bool wants_token = false;                                 ///< from those who change
+  std::size_t scene_bytes = std::size_t{64} << 20U;         ///< of a scene that is told
+  std::size_t tile_bytes = std::size_t{64} << 20U;          ///< of tiles that are kept
+  std::size_t path_bytes = std::size_t{1} << 30U;           ///< of paths that are kept; one has half of it at most
+  std::size_t most_points = 10'000;                         ///< of a path that an answer lists
+  std::size_t most_view_points = 500'000;                   ///< of a path that is told by itself
+  std::size_t small_body = std::size_t{64} << 10U;
+  std::size_t batch_body = std::size_t{4} << 20U;      ///< of a route graph, too
+  std::size_t batch_answers = std::size_t{32} << 20U;  ///< bytes
+};
+
+// Paths that were found, kept by name, and what is asked about them (docs/service.md): their points, the room around
+// the body along them, the body's sweep.
+
+/// Any number of threads may ask.
+class PathService {
+ public:
+  /// Refers to the world.
+  PathService(const ServedWorld& world, const ServiceLimits& limits)
+      : world_(world), most_view_points_(limits.most_view_points), paths_(limits.path_bytes) {}
+
+  /// The answer has a path. Throws Stopped.
+  void keep(const std::string& name, Answer answer, const Execution& execution);
+  /// Of a path by its name, at Place::path, clearance or sweep. Throws HttpError, UsageError, Stopped.
+  HttpResponse answer(const Route& route, const HttpRequest& request, const Execution& execution);
+  /// Of all that is kept.
+  std::size_t bytes() const { return paths_.bytes(); }
+
+ private:
+  struct KeptPath {
+    Answer way;  // states, body, length and clearance alone
+    KeptCurve curve;
+  };
+  HttpResponse told(const KeptPath& kept, const HttpRequest& request, const Execution& execution) const;
+  HttpResponse clearance(const KeptPath& kept, const HttpRequest& request, const Execution& execution) const;
+  HttpResponse sweep(const KeptPath& kept, const HttpRequest& request, const Execution& execution) const;
+  PathView view_of(const HttpRequest& request) const;
+
+  const ServedWorld& world_;
+  const std::size_t most_view_points_;
+  KeptValues<KeptPath> paths_;
+};
 
 class WorldService : public HttpService {
  public:

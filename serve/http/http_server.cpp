@@ -4,31 +4,107 @@
 #include <fmt/format.h>
 #include <netinet/tcp.h>
 #include <sys/socket.h>
-
-#include <algorithm>
-#include <array>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/ip/v6_only.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http.hpp>
+
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <limits>
 #include <map>
-#include <memory>
 #include <utility>
 
+#include "core/base/error.hpp"
 #include "serve/http/beast_words.hpp"
-#include "serve/http/connection_places.hpp"
 #include "serve/http/http_connection.hpp"
 #include "serve/http/http_names.hpp"
-#include "serve/http/listening.hpp"
 #include "serve/http/task_crew.hpp"
 
 namespace warren::serve {
 namespace {
+
+// Who is connected, and who gives way where all places are taken.
+
+/// Owns the connections.
+class ConnectionPlaces {
+ public:
+  Connection& add(boost::asio::ip::tcp::socket socket, const boost::asio::ip::address& address,
+                  std::size_t buffer_bytes);
+  void forget(const Connection& connection) { connections_.erase(connection.id); }
+  std::size_t size() const { return connections_.size(); }
+  std::size_t of_address(const boost::asio::ip::address& address) const;
+  /// Who has waited longest without a whole request; nullptr: all are worked on or answered.
+  Connection* longest_waiting() const;
+  /// Calls visit with each; it may forget the one that it is given.
+  template <class Visit>
+  void each(const Visit& visit) {
+    for (auto next = connections_.begin(); next != connections_.end();) visit(*(next++)->second);
+  }
+
+ private:
+  std::uint64_t next_id_ = 0;
+  std::map<std::uint64_t, std::unique_ptr<Connection>> connections_;
+};
+
+Connection& ConnectionPlaces::add(boost::asio::ip::tcp::socket socket, const boost::asio::ip::address& address,
+                                  std::size_t buffer_bytes) {
+  const std::uint64_t id = next_id_++;
+  auto& place = connections_[id] = std::make_unique<Connection>(id, std::move(socket), buffer_bytes);
+  place->address = address;
+  return *place;
+}
+
+std::size_t ConnectionPlaces::of_address(const boost::asio::ip::address& address) const {
+  const auto same = [&](const auto& other) { return other.second->address == address; };
+  return static_cast<std::size_t>(std::count_if(connections_.begin(), connections_.end(), same));
+}
+
+Connection* ConnectionPlaces::longest_waiting() const {
+  Connection* longest = nullptr;
+  for (const auto& [id, other] : connections_) {
+    const bool waits = !other->closed && (other->stage <= Stage::body || other->stage == Stage::linger);
+    if (waits && (longest == nullptr || other->waits_since < longest->waits_since)) longest = other.get();
+  }
+  return longest;
+}
+
+// Where a server listens.
+
+/// Listens at all addresses that the machine has, at the first one's port. Throws UsageError where the first can't be.
+std::vector<boost::asio::ip::tcp::acceptor> acceptors_at(const HttpPlace& place, boost::asio::io_context& io);
+
+namespace asio = boost::asio;
+using Tcp = asio::ip::tcp;
+
+std::vector<Tcp::acceptor> acceptors_at(const HttpPlace& place, asio::io_context& io) {
+  std::vector<Tcp::acceptor> acceptors;
+  std::uint16_t port = place.port;
+  for (const std::string& name : place.addresses) {
+    boost::system::error_code code;
+    const auto address = asio::ip::make_address(name, code);
+    Tcp::acceptor acceptor(io);
+    if (!code) acceptor.open(address.is_v4() ? Tcp::v4() : Tcp::v6(), code);
+    if (!code) acceptor.set_option(Tcp::acceptor::reuse_address(true), code);
+    if (!code && address.is_v6()) acceptor.set_option(asio::ip::v6_only(true), code);
+    if (!code) acceptor.bind({address, port}, code);
+    if (!code) acceptor.listen(asio::socket_base::max_listen_connections, code);
+    if (code == asio::error::address_in_use && acceptors.empty()) {
+      throw UsageError(fmt::format("@port: {} of {} is taken; 0 takes a free one", port, name));
+    }
+    if (code && acceptors.empty())
+      throw UsageError(fmt::format("@listen: {}, port {}: {}", name, port, code.message()));
+    if (code) continue;
+    port = acceptor.local_endpoint().port();
+    acceptors.push_back(std::move(acceptor));
+  }
+  return acceptors;
+}
 
 namespace asio = boost::asio;
 namespace http = boost::beast::http;

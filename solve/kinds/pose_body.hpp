@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What turning polygons and cars have in common as bodies of SampledSolve: their states are poses (x, y, theta), and a
-// goal X,Y without a heading is met in any: as poses_to_meet() has them. Roadmaps try those first that have at least
-// half of the most room, the nearest to the start of them first, so that in the open nothing turns for nothing; then
-// the others, the roomiest first.
+// goal X,Y without a heading is met in any: as the body started, and as poses_to_meet() has them. Roadmaps try those
+// first that have at least half of the most room, the nearest to the start of them first, so that in the open nothing
+// turns for nothing; then the others, the roomiest first.
 #pragma once
 
 #include <algorithm>
@@ -33,7 +33,11 @@ class PoseBody : public UsualBody {
   Se2 start() const { return problem_.start; }
   template <class World>
   std::vector<Se2> goals(const World& world) const {
-    return stop_in(world, problem_.goal);
+    std::vector<Se2> poses = stop_in(world, problem_.goal);
+    if (!problem_.any_heading()) return poses;
+    const Se2 as_started{problem_.goal[0], problem_.goal[1], wrapped_angle(problem_.start.theta)};
+    if (std::find(poses.begin(), poses.end(), as_started) == poses.end()) poses.insert(poses.begin(), as_started);
+    return poses;
   }
   template <class World>
   std::vector<Se2> stop_in(const World& world, const std::vector<double>& state) const {

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solve/mazes/solve_walls.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "planners/shorten/taut_path.hpp"
-#include "planners/tiled/tiled_prm_any_world.hpp"
 #include "planners/tiled/tiled_prm_lattice.hpp"
-#include "solve/mazes/maze_infeasible.hpp"
+#include "scenes/mazes/maze_generator.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 #include "solve/steps/sampled_roadmap.hpp"
 #include "solve/steps/solve_steps.hpp"
@@ -18,6 +20,32 @@
 
 namespace warren {
 namespace {
+
+// The proof behind "infeasible": where all walls lie on the unit grid, a body of any size that keeps off the walls can
+// pass from cell to cell only through open sides (a grid point without walls is the corner of four open sides), so
+// cells that a flood does not join are not joined by any path. Claims nothing where bounds reach beyond the maze's box,
+// since a path could leave by the entrance and come in again by the exit. O(walls + cells).
+
+/// Zero-based {col, row} of a cell whose closed square holds p, a point of the maze's box. On a side between two cells
+/// either will do: p is free, so the side is open.
+std::pair<std::uint32_t, std::uint32_t> cell_of(Vec2 p, MazeHint maze) {
+  const auto at = [](double x, std::uint32_t count) {
+    return static_cast<std::uint32_t>(std::clamp(std::floor(x - 0.5), 0.0, static_cast<double>(count - 1)));
+  };
+  return {at(p.x, maze.cols), at(p.y, maze.rows)};
+}
+
+bool holds(const Box& outer, const Box& inner) { return outer.contains(inner.min) && outer.contains(inner.max); }
+
+/// Is it proved that no path joins start and goal? Both are free points of the scene, which has the maze hint.
+bool proves_infeasible(const Scene& scene, Vec2 start, Vec2 goal, const Execution& execution) {
+  const MazeHint maze = *scene.maze;
+  const Box box{{0.5, 0.5}, {maze.cols + 0.5, maze.rows + 0.5}};
+  if (!box.contains(start) || !box.contains(goal)) return false;
+  if (scene.bounds && !holds(box, *scene.bounds)) return false;
+  const MazeCells cells = cells_of_walls(scene.walls, maze, execution);
+  return !flood_connects(cells, cell_of(start, maze), cell_of(goal, maze), execution);
+}
 
 /// One solve: the steps share the question and fill in the answer.
 class WallSolve {
@@ -75,16 +103,12 @@ void WallSolve::plan(PlannedRoadmap<Vec2>* keep) {
                                        *asked_.scratch, keep));
     return;
   }
-  if (options_.pipeline == PipelineKind::streamed || (options_.pipeline == PipelineKind::tiled && options_.fused)) {
+  if (options_.pipeline != PipelineKind::plain) {
     take_solution(answer_, plan_tiles());
     return;
   }
   const MazeWorld& world = indexed_world();
   if (grows() && ends_are_free(world) && proved_infeasible()) return;
-  if (options_.pipeline == PipelineKind::tiled) {
-    take_solution(answer_, prm_in_tiles(world, problem_.start, problem_.goal, options_.roadmap, execution_));
-    return;
-  }
   const auto planner = options_.planner == PlannerKind::prm ? prm<MazeWorld> : lazy_prm<MazeWorld>;
   take_solution(answer_, planner(world, problem_.start, problem_.goal, options_.roadmap, execution_, keep));
 }
@@ -174,14 +198,13 @@ Answer solve_walls(const SolveRequest& request) {
   return solve_walls(request.scene, problem, options, request.execution, keep, request.asked);
 }
 
-constexpr std::uint64_t most_drawn = 40'000;  // cells or samples: beyond, a picture's edges would merge
+constexpr std::uint64_t most_drawn = 40'000;  // cells: beyond, a picture's edges would merge
 
 /// Tiles keep no roadmap.
 void make_roadmap(const SolveRequest& request) {
   const WallProblem problem = problem_of(request);
   const PlannerOptions options = planner_options(request.options, request.scene, problem);
   if (options.planner != PlannerKind::prm || options.pipeline == PipelineKind::plain) return;
-  if (!options.fused && options.roadmap.samples.value_or(0) > most_drawn) return;
   draw_roadmap(request.scene, problem, options, request.execution, request.keep->roadmap);
 }
 

@@ -33,7 +33,6 @@ RoadmapOptions roadmap_options(const SolveOptions& asked) {
   options.queue = searched.queue;
   options.seed = asked.seed;
   options.heuristic = asked.heuristic.value_or(HeuristicKind::euclidean);
-  options.lazy = asked.roadmap.lazy.value_or(LazyCheck::expansion);
   return options;
 }
 
@@ -46,12 +45,6 @@ void check_heuristic(const SolveOptions& asked, SearchKind search) {
   if (!asked.heuristic) return;
   if (search != SearchKind::astar) {
     throw UsageError(fmt::format("@heuristic: {} estimates nothing; astar takes one", name_of(search)));
-  }
-  if (asked.roadmap.lazy == LazyCheck::path) {
-    throw UsageError("@heuristic: a search that repairs its paths estimates nothing; @lazy expansion takes one");
-  }
-  if (asked.roadmap.pipeline == PipelineKind::tiled) {
-    throw UsageError("@heuristic: tiles keep shortest paths only; for estimates there is @pipeline plain");
   }
 }
 
@@ -88,24 +81,20 @@ bool takes_fused_tiles(const SolveOptions& asked, const PlannerOptions& options,
   return options.planner == PlannerKind::prm && usual_search && tiled_prm_applies(options.roadmap, clearance);
 }
 
-/// Whatever else is asked for, the plain stages do, or tiles of milestones where these are asked for.
+/// Whatever else is asked for, the plain stages do.
 PipelineKind pipeline_for(const SolveOptions& asked, const PlannerOptions& options, const Scene& scene) {
   const std::optional<PipelineKind> pipeline = asked.roadmap.pipeline;
   if (pipeline && options.planner != PlannerKind::prm) {
     throw UsageError("@pipeline: lazy-prm has one way of working; the planner prm takes this option");
   }
-  const SearchKind search = options.roadmap.search;
-  if (pipeline == PipelineKind::tiled && (search == SearchKind::bfs || search == SearchKind::dfs)) {
-    throw UsageError("@pipeline: tiles keep shortest paths only; for @search bfs and dfs there is plain");
-  }
-  if (pipeline == PipelineKind::tiled && !scene.polygons.empty()) {
-    throw UsageError("@pipeline: tiled takes worlds of walls; among polygons there is plain");
-  }
   const bool unmade = is_unmade(scene);
-  if ((unmade || pipeline == PipelineKind::streamed) && !options.fused) {
+  if (pipeline.value_or(unmade ? PipelineKind::streamed : PipelineKind::plain) != PipelineKind::plain &&
+      (!options.fused || !scene.polygons.empty())) {
     throw UsageError(
-        "@pipeline: streamed takes the lattice of a maze with the usual rules of joining and searching, and "
-        "a clearance of at most 8");
+        fmt::format("@pipeline: {} takes the lattice of a maze without polygons, with the usual rules of joining and "
+                    "searching, and "
+                    "a clearance of at most 8; for all else there is @pipeline plain",
+                    name_of(pipeline.value_or(PipelineKind::streamed))));
   }
   if (unmade && pipeline.value_or(PipelineKind::streamed) != PipelineKind::streamed) {
     throw UsageError(fmt::format("@pipeline: the walls of {} are not held; streamed takes them", scene.source));

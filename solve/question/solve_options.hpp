@@ -49,6 +49,11 @@ constexpr bool keeps_roadmap(PlannerKind planner) {
 enum class PipelineKind : std::uint8_t { plain, tiled, streamed };
 constexpr auto enum_names(PipelineKind) { return std::array<std::string_view, 3>{"plain", "tiled", "streamed"}; }
 
+/// When lazy_prm checks an edge: when its search first wants to use it. To check the edges of the paths found, and to
+/// repair these, lost on every world and is gone; scripts may go on saying which.
+enum class LazyCheck : std::uint8_t { expansion };
+constexpr auto enum_names(LazyCheck) { return std::array<std::string_view, 1>{"expansion"}; }
+
 /// How a graph or a grid is searched; dfs is for roadmaps alone, jump_points for grids.
 enum class SearchMethod : std::uint8_t { astar, dijkstra, bfs, dfs, jump_points };
 constexpr auto enum_names(SearchMethod) {
@@ -61,7 +66,7 @@ struct RoadmapFields {
   std::optional<std::uint32_t> neighbours = {};  ///< join each milestone to its k nearest, 1 .. 4096; none: by rule
   std::optional<double> radius = {};             ///< join milestones at most so far apart, > 0; instead of neighbours
   StarRule star = StarRule::none;                ///< join by a rule of PRM* instead of either
-  std::optional<LazyCheck> lazy = {};            ///< when an edge is checked; none: when the search expands it
+  std::optional<LazyCheck> lazy = {};            ///< there is one way
   std::optional<PipelineKind> pipeline = {};     ///< none: tiled on a lattice where all rules are the usual ones
   std::optional<GrowingAttach> attach = {};      ///< how start and goal are joined; none: as far as the k nearest
 };

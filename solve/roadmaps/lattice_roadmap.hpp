@@ -4,7 +4,7 @@
 //
 // Ends are joined to the lattice as solve() joins them: to the milestones within a step that they reach freely, and
 // where there is none to the nearest of the 256 nearest that they do. An end on a milestone that has an edge needs no
-// look at the walls; others have one (solve/roadmaps/walls_near_ends), and the walls of a file are made first.
+// look at the walls; others have one (WallsNearEnds), and the walls of a file are made first.
 #pragma once
 
 #include <memory>
@@ -12,13 +12,65 @@
 #include <vector>
 
 #include "core/base/solution.hpp"
+#include "core/base/types.hpp"
+#include "parallel/execution.hpp"
+#include "parallel/made_once.hpp"
 #include "planners/route_index/route_index.hpp"
 #include "planners/route_index/route_query.hpp"
+#include "scenes/scene/scene.hpp"
 #include "solve/question/question.hpp"
 #include "solve/question/solve_options.hpp"
-#include "solve/roadmaps/walls_near_ends.hpp"
+#include "solve/roadmaps/kept_world.hpp"
+#include "worlds/plane/maze_world.hpp"
 
 namespace warren {
+
+// The walls near ends that are no milestones of a lattice. Where they can be looked up, that is all there is to it;
+// else the first few such ends cost a pass over all walls each; from then on an index of them all is asked, which takes
+// as long as some forty passes and 20 to 40 bytes a wall. Where the memory does not hold it, each end goes on costing a
+// pass.
+
+/// Cells each way that an end looks at: the 256 nearest lie within 10.
+inline constexpr int widest_look = 11;
+
+/// Refers to the world. Any number of threads may ask.
+class WallsNearEnds {
+ public:
+  /// `reach`: what the body's reference point keeps from all walls.
+  WallsNearEnds(const KeptWorld& world, double reach) : world_(world), reach_(reach) {}
+
+  /// Calls look(const MazeWorld&) with a world that is the whole one for all motions within the widest look of p.
+  /// Throws Stopped, InputError.
+  template <class Look>
+  void look(Vec2 p, const Execution& execution, const Look& look) const {
+    if (const KeptCells* cells = world_.looked_up(execution); cells != nullptr) {
+      return look(MazeWorld(cells->walls_in(room_of_motions(p)), reach_, execution));
+    }
+    const Scene& whole = world_.whole(execution);
+    if (const Indexed* indexed = index(execution); indexed != nullptr && indexed->world) return look(*indexed->world);
+    look(MazeWorld(around(whole, p, execution), reach_, execution));
+  }
+  /// An end will be looked at: the index is made now, on the execution's threads, if its turn has come.
+  void expect(const Execution& execution) const {
+    if (world_.looked_up(execution) == nullptr) index(execution);
+  }
+
+ private:
+  struct Indexed {
+    std::optional<MazeWorld> world;  // none: too large
+  };
+  const Indexed* index(const Execution& execution) const;
+  Box room_of_motions(Vec2 p) const {
+    Box near;
+    near.include(p);
+    return near.grown(widest_look + 1.0 + 2.0 * reach_);
+  }
+  Scene around(const Scene& whole, Vec2 p, const Execution& execution) const;
+
+  const KeptWorld& world_;
+  double reach_;
+  MadeOnce<Indexed> indexed_;
+};
 
 /// where_it_pays ("auto"): of large lattices that are no open space; none: never.
 enum class IndexChoice : std::uint8_t { where_it_pays, none };

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -81,16 +82,6 @@ inline double reach_of(const Problem& problem) {
   return radius + problem.clearance;
 }
 
-/// Where the body may be on its way between two states: the reference point stays within half of the motion's length of
-/// one of them.
-template <World W>
-Box swept_box(const W& world, const typename W::State& from, const typename W::State& to, double reach) {
-  Box box;
-  box.include(Vec2{from.x, from.y});
-  box.include(Vec2{to.x, to.y});
-  return box.grown(0.5 * world.distance(from, to) + reach);
-}
-
 /// A file may say anything of its states; nobody draws one far from the world or beyond the joints' limits, and motions
 /// over there would not end. Throws InputError, Stopped.
 template <World W>
@@ -120,13 +111,25 @@ void check_drawn(const W& world, const SolveRequest& request, const Problem& pro
   }
 }
 
+/// How little a world tells apart where it proves motions piece by piece; 0 where it knows.
+template <World W>
+double resolution_of(const W& world) {
+  if constexpr (requires { world.resolution(); }) return world.resolution();
+  if constexpr (requires { world.body().resolution(); }) return world.body().resolution();
+  return 0.0;
+}
+
 /// Motions of an old roadmap that keep clear of all that has changed since.
 template <World W>
 class OldMotions {
  public:
   using State = typename W::State;
-  OldMotions(const W& world, const OldRoadmap& old, double reach, const Execution& execution)
-      : world_(world), old_(old), reach_(reach) {
+  OldMotions(const W& world, const OldRoadmap& old, const Problem& problem, const Execution& execution)
+      : world_(world),
+        old_(old),
+        reach_(reach_of(problem)),
+        kept_(problem.clearance + margin + 2.0 * resolution_of(world)),
+        outline_(problem.robot.outline) {
     const RoadmapParts parts = old.arrays->parts();
     execution.reserve(parts.vertex_count() * sizeof(vertices_.front()));
     vertices_.reserve(parts.vertex_count());
@@ -139,7 +142,7 @@ class OldMotions {
   std::optional<bool> operator()(const State& from, const State& to) const {
     const auto v = vertex_of(from);
     const auto w = vertex_of(to);
-    if (!v || !w || comes_near(old_.places, swept_box(world_, from, to, reach_), margin)) return std::nullopt;
+    if (!v || !w || may_meet_changes(from, to)) return std::nullopt;
     const auto row = old_.arrays->candidates.neighbours(*v);
     const auto found = std::lower_bound(row.begin(), row.end(), *w);
     if (found == row.end() || *found != *w) return std::nullopt;
@@ -162,9 +165,61 @@ class OldMotions {
     return found == vertices_.end() || found->first != least.first ? std::nullopt : std::optional(found->second);
   }
 
+  /// Cars drive curves. All others go straight: where a line parts what they sweep from a change, they don't meet it.
+  bool may_meet_changes(const State& from, const State& to) const {
+    if constexpr (requires { W::one_way; }) {
+      return comes_near(old_.places, world_.curve(from, to).box(), reach_ + kept_);
+    } else {
+      const Vec2 way{to.x - from.x, to.y - from.y};
+      const double length = norm(way);
+      const Vec2 along = length > 0.0 ? (1.0 / length) * way : Vec2{1.0, 0.0};
+      const std::array<Vec2, 4> directions{{{1.0, 0.0}, {0.0, 1.0}, along, {-along.y, along.x}}};
+      std::array<Extent, 4> swept;
+      for (std::size_t i = 0; i < swept.size(); ++i) swept[i] = extent_of(directions[i], from, to);
+      return std::any_of(old_.places.begin(), old_.places.end(), [&](const Box& place) {
+        for (std::size_t i = 0; i < swept.size(); ++i) {
+          Extent its;
+          for (const double x : {place.min.x, place.max.x}) {
+            for (const double y : {place.min.y, place.max.y}) its.include(dot(directions[i], {x, y}));
+          }
+          if (its.low > swept[i].high || its.high < swept[i].low) return false;
+        }
+        return true;
+      });
+    }
+  }
+  struct Extent {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    void include(double x) {
+      low = std::min(low, x);
+      high = std::max(high, x);
+    }
+  };
+  /// What the body sweeps, along a direction. A corner at r runs beside the chord of where it begins and ends, at most
+  /// r turn^2 / 8 from it; nowhere farther than its reach from the reference point.
+  Extent extent_of(Vec2 direction, const State& from, const State& to) const {
+    Extent way;
+    for (const State* end : {&from, &to}) way.include(dot(direction, {end->x, end->y}));
+    way = {way.low - reach_, way.high + reach_};
+    if constexpr (std::is_same_v<State, Se2>) {
+      const double turn = turn_between(from.theta, to.theta);
+      const double bulge = reach_ * turn * turn / 8.0;
+      Extent corners;
+      for (const Se2& end : {from, to}) {
+        const Rotation turned(end.theta);
+        for (const Vec2 c : outline_) corners.include(dot(direction, end.position() + turned(c)));
+      }
+      if (!outline_.empty()) way = {std::max(way.low, corners.low - bulge), std::min(way.high, corners.high + bulge)};
+    }
+    return {way.low - kept_, way.high + kept_};
+  }
+
   const W& world_;
   const OldRoadmap& old_;
   double reach_;
+  double kept_;  // how far from the body what changed makes no difference
+  std::vector<Vec2> outline_;
   std::vector<std::pair<Key, VertexId>> vertices_;
 };
 
@@ -175,7 +230,7 @@ KnownMotions<typename W::State> known_motions(const W& world, const SolveRequest
     return {};
   } else {
     if (request.old == nullptr) return {};
-    return OldMotions<W>(world, *request.old, reach_of(problem), request.execution);
+    return OldMotions<W>(world, *request.old, problem, request.execution);
   }
 }
 

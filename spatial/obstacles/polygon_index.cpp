@@ -49,11 +49,6 @@ PolygonIndex::PolygonIndex(PolygonSet polygons, const Execution& execution) : po
   }
 }
 
-std::size_t PolygonIndex::polygon_of(std::size_t side) const noexcept {
-  const auto after = std::upper_bound(polygons_.first.begin(), polygons_.first.end(), side);
-  return as_whole<std::size_t>(after - polygons_.first.begin()) - 1;
-}
-
 std::size_t PolygonIndex::level_of(Run run) noexcept {
   std::size_t level = 0;
   while (((run.last - 1) >> (fan_bits * level)) - (run.first >> (fan_bits * level)) >= 8) ++level;

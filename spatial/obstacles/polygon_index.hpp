@@ -36,8 +36,7 @@ class PolygonIndex {
   /// A polygon whose open inside holds p; none if there is none. Always the same one for the same polygons.
   std::optional<std::uint32_t> polygon_around(Vec2 p) const noexcept;
 
-  /// The polygon that a side belongs to. Side i begins in corner i.
-  std::size_t polygon_of(std::size_t side) const noexcept;
+  /// Side i begins in corner i.
   Segment side(std::size_t i) const noexcept { return {polygons_.corners[i], polygons_.corners[next_[i]]}; }
   /// Calls visit(polygon) -> bool for each whose box meets `box` (and perhaps some others), in an order that depends on
   /// the polygons alone, until it returns false.

@@ -317,7 +317,7 @@ TEST(Compare, BadOptionsAreUsageErrorsOfOneLineThatNameTheOption) {
       {"maze:5x5 --planners prm --seeds 2 --trials 2", "--trials"},
       {"maze:5x5 --planners prm --samples 0", "--samples"},
       {"maze:5x5 --planners prm --queues linear-scan", "linear-scan"},
-      {"maze:5x5 --planners prm --lazy path", "--lazy"},
+      {"maze:5x5 --planners prm --lazy expansion", "--lazy"},
       {"maze:5x5 --planners prm --neighbours 4,x", "--neighbours"},
       {"maze:5x5 --planners prm --neighbours 4,8 --radius 1", "give one of them"},
       {"maze:5x5 --planners prm --clearance 0.1,-1", "--clearance"},

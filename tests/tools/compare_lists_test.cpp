@@ -55,9 +55,9 @@ TEST(Compare, ListsAreDealtToThePlannersThatTakeThem) {
   EXPECT_TRUE(rows.contains("lazy-prm dijkstra 400"));
   const Json searches = compared("maze:5x5 --planners prm,lazy-prm --searches bfs,astar --trials 1");
   EXPECT_EQ(searches["rows"].size(), 3U) << "lazy-prm takes no bfs";
-  const Json optional = compared("maze:5x5 --planners prm,lazy-prm --lazy path --trials 1");
+  const Json optional = compared("maze:5x5 --planners prm,lazy-prm --lazy expansion --trials 1");
   EXPECT_FALSE(optional["rows"][0]["options"].contains("lazy")) << "prm does not take it";
-  EXPECT_EQ(optional["rows"][1]["options"]["lazy"], "path");
+  EXPECT_EQ(optional["rows"][1]["options"]["lazy"], "expansion");
 }
 
 TEST(Compare, ListsOfTwoOptionsAreDrawnAsHeatMaps) {

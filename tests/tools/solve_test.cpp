@@ -32,11 +32,11 @@ TEST(Solve, AnswersAreTheSameForAnyNumberOfThreads) {
       {"maze:31x23"},
       {"maze:61x61,loops=0.3"},
       {"maze:61x61,loops=0.3", "--pipeline", "plain"},
-      {"maze:61x61,loops=0.3", "--pipeline", "tiled", "--search", "dijkstra"},
-      {"maze:61x61", "--planner", "prm", "--sampler", "uniform", "--pipeline", "tiled"},
+      {"maze:61x61,loops=0.3", "--search", "dijkstra"},
+      {"maze:61x61", "--planner", "prm", "--sampler", "uniform"},
       {"maze:31x23", "--sampler", "uniform", "--seed", "7"},
       {"maze:31x23", "--sampler", "halton", "--planner", "prm", "--neighbours", "12"},
-      {"maze:31x23", "--planner", "lazy-prm", "--lazy", "path"},
+      {"maze:31x23", "--planner", "lazy-prm", "--lazy", "expansion"},
       {"maze:31x23,loops=0.1", "--optimise"},
       {"maze:31x23", "--sampler", "uniform", "--samples", "60"}};
   for (const auto& question : questions) {

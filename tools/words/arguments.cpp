@@ -82,7 +82,9 @@ void Arguments::take_option(const Command& command, std::span<const std::string>
       throw UsageError(std::string{option->name} + ": takes no value");
     }
     std::string value = equals != std::string::npos ? word.substr(equals + 1) : "";
-    if (equals == std::string::npos && i + 1 < words.size() && is_choice(*option, words[i + 1])) value = words[++i];
+    const bool is_gone = option->name == "--lazy" && i + 1 < words.size() && words[i + 1] == "path";  // refused by name
+    const bool is_next = i + 1 < words.size() && (is_gone || is_choice(*option, words[i + 1]));
+    if (equals == std::string::npos && is_next) value = words[++i];
     options_.emplace_back(option->name, std::move(value));
     return;
   }

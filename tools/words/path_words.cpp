@@ -16,7 +16,8 @@ namespace {
 constexpr OptionSpec path_specs[] = {
     {"--path", "FILE", "write the path: .csv, .yaml (ROS nav_msgs/Path), .geojson or .npy by ending"},
     {"--every", "D|TIME",
-     "with --path: places at most D apart beside the path's own, or moments, such as 100ms (default: its own)"},
+     "with --path: places at most D apart beside the path's own, or moments, such as 100ms (default: its own places "
+     "alone, arcs as chords of at most 5 degrees)"},
     {"--speed", "V", "with --path: say when, at most so fast, in units of length a second; stops at corners"},
     {"--acceleration", "A", "with --speed: speeding up and braking (default: at once)"},
     {"--lateral-acceleration", "A", "with --speed: of a car on arcs (default: any)"},

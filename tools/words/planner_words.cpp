@@ -35,9 +35,8 @@ constexpr OptionSpec roadmap_specs[] = {
      "heap lazy-heap sorted-array resorted-array"},
     {"--lazy",
      "[WHEN]",
-     "lazy-prm checks an edge when the search expands it, or when it lies on the path found "
-     "(default: expansion)",
-     "expansion path",
+     "lazy-prm checks an edge when the search expands it; there is no other way (default: expansion)",
+     "expansion",
      {},
      true},
     {"--pipeline", "NAME",

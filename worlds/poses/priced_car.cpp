@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "worlds/poses/priced_car.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/whole.hpp"
@@ -15,11 +16,12 @@ struct PricedCar::Recipe {
   std::int8_t last_gear = 0;
 };
 
-/// Pieces of no length have no gear, as SteeringCurve leaves them out.
-PricedCar::Recipe PricedCar::priced(const SteeringWord& word) const {
+/// Pieces of no length have no gear, as SteeringCurve leaves them out; nor have those that only make up for `off`, by
+/// which rounding moves the ends: far from the origin they were changes of gear that nobody drives.
+PricedCar::Recipe PricedCar::priced(const SteeringWord& word, double off) const {
   Recipe recipe{word};
   for (const SteeringPiece& piece : word.used()) {
-    if (std::abs(piece.length) < SteeringCurve::nothing) continue;
+    if (std::abs(piece.length) < std::max(SteeringCurve::nothing, off)) continue;
     const std::int8_t gear = piece.length < 0.0 ? -1 : 1;
     if (recipe.first_gear == 0) recipe.first_gear = gear;
     if (recipe.last_gear == -gear) recipe.price += price_.cusp;
@@ -31,7 +33,7 @@ PricedCar::Recipe PricedCar::priced(const SteeringWord& word) const {
 
 PricedCurve PricedCar::shortest(const State& a, const State& b) const {
   const double radius = car_->turning_radius();
-  const Recipe recipe = priced(ReedsSheppCurve::shortest(a, b, radius));
+  const Recipe recipe = priced(ReedsSheppCurve::shortest(a, b, radius), off_by_rounding(a, b, radius));
   return {{a, b, recipe.word, radius}, recipe.price, recipe.first_gear, recipe.last_gear};
 }
 
@@ -46,7 +48,7 @@ std::vector<PricedCurve> PricedCar::ways(const State& a, const State& b, double 
   std::array<Recipe, 4> best;
   for (Recipe& recipe : best) recipe.price = most;
   ReedsSheppCurve::for_each_word(a, b, radius, most / radius, [&](const SteeringWord& word) {
-    const Recipe recipe = priced(word);
+    const Recipe recipe = priced(word, off);
     Recipe& same = best[(recipe.first_gear > 0 ? 2U : 0U) + (recipe.last_gear > 0 ? 1U : 0U)];
     if (recipe.first_gear != 0 && recipe.price < same.price && ends_at(word, goal, off)) same = recipe;
   });

@@ -60,7 +60,7 @@ class PricedCar {
   Way shortest(const State& a, const State& b) const;
   /// What of a way a word says.
   struct Recipe;
-  Recipe priced(const SteeringWord& word) const;
+  Recipe priced(const SteeringWord& word, double off) const;
 
   const CarBody* car_;
   DrivingPrice price_;

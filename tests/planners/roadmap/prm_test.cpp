@@ -76,11 +76,8 @@ using Planner = Solution<Vec2> (*)(const MazeWorld&, const Vec2&, const Vec2&, c
 struct NamedPlanner {
   const char* name;
   Planner plan;
-  LazyCheck lazy = LazyCheck::expansion;
 };
-const std::vector<NamedPlanner> planners = {{"prm", prm<MazeWorld>},
-                                            {"lazy-prm", lazy_prm<MazeWorld>},
-                                            {"lazy-prm by path", lazy_prm<MazeWorld>, LazyCheck::path}};
+const std::vector<NamedPlanner> planners = {{"prm", prm<MazeWorld>}, {"lazy-prm", lazy_prm<MazeWorld>}};
 
 TEST(Prm, LatticePathIsTheShortestWalkOverCellCentres) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -90,7 +87,6 @@ TEST(Prm, LatticePathIsTheShortestWalkOverCellCentres) {
       for (const NamedPlanner& planner : planners) {
         SCOPED_TRACE(std::string(planner.name) + " seed " + std::to_string(seed));
         RoadmapOptions options = lattice_options(scene);
-        options.lazy = planner.lazy;
         const auto solution = planner.plan(world, start_of(scene), goal_of(scene), options, {}, nullptr);
         ASSERT_EQ(solution.outcome, Outcome::solved);
         EXPECT_DOUBLE_EQ(length_of(solution), shortest_walk(scene));
@@ -109,7 +105,6 @@ TEST(Prm, UniformSamplingSolvesEveryMazeWithoutKnobs) {
         SCOPED_TRACE(std::string(planner.name) + " seed " + std::to_string(seed));
         RoadmapOptions options;
         options.sampler = sampler;
-        options.lazy = planner.lazy;
         options.seed = seed;
         const auto solution = planner.plan(world, start_of(scene), goal_of(scene), options, {}, nullptr);
         ASSERT_EQ(solution.outcome, Outcome::solved);
@@ -119,7 +114,7 @@ TEST(Prm, UniformSamplingSolvesEveryMazeWithoutKnobs) {
   }
 }
 
-TEST(Prm, LazyPlannersFindThePathOfTheEagerOne) {
+TEST(Prm, TheLazyPlannerFindsThePathOfTheEagerOne) {
   const Scene scene = maze(9, 9, 4, 0.1);
   const MazeWorld world(scene, clearance, {});
   for (const bool by_nearest : {false, true}) {
@@ -128,13 +123,10 @@ TEST(Prm, LazyPlannersFindThePathOfTheEagerOne) {
     if (by_nearest) options.neighbours = 20;
     const auto eager = prm(world, start_of(scene), goal_of(scene), options, {});
     ASSERT_EQ(eager.outcome, Outcome::solved);
-    for (const LazyCheck lazy : {LazyCheck::expansion, LazyCheck::path}) {
-      options.lazy = lazy;
-      const auto found = lazy_prm(world, start_of(scene), goal_of(scene), options, {});
-      ASSERT_EQ(found.outcome, Outcome::solved);
-      EXPECT_NEAR(length_of(found), length_of(eager), 1e-12 * length_of(eager));
-      EXPECT_LT(found.counters.edges_checked, eager.counters.edges_checked);
-    }
+    const auto found = lazy_prm(world, start_of(scene), goal_of(scene), options, {});
+    ASSERT_EQ(found.outcome, Outcome::solved);
+    EXPECT_NEAR(length_of(found), length_of(eager), 1e-12 * length_of(eager));
+    EXPECT_LT(found.counters.edges_checked, eager.counters.edges_checked);
   }
 }
 
@@ -143,8 +135,6 @@ TEST(Prm, ResultAndCountersAreTheSameForAnyNumberOfThreads) {
   for (const NamedPlanner& planner : planners) {
     SCOPED_TRACE(planner.name);
     RoadmapOptions options;
-    options.lazy = planner.lazy;
-    if (planner.lazy == LazyCheck::path) options = lattice_options(scene);
     const auto plan = [&](unsigned threads) {
       const Execution execution{threads};
       const MazeWorld world(scene, clearance, execution);
@@ -275,7 +265,6 @@ TEST(Prm, TellsHowFarStartAndGoalAreApart) {
   for (const NamedPlanner& planner : planners) {
     SCOPED_TRACE(planner.name);
     RoadmapOptions options = lattice_options(scene);
-    options.lazy = planner.lazy;
     const auto solution = planner.plan(world, start_of(scene), goal_of(scene), options, {}, nullptr);
     EXPECT_EQ(solution.outcome, Outcome::not_connected);
     EXPECT_TRUE(solution.path.empty());
@@ -334,7 +323,6 @@ TEST(Prm, KeepsTheRoadmapWhereAsked) {
   for (const NamedPlanner& planner : planners) {
     SCOPED_TRACE(planner.name);
     RoadmapOptions options = lattice_options(scene);
-    options.lazy = planner.lazy;
     PlannedRoadmap<Vec2> roadmap;
     const auto solution = planner.plan(world, start_of(scene), goal_of(scene), options, {}, &roadmap);
     ASSERT_EQ(roadmap.states.size(), 51U);

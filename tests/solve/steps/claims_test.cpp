@@ -4,11 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include "core/base/error.hpp"
+#include "core/base/rng.hpp"
 #include "scenes/formats/read_world_io.hpp"
 #include "solve/solve.hpp"
 #include "solve/steps/hints.hpp"
@@ -67,6 +70,82 @@ TEST(Claims, APlaceThatIsOfferedHasFewDigitsAndRoom) {
   }
 }
 
+/// Some polygons and walls anywhere, small or large, near the origin or far from it.
+Scene clutter(std::uint64_t seed, double scale, double offset) {
+  std::uint64_t index = 0;
+  const auto between = [&](double low, double high) { return low + (high - low) * uniform(seed, index++, 0); };
+  const auto place = [&](double x, double y) { return fmt::format(" {} {}", offset + scale * x, offset + scale * y); };
+  std::string text = "bounds" + place(0, 0) + place(20, 20) + '\n';
+  for (int i = 0; i < 12; ++i) {
+    const double x = between(1, 17);
+    const double y = between(1, 17);
+    const double turn = between(0, 1.5);
+    const double size = between(0.3, 2.0);
+    if (i % 4 == 3) {
+      text += "wall" + place(x, y) + place(x + size, y + turn) + '\n';
+      continue;
+    }
+    text += "polygon";
+    for (int k = 0; k < 4; ++k) {
+      const double angle = turn + k * std::numbers::pi / 2;
+      text += place(x + size * std::cos(angle), y + size * std::sin(angle));
+    }
+    text += '\n';
+  }
+  return scene_of(text);
+}
+
+TEST(Claims, PlacesThatAreOfferedAreTakenByEveryPlannerOfTheBody) {
+  std::size_t offered = 0;
+  std::size_t taken = 0;
+  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+    const double scale = std::array{1.0, 0.01, 30.0}[seed % 3];
+    const double offset = std::array{0.0, 1e3, 5e5, -4.2e6}[seed % 4];
+    const Scene scene = clutter(seed, scale, offset);
+    const double r = 0.4 * scale;
+    const RobotSpec bodies[] = {
+        {},
+        {.kind = RobotKind::disc, .radius = r},
+        {.kind = RobotKind::polygon, .outline = {{-r, -r / 3}, {1.5 * r, -r / 3}, {r, r / 2}, {-r, r / 2}}},
+        {.kind = RobotKind::car, .radius = r, .turning_radius = 2 * r}};
+    for (const RobotSpec& body : bodies) {
+      const bool turns = body.kind == RobotKind::polygon || body.kind == RobotKind::car;
+      for (std::uint64_t i = 0; i < 2; ++i) {
+        SCOPED_TRACE(fmt::format("seed {} body {} {}", seed, name_of(body.kind), i));
+        const auto state = [&](std::uint64_t axis) {
+          std::vector<double> place;
+          for (const std::uint64_t k : {0U, 1U}) place.push_back(offset + 20 * scale * uniform(seed, i, axis + k));
+          if (turns) place.push_back(6 * uniform(seed, i, axis + 2) - 3);
+          return place;
+        };
+        Question question{.robot = body, .start = state(10), .goal = state(20)};
+        SolveOptions options = by(PlannerKind::rrt_connect);
+        options.trees.nodes = 20;
+        if (!turns) options = {.planner = PlannerKind::prm, .roadmap = {.samples = 20}};
+        const Answer answer = solve(scene, question, options);
+        if (!answer.blocked || answer.blocked->free_place.empty()) continue;
+        ++offered;
+        const bool is_start = answer.outcome == Outcome::start_blocked;
+        (is_start ? question.start : question.goal) = answer.blocked->free_place;
+        for (const PlannerKind planner : all_planners) {
+          if (turns && planner == PlannerKind::grid) continue;  // its layers of headings take a second each
+          SolveOptions there = by(planner);
+          if (planner == PlannerKind::rrt || planner == PlannerKind::rrt_connect) there.trees.nodes = 20;
+          if (planner == PlannerKind::prm || planner == PlannerKind::lazy_prm) there.roadmap.samples = 20;
+          try {
+            const Answer again = solve(scene, question, there);
+            EXPECT_NE(again.outcome, answer.outcome) << name_of(planner);
+            ++taken;
+          } catch (const Error&) {  // no planner of this body or world
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(offered, 4U);
+  EXPECT_GT(taken, 2 * offered);
+}
+
 /// A slot at an angle, of that width, for a body 0.4 high and 2 long.
 Scene slot(double degrees, double width) {
   const double angle = degrees * std::numbers::pi / 180.0;
@@ -87,6 +166,9 @@ TEST(Claims, AGoalWithoutAHeadingIsMetBetweenTheHeadingsThatAreTriedFirst) {
     EXPECT_EQ(solve(slot(degrees, 0.6)).outcome, Outcome::solved) << degrees;
     const Answer narrow = solve(slot(degrees, 0.39));
     EXPECT_EQ(narrow.outcome, Outcome::goal_blocked) << degrees;
+    SolveOptions few = by(PlannerKind::rrt_connect);
+    few.trees.nodes = 50;
+    EXPECT_NE(solve(slot(degrees, 0.4 + 1e-5), {}, few).outcome, Outcome::goal_blocked) << degrees;
     ASSERT_TRUE(narrow.blocked.has_value());
     EXPECT_NE(narrow.blocked->hint.find("no heading"), std::string::npos) << narrow.blocked->hint;
   }
@@ -97,6 +179,15 @@ TEST(Claims, AGoalWithoutAHeadingIsMetBetweenTheHeadingsThatAreTriedFirst) {
   EXPECT_EQ(by_disc.outcome, Outcome::not_connected);
   ASSERT_NE(word_of(by_disc, "cause"), nullptr);
   EXPECT_EQ(*word_of(by_disc, "cause"), "disc_blocked_at_goal");
+}
+
+TEST(Claims, InTheOpenNothingTurnsForAGoalWithoutAHeading) {
+  const Scene open = scene_of("bounds 0 0 20 20\nrobot polygon -1 -0.2 1 -0.2 1 0.2 -1 0.2\nwall 1 19 2 19\n");
+  for (const PlannerKind planner : {PlannerKind::prm, PlannerKind::lazy_prm, PlannerKind::rrt_connect}) {
+    const Answer answer = solve(open, {.start = {3.0, 3.0, -0.4275}, .goal = {16.0, 5.0}}, by(planner));
+    ASSERT_EQ(answer.outcome, Outcome::solved) << name_of(planner);
+    EXPECT_EQ(answer.turn_rad, 0.0) << name_of(planner);
+  }
 }
 
 TEST(Claims, APlaceOfTheToolIsMetByWhateverWristReachesIt) {

@@ -94,7 +94,6 @@ TEST(PolygonIndex, FindsEverySideNearABox) {
         if (box_of({set.corners[i], set.corners[next]}).meets(box)) plain.push_back(i);
       }
       ASSERT_EQ(found, plain);
-      for (const std::size_t side : found) ASSERT_EQ(index.polygon_of(side), k);
     }
   }
 }

@@ -125,7 +125,9 @@ TEST_F(RoadmapSave, WhatIsKeptInNoWayIsRefused) {
   check({{"solve", walls, "--planner", "rrt", "--save-roadmap", file}, 2, "makes no roadmap"});
   check(
       {{"solve", "maze:9x9", "--pipeline", "tiled", "--save-roadmap", file}, 2, "--pipeline: a roadmap that is kept"});
-  check({{"solve", walls, "--planner", "lazy-prm", "--lazy", "path", "--save-roadmap", file}, 2, "--lazy: a roadmap"});
+  check({{"solve", walls, "--planner", "lazy-prm", "--lazy", "expansion", "--save-roadmap", file},
+         2,
+         "--lazy: a roadmap"});
   check({{"solve", "maze:9x9", "--save-roadmap", path("no/folder")}, 73, "no/folder"});
   const std::string mine = folder_.write("w.scene", "bounds 0 0 9 9\nstart 1 1\ngoal 8 8\n");
   check({{"solve", mine, "--planner", "prm", "--save-roadmap", mine}, 2, "would overwrite"});

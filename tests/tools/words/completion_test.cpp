@@ -38,7 +38,7 @@ TEST(Completion, VerbsOptionsAndValues) {
   EXPECT_EQ(told({"solve", "--queue=so"}).words, "--queue=sorted-array");
   EXPECT_EQ(told({"solve", "--neighbours", ""}).words, "auto star");
   EXPECT_EQ(told({"solve", "--neighbours=s"}).words, "--neighbours=star");
-  EXPECT_EQ(told({"solve", "--lazy", "p"}).words, "path");
+  EXPECT_EQ(told({"solve", "--lazy", "e"}).words, "expansion");
   EXPECT_EQ(told({"build", "x.scene", "--planner", "r"}).words, "");  // trees are not kept
   EXPECT_EQ(told({"solve", "x.scene", "--", "--op"}).words, "");
 }

@@ -77,7 +77,6 @@ TEST(Heuristic, KeptRoadmapsAreAskedAlike) {
 TEST(Heuristic, IsRefusedWhereNothingIsEstimated) {
   const std::vector<Case> cases{
       {{"solve", "maze:5x5", "--search", "dijkstra", "--heuristic", "zero"}, 2, "dijkstra estimates nothing"},
-      {{"solve", "maze:5x5", "--planner", "lazy-prm", "--lazy", "path", "--heuristic", "zero"}, 2, "--lazy expansion"},
       {{"solve", "maze:5x5", "--pipeline", "tiled", "--heuristic", "zero"}, 2, "--pipeline plain"},
       {{"solve", "maze:5x5", "--planner", "voronoi", "--heuristic", "zero"}, 2, "prm and lazy-prm take it"},
       {{"solve", world_file("walls.scene"), "--heuristic", "zero"}, 2, "would ignore it for a polygon that turns"},

@@ -70,11 +70,11 @@ TEST(PlannerWords, ChoicesAreTheNamesOfTheirEnums) {
 TEST(PlannerWords, WhatIsSaidIsGivenAndNothingElse) {
   EXPECT_EQ(given(solve_words(words_of_solve({}))), OptionSet{});
   EXPECT_EQ(given(solve_words(words_of_solve({"--samples", "auto", "--radius", "auto"}))), OptionSet{});
-  const SolveOptions options = solve_words(
-      words_of_solve({"--neighbours", "star", "--lazy", "path", "--via", "1,2;3,4,5", "--attach", "2,0.5", "--full"}));
+  const SolveOptions options = solve_words(words_of_solve(
+      {"--neighbours", "star", "--lazy", "expansion", "--via", "1,2;3,4,5", "--attach", "2,0.5", "--full"}));
   EXPECT_EQ(given(options), (OptionSet{Option::neighbours, Option::lazy, Option::via, Option::attach, Option::full}));
   EXPECT_EQ(options.roadmap.star, StarRule::neighbours);
-  EXPECT_EQ(options.roadmap.lazy, LazyCheck::path);
+  EXPECT_EQ(options.roadmap.lazy, LazyCheck::expansion);
   EXPECT_EQ(options.trees.via, (std::vector<std::vector<double>>{{1, 2}, {3, 4, 5}}));
   EXPECT_EQ(options.roadmap.attach->radius, 2.0);
   EXPECT_EQ(options.roadmap.attach->step, 0.5);

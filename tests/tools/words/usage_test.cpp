@@ -107,14 +107,18 @@ TEST(Usage, MazesOfImpossibleSizeAreRefused) {
 
 TEST(Usage, ContradictionsAreRefusedAndSayWhoTakesTheOption) {
   const std::vector<Case> cases{
-      {{"solve", "maze:5x7", "--planner", "prm", "--lazy", "path"}, 2, "lazy-prm takes this option"},
+      {{"solve", "maze:5x7", "--planner", "prm", "--lazy", "expansion"}, 2, "lazy-prm takes this option"},
+      {{"solve", "maze:5x7", "--planner", "lazy-prm", "--lazy", "path"}, 2, "is none of expansion"},
       {{"solve", "maze:5x7", "--planner", "lazy-prm", "--search", "bfs"}, 2, "the planner prm takes bfs"},
       {{"solve", "maze:5x7", "--search", "dfs", "--queue", "heap"}, 2, "dfs has no priority queue"},
       {{"solve", "maze:5x7", "--neighbours", "8", "--radius", "1"}, 2, "not both"},
       {{"solve", "maze:5x7", "--sampler", "lattice", "--samples", "9"}, 2, "lattice takes every cell centre"},
       {{"solve", "maze:5x7", "--contact", "allowed"}, 2, "--contact"},
       {{"solve", "maze:5x7", "--planner", "lazy-prm", "--pipeline", "tiled"}, 2, "the planner prm takes"},
-      {{"solve", "maze:5x7", "--pipeline", "tiled", "--search", "bfs"}, 2, "there is plain"},
+      {{"solve", "maze:5x7", "--pipeline", "tiled", "--search", "bfs"}, 2, "--pipeline plain"},
+      {{"solve", "maze:5x7", "--planner", "prm", "--pipeline", "tiled", "--sampler", "uniform"},
+       2,
+       "tiled takes the lattice of a maze"},
       {{"solve", "maze:5x7", "--json", "-", "--svg", "-"}, 2, "standard output takes one"},
   };
   for (const Case& c : cases) check(c);

@@ -38,6 +38,25 @@ Driven added_up(const SteeringCurve& curve, const DrivingPrice& price) {
   return driven;
 }
 
+/// Its joints are rounded there, and what makes up for that is no change of gear.
+TEST(PricedCar, PathsCostWhatTheirWaysDoFarFromTheOriginToo) {
+  const Scene scene = body_scenes::scattered(1);
+  const CarBody body = small_car(scene);
+  const PricedCar car(body, {.cusp = 0.8, .reverse = 1.5});
+  for (const double offset : {0.0, 1e3, 1e5, 3e5, 1e6, 1e7}) {
+    for (std::uint64_t i = 0; i < 300; ++i) {
+      Se2 a = random_pose(1, 2 * i);
+      Se2 b = random_pose(1, 2 * i + 1);
+      for (Se2* pose : {&a, &b}) *pose = {pose->x + offset, pose->y + offset, pose->theta};
+      for (const PricedCurve& way : car.ways(a, b, 1e3)) {
+        Path<Se2> path{a};
+        PricedCar::append(path, way);
+        ASSERT_NEAR(car.price(path), way.price, 1e-6) << offset << ' ' << i;
+      }
+    }
+  }
+}
+
 TEST(PricedCar, WaysLeadToTheirEndInTheirGearsAtTheirPrice) {
   const Scene scene = body_scenes::scattered(1);
   const CarBody body = small_car(scene);
