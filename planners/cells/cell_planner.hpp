@@ -39,9 +39,9 @@ namespace warren {
 
 /// cells[i] and cells[i + 1] share the open door doors[i]; start lies in the first cell, goal in the last.
 struct CellRoute {
-  Vec2 start, goal;
-  std::vector<std::uint32_t> cells;
-  std::vector<std::uint32_t> doors;
+  Vec2 start, goal;                  ///< its ends
+  std::vector<std::uint32_t> cells;  ///< one after the other
+  std::vector<std::uint32_t> doors;  ///< one fewer
 };
 
 /// Through the middles of the doors, of which each two in a row belong to one cell; start and goal included.

@@ -17,7 +17,7 @@ SAME = [
     ("maze:41x41,seed=3", {}),
     ("maze:21x21,seed=5,loops=0.2", {"planner": "lazy-prm", "sampler": "uniform", "samples": 4000, "seed": 9}),
     ("maze:15x15", {"planner": "prm", "pipeline": "plain", "clearance": 0.25, "optimise": True}),
-    ("maze:15x15,loops=0.3", {"planner": "lazy-prm", "lazy": "path", "robot": warren.disc(0.1)}),
+    ("maze:15x15,loops=0.3", {"planner": "lazy-prm", "lazy": "expansion", "robot": warren.disc(0.1)}),
     ("poly-easy.scene", {}),
     ("town.geojson", {"planner": "visibility", "full": True, **TOWN}),
     ("town.geojson", {"planner": "cells", "doors": "funnel", **TOWN}),
