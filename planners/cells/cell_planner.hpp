@@ -39,7 +39,8 @@ namespace warren {
 
 /// cells[i] and cells[i + 1] share the open door doors[i]; start lies in the first cell, goal in the last.
 struct CellRoute {
-  Vec2 start, goal;                  ///< its ends
+  Vec2 start;                        ///< in the first cell
+  Vec2 goal;                         ///< in the last one
   std::vector<std::uint32_t> cells;  ///< one after the other
   std::vector<std::uint32_t> doors;  ///< one fewer
 };
