@@ -133,10 +133,19 @@ class OldMotions {
     const RoadmapParts parts = old.arrays->parts();
     execution.reserve(parts.vertex_count() * sizeof(vertices_.front()));
     vertices_.reserve(parts.vertex_count());
+    double largest = reach_;
     for (VertexId v = 0; v < parts.vertex_count(); ++v) {
       poll(v, execution);
-      vertices_.emplace_back(key_of(parts.state(v)), v);
+      const Key key = key_of(parts.state(v));
+      vertices_.emplace_back(key, v);
+      largest = std::max({largest, std::abs(key[0]), std::abs(key[1])});
     }
+    const double at_states = largest;
+    for (const Box& p : old.places) {
+      largest = std::max({largest, std::abs(p.min.x), std::abs(p.min.y), std::abs(p.max.x), std::abs(p.max.y)});
+    }
+    kept_ += rounding * largest;
+    if (largest > 1.25 * at_states) vertices_.clear();  // which changes what planning keeps for rounding, everywhere
     polled_sort(vertices_.begin(), vertices_.end(), execution);
   }
   std::optional<bool> operator()(const State& from, const State& to) const {
@@ -152,7 +161,9 @@ class OldMotions {
   }
 
  private:
-  static constexpr double margin = 1e-6;  // more than planning keeps beyond what is asked for
+  // More than planning keeps beyond what is asked for, there and far from the origin (worlds/poses/obstacle_tree.cpp).
+  static constexpr double margin = 1e-6;
+  static constexpr double rounding = 2e-13;  // of the largest coordinate
   using Key = std::array<double, 3>;
   static Key key_of(std::span<const double> numbers) {
     return {numbers[0], numbers[1], numbers.size() > 2 ? numbers[2] : 0.0};

@@ -61,9 +61,8 @@ struct Move {
 /// Immutable after construction; any number of threads may query.
 class ObstacleTree {
  public:
-  /// Copies walls, polygons and bounds. `reach`: the body's radius and clearance, a
-  /// car's turning radius, too: what coordinates may exceed those of the world by. Throws
-  /// InputError for a polygon that is not simple, Stopped.
+  /// Copies walls, polygons and bounds. `reach`: the body's radius and clearance, a car's turning radius, too:
+  /// what coordinates may exceed those of the world by. Throws InputError for a polygon that is not simple, Stopped.
   ObstacleTree(const Scene& scene, double reach, const Execution& execution = {});
 
   /// A lower bound of the distance between the body and the nearest obstacle, within 1e-13 of the coordinates' size;

@@ -135,6 +135,45 @@ TEST(Update, AsksOnlyAboutMotionsThatMayMeetTheChange) {
   EXPECT_LT(checked[1], 800U);
 }
 
+/// Far from the origin a planner keeps more room for rounding than 1e-6: the yard as wide as a fingernail, 1e9 away.
+TEST(Update, OfASmallWorldFarAwayIsTheRoadmapOfTheChangedOneToo) {
+  Scene scene = read_world(test::source_dir() + "/examples/worlds/poly-easy.scene");
+  const auto placed = [](Vec2 p) { return Vec2{1e9, -1e9} + 0.0005 * p; };
+  scene.bounds = Box{placed(scene.bounds->min), placed(scene.bounds->max)};
+  for (ScenePolygon& polygon : scene.polygons) {
+    Box box;  // along whose sides bodies may go
+    for (const Vec2 corner : polygon.corners) box.include(corner);
+    polygon.corners = {placed(box.min), placed({box.max.x, box.min.y}), placed(box.max),
+                       placed({box.min.x, box.max.y})};
+  }
+  for (Vec2& corner : scene.robot->outline) corner = 0.0001 * corner;
+  SolveOptions options;
+  options.planner = PlannerKind::prm;
+  options.roadmap.samples = 1500;
+  const Roadmap roadmap = build(scene, {}, options);
+  for (std::size_t moved = 0; moved < scene.polygons.size(); ++moved) {
+    SCOPED_TRACE(moved);
+    Scene next = scene;
+    for (Vec2& corner : next.polygons[moved].corners) corner = corner + Vec2{0.000125, 0.000125};
+    UpdateAccount account;
+    EXPECT_TRUE(same_bits(update(roadmap, next, {}, &account), build(next, {}, options)));
+    EXPECT_LT(account.edges_checked, account.edges);
+  }
+}
+
+/// What planning keeps for rounding grows with the farthest obstacle: one so far away changes every answer.
+TEST(Update, AsksAnewWhereTheChangeLiesFartherThanAllElse) {
+  const Scene scene = read_world(test::source_dir() + "/examples/worlds/poly-easy.scene");
+  SolveOptions options;
+  options.planner = PlannerKind::prm;
+  options.roadmap.samples = 200;
+  Scene next = scene;
+  next.polygons.push_back({{{1e9, 0.0}, {1e9 + 1.0, 0.0}, {1e9, 1.0}}});
+  UpdateAccount account;
+  EXPECT_TRUE(same_bits(update(build(scene, {}, options), next, {}, &account), build(next, {}, options)));
+  EXPECT_EQ(account.edges_checked, account.edges);
+}
+
 TEST(Update, OfTheSameWorldAsksNothing) {
   const Scene scene = read_world("maze:7x9,seed=2");
   SolveOptions options;
