@@ -126,6 +126,14 @@ TEST(Largest, AnInterruptPrintsWhatThereIs) {
   EXPECT_FALSE(json["trials"].empty());
 }
 
+TEST(Scale, OneRunWithoutAPathIsAnExitCode) {
+  const auto code = [](const std::string& words) {
+    return run_program("scale --repeats 1 --quiet " + words).exit_code;
+  };
+  EXPECT_EQ(code("--sizes 5"), 0);
+  EXPECT_EQ(code("--sizes 5 --planners lazy-prm --samplers uniform --samples 3"), 1);
+}
+
 TEST(Scale, WritesItsSchemaWithARunForEveryCombination) {
   const ProgramRun run = run_program(
       "scale --sizes 9,14x12,40 --threads 1,2 --planners prm,lazy-prm --seeds 1,5 --repeats 2 --quiet --json -");
