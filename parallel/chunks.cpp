@@ -32,10 +32,6 @@ void run_chunks(std::size_t chunks, unsigned threads, const void* body, void (*c
 #else
 namespace {
 
-void call_each(std::size_t chunks, const auto& call) {
-  tbb::parallel_for(std::size_t{0}, chunks, call, tbb::simple_partitioner());
-}
-
 /// The threads of the process that help with loops. Never ended, for other threads may compute while the program ends.
 class Helpers {
  public:
@@ -62,10 +58,11 @@ class Helpers {
     const auto last = std::chrono::steady_clock::now() + std::chrono::seconds(1);
     std::atomic<unsigned> there{0};
     tbb::task_arena(static_cast<int>(threads)).execute([&] {
-      call_each(threads, [&](std::size_t) {
+      const auto wait = [&](unsigned) {
         ++there;
         while (there < threads && std::chrono::steady_clock::now() < last) std::this_thread::yield();
-      });
+      };
+      tbb::parallel_for(0U, threads, wait, tbb::simple_partitioner());
     });
   }
 
@@ -134,7 +131,8 @@ void run_chunks(std::size_t chunks, unsigned threads, const void* body, void (*c
   if (is_forked) return run_plain_chunks(chunks, threads, body, call);
   const unsigned usable = helpers().usable(threads);
   if (usable == 1) return run_plain_chunks(chunks, 1, body, call);
-  arena.run(usable, [&] { call_each(chunks, [&](std::size_t chunk) { call(body, chunk); }); });
+  const auto run = [&](std::size_t chunk) { call(body, chunk); };
+  arena.run(usable, [&] { tbb::parallel_for(std::size_t{0}, chunks, run, tbb::auto_partitioner()); });
 }
 #endif
 
