@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Loops on oneTBB. It makes its threads on threads, where nobody can catch that the system makes none, and ends the
 // program then. So before a loop first asks for so many, plain threads are tried; oneTBB may have as many as came, and
-// makes them all at once, so that it asks for none later. Between the trial and that another process can take the
-// system's last threads.
+// makes them at once, one by one and on this thread, and none later. Where it can't, loops run on their callers alone.
 // A forked process has none of the threads of its parent: its loops are plain ones.
 #include "parallel/chunks.hpp"
 
@@ -18,9 +17,12 @@
 
 #include <atomic>
 #include <chrono>
+#include <exception>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <vector>
 #endif
 
 namespace warren::detail {
@@ -45,30 +47,58 @@ class Helpers {
   void ask(unsigned threads) {
     const std::lock_guard lock(mutex_);
     if (threads <= asked_) return;
-    const unsigned more = possible_threads(threads - 1 - came_);
+    const unsigned more = is_broken_ ? 0 : possible_threads(threads - 1 - came_);
     if (more > 0) {
-      came_ += more;
-      limit_.emplace(tbb::global_control::max_allowed_parallelism, came_ + 1);
-      meet(came_ + 1);
+      limit_.emplace(tbb::global_control::max_allowed_parallelism, came_ + more + 1);
+      is_broken_ = !make(came_ + more);
+      came_ = is_broken_ ? 0 : came_ + more;
     }
     asked_ = threads;
   }
-  /// Returns when so many threads have come, or a second has passed.
-  static void meet(unsigned threads) {
+  /// Has oneTBB make threads until there are so many. It makes one where a task waits and all others are held by tasks
+  /// of their own, and makes it here, where what it throws is caught. False, after which it must not be called again,
+  /// where the system made fewer. A second is what slow machines have for it.
+  static bool make(unsigned count) {
+    struct Roll {
+      std::atomic<unsigned> there{0};
+      std::atomic<bool> is_over{false};
+      std::atomic<unsigned> gone{0};
+    };
+    auto roll = std::make_unique<Roll>();
+    std::vector<std::unique_ptr<tbb::task_arena> > arenas;
     const auto last = std::chrono::steady_clock::now() + std::chrono::seconds(1);
-    std::atomic<unsigned> there{0};
-    tbb::task_arena(static_cast<int>(threads)).execute([&] {
-      const auto wait = [&](unsigned) {
-        ++there;
-        while (there < threads && std::chrono::steady_clock::now() < last) std::this_thread::yield();
-      };
-      tbb::parallel_for(0U, threads, wait, tbb::simple_partitioner());
-    });
+    const auto wait_for = [last](const std::atomic<unsigned>& number, unsigned least) {
+      while (number < least && std::chrono::steady_clock::now() < last) std::this_thread::yield();
+      return number >= least;
+    };
+    bool is_made = true;
+    bool have_come = true;
+    try {
+      for (unsigned i = 1; i <= count; ++i) {
+        arenas.push_back(std::make_unique<tbb::task_arena>(1, 0));
+        arenas.back()->enqueue([roll = roll.get()] {
+          ++roll->there;
+          while (!roll->is_over) std::this_thread::yield();
+          ++roll->gone;
+        });
+        have_come = wait_for(roll->there, i);
+        if (!have_come) break;
+      }
+    } catch (const std::exception&) {
+      is_made = false;
+    }
+    roll->is_over = true;
+    if (!is_made || !have_come || !wait_for(roll->gone, count)) {  // a task may still come to what it was given
+      static_cast<void>(roll.release());
+      for (auto& arena : arenas) static_cast<void>(arena.release());
+    }
+    return is_made;
   }
 
   std::mutex mutex_;  // held while threads are tried and made
   std::atomic<unsigned> asked_{1};
   std::atomic<unsigned> came_{0};
+  bool is_broken_ = false;                    // oneTBB could not make what was there when it was tried
   std::optional<tbb::global_control> limit_;  // also of more threads than there are cores
 };
 
