@@ -12,6 +12,14 @@ option(WARREN_NATIVE "tune for this machine (the default build runs on any x86-6
 option(WARREN_PLAIN "only the code that other processors than x86-64 run, on x86-64 too" OFF)
 set(WARREN_COMMIT "" CACHE STRING "the commit that --version names, for sources without git (default: what git says)")
 set(WARREN_SANITIZE "" CACHE STRING "sanitizers, as -fsanitize= takes them")
+# Debian's oneTBB gives the thread sanitizer false reports.
+string(FIND "${WARREN_SANITIZE}" thread warren_plain_chunks)
+if(warren_plain_chunks GREATER_EQUAL 0)
+  set(warren_plain_chunks ON)
+else()
+  set(warren_plain_chunks OFF)
+endif()
+option(WARREN_PLAIN_CHUNKS "loops on std::jthread instead of oneTBB" ${warren_plain_chunks})
 
 if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)

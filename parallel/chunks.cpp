@@ -1,37 +1,170 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Loops on oneTBB. It makes its threads on threads, where nobody can catch that the system makes none, and ends the
+// program then. So before a loop first asks for so many, plain threads are tried; oneTBB may have as many as came, and
+// makes them at once, one by one and on this thread, and none later. Where it can't, loops run on their callers alone.
+// A forked process has none of the threads of its parent: its loops are plain ones.
 #include "parallel/chunks.hpp"
 
 #include <pthread.h>
 
-#include <array>
-#include <cstddef>
-#include <new>
-
+#include "parallel/plain_chunks.hpp"
 #include "parallel/trace.hpp"
-#include "parallel/worker_crew.hpp"
+
+#ifndef WARREN_PLAIN_CHUNKS
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+#endif
 
 namespace warren::detail {
+
+#ifdef WARREN_PLAIN_CHUNKS
+void run_chunks(std::size_t chunks, unsigned threads, const void* body, void (*call)(const void*, std::size_t)) {
+  run_plain_chunks(chunks, threads, body, call);
+}
+#else
 namespace {
 
-alignas(WorkerCrew) std::array<std::byte, sizeof(WorkerCrew)> room;
-WorkerCrew& make_crew() { return *new (room.data()) WorkerCrew; }
+/// The threads of the process that help with loops. Never ended, for other threads may compute while the program ends.
+class Helpers {
+ public:
+  /// On how many threads a loop that asks for so many runs, its caller among them.
+  unsigned usable(unsigned threads) {
+    if (threads > asked_) ask(threads);
+    return std::min(threads, came_ + 1);
+  }
 
-/// Of the process. Never ended, for other threads may compute while it ends. A forked process begins with a new one:
-/// the threads stay with the parent, and one of them may have held the mutex.
-WorkerCrew& crew() {
-  static WorkerCrew& made = []() -> WorkerCrew& {
-    ::pthread_atfork(nullptr, nullptr, [] { make_crew(); });
-    return make_crew();
+ private:
+  void ask(unsigned threads) {
+    const std::lock_guard lock(mutex_);
+    if (threads <= asked_) return;
+    const unsigned more = is_broken_ ? 0 : possible_threads(threads - 1 - came_);
+    if (more > 0) {
+      limit_.emplace(tbb::global_control::max_allowed_parallelism, came_ + more + 1);
+      is_broken_ = !make(came_ + more);
+      came_ = is_broken_ ? 0 : came_ + more;
+    }
+    asked_ = threads;
+  }
+  /// Has oneTBB make threads until there are so many. It makes one where a task waits and all others are held by tasks
+  /// of their own, and makes it here, where what it throws is caught. False, after which it must not be called again,
+  /// where the system made fewer. A second is what slow machines have for it.
+  static bool make(unsigned count) {
+    struct Roll {
+      std::atomic<unsigned> there{0};
+      std::atomic<bool> is_over{false};
+      std::atomic<unsigned> gone{0};
+    };
+    auto roll = std::make_unique<Roll>();
+    std::vector<std::unique_ptr<tbb::task_arena> > arenas;
+    const auto last = std::chrono::steady_clock::now() + std::chrono::seconds(1);
+    const auto wait_for = [last](const std::atomic<unsigned>& number, unsigned least) {
+      while (number < least && std::chrono::steady_clock::now() < last) std::this_thread::yield();
+      return number >= least;
+    };
+    bool is_made = true;
+    bool have_come = true;
+    try {
+      for (unsigned i = 1; i <= count; ++i) {
+        arenas.push_back(std::make_unique<tbb::task_arena>(1, 0));
+        arenas.back()->enqueue([roll = roll.get()] {
+          ++roll->there;
+          while (!roll->is_over) std::this_thread::yield();
+          ++roll->gone;
+        });
+        have_come = wait_for(roll->there, i);
+        if (!have_come) break;
+      }
+    } catch (const std::exception&) {
+      is_made = false;
+    }
+    roll->is_over = true;
+    if (!is_made || !have_come || !wait_for(roll->gone, count)) {  // a task may still come to what it was given
+      static_cast<void>(roll.release());
+      for (auto& arena : arenas) static_cast<void>(arena.release());
+    }
+    return is_made;
+  }
+
+  std::mutex mutex_;  // held while threads are tried and made
+  std::atomic<unsigned> asked_{1};
+  std::atomic<unsigned> came_{0};
+  bool is_broken_ = false;                    // oneTBB could not make what was there when it was tried
+  std::optional<tbb::global_control> limit_;  // also of more threads than there are cores
+};
+
+std::atomic<bool> is_forked{false};
+
+Helpers& helpers() {
+  static Helpers& made = []() -> Helpers& {
+    ::pthread_atfork(nullptr, nullptr, [] { is_forked = true; });
+    return *new Helpers;
   }();
   return made;
 }
 
+/// A calling thread's place for one loop at a time: threads that have just run dry still look for work there when the
+/// next loop comes at once. A loop inside of a loop has one of its own, so nobody who waits takes up another's chunk.
+class Arena {
+ public:
+  Arena() = default;
+  ~Arena() {
+    if (!is_forked) delete arena_;
+  }
+  Arena(const Arena&) = delete;
+  Arena& operator=(const Arena&) = delete;
+
+  void run(unsigned threads, const auto& loop) {
+    const auto count = static_cast<int>(threads);
+    if (is_busy_) {
+      tbb::task_arena(count).execute(loop);
+      return;
+    }
+    if (arena_ == nullptr || arena_->max_concurrency() != count) {
+      delete arena_;
+      arena_ = nullptr;
+      arena_ = new tbb::task_arena(count);
+    }
+    const InUse in_use(is_busy_);
+    arena_->execute(loop);
+  }
+
+ private:
+  class InUse {
+   public:
+    explicit InUse(bool& is_busy) : is_busy_(is_busy) { is_busy_ = true; }
+    ~InUse() { is_busy_ = false; }
+    InUse(const InUse&) = delete;
+    InUse& operator=(const InUse&) = delete;
+
+   private:
+    bool& is_busy_;
+  };
+
+  tbb::task_arena* arena_ = nullptr;
+  bool is_busy_ = false;
+};
+
 }  // namespace
 
 void run_chunks(std::size_t chunks, unsigned threads, const void* body, void (*call)(const void*, std::size_t)) {
-  SharedLoop loop(chunks, threads, body, call);
-  crew().run(loop);
+  thread_local Arena arena;
+  if (is_forked) return run_plain_chunks(chunks, threads, body, call);
+  const unsigned usable = helpers().usable(threads);
+  if (usable == 1) return run_plain_chunks(chunks, 1, body, call);
+  const auto run = [&](std::size_t chunk) { call(body, chunk); };
+  arena.run(usable, [&] { tbb::parallel_for(std::size_t{0}, chunks, run, tbb::auto_partitioner()); });
 }
+#endif
 
 ChunkTrace::ChunkTrace(const Execution& execution) : execution_(execution) {
   if (execution_.trace != nullptr) begin_ = std::chrono::steady_clock::now();

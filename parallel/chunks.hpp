@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // for_chunks: spreads a loop over the cores. Borders depend on n and grain alone, never on the threads, so parts that
 // are kept one slot a chunk and joined in chunk order are the same bits for any thread count. Deadline and progress are
-// served once a chunk; an exception of a body ends the loop and is rethrown here. The threads are those of
-// worker_crew.hpp, fewer where the system makes no more.
+// served once a chunk; an exception of a body ends the loop and is rethrown here. The threads are oneTBB's, fewer where
+// the system makes no more; one thread is the caller alone.
 #pragma once
 
 #include <algorithm>
@@ -56,6 +56,16 @@ void for_chunks(std::size_t n, std::size_t grain, const Execution& execution, co
   }
   detail::run_chunks(chunks, thread_count(execution.threads), &run,
                      [](const void* f, std::size_t chunk) { (*static_cast<const Run*>(f))(chunk); });
+}
+
+/// Calls both, at the same time where execution.threads and the system allow it, and returns when both are done. Throws
+/// what one of them throws; the other may then not have begun.
+template <class First, class Second>
+void run_both(const Execution& execution, const First& first, const Second& second) {
+  const auto run = [&](std::size_t which) { which == 0 ? first() : second(); };
+  using Run = decltype(run);
+  detail::run_chunks(2, std::min(thread_count(execution.threads), 2U), &run,
+                     [](const void* f, std::size_t which) { (*static_cast<const Run*>(f))(which); });
 }
 
 }  // namespace warren

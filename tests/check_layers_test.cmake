@@ -65,6 +65,7 @@ complains(verify/judges/verify_a.hpp "#include \"verify/near/arcs.hpp\"" "core/p
 complains(verify/judges/verify_a.cpp "#include \"verify/near/arcs.hpp\"" "scenes/scene/motions.hpp: reached from verify/near/arcs.hpp"
           verify/near/arcs.hpp "#include \"scenes/scene/motions.hpp\"" scenes/scene/motions.hpp "#pragma once"
           worlds/poses/car_world.cpp "#include \"scenes/scene/motions.hpp\"")
+complains(spatial/points/a.cpp "#include <tbb/parallel_for.h>" "rule 'tbb'")
 complains(spatial/obstacles/wall_index.cpp "#include <nanoflann.hpp>" "rule 'nanoflann'")
 complains(roadmaps/file/roadmap_file.cpp "#include <xxhash.h>" "rule 'xxhash'")
 complains(planners/axis/medial_axis.cpp "#include <boost/polygon/voronoi.hpp>" "rule 'boost'")

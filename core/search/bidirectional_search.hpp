@@ -199,24 +199,28 @@ SearchResult joined_result(const SearchBorder& agreed, const Forward& forward, c
 template <class Side>
 using BorderOf = std::remove_cvref_t<decltype(std::declval<const Side&>().border())>;
 
-/// One round of both sides on this thread; returns what they agree on.
-template <class Forward, class Backward, class ShouldStop>
-BorderOf<Forward> one_round(Forward& forward, Backward& backward, const BorderOf<Forward>& agreed, std::uint64_t round,
-                            const ShouldStop& should_stop) {
-  forward.advance(backward, agreed, backward.border().least_key, round_size(round));
-  backward.advance(forward, agreed, forward.border().least_key, round_size(round));
-  forward.exchange(backward, should_stop());
-  backward.exchange(forward, false);
-  return agree(forward.border(), backward.border());
-}
+/// Calls one after the other.
+struct InTurn {
+  void operator()(std::uint64_t, const auto& first, const auto& second) const {
+    first();
+    second();
+  }
+};
 
-/// Both sides on this thread. should_stop() is asked once a round.
-template <class Forward, class Backward, class ShouldStop = NeverStop>
+/// Both sides; should_stop() is asked once a round. together(round, first, second) runs two calls, of which each
+/// touches its own side alone: here in turn, in parallel/ on two threads.
+template <class Forward, class Backward, class ShouldStop = NeverStop, class Together = InTurn>
 requires std::is_invocable_r_v<bool, ShouldStop> SearchResult bidirectional(Forward& forward, Backward& backward,
-                                                                            const ShouldStop& should_stop = {}) {
+                                                                            const ShouldStop& should_stop = {},
+                                                                            const Together& together = {}) {
   BorderOf<Forward> agreed;
   for (std::uint64_t round = 0; !is_over(agreed); ++round) {
-    agreed = one_round(forward, backward, agreed, round, should_stop);
+    together(
+        round, [&] { forward.advance(backward, agreed, backward.border().least_key, round_size(round)); },
+        [&] { backward.advance(forward, agreed, forward.border().least_key, round_size(round)); });
+    together(
+        round, [&] { forward.exchange(backward, should_stop()); }, [&] { backward.exchange(forward, false); });
+    agreed = agree(forward.border(), backward.border());
   }
   return joined_result(agreed, forward, backward);
 }

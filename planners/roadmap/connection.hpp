@@ -146,6 +146,7 @@ EdgeParts edges_that(const W& world, std::span<const typename W::State> mileston
       if (bunch.full()) flush();
     });
     if (!bunch.edges().empty()) flush();
+    execution.reserve(edges.size() * sizeof(Edge));  // asked late, but before the next chunk's
     parts[r.first / connection_grain<W>] = std::move(edges);
   });
   return parts;

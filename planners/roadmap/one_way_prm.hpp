@@ -9,6 +9,8 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -47,6 +49,7 @@ class OneWayPlan : public Rounds<W> {
   using Rounds<W>::goal_vertex;
 
   static constexpr std::uint64_t checks_per_poll = 64;
+  static constexpr std::size_t ways_per_poll = 4096;
   enum class Check : std::uint8_t { unknown, free, blocked };
   /// An edge from a vertex.
   struct Way {
@@ -71,6 +74,7 @@ class OneWayPlan : public Rounds<W> {
   bool search();
   SearchResult search_best();
   SearchResult search_plainly();
+  std::uint64_t free_count() const;
   Graph free_graph(bool reversed) const;
   void explore(const Graph& graph, VertexId from, SearchState& state) const;
 
@@ -85,11 +89,11 @@ template <World W>
 auto OneWayPlan<W>::nearest(VertexId v, const ConnectionRule& rule, Heading heading, std::vector<Neighbour>& near) const
     -> Ways {
   const VertexId except = v < index_.size() ? v : no_vertex;
+  const auto candidates = one_way_candidates<W>(world_, states_, index_, rule, states_[v], except, heading, near);
+  execution_.reserve(candidates.size() * sizeof(Way));
   Ways ways;
-  for (const OneWayCandidate& c :
-       one_way_candidates<W>(world_, states_, index_, rule, states_[v], except, heading, near)) {
-    ways.push_back({c.length, c.to});
-  }
+  ways.reserve(candidates.size());
+  for (const OneWayCandidate& c : candidates) ways.push_back({c.length, c.to});
   return ways;
 }
 
@@ -99,17 +103,17 @@ void OneWayPlan<W>::find_candidates(std::uint64_t samples) {
   const StageTimer timer(execution_, "connect", solution_.seconds.connect, this->milestones().size());
   const ConnectionRule rule = this->rule_for(samples);
   const std::size_t begins = states_.size() - 1;  // nothing leads on from the goal
+  execution_.reserve(states_.size() * sizeof(Ways));
   ways_.assign(states_.size(), {});
   for_chunks(begins, grain, execution_, [&](Range r) {
     std::vector<Neighbour> near;
-    for (std::size_t v = r.first; v < r.last; ++v)
+    for (std::size_t v = r.first; v < r.last; ++v) {
       ways_[v] = nearest(static_cast<VertexId>(v), rule, Heading::out, near);
+      std::sort(ways_[v].begin(), ways_[v].end(), [](const Way& a, const Way& b) { return a.to < b.to; });
+    }
   });
   solution_.counters.neighbour_queries += begins + 1;
-  attach_goal(rule);
-  for (Ways& ways : ways_) {
-    std::sort(ways.begin(), ways.end(), [](const Way& a, const Way& b) { return a.to < b.to; });
-  }
+  attach_goal(rule);  // whose vertex is the last one
 }
 
 /// And the edge from start to goal.
@@ -147,11 +151,7 @@ bool OneWayPlan<W>::search() {
   const SearchResult found = best ? search_best() : search_plainly();
   if (found.status == SearchStatus::stopped) execution_.check();
   solution_.counters.expanded += found.expanded;
-  solution_.roadmap.edges = 0;
-  for (const Ways& ways : ways_) {
-    solution_.roadmap.edges += static_cast<std::uint64_t>(
-        std::count_if(ways.begin(), ways.end(), [](const Way& way) { return way.state == Check::free; }));
-  }
+  solution_.roadmap.edges = free_count();
   return this->take(found.path);
 }
 
@@ -190,13 +190,30 @@ SearchResult OneWayPlan<W>::search_plainly() {
   return found;
 }
 
-/// The free edges, each in the row of its begin (reversed: of its end).
+template <World W>
+std::uint64_t OneWayPlan<W>::free_count() const {
+  std::uint64_t count = 0;
+  for (std::size_t v = 0; v < ways_.size(); ++v) {
+    if (v % ways_per_poll == 0) execution_.check();
+    for (const Way& way : ways_[v]) count += way.state == Check::free ? 1 : 0;
+  }
+  return count;
+}
+
+/// The free edges, each in the row of its begin (reversed: of its end). Throws InputError for 2^32 of them or more.
 template <World W>
 Graph OneWayPlan<W>::free_graph(bool reversed) const {
+  const std::uint64_t edges = free_count();
+  if (edges > std::numeric_limits<EdgeEnd>::max()) {
+    throw InputError("graph", "too many edges for 32-bit positions; use fewer samples or neighbours",
+                     std::to_string(edges));
+  }
+  execution_.reserve((states_.size() + 1) * 2 * sizeof(EdgeEnd) + edges * sizeof(VertexId));
   RawVector<EdgeEnd> offsets(states_.size() + 1);
   std::fill(offsets.begin(), offsets.end(), 0);
   const auto each = [&](const auto& visit) {
     for (VertexId v = 0; v < ways_.size(); ++v) {
+      if (v % ways_per_poll == 0) execution_.check();
       for (const Way& way : ways_[v]) {
         if (way.state == Check::free) reversed ? visit(way.to, v) : visit(v, way.to);
       }

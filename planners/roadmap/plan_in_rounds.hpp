@@ -49,7 +49,7 @@ class Rounds {
   }
   StateIndex<W> index_milestones() {
     const StageTimer timer(execution_, "neighbours", solution_.seconds.neighbours, milestones().size());
-    return index_of_states(world_, milestones(), execution_);
+    return index_of_states(world_, milestones(), execution_, options_.neighbour_index);
   }
   ConnectionRule rule_for(std::uint64_t samples) const { return connection_rule_for(world_, options_, samples); }
 

@@ -35,7 +35,8 @@ class PrmPlan : public Rounds<W> {
   bool round(std::uint64_t samples) {
     reduced_.reset();
     graph_ = Graph();
-    if (RowWorld<W> && are_lattice_steps(this->options_, this->rule_for(samples))) steps_.emplace();
+    const bool by_rule = this->options_.neighbour_index == NeighbourIndex::by_counts;
+    if (RowWorld<W> && by_rule && are_lattice_steps(this->options_, this->rule_for(samples))) steps_.emplace();
     this->draw(samples, steps_ ? &*steps_ : nullptr);
     assemble(connect(samples));
     return search();

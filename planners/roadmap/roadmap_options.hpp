@@ -10,6 +10,7 @@
 #include "core/base/enum_names.hpp"
 #include "core/base/types.hpp"
 #include "planners/roadmap/heuristic.hpp"
+#include "spatial/points/neighbours.hpp"
 
 namespace warren {
 
@@ -77,7 +78,8 @@ struct RoadmapOptions {
   std::uint64_t seed = 1;                 ///< any value
   SearchKind search = SearchKind::astar;  ///< of the roadmap
   QueueKind queue = QueueKind::heap;      ///< of astar and dijkstra
-  HeuristicKind heuristic = HeuristicKind::euclidean;  ///< of astar, for points of the plane
+  HeuristicKind heuristic = HeuristicKind::euclidean;          ///< of astar, for points of the plane
+  NeighbourIndex neighbour_index = NeighbourIndex::by_counts;  ///< of the milestones
   /// How start and goal are joined; none: by the rule, and where that finds nothing to the nearest that will do.
   std::optional<GrowingAttach> attach = {};
 

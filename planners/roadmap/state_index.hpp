@@ -32,17 +32,19 @@ PointOf<embedding_dimension<W>> embedded(const W& world, const typename W::State
 }
 
 template <World W>
-StateIndex<W> index_of_states(const W& world, std::span<const typename W::State> states, const Execution& execution) {
+StateIndex<W> index_of_states(const W& world, std::span<const typename W::State> states, const Execution& execution,
+                              NeighbourIndex kind = NeighbourIndex::by_counts) {
   if constexpr (std::same_as<typename W::State, Vec2>) {
-    return StateIndex<W>(states, execution);
+    return StateIndex<W>(states, execution, kind);
   } else {
     static_assert(embedding_dimension<W> != 2, "an index in the plane refers to its points, and these don't last");
     constexpr std::size_t grain = std::size_t{1} << 14;
+    execution.reserve(states.size() * sizeof(PointOf<embedding_dimension<W>>));
     RawVector<PointOf<embedding_dimension<W>>> points(states.size());
     for_chunks(states.size(), grain, execution, [&](Range r) {
       for (std::size_t i = r.first; i < r.last; ++i) points[i] = embedded(world, states[i]);
     });
-    return StateIndex<W>(points, execution);
+    return StateIndex<W>(points, execution, kind);
   }
 }
 

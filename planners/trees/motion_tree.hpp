@@ -26,6 +26,7 @@ template <SteerableWorld W>
 class MotionTree {
  public:
   using State = typename W::State;
+  using Embedding = PointOf<embedding_dimension<W>>;
 
   MotionTree(const W& world, GrowthDirection direction) : world_(&world), direction_(direction) {}
 
@@ -34,7 +35,22 @@ class MotionTree {
   std::size_t size() const { return states_.size(); }
   const State& state(VertexId v) const { return states_[v]; }
   VertexId parent(VertexId v) const { return parents_[v]; }  ///< no_vertex for roots
-  std::span<const State> states() const { return states_; }
+
+  /// Asks for what the tree takes while it doubles, once it has doubled. Throws Stopped.
+  void ask_room(const Execution& execution) {
+    constexpr std::size_t index_bytes = 32;  // of its own, a state
+    if (states_.size() < asked_at_) return;
+    asked_at_ = 2 * states_.size();
+    execution.reserve(asked_at_ * (sizeof(State) + sizeof(VertexId) + sizeof(Embedding) + index_bytes));
+  }
+  /// Those of all states. Throws Stopped.
+  std::vector<Embedding> embeddings(const Execution& execution) const {
+    execution.reserve(states_.size() * sizeof(Embedding));
+    std::vector<Embedding> all;
+    all.reserve(states_.size());
+    for (const State& state : states_) all.push_back(embedded(*world_, state));
+    return all;
+  }
 
   VertexId nearest(const State& to, Counters& counters) {
     ++counters.neighbour_queries;
@@ -100,6 +116,7 @@ class MotionTree {
   std::vector<State> states_;
   std::vector<VertexId> parents_;
   GrowingTree<embedding_dimension<W>> index_;
+  std::size_t asked_at_ = 1024;  // at so many states memory is asked for again
 };
 
 /// The trees as a roadmap, one after the other; the first root of the first tree and of the last stand once more as
@@ -108,8 +125,14 @@ template <SteerableWorld W>
 void keep_trees(std::span<const MotionTree<W>> trees, PlannedRoadmap<typename W::State>& roadmap,
                 const Execution& execution) {
   std::vector<Edge> edges;
+  std::size_t count = 2;
+  for (const MotionTree<W>& tree : trees) count += tree.size();
+  execution.reserve(count * (sizeof(typename W::State) + 2 * sizeof(Edge)));
+  edges.reserve(count);
   roadmap.states.clear();
+  roadmap.states.reserve(count);
   roadmap.motions.clear();
+  roadmap.motions.reserve(count);
   for (const MotionTree<W>& tree : trees) {
     const auto first = static_cast<VertexId>(roadmap.states.size());
     for (VertexId v = 0; v < tree.size(); ++v) {

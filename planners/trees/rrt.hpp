@@ -37,6 +37,7 @@ class RrtSearch {
   void advance(std::uint64_t steps, const Execution& execution) {
     for (std::uint64_t i = 0; i < steps && !arrived() && !gave_up(); ++i) {
       execution.check();
+      tree_.ask_room(execution);
       take_step();
     }
     counters_.refused = refused_motions(query_);
@@ -96,11 +97,10 @@ void RrtSearch<W>::finish(Solution<State>& solution, PlannedRoadmap<State>* keep
     solution.path = tree_.way_to_root(last_);
     std::reverse(solution.path.begin(), solution.path.end());
   } else {
-    std::vector<PointOf<embedding_dimension<W>>> states;
-    std::vector<PointOf<embedding_dimension<W>>> goals;
-    for (const State& state : tree_.states()) states.push_back(embedded(*world_, state));
+    std::vector<typename MotionTree<W>::Embedding> goals;
     for (const State& state : goals_) goals.push_back(embedded(*world_, state));
-    solution.separation = separation_between<embedding_dimension<W>>(std::move(states), std::move(goals), execution);
+    solution.separation =
+        separation_between<embedding_dimension<W>>(tree_.embeddings(execution), std::move(goals), execution);
   }
   if (keep != nullptr) keep_trees<W>(std::span(&tree_, 1), *keep, execution);
 }

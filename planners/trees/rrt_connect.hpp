@@ -50,6 +50,7 @@ class RrtConnectSearch {
     begun_ = true;
     for (std::uint64_t i = 0; i < steps && !arrived() && !gave_up(); ++i) {
       execution.check();
+      for (MotionTree<W>& tree : trees_) tree.ask_room(execution);
       take_step();
     }
     counters_.refused = refused_motions(query_);
@@ -174,12 +175,8 @@ void RrtConnectSearch<W>::finish(Solution<State>& solution, PlannedRoadmap<State
     const Path<State> rest = trees_[1].way_to_root(meeting_[1]);
     solution.path.insert(solution.path.end(), rest.begin() + 1, rest.end());
   } else {
-    const auto points = [&](const MotionTree<W>& tree) {
-      std::vector<PointOf<embedding_dimension<W>>> embeddings;
-      for (const State& state : tree.states()) embeddings.push_back(embedded(*world_, state));
-      return embeddings;
-    };
-    solution.separation = separation_between<embedding_dimension<W>>(points(trees_[0]), points(trees_[1]), execution);
+    solution.separation = separation_between<embedding_dimension<W>>(trees_[0].embeddings(execution),
+                                                                     trees_[1].embeddings(execution), execution);
   }
   if (keep != nullptr) keep_trees<W>(trees_, *keep, execution);
 }

@@ -46,6 +46,7 @@ def solve(
     samples: int | Literal["auto"] | None = ...,
     neighbours: int | Literal["auto", "star"] | None = ...,
     radius: float | Literal["auto", "star"] | None = ...,
+    neighbour_index: Literal["auto", "kd-tree", "grid", "brute"] | None = ...,
     search: _Search | None = ...,
     heuristic: _Heuristic | None = ...,
     queue: _Queue | None = ...,

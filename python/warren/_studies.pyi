@@ -32,6 +32,7 @@ def compare(
     sampler: _Listed = ...,
     neighbours: _Listed = ...,
     radius: _Listed = ...,
+    neighbour_index: _Listed = ...,
     search: _Listed = ...,
     heuristic: _Listed = ...,
     queue: _Listed = ...,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A few threads that take tasks from a short queue, so that whoever hands them out never waits: a full queue says no.
-// What a loop is spread over is parallel/worker_crew; a task may run such loops.
+// A task may run loops of parallel/chunks.hpp.
 #pragma once
 
 #include <condition_variable>

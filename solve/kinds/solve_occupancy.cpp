@@ -12,8 +12,8 @@
 namespace warren {
 namespace {
 
-constexpr OptionSet occupancy_roadmap_options = prm_takes | OptionSet{Option::heuristic};
-constexpr OptionSet lazy_options = lazy_prm_takes | OptionSet{Option::heuristic};
+constexpr OptionSet occupancy_roadmap_options = prm_takes | OptionSet{Option::heuristic, Option::neighbour_index};
+constexpr OptionSet lazy_options = lazy_prm_takes | OptionSet{Option::heuristic, Option::neighbour_index};
 constexpr PlannerChoice occupancy_planners[] = {
     {PlannerKind::grid, OptionSet{Option::search, Option::diagonal, Option::optimise}},
     {PlannerKind::prm, occupancy_roadmap_options},

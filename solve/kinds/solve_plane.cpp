@@ -16,7 +16,8 @@
 namespace warren {
 namespace {
 
-constexpr OptionSet plane_roadmap_options = prm_takes | OptionSet{Option::lazy, Option::pipeline, Option::heuristic};
+constexpr OptionSet plane_roadmap_options =
+    prm_takes | OptionSet{Option::lazy, Option::pipeline, Option::heuristic, Option::neighbour_index};
 constexpr PlannerChoice plane_planners[] = {
     {PlannerKind::prm, plane_roadmap_options},
     {PlannerKind::lazy_prm, plane_roadmap_options},

@@ -174,7 +174,8 @@ class PointAmongWalls : public UsualBody {
   WallProblem problem_;
 };
 
-constexpr OptionSet shared_options = prm_takes | OptionSet{Option::lazy, Option::pipeline, Option::heuristic};
+constexpr OptionSet shared_options =
+    prm_takes | OptionSet{Option::lazy, Option::pipeline, Option::heuristic, Option::neighbour_index};
 constexpr PlannerChoice walls_planners[] = {{PlannerKind::prm, shared_options},
                                             {PlannerKind::lazy_prm, shared_options}};
 

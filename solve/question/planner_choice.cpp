@@ -32,6 +32,7 @@ RoadmapOptions roadmap_options(const SolveOptions& asked) {
   options.search = searched.search;
   options.queue = searched.queue;
   options.seed = asked.seed;
+  options.neighbour_index = asked.roadmap.neighbour_index.value_or(NeighbourIndex::by_counts);
   options.heuristic = asked.heuristic.value_or(HeuristicKind::euclidean);
   return options;
 }
@@ -77,7 +78,7 @@ void check_lattice(SamplerKind sampler, const Scene& scene) {
 
 /// Fused tiles take the lattice with its own rule of joining, and have a search of their own.
 bool takes_fused_tiles(const SolveOptions& asked, const PlannerOptions& options, double clearance) {
-  const bool usual_search = !asked.search && !asked.queue && !asked.heuristic;
+  const bool usual_search = !asked.search && !asked.queue && !asked.heuristic && !asked.roadmap.neighbour_index;
   return options.planner == PlannerKind::prm && usual_search && tiled_prm_applies(options.roadmap, clearance);
 }
 
@@ -120,6 +121,7 @@ std::vector<NamedFigure> given_options(const SolveOptions& asked, const PlannerO
   if (o.roadmap.star == StarRule::radius) add("radius", std::string("star"));
   if (asked.queue) add("queue", std::string(name_of(*asked.queue)));
   if (asked.heuristic) add("heuristic", std::string(name_of(*asked.heuristic)));
+  if (asked.roadmap.neighbour_index) add("neighbour_index", std::string(name_of(*asked.roadmap.neighbour_index)));
   if (asked.roadmap.lazy) add("lazy", std::string(name_of(*asked.roadmap.lazy)));
   if (asked.roadmap.pipeline) add("pipeline", std::string(name_of(*asked.roadmap.pipeline)));
   if (o.optimise) add("optimise", true);

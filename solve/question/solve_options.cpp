@@ -100,6 +100,7 @@ OptionSet given(const SolveOptions& o) {
   add(Option::reverse_cost, o.car.reverse_cost.has_value());
   add(Option::attach, o.roadmap.attach.has_value());
   add(Option::heuristic, o.heuristic.has_value());
+  add(Option::neighbour_index, o.roadmap.neighbour_index.has_value());
   return set;
 }
 

@@ -68,7 +68,8 @@ struct RoadmapFields {
   StarRule star = StarRule::none;                ///< join by a rule of PRM* instead of either
   std::optional<LazyCheck> lazy = {};            ///< there is one way
   std::optional<PipelineKind> pipeline = {};     ///< none: tiled on a lattice where all rules are the usual ones
-  std::optional<GrowingAttach> attach = {};      ///< how start and goal are joined; none: as far as the k nearest
+  std::optional<NeighbourIndex> neighbour_index = {};  ///< of milestones that are points; none: by counts
+  std::optional<GrowingAttach> attach = {};            ///< how start and goal are joined; none: as far as the k nearest
 };
 
 /// rrt and rrt_connect.
@@ -169,14 +170,17 @@ enum class Option : std::uint8_t {
   cusp_cost,
   reverse_cost,
   attach,
-  heuristic
+  heuristic,
+  neighbour_index
 };
 constexpr auto enum_names(Option) {
-  return std::array<std::string_view, 31>{
-      "sampler",  "samples",       "neighbours",     "radius",      "search",       "queue",     "lazy",     "pipeline",
-      "optimise", "cell",          "angles",         "face_motion", "step_cost",    "turn_cost", "diagonal", "layers",
-      "full",     "sampled_edges", "doors",          "objective",   "step",         "goal_bias", "nodes",    "trees",
-      "via",      "steering",      "turning_radius", "cusp_cost",   "reverse_cost", "attach",    "heuristic"};
+  return std::array<std::string_view, 32>{"sampler",   "samples",        "neighbours",    "radius",       "search",
+                                          "queue",     "lazy",           "pipeline",      "optimise",     "cell",
+                                          "angles",    "face_motion",    "step_cost",     "turn_cost",    "diagonal",
+                                          "layers",    "full",           "sampled_edges", "doors",        "objective",
+                                          "step",      "goal_bias",      "nodes",         "trees",        "via",
+                                          "steering",  "turning_radius", "cusp_cost",     "reverse_cost", "attach",
+                                          "heuristic", "neighbour_index"};
 }
 /// Enumerators of Option.
 inline constexpr std::size_t option_count = enum_names(Option{}).size();

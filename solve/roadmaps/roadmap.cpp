@@ -28,7 +28,7 @@ void refuse_what_is_asked_later(const SolveOptions& options) {
     if (!all.has(option)) continue;
     throw UsageError(fmt::format("@{}: is for a question; say it when the roadmap is asked", name_of(option)));
   }
-  for (const Option option : {Option::lazy, Option::pipeline, Option::sampled_edges}) {
+  for (const Option option : {Option::lazy, Option::pipeline, Option::sampled_edges, Option::neighbour_index}) {
     if (!all.has(option)) continue;
     throw UsageError(fmt::format("@{}: a roadmap that is kept is made in one way; leave it out", name_of(option)));
   }

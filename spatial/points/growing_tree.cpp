@@ -11,18 +11,6 @@ namespace {
 
 constexpr std::size_t smallest_tree = 128;
 
-/// As the indices compute it: axis 0 first.
-template <int D>
-double distance_between(const PointOf<D>& a, const PointOf<D>& b) {
-  if constexpr (D == 2) {
-    return distance(a, b);
-  } else {
-    double sum = 0.0;
-    for (std::size_t axis = 0; axis < D; ++axis) sum += (a[axis] - b[axis]) * (a[axis] - b[axis]);
-    return std::sqrt(sum);
-  }
-}
-
 }  // namespace
 
 template <int D>

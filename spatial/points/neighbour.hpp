@@ -20,6 +20,18 @@ namespace warren {
 template <int D>
 using PointOf = std::conditional_t<D == 2, Vec2, std::array<double, as_whole<std::size_t>(D)>>;
 
+/// As the indices compute it: axis 0 first.
+template <int D>
+double distance_between(const PointOf<D>& a, const PointOf<D>& b) {
+  if constexpr (D == 2) {
+    return distance(a, b);
+  } else {
+    double sum = 0.0;
+    for (std::size_t axis = 0; axis < D; ++axis) sum += (a[axis] - b[axis]) * (a[axis] - b[axis]);
+    return std::sqrt(sum);
+  }
+}
+
 struct Neighbour {
   VertexId id;
   double distance;  ///< world units

@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Neighbours<D>: one interface to PointGrid and KdTree<D>, which of them by a rule of counts. In the plane the grid is
-// built first (it is cheap) and kept unless points crowd in few of its cells; there, and in more dimensions, the k-d
-// trees. The answers are the same bits either way. bench/neighbours_bench.cpp has the crossing point of the two.
+// Neighbours<D>: one interface to PointGrid, KdTree<D> and BruteNeighbours<D>, usually by a rule of counts. In the
+// plane the grid is built first (it is cheap) and kept unless points crowd in few of its cells; there, and in more
+// dimensions, the k-d trees. The answers are the same bits either way. bench/neighbours_bench.cpp has the crossing
+// point of the two.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <span>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
 #include "core/base/whole.hpp"
 #include "parallel/chunks.hpp"
+#include "spatial/points/brute_neighbours.hpp"
 #include "spatial/points/kd_tree.hpp"
 #include "spatial/points/point_grid.hpp"
 
@@ -19,6 +24,12 @@ namespace warren {
 /// decades have 18 (k = 8: grid 290 ns, trees 500), over three decades 100 (1120 and 520).
 inline constexpr double most_crowding = 40.0;
 
+/// by_counts: the rule above. grid: in the plane alone.
+enum class NeighbourIndex : std::uint8_t { by_counts, kd_tree, grid, brute };
+constexpr auto enum_names(NeighbourIndex) {
+  return std::array<std::string_view, 4>{"auto", "kd-tree", "grid", "brute"};
+}
+
 /// Immutable after construction; any number of threads may query.
 template <int D>
 class Neighbours {
@@ -27,18 +38,25 @@ class Neighbours {
 
   Neighbours() = default;  ///< no points
   /// Copies the points; but in the plane those in tile order, which is best, must outlive the index. Below 2^32 points.
-  /// Throws Stopped.
-  Neighbours(std::span<const Point> points, const Execution& execution) {
+  /// The execution must outlive an index by brute force. Throws Stopped.
+  Neighbours(std::span<const Point> points, const Execution& execution, NeighbourIndex kind = NeighbourIndex::by_counts)
+      : kind_(kind) {
+    if (kind_ == NeighbourIndex::brute) {
+      brute_ = BruteNeighbours<D>(points, execution);
+      return;
+    }
     if constexpr (D == 2) {
-      grid_ = PointGrid(points, execution);
-      if (grid_.crowding() <= most_crowding) return;
-      grid_ = PointGrid();
+      if (kind_ != NeighbourIndex::kd_tree) {
+        grid_ = PointGrid(points, execution);
+        if (kind_ == NeighbourIndex::grid || grid_.crowding() <= most_crowding) return;
+        grid_ = PointGrid();
+      }
     }
     tree_ = KdTree<D>(points, execution);
-    uses_tree_ = true;
+    kind_ = NeighbourIndex::kd_tree;
   }
 
-  bool uses_tree() const { return uses_tree_; }
+  bool uses_tree() const { return kind_ == NeighbourIndex::kd_tree; }
   std::size_t size() const {
     return with([](const auto& index) { return index.size(); });
   }
@@ -101,15 +119,17 @@ class Neighbours {
  private:
   template <class Use>
   auto with(const Use& use) const {
+    if (kind_ == NeighbourIndex::brute) return use(brute_);
     if constexpr (D == 2) {
-      if (!uses_tree_) return use(grid_);
+      if (!uses_tree()) return use(grid_);
     }
     return use(tree_);
   }
 
   PointGrid grid_;
   KdTree<D> tree_;
-  bool uses_tree_ = false;
+  BruteNeighbours<D> brute_;
+  NeighbourIndex kind_ = NeighbourIndex::by_counts;
 };
 
 }  // namespace warren

@@ -68,6 +68,7 @@ constexpr std::array<Copy, option_count> copies{
     part<&SolveOptions::car, &CarFields::reverse_cost>,
     part<&SolveOptions::roadmap, &RoadmapFields::attach>,
     whole<&SolveOptions::heuristic>,
+    part<&SolveOptions::roadmap, &RoadmapFields::neighbour_index>,
 };
 
 /// Why the planner does not take this option as it is in `from`; nothing where it does.

@@ -2,9 +2,13 @@
 #include "parallel/chunks.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <csignal>
+#include <cstdint>
+#include <iterator>
 #include <limits>
 #include <mutex>
 #include <numeric>
@@ -14,6 +18,7 @@
 #include <vector>
 
 #include "core/base/rng.hpp"
+#include "parallel/plain_chunks.hpp"
 #include "parallel/scan.hpp"
 #include "parallel/trace.hpp"
 #include "tests/parallel/on_threads.hpp"
@@ -86,23 +91,21 @@ TEST(ForChunks, AnExceptionOfABodyEndsTheLoopAndArrivesHere) {
 }
 
 TEST(ForChunks, UsesAsManyThreadsAsAskedForAndNoMore) {
+  const std::thread::id caller = std::this_thread::get_id();
   for (const unsigned threads : thread_counts) {
-    std::mutex mutex;
-    std::set<std::thread::id> seen;
+    std::atomic<unsigned> elsewhere{0};
     std::atomic<unsigned> inside{0};
     std::atomic<unsigned> most{0};
     for_chunks(2000, 1, on(threads), [&](Range) {
       const unsigned now = ++inside;
       for (unsigned before = most; before < now && !most.compare_exchange_weak(before, now);) {
       }
-      const std::lock_guard lock(mutex);
-      seen.insert(std::this_thread::get_id());
+      if (std::this_thread::get_id() != caller) ++elsewhere;
       --inside;
     });
     EXPECT_LE(most, threads);
-    EXPECT_LE(seen.size(), threads);
     if (threads == 1) {
-      EXPECT_EQ(*seen.begin(), std::this_thread::get_id());
+      EXPECT_EQ(elsewhere, 0U);
     }
   }
 }
@@ -117,6 +120,11 @@ TEST(ForChunks, TwoBodiesRunAtTheSameTimeOnTwoThreads) {
 }
 
 TEST(ForChunks, EachThreadBeginsFarFromTheOthers) {
+#if defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+  GTEST_SKIP() << "of oneTBB alone, which is not there";
+#endif
+#endif
   std::atomic<unsigned> arrived{0};
   std::mutex mutex;
   std::set<std::size_t> first;
@@ -129,7 +137,8 @@ TEST(ForChunks, EachThreadBeginsFarFromTheOthers) {
     ++arrived;
     while (arrived < 3) std::this_thread::yield();
   });
-  EXPECT_EQ(first, (std::set<std::size_t>{0, 30, 60}));
+  ASSERT_EQ(first.size(), 3U);
+  for (auto i = std::next(first.begin()); i != first.end(); ++i) EXPECT_GE(*i - *std::prev(i), 15U);
 }
 
 TEST(ForChunks, StopsAtTheDeadline) {
@@ -187,7 +196,70 @@ TEST(ForChunks, TellsProgressEachItemAndTraceEachChunk) {
       EXPECT_GE(e.duration_us, 0.0);
       EXPECT_LT(e.thread, trace.thread_count());
     }
-    EXPECT_LE(trace.thread_count(), threads);
+  }
+}
+
+/// The sum of 0 .. 9999, by a loop.
+std::uint64_t sum_on(unsigned threads) {
+  std::atomic<std::uint64_t> sum{0};
+  for_chunks(10'000, 7, on(threads), [&](Range r) {
+    for (std::size_t i = r.first; i < r.last; ++i) sum += i;
+  });
+  return sum;
+}
+constexpr std::uint64_t whole_sum = 49'995'000;
+
+TEST(ForChunks, AForkedProcessComputesWithoutTheThreadsOfItsParent) {
+  ASSERT_EQ(sum_on(4), whole_sum);
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) ::_exit(sum_on(4) == whole_sum && sum_on(1) == whole_sum ? 0 : 1);
+  int status = -1;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(sum_on(4), whole_sum);
+}
+
+TEST(ForChunks, ManyThreadsRunLoopsAtTheSameTime) {
+  std::atomic<int> wrong{0};
+  std::vector<std::jthread> callers;
+  for (unsigned caller = 0; caller < 16; ++caller) {
+    callers.emplace_back([&wrong, caller] {
+      for (unsigned loop = 0; loop < 200; ++loop) wrong += sum_on(1 + (caller + loop) % 4) == whole_sum ? 0 : 1;
+    });
+  }
+  callers.clear();
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST(RunBoth, CallsBothAndThrowsWhatOneThrows) {
+  for (const unsigned threads : thread_counts) {
+    int first = 0;
+    int second = 0;
+    run_both(
+        on(threads), [&] { ++first; }, [&] { ++second; });
+    EXPECT_EQ(first + 2 * second, 3);
+    const auto fail = [&] {
+      run_both(
+          on(threads), [&] { throw std::out_of_range("any"); }, [&] { ++second; });
+    };
+    EXPECT_THROW(fail(), std::out_of_range);
+  }
+}
+
+TEST(PlainChunks, VisitEachOnceAndHandOnWhatAChunkThrows) {
+  for (const unsigned threads : thread_counts) {
+    std::vector<int> visits(1000, 0);
+    int* const slots = visits.data();
+    detail::run_plain_chunks(visits.size(), threads, &slots,
+                             [](const void* body, std::size_t i) { ++(*static_cast<int* const*>(body))[i]; });
+    EXPECT_EQ(std::count(visits.begin(), visits.end(), 1), 1000);
+    const auto fail = [&] {
+      detail::run_plain_chunks(1000, threads, nullptr, [](const void*, std::size_t i) {
+        if (i == 17) throw std::out_of_range("seventeen");
+      });
+    };
+    EXPECT_THROW(fail(), std::out_of_range);
   }
 }
 

@@ -34,7 +34,7 @@ constexpr OptionSpec build_specs[] = {
 void add_kept_options(Command& command) {
   constexpr OptionSet of_questions{Option::search,    Option::queue,        Option::optimise,
                                    Option::cusp_cost, Option::reverse_cost, Option::heuristic};
-  constexpr OptionSet of_work{Option::lazy, Option::pipeline, Option::sampled_edges};
+  constexpr OptionSet of_work{Option::lazy, Option::pipeline, Option::sampled_edges, Option::neighbour_index};
   static const std::string planners = names_of_planners(keeps_roadmap);
   for (OptionSpec spec : solve_option_specs()) {
     const auto option = option_of_words(spec.name);

@@ -44,6 +44,7 @@ constexpr ListOption listed[] = {
     {Option::samples, "--samples"},
     {Option::neighbours, "--neighbours"},
     {Option::radius, "--radius"},
+    {Option::neighbour_index, "--neighbour-index"},
     {Option::pipeline, "--pipeline"},
     {Option::cell, "--cell"},
     {Option::angles, "--angles"},

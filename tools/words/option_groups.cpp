@@ -17,7 +17,8 @@ constexpr std::string_view own = "Options";
 constexpr NamedGroup option_groups[] = {
     {"Question", "--robot --start --goal --via --clearance --contact --map-rules"},
     {"Planner", "--planner --planners --seed"},
-    {"Roadmaps of samples", "--sampler --samplers --samples --neighbours --radius --attach --lazy --pipeline"},
+    {"Roadmaps of samples",
+     "--sampler --samplers --samples --neighbours --radius --neighbour-index --attach --lazy --pipeline"},
     {"Trees", "--step --goal-bias --nodes --trees"},
     {"Grids", "--cell --angles --face-motion --step-cost --turn-cost --diagonal --layers"},
     {"Visibility graph, cells, medial axis", "--full --sampled-edges --doors --objective"},

@@ -26,6 +26,10 @@ constexpr OptionSpec roadmap_specs[] = {
     {"--neighbours", "K|auto|star", "join each milestone to its K nearest; star: by the rule of PRM* (default: auto)"},
     {"--radius", "R|auto|star",
      "join milestones at most so far apart, instead of the K nearest; star: by the rule of PRM* (default: auto)"},
+    {"--neighbour-index", "NAME",
+     "what finds neighbours of points and discs; the path is the same (default: auto, a grid, or a k-d tree where "
+     "milestones crowd); other bodies have the k-d tree",
+     "auto kd-tree grid brute"},
     {"--search", "NAME", "how the roadmap is searched (default: astar)", "astar dijkstra bfs dfs"},
     {"--heuristic", "NAME",
      "what astar takes the way to the goal for, of points and discs; manhattan and octile may lengthen the path, and "
@@ -133,6 +137,7 @@ SolveOptions roadmap_words(const Arguments& arguments) {
   options.search = given_value(arguments, "--search", search_value, options.planner);
   options.queue = given_choice<QueueKind>(arguments, "--queue");
   options.heuristic = given_choice<HeuristicKind>(arguments, "--heuristic");
+  options.roadmap.neighbour_index = given_choice<NeighbourIndex>(arguments, "--neighbour-index");
   options.seed = seed_word(arguments);
   options.visibility.lazy = arguments.value("--lazy") == "";
   options.sampler = given_choice<SamplerKind>(arguments, "--sampler");

@@ -28,7 +28,7 @@ PointOf<D> random_point(std::uint64_t seed, std::uint64_t index) {
 }
 
 template <int D>
-double distance_between(const PointOf<D>& a, const PointOf<D>& b) {
+double plain_distance(const PointOf<D>& a, const PointOf<D>& b) {
   if constexpr (D == 2) {
     return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y));
   } else {
@@ -51,7 +51,7 @@ void expect_as_brute_force(std::uint64_t seed, std::size_t count) {
     const PointOf<D> query = random_point<D>(seed + 100, i);
     Neighbour best{0, std::numeric_limits<double>::infinity()};
     for (std::size_t j = 0; j < points.size(); ++j) {
-      const double d = distance_between<D>(points[j], query);
+      const double d = plain_distance<D>(points[j], query);
       if (d < best.distance) best = {static_cast<VertexId>(j), d};
     }
     ASSERT_EQ(tree.nearest(query), best) << i;

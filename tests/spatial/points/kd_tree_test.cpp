@@ -139,10 +139,14 @@ TYPED_TEST(KdTreeIn, NeighboursEqualBruteForce) {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     for (const auto& set : test::point_sets<D>(seed, 200)) {
       SCOPED_TRACE(set.name);
-      const Neighbours<D> neighbours(set.points, {});
-      expect_nearest<D>(neighbours, set.points, seed);
-      expect_within<D>(neighbours, set.points, seed);
-      expect_later<D>(neighbours, set.points, 0.3);
+      const Execution execution;
+      for (const auto kind : {NeighbourIndex::kd_tree, NeighbourIndex::grid, NeighbourIndex::brute}) {
+        const Neighbours<D> one(set.points, execution, kind);
+        expect_nearest<D>(one, set.points, seed);
+        expect_within<D>(one, set.points, seed);
+        expect_later<D>(one, set.points, 0.3);
+      }
+      const Neighbours<D> neighbours(set.points, execution);
       neighbours.for_each_nearest({0, set.points.size()}, 5, [&](VertexId i, const std::vector<Neighbour>& found) {
         const auto all = all_by_distance<D>(set.points, set.points[i], i);
         const auto count = static_cast<std::ptrdiff_t>(std::min<std::size_t>(5, all.size()));
@@ -157,6 +161,7 @@ TEST(Neighbours, TakesTheGridForEvenPointsAndTreesForCrowdedOnes) {
   auto crowded = even_points<2>(5000);
   crowded[0] = {1e6, 1e6};
   EXPECT_TRUE(Neighbours<2>(crowded, {}).uses_tree());
+  EXPECT_FALSE(Neighbours<2>(crowded, {}, NeighbourIndex::grid).uses_tree());
   EXPECT_TRUE(Neighbours<3>(even_points<3>(100), {}).uses_tree());
   EXPECT_FALSE(Neighbours<2>({}, {}).uses_tree());
 }

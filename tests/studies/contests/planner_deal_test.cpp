@@ -128,6 +128,7 @@ TEST(PlannerDeal, EveryOptionReachesThePlannersThatTakeIt) {
   all.queue = QueueKind::lazy_heap;
   all.roadmap = {.samples = 9, .neighbours = 8, .lazy = LazyCheck::expansion, .pipeline = PipelineKind::plain};
   all.roadmap.attach = GrowingAttach{};
+  all.roadmap.neighbour_index = NeighbourIndex::kd_tree;
   all.heuristic = HeuristicKind::manhattan;
   all.trees = {.step = 0.5, .goal_bias = 0.25, .nodes = 99, .trees = 2, .via = {{1.0, 2.0}}};
   all.grid = {.cell = 0.5, .angles = 8, .face_motion = true, .step_cost = 2.0, .turn_cost = 3.0};
