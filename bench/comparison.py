@@ -14,6 +14,7 @@ most benchmarks differ by among themselves.
 import argparse
 import json
 import math
+import signal
 import sys
 
 ERROR = 0.01  # that all intervals together may be wrong by, where the repetitions allow it
@@ -149,8 +150,9 @@ def summary(comparison):
         told.append(f"{few} with too few repetitions to tell")
     text = ", ".join(told) if told else "no difference"
     drift = 100.0 * (math.exp(comparison.drift) - 1.0)
+    ratio = median(r.ratio for _, _, _, r, _ in comparison.rows) or 1.0
     return (
-        f"{text}: {len(comparison.rows)} benchmarks, tolerance {100.0 * comparison.tolerance:.0f} % "
+        f"{text}: {len(comparison.rows)} benchmarks, median ratio {ratio:.3f}, tolerance {100.0 * comparison.tolerance:.0f} % "
         f"(repetitions differ by {100.0 * comparison.noise:.0f} %, the machine by {drift:.0f} %)"
     )
 
@@ -168,6 +170,7 @@ def main():
     parser.add_argument("new")
     parser.add_argument("--clock", choices=("cpu", "real"), default="cpu", help="which time is compared (default: cpu)")
     arguments = parser.parse_args()
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # a reader that has seen enough
     try:
         return compare_files(arguments.old, arguments.new, arguments.clock)
     except BadFile as error:

@@ -18,6 +18,8 @@ import sys
 import tempfile
 import time
 
+from comparison import seconds_text
+
 MACHINE = "bm_machine_"  # always run: bench/comparison.py needs them
 
 
@@ -135,6 +137,23 @@ def run_rounds(programs, arguments):
     return results
 
 
+def table(entries):
+    """A line a benchmark: the median of its CPU times and, where it counts items, how many a second."""
+    units = {"ns": 1.0, "us": 1e3, "ms": 1e6, "s": 1e9}
+    found = {}
+    for entry in entries:
+        if not entry.get("error_occurred") and not entry["name"].startswith(MACHINE):
+            found.setdefault(entry["name"], []).append(entry)
+    width = max(map(len, found), default=9)
+    lines = [f"{'benchmark':{width}} {'CPU time':>9} {'items/s':>9}"]
+    for name, group in found.items():
+        middle = sorted(group, key=lambda entry: entry["cpu_time"])[len(group) // 2]
+        items = middle.get("items_per_second")
+        rate = f"{items:9.3g}" if items else f"{'':9}"
+        lines.append(f"{name:{width}} {seconds_text(middle['cpu_time'] * units[middle['time_unit']]):>9} {rate}".rstrip())
+    return lines
+
+
 def usual_options(path):
     """Filter, rounds and least time: those of the run that wrote the file, where there is one that says them."""
     usual = {"filter": "", "repetitions": 5, "min_time": 0.05}
@@ -171,6 +190,8 @@ def main():
         write_json(file, whole)
         for line in over_limit(whole["benchmarks"]):
             print(line, file=sys.stderr)
+        if len(runs) == 1:
+            print("\n".join(table(whole["benchmarks"])))
     return 0
 
 
