@@ -14,7 +14,8 @@ using test::run;
 using Json = nlohmann::json;
 
 TEST(NeighbourIndex, GivesTheSamePath) {
-  const std::vector<std::string> town{"solve", test::world_file("town.geojson"), "--samples", "500"};
+  const std::vector<std::string> town{
+      "solve", test::world_file("town.geojson"), "--samples", "500", "--start", "1.5,1.5", "--goal", "9.5,8.5"};
   const std::vector<std::string> maze{"solve", "maze:12x12,seed=4", "--sampler", "uniform"};
   for (const auto& world : {town, maze}) {
     for (const char* planner : {"prm", "lazy-prm"}) {
