@@ -10,12 +10,12 @@ DRAWN = ['README.md', 'docs/tutorial.md', 'docs/algorithms.md']  # pages whose o
 
 
 def commands_of(text):
-    """A list for each block of commands: lines that call warren, and files written by `cat`. Of a session those behind a `$`."""
+    """A list for each block of commands: lines that call warren, and files written by `cat` or `printf`. Of a session those behind a `$`."""
     blocks = []
     for block in re.findall(r'^```(?:sh)?\n(.*?)^```', text, re.S | re.M):
         sessions = re.findall(r'^\$ (.*)', block, re.M)
         found = sessions or re.findall(r'^(cat > .*?^END$|warren .*?)$', block, re.S | re.M)
-        commands = [command for command in found if re.match(r'warren |cat > ', command)]
+        commands = [command for command in found if re.match(r'warren |cat > |printf ', command)]
         if commands:
             blocks.append(commands)
     return blocks
