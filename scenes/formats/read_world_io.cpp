@@ -122,7 +122,7 @@ WorldFormat format_of(const InputFile& file) {
   const std::string_view bytes = file.bytes();
   if (is_npy(bytes)) return WorldFormat::npy;
   if (is_maze_file(bytes)) return WorldFormat::maze;
-  if (is_png(bytes) || is_pgm(bytes)) return WorldFormat::image;
+  if (is_png(bytes) || is_pgm(bytes) || is_bmp(bytes)) return WorldFormat::image;
   if (bytes.starts_with("type ")) return WorldFormat::moving_ai;
   if (names_image(bytes)) return WorldFormat::ros_map;
   if (is_micromouse(bytes)) return WorldFormat::micromouse;
@@ -132,7 +132,7 @@ WorldFormat format_of(const InputFile& file) {
   const std::string_view name = file.name();
   if (name.ends_with(".npy")) return WorldFormat::npy;
   if (name.ends_with(".maze")) return WorldFormat::maze;
-  if (name.ends_with(".png") || name.ends_with(".pgm")) return WorldFormat::image;
+  if (name.ends_with(".png") || name.ends_with(".pgm") || name.ends_with(".bmp")) return WorldFormat::image;
   if (name.ends_with(".geojson") || name.ends_with(".json")) return WorldFormat::geojson;
   if (name.ends_with(".wkt")) return WorldFormat::wkt;
   if (name.ends_with(".poly") || name.ends_with(".environment")) return WorldFormat::ring_list;
