@@ -76,7 +76,7 @@ async function checkGraph() {
   if (asked.size === 0) return;
   checking = true;
   const hash = world.hash;
-  const json = await posted("/api/check", JSON.stringify({edges: [...asked.values()]}));
+  const json = await posted("api/check", JSON.stringify({edges: [...asked.values()]}));
   checking = false;
   if (world.hash !== hash) return checkGraph();  // of a world that is no more
   if (!json) return;
