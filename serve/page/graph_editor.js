@@ -169,10 +169,10 @@ async function openGraphFile(file) {
 function openGraph(json, word) {
   takeGraph(json);
   setEditing(true);
-  say(word + grouped(json.nodes.length) + " nodes, " + grouped(json.edges.length) + " edges" + (json.left_out ? "; " + grouped(json.left_out) + " features are neither and left out" : "") + (blockedEdges().length ? "; " + grouped(blockedEdges().length) + " edges are not free" : "") + ".");
+  say(word + grouped(json.nodes.length) + " nodes, " + grouped(json.edges.length) + " edges" + (json.left_out ? "; " + grouped(json.left_out) + " features are left out: neither, or nodes whose id a later one has" : "") + (blockedEdges().length ? "; " + grouped(blockedEdges().length) + " edges are not free" : "") + ".");
 }
 async function saveGraph() {
-  const body = {frame: graph.file.get("frame"), nodes: [...graph.nodes.values()], edges: [...graph.edges.values()]};
+  const body = {frame: graph.file.get("frame"), nodes: [...graph.nodes.values()], edges: [...graph.edges.values()].map(({key, ...edge}) => edge)};
   if (graph.file.has("more")) body.more = graph.file.get("more");
   const reply = await fetch("api/graph/save", {method: "POST", headers: {"Content-Type": "application/json"}, body: JSON.stringify(body)});
   const text = await reply.text();
