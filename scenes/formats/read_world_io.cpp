@@ -201,18 +201,32 @@ Scene read_world(const std::string& source, const Execution& execution, MapServe
   return scene;
 }
 
-std::vector<std::string_view> parts_left_out(const Scene& scene, std::string_view path) {
+std::vector<std::string_view> parts_left_out(const Scene& scene, std::string_view path, const OccupancyMap* becomes) {
   const bool is_geojson = path.ends_with(".geojson");
   const bool is_cells = path.ends_with(".npy") || path.ends_with(".maze");
   const bool is_map = is_map_ending(path) || path.ends_with(".png");
+  const bool is_yaml = path.ends_with(".yaml");
   std::vector<std::string_view> lost;
-  if (!is_geojson && !is_cells && !is_map && !path.ends_with(".wkt")) return lost;
-  const bool keeps_ends = is_geojson || (is_cells && scene.maze);
-  if (scene.bounds && path.ends_with(".wkt")) lost.push_back("bounds");
-  if (!scene.start.empty() && !keeps_ends) lost.push_back("start");
-  if (!scene.goal.empty() && !keeps_ends) lost.push_back("goal");
-  if (scene.robot) lost.push_back("robot");
-  if (scene.clearance) lost.push_back("clearance");
+  const auto lose = [&](bool is_there, std::string_view part) {
+    if (is_there) lost.push_back(part);
+  };
+  if (is_geojson || is_cells || is_map || path.ends_with(".wkt")) {
+    const bool keeps_ends = is_geojson || (is_cells && scene.maze);
+    lose(scene.bounds && path.ends_with(".wkt"), "bounds");
+    lose(!scene.start.empty() && !keeps_ends, "start");
+    lose(!scene.goal.empty() && !keeps_ends, "goal");
+    lose(scene.robot.has_value(), "robot");
+    lose(scene.clearance.has_value(), "clearance");
+    lose(scene.grid.has_value(), "grid");
+  }
+  lose(is_map && !(scene.spheres.empty() && scene.boxes.empty()), "spheres and boxes");
+  const OccupancyMap* const map = scene.map ? &*scene.map : becomes;
+  if (map == nullptr) return lost;
+  lose(is_map && !is_yaml && map->cell != 1.0, "resolution");
+  lose(is_map && !is_yaml && !(map->origin == Vec2{}), "origin");
+  lose(is_map && !is_yaml && map->yaw_rad != 0.0, "yaw");
+  lose(!is_yaml && map->unknown_count > 0, "unknown cells");
+  lose(!path.ends_with(".map") && !map->water.empty(), "water");
   return lost;
 }
 
