@@ -133,6 +133,7 @@ WorldFormat format_of(const InputFile& file) {
   if (name.ends_with(".npy")) return WorldFormat::npy;
   if (name.ends_with(".maze")) return WorldFormat::maze;
   if (name.ends_with(".png") || name.ends_with(".pgm") || name.ends_with(".bmp")) return WorldFormat::image;
+  if (name.ends_with(".num")) return WorldFormat::micromouse;
   if (name.ends_with(".geojson") || name.ends_with(".json")) return WorldFormat::geojson;
   if (name.ends_with(".wkt")) return WorldFormat::wkt;
   if (name.ends_with(".poly") || name.ends_with(".environment")) return WorldFormat::ring_list;
