@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Micromouse mazes as text: posts `o`, walls `---` and `|`, S and G in the middle of cells, the top line is the north.
 // 2 H + 1 lines of 4 W + 1 characters; blanks at the ends of lines may be missing. Read as a maze of unit walls. Or as
-// numbers (.num): a line X Y N E S W a cell, counted from 0 in the lower left corner, 1 where a wall is; such mazes begin
-// in that corner and end in one of the middle cells.
+// numbers (.num): a line X Y N E S W a cell, counted from 0 in the lower left corner, 1 where a wall is; such mazes
+// begin in that corner and end in one of the middle cells.
 #pragma once
 
 #include <string_view>
