@@ -251,10 +251,9 @@ class NumberedCells {
     for (std::size_t i = 0; i < cells_.size(); ++i) {
       const Cell& cell = cells_[i];
       if (cell.y * cols_ + cell.x != i) fail(cell, fmt::format("the cell {} {} is there twice", cell.x, cell.y));
-      if (cell.x > 0 && cells_[i - 1].east != cell.west) fail(cell, "the cell in the west says otherwise of this wall");
-      if (cell.y > 0 && cells_[i - cols_].north != cell.south) {
-        fail(cell, "the cell in the south says otherwise of this wall");
-      }
+      const bool fits =
+          (cell.x == 0 || cells_[i - 1].east == cell.west) && (cell.y == 0 || cells_[i - cols_].north == cell.south);
+      if (!fits) fail(cell, "a neighbour says otherwise of the wall in the west or south");
     }
   }
 

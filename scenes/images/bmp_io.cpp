@@ -30,18 +30,15 @@ struct Layout {
   std::string_view rows;
 };
 
-/// The size and what the bits are; false: another kind of BMP.
+/// What the bits of a pixel are; false: another kind of BMP.
 bool read_kind(std::string_view bytes, Layout& layout) {
-  constexpr std::uint32_t red = 0xff0000;
-  constexpr std::uint32_t green = 0xff00;
-  constexpr std::uint32_t blue = 0xff;
-  constexpr std::uint32_t alpha = 0xff000000;
   const std::uint32_t coding = number_at(bytes, 30);
   layout.bits = number_at(bytes, 28, 2);
   bool has_alpha = layout.bits == 32;
-  if (coding == 3 && layout.bits == 32 && bytes.size() >= 70) {
-    has_alpha = number_at(bytes, 14) >= 56 && number_at(bytes, 66) == alpha;
-    if (number_at(bytes, 54) != red || number_at(bytes, 58) != green || number_at(bytes, 62) != blue) return false;
+  if (coding == 3 && layout.bits == 32 && bytes.size() >= 70) {  // its masks must be those of blue, green, red, alpha
+    has_alpha = number_at(bytes, 14) >= 56 && number_at(bytes, 66) == 0xff000000;
+    if (number_at(bytes, 54) != 0xff0000 || number_at(bytes, 58) != 0xff00 || number_at(bytes, 62) != 0xff)
+      return false;
   } else if (coding != 0) {
     return false;
   }

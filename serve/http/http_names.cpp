@@ -57,7 +57,7 @@ bool is_own(const HostName& host, const HttpNames& names) {
 }
 
 bool is_host_of(const PublicUrl& url, const HostName& host) {
-  return host.name == url.host.name && host.port.value_or(url.port()) == url.port();
+  return host.name == url.host.name && host.port.value_or(url.usual_port()) == url.port();
 }
 
 bool may_ask(const std::string& origin, const HostName& host, const HttpNames& names) {

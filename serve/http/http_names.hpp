@@ -25,7 +25,8 @@ struct PublicUrl {
   HostName host;
   std::string path = "/";  ///< begins and ends with /
 
-  std::uint16_t port() const { return host.port.value_or(is_https ? 443 : 80); }
+  std::uint16_t usual_port() const { return is_https ? 443 : 80; }
+  std::uint16_t port() const { return host.port.value_or(usual_port()); }
 };
 
 /// Takes "https://planner.example.org/robots/" apart, the last / may be missing; nothing where it is no such address,

@@ -124,8 +124,8 @@ TEST(Micromouse, NumbersThatAreNoMazeAreRefusedAsSuch) {
   const std::pair<std::string, std::string> cases[] = {
       {with("2 1 1 1 0 1\n", ""), "expected a line X Y N E S W for each of 2 x 3 cells (found: 5 lines)"},
       {with("2 1 1 1 0 1\n", "0 0 0 0 1 1\n"), "the cell 0 0 is there twice"},
-      {with("2 0 0 1", "2 0 1 1"), ":6: the cell in the south says otherwise of this wall"},
-      {with("1 1 1 1 1 0", "1 1 1 0 1 0"), ":6: the cell in the west says otherwise of this wall"},
+      {with("2 0 0 1", "2 0 1 1"), ":6: a neighbour says otherwise of the wall in the west or south"},
+      {with("1 1 1 1 1 0", "1 1 1 0 1 0"), ":6: a neighbour says otherwise of the wall in the west or south"},
       {with("2 0 0 1", "2 0 0 2"), ":3: expected X Y N E S W"},
       {with("2 0 0 1 1 0", "2 0 0 1 1"), ":3: expected X Y N E S W"},
       {with("2 0 0 1 1 0", "2 0 0 1 1 0 0"), ":3: expected X Y N E S W and no more"},

@@ -44,7 +44,7 @@ Json layer_of(WorldService& service, const std::string& name) {
 }
 
 Json legend_of(WorldService& service, const std::string& name) {
-  return Json::parse(asked(service, {.path = layer_of(service, name).at("legend")}).body);
+  return Json::parse(asked(service, {.path = "/" + layer_of(service, name).at("legend").get<std::string>()}).body);
 }
 
 TEST(WorldLayers, AWorldWithoutARoadmapSaysWhyItHasNone) {
