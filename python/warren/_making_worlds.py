@@ -38,8 +38,8 @@ def read_world(source, **options):
     >>> warren.read_world("maze:41x41,seed=7,loops=0.05").maze
     (41, 41)
     """
-    name = os.fspath(source)
-    return World(_core.read_world(name, options), name if name.startswith("maze:") else None)
+    name = os.fsdecode(source)
+    return World(_core.read_world(os.fsencode(name), options), name if name.startswith("maze:") else None)
 
 
 def maze(rows, cols, *, seed=None, algorithm=None,

@@ -153,7 +153,7 @@ class World(Pictured):
             Where the file can't be written.
         """
         path = os.fspath(file)
-        if lost := self._core.write(path, None if cell is None else float(cell)):
+        if lost := self._core.write(os.fsencode(path), None if cell is None else float(cell)):
             warnings.warn(f"{path}: its format has no {', '.join(lost)}: left out", stacklevel=2)
 
     def _drawn(self, kind, look):
