@@ -201,19 +201,20 @@ class NumberedCells {
       throw InputError(name_, fmt::format("expected a line X Y N E S W for each of {} x {} cells", rows_, cols_),
                        fmt::format("{} lines", cells_.size()));
     }
-    sort();
+    check();
   }
 
   std::string picture() const {
     const std::size_t width = 4 * cols_ + 2;
     execution_.reserve(width * (2 * rows_ + 1));
     std::string text(width * (2 * rows_ + 1), ' ');
-    for (std::size_t i = 0; i < text.size(); ++i) {
-      if (i % width == width - 1) text[i] = '\n';
-      if (i % width % 4 == 0 && i / width % 2 == 0) text[i] = 'o';
+    for (std::size_t row = 0; row <= 2 * rows_; ++row) {
+      for (std::size_t c = 0; c <= cols_ && row % 2 == 0; ++c) text[row * width + 4 * c] = 'o';
+      text[row * width + width - 1] = '\n';
+      execution_.check();
     }
-    for (const Cell& cell : cells_) {
-      const std::size_t at = (2 * (rows_ - 1 - cell.y)) * width + 4 * std::size_t{cell.x};  // its upper left post
+    for_cells([&](const Cell& cell) {
+      const std::size_t at = 2 * (rows_ - 1 - cell.y) * width + 4 * std::size_t{cell.x};  // its upper left post
       if (cell.north != 0) text.replace(at + 1, 3, "---");
       if (cell.south != 0) text.replace(at + 2 * width + 1, 3, "---");
       if (cell.west != 0) text[at + width] = '|';
@@ -221,7 +222,7 @@ class NumberedCells {
       const auto is_middle = [](std::size_t i, std::size_t count) { return i == (count - 1) / 2 || i == count / 2; };
       if (is_middle(cell.x, cols_) && is_middle(cell.y, rows_)) text[at + width + 2] = 'G';
       if (cell.x == 0 && cell.y == 0) text[at + width + 2] = 'S';
-    }
+    });
     return text;
   }
 
@@ -244,17 +245,29 @@ class NumberedCells {
     }
     return number;
   }
-  /// Row after row. No cell is there twice, and two that lie side by side say the same of what is between them.
-  void sort() {
-    std::sort(cells_.begin(), cells_.end(),
-              [](const Cell& a, const Cell& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
+  template <class Visit>
+  void for_cells(const Visit& visit) const {
+    constexpr std::size_t cells_a_look = 1 << 14;
     for (std::size_t i = 0; i < cells_.size(); ++i) {
-      const Cell& cell = cells_[i];
-      if (cell.y * cols_ + cell.x != i) fail(cell, fmt::format("the cell {} {} is there twice", cell.x, cell.y));
-      const bool fits =
-          (cell.x == 0 || cells_[i - 1].east == cell.west) && (cell.y == 0 || cells_[i - cols_].north == cell.south);
-      if (!fits) fail(cell, "a neighbour says otherwise of the wall in the west or south");
+      if (i % cells_a_look == 0) execution_.check();
+      visit(cells_[i]);
     }
+  }
+  /// No cell is there twice, and two that lie side by side say the same of what is between them.
+  void check() const {
+    execution_.reserve(cells_.size() * sizeof(const Cell*));
+    std::vector<const Cell*> at(cells_.size(), nullptr);
+    for_cells([&](const Cell& cell) {
+      const Cell*& here = at[cell.y * cols_ + cell.x];
+      if (here != nullptr) fail(cell, fmt::format("the cell {} {} is there twice", cell.x, cell.y));
+      here = &cell;
+    });
+    for_cells([&](const Cell& cell) {
+      const std::size_t place = cell.y * cols_ + cell.x;
+      const bool fits =
+          (cell.x == 0 || at[place - 1]->east == cell.west) && (cell.y == 0 || at[place - cols_]->north == cell.south);
+      if (!fits) fail(cell, "a neighbour says otherwise of the wall in the west or south");
+    });
   }
 
   const std::string& name_;
