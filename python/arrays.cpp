@@ -18,6 +18,9 @@ std::string wanted(std::initializer_list<std::size_t> columns) {
 }
 
 Numbers converted(py::handle value, const std::string& name, const std::string& shape) {
+  if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
+    for (const py::handle row : value) refuse_masked(row, name);
+  }
   auto numbers = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(value);
   if (!numbers) {
     PyErr_Clear();
@@ -36,9 +39,22 @@ std::string kind_of(const py::array& array) {
          py::str(py::reinterpret_borrow<py::object>(array).attr("shape")).cast<std::string>();
 }
 
+void refuse_masked(py::handle value, const std::string& name) {
+  if (!py::hasattr(value, "mask")) return;
+  if (!py::module_::import("numpy").attr("ma").attr("is_masked")(value).cast<bool>()) return;
+  throw py::type_error(name + ": a mask hides some of it, and nothing says what is there; give it filled()");
+}
+
+bool is_whole(py::handle value) {
+  if (!py::isinstance<py::array>(value)) return false;
+  const char kind = py::reinterpret_borrow<py::array>(value).dtype().kind();
+  return kind == 'i' || kind == 'u';
+}
+
 NumberRows rows_of(py::handle value, const std::string& name, std::initializer_list<std::size_t> columns) {
   const std::string shape = wanted(columns);
-  if (!py::isinstance<py::array>(value)) {
+  refuse_masked(value, name);
+  if (!py::isinstance<py::array>(value) || is_whole(value)) {
     Numbers numbers = converted(value, name, shape);
     if (numbers.shape(0) == 0) return {numbers, numbers.data(), 0, *columns.begin()};
     return rows_of(numbers, name, columns);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // NumPy's arrays in and out. In: read where they lie, so their type and layout must fit, and a TypeError says how they
-// don't; what is no array (lists, tuples) is converted. Out: read-only views of what an object of ours holds, which
-// keep that object alive, or arrays that own their block.
+// don't; what is no array (lists, tuples) and whole numbers are converted, and what a mask hides is refused. Out:
+// read-only views of what an object of ours holds, which keep that object alive, or arrays that own their block.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -45,8 +45,15 @@ struct NumberRows {
   std::size_t columns = 0;
 };
 
-/// An (n, columns) argument. Throws TypeError, which names it, for another type or shape.
+/// An (n, columns) argument, of float64 or of whole numbers. Throws TypeError, which names it, for another type or
+/// shape.
 NumberRows rows_of(pybind11::handle value, const std::string& name, std::initializer_list<std::size_t> columns);
+
+/// Throws TypeError where it is an array with a mask that hides something.
+void refuse_masked(pybind11::handle value, const std::string& name);
+
+/// An array of whole numbers?
+bool is_whole(pybind11::handle value);
 
 /// "int64 (5, 2)": what an array is, for errors.
 std::string kind_of(const pybind11::array& array);

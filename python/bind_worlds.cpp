@@ -151,8 +151,10 @@ Scene with_other_walls(const Scene& scene, const std::vector<std::int64_t>& gone
   return next;
 }
 
-/// A map by its endings and .png, what is no map in cells of that side; all else as walls and polygons.
-void write_by_ending(const Scene& scene, const std::string& path, const std::optional<double>& cell) {
+/// A map by its endings and .png, what is no map in cells of that side; all else as walls and polygons. What is left
+/// out.
+std::vector<std::string_view> write_by_ending(const Scene& scene, const std::string& path,
+                                              const std::optional<double>& cell) {
   const bool is_map = is_map_ending(path) || path.ends_with(".png");
   if (cell && (!is_map || scene.map)) {
     throw UsageError(is_map ? "@cell: the world is a map, and its cells stay as they are"
@@ -161,10 +163,16 @@ void write_by_ending(const Scene& scene, const std::string& path, const std::opt
   if (is_map && !scene.map && !cell)
     throw UsageError("@cell: is missing; it says how large a cell of the map shall be");
   if (cell) check_cell(*cell, scene);
-  CallLimits().run([&](const Execution& execution) {
+  return CallLimits().run([&](const Execution& execution) {
     std::optional<Scene> copy;
-    if (!is_map) return write_scene(bordered(scene, copy, execution), path, execution);
-    write_map(scene.map ? *scene.map : map_of_scene(scene, *cell, execution), path, execution);
+    std::optional<OccupancyMap> made;
+    if (is_map) {
+      if (!scene.map) made = map_of_scene(scene, *cell, execution);
+      write_map(made ? *made : *scene.map, path, execution);
+    } else {
+      write_scene(bordered(scene, copy, execution), path, execution);
+    }
+    return parts_left_out(scene, path, made ? &*made : nullptr);
   });
 }
 
@@ -209,13 +217,13 @@ void bind_worlds(py::module_& module) {
            [](const Scene& s) { return CallLimits().run([&](const Execution& on) { return account_of(s, on).hash; }); })
       .def("with_other_walls", &with_other_walls)
       .def("write", &write_by_ending)
-      .def("left_out", &parts_left_out)
       .def(py::pickle([](const Scene& s) { return bytes_of(s); },
                       [](const py::bytes& b) { return from_bytes<Scene>(b); }));
   module.def("read_world", &read_named);
   module.def("read_text", &read_text);
   module.def("scene", &made_of_arrays);
   module.def("cells", &made_of_cells);
+  module.def("body", [](const std::string& text) { return robot_value("robot", text), text; });
   module.def("reading_keywords", [] { return keyword_table(made_once<reading>()); });
 }
 

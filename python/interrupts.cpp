@@ -4,6 +4,7 @@
 #include <cxxabi.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <string>
 
@@ -79,8 +80,11 @@ CallLimits::CallLimits(unsigned threads, std::optional<double> budget_s, std::op
                        py::object progress)
     : progress_(std::move(progress)) {
   limits_.threads = threads;
-  if (budget_s) {
-    limits_.budget = std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(*budget_s));
+  constexpr double longest_s = 1e9;  // thirty years are no limit, and nanoseconds count to a few hundred
+  constexpr double shortest_s = 1e-9;
+  if (budget_s && *budget_s < longest_s) {
+    const std::chrono::duration<double> seconds(std::max(*budget_s, shortest_s));
+    limits_.budget = std::chrono::duration_cast<std::chrono::nanoseconds>(seconds);
   }
   limits_.memory = memory;
 }

@@ -67,7 +67,13 @@ tools::Command command_of(std::string_view name, std::initializer_list<std::span
 }
 
 std::string word_of(py::handle value, const std::string& keyword) {
-  if (py::isinstance<py::str>(value)) return value.cast<std::string>();
+  if (py::isinstance<py::str>(value)) {
+    Py_ssize_t size = 0;
+    const char* const text = PyUnicode_AsUTF8AndSize(value.ptr(), &size);
+    if (text != nullptr) return {text, static_cast<std::size_t>(size)};
+    PyErr_Clear();
+    throw py::value_error(keyword + ": a lone surrogate is in it, which is no character");
+  }
   if (py::isinstance<py::bool_>(value)) refuse_type(keyword, "a word, a number or numbers", value);
   if (PyFloat_Check(value.ptr()) != 0) return number_word(value.cast<double>());
   if (PyIndex_Check(value.ptr()) != 0 && PySequence_Check(value.ptr()) == 0) {

@@ -13,6 +13,7 @@
 
 #include "core/base/error.hpp"
 #include "python/arrays.hpp"
+#include "python/keywords.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 
@@ -59,11 +60,12 @@ RawVector<WallOf<T>> walls_in(const py::array& array) {
 }
 
 WallSet read_walls(py::handle value) {
+  refuse_masked(value, "walls");
   if (py::isinstance<py::array_t<float, py::array::c_style>>(value)) {
     const auto array = py::reinterpret_borrow<py::array>(value);
     if (array.ndim() == 2 && array.shape(1) == 4) return narrowed(walls_in<float>(array));
   }
-  const bool is_array = py::isinstance<py::array>(value);
+  const bool is_array = py::isinstance<py::array>(value) && !is_whole(value);
   const bool is_float64 = py::isinstance<py::array_t<double, py::array::c_style>>(value);
   if (is_array && !is_float64) {
     throw py::type_error(fmt::format("walls: expected float32 or float64 (n, 4) in C order (found: {})",
@@ -148,7 +150,7 @@ Scene scene_of_arrays(const py::dict& parts) {
   Scene scene;
   const py::object source = part("source");
   if (!py::isinstance<py::str>(source)) refuse_part("source", "a name", source);
-  scene.source = source.cast<std::string>();
+  scene.source = word_of(source, "source");
   if (const py::object walls = part("walls"); !walls.is_none()) scene.walls = read_walls(walls);
   if (const py::object rings = part("polygons"); !rings.is_none()) add_polygons(scene, rings);
   if (const py::object balls = part("spheres"); !balls.is_none()) add_spheres(scene, balls);
@@ -159,6 +161,7 @@ Scene scene_of_arrays(const py::dict& parts) {
 }
 
 Scene scene_of_cells(const py::array& cells, double cell, std::array<double, 2> origin, double yaw_rad) {
+  refuse_masked(cells, "cells");
   const bool is_byte = cells.dtype().kind() == 'b' || (cells.dtype().kind() == 'u' && cells.itemsize() == 1);
   if (!is_byte || cells.ndim() != 2) {
     throw py::type_error("cells: expected bool or uint8 (rows, columns) (found: " + kind_of(cells) + ")");

@@ -33,7 +33,9 @@ void check_length(Verdict& verdict, const RecordedAnswer& answer) {
   if (std::abs(*answer.length - verdict.length) <= rounding * verdict.length) return;
   verdict.verified = false;
   verdict.first_violation =
-      Violation{.leg = 0, .distance = 0.0, .obstacle = fmt::format("length: the answer says {}", *answer.length)};
+      Violation{.leg = 0,
+                .distance = 0.0,
+                .obstacle = fmt::format("length: the answer says {}, its path has {}", *answer.length, verdict.length)};
 }
 
 RecordedAnswer recorded(const Answer& answer) {

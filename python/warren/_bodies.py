@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Bodies, as the words of the scene format: what `robot=` takes."""
+"""Bodies, as the words of the scene format: what `robot=` takes. One that can't be is an InputError at once."""
 import os
+
+from . import _core
 
 
 def _corners(outline):
@@ -26,7 +28,7 @@ def disc(radius):
     >>> warren.disc(0.2)
     'disc 0.2'
     """
-    return f"disc {float(radius)!r}"
+    return _core.body(f"disc {float(radius)!r}")
 
 
 def polygon(outline):
@@ -43,7 +45,7 @@ def polygon(outline):
     >>> warren.polygon([(-1, -0.5), (1, -0.5), (1, 0.5), (-1, 0.5)])
     'polygon -1.0 -0.5 1.0 -0.5 1.0 0.5 -1.0 0.5'
     """
-    return f"polygon {_corners(outline)}"
+    return _core.body(f"polygon {_corners(outline)}")
 
 
 def car(turning_radius, *, outline=None,
@@ -70,7 +72,7 @@ def car(turning_radius, *, outline=None,
     if (outline is None) == (radius is None):
         raise TypeError("car: give an outline or a radius")
     shape = f"radius {float(radius)!r}" if radius is not None else f"polygon {_corners(outline)}"
-    return f"car {shape} turning {float(turning_radius)!r}" + (f" steering {steering}" if steering else "")
+    return _core.body(f"car {shape} turning {float(turning_radius)!r}" + (f" steering {steering}" if steering else ""))
 
 
 def _links(radius, tool, self_collision, limits=None):
@@ -100,7 +102,7 @@ def puma560(radius, *, tool=0.0, limits=None, self_collision=False):
     >>> warren.puma560(0.05, tool=0.1)
     'puma560 radius 0.05 tool 0.1'
     """
-    return "puma560 " + _links(radius, tool, self_collision, limits)
+    return _core.body("puma560 " + _links(radius, tool, self_collision, limits))
 
 
 def arm(table, radius, *, tool=0.0,
@@ -124,4 +126,4 @@ def arm(table, radius, *, tool=0.0,
     >>> warren.arm("arm.dh", 0.05)
     'arm arm.dh radius 0.05'
     """
-    return f"arm {os.fspath(table)} " + _links(radius, tool, self_collision)
+    return _core.body(f"arm {os.fspath(table)} " + _links(radius, tool, self_collision))

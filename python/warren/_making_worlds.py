@@ -3,6 +3,7 @@
 import json
 import os
 from collections.abc import Iterable, Mapping
+from operator import index
 
 import numpy as np
 
@@ -37,8 +38,8 @@ def read_world(source, **options):
     >>> warren.read_world("maze:41x41,seed=7,loops=0.05").maze
     (41, 41)
     """
-    name = os.fspath(source)
-    return World(_core.read_world(name, options), name if name.startswith("maze:") else None)
+    name = os.fsdecode(source)
+    return World(_core.read_world(os.fsencode(name), options), name if name.startswith("maze:") else None)
 
 
 def maze(rows, cols, *, seed=None, algorithm=None,
@@ -68,9 +69,9 @@ def maze(rows, cols, *, seed=None, algorithm=None,
     >>> warren.maze(41, 41, seed=7, loops=0.05).source
     'maze:41x41,seed=7,loops=0.05'
     """
-    name = f"maze:{int(rows)}x{int(cols)}"
+    name = f"maze:{index(rows)}x{index(cols)}"
     if seed is not None:
-        name += f",seed={int(seed)}"
+        name += f",seed={index(seed)}"
     if algorithm is not None:
         name += f",algorithm={algorithm}"
     if loops is not None:
@@ -85,8 +86,8 @@ def grid(cells, cell=1.0, origin=(0.0, 0.0), *, yaw=0.0,
 
     Parameters
     ----------
-    cells : ndarray, (rows, columns) of bool or uint8
-        What is not 0 is blocked; row 0 is the top, as in images. Read where it lies, in any layout.
+    cells : ndarray or lists, (rows, columns) of bool or whole numbers
+        What is not 0 is blocked; row 0 is the top, as in images. Of bool and uint8 read where it lies, in any layout.
     cell : float
         Side of a cell, in world units.
     origin : (float, float)
@@ -118,8 +119,15 @@ def grid(cells, cell=1.0, origin=(0.0, 0.0), *, yaw=0.0,
     >>> answer.status, round(answer.length, 2)
     ('solved', 4.37)
     """
+    if isinstance(cells, (list, tuple)) and not any(np.ma.is_masked(row) for row in cells):
+        try:
+            cells = np.array(cells)
+        except ValueError:
+            raise TypeError("cells: expected rows of one length") from None
     if not isinstance(cells, np.ndarray):
-        raise TypeError(f"cells: expected an array of bool or uint8 (found: {type(cells).__name__})")
+        raise TypeError(f"cells: expected an array or lists of bool or whole numbers (found: {type(cells).__name__})")
+    if cells.dtype.kind in "iu" and cells.itemsize > 1 or cells.dtype.kind == "i":
+        cells = cells != 0
     said = {"start": start, "goal": goal, "robot": robot, "clearance": clearance}
     return World(_core.cells(cells, float(cell), (float(origin[0]), float(origin[1])), float(yaw), said))
 
@@ -132,7 +140,7 @@ def scene(*, walls=None, polygons=None, bounds=None, spheres=None, boxes=None,
     Parameters
     ----------
     walls : array_like, (n, 4), optional
-        x1, y1, x2, y2. An array must be float32 or float64 in C order.
+        x1, y1, x2, y2. An array must be float32 or float64 in C order, or of whole numbers.
     polygons : sequence of array_like, (n, 2), optional
         Simple rings in either direction; their insides are blocked.
     bounds : (float, float, float, float), optional

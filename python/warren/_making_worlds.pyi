@@ -2,7 +2,7 @@
 from collections.abc import Iterable, Mapping
 from typing import Any, Literal
 
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ._worlds import World, _Box, _Geo, _Path, _Progress, _State, _World
 
@@ -24,7 +24,7 @@ def maze(
     loops: float | None = ...,
 ) -> World: ...
 def grid(
-    cells: NDArray[Any],
+    cells: ArrayLike,
     cell: float = ...,
     origin: tuple[float, float] = ...,
     *,

@@ -7,24 +7,35 @@ from ._options import documented
 from ._making_worlds import as_world
 
 
-def _column(words):
-    """Numbers where all are, with nan for what is empty; else words."""
-    try:
-        if all(words):
+_TEXTS = {"source", "planner", "search", "queue", "library", "options", "status"}
+_COUNTS = {"vertices", "edges", "runs", "solved", "seed", "samples", "neighbour_queries", "edges_checked", "rounds",
+           "refused", "milestones", "components"}
+
+
+def _column(name, words, counts):
+    """Of one type whatever the numbers: texts, truths (None where no seed is drawn), counts (floats where some are not
+    known, which are nan), else floats; of options, whose values are anything, as they are."""
+    if name in _TEXTS:
+        return np.array(words, dtype=object)
+    if name == "deterministic":
+        truths = [{"true": True, "false": False}.get(word) for word in words]
+        return np.array(truths, dtype=object if None in truths else bool)
+    if name in counts or name.startswith("option_"):
+        try:
             return np.array([int(word) for word in words])
-    except (ValueError, OverflowError):
-        pass
+        except (ValueError, OverflowError):
+            pass
     try:
         return np.array([float(word) if word else np.nan for word in words])
     except ValueError:
         return np.array(words, dtype=object)
 
 
-def _table(text):
+def _table(text, counts):
     import csv
     import io
     rows = list(csv.reader(io.StringIO(text)))
-    return {name: _column([row[i] for row in rows[1:]]) for i, name in enumerate(rows[0])}
+    return {name: _column(name, [row[i] for row in rows[1:]], counts) for i, name in enumerate(rows[0])}
 
 
 class Comparison(dict):
@@ -39,9 +50,9 @@ class Comparison(dict):
     __module__ = "warren"
 
     def __init__(self, core):
-        super().__init__(_table(core.runs_csv()))
+        super().__init__(_table(core.runs_csv(), _COUNTS | {"hops", "expanded"}))
         self._core = core
-        self.table = _table(core.table_csv())
+        self.table = _table(core.table_csv(), _COUNTS)
 
     def __repr__(self):
         contenders, runs = (len(next(iter(table.values()), ())) for table in (self.table, self))
@@ -92,7 +103,7 @@ def compare(world=None, **options):
     (['lazy-prm', 'prm'], (4,))
     >>> searched = warren.compare("maze:41x41", searches=["dijkstra", "astar"], queues="heap", trials=5)
     >>> list(searched.table["search"]), set(searched["length"])
-    (['dijkstra', 'astar'], {495})
+    (['dijkstra', 'astar'], {495.0})
     """
     there = None if world is None else as_world(world)._core
     return Comparison(_core.compare(there, options))

@@ -134,8 +134,8 @@ class World(Pictured):
         """Writes the world by the ending of the file: .scene, .walls, .npy, .maze, .geojson, .wkt; maps .map, .yaml, .pgm,
         .png.
 
-        Of a map, formats of walls get the borders of its cells. Start, goal, body and clearance that the format has no
-        words for are left out with a warning.
+        Of a map, formats of walls get the borders of its cells. What the format has no words for (ends, body and
+        clearance; a map's place and unknown cells) is left out with a warning.
 
         Parameters
         ----------
@@ -153,8 +153,7 @@ class World(Pictured):
             Where the file can't be written.
         """
         path = os.fspath(file)
-        self._core.write(path, None if cell is None else float(cell))
-        if lost := self._core.left_out(path):
+        if lost := self._core.write(os.fsencode(path), None if cell is None else float(cell)):
             warnings.warn(f"{path}: its format has no {', '.join(lost)}: left out", stacklevel=2)
 
     def _drawn(self, kind, look):

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <string>
 #include <vector>
 
@@ -179,9 +180,120 @@ class Picture {
   std::size_t rows_ = 0;
 };
 
+/// The cells of a file of numbers, drawn as the other kind of file has them.
+class NumberedCells {
+ public:
+  NumberedCells(const InputFile& file, const Execution& execution) : name_(file.name()), execution_(execution) {
+    TextLines lines(file, execution);
+    while (lines.next()) {
+      scene_text::Fields fields = lines.fields();
+      if (fields.done()) continue;
+      Cell cell{.line = lines.number()};
+      for (std::uint32_t* number : {&cell.x, &cell.y, &cell.north, &cell.east, &cell.south, &cell.west}) {
+        *number = read(fields, number == &cell.x || number == &cell.y ? 0x7fffffff : 1);
+      }
+      if (!fields.done()) fail(cell, "expected X Y N E S W and no more");
+      push_asked(cells_, cell, execution);
+      cols_ = std::max<std::size_t>(cols_, cell.x + 1);
+      rows_ = std::max<std::size_t>(rows_, cell.y + 1);
+    }
+    if (cells_.empty() || cells_.size() != rows_ * cols_) {
+      throw InputError(name_, fmt::format("expected a line X Y N E S W for each of {} x {} cells", rows_, cols_),
+                       fmt::format("{} lines", cells_.size()));
+    }
+    check();
+  }
+
+  std::string picture() const {
+    const std::size_t width = 4 * cols_ + 2;
+    execution_.reserve(width * (2 * rows_ + 1));
+    std::string text(width * (2 * rows_ + 1), ' ');
+    for (std::size_t row = 0; row <= 2 * rows_; ++row) {
+      for (std::size_t c = 0; c <= cols_ && row % 2 == 0; ++c) text[row * width + 4 * c] = 'o';
+      text[row * width + width - 1] = '\n';
+      execution_.check();
+    }
+    for_cells([&](const Cell& cell) {
+      const std::size_t at = 2 * (rows_ - 1 - cell.y) * width + 4 * std::size_t{cell.x};  // its upper left post
+      if (cell.north != 0) text.replace(at + 1, 3, "---");
+      if (cell.south != 0) text.replace(at + 2 * width + 1, 3, "---");
+      if (cell.west != 0) text[at + width] = '|';
+      if (cell.east != 0) text[at + width + 4] = '|';
+      const auto is_middle = [](std::size_t i, std::size_t count) { return i == (count - 1) / 2 || i == count / 2; };
+      if (is_middle(cell.x, cols_) && is_middle(cell.y, rows_)) text[at + width + 2] = 'G';
+      if (cell.x == 0 && cell.y == 0) text[at + width + 2] = 'S';
+    });
+    return text;
+  }
+
+ private:
+  struct Cell {
+    std::size_t line = 0;
+    std::uint32_t x = 0, y = 0, north = 0, east = 0, south = 0, west = 0;
+  };
+
+  [[noreturn]] void fail(const Cell& cell, std::string_view what) const {
+    scene_text::Place{name_, cell.line}.fail(what, {});
+  }
+  static std::uint32_t read(scene_text::Fields& fields, std::uint32_t most) {
+    const std::string_view word = fields.word();
+    std::uint32_t number = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+    if (word.empty() || error != std::errc() || end != word.data() + word.size() || number > most) {
+      fields.place().fail("expected X Y N E S W: a cell of a micromouse maze, whole numbers, and 1 where a wall is",
+                          word);
+    }
+    return number;
+  }
+  template <class Visit>
+  void for_cells(const Visit& visit) const {
+    constexpr std::size_t cells_a_look = 1 << 14;
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      if (i % cells_a_look == 0) execution_.check();
+      visit(cells_[i]);
+    }
+  }
+  /// No cell is there twice, and two that lie side by side say the same of what is between them.
+  void check() const {
+    execution_.reserve(cells_.size() * sizeof(const Cell*));
+    std::vector<const Cell*> at(cells_.size(), nullptr);
+    for_cells([&](const Cell& cell) {
+      const Cell*& here = at[cell.y * cols_ + cell.x];
+      if (here != nullptr) fail(cell, fmt::format("the cell {} {} is there twice", cell.x, cell.y));
+      here = &cell;
+    });
+    for_cells([&](const Cell& cell) {
+      const std::size_t place = cell.y * cols_ + cell.x;
+      const bool fits =
+          (cell.x == 0 || at[place - 1]->east == cell.west) && (cell.y == 0 || at[place - cols_]->north == cell.south);
+      if (!fits) fail(cell, "a neighbour says otherwise of the wall in the west or south");
+    });
+  }
+
+  const std::string& name_;
+  const Execution& execution_;
+  std::vector<Cell> cells_;
+  std::size_t cols_ = 0;
+  std::size_t rows_ = 0;
+};
+
+/// Two whole numbers and four of 0 and 1, as the first line's beginning tells?
+bool are_numbers(std::string_view bytes) {
+  const std::string no_file;
+  const std::string_view line = bytes.substr(0, std::min(bytes.find('\n'), bytes_that_tell));
+  scene_text::Fields fields(line, {no_file, 1});
+  std::string_view word = fields.word();
+  for (int i = 0; i < 6; ++i, word = fields.word()) {
+    if (word.empty() || word.find_first_not_of(i < 2 ? "0123456789" : "01") != word.npos) return false;
+    if (i >= 2 && word.size() != 1) return false;
+  }
+  return word.empty();
+}
+
 }  // namespace
 
 bool is_micromouse(std::string_view bytes) {
+  if (are_numbers(bytes)) return true;
   const std::string_view head = bytes.substr(0, bytes_that_tell);
   const std::size_t end = head.find('\n');
   const bool whole = end != head.npos || head.size() == bytes.size();
@@ -195,6 +307,9 @@ bool is_micromouse(std::string_view bytes) {
 }
 
 Scene read_micromouse(const InputFile& file, const Execution& execution) {
+  if (are_numbers(file.bytes()) || (file.name().ends_with(".num") && !is_micromouse(file.bytes()))) {
+    return read_micromouse(InputFile::of_bytes(file.name(), NumberedCells(file, execution).picture()), execution);
+  }
   if (!is_micromouse(file.bytes())) {
     scene_text::Place{file.name(), 1}.fail("expected a row of posts, o---o---o", file.bytes().substr(0, 40));
   }

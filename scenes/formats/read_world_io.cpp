@@ -122,7 +122,7 @@ WorldFormat format_of(const InputFile& file) {
   const std::string_view bytes = file.bytes();
   if (is_npy(bytes)) return WorldFormat::npy;
   if (is_maze_file(bytes)) return WorldFormat::maze;
-  if (is_png(bytes) || is_pgm(bytes)) return WorldFormat::image;
+  if (is_png(bytes) || is_pgm(bytes) || is_bmp(bytes)) return WorldFormat::image;
   if (bytes.starts_with("type ")) return WorldFormat::moving_ai;
   if (names_image(bytes)) return WorldFormat::ros_map;
   if (is_micromouse(bytes)) return WorldFormat::micromouse;
@@ -132,7 +132,8 @@ WorldFormat format_of(const InputFile& file) {
   const std::string_view name = file.name();
   if (name.ends_with(".npy")) return WorldFormat::npy;
   if (name.ends_with(".maze")) return WorldFormat::maze;
-  if (name.ends_with(".png") || name.ends_with(".pgm")) return WorldFormat::image;
+  if (name.ends_with(".png") || name.ends_with(".pgm") || name.ends_with(".bmp")) return WorldFormat::image;
+  if (name.ends_with(".num")) return WorldFormat::micromouse;
   if (name.ends_with(".geojson") || name.ends_with(".json")) return WorldFormat::geojson;
   if (name.ends_with(".wkt")) return WorldFormat::wkt;
   if (name.ends_with(".poly") || name.ends_with(".environment")) return WorldFormat::ring_list;
@@ -201,18 +202,32 @@ Scene read_world(const std::string& source, const Execution& execution, MapServe
   return scene;
 }
 
-std::vector<std::string_view> parts_left_out(const Scene& scene, std::string_view path) {
+std::vector<std::string_view> parts_left_out(const Scene& scene, std::string_view path, const OccupancyMap* becomes) {
   const bool is_geojson = path.ends_with(".geojson");
   const bool is_cells = path.ends_with(".npy") || path.ends_with(".maze");
   const bool is_map = is_map_ending(path) || path.ends_with(".png");
+  const bool is_yaml = path.ends_with(".yaml");
   std::vector<std::string_view> lost;
-  if (!is_geojson && !is_cells && !is_map && !path.ends_with(".wkt")) return lost;
-  const bool keeps_ends = is_geojson || (is_cells && scene.maze);
-  if (scene.bounds && path.ends_with(".wkt")) lost.push_back("bounds");
-  if (!scene.start.empty() && !keeps_ends) lost.push_back("start");
-  if (!scene.goal.empty() && !keeps_ends) lost.push_back("goal");
-  if (scene.robot) lost.push_back("robot");
-  if (scene.clearance) lost.push_back("clearance");
+  const auto lose = [&](bool is_there, std::string_view part) {
+    if (is_there) lost.push_back(part);
+  };
+  if (is_geojson || is_cells || is_map || path.ends_with(".wkt")) {
+    const bool keeps_ends = is_geojson || (is_cells && scene.maze);
+    lose(scene.bounds && path.ends_with(".wkt"), "bounds");
+    lose(!scene.start.empty() && !keeps_ends, "start");
+    lose(!scene.goal.empty() && !keeps_ends, "goal");
+    lose(scene.robot.has_value(), "robot");
+    lose(scene.clearance.has_value(), "clearance");
+    lose(scene.grid.has_value(), "grid");
+  }
+  lose(is_map && !(scene.spheres.empty() && scene.boxes.empty()), "spheres and boxes");
+  const OccupancyMap* const map = scene.map ? &*scene.map : becomes;
+  if (map == nullptr) return lost;
+  lose(is_map && !is_yaml && map->cell != 1.0, "resolution");
+  lose(is_map && !is_yaml && !(map->origin == Vec2{}), "origin");
+  lose(is_map && !is_yaml && map->yaw_rad != 0.0, "yaw");
+  lose(!is_yaml && map->unknown_count > 0, "unknown cells");
+  lose(!path.ends_with(".map") && !map->water.empty(), "water");
   return lost;
 }
 

@@ -50,9 +50,12 @@ Scene read_scene(const InputFile& file, const Execution& execution, MapServerRul
 /// endings, InputError for what the format can't hold, WriteError, Stopped.
 void write_scene(const Scene& scene, const std::string& path, const Execution& execution = {});
 
-/// Of "bounds", "start", "goal", "robot" and "clearance" what the scene has and a file of that ending, a world's or a
-/// map's, has no words for; bounds are told of WKT alone. A maze read anew from .npy has the same start and goal.
-std::vector<std::string_view> parts_left_out(const Scene& scene, std::string_view path);
+/// What the scene, or the map that it becomes, has and a file of that ending, a world's or a map's, has no words for:
+/// "bounds" (told of WKT alone), "start", "goal", "robot", "clearance", "grid", "spheres and
+/// boxes"; of maps "resolution", "origin", "yaw",
+/// "unknown cells" and "water", which become walls. A maze read anew from .npy has the same start and goal.
+std::vector<std::string_view> parts_left_out(const Scene& scene, std::string_view path,
+                                             const OccupancyMap* becomes = nullptr);
 
 /// Is this the ending of a map: .map (Moving AI), .yaml (map server, with a .pgm beside it) or .pgm?
 bool is_map_ending(std::string_view path);

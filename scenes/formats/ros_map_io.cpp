@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A pixel's class depends on the sum of its colours alone (and its alpha), so classes are looked up in a table of all
-// sums: at most 4 x 65535 + 1 entries, made once.
+// A pixel's class depends on one number (and its alpha), so classes are looked up in a table, made once. Of Nav2 the
+// number is the grey of 8 bits that GraphicsMagick makes of the pixel, which Nav2's map_io looks at alone: the luma,
+// rounded to 16 bits, of which the high 8 are kept (n / 257). Of ROS 1 it is the sum of the colours, for their mean: at
+// most 4 x 65535 + 1 entries.
 #include "scenes/formats/ros_map_io.hpp"
 
 #include <fmt/format.h>
@@ -165,7 +167,8 @@ class DescriptionReader {
   Mode mode() const {
     const YAML::Node node = root_["mode"];
     if (!node) return Mode::trinary;
-    const auto text = converted<std::string>(node, "mode", "trinary, scale or raw");
+    auto text = converted<std::string>(node, "mode", "trinary, scale or raw");
+    for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
     if (text == "trinary") return Mode::trinary;
     if (text == "scale") return Mode::scale;
     if (text == "raw") return Mode::raw;
@@ -209,10 +212,13 @@ class Classifier {
     const bool looks_at_alpha =
         rules_ == MapServerRules::nav2 ? description_.mode != Mode::raw : description_.mode == Mode::scale;
     judges_alpha_ = header.has_alpha() && looks_at_alpha;
-    const std::size_t brightest = std::size_t{colours_} * header.maximum;
+    const bool by_luma = rules_ == MapServerRules::nav2 && colours_ > 1;
+    const std::size_t brightest = by_luma ? 255 : std::size_t{colours_} * header.maximum;
     classes_.resize(brightest + 1);
-    for (std::size_t sum = 0; sum <= brightest; ++sum) {
-      classes_[sum] = class_of(static_cast<double>(sum) / static_cast<double>(brightest), description_, rules_);
+    for (std::size_t i = 0; i <= brightest; ++i) {
+      double brightness = static_cast<double>(i) / static_cast<double>(brightest);
+      if (rules_ == MapServerRules::nav2) brightness = high_byte((i * 65535 + brightest / 2) / brightest) / 255.0;
+      classes_[i] = class_of(brightness, description_, rules_);
     }
     map_.blocked = cell_bitmap(header.width, header.height, execution);
     map_.unknown = cell_bitmap(header.width, header.height, execution);
@@ -249,9 +255,15 @@ class Classifier {
     return header_.maximum == 255 && !description_.negate && description_.mode != Mode::raw &&
            std::all_of(pixel, pixel + colours_, [](unsigned value) { return value == grey; });
   }
+  static unsigned high_byte(std::uint64_t deep) { return static_cast<unsigned>(deep / 257); }
+  unsigned number_of(const std::uint16_t* pixel) const {
+    if (colours_ == 1) return pixel[0];
+    if (rules_ == MapServerRules::ros1) return std::accumulate(pixel, pixel + colours_, 0U);
+    const unsigned deep = 65535 / header_.maximum;  // coloured images have 255 or 65535
+    return high_byte((std::uint64_t{deep} * (299U * pixel[0] + 587U * pixel[1] + 114U * pixel[2]) + 500) / 1000);
+  }
   Class class_at(const std::uint16_t* pixel) const {
-    const unsigned sum = std::accumulate(pixel, pixel + colours_, 0U);
-    const Class kind = classes_[sum];
+    const Class kind = classes_[number_of(pixel)];
     if (!judges_alpha_) return kind;
     const unsigned alpha = pixel[header_.channels - 1];
     if (rules_ == MapServerRules::nav2) return alpha < header_.maximum ? Class::unknown : kind;

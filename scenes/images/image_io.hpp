@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Images as occupancy maps need them: PNG (all colour types and depths, interlaced or not) and PGM (binary and ASCII, 8
-// and 16 bits), handed over a run of pixels at a time, so that nothing but a row is ever held.
+// Images as occupancy maps need them: PNG (all colour types and depths, interlaced or not), PGM (binary and ASCII, 8
+// and 16 bits) and BMP (not compressed), handed over a run of pixels at a time, so that nothing but a row is ever held.
 #pragma once
 
 #include <cstdint>
@@ -36,11 +36,12 @@ struct ImageSink {
   std::function<void(const PixelRun&)> row;
 };
 
-/// Reads a PNG or PGM, by its first bytes. Every pixel is given once. Throws InputError naming the file (for ASCII PGM
-/// also the line), Stopped, and what the sink throws.
+/// Reads a PNG, PGM or BMP, by its first bytes. Every pixel is given once. Throws InputError naming the file (for ASCII
+/// PGM also the line), Stopped, and what the sink throws.
 void read_image(const InputFile& file, const ImageSink& sink, const Execution& execution);
 
 bool is_png(std::string_view bytes);
 bool is_pgm(std::string_view bytes);
+bool is_bmp(std::string_view bytes);
 
 }  // namespace warren

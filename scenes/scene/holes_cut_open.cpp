@@ -19,7 +19,7 @@ namespace {
 class HoleTies {
  public:
   HoleTies(const RingSides& rings, std::span<const std::uint32_t> ring_first)
-      : rings_(rings), posts_(rings.size()), place_(rings.size(), Place::other) {
+      : rings_(rings), posts_(rings.size()), place_(rings.size(), Place::other), one_of_(rings.size()) {
     for (std::size_t r = 1; r < ring_first.size(); ++r) {
       std::uint32_t low = ring_first[r];
       std::uint32_t high = low;
@@ -32,22 +32,44 @@ class HoleTies {
     }
   }
 
-  /// below: the side that the corner lies directly above.
-  void pass(std::uint32_t corner, std::uint32_t below) {
-    const std::uint32_t before = rings_.previous(corner);
-    const bool in_strip = below != RingSweep::no_side && rings_.ahead(below);
-    if (in_strip) arrive(corner, below);
-    if (place_[corner] == Place::leftmost && !in_strip) any_outside_ = true;
-    if (rings_.ahead(before)) arrive(corner, before);  // ends here, with the inside above it
-    if (rings_.ahead(corner)) posts_[corner] = corner;
+  /// Corners of one place, where rings touch; below: the side that they lie directly above; touched: the one that they
+  /// lie on. Who touches is tied there already.
+  void pass(std::span<const std::uint32_t> corners, std::uint32_t below, std::uint32_t touched) {
+    const std::uint32_t one = corners.front();
+    place_[one] = place_of(corners, touched);
+    for (const std::uint32_t corner : corners) one_of_[corner] = one;
+    if (touched != RingSweep::no_side) touches_.emplace_back(touched, one);
+    if (below != RingSweep::no_side && rings_.ahead(below)) arrive(one, below);
+    for (const std::uint32_t corner : corners) {
+      const std::uint32_t before = rings_.previous(corner);
+      if (rings_.ahead(before)) arrive(one, before);  // ends here, with the inside above it
+      if (rings_.ahead(corner)) posts_[corner] = one;
+    }
   }
 
-  bool any_outside() const { return any_outside_; }
+  /// The one of the corners of its place that stands for all of them.
+  std::uint32_t one_of(std::uint32_t corner) const { return one_of_[corner]; }
+  /// Sides and the corners that lie on them, these from left to right.
+  const std::vector<std::pair<std::uint32_t, std::uint32_t>>& touches() const { return touches_; }
   const std::vector<std::pair<std::uint32_t, std::uint32_t>>& cuts() const { return cuts_; }
 
  private:
-  /// Of holes.
+  /// Of holes, where nothing else lies further left or right.
   enum class Place : std::uint8_t { other, leftmost, rightmost };
+
+  Place place_of(std::span<const std::uint32_t> corners, std::uint32_t touched) const {
+    bool ends = touched != RingSweep::no_side;  // does a side end here, or begin?
+    bool begins = ends;
+    Place place = Place::other;
+    for (const std::uint32_t corner : corners) {
+      const bool arrives = rings_.ahead(rings_.previous(corner));
+      const bool leaves = rings_.ahead(corner);
+      ends = ends || arrives || !leaves;
+      begins = begins || leaves || !arrives;
+      if (place_[corner] != Place::other) place = place_[corner];
+    }
+    return (place == Place::leftmost && ends) || (place == Place::rightmost && begins) ? Place::other : place;
+  }
 
   void arrive(std::uint32_t corner, std::uint32_t side) {
     std::uint32_t& post = posts_[side];
@@ -58,8 +80,9 @@ class HoleTies {
   const RingSides& rings_;
   std::vector<std::uint32_t> posts_;  // of the strip above each side; only of sides on the line, with the inside above
   std::vector<Place> place_;
+  std::vector<std::uint32_t> one_of_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> touches_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> cuts_;
-  bool any_outside_ = false;
 };
 
 /// The polygon's inside lies left of each side: the outer ring runs anticlockwise, holes clockwise.
@@ -75,13 +98,25 @@ class HoleCutter {
     ring_first_.push_back(first);
   }
 
-  /// Ties all rings but the first one to what lies left and right of them. False: rings meet, or a hole lies outside.
+  /// Ties all rings but the first one to what lies left and right of them. False: rings cross, or share more than a
+  /// point, or a hole lies outside.
   bool tie_holes(const Execution& execution) {
     const RingSides rings(corners_, ring_first_);
     HoleTies ties(rings, ring_first_);
-    const auto contact =
-        RingSweep(rings, execution).run([&](std::uint32_t corner, std::uint32_t below) { ties.pass(corner, below); });
-    if (contact || ties.any_outside()) return false;
+    RingSweep sweep(rings, execution, RingContacts::at_points);
+    if (sweep.run([&](auto corners, auto below, auto touched) { ties.pass(corners, below, touched); })) return false;
+    const auto split = [&](std::uint32_t side, std::uint32_t corner) {  // what is left of the line is its first part
+      add_line(corner, lines_[side].to);
+      lines_[side].to = corner;
+    };
+    const auto& touches = ties.touches();
+    for (const auto& [side, corner] : touches) {
+      if (!rings.ahead(side)) split(side, corner);
+    }
+    for (auto touch = touches.rbegin(); touch != touches.rend(); ++touch) {
+      if (rings.ahead(touch->first)) split(touch->first, touch->second);
+    }
+    for (Line& line : lines_) line = {ties.one_of(line.from), ties.one_of(line.to)};
     for (const auto& [from, to] : ties.cuts()) {
       add_line(from, to);
       add_line(to, from);

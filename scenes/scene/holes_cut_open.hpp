@@ -4,8 +4,9 @@
 //
 // Each hole is tied by two cuts, from its leftmost and from its rightmost corner (of equal x: the lower and the upper
 // one), so every piece is bounded by one outline. A sweep (scenes/scene/ring_sweep) finds the cuts as those of polygons
-// into monotone ones are found (de Berg et al., Computational Geometry, ch. 3), and rings that meet. Every decision is
-// exact. O(n log n) for n corners in all, however many holes.
+// into monotone ones are found (de Berg et al., Computational Geometry, ch. 3), and rings that cross. Rings that touch
+// at a point are tied there: of any corner all that is left without it hangs together, so each outline still passes a
+// corner once. Every decision is exact. O(n log n) for n corners in all, however many holes.
 #pragma once
 
 #include <span>
@@ -20,11 +21,12 @@ namespace warren {
 
 /// What is wrong where without_holes() gives nothing.
 inline constexpr std::string_view misplaced_hole =
-    "a hole must have an area, lie inside its polygon and touch neither its outline nor another hole";
+    "a hole must have an area, lie inside its polygon and meet its outline and other holes in single points at most";
 
 /// outer, holes: rings of either orientation, not closed. The pieces run anticlockwise. Empty where the rings can't be
-/// those of a polygon with holes: a hole without area, outside of the polygon, or one that meets another ring. A ring
-/// that meets itself is handed back alone, as the one piece: whoever takes it says what is wrong. Throws Stopped.
+/// those of a polygon with holes: a hole without area, outside of the polygon, or one that crosses another ring or
+/// shares more than a point with it. A ring that meets itself is handed back alone, as the one piece: whoever takes it
+/// says what is wrong. Throws Stopped.
 std::vector<std::vector<Vec2>> without_holes(const std::vector<Vec2>& outer, std::span<const std::vector<Vec2>> holes,
                                              const Execution& execution);
 

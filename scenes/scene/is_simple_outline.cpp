@@ -27,7 +27,7 @@ std::optional<SideContact> self_contact(std::span<const Vec2> corners, const Exe
   for (std::size_t i = 0; i < outline.size(); ++i) {
     if (outline.fold(i)) return SideContact{outline.previous(i), i};
   }
-  return RingSweep(outline, execution).run([](std::uint32_t, std::uint32_t) {});
+  return RingSweep(outline, execution).run([](auto, auto, auto) {});
 }
 
 }  // namespace warren

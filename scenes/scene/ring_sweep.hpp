@@ -2,7 +2,9 @@
 // A line swept over closed rings of corners (Shamos, Hoey 1976). It stops at the first contact of two sides that must
 // not meet, and tells at each corner which side lies directly below: O(n log n), exact, whatever the rings: neighbours
 // on the line are compared, and where rings meet first, two neighbours meet. Corners are ordered by x, then y, as if
-// the line leaned a little, so vertical sides and equal x need no rule of their own.
+// the line leaned a little, so vertical sides and equal x need no rule of their own. Where rings may touch at points,
+// the corners of one place are passed together; that they touch and do not cross there is seen by what is inside: of
+// the sides on the line every second one has the inside above it.
 #pragma once
 
 #include <algorithm>
@@ -40,6 +42,8 @@ class RingSides {
 
   /// Do the sides share more than a corner in which one follows the other?
   bool meet(std::size_t i, std::size_t j) const;
+  /// Do they cross, or share more than a point? Where one ends on the other they do not.
+  bool cross(std::size_t i, std::size_t j) const;
   /// Does the ring turn back on itself in corner i?
   bool fold(std::size_t i) const;
 
@@ -49,17 +53,25 @@ class RingSides {
   std::vector<std::uint32_t> previous_;
 };
 
+/// May rings meet? At points: from the inside that they bound, which lies left of their sides.
+enum class RingContacts : std::uint8_t { none, at_points };
+
 /// The sides on the sweep line, lowest first. They do not cross left of it, or the sweep would have ended.
 class RingSweep {
  public:
   static constexpr std::uint32_t no_side = 0xffffffffU;
 
   /// Refers to both. No ring folds.
-  RingSweep(const RingSides& rings, const Execution& execution)
-      : rings_(rings), execution_(execution), order_(Order{&rings, &contact_}), place_(rings.size(), order_.end()) {}
+  RingSweep(const RingSides& rings, const Execution& execution, RingContacts contacts = RingContacts::none)
+      : rings_(rings),
+        execution_(execution),
+        may_touch_(contacts == RingContacts::at_points),
+        order_(Order{&rings, &contact_, may_touch_}),
+        place_(rings.size(), order_.end()) {}
 
-  /// Calls visit(corner, below) once the sweep has passed the corner; below: the side that lies directly below it, or
-  /// no_side. The first contact, where the sweep ended, if there is one. Throws Stopped.
+  /// Calls visit(corners, below, touched) once the sweep has passed the corners of a place, one where rings may not
+  /// touch. below: the side that lies directly below, or no_side; touched: the side that the place lies on, between its
+  /// ends, or no_side. The first contact that may not be, where the sweep ended, if there is one. Throws Stopped.
   template <class Visit>
   std::optional<SideContact> run(const Visit& visit);
 
@@ -68,20 +80,24 @@ class RingSweep {
   struct Order {
     const RingSides* rings;
     std::optional<SideContact>* contact;
+    bool may_touch;
     bool operator()(std::uint32_t i, std::uint32_t j) const;
   };
   using Status = std::set<std::uint32_t, Order>;
 
-  std::uint32_t pass(std::uint32_t corner);
+  std::uint32_t pass(std::span<const std::uint32_t> corners);
+  void look_around(Vec2 here, Status::iterator lowest);
   void compare(std::uint32_t i, std::uint32_t j) {
-    if (!contact_ && rings_.meet(i, j)) contact_ = SideContact{i, j};
+    if (!contact_ && (may_touch_ ? rings_.cross(i, j) : rings_.meet(i, j))) contact_ = SideContact{i, j};
   }
   Status::iterator remove(std::uint32_t side);
   void insert(std::uint32_t side);
 
   const RingSides& rings_;
   const Execution& execution_;
+  bool may_touch_;
   std::optional<SideContact> contact_;
+  std::uint32_t touched_ = no_side;
   Status order_;
   std::vector<Status::iterator> place_;
 };
@@ -93,14 +109,17 @@ std::optional<SideContact> RingSweep::run(const Visit& visit) {
   std::sort(corners.begin(), corners.end(),
             [&](std::uint32_t i, std::uint32_t j) { return is_before(rings_.corner(i), rings_.corner(j)); });
   constexpr std::size_t batch = 4096;
-  for (std::size_t k = 0; k < corners.size(); ++k) {
-    if (k % batch == 0) execution_.check();
-    if (k > 0 && rings_.corner(corners[k]) == rings_.corner(corners[k - 1])) {
-      return SideContact{corners[k - 1], corners[k]};
-    }
-    const std::uint32_t below = pass(corners[k]);
+  std::size_t end = 0;
+  std::size_t places = 0;
+  for (std::size_t k = 0; k < corners.size(); k = end) {
+    if (places++ % batch == 0) execution_.check();
+    const auto here = [&](std::size_t other) { return rings_.corner(corners[other]) == rings_.corner(corners[k]); };
+    if (!may_touch_ && k > 0 && here(k - 1)) return SideContact{corners[k - 1], corners[k]};
+    for (end = k + 1; may_touch_ && end < corners.size() && here(end);) ++end;
+    const std::span<const std::uint32_t> place(corners.data() + k, end - k);
+    const std::uint32_t below = pass(place);
     if (contact_) return contact_;
-    visit(corners[k], below);
+    visit(place, below, touched_);
   }
   return std::nullopt;
 }

@@ -242,10 +242,10 @@ std::string json_of_account(const LayerAccount& account, const std::string& hash
     return json.closed();
   }
   if (account.is_of_path) {
-    json.add("of_path", std::string("/api/path/{id}/") + std::string(account.name));
+    json.add("of_path", std::string("api/path/{id}/") + std::string(account.name));
     return json.closed();
   }
-  const std::string address = fmt::format("/v/{}/layers/{}/", hash, account.name);
+  const std::string address = fmt::format("v/{}/layers/{}/", hash, account.name);
   json.add("url", address + "{z}/{x}/{y}.png");
   json.add("legend", address + "legend");
   json.add("from_zoom", std::uint32_t{account.from_zoom});

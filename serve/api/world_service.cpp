@@ -160,7 +160,7 @@ std::string box_json(const Box& box) {
 
 std::string tiles_json(const TileGrid& grid, const std::string& hash) {
   JsonObject json;
-  json.add("url", "/v/" + hash + "/tiles/{z}/{x}/{y}.png");
+  json.add("url", "v/" + hash + "/tiles/{z}/{x}/{y}.png");
   json.add("pixels", std::uint32_t{TileGrid::pixels});
   json.add("levels", std::uint32_t{grid.levels});
   json.add_json("corner", json_list(std::span<const double>(std::array{grid.corner.x, grid.corner.y})));

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 #include "core/base/types.hpp"
 #include "scenes/text/json_text.hpp"
@@ -92,7 +93,13 @@ class Reader {
     }
     node.theta = properties.heading();
     node.more = properties.rest();
-    graph.nodes.push_back(std::move(node));
+    const auto [place, is_new] = places_.emplace(node.id, graph.nodes.size());
+    if (is_new) {
+      graph.nodes.push_back(std::move(node));
+    } else {  // to Nav2 the last of them is the one that edges lead to
+      graph.nodes[place->second] = std::move(node);
+      ++graph.left_out;
+    }
   }
   void take_edge(const OrderedJson& feature, const std::string& where) {
     Properties properties(feature, where);
@@ -103,6 +110,8 @@ class Reader {
     edge.more = properties.rest();
     graph.edges.push_back(std::move(edge));
   }
+
+  std::map<std::uint32_t, std::size_t> places_;  // of nodes, by their ids
 };
 
 /// What `more` holds, to stand in an object after other members.

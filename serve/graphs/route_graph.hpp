@@ -13,7 +13,8 @@
 
 namespace warren::serve {
 
-/// Ids are given once, to a node or to an edge; the largest number of 32 bits means "none" to Nav2.
+/// An id is one node's; edges may share theirs with each other and with nodes, for Nav2 tells them by their ends, and
+/// an edge may lead from a node to itself. The largest number of 32 bits means "none" to Nav2.
 struct RouteNode {
   std::uint32_t id = 0;
   Vec2 at = {};                      ///< metres of the map's frame
@@ -34,7 +35,7 @@ struct RouteGraph {
   std::vector<RouteNode> nodes = {};
   std::vector<RouteEdge> edges = {};
   std::string more = "{}";   ///< of the file
-  std::size_t left_out = 0;  ///< features that are neither, which Nav2 passes over
+  std::size_t left_out = 0;  ///< features that are neither, and nodes whose id a later one has: no edge leads there
 };
 
 inline constexpr std::uint64_t largest_route_id = 0xfffffffeU;
@@ -42,7 +43,8 @@ inline constexpr std::size_t most_route_nodes = 20'000;
 inline constexpr std::size_t most_route_edges = 100'000;
 
 /// Where each edge leads, as places in graph.nodes. Throws HttpError (400, "bad_graph") where Nav2 would not take the
-/// graph: no nodes, no edges, ids that are given twice, ends that are no nodes; and where it is too large to be edited.
+/// graph: no nodes, no edges, ends that are no nodes; where two nodes have one id; and where it is too large to be
+/// edited.
 struct RouteEnds {
   std::size_t from = 0;
   std::size_t to = 0;

@@ -13,6 +13,17 @@ namespace warren::serve {
 
 namespace http = boost::beast::http;
 
+void RequestParser::on_field_impl(http::field field, boost::beast::string_view name, boost::beast::string_view value,
+                                  boost::beast::error_code& code) {
+  const char* begin = name.data() + name.size() + 1;  // behind the colon; a line's end follows
+  while (*begin == ' ' || *begin == '\t') ++begin;
+  if (begin != value.data()) {  // put together elsewhere, or begun on a later line
+    code = http::error::bad_value;
+  } else {
+    get().insert(field, name, value);
+  }
+}
+
 HttpError error_of_parser(const boost::system::error_code& code) {
   if (code == http::error::header_limit || code == http::error::buffer_overflow) {
     return {431, "head_too_large", "head", "at most 8,192 bytes of head are expected"};
@@ -50,8 +61,12 @@ HttpRequest request_of(const BeastRequest& head) {
     throw HttpError(400, "bad_request", "Transfer-Encoding", "chunked is the only one");  // where bodies end is certain
   }
   if (head.count(http::field::host) != 1) throw HttpError(400, "bad_request", "Host", "expected once");
+  if (head.count(http::field::origin) > 1) throw HttpError(400, "bad_request", "Origin", "expected once at most");
+  if (head.count(http::field::authorization) > 1) {
+    throw HttpError(400, "bad_request", "Authorization", "expected once at most");
+  }
   const auto field = [&](http::field name) { return std::string(head[name]); };
-  request.host = field(http::field::host);
+  if (request.host.empty()) request.host = field(http::field::host);
   request.origin = field(http::field::origin);
   request.authorization = field(http::field::authorization);
   request.if_none_match = field(http::field::if_none_match);

@@ -44,7 +44,7 @@ struct Connection {
   boost::asio::ip::tcp::socket socket;
   boost::asio::ip::address address = {};
   boost::beast::flat_buffer buffer;
-  std::optional<boost::beast::http::request_parser<boost::beast::http::string_body>> parser = {};
+  std::optional<RequestParser> parser = {};
   std::optional<BeastResponse> response = {};
   HttpRequest request = {};
   Job* job = nullptr;

@@ -142,7 +142,7 @@ class HttpServer::Connections {
     const auto end = acceptors_.front().local_endpoint();
     const std::string name = end.address().to_string();
     address_ = fmt::format("http://{}:{}/", end.address().is_v6() ? "[" + name + "]" : name, end.port());
-    names_ = {.port = end.port(), .is_loopback = end.address().is_loopback()};
+    names_ = {.port = end.port(), .is_loopback = end.address().is_loopback(), .public_urls = place.public_urls};
   }
   const std::string& address() const { return address_; }
   const HttpNames& names() const { return names_; }
@@ -257,6 +257,7 @@ class HttpServer::Connections {
       if (code) throw error_of_parser(code);
       c.request = request_of(c.parser->get());
       check_names(c.request, names_);
+      take_public_path(c.request.path, names_);
       read_body(c, service_.most_body(c.request));
     } catch (const HttpError& error) {
       refuse(c, error);

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "parallel/deadline.hpp"
+#include "serve/http/http_names.hpp"
 #include "serve/http/http_service.hpp"
 
 namespace warren::serve {
@@ -40,6 +41,7 @@ struct HttpLimits {
 struct HttpPlace {
   std::vector<std::string> addresses = {"127.0.0.1", "::1"};  ///< the second and later ones where the machine has them
   std::uint16_t port = 0;                                     ///< 0: one that is free
+  std::vector<PublicUrl> public_urls = {};                    ///< that lead here, too
 };
 
 class HttpServer {

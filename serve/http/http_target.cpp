@@ -42,8 +42,17 @@ void read_target(std::string_view target, HttpRequest& request) {
   if (target.size() > longest_target) {
     throw HttpError(414, "target_too_long", "target", "at most 2,048 bytes are expected");
   }
-  if (!target.starts_with('/')) throw HttpError(400, "bad_request", "target", "a path that begins with / is expected");
+  const std::size_t scheme = target.starts_with("http://") ? 7 : target.starts_with("https://") ? 8 : 0;
+  if (scheme > 0) {
+    target.remove_prefix(scheme);
+    request.host = target.substr(0, target.find_first_of("/?"));
+    target.remove_prefix(request.host.size());
+  }
+  if (scheme > 0 ? request.host.empty() : !target.starts_with('/')) {
+    throw HttpError(400, "bad_request", "target", "a path that begins with / is expected");
+  }
   request.path = decoded(taken(target, '?'), false);
+  if (request.path.empty()) request.path = "/";
   request.query.clear();
   while (!target.empty()) {
     std::string_view value = taken(target, '&');

@@ -35,7 +35,7 @@ async function ask() {
   asking = true;
   const began = performance.now(), asked = JSON.stringify(bodyOf(question));
   try {
-    const reply = await fetch("/api/query", {method: "POST", headers: {"Content-Type": "application/json"}, body: asked});
+    const reply = await fetch("api/query", {method: "POST", headers: {"Content-Type": "application/json"}, body: asked});
     const text = await reply.text();
     take(reply, text, performance.now() - began, asked);
   } catch (error) {

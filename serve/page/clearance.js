@@ -9,7 +9,7 @@ async function showClearance() {
   const id = profile.id = answer.id, of = answer.json;
   let json;
   try {
-    const reply = await fetch("/api/path/" + id + "/clearance?samples=" + chart.samples);
+    const reply = await fetch("api/path/" + id + "/clearance?samples=" + chart.samples);
     looked(reply, of);
     json = await reply.json();
   } catch (error) {

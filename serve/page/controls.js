@@ -184,7 +184,7 @@ async function savePath(make) {
   if (of.path.length > 0) return make(of, asDriven(of.path));
   let reply, json;
   try {
-    reply = await fetch("/api/path/" + answer.id);
+    reply = await fetch("api/path/" + answer.id);
     json = await reply.json();
   } catch (error) {
     return void say("The service does not answer any more.");
@@ -253,7 +253,7 @@ function wireMap() {
 }
 async function begin() {
   takeToken();
-  world = await (await fetch("/api/world")).json();
+  world = await (await fetch("api/world")).json();
   const name = world.source.split("/").pop();
   document.title = name + " – warren";
   byId("title").textContent = name;

@@ -20,7 +20,7 @@ async function sendChange(change) {
   if (token()) headers.Authorization = "Bearer " + token();
   let json = null;
   try {
-    const reply = await fetch("/api/update", {method: "POST", headers, body: JSON.stringify(change)});
+    const reply = await fetch("api/update", {method: "POST", headers, body: JSON.stringify(change)});
     json = await reply.json();
   } catch (error) {
     say("The service does not answer any more.");
@@ -39,7 +39,7 @@ const takeWorld = () => taken = taken.then(fetchWorld);
 const noticeWorld = () => noticing ||= takeWorld().finally(() => { noticing = null; });
 async function fetchWorld() {
   try {
-    const now = await (await fetch("/api/world")).json();
+    const now = await (await fetch("api/world")).json();
     if (now.error || now.hash === world.hash) return false;
     showWorld(now);
     return true;
@@ -161,7 +161,7 @@ async function saveScene() {
     const state = question[end] && bodyOf({...question, start: question[end], goal: question[end]})[end];
     if (state) words.push(end + "=" + state.join(","));
   }
-  const reply = await fetch("/api/scene?" + words.join("&")), text = await reply.text();
+  const reply = await fetch("api/scene?" + words.join("&")), text = await reply.text();
   if (!reply.ok) return void say(JSON.parse(text).error.message);
   save("world.scene", "text/plain", text);
   say("Saved: world.scene.");

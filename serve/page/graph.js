@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The route graph as people edit it: nodes and edges by id, every change with its way back, what the service says of each
+// The route graph as people edit it: nodes by id, edges by key (their id; files may give that twice, then one of the
+// page's), every change with its way back, what the service says of each
 // edge, and the layer that draws them. An edge stands for one way; two that lead to and fro are drawn as one line.
 // What a file says beside places and ends (`more`) is a text that is handed back as it came.
 "use strict";
@@ -58,7 +59,13 @@ function takeGraph(json) {
   for (const id of graph.edges.keys()) change.push(["edges", id, undefined]);
   for (const id of graph.nodes.keys()) change.push(["nodes", id, undefined]);
   for (const node of json.nodes) change.push(["nodes", node.id, node]);
-  for (const {verdict, ...edge} of json.edges) change.push(["edges", edge.id, edge]);
+  const all = [...json.nodes, ...json.edges], taken = new Set();
+  let next = all.reduce((most, {id}) => Math.max(most, id), -1) + 1;
+  for (const {verdict, ...edge} of json.edges) {
+    const key = taken.has(edge.id) ? next++ : edge.id;
+    taken.add(key);
+    change.push(["edges", key, {...edge, key}]);
+  }
   change.push(["file", "frame", json.frame], ["file", "more", json.more || undefined]);
   graph.undo.push(applyChange(change));
   graph.redo = [];
@@ -76,7 +83,7 @@ async function checkGraph() {
   if (asked.size === 0) return;
   checking = true;
   const hash = world.hash;
-  const json = await posted("/api/check", JSON.stringify({edges: [...asked.values()]}));
+  const json = await posted("api/check", JSON.stringify({edges: [...asked.values()]}));
   checking = false;
   if (world.hash !== hash) return checkGraph();  // of a world that is no more
   if (!json) return;
@@ -108,8 +115,8 @@ function addNode(place, joinTo) {
   choose("nodes", node.id);
 }
 function newEdges(a, b, id) {
-  const change = [["edges", id, {id, from: a, to: b}]];
-  if (!byId("graph-one-way").checked) change.push(["edges", id + 1, {id: id + 1, from: b, to: a}]);
+  const change = [["edges", id, {id, key: id, from: a, to: b}]];
+  if (!byId("graph-one-way").checked) change.push(["edges", id + 1, {id: id + 1, key: id + 1, from: b, to: a}]);
   return change;
 }
 function joinNodes(a, b) {
@@ -122,7 +129,7 @@ function moveNode(id, place) {
   const old = graph.nodes.get(id), edges = edgesAt(id);
   const lengths = edges.map(edge => edge.cost === undefined || Math.abs(edge.cost - lengthOf(edge)) <= 1e-6 * edge.cost);
   const change = [["nodes", id, {...old, at: [rounded(place.x), rounded(place.y)]}]];
-  edges.forEach((edge, i) => { if (lengths[i]) { const {cost, ...rest} = edge; change.push(["edges", edge.id, rest]); } });
+  edges.forEach((edge, i) => { if (lengths[i]) { const {cost, ...rest} = edge; change.push(["edges", edge.key, rest]); } });
   changeGraph(change);
 }
 function removeChosen() {
@@ -130,12 +137,12 @@ function removeChosen() {
   if (!chosen) return void say("Choose a node or an edge first.");
   if (chosen.name === "edges") {
     const edge = graph.edges.get(chosen.id);
-    return changeGraph(between(edge.from, edge.to).map(e => ["edges", e.id, undefined]));
+    return changeGraph(between(edge.from, edge.to).map(e => ["edges", e.key, undefined]));
   }
-  changeGraph([...edgesAt(chosen.id).map(e => ["edges", e.id, undefined]), ["nodes", chosen.id, undefined]]);
+  changeGraph([...edgesAt(chosen.id).map(e => ["edges", e.key, undefined]), ["nodes", chosen.id, undefined]]);
 }
 const blockedEdges = () => [...graph.edges.values()].filter(edge => { const v = verdictOf(edge); return v && !v.free; });
-const removeBlocked = () => changeGraph(blockedEdges().map(edge => ["edges", edge.id, undefined]));
+const removeBlocked = () => changeGraph(blockedEdges().map(edge => ["edges", edge.key, undefined]));
 
 /// Draws on a canvas over the world, in its pixels.
 const GraphLayer = L.Layer.extend({
@@ -166,7 +173,7 @@ const GraphLayer = L.Layer.extend({
     for (const edge of graph.edges.values()) {
       const verdict = verdictOf(edge);
       groups[!verdict ? "unknown" : verdict.free ? "free" : "blocked"].push(edge);
-      if (edge.id === chosen) groups.chosen.push(edge);
+      if (edge.key === chosen) groups.chosen.push(edge);
     }
     const looks = {chosen: [color("--chosen"), 9, []], free: [color("--edge"), 2.5, []], unknown: [color("--faint"), 2, [4, 4]], blocked: [color("--bad"), 4, [9, 4]]};
     for (const name of ["chosen", "free", "unknown", "blocked"]) {
@@ -218,7 +225,7 @@ function graphAt(pixel, reach) {
   least = reach / 2;
   for (const edge of graph.edges.values()) {
     const away = L.LineUtil.pointToSegmentDistance(pixel, pixelOf(graph.nodes.get(edge.from)), pixelOf(graph.nodes.get(edge.to)));
-    if (away < least) [best, least] = [{name: "edges", id: edge.id}, away];
+    if (away < least) [best, least] = [{name: "edges", id: edge.key}, away];
   }
   return best;
 }

@@ -157,24 +157,24 @@ async function buildGraph() {
     Object.assign(body, {samples: Number(samples), neighbours: 4});
   }
   say("Building.");
-  const json = await posted("/api/graph", JSON.stringify(body));
+  const json = await posted("api/graph", JSON.stringify(body));
   if (json) openGraph(json, "Built: ");
 }
 async function openGraphFile(file) {
   if (!file) return;
   if (file.size > 4 << 20) return void say(file.name + " has more than 4 MiB.");
-  const json = await posted("/api/graph/open", await file.text());
+  const json = await posted("api/graph/open", await file.text());
   if (json) openGraph(json, "Opened: ");
 }
 function openGraph(json, word) {
   takeGraph(json);
   setEditing(true);
-  say(word + grouped(json.nodes.length) + " nodes, " + grouped(json.edges.length) + " edges" + (json.left_out ? "; " + grouped(json.left_out) + " features are neither and left out" : "") + (blockedEdges().length ? "; " + grouped(blockedEdges().length) + " edges are not free" : "") + ".");
+  say(word + grouped(json.nodes.length) + " nodes, " + grouped(json.edges.length) + " edges" + (json.left_out ? "; " + grouped(json.left_out) + " features are left out: neither, or nodes whose id a later one has" : "") + (blockedEdges().length ? "; " + grouped(blockedEdges().length) + " edges are not free" : "") + ".");
 }
 async function saveGraph() {
-  const body = {frame: graph.file.get("frame"), nodes: [...graph.nodes.values()], edges: [...graph.edges.values()]};
+  const body = {frame: graph.file.get("frame"), nodes: [...graph.nodes.values()], edges: [...graph.edges.values()].map(({key, ...edge}) => edge)};
   if (graph.file.has("more")) body.more = graph.file.get("more");
-  const reply = await fetch("/api/graph/save", {method: "POST", headers: {"Content-Type": "application/json"}, body: JSON.stringify(body)});
+  const reply = await fetch("api/graph/save", {method: "POST", headers: {"Content-Type": "application/json"}, body: JSON.stringify(body)});
   const text = await reply.text();
   if (!reply.ok) return void say(JSON.parse(text).error.message);
   save("graph.geojson", "application/geo+json", text);

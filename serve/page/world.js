@@ -54,7 +54,7 @@ function placeMap(center, zoom) {
 }
 function openMap() {
   map = L.map("map", {crs: crsOfWorld(), minZoom: -3, maxZoom: world.tiles.levels, zoomSnap: 1, attributionControl: false, preferCanvas: true});
-  L.control.attribution({prefix: false}).addAttribution('<a href="/leaflet-license.txt">Leaflet</a>').addTo(map);
+  L.control.attribution({prefix: false}).addAttribution('<a href="leaflet-license.txt">Leaflet</a>').addTo(map);
   L.control.scale({imperial: false, metric: false}).addTo(map);
   addTiles();
   map.on("mousemove", e => { byId("readout").textContent = rounded(e.latlng.lng) + ", " + rounded(e.latlng.lat) + (world.unit ? " " + world.unit : ""); });
@@ -125,7 +125,7 @@ async function showSeenPath() {
   const box = [seen.getWest(), seen.getSouth(), seen.getEast(), seen.getNorth()].join(",");
   const z = map.getZoom() - 1;  // the line is wider than two pixels
   try {
-    const reply = await fetch("/api/path/" + pathLine.id + "?z=" + z + "&bbox=" + box);
+    const reply = await fetch("api/path/" + pathLine.id + "?z=" + z + "&bbox=" + box);
     looked(reply, of);
     const told = reply.ok ? await reply.json() : null;
     if (told && mine === pathLine.asked) drawChains(told.chains);  // else another path or view came meanwhile

@@ -155,6 +155,30 @@ class ServiceTest(unittest.TestCase):
         with Service(WARREN, self.town) as service:
             self.assertIn(f"--port: {service.port} of", self.said("serve", self.town, "--port", service.port, code=2))
 
+    def test_behind_a_proxy_it_is_asked_under_its_public_address(self):
+        with Service(WARREN, self.town, "--public-url", "https://planner.example.org/robots/", "--public-url", "http://robot.local:81") as service:
+            body = json.dumps({"start": [3, 3], "goal": [97, 55]})
+            for path, host, origin, status in (
+                    ("/api/query", "planner.example.org", "https://planner.example.org", 200),
+                    ("/robots/api/query", "planner.example.org", "https://planner.example.org", 200),
+                    ("/api/query", f"127.0.0.1:{service.port}", "https://planner.example.org", 200),
+                    ("/api/query", "robot.local:81", "http://robot.local:81", 200),
+                    ("/api/query", "planner.example.org", "http://planner.example.org", 403),
+                    ("/api/query", "other.example.org", "https://planner.example.org", 403)):
+                with self.subTest(path=path, host=host, origin=origin):
+                    connection = service.connection()
+                    connection.request("POST", path, body, {"Host": host, "Origin": origin})
+                    self.assertEqual(connection.getresponse().status, status)
+                    connection.close()
+        self.assertIn("--public-url: 'planner.example.org'", self.said("serve", self.town, "--public-url", "planner.example.org", code=2))
+
+    def test_a_closed_terminal_ends_it_and_it_says_so(self):
+        process = subprocess.Popen([WARREN, "serve", self.town, "--port", "0"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        process.stdout.readline()
+        process.send_signal(signal.SIGHUP)
+        self.assertIn("the terminal was closed", process.communicate(timeout=60)[1])
+        self.assertEqual(process.returncode, 129)
+
     def test_other_addresses_only_with_a_warning(self):
         process = subprocess.Popen([WARREN, "serve", self.town, "--port", "0", "--listen", "0.0.0.0"], stdout=subprocess.PIPE,
                                    stderr=subprocess.PIPE, text=True)

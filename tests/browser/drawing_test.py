@@ -203,7 +203,7 @@ class Drawing(MapTest):
             const asks = fetch;
             fetch = async (place, ...more) => {
               const reply = await asks(place, ...more);
-              if (place === "/api/check" && !late) await new Promise(done => { late = done; });
+              if (place === "api/check" && !late) await new Promise(done => { late = done; });
               return reply;
             };
             addNode({x: 60, y: 10});

@@ -175,8 +175,8 @@ class PageTools(MapTest):
             window.questions = 0;
             const asks = fetch;
             fetch = async (place, ...more) => {
-              if (place === "/api/query") ++questions;
-              if (!place.startsWith("/api/path/") || forgets-- <= 0) return asks(place, ...more);
+              if (place === "api/query") ++questions;
+              if (!place.startsWith("api/path/") || forgets-- <= 0) return asks(place, ...more);
               return new Response(JSON.stringify({error: {code: "not_found", where: "path", message: "forgotten"}}), {status: 404});
             };
             pathLine.whole = false;  // as one of many points, of which a part is seen
@@ -214,12 +214,12 @@ class PageTools(MapTest):
             HTMLAnchorElement.prototype.click = () => {};
             const asks = fetch;
             fetch = async (place, ...more) => {
-              if (place === "/api/query") {
+              if (place === "api/query") {
                 ++questions;
                 const reply = await asks(place, ...more), json = await reply.json();
                 return new Response(JSON.stringify({...json, path: [], path_points: json.path.length}), {status: reply.status, headers: reply.headers});
               }
-              if (!place.startsWith("/api/path/") || forgets-- <= 0) return asks(place, ...more);
+              if (!place.startsWith("api/path/") || forgets-- <= 0) return asks(place, ...more);
               return new Response(JSON.stringify({error: {code: "not_found", where: "path", message: "forgotten"}}), {status: 404});
             };
             ask();''', times)

@@ -204,6 +204,15 @@ class RouteGraph(MapTest):
         self.assertEqual(file, ['map', {'metadata': {'who': 'A'}}, [1]])
         self.assertEqual(self.run_script('redoGraph(); return [graph.file.get("frame"), graph.file.has("more")]'), ['odom', False])
 
+    def test_edges_that_share_an_id_are_each_edited_and_saved(self):
+        self.run_script('takeGraph({nodes: [{id: 1, at: [-1, 0]}, {id: 2, at: [9, 0]}], frame: "map", verdicts: [null, null, null],'
+                        'edges: [{id: 7, from: 1, to: 2}, {id: 7, from: 2, to: 1}, {id: 7, from: 2, to: 2}]});')
+        self.settled()
+        self.assertEqual(self.counts(), [2, 3, 0])
+        self.assertEqual([f['properties']['id'] for f in json.loads(self.saved())['features']], [1, 2, 7, 7, 7])
+        self.run_script('graph.selected = {name: "edges", id: [...graph.edges.keys()][2]}; removeChosen()')
+        self.assertEqual(self.counts()[:2], [2, 2])
+
     def test_by_finger(self):
         self.press('graph-edit')
         self.click_at(-1, 0)

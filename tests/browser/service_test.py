@@ -94,6 +94,14 @@ class ServicePage(MapTest):
         self.assertEqual(self.run_script(state), before)
         self.assertEqual(self.drawn(), path)
 
+    def test_below_the_path_of_a_proxy_all_is_found(self):
+        with Service(WARREN, MAZE, '--public-url', 'https://planner.example.org/robots/') as service:
+            self.shown(service, 'robots/#start=1,1&goal=300,300')
+            self.wait_for('Solved')
+            asked = self.run_script('return performance.getEntriesByType("resource").map(e => e.name).filter(name => name.startsWith("http"))')
+            self.assertTrue(any('/tiles/' in name for name in asked) and any('/api/query' in name for name in asked), asked)
+            self.assertEqual([name for name in asked if not name.startswith(service.url + 'robots/')], [])
+
     def test_the_link_follows_long_drags(self):
         self.shown(self.town, '#start=1.5,1.5&goal=9.5,8.5')
         self.wait_for('Solved')

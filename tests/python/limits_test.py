@@ -140,6 +140,13 @@ def closed():
     return names["world"], names["options"]
 
 
+def test_budgets_of_any_size_are_kept():
+    for budget in (1e300, 1e10, 3e9):
+        assert warren.solve("maze:5x5", budget=budget).status == "solved"
+    with pytest.raises(TimeoutError):
+        warren.build("maze:300x300", budget=1e-15)
+
+
 def test_a_budget_raises_a_timeout_with_the_partial_answer():
     world, options = closed()
     for budget in (0.5, 5, 50):  # until there is something to tell of

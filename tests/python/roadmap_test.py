@@ -85,9 +85,15 @@ def test_where_there_is_no_way_the_length_is_infinite():
     assert roadmap.matrix(np.zeros((0, 2)), [(1, 1)]).shape == (0, 1)
 
 
+def test_places_may_be_whole_numbers():
+    roadmap = warren.build("maze:5x5")
+    assert roadmap.lengths(np.array([[1, 1]]), np.array([[5, 5]], np.uint8)).tolist() == [18.0]
+
+
 @pytest.mark.parametrize("starts, error, said", [
     (np.zeros((3, 2), np.float32), TypeError, r"starts: expected float64 \(n, 2\) in C order \(found: float32 \(3, 2\)\)"),
-    (np.zeros((3, 2), np.int64), TypeError, "found: int64"),
+    (np.zeros((3, 3), np.int64), TypeError, r"found: float64 \(3, 3\)"),
+    (np.ma.masked_less(np.zeros((3, 2)), 1), TypeError, "starts: a mask hides"),
     (np.zeros((3, 3)), TypeError, r"found: float64 \(3, 3\)"),
     (np.zeros((2, 3)).T, TypeError, "not in C order"),
     (np.zeros(2), TypeError, r"found: float64 \(2,\)"),

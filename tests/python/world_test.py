@@ -2,6 +2,7 @@
 """Worlds of arrays, geometries and files; what they show; how they are drawn and compared."""
 import csv
 import gc
+import os
 import warnings
 
 import geopandas
@@ -27,6 +28,51 @@ def test_walls_are_read_from_arrays_and_shown_as_views(kind):
     assert shown.dtype == kind and shown.tolist() == [[3, 0, 3, 5], [0, 7, 4, 7]] and not shown.flags.writeable
 
 
+def test_whole_numbers_are_numbers():
+    walls = [(0, 0, 1, 1), (2, 0, 2, 5)]
+    world = warren.scene(walls=walls, bounds=(0, 0, 9, 9))
+    for given in (np.array(walls), np.array(walls, np.int8), np.asfortranarray(walls), np.array(walls, np.uint64)):
+        assert warren.scene(walls=given, bounds=np.array([0, 0, 9, 9])).hash == world.hash
+    assert warren.scene(polygons=[np.array([[0, 0], [2, 0], [1, 2]])]).hash == warren.scene(polygons=[[(0, 0), (2, 0), (1, 2)]]).hash
+
+
+def test_names_of_files_may_be_any_bytes(tmp_path):
+    name = os.fsdecode(bytes(tmp_path / "a") + b"\xff.npy")
+    warren.maze(3, 3).save(name)
+    assert warren.read_world(name).hash == warren.maze(3, 3).hash
+    with pytest.raises(ValueError, match="surrogates"):
+        warren.read_world("\ud800")
+
+
+def test_sizes_of_a_maze_are_whole_numbers():
+    assert warren.maze(np.int64(5), 5).hash == warren.maze(5, 5).hash
+    for wrong in ((5.9, 5), ("5", "5"), (5, 5.0)):
+        with pytest.raises(TypeError):
+            warren.maze(*wrong)
+    with pytest.raises(TypeError):
+        warren.maze(5, 5, seed=1.5)
+
+
+@pytest.mark.parametrize("body", [
+    lambda: warren.disc(-1), lambda: warren.disc(float("nan")), lambda: warren.polygon([(0, 0), (1, 0)]),
+    lambda: warren.car(0, radius=1), lambda: warren.car(1, radius=-1), lambda: warren.car(1, radius=1, steering="left"),
+    lambda: warren.puma560(-0.1), lambda: warren.puma560(0.1, limits="none"), lambda: warren.arm("arm.dh", -1)])
+def test_a_body_that_can_not_be_is_refused_at_once(body):
+    with pytest.raises(warren.InputError, match="^robot: "):
+        body()
+
+
+def test_columns_of_a_comparison_are_of_one_type_whatever_they_hold():
+    found = warren.compare("maze:5x5", planners=["prm", "lazy-prm"], sampler="uniform", samples=200, seeds=2)
+    lattice = warren.compare("maze:5x5", planners=["prm"], sampler="lattice", seeds=2)
+    for table in (found.table, lattice.table):
+        assert table["deterministic"].dtype == bool
+        assert table["length_median"].dtype == float and table["hops"].dtype == float
+        assert table["runs"].dtype == int and table["planner"].dtype == object and table["search"].dtype == object
+    assert lattice.table["deterministic"].all() and not found.table["deterministic"].all()
+    assert lattice["length"].dtype == float and lattice["seed"].dtype == int
+
+
 def test_the_same_world_has_the_same_hash_whatever_it_is_made_of(tmp_path):
     maze = warren.maze(9, 9)
     again = warren.scene(walls=maze.walls, maze=(9, 9), start=maze.start, goal=maze.goal)
@@ -37,7 +83,12 @@ def test_the_same_world_has_the_same_hash_whatever_it_is_made_of(tmp_path):
 
 
 @pytest.mark.parametrize("parts, error, said", [
-    ({"walls": np.zeros((2, 4), int)}, TypeError, r"walls: expected float32 or float64 \(n, 4\).*int64 \(2, 4\)"),
+    ({"walls": np.zeros((2, 4), bool)}, TypeError, r"walls: expected float32 or float64 \(n, 4\).*bool \(2, 4\)"),
+    ({"walls": np.ma.array(np.zeros((2, 4)), mask=[[0, 0, 0, 1], [0, 0, 0, 0]])}, TypeError, "walls: a mask hides"),
+    ({"walls": [np.ma.array([0., 0, 0, 1], mask=[0, 0, 0, 1])]}, TypeError, "walls: a mask hides"),
+    ({"polygons": [np.ma.masked_less(np.zeros((3, 2)), 1)]}, TypeError, r"polygons\[0\]: a mask hides"),
+    ({"source": "\ud800"}, ValueError, "source: a lone surrogate"),
+    ({"robot": "\ud800"}, ValueError, "robot: a lone surrogate"),
     ({"walls": np.zeros((2, 3))}, TypeError, r"walls: expected .*\(found: float64 \(2, 3\)\)"),
     ({"walls": np.zeros((4, 2)).T}, TypeError, "walls: expected"),
     ({"walls": [[0, 0, 1, np.inf]]}, ValueError, r"walls\[0\]: numbers must be finite"),
@@ -71,11 +122,16 @@ def test_cells_are_read_where_they_lie():
         assert world.box == (10.0, 20.0, 14.0, 23.0)
     # The top row is the highest: the cell at row 0 is blocked at y 22.5 .. 23.
     assert warren.solve(world, (11.75, 22.75), (10.1, 20.1), planner="grid").status == "start_blocked"
-    for wrong in (cells.astype(int), cells.astype(float), cells[0]):
+    for given in (cells.astype(int), -cells.astype(np.int8), cells.astype(np.uint32) << 8, cells.tolist(),
+                  tuple(map(tuple, (cells != 0).tolist())), np.ma.array(cells)):
+        assert warren.grid(given, 0.5, (10, 20)).hash == world.hash
+    for wrong in (cells.astype(float), cells[0], cells.astype(float).tolist(), []):
         with pytest.raises(TypeError, match=r"cells: expected bool or uint8 \(rows, columns\)"):
             warren.grid(wrong)
-    with pytest.raises(TypeError, match="cells: expected an array"):
-        warren.grid([[0, 1]])
+    for wrong, said in ((5, "an array or lists"), ([[0, 1], [0]], "rows of one length"),
+                        (np.ma.masked_greater(cells, 0), "a mask hides"), ([np.ma.masked_less([0, 1], 1)], "an array or lists")):
+        with pytest.raises(TypeError, match=f"cells: (expected )?{said}"):
+            warren.grid(wrong)
     with pytest.raises(ValueError, match="^cell: "):
         warren.grid(cells, 0)
 
@@ -141,7 +197,8 @@ def test_a_file_holds_the_obstacles_and_says_what_else_it_leaves_out(tmp_path):
     cells[1:, 1] = True
     world = warren.grid(cells, 0.5, start=(0.2, 0.2), goal=(1.8, 0.2), robot=warren.disc(0.1))
     for ending in ("map", "yaml", "pgm", "png"):
-        with pytest.warns(UserWarning, match=f"{ending}: its format has no start, goal, robot: left out"):
+        place = "" if ending == "yaml" else ", resolution"
+        with pytest.warns(UserWarning, match=f"{ending}: its format has no start, goal, robot{place}: left out"):
             world.save(tmp_path / f"a.{ending}")
         assert np.array_equal(warren.read_world(tmp_path / f"a.{ending}").cells, cells)
     with warnings.catch_warnings():

@@ -213,6 +213,23 @@ TEST(BadInput, AFullStandardOutputIs73) {
   }
 }
 
+TEST(BadInput, ABatchWhoseOutputFailsStopsAtOnce) {
+  const Folder folder;
+  const std::string roadmap = folder.path("a.roadmap");
+  ASSERT_EQ(run({"build", "maze:30x30", "-o", roadmap, "--quiet"}).code, 0);
+  std::string lines;
+  for (int i = 0; i < 50'000; ++i) lines += "{\"start\":[1,1],\"goal\":[30,30]}\n";
+  const std::string batch = folder.write("batch.ndjson", lines);
+  for (const char* how : {"--batch", "--matrix"}) {
+    std::vector<std::string> words{"query", roadmap, how, batch};
+    if (std::string(how) == "--matrix") words.push_back(folder.write("one.ndjson", "{\"start\":[1,1]}\n"));
+    const auto outcome = Process(words, "/dev/null", "/dev/full").wait();
+    EXPECT_EQ(outcome.code, 73);
+    EXPECT_NE(outcome.err.find("standard output"), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.err.find("solved"), std::string::npos) << "nothing was told: " << outcome.err;
+  }
+}
+
 TEST(BadInput, AnUnwritableOutputIsFoundBeforeTheWork) {
   const Folder folder;  // a maze that takes far longer than the test may
   check({{"solve", "maze:20000x20000", "--json", folder.path("no/a.json")}, 73, "can't be written"});

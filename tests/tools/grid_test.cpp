@@ -266,6 +266,33 @@ TEST(Maps, WhatAFormatHasNoWordsForIsLeftOutWithANote) {
   EXPECT_EQ(run({"convert", "maze:4x4", "-o", folder.path("a.npy")}).err, "") << "read anew, a maze has the same ones";
 }
 
+TEST(Maps, WhereAMapLiesIsSaidWhereItsFormatHasNoWordsForIt) {
+  const Folder folder;
+  folder.write("m.pgm", "P2 3 1 255\n254 205 0\n");
+  const std::string yaml = folder.write("m.yaml",
+                                        "image: m.pgm\nresolution: 0.5\norigin: [12.5, -3.25, 0.7]\nnegate: 0\n"
+                                        "occupied_thresh: 0.65\nfree_thresh: 0.196\n");
+  for (const char* name : {"b.map", "b.pgm", "b.png"}) {
+    EXPECT_NE(run({"convert", yaml, "-o", folder.path(name)})
+                  .err.find("has no resolution, origin, yaw, unknown cells: left out"),
+              std::string::npos)
+        << name;
+  }
+  EXPECT_EQ(run({"convert", yaml, "-o", folder.path("b.yaml")}).err, "");
+  EXPECT_NE(run({"convert", yaml, "-o", folder.path("b.scene")}).err.find("has no unknown cells: left out"),
+            std::string::npos);
+  const std::string scene = folder.write("w.scene", "bounds 1 1 6 4\nwall 2.5 1 2.5 2.5\ngrid 0.5 8\n");
+  EXPECT_NE(run({"convert", scene, "--cell", "0.5", "-o", folder.path("w.map")})
+                .err.find("has no grid, resolution, origin: left out"),
+            std::string::npos);
+  EXPECT_NE(run({"convert", scene, "-o", folder.path("w.geojson")}).err.find("has no grid: left out"),
+            std::string::npos);
+  const std::string moving_ai = folder.write("a.map", "type octile\nheight 1\nwidth 3\nmap\n.W@\n");
+  EXPECT_NE(run({"convert", moving_ai, "-o", folder.path("c.yaml")}).err.find("has no water: left out"),
+            std::string::npos);
+  EXPECT_EQ(run({"convert", moving_ai, "-o", folder.path("c.map")}).err, "");
+}
+
 TEST(Maps, UnknownCellsStayClosedInImagesWithoutYaml) {
   const Folder folder;
   folder.write("m.pgm", "P2 3 1 255\n254 205 0\n");

@@ -259,5 +259,29 @@ TEST(Solve, StandardInputIsAWorld) {
   EXPECT_EQ(run({"solve", "-"}, world).code, 0);
 }
 
+TEST(Render, ARoadmapOfALatticeSaysHowManyWallsItsWorldHas) {
+  const Folder folder;
+  const std::string roadmap = folder.path("a.roadmap");
+  const std::string built = run({"build", "maze:260x260", "-o", roadmap}).out;  // kept with the index of its routes
+  const std::size_t walls = built.find(" maze, ");
+  ASSERT_NE(walls, std::string::npos) << built;
+  const std::string said = built.substr(walls, built.find(" walls", walls) - walls + 6);
+  const std::string drawn = run({"render", roadmap, "-o", folder.path("a.svg")}).out;
+  EXPECT_NE(drawn.find(said), std::string::npos) << drawn;
+}
+
+TEST(Verify, AWrongLengthIsSaidWithTheRightOne) {
+  const Folder folder;
+  const std::string answer = folder.path("a.json");
+  ASSERT_EQ(run({"solve", "maze:5x5", "--json", answer, "--quiet"}).code, 0);
+  std::string text = folder.read("a.json");
+  const std::size_t at = text.find("\"length\":") + 9;
+  const std::string length = text.substr(at, text.find(',', at) - at);
+  text.replace(at, length.size(), " 3.0");
+  const std::string said = run({"verify", "maze:5x5", folder.write("b.json", text)}).out;
+  EXPECT_NE(said.find("refuted, length: the answer says 3, its path has "), std::string::npos) << said;
+  EXPECT_EQ(said.find("asked for"), std::string::npos) << said;
+}
+
 }  // namespace
 }  // namespace warren::test

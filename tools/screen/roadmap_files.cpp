@@ -67,8 +67,9 @@ int draw_roadmap(const Arguments& arguments, const std::string& file, const Pict
   run.conclude(file == "-", {}, [&] {
     const EdgeCounts edges = count_edges(roadmap, run.execution());
     return fmt::format("{}: {}, {}, edges: {} free, {} blocked, {} unchecked\n", run.palette().strong(file),
-                       description_of(roadmap.world.outline()), counted(count_states(roadmap), "state", "states"),
-                       grouped(edges.free), grouped(edges.blocked), grouped(edges.unchecked));
+                       description_of(roadmap.world.whole(run.execution())),
+                       counted(count_states(roadmap), "state", "states"), grouped(edges.free), grouped(edges.blocked),
+                       grouped(edges.unchecked));
   });
   return exit_code::success;
 }

@@ -4,9 +4,13 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <system_error>
+
+#include "core/base/error.hpp"
 
 namespace warren::tools {
 namespace {
@@ -42,6 +46,9 @@ std::size_t terminal_width() {
   return usual;
 }
 
-void print_text(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); }
+void print_text(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size()) return;
+  throw WriteError("standard output", std::generic_category().message(errno));
+}
 
 }  // namespace warren::tools

@@ -25,7 +25,7 @@ ProgressMode resolved(ProgressMode mode);
 /// Columns of the terminal behind standard error: COLUMNS, else what the terminal says, else 80.
 std::size_t terminal_width();
 
-/// Appends to standard output; main tells at the end whether it was all written.
+/// Appends to standard output. Throws WriteError where it takes no more; main tells of what was still on its way.
 void print_text(std::string_view text);
 
 }  // namespace warren::tools

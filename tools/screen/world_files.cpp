@@ -135,8 +135,9 @@ std::vector<std::string> write_world(const Scene& scene, const std::string& file
   return write_picture(file, picture, options, execution);
 }
 
-void note_left_out(const Arguments& arguments, const Scene& scene, const std::string& file) {
-  const std::vector<std::string_view> lost = parts_left_out(scene, file);
+void note_left_out(const Arguments& arguments, const Scene& scene, const std::string& file,
+                   const OccupancyMap* becomes) {
+  const std::vector<std::string_view> lost = parts_left_out(scene, file, becomes);
   if (lost.empty() || arguments.has("--quiet")) return;
   say_on_standard_error(
       fmt::format("warren: note: {}: its format has no {}: left out\n", printable(file), fmt::join(lost, ", ")));

@@ -40,7 +40,8 @@ std::vector<std::string> write_world(const Scene& scene, const std::string& file
 
 /// Says on standard error, unless --quiet is given, what the file's format has no words for: it is not lost without
 /// one.
-void note_left_out(const Arguments& arguments, const Scene& scene, const std::string& file);
+void note_left_out(const Arguments& arguments, const Scene& scene, const std::string& file,
+                   const OccupancyMap* becomes = nullptr);
 
 /// Throws UsageError unless `file` has an ending that write_world knows, WriteError unless it can be written.
 void check_world_file(const std::string& file);

@@ -63,7 +63,7 @@ void write_any(Scene& scene, const std::string& file, const Arguments& arguments
           "warren: note: no cell of the map is free, each touches a wall; a smaller --cell leaves some\n");
     }
     write_map(map, file, execution);
-    note_left_out(arguments, scene, file);
+    note_left_out(arguments, scene, file, &map);
     return;
   }
   add_map_walls(scene, execution);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/stop_reason.hpp"
 #include "scenes/text/input_file_io.hpp"
 #include "serve/api/served_world.hpp"
 #include "serve/api/writable_service.hpp"
@@ -34,6 +35,10 @@ constexpr std::uint16_t usual_port = 8765;
 constexpr OptionSpec serve_specs[] = {
     {"--port", "N", "where to listen; 0 takes a port that is free (default: 8765)"},
     {"--listen", "ADDRESS", "listen there instead of on this machine alone: whoever reaches it may ask"},
+    {.name = "--public-url",
+     .value = "URL",
+     .help = "people reach it at this address, too, of a proxy or under a name: https://NAME/PATH/; may be repeated",
+     .may_repeat = true},
     {"--budget", "TIME", "most time for each request (default: 10s)"},
     {"--writable", "", "whoever reaches it may draw walls and polygons, and everybody sees them; no file is written"},
     {"--token-file", "FILE", "who changes the world must know this file's first line, 16 to 256 letters"},
@@ -63,6 +68,11 @@ serve::HttpPlace place_of(const Arguments& arguments) {
     place.port = static_cast<std::uint16_t>(count_value("--port", *port, 0, last_port));
   }
   if (const auto address = arguments.value("--listen")) place.addresses = {*address};
+  for (const std::string& text : arguments.values("--public-url")) {
+    const auto url = serve::public_url_of(text);
+    if (!url) throw UsageError(fmt::format("--public-url: '{}' is no https://NAME/PATH/ that may lead here", text));
+    place.public_urls.push_back(*url);
+  }
   return place;
 }
 
@@ -112,7 +122,9 @@ int serve(const Arguments& arguments) {
   }
   say_where(server);
   server.run(signal_flag());
-  return signal_flag() == SIGHUP ? exit_code::hung_up : exit_code::success;
+  if (signal_flag() != SIGHUP) return exit_code::success;
+  say_on_standard_error(fmt::format("warren: stopped: {}; nohup keeps it\n", text_of(StopReason::hang_up)));
+  return exit_code::hung_up;
 }
 
 }  // namespace

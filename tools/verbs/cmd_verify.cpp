@@ -49,6 +49,9 @@ void print_verdict(const Verdict& v, std::string_view metres, const Palette& pal
                            human_number(clearance)));
   } else {
     const Violation violation = v.first_violation.value_or(Violation{});
+    if (violation.obstacle.starts_with("length:")) {
+      return print_text(fmt::format("{}, {}\n", palette.bad("refuted"), violation.obstacle));
+    }
     const std::string distance = human_number(violation.distance);
     std::string needed = human_number(clearance + v.problem.robot.radius);
     print_text(fmt::format("{0} at leg {2}: {3}, distance {4}{1}, {5} asked for\n", palette.bad("refuted"), metres,

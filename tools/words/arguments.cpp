@@ -76,7 +76,7 @@ void Arguments::take_option(const Command& command, std::span<const std::string>
   }
   const OptionSpec* option = find_option(command, name);
   if (option == nullptr) refuse_unknown(command, name);
-  if (has(option->name)) throw UsageError(std::string{option->name} + ": given twice");
+  if (has(option->name) && !option->may_repeat) throw UsageError(std::string{option->name} + ": given twice");
   if (option->value.empty() || option->value_optional) {
     if (option->value.empty() && equals != std::string::npos) {
       throw UsageError(std::string{option->name} + ": takes no value");

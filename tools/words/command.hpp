@@ -25,6 +25,7 @@ struct OptionSpec {
   std::string_view short_name = {};  ///< e.g. "-o"
   bool value_optional = false;       ///< the next word is its value only if it is one of the choices
   bool is_list = false;              ///< it takes several, apart by commas
+  bool may_repeat = false;           ///< it may be given several times
   std::string_view group = {};       ///< of help; empty: that of its name in option_groups.hpp
 };
 

@@ -93,5 +93,55 @@ TEST(Micromouse, RefusesWithFileAndLine) {
   }
 }
 
+/// The cells of `small`, the lower row first; 1 is a wall in the north, east, south, west.
+constexpr const char* small_in_numbers =
+    "0 0 0 0 1 1\n1 0 1 0 1 0\n2 0 0 1 1 0\n"
+    "0 1 1 0 0 1\n1 1 1 1 1 0\n2 1 1 1 0 1\n";
+
+TEST(Micromouse, FilesOfNumbersAreTheMazesThatTheyAre) {
+  const TemporaryDirectory directory;
+  const Scene drawn = read_world(directory.write("m.txt", small), {});
+  std::string crlf = small_in_numbers;
+  for (std::size_t at = 0; (at = crlf.find('\n', at)) != std::string::npos; at += 2) crlf.insert(at, "\r");
+  const std::string columns =  // one after the other, as some write them
+      "0 0 0 0 1 1\n0 1 1 0 0 1\n1 0 1 0 1 0\n1 1 1 1 1 0\n2 0 0 1 1 0\n2 1 1 1 0 1";
+  for (const std::string& text : {std::string(small_in_numbers), crlf, columns}) {
+    const Scene scene = read_world(directory.write("m.num", text), {});
+    EXPECT_EQ(scene_hash(scene), scene_hash(drawn));
+    EXPECT_EQ(scene.maze, drawn.maze);
+    EXPECT_EQ(scene.start, (std::vector<double>{1, 1}));
+    EXPECT_EQ(scene.goal, (std::vector<double>{2, 1})) << "of the middle cells the one that is nearer";
+  }
+}
+
+TEST(Micromouse, NumbersThatAreNoMazeAreRefusedAsSuch) {
+  const TemporaryDirectory directory;
+  const std::string good = small_in_numbers;
+  const auto with = [&](const char* from, const char* to) {
+    std::string text = good;
+    return text.replace(text.find(from), std::string(from).size(), to);
+  };
+  const std::pair<std::string, std::string> cases[] = {
+      {with("2 1 1 1 0 1\n", ""), "expected a line X Y N E S W for each of 2 x 3 cells (found: 5 lines)"},
+      {with("2 1 1 1 0 1\n", "0 0 0 0 1 1\n"), "the cell 0 0 is there twice"},
+      {with("2 0 0 1", "2 0 1 1"), ":6: a neighbour says otherwise of the wall in the west or south"},
+      {with("1 1 1 1 1 0", "1 1 1 0 1 0"), ":6: a neighbour says otherwise of the wall in the west or south"},
+      {with("2 0 0 1", "2 0 0 2"), ":3: expected X Y N E S W"},
+      {with("2 0 0 1 1 0", "2 0 0 1 1"), ":3: expected X Y N E S W"},
+      {with("2 0 0 1 1 0", "2 0 0 1 1 0 0"), ":3: expected X Y N E S W and no more"},
+      {with("2 0 0 1", "9999999999 0 0 1"), ":3: expected X Y N E S W"},
+      {with("2 0 0 1", "2147483646 0 0 1"), "for each of 2 x 2147483647 cells"},
+      {"nothing\n", ":1: expected X Y N E S W"}};
+  for (const auto& [text, expected] : cases) {
+    SCOPED_TRACE(expected);
+    try {
+      read_world(directory.write("m.num", text), {});
+      ADD_FAILURE() << "accepted";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(expected), std::string::npos) << error.what();
+    }
+  }
+}
+
 }  // namespace
 }  // namespace warren

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -116,14 +117,63 @@ TEST(RosMap, AlphaIsUnknownForNav2AndOneMoreColourForRos1) {
   EXPECT_EQ(read("mode: scale\n", MapServerRules::ros1), (Counts{3, 3, 0, 0}));
 }
 
-TEST(RosMap, ColoursCountByTheirMeanPalettesToo) {
+TEST(RosMap, ColoursCountByTheirLumaForNav2AndByTheirMeanForRos1PalettesToo) {
   const TemporaryDirectory directory;
   const std::vector<png_color> palette{{255, 255, 255}, {0, 0, 0}, {205, 205, 205}, {255, 255, 100}};
   directory.write("map.pgm", png_bytes({PNG_COLOR_TYPE_PALETTE, 2, true, palette}, 8, 8,
                                        [](unsigned x, unsigned, unsigned) { return x % 4; }));
-  const OccupancyMap map = read_ros_map(InputFile(directory.write("map.yaml", yaml_text()), {}), {});
-  EXPECT_EQ(counts_of(map), (Counts{16, 16, 32, 0}));  // (255 + 255 + 100) / 3 = 203: unknown
-  for (std::uint32_t x = 0; x < 8; ++x) EXPECT_EQ(map.blocked.test(x, 3), x % 4 != 0);
+  const InputFile yaml(directory.write("map.yaml", yaml_text()), {});
+  const OccupancyMap map = read_ros_map(yaml, {});
+  EXPECT_EQ(counts_of(map), (Counts{32, 16, 16, 0}));  // the luma of the last one is 237
+  for (std::uint32_t x = 0; x < 8; ++x) EXPECT_EQ(map.blocked.test(x, 3), x % 4 == 1 || x % 4 == 2);
+  EXPECT_EQ(counts_of(read_ros_map(yaml, {}, MapServerRules::ros1)), (Counts{16, 16, 32, 0}));  // its mean is 203
+}
+
+/// Pixels with the grey that GraphicsMagick 1.3.40 gave them by the calls of Nav2's map_io: type(GrayscaleType), then
+/// write(…, "I", CharPixel, …).
+TEST(RosMap, PixelsOfNav2AreTheGreysOfItsLibrary) {
+  struct Case {
+    int type;
+    int depth;
+    std::array<unsigned, 3> colours;
+    int grey;
+  };
+  const Case cases[] = {
+      {PNG_COLOR_TYPE_RGB, 8, {152, 11, 184}, 72},
+      {PNG_COLOR_TYPE_RGB, 8, {154, 1, 173}, 66},
+      {PNG_COLOR_TYPE_RGB, 8, {192, 4, 231}, 86},
+      {PNG_COLOR_TYPE_RGB, 8, {41, 207, 16}, 135},
+      {PNG_COLOR_TYPE_RGB, 8, {255, 0, 0}, 76},
+      {PNG_COLOR_TYPE_RGB, 8, {205, 205, 205}, 205},
+      {PNG_COLOR_TYPE_RGB, 16, {29076, 12364, 56999}, 87},
+      {PNG_COLOR_TYPE_RGB, 16, {27808, 24364, 20285}, 97},
+      {PNG_COLOR_TYPE_GRAY, 16, {7704}, 29},
+      {PNG_COLOR_TYPE_GRAY, 16, {47027}, 182},
+      {PNG_COLOR_TYPE_GRAY, 16, {53707}, 208},
+      {PNG_COLOR_TYPE_GRAY, 8, {205}, 205},
+  };
+  const TemporaryDirectory directory;
+  for (const Case& c : cases) {
+    SCOPED_TRACE(testing::Message() << c.depth << " " << c.colours[0] << " " << c.grey);
+    directory.write("a.png", png_bytes({c.type, c.depth}, 1, 1,
+                                       [&](unsigned, unsigned, unsigned channel) { return c.colours[channel]; }));
+    const auto is_free_from = [&](double grey) {  // to the occupied fraction below which free is
+      const std::string keys = "image: a.png\nresolution: 1\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 1\n";
+      const std::string yaml = keys + "free_thresh: " + std::to_string(1.0 - grey / 255.0);
+      return read_ros_map(InputFile(directory.write("m.yaml", yaml), {}), {}).free == 1;
+    };
+    EXPECT_TRUE(is_free_from(c.grey - 0.5));
+    EXPECT_FALSE(is_free_from(c.grey + 0.5));
+  }
+}
+
+TEST(RosMap, TheModeMayBeInAnyLetterCase) {
+  const Fixture fixture("P2 6 1 255\n255 205 204 102 51 0\n");
+  for (const char* mode : {"Trinary", "TRINARY", "trinary"}) {
+    EXPECT_EQ(counts_of(fixture.read(yaml_text("mode: " + std::string(mode) + "\n"))), (Counts{1, 2, 3, 0})) << mode;
+  }
+  EXPECT_EQ(counts_of(fixture.read(yaml_text("mode: Scale\n"))), (Counts{2, 2, 0, 2}));
+  EXPECT_EQ(counts_of(fixture.read(yaml_text("mode: Raw\n"))), (Counts{1, 0, 4, 1}));
 }
 
 TEST(RosMap, TheImageIsFoundBesideTheYamlOrByItsAbsolutePath) {

@@ -110,6 +110,48 @@ TEST(ReadImage, ReadsBinaryAndAsciiPgmWithComments) {
   EXPECT_EQ(wide.samples, (std::vector<int>{256, 127}));
 }
 
+struct BmpForm {
+  int coding = 0;
+  std::string palette = {};
+  std::string masks = {};  // of the fourth version of its header
+};
+
+std::string bmp_bytes(int width, int height, int bits, const std::string& rows, const BmpForm& form = {}) {
+  const auto number = [](std::int64_t value, int bytes) {
+    std::string text;
+    for (int i = 0; i < bytes; ++i) text += static_cast<char>(value >> 8 * i & 0xff);
+    return text;
+  };
+  const int head = form.masks.empty() ? 40 : 108;
+  std::string bytes = number(head, 4) + number(width, 4) + number(height, 4) + number(1, 2) + number(bits, 2) +
+                      number(form.coding, 4) + number(0, 12) + number(static_cast<int>(form.palette.size()) / 4, 4) +
+                      number(0, 4) + form.masks;
+  bytes.resize(static_cast<std::size_t>(head));
+  bytes += form.palette;
+  const auto size = static_cast<std::int64_t>(bytes.size() + rows.size() + 14);
+  return "BM" + number(size, 4) + number(0, 4) + number(size - static_cast<std::int64_t>(rows.size()), 4) + bytes +
+         rows;
+}
+
+TEST(ReadImage, ReadsBmpOfEachDepthFromBelowAndFromAbove) {
+  using namespace std::string_literals;
+  const TemporaryDirectory directory;
+  const auto read = [&](const std::string& bytes) { return picture_of(directory.write("a.bmp", bytes)).samples; };
+  using Samples = std::vector<int>;
+  // 24 bits: blue, green, red; rows of whole words, the lowest first
+  EXPECT_EQ(read(bmp_bytes(1, 2, 24, "\1\2\3\0\4\5\6\0"s)), (Samples{6, 5, 4, 3, 2, 1}));
+  EXPECT_EQ(read(bmp_bytes(1, -2, 24, "\1\2\3\0\4\5\6\0"s)), (Samples{3, 2, 1, 6, 5, 4}));
+  const std::string two = "\1\1\1\0\2\2\2\0"s;
+  EXPECT_EQ(read(bmp_bytes(3, 1, 1, "\xa0\0\0\0"s, {.palette = two})), (Samples{2, 2, 2, 1, 1, 1, 2, 2, 2}));
+  EXPECT_EQ(read(bmp_bytes(3, 1, 4, "\x01\x10\0\0"s, {.palette = two})), (Samples{1, 1, 1, 2, 2, 2, 2, 2, 2}));
+  EXPECT_EQ(read(bmp_bytes(2, 1, 8, "\1\0\0\0"s, {.palette = two})), (Samples{2, 2, 2, 1, 1, 1}));
+  EXPECT_EQ(read(bmp_bytes(1, 1, 32, "\1\2\3\4"s)), (Samples{3, 2, 1, 4}));
+  const std::string colours = "\0\0\xff\0\0\xff\0\0\xff\0\0\0"s;  // as Nav2 saves maps of mode scale
+  EXPECT_EQ(read(bmp_bytes(1, 1, 32, "\1\2\3\4"s, {.coding = 3, .masks = colours + "\0\0\0\xff"s})),
+            (Samples{3, 2, 1, 4}));
+  EXPECT_EQ(read(bmp_bytes(1, 1, 32, "\1\2\3\4"s, {.coding = 3, .masks = colours})), (Samples{3, 2, 1}));
+}
+
 TEST(ReadImage, RefusesWhatIsNoWholeImageAndNamesThePlace) {
   const TemporaryDirectory directory;
   const std::string good = png_bytes({}, 20, 20, [](unsigned x, unsigned, unsigned) { return x; });
@@ -129,7 +171,14 @@ TEST(ReadImage, RefusesWhatIsNoWholeImageAndNamesThePlace) {
       {"P5 2 2 90\nAAAz", "expected pixels of at most 90, the maxval, in row 1 (found: 122)"},
       {"P2 2 2 90\n1 2\n3", ":3: expected a pixel, 0 to 90 (found: the end of the file)"},
       {"P2 2 2 90\n1 2\n3 91", ":3: expected a pixel, 0 to 90 (found: 91)"},
-      {"P6 2 2 255\n", "expected a PNG or PGM image"},
+      {"P6 2 2 255\n", "expected a PNG, PGM (magic P5 or P2) or BMP image"},
+      {bmp_bytes(2, 2, 24, std::string(12, 'a')), "expected 2 x 2 pixels, 16 bytes after the header (found: 12 bytes)"},
+      {bmp_bytes(2, 2, 16, std::string(99, 'a')), "expected a BMP of 1, 4, 8, 24 or 32 bits"},
+      {bmp_bytes(4, 1, 8, std::string(4, '\0'), {.coding = 1}), "a pixel that is not compressed"},
+      {bmp_bytes(-2, 2, 24, std::string(99, 'a')), "a map has 1 to 2^32 - 1 cells (found: 0 x 2)"},
+      {bmp_bytes(2, 0, 24, std::string(99, 'a')), "a map has 1 to 2^32 - 1 cells (found: 2 x 0)"},
+      {bmp_bytes(4, 1, 8, "\1\1\2\1", {.palette = std::string(8, 'p')}), "the palette's 2 colours (found: 2)"},
+      {bmp_bytes(4, 1, 8, "\1\1\2\1").substr(0, 50), "expected a BMP"},
   };
   for (const auto& [bytes, expected] : cases) {
     SCOPED_TRACE(expected);

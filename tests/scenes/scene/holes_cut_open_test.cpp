@@ -91,10 +91,80 @@ TEST(PolygonHoles, ThatAreMisplacedAreRefused) {
   EXPECT_TRUE(without_holes(outer, std::vector<Ring>{{{20, 1}, {22, 1}, {22, 3}}}, {}).empty()) << "outside";
   const auto refused = [&](const std::vector<Ring>& holes) { return without_holes(outer, holes, {}).empty(); };
   EXPECT_TRUE(refused({{{8, 1}, {12, 1}, {12, 3}, {8, 3}}})) << "crosses the outline";
-  EXPECT_TRUE(refused({{{8, 1}, {10, 2}, {8, 3}}})) << "touches the outline";
+  EXPECT_TRUE(refused({{{8, 1}, {10, 1}, {10, 3}, {8, 3}}})) << "shares a piece of a side with the outline";
+  EXPECT_TRUE(refused({{{8, 1}, {10, 2}, {12, 1}, {11, 4}}})) << "crosses the outline in a corner of its own";
+  EXPECT_TRUE(refused({{{10, 2}, {12, 1}, {12, 3}}})) << "touches the outline from outside";
+  EXPECT_TRUE(refused({{{10, 10}, {12, 10}, {11, 13}}})) << "touches a corner from outside";
+  EXPECT_TRUE(refused({{{0, 0}, {10, 0}, {10, 10}, {0, 10}}})) << "is the outline";
   EXPECT_TRUE(refused({{{1, 1}, {5, 1}, {5, 5}, {1, 5}}, {{4, 4}, {7, 4}, {7, 7}, {4, 7}}})) << "crosses a hole";
   EXPECT_TRUE(refused({{{1, 1}, {5, 1}, {5, 5}, {1, 5}}, {{2, 2}, {3, 2}, {3, 3}}})) << "lies in a hole";
-  EXPECT_TRUE(refused({{{1, 1}, {3, 1}, {2, 3}}, {{2, 3}, {3, 5}, {1, 5}}})) << "shares a corner with a hole";
+  EXPECT_TRUE(refused({{{1, 1}, {5, 1}, {5, 5}, {1, 5}}, {{1, 1}, {3, 2}, {2, 3}}}))
+      << "lies in a hole that it touches";
+  EXPECT_TRUE(refused({{{1, 1}, {3, 1}, {2, 3}}, {{1, 1}, {3, 1}, {2, 0.5}}})) << "shares a side with a hole";
+}
+
+double blocked_area(const Ring& outer, const std::vector<Ring>& holes) {
+  double sum = 0.0;
+  for (const Ring& piece : without_holes(outer, holes, {})) sum += area(piece);
+  return sum;
+}
+
+TEST(PolygonHoles, MayTouchTheOutlineAndEachOtherAtPoints) {
+  const Ring outer{{0, 0}, {10, 0}, {10, 8}, {0, 8}};
+  EXPECT_EQ(blocked_area(outer, {{{4, 0}, {6, 3}, {3, 3}}}), 75.5);
+  EXPECT_EQ(blocked_area(outer, {{{2, 2}, {5, 4}, {2, 6}}, {{5, 4}, {8, 2}, {8, 6}}}), 68.0);
+  const std::vector<std::vector<Ring>> cases{
+      {{{4, 0}, {6, 3}, {3, 3}}},                                    // a side from above
+      {{{4, 8}, {6, 5}, {3, 5}}},                                    // and from below
+      {{{0, 4}, {3, 3}, {3, 5}}, {{10, 4}, {7, 3}, {7, 5}}},         // upright sides
+      {{{0, 0}, {3, 1}, {1, 3}}, {{10, 8}, {7, 7}, {9, 5}}},         // corners
+      {{{0, 4}, {5, 3}, {10, 4}, {5, 5}}},                           // two sides: two parts are left
+      {{{2, 2}, {5, 4}, {2, 6}}, {{5, 4}, {8, 2}, {8, 6}}},          // a corner of both
+      {{{2, 2}, {5, 2}, {5, 6}, {2, 6}}, {{5, 4}, {8, 2}, {8, 6}}},  // a corner on a side
+      {{{1, 4}, {3, 3}, {3, 5}},
+       {{1, 4}, {3, 1}, {3, 2}},
+       {{1, 4}, {3, 6}, {3, 7}}},  // three by their leftmost corners
+      {{{3, 4}, {1, 3}, {1, 5}}, {{3, 4}, {5, 3}, {5, 5}}, {{3, 4}, {4, 6}, {2, 6}}, {{3, 4}, {4, 1}, {2, 1}}},
+      {{{1, 1}, {9, 1}, {9, 7}, {8, 7}, {8, 2}, {1, 2}}, {{8, 4}, {6, 3}, {6, 5}}, {{4, 2}, {5, 5}, {3, 5}}}};
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    SCOPED_TRACE(i);
+    check_pieces(outer, cases[i], i);
+    for (const bool leans : {false, true}) {  // turned by 90 degrees, and sheared, which is exact
+      const auto moved = [&](Ring ring) {
+        for (Vec2& p : ring) p = leans ? Vec2{p.x + p.y / 4, p.y + p.x / 2} : Vec2{-p.y, p.x};
+        return ring;
+      };
+      std::vector<Ring> holes;
+      for (const Ring& hole : cases[i]) holes.push_back(moved(hole));
+      check_pieces(moved(outer), holes, i);
+    }
+  }
+}
+
+TEST(PolygonHoles, FieldsOfThemThatTouchAreCutIntoPiecesThatCoverThePolygon) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    std::vector<Ring> holes;
+    const double share = 0.3 + 0.7 * uniform(seed, 0, 1);
+    for (std::uint64_t cell = 0; cell < 100; ++cell) {
+      const double x = static_cast<double>(cell % 10);
+      const double y = static_cast<double>(cell / 10);
+      if (uniform(seed, cell, 0) >= share) continue;
+      if (uniform(seed, cell, 2) < 0.3) {  // a triangle in the diamond
+        holes.push_back({{x + 0.5, y}, {x + 1, y + 0.5}, {x, y + 0.5}});
+      } else {
+        holes.push_back({{x + 0.5, y}, {x + 1, y + 0.5}, {x + 0.5, y + 1}, {x, y + 0.5}});
+      }
+    }
+    Ring outer{{0, 0}, {10, 0}, {10, 10}, {0, 10}};
+    if (seed % 2 == 1) {
+      for (Ring& hole : holes) {
+        for (Vec2& p : hole) p = {p.x - p.y / 4, p.y + p.x / 2};
+      }
+      for (Vec2& p : outer) p = {p.x - p.y / 4, p.y + p.x / 2};
+    }
+    check_pieces(outer, holes, seed);
+  }
 }
 
 TEST(PolygonHoles, RingsThatMeetThemselvesAreHandedBackToBeRefused) {

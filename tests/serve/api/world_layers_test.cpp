@@ -44,7 +44,7 @@ Json layer_of(WorldService& service, const std::string& name) {
 }
 
 Json legend_of(WorldService& service, const std::string& name) {
-  return Json::parse(asked(service, {.path = layer_of(service, name).at("legend")}).body);
+  return Json::parse(asked(service, {.path = "/" + layer_of(service, name).at("legend").get<std::string>()}).body);
 }
 
 TEST(WorldLayers, AWorldWithoutARoadmapSaysWhyItHasNone) {
@@ -330,7 +330,7 @@ TEST(WorldLayers, AWorldWithoutAnAxisSaysWhy) {
 TEST(WorldLayers, TheSweepIsAskedOfThePathAndABodyWithoutExtentHasNone) {
   const ServedWorld disc(scene_of(town), {.robot = RobotSpec{.kind = RobotKind::disc, .radius = 1.0}}, {});
   WorldService service(disc, {});
-  EXPECT_EQ(layer_of(service, "sweep").at("of_path"), "/api/path/{id}/sweep");
+  EXPECT_EQ(layer_of(service, "sweep").at("of_path"), "api/path/{id}/sweep");
   EXPECT_EQ(asked(service, {.path = "/v/" + disc.hash() + "/layers/sweep/0/0/0.png"}).status, 400U);
   const ServedWorld point(scene_of(town), {}, {});
   WorldService other(point, {});

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "serve/page/served_files.hpp"
 #include "solve/answer/path_hash.hpp"
 #include "solve/solve.hpp"
 #include "tests/scenes/text/temporary_directory.hpp"
@@ -381,6 +382,20 @@ TEST(WorldService, ThePageIsInTheProgram) {
   EXPECT_EQ(served.get("/index.html").body, page.body);
   EXPECT_EQ(served.asked({.path = "/", .if_none_match = field(page, "ETag")}).status, 304U);
   EXPECT_EQ(served.get("/nothing.js").status, 404U);
+}
+
+TEST(WorldService, AllAddressesOfPageAndInterfaceAreRelativeSoThatItMayLieBelowAnyPath) {
+  for (const char* name : {"index.html", "ask.js", "clearance.js", "controls.js", "draw.js", "graph.js",
+                           "graph_editor.js", "heading.js", "layers.js", "measure.js", "sweep.js", "world.js"}) {
+    const ServedFile* const file = served_file(name);
+    if (file == nullptr) continue;  // without Leaflet
+    for (const char* absolute : {"\"/api", "href=\"/", "src=\"/", "fetch(\"/", "'/"}) {
+      EXPECT_EQ(file->bytes.find(absolute), std::string_view::npos) << name << " " << absolute;
+    }
+  }
+  const std::string said = Served(scene_of(town)).get("/api/world").body;
+  EXPECT_NE(said.find("\"url\":\"v/"), std::string::npos) << said;
+  EXPECT_EQ(said.find("\"/"), std::string::npos) << said;
 }
 
 }  // namespace

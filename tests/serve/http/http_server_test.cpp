@@ -61,6 +61,7 @@ TEST(HttpServer, RefusesWhatIsNoRequest) {
     unsigned status;
   };
   const std::string host = server.host();
+  const std::string own_origin = "Origin: http://127.0.0.1:" + std::to_string(server.server.port()) + "\r\n";
   for (const Case& c :
        {Case{"hello\r\n\r\n", 400},
         Case{"GET / HTTP/9.9\r\n" + host + "\r\n", 400},
@@ -68,6 +69,12 @@ TEST(HttpServer, RefusesWhatIsNoRequest) {
         Case{"GET /quick HTTP/1.1\r\n" + host + host + "\r\n", 400},
         Case{"GET /quick HTTP/1.1\r\nHost: evil.example\r\n\r\n", 403},
         Case{"POST /echo HTTP/1.1\r\n" + host + "Origin: http://evil.example\r\nContent-Length: 0\r\n\r\n", 403},
+        Case{"POST /echo HTTP/1.1\r\n" + host + own_origin + "Origin: http://evil.example\r\nContent-Length: 0\r\n\r\n",
+             400},
+        Case{"GET http://evil.example/quick HTTP/1.1\r\n" + host + "\r\n", 403},
+        Case{"GET /quick HTTP/1.1\r\n" + host + "X: a\r\n b\r\n\r\n", 400},
+        Case{"GET /quick HTTP/1.1\r\n" + host + "X:\r\n\tb\r\n\r\n", 400},
+        Case{"GET /quick HTTP/1.1\r\n" + host + "X: \r\n \r\n\r\n", 400},
         Case{"DELETE /quick HTTP/1.1\r\n" + host + "\r\n", 405},
         Case{"BREW /quick HTTP/1.1\r\n" + host + "\r\n", 405},
         Case{"GET /nothing HTTP/1.1\r\n" + host + "\r\n", 404},
@@ -92,6 +99,13 @@ TEST(HttpServer, RefusesWhatIsNoRequest) {
     EXPECT_EQ(status_of(answer), c.status) << answer;
     EXPECT_NE(answer.find("{\"error\":{\"code\":\""), std::string::npos) << answer;
   }
+}
+
+TEST(HttpServer, AnAddressOfItsOwnIsATarget) {
+  const RunningServer server({});
+  const std::string address = server.server.address();
+  EXPECT_EQ(status_of(server.asked(server.get(address + "quick", "X:  a \r\nY:\r\n"))), 200U);
+  EXPECT_EQ(status_of(server.asked("GET " + address + "quick HTTP/1.1\r\nHost: elsewhere\r\n\r\n")), 200U);
 }
 
 TEST(HttpServer, AChunkedBodyIsOne) {
