@@ -8,6 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "tests/roadmaps/graph/owned_parts.hpp"
+#include "tests/seeds.hpp"
 
 namespace warren {
 namespace {
@@ -33,7 +34,7 @@ TEST(CheckParts, TakesWhatIsSound) {
   EXPECT_EQ(refusal(six(true).parts()), "");
   EXPECT_EQ(refusal(parts_of(0, {}, false).parts()), "");
   EXPECT_EQ(refusal(parts_of(3, {}, false).parts()), "");
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+  for (const std::uint64_t seed : test::seeds(20, 5, 0)) {
     for (const bool directed : {false, true}) {
       const OwnedParts owned = test::random_parts(seed, 17'000, 30'000, directed);
       for (const unsigned threads : {1U, 3U}) EXPECT_EQ(refusal(owned.parts(), threads), "") << seed;

@@ -14,6 +14,7 @@
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
 #include "tests/scenes/mazes/mazes.hpp"
+#include "tests/seeds.hpp"
 
 namespace warren {
 namespace {
@@ -89,7 +90,7 @@ std::set<std::tuple<double, double, double, double>> unit_pieces(const WallSet& 
 }
 
 TEST(MazeWalls, MergedWallsCoverTheSameAndJoinNoFurther) {
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+  for (const std::uint64_t seed : test::seeds(20, 5, 0)) {
     SCOPED_TRACE(seed);
     const std::uint32_t rows = seed < 3 ? 300 : 40;  // 300 x 270 cells are two chunks
     const MazeCells cells = maze(rows, 270, seed, all_algorithms[seed % 4], seed % 2 == 0 ? 0.0 : 0.3);

@@ -13,6 +13,7 @@
 
 #include "core/base/error.hpp"
 #include "tests/scenes/mazes/mazes.hpp"
+#include "tests/seeds.hpp"
 
 namespace warren {
 namespace {
@@ -109,7 +110,7 @@ constexpr std::pair<std::uint32_t, std::uint32_t> shapes[] = {{1, 1},   {1, 40},
 
 TEST(SpanningMaze, TilesOfAnySideAreKruskalsMazeEdgeForEdge) {
   for (const auto& [rows, cols] : shapes) {
-    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    for (const std::uint64_t seed : test::seeds(20, 5, 0)) {
       const std::string expected = kruskal(rows, cols, seed);
       for (unsigned side_log2 = 0; side_log2 <= 8; ++side_log2) {
         SCOPED_TRACE(std::to_string(rows) + "x" + std::to_string(cols) + " seed " + std::to_string(seed) + " side 2^" +
