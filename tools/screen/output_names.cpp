@@ -5,8 +5,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cctype>
 #include <cerrno>
 #include <limits>
+#include <set>
 #include <system_error>
 
 #include "core/base/error.hpp"
@@ -21,6 +23,27 @@ namespace {
 
 [[noreturn]] void fail(const std::string& path, int error) {
   throw WriteError(path, std::generic_category().message(error));
+}
+
+/// "-runs-solved" of "runs solved"
+std::string file_words(std::string_view title) {
+  std::string words;
+  for (const char c : title) {
+    const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) != 0;
+    if (is_plain || !words.ends_with('-')) words += is_plain ? c : '-';
+  }
+  return '-' + words.substr(0, words.find_last_not_of('-') + 1);
+}
+
+/// "k-length.pdf" of "k.pdf" and "maze:5x7: length"; where there is one already, of the whole title, or with a number.
+std::string figure_file(const std::string& file, const std::string& title, std::set<std::string>& taken) {
+  const std::string ending = ending_of(file);
+  const std::string stem = file.substr(0, file.size() - ending.size());
+  const std::size_t colon = title.rfind(": ");
+  std::string words = file_words(colon == std::string::npos ? title : title.substr(colon + 2));
+  if (taken.contains(words)) words = file_words(title);
+  for (std::size_t n = 2; !taken.insert(words).second; ++n) words = fmt::format("{}-{}", file_words(title), n);
+  return stem + words + ending;
 }
 
 }  // namespace
@@ -80,19 +103,31 @@ void write_report(const Arguments& arguments, std::string_view option, const std
 }
 
 void check_plots(const Arguments& arguments) {
-  const std::string file = arguments.value("--svg").value_or("");
-  check_picture_ending("--svg", file, plot_endings);
-  check_picture("--svg", file);
+  for (const std::string_view option : {"--picture", "--figures"}) {
+    const std::string file = arguments.value(option).value_or("");
+    check_picture_ending(option, file, plot_endings);
+    check_picture(option, file);
+  }
+  if (arguments.has("--figures") && ending_of(*arguments.value("--figures")).empty()) {
+    throw UsageError("--figures: expected a name that ends in .svg, .png or .pdf, such as k.pdf for k-length.pdf");
+  }
 }
 
 void write_plots(const Arguments& arguments, const Execution& execution, bool was_stopped,
                  const std::function<PlotsPage()>& plots) {
-  const auto file = arguments.value("--svg");
-  if (!file) return;
+  const auto file = arguments.value("--picture");
+  const auto figures = arguments.value("--figures");
+  if (!file && !figures) return;
   const Deadline memory_alone(std::numeric_limits<double>::infinity(), execution.deadline->memory_bytes());
   Execution within = execution;
   if (was_stopped) within.deadline = &memory_alone;
-  plots().write(*file, arguments.command_line(), within);
+  const PlotsPage page = plots();
+  if (file) page.write(*file, arguments.command_line(), within);
+  std::set<std::string> names;
+  for (std::size_t i = 0; figures && i < page.sheets.size(); ++i) {
+    PlotsPage{{page.sheets[i]}}.write(figure_file(*figures, page.sheets[i].title(), names), arguments.command_line(),
+                                      within);
+  }
 }
 
 }  // namespace warren::tools

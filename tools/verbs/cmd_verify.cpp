@@ -49,6 +49,11 @@ void print_verdict(const Verdict& v, std::string_view metres, const Palette& pal
                            human_number(clearance)));
   } else {
     const Violation violation = v.first_violation.value_or(Violation{});
+    constexpr std::string_view claim = "length: ";  // what the answer claims, not the path, is refuted
+    if (violation.obstacle.starts_with(claim)) {
+      return print_text(fmt::format("{}: {} for the length, its path has {}{}\n", palette.bad("refuted"),
+                                    violation.obstacle.substr(claim.size()), human_number(v.length), metres));
+    }
     const std::string distance = human_number(violation.distance);
     std::string needed = human_number(clearance + v.problem.robot.radius);
     print_text(fmt::format("{0} at leg {2}: {3}, distance {4}{1}, {5} asked for\n", palette.bad("refuted"), metres,
