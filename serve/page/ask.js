@@ -72,7 +72,7 @@ async function askWhy(asked) {
   if (of !== answer.json || !json.explained) return;
   const gap = json.components, lines = [];
   if (gap) lines.push("The gap between what start and goal reach is " + shown(gap.nearest_gap) + unit + " wide.");
-  for (const hint of json.explained.hints) lines.push("What might help: " + hint.why + (hint.options.length ? " (" + hint.options.join(" ") + ")" : "") + ".");
+  for (const hint of json.explained.hints) lines.push(hint.options.length ? "On the command line " + hint.options.join(" ") + " might help: " + hint.why + "." : "What might help: " + hint.why + ".");
   tellWhy(lines);
 }
 function take(reply, text, passed, asked) {

@@ -22,7 +22,7 @@ function asTime(ms) {
   return (time < 99.95 ? time.toPrecision(3) : grouped(time.toFixed(0))) + unit;
 }
 
-const timeWords = {queue: "waiting for its turn", work: "all work on it", "there and back": "until the browser had it"};
+const timeWords = {queue: "waiting", work: "work in all", "there and back": "with the network"};
 function showAnswer(json, times) {
   showSearch();
   const rows = [];

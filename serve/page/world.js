@@ -71,13 +71,13 @@ function ticksBetween(low, high, pixels) {
 }
 function drawAxes(axes) {
   const size = map.getSize(), low = placeOf(map.containerPointToLatLng([0, size.y])), high = placeOf(map.containerPointToLatLng([size.x, 0]));
-  const mark = (axis, edge, pixel, words) => {
+  const marks = (axis, edge, ticks, pixelOf, least) => ticks.map(([at, words]) => [pixelOf(at), words]).filter(([pixel]) => pixel > least).map(([pixel, words]) => {
     const tick = Object.assign(document.createElement("span"), {className: axis, textContent: words});
     tick.style[edge] = pixel + "px";
     return tick;
-  };
-  const x = ticksBetween(low.x, high.x, size.x).map(([at, words]) => mark("x", "left", map.latLngToContainerPoint([low.y, at]).x, words));
-  const y = ticksBetween(low.y, high.y, size.y).map(([at, words]) => mark("y", "top", map.latLngToContainerPoint([at, low.x]).y, words));
+  });
+  const x = marks("x", "left", ticksBetween(low.x, high.x, size.x), at => map.latLngToContainerPoint([low.y, at]).x, 24);
+  const y = marks("y", "top", ticksBetween(low.y, high.y, size.y), at => map.latLngToContainerPoint([at, low.x]).y, 84);  // below the buttons
   axes.replaceChildren(...x, ...y);
 }
 function addAxes() {

@@ -195,7 +195,7 @@ TEST(Compare, APageHasTheTablesOfTheSummaryAndThePlots) {
   const ProgramRun run = run_program("compare maze:5x5 --planners prm,lazy-prm --seeds 2 --html - --quiet");
   EXPECT_TRUE(run.out.starts_with("<!DOCTYPE html>"));
   for (const char* part :
-       {"<td class=\"word\">lazy-prm", "<button>length q1</button>", "maze:5x5</title>", "</html>\n"}) {
+       {"<td class=\"word\">lazy-prm", "<button>length q1</button>", "maze:5x5: solved</title>", "</html>\n"}) {
     EXPECT_NE(run.out.find(part), std::string::npos) << part;
   }
 }

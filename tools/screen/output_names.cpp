@@ -8,6 +8,7 @@
 #include <cctype>
 #include <cerrno>
 #include <limits>
+#include <map>
 #include <set>
 #include <system_error>
 
@@ -30,20 +31,27 @@ std::string file_words(std::string_view title) {
   std::string words;
   for (const char c : title) {
     const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) != 0;
-    if (is_plain || !words.ends_with('-')) words += is_plain ? c : '-';
+    if (is_plain || !(words.empty() || words.ends_with('-'))) words += is_plain ? c : '-';
   }
   return '-' + words.substr(0, words.find_last_not_of('-') + 1);
 }
 
-/// "k-length.pdf" of "k.pdf" and "maze:5x7: length"; where there is one already, of the whole title, or with a number.
-std::string figure_file(const std::string& file, const std::string& title, std::set<std::string>& taken) {
+/// "k-length.pdf" of "k.pdf" and "maze:5x7: length"; where several titles end so, of whole titles, then with a number.
+std::vector<std::string> figure_files(const std::string& file, const std::vector<PlotSheet>& sheets) {
   const std::string ending = ending_of(file);
-  const std::string stem = file.substr(0, file.size() - ending.size());
-  const std::size_t colon = title.rfind(": ");
-  std::string words = file_words(colon == std::string::npos ? title : title.substr(colon + 2));
-  if (taken.contains(words)) words = file_words(title);
-  for (std::size_t n = 2; !taken.insert(words).second; ++n) words = fmt::format("{}-{}", file_words(title), n);
-  return stem + words + ending;
+  std::map<std::string, std::size_t> count;
+  const auto end_of = [](const std::string& title) { return file_words(title.substr(title.rfind(": ") + 1)); };
+  for (const PlotSheet& sheet : sheets) ++count[end_of(sheet.title())];
+  std::set<std::string> names;
+  std::vector<std::string> files;
+  for (const PlotSheet& sheet : sheets) {
+    const bool is_alone = count[end_of(sheet.title())] == 1;
+    const std::string words = is_alone ? end_of(sheet.title()) : file_words(sheet.title());
+    std::string name = words;
+    for (std::size_t n = 2; !names.insert(name).second; ++n) name = fmt::format("{}-{}", words, n);
+    files.push_back(file.substr(0, file.size() - ending.size()) + name + ending);
+  }
+  return files;
 }
 
 }  // namespace
@@ -123,10 +131,10 @@ void write_plots(const Arguments& arguments, const Execution& execution, bool wa
   if (was_stopped) within.deadline = &memory_alone;
   const PlotsPage page = plots();
   if (file) page.write(*file, arguments.command_line(), within);
-  std::set<std::string> names;
-  for (std::size_t i = 0; figures && i < page.sheets.size(); ++i) {
-    PlotsPage{{page.sheets[i]}}.write(figure_file(*figures, page.sheets[i].title(), names), arguments.command_line(),
-                                      within);
+  if (!figures) return;
+  const std::vector<std::string> files = figure_files(*figures, page.sheets);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    PlotsPage{{page.sheets[i]}}.write(files[i], arguments.command_line(), within);
   }
 }
 
