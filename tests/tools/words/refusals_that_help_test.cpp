@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is said where something does not fit: what, where, how much, and what would do.
+#include <fmt/format.h>
+
 #include "tests/tools/grid_worlds.hpp"
 #include "tests/tools/process.hpp"
 #include "tools/screen/progress_bar.hpp"
@@ -29,6 +31,15 @@ TEST(RefusalsThatHelp, TooNarrowIsToldWithTheRoomAndThePlaceInFewDigits) {
   EXPECT_EQ(blocked["needed"], 0.3);
   expect_said(said({"solve", world, "--start", "12,1"}),
               {"outside of the bounds 0 0 10 4", "nearest free  (9.999, 1), 2.001 away"});
+}
+
+TEST(RefusalsThatHelp, AWrongLengthIsToldBesideThatOfThePath) {
+  const Folder folder;
+  Json answer = answered({"solve", "maze:5x5"});
+  const double length = answer["length"];
+  answer["length"] = length + 1.0;
+  expect_said(said({"verify", "maze:5x5", folder.write("a.json", answer.dump())}),
+              {fmt::format("refuted: the answer says {} for the length, its path has {}\n", length + 1.0, length)});
 }
 
 TEST(RefusalsThatHelp, ArmsAreToldTheirLimitsInDegreesAndTheirReach) {
