@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <numbers>
@@ -70,8 +71,8 @@ void add_blocked(std::string& text, const Answer& answer, const BlockedEnd& bloc
   if (blocked.depth) line(text, palette, "depth", fmt::format("{:.3g}{} in it", *blocked.depth, metres));
   if (!blocked.free_place.empty()) {
     const std::string_view unit = blocked.free_place.size() == 6 ? " rad" : metres;
-    line(text, palette, "free is",
-         fmt::format("{}, {}{} away", fmt::join(blocked.free_place, ","), human_number(blocked.distance), unit));
+    line(text, palette, "nearest free",
+         fmt::format("({}), {}{} away", fmt::join(blocked.free_place, ", "), human_number(blocked.distance), unit));
   }
   if (!blocked.hint.empty()) line(text, palette, "hint", printable(blocked.hint));
 }
@@ -120,6 +121,21 @@ void add_path(std::string& text, const Answer& answer, const Palette& palette) {
                    length_text(answer, answer.problem.clearance)));
 }
 
+/// Of --sampled-edges: how many are wrong, and what the proof took.
+void add_wrong_edges(std::string& text, const Answer& answer, const Palette& palette) {
+  const Figure* edges = figure_named(answer.figures, "wrong_edges");
+  const Figure* proof_s = figure_named(answer.figures, "proof_s");
+  if (edges == nullptr || proof_s == nullptr) return;
+  const auto& wrong = std::get<std::vector<WrongEdge>>(*edges);
+  double deepest = 0.0;
+  for (const WrongEdge& edge : wrong) deepest = std::max(deepest, edge.depth);
+  std::string what =
+      fmt::format("{} of {}", wrong.empty() ? "none" : grouped(wrong.size()), grouped(answer.roadmap.edges));
+  if (!wrong.empty()) what += fmt::format(" pass through polygons, the deepest by {}", length_text(answer, deepest));
+  line(text, palette, "wrong edges",
+       fmt::format("{}; proved in {}, beside the solving", what, human_seconds(std::get<double>(*proof_s))));
+}
+
 void add_roadmap(std::string& text, const Answer& answer, const Palette& palette) {
   if (answer.cells) {
     line(text, palette, "cells",
@@ -131,6 +147,7 @@ void add_roadmap(std::string& text, const Answer& answer, const Palette& palette
                                  counted(answer.roadmap.edges, "edge", "edges"));
   if (answer.roadmap.components > 0) what += ", " + counted(answer.roadmap.components, "component", "components");
   line(text, palette, "roadmap", what);
+  add_wrong_edges(text, answer, palette);
   line(text, palette, "work",
        fmt::format("{} checked, {} expanded, {}", counted(answer.counters.edges_checked, "edge", "edges"),
                    grouped(answer.counters.expanded), counted(answer.counters.rounds, "round", "rounds")));
@@ -165,6 +182,8 @@ std::string summary_of(const Answer& answer, const Palette& palette, std::span<c
   add_strange_headings(text, answer.problem, palette);
   if (answer.blocked) add_blocked(text, answer, *answer.blocked, palette);
   if (answer.verified) add_path(text, answer, palette);
+  if (answer.refuted)
+    line(text, palette, "length", length_text(answer, answer.refuted->length) + ", of the refuted path");
   add_roadmap(text, answer, palette);
   add_times(text, answer, palette);
   for (const std::string& file : files_written) line(text, palette, "wrote", printable(file));

@@ -38,7 +38,7 @@ std::string keyword_of(std::string_view option) { return with_keywords(std::stri
   for (const tools::OptionSpec& spec : command.options) known.push_back(keyword_of(spec.name));
   const std::vector<std::string_view> names(known.begin(), known.end());
   throw py::type_error(fmt::format("{}() got an unexpected keyword argument '{}'{}", command.name, keyword,
-                                   tools::suggestion(keyword, names)));
+                                   with_keywords(tools::suggestion(keyword, names))));
 }
 
 std::string number_word(double number) { return fmt::format("{}", number); }
@@ -106,9 +106,8 @@ tools::Arguments arguments_of(const tools::Command& command, const py::dict& key
     if (value.is_none()) continue;
     const auto keyword = name.cast<std::string>();
     const std::string option = option_of(keyword);
-    const auto spec = std::find_if(command.options.begin(), command.options.end(),
-                                   [&](const tools::OptionSpec& known) { return known.name == option; });
-    if (spec == command.options.end()) refuse_keyword(command, keyword);
+    const tools::OptionSpec* spec = tools::option_named(command, option);
+    if (spec == nullptr) refuse_keyword(command, keyword);
     if (spec->value.empty() || spec->value_optional) {
       if (!value.is(py::bool_(false))) add_flag(*spec, keyword, value, words);
     } else {

@@ -26,7 +26,7 @@ namespace {
 int run_command(const Command& command, std::span<const std::string> words) {
   const Arguments arguments(command, words);
   if (arguments.wants_help()) {
-    print_text(command_help(command, terminal_width()));
+    print_text(command_help(command, terminal_width(), arguments.wants_all_help()));
     return exit_code::success;
   }
   check_outputs(arguments);

@@ -150,6 +150,21 @@ std::string fitting_text(const std::string& text, double size, double width) {
   return short_text + "...";
 }
 
+std::string fitting_ends(const std::string& text, double size, double width) {
+  const auto inside = [&](std::size_t at) {
+    return at < text.size() && (static_cast<unsigned char>(text[at]) >> 6) == 2;
+  };
+  for (std::size_t kept = text.size(); kept > 0; --kept) {
+    std::size_t begin = (kept + 1) / 2;
+    std::size_t end = text.size() - kept / 2;
+    while (inside(begin)) --begin;  // no letter is cut
+    while (inside(end)) ++end;
+    std::string ends = kept == text.size() ? text : text.substr(0, begin) + "..." + text.substr(end);
+    if (text_width(ends, size) <= width) return ends;
+  }
+  return "...";
+}
+
 std::vector<std::string> wrapped_text(const std::string& text, double size, double width) {
   if (text.empty()) return {};
   std::vector<std::string> lines(1);

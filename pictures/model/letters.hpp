@@ -22,6 +22,9 @@ PolygonSet text_outlines(std::string_view text, double size);
 /// The line cut to what fits, with "..." where something is left out.
 std::string fitting_text(const std::string& text, double size, double width);
 
+/// The same, with "..." in its middle.
+std::string fitting_ends(const std::string& text, double size, double width);
+
 /// The text in as few lines as fit, cut behind commas and semicolons, and at other blanks only between two of those
 /// that are further apart than a line.
 std::vector<std::string> wrapped_text(const std::string& text, double size, double width);

@@ -37,6 +37,7 @@ class BoxDrawing {
   Box frame_between_words() const;
   PlotAxis axis() const;
   void row(std::size_t i);
+  void name(const std::string& text, double y);
   void box(const PlottedBox& box, double y, Rgb color);
   void outliers(const std::vector<double>& values, double y, Rgb color);
   double place(double value) const { return frame_.min.x + axis_.at(value) * frame_.width(); }
@@ -74,9 +75,22 @@ PlotAxis BoxDrawing::axis() const {
 void BoxDrawing::row(std::size_t i) {
   const PlottedBox& one = plot_.boxes[i];
   const double y = frame_.min.y + (static_cast<double>(i) + 0.5) * row_height();
-  sheet_.label({frame_.min.x - 8.0, y + 4.0}, Anchor::end, fitting_text(one.name, plot_text_size, most_name));
+  name(one.name, y);
   sheet_.label({frame_.max.x + 10.0, y + 4.0}, Anchor::start, one.remark);
   if (one.figures) box(one, y, series_color(i));
+}
+
+/// In two lines where it needs them and the row has them, else without its middle: names often differ at their ends.
+void BoxDrawing::name(const std::string& text, double y) {
+  constexpr double line_height = 14.0;
+  std::vector<std::string> lines = wrapped_text(text, plot_text_size, most_name);
+  const bool has_room = static_cast<double>(lines.size()) * line_height <= row_height();
+  const bool is_cut = std::any_of(lines.begin(), lines.end(), [](const auto& line) { return line.ends_with("..."); });
+  if (lines.size() > 2 || !has_room || is_cut) lines = {fitting_ends(text, plot_text_size, most_name)};
+  const double first = y + 4.0 - 0.5 * line_height * static_cast<double>(lines.size() - 1);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    sheet_.label({frame_.min.x - 8.0, first + line_height * static_cast<double>(i)}, Anchor::end, lines[i]);
+  }
 }
 
 void BoxDrawing::box(const PlottedBox& box, double y, Rgb color) {

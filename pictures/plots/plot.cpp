@@ -42,7 +42,8 @@ class PlotDrawing {
   void level();
   void series(std::size_t i);
   void legend();
-  static Pen line_of(std::size_t i) { return {.stroke = series_color(i), .width = 1.8}; }
+  Rgb color_of(std::size_t i) const { return series_color(plot_.series[i].color.value_or(i)); }
+  Pen line_of(std::size_t i) const { return {.stroke = color_of(i), .width = 1.8}; }
   bool shows(Vec2 p) const { return x_.shows(p.x) && y_.shows(p.y); }
   double place_x(double value) const { return frame_.min.x + x_.at(value) * frame_.width(); }
   double place_y(double value) const { return frame_.max.y - y_.at(value) * frame_.height(); }
@@ -116,13 +117,12 @@ void PlotDrawing::series(std::size_t i) {
         fmt::format("{}: {} {}, {} {}", series.name, short_text(p.x), plot_.x_label, short_text(p.y), plot_.y_label));
     if (k >= series.spans.size()) continue;
     sheet_.line({{places.back().x, place_y(series.spans[k].x)}, {places.back().x, place_y(series.spans[k].y)}},
-                {.stroke = series_color(i)});
+                {.stroke = color_of(i)});
   }
   if (places.empty()) return;
   if (series.joined) sheet_.line(places, line_of(i), series.dashed ? dashed_line : Vec2{});
   if (series.dashed) return;
-  for (std::size_t k = 0; k < places.size(); ++k)
-    sheet_.disc(places[k], mark_radius, {.fill = series_color(i)}, tips[k]);
+  for (std::size_t k = 0; k < places.size(); ++k) sheet_.disc(places[k], mark_radius, {.fill = color_of(i)}, tips[k]);
 }
 
 void PlotDrawing::legend() {
@@ -132,7 +132,7 @@ void PlotDrawing::legend() {
   for (std::size_t i = 0; i < plot_.series.size(); ++i, y += 20.0) {
     const PlotSeries& series = plot_.series[i];
     if (series.joined) sheet_.line({{left, y}, {left + 22.0, y}}, line_of(i), series.dashed ? dashed_line : Vec2{});
-    if (!series.dashed) sheet_.disc({left + 11.0, y}, mark_radius, {.fill = series_color(i)});
+    if (!series.dashed) sheet_.disc({left + 11.0, y}, mark_radius, {.fill = color_of(i)});
     sheet_.label({at, y + 4.0}, Anchor::start,
                  fitting_text(series.name, plot_text_size, plot_size.x - at - margin_of_name));
   }

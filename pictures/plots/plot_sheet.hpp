@@ -56,6 +56,7 @@ class PlotSheet {
         PlotShape{.kind = PlotShape::Kind::disc, .points = {at}, .pen = pen, .radius = radius, .tip = std::move(tip)});
   }
 
+  const std::string& title() const { return title_; }
   /// One element with its namespace; it needs nothing but what is in it.
   std::string svg() const;
   /// With the upper left corner at a point of the page. Throws Stopped.

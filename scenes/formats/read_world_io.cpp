@@ -26,6 +26,7 @@ namespace warren {
 namespace {
 
 constexpr std::string_view maze_prefix = "maze:";
+constexpr std::string_view empty_prefix = "empty:";
 constexpr std::string_view maze_usage = "maze:ROWSxCOLS[,seed=N][,algorithm=NAME][,loops=F]";
 
 /// Does one of the first lines name an image, as the map server's YAML does?
@@ -144,6 +145,8 @@ WorldFormat format_of(const InputFile& file) {
 
 bool is_maze_source(std::string_view source) { return source.starts_with(maze_prefix); }
 
+bool is_made_source(std::string_view source) { return is_maze_source(source) || source.starts_with(empty_prefix); }
+
 MazeOptions parse_maze_source(std::string_view source) { return MazeSource(source).parse(); }
 
 namespace {
@@ -155,6 +158,22 @@ Scene scene_of(OccupancyMap map) {
   if (map.start) scene.start = {map.start->x, map.start->y};
   if (map.goal) scene.goal = {map.goal->x, map.goal->y};
   scene.map = std::move(map);
+  return scene;
+}
+
+/// Bounds from 0, 0 and nothing in them.
+Scene empty_world(std::string_view source) {
+  std::string_view height = source.substr(empty_prefix.size());
+  const std::string_view width = cut(height, 'x');
+  const auto side = [&](std::string_view text) {
+    double value = 0.0;
+    const auto [last, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool is_side = error == std::errc() && last == text.data() + text.size();
+    if (is_side && value >= 1e-6 && value <= 1e9) return value;
+    throw UsageError(fmt::format("{}: expected empty:WIDTHxHEIGHT, each from 1e-6 to 1e9", source));
+  };
+  Scene scene;
+  scene.bounds = Box{{0.0, 0.0}, {side(width), side(height)}};
   return scene;
 }
 
@@ -196,8 +215,8 @@ Scene read_scene(const InputFile& file, const Execution& execution, MapServerRul
 }
 
 Scene read_world(const std::string& source, const Execution& execution, MapServerRules rules) {
-  if (!is_maze_source(source)) return read_scene(InputFile(source, execution), execution, rules);
-  Scene scene = maze_scene(parse_maze_source(source), false, execution);
+  if (!is_made_source(source)) return read_scene(InputFile(source, execution), execution, rules);
+  Scene scene = is_maze_source(source) ? maze_scene(parse_maze_source(source), false, execution) : empty_world(source);
   scene.source = source;
   return scene;
 }

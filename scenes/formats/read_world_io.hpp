@@ -35,6 +35,8 @@ WorldFormat format_of(const InputFile& file);
 
 /// Does this name a maze to be generated rather than a file?
 bool is_maze_source(std::string_view source);
+/// Does it name a world that is made here, a maze or empty:WIDTHxHEIGHT?
+bool is_made_source(std::string_view source);
 /// Throws UsageError for whatever is not maze:ROWSxCOLS[,seed=N][,algorithm=NAME][,loops=F].
 MazeOptions parse_maze_source(std::string_view source);
 

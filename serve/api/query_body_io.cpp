@@ -53,6 +53,8 @@ void take(const std::string& key, const OrderedJson& value, QueryBody& body) {
     body.question.goal = state_of(value, "goal");
   } else if (key == "optimise") {
     body.question.optimise = flag_of(value, "optimise");
+  } else if (key == "explain") {
+    body.question.explains = flag_of(value, "explain");
   } else if (key == "path") {
     body.tells_path = flag_of(value, "path");
   } else if (key == "planner") {
@@ -60,7 +62,7 @@ void take(const std::string& key, const OrderedJson& value, QueryBody& body) {
   } else if (key == "budget_ms") {
     body.question.budget_s = budget_of(value);
   } else {
-    refuse("body", "the keys start, goal, optimise, planner, budget_ms, path");
+    refuse("body", "the keys start, goal, optimise, planner, budget_ms, explain, path");
   }
 }
 

@@ -10,6 +10,7 @@
 #include "solve/roadmaps/walls_let_go.hpp"
 #include "solve/solve.hpp"
 #include "solve/steps/blocked_end.hpp"
+#include "solve/steps/explain_answer.hpp"
 
 namespace warren::serve {
 namespace {
@@ -128,6 +129,8 @@ void ServedWorld::prepare(const Execution& execution) const {
 
 Answer ServedWorld::ask(const ServedQuestion& question, const Execution& execution,
                         std::function<void(const Answer&)> beside_judge) const {
+  ByProducts made;
+  ByProducts* const keep = question.explains ? &made : nullptr;
   if (query_) {
     if (question.planner && *question.planner != roadmap_->options.planner) {
       throw UsageError("@planner: the roadmap was built with its own");
@@ -135,16 +138,24 @@ Answer ServedWorld::ask(const ServedQuestion& question, const Execution& executi
     QuestionScratch scratch;
     scratch.beside_judge = std::move(beside_judge);
     const RoadmapSearchFields how{.optimise = question.optimise};
-    Answer answer = query_->ask_within(question.start, question.goal, how, execution, scratch);
+    Answer answer = query_->ask_within(question.start, question.goal, how, execution, scratch, keep);
     explain_blocked_end(*roadmap_, answer, execution);
+    const AskedWith with{.options = roadmap_->options, .samples = roadmap_->samples, .is_kept = true};
+    const auto explain = [&] { explain_answer(whole(execution), with, answer, made, execution); };
+    if (keep != nullptr && roadmap_->lattice == nullptr) explain_in_time(answer, explain);
     return answer;
   }
   Question asked = body_;
   asked.start = question.start;
   asked.goal = question.goal;
   const SolveOptions options{.planner = question.planner, .optimise = question.optimise};
-  Answer answer = solve_within(*scene_, asked, options, execution);
+  Answer answer = solve_within(*scene_, asked, options, execution, keep);
   explain_blocked_end(*scene_, answer, execution);
+  const auto explain = [&] {
+    make_by_products(*scene_, asked, options, execution, made);
+    explain_answer(*scene_, {options}, answer, made, execution);
+  };
+  if (keep != nullptr && answer.outcome != Outcome::stopped) explain_in_time(answer, explain);
   return answer;
 }
 

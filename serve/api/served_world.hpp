@@ -32,6 +32,7 @@ struct ServedQuestion {
   bool optimise = false;                    ///< pull the path taut
   std::optional<PlannerKind> planner = {};  ///< none: the usual one; of a roadmap its own alone
   std::optional<double> budget_s = {};      ///< none: the service's
+  bool explains = false;  ///< say what would help, too; of the lattices of large mazes nothing is said
 };
 
 /// Any number of threads may ask.

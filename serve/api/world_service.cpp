@@ -41,6 +41,16 @@ std::size_t sample_count(const HttpRequest& request) {
   throw HttpError(400, "bad_request", "query", "samples: expected a whole number, 2 to 2000");
 }
 
+/// What is drawn of a body: corners, or the radius of one that has none.
+void add_outline(JsonObject& json, const RobotSpec& robot) {
+  std::string outline;
+  for (const Vec2 corner : robot.outline) {
+    outline += (outline.empty() ? "" : ",") + json_list(std::span<const double>(std::array{corner.x, corner.y}));
+  }
+  json.add("radius", robot.outline.empty() ? robot.radius : 0.0);
+  json.add_json("outline", "[" + outline + "]");
+}
+
 }  // namespace
 
 void PathService::keep(const std::string& name, Answer answer, const Execution& execution) {
@@ -130,15 +140,10 @@ HttpResponse PathService::clearance(const KeptPath& kept, const HttpRequest& req
 
 HttpResponse PathService::sweep(const KeptPath& kept, const HttpRequest& request, const Execution& execution) const {
   const SweptBodies bodies = swept_bodies(kept.way, kept.curve, view_of(request), execution);
-  std::string outline;
-  for (const Vec2 corner : world_.robot().outline) {
-    outline += (outline.empty() ? "" : ",") + json_list(std::span<const double>(std::array{corner.x, corner.y}));
-  }
   std::string places;
   for (const PathState& place : bodies.places) places += (places.empty() ? "" : ",") + json_list(place.used());
   JsonObject json;
-  json.add("radius", world_.robot().outline.empty() ? world_.robot().radius : 0.0);
-  json.add_json("outline", "[" + outline + "]");
+  add_outline(json, world_.robot());
   json.add("apart", bodies.apart);
   json.add_json("places", "[" + places + "]");
   return {.body = json.closed() + "\n"};
@@ -210,6 +215,7 @@ std::string description_json(const ServedWorld& world, const WorldLayers& layers
   json.add("robot", robot_text(world.robot()));
   json.add("state_size", std::uint64_t{state_size(world.robot())});
   json.add("clearance", world.clearance());
+  add_outline(json, world.robot());
   json.add_json("start", json_list(std::span<const double>(outline.start)));
   json.add_json("goal", json_list(std::span<const double>(outline.goal)));
   json.add("asks_roadmap", world.query() != nullptr);

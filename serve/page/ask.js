@@ -54,6 +54,26 @@ function forgetAnswer() {
   forgetClearance();
   forgetSweep();
   answer.text = answer.json = answer.id = answer.start = answer.asked = null;
+  tellWhy([]);
+}
+function tellWhy(lines) {
+  byId("why").replaceChildren(...lines.map(words => elementOf("li", {}, words)));
+  byId("why").hidden = lines.length === 0;
+}
+/// The question once more, for what stood in the way and what would likely help.
+async function askWhy(asked) {
+  const of = answer.json, unit = world.unit ? " " + world.unit : "";
+  let json;
+  try {
+    json = await (await fetch("api/query", {method: "POST", headers: {"Content-Type": "application/json"}, body: JSON.stringify({...JSON.parse(asked), explain: true})})).json();
+  } catch (error) {
+    return;  // the answer stands; the next question says that the service is gone
+  }
+  if (of !== answer.json || !json.explained) return;
+  const gap = json.components, lines = [];
+  if (gap) lines.push("The gap between what start and goal reach is " + shown(gap.nearest_gap) + unit + " wide.");
+  for (const hint of json.explained.hints) lines.push(hint.options.length ? "On the command line " + hint.options.join(" ") + " might help: " + hint.why + "." : "What might help: " + hint.why + ".");
+  tellWhy(lines);
 }
 function take(reply, text, passed, asked) {
   const json = JSON.parse(text), saving = lost.saving;
@@ -75,6 +95,8 @@ function take(reply, text, passed, asked) {
   showAnswer(json, [...serverTimes(reply), ["there and back", passed]]);
   showClearance();
   showSweep();
+  showBodyAt("goal");  // as it arrives, where any heading will do
+  if (json.status === "not_connected" && !askAgain) askWhy(asked);
   if (saving && saving.asked === asked && json.verified) savePath(saving.make);
 }
 

@@ -36,11 +36,14 @@ function forgetClearance() {
   byId("clearance-text").textContent = "";
 }
 /// SVG has no `hidden` of its own.
-const showChart = on => { for (const id of ["clearance-at", "clearance-chart"]) byId(id).toggleAttribute("hidden", !on); };
+const showChart = on => { for (const id of ["clearance-at", "clearance-chart", "clearance-most", "clearance-ends"]) byId(id).toggleAttribute("hidden", !on); };
 const chartX = place => chart.width * place.along / (profile.places[profile.places.length - 1].along || 1);
 function drawChart() {
   const most = Math.max(...profile.places.map(place => place.clearance)) || 1;
   const line = profile.places.map(place => chartX(place).toFixed(1) + "," + (chart.height * (1 - place.clearance / most)).toFixed(1));
+  const unit = world.unit ? " " + world.unit : "";
+  byId("clearance-most").textContent = "clearance, 0 to " + shown(most) + unit;
+  byId("clearance-end").textContent = "after " + shown(profile.places[profile.places.length - 1].along) + unit;
   byId("clearance-line").setAttribute("points", ["0," + chart.height, ...line, chart.width + "," + chart.height].join(" "));
 }
 function showClearanceAt() {

@@ -22,6 +22,7 @@ function asTime(ms) {
   return (time < 99.95 ? time.toPrecision(3) : grouped(time.toFixed(0))) + unit;
 }
 
+const timeWords = {queue: "waiting", work: "work in all", "there and back": "with the network"};
 function showAnswer(json, times) {
   showSearch();
   const rows = [];
@@ -32,12 +33,12 @@ function showAnswer(json, times) {
     add("points", json.path_points || (json.path.length || null));
     add("verified", json.verified ? "yes" : null);
     add("planner", json.planner);
-    add("milestones", json.roadmap.milestones);
+    add("milestones", json.roadmap.milestones || null);
     for (const [name, count] of Object.entries(json.counters)) if (count > 0) add(name.replaceAll("_", " "), count);
   }
   fillTable("figures", rows);
   const stages = json ? Object.entries(json.stages_s).filter(([, s]) => s > 0).map(([name, s]) => [name, 1000 * s]) : [];
-  fillTable("times", [...stages, ...times].map(([name, ms]) => [name, asTime(ms)]));
+  fillTable("times", [...stages, ...times].map(([name, ms]) => [timeWords[name] || name, asTime(ms)]));
   const blocked = json && json.blocked && json.blocked.free_place ? json.blocked : null;
   const move = byId("move");
   move.hidden = !blocked;
@@ -65,6 +66,7 @@ function setEnd(end, place, keepsField) {
 function showEnd(end, keepsField) {
   putMark(marks[end], question[end]);
   showHeading(end);
+  showBodyAt(end);
   if (!keepsField) byId(end).value = fieldText(end);
   if (!question.start || !question.goal) {
     forgetAnswer();
@@ -96,7 +98,7 @@ function linkText() {
   if (question.optimise) words.push("optimise=1");
   if (shownLayers()) words.push("layers=" + shownLayers());
   if (hiddenParts()) words.push("hide=" + hiddenParts());
-  words.push("at=" + [rounded(at.lng), rounded(at.lat), map.getZoom()].join(","));
+  words.push("at=" + [rounded(at.lng), rounded(at.lat), Number(map.getZoom().toFixed(3))].join(","));
   return "#" + words.join("&");
 }
 /// The address follows, at once but for long drags: browsers stop pages that write it hundreds of times in some seconds.
@@ -130,7 +132,7 @@ function readLink() {
   const at = numbers("at");
   const isNear = at.length === 3 && at.every(Number.isFinite) && map.whole.pad(2).contains([at[1], at[0]]);  // else nothing would be seen
   if (isNear) map.setView([at[1], at[0]], at[2], {animate: false});
-  else map.fitBounds(map.whole, {animate: false});
+  else fitWhole({animate: false});
 }
 /// The world's own ends, where it has some.
 function takeOwnEnds() {
@@ -217,6 +219,7 @@ function setDark(on) {
   byId("dark").setAttribute("aria-pressed", String(on));
   graphLayer.draw();
   showSweep();
+  for (const end of ["start", "goal"]) showBodyAt(end);
   if (pathLine.line) pathLine.line.setStyle({color: on ? "#ff6b81" : "#c8102e"});
 }
 function wireControls() {
@@ -237,13 +240,13 @@ function wireControls() {
   byId("save-geojson").addEventListener("click", () => savePath(saveGeojson));
   byId("save-csv").addEventListener("click", () => savePath(saveCsv));
   byId("save-json").addEventListener("click", () => save("answer.json", "application/json", answer.text));
-  byId("whole").addEventListener("click", () => map.fitBounds(map.whole));
+  byId("whole").addEventListener("click", () => fitWhole());
   byId("dark").addEventListener("click", () => setDark(!document.documentElement.classList.contains("dark")));
   for (const part of parts) byId("show-" + part).addEventListener("change", () => { showParts(); keepLink(); });
 }
 function wireMap() {
   for (const end of ["start", "goal"]) marks[end] = makeMark(end, place => setEnd(end, place));
-  map.on("click", event => endsTurn() || measures(event) || drawsClick(event) || takesClick(event) || setEnd(question.start ? "goal" : "start", placeOf(event.latlng)));
+  map.on("click", event => endsTurn() || measures(event) || drawsClick(event) || takesClick(event) || setEnd(question.start && !event.originalEvent.shiftKey ? "goal" : "start", placeOf(event.latlng)));
   map.on("moveend", keepLink);
   byId("map").addEventListener("keydown", event => {
     const end = {s: "start", g: "goal"}[event.key];

@@ -13,11 +13,11 @@ function makeLayer(account) {
   const id = "layer-" + account.name, pane = map.createPane(id);
   pane.style.zIndex = 210 + layers.size;
   pane.style.pointerEvents = "none";
-  const layer = {account, tiles: null, box: elementOf("input", {type: "checkbox", id}), words: elementOf("ul", {className: "legend " + account.name, id: id + "-legend"})};
+  const layer = {account, tiles: null, row: elementOf("div", {className: "row"}), box: elementOf("input", {type: "checkbox", id}), words: elementOf("ul", {className: "legend " + account.name, id: id + "-legend"})};
   layer.box.setAttribute("aria-describedby", layer.words.id);
   layer.words.setAttribute("aria-live", "polite");
   layer.box.addEventListener("change", () => { showLayer(layer); keepLink(); });
-  byId("layers").append(elementOf("div", {className: "row"}, elementOf("label", {}, layer.box, " " + account.name)), layer.words);
+  layer.row.append(elementOf("label", {}, layer.box, " " + account.name));
   return layer;
 }
 /// Screen readers read it out when it changes, so it does so only where it says something else.
@@ -71,8 +71,12 @@ function renewLayers() {
     if (!layers.has(account.name)) layers.set(account.name, makeLayer(account));
     const layer = layers.get(account.name);
     layer.account = account;
+    byId(account.there ? "layers" : "layers-none").append(layer.row, layer.words);
     showLayer(layer);
   }
+  const none = world.layers.filter(account => !account.there).length;
+  byId("layers-folded").hidden = none === 0;
+  byId("layers-none-count").textContent = "Not of this world (" + none + ")";
 }
 /// For the link: the names of those that are shown.
 const shownLayers = () => [...layers].filter(([, layer]) => layer.box.checked).map(([name]) => name).join(",");

@@ -1,7 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The layer of the body along the path: outlines at the places that the service names, as far as they are seen.
+// The body where it starts and ends, and the layer of the body along the path: outlines at the places that the service
+// names, as far as they are seen.
 "use strict";
 const sweep = {bodies: null, asked: 0};
+const endBodies = {start: null, goal: null};
+
+/// A goal of any heading shows the one that the path arrives with.
+function showBodyAt(end) {
+  if (endBodies[end]) endBodies[end].remove();
+  endBodies[end] = null;
+  const place = question[end], path = answer.json && answer.json.verified ? answer.json.path : [];
+  if (!place || (world.radius === 0 && world.outline.length === 0)) return;
+  const state = [place.x, place.y], heading = headingShown(end) ?? (path.length ? path[path.length - 1][2] : null);
+  if (turns() && heading === null) return;
+  if (turns()) state.push(heading);
+  const color = getComputedStyle(document.documentElement).getPropertyValue("--" + end).trim();
+  endBodies[end] = L.layerGroup(bodyAt(world, state, {color, weight: 1.5, fillOpacity: 0.15, interactive: false})).addTo(map);
+}
 
 function forgetSweep() {
   ++sweep.asked;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The world as tiles, start and goal as marks that can be dragged, the path as a line. A place is {x, y} of the world;
+// The world as tiles between axes, start and goal as marks that can be dragged, the path as a line. A place is {x, y} of the world;
 // Leaflet has it as latitude y and longitude x.
 "use strict";
 const byId = id => document.getElementById(id);
@@ -52,10 +52,45 @@ function placeMap(center, zoom) {
   addTiles();
   for (const end of ["start", "goal"]) showHeading(end);  // by pixels, which are others at the same zoom
 }
+/// Its box fills the window but for the axes: zooms need not be whole.
+const fitWhole = options => map.fitBounds(map.whole, {paddingTopLeft: [44, 12], paddingBottomRight: [12, 28], ...options});
+
+// Axes along the left and the lower edge, and a bar of a round length, in the world's unit.
+const ScaleBar = L.Control.Scale.extend({
+  _updateMetric(most) {
+    const ten = 10 ** Math.floor(Math.log10(most)), length = ten * [5, 2, 1].find(k => k === 1 || k * ten <= most);
+    this._updateScale(this._mScale, shown(length) + (world.unit ? " " + world.unit : ""), length / most);
+  }
+});
+/// Multiples of the least of 1, 2, 5, 10, ... that leaves room between them, as [number, text].
+function ticksBetween(low, high, pixels) {
+  const least = 80 * (high - low) / pixels, ten = 10 ** Math.floor(Math.log10(least));
+  const step = ten * [1, 2, 5, 10].find(k => k === 10 || k * ten >= least), places = Math.min(100, Math.max(0, -Math.floor(Math.log10(step))));
+  const first = Math.ceil(low / step), count = Math.min(pixels / 40, Math.floor(high / step) - first + 1);
+  return Array.from({length: Math.max(0, count)}, (_, i) => [(first + i) * step, grouped(Number(((first + i) * step).toFixed(places)))]);
+}
+function drawAxes(axes) {
+  const size = map.getSize(), low = placeOf(map.containerPointToLatLng([0, size.y])), high = placeOf(map.containerPointToLatLng([size.x, 0]));
+  const marks = (axis, edge, ticks, pixelOf, least) => ticks.map(([at, words]) => [pixelOf(at), words]).filter(([pixel]) => pixel > least).map(([pixel, words]) => {
+    const tick = Object.assign(document.createElement("span"), {className: axis, textContent: words});
+    tick.style[edge] = pixel + "px";
+    return tick;
+  });
+  const x = marks("x", "left", ticksBetween(low.x, high.x, size.x), at => map.latLngToContainerPoint([low.y, at]).x, 24);
+  const y = marks("y", "top", ticksBetween(low.y, high.y, size.y), at => map.latLngToContainerPoint([at, low.x]).y, 84);  // below the buttons
+  axes.replaceChildren(...x, ...y);
+}
+function addAxes() {
+  const axes = Object.assign(document.createElement("div"), {className: "axes"});
+  axes.setAttribute("aria-hidden", "true");
+  map.getContainer().append(axes);
+  map.on("move resize viewreset", () => drawAxes(axes));
+}
 function openMap() {
-  map = L.map("map", {crs: crsOfWorld(), minZoom: -3, maxZoom: world.tiles.levels, zoomSnap: 1, attributionControl: false, preferCanvas: true});
+  map = L.map("map", {crs: crsOfWorld(), minZoom: -3, maxZoom: world.tiles.levels, zoomSnap: 0, attributionControl: false, preferCanvas: true});
   L.control.attribution({prefix: false}).addAttribution('<a href="leaflet-license.txt">Leaflet</a>').addTo(map);
-  L.control.scale({imperial: false, metric: false}).addTo(map);
+  new ScaleBar({imperial: false}).addTo(map);
+  addAxes();
   addTiles();
   map.on("mousemove", e => { byId("readout").textContent = rounded(e.latlng.lng) + ", " + rounded(e.latlng.lat) + (world.unit ? " " + world.unit : ""); });
   map.on("moveend", showSeenPath);

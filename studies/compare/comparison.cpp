@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <stdexcept>
 #include <variant>
@@ -40,6 +42,32 @@ Interval success_of(const Contender& contender, const ComparisonRow& row) {
   if (row.runs == 0) return {0.0, 1.0};
   const double solved = row.solved > 0 ? 1.0 : 0.0;
   return is_known(contender) ? Interval{solved, solved} : wilson_interval(row.solved, row.runs);
+}
+
+/// "samples 50", "full"
+std::vector<std::string> option_parts(const Contender& contender) {
+  std::vector<std::string> parts;
+  for (const auto& [name, value] : contender.options) {
+    const bool is_word = value.size() >= 2 && value.front() == '"';
+    parts.push_back(value == "true" ? name : name + " " + (is_word ? value.substr(1, value.size() - 2) : value));
+  }
+  return parts;
+}
+
+/// What a contender's name in a plot is made of.
+std::vector<std::string> name_parts(const Contender& c, bool with_planner) {
+  if (!c.dealt.empty()) {
+    std::vector<std::string> parts{c.planner};
+    for (const auto& [option, word] : c.dealt) parts.push_back(fmt::format("{} {}", option, word));
+    return parts;
+  }
+  if (c.library != "warren") return {c.search, c.library};
+  std::vector<std::string> parts;
+  for (const std::string& part : {with_planner ? c.planner : "", c.search, c.queue}) {
+    if (!part.empty()) parts.push_back(part);
+  }
+  if (with_planner) std::ranges::copy(option_parts(c), std::back_inserter(parts));
+  return parts;
 }
 
 }  // namespace
@@ -90,25 +118,33 @@ std::string contender_name(const Contender& contender, bool with_planner) {
 }
 
 std::string options_text(const Contender& contender) {
-  std::string text;
-  for (const auto& [name, value] : contender.options) {
-    text += (text.empty() ? "" : ", ") + name;
-    const bool is_word = value.size() >= 2 && value.front() == '"';
-    if (value != "true") text += " " + (is_word ? value.substr(1, value.size() - 2) : value);
-  }
-  return text;
+  return fmt::format("{}", fmt::join(option_parts(contender), ", "));
 }
 
-std::string plot_name_of(const Contender& c, bool with_planner) {
-  if (!c.dealt.empty()) {
-    std::string dealt = c.planner;
-    for (const auto& [option, word] : c.dealt) dealt += fmt::format(", {} {}", option, word);
-    return dealt;
+std::vector<const Contender*> contenders_of(const Comparison& comparison, std::size_t problem) {
+  std::vector<const Contender*> all;
+  for (const Contender& c : comparison.contenders) {
+    if (c.problem == problem) all.push_back(&c);
   }
-  std::string name = contender_name(c, with_planner);
-  if (c.library != "warren") name = c.search + ", " + c.library;
-  if (with_planner && !c.options.empty()) name += ", " + options_text(c);
-  return name;
+  return all;
+}
+
+std::vector<std::string> plot_names_of(std::span<const Contender* const> contenders, bool with_planner) {
+  std::vector<std::vector<std::string>> all;
+  for (const Contender* c : contenders) all.push_back(name_parts(*c, with_planner));
+  const auto is_common = [&](const std::string& part) {
+    return all.size() > 1 && std::all_of(all.begin(), all.end(), [&](const auto& parts) {
+             return std::find(parts.begin(), parts.end(), part) != parts.end();
+           });
+  };
+  std::vector<std::string> names;
+  for (const std::vector<std::string>& parts : all) {
+    std::vector<std::string> own;
+    std::copy_if(parts.begin(), parts.end(), std::back_inserter(own),
+                 [&](const auto& part) { return !is_common(part); });
+    names.push_back(fmt::format("{}", fmt::join(own.empty() ? parts : own, ", ")));
+  }
+  return names;
 }
 
 std::vector<std::size_t> turns(std::size_t count, std::uint64_t round) {

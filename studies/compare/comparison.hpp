@@ -92,8 +92,12 @@ std::optional<double> number_in_word(const std::string& word);
 /// "astar, sorted-array", "prm, bfs"; `with_planner` where searches of one graph are not all there is.
 std::string contender_name(const Contender& contender, bool with_planner);
 
-/// The name in a plot. Where options were dealt out, they alone set a planner's contenders apart.
-std::string plot_name_of(const Contender& contender, bool with_planner);
+/// Names in one plot: what all of these have in common is left out. Where options were dealt out, they alone set a
+/// planner's contenders apart.
+std::vector<std::string> plot_names_of(std::span<const Contender* const> contenders, bool with_planner);
+
+/// Those of a problem, in their order.
+std::vector<const Contender*> contenders_of(const Comparison& comparison, std::size_t problem);
 
 /// "samples 50, radius 2"
 std::string options_text(const Contender& contender);

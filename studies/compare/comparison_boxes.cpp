@@ -32,14 +32,6 @@ constexpr BoxedFigure boxed_figures[] = {
      [](const ComparedRun& r) { return r.solved() ? r.min_clearance : std::nullopt; }, human_number},
 };
 
-std::vector<const Contender*> contenders_of(const Comparison& comparison, std::size_t problem) {
-  std::vector<const Contender*> all;
-  for (const Contender& c : comparison.contenders) {
-    if (c.problem == problem) all.push_back(&c);
-  }
-  return all;
-}
-
 std::optional<BoxFigures> figures_of(const Contender& contender, const BoxedFigure& figure) {
   std::vector<double> values;
   for (const ComparedRun& run : contender.runs) {
@@ -78,9 +70,11 @@ std::optional<BoxPlot> box_plot(const Comparison& comparison, std::size_t proble
                .remarks = "solved",
                .text = figure.text};
   bool any_differ = false;
-  for (const Contender* c : contenders_of(comparison, problem)) {
+  const std::vector<const Contender*> contenders = contenders_of(comparison, problem);
+  const std::vector<std::string> names = plot_names_of(contenders, planners);
+  for (std::size_t i = 0; i < contenders.size(); ++i) {
     PlottedBox& box =
-        plot.boxes.emplace_back(PlottedBox{plot_name_of(*c, planners), solved_text(*c), figures_of(*c, figure)});
+        plot.boxes.emplace_back(PlottedBox{names[i], solved_text(*contenders[i]), figures_of(*contenders[i], figure)});
     any_differ =
         any_differ || (box.figures && (box.figures->low < box.figures->high || !box.figures->outliers.empty()));
   }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Plots of what options that were dealt out do. Where a planner takes the values of one option in turn: success with
 // its interval, lengths and times with their quartiles, against its value. Where it takes those of more: the same as
-// heat maps over the two options with most values, one row of maps for each way to take the others.
+// heat maps over the two options with most values, one row of maps for each way to take the others, and as lines over
+// one of the two, one line a value of the other.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 
 #include "pictures/plots/plot.hpp"
@@ -110,6 +112,7 @@ HeatMap heat_map(const Family& family, const ShownFigure& figure) {
   HeatMap map{
       .title = fmt::format("{}: {}", family.name, figure.name), .x_label = family.axes[0], .y_label = family.axes[1]};
   if (figure.text == per_cent) map.low = 0.0, map.high = 100.0;
+  map.less_is_better = figure.text != per_cent;
   for (const Contender* c : family.members) {
     add_once(map.columns, word_of(c->dealt, family.axes[0]));
     add_once(map.rows, word_of(c->dealt, family.axes[1]));
@@ -127,12 +130,12 @@ HeatMap heat_map(const Family& family, const ShownFigure& figure) {
   return map;
 }
 
-/// Nothing of an option whose values are no numbers.
-std::optional<PlotSeries> series_of(const Family& family, const ShownFigure& figure) {
+/// Over the values of an option. Nothing of an option whose values are no numbers.
+std::optional<PlotSeries> series_of(const Family& family, const std::string& option, const ShownFigure& figure) {
   PlotSeries series{.name = family.name, .points = {}};
   std::map<double, const Contender*> by_value;
   for (const Contender* c : family.members) {
-    if (const auto x = number_in_word(word_of(c->dealt, family.axes[0]))) by_value[*x] = c;
+    if (const auto x = number_in_word(word_of(c->dealt, option))) by_value[*x] = c;
   }
   for (const auto& [x, c] : by_value) {
     const ComparisonRow row = row_of(*c);
@@ -144,6 +147,34 @@ std::optional<PlotSeries> series_of(const Family& family, const ShownFigure& fig
   return by_value.size() < 2 ? std::nullopt : std::optional(std::move(series));
 }
 
+Plot plot_over(const std::string& option, const ShownFigure& figure) {
+  return {.title = fmt::format("{} against {}", figure.name, option),
+          .x_label = option,
+          .y_label = std::string(figure.label),
+          .from_zero = figure.text == per_cent,
+          .series = {}};
+}
+
+/// What a heat map shows, as lines with intervals over one of its options, one a value of the other; nothing where
+/// neither option's values are numbers, or where there are more lines than colours.
+std::optional<Plot> sweep_plot(const Family& family, const ShownFigure& figure) {
+  for (const std::size_t x : {0U, 1U}) {
+    const std::string& other = family.axes[1 - x];
+    std::vector<std::string> values;
+    for (const Contender* c : family.members) add_once(values, word_of(c->dealt, other));
+    Plot plot = plot_over(family.axes[x], figure);
+    plot.title = fmt::format("{}: {}", family.name, plot.title);
+    for (const std::string& value : values) {
+      Family line{fmt::format("{} {}", other, value), {}, {}};
+      std::ranges::copy_if(family.members, std::back_inserter(line.members),
+                           [&](const Contender* c) { return word_of(c->dealt, other) == value; });
+      if (auto series = series_of(line, family.axes[x], figure)) plot.series.push_back(std::move(*series));
+    }
+    if (!plot.series.empty() && plot.series.size() <= colors::series.size()) return plot;
+  }
+  return std::nullopt;
+}
+
 /// Planners that take the values of the same option are in one plot.
 std::vector<PlotSheet> line_panels(const std::vector<Family>& families) {
   std::vector<std::string> options;
@@ -153,14 +184,10 @@ std::vector<PlotSheet> line_panels(const std::vector<Family>& families) {
   std::vector<PlotSheet> panels;
   for (const std::string& option : options) {
     for (const ShownFigure& figure : figures) {
-      Plot plot{.title = fmt::format("{} against {}", figure.name, option),
-                .x_label = option,
-                .y_label = std::string(figure.label),
-                .series = {}};
-      plot.from_zero = figure.text == per_cent;
+      Plot plot = plot_over(option, figure);
       for (const Family& family : families) {
         if (family.axes.size() != 1 || family.axes[0] != option) continue;
-        if (auto series = series_of(family, figure)) plot.series.push_back(std::move(*series));
+        if (auto series = series_of(family, option, figure)) plot.series.push_back(std::move(*series));
       }
       if (!plot.series.empty()) panels.push_back(sheet_of(plot));
     }
@@ -186,6 +213,12 @@ std::vector<PlotSheet> list_panels(const Comparison& comparison) {
   for (const Family& family : families) {
     for (const ShownFigure& figure : figures) {
       if (family.axes.size() == 2 && panels.size() < most_panels) panels.push_back(sheet_of(heat_map(family, figure)));
+    }
+  }
+  for (const Family& family : families) {
+    for (const ShownFigure& figure : figures) {
+      if (family.axes.size() != 2 || panels.size() >= most_panels) continue;
+      if (const auto plot = sweep_plot(family, figure)) panels.push_back(sheet_of(*plot));
     }
   }
   return panels;

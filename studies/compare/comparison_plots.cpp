@@ -85,14 +85,16 @@ std::vector<Plot> share_plots(const Comparison& comparison) {
   std::vector<Plot> plots;
   for (std::size_t problem = 0; problem < comparison.problems.size(); ++problem) {
     const bool planners = comparison.problems[problem].kind.empty();
-    Plot plot{.title = comparison.problems[problem].source,
+    Plot plot{.title = comparison.problems[problem].source + ": solved",
               .x_label = "seconds",
               .y_label = "per cent of the runs solved within",
               .log_x = true,
               .from_zero = true,
               .series = {}};
-    for (const Contender& c : comparison.contenders) {
-      if (c.problem == problem) plot.series.push_back({plot_name_of(c, planners), solved_shares(c)});
+    const std::vector<const Contender*> contenders = contenders_of(comparison, problem);
+    const std::vector<std::string> names = plot_names_of(contenders, planners);
+    for (std::size_t i = 0; i < contenders.size(); ++i) {
+      plot.series.push_back({names[i], solved_shares(*contenders[i])});
     }
     plots.push_back(std::move(plot));
   }

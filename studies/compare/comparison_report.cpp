@@ -120,6 +120,17 @@ std::vector<ReportTable> comparison_tables(const Comparison& comparison) {
   return tables;
 }
 
+std::string comparison_document(const Comparison& comparison, std::string_view ending) {
+  const bool is_latex = ending == ".tex";
+  std::string text;
+  for (const ReportTable& table : comparison_tables(comparison)) {
+    text += text.empty() ? "" : "\n";
+    if (!table.title.empty()) text += fmt::format("{}{}\n{}", is_latex ? "% " : "", table.title, is_latex ? "" : "\n");
+    text += is_latex ? table.table.latex() : table.table.markdown();
+  }
+  return text;
+}
+
 std::string comparison_summary(const Comparison& comparison, const Palette& palette) {
   std::string text;
   for (const ReportTable& table : comparison_tables(comparison)) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "pictures/plots/box_plot.hpp"
@@ -20,6 +21,8 @@ namespace warren::studies {
 std::string comparison_summary(const Comparison& comparison, const Palette& palette);
 /// The tables of the summary.
 std::vector<ReportTable> comparison_tables(const Comparison& comparison);
+/// They for a document, with their titles: .tex by the file's ending, else Markdown.
+std::string comparison_document(const Comparison& comparison, std::string_view ending);
 /// All of it as a page (comparison_page.cpp): tables and the plots of comparison_plots().
 std::string comparison_page(const Comparison& comparison, const std::string& command_line);
 std::string comparison_json(const Comparison& comparison);

@@ -91,7 +91,8 @@ void HeatMapDrawing::begin() {
 
 void HeatMapDrawing::draw_cell(std::size_t column, std::size_t row) {
   const HeatMap::Cell& cell = map_.cells[row * map_.columns.size() + column];
-  const Color color = cell.value ? color_at(scale_.share(*cell.value)) : Color{232, 232, 232};
+  const double share = cell.value ? scale_.share(*cell.value) : 0.0;
+  const Color color = cell.value ? color_at(map_.less_is_better ? 1.0 - share : share) : Color{232, 232, 232};
   const Vec2 low{x_of(column), y_of(row)};
   sheet_.box(
       {low, low + cell_}, {.stroke = colors::paper, .fill = rounded(color)},

@@ -23,6 +23,7 @@ struct HeatMap {
   std::vector<std::string> rows = {};     ///< from below, at least one
   std::optional<double> low = {};         ///< where the colours begin; none: at the least value
   std::optional<double> high = {};        ///< where they end; none: at the largest
+  bool less_is_better = false;            ///< the colours the other way around: bright is good
   std::vector<Cell> cells = {};           ///< row by row, columns.size() * rows.size() of them
 };
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 
 namespace warren::studies {
 namespace {
@@ -31,7 +32,58 @@ std::string line_of(const std::vector<std::string>& cells, const std::vector<std
   return line;
 }
 
+/// With a backslash before each of `special`.
+std::string escaped(std::string_view text, std::string_view special) {
+  std::string out;
+  for (const char c : text) {
+    if (special.find(c) != std::string_view::npos) out += '\\';
+    out += c;
+  }
+  return out;
+}
+std::string latex_text(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    out += c == '\\'  ? "\\textbackslash{}"
+           : c == '~' ? "\\textasciitilde{}"
+           : c == '^' ? "\\textasciicircum{}"
+                      : escaped({&c, 1}, "&%$#_{}");
+  }
+  return out;
+}
+
+template <class Text>
+std::string joined_cells(const std::vector<std::string>& cells, std::string_view between, const Text& text) {
+  std::string line;
+  for (std::size_t i = 0; i < cells.size(); ++i) line.append(i == 0 ? "" : between).append(text(cells[i]));
+  return line;
+}
+
 }  // namespace
+
+std::string TextTable::markdown() const {
+  const TextTable table = without_empty_columns();
+  const auto row = [](const std::vector<std::string>& cells) {
+    return "| " + joined_cells(cells, " | ", [](const auto& cell) { return escaped(cell, "|*_<\\"); }) + " |\n";
+  };
+  std::string text = row(table.head) + '|';
+  for (std::size_t i = 0; i < table.head.size(); ++i) text += i < table.words ? "---|" : "---:|";
+  text += '\n';
+  for (const auto& cells : table.rows) text += row(cells);
+  return text;
+}
+
+std::string TextTable::latex() const {
+  const TextTable table = without_empty_columns();
+  const auto row = [](const std::vector<std::string>& cells) {
+    return joined_cells(cells, " & ", latex_text) + " \\\\\n";
+  };
+  std::string text = "\\begin{tabular}{" + std::string(table.words, 'l') +
+                     std::string(table.head.size() - table.words, 'r') + "}\n\\toprule\n" + row(table.head) +
+                     "\\midrule\n";
+  for (const auto& cells : table.rows) text += row(cells);
+  return text + "\\bottomrule\n\\end{tabular}\n";
+}
 
 std::string TextTable::text(const Palette& palette) const {
   const std::vector<std::size_t> widths = widths_of(*this);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A table for the terminal: columns as wide as their widest cell.
+// A table for the terminal, with columns as wide as their widest cell, and for documents.
 #pragma once
 
 #include <cstddef>
@@ -19,6 +19,10 @@ struct TextTable {
   std::string text(const Palette& palette) const;
 
   TextTable without_empty_columns() const;
+
+  /// As Markdown has tables, or as LaTeX's tabular, with the package booktabs; without columns that are empty.
+  std::string markdown() const;
+  std::string latex() const;
 };
 
 }  // namespace warren::studies

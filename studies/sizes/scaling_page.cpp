@@ -2,6 +2,7 @@
 // The page of `warren scale`: what was measured as a table, and plots of it.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -45,8 +46,20 @@ std::vector<ScalingRow> widest(std::span<const ScalingRow> rows, const Way& way)
   return wide;
 }
 
+constexpr double least_shown_s = 1e-6;
+
+/// Stages that some row shows, and the whole: each has the colour of its place here in all plots.
+std::vector<std::string> shown_stages(std::span<const ScalingRow> rows) {
+  std::vector<std::string> stages{"solve"};
+  for (const std::string& stage : stage_names()) {
+    const auto shows = [&](const ScalingRow& row) { return seconds_of(row.fastest, stage) >= least_shown_s; };
+    if (std::any_of(rows.begin(), rows.end(), shows)) stages.push_back(stage);
+  }
+  return stages;
+}
+
 /// Log-log time of each stage, its fitted exponent in the legend.
-Plot stage_plot(std::span<const ScalingRow> rows, const Way& way) {
+Plot stage_plot(std::span<const ScalingRow> rows, const Way& way, const std::vector<std::string>& stages) {
   const std::vector<ScalingRow> wide = widest(rows, way);
   Plot plot{.title = fmt::format("Stages of {}, {}", text_of(way), threads_text(wide.front().fastest.threads)),
             .x_label = "cells",
@@ -56,11 +69,9 @@ Plot stage_plot(std::span<const ScalingRow> rows, const Way& way) {
             .series = {}};
   std::map<std::string, double> exponents;
   for (const auto& [stage, exponent] : stage_exponents(wide)) exponents[stage] = exponent;
-  std::vector<std::string> stages = stage_names();
-  stages.emplace_back("solve");
-  for (const std::string& stage : stages) {
-    constexpr double least_shown_s = 1e-6;
-    PlotSeries series{.name = stage, .points = {}};
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    const std::string& stage = stages[i];
+    PlotSeries series{.name = stage, .points = {}, .color = i};
     for (const ScalingRow& row : wide) {
       const double seconds = seconds_of(row.fastest, stage);
       if (seconds >= least_shown_s) series.points.push_back({row.fastest.cells(), seconds});
@@ -132,7 +143,8 @@ std::vector<Plot> thread_plots(std::span<const ScalingRow> rows) {
 
 std::vector<Plot> plots_of(std::span<const ScalingRow> rows) {
   std::vector<Plot> plots;
-  for (const Way& way : ways_of(rows)) plots.push_back(stage_plot(rows, way));
+  const std::vector<std::string> stages = shown_stages(rows);
+  for (const Way& way : ways_of(rows)) plots.push_back(stage_plot(rows, way, stages));
   plots.push_back({.title = "Whole solve",
                    .x_label = "cells",
                    .y_label = "seconds (least)",

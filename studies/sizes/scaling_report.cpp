@@ -56,8 +56,8 @@ std::string unsolved_text(const ScalingResult& result) {
   std::set<std::string> said;
   for (const ScalingRun& run : result.runs) {
     if (run.trial.verified) continue;
-    const std::string what = fmt::format("  {}, {}, {} threads: {}\n", side_text(run.trial), planner_text(run.trial),
-                                         run.trial.threads, verdict_of(run.trial));
+    const std::string what = fmt::format("  {}, {}, {}: {}\n", side_text(run.trial), planner_text(run.trial),
+                                         counted(run.trial.threads, "thread", "threads"), verdict_of(run.trial));
     if (said.insert(what).second) text += what;
   }
   for (const auto& [rows, cols] : result.ungenerated) {

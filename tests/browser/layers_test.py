@@ -90,8 +90,13 @@ class Layers(MapTest):
         self.shown(self.rooms, '#layers=walls,constructor')
         self.assertFalse(self.box('roadmap').is_selected())
 
+    def unfold(self):
+        """Layers that this world has not, and why."""
+        self.press('layers-none-count')
+
     def test_a_world_without_a_roadmap_says_why(self):
         self.shown(self.scene, '#layers=roadmap')
+        self.unfold()
         for name in ('roadmap', 'components'):
             self.assertFalse(self.box(name).is_enabled())
             self.assertFalse(self.box(name).is_selected())
@@ -112,6 +117,7 @@ class Layers(MapTest):
         self.wait(lambda: 'and more' in self.legend('clearance'))
         self.assertNotIn('Zoom in', self.legend('clearance'))  # the whole world is smaller than a tile
         self.shown(self.maze)
+        self.unfold()
         self.assertIn('passages', self.legend('axis'))
 
     def test_the_search_follows_the_start(self):
@@ -166,6 +172,8 @@ class Layers(MapTest):
     def test_a_point_has_no_sweep(self):
         self.shown(self.scene)
         self.assertFalse(self.box('sweep').is_enabled())
+        self.assertEqual(self.legend('sweep'), '')  # in a fold
+        self.unfold()
         self.assertIn('no extent', self.legend('sweep'))
 
     def test_a_changed_world_has_its_own(self):
@@ -208,7 +216,7 @@ class Layers(MapTest):
             self.drawn('clearance')
             self.wait(lambda: self.legend('clearance').endswith('and more'))
             self.rest()
-            paper, wall, *inked = self.colors((-5, 30), (50, 30), (48, 20), (25, 30), (12, 30), (90, 10))
+            paper, wall, *inked = self.colors((-2, 35), (50, 30), (48, 20), (25, 30), (12, 30), (90, 10))
             self.assertIn(paper, ([255, 255, 255], [0, 0, 0]))
             for color in inked:
                 self.assertGreater(contrast(color, paper), 1.9, (scheme, color))

@@ -31,12 +31,15 @@ class ServicePage(MapTest):
         for name in ('block.scene', '<img src=x onerror=alert(1)>.scene'):
             with open(os.path.join(cls.folder.name, name), 'w', encoding='utf-8') as file:
                 file.write('bounds 0 0 10 10\npolygon 4 4 6 4 6 6 4 6\nstart 4.2 5\ngoal 9 9\n')
+        with open(os.path.join(cls.folder.name, 'closed.scene'), 'w', encoding='utf-8') as file:
+            file.write('bounds 0 0 100 60\nwall 50 0 50 29\nwall 50 31 50 60\nrobot disc 2\nstart 5 30\ngoal 95 30\n')
+        cls.closed = Service(WARREN, os.path.join(cls.folder.name, 'closed.scene'))
         cls.maze = Service(WARREN, MAZE)
         cls.town = Service(WARREN, WORLDS + '/town.geojson')
 
     @classmethod
     def tearDownClass(cls):
-        for service in (cls.maze, cls.town):
+        for service in (cls.maze, cls.town, cls.closed):
             assert service.stop() == 0
         super().tearDownClass()
 
@@ -69,6 +72,48 @@ class ServicePage(MapTest):
         self.assertEqual(self.drawn()[-1], expected['goal'])
         self.assertIn('verified', self.by_id('figures').text)
         self.assertIn('work', self.by_id('times').text)
+
+    def test_a_world_fills_its_window_between_axes(self):
+        for size in ((1200, 800), (500, 850)):
+            self.browser.set_window_size(*size)
+            for service, unit in ((self.maze, ' cells'), (self.town, '')):
+                self.shown(service)
+                slack = self.run_script('''const low = map.latLngToContainerPoint(map.whole.getSouthWest()), high = map.latLngToContainerPoint(map.whole.getNorthEast());
+                    return [map.getSize().x - high.x + low.x, map.getSize().y - low.y + high.y]''')
+                self.assertGreater(min(slack), 0)
+                self.assertLess(min(slack), 60)
+                bar = self.browser.find_element(By.CSS_SELECTOR, '.leaflet-control-scale-line').text
+                self.assertRegex(bar, r'^(1|2|5)0*' + unit + '$' if unit else r'^[0-9.]+$')
+        self.browser.set_window_size(1200, 800)
+        self.shown(self.maze)
+        for axis in 'xy':
+            ticks = self.run_script('''return [...document.querySelectorAll(".axes ." + arguments[0])].map(tick => {
+                const box = tick.getBoundingClientRect(), all = map.getContainer().getBoundingClientRect();
+                const at = map.containerPointToLatLng([(box.left + box.right) / 2 - all.left, (box.top + box.bottom) / 2 - all.top]);
+                return [Number(tick.textContent), arguments[0] === "x" ? at.lng : at.lat];
+            })''', axis)
+            self.assertGreater(len(ticks), 4)
+            for said, is_at in ticks:
+                self.assertAlmostEqual(said, is_at, delta=1)
+
+    def test_shift_click_moves_the_start(self):
+        self.shown(self.maze, '#start=1,1&goal=300,300')
+        self.wait_for('Solved')
+        goal = self.end_of('goal')
+        self.at(100, 200).key_down(Keys.SHIFT).click().key_up(Keys.SHIFT).perform()
+        self.wait(lambda: abs(self.end_of('start')[0] - 100) < 3)
+        self.assertEqual(self.end_of('goal'), goal)
+
+    def test_no_path_says_why_and_the_body_stands_at_its_ends(self):
+        self.shown(self.closed, '#start=5,30&goal=95,30&planner=prm')
+        self.wait_for('No path was found')
+        self.wait(lambda: 'gap' in self.by_id('why').text)
+        self.assertIn('--samples', self.by_id('why').text)
+        disc = self.run_script('const disc = endBodies.start.getLayers()[0]; return [disc.getLatLng().lng, disc.getLatLng().lat, disc.getRadius()]')
+        self.assertEqual(disc, [5, 30, 2])
+        self.shown(self.closed, '#start=5,30&goal=40,30&planner=prm')
+        self.wait_for('Solved')
+        self.assertFalse(self.by_id('why').is_displayed())
 
     def test_a_dragged_mark_takes_the_path_with_it(self):
         self.shown(self.maze, '#start=1,1&goal=300,300')

@@ -24,7 +24,7 @@ class Program:
     def help_options(self, verb):
         """name -> (value, choices)"""
         options, name = {}, None
-        for line in self.run(verb, "--help").stdout.splitlines():
+        for line in self.run(verb, "--help", "all").stdout.splitlines():
             if line.startswith("  --"):
                 words = line[2:].split("  ")[0].split()
                 name = words[0][2:].replace("-", "_")

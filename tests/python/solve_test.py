@@ -117,6 +117,7 @@ def test_a_wrong_value_is_a_value_error_with_its_parts(options, where, value):
 @pytest.mark.parametrize("options, said", [
     ({"gaol": (1, 1)}, "unexpected keyword argument 'gaol'; did you mean goal"),
     ({"json": "x"}, "unexpected keyword argument 'json'"),
+    ({"footprint": 1}, "unexpected keyword argument 'footprint'; robot "),
     ({"optimise": 3}, "optimise: expected True or False"),
     ({"planner": {"a": 1}}, "planner: expected"),
     ({"planner": True}, "planner: expected"),
@@ -127,6 +128,12 @@ def test_a_wrong_value_is_a_value_error_with_its_parts(options, where, value):
 def test_a_wrong_keyword_or_type_is_a_type_error(options, said):
     with pytest.raises(TypeError, match=said):
         warren.solve("maze:9x9", **options)
+
+
+def test_both_spellings_of_a_keyword_are_the_same():
+    ours = warren.solve("maze:9x9", sampler="uniform", neighbours=6, optimise=True)
+    theirs = warren.solve("maze:9x9", sampler="uniform", neighbors=6, optimize=True)
+    assert theirs.length == ours.length < warren.solve("maze:9x9", sampler="uniform", neighbours=6).length
 
 
 def test_a_file_that_is_not_there_is_an_os_error():

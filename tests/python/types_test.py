@@ -15,7 +15,7 @@ import warren
 PACKAGE = pathlib.Path(warren.__file__).parent
 LIMITS = {"threads", "budget", "memory", "progress"}
 # What is no option of a call: outputs and how the terminal looks.
-OUTPUTS = {"json", "svg", "path", "every", "speed", "acceleration", "lateral_acceleration", "joint_speed",
+OUTPUTS = {"json", "picture", "figures", "table", "path", "every", "speed", "acceleration", "lateral_acceleration", "joint_speed",
            "joint_acceleration", "frame", "save_roadmap", "quiet", "color", "trace", "help", "output", "no_world", "csv",
            "runs", "log", "pictures", "batch", "lengths_only", "matrix", "world", "keep", "animate",
            "title", "dpi", "size", "show", "heading", "html", "no_path", "resume"}

@@ -195,7 +195,7 @@ TEST(Compare, APageHasTheTablesOfTheSummaryAndThePlots) {
   const ProgramRun run = run_program("compare maze:5x5 --planners prm,lazy-prm --seeds 2 --html - --quiet");
   EXPECT_TRUE(run.out.starts_with("<!DOCTYPE html>"));
   for (const char* part :
-       {"<td class=\"word\">lazy-prm", "<button>length q1</button>", "maze:5x5</title>", "</html>\n"}) {
+       {"<td class=\"word\">lazy-prm", "<button>length q1</button>", "maze:5x5: solved</title>", "</html>\n"}) {
     EXPECT_NE(run.out.find(part), std::string::npos) << part;
   }
 }
@@ -211,8 +211,40 @@ TEST(Compare, PlotsAreWrittenInTheFormatThatTheirEndingSays) {
   if (can_write_pdf()) {
     EXPECT_TRUE(plotted("k.pdf").starts_with("%PDF"));
   }
-  check(
-      {{"compare", "maze:5x5", "--svg", folder.path("k.html")}, 2, "--svg: a picture here ends in one of: .svg .png"});
+  check({{"compare", "maze:5x5", "--svg", folder.path("k.html")},
+         2,
+         "--picture: a picture here ends in one of: .svg .png"});
+}
+
+TEST(Compare, EachPlotIsAFileOfItsOwnWhenAsked) {
+  const Folder folder;
+  const std::string words =
+      "compare maze:5x5 --planners prm --sampler uniform --samples 100,300 --seeds 3 --quiet --figures ";
+  ASSERT_EQ(run_program(words + folder.path("k.svg")).exit_code, 0);
+  for (const char* name : {"k-length.svg", "k-time.svg", "k-solved.svg", "k-runs-solved-against-samples.svg"}) {
+    EXPECT_TRUE(folder.read(name).starts_with("<svg ")) << name;
+  }
+  EXPECT_EQ(folder.read("k.svg"), "");
+  check({{"compare", "maze:5x5", "--planners", "prm", "--figures", folder.path("k")}, 2, "--figures: expected a name"});
+  check({{"compare", "maze:5x5", "--planners", "prm", "--figures", folder.path("k.svg"), "--picture",
+          folder.path("k-length.svg")},
+         2,
+         "--figures: "});
+}
+
+TEST(Compare, TablesAreForDocumentsToo) {
+  const Folder folder;
+  const std::string words = "compare maze:5x5 --planners prm,lazy-prm --seeds 2 --quiet --table ";
+  ASSERT_EQ(run_program(words + folder.path("a.md")).exit_code, 0);
+  const std::string markdown = folder.read("a.md");
+  EXPECT_TRUE(markdown.starts_with("| planner | solved | 95 % | length q1 | ")) << markdown;
+  EXPECT_NE(markdown.find("\n|---|---:|---:|"), std::string::npos) << markdown;
+  EXPECT_EQ(std::count(markdown.begin(), markdown.end(), '\n'), 4);
+  ASSERT_EQ(run_program(words + folder.path("a.tex")).exit_code, 0);
+  const std::string latex = folder.read("a.tex");
+  EXPECT_TRUE(latex.starts_with("\\begin{tabular}{lr")) << latex;
+  EXPECT_NE(latex.find(" & 95 \\% & "), std::string::npos) << latex;
+  EXPECT_TRUE(latex.ends_with("\\bottomrule\n\\end{tabular}\n")) << latex;
 }
 
 TEST(Compare, WhatAPictureDrawsOtherwiseThanUsualIsANote) {
@@ -308,7 +340,7 @@ TEST(Compare, BadOptionsAreUsageErrorsOfOneLineThatNameTheOption) {
       {"maze:5x5 --budget 0s", "--budget"},
       {"maze:5x5 --threads 0", "--threads"},
       {"maze:5x5 --json - --csv -", "--csv"},
-      {"maze:5x5 --svg plot.html", "--svg"},
+      {"maze:5x5 --svg plot.html", "--picture"},
       {"maze:5x5 --planners prm,nobody", "nobody"},
       {"maze:5x5 --planners prm --peer boost", "--peer"},
       {"maze:5x5 --planners prm --sizes 10", "--sizes"},

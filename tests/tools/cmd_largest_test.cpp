@@ -84,7 +84,7 @@ TEST(Largest, BadOptionsAreUsageErrorsThatNameTheOption) {
   };
   for (const Case& c : {Case{"largest --budget 0s", "--budget"},
                         Case{"largest --budget -1s", "--budget"},
-                        Case{"largest --step 0", "--step"},
+                        Case{"largest --precision 0", "--precision"},
                         Case{"largest --seeds 0", "--seeds"},
                         Case{"largest --rows 0", "--rows"},
                         Case{"largest --max-size 0", "--max-size"},
@@ -94,7 +94,7 @@ TEST(Largest, BadOptionsAreUsageErrorsThatNameTheOption) {
                         Case{"largest --loops 2", "--loops"},
                         Case{"largest --start 1,1", "--start"},
                         Case{"largest --clearance -1", "--clearance"},
-                        Case{"largest --json - --svg -", "--svg"},
+                        Case{"largest --json - --svg -", "--picture"},
                         Case{"largest maze:4x4", "maze:4x4"},
                         Case{"scale --budget 0s", "--budget"},
                         Case{"scale --sizes 4,,5", "--sizes"},

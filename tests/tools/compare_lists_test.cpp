@@ -65,8 +65,8 @@ TEST(Compare, ListsOfTwoOptionsAreDrawnAsHeatMaps) {
   const std::string svg = folder.path("k.svg");
   compared("maze:5x5 --planners prm --sampler uniform --samples 100,300 --neighbours 4,8 --seeds 2 --svg " + svg);
   const std::string drawn = folder.read("k.svg");
-  for (const char* title :
-       {"prm: runs solved", "prm: median length", "prm: median time", "prm, samples 300, neighbours 8"}) {
+  for (const char* title : {"prm: runs solved", "prm: median length", "prm: median time", "samples 300, neighbours 8",
+                            "prm: runs solved against samples"}) {
     EXPECT_NE(drawn.find(title), std::string::npos) << title;
   }
 }

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -23,7 +24,7 @@ namespace warren::tools {
 namespace {
 
 /// Of all verbs: the options whose values are files that are written, and that are read. Operands are read.
-constexpr std::array<std::string_view, 14> output_options{"--path", "--json",   "--svg",          "--png",   "--html",
+constexpr std::array<std::string_view, 14> output_options{"--path", "--json",   "--picture",      "--table", "--html",
                                                           "--csv",  "--runs",   "--log",          "--trace", "--output",
                                                           "--keep", "--report", "--save-roadmap", "--resume"};
 constexpr std::array<std::string_view, 5> input_options{"--answer", "--map", "--batch", "--matrix", "--world"};
@@ -71,7 +72,7 @@ std::optional<Place> place_of_output(const std::string& path) {
 /// What is not there can't be overwritten.
 std::optional<Place> place_of_input(const std::string& path) {
   if (path == "-") return place_of_descriptor(STDIN_FILENO);
-  const std::optional<Place> place = is_maze_source(path) ? std::nullopt : place_of(path);
+  const std::optional<Place> place = is_made_source(path) ? std::nullopt : place_of(path);
   return place && place->name.empty() ? place : std::nullopt;
 }
 
@@ -137,19 +138,36 @@ bool is_picture_name(const Arguments& arguments, std::string_view name) {
   return false;
 }
 
-/// No picture of `compare --pictures FOLDER` may take the place of any of these files.
-void check_pictures(const Arguments& arguments, const std::vector<NamedFile>& files) {
-  const auto folder = arguments.value("--pictures");
+/// Is that the name of a figure that `compare --figures FILE` may write?
+bool is_figure_name(const std::string& file, std::string_view name) {
+  const std::string ending = ending_of(file);
+  const std::string own = name_in_folder(file);
+  return name.ends_with(ending) && name.starts_with(own.substr(0, own.size() - ending.size()) + "-");
+}
+
+/// No picture that `option` writes into `folder` may take the place of any of these files.
+void check_many(std::string_view option, const std::string& folder, const std::vector<NamedFile>& files,
+                const std::function<bool(std::string_view)>& may_be_written) {
   struct stat pictures {};
-  if (!folder || ::stat(folder->c_str(), &pictures) != 0) return;
+  if (::stat(folder.c_str(), &pictures) != 0) return;
   for (const NamedFile& file : files) {
     const std::string real = behind_links(file.path);
     struct stat its {};
     if (::stat(folder_of(real).c_str(), &its) != 0) continue;
     const bool beside = its.st_dev == pictures.st_dev && its.st_ino == pictures.st_ino;
-    if (beside && is_picture_name(arguments, name_in_folder(real))) {
-      throw UsageError(fmt::format("--pictures: {} may be the name of one of the pictures", file.path));
+    if (beside && may_be_written(name_in_folder(real))) {
+      throw UsageError(fmt::format("{}: {} may be the name of one of the pictures", option, file.path));
     }
+  }
+}
+
+void check_pictures(const Arguments& arguments, const std::vector<NamedFile>& files) {
+  if (const auto folder = arguments.value("--pictures")) {
+    check_many("--pictures", *folder, files, [&](std::string_view name) { return is_picture_name(arguments, name); });
+  }
+  if (const auto file = arguments.value("--figures")) {
+    check_many("--figures", folder_of(*file), files,
+               [&](std::string_view name) { return is_figure_name(*file, name); });
   }
 }
 

@@ -5,8 +5,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cctype>
 #include <cerrno>
 #include <limits>
+#include <map>
+#include <set>
 #include <system_error>
 
 #include "core/base/error.hpp"
@@ -21,6 +24,34 @@ namespace {
 
 [[noreturn]] void fail(const std::string& path, int error) {
   throw WriteError(path, std::generic_category().message(error));
+}
+
+/// "-runs-solved" of "runs solved"
+std::string file_words(std::string_view title) {
+  std::string words;
+  for (const char c : title) {
+    const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) != 0;
+    if (is_plain || !(words.empty() || words.ends_with('-'))) words += is_plain ? c : '-';
+  }
+  return '-' + words.substr(0, words.find_last_not_of('-') + 1);
+}
+
+/// "k-length.pdf" of "k.pdf" and "maze:5x7: length"; where several titles end so, of whole titles, then with a number.
+std::vector<std::string> figure_files(const std::string& file, const std::vector<PlotSheet>& sheets) {
+  const std::string ending = ending_of(file);
+  std::map<std::string, std::size_t> count;
+  const auto end_of = [](const std::string& title) { return file_words(title.substr(title.rfind(": ") + 1)); };
+  for (const PlotSheet& sheet : sheets) ++count[end_of(sheet.title())];
+  std::set<std::string> names;
+  std::vector<std::string> files;
+  for (const PlotSheet& sheet : sheets) {
+    const bool is_alone = count[end_of(sheet.title())] == 1;
+    const std::string words = is_alone ? end_of(sheet.title()) : file_words(sheet.title());
+    std::string name = words;
+    for (std::size_t n = 2; !names.insert(name).second; ++n) name = fmt::format("{}-{}", words, n);
+    files.push_back(file.substr(0, file.size() - ending.size()) + name + ending);
+  }
+  return files;
 }
 
 }  // namespace
@@ -80,19 +111,31 @@ void write_report(const Arguments& arguments, std::string_view option, const std
 }
 
 void check_plots(const Arguments& arguments) {
-  const std::string file = arguments.value("--svg").value_or("");
-  check_picture_ending("--svg", file, plot_endings);
-  check_picture("--svg", file);
+  for (const std::string_view option : {"--picture", "--figures"}) {
+    const std::string file = arguments.value(option).value_or("");
+    check_picture_ending(option, file, plot_endings);
+    check_picture(option, file);
+  }
+  if (arguments.has("--figures") && ending_of(*arguments.value("--figures")).empty()) {
+    throw UsageError("--figures: expected a name that ends in .svg, .png or .pdf, such as k.pdf for k-length.pdf");
+  }
 }
 
 void write_plots(const Arguments& arguments, const Execution& execution, bool was_stopped,
                  const std::function<PlotsPage()>& plots) {
-  const auto file = arguments.value("--svg");
-  if (!file) return;
+  const auto file = arguments.value("--picture");
+  const auto figures = arguments.value("--figures");
+  if (!file && !figures) return;
   const Deadline memory_alone(std::numeric_limits<double>::infinity(), execution.deadline->memory_bytes());
   Execution within = execution;
   if (was_stopped) within.deadline = &memory_alone;
-  plots().write(*file, arguments.command_line(), within);
+  const PlotsPage page = plots();
+  if (file) page.write(*file, arguments.command_line(), within);
+  if (!figures) return;
+  const std::vector<std::string> files = figure_files(*figures, page.sheets);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    PlotsPage{{page.sheets[i]}}.write(files[i], arguments.command_line(), within);
+  }
 }
 
 }  // namespace warren::tools

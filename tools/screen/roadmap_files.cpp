@@ -32,7 +32,7 @@ void check_rules_of_maps(const Arguments& arguments) {
 
 Roadmap load_roadmap(const Arguments& arguments, const Execution& execution, StageTimes& seconds) {
   const std::string& file = arguments.operand(0);
-  if (is_maze_source(file)) {
+  if (is_made_source(file)) {
     throw InputError(file, "is a world where a roadmap is expected; make one by `warren build`");
   }
   std::optional<Scene> world;

@@ -59,7 +59,7 @@ std::span<const OptionSpec> world_option_specs() { return world_specs; }
 
 Scene load_world(const std::string& source, const Arguments& arguments, const Execution& execution,
                  StageTimes& seconds) {
-  if (!is_maze_source(source)) return load_world(InputFile(source, execution), arguments, execution, seconds);
+  if (!is_made_source(source)) return load_world(InputFile(source, execution), arguments, execution, seconds);
   if (arguments.has("--map-rules")) refuse_rules(source);
   const StageTimer timer(execution, "generate", seconds.generate);
   return read_world(source, execution);
@@ -82,6 +82,7 @@ Scene load_planned_world(const std::string& source, std::optional<PipelineKind> 
     if (scene && is_left_out(*scene->maze)) return std::move(*scene);
     return load_world(source, arguments, execution, seconds);
   }
+  if (is_made_source(source)) return load_world(source, arguments, execution, seconds);
   const InputFile file(source, execution);
   std::error_code ignored;
   if (std::filesystem::is_regular_file(source, ignored) && !arguments.has("--map-rules")) {

@@ -30,7 +30,7 @@ constexpr OptionSpec output_specs[] = {
     {"--json", "FILE", "write the answer as JSON; - is standard output"},
     {"--no-path", "", "leave the path's points out of the JSON: it says their number (path_points) and path_hash"},
     {"--explain", "", "say what became of samples and motions, where it is narrow, and what would likely help"},
-    {"--svg", "FILE", "draw the world, roadmap, search and path: .svg .png .pdf .html by ending"},
+    {"--picture", "FILE", "draw the world, roadmap, search and path: .svg .png .pdf .html by ending (or --svg FILE)"},
 };
 
 }  // namespace
@@ -45,12 +45,12 @@ AnswerCommand::AnswerCommand(const Arguments& arguments, std::string_view keep)
     : arguments_(arguments),
       explains_(arguments.has("--explain")),
       json_(output_file(arguments, "--json").value_or("")),
-      svg_(output_file(arguments, "--svg").value_or("")),
+      svg_(output_file(arguments, "--picture").value_or("")),
       roadmap_(output_file(arguments, keep).value_or("")),
       path_(output_file(arguments, "--path").value_or("")),
       path_options_(path_words(arguments)),
-      picture_options_(picture_words(arguments, arguments.has("--svg"), "--svg FILE", svg_)) {
-  check_picture("--svg", svg_);
+      picture_options_(picture_words(arguments, arguments.has("--picture"), "--picture FILE", svg_)) {
+  check_picture("--picture", svg_);
 }
 
 int AnswerCommand::run() {

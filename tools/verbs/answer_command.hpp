@@ -22,7 +22,7 @@
 
 namespace warren::tools {
 
-/// --json --no-path --svg, and how a picture looks
+/// --json --no-path --picture, and how a picture looks
 std::vector<OptionSpec> answer_output_specs();
 
 class AnswerCommand {

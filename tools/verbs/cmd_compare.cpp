@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "pictures/formats/write_picture.hpp"
 #include "studies/compare/comparison_report.hpp"
 #include "studies/contests/contest_pictures.hpp"
 #include "tools/screen/exit_code.hpp"
@@ -30,15 +31,18 @@ constexpr OptionSpec output_specs[] = {
     {"--csv", "FILE", "write a line a planner or search; - is standard output"},
     {"--html", "FILE", "write a page of tables and plots that needs no network; - is standard output"},
     {"--runs", "FILE", "write a line a run as CSV; - is standard output"},
-    {"--svg", "FILE",
+    {"--picture", "FILE",
      "plot times against size, or the share solved against time and box plots, as .svg, .png or .pdf by ending; - is "
      "standard output"},
+    {"--figures", "FILE", "each of these plots as a file of its own: k.pdf writes k-length.pdf and others"},
+    {"--table", "FILE", "write the table for a document: .tex, or else Markdown; - is standard output"},
     {"--log", "FILE", "write every run as OMPL's benchmarks do; - is standard output"},
 };
 
 /// Throws unless every output can be written; says whether one of them takes standard output.
 bool check_outputs_of_compare(const Arguments& arguments) {
-  const bool taken = check_reports(arguments, {"--json", "--csv", "--runs", "--svg", "--html", "--log"});
+  const bool taken =
+      check_reports(arguments, {"--json", "--csv", "--runs", "--picture", "--html", "--log", "--table", "--figures"});
   check_plots(arguments);
   if (const auto folder = arguments.value("--pictures")) studies::make_folder(*folder);
   if (arguments.has("--log") && arguments.has("--sizes")) {
@@ -61,7 +65,7 @@ class CompareCommand {
     execution_ = run.execution();
     compare(run);
     run.end();
-    if (arguments_.has("--svg") || arguments_.has("--html")) {
+    if (arguments_.has("--picture") || arguments_.has("--figures") || arguments_.has("--html")) {
       for (std::string note : {studies::note_on_heat_maps(comparison_), studies::note_on_box_plots(comparison_)}) {
         if (!note.empty()) comparison_.notes.push_back(std::move(note));
       }
@@ -115,6 +119,8 @@ void CompareCommand::write_outputs() const {
   write_plots(arguments_, execution_, comparison_.stopped.has_value(),
               [&] { return studies::comparison_plots(comparison_); });
   write_report(arguments_, "--html", [&] { return studies::comparison_page(comparison_, arguments_.command_line()); });
+  write_report(arguments_, "--table",
+               [&] { return studies::comparison_document(comparison_, ending_of(*arguments_.value("--table"))); });
   write_report(arguments_, "--log", [&] { return studies::ompl_log(comparison_, experiment()); });
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// warren help: the verbs, or one verb's options, as its --help.
+// warren help: the verbs; one verb's options, as its --help; or what an option or a word of the field is here.
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/terminal.hpp"
 #include "tools/words/command.hpp"
@@ -8,14 +8,28 @@
 namespace warren::tools {
 namespace {
 
+std::string help_text(const Arguments& arguments) {
+  if (arguments.operand_count() == 0) return program_help();
+  const std::string& word = arguments.operand(0);
+  const bool is_more = arguments.operand_count() > 1;
+  const bool is_all = is_more && (arguments.operand(1) == "all" || arguments.operand(1) == "--all");
+  if (is_more && !is_all) return word_help(arguments.operand(1), {&command_named(word), 1}, terminal_width());
+  if (const Command* command = find_command(word)) return command_help(*command, terminal_width(), is_all);
+  return word_help(word, command_table(), terminal_width());
+}
+
 int help(const Arguments& arguments) {
-  const bool one = arguments.operand_count() > 0;
-  print_text(one ? command_help(command_named(arguments.operand(0)), terminal_width()) : program_help());
+  print_text(help_text(arguments));
   return exit_code::success;
 }
 
 }  // namespace
 
-Command help_command() { return {"help", "[COMMAND]", "the commands, or the options of one", {}, help}; }
+Command help_command() {
+  Command command{
+      "help", "[COMMAND|WORD] [all|OPTION]", "the commands, one's options, or one option or word", {}, help};
+  command.takes_any_word = true;
+  return command;
+}
 
 }  // namespace warren::tools

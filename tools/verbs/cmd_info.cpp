@@ -74,7 +74,7 @@ int info(const Arguments& arguments) {
   const bool check = arguments.has("--check");
   Run run(arguments);
   std::optional<InputFile> file;
-  if (!is_maze_source(path)) file.emplace(path, run.execution());
+  if (!is_made_source(path)) file.emplace(path, run.execution());
   if (auto roadmap = file ? opened_roadmap(*file, path, run.execution()) : nullptr) {
     const std::string meta = roadmap_info(std::move(roadmap), check, run.execution());
     run.end();

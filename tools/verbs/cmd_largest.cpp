@@ -34,11 +34,12 @@ constexpr OptionSpec search_specs[] = {
     {"--cols", "C", "see --rows (default: 1)"},
     {"--start-size", "N", "the first maze tried has about N x N cells (default: 128)"},
     {"--max-size", "N", "try nothing larger than about N x N cells (default: what memory holds)"},
-    {"--step", "P", "end when the side is known to P per cent (default: 5)"},
+    {"--precision", "P", "end when the side is known to P per cent (default: 5)"},
     {"--seed", "N", "the first maze's seed, and its sampling's (default: 1)"},
     {"--seeds", "N", "mazes that must all be solved at the largest size (default: 3)"},
     {"--json", "FILE", "write warren.largest/1; - is standard output"},
-    {"--svg", "FILE", "plot time against cells with the budget, as .svg, .png or .pdf by ending; - is standard output"},
+    {"--picture", "FILE",
+     "plot time against cells with the budget, as .svg, .png or .pdf by ending; - is standard output"},
 };
 
 /// "5" or "5%".
@@ -66,7 +67,7 @@ studies::SizeSearch size_search(const Arguments& arguments, double shape_rows, d
     throw UsageError(fmt::format("--start-size: expected {} to {}, as --max-size and the shape say (found: {})",
                                  search.least, search.most, search.start));
   }
-  search.step = given_value(arguments, "--step", share_value).value_or(search.step);
+  search.step = given_value(arguments, "--precision", share_value).value_or(search.step);
   return search;
 }
 
@@ -106,7 +107,7 @@ int exit_code(const studies::LargestResult& result) {
 
 int largest(const Arguments& arguments) {
   const studies::LargestOptions options = largest_options(arguments);
-  const bool standard_output_taken = check_reports(arguments, {"--json", "--svg"});
+  const bool standard_output_taken = check_reports(arguments, {"--json", "--picture"});
   check_plots(arguments);
   Run run(arguments, RunScope::each_run);
   const studies::LargestResult result =
@@ -129,6 +130,7 @@ Command largest_command() {
   add_options(command.options, roadmap_option_specs(), {"--seed"});
   add_options(command.options, question_option_specs(), {"--start", "--goal"});
   add_options(command.options, run_option_specs(), {"--budget"});
+  command.foreign.emplace_back("--step", "is called --precision");
   return command;
 }
 

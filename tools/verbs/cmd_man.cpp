@@ -78,6 +78,10 @@ std::string command_page(const Command& command) {
     page += fmt::format(".SS {}\n", escaped(title));
     for (const OptionSpec* option : options) page += option_section(*option);
   }
+  page += ".SH EXAMPLES\n";
+  for (const HelpExample& example : help_examples(command.name)) {
+    page += fmt::format(".TP\n\\fB{}\\fR\n{}.\n", escaped(example.command), escaped(example.does));
+  }
   return page + ".SH SEE ALSO\n.BR warren (1)\n";
 }
 
@@ -122,10 +126,10 @@ Scenes are text, one item a line: \fIX1 Y1 X2 Y2\fR is a wall, further lines sta
 file_formats.md in the documentation.
 .SH EXAMPLES
 .nf
-warren solve maze:41x41 \-\-svg maze.svg \-\-json maze.json
+warren solve maze:41x41 \-\-picture maze.svg \-\-json maze.json
 warren verify maze:41x41 maze.json
 warren generate polygons 50 \-\-seed 7 \-o town.scene
-warren solve town.scene \-\-svg town.svg \-\-budget 20s
+warren solve town.scene \-\-picture town.svg \-\-budget 20s
 warren example parking\-lot
 warren solve parking\-lot.scene \-\-optimise \-\-path drive.yaml \-\-speed 1.5
 .fi
@@ -133,7 +137,9 @@ warren solve parking\-lot.scene \-\-optimise \-\-path drive.yaml \-\-speed 1.5
 
 std::string program_page() {
   std::string page = head_of("warren", "motion planning by roadmaps");
-  page += ".SH SYNOPSIS\n.B warren\n.I COMMAND\n[operands] [options]\n.br\n.B warren help\n[\\fICOMMAND\\fR]\n";
+  page +=
+      ".SH SYNOPSIS\n.B warren\n.I COMMAND\n[operands] [options]\n.br\n.B warren "
+      "help\n[\\fICOMMAND\\fR|\\fIWORD\\fR]\n";
   page.append(description).append(".SH COMMANDS\n");
   std::string others;
   for (const auto& [title, commands] : grouped_commands()) {

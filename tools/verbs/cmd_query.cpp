@@ -88,7 +88,7 @@ class ManyQuestions {
       : arguments_(arguments),
         options_{how_to_search(arguments), arguments.has("--lengths-only"), arguments.has("--csv")},
         keep_file_(output_file(arguments, "--keep")) {
-    std::vector<std::string_view> one{"--start", "--goal", "--json", "--svg", "--explain"};
+    std::vector<std::string_view> one{"--start", "--goal", "--json", "--picture", "--explain"};
     for (const OptionSpec& spec : picture_option_specs()) one.push_back(spec.name);
     for (const OptionSpec& spec : path_option_specs()) one.push_back(spec.name);
     for (const std::string_view option : one) {

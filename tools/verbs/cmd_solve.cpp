@@ -86,8 +86,8 @@ class SolveCommand : public AnswerCommand {
   }
   /// Of mazes as they are usually solved, and where little follows.
   ExpectedStages expected_stages() const override {
-    constexpr std::array words{"--planner",   "--sampler",      "--samples", "--robot", "--start",
-                               "--goal",      "--optimise",     "--explain", "--svg",   "--path",
+    constexpr std::array words{"--planner",   "--sampler",      "--samples", "--robot",   "--start",
+                               "--goal",      "--optimise",     "--explain", "--picture", "--path",
                                "--heuristic", "--save-roadmap", "--queue",   "--search"};
     const bool is_usual =
         std::none_of(words.begin(), words.end(), [&](const char* word) { return arguments_.has(word); });

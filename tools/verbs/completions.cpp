@@ -100,7 +100,7 @@ void add_operand(Candidates& to, const Command& command, std::size_t at, const s
   if (name == "FILE" && (command.name == "info" || command.name == "render")) return add_world(to);
   if (name == "SHELL") {
     for (const char* shell : {"bash", "zsh", "fish"}) to.add(shell);
-  } else if (name == "[COMMAND]") {
+  } else if (name.starts_with("[COMMAND")) {
     for (const Command& each : command_table()) to.add(std::string{each.name}, each.summary);
   } else if (name == "[NAME]") {
     std::set<std::string> names;  // of worlds, which may have several files
@@ -113,13 +113,6 @@ void add_operand(Candidates& to, const Command& command, std::size_t at, const s
   } else {
     to.files = given.empty() || given.front() != "generate";
   }
-}
-
-const OptionSpec* option_named(const Command& command, std::string_view name) {
-  for (const OptionSpec& option : command.options) {
-    if (name == option.name || (!option.short_name.empty() && name == option.short_name)) return &option;
-  }
-  return nullptr;
 }
 
 /// The words behind the verb, all but the last: which options are given, and what the last one is.
@@ -167,10 +160,8 @@ std::string completion_lines(std::span<const std::string> words) {
     if (to.typed.starts_with('-')) to.add("--help"), to.add("--version");
     return to.text();
   }
-  const auto& table = command_table();
-  const auto command =
-      std::find_if(table.begin(), table.end(), [&](const Command& each) { return each.name == words[0]; });
-  if (command == table.end()) return to.text();
+  const Command* command = find_command(words[0]);
+  if (command == nullptr) return to.text();
   const Parsed p = parsed(*command, words.subspan(1, words.size() - 2));
   const std::size_t equals = to.typed.starts_with("--") ? to.typed.find('=') : std::string::npos;
   if (p.pending != nullptr && !p.pending->value_optional) {

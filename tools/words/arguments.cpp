@@ -8,24 +8,14 @@
 #include "core/base/error.hpp"
 #include "tools/words/closest_match.hpp"
 #include "tools/words/command.hpp"
+#include "tools/words/other_names.hpp"
 
 namespace warren::tools {
 namespace {
 
-const OptionSpec* find_option(const Command& command, std::string_view name) {
-  const auto found = std::find_if(command.options.begin(), command.options.end(), [&](const OptionSpec& option) {
-    return name == option.name || (!option.short_name.empty() && name == option.short_name);
-  });
-  return found == command.options.end() ? nullptr : &*found;
-}
-
 [[noreturn]] void refuse_unknown(const Command& command, std::string_view name) {
   for (const auto& [option, why] : command.foreign) {
-    if (name == option) throw UsageError(fmt::format("{}: {}", name, why));
-  }
-  for (const std::string_view kind : {"--png", "--pdf", "--html"}) {
-    if (name != kind || find_option(command, "--svg") == nullptr) continue;
-    throw UsageError(fmt::format("{0}: a picture's ending says its kind: --svg FILE.{1}", name, kind.substr(2)));
+    if (own_spelling(name) == option) throw UsageError(fmt::format("{}: {}", name, why));
   }
   std::vector<std::string_view> known{"--help"};
   for (const OptionSpec& option : command.options) known.push_back(option.name);
@@ -38,6 +28,14 @@ bool is_choice(const OptionSpec& option, std::string_view word) {
 }
 
 }  // namespace
+
+const OptionSpec* option_named(const Command& command, std::string_view name) {
+  name = own_spelling(name);
+  const auto found = std::find_if(command.options.begin(), command.options.end(), [&](const OptionSpec& option) {
+    return name == option.name || (!option.short_name.empty() && name == option.short_name);
+  });
+  return found == command.options.end() ? nullptr : &*found;
+}
 
 std::vector<std::string> words_of(std::string_view text) {
   std::vector<std::string> words;
@@ -55,7 +53,8 @@ Arguments::Arguments(const Command& command, std::span<const std::string> words)
   bool options_ended = false;
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string& word = words[i];
-    if (options_ended || word.size() < 2 || word[0] != '-') {
+    const bool is_help = word == "--help" || word == "-h";
+    if (options_ended || word.size() < 2 || word[0] != '-' || (command.takes_any_word && !is_help)) {
       operands_.push_back(word);
     } else if (word == "--") {
       options_ended = true;
@@ -72,9 +71,10 @@ void Arguments::take_option(const Command& command, std::span<const std::string>
   const std::string name = word.substr(0, equals);
   if (name == "--help" || name == "-h") {
     wants_help_ = true;
+    wants_all_help_ = word == "--help=all" || (i + 1 < words.size() && words[i + 1] == "all");
     return;
   }
-  const OptionSpec* option = find_option(command, name);
+  const OptionSpec* option = option_named(command, name);
   if (option == nullptr) refuse_unknown(command, name);
   if (has(option->name) && !option->may_repeat) throw UsageError(std::string{option->name} + ": given twice");
   if (option->value.empty() || option->value_optional) {

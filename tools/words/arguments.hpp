@@ -36,6 +36,7 @@ class Arguments {
   /// The command line as it was given, for the pictures' descriptions.
   const std::string& command_line() const { return command_line_; }
   bool wants_help() const { return wants_help_; }
+  bool wants_all_help() const { return wants_all_help_; }  ///< --help all
 
  private:
   Arguments() = default;
@@ -46,6 +47,7 @@ class Arguments {
   std::vector<std::string> operands_;
   std::string command_line_;
   bool wants_help_ = false;
+  bool wants_all_help_ = false;
 };
 
 /// Those between the blanks.

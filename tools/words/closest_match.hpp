@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// "did you mean": the known word with the smallest edit distance (insert, delete, replace, swap of neighbours).
+// What is said of a word that nobody knows: what it is here, where it is one of the field's (other_names.hpp), else
+// "did you mean" the known word with the smallest edit distance (insert, delete, replace, swap of neighbours).
 #pragma once
 
 #include <span>
@@ -11,9 +12,8 @@ namespace warren::tools {
 /// Optimal string alignment distance. O(length a × length b).
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// "; did you mean KNOWN?" for the closest of the known words, which is the earliest of equals; "" if all are farther
-/// than `farthest`.
-std::string suggestion(std::string_view word, std::span<const std::string_view> known,
-                       std::size_t farthest = std::string_view::npos);
+/// "; WHAT IT IS HERE", or "; did you mean KNOWN?" for the earliest of the closest known words, or for one that begins
+/// so. Capitals and dashes before it count nothing; "" if more than a third of the letters would have to change.
+std::string suggestion(std::string_view word, std::span<const std::string_view> known);
 
 }  // namespace warren::tools

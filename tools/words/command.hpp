@@ -38,7 +38,11 @@ struct Command {
   std::function<int(const Arguments&)> run;  ///< returns the exit code
   /// Options of other verbs that people will look for here, and why there are none.
   std::vector<std::pair<std::string_view, std::string_view>> foreign = {};
+  bool takes_any_word = false;  ///< what begins with a dash is an operand, but for --help
 };
+
+/// The option of that name or short name, by either spelling; nullptr: it has none.
+const OptionSpec* option_named(const Command& command, std::string_view name);
 
 /// Appends options that several verbs share, but for those named.
 void add_options(std::vector<OptionSpec>& to, std::span<const OptionSpec> more,
@@ -67,6 +71,8 @@ Command verify_command();
 
 /// All verbs, in the order of --help.
 const std::vector<Command>& command_table();
+/// nullptr: there is none.
+const Command* find_command(std::string_view name);
 /// Throws UsageError, with the closest match.
 const Command& command_named(std::string_view name);
 

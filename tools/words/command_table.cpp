@@ -17,12 +17,17 @@ const std::vector<Command>& command_table() {
   return table;
 }
 
-const Command& command_named(std::string_view name) {
-  std::vector<std::string_view> names;
+const Command* find_command(std::string_view name) {
   for (const Command& command : command_table()) {
-    if (command.name == name) return command;
-    names.push_back(command.name);
+    if (command.name == name) return &command;
   }
+  return nullptr;
+}
+
+const Command& command_named(std::string_view name) {
+  if (const Command* command = find_command(name)) return *command;
+  std::vector<std::string_view> names{"--help", "--version"};
+  for (const Command& command : command_table()) names.push_back(command.name);
   const std::string_view what = name.starts_with('-') ? "unknown option " : "unknown command ";
   throw UsageError(std::string{what} + std::string{name} + suggestion(name, names));
 }

@@ -15,8 +15,8 @@ constexpr OptionSpec grid_specs[] = {
     {"--turn-cost", "C", "grid of a body that turns: what a turn to the next heading costs (default: 1)"},
     {"--diagonal", "NAME", "grid: what a diagonal step costs (default: sqrt2)", "sqrt2 unit none"},
     {"--layers", "NAME",
-     "grid in a scene: exact footprints, or report 004's discs, rounded up, among walls two cells thick "
-     "(default: exact)",
+     "grid in a scene. exact: the body's own outline; report004: discs that cover it, rounded up to cells, among walls "
+     "two cells thick (default: exact)",
      "exact report004"},
 };
 

@@ -5,13 +5,17 @@
 
 #include <algorithm>
 
+#include "core/base/error.hpp"
 #include "tools/words/build_facts.hpp"
+#include "tools/words/closest_match.hpp"
 #include "tools/words/option_groups.hpp"
+#include "tools/words/other_names.hpp"
 
 namespace warren::tools {
 namespace {
 
 constexpr std::size_t left_width = 30;  // of options and verbs
+constexpr std::size_t narrowest = 60;
 
 /// Broken at blanks into lines from `indent` on, but for the first, which goes on where the text stands.
 std::string wrapped(std::string_view text, std::size_t indent, std::size_t width) {
@@ -42,6 +46,44 @@ std::string option_text(const OptionSpec& option) {
   return text;
 }
 
+std::string option_entry(const OptionSpec& option, std::size_t width) {
+  return entry(option_usage(option), option_text(option), width);
+}
+
+std::string most_used_text(const Command& command, std::string_view names, std::size_t width) {
+  std::string text = fmt::format("\nMost used, of {} options:\n", command.options.size());
+  for (const std::string& name : words_of(names)) text += option_entry(*option_named(command, name), width);
+  return text;
+}
+
+std::string examples_text(const Command& command) {
+  std::string text = "\nExamples:\n";
+  for (const HelpExample& example : help_examples(command.name)) {
+    text += fmt::format("  {}\n      {}\n", example.command, example.does);
+  }
+  return text;
+}
+
+/// Options of that name, a text each with the verbs that have it so; and those that take it as a value.
+std::string options_about(std::string_view word, std::span<const Command> commands, std::size_t width) {
+  const std::string name = word.starts_with('-') ? std::string{word} : fmt::format("--{}", word);
+  std::vector<std::pair<std::string, std::string>> entries;  // text, verbs
+  for (const Command& command : commands) {
+    for (const OptionSpec& option : command.options) {
+      const std::vector<std::string> choices = words_of(option.choices);
+      const bool is_value = std::find(choices.begin(), choices.end(), word) != choices.end();
+      if (!is_value && &option != option_named(command, name)) continue;
+      const std::string text = option_entry(option, width);
+      auto known = std::find_if(entries.begin(), entries.end(), [&](const auto& each) { return each.first == text; });
+      if (known == entries.end()) known = entries.insert(known, {text, "in: warren"});
+      known->second.append(" ").append(command.name);
+    }
+  }
+  std::string text;
+  for (const auto& [option, verbs] : entries) text += option + entry("", verbs, width);
+  return text;
+}
+
 }  // namespace
 
 void add_options(std::vector<OptionSpec>& to, std::span<const OptionSpec> more,
@@ -60,8 +102,8 @@ std::string option_usage(const OptionSpec& option) {
 
 std::string_view meaning_of(std::string_view operand) {
   if (operand == "WORLD" || operand == "[WORLD]") {
-    return "a file (scene text, walls, polygons, a map, a maze; its content decides), - for standard input, or "
-           "maze:ROWSxCOLS[,seed=N][,algorithm=NAME][,loops=F]";
+    return "a file (scene text, walls, polygons, a map, a maze; its content decides), - for standard input, "
+           "empty:WIDTHxHEIGHT, or maze:ROWSxCOLS[,seed=N][,algorithm=NAME][,loops=F]";
   }
   if (operand == "ROADMAP") return "a file that 'warren build' or '--save-roadmap' has written";
   if (operand == "ANSWER.json") return "what 'warren solve --json' has written";
@@ -69,6 +111,8 @@ std::string_view meaning_of(std::string_view operand) {
   if (operand == "SHELL") return "bash, zsh or fish";
   if (operand == "FILE") return "a world or a roadmap";
   if (operand == "[COMMAND]") return "one of the commands of 'warren help'";
+  if (operand == "[COMMAND|WORD]") return "a command, an option, or a word such as prm, footprint or timeout";
+  if (operand == "[all|OPTION]") return "of a command: all of its options, or one";
   return {};
 }
 
@@ -83,16 +127,18 @@ std::string program_help() {
     }
   }
   return text +
-         "\n'warren help COMMAND' tells a command's options, 'man warren' what WORLD may be. Try:\n\n"
+         "\n'warren help COMMAND' tells a command's options, 'warren help WORD' what an option or a word of the field "
+         "is\n"
+         "here, 'man warren' what WORLD may be. Try:\n\n"
          "  warren example parking-lot                  writes a world to try things on\n"
-         "  warren solve maze:41x41 --svg maze.svg      solves one that it makes, and draws it\n\n"
+         "  warren solve maze:41x41 --picture maze.svg  solves one that it makes, and draws it\n\n"
          "Exit codes: 0 success, 1 no path or refuted, 2 usage, 65 bad data, 66 unreadable input, 70 bug,\n"
          "73 unwritable output, 124 budget of time or memory reached, 129, 130 and 143 interrupted.\n";
 }
 
-std::string command_help(const Command& command, std::size_t width) {
-  constexpr std::size_t narrowest = 60;
+std::string command_help(const Command& command, std::size_t width, bool all) {
   width = std::max(width, narrowest);
+  const std::string_view used = all ? "" : most_used_options(command.name);
   const std::string operands = command.operands.empty() ? "" : fmt::format(" {}", command.operands);
   std::string text = fmt::format("warren {}: {}\n\nUsage: warren {}{} [options]\n", command.name, command.summary,
                                  command.name, operands);
@@ -100,10 +146,27 @@ std::string command_help(const Command& command, std::size_t width) {
     if (const auto meaning = meaning_of(operand); !meaning.empty()) text += '\n' + entry(operand, meaning, width);
   }
   for (const auto& [title, options] : grouped_options(command)) {
+    if (!used.empty()) break;
     text += fmt::format("\n{}:\n", title);
-    for (const OptionSpec* option : options) text += entry(option_usage(*option), option_text(*option), width);
+    for (const OptionSpec* option : options) text += option_entry(*option, width);
   }
-  return text + '\n' + entry("--help", "this text", width);
+  if (!used.empty()) text += most_used_text(command, used, width);
+  text += '\n' + entry("--help [all]", used.empty() ? "this text" : "this text, or all options", width);
+  return text + examples_text(command);
+}
+
+std::string word_help(std::string_view word, std::span<const Command> commands, std::size_t width) {
+  std::string text = options_about(word, commands, std::max(width, narrowest));
+  if (const std::string here = other_name(word); !here.empty()) {
+    text += wrapped(fmt::format("{}: {}.", word, here), 2, std::max(width, narrowest));
+  }
+  if (!text.empty()) return text;
+  std::vector<std::string_view> known;
+  for (const Command& command : commands) {
+    known.push_back(command.name);
+    for (const OptionSpec& option : command.options) known.push_back(option.name);
+  }
+  throw UsageError(fmt::format("nothing is called {}{}", word, suggestion(word, known)));
 }
 
 std::string version_text(std::string_view commit) {

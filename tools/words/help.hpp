@@ -2,8 +2,10 @@
 // --help and --version: made from the table of commands.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "tools/words/command.hpp"
 
@@ -11,9 +13,21 @@ namespace warren::tools {
 
 /// The verbs, a line each.
 std::string program_help();
-/// The verb's options in groups, in lines of at most `width` columns (those of 60 at least).
-std::string command_help(const Command& command, std::size_t width);
+/// The verb's options, the most used ones or all in groups, and examples, in lines of at most `width` columns (those of
+/// 60 at least).
+std::string command_help(const Command& command, std::size_t width, bool all);
+/// What an option of these commands is, a value of one, or a word of the field. Throws UsageError for an unknown word.
+std::string word_help(std::string_view word, std::span<const Command> commands, std::size_t width);
 std::string version_text(std::string_view commit);
+
+struct HelpExample {
+  std::string_view command;  ///< a whole command line
+  std::string_view does;
+};
+/// Of one verb, or of all in an order in which they can be typed one after the other (short_help.cpp).
+std::vector<HelpExample> help_examples(std::string_view verb = {});
+/// Of verbs with many options the ten that are used most, blank-separated; empty: help has all options.
+std::string_view most_used_options(std::string_view verb);
 
 /// "--neighbours K|auto|star", "-o, --output FILE"; of a list "NAME[,...]" unless the name says so.
 std::string option_usage(const OptionSpec& option);

@@ -27,7 +27,9 @@ constexpr NamedGroup option_groups[] = {
     {"Shortening", "--optimise --cusp-cost --reverse-cost"},
     {"Mazes", "--algorithm --loops"},
     {"Outputs",
-     "--output --json --svg --csv --runs --log --html --pictures --report --save-roadmap --keep --explain --show "
+     "--output --picture --figures --table --json --no-path --csv --runs --log --html --pictures --report "
+     "--save-roadmap --keep "
+     "--explain --show "
      "--heading --size --dpi --title"},
     {"Path as a file",
      "--path --every --speed --acceleration --lateral-acceleration --joint-speed --joint-acceleration --frame"},

@@ -146,8 +146,7 @@ std::size_t choice_value(std::string_view option, std::string_view text, std::sp
     if (words[i] == text) return i;
     list.append(i == 0 ? "" : ", ").append(words[i]);
   }
-  constexpr std::size_t typing_error = 3;
-  throw UsageError(fmt::format("{}: '{}' is none of {}{}", option, text, list, suggestion(text, words, typing_error)));
+  throw UsageError(fmt::format("{}: '{}' is none of {}{}", option, text, list, suggestion(text, words)));
 }
 
 std::optional<std::uint32_t> given_count(const Arguments& arguments, std::string_view option, std::uint32_t low,

@@ -13,8 +13,8 @@ namespace warren::tools {
 /// --show --heading --size --dpi --title
 std::span<const OptionSpec> picture_option_specs();
 
-/// Throws UsageError, also for any of them where nothing is drawn, `draws` names what would, such as "--svg FILE"; and
-/// for those that mean nothing to the picture's `file`.
+/// Throws UsageError, also for any of them where nothing is drawn, `draws` names what would, such as "--picture FILE";
+/// and for those that mean nothing to the picture's `file`.
 PictureOptions picture_words(const Arguments& arguments, bool is_drawn, std::string_view draws,
                              std::string_view file = {});
 

@@ -13,10 +13,9 @@ namespace {
 
 constexpr OptionSpec roadmap_specs[] = {
     {"--planner", "NAME",
-     "prm checks every edge of a roadmap, lazy-prm those that a search reaches; visibility and cells find shortest "
-     "paths among obstacles, voronoi keeps far from them; rrt and rrt-connect grow trees, grid searches cells "
-     "(default: "
-     "by world and body)",
+     "prm checks every edge of a roadmap, lazy-prm those that a search reaches; visibility finds the shortest path "
+     "among polygons, cells one through vertical cells, voronoi one far from obstacles; rrt and rrt-connect grow "
+     "trees, grid searches cells (default: by world and body)",
      "prm lazy-prm"},
     {"--sampler", "NAME",
      "where milestones come from (default: lattice in mazes, cell-centres on maps of corridors a cell wide, else "
@@ -32,8 +31,8 @@ constexpr OptionSpec roadmap_specs[] = {
      "auto kd-tree grid brute"},
     {"--search", "NAME", "how the roadmap is searched (default: astar)", "astar dijkstra bfs dfs"},
     {"--heuristic", "NAME",
-     "what astar takes the way to the goal for, of points and discs; manhattan and octile may lengthen the path, and "
-     "what it costs is told (default: euclidean)",
+     "how astar estimates the distance to the goal, for points and discs. manhattan and octile may give a longer "
+     "path; warren then says by how much (default: euclidean)",
      "euclidean manhattan octile chebyshev zero"},
     {"--queue", "NAME", "the queue of astar and dijkstra (default: heap)",
      "heap lazy-heap sorted-array resorted-array"},
@@ -44,11 +43,11 @@ constexpr OptionSpec roadmap_specs[] = {
      {},
      true},
     {"--pipeline", "NAME",
-     "how prm works: stage by stage, tile by tile in cache, or so that mazes of mst are made and forgotten tile by "
-     "tile (default: tiled on a lattice where the rules of joining and searching are the usual ones, streamed where "
-     "the memory does not hold the maze)",
+     "how prm works. plain: one stage after the other; tiled: each tile through all stages, in cache; streamed: as "
+     "tiled, without holding the maze (mst only). Default: tiled on lattices, streamed where memory does not hold the "
+     "maze, else plain",
      "plain tiled streamed"},
-    {"--optimise", "", "pull the path taut after the search"},
+    {"--optimise", "", "shorten the path after the search"},
     {"--seed", "N", "seed of the sampling; never alters the world (default: 1)"},
 };
 
@@ -66,10 +65,10 @@ constexpr OptionSpec polygon_planner_specs[] = {
 constexpr OptionSpec body_specs[] = {
     {"--steering", "WORD", "a car's curves: forwards only, or backwards too (default: the file's, else dubins)",
      "dubins reeds-shepp"},
-    {"--turning-radius", "RHO", "a car's, > 0 (default: the file's)"},
+    {"--turning-radius", "RHO", "how tightly a car turns, > 0 (default: the file's)"},
     {"--cusp-cost", "C",
-     "with --optimise: so much length a car drives to spare a change of gear, >= 0 (default: a turning radius)"},
-    {"--reverse-cost", "F", "with --optimise: what a car's way backwards costs of one forwards, >= 1 (default: 1)"},
+     "with --optimise: the length that a car may add to save one change of gear, >= 0 (default: its turning radius)"},
+    {"--reverse-cost", "F", "with --optimise: cost of driving backwards, where forwards is 1, >= 1 (default: 1)"},
     {"--attach", "R[,STEP]",
      "arms: join start and goal to a roadmap within R, and while that fails within STEP more, 10 times in all "
      "(default: as far as the K nearest, and half of that)"},

@@ -10,15 +10,13 @@ namespace {
 constexpr OptionSpec question_specs[] = {
     {"--robot", "\"BODY\"",
      "the moving body: \"point\", \"disc RADIUS\", \"polygon X Y X Y ...\" (or \"[[X, Y], ...]\"), \"car polygon X Y "
-     "... turning RHO\", "
-     "\"puma560 radius R\" or \"arm FILE radius R\" (default: the file's, else point)"},
+     "... turning RHO\", \"puma560 radius R\" or \"arm FILE radius R\" (default: the file's, else point)"},
     {"--start", "X,Y[,THETA]",
-     "where the path begins; THETA in radians, or as 90deg; of an arm six joints (default: the file's)"},
+     "start: X,Y, or X,Y,THETA (radians, or 90deg), or six joint angles of an arm (default: the file's)"},
     {"--goal", "X,Y[,THETA]",
-     "where the path ends; a body that turns takes any heading where none is said (default: "
-     "the file's)"},
+     "goal, as --start; without THETA a body that turns may arrive at any heading (default: the file's)"},
     {"--clearance", "R",
-     "room kept around the body all along the path (default: the file's, else 0.1 in mazes, else 0)"},
+     "room to keep around the body along the whole path (default: the file's, else 0.1 in mazes, else 0)"},
     {"--contact", "WORD",
      "with clearance 0: may the path touch an obstacle? (default: allowed for visibility and cells, else blocked)",
      "blocked allowed"},

@@ -9,10 +9,10 @@ namespace {
 constexpr OptionSpec tree_specs[] = {
     {"--step", "D", "longest motion of a tree, in the body's metric (default: a third of half the space's diagonal)"},
     {"--goal-bias", "F", "share of rrt's samples that are the goal (default: 0.05)"},
-    {"--nodes", "N", "a tree of so many nodes gives up (default: 100000)"},
+    {"--nodes", "N", "most nodes of a tree; a tree that has them gives up (default: 100000)"},
     {"--trees", "N", "trees grown independently at once; the first to arrive answers (default: 1)"},
     {"--via", "STATES",
-     "way-points to be passed in this order: X,Y or X,Y,THETA or six joint angles each, apart by semicolons"},
+     "waypoints to pass in this order, apart by semicolons; each X,Y or X,Y,THETA or six joint angles"},
 };
 
 std::vector<std::vector<double>> way_points_value(std::string_view option, std::string_view text) {

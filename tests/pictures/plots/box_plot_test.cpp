@@ -50,8 +50,22 @@ TEST(BoxPlot, PlacesAreInsideTheElementWithAnyNamesAndFigures) {
     const std::string text = box_plot_svg(plot);
     EXPECT_EQ(text.find("nan"), std::string::npos) << value;
     EXPECT_EQ(text.find("=\"-"), std::string::npos) << value;
-    EXPECT_NE(text.find("...<"), std::string::npos) << "a name that is cut says so";
+    EXPECT_NE(text.find("w...w"), std::string::npos) << "a name that is cut says so";
   }
+}
+
+TEST(BoxPlot, LongNamesThatDifferAtTheirEndsAreToldApart) {
+  BoxPlot plot{.title = "one"};
+  const std::string name = "prm, sampler uniform, samples 357, shortened by a long procedure, neighbours ";
+  for (std::size_t k = 1; k <= most_boxes; ++k) plot.boxes.push_back({name + std::to_string(k), "1 of 1", {}});
+  const std::string many = box_plot_svg(plot);
+  EXPECT_EQ(times_in(many, "..."), most_boxes);
+  for (std::size_t k = 1; k <= most_boxes; ++k)
+    EXPECT_EQ(times_in(many, "neighbours " + std::to_string(k) + "<"), 1U) << k;
+  plot.boxes.resize(2);  // with room for two lines each
+  const std::string few = box_plot_svg(plot);
+  EXPECT_EQ(times_in(few, "..."), 0U);
+  EXPECT_EQ(times_in(few, "neighbours 1<") + times_in(few, "neighbours 2<"), 2U);
 }
 
 }  // namespace

@@ -68,6 +68,19 @@ TEST(ReadWorld, RefusesBadMazeNamesAsUsage) {
   }
 }
 
+TEST(ReadWorld, AnEmptyWorldIsItsBounds) {
+  const Scene scene = read_world("empty:20x7.5", {});
+  ASSERT_TRUE(scene.bounds);
+  EXPECT_EQ(scene.bounds->max, (Vec2{20, 7.5}));
+  EXPECT_EQ(scene.bounds->min, (Vec2{0, 0}));
+  EXPECT_EQ(scene.walls.size() + scene.polygons.size(), 0U);
+  EXPECT_EQ(scene.source, "empty:20x7.5");
+  for (const char* source : {"empty:", "empty:5", "empty:5x", "empty:x5", "empty:0x5", "empty:5x-1", "empty:nanx5",
+                             "empty:5x5x5", "empty:1e300x5", "empty:5x5,seed=1", "empty: 5x5"}) {
+    EXPECT_THROW(read_world(source, {}), UsageError) << source;
+  }
+}
+
 TEST(ReadWorld, TheSameWallsHaveTheSameHashWhereverTheyComeFrom) {
   const TemporaryDirectory directory;
   const std::string source = "maze:90x120,seed=4,algorithm=prim,loops=0.1";

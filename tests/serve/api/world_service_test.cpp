@@ -119,6 +119,31 @@ TEST(WorldService, ABlockedEndIsAnAnswerThatSaysWhy) {
   EXPECT_EQ(field(response, "Warren-Path"), "none");
 }
 
+TEST(WorldService, SaysWhyThereIsNoPathWhenAsked) {
+  const std::string closed =
+      "bounds 0 0 100 60\nwall 50 0 50 29\nwall 50 31 50 60\nrobot disc 2\nstart 5 30\ngoal 95 30\n";
+  Served world(scene_of(closed));
+  Json question{{"planner", "prm"}};
+  EXPECT_FALSE(Json::parse(world.query(question).body).contains("explained"));
+  question["explain"] = true;
+  const Json answer = Json::parse(world.query(question).body);
+  EXPECT_EQ(answer.at("status"), "not_connected");
+  EXPECT_FALSE(answer.at("components").at("nearest_gap").is_null());
+  EXPECT_FALSE(answer.at("explained").at("hints").empty());
+  Served roadmap(build(scene_of(closed), {}, {.planner = PlannerKind::prm, .roadmap = {.samples = 50}}));
+  const Json kept = Json::parse(roadmap.query({{"start", {5, 30}}, {"goal", {95, 30}}, {"explain", true}}).body);
+  EXPECT_FALSE(kept.at("explained").at("hints").empty());
+}
+
+TEST(WorldService, SaysWhatItsBodyLooksLike) {
+  Served disc(scene_of(std::string(town) + "robot disc 2\n"));
+  EXPECT_EQ(Json::parse(disc.get("/api/world").body).at("radius"), 2.0);
+  Served square(scene_of("bounds 0 0 100 60\nrobot polygon 0 0 1 0 1 1\n"));
+  const Json said = Json::parse(square.get("/api/world").body);
+  EXPECT_EQ(said.at("radius"), 0.0);
+  EXPECT_EQ(said.at("outline"), Json::parse("[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]"));
+}
+
 TEST(WorldService, WhatCanNotBeAskedIsRefusedInOneForm) {
   Served served(scene_of(town));
   struct Case {

@@ -55,6 +55,28 @@ TEST(BoxPanels, ShowWhatDiffersFromRunToRunAndSayFailures) {
   EXPECT_TRUE(box_panels(of_planners(2, {10.0})).empty()) << "one run is no spread";
 }
 
+TEST(BoxPanels, RowsAreNamedByWhatDiffersAlone) {
+  Comparison comparison = of_planners(3, {10.0, 12.0});
+  for (std::size_t i = 0; i < 3; ++i) {
+    Contender& c = comparison.contenders[i];
+    c.planner = "prm";
+    c.dealt = {
+        {"sampler", "uniform"}, {"samples", i == 0 ? "357" : "500"}, {"neighbours", std::to_string(4 * (i + 1))}};
+  }
+  const std::string svg = box_panels(comparison).at(0).svg();
+  for (const char* name :
+       {">samples 357, neighbours 4<", ">samples 500, neighbours 8<", ">samples 500, neighbours 12<"}) {
+    EXPECT_NE(svg.find(name), std::string::npos) << name;
+  }
+  comparison.contenders.resize(1);
+  EXPECT_NE(box_panels(comparison).at(0).svg().find(">prm, sampler uniform"), std::string::npos)
+      << "one is named whole";
+  Comparison plain = of_planners(2, {10.0, 12.0});
+  plain.contenders[1].planner = plain.contenders[0].planner;
+  plain.contenders[1].options = {{"samples", "5"}};
+  EXPECT_NE(box_panels(plain).at(0).svg().find(">planner0<"), std::string::npos) << "no row is without a name";
+}
+
 TEST(BoxPanels, TimesOverMoreThanADecadeAreLogarithmic) {
   const auto decades = [](double slowest) { return box_panels(of_planners(1, {1.0, 1.0, 0.0}, slowest)).at(0).svg(); };
   EXPECT_NE(decades(200.0).find(">100<"), std::string::npos);

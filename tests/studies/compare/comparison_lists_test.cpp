@@ -43,7 +43,7 @@ TEST(ListPanels, TwoListsMakeHeatMapsOfSuccessLengthAndTime) {
                                       contender("prm", {{"samples", "50"}, {"neighbours", "8"}}, 1, 17.5),
                                       contender("prm", {{"samples", "90"}, {"neighbours", "4"}}, 2, 16.5),
                                       contender("prm", {{"samples", "90"}, {"neighbours", "8"}}, 4, 15.5)}));
-  ASSERT_EQ(panels.size(), 3U);
+  ASSERT_EQ(panels.size(), 6U) << "the same as lines";
   for (const char* text : {">0 %<", ">25 %<", ">50 %<", ">100 %<", ">samples<", ">neighbours<"}) {
     EXPECT_EQ(count(panels[0].svg(), text), 1U) << text;
   }
@@ -62,9 +62,27 @@ TEST(ListPanels, TheListsWithMostValuesAreTheAxesAndOthersMakeMapsOfTheirOwn) {
     }
   }
   const auto panels = list_panels(of(all));
-  ASSERT_EQ(panels.size(), 6U);
+  ASSERT_EQ(panels.size(), 12U);
   EXPECT_EQ(count(panels[0].svg(), "prm, sampler uniform: runs solved"), 2U) << "title and heading";
   EXPECT_EQ(count(panels[5].svg(), "prm, sampler halton: median time"), 2U);
+}
+
+TEST(ListPanels, TwoListsAreLinesWithIntervalsOverOneOfThemToo) {
+  std::vector<Contender> all;
+  for (const char* n : {"50", "90"}) {
+    for (const char* k : {"4", "8", "12"}) all.push_back(contender("prm", {{"samples", n}, {"neighbours", k}}, 2, 1.0));
+  }
+  const auto panels = list_panels(of(all));
+  ASSERT_EQ(panels.size(), 6U);
+  const std::string svg = panels[3].svg();
+  EXPECT_EQ(count(svg, "prm: runs solved against neighbours"), 2U) << "over the option with most values";
+  EXPECT_EQ(count(svg, ">samples 50<") + count(svg, ">samples 90<"), 2U) << "a line a value of the other";
+  EXPECT_EQ(count(svg, "<circle"), 6U + 2U) << "points and legend";
+  all.clear();
+  for (const char* sampler : {"uniform", "halton"}) {
+    for (const char* k : {"4", "8"}) all.push_back(contender("prm", {{"sampler", sampler}, {"neighbours", k}}, 2, 1.0));
+  }
+  EXPECT_EQ(count(list_panels(of(all)).at(3).svg(), "runs solved against neighbours"), 2U) << "words are no axis";
 }
 
 TEST(ListPanels, OneListOfNumbersIsALineAPlannerWithBars) {
@@ -82,6 +100,19 @@ TEST(ListPanels, WordsAndOptionsThatNobodyListsHaveNone) {
   EXPECT_TRUE(list_panels(of({contender("prm", {{"sampler", "uniform"}}, 4, 15.0),
                               contender("prm", {{"sampler", "halton"}}, 4, 15.0)}))
                   .empty());
+}
+
+TEST(HeatMap, TheBrightColourIsTheGoodOne) {
+  HeatMap map{.columns = {"1", "2"}, .rows = {"x"}, .cells = {{1.0, "least"}, {2.0, "most"}}};
+  const auto fill_of = [&](const std::string& cell) {
+    const std::string svg = sheet_of(map).svg();
+    const std::size_t rect = svg.rfind("<rect", svg.find(": " + cell));
+    return svg.substr(svg.find("fill=", rect), 14);
+  };
+  const std::string bright = fill_of("most");
+  EXPECT_NE(fill_of("least"), bright);
+  map.less_is_better = true;
+  EXPECT_EQ(fill_of("least"), bright);
 }
 
 TEST(HeatMap, EqualValuesAndNoneAreDrawnToo) {

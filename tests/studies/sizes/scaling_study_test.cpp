@@ -5,6 +5,9 @@
 
 #include <array>
 #include <cmath>
+#include <string>
+
+#include "studies/sizes/scaling_report.hpp"
 
 namespace warren::studies {
 namespace {
@@ -80,6 +83,28 @@ TEST(StageExponents, TellStagesApartAndLeaveOutWhatIsTooShort) {
     EXPECT_NEAR(exponent, stage == "index" ? 0.5 : 1.0, 1e-9);
   }
   EXPECT_EQ(names, (std::vector<std::string>{"index", "solve"}));
+}
+
+TEST(ScalingPage, AStageHasOneColourInAllPlots) {
+  ScalingResult result;
+  for (const std::uint32_t side : {100U, 200U}) {
+    for (const char* planner : {"prm", "lazy-prm"}) {
+      ScalingRun run = run_of(side, 1, side / 100.0);
+      run.trial.planner = planner;
+      run.trial.seconds.verify = 0.1;
+      if (run.trial.planner == "prm") run.trial.seconds.connect = 0.2;  // a stage between the others, of one alone
+      result.runs.push_back(run);
+    }
+  }
+  const std::string page = scaling_page(result, "warren scale");
+  const auto color_of_verify = [&](const std::string& planner) {
+    const std::size_t plot = page.find("<title>Stages of " + planner);
+    const std::size_t name = page.find(">verify", plot);
+    EXPECT_LT(name, page.find("</svg>", plot));
+    const std::size_t mark = page.rfind("fill=\"#", page.rfind("<circle", name) + 60);
+    return page.substr(mark, 14);
+  };
+  EXPECT_EQ(color_of_verify("prm lattice"), color_of_verify("lazy-prm lattice"));
 }
 
 }  // namespace

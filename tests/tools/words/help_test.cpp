@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What help and manual pages say, of all verbs: the same wherever one asks, in groups, in lines that fit.
+#include <algorithm>
 #include <set>
+#include <span>
 
 #include "tests/tools/process.hpp"
 #include "tools/words/command.hpp"
@@ -39,13 +41,83 @@ TEST(Help, NamesEveryOptionOnceInAGroupAndEveryVerbOnce) {
 
 TEST(Help, LinesFitTheScreen) {
   for (const tools::Command& command : tools::command_table()) {
-    std::istringstream text(tools::command_help(command, 80));
-    for (std::string line; std::getline(text, line);) EXPECT_LE(line.size(), 80U) << line;
+    for (const bool all : {false, true}) {
+      std::istringstream text(tools::command_help(command, 80, all));
+      for (std::string line; std::getline(text, line);) EXPECT_LE(line.size(), 80U) << line;
+    }
+  }
+}
+
+TEST(Help, IsShortWhereThereAreManyOptionsAndAllIsThereWhenAsked) {
+  for (const tools::Command& command : tools::command_table()) {
+    const std::string name{command.name};
+    const std::string text = run({"help", name}).out;
+    EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 60) << name;
+    EXPECT_NE(text.find("\nExamples:\n  warren "), std::string::npos) << name;
+    const std::string all = run({name, "--help", "all"}).out;
+    EXPECT_EQ(all, run({"help", name, "all"}).out);
+    for (const tools::OptionSpec& option : command.options) {
+      EXPECT_NE(all.find("  " + tools::option_usage(option)), std::string::npos) << name << ' ' << option.name;
+    }
+    const std::string_view used = tools::most_used_options(name);
+    EXPECT_EQ(used.empty(), command.options.size() <= 15) << name << ' ' << command.options.size();
+    for (const std::string& option : tools::words_of(used)) {
+      EXPECT_NE(tools::option_named(command, option), nullptr) << name << ' ' << option;
+    }
+  }
+}
+
+TEST(Help, ExplainsOneOptionAndOneOfItsValues) {
+  const std::string clearance = run({"help", "--clearance"}).out;
+  EXPECT_NE(clearance.find("--clearance R"), std::string::npos) << clearance;
+  EXPECT_NE(clearance.find("in: warren solve"), std::string::npos) << clearance;
+  EXPECT_NE(run({"help", "clearance"}).out.find(clearance.substr(0, clearance.find("in: "))), std::string::npos);
+  EXPECT_EQ(run({"help", "--optimize"}).out, run({"help", "--optimise"}).out);
+  EXPECT_NE(run({"help", "lazy-prm"}).out.find("--planner NAME"), std::string::npos);
+  const std::string seed = run({"help", "largest", "--seed"}).out;
+  EXPECT_NE(seed.find("the first maze's seed"), std::string::npos) << seed;
+  EXPECT_EQ(seed.find("seed of the sampling"), std::string::npos) << seed;
+  check({{"help", "--clearence"}, 2, "did you mean --clearance?"});
+  check({{"help", "solve", "--writable"}, 2, "nothing is called --writable"});
+}
+
+/// The words of a command line as a shell splits them, without the program.
+std::vector<std::string> shell_words(std::string_view line) {
+  std::vector<std::string> words(1);
+  bool is_quoted = false;
+  for (const char c : line) {
+    if (c == '"') {
+      is_quoted = !is_quoted;
+    } else if (c == ' ' && !is_quoted) {
+      words.emplace_back();
+    } else {
+      words.back() += c;
+    }
+  }
+  EXPECT_EQ(words.front(), "warren");
+  words.erase(words.begin());
+  return words;
+}
+
+/// One after the other in one folder. Those that take long, that never end, or that need files of the user are read
+/// alone.
+TEST(Help, ItsExamplesWork) {
+  const Folder folder;
+  const auto before = std::filesystem::current_path();
+  const std::set<std::string> only_read{"serve", "compare", "largest", "scale", "bench-scen"};
+  for (const auto& [line, does] : tools::help_examples()) {
+    const std::vector<std::string> words = shell_words(line);
+    EXPECT_NO_THROW(tools::Arguments(tools::command_named(words[0]), std::span(words).subspan(1))) << line;
+    if (only_read.contains(words[0]) || line.find(".csv") != line.npos) continue;
+    std::filesystem::current_path(folder.path(""));
+    const Outcome outcome = run(words);
+    std::filesystem::current_path(before);
+    EXPECT_EQ(outcome.code, 0) << line << '\n' << outcome.err;
   }
 }
 
 TEST(Help, BuildListsOnlyWhatItTakes) {
-  const std::string text = run({"build", "--help"}).out;
+  const std::string text = run({"build", "--help", "all"}).out;
   for (const char* option : {"--via", "--goal-bias", "--cell", "--search", "--optimise", "rrt"}) {
     EXPECT_EQ(text.find(std::string{option} + " "), std::string::npos) << option;
   }

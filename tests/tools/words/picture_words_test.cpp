@@ -116,7 +116,7 @@ TEST(PictureWords, WhatMeansNothingIsRefused) {
   check({{"solve", "maze:5x5", "--svg", file, "--size", "300"}, 2, "--size: expected WxH"});
   check({{"solve", "maze:5x5", "--svg", file, "--size", "3x300"}, 2, "a side is from 40 to 20000 px (found: 3)"});
   check({{"solve", "maze:5x5", "--svg", file, "--dpi", "5"}, 2, "--dpi"});
-  check({{"solve", "maze:5x5", "--title", "x"}, 2, "--title: goes with --svg FILE"});
+  check({{"solve", "maze:5x5", "--title", "x"}, 2, "--title: goes with --picture FILE"});
   check({{"convert", "maze:5x5", "-o", folder.path("a.npy"), "--dpi", "96"}, 2, "--dpi: goes with -o FILE.svg"});
   check({{"compare", "maze:5x5", "--planners", "prm", "--size", "300x300"}, 2, "--size: goes with --pictures FOLDER"});
 }

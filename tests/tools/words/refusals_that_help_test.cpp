@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is said where something does not fit: what, where, how much, and what would do.
+#include <fmt/format.h>
+
 #include "tests/tools/grid_worlds.hpp"
 #include "tests/tools/process.hpp"
 #include "tools/screen/progress_bar.hpp"
@@ -23,12 +25,12 @@ TEST(RefusalsThatHelp, TooNarrowIsToldWithTheRoomAndThePlaceInFewDigits) {
   const Folder folder;
   const std::string world = folder.write("w.scene", "bounds 0 0 10 4\nwall 5 0 5 2\nstart 1 1\ngoal 9 3\n");
   expect_said(said({"solve", world, "--robot", "disc 0.3", "--goal", "5.1,1"}),
-              {"goal blocked", "in the way is wall 0", "0.1 there, 0.3 needed", "free is       5.31,1, 0.21 away"});
+              {"goal blocked", "in the way is wall 0", "0.1 there, 0.3 needed", "nearest free  (5.31, 1), 0.21 away"});
   const Json blocked = answered({"solve", world, "--robot", "disc 0.3", "--goal", "5.1,1"}, 1)["blocked"];
   EXPECT_NEAR(blocked["room"].get<double>(), 0.1, 1e-9);
   EXPECT_EQ(blocked["needed"], 0.3);
   expect_said(said({"solve", world, "--start", "12,1"}),
-              {"outside of the bounds 0 0 10 4", "free is       9.999,1, 2.001 away"});
+              {"outside of the bounds 0 0 10 4", "nearest free  (9.999, 1), 2.001 away"});
 }
 
 TEST(RefusalsThatHelp, ArmsAreToldTheirLimitsInDegreesAndTheirReach) {
@@ -47,12 +49,12 @@ TEST(RefusalsThatHelp, HowDeepIsToldBesideTheFreePlace) {
   const Json blocked = answered({"solve", world, "--start", "4.5,2"}, 1)["blocked"];
   EXPECT_NEAR(blocked["depth"].get<double>(), 0.5, 1e-3);
   expect_said(said({"solve", world_file("puma-seed.scene"), "--goal", "-0.25,-0.4,0.05"}),
-              {"in the way is sphere 2", "depth         0.15 in it", "free is "});
+              {"in the way is sphere 2", "depth         0.15 in it", "nearest free  ("});
 }
 
 TEST(RefusalsThatHelp, TheEndingSaysThePicturesKind) {
   for (const std::string kind : {"png", "pdf", "html"})
-    check({{"solve", "maze:5x5", "--" + kind, "x." + kind}, 2, ("--svg FILE." + kind).c_str()});
+    check({{"solve", "maze:5x5", "--" + kind, "x." + kind}, 2, "a picture's ending says its kind: --picture FILE.png"});
 }
 
 TEST(RefusalsThatHelp, FootprintsOfNav2AreBodies) {

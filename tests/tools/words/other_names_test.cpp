@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Words of the field: each is answered wherever one types it, by what there is; and what is no word of it and no
+// misspelling gets no suggestion.
+#include <algorithm>
+#include <set>
+
+#include "core/base/error.hpp"
+#include "solve/question/solve_options.hpp"
+#include "tests/tools/process.hpp"
+#include "tools/words/command.hpp"
+#include "tools/words/help.hpp"
+#include "tools/words/option_values.hpp"
+#include "tools/words/other_names.hpp"
+
+namespace warren::test {
+namespace {
+
+using tools::OtherName;
+
+std::vector<std::string> names_of(const OtherName& row) {
+  std::vector<std::string> names;
+  std::istringstream list{std::string(row.names)};
+  for (std::string name; std::getline(list >> std::ws, name, ',');) {
+    std::erase(name, '\\');
+    names.push_back(name);
+  }
+  return names;
+}
+
+template <class Call>
+std::string refusal_of(const Call& call) {
+  try {
+    call();
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+bool contains(std::string text, const std::string& part) {
+  std::string flat;
+  for (const char c : text) {
+    if (c != ' ' && c != '\n') flat += c;
+  }
+  std::string wanted;
+  for (const char c : part) {
+    if (c != ' ') wanted += c;
+  }
+  return flat.find(wanted) != std::string::npos;
+}
+
+TEST(OtherNames, EachIsAnsweredByHelpAsAnOptionAsAVerbAndAsAPlanner) {
+  std::set<std::string> seen;
+  for (const OtherName& row : tools::other_names()) {
+    for (const std::string& name : names_of(row)) {
+      SCOPED_TRACE(name);
+      EXPECT_TRUE(seen.insert(name).second) << "is there twice";
+      const std::string here = tools::other_name(name);
+      ASSERT_FALSE(here.empty());
+      EXPECT_TRUE(contains(tools::word_help(name, tools::command_table(), 80), here));
+      std::string option = "--" + name;
+      std::replace(option.begin(), option.end(), ' ', '-');
+      EXPECT_EQ(tools::other_name(option), here);
+      const std::vector<std::string> words{"maze:5x5", option};
+      EXPECT_TRUE(contains(refusal_of([&] { tools::Arguments(tools::command_named("solve"), words); }), here));
+      EXPECT_TRUE(contains(refusal_of([&] { tools::choice_value<PlannerKind>("--planner", name); }), here));
+      EXPECT_TRUE(contains(refusal_of([&] { tools::command_named(name); }), here));
+    }
+  }
+  EXPECT_GT(seen.size(), 150U);
+}
+
+TEST(OtherNames, AnswersNameOptionsAndVerbsThatThereAre) {
+  std::set<std::string> options;
+  std::set<std::string> verbs;
+  for (const tools::Command& command : tools::command_table()) {
+    verbs.emplace(command.name);
+    for (const tools::OptionSpec& option : command.options) options.emplace(option.name);
+  }
+  for (const OtherName& row : tools::other_names()) {
+    std::istringstream parts{std::string(row.here)};
+    bool is_typed = false;
+    for (std::string part; std::getline(parts, part, '`'); is_typed = !is_typed) {
+      if (!is_typed) continue;
+      const std::vector<std::string> words = tools::words_of(part);
+      for (const std::string& word : words) EXPECT_TRUE(!word.starts_with("--") || options.contains(word)) << word;
+      EXPECT_TRUE(words[0] != "warren" || verbs.contains(words[1])) << part;
+    }
+  }
+}
+
+TEST(OtherNames, AreTypedAsPeopleTypeThem) {
+  const std::vector<Case> cases{
+      {{"solve", "maze:5x5", "--footprint", "1"}, 2, "unknown option --footprint; --robot \"[[X, Y], ...]\""},
+      {{"solve", "maze:5x5", "-o", "x.svg"}, 2, "--picture FILE"},
+      {{"solve", "maze:5x5", "--planner", "RRT*"}, 2, "not here: with --planner prm --neighbours star"},
+      {{"solve", "maze:5x5", "--planner", "rrt-star"}, 2, "--neighbours star"},
+      {{"solve", "maze:5x5", "--planner", "RRT"}, 2, "did you mean rrt?"},
+      {{"compare", "maze:5x5", "--planners", "prm,D*_Lite"}, 2, "warren update"},
+      {{"solve", "maze:5x5", "--Planner", "prm"}, 2, "did you mean --planner?"},
+      {{"solve", "maze:5x5", "--optim"}, 2, "did you mean --optimise?"},
+      {{"plan", "maze:5x5"}, 2, "unknown command plan; warren solve WORLD"},
+      {{"help", "D* Lite"}, 0, ""},
+      {{"man", "nosuch"}, 2, "unknown command nosuch"},
+      {{"largest", "--step", "5"}, 2, "--step: is called --precision"},
+  };
+  for (const Case& c : cases) check(c);
+}
+
+TEST(OtherNames, NothingIsSuggestedForWhatIsFarFromAllThatThereIs) {
+  for (const std::string word : {"--banana", "--qx", "--zzzz", "--no", "--tolerate-it"}) {
+    const std::string said = run({"solve", "maze:5x5", word}).err;
+    EXPECT_NE(said.find("unknown option " + word + " (see"), std::string::npos) << said;
+  }
+  EXPECT_EQ(run({"solve", "maze:5x5", "--planner", "all"}).err.find("did you mean"), std::string::npos);
+  EXPECT_EQ(run({"help", "nosuch"}).err.find("did you mean"), std::string::npos);
+}
+
+TEST(OtherNames, BothSpellingsOfAnOptionAreTheSame) {
+  const Folder folder;
+  const std::vector<std::string> ours{"solve", "maze:9x9", "--optimise", "--neighbours", "6", "--color", "never"};
+  const std::vector<std::string> theirs{"solve", "maze:9x9", "--optimize", "--neighbors=6", "--colour", "never"};
+  const std::vector<std::string> json{"--json", "-", "--no-path"};
+  const Outcome first = run(joined(ours, json));
+  ASSERT_EQ(first.code, 0) << first.err;
+  const auto hash = [](const std::string& text) { return text.substr(text.find("path_hash"), 40); };
+  EXPECT_EQ(hash(run(joined(theirs, json)).out), hash(first.out));
+  for (const std::string option : {"--picture", "--svg"}) {
+    EXPECT_EQ(run({"solve", "maze:9x9", option, folder.path(option + ".svg"), "--quiet"}).code, 0);
+    EXPECT_EQ(run({"solve", "maze:9x9", option, folder.path(option + ".png"), "--quiet"}).code, 0);
+  }
+  EXPECT_EQ(folder.read("--picture.png"), folder.read("--svg.png"));
+  check({{"solve", "maze:9x9", "--svg", "a.svg", "--picture", "b.svg"}, 2, "--picture: given twice"});
+  check({{"build", "maze:9x9", "-o", "x", "--optimize"}, 2, "--optimize: is for a question"});
+}
+
+TEST(OtherNames, ThePageHasFortyRowsThatAreSentencesAndNoRowIsLost) {
+  std::istringstream page(std::string(tools::other_names_page().front().bytes));
+  std::size_t rows = 0;
+  for (std::string line; std::getline(page, line);) rows += line.starts_with("| ") && line.ends_with(". |") ? 1 : 0;
+  EXPECT_EQ(tools::other_names().size(), rows);
+  EXPECT_GE(rows, 40U);
+}
+
+}  // namespace
+}  // namespace warren::test
