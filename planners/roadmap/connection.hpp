@@ -14,6 +14,7 @@
 #include "core/base/counters.hpp"
 #include "core/base/world.hpp"
 #include "core/search/graph.hpp"
+#include "parallel/asked_growth.hpp"
 #include "parallel/chunks.hpp"
 #include "planners/roadmap/roadmap_growth.hpp"
 #include "planners/roadmap/state_index.hpp"
@@ -129,16 +130,19 @@ EdgeParts edges_that(const W& world, std::span<const typename W::State> mileston
   NearestLists lists;
   if (rule.neighbours > 0) lists = nearest_lists<W>(milestones, index, rule.neighbours, execution);
   const SearchRadius radius(rule.radius);
+  constexpr std::uint64_t bunches_per_poll = 16;  // a milestone may have all others within its radius
   EdgeParts parts(chunk_count(n, connection_grain<W>));
   for_chunks(n, connection_grain<W>, execution, [&](Range r) {
     auto query = world.make_query();
     RawVector<Edge> edges;
     edges.reserve(r.size() + r.size() / 4);
     Bunch<typename W::State> bunch;
+    std::uint64_t bunches = 0;
     const auto flush = [&] {
+      if (++bunches % bunches_per_poll == 0) execution.check();
       std::uint32_t kept = keep(r.first / connection_grain<W>, bunch.motions(), query);
       for (; kept != 0; kept &= kept - 1)
-        edges.push_back(bunch.edges()[static_cast<std::size_t>(std::countr_zero(kept))]);
+        push_asked(edges, bunch.edges()[static_cast<std::size_t>(std::countr_zero(kept))], execution);
       bunch.clear();
     };
     for_each_candidate<W>(index, lists, radius, r, [&](VertexId from, VertexId to) {
@@ -146,7 +150,6 @@ EdgeParts edges_that(const W& world, std::span<const typename W::State> mileston
       if (bunch.full()) flush();
     });
     if (!bunch.edges().empty()) flush();
-    execution.reserve(edges.size() * sizeof(Edge));  // asked late, but before the next chunk's
     parts[r.first / connection_grain<W>] = std::move(edges);
   });
   return parts;

@@ -73,7 +73,7 @@ def question(column: str, folder: Path) -> list[str]:
     return ["map.yaml", "--robot", robot, "--start", f"0.5,0.5{yaw}", "--goal", f"143,137{yaw}"]
 
 
-def fields() -> list[tuple[str, str]]:
+def fields() -> list[tuple[str, ...]]:
     planner, found = "", []
     for line in TABLE.read_text().splitlines():
         words = line.split()
@@ -104,12 +104,13 @@ def main() -> int:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         write_map(folder)
-        for planner, column in fields():
+        # and where each milestone has all others within its radius
+        for planner, column, *more in fields() + [("prm", "point", "--radius", "300", "--samples", "60000")]:
             words = question(column, folder)
             for limit in LIMITS_MIB:
-                if zlib.crc32(f"{options.pick} {planner} {column} {limit}".encode()) % shares != share - 1:
+                if zlib.crc32(f"{options.pick} {planner} {column} {limit} {more}".encode()) % shares != share - 1:
                     continue
-                code, peak, said = run([options.program, "solve", *words, "--planner", planner, *MORE.get(planner, []), "--budget",
+                code, peak, said = run([options.program, "solve", *words, "--planner", planner, *(more or MORE.get(planner, [])), "--budget",
                                         "10s", "--memory", f"{limit}MiB", "--threads", "2", "--quiet"], folder)
                 asked += 1
                 stopped += code == 124
