@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Loops on oneTBB. It makes its threads on threads, where nobody can catch that the system makes none, and ends the
-// program then. So before a loop first asks for so many, plain threads are tried; oneTBB may have as many as came, and
-// makes them at once, one by one and on this thread, and none later. Where it can't, loops run on their callers alone.
+// program then. So at the first loop plain threads are tried; oneTBB may have as many as came, and makes them at once,
+// one by one and on this thread, and none later. Where it can't, loops run on their callers alone.
 // A forked process has none of the threads of its parent: its loops are plain ones.
 #include "parallel/chunks.hpp"
 
@@ -37,28 +37,23 @@ namespace {
 /// The threads of the process that help with loops. Never ended, for other threads may compute while the program ends.
 class Helpers {
  public:
-  /// On how many threads a loop that asks for so many runs, its caller among them.
+  /// On how many threads of oneTBB a loop runs that asks for so many, its caller among them; 0: it must make its own,
+  /// for nobody has tried so many. The first loop says how many there will be, all cores at least: oneTBB starts
+  /// threads wherever its limit is raised, also where nothing may be thrown.
   unsigned usable(unsigned threads) {
-    if (threads > asked_) ask(threads);
-    return std::min(threads, came_ + 1);
+    std::call_once(is_tried_, [&] {
+      tried_ = std::max(threads, thread_count(0));
+      const unsigned possible = possible_threads(tried_ - 1);
+      came_ = possible > 0 && make(possible) ? possible : 0;
+    });
+    return threads > tried_ ? 0 : std::min(threads, came_ + 1);
   }
 
  private:
-  void ask(unsigned threads) {
-    const std::lock_guard lock(mutex_);
-    if (threads <= asked_) return;
-    const unsigned more = is_broken_ ? 0 : possible_threads(threads - 1 - came_);
-    if (more > 0) {
-      limit_.emplace(tbb::global_control::max_allowed_parallelism, came_ + more + 1);
-      is_broken_ = !make(came_ + more);
-      came_ = is_broken_ ? 0 : came_ + more;
-    }
-    asked_ = threads;
-  }
-  /// Has oneTBB make threads until there are so many. It makes one where a task waits and all others are held by tasks
-  /// of their own, and makes it here, where what it throws is caught. False, after which it must not be called again,
-  /// where the system made fewer. A second is what slow machines have for it.
-  static bool make(unsigned count) {
+  /// Has oneTBB make so many threads. It makes one where a task waits and all others are held by tasks of their own,
+  /// and makes it here, where what it throws is caught. False, after which it must not be called, where the system made
+  /// fewer, or took more than a second for one.
+  bool make(unsigned count) {
     struct Roll {
       std::atomic<unsigned> there{0};
       std::atomic<bool> is_over{false};
@@ -66,40 +61,41 @@ class Helpers {
     };
     auto roll = std::make_unique<Roll>();
     std::vector<std::unique_ptr<tbb::task_arena> > arenas;
-    const auto last = std::chrono::steady_clock::now() + std::chrono::seconds(1);
-    const auto wait_for = [last](const std::atomic<unsigned>& number, unsigned least) {
-      while (number < least && std::chrono::steady_clock::now() < last) std::this_thread::yield();
+    const auto comes = [](const std::atomic<unsigned>& number, unsigned least) {
+      const auto last = std::chrono::steady_clock::now() + std::chrono::seconds(1);
+      while (number < least && std::chrono::steady_clock::now() < last) {
+        std::this_thread::sleep_for(std::chrono::microseconds(10));
+      }
       return number >= least;
     };
     bool is_made = true;
-    bool have_come = true;
     try {
-      for (unsigned i = 1; i <= count; ++i) {
+      limit_.emplace(tbb::global_control::max_allowed_parallelism, count + 1);  // also above the number of cores
+      for (unsigned i = 1; i <= count && is_made; ++i) {
         arenas.push_back(std::make_unique<tbb::task_arena>(1, 0));
         arenas.back()->enqueue([roll = roll.get()] {
           ++roll->there;
-          while (!roll->is_over) std::this_thread::yield();
+          roll->is_over.wait(false);
           ++roll->gone;
         });
-        have_come = wait_for(roll->there, i);
-        if (!have_come) break;
+        is_made = comes(roll->there, i);
       }
     } catch (const std::exception&) {
       is_made = false;
     }
     roll->is_over = true;
-    if (!is_made || !have_come || !wait_for(roll->gone, count)) {  // a task may still come to what it was given
+    roll->is_over.notify_all();
+    if (!comes(roll->gone, is_made ? count : roll->there.load()) || !is_made) {  // a task may still come to its roll
       static_cast<void>(roll.release());
       for (auto& arena : arenas) static_cast<void>(arena.release());
     }
     return is_made;
   }
 
-  std::mutex mutex_;  // held while threads are tried and made
-  std::atomic<unsigned> asked_{1};
-  std::atomic<unsigned> came_{0};
-  bool is_broken_ = false;                    // oneTBB could not make what was there when it was tried
-  std::optional<tbb::global_control> limit_;  // also of more threads than there are cores
+  std::once_flag is_tried_;
+  unsigned tried_ = 1;
+  unsigned came_ = 0;
+  std::optional<tbb::global_control> limit_;
 };
 
 std::atomic<bool> is_forked{false};
@@ -160,7 +156,7 @@ void run_chunks(std::size_t chunks, unsigned threads, const void* body, void (*c
   thread_local Arena arena;
   if (is_forked) return run_plain_chunks(chunks, threads, body, call);
   const unsigned usable = helpers().usable(threads);
-  if (usable == 1) return run_plain_chunks(chunks, 1, body, call);
+  if (usable <= 1) return run_plain_chunks(chunks, usable == 0 ? threads : 1, body, call);
   const auto run = [&](std::size_t chunk) { call(body, chunk); };
   arena.run(usable, [&] { tbb::parallel_for(std::size_t{0}, chunks, run, tbb::auto_partitioner()); });
 }
