@@ -18,6 +18,7 @@
 #include <atomic>
 #include <chrono>
 #include <exception>
+#include <iterator>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -108,57 +109,59 @@ Helpers& helpers() {
   return made;
 }
 
-/// A calling thread's place for one loop at a time: threads that have just run dry still look for work there when the
-/// next loop comes at once. A loop inside of a loop has one of its own, so nobody who waits takes up another's chunk.
-class Arena {
+/// Places for loops, one loop at a time: threads that have just run dry still look for work there when the next loop
+/// comes at once. A loop inside of a loop has another one, so nobody who waits takes up another's chunk. Never ended.
+class Arenas {
  public:
-  Arena() = default;
-  ~Arena() {
-    if (!is_forked) delete arena_;
-  }
-  Arena(const Arena&) = delete;
-  Arena& operator=(const Arena&) = delete;
-
-  void run(unsigned threads, const auto& loop) {
-    const auto count = static_cast<int>(threads);
-    if (is_busy_) {
-      tbb::task_arena(count).execute(loop);
-      return;
-    }
-    if (arena_ == nullptr || arena_->max_concurrency() != count) {
-      delete arena_;
-      arena_ = nullptr;
-      arena_ = new tbb::task_arena(count);
-    }
-    const InUse in_use(is_busy_);
-    arena_->execute(loop);
+  /// Calls run() in an arena of so many threads.
+  void run(unsigned threads, const auto& run) {
+    struct Taken {
+      Arenas& all;
+      tbb::task_arena* arena;
+      ~Taken() {
+        const std::lock_guard lock(all.mutex_);
+        all.idle_.push_back(arena);  // there is room: take() sees to it
+      }
+    };
+    const Taken taken{*this, take(static_cast<int>(threads))};
+    taken.arena->execute(run);
   }
 
  private:
-  class InUse {
-   public:
-    explicit InUse(bool& is_busy) : is_busy_(is_busy) { is_busy_ = true; }
-    ~InUse() { is_busy_ = false; }
-    InUse(const InUse&) = delete;
-    InUse& operator=(const InUse&) = delete;
+  tbb::task_arena* take(int threads) {
+    const std::lock_guard lock(mutex_);
+    const auto fits = [&](const tbb::task_arena* arena) { return arena->max_concurrency() == threads; };
+    const auto found =
+        std::find_if(idle_.rbegin(), idle_.rend(), fits);  // the last one used, by the same thread perhaps
+    if (found == idle_.rend()) {
+      idle_.reserve(made_ + 1);
+      auto* const arena = new tbb::task_arena(threads);
+      ++made_;
+      return arena;
+    }
+    tbb::task_arena* const arena = *found;
+    idle_.erase(std::next(found).base());
+    return arena;
+  }
 
-   private:
-    bool& is_busy_;
-  };
-
-  tbb::task_arena* arena_ = nullptr;
-  bool is_busy_ = false;
+  std::mutex mutex_;
+  std::vector<tbb::task_arena*> idle_;
+  std::size_t made_ = 0;
 };
+
+Arenas& arenas() {
+  static Arenas& made = *new Arenas;
+  return made;
+}
 
 }  // namespace
 
 void run_chunks(std::size_t chunks, unsigned threads, const void* body, void (*call)(const void*, std::size_t)) {
-  thread_local Arena arena;
   if (is_forked) return run_plain_chunks(chunks, threads, body, call);
   const unsigned usable = helpers().usable(threads);
   if (usable <= 1) return run_plain_chunks(chunks, usable == 0 ? threads : 1, body, call);
   const auto run = [&](std::size_t chunk) { call(body, chunk); };
-  arena.run(usable, [&] { tbb::parallel_for(std::size_t{0}, chunks, run, tbb::auto_partitioner()); });
+  arenas().run(usable, [&] { tbb::parallel_for(std::size_t{0}, chunks, run, tbb::auto_partitioner()); });
 }
 #endif
 

@@ -119,7 +119,7 @@ struct BmpForm {
 std::string bmp_bytes(int width, int height, int bits, const std::string& rows, const BmpForm& form = {}) {
   const auto number = [](std::int64_t value, int bytes) {
     std::string text;
-    for (int i = 0; i < bytes; ++i) text += static_cast<char>(value >> 8 * i & 0xff);
+    for (int i = 0; i < bytes; ++i) text += static_cast<char>(i < 8 ? value >> 8 * i & 0xff : 0);
     return text;
   };
   const int head = form.masks.empty() ? 40 : 108;
