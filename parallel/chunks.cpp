@@ -17,6 +17,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstdlib>
 #include <exception>
 #include <iterator>
 #include <memory>
@@ -44,13 +45,20 @@ class Helpers {
   unsigned usable(unsigned threads) {
     std::call_once(is_tried_, [&] {
       tried_ = std::max(threads, thread_count(0));
-      const unsigned possible = possible_threads(tried_ - 1);
+      const unsigned possible = has_room() ? possible_threads(tried_ - 1) : 0;
       came_ = possible > 0 && make(possible) ? possible : 0;
     });
     return threads > tried_ ? 0 : std::min(threads, came_ + 1);
   }
 
  private:
+  /// Is there memory for what oneTBB takes at its first use? Some of it is asked for where nobody can say no.
+  static bool has_room() {
+    constexpr std::size_t bytes = std::size_t{1} << 20;
+    void* volatile room = std::malloc(bytes);  // a call that is not left out
+    std::free(room);
+    return room != nullptr;
+  }
   /// Has oneTBB make so many threads. It makes one where a task waits and all others are held by tasks of their own,
   /// and makes it here, where what it throws is caught. False, after which it must not be called, where the system made
   /// fewer, or took more than a second for one.

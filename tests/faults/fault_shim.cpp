@@ -3,7 +3,8 @@
 // one on. WARREN_FAULT says which: "KIND:N" the N-th call of a kind, "KIND:N+" that and all later ones; kinds are those
 // of `names` below; "stopping:N": SIGTERM comes right after the N-th renaming. WARREN_FAULT_COUNTS names a file that
 // receives the number of calls of each kind when the program ends. The calls that are passed on go to glibc's own names
-// or straight to the kernel, for dlsym itself allocates.
+// or straight to the kernel, for dlsym itself allocates. What glibc asks for while it loads a library (oneTBB loads its
+// allocator at its first use) is not refused: glibc 2.36 ends the program there by itself.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <pthread.h>
@@ -45,12 +46,15 @@ bool counting = false;
 
 using ThreadMaker = int (*)(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*);
 using FileOpener = std::FILE* (*)(const char*, const char*);
+using LibraryOpener = void* (*)(const char*, int);
 ThreadMaker make_thread = nullptr;
+LibraryOpener open_library = nullptr;
+thread_local int loading = 0;  // how many libraries this thread is about to load
 FileOpener open_file = nullptr;
 
 /// Counts a call; is it one to refuse?
 bool refused(Kind kind) {
-  if (!counting) return false;
+  if (!counting || loading > 0) return false;
   const long call = ++calls[kind];
   return kind == failing_kind && (for_good ? call >= failing_call : call == failing_call);
 }
@@ -63,6 +67,7 @@ int failed(int error) {
 
 __attribute__((constructor)) void begin() {
   make_thread = reinterpret_cast<ThreadMaker>(::dlsym(RTLD_NEXT, "pthread_create"));
+  open_library = reinterpret_cast<LibraryOpener>(::dlsym(RTLD_NEXT, "dlopen"));
   open_file = reinterpret_cast<FileOpener>(::dlsym(RTLD_NEXT, "fopen"));
   if (const char* const fault = std::getenv("WARREN_FAULT")) {
     constexpr const char* stopping = "stopping:";
@@ -142,6 +147,13 @@ ssize_t pwrite(int file, const void* bytes, std::size_t size, off_t offset) {
 }
 ssize_t writev(int file, const iovec* parts, int count) {
   return refused(writing) ? failed(ENOSPC) : ::syscall(SYS_writev, file, parts, count);
+}
+
+void* dlopen(const char* name, int mode) noexcept {
+  ++loading;
+  void* const library = open_library(name, mode);
+  --loading;
+  return library;
 }
 
 int rename(const char* from, const char* to) noexcept {
