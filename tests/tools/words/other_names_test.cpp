@@ -37,7 +37,7 @@ std::string refusal_of(const Call& call) {
   return {};
 }
 
-bool contains(std::string text, const std::string& part) {
+bool contains(const std::string& text, const std::string& part) {
   std::string flat;
   for (const char c : text) {
     if (c != ' ' && c != '\n') flat += c;
