@@ -255,7 +255,7 @@ class NumberedCells {
   }
   /// No cell is there twice, and two that lie side by side say the same of what is between them.
   void check() const {
-    execution_.reserve(cells_.size() * sizeof(const Cell*));
+    execution_.reserve(cells_.size() * sizeof(void*));
     std::vector<const Cell*> at(cells_.size(), nullptr);
     for_cells([&](const Cell& cell) {
       const Cell*& here = at[cell.y * cols_ + cell.x];
