@@ -17,7 +17,12 @@ TEST(NeighbourIndex, GivesTheSamePath) {
   const std::vector<std::string> town{
       "solve", test::world_file("town.geojson"), "--samples", "500", "--start", "1.5,1.5", "--goal", "9.5,8.5"};
   const std::vector<std::string> maze{"solve", "maze:12x12,seed=4", "--sampler", "uniform"};
-  for (const auto& world : {town, maze}) {
+  const std::vector<std::string> map{"solve",     test::world_file("flat.yaml"),
+                                     "--robot",   "disc 0.1",
+                                     "--samples", "400",
+                                     "--start",   "0.5,0.5",
+                                     "--goal",    "4.3,0.5"};
+  for (const auto& world : {town, maze, map}) {
     for (const char* planner : {"prm", "lazy-prm"}) {
       for (const std::vector<std::string>& rule : {std::vector<std::string>{}, {"--neighbours", "8"}}) {
         const auto words = joined(joined(world, {"--planner", planner, "--json", "-"}), rule);
