@@ -27,7 +27,7 @@ constexpr std::uint64_t hash_of(std::string_view text) {
 
 /// What is expected of all seeds, and by day of whichever are asked.
 inline std::uint64_t share(std::uint64_t all, std::uint64_t by_day) { return asks_all() ? all : by_day; }
-inline std::uint64_t share(std::uint64_t all) { return share(all, (all + 3) / 4); }
+inline std::uint64_t share(std::uint64_t all) { return share(all, (all + 7) / 8); }
 
 /// So many from the first one on; by day fewer of them one after the other, and after the last the first: of what
 /// differs with a seed's remainder there is as much.
@@ -40,7 +40,7 @@ inline std::vector<std::uint64_t> seeds(std::uint64_t all, std::uint64_t by_day,
   return asked;
 }
 
-inline std::vector<std::uint64_t> seeds(std::uint64_t all) { return seeds(all, (all + 3) / 4); }
+inline std::vector<std::uint64_t> seeds(std::uint64_t all) { return seeds(all, (all + 7) / 8); }
 
 /// Does a process hold what warren asks for, and nothing else? Sanitizers hold more than a small limit.
 constexpr bool memory_is_ours() {

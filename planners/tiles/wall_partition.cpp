@@ -181,7 +181,7 @@ WallPartition::WallPartition(const WallSet& walls, std::span<const Segment> more
     narrow[bands_.of(grid_, tile)] += counts_.narrow().of_tile(tile);
     wide[bands_.of(grid_, tile)] += counts_.wide().of_tile(tile);
   }
-  make_room(*std::max_element(narrow.begin(), narrow.end()), *std::max_element(wide.begin(), wide.end()), execution);
+  make_room(std::ranges::max(narrow), std::ranges::max(wide), execution);
 }
 
 void WallPartition::make_room(std::size_t narrow, std::size_t wide, const Execution& execution) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // An answer that was found in time stays one where only what comes after it is stopped.
+#include <chrono>
 #include <csignal>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "solve/solve.hpp"
 #include "tests/tools/process.hpp"
@@ -27,8 +29,7 @@ class SlowTalker : public tools::AnswerCommand {
 
  private:
   static void wait(const Execution& execution) {
-    while (!execution.should_stop()) {
-    }
+    while (!execution.should_stop()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   Answer find(const tools::Run& run, StageTimes&, ByProducts* keep) override {
     Answer answer = solve_within(scene_, {}, {}, run.execution(), keep);

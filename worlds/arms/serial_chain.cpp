@@ -99,6 +99,8 @@ std::size_t SerialChain::joint_outside_limits(const JointState& q) const {
   return most_joints;
 }
 
+Eigen::Isometry3d SerialChain::tool_pose(const JointState& q) const { return frame(q, joint_count()) * table_.tool; }
+
 Eigen::Isometry3d SerialChain::frame(const JointState& q, std::size_t number) const {
   Cursor at;
   const auto slide = [&](const Step& step) {

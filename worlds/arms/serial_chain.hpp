@@ -43,7 +43,7 @@ class SerialChain {
   std::size_t joint_outside_limits(const JointState& q) const;
 
   /// The tool in the base's frame.
-  Eigen::Isometry3d tool_pose(const JointState& q) const { return frame(q, joint_count()) * table_.tool; }
+  Eigen::Isometry3d tool_pose(const JointState& q) const;
   /// Frame 0 .. joint_count() in the base's.
   Eigen::Isometry3d frame(const JointState& q, std::size_t number) const;
 

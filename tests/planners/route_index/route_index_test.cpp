@@ -36,7 +36,7 @@ std::map<std::string, Bytes> bytes_of(const RouteIndex& index) {
 
 TEST(RouteIndex, AllBytesAreTheSameForAnyNumberOfThreads) {
   for (const double loops : {0.0, 0.02, 0.1}) {
-    MazeOptions maze = loopy(600);
+    MazeOptions maze = loopy(test::asks_all() ? 600 : 300);
     maze.loops = loops;
     const auto expected = bytes_of(RouteIndex(test::maze_passages(maze), {}, {.threads = 1}));
     for (const unsigned threads : {2U, 3U, 8U}) {

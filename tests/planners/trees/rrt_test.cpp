@@ -11,6 +11,7 @@
 #include "planners/shorten/shortcut.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "solve/steps/planned_worlds.hpp"
+#include "tests/seeds.hpp"
 #include "tests/worlds/poses/body_scenes.hpp"
 #include "verify/judges/verify_point.hpp"
 #include "verify/judges/verify_turning.hpp"
@@ -68,7 +69,7 @@ TEST(RrtConnect, SolvesPolyEasyForEverySeed) {
   const Scene scene = poly_easy();
   const Se2World world(scene, kite, {});
   double best = 100.0;
-  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::share(100, 20); ++seed) {
     SCOPED_TRACE(seed);
     const auto solution = rrt_connect(world, easy_start, std::span(&easy_goal, 1), {.places = false, .seed = seed}, {});
     ASSERT_EQ(solution.outcome, Outcome::solved);

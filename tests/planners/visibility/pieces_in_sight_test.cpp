@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/rng.hpp"
+#include "tests/seeds.hpp"
 
 namespace warren {
 namespace {
@@ -30,7 +31,7 @@ std::uint32_t first_met(const PlanePieces& pieces, Vec2 eye, Vec2 direction) {
 }
 
 TEST(NearPieces, HoldEveryPieceThatARayMeetsFirst) {
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+  for (const std::uint64_t seed : test::seeds(20, 5)) {
     SCOPED_TRACE(seed);
     PlaneObstacles obstacles;
     for (std::uint64_t i = 0; i < 60; ++i) {

@@ -9,6 +9,7 @@
 
 #include "core/base/rng.hpp"
 #include "core/plane/geometry.hpp"
+#include "tests/seeds.hpp"
 #include "tests/serve/tiles/network.hpp"
 #include "tests/serve/tiles/read_inks.hpp"
 
@@ -41,7 +42,7 @@ TEST(RoadmapLayer, DrawsWhatLiesOnTheTileAndNothingElse) {
   const RoadmapLayer layer(net.parts(), {});
   for (const double side : {100.0, 9.0, 1.0}) {
     const double pixel = side / TileGrid::pixels;
-    for (int trial = 0; trial < 12; ++trial) {
+    for ([[maybe_unused]] const std::uint64_t trial : test::seeds(12)) {
       const double left = any() - side / 2;
       const Vec2 low{left, any() - side / 2};
       const Box box{low, low + Vec2{side, side}};

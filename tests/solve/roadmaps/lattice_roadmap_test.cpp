@@ -17,6 +17,7 @@
 #include "solve/roadmaps/export_of_roadmap.hpp"
 #include "solve/roadmaps/roadmap_query.hpp"
 #include "solve/solve.hpp"
+#include "tests/seeds.hpp"
 
 namespace warren {
 namespace {
@@ -75,7 +76,8 @@ TEST(LatticeRoadmap, ManyEndsBesideTheLatticeAreAskedOfAnIndexAndAnswerTheSame) 
     const RoadmapQuery many(roadmap);
     for (int i = 0; i < 40; ++i) many.expect({1.5, 1.25}, {});
     int solved = 0;
-    for (int i = 0; i < 60; ++i) {
+    const int asked = test::asks_all() ? 60 : 25;
+    for (int i = 0; i < asked; ++i) {
       const std::vector<double> start = {place(), place()};
       const std::vector<double> goal =
           i % 5 == 0 ? std::vector{start[0] + 0.3, start[1]} : std::vector{place(), place()};
@@ -87,8 +89,8 @@ TEST(LatticeRoadmap, ManyEndsBesideTheLatticeAreAskedOfAnIndexAndAnswerTheSame) 
       EXPECT_EQ(length.length, expected.length) << i;
       solved += length.outcome == Outcome::solved ? 1 : 0;
     }
-    EXPECT_GT(solved, 10);
-    EXPECT_LT(solved, 60);
+    EXPECT_GT(solved, 4);
+    EXPECT_LT(solved, asked);
   }
 }
 

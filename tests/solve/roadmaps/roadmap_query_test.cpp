@@ -11,6 +11,7 @@
 #include "scenes/formats/read_world_io.hpp"
 #include "solve/solve.hpp"
 #include "tests/paths.hpp"
+#include "tests/seeds.hpp"
 #include "tests/solve/roadmaps/same_answers.hpp"
 
 namespace warren {
@@ -52,29 +53,30 @@ std::vector<Case> cases() {
 
 TEST(RoadmapQuery, AnswersAsSolveDoes) {
   std::size_t solved = 0;
-  for (const Case& c : cases()) {
+  const std::vector<Case> all = cases();
+  for (const std::uint64_t half : test::seeds(2 * all.size(), all.size(), 0)) {  // by day each case by one of the two
+    const Case& c = all[half % all.size()];
     const Scene scene = read_world(c.world);
-    for (const PlannerKind planner : {PlannerKind::prm, PlannerKind::lazy_prm}) {
-      SCOPED_TRACE(c.name + " " + std::string(name_of(planner)));
-      SolveOptions options{.planner = planner, .seed = 3};
-      options.roadmap.samples = c.samples;
-      const Roadmap roadmap = build(scene, c.question, options);
-      const RoadmapQuery query(roadmap);
-      std::vector<std::vector<double>> goals = c.others;
-      goals.push_back(c.question.goal.empty() ? scene.goal : c.question.goal);
-      for (const std::vector<double>& goal : goals) {
-        Question question = c.question;
-        question.goal = goal;
-        const Answer expected = solve(scene, question, options);
-        expect_same(query.ask(question.start, goal), expected);
-        expect_same(query.ask(question.start, goal), expected);  // with what the first has learnt
-        solved += expected.outcome == Outcome::solved ? 1 : 0;
-      }
-      options.optimise = true;
-      expect_same(query.ask(c.question.start, c.question.goal, {.optimise = true}), solve(scene, c.question, options));
+    const PlannerKind planner = half % 2 == 0 ? PlannerKind::prm : PlannerKind::lazy_prm;
+    SCOPED_TRACE(c.name + " " + std::string(name_of(planner)));
+    SolveOptions options{.planner = planner, .seed = 3};
+    options.roadmap.samples = c.samples;
+    const Roadmap roadmap = build(scene, c.question, options);
+    const RoadmapQuery query(roadmap);
+    std::vector<std::vector<double>> goals = c.others;
+    goals.push_back(c.question.goal.empty() ? scene.goal : c.question.goal);
+    for (const std::vector<double>& goal : goals) {
+      Question question = c.question;
+      question.goal = goal;
+      const Answer expected = solve(scene, question, options);
+      expect_same(query.ask(question.start, goal), expected);
+      expect_same(query.ask(question.start, goal), expected);  // with what the first has learnt
+      solved += expected.outcome == Outcome::solved ? 1 : 0;
     }
+    options.optimise = true;
+    expect_same(query.ask(c.question.start, c.question.goal, {.optimise = true}), solve(scene, c.question, options));
   }
-  EXPECT_GE(solved, 16U);
+  EXPECT_GE(solved, test::share(16, 7));
 }
 
 TEST(RoadmapQuery, AnswersOnTheLatticeAsThePlainStagesDo) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "spatial/points/neighbours.hpp"
+#include "tests/seeds.hpp"
 #include "tests/spatial/points/point_sets.hpp"
 
 namespace warren {
@@ -91,7 +92,7 @@ void expect_later(const Index& index, const std::vector<PointOf<D>>& points, dou
 
 TYPED_TEST(KdTreeIn, AllQueriesEqualBruteForce) {
   constexpr int D = TypeParam::value;
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+  for (const std::uint64_t seed : test::seeds(20, 5, 0)) {
     for (const auto& set : test::point_sets<D>(seed, 150 + seed % 7 * 30)) {
       SCOPED_TRACE(set.name + ", seed " + std::to_string(seed));
       const KdTree<D> tree(set.points, {});
@@ -136,7 +137,7 @@ TYPED_TEST(KdTreeIn, AForestKeepsThePointsAndTiesAcrossTrees) {
 
 TYPED_TEST(KdTreeIn, NeighboursEqualBruteForce) {
   constexpr int D = TypeParam::value;
-  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+  for (const std::uint64_t seed : test::seeds(5, 2, 0)) {
     for (const auto& set : test::point_sets<D>(seed, 200)) {
       SCOPED_TRACE(set.name);
       const Execution execution;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "spatial/points/neighbours.hpp"
+#include "tests/seeds.hpp"
 #include "tests/spatial/points/point_sets.hpp"
 
 namespace warren {
@@ -42,7 +43,7 @@ std::vector<std::pair<Vec2, VertexId>> queries(const std::vector<Vec2>& points, 
 }
 
 TEST(PointGrid, NearestEqualsBruteForce) {
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+  for (const std::uint64_t seed : test::seeds(20, 5, 0)) {
     for (const auto& [name, points] : cases(seed)) {
       SCOPED_TRACE(name + ", seed " + std::to_string(seed));
       const PointGrid grid(points, {});
@@ -59,7 +60,7 @@ TEST(PointGrid, NearestEqualsBruteForce) {
 }
 
 TEST(PointGrid, WithinEqualsBruteForceRadiiOfNeighboursIncluded) {
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+  for (const std::uint64_t seed : test::seeds(20, 5, 0)) {
     for (const auto& [name, points] : cases(seed)) {
       SCOPED_TRACE(name + ", seed " + std::to_string(seed));
       const PointGrid grid(points, {});
