@@ -89,8 +89,9 @@ TEST(GraphService, ABuiltGraphIsTheOneThatBuildAndExportWrite) {
     const Json saved = graphs.json(Place::save_graph, built.body);
     expect_that_nav2_loads(saved);
     const TemporaryDirectory folder;
-    const Roadmap roadmap = build(scene_of(town), {.robot = robot_value("robot", "disc 1")},
-                                  {.planner = planner, .roadmap = {.samples = 200}});
+    SolveOptions options{.planner = planner};
+    if (planner == PlannerKind::prm) options.roadmap.samples = 200;
+    const Roadmap roadmap = build(scene_of(town), {.robot = robot_value("robot", "disc 1")}, options);
     export_of_roadmap(roadmap, folder.file("a.geojson"));
     EXPECT_EQ(saved, Json::parse(folder.read("a.geojson")));
   }

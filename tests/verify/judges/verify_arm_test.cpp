@@ -30,7 +30,7 @@ double sampled_clearance(const Scene& scene, const DhTable& table, double radius
 TEST(VerifyArm, AgreesWithDenseSamplingAndNeverPromisesMoreClearanceThanThereIs) {
   std::uint64_t verified = 0;
   std::uint64_t refuted = 0;
-  for (const std::uint64_t seed : test::seeds(20)) {
+  for (const std::uint64_t seed : test::seeds(20, 5)) {
     SCOPED_TRACE(seed);
     Scene scene = scattered_spheres(seed, 8);
     add_boxes(scene, seed, 2);
@@ -53,7 +53,7 @@ TEST(VerifyArm, AgreesWithDenseSamplingAndNeverPromisesMoreClearanceThanThereIs)
       EXPECT_NEAR(found.length, ArmWorld({}, SerialChain(table), {}).distance(path[0], path[1]), 1e-12);
     }
   }
-  EXPECT_GT(verified, test::share(15));
+  EXPECT_GT(verified, test::share(15, 3));
   EXPECT_GT(refuted, test::share(15, 1));
 }
 
