@@ -53,7 +53,7 @@ TEST(VerifyArm, AgreesWithDenseSamplingAndNeverPromisesMoreClearanceThanThereIs)
       EXPECT_NEAR(found.length, ArmWorld({}, SerialChain(table), {}).distance(path[0], path[1]), 1e-12);
     }
   }
-  EXPECT_GT(verified, test::share(15, 3));
+  EXPECT_GT(verified, test::share(15, 4));
   EXPECT_GT(refuted, test::share(15, 1));
 }
 
