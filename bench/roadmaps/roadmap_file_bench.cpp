@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The .roadmap file at 256 MiB: written into the page cache, opened, checked whole, and looked at where it has been
-// checked already, beside a look at a plain array; and the rules of a roadmap's arrays.
+// The .roadmap file at 256 MiB: written into the page cache, opened and checked whole; and the rules of a roadmap's
+// arrays.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "bench/report.hpp"
-#include "roadmaps/file/lazy_section.hpp"
+#include "roadmaps/file/roadmap_file.hpp"
 #include "roadmaps/file/write_roadmap_file.hpp"
 #include "roadmaps/graph/check_parts.hpp"
 
@@ -76,29 +76,6 @@ void bm_roadmap_file_check_all(benchmark::State& state) {
   report_bytes(state, file_numbers * sizeof(std::uint64_t));
 }
 BENCHMARK(bm_roadmap_file_check_all)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
-
-constexpr std::size_t looks = std::size_t{1} << 12;  // so few pages that the numbers are in cache
-
-std::size_t place_of_look(std::size_t i) { return i * 7919 % looks * 8; }
-
-template <class Numbers>
-std::uint64_t sum_of_looks(const Numbers& numbers) {
-  std::uint64_t sum = 0;
-  for (std::size_t i = 0; i < looks; ++i) sum += numbers[place_of_look(i)];
-  return sum;
-}
-
-/// 0: a plain array. 1: a section that has been checked.
-void bm_roadmap_file_look(benchmark::State& state) {
-  const FileToRead& file = FileToRead::shared();
-  const RoadmapFile open(file.path(), one_thread);
-  const LazySection<std::uint64_t> lazy(open, "numbers");
-  const auto plain = open.section<std::uint64_t>("numbers", {});
-  if (should_check(state)) check(sum_of_looks(lazy) == sum_of_looks(file.numbers()), "numbers of a file");
-  for (auto _ : state) benchmark::DoNotOptimize(state.range(0) == 0 ? sum_of_looks(plain) : sum_of_looks(lazy));
-  report(state, looks, looks * sizeof(std::uint64_t));
-}
-BENCHMARK(bm_roadmap_file_look)->Arg(0)->Arg(1);
 
 /// Vertex v is joined with v + 1 ... v + reach, as neighbours in tile order are.
 struct Band {

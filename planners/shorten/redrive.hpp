@@ -4,7 +4,7 @@
 // states of a stretch and states drawn near them are joined by all their ways, and the cheapest path through them is
 // searched, arrivals in either gear apart, by A* that checks a way when it is the next (as lazy_prm does). What costs
 // more than the stretch does is never looked at. Ends when rounds bring less than 0.1 % for a while, or where the price
-// is the length.
+// is the length. Of ways that cost as much up to rounding the one with fewer legs is taken, near the origin and far.
 // Cost: some 4,000 checked ways a round. The path gets cheap, it is no proof of anything.
 #pragma once
 
@@ -67,7 +67,8 @@ class Redriving {
   static constexpr std::size_t stretch_states = 32;
   static constexpr std::size_t drawn_states = 64;
   static constexpr std::size_t backwards =
-      20;  // places that lie so far before one in the stretch's order are tried, too
+      20;                                 // places that lie so far before one in the stretch's order are tried, too
+  static constexpr double unsure = 1e-6;  // of prices, as rounding has it; a leg costs so much more
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
   struct Place {
@@ -132,7 +133,7 @@ double Redriving<Driver>::redrive_stretch(std::size_t round) {
   gear_after_ = first == room ? 0 : driver_.gear_at_begin(path_[first + size - 1], path_[first + size]);
   const double before = driver_.price(stretch, gear_before_, gear_after_);
   draw_places(round, stretch);
-  const Path<State> way = cheaper(before * (1.0 - 1e-9));
+  const Path<State> way = cheaper(before * (1.0 - unsure));
   if (way.empty()) return 0.0;
   const double gain = before - driver_.price(way, gear_before_, gear_after_);
   if (!(gain > 0.0)) return 0.0;
@@ -205,8 +206,8 @@ void Redriving<Driver>::expand(std::size_t place, std::size_t arrived, Queue& op
     if (price + driver_.distance(from, places_[to].state) + places_[to].to_goal >= most_) continue;
     const bool is_end = to + 1 == places_.size();
     for (const Way& way : driver_.ways(from, places_[to].state, most_ - price - places_[to].to_goal)) {
-      const double there =
-          price + change(gear, way.first_gear) + way.price + (is_end ? change(way.last_gear, gear_after_) : 0.0);
+      const double there = price + change(gear, way.first_gear) + way.price + unsure * most_ +
+                           (is_end ? change(way.last_gear, gear_after_) : 0.0);
       const double at_least = there + places_[to].to_goal;
       if (at_least >= most_ || is_settled(to, way.last_gear)) continue;
       arrivals_.push_back({there, at_least, arrived, to, way});

@@ -4,7 +4,8 @@
 // state towards the motion that would leave it out. Both are kept only where the new motions are free, by the same
 // check as the planner's, and the path gets shorter in `length`, which may be another measure than the world's metric.
 // Candidates of a round are judged on all cores against the path as it stands, then made in the order of their gain
-// where they don't overlap: the result does not depend on the threads.
+// where they don't overlap: the result does not depend on the threads. What rounding may feign is no gain and no
+// difference between two, so that a path far from the origin is shortened as it is near it.
 // Ends when rounds bring less than 0.01 % for a while. The path gets near a shortest one of its homotopy class; it is
 // no proof of anything.
 #pragma once
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/base/counters.hpp"
@@ -41,10 +43,12 @@ class Shortener {
   Path<State> run() {
     constexpr int patience = 12;
     constexpr double worth = 1e-4;
+    constexpr double noise = 1e-6;
     int idle = 0;
     double best = whole();
     for (std::uint32_t round = 0; round < options_.rounds && idle < patience && path_.size() > 2; ++round) {
       execution_.check();
+      unsure_ = noise * best;
       round % 2 == 0 ? cut_corners(round) : pull(round);
       const double now = whole();
       idle = best - now > worth * best ? 0 : idle + 1;
@@ -99,6 +103,7 @@ class Shortener {
   const Length& length_;
   const ShortcutOptions& options_;
   const Execution& execution_;
+  double unsure_ = 0.0;  // gains may be off by so much
   Counters counters_;
 };
 
@@ -132,7 +137,7 @@ auto Shortener<W, Length>::shortcut(std::uint64_t round, std::uint64_t index, co
   const double gain = length_between(change.from, change.to) - length_(from, to);
   // What is left of the two motions is checked too: a part of a certified motion is free, but may be so near to an
   // obstacle that only the whole could be certified.
-  if (gain > 0.0 && is_free(from, to, query, counters) && is_free(path_[change.from.leg], from, query, counters) &&
+  if (gain > unsure_ && is_free(from, to, query, counters) && is_free(path_[change.from.leg], from, query, counters) &&
       is_free(to, path_[change.to.leg + 1], query, counters)) {
     change.states = {from, to};
     change.gain = gain;
@@ -157,7 +162,8 @@ auto Shortener<W, Length>::pulled(std::uint64_t round, std::uint64_t index, std:
   for (double t = 1.0; t > 1e-3; t *= 0.5) {
     const State moved = world_.interpolate(path_[vertex], target, t);
     const double gain = old_length - length_(before, moved) - length_(moved, after);
-    if (gain <= 0.0 || !is_free(before, moved, query, counters) || !is_free(moved, after, query, counters)) continue;
+    if (gain <= unsure_ || !is_free(before, moved, query, counters) || !is_free(moved, after, query, counters))
+      continue;
     change.gain = gain;
     change.states = {before, moved, after};
     break;
@@ -201,13 +207,21 @@ void Shortener<W, Length>::change(std::size_t count, const Make& make) {
 template <SteerableWorld W, class Length>
 void Shortener<W, Length>::apply(std::vector<Change>& changes) {
   std::erase_if(changes, [](const Change& c) { return c.gain <= 0.0; });
-  std::stable_sort(changes.begin(), changes.end(), [](const Change& a, const Change& b) { return a.gain > b.gain; });
+  std::vector<const Change*> order;
+  for (const Change& change : changes) order.push_back(&change);
+  std::stable_sort(order.begin(), order.end(), [](const Change* a, const Change* b) { return a->gain > b->gain; });
+  for (auto next = order.begin(); next != order.end();) {  // those that are worth as much: as they were drawn
+    const double equal = (*next)->gain - unsure_;
+    const auto last = std::find_if(next, order.end(), [&](const Change* c) { return c->gain < equal; });
+    std::sort(next, last, std::less<>());
+    next = last;
+  }
   std::vector<Change> chosen;
-  for (Change& change : changes) {
+  for (const Change* change : order) {
     const bool apart = std::all_of(chosen.begin(), chosen.end(), [&](const Change& c) {
-      return change.to.leg < c.from.leg || c.to.leg < change.from.leg;
+      return change->to.leg < c.from.leg || c.to.leg < change->from.leg;
     });
-    if (apart) chosen.push_back(std::move(change));
+    if (apart) chosen.push_back(*change);
   }
   if (chosen.empty()) return;
   std::sort(chosen.begin(), chosen.end(), [](const Change& a, const Change& b) { return a.from.leg < b.from.leg; });

@@ -72,8 +72,8 @@ class RoadmapFile {
   std::optional<std::span<const T>> optional_section(std::string_view name, const Execution& execution) const {
     return find(name) == nullptr ? std::nullopt : std::optional(section<T>(name, execution));
   }
-  /// The section with nothing of it checked: for LazySection, which calls ensure() before it looks. Throws InputError
-  /// where it is missing or of another type.
+  /// The section with nothing of it checked: for who calls first_look(place).ensure() before it looks. Throws
+  /// InputError where it is missing or of another type.
   template <FileElement T>
   std::span<const T> unchecked_section(std::string_view name) const {
     return unchecked<T>(required(name, element_type<T>()));
@@ -83,11 +83,7 @@ class RoadmapFile {
   void check_section(const SectionPlace& place, const Execution& execution) const {
     check_blocks({place.first_block, place.first_block + place.blocks()}, execution);
   }
-  /// Checks the blocks that hold these bytes of a section, unless they were checked before. Throws InputError.
-  void ensure(const SectionPlace& place, std::size_t first_byte, std::size_t bytes) const {
-    first_look(place).ensure(first_byte, bytes);
-  }
-  /// The same for whoever looks at a section's bytes without knowing of files.
+  /// Checks the blocks that hold the bytes which somebody looks at, unless they were checked before.
   FirstLook first_look(const SectionPlace& place) const;
   /// Was all of it checked when it was opened?
   bool is_small() const;

@@ -4,36 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
-#include <numeric>
 
+#include "core/base/edit_distance.hpp"
 #include "core/base/error.hpp"
 #include "core/base/printable.hpp"
 #include "core/base/types.hpp"
 
 namespace warren::scene_text {
-namespace {
-
-constexpr std::size_t longest_word = 32;
-
-/// b has at most longest_word characters.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::array<std::size_t, longest_word + 1> row;
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0]++;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({row[j] + 1, row[j + 1] + 1, replaced});
-    }
-  }
-  return row[b.size()];
-}
-
-}  // namespace
 
 std::string Place::text() const { return line == 0 ? file : fmt::format("{}:{}", file, line); }
 
@@ -83,6 +62,7 @@ double Fields::out_of_range(std::string_view field) const {
 }
 
 std::string_view nearest_word(std::string_view written, std::span<const std::string_view> known) {
+  constexpr std::size_t longest_word = 32;
   if (written.size() > longest_word) return {};
   std::string_view best;
   std::size_t best_distance = std::max<std::size_t>(2, written.size() / 2) + 1;

@@ -162,11 +162,14 @@ class BlockedEndSearch {
     if (box.contains(at())) middle_ = at();
     const double farthest = portable::hypot(box.width(), box.height());
     const FreeSearchRange range{1e-4 * farthest, farthest, 1e-3 * norm(middle_ - at())};
-    const auto place =
-        nearest_free_in_few_digits(Numbers<2>{middle_.x, middle_.y}, std::span<const Numbers<2>>(directions_), range,
-                                   size(), [this](const Numbers<2>& p, double spare) {
-                                     return is_free({p[0], p[1]}, margin_ + spare);
-                                   });
+    auto place = place_near_middle(range);
+    if (!place) {
+      const auto somewhere = free_somewhere(box);
+      if (!somewhere) return std::nullopt;
+      middle_ = *somewhere;
+      near_reach_ = 0.0;
+      place = place_near_middle({range.first, range.farthest, 1e-3 * norm(middle_ - at())});
+    }
     if (!place) return std::nullopt;
     std::vector<double> state = state_;
     std::copy(place->begin(), place->end(), state.begin());
@@ -225,6 +228,32 @@ class BlockedEndSearch {
       stay.states.add(state);
     }
     return kind_.verify(scene, question_at(state, more), stay, execution_);
+  }
+  std::optional<Numbers<2>> place_near_middle(const FreeSearchRange& range) {
+    return nearest_free_in_few_digits(Numbers<2>{middle_.x, middle_.y}, std::span<const Numbers<2>>(directions_), range,
+                                      size(), [this](const Numbers<2>& p, double spare) {
+                                        return is_free({p[0], p[1]}, margin_ + spare);
+                                      });
+  }
+  /// Where all directions miss what is free: the nearest of places all over the room, of a map of its half cells.
+  std::optional<Vec2> free_somewhere(const Box& box) {
+    constexpr std::uint32_t most = 128;
+    const OccupancyMap* map = scene_.map ? &*scene_.map : nullptr;
+    const std::uint32_t columns = map != nullptr ? std::min(2 * map->width(), most) : most / 2;
+    const std::uint32_t rows = map != nullptr ? std::min(2 * map->height(), most) : most / 2;
+    std::vector<Vec2> places;
+    for (std::uint32_t y = 0; y <= rows; ++y) {
+      for (std::uint32_t x = 0; x <= columns; ++x) {
+        const Vec2 share{static_cast<double>(x) / columns, static_cast<double>(y) / rows};
+        places.push_back(map != nullptr ? world_point(*map, {share.x * map->width(), share.y * map->height()})
+                                        : box.min + Vec2{share.x * box.width(), share.y * box.height()});
+      }
+    }
+    std::stable_sort(places.begin(), places.end(),
+                     [this](Vec2 a, Vec2 b) { return norm(a - middle_) < norm(b - middle_); });
+    const auto found = std::find_if(places.begin(), places.end(),
+                                    [this](Vec2 p) { return is_free(p, margin_ + least_spare * size()); });
+    return found != places.end() ? std::optional(*found) : std::nullopt;
   }
   std::optional<double> way_out() {
     const Box box = room();

@@ -133,6 +133,9 @@ inline double in_few_digits(double x, double size) {
   return rounded + 0.0;  // no -0
 }
 
+/// Of the body's size: room that a state which is told has to spare.
+inline constexpr double least_spare = 1e-5;
+
 /// The nearest state that has room to spare, to as many digits as leave it half of that: up to a tenth farther where
 /// that takes fewer, a tenth of its distance from the middle or of ten times what is near enough. is_free(state,
 /// spare): with so much more room than it must have. Little room is sought only where there is nowhere more; size: what
@@ -140,7 +143,7 @@ inline double in_few_digits(double x, double size) {
 template <std::size_t n, class IsFree>
 std::optional<Numbers<n>> nearest_free_in_few_digits(const Numbers<n>& middle, std::span<const Numbers<n>> directions,
                                                      const FreeSearchRange& range, double size, const IsFree& is_free) {
-  for (const double spare : {1e-2 * size, 1e-5 * size}) {
+  for (const double spare : {1e-2 * size, least_spare * size}) {
     const auto is_roomy = [&](const Numbers<n>& state) { return is_free(state, spare); };
     NearestFree<n, decltype(is_roomy)> search(middle, directions, is_roomy);
     const auto found = search.find(range);

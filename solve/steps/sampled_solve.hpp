@@ -294,6 +294,7 @@ void SampledSolve<Body>::choose_path() {
   const std::size_t count = by_roadmap() ? 1 : body_.paths_weighed();
   if (count < 2) return;
   double least = body_.price_once_shorter(*world_, path_, answer_);
+  constexpr double as_cheap = 1e-6;  // rounding does not choose
   const std::uint64_t seed = tree_options_.seed;
   for (std::size_t i = 1; i < count; ++i) {
     tree_options_.seed = random_bits(seed, i);
@@ -304,7 +305,7 @@ void SampledSolve<Body>::choose_path() {
     answer_.roadmap.edges += other.roadmap.edges;
     if (other.outcome != Outcome::solved) continue;
     const double price = body_.price_once_shorter(*world_, other.path, answer_);
-    if (!(price < least)) continue;
+    if (!(price < least * (1.0 - as_cheap))) continue;
     least = price;
     path_ = std::move(other.path);
   }

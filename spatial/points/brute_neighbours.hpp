@@ -16,7 +16,7 @@ namespace warren {
 
 /// As KdTree.
 template <int D>
-class BruteNeighbours {
+class BruteNeighbours : public NeighboursByVisits<BruteNeighbours<D>, D> {
  public:
   using Point = PointOf<D>;
 
@@ -46,30 +46,12 @@ class BruteNeighbours {
     });
     std::sort_heap(out.begin(), out.end());
   }
-  /// All points at a distance <= radius from p but `except`, ascending by (distance, id).
-  void within(const Point& p, const SearchRadius& radius, VertexId except, std::vector<Neighbour>& out) const {
-    out.clear();
-    for_each_within(p, radius, [&](VertexId id, double distance) {
-      if (id != except) out.push_back({id, distance});
-    });
-    std::sort(out.begin(), out.end());
-  }
   /// Calls visit(id, distance) for all points at a distance <= radius from p, ascending by id.
   template <class Visit>
   void for_each_within(const Point& p, const SearchRadius& radius, const Visit& visit) const {
     for_each(p, [&](const Neighbour& n) {
       if (n.distance <= radius.length()) visit(n.id, n.distance);
     });
-  }
-  /// Calls visit(i, j) for each point i of the range, ascending, and all points j > i at a distance <= radius from it.
-  template <class Visit>
-  void for_each_later_pair(Range ids, const SearchRadius& radius, const Visit& visit) const {
-    for (std::size_t next = ids.first; next < ids.last; ++next) {
-      const auto i = as_whole<VertexId>(next);
-      for_each_within(point(i), radius, [&](VertexId j, double) {
-        if (j > i) visit(i, j);
-      });
-    }
   }
 
  private:

@@ -306,15 +306,6 @@ void KdTree<D>::nearest(const Point& p, std::size_t k, VertexId except, std::vec
 }
 
 template <int D>
-void KdTree<D>::within(const Point& p, const SearchRadius& radius, VertexId except, std::vector<Neighbour>& out) const {
-  out.clear();
-  for_each_within(p, radius, [&](VertexId id, double distance) {
-    if (id != except) out.push_back({id, distance});
-  });
-  std::sort(out.begin(), out.end());
-}
-
-template <int D>
 void KdTree<D>::visit_within(const Point& p, const SearchRadius& radius, const void* visit, Call call) const {
   if (forest_ == nullptr || radius.square() < 0.0) return;
   const auto take = [&](VertexId id, double distance) { call(visit, id, distance); };

@@ -20,7 +20,7 @@ namespace warren {
 /// Immutable after construction; any number of threads may query. All answers are exact: the same neighbours, distances
 /// and order as brute force. Instantiated for D = 2, 3, 4 and 6.
 template <int D>
-class KdTree {
+class KdTree : public NeighboursByVisits<KdTree<D>, D> {
  public:
   using Point = PointOf<D>;
 
@@ -38,24 +38,11 @@ class KdTree {
 
   /// The k points nearest to p (fewer if there are not so many) but `except`, ascending by (distance, id).
   void nearest(const Point& p, std::size_t k, VertexId except, std::vector<Neighbour>& out) const;
-  /// All points at a distance <= radius from p but `except`, ascending by (distance, id).
-  void within(const Point& p, const SearchRadius& radius, VertexId except, std::vector<Neighbour>& out) const;
   /// Calls visit(id, distance) for all points at a distance <= radius from p, in an order that depends on the points.
   template <class Visit>
   void for_each_within(const Point& p, const SearchRadius& radius, const Visit& visit) const {
     visit_within(p, radius, &visit,
                  [](const void* f, VertexId id, double d) { (*static_cast<const Visit*>(f))(id, d); });
-  }
-  /// Calls visit(i, j) for each point i of the range, ascending, and all points j > i at a distance <= radius from it:
-  /// over all points, each pair once.
-  template <class Visit>
-  void for_each_later_pair(Range ids, const SearchRadius& radius, const Visit& visit) const {
-    for (std::size_t next = ids.first; next < ids.last; ++next) {
-      const auto i = as_whole<VertexId>(next);
-      for_each_within(point(i), radius, [&](VertexId j, double) {
-        if (j > i) visit(i, j);
-      });
-    }
   }
 
  private:

@@ -4,15 +4,18 @@
 // rounded squares, axis 0 first, as in core's distance(). Every index gives these very bits and breaks ties by id.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <type_traits>
+#include <vector>
 
 #include "core/base/types.hpp"
 #include "core/base/whole.hpp"
+#include "parallel/chunks.hpp"
 
 namespace warren {
 
@@ -70,6 +73,34 @@ class SearchRadius {
   double length_;
   double square_;
   double reach_;
+};
+
+/// What an index answers by its for_each_within() and point(). Index: derives from this.
+template <class Index, int D>
+class NeighboursByVisits {
+ public:
+  /// All points at a distance <= radius from p but `except`, ascending by (distance, id).
+  void within(const PointOf<D>& p, const SearchRadius& radius, VertexId except, std::vector<Neighbour>& out) const {
+    out.clear();
+    index().for_each_within(p, radius, [&](VertexId id, double distance) {
+      if (id != except) out.push_back({id, distance});
+    });
+    std::sort(out.begin(), out.end());
+  }
+  /// Calls visit(i, j) for each point i of the range, ascending, and all points j > i at a distance <= radius from it:
+  /// over all points, each pair once.
+  template <class Visit>
+  void for_each_later_pair(Range ids, const SearchRadius& radius, const Visit& visit) const {
+    for (std::size_t next = ids.first; next < ids.last; ++next) {
+      const auto i = as_whole<VertexId>(next);
+      index().for_each_within(index().point(i), radius, [&](VertexId j, double) {
+        if (j > i) visit(i, j);
+      });
+    }
+  }
+
+ private:
+  const Index& index() const { return static_cast<const Index&>(*this); }
 };
 
 }  // namespace warren

@@ -19,6 +19,7 @@ YARD = 'bounds 0 0 100 60\nwall 50 0 50 20\nstart 5 30\ngoal 95 30\n'
 PLAIN = 'bounds 0 0 4000000 4000000\nwall 2000000 0 2000000 1000000\nstart 10000 10000\ngoal 3900000 10000\n'
 ROUND = ('bounds 0 0 100 60\nrobot polygon ' + ' '.join(f'{2 * math.cos(i * math.pi / 30):.9f} {2 * math.sin(i * math.pi / 30):.9f}' for i in range(60)) +
          '\nstart 10 30 0\ngoal 90 30\n')
+DRIVE = 'bounds 0 0 60 40\nrobot car radius 1 turning 5\nstart 10 10 0\ngoal 40 25 3\n'
 HALL = 'bounds 0 0 100 60\nrobot polygon -4 -1 4 -1 4 1 -4 1\nstart 10 30 0\ngoal 90 30\n'
 
 
@@ -27,7 +28,7 @@ class PageTools(MapTest):
     def setUpClass(cls):
         super().setUpClass()
         cls.services = {}
-        for name, text in (('yard', YARD), ('hall', HALL), ('plain', PLAIN), ('round', ROUND)):
+        for name, text in (('yard', YARD), ('hall', HALL), ('plain', PLAIN), ('round', ROUND), ('drive', DRIVE)):
             with open(os.path.join(cls.folder.name, name + '.scene'), 'w', encoding='utf-8') as file:
                 file.write(text)
             cls.services[name] = Service(WARREN, os.path.join(cls.folder.name, name + '.scene'), '--writable')
@@ -102,6 +103,22 @@ class PageTools(MapTest):
             self.assertAlmostEqual(off, 1, 12)
         for (_, before), (_, after) in zip(turns, turns[1:]):
             self.assertLess(after - before, math.radians(5) + 1e-9)
+
+    def test_the_line_of_a_car_bends_as_it_drives(self):
+        self.shown('drive')
+        for goal in (None, 100):
+            if goal is not None:
+                self.run_script('setHeading("goal", arguments[0])', goal)
+                self.wait_for_heading_of_path(-1, goal)
+            path, length, line = self.run_script('''const line = pathLine.line.getLatLngs().flat();
+                return [answer.json.path, answer.json.length, line.map(p => [p.lng, p.lat])]''')
+            chords = [(b[0] - a[0], b[1] - a[1]) for a, b in zip(line, line[1:])]
+            driven = sum(math.hypot(*chord) for chord in chords)
+            self.assertLessEqual(driven, length + 1e-9)
+            self.assertGreater(driven, 0.9995 * length)  # straight from pose to pose it is a tenth less
+            for (ax, ay), (bx, by) in zip(chords, chords[1:]):
+                self.assertLess(abs(math.atan2(ax * by - ay * bx, ax * bx + ay * by)), math.radians(5) + 1e-6)
+            self.assertEqual((line[0], line[-1]), (path[0][:2], path[-1][:2]))
 
     def test_bodies_that_do_not_turn_have_no_arrow(self):
         self.shown('yard')

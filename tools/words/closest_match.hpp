@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is said of a word that nobody knows: what it is here, where it is one of the field's (other_names.hpp), else
-// "did you mean" the known word with the smallest edit distance (insert, delete, replace, swap of neighbours).
+// "did you mean" the known word with the smallest edit distance.
 #pragma once
 
 #include <span>
@@ -8,9 +8,6 @@
 #include <string_view>
 
 namespace warren::tools {
-
-/// Optimal string alignment distance. O(length a × length b).
-std::size_t edit_distance(std::string_view a, std::string_view b);
 
 /// "; WHAT IT IS HERE", or "; did you mean KNOWN?" for the earliest of the closest known words, or for one that begins
 /// so. Capitals and dashes before it count nothing; "" if more than a third of the letters would have to change.

@@ -9,6 +9,12 @@
 
 namespace warren {
 
+namespace {
+
+constexpr double as_good = 1e-9;  // in turning radii: what is shorter by less is as long
+
+}  // namespace
+
 struct PricedCar::Recipe {
   SteeringWord word;
   double price = 0.0;
@@ -50,7 +56,9 @@ std::vector<PricedCurve> PricedCar::ways(const State& a, const State& b, double 
   ReedsSheppCurve::for_each_word(a, b, radius, most / radius, [&](const SteeringWord& word) {
     const Recipe recipe = priced(word, off);
     Recipe& same = best[(recipe.first_gear > 0 ? 2U : 0U) + (recipe.last_gear > 0 ? 1U : 0U)];
-    if (recipe.first_gear != 0 && recipe.price < same.price && ends_at(word, goal, off)) same = recipe;
+    const double shorter = same.price - radius * (as_good + 8.0 * off);
+    const bool is_better = recipe.price < (same.first_gear == 0 ? most : shorter);
+    if (recipe.first_gear != 0 && is_better && ends_at(word, goal, off)) same = recipe;
   });
   std::vector<PricedCurve> ways;
   for (const Recipe& recipe : best) {
@@ -77,10 +85,20 @@ Se2 PricedCar::drawn_near(const State& a, const std::array<double, 4>& u, double
           wrapped_angle(a.theta + slip(3, turned_rad))};
 }
 
+/// Without joints that rounding alone parts from those before.
 void PricedCar::append(Path<State>& path, const Way& way) {
   std::vector<Se2> joints;
   append_joints(joints, way.curve);
-  path.insert(path.end(), joints.begin(), joints.end());
+  if (joints.empty()) return;
+  const double radius = way.curve.turning_radius();
+  const double apart = radius * (as_good + 8.0 * off_by_rounding(path.back(), joints.back(), radius));
+  const auto is_near = [&](const Se2& a, const Se2& b) { return norm(a.position() - b.position()) <= apart; };
+  const std::size_t before = path.size();
+  for (const Se2& joint : joints) {
+    if (!is_near(path.back(), joint)) path.push_back(joint);
+  }
+  if (path.size() > before) path.pop_back();
+  path.push_back(joints.back());
 }
 
 double PricedCar::price(std::span<const State> path, int gear_before, int gear_after) const {

@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "core/base/error.hpp"
-#include "roadmaps/file/lazy_section.hpp"
+#include "roadmaps/file/roadmap_file.hpp"
 #include "tests/roadmaps/file/mend_checksums.hpp"
 #include "tests/roadmaps/file/small_roadmap_file.hpp"
 
@@ -283,11 +283,25 @@ class LargeRoadmapFile : public ::testing::Test {
   std::size_t offset_ = 0;
 };
 
+/// Its numbers, each checked before it is seen.
+struct Looked {
+  explicit Looked(const RoadmapFile& file)
+      : all(file.unchecked_section<std::uint64_t>("numbers")), look(file.first_look(*file.find("numbers"))) {}
+  std::span<const std::uint64_t> part(std::size_t first, std::size_t count) const {
+    look.ensure(first * sizeof(std::uint64_t), count * sizeof(std::uint64_t));
+    return all.subspan(first, count);
+  }
+  std::uint64_t operator[](std::size_t i) const { return part(i, 1).front(); }
+
+  std::span<const std::uint64_t> all;
+  FirstLook look;
+};
+
 TEST_F(LargeRoadmapFile, IsCheckedWhereSomebodyLooks) {
   flip(offset_ + damaged * checked_block + 12345);
   const RoadmapFile file(path_, {});  // nobody has looked yet
-  const LazySection<std::uint64_t> numbers(file, "numbers");
-  ASSERT_EQ(numbers.size(), blocks * in_block);
+  const Looked numbers(file);
+  ASSERT_EQ(numbers.all.size(), blocks * in_block);
   for (std::size_t block = 0; block < blocks; ++block) {
     if (block == damaged) continue;
     const std::size_t i = block * in_block + block;
@@ -331,12 +345,12 @@ TEST_F(LargeRoadmapFile, HasItsSmallSectionsAndZerosCheckedWhenItIsOpened) {
 
 TEST_F(LargeRoadmapFile, IsLookedAtByManyThreads) {
   const RoadmapFile file(path_, {});
-  const LazySection<std::uint64_t> numbers(file, "numbers");
+  const Looked numbers(file);
   std::vector<std::thread> threads;
   std::array<std::size_t, 4> wrong{};
   for (std::size_t t = 0; t < wrong.size(); ++t) {
     threads.emplace_back([&, t] {
-      for (std::size_t i = t; i < numbers.size(); i += 4099)
+      for (std::size_t i = t; i < numbers.all.size(); i += 4099)
         wrong[t] += numbers[i] != i * 0x9e3779b97f4a7c15U ? 1U : 0U;
     });
   }

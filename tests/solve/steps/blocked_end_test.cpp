@@ -79,6 +79,31 @@ TEST(BlockedEnd, NamesTheCellOfAMap) {
   EXPECT_NEAR(blocked.distance, 0.25, 0.06);
 }
 
+/// Three free cells by three of a map that is blocked else, a square room among walls: no direction need lead there.
+TEST(BlockedEnd, OffersThePlaceInAPocketFarAway) {
+  for (std::uint32_t y = 3; y < 28; y += 12) {
+    for (std::uint32_t x = 3; x < 28; x += 12) {
+      SCOPED_TRACE(testing::Message() << x << ' ' << y);
+      Scene map;
+      map.map.emplace().blocked = Bitmap(31, 31);
+      for (std::uint32_t i = 0; i < 31U * 31U; ++i) {
+        const bool is_free = i % 31 - x + 1 < 3 && i / 31 - y + 1 < 3;  // below 0 is far above 3
+        if (!is_free) map.map->blocked.set(i % 31, i / 31);
+      }
+      const Question question{
+          .robot = RobotSpec{.kind = RobotKind::disc, .radius = 1.2}, .start = {1.5, 29.5}, .goal = {29.5, 1.5}};
+      EXPECT_EQ(told(map, question).free_place.size(), 2U);
+      Scene scene;
+      scene.bounds = Box{{0, 0}, {31, 31}};
+      for (const Box& box : {Box{{0, 0}, {31.0, y - 1.0}}, Box{{0, y + 2.0}, {31, 31}}, Box{{0, 0}, {x - 1.0, 31.0}},
+                             Box{{x + 2.0, 0}, {31, 31}}}) {
+        scene.polygons.push_back({{box.min, {box.max.x, box.min.y}, box.max, {box.min.x, box.max.y}}});
+      }
+      EXPECT_EQ(told(scene, question).free_place.size(), 2U);
+    }
+  }
+}
+
 TEST(BlockedEnd, NamesTheJointAndItsLimitsAndGuessesDegrees) {
   const BlockedEnd blocked = told(world("puma-seed.scene"), {.goal = {90, 0, 0, 0, 0, 0}});
   EXPECT_NE(blocked.by.find("joint 1"), std::string::npos) << blocked.by;

@@ -63,6 +63,38 @@ TEST_F(RoadmapBatch, AnswersEachLineInItsOrder) {
   EXPECT_TRUE(lines[6]["length"].is_null());
 }
 
+/// Coordinates and angles that readers admit, of every body: each is blocked there, at once.
+TEST_F(RoadmapBatch, EndsFarOutsideAreBlocked) {
+  struct World {
+    std::string text;
+    std::string end;  // behind its first number
+  };
+  const std::string room = "bounds 0 0 10 10\nwall 5 0 5 7\n";
+  const World worlds[] = {{"type octile\nheight 3\nwidth 3\nmap\n..@\n...\n...\n", ",1]"},
+                          {room, ",1]"},
+                          {room + "robot disc 0.3\n", ",1]"},
+                          {room + "robot polygon -0.4 -0.2 0.4 -0.2 0.4 0.2 -0.4 0.2\n", ",1,0]"},
+                          {room + "robot car radius 0.3 turning 0.7\n", ",1,0]"},
+                          {room + "robot car radius 0.3 turning 0.7 steering reeds-shepp\n", ",1,0]"},
+                          {"robot puma560 radius 0.03 limits classic\nsphere 5 5 5 0.1\n", ",1,0,0,0,0]"}};
+  for (const auto& [text, end] : worlds) {
+    SCOPED_TRACE(text);
+    build(folder_.write("world", text), {"--samples", "50"});
+    std::string questions;
+    for (const std::string far : {"1e7", "-1e7", "1e19", "-1e20", "1e60"}) {
+      questions += "{\"start\":[" + far + end + ",\"goal\":[1" + end + "}\n";
+      questions += "{\"start\":[1" + end + ",\"goal\":[" + far + end + "}\n";
+    }
+    const Outcome outcome = asked(questions, {"--budget", "20s"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const std::vector<Json> lines = lines_of(outcome.out);
+    ASSERT_EQ(lines.size(), 10U);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      EXPECT_EQ(lines[i]["status"], i % 2 == 0 ? "start_blocked" : "goal_blocked") << i;
+    }
+  }
+}
+
 TEST_F(RoadmapBatch, NoPathIsAnAnswer) {
   const Outcome outcome = asked("start_x,start_y,goal_x,goal_y\n0.5,0.5,1,1\n", {"--quiet"});
   EXPECT_EQ(outcome.code, 0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Judges and numbers of all sizes that readers admit: coordinates from 1e-60 to 1e60, ends outside of everything, steps
 // of one ulp, paths along obstacles. Points, discs and bodies that don't turn are judged once more by rationals, which
-// share nothing with the judges; bodies that turn, by poses so close that none between them comes much nearer. Where a
+// share nothing with the judges; bodies that turn, cars and arms, by bounds of the room on pieces of each leg. Where a
 // judge allows for rounding, both verdicts are right within it. More of them:
 // WARREN_SEEDS=all; WARREN_JUDGED_LEGS=30000 besides: 10^5 legs, a minute of an optimised build.
 #include <gtest/gtest.h>
@@ -16,9 +16,9 @@
 
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
-#include "core/plane/polygon_distance.hpp"
 #include "parallel/deadline.hpp"
 #include "tests/seeds.hpp"
+#include "tests/verify/judges/bounding_judge.hpp"
 #include "verify/judges/verify_arm.hpp"
 #include "verify/judges/verify_car.hpp"
 #include "verify/judges/verify_map.hpp"
@@ -302,38 +302,132 @@ TEST(JudgesOfAnyNumber, OfBodiesThatGoStraightAreThoseOfRationals) {
   EXPECT_GT(free, seeds.size() / 40);
 }
 
-/// By poses along a leg that turns: the least distance, and how far the body travels from one to the next.
-struct Sampled {
-  double least = std::numeric_limits<double>::infinity();
-  double step = 0.0;
-  bool goes_both_ways = false;
-};
-Sampled sampled_on(const Scene& scene, const std::vector<Vec2>& body, const Se2& a, const Se2& b) {
-  constexpr int steps = 64;
-  const auto angle = [](double theta) { return std::atan2(std::sin(theta), std::cos(theta)); };
-  const double turn = std::remainder(angle(b.theta) - angle(a.theta), 2.0 * std::numbers::pi);
-  double radius = 0.0;
-  for (const Vec2 p : body) radius = std::max(radius, norm(p));
-  const Vec2 way = b.position() - a.position();
-  Sampled found{.step = (norm(way) + radius * std::abs(turn)) / steps, .goes_both_ways = std::abs(turn) > 3.1};
-  for (int i = 0; i <= steps; ++i) {
-    const double t = static_cast<double>(i) / steps;
-    const double sine = std::sin(angle(a.theta) + t * turn);
-    const double cosine = std::cos(angle(a.theta) + t * turn);
-    std::vector<Vec2> corners;
-    for (const Vec2 p : body) {
-      corners.push_back(a.position() + t * way + Vec2{cosine * p.x - sine * p.y, sine * p.x + cosine * p.y});
+/// In the plane of the scene, or on its map, whose blocked cells are boxes.
+test::PlaneJudge second_judge(const Scene& scene, const std::vector<Vec2>& outline, double needed) {
+  test::PlaneJudge judge{.outline = outline, .needed = needed};
+  if (scene.map) {
+    const Bitmap& cells = scene.map->blocked;
+    judge.bounds = {{0, 0}, {static_cast<double>(cells.width()), static_cast<double>(cells.height())}};
+    for (unsigned y = 0; y < cells.height(); ++y) {
+      for (unsigned x = 0; x < cells.width(); ++x) {
+        if (cells.test(x, y)) judge.blocked.push_back({{double(x), double(y)}, {x + 1.0, y + 1.0}});
+      }
     }
-    for (const Segment& s : sides_of(scene, scene.bounds.has_value())) {
-      found.least = std::min(found.least, distance(corners, s));
+    for (const auto& [low, high] : judge.blocked) {
+      const Vec2 corners[] = {low, {high.x, low.y}, high, {low.x, high.y}};
+      for (int i = 0; i < 4; ++i) judge.sides.push_back({corners[i], corners[(i + 1) % 4]});
+    }
+  } else {
+    judge.bounds = scene.bounds.value_or(Box{{-1e70, -1e70}, {1e70, 1e70}});
+    judge.sides = sides_of(scene, false);
+  }
+  return judge;
+}
+
+void expect_as(test::Bounded bounded, bool verified, std::size_t& decided) {
+  if (bounded == test::Bounded::unsure) return;
+  ++decided;
+  EXPECT_EQ(verified, bounded == test::Bounded::free);
+}
+
+constexpr double headings[] = {0.0, 0.387, -1.36, 3.14159265358979, 990.1, 1e-60, 9007199254740992.0};
+
+/// What a car with this turning radius drives with its wheel still, at times but nearly: a step of one ulp, far away,
+/// a little tighter, a little aside.
+std::vector<Se2> any_drive(std::uint64_t seed, double radius) {
+  const auto u = [&](std::uint64_t axis) { return uniform(seed, 5, axis); };
+  Se2 a{6.0 * u(0), 5.0 * u(1), random_bits(seed, 5, 2) % 2 == 0 ? headings[random_bits(seed, 5, 3) % 6] : 6.0 * u(4)};
+  const double way = (random_bits(seed, 5, 5) % 3 == 0 ? -1.0 : 1.0) * 1.5 * u(6);
+  const double at = radius * (random_bits(seed, 5, 7) % 3 == 0 ? 1.0 - 1e-15 : 0.95 + 2.0 * u(8));
+  const double turn = random_bits(seed, 5, 9) % 3 == 0 ? 0.0 : (u(10) < 0.5 ? 1.0 : -1.0) * std::abs(way) / at;
+  const double chord = turn == 0.0 ? way : way * std::sin(0.5 * turn) / (0.5 * turn);
+  Se2 b{a.x + chord * std::cos(a.theta + 0.5 * turn), a.y + chord * std::sin(a.theta + 0.5 * turn), a.theta + turn};
+  switch (random_bits(seed, 5, 11) % 12) {
+    case 0:
+      return {a, {std::nextafter(a.x, 9.0), a.y, a.theta}};
+    case 1:
+      return {a, {any_number(seed, 400, 6.0), any_number(seed, 401, 5.0), b.theta}};
+    case 2:
+      return {{a.x, a.y, 0.0}, {any_number(seed, 400, 6.0), a.y, 0.0}};
+    case 3:
+      return {a, {b.x, b.y, b.theta + 1e-3 * u(12)}};
+    default:
+      return {a, b};
+  }
+}
+
+TEST(JudgesOfAnyNumber, OfCarsAgreeWithASecondJudge) {
+  constexpr double radius = 0.5;
+  constexpr double off = 1e-9 * radius;
+  std::size_t decided = 0;
+  std::size_t free = 0;
+  std::size_t asked = 0;
+  for (const std::uint64_t seed : test::seeds(legs / 5, 200)) {
+    const double size =
+        std::abs(random_bits(seed, 6, 0) % 4 == 0 ? any_number(seed, 300, 0.1) : 0.4 * uniform(seed, 6, 1));
+    const bool is_disc = random_bits(seed, 6, 2) % 2 == 0;
+    const std::vector<Vec2> body{{0.0, 0.0}, {size, 0.0}, {0.0, size}};
+    const std::vector<Se2> path = any_drive(seed, radius);
+    Scene map;
+    map.map.emplace(map_of(seed)).cell = 1.0;
+    map.map->origin = {};
+    for (const Scene& scene : {plane_of(seed), map}) {
+      for (const bool reverses : {false, true}) {
+        SCOPED_TRACE(testing::Message() << seed << (scene.map ? " map" : " walls") << (reverses ? " reverses" : ""));
+        VerifiedCar car{.turning_radius = radius, .reverses = reverses};
+        if (is_disc) car.radius = size;
+        if (!is_disc) car.outline = body;
+        Limits limits;
+        const bool verified = verify_car(scene, car, path, {}, limits.execution).verified;
+        test::PlaneJudge judge = second_judge(scene, is_disc ? std::vector<Vec2>{{}} : body, car.radius);
+        judge.unsure = 4.0 * off + 1e-12 * (10.0 + size);
+        expect_as(bounded_car(judge, path[0], path[1], radius, reverses, off), verified, decided);
+        free += verified ? 1 : 0;
+        ++asked;
+      }
     }
   }
-  return found;
+  EXPECT_GT(decided, asked * 9 / 10);
+  EXPECT_GT(free, asked / 10);
+}
+
+TEST(JudgesOfAnyNumber, OfArmsAgreeWithASecondJudge) {
+  std::size_t decided = 0;
+  std::size_t free = 0;
+  const std::vector<std::uint64_t> seeds = test::seeds(legs / 10, 100);
+  for (const std::uint64_t seed : seeds) {
+    SCOPED_TRACE(seed);
+    const DhTable table = seed % 2 == 0 ? puma560_table(0.1) : puma560_modified_table(0.3, PumaLimits::symmetric);
+    const auto u = [&](std::uint64_t i, std::uint64_t axis) { return uniform(seed, i, axis); };
+    Scene scene;
+    for (std::uint64_t i = 0; i < 3; ++i) {
+      const double size = i == 0 ? std::abs(any_number(seed, 500, 0.2)) : 0.2 * u(i, 20);
+      scene.spheres.push_back({2.0 * u(i, 21) - 1.0, 2.0 * u(i, 22) - 1.0, u(i, 23), size});
+      const std::array<double, 3> low{2.0 * u(i, 24) - 1.0, 2.0 * u(i, 25) - 1.0, 1.5 * u(i, 26) - 0.7};
+      scene.boxes.push_back({low, {low[0] + 0.3 * u(i, 27), low[1] + 0.3 * u(i, 28), low[2] + 0.3 * u(i, 29)}});
+    }
+    std::vector<JointState> path(2);
+    for (std::size_t j = 0; j < 6; ++j) {
+      const DhJoint& joint = table.joints[j];
+      path[0][j] = joint.low_rad + u(7, j) * (joint.high_rad - joint.low_rad);
+      path[1][j] = std::clamp(path[0][j] + 0.4 * (u(8, j) - 0.5), joint.low_rad, joint.high_rad);
+    }
+    if (seed % 5 == 0) path[1][seed % 6] = any_number(seed, 501, 1.0);
+    if (seed % 7 == 0) path[1] = path[0], path[1][seed % 6] = std::nextafter(path[0][seed % 6], 0.0);
+    constexpr double radius = 0.05;
+    Limits limits;
+    const ArmVerifyOptions options{.radius = radius};
+    const bool verified = verify_arm(scene, table, path, options, limits.execution).verified;
+    expect_as(test::bounded_arm(scene, table, radius, path[0], path[1], options.tolerance), verified, decided);
+    free += verified ? 1 : 0;
+  }
+  EXPECT_GT(decided, seeds.size() * 9 / 10);
+  EXPECT_GT(free, seeds.size() / 20);
 }
 
 TEST(JudgesOfAnyNumber, OfTurningBodiesAndCarsAnswerOrRefuseInTimeAndMemory) {
-  constexpr double headings[] = {0.0, 0.387, -1.36, 3.14159265358979, 999.9, 9007199254740992.0, 1e-60};
   std::size_t free = 0;
+  std::size_t decided = 0;
   const std::vector<std::uint64_t> seeds = test::seeds(legs / 10, 60);
   for (const std::uint64_t seed : seeds) {
     SCOPED_TRACE(seed);
@@ -362,9 +456,9 @@ TEST(JudgesOfAnyNumber, OfTurningBodiesAndCarsAnswerOrRefuseInTimeAndMemory) {
     const bool verified = verify_se2(scene, body, path, {}, limits.execution).verified;
     EXPECT_TRUE(!verified || is_inside);
     if (is_inside) {
-      const Sampled sampled = sampled_on(scene, body, path[0], path[1]);
-      if (verified) EXPECT_GT(sampled.least, 0.0);
-      if (!verified && !sampled.goes_both_ways) EXPECT_LE(sampled.least, sampled.step + 1e-5 * size + 1e-12);
+      test::PlaneJudge judge = second_judge(scene, body, 0.0);
+      judge.unsure = 1e-5 * size + 1e-12;
+      expect_as(bounded_turning(judge, path[0], path[1]), verified, decided);
     }
     free += verified ? 1 : 0;
     Scene map;
@@ -377,6 +471,7 @@ TEST(JudgesOfAnyNumber, OfTurningBodiesAndCarsAnswerOrRefuseInTimeAndMemory) {
     }
   }
   EXPECT_GT(free, seeds.size() / 40);
+  EXPECT_GT(decided, seeds.size() / 4);
 }
 
 TEST(JudgesOfAnyNumber, OfArmsAnswerOrRefuse) {
