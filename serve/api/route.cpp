@@ -117,7 +117,8 @@ std::optional<std::vector<double>> numbers_parameter(const HttpRequest& request,
     if (error == std::errc() && read == last && std::isfinite(number)) numbers.push_back(number);
   }
   if (numbers.size() == count && split(*text, ',').size() == count) return numbers;
-  throw HttpError(400, "bad_request", "query", fmt::format("{}: expected {} numbers", name, count));
+  throw HttpError(400, "bad_request", "query",
+                  fmt::format("{}: expected {} number{}", name, count, count == 1 ? "" : "s"));
 }
 
 bool flag_parameter(const HttpRequest& request, std::string_view name) {

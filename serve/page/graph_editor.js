@@ -186,6 +186,7 @@ function readPlace() {
   if (graph.selected) moveNode(graph.selected.id, {x: numbers[0], y: numbers[1]});
 }
 function wireGraph() {
+  graph.turns = turns();  // the service's own body, which drives its edges
   byId("graph").hidden = world.robot.startsWith("car") || (world.asks_roadmap && world.description.endsWith("maze"));
   const container = map.getContainer();
   container.addEventListener("pointerdown", beginDrag, true);
