@@ -7,14 +7,7 @@ const marks = {};
 const say = text => { byId("status").textContent = text; };
 
 function fillTable(id, rows) {
-  const body = byId(id).tBodies[0];
-  body.replaceChildren(...rows.map(([name, value]) => {
-    const row = document.createElement("tr"), head = document.createElement("th"), cell = document.createElement("td");
-    head.textContent = name;
-    cell.textContent = value;
-    row.append(head, cell);
-    return row;
-  }));
+  byId(id).tBodies[0].replaceChildren(...rows.map(([name, value]) => elementOf("tr", {}, elementOf("th", {}, name), elementOf("td", {}, String(value)))));
 }
 function asTime(ms) {
   if (ms < 0.9995) return (1000 * ms).toFixed(0) + " µs";
