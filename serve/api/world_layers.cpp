@@ -192,8 +192,7 @@ LayerAccount clearance_account(const ServedWorld& world) {
 
 /// Distance that the middle of a round body must have; 0 of others, whose place alone doesn't say whether they fit.
 double needed_around(const ServedWorld& world) {
-  const bool is_round = world.robot().kind == RobotKind::point || world.robot().kind == RobotKind::disc;
-  return is_round ? world.robot().radius + world.clearance() : 0.0;
+  return world.robot().outline.empty() ? world.robot().radius + world.clearance() : 0.0;
 }
 
 LayerAccount axis_account(const ServedWorld& world) {

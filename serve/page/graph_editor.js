@@ -169,7 +169,7 @@ async function openGraphFile(file) {
 function openGraph(json, word) {
   takeGraph(json);
   setEditing(true);
-  say(word + grouped(json.nodes.length) + " nodes, " + grouped(json.edges.length) + " edges" + (json.left_out ? "; " + grouped(json.left_out) + " features are left out: neither, or nodes whose id a later one has" : "") + (blockedEdges().length ? "; " + grouped(blockedEdges().length) + " edges are not free" : "") + ".");
+  say(word + grouped(json.nodes.length) + " nodes, " + grouped(json.edges.length) + " edges" + (json.left_out ? "; " + grouped(json.left_out) + " features are left out: neither, or nodes whose id a later one has" : "") + (blockedEdges().length ? "; " + grouped(blockedEdges().length) + " edges are not free" : "") + ". Clicks edit it now; Edit ends that.");
 }
 async function saveGraph() {
   const body = {frame: graph.file.get("frame"), nodes: [...graph.nodes.values()], edges: [...graph.edges.values()].map(({key, ...edge}) => edge)};
