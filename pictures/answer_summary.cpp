@@ -148,9 +148,12 @@ void add_roadmap(std::string& text, const Answer& answer, const Palette& palette
   if (answer.roadmap.components > 0) what += ", " + counted(answer.roadmap.components, "component", "components");
   line(text, palette, "roadmap", what);
   add_wrong_edges(text, answer, palette);
-  line(text, palette, "work",
-       fmt::format("{} checked, {} expanded, {}", counted(answer.counters.edges_checked, "edge", "edges"),
-                   grouped(answer.counters.expanded), counted(answer.counters.rounds, "round", "rounds")));
+  std::string work = grouped(answer.counters.expanded) + " expanded";
+  const auto [edges, rounds] = std::pair(answer.counters.edges_checked, answer.counters.rounds);
+  if (edges > 0)
+    work = counted(edges, "edge", "edges") + " checked, " + work;  // none where all are free by their making
+  if (rounds > 0) work += ", " + counted(rounds, "round", "rounds");
+  line(text, palette, "work", work);
   if (answer.outcome != Outcome::not_connected || answer.refuted || !answer.separation.is_known()) return;
   line(
       text, palette, "start, goal",

@@ -48,15 +48,16 @@ inline constexpr std::array<Rgb, 9> components{{layer,
                                                 {240, 170, 200},
                                                 {190, 200, 140},
                                                 {200, 206, 214}}};
-/// Several of one kind beside each other, by Okabe and Ito: told apart by most eyes, and on paper.
-inline constexpr std::array<Rgb, 8> series{{{0, 114, 178},
+/// Several of one kind beside each other, by Okabe and Ito, and the ink: told apart by most eyes, and on paper.
+inline constexpr std::array<Rgb, 9> series{{{0, 114, 178},
                                             {213, 94, 0},
                                             {0, 158, 115},
                                             {204, 121, 167},
                                             {181, 137, 0},
                                             {86, 180, 233},
                                             {85, 85, 85},
-                                            {122, 81, 149}}};
+                                            {122, 81, 149},
+                                            {0, 0, 0}}};
 }  // namespace colors
 
 /// Pixels of the page (1/96 inch) where a unit of the world (Canvas::unit) has some twenty; less where it has fewer.

@@ -26,7 +26,7 @@ class BoxDrawing {
     sheet_.label({frame_.max.x + 10.0, frame_.min.y - 8.0}, Anchor::start, plot_.remarks);
     for (const double tick : axis_.ticks()) {
       sheet_.line({{place(tick), frame_.min.y}, {place(tick), frame_.max.y}}, faint_line);
-      sheet_.label({place(tick), frame_.max.y + 17.0}, Anchor::middle, short_text(tick));
+      sheet_.label({place(tick), frame_.max.y + 17.0}, Anchor::middle, tick_on_axis(tick, plot_.label));
     }
     sheet_.box(frame_, frame_line);
     for (std::size_t i = 0; i < plot_.boxes.size(); ++i) row(i);

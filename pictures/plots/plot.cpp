@@ -29,7 +29,7 @@ class PlotDrawing {
   PlotSheet sheet() {
     sheet_.begin(plot_.title, frame_, plot_.x_label, plot_.y_label, 18.0);
     grid();
-    level();
+    if (plot_.level && y_.shows(*plot_.level)) level(frame_.min.x, frame_.max.x, place_y(*plot_.level));
     for (std::size_t i = 0; i < plot_.series.size(); ++i) series(i);
     legend();
     return std::move(sheet_);
@@ -39,11 +39,16 @@ class PlotDrawing {
   Box frame_beside_legend() const;
   PlotAxis axis(bool of_x) const;
   void grid();
-  void level();
+  void level(double from, double to, double y);
   void series(std::size_t i);
   void legend();
   Rgb color_of(std::size_t i) const { return series_color(plot_.series[i].color.value_or(i)); }
-  Pen line_of(std::size_t i) const { return {.stroke = color_of(i), .width = 1.8}; }
+  // Of series that coincide both are seen: every second one is thin, its marks are rings.
+  Pen line_of(std::size_t i) const { return {.stroke = color_of(i), .width = i % 2 == 0 ? 2.6 : 1.2}; }
+  void mark(std::size_t i, Vec2 at, const std::string& tip) {
+    if (i % 2 == 0) return sheet_.disc(at, mark_radius, {.fill = color_of(i)}, tip);
+    sheet_.disc(at, mark_radius + 1.0, {.stroke = color_of(i), .width = 1.2}, tip);
+  }
   bool shows(Vec2 p) const { return x_.shows(p.x) && y_.shows(p.y); }
   double place_x(double value) const { return frame_.min.x + x_.at(value) * frame_.width(); }
   double place_y(double value) const { return frame_.max.y - y_.at(value) * frame_.height(); }
@@ -59,6 +64,7 @@ class PlotDrawing {
 Box PlotDrawing::frame_beside_legend() const {
   double widest = 0.0;
   for (const PlotSeries& s : plot_.series) widest = std::max(widest, text_width(s.name, plot_text_size));
+  if (plot_.level) widest = std::max(widest, text_width(plot_.level_name, plot_text_size));
   const double right = plot_size.x - legend_indent - widest - margin_of_name;
   Box frame = widest_frame;
   frame.max.x = std::clamp(right, frame.min.x + narrowest, frame.max.x);
@@ -88,21 +94,18 @@ PlotAxis PlotDrawing::axis(bool of_x) const {
 void PlotDrawing::grid() {
   for (const double tick : x_.ticks()) {
     sheet_.line({{place_x(tick), frame_.min.y}, {place_x(tick), frame_.max.y}}, faint_line);
-    sheet_.label({place_x(tick), frame_.max.y + 17.0}, Anchor::middle, short_text(tick));
+    sheet_.label({place_x(tick), frame_.max.y + 17.0}, Anchor::middle, tick_on_axis(tick, plot_.x_label));
   }
   for (const double tick : y_.ticks()) {
     sheet_.line({{frame_.min.x, place_y(tick)}, {frame_.max.x, place_y(tick)}}, faint_line);
-    sheet_.label({frame_.min.x - 7.0, place_y(tick) + 4.0}, Anchor::end, short_text(tick));
+    sheet_.label({frame_.min.x - 7.0, place_y(tick) + 4.0}, Anchor::end, tick_on_axis(tick, plot_.y_label));
   }
   sheet_.box(frame_, frame_line);
 }
 
-void PlotDrawing::level() {
-  if (!plot_.level || !y_.shows(*plot_.level)) return;
+void PlotDrawing::level(double from, double to, double y) {
   constexpr Rgb red{193, 18, 31};
-  const double y = place_y(*plot_.level);
-  sheet_.line({{frame_.min.x, y}, {frame_.max.x, y}}, {.stroke = red, .width = 1.5}, {7.0, 4.0});
-  sheet_.label({frame_.min.x + 6.0, y - 6.0}, Anchor::start, plot_.level_name, red);
+  sheet_.line({{from, y}, {to, y}}, {.stroke = red, .width = 1.5}, {7.0, 4.0});
 }
 
 void PlotDrawing::series(std::size_t i) {
@@ -122,7 +125,7 @@ void PlotDrawing::series(std::size_t i) {
   if (places.empty()) return;
   if (series.joined) sheet_.line(places, line_of(i), series.dashed ? dashed_line : Vec2{});
   if (series.dashed) return;
-  for (std::size_t k = 0; k < places.size(); ++k) sheet_.disc(places[k], mark_radius, {.fill = color_of(i)}, tips[k]);
+  for (std::size_t k = 0; k < places.size(); ++k) mark(i, places[k], tips[k]);
 }
 
 void PlotDrawing::legend() {
@@ -132,10 +135,14 @@ void PlotDrawing::legend() {
   for (std::size_t i = 0; i < plot_.series.size(); ++i, y += 20.0) {
     const PlotSeries& series = plot_.series[i];
     if (series.joined) sheet_.line({{left, y}, {left + 22.0, y}}, line_of(i), series.dashed ? dashed_line : Vec2{});
-    if (!series.dashed) sheet_.disc({left + 11.0, y}, mark_radius, {.fill = color_of(i)});
+    if (!series.dashed) mark(i, {left + 11.0, y}, {});
     sheet_.label({at, y + 4.0}, Anchor::start,
                  fitting_text(series.name, plot_text_size, plot_size.x - at - margin_of_name));
   }
+  if (!plot_.level) return;
+  level(left, left + 22.0, y);
+  sheet_.label({at, y + 4.0}, Anchor::start,
+               fitting_text(plot_.level_name, plot_text_size, plot_size.x - at - margin_of_name));
 }
 
 }  // namespace

@@ -51,4 +51,12 @@ std::string short_text(double value) {
   return text;
 }
 
+std::string tick_on_axis(double value, std::string_view name) {
+  if (!name.starts_with("seconds") || value == 0.0) return short_text(value);
+  constexpr std::array<std::string_view, 4> units{"ns", "us", "ms", "s"};
+  std::size_t unit = 0;
+  for (value *= 1e9; std::abs(value) >= 999.95 && unit + 1 < units.size(); ++unit) value /= 1000.0;
+  return fmt::format("{} {}", short_text(value), units[unit]);
+}
+
 }  // namespace warren

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace warren {
@@ -34,5 +35,7 @@ PlotAxis axis_around(double low, double high, bool logarithmic, bool from_zero =
 
 /// Four digits, with k, M or G: "1.5k".
 std::string short_text(double value);
+/// The same; on an axis whose name begins with "seconds", in the unit that fits: "50 us".
+std::string tick_on_axis(double value, std::string_view name);
 
 }  // namespace warren

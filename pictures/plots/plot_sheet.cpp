@@ -109,9 +109,10 @@ void PlotSheet::begin(const std::string& title, const Box& frame, const std::str
 std::string PlotSheet::svg() const {
   std::string text = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" role=\"img\" "
-      "font-family=\"sans-serif\" font-size=\"{2}\" fill=\"{3}\">\n<title>{4}</title>\n"
+      "font-family=\"sans-serif\" font-size=\"{2}\" fill=\"{3}\"{5}>\n<title>{4}</title>\n"
       "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n",
-      plot_size.x, plot_size.y, plot_text_size, web_color(colors::text), xml_text(title_));
+      plot_size.x, plot_size.y, plot_text_size, web_color(colors::text), xml_text(title_),
+      keeps_colors_ ? " class=\"kept\"" : "");
   for (const auto& part : parts_) text += std::visit([](const auto& one) { return svg_of(one); }, part);
   return text + "</svg>\n";
 }

@@ -56,6 +56,9 @@ class PlotSheet {
         PlotShape{.kind = PlotShape::Kind::disc, .points = {at}, .pen = pen, .radius = radius, .tip = std::move(tip)});
   }
 
+  /// On dark pages, too: they mean values.
+  void keep_colors() { keeps_colors_ = true; }
+
   const std::string& title() const { return title_; }
   /// One element with its namespace; it needs nothing but what is in it.
   std::string svg() const;
@@ -66,10 +69,11 @@ class PlotSheet {
   void add(PlacedText text, Rgb color) { parts_.emplace_back(PlotWords{std::move(text), color}); }
 
   std::string title_;
+  bool keeps_colors_ = false;
   std::vector<std::variant<PlotShape, PlotWords>> parts_;
 };
 
-/// Of the i-th series; after the eighth they come again.
+/// Of the i-th series; after the ninth they come again.
 inline Rgb series_color(std::size_t i) { return colors::series[i % colors::series.size()]; }
 
 inline constexpr Pen faint_line{.stroke = Rgb{226, 226, 226}};

@@ -194,8 +194,7 @@ class Answer(Pictured):
 
     def _repr_html_(self):
         import html
-        svg = self.svg()
-        return f"<pre>{html.escape(str(self))}</pre>{svg[svg.index('<svg'):]}"
+        return f"<pre>{html.escape(str(self))}</pre>{super()._repr_html_()}"
 
 
 Answer.save_path = documented(_core.path_keywords(), limits=False)(Answer.save_path)

@@ -60,5 +60,9 @@ class Pictured:
     def _repr_svg_(self):
         return self.svg()
 
+    def _repr_html_(self):  # converters of notebooks strip pictures that are SVG alone
+        svg = self.svg()
+        return svg[svg.index("<svg"):]
+
 
 Pictured.svg = documented(_core.picture_keywords(), limits=False)(Pictured.svg)

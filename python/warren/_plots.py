@@ -9,8 +9,8 @@ from ._making_worlds import as_world
 from ._roadmaps import Roadmap
 
 # The colours of the pictures that the program draws.
-WALL, POLYGON, OUTLINE = "#1e293b", "#cbd5e1", "#64748b"
-EDGE, TREE, LINE, PATH, START, GOAL = "#93bbf1", "#fabe60", "#96d3a8", "#e11d48", "#16a34a", "#7c3aed"
+WALL, POLYGON, OUTLINE, BODY = "#1e293b", "#d9dde3", "#66717f", "#30b090"
+EDGE, TREE, LINE, PATH, START, GOAL = "#9cc3ea", "#f0b429", "#96d3a8", "#c8102e", "#0072b2", "#6a0dad"
 
 
 def _axes(ax):
@@ -98,11 +98,11 @@ def _draw_answer(ax, answer, bodies):
             states, _ = answer.sample(max(answer.length / bodies, 1e-300))
             outlines = _outlines(answer, states)
             if outlines is not None:
-                ax.add_collection(PolyCollection(outlines, facecolor="none", edgecolor=PATH, linewidth=0.8, alpha=0.8, zorder=2))
+                ax.add_collection(PolyCollection(outlines, facecolor="none", edgecolor=BODY, linewidth=0.8, alpha=0.8, zorder=2))
         ax.plot(curve[:, 0], curve[:, 1], color=PATH, linewidth=2.0, label="path")
-    for name, state, color in (("start", answer.start, START), ("goal", answer.goal, GOAL)):
+    for name, state, color, mark in (("start", answer.start, START, "o"), ("goal", answer.goal, GOAL, "*")):
         if len(state) in (2, 3):
-            ax.plot(state[0], state[1], "o", color=color, label=name)
+            ax.plot(state[0], state[1], mark, color=color, label=name)
 
 
 def plot(what, *, answer=None, ax=None, roadmap=True, tree=False,
@@ -156,6 +156,7 @@ def plot(what, *, answer=None, ax=None, roadmap=True, tree=False,
         if tree:
             _draw_segments(axes, answer.edges(tree=True), TREE, "tree")
         _draw_answer(axes, answer, bodies)
+    axes.set_xlabel("x"), axes.set_ylabel("y")
     axes.set_aspect("equal")
     axes.autoscale_view()
     return axes
@@ -194,10 +195,10 @@ def animate(answer, *, ax=None, frames=200, interval=40.0, speed=None,
     states = _frames(answer, frames, interval, speed, acceleration)
     outlines = _outlines(answer, states)
     if outlines is None:
-        body, = axes.plot([], [], "o", color=WALL, markersize=8)
+        body, = axes.plot([], [], "o", color=BODY, markersize=8)
         shapes = states[:, None, :2]
     else:
-        body, = axes.fill(outlines[0, :, 0], outlines[0, :, 1], facecolor=WALL, alpha=0.6)
+        body, = axes.fill(outlines[0, :, 0], outlines[0, :, 1], facecolor=BODY, alpha=0.6)
         shapes = outlines
 
     def show(i):

@@ -8,6 +8,7 @@ from ._worlds import _World
 WALL: str
 POLYGON: str
 OUTLINE: str
+BODY: str
 EDGE: str
 TREE: str
 LINE: str

@@ -5,6 +5,7 @@ import numpy as np
 from . import _core
 from ._options import documented
 from ._making_worlds import as_world
+from ._pictures import Pictured
 
 
 _TEXTS = {"source", "planner", "search", "queue", "library", "options", "status"}
@@ -66,11 +67,13 @@ class Comparison(dict):
         return self._core.json()
 
     def svg(self):
-        """Plots of success and times, as `warren compare --svg` draws them."""
+        """Plots of success and times, as `warren compare --picture` draws them."""
         return self._core.svg()
 
     def _repr_svg_(self):
         return self.svg()
+
+    _repr_html_ = Pictured._repr_html_
 
 
 @documented(_core.compare_keywords())

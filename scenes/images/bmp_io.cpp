@@ -46,7 +46,17 @@ bool read_kind(std::string_view bytes, Layout& layout) {
   return layout.bits == 1 || layout.bits == 4 || layout.bits == 8 || layout.bits == 24 || layout.bits == 32;
 }
 
-Layout layout_of(const InputFile& file) {
+/// Without masks the fourth byte of pixels means nothing, and is 0, but where a writer has put alpha there.
+bool has_fourth_bytes(const Layout& layout, const Execution& execution) {
+  constexpr std::size_t bytes_a_look = 1 << 16;
+  for (std::size_t at = 3; at < layout.row_bytes * layout.header.height; at += 4) {
+    if (at % bytes_a_look == 3) execution.check();
+    if (layout.rows[at] != 0) return true;
+  }
+  return false;
+}
+
+Layout layout_of(const InputFile& file, const Execution& execution) {
   const std::string_view bytes = file.bytes();
   Layout layout;
   if (bytes.size() < file_header_bytes + 40 || number_at(bytes, 14) < 40 || !read_kind(bytes, layout)) {
@@ -68,6 +78,8 @@ Layout layout_of(const InputFile& file) {
                                  layout.header.height, layout.row_bytes * layout.header.height),
                      fmt::format("{} bytes", layout.rows.size()));
   }
+  const bool has_masks = number_at(bytes, 30) != 0;
+  if (layout.bits == 32 && !has_masks && !has_fourth_bytes(layout, execution)) layout.header.channels = 3;
   if (layout.bits > 8) return layout;
   const std::size_t head = file_header_bytes + std::size_t{number_at(bytes, 14)};
   const std::size_t colours = number_at(bytes, 46) == 0 ? std::size_t{1} << layout.bits : number_at(bytes, 46);
@@ -92,7 +104,7 @@ std::string_view pixel_of(const Layout& layout, std::string_view row, std::size_
 
 void read_bmp(const InputFile& file, const ImageSink& sink, const Execution& execution) {
   constexpr std::size_t pixels_a_look = 1 << 14;
-  const Layout layout = layout_of(file);
+  const Layout layout = layout_of(file, execution);
   const auto& [width, height, channels, maximum] = layout.header;
   sink.begin(layout.header);
   execution.reserve(sizeof(std::uint16_t) * channels * width);

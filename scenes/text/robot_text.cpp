@@ -48,7 +48,8 @@ class RobotReader {
 
  private:
   [[noreturn]] void refuse_usage(std::string_view found) const {
-    fields_.place().fail(fmt::format("expected `{}`", robot_usage), found);
+    const bool is_option = fields_.place().line == 0;
+    fields_.place().fail(fmt::format("expected `{}`", is_option ? robot_option : robot_usage), found);
   }
   [[noreturn]] void refuse_count(std::size_t count) const {
     refuse_usage(fmt::format("{} number{}", count, count == 1 ? "" : "s"));
@@ -102,7 +103,8 @@ class RobotReader {
   }
 
   [[noreturn]] void refuse_car(std::string_view found) const {
-    fields_.place().fail(fmt::format("expected `{}`", car_usage), found);
+    const std::size_t word = fields_.place().line == 0 ? car_usage.find(' ') + 1 : 0;
+    fields_.place().fail(fmt::format("expected `{}`", car_usage.substr(word)), found);
   }
   SteeringKind steering() {
     const std::string_view name = fields_.word();

@@ -17,6 +17,11 @@ inline constexpr std::string_view robot_usage =
 inline constexpr std::string_view car_usage =
     "robot car radius R|polygon X Y X Y X Y ... turning RHO [steering dubins|reeds-shepp]";
 
+/// The same as options take it.
+inline constexpr std::string_view robot_option =
+    "point, disc R, [[X, Y], [X, Y], [X, Y], ...], polygon X Y X Y X Y ..., car radius R turning RHO, "
+    "car polygon X Y X Y X Y ... turning RHO, puma560 radius R or arm FILE radius R";
+
 /// What a puma560's or arm's line says behind its tool: empty for the defaults, else with a blank before each word.
 std::string arm_words(const RobotSpec& robot);
 

@@ -7,6 +7,7 @@
 
 #include "serve/graphs/json_body_io.hpp"
 #include "serve/http/http_message.hpp"
+#include "solve/question/question.hpp"
 
 namespace warren::serve {
 namespace {
@@ -37,6 +38,16 @@ double budget_of(const OrderedJson& json) {
   return a_ms * json.get<double>();
 }
 
+RobotSpec robot_of(const OrderedJson& json) {
+  if (!json.is_string()) refuse("robot", "what --robot takes");
+  return robot_value("robot", json.get<std::string>());
+}
+
+double clearance_of(const OrderedJson& json) {
+  if (!json.is_number()) refuse("clearance", "a number");
+  return json.get<double>();
+}
+
 PlannerKind planner_of(const OrderedJson& json) {
   if (json.is_string()) {
     for (const PlannerKind planner : all_planners) {
@@ -51,6 +62,10 @@ void take(const std::string& key, const OrderedJson& value, QueryBody& body) {
     body.question.start = state_of(value, "start");
   } else if (key == "goal") {
     body.question.goal = state_of(value, "goal");
+  } else if (key == "robot") {
+    body.question.robot = robot_of(value);
+  } else if (key == "clearance") {
+    body.question.clearance = clearance_of(value);
   } else if (key == "optimise") {
     body.question.optimise = flag_of(value, "optimise");
   } else if (key == "explain") {
@@ -62,7 +77,7 @@ void take(const std::string& key, const OrderedJson& value, QueryBody& body) {
   } else if (key == "budget_ms") {
     body.question.budget_s = budget_of(value);
   } else {
-    refuse("body", "the keys start, goal, optimise, planner, budget_ms, explain, path");
+    refuse("body", "the keys start, goal, robot, clearance, optimise, planner, budget_ms, explain, path");
   }
 }
 

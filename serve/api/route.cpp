@@ -5,6 +5,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace warren::serve {
@@ -33,25 +34,27 @@ Route tile_route(std::string_view z, std::string_view x, std::string_view y, con
 }
 
 Route api_route(const std::vector<std::string_view>& words) {
-  if (words.size() == 3 && words[2] == "health") return {.place = Place::health};
-  if (words.size() == 3 && words[2] == "metrics") return {.place = Place::metrics};
-  if (words.size() == 3 && words[2] == "world") return {.place = Place::world};
-  if (words.size() == 3 && words[2] == "query") return {.place = Place::query};
-  if (words.size() == 4 && words[2] == "query" && words[3] == "batch") return {.place = Place::batch};
-  if (words.size() == 3 && words[2] == "scene") return {.place = Place::scene};
-  if (words.size() == 3 && words[2] == "update") return {.place = Place::update};
-  if (words.size() == 3 && words[2] == "check") return {.place = Place::check};
-  if (words.size() == 3 && words[2] == "graph") return {.place = Place::graph};
-  if (words.size() == 4 && words[2] == "graph" && words[3] == "open") return {.place = Place::open_graph};
-  if (words.size() == 4 && words[2] == "graph" && words[3] == "save") return {.place = Place::save_graph};
-  if (words.size() == 4 && words[2] == "path" && !words[3].empty()) {
-    return {.place = Place::path, .name = std::string(words[3])};
-  }
-  if (words.size() == 5 && words[2] == "path" && !words[3].empty() && words[4] == "clearance") {
-    return {.place = Place::clearance, .name = std::string(words[3])};
-  }
-  if (words.size() == 5 && words[2] == "path" && !words[3].empty() && words[4] == "sweep") {
-    return {.place = Place::sweep, .name = std::string(words[3])};
+  constexpr std::pair<std::string_view, Place> places[] = {{"health", Place::health},
+                                                           {"metrics", Place::metrics},
+                                                           {"world", Place::world},
+                                                           {"query", Place::query},
+                                                           {"query/batch", Place::batch},
+                                                           {"scene", Place::scene},
+                                                           {"update", Place::update},
+                                                           {"check", Place::check},
+                                                           {"graph", Place::graph},
+                                                           {"graph/open", Place::open_graph},
+                                                           {"graph/save", Place::save_graph},
+                                                           {"path", Place::path},
+                                                           {"path/clearance", Place::clearance},
+                                                           {"path/sweep", Place::sweep}};
+  const bool is_path = words.size() > 3 && words[2] == "path" && !words[3].empty();
+  std::string name(words[2]);
+  for (std::size_t i = is_path ? 4 : 3; i < words.size(); ++i) name.append("/").append(words[i]);
+  for (const auto& [known, place] : places) {
+    if (name == known && is_path == name.starts_with("path")) {
+      return {.place = place, .name = is_path ? std::string(words[3]) : std::string()};
+    }
   }
   refuse_path();
 }
@@ -117,7 +120,8 @@ std::optional<std::vector<double>> numbers_parameter(const HttpRequest& request,
     if (error == std::errc() && read == last && std::isfinite(number)) numbers.push_back(number);
   }
   if (numbers.size() == count && split(*text, ',').size() == count) return numbers;
-  throw HttpError(400, "bad_request", "query", fmt::format("{}: expected {} numbers", name, count));
+  throw HttpError(400, "bad_request", "query",
+                  fmt::format("{}: expected {} number{}", name, count, count == 1 ? "" : "s"));
 }
 
 bool flag_parameter(const HttpRequest& request, std::string_view name) {

@@ -109,10 +109,28 @@ const EdgeJudge& ServedWorld::judge(const Execution& execution) const {
   return judge_.get(execution, [&] { return std::make_unique<EdgeJudge>(whole(execution), box_, robot_, clearance_); });
 }
 
-double ServedWorld::clearance_at(std::span<const double> state, const Execution& execution) const {
+bool ServedWorld::is_own(const RobotSpec& robot, double clearance) const {
+  return clearance == clearance_ && robot_text(robot) == robot_text(robot_);
+}
+
+Question ServedWorld::body_asked(const std::optional<RobotSpec>& robot, const std::optional<double>& clearance) const {
+  Question body = body_;
+  body.robot = robot.value_or(robot_);
+  body.clearance = clearance.value_or(clearance_);
+  if (is_own(*body.robot, *body.clearance)) return body;
+  if (is_roadmap_) throw UsageError("a roadmap is of one body; 'warren serve' of its world asks for any");
+  body.validate();
+  refuse_arms(*body.robot);
+  check_plannable(outline(), body);
+  return body;
+}
+
+double ServedWorld::clearance_at(std::span<const double> state, const Execution& execution,
+                                 const EdgeJudge* other) const {
   const Vec2 at{state[0], state[1]};
-  if (roadmap_ && roadmap_->lattice != nullptr) return query_->clearance_at(at, execution);
-  return judge(execution).clearance_at({at, state.size() > 2 ? std::optional(state[2]) : std::nullopt}, execution);
+  if (other == nullptr && roadmap_ && roadmap_->lattice != nullptr) return query_->clearance_at(at, execution);
+  const EdgeJudge& asked = other == nullptr ? judge(execution) : *other;
+  return asked.clearance_at({at, state.size() > 2 ? std::optional(state[2]) : std::nullopt}, execution);
 }
 
 const LatticePassages* ServedWorld::passages(const Execution& execution) const {
@@ -131,7 +149,8 @@ Answer ServedWorld::ask(const ServedQuestion& question, const Execution& executi
                         std::function<void(const Answer&)> beside_judge) const {
   ByProducts made;
   ByProducts* const keep = question.explains ? &made : nullptr;
-  if (query_) {
+  Question asked = body_asked(question.robot, question.clearance);
+  if (query_ && is_own(*asked.robot, *asked.clearance)) {
     if (question.planner && *question.planner != roadmap_->options.planner) {
       throw UsageError("@planner: the roadmap was built with its own");
     }
@@ -145,15 +164,15 @@ Answer ServedWorld::ask(const ServedQuestion& question, const Execution& executi
     if (keep != nullptr && roadmap_->lattice == nullptr) explain_in_time(answer, explain);
     return answer;
   }
-  Question asked = body_;
+  const Scene& scene = whole(execution);
   asked.start = question.start;
   asked.goal = question.goal;
   const SolveOptions options{.planner = question.planner, .optimise = question.optimise};
-  Answer answer = solve_within(*scene_, asked, options, execution, keep);
-  explain_blocked_end(*scene_, answer, execution);
+  Answer answer = solve_within(scene, asked, options, execution, keep);
+  explain_blocked_end(scene, answer, execution);
   const auto explain = [&] {
-    make_by_products(*scene_, asked, options, execution, made);
-    explain_answer(*scene_, {options}, answer, made, execution);
+    make_by_products(scene, asked, options, execution, made);
+    explain_answer(scene, {options}, answer, made, execution);
   };
   if (keep != nullptr && answer.outcome != Outcome::stopped) explain_in_time(answer, explain);
   return answer;

@@ -29,6 +29,8 @@ namespace warren::serve {
 struct ServedQuestion {
   std::vector<double> start = {};           ///< as Question has it; empty: the world's own
   std::vector<double> goal = {};            ///< the same
+  std::optional<RobotSpec> robot = {};      ///< none: the service's; of a roadmap its own alone
+  std::optional<double> clearance = {};     ///< the same
   bool optimise = false;                    ///< pull the path taut
   std::optional<PlannerKind> planner = {};  ///< none: the usual one; of a roadmap its own alone
   std::optional<double> budget_s = {};      ///< none: the service's
@@ -49,6 +51,11 @@ class ServedWorld {
   const std::string& hash() const { return hash_; }
   const RobotSpec& robot() const { return robot_; }
   double clearance() const { return clearance_; }
+  /// What moves, with the service's robot and clearance for none. Throws UsageError for bodies that can't be planned
+  /// here, and for others than a roadmap's own.
+  Question body_asked(const std::optional<RobotSpec>& robot, const std::optional<double>& clearance) const;
+  /// Is this the service's robot, with its clearance?
+  bool is_own(const RobotSpec& robot, double clearance) const;
   const WorldTiles& tiles() const { return *tiles_; }
   /// The box of all that there is.
   const Box& box() const { return box_; }
@@ -63,7 +70,9 @@ class ServedWorld {
   /// Of its body, among all of it. Throws Stopped, InputError.
   const EdgeJudge& judge(const Execution& execution) const;
   /// Least distance between the body in this state and anything, as paths are judged. Throws Stopped, InputError.
-  double clearance_at(std::span<const double> state, const Execution& execution) const;
+  /// other: the judge of another body than the service's.
+  double clearance_at(std::span<const double> state, const Execution& execution,
+                      const EdgeJudge* other = nullptr) const;
   /// nullptr: each question is solved by itself.
   const RoadmapQuery* query() const { return query_.get(); }
   /// Of a maze's lattice, held against its file's checksums; nullptr where there is none. Throws InputError, Stopped.

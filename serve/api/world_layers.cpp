@@ -192,8 +192,7 @@ LayerAccount clearance_account(const ServedWorld& world) {
 
 /// Distance that the middle of a round body must have; 0 of others, whose place alone doesn't say whether they fit.
 double needed_around(const ServedWorld& world) {
-  const bool is_round = world.robot().kind == RobotKind::point || world.robot().kind == RobotKind::disc;
-  return is_round ? world.robot().radius + world.clearance() : 0.0;
+  return world.robot().outline.empty() ? world.robot().radius + world.clearance() : 0.0;
 }
 
 LayerAccount axis_account(const ServedWorld& world) {
@@ -227,9 +226,9 @@ LayerAccount search_account(const ServedWorld& world) {
   return account;
 }
 
-LayerAccount sweep_account(const ServedWorld& world) {
+LayerAccount sweep_account(const RobotSpec& robot) {
   LayerAccount account{.name = "sweep", .is_of_path = true};
-  if (!(reach_of(world.robot()) > 0.0)) account.why = "a point has no extent, so it sweeps no more than its path";
+  if (!(reach_of(robot) > 0.0)) account.why = "a point has no extent, so it sweeps no more than its path";
   return account;
 }
 
@@ -263,14 +262,15 @@ std::size_t most_bytes_of_starts(std::size_t bytes_a_start) {
 WorldLayers::WorldLayers(const ServedWorld& world)
     : world_(world),
       accounts_{roadmap_account(world), components_account(world), clearance_account(world),
-                axis_account(world),    search_account(world),     sweep_account(world)},
+                axis_account(world),    search_account(world),     sweep_account(world.robot())},
       bytes_a_start_(sizeof(StartDistances) + (world.query() == nullptr ? 0 : count_states(world.query()->roadmap()))),
       starts_(most_bytes_of_starts(bytes_a_start_)) {}
 
-std::string WorldLayers::json() const {
+std::string WorldLayers::json(const RobotSpec& robot) const {
   std::string text = "[";
   for (const LayerAccount& account : accounts_) {
-    text += (text.size() > 1 ? "," : "") + json_of_account(account, world_.hash());
+    text += (text.size() > 1 ? "," : "") +
+            json_of_account(account.is_of_path ? sweep_account(robot) : account, world_.hash());
   }
   return text + "]";
 }

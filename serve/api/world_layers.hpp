@@ -34,8 +34,8 @@ class WorldLayers {
   /// Refers to the world.
   explicit WorldLayers(const ServedWorld& world);
 
-  /// All of them as JSON.
-  std::string json() const;
+  /// All of them as JSON, for questions of this body.
+  std::string json(const RobotSpec& robot) const;
   bool knows(std::string_view name) const;
   bool is_of_start(std::string_view name) const;
   /// Colours and what they mean, with figures, as JSON. Throws as draw().

@@ -121,10 +121,14 @@ HttpResponse PathService::clearance(const KeptPath& kept, const HttpRequest& req
   const std::size_t count = sample_count(request);
   Answer way = kept.way;
   if (way.states.empty()) way.path = kept.curve.whole(execution);
+  std::optional<EdgeJudge> other;
+  if (!world_.is_own(way.problem.robot, world_.clearance())) {
+    other.emplace(world_.whole(execution), world_.box(), way.problem.robot, world_.clearance());
+  }
   std::string text;
   for (const PathPlace& place : places_along(way, count, execution)) {
     execution.check();
-    const double clearance = world_.clearance_at(place.state.used(), execution);
+    const double clearance = world_.clearance_at(place.state.used(), execution, other ? &*other : nullptr);
     JsonObject told;
     told.add("along", place.along);
     told.add_json("at", json_list(place.state.used()));
@@ -143,7 +147,7 @@ HttpResponse PathService::sweep(const KeptPath& kept, const HttpRequest& request
   std::string places;
   for (const PathState& place : bodies.places) places += (places.empty() ? "" : ",") + json_list(place.used());
   JsonObject json;
-  add_outline(json, world_.robot());
+  add_outline(json, kept.way.problem.robot);
   json.add("apart", bodies.apart);
   json.add_json("places", "[" + places + "]");
   return {.body = json.closed() + "\n"};
@@ -174,12 +178,12 @@ std::string tiles_json(const TileGrid& grid, const std::string& hash) {
 }
 
 /// Those that a question may name.
-std::string planners_json(const ServedWorld& world) {
+std::string planners_json(const ServedWorld& world, const Question& body, bool asks_roadmap) {
   std::string text = "[";
-  if (world.query() == nullptr) {
+  if (!asks_roadmap) {
     for (const PlannerKind planner : planners_there_are()) {
       try {
-        choose_solver({.planner = planner}, world.outline(), {.robot = world.robot(), .clearance = world.clearance()});
+        choose_solver({.planner = planner}, world.outline(), body);
         text += (text.size() > 1 ? "," : "") + json_string(name_of(planner));
       } catch (const UsageError&) {  // not in this world
       }
@@ -201,9 +205,11 @@ void add_line(std::string& text, std::string_view name, std::string_view kind, s
                  kind, name, value);
 }
 
-/// warren.service/1: what a page needs to show the world and to ask.
-std::string description_json(const ServedWorld& world, const WorldLayers& layers, const ServiceLimits& limits) {
+/// warren.service/1: what a page needs to show the world and to ask of this body.
+std::string description_json(const ServedWorld& world, const Question& body, const WorldLayers& layers,
+                             const ServiceLimits& limits) {
   const Scene& outline = world.outline();
+  const bool asks_roadmap = world.query() != nullptr && world.is_own(*body.robot, *body.clearance);
   JsonObject json;
   json.add("schema", "warren.service/1");
   json.add("source", outline.source);
@@ -212,20 +218,20 @@ std::string description_json(const ServedWorld& world, const WorldLayers& layers
   json.add("hash", world.hash());
   json.add("unit", unit_of(outline));
   json.add_json("box", box_json(world.box()));
-  json.add("robot", robot_text(world.robot()));
-  json.add("state_size", std::uint64_t{state_size(world.robot())});
-  json.add("clearance", world.clearance());
-  add_outline(json, world.robot());
+  json.add("robot", robot_text(*body.robot));
+  json.add("state_size", std::uint64_t{state_size(*body.robot)});
+  json.add("clearance", *body.clearance);
+  add_outline(json, *body.robot);
   json.add_json("start", json_list(std::span<const double>(outline.start)));
   json.add_json("goal", json_list(std::span<const double>(outline.goal)));
-  json.add("asks_roadmap", world.query() != nullptr);
-  json.add_json("planners", planners_json(world));
+  json.add("asks_roadmap", asks_roadmap);
+  json.add_json("planners", planners_json(world, body, asks_roadmap));
   json.add("budget_ms", 1e3 * limits.budget_s);
   json.add("changed", world.is_changed());
   json.add("writable", limits.writable && !outline.map && world.why_fixed().empty());
   json.add("wants_token", limits.wants_token);
   json.add_json("tiles", tiles_json(world.tiles().grid(), world.hash()));
-  json.add_json("layers", layers.json());
+  json.add_json("layers", layers.json(*body.robot));
   return json.closed() + "\n";
 }
 /// In the text format of Prometheus.
@@ -254,6 +260,13 @@ std::string metrics_text(const HttpFigures& f, const KeptBytes& kept) {
 
 /// Changes whenever tiles of a world look otherwise than before.
 constexpr int tile_style = 1;
+/// Ends the name of a path of another body than the service's: bodies may share points.
+std::string mark_of_body(const ServedWorld& world, const Problem& problem) {
+  if (world.is_own(problem.robot, problem.clearance)) return {};
+  const std::string body = fmt::format("{} {}", robot_text(problem.robot), problem.clearance);
+  return fmt::format("-{:016x}", checksum(std::as_bytes(std::span(body))));
+}
+
 constexpr std::size_t of_an_entry = 256;  // bytes of a kept tile beside its own
 
 std::string tile_name(const TilePlace& tile) { return fmt::format("{}/{}/{}", tile.zoom, tile.x, tile.y); }
@@ -277,7 +290,7 @@ WorldService::WorldService(const ServedWorld& world, const ServiceLimits& limits
     : world_(world),
       limits_(limits),
       layers_(world),
-      world_json_(description_json(world, layers_, limits)),
+      world_json_(description_json(world, world.body_asked({}, {}), layers_, limits)),
       graphs_(world),
       tiles_(limits.tile_bytes),
       paths_(world, limits) {}
@@ -314,7 +327,7 @@ std::optional<HttpResponse> WorldService::at_once(const HttpRequest& request, co
     case Place::metrics:
       return metrics(figures);
     case Place::world:
-      return HttpResponse{.body = world_json_};
+      return request.query.empty() ? std::optional(HttpResponse{.body = world_json_}) : std::nullopt;
     case Place::tile: {
       if (request.if_none_match == tile_tag()) return not_modified(tile_tag());
       const auto known = tiles_.find(tile_name(asked.tile));
@@ -342,8 +355,16 @@ HttpResponse WorldService::work(const HttpRequest& request, const SignalFlag& go
   }
   if (asked.place == Place::batch) return batch(request, execution);
   if (asked.place == Place::scene) return scene(request, execution);
+  if (asked.place == Place::world) return {.body = description_json(world_, body_in(request), layers_, limits_)};
   if (is_of_graphs(asked.place)) return graphs_.answer(asked.place, request.body, execution);
   return paths_.answer(asked, request, execution);
+}
+
+Question WorldService::body_in(const HttpRequest& request) const {
+  std::optional<RobotSpec> robot;
+  if (const auto text = parameter(request, "robot")) robot = robot_value("robot", *text);
+  const auto clearance = numbers_parameter(request, "clearance", 1);
+  return world_.body_asked(robot, clearance ? std::optional((*clearance)[0]) : std::nullopt);
 }
 
 HttpResponse WorldService::file(const HttpRequest& request, const std::string& name) const {
@@ -399,6 +420,7 @@ HttpResponse WorldService::query(const HttpRequest& request, const SignalFlag& g
     if (name.empty()) name = path_hash(answer, execution);
     answer.tells_path = body.tells_path && path_points(answer) <= limits_.most_points;
     if (!answer.tells_path) answer.handed = HandedPath{path_points(answer), name};
+    name += mark_of_body(world_, answer.problem);
     response.fields.emplace_back("Warren-Path", name);
   }
   write_answer_json(answer, execution, [&](std::string_view piece) { response.body += piece; });
@@ -430,13 +452,14 @@ HttpResponse WorldService::batch(const HttpRequest& request, const Execution& ex
 HttpResponse WorldService::scene(const HttpRequest& request, const Execution& execution) const {
   constexpr std::string_view shortest = "wall 1 1 1 2\n";
   if (world_.outline().map) throw UsageError("this world is the cells of a map, which no scene holds");
+  const Question body = body_in(request);
   const std::size_t walls = world_.wall_count(execution);
   if (walls > limits_.scene_bytes / shortest.size()) throw scene_too_large();
   execution.reserve(walls * sizeof(Segment));
   Scene told = world_.copy_of_whole(execution);
-  told.robot = world_.robot();
-  told.clearance = world_.clearance();
-  const std::size_t numbers = state_size(world_.robot());
+  told.robot = body.robot;
+  told.clearance = body.clearance;
+  const std::size_t numbers = state_size(*body.robot);
   if (auto start = numbers_parameter(request, "start", numbers)) told.start = std::move(*start);
   const bool any_heading = std::ranges::count(parameter(request, "goal").value_or(""), ',') == 1;
   if (auto goal = numbers_parameter(request, "goal", any_heading ? 2 : numbers)) told.goal = std::move(*goal);

@@ -147,8 +147,9 @@ void check_metadata(const OrderedJson& metadata, const std::string& where) {
 }  // namespace
 
 void check_properties(const OrderedJson& properties, const std::string& where) {
-  if (properties.contains("metadata")) check_metadata(properties["metadata"], where + ": metadata");
-  if (!properties.contains("operations")) return;
+  const auto says = [&](const char* key) { return properties.contains(key) && !properties[key].is_null(); };
+  if (says("metadata")) check_metadata(properties["metadata"], where + ": metadata");
+  if (!says("operations")) return;
   for (const OrderedJson& operation : properties["operations"]) {
     const std::string place = where + ": operations";
     for (const char* key : {"type", "trigger"}) {

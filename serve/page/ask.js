@@ -2,7 +2,7 @@
 // The question, and the answer to it. While an answer is under way the latest question waits, so that a drag asks as
 // often as answers come.
 "use strict";
-const question = {start: null, goal: null, planner: "", optimise: false, startHeading: null, goalHeading: null};
+const question = {robot: "", clearance: "", start: null, goal: null, planner: "", optimise: false, startHeading: null, goalHeading: null};
 const answer = {text: null, json: null, id: null, start: null, asked: null};  // asked: the question, as it was sent
 // The path that the service had let go last, and the answer that it was of; what shall be saved when it is there again.
 const lost = {id: null, json: null, saving: null};
@@ -18,6 +18,8 @@ function stateOf(place, heading) {
 function bodyOf(q) {
   const body = {start: stateOf(q.start, q.startHeading === null ? 0 : q.startHeading), goal: stateOf(q.goal, q.goalHeading), optimise: q.optimise};
   if (q.planner) body.planner = q.planner;
+  if (q.robot) body.robot = q.robot;
+  if (q.clearance) body.clearance = Number(q.clearance);
   return body;
 }
 
@@ -33,6 +35,8 @@ async function ask() {
   if (!question.start || !question.goal) return;
   if (asking) return void (askAgain = true);
   asking = true;
+  await taken;  // another body, another world
+  askAgain = false;
   const began = performance.now(), asked = JSON.stringify(bodyOf(question));
   try {
     const reply = await fetch("api/query", {method: "POST", headers: {"Content-Type": "application/json"}, body: asked});

@@ -7,14 +7,7 @@ const marks = {};
 const say = text => { byId("status").textContent = text; };
 
 function fillTable(id, rows) {
-  const body = byId(id).tBodies[0];
-  body.replaceChildren(...rows.map(([name, value]) => {
-    const row = document.createElement("tr"), head = document.createElement("th"), cell = document.createElement("td");
-    head.textContent = name;
-    cell.textContent = value;
-    row.append(head, cell);
-    return row;
-  }));
+  byId(id).tBodies[0].replaceChildren(...rows.map(([name, value]) => elementOf("tr", {}, elementOf("th", {}, name), elementOf("td", {}, String(value)))));
 }
 function asTime(ms) {
   if (ms < 0.9995) return (1000 * ms).toFixed(0) + " µs";
@@ -94,7 +87,7 @@ function linkText() {
   const words = [], at = map.getCenter();
   const state = end => question[end] ? stateOf(question[end], question[end + "Heading"]).join(",") : "";
   for (const end of ["start", "goal"]) words.push(end + "=" + state(end));
-  if (question.planner) words.push("planner=" + encodeURIComponent(question.planner));
+  for (const part of ["robot", "clearance", "planner"]) if (question[part]) words.push(part + "=" + encodeURIComponent(question[part]));
   if (question.optimise) words.push("optimise=1");
   if (shownLayers()) words.push("layers=" + shownLayers());
   if (hiddenParts()) words.push("hide=" + hiddenParts());
@@ -115,8 +108,15 @@ function keepLink() {
   linkWrites.left -= 1;
   history.replaceState(null, "", linkText());
 }
-function readLink() {
+async function takeLink() {
   const words = new URLSearchParams(location.hash.slice(1));
+  const body = ["robot", "clearance"].map(part => words.get(part) || "");
+  if (body.some(word => word)) fitWhole({animate: false});  // another body is drawn where it is seen
+  await takeBody(...body);
+  readLink(words);
+  showQuestion();
+}
+function readLink(words) {
   const numbers = name => (words.get(name) || "").split(",").filter(word => word !== "").map(Number);
   for (const end of ["start", "goal"]) {
     const state = numbers(end);
@@ -133,6 +133,32 @@ function readLink() {
   const isNear = at.length === 3 && at.every(Number.isFinite) && map.whole.pad(2).contains([at[1], at[0]]);  // else nothing would be seen
   if (isNear) map.setView([at[1], at[0]], at[2], {animate: false});
   else fitWhole({animate: false});
+}
+// What moves: the service's own body, where the fields say nothing.
+const withBody = mark => ["robot", "clearance"].filter(part => question[part]).map((part, i) => (i ? "&" : mark) + part + "=" + encodeURIComponent(question[part])).join("");
+async function takeBody(robot, clearance) {
+  if (robot === question.robot && clearance === question.clearance) return false;
+  Object.assign(question, {robot, clearance});
+  return takeWorld();
+}
+async function readBody() {
+  if (!await takeBody(byId("robot").value.trim(), byId("clearance-asked").value.trim())) ask();
+  keepLink();
+}
+/// other: what of the world is of the body that is asked; of one that can't be, nothing is drawn.
+function showBody(other) {
+  Object.assign(world, other);
+  byId("about").textContent = [world.description, ...(world.robot ? [world.robot] : []), ...(world.clearance > 0 ? ["clearance " + shown(world.clearance)] : [])].join(", ");
+  byId("robot").value = question.robot;
+  byId("clearance-asked").value = question.clearance;
+  byId("planner").replaceChildren(new Option("usual", ""), ...world.planners.map(planner => new Option(planner, planner)));
+  byId("planners").hidden = world.planners.length === 0;
+  if (!world.planners.includes(question.planner)) question.planner = "";
+  byId("planner").value = question.planner;
+  for (const end of ["start", "goal"]) {
+    byId(end).placeholder = turns() ? (end === "start" ? "x, y, degrees" : "x, y, degrees or none") : "x, y";
+    if (marks[end]) showEnd(end);
+  }
 }
 /// The world's own ends, where it has some.
 function takeOwnEnds() {
@@ -155,7 +181,7 @@ function showQuestion() {
 const quoted = word => /^[-\w.,:=/+@%]+$/.test(word) ? word : "'" + word.replaceAll("'", "'\\''") + "'";
 function commandText() {
   const words = ["warren", world.opened_as === "roadmap" && !world.changed ? "query" : "solve", world.changed ? "world.scene" : world.source];
-  if (world.opened_as === "world") words.push("--robot", world.robot, "--clearance", String(world.clearance));
+  if (world.opened_as === "world") words.push("--robot", world.robot || question.robot, "--clearance", String(world.clearance));
   words.push("--start", stateOf(question.start, question.startHeading === null ? 0 : question.startHeading).join(","));
   words.push("--goal", stateOf(question.goal, question.goalHeading).join(","));
   if (question.planner) words.push("--planner", question.planner);
@@ -226,6 +252,7 @@ function wireControls() {
   byId("question").addEventListener("submit", event => { event.preventDefault(); ask(); });
   for (const end of ["start", "goal"]) byId(end).addEventListener("change", () => readField(end));
   byId("planner").addEventListener("change", event => { question.planner = event.target.value; keepLink(); ask(); });
+  for (const id of ["robot", "clearance-asked"]) byId(id).addEventListener("change", readBody);
   byId("optimise").addEventListener("change", event => { question.optimise = event.target.checked; keepLink(); ask(); });
   byId("swap").addEventListener("click", () => {
     for (const part of ["", "Heading"]) [question["start" + part], question["goal" + part]] = [question["goal" + part], question["start" + part]];
@@ -252,7 +279,7 @@ function wireMap() {
     const end = {s: "start", g: "goal"}[event.key];
     if (end && !event.ctrlKey && !event.metaKey && !event.altKey) setEnd(end, placeOf(map.getCenter()));
   });
-  window.addEventListener("hashchange", () => { takeToken(); readLink(); showQuestion(); });
+  window.addEventListener("hashchange", () => { takeToken(); takeLink(); });
 }
 async function begin() {
   takeToken();
@@ -260,21 +287,20 @@ async function begin() {
   const name = world.source.split("/").pop();
   document.title = name + " – warren";
   byId("title").textContent = name;
-  byId("about").textContent = world.description + ", " + world.robot + (world.clearance > 0 ? ", clearance " + shown(world.clearance) : "");
-  for (const planner of world.planners) byId("planner").add(new Option(planner, planner));
-  byId("planners").hidden = world.planners.length === 0;
-  for (const end of ["start", "goal"]) byId(end).placeholder = turns() ? (end === "start" ? "x, y, degrees" : "x, y, degrees or none") : "x, y";
+  byId("robot").placeholder = world.robot;
+  byId("clearance-asked").placeholder = String(world.clearance);
+  for (const row of document.querySelectorAll(".of-body")) row.hidden = world.opened_as === "roadmap";
+  showBody({});
   setDark(matchMedia("(prefers-color-scheme: dark)").matches);
   openMap();
   wireLayers();
   wireControls();
-  readLink();
   wireMap();
   wireHeadings();
   wireMeasuring();
   wireClearance();
   wireGraph();
   wireDrawing();
-  showQuestion();
+  takeLink();
 }
 begin();

@@ -39,8 +39,10 @@ const takeWorld = () => taken = taken.then(fetchWorld);
 const noticeWorld = () => noticing ||= takeWorld().finally(() => { noticing = null; });
 async function fetchWorld() {
   try {
-    const now = await (await fetch("api/world")).json();
-    if (now.error || now.hash === world.hash) return false;
+    const now = await (await fetch("api/world" + withBody("?"))).json();
+    if (now.error) showBody({robot: "", radius: 0, outline: []});
+    if (now.error) say(now.error.message);
+    if (now.error || (now.hash === world.hash && now.robot === world.robot && now.clearance === world.clearance)) return false;
     showWorld(now);
     return true;
   } catch (error) {
@@ -58,7 +60,7 @@ function showWorld(now) {
   renewLayers();
   graph.verdicts.clear();
   checkGraph();
-  byId("about").textContent = world.description + ", " + world.robot + (world.clearance > 0 ? ", clearance " + shown(world.clearance) : "");
+  showBody({});
   ask();
 }
 /// False where the change was refused.
@@ -161,7 +163,7 @@ async function saveScene() {
     const state = question[end] && bodyOf({...question, start: question[end], goal: question[end]})[end];
     if (state) words.push(end + "=" + state.join(","));
   }
-  const reply = await fetch("api/scene?" + words.join("&")), text = await reply.text();
+  const reply = await fetch("api/scene?" + words.join("&") + withBody("&")), text = await reply.text();
   if (!reply.ok) return void say(JSON.parse(text).error.message);
   save("world.scene", "text/plain", text);
   say("Saved: world.scene.");

@@ -9,7 +9,7 @@ const graph = {nodes: new Map(), edges: new Map(), file: new Map([["frame", "map
 const headingOf = node => node.theta === undefined ? null : node.theta;
 function edgeNumbers(edge) {
   const a = graph.nodes.get(edge.from), b = graph.nodes.get(edge.to);
-  return world.state_size === 3 ? [...a.at, headingOf(a), ...b.at, headingOf(b)] : [...a.at, ...b.at];
+  return graph.turns ? [...a.at, headingOf(a), ...b.at, headingOf(b)] : [...a.at, ...b.at];
 }
 /// What the service said of the edge as it lies now; undefined while nobody knows.
 const verdictOf = edge => graph.verdicts.get(edgeNumbers(edge).join());

@@ -169,7 +169,7 @@ async function openGraphFile(file) {
 function openGraph(json, word) {
   takeGraph(json);
   setEditing(true);
-  say(word + grouped(json.nodes.length) + " nodes, " + grouped(json.edges.length) + " edges" + (json.left_out ? "; " + grouped(json.left_out) + " features are left out: neither, or nodes whose id a later one has" : "") + (blockedEdges().length ? "; " + grouped(blockedEdges().length) + " edges are not free" : "") + ".");
+  say(word + grouped(json.nodes.length) + " nodes, " + grouped(json.edges.length) + " edges" + (json.left_out ? "; " + grouped(json.left_out) + " features are left out: neither, or nodes whose id a later one has" : "") + (blockedEdges().length ? "; " + grouped(blockedEdges().length) + " edges are not free" : "") + ". Clicks edit it now; Edit ends that.");
 }
 async function saveGraph() {
   const body = {frame: graph.file.get("frame"), nodes: [...graph.nodes.values()], edges: [...graph.edges.values()].map(({key, ...edge}) => edge)};
@@ -186,6 +186,7 @@ function readPlace() {
   if (graph.selected) moveNode(graph.selected.id, {x: numbers[0], y: numbers[1]});
 }
 function wireGraph() {
+  graph.turns = turns();  // the service's own body, which drives its edges
   byId("graph").hidden = world.robot.startsWith("car") || (world.asks_roadmap && world.description.endsWith("maze"));
   const container = map.getContainer();
   container.addEventListener("pointerdown", beginDrag, true);

@@ -39,7 +39,7 @@ const endsTurn = () => turned;
 /// Puts the arrow to where the mark and its heading are.
 function showHeading(end) {
   if (!handles[end]) return;
-  if (!question[end]) return void handles[end].remove();
+  if (!question[end] || !turns() || !map.hasLayer(marks[end])) return void handles[end].remove();
   const heading = headingShown(end), angle = heading === null ? 0 : heading;
   const mark = map.latLngToContainerPoint(latLng(question[end]));
   putMark(handles[end], placeOf(map.containerPointToLatLng(mark.add([handleReach * Math.cos(angle), -handleReach * Math.sin(angle)]))));
@@ -49,13 +49,12 @@ function showHeading(end) {
 }
 function turnsByKey(end, event) {
   const way = {"[": 1, "{": 1, "]": -1, "}": -1}[event.key];
-  if (!way || event.ctrlKey || event.metaKey) return;
+  if (!way || !turns() || event.ctrlKey || event.metaKey) return;
   event.preventDefault();
   event.stopPropagation();
   setHeading(end, (headingShown(end) || 0) * 180 / Math.PI + way * (event.shiftKey ? 45 : 5));
 }
 function wireHeadings() {
-  if (!turns()) return;
   for (const end of ["start", "goal"]) {
     handles[end] = makeHandle(end);
     marks[end].on("add", () => marks[end].getElement().addEventListener("keydown", event => turnsByKey(end, event)));

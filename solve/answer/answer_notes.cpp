@@ -29,8 +29,7 @@ const T* path_figure(const Answer& answer, std::string_view name) {
 std::string samples_note(const Answer& answer) {
   const Counters& c = answer.counters;
   if (c.kept == 0 || c.kept == c.samples) return {};
-  return fmt::format("{} drawn, {} of them dropped: --explain says why", counted(c.samples, "sample", "samples"),
-                     grouped(c.samples - c.kept));
+  return fmt::format("{} drawn, {} dropped: --explain says why", grouped(c.samples), grouped(c.samples - c.kept));
 }
 
 /// How much room there is where the body does not fit, but for limits and what is outside of all.

@@ -63,6 +63,8 @@ std::string without_brackets(std::string_view text) {
 
 RobotSpec robot_value(const std::string& where, std::string_view text) {
   const std::string words = without_brackets(text);
+  if (words.find_first_of("[]") != std::string::npos && !words.starts_with("arm "))  // whose file may be so named
+    throw InputError(where, "expected [[X, Y], [X, Y], [X, Y], ...]; here brackets are missing", std::string(text));
   scene_text::Fields fields(words, {where, 0});
   return read_robot(fields, {});
 }

@@ -283,10 +283,23 @@ std::string numbers(const Box& box) {
                      human_number(box.max.y));
 }
 
+/// Of a map of metres, where the cell is, too, and whether anything is known of it.
+std::string cell_in_words(const Scene& scene, const std::string& name) {
+  const auto x = number_after(name, "cell ");
+  if (!x || !scene.map || scene.map->format != MapFormat::ros) return name;
+  const OccupancyMap& map = *scene.map;
+  const Cell cell{static_cast<std::uint32_t>(*x),
+                  static_cast<std::uint32_t>(*number_after(std::string_view(name).substr(name.rfind(' ')), " "))};
+  const Vec2 middle = cell_centre(map, cell);
+  const bool is_unknown = map.unknown_count > 0 && map.unknown.test(cell.x, cell.y);
+  return fmt::format("{}{}, at {}, {} m", name, is_unknown ? " (unknown)" : "", human_number(middle.x),
+                     human_number(middle.y));
+}
+
 /// Outside of all that there is, or what the judge met.
 std::string in_the_way(const Scene& scene, const Violation& met, const BlockedEndSearch& search) {
   const bool is_outside = !search.room().contains(search.at());
-  if (!is_outside) return met.obstacle;
+  if (!is_outside) return cell_in_words(scene, met.obstacle);
   return fmt::format("outside of the {} {}",
                      scene.map      ? "map"
                      : scene.bounds ? "bounds"

@@ -39,6 +39,8 @@ class Hints {
     if (answer_.outcome != Outcome::stopped) return;
     if (answer_.stop_reason == StopReason::time) say("a longer --budget: 'time went to' says which stage took it");
     if (answer_.stop_reason == StopReason::memory) say("more --memory, or a question that takes less of it");
+    if (answer_.stop_reason == StopReason::memory && answer_.world.source.starts_with("maze:"))
+      say("mazes of algorithm=mst are forgotten tile by tile with --pipeline streamed --no-path");
   }
   void say(std::string why) { hints_.push_back({{}, {}, std::move(why)}); }
 

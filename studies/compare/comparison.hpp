@@ -3,6 +3,7 @@
 // together. Plain data; comparison_report.hpp writes it.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -95,6 +96,11 @@ std::string contender_name(const Contender& contender, bool with_planner);
 /// Names in one plot: what all of these have in common is left out. Where options were dealt out, they alone set a
 /// planner's contenders apart.
 std::vector<std::string> plot_names_of(std::span<const Contender* const> contenders, bool with_planner);
+
+/// In the order in which they are met.
+inline void add_once(std::vector<std::string>& words, const std::string& word) {
+  if (std::find(words.begin(), words.end(), word) == words.end()) words.push_back(word);
+}
 
 /// Those of a problem, in their order.
 std::vector<const Contender*> contenders_of(const Comparison& comparison, std::size_t problem);

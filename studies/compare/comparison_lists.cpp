@@ -55,17 +55,18 @@ constexpr ShownFigure figures[] = {
      precise_seconds},
 };
 
-/// In the order in which they are met.
-void add_once(std::vector<std::string>& words, const std::string& word) {
-  if (std::find(words.begin(), words.end(), word) == words.end()) words.push_back(word);
-}
-
 const std::string& word_of(const Words& dealt, const std::string& name) {
   static const std::string none;
   for (const auto& [option, word] : dealt) {
     if (option == name) return word;
   }
   return none;
+}
+
+/// As the command line has it: goal-bias.
+std::string spelled(std::string option) {
+  std::ranges::replace(option, '_', '-');
+  return option;
 }
 
 /// Contenders that differ in nothing but the values on the axes.
@@ -98,7 +99,7 @@ std::vector<Family> families_of(const Comparison& comparison) {
     Family family{c.planner, axes_of(comparison, c), {}};
     for (const auto& [name, word] : c.dealt) {
       const bool on_axis = std::find(family.axes.begin(), family.axes.end(), name) != family.axes.end();
-      if (!on_axis) family.name += fmt::format(", {} {}", name, word);
+      if (!on_axis) family.name += fmt::format(", {} {}", spelled(name), word);
     }
     const auto same = std::find_if(families.begin(), families.end(),
                                    [&](const Family& f) { return f.name == family.name && f.axes == family.axes; });
@@ -109,8 +110,9 @@ std::vector<Family> families_of(const Comparison& comparison) {
 }
 
 HeatMap heat_map(const Family& family, const ShownFigure& figure) {
-  HeatMap map{
-      .title = fmt::format("{}: {}", family.name, figure.name), .x_label = family.axes[0], .y_label = family.axes[1]};
+  HeatMap map{.title = fmt::format("{}: {}", family.name, figure.name),
+              .x_label = spelled(family.axes[0]),
+              .y_label = spelled(family.axes[1])};
   if (figure.text == per_cent) map.low = 0.0, map.high = 100.0;
   map.less_is_better = figure.text != per_cent;
   for (const Contender* c : family.members) {
@@ -144,12 +146,12 @@ std::optional<PlotSeries> series_of(const Family& family, const std::string& opt
     series.points.push_back({x, *y});
     series.spans.push_back(figure.span(row).value_or(Vec2{*y, *y}));
   }
-  return by_value.size() < 2 ? std::nullopt : std::optional(std::move(series));
+  return by_value.size() < 2 || series.points.empty() ? std::nullopt : std::optional(std::move(series));
 }
 
 Plot plot_over(const std::string& option, const ShownFigure& figure) {
-  return {.title = fmt::format("{} against {}", figure.name, option),
-          .x_label = option,
+  return {.title = fmt::format("{} against {}", figure.name, spelled(option)),
+          .x_label = spelled(option),
           .y_label = std::string(figure.label),
           .from_zero = figure.text == per_cent,
           .series = {}};
@@ -165,10 +167,13 @@ std::optional<Plot> sweep_plot(const Family& family, const ShownFigure& figure) 
     Plot plot = plot_over(family.axes[x], figure);
     plot.title = fmt::format("{}: {}", family.name, plot.title);
     for (const std::string& value : values) {
-      Family line{fmt::format("{} {}", other, value), {}, {}};
+      Family line{fmt::format("{} {}", spelled(other), value), {}, {}};
       std::ranges::copy_if(family.members, std::back_inserter(line.members),
                            [&](const Contender* c) { return word_of(c->dealt, other) == value; });
-      if (auto series = series_of(line, family.axes[x], figure)) plot.series.push_back(std::move(*series));
+      auto series = series_of(line, family.axes[x], figure);
+      if (!series) continue;
+      series->color = static_cast<std::size_t>(&value - values.data());
+      plot.series.push_back(std::move(*series));
     }
     if (!plot.series.empty() && plot.series.size() <= colors::series.size()) return plot;
   }
@@ -185,9 +190,12 @@ std::vector<PlotSheet> line_panels(const std::vector<Family>& families) {
   for (const std::string& option : options) {
     for (const ShownFigure& figure : figures) {
       Plot plot = plot_over(option, figure);
-      for (const Family& family : families) {
-        if (family.axes.size() != 1 || family.axes[0] != option) continue;
-        if (auto series = series_of(family, option, figure)) plot.series.push_back(std::move(*series));
+      for (std::size_t i = 0; i < families.size(); ++i) {
+        if (families[i].axes.size() != 1 || families[i].axes[0] != option) continue;
+        auto series = series_of(families[i], option, figure);
+        if (!series) continue;
+        series->color = i;
+        plot.series.push_back(std::move(*series));
       }
       if (!plot.series.empty()) panels.push_back(sheet_of(plot));
     }

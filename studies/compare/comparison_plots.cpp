@@ -20,6 +20,13 @@ std::string curve_name(const SweepCurve& curve) {
   return curve.queue.empty() ? curve.search : curve.queue;
 }
 
+/// Its place among all names: the same in the plots of all searches.
+std::size_t color_of(const std::vector<SweepCurve>& curves, const std::string& name) {
+  std::vector<std::string> names;
+  for (const SweepCurve& curve : curves) add_once(names, curve_name(curve));
+  return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
 Plot time_plot(const std::vector<SweepCurve>& curves, const std::string& search) {
   Plot plot{.title = search + " on random geometric graphs",
             .x_label = "vertices",
@@ -28,7 +35,9 @@ Plot time_plot(const std::vector<SweepCurve>& curves, const std::string& search)
             .log_y = true,
             .series = {}};
   for (const SweepCurve& curve : curves) {
-    if (curve.search == search) plot.series.push_back({.name = curve_name(curve), .points = curve.points});
+    if (curve.search != search) continue;
+    plot.series.push_back(
+        {.name = curve_name(curve), .points = curve.points, .color = color_of(curves, curve_name(curve))});
   }
   return plot;
 }
@@ -46,8 +55,8 @@ Plot ratio_plot(const std::vector<SweepCurve>& curves, const std::string& search
   for (const QueueCrossing& c : queue_crossings(curves)) {
     if (c.search != search || (!heap.empty() && c.heap != heap)) continue;
     heap = c.heap;
-    plot.series.push_back({.name = c.array, .points = c.ratios});
-    if (c.crossing) plot.series.back().name += fmt::format(": {:.0f}", *c.crossing);
+    plot.series.push_back({.name = c.array, .points = c.ratios, .color = color_of(curves, c.array)});
+    if (c.crossing) plot.series.back().name += fmt::format(", crosses at {:.0f}", *c.crossing);
   }
   plot.level_name = "as fast as the " + heap;
   return plot;
@@ -104,12 +113,11 @@ std::vector<Plot> share_plots(const Comparison& comparison) {
 }  // namespace
 
 std::vector<PlotSheet> comparison_panels(const Comparison& comparison) {
-  constexpr std::size_t colours = 8;  // beyond them lines of equal colour would be told apart by nobody
   std::vector<PlotSheet> panels = list_panels(comparison);
   const std::vector<SweepCurve> curves = sweep_curves(comparison);
   const bool is_alone = panels.empty();
   for (const Plot& plot : curves.empty() ? share_plots(comparison) : sweep_plots(curves)) {
-    if (!curves.empty() || is_alone || plot.series.size() <= colours) panels.push_back(sheet_of(plot));
+    if (!curves.empty() || is_alone || plot.series.size() <= colors::series.size()) panels.push_back(sheet_of(plot));
   }
   if (curves.empty()) {
     for (PlotSheet& panel : box_panels(comparison)) panels.push_back(std::move(panel));

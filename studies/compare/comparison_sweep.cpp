@@ -16,9 +16,7 @@ namespace {
 
 std::vector<std::string> searches_of(const std::vector<SweepCurve>& curves) {
   std::vector<std::string> searches;
-  for (const SweepCurve& curve : curves) {
-    if (std::find(searches.begin(), searches.end(), curve.search) == searches.end()) searches.push_back(curve.search);
-  }
+  for (const SweepCurve& curve : curves) add_once(searches, curve.search);
   return searches;
 }
 

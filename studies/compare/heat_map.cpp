@@ -80,6 +80,7 @@ class HeatMapDrawing {
 };
 
 void HeatMapDrawing::begin() {
+  sheet_.keep_colors();
   sheet_.begin(map_.title, frame, map_.x_label, map_.y_label, 40.0);
   for (std::size_t i = 0; i < map_.columns.size(); ++i) {
     sheet_.label({x_of(i) + 0.5 * cell_.x, frame.max.y + 18.0}, Anchor::middle, map_.columns[i]);
@@ -98,7 +99,7 @@ void HeatMapDrawing::draw_cell(std::size_t column, std::size_t row) {
       {low, low + cell_}, {.stroke = colors::paper, .fill = rounded(color)},
       fmt::format("{} {}, {} {}: {}", map_.x_label, map_.columns[column], map_.y_label, map_.rows[row], cell.text));
   sheet_.label(low + Vec2{0.5 * cell_.x, 0.5 * cell_.y + 4.0}, Anchor::middle, cell.text,
-               is_dark(color) ? colors::paper : colors::text);
+               is_dark(color) ? colors::paper : Rgb{0, 0, 0});  // a fill of its own, on dark pages, too
 }
 
 }  // namespace

@@ -338,6 +338,19 @@ class Reports(BrowserTest):
                 self.assertTrue(tip.is_displayed())
                 self.assertRegex(tip.text, r'\d')
 
+    def test_the_table_of_compare_shows_all_columns_in_1200_pixels(self):
+        self.browser.set_window_size(1200, 800)
+        self.open('compare.html')
+        self.assertEqual(self.run_script('const wide = document.querySelector(".wide"); return wide.scrollWidth - wide.clientWidth'), 0)
+
+    def test_heat_maps_have_the_same_colours_on_dark_pages(self):
+        subprocess.run([WARREN, 'compare', 'maze:9x9', '--planners', 'prm', '--sampler', 'uniform', '--samples', '100,300',
+                        '--neighbours', '4,8', '--seeds', '2', '--html', self.path('heat.html'), '--quiet'], check=True)
+        self.media(color_scheme='dark')
+        self.open('heat.html')
+        filters = self.run_script('return [...document.querySelectorAll(".plots svg")].map(svg => [svg.classList.contains("kept"), getComputedStyle(svg).filter === "none"])')
+        self.assertEqual({tuple(one) for one in filters}, {(True, True), (False, False)})
+
     def test_narrow_pages_do_not_overflow(self):
         self.browser.execute_cdp_cmd('Emulation.setDeviceMetricsOverride', {'width': 390, 'height': 780, 'deviceScaleFactor': 2, 'mobile': True})
         try:

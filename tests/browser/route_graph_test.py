@@ -87,7 +87,7 @@ class RouteGraph(MapTest):
 
     def build(self):
         self.press('graph-build')
-        self.wait(lambda: 'Built' in self.status())
+        self.wait(lambda: 'Built' in self.status() and 'Edit ends that' in self.status())
         self.settled()
 
     def saved(self):

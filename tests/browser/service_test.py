@@ -115,6 +115,52 @@ class ServicePage(MapTest):
         self.wait_for('Solved')
         self.assertFalse(self.by_id('why').is_displayed())
 
+    def write(self, name, text):
+        field = self.by_id(name)
+        field.clear()
+        field.send_keys(text + Keys.ENTER)
+
+    def test_robot_and_clearance_are_asked_and_drawn(self):
+        self.shown(self.closed, '#start=5,30&goal=95,30')
+        self.wait(lambda: 'path' in self.by_id('status').text)
+        self.assertEqual(self.by_id('robot').get_attribute('placeholder'), 'disc 2')
+        self.write('robot', 'disc 0.5')
+        self.wait_for('Solved')
+        radius = 'return endBodies.goal.getLayers()[0].getRadius()'
+        self.assertEqual(self.run_script(radius), 0.5)
+        self.write('clearance-asked', '0.6')
+        self.wait_for('path')
+        self.write('clearance-asked', '0.25')
+        self.wait(lambda: 'clearance 0.25' in self.by_id('about').text)
+        self.wait_for('Solved')
+        self.assertGreaterEqual(self.run_script('return answer.json.min_clearance'), 0.25)
+        self.write('robot', '[[-2, -0.5], [2, -0.5], [2, 0.5], [-2, 0.5]]')
+        self.wait(lambda: self.run_script('return turns()'))
+        self.wait_for('Solved')
+        self.assertEqual(self.run_script('return endBodies.goal.getLayers()[0].getLatLngs()[0].length'), 4)
+        self.assertEqual(len(self.browser.find_elements(By.CSS_SELECTOR, '.handle')), 2)
+        self.by_id('copy-command').click()
+        self.assertIn("--robot 'polygon -2 -0.5", self.by_id('copied').get_attribute('value'))
+        link = self.run_script('return location.href')
+        self.browser.get('about:blank')
+        self.browser.get(link)
+        self.wait_for('Solved')
+        self.assertEqual(self.run_script('return [world.state_size, world.clearance]'), [3, 0.25])
+
+    def test_a_body_that_can_not_be_asked_is_refused_in_words(self):
+        self.shown(self.closed, '#start=5,30&goal=40,30')
+        self.wait_for('Solved')
+        for robot, clearance, said in (('disc', '', 'expected'), ('puma560 radius 1', '', 'arms'), ('disc 1', 'wide', 'clearance'), ('disc 1', '-1', 'clearance')):
+            self.write('robot', robot)
+            self.write('clearance-asked', clearance)
+            self.wait_for(said)
+            self.assertEqual(self.drawn(), [])
+            self.assertTrue(self.run_script('return endBodies.start === null'))
+            self.write('robot', '')
+            self.write('clearance-asked', '')
+            self.wait_for('Solved')
+        self.browser.get_log('browser')  # that the service refused is a word there, too
+
     def test_a_dragged_mark_takes_the_path_with_it(self):
         self.shown(self.maze, '#start=1,1&goal=300,300')
         self.wait_for('Solved')

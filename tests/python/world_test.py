@@ -266,6 +266,7 @@ def test_pictures_are_those_of_the_library():
     with pytest.raises(TypeError, match="did you mean title"):
         answer.world.svg(titel="a")
     world = warren.read_world(WORLDS / "flat.yaml")
+    assert world._repr_html_().startswith("<svg") and world._repr_html_() in world.svg()
     assert 'id="walls"' in world.svg() and world._repr_svg_() == world.svg() and world.png().startswith(b"\x89PNG")
     roadmap = warren.build("maze:9x9")
     assert 'id="edges"' in roadmap.svg() and roadmap.png(size="200x100").startswith(b"\x89PNG")
@@ -299,6 +300,9 @@ def test_worlds_answers_and_roadmaps_are_plotted(tmp_path):
     ax = warren.plot(answer, ax=given, tree=True)
     assert ax is given and [line.get_label() for line in ax.lines] == ["path", "start", "goal"]
     assert np.array_equal(ax.lines[0].get_xydata(), answer.path)
+    picture = answer.svg()  # one colour a thing everywhere
+    assert [line.get_color() in picture for line in ax.lines] == [True] * 3
+    assert [line.get_marker() for line in ax.lines[1:]] == ["o", "*"]
     layers = {c.get_label(): len(c.get_segments()) for c in ax.collections if not c.get_label().startswith("_")}
     assert layers["roadmap"] == answer.to_dict()["roadmap"]["edges"]
     assert ax.get_xlim()[0] <= 0.5 and ax.get_xlim()[1] >= 9.5 and ax.get_aspect() == 1.0

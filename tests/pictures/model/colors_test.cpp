@@ -98,6 +98,14 @@ TEST(Colors, CellsOfAMapKeepApartForAllEyes) {
   }
 }
 
+TEST(Colors, SeriesKeepApartForAllCones) {
+  for (std::size_t i = 0; i < colors::series.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_GT(difference(colors::series[i], colors::series[j], all_eyes[0].seen), 20.0) << i << ", " << j;
+    }
+  }
+}
+
 /// The simulation notices: red and green of one lightness are one colour without cones for green.
 TEST(Colors, TheSimulationSeesAConfusion) {
   const Rgb red{190, 100, 60};

@@ -87,6 +87,36 @@ TEST(Plot, SmallPowersOfTenAreShort) {
   EXPECT_EQ(text.find("e-0"), std::string::npos);
 }
 
+TEST(Plot, TicksOfSecondsAreInTheUnitThatFits) {
+  Plot plot = plot_of({{1e-5, 1e-5}, {1e3, 1e-2}}, true);
+  EXPECT_NE(plot_svg(plot).find(">1e-5<"), std::string::npos);
+  plot.y_label = "seconds (least)";
+  const std::string text = plot_svg(plot);
+  for (const char* tick : {">10 us<", ">100 us<", ">1 ms<", ">10 ms<"}) {
+    EXPECT_NE(text.find(tick), std::string::npos) << tick;
+  }
+  EXPECT_NE(text.find(">1e-5<"), std::string::npos) << "the other axis counts no seconds";
+}
+
+TEST(Plot, TheLevelIsNamedBesideTheFrameWhereNoLineRuns) {
+  Plot plot = plot_of({{1, 1}, {10, 2}}, true);
+  plot.level = 1.0;
+  plot.level_name = "as fast as the heap";
+  const std::string text = plot_svg(plot);
+  const std::size_t name = text.find(">as fast as the heap<");
+  EXPECT_GT(std::stod(text.substr(text.rfind("x=\"", name) + 3)), frame_end(text));
+}
+
+TEST(Plot, OfSeriesThatCoincideBothAreSeen) {
+  Plot plot = plot_of({{1, 1}, {2, 2}}, false);
+  plot.series.push_back(plot.series.front());
+  const std::string text = plot_svg(plot);
+  EXPECT_EQ(count_of(text, "r=\"3.5\""), 3U);
+  EXPECT_EQ(count_of(text, "r=\"4.5\""), 3U) << "rings around them";
+  EXPECT_EQ(count_of(text, "stroke-width=\"2.6\""), 2U);
+  EXPECT_EQ(count_of(text, "stroke-width=\"1.2\""), 3U + 2U) << "thin lines upon them";
+}
+
 TEST(Plot, TextIsEscaped) {
   const std::string text = plot_svg(plot_of({{1, 1}}, false));
   EXPECT_NE(text.find("times &amp; &lt;sizes&gt;"), std::string::npos);

@@ -146,6 +146,7 @@ TEST(ReadImage, ReadsBmpOfEachDepthFromBelowAndFromAbove) {
   EXPECT_EQ(read(bmp_bytes(3, 1, 4, "\x01\x10\0\0"s, {.palette = two})), (Samples{1, 1, 1, 2, 2, 2, 2, 2, 2}));
   EXPECT_EQ(read(bmp_bytes(2, 1, 8, "\1\0\0\0"s, {.palette = two})), (Samples{2, 2, 2, 1, 1, 1}));
   EXPECT_EQ(read(bmp_bytes(1, 1, 32, "\1\2\3\4"s)), (Samples{3, 2, 1, 4}));
+  EXPECT_EQ(read(bmp_bytes(2, 1, 32, "\1\2\3\0\1\2\3\0"s)), (Samples{3, 2, 1, 3, 2, 1})) << "no alpha at all";
   const std::string colours = "\0\0\xff\0\0\xff\0\0\xff\0\0\0"s;  // as Nav2 saves maps of mode scale
   EXPECT_EQ(read(bmp_bytes(1, 1, 32, "\1\2\3\4"s, {.coding = 3, .masks = colours + "\0\0\0\xff"s})),
             (Samples{3, 2, 1, 4}));

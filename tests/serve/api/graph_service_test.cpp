@@ -170,6 +170,24 @@ TEST(GraphService, BodiesThatTurnHaveHeadings) {
   expect_all_free(axis);
 }
 
+/// Other writers than Nav2's have ids as 3.0, and null for what is not there; Nav2 loads both.
+TEST(GraphService, WholeNumbersMayHaveAPointAndMetadataMayBeNull) {
+  constexpr const char* file = R"({"type":"FeatureCollection","features":[
+{"type":"Feature","properties":{"id":1.0,"metadata":null,"operations":null},"geometry":{"type":"Point","coordinates":[5,5]}},
+{"type":"Feature","properties":{"id":2.0},"geometry":{"type":"Point","coordinates":[95,5]}},
+{"type":"Feature","properties":{"id":3.0,"startid":1.0,"endid":2},"geometry":{"type":"LineString","coordinates":[]}}]})";
+  Graphs graphs;
+  const HttpResponse opened = graphs.asked(Place::open_graph, file);
+  ASSERT_EQ(opened.status, 200U) << opened.body;
+  const Json saved = graphs.json(Place::save_graph, opened.body);
+  EXPECT_EQ(saved.at("features")[2].at("properties").at("startid").dump(), "1");
+  for (const char* id : {"1.5", "-1.0", "\"1\"", "1e300", "4294967295.0"}) {
+    std::string text = file;
+    text.replace(text.find("1.0"), 3, id);
+    EXPECT_EQ(graphs.why(Place::open_graph, text).substr(0, 42), "feature 1: id: expected a whole number, 0 ") << id;
+  }
+}
+
 TEST(GraphService, WhatNav2WouldNotLoadIsRefusedWithItsPlace) {
   Graphs graphs;
   struct Case {

@@ -13,7 +13,9 @@ namespace {
 TEST(QueryBody, SaysWhatIsAsked) {
   const QueryBody body = read_query_body(
       "{\"start\": [1, 2.5], \"goal\": [-3e2, 4, 0.5],\n \"optimise\": true, \"planner\": \"lazy-prm\", \"budget_ms\": "
-      "250, \"path\": false}");
+      "250, \"path\": false, \"robot\": \"disc 0.5\", \"clearance\": 0.25}");
+  EXPECT_EQ(body.question.robot->radius, 0.5);
+  EXPECT_EQ(body.question.clearance, 0.25);
   EXPECT_EQ(body.question.start, (std::vector<double>{1.0, 2.5}));
   EXPECT_EQ(body.question.goal, (std::vector<double>{-300.0, 4.0, 0.5}));
   EXPECT_TRUE(body.question.optimise);

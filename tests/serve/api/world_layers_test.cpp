@@ -161,6 +161,10 @@ TEST(WorldLayers, ClearanceSaysWhereADiscDoesNotFitAndWhyACrowdHasNone) {
   EXPECT_EQ(legend.at(0).at("words"), "nearer than 6: too near for disc 4");
   EXPECT_EQ(legend.at(0).at("color"), "#c8102e99");
   EXPECT_TRUE(legend.at(1).at("words").get<std::string>().starts_with("6 ")) << legend.at(1);
+  const ServedWorld driven(scene_of(town), {.robot = robot_value("robot", "car radius 4 turning 5"), .clearance = 2.0},
+                           {});
+  WorldService of_car(driven, {});
+  EXPECT_TRUE(legend_of(of_car, "clearance").at(0).at("words").get<std::string>().starts_with("nearer than 6: "));
   Scene scene = scene_of(town);
   for (int i = 0; i <= (1 << 21) / 4; ++i) {
     const Vec2 at{0.1 * (i % 1000), 0.1 * static_cast<double>(i / 1000)};

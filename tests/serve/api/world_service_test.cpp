@@ -307,6 +307,52 @@ TEST(WorldService, TheSweepIsTheBodyOnItsWay) {
   }
 }
 
+TEST(WorldService, AQuestionMayNameAnotherBody) {
+  const std::string hall = "bounds 0 0 100 60\nwall 50 0 50 28\nwall 50 32 50 60\nstart 10 30\ngoal 90 30\n";
+  Served served(scene_of(hall), {.robot = robot_value("robot", "disc 1")});
+  const std::string own = field(served.query(Json::object()), "Warren-Path");
+  for (const char* robot : {"disc 1.5", "point", "[[-4, -1], [4, -1], [4, 1], [-4, 1]]"}) {
+    SCOPED_TRACE(robot);
+    const HttpResponse told = served.query({{"start", {10, 30, 0}}, {"robot", robot}});
+    const bool turns = robot[0] == '[';
+    EXPECT_EQ(told.status, turns ? 200U : 400U);
+    const HttpResponse answer =
+        turns ? told : served.query({{"start", {10, 30}}, {"robot", robot}, {"clearance", 0.05}});
+    const Json json = Json::parse(answer.body);
+    ASSERT_EQ(json.at("status"), "solved") << json;
+    const std::string name = field(answer, "Warren-Path");
+    EXPECT_NE(name, own);
+    const Json room = Json::parse(served.get("/api/path/" + name + "/clearance").body);
+    double least = 1e9;
+    for (const Json& place : room.at("places")) least = std::min(least, place.at("clearance").get<double>());
+    EXPECT_GE(least, json.at("min_clearance").get<double>() - 1e-9);
+    EXPECT_LT(least, turns ? 1.5 : 2.0);
+    const Json world = Json::parse(served.get("/api/world", {{"robot", robot}, {"clearance", "0.05"}}).body);
+    EXPECT_EQ(world.at("robot"), robot_text(robot_value("robot", robot)));
+    EXPECT_EQ(world.at("clearance"), 0.05);
+    EXPECT_EQ(world.at("state_size"), turns ? 3 : 2);
+    EXPECT_EQ(served.get("/api/path/" + name + "/sweep").status, robot == std::string("point") ? 400U : 200U);
+    const std::string scene = served.get("/api/scene", {{"robot", robot}, {"start", turns ? "1,1,0" : "1,1"}}).body;
+    EXPECT_NE(scene.find("robot " + robot_text(robot_value("robot", robot))), std::string::npos) << scene;
+  }
+  EXPECT_NE(Json::parse(served.query({{"robot", "disc 3"}}).body).at("status"), "solved");
+  EXPECT_NE(Json::parse(served.query({{"clearance", 2}}).body).at("status"), "solved");
+  EXPECT_EQ(Json::parse(served.query(Json::object()).body).at("status"), "solved");
+}
+
+TEST(WorldService, BodiesThatCanNotBeAskedAreRefused) {
+  Served open(scene_of(town));
+  for (const char* robot : {"", "disc", "disc -1", "puma560 radius 0.1", "arm table.dh radius 0.1", "[[0, 1"}) {
+    EXPECT_EQ(open.query({{"robot", robot}}).status, 400U) << robot;
+    EXPECT_EQ(open.get("/api/world", {{"robot", robot}}).status, 400U) << robot;
+  }
+  EXPECT_EQ(open.query({{"clearance", -1}}).status, 400U);
+  EXPECT_EQ(open.get("/api/world", {{"clearance", "-1"}}).status, 400U);
+  Served kept(build(scene_of(town)));
+  EXPECT_EQ(kept.query({{"robot", "disc 0.1"}}).status, 400U);
+  EXPECT_EQ(kept.query({{"robot", "point"}}).status, 200U);
+}
+
 TEST(WorldService, APointHasNoSweep) {
   Served served(scene_of(town));
   const HttpResponse answer = served.query(Json::object());

@@ -79,9 +79,9 @@ TEST(BoxPanels, RowsAreNamedByWhatDiffersAlone) {
 
 TEST(BoxPanels, TimesOverMoreThanADecadeAreLogarithmic) {
   const auto decades = [](double slowest) { return box_panels(of_planners(1, {1.0, 1.0, 0.0}, slowest)).at(0).svg(); };
-  EXPECT_NE(decades(200.0).find(">100<"), std::string::npos);
-  EXPECT_NE(decades(200.0).find(">1<"), std::string::npos) << "powers of ten";
-  EXPECT_EQ(decades(1.0).find(">5<"), std::string::npos);
+  EXPECT_NE(decades(200.0).find(">100 s<"), std::string::npos);
+  EXPECT_NE(decades(200.0).find(">1 s<"), std::string::npos) << "powers of ten";
+  EXPECT_EQ(decades(1.0).find(">5 s<"), std::string::npos);
 }
 
 TEST(BoxPanels, MoreContendersThanRowsAreANote) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <map>
 #include <string>
 
 #include "studies/compare/comparison_report.hpp"
@@ -95,6 +96,40 @@ TEST(ListPanels, OneListOfNumbersIsALineAPlannerWithBars) {
   EXPECT_EQ(count(panels[0].svg(), ">voronoi<"), 0U);
 }
 
+TEST(ListPanels, OptionsAreSpelledAsOnTheCommandLine) {
+  const auto panels = list_panels(of({contender("rrt", {{"goal_bias", "0.1"}, {"step", "1"}}, 2, 1.0),
+                                      contender("rrt", {{"goal_bias", "0.2"}, {"step", "2"}}, 2, 1.0)}));
+  ASSERT_FALSE(panels.empty());
+  for (const PlotSheet& panel : panels) EXPECT_EQ(count(panel.svg(), "goal_bias"), 0U) << panel.svg();
+  EXPECT_GT(count(panels[0].svg(), ">goal-bias<"), 0U);
+}
+
+TEST(ListPanels, APlannerHasOneColourInAllPlots) {
+  std::vector<Contender> all;
+  for (const char* value : {"1", "2"}) {
+    all.push_back(contender("rrt", {{"step", value}}, 2, 1.0));
+    all.push_back(contender("rrt-connect", {{"step", value}}, value[0] == '1' ? 2 : 0, 1.0));
+    all.push_back(contender("prm", {{"samples", value}}, 0, 1.0));
+    all.push_back(contender("lazy-prm", {{"samples", value}}, 2, 1.0));
+  }
+  const auto panels = list_panels(of(all));
+  const auto color_of = [](const std::string& svg, const std::string& name) {
+    return svg.substr(svg.find("stroke=", svg.rfind("<path", svg.find(">" + name + "<"))), 16);
+  };
+  std::map<std::string, std::string> colors;
+  for (const PlotSheet& panel : panels) {
+    for (const char* name : {"rrt", "rrt-connect", "prm", "lazy-prm"}) {
+      const std::string svg = panel.svg();
+      if (count(svg, ">" + std::string(name) + "<") == 0) continue;
+      const auto [seen, is_first] = colors.emplace(name, color_of(svg, name));
+      EXPECT_EQ(seen->second, color_of(svg, name)) << name << " in " << panel.title();
+    }
+  }
+  EXPECT_EQ(colors.size(), 4U);
+  EXPECT_NE(colors["prm"], colors["rrt"]);
+  EXPECT_NE(colors["lazy-prm"], colors["rrt-connect"]) << "beside each other on one page";
+}
+
 TEST(ListPanels, WordsAndOptionsThatNobodyListsHaveNone) {
   EXPECT_TRUE(list_panels(of({contender("prm", {}, 4, 15.0)})).empty());
   EXPECT_TRUE(list_panels(of({contender("prm", {{"sampler", "uniform"}}, 4, 15.0),
@@ -113,6 +148,13 @@ TEST(HeatMap, TheBrightColourIsTheGoodOne) {
   EXPECT_NE(fill_of("least"), bright);
   map.less_is_better = true;
   EXPECT_EQ(fill_of("least"), bright);
+}
+
+TEST(HeatMap, KeepsItsColoursOnDarkPages) {
+  const std::string svg = sheet_of(HeatMap{.columns = {"1"}, .rows = {"x"}, .cells = {{2.0, "2"}}}).svg();
+  EXPECT_EQ(count(svg, " class=\"kept\""), 1U);
+  const std::size_t words = svg.rfind("<text", svg.find(">2<"));
+  EXPECT_NE(svg.substr(words, svg.find('>', words) - words).find(" fill="), std::string::npos) << "not the page's ink";
 }
 
 TEST(HeatMap, EqualValuesAndNoneAreDrawnToo) {

@@ -68,6 +68,38 @@ TEST(RefusalsThatHelp, FootprintsOfNav2AreBodies) {
   check({joined({"solve", world, "--robot", "[[0.3, 0.2], [-0.3"}, ends), 2, "--robot"});
 }
 
+TEST(RefusalsThatHelp, RobotsAreRefusedWithTheFormsThatOptionsTake) {
+  const Words ask{"solve", world_file("flat.yaml"), "--start", "0.5,0.5", "--goal", "4.3,0.5", "--robot"};
+  for (const char* robot : {"circle 0.3", "0.3", "disc", "[[0.4,0.3],[0.4,-0.3]]"}) {
+    expect_said(said(joined(ask, {robot}), 2),
+                {"expected `point, disc R, [[X, Y], [X, Y], [X, Y], ...]", "car polygon X Y X Y X Y ... turning RHO"});
+  }
+  expect_said(said(joined(ask, {"[[0.4, 0.3], [0.4, -0.3], [0, 0]"}), 2), {"here brackets are missing"});
+  expect_said(said(joined(ask, {"car radius 1"}), 2), {"expected `car radius R|polygon"});
+}
+
+TEST(RefusalsThatHelp, UnknownCellsAreToldFromOccupiedOnesAndWhereTheyAre) {
+  const Folder folder;
+  folder.write("m.pgm", std::string("P5\n3 2\n255\n") + "\xfe\xfe\xcd\xfe\xfe\x01");
+  const std::string map = folder.write(
+      "m.yaml",
+      "image: m.pgm\nresolution: 2\norigin: [10, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n");
+  expect_said(said({"solve", map, "--start", "11,1", "--goal", "15,3"}), {"cell 2, 1 (unknown), at 15, 3 m"});
+  expect_said(said({"solve", map, "--start", "11,1", "--goal", "15,1"}), {"cell 2, 0, at 15, 1 m"});
+}
+
+TEST(RefusalsThatHelp, AMazeThatDoesNotFitIsToldWhatTakesLess) {
+  expect_said(said({"solve", "maze:20000x20000", "--memory", "100MiB", "--explain"}, 124),
+              {"it needs more memory than it may hold", "--pipeline streamed --no-path"});
+}
+
+TEST(RefusalsThatHelp, WhatWasNotDoneIsNotCounted) {
+  const std::string text = said({"solve", world_file("town.geojson"), "--start", "1.5,1.5", "--goal", "9.5,8.5"}, 0);
+  EXPECT_EQ(text.find("0 edges checked"), std::string::npos) << text;
+  EXPECT_EQ(text.find("0 rounds"), std::string::npos) << text;
+  expect_said(text, {" expanded"});
+}
+
 TEST(RefusalsThatHelp, GreyThatBecomesFreeIsToldOnce) {
   const Folder folder;
   folder.write("m.pgm", std::string("P5\n3 2\n255\n") + "\xfe\xfe\xcd\xcd\xfe\x01");
