@@ -32,6 +32,7 @@ class RrtSearch {
         goals_(goals.begin(), goals.end()),
         tree_(world, GrowthDirection::forward) {
     tree_.add_root(start);
+    if (std::find(goals_.begin(), goals_.end(), start) != goals_.end()) last_ = 0;
   }
 
   void advance(std::uint64_t steps, const Execution& execution) {

@@ -43,9 +43,13 @@ class CellSolve {
     const auto goal = cell_at(map_, problem_.goal);
     answer_.outcome = blocked_end(start, goal);
     if (answer_.outcome != Outcome::not_connected) return;
-    index();
-    search(cells_joined_to(problem_.start, *start), cells_joined_to(problem_.goal, *goal));
-    if (answer_.outcome != Outcome::solved) return prove();
+    if (problem_.start == problem_.goal) {
+      stay(answer_, problem_);
+    } else {
+      index();
+      search(cells_joined_to(problem_.start, *start), cells_joined_to(problem_.goal, *goal));
+      if (answer_.outcome != Outcome::solved) return prove();
+    }
     if (request_.options.optimise) optimise();
     verify_solved_on_map(answer_, map_, problem_, true, request_.execution);
   }

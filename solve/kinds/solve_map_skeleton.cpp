@@ -47,6 +47,7 @@ class SkeletonSolve {
                                              request_.execution, kept_steps));
     // The skeleton was asked about the middles of the cells.
     if (is_blocked(answer_.outcome)) answer_.outcome = Outcome::not_connected;
+    if (problem_.start == problem_.goal) stay(answer_, problem_);
     if (request_.keep != nullptr) request_.keep->lines.push_back(lines_of(map_, steps));
     verify_solved_on_map(answer_, map_, problem_, true, request_.execution);
   }

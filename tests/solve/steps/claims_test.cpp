@@ -230,5 +230,43 @@ TEST(Claims, TheGapOfASkeletonIsWhereItLiesInTheWorld) {
   EXPECT_LT(std::max(from[0], to[0]), 4.8) << "as wide as the map is";
 }
 
+TEST(Claims, AGoalThatIsTheStartIsReachedByEveryPlannerWithoutAMove) {
+  std::size_t reached = 0;
+  const std::pair<Scene, double> worlds[] = {{clutter(1, 1.0, 0.0), 1.0}, {flat(), 0.3}};
+  for (const auto& [scene, scale] : worlds) {
+    const double r = 0.5 * scale;
+    const RobotSpec bodies[] = {
+        {},
+        {.kind = RobotKind::disc, .radius = 1.5 * r},
+        {.kind = RobotKind::polygon, .outline = {{-r, -r}, {2 * r, -r}, {r, r}}},
+        {.kind = RobotKind::car, .radius = r, .turning_radius = 4 * r},
+        {.kind = RobotKind::car, .radius = r, .turning_radius = 4 * r, .steering = SteeringKind::reeds_shepp}};
+    for (const RobotSpec& body : bodies) {
+      const bool turns = body.kind == RobotKind::polygon || body.kind == RobotKind::car;
+      for (std::uint64_t i = 0; i < 6; ++i) {
+        std::vector<double> place{scale * (1 + 10 * uniform(9, i, 0)), scale * (1 + 9 * uniform(9, i, 1))};
+        if (turns) place.push_back(uniform(9, i, 2));
+        for (const PlannerKind planner : all_planners) {
+          if (turns && planner == PlannerKind::grid) continue;  // its layers of headings take a second each
+          SCOPED_TRACE(fmt::format("{} {} {} {}", scale, name_of(body.kind), name_of(planner), fmt::join(place, ",")));
+          SolveOptions options = by(planner);
+          if (planner == PlannerKind::rrt || planner == PlannerKind::rrt_connect) options.trees.nodes = 20;
+          if (planner == PlannerKind::prm || planner == PlannerKind::lazy_prm) options.roadmap.samples = 20;
+          try {
+            const Answer answer = solve(scene, {.robot = body, .start = place, .goal = place}, options);
+            if (answer.outcome == Outcome::start_blocked) continue;
+            ++reached;
+            EXPECT_EQ(answer.outcome, Outcome::solved);
+            EXPECT_TRUE(answer.verified);
+            EXPECT_EQ(answer.length, 0.0);
+          } catch (const Error&) {  // no planner of this body or world
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(reached, 60U);
+}
+
 }  // namespace
 }  // namespace warren
