@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The chain, link by link, on mazes of 41 x 41, 200 x 200 and 1000 x 1000 cells with uniform milestones, as prm and
 // lazy-prm have them: chain/LINK/BY/maze:SIDE/threads:N. Items are milestones, queries, edges or vertices; nanoflann as
-// packaged and Boost's d-ary heap stand beside ours. What is timed is checked in tests/ and by the benches a hot file.
+// packaged and Boost's d-ary heap stand beside ours. Heaps are checked here, what else is timed in tests/ and by the
+// benches a hot file.
 #pragma GCC diagnostic ignored "-Wnull-dereference"  // g++ 12 at -O3 sees one inside nanoflann's vector::resize
 
 #include <benchmark/benchmark.h>
@@ -12,11 +13,13 @@
 #define WARREN_HAS_BOOST_HEAP
 #endif
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <type_traits>
 
 #include "bench/plain_flann.hpp"
+#include "bench/report.hpp"
 #include "core/base/rng.hpp"
 #include "planners/roadmap/lazy_prm.hpp"
 #include "planners/roadmap/prm.hpp"
@@ -191,10 +194,20 @@ template <class Push, class Decrease, class Pop>
 void heap_steps(benchmark::State& state, std::uint32_t side, const Push& push, const Decrease& decrease,
                 const Pop& pop) {
   const auto n = static_cast<VertexId>(chain_of(side).milestones.size());
-  for (auto _ : state) {
+  const auto fill = [&] {
     for (VertexId v = 0; v < n; ++v) push(v, 1.0 + uniform(1, v, 0));
     for (VertexId v = 0; v < n; ++v) decrease(v, uniform(1, v, 1));
-    for (VertexId v = 0; v < n; ++v) pop();
+  };
+  fill();
+  double last = 0.0;
+  for (VertexId i = 0; i < n; ++i) {
+    const double key = uniform(1, pop(), 1);
+    check(last <= key, "order of a heap");
+    last = key;
+  }
+  for (auto _ : state) {
+    fill();
+    for (VertexId i = 0; i < n; ++i) benchmark::DoNotOptimize(pop());
   }
   count_items(state, iterations(state) * 3 * n);
 }
@@ -202,19 +215,20 @@ void heap_of_ours(benchmark::State& state, std::uint32_t side) {
   IndexedHeap<4> heap;
   heap.resize(chain_of(side).milestones.size());
   const auto push = [&](VertexId v, double key) { heap.push(v, key); };
-  heap_steps(state, side, push, push, [&] { benchmark::DoNotOptimize(heap.pop()); });
+  heap_steps(state, side, push, push, [&] { return heap.pop().vertex; });
 }
 #ifdef WARREN_HAS_BOOST_HEAP
 void heap_of_boost(benchmark::State& state, std::uint32_t side) {
   const std::size_t n = chain_of(side).milestones.size();
   std::vector<double> keys(n);
   std::vector<std::size_t> places(n, static_cast<std::size_t>(-1));
-  boost::d_ary_heap_indirect<VertexId, 4, std::size_t*, double*> heap(keys.data(), places.data());
+  boost::d_ary_heap_indirect<VertexId, 4, std::size_t*, double*, std::less<double>> heap(keys.data(), places.data());
   const auto push = [&](VertexId v, double key) { keys[v] = key, heap.push(v); };
   const auto decrease = [&](VertexId v, double key) { keys[v] = key, heap.update(v); };
   heap_steps(state, side, push, decrease, [&] {
-    benchmark::DoNotOptimize(heap.top());
+    const VertexId top = heap.top();
     heap.pop();
+    return top;
   });
 }
 #endif
