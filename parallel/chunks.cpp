@@ -180,8 +180,8 @@ ChunkTrace::ChunkTrace(const Execution& execution) : execution_(execution) {
 void ChunkTrace::end(std::size_t items) {
   execution_.advance(items);
   if (execution_.trace == nullptr) return;
-  const char* stage = execution_.progress != nullptr ? execution_.progress->stage() : nullptr;
-  execution_.trace->record(stage != nullptr ? stage : "chunk", begin_, std::chrono::steady_clock::now(), false);
+  const char* stage = execution_.trace->stage();
+  execution_.trace->record(stage != nullptr ? stage : "chunk", begin_, std::chrono::steady_clock::now(), false, items);
 }
 
 }  // namespace warren::detail

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <thread>
 
+#include "parallel/stage_account.hpp"
 #include "parallel/trace.hpp"
 
 namespace warren {
@@ -43,14 +44,24 @@ unsigned thread_count(unsigned threads) {
 }
 
 StageTimer::StageTimer(const Execution& execution, const char* stage, double& seconds, std::uint64_t items)
-    : trace_(execution.trace), stage_(stage), seconds_(seconds), begin_(std::chrono::steady_clock::now()) {
+    : execution_(execution), stage_(stage), seconds_(seconds), items_(items) {
   if (execution.progress != nullptr) execution.progress->begin(stage, items);
+  if (execution.trace != nullptr) before_ = execution.trace->enter(stage);
+  if (execution.account != nullptr) {
+    execution.account->begin();
+    cpu_begin_s_ = process_cpu_s();
+  }
+  begin_ = std::chrono::steady_clock::now();
 }
 
 StageTimer::~StageTimer() {
   const auto end = std::chrono::steady_clock::now();
-  seconds_ += std::chrono::duration<double>(end - begin_).count();
-  if (trace_ != nullptr) trace_->record(stage_, begin_, end, true);
+  const double wall_s = std::chrono::duration<double>(end - begin_).count();
+  seconds_ += wall_s;
+  if (execution_.account != nullptr) execution_.account->add(stage_, wall_s, process_cpu_s() - cpu_begin_s_);
+  if (execution_.trace == nullptr) return;
+  execution_.trace->enter(before_);
+  execution_.trace->record(stage_, begin_, end, true, items_);
 }
 
 }  // namespace warren

@@ -36,7 +36,8 @@ class Progress {
   std::atomic<std::uint64_t> total_{0};
 };
 
-class Trace;  // parallel/trace.hpp
+class Trace;         // parallel/trace.hpp
+class StageAccount;  // parallel/stage_account.hpp
 
 /// What changes the time of a call, never its result.
 struct Execution {
@@ -44,6 +45,7 @@ struct Execution {
   const Deadline* deadline = nullptr;  ///< nullptr: no limit
   Progress* progress = nullptr;        ///< nullptr: nobody watches
   Trace* trace = nullptr;              ///< nullptr: nobody records
+  StageAccount* account = nullptr;     ///< nullptr: nobody asks what a stage costs
 
   /// Throws Stopped if it is time to stop.
   void check() const {
@@ -64,8 +66,8 @@ struct Execution {
 /// The threads that `threads` asks for: itself, or for 0 the smallest of hardware, affinity mask and cgroup quota.
 unsigned thread_count(unsigned threads);
 
-/// Measures one stage: adds the seconds between construction and destruction to `seconds` and names the stage to
-/// whoever watches.
+/// Measures one stage: adds the seconds between construction and destruction to `seconds`, and names the stage to
+/// whoever watches, records or keeps account.
 class StageTimer {
  public:
   /// The stage begins; `items`: how many it has, 0: not known. `execution` and `seconds` outlive it.
@@ -75,9 +77,12 @@ class StageTimer {
   StageTimer& operator=(const StageTimer&) = delete;
 
  private:
-  Trace* trace_;
+  const Execution& execution_;
   const char* stage_;
+  const char* before_ = nullptr;  // the stage in which this one is, in a trace
   double& seconds_;
+  std::uint64_t items_;
+  double cpu_begin_s_ = 0.0;
   std::chrono::steady_clock::time_point begin_;
 };
 

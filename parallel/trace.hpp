@@ -3,6 +3,7 @@
 // of its own; one mutex guards them all and is held for each append, once a stage or chunk.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <memory>
@@ -22,21 +23,27 @@ class Trace {
     double duration_us;
     std::uint32_t thread;  ///< 0 is the thread that made the trace
     bool is_stage;
+    std::uint64_t items;  ///< that were done; 0: not known
   };
 
   Trace() : start_(Clock::now()) { lanes_.push_back({std::this_thread::get_id(), {}}); }
 
   /// Destructors call it, also while an exception is on its way: where memory is out, events() says so.
-  void record(const char* name, Clock::time_point begin, Clock::time_point end, bool is_stage) noexcept {
+  void record(const char* name, Clock::time_point begin, Clock::time_point end, bool is_stage,
+              std::uint64_t items = 0) noexcept {
     const auto micros = [](Clock::duration d) { return std::chrono::duration<double, std::micro>(d).count(); };
     const std::lock_guard lock(mutex_);  // never contended for long
     try {
       const std::uint32_t lane = lane_of(std::this_thread::get_id());
-      lanes_[lane].events.push_back({name, micros(begin - start_), micros(end - begin), lane, is_stage});
+      lanes_[lane].events.push_back({name, micros(begin - start_), micros(end - begin), lane, is_stage, items});
     } catch (const std::bad_alloc&) {
       is_whole_ = false;
     }
   }
+
+  /// The stage that runs from now on, whose name chunks get; returns the one before.
+  const char* enter(const char* stage) noexcept { return stage_.exchange(stage, std::memory_order_relaxed); }
+  const char* stage() const noexcept { return stage_.load(std::memory_order_relaxed); }  ///< nullptr: none
 
   /// All events, thread by thread. Call when no worker runs. Throws std::bad_alloc where one could not be recorded.
   std::vector<Event> events() const {
@@ -61,7 +68,8 @@ class Trace {
   }
 
   Clock::time_point start_;
-  std::mutex mutex_;  // guards lanes_
+  std::atomic<const char*> stage_{nullptr};  // a name alone: which one a chunk sees changes no result
+  std::mutex mutex_;                         // guards lanes_
   std::vector<Lane> lanes_;
   bool is_whole_ = true;
 };

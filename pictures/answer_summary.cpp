@@ -12,6 +12,7 @@
 #include "core/base/printable.hpp"
 #include "scenes/scene/unit_of.hpp"
 #include "scenes/text/human_units.hpp"
+#include "solve/answer/stage_lines.hpp"
 
 namespace warren {
 namespace {
@@ -162,12 +163,28 @@ void add_roadmap(std::string& text, const Answer& answer, const Palette& palette
                   length_text(answer, answer.separation.nearest_gap)));
 }
 
+/// The chain of a planner that joins samples, link by link.
+void add_chain(std::string& text, const Answer& answer, const Palette& palette) {
+  const std::vector<StageLine> lines = stage_lines(answer);
+  if (std::none_of(lines.begin(), lines.end(), [](const StageLine& l) { return l.key == "queries"; })) return;
+  line(text, palette, "chain",
+       fmt::format("{:<18} {:>8} {:>8} {:>6} {:>9}  {}", "", "wall", "CPU", "times", "each", "of"));
+  for (const StageLine& l : lines) {
+    line(text, palette, "",
+         fmt::format("{:<18} {:>8} {:>8} {:>6} {:>9}  {}", l.label, human_seconds(l.wall_s), human_seconds(l.cpu_s),
+                     l.wall_s >= 20e-6 ? fmt::format("{:.1f}", l.cpu_s / l.wall_s) : "",
+                     l.count > 0 ? precise_seconds(1e-9 * l.ns_each()) : "",
+                     l.count > 0 ? fmt::format("{} {}", grouped(l.count), l.counted) : ""));
+  }
+}
+
 void add_times(std::string& text, const Answer& answer, const Palette& palette) {
   std::string stages;
   for (const auto& [name, seconds] : named_stages(answer.seconds)) {
     if (seconds >= 5e-6) stages += fmt::format("{}{} {}", stages.empty() ? "" : ", ", name, human_seconds(seconds));
   }
   line(text, palette, "stages", stages);
+  add_chain(text, answer, palette);
   line(text, palette, "solve",
        fmt::format("{} on {}, {} at the peak", palette.strong(human_seconds(answer.solve_s)),
                    counted(answer.threads, "thread", "threads"),

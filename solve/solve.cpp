@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "parallel/stage_account.hpp"
 #include "solve/steps/blocked_end.hpp"
 #include "solve/steps/heuristic_price.hpp"
 #include "solve/steps/kind_of_problem.hpp"
@@ -56,13 +57,16 @@ Answer solve_within(const Scene& scene, const Question& question, const SolveOpt
   question.validate();
   options.validate();
   check_solver_options(options);
+  StageAccount account;
+  Execution accounted = execution;
+  accounted.account = &account;
   Answer answer;
   answer.world.source = scene.source;
   try {
     const ChosenSolver solver = choose_solver(options, scene, question);
     WorldAccount world = account_of(scene, execution);
     const PlannedScene planned(scene, question, solver.planner, execution);
-    SolveRequest request{options, planned.get(), question, solver.planner, execution, keep};
+    SolveRequest request{options, planned.get(), question, solver.planner, accounted, keep};
     request.taker = taker;
     answer = solver.kind->solve(request);
     if (answer.world.kind.empty()) answer.world = std::move(world);
@@ -71,6 +75,7 @@ Answer solve_within(const Scene& scene, const Question& question, const SolveOpt
   } catch (const std::bad_alloc&) {
     answer.stop_reason = StopReason::memory;
   }
+  answer.costs = account.costs();
   answer.threads = thread_count(execution.threads);
   answer.peak_memory_bytes = peak_resident_bytes();
   return answer;

@@ -16,6 +16,9 @@ struct Counters {
   std::uint64_t expanded = 0;           ///< vertices settled by the search
   std::uint64_t rounds = 0;             ///< roadmaps built, lazy repairs or batches of trees made
   std::uint64_t refused = 0;            ///< motions that were neither proved free nor blocked, of edges_checked
+  std::uint64_t pushes = 0;     ///< vertices that came into the search's queue; of planners that join samples alone
+  std::uint64_t decreases = 0;  ///< times that one in the queue got a shorter way; the same
+  std::uint64_t row_bytes = 0;  ///< of the CSR rows that were assembled; the same
   /// Adds all of them.
   Counters& operator+=(const Counters& o) {
     samples += o.samples;
@@ -26,6 +29,9 @@ struct Counters {
     expanded += o.expanded;
     rounds += o.rounds;
     refused += o.refused;
+    pushes += o.pushes;
+    decreases += o.decreases;
+    row_bytes += o.row_bytes;
     return *this;
   }
   friend bool operator==(const Counters&, const Counters&) = default;
@@ -44,6 +50,13 @@ struct StageTimes {
   double search = 0.0;      ///< searching; of trees, growing them
   double optimise = 0.0;    ///< pulling the path taut
   double verify = 0.0;      ///< judging the path
+};
+
+/// What a stage cost in all its rounds. Where one stage has several links of a chain, each has its own.
+struct StageCost {
+  const char* name = "";  ///< a literal
+  double wall_s = 0.0;
+  double cpu_s = 0.0;  ///< of all threads of the process
 };
 
 }  // namespace warren

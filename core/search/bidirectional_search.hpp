@@ -115,6 +115,8 @@ class SearchSide {
   bool has_closed(VertexId v) const { return closed_[v] != 0; }  ///< as published
   const std::uint8_t* closed_marks() const { return closed_.data(); }
   std::uint64_t settled() const { return settled_; }
+  std::uint64_t pushes() const { return pushes_; }
+  std::uint64_t decreases() const { return decreases_; }
 
  private:
   template <class Other>
@@ -129,6 +131,7 @@ class SearchSide {
     const std::uint8_t* settled_elsewhere() const { return other.closed_marks(); }
     void operator()(VertexId w, double length) const {
       if (!wants(w, length)) return;
+      ++(side.state_.reached(w) ? side.decreases_ : side.pushes_);
       side.state_.reach(w, g + length, from);
       side.queue_.push(w, g + length + side.to_target_(w));
       side.labelled_.push_back(w);
@@ -162,6 +165,8 @@ class SearchSide {
   std::vector<VertexId> newly_closed_;             // in this round
   SearchBorder border_;
   std::uint64_t settled_ = 0;
+  std::uint64_t pushes_ = 1;  // the root
+  std::uint64_t decreases_ = 0;
 };
 
 /// What both sides know after an exchange; a pure function of what they published.
@@ -183,6 +188,10 @@ template <class Forward, class Backward>
 SearchResult joined_result(const SearchBorder& agreed, const Forward& forward, const Backward& backward) {
   SearchResult result;
   result.expanded = forward.settled() + backward.settled();
+  if constexpr (requires { forward.pushes(); }) {
+    result.pushes = forward.pushes() + backward.pushes();
+    result.decreases = forward.decreases() + backward.decreases();
+  }
   if (agreed.stop) {
     result.status = SearchStatus::stopped;
   } else if (agreed.meeting != no_vertex) {

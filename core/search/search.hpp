@@ -28,7 +28,9 @@ struct SearchResult {
   SearchStatus status = SearchStatus::exhausted;
   RawVector<VertexId> path;  ///< start to goal; empty unless found
   double length = 0.0;
-  std::uint64_t expanded = 0;  ///< vertices settled, the goal included
+  std::uint64_t expanded = 0;   ///< vertices settled, the goal included
+  std::uint64_t pushes = 0;     ///< vertices that came into the queue; of breadth- and depth-first search 0
+  std::uint64_t decreases = 0;  ///< times that one in the queue got a shorter way
 };
 
 /// Distances and parents of one search, as arrays. A settled vertex keeps its distance with the sign bit set, so that
@@ -107,6 +109,7 @@ struct BestFirstVisit {
   SearchState& state;
   Queue& queue;
   const Heuristic& heuristic;
+  SearchResult& result;
   VertexId from;
   double g;
   bool wants(VertexId w, double length) const { return state.improves(w, g + length); }
@@ -115,6 +118,7 @@ struct BestFirstVisit {
   const std::uint8_t* settled_elsewhere() const { return nullptr; }
   void operator()(VertexId w, double length) const {
     if (!wants(w, length)) return;
+    ++(state.reached(w) ? result.decreases : result.pushes);
     state.reach(w, g + length, from);
     queue.push(w, g + length + heuristic(w));
   }
@@ -173,6 +177,7 @@ SearchResult best_first(VertexId start, VertexId goal, const Neighbours& neighbo
   std::uint64_t stale = 0;
   state.reach(start, 0.0, no_vertex);
   queue.push(start, heuristic(start));
+  ++result.pushes;
   while (!queue.empty()) {
     const VertexId v = queue.pop().vertex;
     if (state.closed(v)) {  // a stale entry of a queue without decrease-key
@@ -192,7 +197,7 @@ SearchResult best_first(VertexId start, VertexId goal, const Neighbours& neighbo
       result.status = SearchStatus::stopped;
       return result;
     }
-    neighbours(v, detail::BestFirstVisit<Queue, Heuristic>{state, queue, heuristic, v, state.g(v)});
+    neighbours(v, detail::BestFirstVisit<Queue, Heuristic>{state, queue, heuristic, result, v, state.g(v)});
   }
   return result;
 }

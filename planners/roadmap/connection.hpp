@@ -16,6 +16,7 @@
 #include "core/search/graph.hpp"
 #include "parallel/asked_growth.hpp"
 #include "parallel/chunks.hpp"
+#include "parallel/stage_account.hpp"
 #include "planners/roadmap/roadmap_growth.hpp"
 #include "planners/roadmap/state_index.hpp"
 
@@ -29,6 +30,10 @@ namespace detail {
 /// Milestones a chunk: the motion of a point is checked in nanoseconds, that of a body in microseconds.
 template <World W>
 inline constexpr std::size_t connection_grain = std::same_as<typename W::State, Vec2> ? 2048 : 64;
+
+/// Of how many bunches one is timed.
+template <World W>
+inline constexpr std::uint32_t bunches_per_clock = std::same_as<typename W::State, Vec2> ? 32 : 1;
 
 inline std::uint64_t total_edges(const EdgeParts& parts) {
   std::uint64_t total = 0;
@@ -138,9 +143,12 @@ EdgeParts edges_that(const W& world, std::span<const typename W::State> mileston
     edges.reserve(r.size() + r.size() / 4);
     Bunch<typename W::State> bunch;
     std::uint64_t bunches = 0;
+    PartClock clock(execution, bunches_per_clock<W>);
     const auto flush = [&] {
       if (++bunches % bunches_per_poll == 0) execution.check();
+      clock.begin();
       std::uint32_t kept = keep(r.first / connection_grain<W>, bunch.motions(), query);
+      clock.lap(StagePart::checks);
       for (; kept != 0; kept &= kept - 1)
         push_asked(edges, bunch.edges()[static_cast<std::size_t>(std::countr_zero(kept))], execution);
       bunch.clear();

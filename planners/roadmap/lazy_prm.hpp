@@ -55,7 +55,8 @@ class LazyGraph {
         candidates_(candidates),
         end_edges_(end_edges),
         execution_(&execution),
-        query_(world.make_query()) {}
+        query_(world.make_query()),
+        clock_(execution, expansions_per_clock) {}
 
   /// Leaves milestones of dead ends unexpanded where nothing depends on them. Radius rule, in the plane.
   void leave_out(const DeadEnds& dead_ends) {
@@ -85,11 +86,13 @@ class LazyGraph {
 
  private:
   static constexpr std::uint64_t checks_per_poll = 64;
+  static constexpr std::uint32_t expansions_per_clock = 32;
 
   /// What helps is put to the world bunch by bunch: that v is joined to one neighbour does not change what it is to
   /// another.
   void visit_milestones(VertexId v, const AnyVisit& visit) {
     ++counters_.neighbour_queries;
+    clock_.begin();
     const auto try_edge = [&](VertexId w, double at_least) {
       if (!visit.wants(w, at_least) || w == v) return;  // most are settled already
       const double length = world_.distance(states_[v], states_[w]);
@@ -104,6 +107,7 @@ class LazyGraph {
       for (const VertexId w : candidates_.neighbours(v)) try_edge(w, 0.0);
     }
     visit_free(visit);
+    clock_.lap(StagePart::queries);
   }
 
   /// Those of the wanted edges that are free.
@@ -114,7 +118,9 @@ class LazyGraph {
       unpolled_ = 0;
       execution_->check();
     }
+    clock_.lap(StagePart::queries);
     std::uint32_t free = detail::free_motions(world_, wanted_.motions(), query_);
+    clock_.lap(StagePart::checks);
     counters_.edges_checked += count;
     counters_.edges_free += static_cast<std::uint64_t>(std::popcount(free));
     free_edges_ += static_cast<std::uint64_t>(std::popcount(free));
@@ -125,6 +131,7 @@ class LazyGraph {
       visit(w, lengths_[i]);
     }
     wanted_.clear();
+    clock_.lap(StagePart::rest);
   }
 
   const W& world_;
@@ -137,6 +144,7 @@ class LazyGraph {
   const Execution* execution_;
   Counters counters_;
   typename W::Query query_;
+  PartClock clock_;
   detail::Bunch<State> wanted_;
   std::array<double, bunch_size> lengths_;  ///< of what is wanted
   std::optional<DeadEndSeals> seals_;
@@ -207,14 +215,19 @@ class LazyPlan : public Rounds<W> {
 
 template <World W>
 void LazyPlan<W>::attach_ends() {
-  const StageTimer timer(execution_, "connect", solution_.seconds.connect);
-  end_edges_ =
-      attach_start_and_goal(world_, milestones(), index_, rule_, this->start_, this->goal_, solution_.counters);
-  solution_.roadmap.edges = end_edges_.size();
   candidates_ = Graph();
-  if (rule_.neighbours == 0) return;
-  candidates_ = assemble_graph(
-      states_.size(), candidate_edges(world_, milestones(), index_, rule_, execution_, solution_.counters), execution_);
+  EdgeParts parts;
+  {
+    const StageTimer timer(execution_, "queries", solution_.seconds.connect);
+    end_edges_ =
+        attach_start_and_goal(world_, milestones(), index_, rule_, this->start_, this->goal_, solution_.counters);
+    solution_.roadmap.edges = end_edges_.size();
+    if (rule_.neighbours == 0) return;
+    parts = candidate_edges(world_, milestones(), index_, rule_, execution_, solution_.counters);
+  }
+  const StageTimer timer(execution_, "rows", solution_.seconds.connect, states_.size());
+  candidates_ = assemble_graph(states_.size(), parts, execution_);
+  solution_.counters.row_bytes += candidates_.bytes();
 }
 
 template <World W>
@@ -224,7 +237,7 @@ SearchResult LazyPlan<W>::expand_from(VertexId from, VertexId to, SearchState& s
   const auto estimate = this->estimate();
   SearchResult found = search_implicit(AnyNeighbours(graph), from, to, asked(VertexDistance(estimate)), state);
   if (found.status == SearchStatus::stopped) execution_.check();
-  solution_.counters.expanded += found.expanded;
+  Rounds<W>::count(found);
   count(graph);
   return found;
 }
@@ -237,7 +250,7 @@ void LazyPlan<W>::count(const LazyGraph<W>& graph) {
 
 template <World W>
 RawVector<VertexId> LazyPlan<W>::search_expanding() {
-  const StageTimer timer(execution_, "search", solution_.seconds.search);
+  const StageTimer timer(execution_, "expansion", solution_.seconds.search);
   free_edges_.assign(end_edges_.begin(), end_edges_.end());
   const bool fits = never_overestimates(options_.heuristic);
   if (states_.size() >= fewest_for_both_ends && fits) return search_from_both_ends();
@@ -263,7 +276,7 @@ RawVector<VertexId> LazyPlan<W>::search_from_both_ends() {
   const SearchResult found = search_implicit_from_both_ends(
       {AnyNeighbours(ends[0].graph), AnyNeighbours(ends[1].graph)}, {start_vertex(), goal_vertex()},
       asked(VertexDistance(estimate)), {&ends[0].state, &ends[1].state});
-  solution_.counters.expanded += found.expanded;
+  Rounds<W>::count(found);
   for (const LazyEnd<W>& end : ends) {
     count(end.graph);
     free_edges_.insert(free_edges_.end(), end.edges.begin(), end.edges.end());

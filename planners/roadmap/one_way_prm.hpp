@@ -100,7 +100,7 @@ auto OneWayPlan<W>::nearest(VertexId v, const ConnectionRule& rule, Heading head
 template <World W>
 void OneWayPlan<W>::find_candidates(std::uint64_t samples) {
   constexpr std::size_t grain = 64;
-  const StageTimer timer(execution_, "connect", solution_.seconds.connect, this->milestones().size());
+  const StageTimer timer(execution_, "queries", solution_.seconds.connect, this->milestones().size());
   const ConnectionRule rule = this->rule_for(samples);
   const std::size_t begins = states_.size() - 1;  // nothing leads on from the goal
   execution_.reserve(states_.size() * sizeof(Ways));
@@ -130,7 +130,7 @@ void OneWayPlan<W>::attach_goal(const ConnectionRule& rule) {
 template <World W>
 void OneWayPlan<W>::check_all() {
   constexpr std::size_t grain = 64;
-  const StageTimer timer(execution_, "connect", solution_.seconds.connect, ways_.size());
+  const StageTimer timer(execution_, "checks", solution_.seconds.connect, ways_.size());
   std::vector<Counters> done(chunk_count(ways_.size(), grain));
   for_chunks(ways_.size(), grain, execution_, [&](Range r) {
     auto query = world_.make_query();
@@ -146,11 +146,11 @@ void OneWayPlan<W>::check_all() {
 
 template <World W>
 bool OneWayPlan<W>::search() {
-  const StageTimer timer(execution_, "search", solution_.seconds.search);
+  const StageTimer timer(execution_, "expansion", solution_.seconds.search);
   const bool best = options_.search == SearchKind::astar || options_.search == SearchKind::dijkstra;
   const SearchResult found = best ? search_best() : search_plainly();
   if (found.status == SearchStatus::stopped) execution_.check();
-  solution_.counters.expanded += found.expanded;
+  this->count(found);
   solution_.roadmap.edges = free_count();
   return this->take(found.path);
 }
@@ -160,9 +160,14 @@ SearchResult OneWayPlan<W>::search_best() {
   SearchState state;
   auto query = world_.make_query();
   Counters counters;
+  PartClock clock(execution_, 1);
   auto neighbours = [&](VertexId v, const AnyVisit& visit) {
     for (Way& way : ways_[v]) {
-      if (visit.wants(way.to, way.length) && is_free(v, way, query, counters)) visit(way.to, way.length);
+      if (!visit.wants(way.to, way.length)) continue;
+      if (lazy_) clock.begin();
+      const bool free = is_free(v, way, query, counters);
+      if (lazy_) clock.lap(StagePart::checks);
+      if (free) visit(way.to, way.length);
     }
   };
   const auto estimate = [&](VertexId v, VertexId to) { return world_.distance(states_[v], states_[to]); };

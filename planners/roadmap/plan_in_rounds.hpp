@@ -66,6 +66,12 @@ class Rounds {
     return true;
   }
 
+  void count(const SearchResult& found) {
+    solution_.counters.expanded += found.expanded;
+    solution_.counters.pushes += found.pushes;
+    solution_.counters.decreases += found.decreases;
+  }
+
   bool is_apart() const { return solution_.outcome == Outcome::not_connected && !states_.empty(); }
   void tell_separation(const Components& components) {
     solution_.separation =

@@ -72,7 +72,7 @@ template <World W>
 EdgeParts PrmPlan<W>::connect(std::uint64_t samples) {
   const StateIndex<W> index = this->index_milestones();
   const auto milestones = this->milestones();
-  const StageTimer timer(execution_, "connect", solution_.seconds.connect, milestones.size());
+  const StageTimer timer(execution_, "queries", solution_.seconds.connect, milestones.size());
   const ConnectionRule rule = this->rule_for(samples);
   EdgeParts edges = free_edges(index, rule);
   edges.push_back(
@@ -94,9 +94,10 @@ EdgeParts PrmPlan<W>::free_edges(const StateIndex<W>& index, const ConnectionRul
 
 template <World W>
 void PrmPlan<W>::assemble(const EdgeParts& edges) {
-  const StageTimer timer(execution_, "graph", solution_.seconds.graph, states_.size());
+  const StageTimer timer(execution_, "rows", solution_.seconds.graph, states_.size());
   graph_ = assemble_graph(states_.size(), edges, execution_);
   solution_.roadmap.edges = graph_.edge_count();
+  solution_.counters.row_bytes += graph_.bytes();
 }
 
 template <World W>
@@ -116,20 +117,20 @@ bool PrmPlan<W>::search() {
                             .tree = keep_ ? &tree_ : nullptr,
                             .estimate_fits = never_overestimates(heuristic)};
   {
-    const StageTimer timer(execution_, "search", solution_.seconds.search);
+    const StageTimer timer(execution_, "reduction", solution_.seconds.search, states_.size());
     reduced_ = reduced_for_search(graph_, asked);
   }
   {
-    const StageTimer timer(execution_, "graph", solution_.seconds.graph);
+    const StageTimer timer(execution_, "components", solution_.seconds.graph, states_.size());
     components_ = reduced_ ? Components() : components(graph_, execution_);
     solution_.roadmap.components = reduced_ ? reduced_->component_count() : components_.count;
   }
   solution_.outcome = Outcome::not_connected;
   if (!joined()) return false;
-  const StageTimer timer(execution_, "search", solution_.seconds.search);
+  const StageTimer timer(execution_, "expansion", solution_.seconds.search);
   const SearchResult found = reduced_ ? search_roadmap(*reduced_, asked) : search_roadmap(graph_, asked);
   reduced_.reset();
-  solution_.counters.expanded += found.expanded;
+  this->count(found);
   return this->take(found.path);
 }
 

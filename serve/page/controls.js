@@ -15,6 +15,8 @@ function asTime(ms) {
   return (time < 99.95 ? time.toPrecision(3) : grouped(time.toFixed(0))) + unit;
 }
 
+// Links of these stages, and CPU times, are in an answer, too.
+const stageSums = ["read", "generate", "index", "sample", "neighbours", "connect", "graph", "reduce", "search", "optimise", "verify"];
 const timeWords = {queue: "waiting", work: "work in all", "there and back": "with the network"};
 function showAnswer(json, times) {
   showSearch();
@@ -30,7 +32,7 @@ function showAnswer(json, times) {
     for (const [name, count] of Object.entries(json.counters)) if (count > 0) add(name.replaceAll("_", " "), count);
   }
   fillTable("figures", rows);
-  const stages = json ? Object.entries(json.stages_s).filter(([, s]) => s > 0).map(([name, s]) => [name, 1000 * s]) : [];
+  const stages = json ? Object.entries(json.stages_s).filter(([name, s]) => s > 0 && stageSums.includes(name)).map(([name, s]) => [name, 1000 * s]) : [];
   fillTable("times", [...stages, ...times].map(([name, ms]) => [timeWords[name] || name, asTime(ms)]));
   const blocked = json && json.blocked && json.blocked.free_place ? json.blocked : null;
   const move = byId("move");

@@ -86,6 +86,7 @@ struct Answer {
   Separation separation;                  ///< only for not_connected
   Counters counters;                      ///< exact, the same for any number of threads
   StageTimes seconds;                     ///< of each stage, wall-clock
+  std::vector<StageCost> costs;           ///< of each link of the chain that solve() ran, verifying included
   double solve_s = 0.0;                   ///< of the whole call, wall-clock
   std::size_t peak_memory_bytes = 0;      ///< the most that the process has held so far
   Path<Vec2> path;  ///< of the reference point in the plane, as pictures show it; a point's or disc's states

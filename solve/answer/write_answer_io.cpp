@@ -11,6 +11,7 @@
 
 #include "solve/answer/explanation_text.hpp"
 #include "solve/answer/path_hash.hpp"
+#include "solve/answer/stage_lines.hpp"
 
 namespace warren {
 namespace {
@@ -66,12 +67,19 @@ std::string counters_json(const Counters& counters) {
   json.add("expanded", counters.expanded);
   json.add("rounds", counters.rounds);
   json.add("refused", counters.refused);
+  if (counters.pushes > 0) json.add("pushes", counters.pushes);
+  if (counters.pushes > 0) json.add("decreases", counters.decreases);
+  if (counters.row_bytes > 0) json.add("row_bytes", counters.row_bytes);
   return json.closed();
 }
 
-std::string stages_json(const StageTimes& seconds) {
+std::string stages_json(const Answer& answer) {
   JsonObject stages;
-  for (const auto& [name, value] : named_stages(seconds)) stages.add(name, value);
+  for (const auto& [name, value] : named_stages(answer.seconds)) stages.add(name, value);
+  for (const StageLine& line : stage_lines(answer)) {
+    if (!is_promised_stage(line.key)) stages.add(line.key, line.wall_s);
+    stages.add(line.key + "_cpu", line.cpu_s);
+  }
   return stages.closed();
 }
 
@@ -159,7 +167,7 @@ void add_work(JsonObject& json, const Answer& answer) {
   }
   json.add_json("counters", counters_json(answer.counters));
   if (answer.explained) json.add_json("explained", explanation_json(answer));
-  json.add_json("stages_s", stages_json(answer.seconds));
+  json.add_json("stages_s", stages_json(answer));
   json.add("solve_s", answer.solve_s);
   json.add("peak_memory_bytes", std::uint64_t{answer.peak_memory_bytes});
 }

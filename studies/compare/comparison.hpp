@@ -33,6 +33,7 @@ struct ComparedRun {
   std::optional<double> raw_length = {};     ///< before the path was shortened
   std::optional<double> cost = {};           ///< in the planner's own units
   Counters counters = {};                    ///< planners only
+  std::vector<StageCost> costs = {};         ///< planners only: of each stage
   RoadmapSize roadmap = {};                  ///< planners only
   bool solved() const { return outcome == Outcome::solved; }
 };

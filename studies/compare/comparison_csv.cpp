@@ -79,6 +79,29 @@ std::string option_value(const Contender& c, const std::string& name) {
   return {};
 }
 
+/// Stages that some run had, in the order in which they are met.
+std::vector<std::string> cost_names(const Comparison& comparison) {
+  std::vector<std::string> names;
+  for (const Contender& c : comparison.contenders) {
+    for (const ComparedRun& run : c.runs) {
+      for (const StageCost& cost : run.costs) {
+        if (std::find(names.begin(), names.end(), cost.name) == names.end()) names.emplace_back(cost.name);
+      }
+    }
+  }
+  return names;
+}
+
+/// Wall-clock and CPU time of each; empty where the run had no such stage.
+void add_costs(std::vector<std::string>& fields, const ComparedRun& run, const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    const auto found = std::find_if(run.costs.begin(), run.costs.end(), [&](const auto& c) { return c.name == name; });
+    const bool is_there = found != run.costs.end();
+    fields.push_back(is_there ? fmt::format("{}", found->wall_s) : "");
+    fields.push_back(is_there ? fmt::format("{}", found->cpu_s) : "");
+  }
+}
+
 /// What a run says for itself; what a planner counts is left empty for searches.
 std::vector<std::string> run_fields(const ComparedRun& run, bool is_planner) {
   const auto known = [](bool is_known, auto value) { return is_known ? fmt::format("{}", value) : std::string{}; };
@@ -117,6 +140,12 @@ std::string comparison_runs(const Comparison& comparison) {
         "edges_checked", "rounds", "refused",  "milestones",    "edges",    "components"}) {
     head.emplace_back(name);
   }
+  const std::vector<std::string> costs = cost_names(comparison);
+  for (std::string name : costs) {
+    std::replace(name.begin(), name.end(), ' ', '_');
+    head.push_back("stage_" + name + "_s");
+    head.push_back("stage_" + name + "_cpu_s");
+  }
   std::string text = csv_line(head);
   for (const Contender& c : comparison.contenders) {
     const ComparedProblem& problem = comparison.problems[c.problem];
@@ -126,6 +155,7 @@ std::string comparison_runs(const Comparison& comparison) {
       std::vector<std::string> fields = contender;
       const std::vector<std::string> figures = run_fields(run, problem.kind.empty());
       fields.insert(fields.end(), figures.begin(), figures.end());
+      add_costs(fields, run, costs);
       text += csv_line(fields);
     }
   }

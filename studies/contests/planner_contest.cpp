@@ -198,6 +198,7 @@ ComparedRun PlannerContest::run_once(const Turn& turn) {
   run.raw_length = answer.raw_length;
   run.cost = answer.cost;
   run.counters = answer.counters;
+  run.costs = answer.costs;
   run.roadmap = answer.roadmap;
   return run;
 }

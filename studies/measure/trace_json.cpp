@@ -27,9 +27,10 @@ std::string trace_json(const Trace& trace) {
     const std::int64_t end_ns = std::llround(1e3 * (event.begin_us + event.duration_us));
     fmt::format_to(std::back_inserter(text),
                    ",\n"
-                   R"({{"name":"{}","cat":"{}","ph":"X","ts":{:.3f},"dur":{:.3f},"pid":1,"tid":{}}})",
+                   R"({{"name":"{}","cat":"{}","ph":"X","ts":{:.3f},"dur":{:.3f},"pid":1,"tid":{}{}}})",
                    event.name, event.is_stage ? "stage" : "chunk", 1e-3 * static_cast<double>(begin_ns),
-                   1e-3 * static_cast<double>(end_ns - begin_ns), event.thread);
+                   1e-3 * static_cast<double>(end_ns - begin_ns), event.thread,
+                   event.items > 0 ? fmt::format(R"(,"args":{{"items":{}}})", event.items) : "");
   }
   return text + "\n]}\n";
 }

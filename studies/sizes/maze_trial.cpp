@@ -3,6 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "parallel/stage_account.hpp"
+#include "solve/answer/stage_lines.hpp"
 #include "solve/answer/write_answer_io.hpp"
 #include "solve/mazes/solve_streamed.hpp"
 #include "solve/mazes/solve_walls.hpp"
@@ -28,6 +30,8 @@ MazeTrial solve_trial(const Scene& scene, const MazeOptions& maze, const Questio
   const Deadline deadline(execution.deadline, budget_s);
   Execution within = execution;
   within.deadline = &deadline;
+  StageAccount account;
+  within.account = &account;
   const Answer answer = is_unmade(scene) ? solve_streamed(scene, problem, planner, within)
                                          : solve_walls(scene, problem, planner, within, nullptr);
   const auto reason = answer.outcome == Outcome::stopped ? answer.stop_reason : std::nullopt;
@@ -47,6 +51,7 @@ MazeTrial solve_trial(const Scene& scene, const MazeOptions& maze, const Questio
           .generate_s = 0.0,
           .solve_s = answer.solve_s,
           .seconds = answer.seconds,
+          .costs = account.costs(),
           .peak_memory_bytes = peak_resident_bytes()};
 }
 
@@ -62,6 +67,10 @@ std::string_view verdict_of(const MazeTrial& trial) {
 nlohmann::ordered_json trial_json(const MazeTrial& trial) {
   nlohmann::ordered_json stages = nlohmann::ordered_json::object();
   for (const auto& [name, seconds] : named_stages(trial.seconds)) stages[name] = seconds;
+  for (const StageCost& cost : trial.costs) {
+    if (!is_promised_stage(cost.name)) stages[cost.name] = cost.wall_s;
+    stages[std::string(cost.name) + "_cpu"] = cost.cpu_s;
+  }
   nlohmann::ordered_json json{{"rows", trial.rows},         {"cols", trial.cols},
                               {"threads", trial.threads},   {"planner", trial.planner},
                               {"sampler", trial.sampler},   {"seed", trial.seed},

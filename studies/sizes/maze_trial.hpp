@@ -7,6 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/base/counters.hpp"
 #include "core/base/solution.hpp"
@@ -35,6 +36,7 @@ struct MazeTrial {
   double generate_s = 0.0;
   double solve_s = 0.0;
   StageTimes seconds;
+  std::vector<StageCost> costs;       ///< of each link
   std::size_t peak_memory_bytes = 0;  ///< from walls in memory on, walls included
 
   double cells() const { return static_cast<double>(rows) * static_cast<double>(cols); }

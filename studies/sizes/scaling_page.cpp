@@ -201,6 +201,18 @@ TextTable table_of(std::span<const ScalingRow> rows) {
   return table;
 }
 
+/// A line each, for they are many.
+TextTable gains_of(const ScalingResult& result) {
+  TextTable table{{"planner", "size", "threads", "pairs", "gain", "arithmetic", "quiet pairs", "quiet gain"}, 1, {}};
+  for (const ThreadGain& gain : thread_gains(result, this_machine().cores)) {
+    table.rows.push_back({planner_text(gain.first), size_text(gain.first), std::to_string(gain.first.threads),
+                          std::to_string(gain.pairs), fmt::format("{:.2f}", gain.gain),
+                          fmt::format("{:.2f}", gain.arithmetic), std::to_string(gain.quiet_pairs),
+                          gain.quiet_gain ? fmt::format("{:.2f}", *gain.quiet_gain) : ""});
+  }
+  return table;
+}
+
 /// What the fastest run of each row cost beside its time.
 TextTable counts_of(const ScalingResult& result, std::span<const ScalingRow> rows) {
   TextTable table{{"planner", "size", "threads", "CPU", "page faults", "switched away"}, 1, {}};
@@ -234,9 +246,11 @@ std::string scaling_page(const ScalingResult& result, const std::string& command
     page.notes.emplace_back("No run was solved.");
     return page.html();
   }
-  for (const ThreadGain& gain : thread_gains(result, this_machine().cores)) page.notes.push_back(text_of(gain) + ".");
   for (const Plot& plot : plots_of(rows)) page.plots.push_back(sheet_of(plot).svg());
-  page.tables = {{"Runs", table_of(rows)}, {"Counts of the fastest runs", counts_of(result, rows)}};
+  page.tables = {{"Runs", table_of(rows)},
+                 {"Exponents of time against cells", exponent_table(rows)},
+                 {"What threads gain, and what arithmetic alone gained in the same moments", gains_of(result)},
+                 {"Counts of the fastest runs", counts_of(result, rows)}};
   if (!result.no_hardware_counts.empty()) {
     page.remarks.push_back(fmt::format("The processor's own counters are not to be had here (perf_event_open: {}).",
                                        result.no_hardware_counts));

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -68,6 +69,30 @@ std::string unsolved_text(const ScalingResult& result) {
 
 }  // namespace
 
+TextTable exponent_table(std::span<const ScalingRow> rows) {
+  std::map<std::string, std::vector<ScalingRow>> contenders;
+  for (const ScalingRow& row : rows) {
+    const MazeTrial& t = row.fastest;
+    contenders[fmt::format("{}, {}", planner_text(t), counted(t.threads, "thread", "threads"))].push_back(row);
+  }
+  TextTable table{{"contender"}, 1, {}};
+  std::vector<std::string> stages = stage_names();
+  for (std::string& link : link_names()) stages.push_back(std::move(link));
+  stages.emplace_back("solve");
+  table.head.insert(table.head.end(), stages.begin(), stages.end());
+  for (const auto& [name, own] : contenders) {
+    std::map<std::string, double> exponents;
+    for (const auto& [stage, exponent] : stage_exponents(own)) exponents[stage] = exponent;
+    if (exponents.empty()) continue;
+    table.rows.push_back({name});
+    for (const std::string& stage : stages) {
+      const auto found = exponents.find(stage);
+      table.rows.back().push_back(found == exponents.end() ? "" : fmt::format("{:.2f}", found->second));
+    }
+  }
+  return table;
+}
+
 std::string noise_text(std::span<const ScalingRow> rows) {
   std::vector<double> spreads;
   for (const ScalingRow& row : rows) {
@@ -87,14 +112,13 @@ std::string scaling_summary(const ScalingResult& result, const Palette& palette)
   text += '\n';
   for (const ScalingRow& row : rows) text += table_line(row);
   text += unsolved_text(result);
-  std::string exponents;
-  for (const auto& [stage, exponent] : stage_exponents(rows)) {
-    exponents += fmt::format("{}{} {:.2f}", exponents.empty() ? "" : ", ", stage, exponent);
-  }
   const auto line = [&](std::string_view name, const std::string& what) {
     text += fmt::format("{}{}\n", palette.faint(fmt::format("{:<11}", name)), what);
   };
-  if (!exponents.empty()) line("exponents", exponents + " (of least times against cells)");
+  if (const TextTable exponents = exponent_table(rows); !exponents.rows.empty()) {
+    line("exponents", "of least times against cells");
+    text += exponents.text(palette);
+  }
   for (const ThreadGain& gain : thread_gains(result, this_machine().cores)) line("threads", text_of(gain));
   line("noise", noise_text(rows));
   line("machine", text_of(this_machine()));
@@ -141,6 +165,15 @@ std::string scaling_json(const ScalingOptions& options, const ScalingResult& res
   json["thread_gains"] = Json::array();
   for (const ThreadGain& gain : thread_gains(result, machine.cores)) json["thread_gains"].push_back(gain_json(gain));
   json["exponents"] = exponents_json(rows);
+  json["contender_exponents"] = Json::array();
+  const TextTable table = exponent_table(rows);
+  for (const std::vector<std::string>& row : table.rows) {
+    Json entry{{"contender", row[0]}};
+    for (std::size_t i = 1; i < row.size(); ++i) {
+      if (!row[i].empty()) entry[table.head[i]] = std::stod(row[i]);
+    }
+    json["contender_exponents"].push_back(std::move(entry));
+  }
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -150,6 +183,7 @@ std::string scaling_csv(const ScalingResult& result) {
   for (const std::string& stage : stages) text += "," + stage + "_s";
   text += ",generate_s,length,peak_memory_bytes,cpu_s,page_faults,involuntary_switches";
   for (const std::string_view name : RunCounts::hardware_names) text += fmt::format(",{}", name);
+  for (const std::string& link : link_names()) text += "," + link + "_s";
   text += '\n';
   for (const ScalingRun& run : result.runs) {
     const MazeTrial& t = run.trial;
@@ -162,6 +196,7 @@ std::string scaling_csv(const ScalingResult& result) {
       const auto count = run.counts.hardware_count(name);
       text += count ? fmt::format(",{:.0f}", *count) : ",";
     }
+    for (const std::string& link : link_names()) text += fmt::format(",{}", seconds_of(t, link));
     text += '\n';
   }
   return text;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "scenes/text/palette.hpp"
+#include "studies/measure/text_table.hpp"
 #include "studies/sizes/scaling_study.hpp"
 
 namespace warren::studies {
@@ -16,6 +17,9 @@ std::string scaling_csv(const ScalingResult& result);
 
 /// "repeats of one maze differ by 3 % in the median, by 12 % at most"
 std::string noise_text(std::span<const ScalingRow> rows);
+
+/// A line a contender and number of threads, a column a stage: exponents of its least times against cells.
+TextTable exponent_table(std::span<const ScalingRow> rows);
 
 /// A self-contained HTML page (scaling_page.cpp): plots drawn in it, no script, nothing loaded from anywhere.
 std::string scaling_page(const ScalingResult& result, const std::string& command_line);

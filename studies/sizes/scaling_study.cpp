@@ -112,16 +112,27 @@ void take_least(StageTimes& least, const StageTimes& other) {
   }
 }
 
+/// Each link's.
+void take_least(std::vector<StageCost>& least, const std::vector<StageCost>& other) {
+  for (StageCost& cost : least) {
+    for (const StageCost& o : other) {
+      if (std::string_view(o.name) == cost.name) cost.wall_s = std::min(cost.wall_s, o.wall_s);
+    }
+  }
+}
+
 ScalingRow row_of(const std::vector<const ScalingRun*>& runs) {
   ScalingRow row;
   row.runs = runs.size();
   std::vector<double> seconds;
   std::map<std::uint64_t, std::pair<double, double>> extremes;  // by seed
   StageTimes least = runs.front()->trial.seconds;
+  std::vector<StageCost> least_costs = runs.front()->trial.costs;
   for (const ScalingRun* run : runs) {
     const MazeTrial* t = &run->trial;
     seconds.push_back(t->solve_s);
     take_least(least, t->seconds);
+    take_least(least_costs, t->costs);
     row.peak_memory_bytes = std::max(row.peak_memory_bytes, t->peak_memory_bytes);
     auto& [low, high] = extremes.try_emplace(t->seed, t->solve_s, t->solve_s).first->second;
     low = std::min(low, t->solve_s);
@@ -133,6 +144,7 @@ ScalingRow row_of(const std::vector<const ScalingRun*>& runs) {
       runs.begin(), runs.end(), [](const auto* a, const auto* b) { return a->trial.solve_s < b->trial.solve_s; });
   row.fastest = fastest.trial;
   row.fastest.seconds = least;
+  row.fastest.costs = std::move(least_costs);
   row.counts = fastest.counts;
   return row;
 }
@@ -202,6 +214,7 @@ std::optional<double> common_exponent(std::span<const std::vector<Vec2>> groups)
 std::vector<std::pair<std::string, double>> stage_exponents(std::span<const ScalingRow> rows) {
   constexpr double least_s = 20e-6;
   std::vector<std::string> stages = stage_names();
+  for (std::string& link : link_names()) stages.push_back(std::move(link));
   stages.emplace_back("solve");
   std::vector<std::pair<std::string, double>> exponents;
   for (const std::string& stage : stages) {
@@ -225,10 +238,15 @@ std::vector<std::string> stage_names() {
   return names;
 }
 
+std::vector<std::string> link_names() { return {"queries", "checks", "rows", "components", "reduction", "expansion"}; }
+
 double seconds_of(const MazeTrial& trial, std::string_view stage) {
   if (stage == "solve") return trial.solve_s;
   for (const auto& [name, seconds] : named_stages(trial.seconds)) {
     if (stage == name) return seconds;
+  }
+  for (const StageCost& cost : trial.costs) {
+    if (stage == cost.name) return cost.wall_s;
   }
   return 0.0;
 }

@@ -75,7 +75,9 @@ std::vector<std::pair<std::string, double>> stage_exponents(std::span<const Scal
 
 /// Names of all stages, in the order of the work.
 std::vector<std::string> stage_names();
-/// The seconds of one stage, or of "solve".
+/// Of the links of the chain that these stages are sums of.
+std::vector<std::string> link_names();
+/// The seconds of one stage, of one link, or of "solve".
 double seconds_of(const MazeTrial& trial, std::string_view stage);
 
 }  // namespace warren::studies

@@ -76,7 +76,7 @@ VOLATILE = [
     (re.compile(r'"(solve_s|generate_s|peak_memory_bytes|threads|seconds|[a-z_]*_s|cells_per_s)": (' + NUMBER + r'|null)'), r'"\1": 0'),
     (re.compile(r'\d[\d.,\u202f ]* ?(ns|us|µs|ms|s|min|KiB|MiB|GiB|B)\b'), 'T'),
     (re.compile(r'-?\d+(\.\d+)?e-\d+|-?0\.00\d+'), 'small'),
-    (re.compile(r'^(  stages|  solve|  memory).*$', re.M), ''),
+    (re.compile(r'^(  stages|  chain|  solve|  memory| {16}).*$', re.M), ''),
 ]
 
 

@@ -25,7 +25,7 @@ def stage_of(output):
         stages = json.loads(output)["stages_s"]
     except (ValueError, KeyError):
         return "(no partial figures)"
-    used = [name for name, seconds in stages.items() if seconds > 0.0]
+    used = [name for name, seconds in stages.items() if seconds > 0.0 and not name.endswith("_cpu")]
     return used[-1] if used else "(before the first stage)"
 
 

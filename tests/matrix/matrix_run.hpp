@@ -59,6 +59,7 @@ class Matrix : public testing::TestWithParam<MatrixWorld> {
   void ask_pipelines(std::vector<std::string> arguments, const ProgramAnswer& usual);
   void ask_kept_roadmap(const MatrixBody& body, const std::string& planner, bool is_kept);
   void ask_estimate(const MatrixBody& body, const std::string& planner);
+  void ask_index(const MatrixBody& body, const std::string& planner, bool chooses);
   void ask_judges(const MatrixBody& body, const std::string& planner, const ProgramAnswer& answer);
   void ask_all_at_once(const MatrixBody& body, const BodyColumn& column);
   void ask_in_vain(const MatrixBody& body);

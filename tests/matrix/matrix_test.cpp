@@ -166,6 +166,27 @@ void Matrix::ask_estimate(const MatrixBody& body, const std::string& planner) {
   if (answer.status == "solved") ask_judges(body, planner, answer);
 }
 
+/// What finds neighbours changes no path. One field in four, drawn by its name.
+void Matrix::ask_index(const MatrixBody& body, const std::string& planner, bool chooses) {
+  const std::string name = world().name + "/" + body.name + "/" + planner + "/index";
+  if (!is_drawn(name) || hash_of(name) % 4 != 0) return;
+  std::vector<std::string> words{"solve", world_file(), "--planner", planner};
+  for (const std::string& word : question_of(body, !keeps_angle(planner))) words.push_back(word);
+  if (chooses) words.insert(words.end(), {"--samples", "200", "--json", folder_.path("answer.json")});
+  words.insert(words.end(), {"--neighbour-index", "kd-tree"});
+  if (!chooses) return expect_refusal(words, "--neighbour-index");
+  SCOPED_TRACE(shown(words));
+  std::vector<ProgramAnswer> answers;
+  for (const char* index : {"auto", "kd-tree", "grid", "brute"}) {
+    words.back() = index;
+    const Outcome outcome = ask(words);
+    ASSERT_LE(outcome.code, 1) << outcome.err;
+    answers.push_back(read_program_answer(folder_.read("answer.json")));
+    EXPECT_EQ(answers.back().status, answers.front().status) << index;
+    EXPECT_EQ(answers.back().path, answers.front().path) << index;
+  }
+}
+
 /// The program's judge, and the matrix's own.
 void Matrix::ask_judges(const MatrixBody& body, const std::string& planner, const ProgramAnswer& answer) {
   const Outcome verdict = ask({"verify", world_file(), folder_.path("answer.json")});
@@ -239,6 +260,7 @@ void Matrix::ask_everything() {
       ask_planner(body, planner, field, true);
       if (field != nullptr) ask_kept_roadmap(body, planner.name, field->is_kept);
       if (field != nullptr) ask_estimate(body, planner.name);
+      if (field != nullptr) ask_index(body, planner.name, field->chooses_index);
     }
     if (!world().is_strange) ask_all_at_once(body, *column);
   }

@@ -36,11 +36,12 @@ PlannerField field_of(std::istringstream& rest) {
   std::string mark;
   PlannerField field;
   rest >> mark >> std::ws;
-  if (mark.size() != 2 || mark.find_first_not_of("+-") != std::string::npos) {
-    throw std::runtime_error("planners.table: a field needs two of + and -");
+  if (mark.size() != 3 || mark.find_first_not_of("+-") != std::string::npos) {
+    throw std::runtime_error("planners.table: a field needs three of + and -");
   }
   field.optimises = mark[0] == '+';
   field.is_kept = mark[1] == '+';
+  field.chooses_index = mark[2] == '+';
   std::getline(rest, field.words);
   return field;
 }

@@ -19,9 +19,10 @@ struct BodyColumn {
 
 /// A planner that solves a column's problems.
 struct PlannerField {
-  bool optimises = false;  ///< takes --optimise
-  bool is_kept = false;    ///< its roadmap is built without a question
-  std::string words;       ///< "yes", "yes; usual", ...
+  bool optimises = false;      ///< takes --optimise
+  bool is_kept = false;        ///< its roadmap is built without a question
+  bool chooses_index = false;  ///< takes --neighbour-index
+  std::string words;           ///< "yes", "yes; usual", ...
 };
 
 struct PlannerRow {

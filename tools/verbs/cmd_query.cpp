@@ -164,13 +164,16 @@ Command query_command() {
   Command command{"query", "ROADMAP", "ask a roadmap for a path, or for many", {}, query_roadmap};
   add_options(command.options, query_specs);
   constexpr std::string_view fixed = "the roadmap was built with its own; another one takes `warren build`";
+  const Command build = build_command();  // knows what it refuses itself, and why
   for (const OptionSpec& spec : solve_option_specs()) {
     constexpr std::string_view asked[] = {"--search",       "--queue",  "--optimise", "--cusp-cost",
                                           "--reverse-cost", "--attach", "--heuristic"};
     if (std::find(std::begin(asked), std::end(asked), spec.name) != std::end(asked)) {
       command.options.push_back(spec);
     } else {
-      command.foreign.emplace_back(spec.name, fixed);
+      const auto refused = std::find_if(build.foreign.begin(), build.foreign.end(),
+                                        [&](const auto& option) { return option.first == spec.name; });
+      command.foreign.emplace_back(spec.name, refused != build.foreign.end() ? refused->second : fixed);
     }
   }
   for (const std::string_view name : {"--robot", "--clearance", "--contact"}) command.foreign.emplace_back(name, fixed);

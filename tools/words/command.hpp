@@ -60,6 +60,7 @@ Command generate_command();
 Command help_command();
 Command info_command();
 Command largest_command();
+Command profile_command();
 Command man_command();
 Command query_command();
 Command render_command();

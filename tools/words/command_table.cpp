@@ -10,10 +10,10 @@ namespace warren::tools {
 
 const std::vector<Command>& command_table() {
   static const std::vector<Command> table{
-      solve_command(),      verify_command(), render_command(),  compare_command(),   build_command(),
-      query_command(),      update_command(), export_command(),  serve_command(),     example_command(),
-      generate_command(),   info_command(),   convert_command(), largest_command(),   scale_command(),
-      bench_scen_command(), help_command(),   man_command(),     completion_command()};
+      solve_command(),    verify_command(),     render_command(),  compare_command(), build_command(),
+      query_command(),    update_command(),     export_command(),  serve_command(),   example_command(),
+      generate_command(), info_command(),       convert_command(), largest_command(), scale_command(),
+      profile_command(),  bench_scen_command(), help_command(),    man_command(),     completion_command()};
   return table;
 }
 

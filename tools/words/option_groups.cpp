@@ -41,7 +41,7 @@ constexpr NamedGroup command_groups[] = {
     {"Roadmaps that are kept", "build query update export"},
     {"In the browser", "serve"},
     {"Worlds", "example generate info convert"},
-    {"Measuring", "largest scale bench-scen"},
+    {"Measuring", "profile largest scale bench-scen"},
     {"Words", "help man completion"},
 };
 

@@ -49,5 +49,16 @@ TEST(NeighbourIndex, OfOtherBodiesAndKeptRoadmapsThereIsOne) {
   EXPECT_NE(kept.err.find("--neighbour-index"), std::string::npos) << kept.err;
 }
 
+TEST(NeighbourIndex, QueryDoesNotSendToBuildWhatBuildRefuses) {
+  for (const auto& [option, value] :
+       {std::pair{"--neighbour-index", "grid"}, {"--pipeline", "plain"}, {"--step", "1"}}) {
+    const auto build = run({"build", "maze:5x5", option, value, "-o", "/dev/null"});
+    const auto query = run({"query", "none.roadmap", option, value});
+    EXPECT_EQ(query.code, 2);
+    EXPECT_EQ(query.err.substr(0, query.err.find(" (see")), build.err.substr(0, build.err.find(" (see")));
+  }
+  EXPECT_NE(run({"query", "none.roadmap", "--samples", "9"}).err.find("warren build"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace warren
