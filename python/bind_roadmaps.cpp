@@ -18,7 +18,7 @@
 #include "solve/roadmaps/blocked_end_of_roadmap.hpp"
 #include "solve/roadmaps/export_of_roadmap.hpp"
 #include "solve/roadmaps/roadmap_file_io.hpp"
-#include "solve/steps/explain_answer.hpp"
+#include "solve/explain/explain_answer.hpp"
 #include "solve/steps/heuristic_price.hpp"
 #include "tools/words/option_values.hpp"
 #include "tools/words/planner_words.hpp"

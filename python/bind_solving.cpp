@@ -10,7 +10,7 @@
 #include "solve/answer/explanation_text.hpp"
 #include "solve/solve.hpp"
 #include "solve/steps/blocked_end.hpp"
-#include "solve/steps/explain_answer.hpp"
+#include "solve/explain/explain_answer.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 #include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"

@@ -10,7 +10,7 @@
 #include "solve/roadmaps/walls_let_go.hpp"
 #include "solve/solve.hpp"
 #include "solve/steps/blocked_end.hpp"
-#include "solve/steps/explain_answer.hpp"
+#include "solve/explain/explain_answer.hpp"
 
 namespace warren::serve {
 namespace {

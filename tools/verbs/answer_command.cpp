@@ -15,7 +15,7 @@
 #include "solve/answer/explanation_text.hpp"
 #include "solve/answer/write_answer_io.hpp"
 #include "solve/roadmaps/roadmap_file_io.hpp"
-#include "solve/steps/explain_answer.hpp"
+#include "solve/explain/explain_answer.hpp"
 #include "solve/steps/solve_steps.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_names.hpp"

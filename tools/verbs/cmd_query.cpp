@@ -16,7 +16,7 @@
 #include "solve/batches/ask_matrix_io.hpp"
 #include "solve/roadmaps/blocked_end_of_roadmap.hpp"
 #include "solve/roadmaps/roadmap_file_io.hpp"
-#include "solve/steps/explain_answer.hpp"
+#include "solve/explain/explain_answer.hpp"
 #include "solve/steps/heuristic_price.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_names.hpp"

@@ -14,7 +14,7 @@
 #include "solve/solve.hpp"
 #include "solve/solve_and_keep.hpp"
 #include "solve/steps/blocked_end.hpp"
-#include "solve/steps/explain_answer.hpp"
+#include "solve/explain/explain_answer.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 #include "tools/screen/output_conflicts.hpp"
 #include "tools/screen/world_files.hpp"

@@ -15,7 +15,7 @@
 #include "solve/answer/read_answer_io.hpp"
 #include "solve/answer/write_answer_io.hpp"
 #include "solve/solve.hpp"
-#include "solve/steps/explain_answer.hpp"
+#include "solve/explain/explain_answer.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_conflicts.hpp"
 #include "tools/screen/output_names.hpp"

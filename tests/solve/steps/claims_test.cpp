@@ -14,7 +14,7 @@
 #include "core/base/rng.hpp"
 #include "scenes/formats/read_world_io.hpp"
 #include "solve/solve.hpp"
-#include "solve/steps/hints.hpp"
+#include "solve/explain/hints.hpp"
 #include "solve/steps/settled_ends.hpp"
 #include "tests/paths.hpp"
 #include "tests/scenes/text/temporary_directory.hpp"

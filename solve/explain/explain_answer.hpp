@@ -12,7 +12,7 @@
 #include "solve/answer/answer.hpp"
 #include "solve/answer/by_products.hpp"
 #include "solve/answer/read_answer_io.hpp"
-#include "solve/steps/hints.hpp"
+#include "solve/explain/hints.hpp"
 
 namespace warren {
 

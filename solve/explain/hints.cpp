@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solve/steps/hints.hpp"
+#include "solve/explain/hints.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,6 +11,7 @@
 
 #include "core/base/error.hpp"
 #include "solve/question/grid_choice.hpp"
+#include "solve/roadmaps/roadmap.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 
 namespace warren {

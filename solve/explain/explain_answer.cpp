@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solve/steps/explain_answer.hpp"
+#include "solve/explain/explain_answer.hpp"
 
 #include <algorithm>
 #include <cmath>
