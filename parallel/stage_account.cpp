@@ -49,10 +49,17 @@ void StageAccount::add(const char* stage, double wall_s, double cpu_s) noexcept 
   add_cost(stage, std::max(0.0, rest) * wall_s, std::max(0.0, rest) * cpu_s);
 }
 
+std::vector<StageCost> StageAccount::costs() const {
+  std::vector<StageCost> told;
+  std::for_each(costs_.begin(), costs_.begin() + count_, [&](const Cost& c) {
+    told.push_back({c.name, c.wall_s, c.cpu_s});
+  });
+  return told;
+}
+
 void StageAccount::add_cost(const char* stage, double wall_s, double cpu_s) noexcept {
   const auto end = costs_.begin() + count_;
-  const auto at =
-      std::find_if(costs_.begin(), end, [&](const StageCost& c) { return std::string_view(c.name) == stage; });
+  const auto at = std::find_if(costs_.begin(), end, [&](const Cost& c) { return std::string_view(c.name) == stage; });
   if (at == costs_.end()) return;
   if (at == end) {
     *at = {stage, 0.0, 0.0};

@@ -36,13 +36,18 @@ class StageAccount {
   /// A stage has ended: its parts get their shares, it gets the rest.
   void add(const char* stage, double wall_s, double cpu_s) noexcept;
   /// By name, in the order in which they first ended.
-  std::vector<StageCost> costs() const { return {costs_.begin(), costs_.begin() + count_}; }
+  std::vector<StageCost> costs() const;
 
  private:
   void add_cost(const char* stage, double wall_s, double cpu_s) noexcept;
 
   std::mutex mutex_;  // guards costs_, once a stage
-  std::array<StageCost, 32> costs_;
+  struct Cost {
+    const char* name = "";  // a literal
+    double wall_s = 0.0;
+    double cpu_s = 0.0;
+  };
+  std::array<Cost, 32> costs_;
   std::ptrdiff_t count_ = 0;
   std::array<std::atomic<std::uint64_t>, 2> parts_ns_{};
 };

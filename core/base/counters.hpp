@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 namespace warren {
 
@@ -54,7 +55,7 @@ struct StageTimes {
 
 /// What a stage cost in all its rounds. Where one stage has several links of a chain, each has its own.
 struct StageCost {
-  const char* name = "";  ///< a literal
+  std::string name;
   double wall_s = 0.0;
   double cpu_s = 0.0;  ///< of all threads of the process
 };
