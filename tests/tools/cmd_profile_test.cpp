@@ -41,7 +41,9 @@ TEST(Profile, ShowsEachLinkOfTheChainWithItsCount) {
       for (const Json& stage : profile["stages"]) {
         sum_s += stage["wall_s"].get<double>();
         EXPECT_TRUE(stage["one_thread_s"].is_number());
-        if (stage["name"] == "sample") EXPECT_GT(stage["count"], 0);
+        if (stage["name"] == "sample") {
+          EXPECT_GT(stage["count"], 0);
+        }
       }
       EXPECT_NEAR(sum_s, profile["solve"]["wall_s"].get<double>(), 1e-9);
     }
