@@ -44,7 +44,7 @@ unsigned thread_count(unsigned threads) {
 }
 
 StageTimer::StageTimer(const Execution& execution, const char* stage, double& seconds, std::uint64_t items)
-    : execution_(execution), stage_(stage), seconds_(seconds), items_(items) {
+    : trace_(execution.trace), account_(execution.account), stage_(stage), seconds_(seconds), items_(items) {
   if (execution.progress != nullptr) execution.progress->begin(stage, items);
   if (execution.trace != nullptr) before_ = execution.trace->enter(stage);
   if (execution.account != nullptr) {
@@ -58,10 +58,10 @@ StageTimer::~StageTimer() {
   const auto end = std::chrono::steady_clock::now();
   const double wall_s = std::chrono::duration<double>(end - begin_).count();
   seconds_ += wall_s;
-  if (execution_.account != nullptr) execution_.account->add(stage_, wall_s, process_cpu_s() - cpu_begin_s_);
-  if (execution_.trace == nullptr) return;
-  execution_.trace->enter(before_);
-  execution_.trace->record(stage_, begin_, end, true, items_);
+  if (account_ != nullptr) account_->add(stage_, wall_s, process_cpu_s() - cpu_begin_s_);
+  if (trace_ == nullptr) return;
+  trace_->enter(before_);
+  trace_->record(stage_, begin_, end, true, items_);
 }
 
 }  // namespace warren

@@ -70,14 +70,15 @@ unsigned thread_count(unsigned threads);
 /// whoever watches, records or keeps account.
 class StageTimer {
  public:
-  /// The stage begins; `items`: how many it has, 0: not known. `execution` and `seconds` outlive it.
+  /// The stage begins; `items`: how many it has, 0: not known. `seconds` and what the execution points to outlive it.
   StageTimer(const Execution& execution, const char* stage, double& seconds, std::uint64_t items = 0);
   ~StageTimer();
   StageTimer(const StageTimer&) = delete;
   StageTimer& operator=(const StageTimer&) = delete;
 
  private:
-  const Execution& execution_;
+  Trace* trace_;
+  StageAccount* account_;
   const char* stage_;
   const char* before_ = nullptr;  // the stage in which this one is, in a trace
   double& seconds_;

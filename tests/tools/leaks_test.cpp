@@ -61,6 +61,7 @@ TEST(Leaks, NoVerbLeavesMemoryBehind) {
       {{"scale", "--sizes", "5", "--repeats", "1", "--threads", "1", "--quiet", "--html", file("s.html")}, 0, ""},
       {{"bench-scen", file("m.scen")}, 0, ""},
       {{"largest", "--budget", "60s", "--max-size", "16", "--start-size", "8", "--quiet"}, 0, ""},
+      {{"profile", file("m.npy"), "--runs", "1"}, 0, ""},
       {{"help", "solve"}, 0, ""},
       {{"man"}, 0, ""},
       {{"completion", "bash"}, 0, ""},

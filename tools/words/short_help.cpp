@@ -39,7 +39,7 @@ warren serve empty:20x10 --writable # draw a world of your own
 warren compare maze:41x41 --planners prm,lazy-prm --seeds 20 # two planners
 warren compare town.scene --planners prm --samples 100,250 --picture k.svg # plots of two numbers of samples
 warren compare maze:41x41,loops=0.2 --searches dijkstra,astar # searches alone
-warren profile maze:200x200 --planner prm --sampler uniform --picture stages.svg # what each stage costs
+warren profile maze:99x99 --planner prm --picture stages.svg # what each stage costs
 warren largest --budget 1s --max-size 500 # mazes that are solved within a second each
 warren scale --sizes 50,100,200 --threads 1,2 --html scale.html # time against size and threads
 warren bench-scen arena.map.scen # beside its arena.map
