@@ -158,7 +158,7 @@ TEST(VisibilityGraph, PathsAreShortestByDefinitionAndVerifiedInDegenerateWorlds)
   }
   EXPECT_GT(solved, test::share(300, 40));
   EXPECT_GT(bent, test::share(100, 10));
-  EXPECT_GE(apart, test::share(11, 0));
+  if (test::asks_all()) EXPECT_GT(apart, 10U);
 }
 
 TEST(VisibilityGraph, GraphIsTheSameForAnyNumberOfThreads) {

@@ -89,7 +89,7 @@ TEST(LatticeRoadmap, ManyEndsBesideTheLatticeAreAskedOfAnIndexAndAnswerTheSame) 
       EXPECT_EQ(length.length, expected.length) << i;
       solved += length.outcome == Outcome::solved ? 1 : 0;
     }
-    EXPECT_GT(solved, 4);
+    EXPECT_GT(solved, test::asks_all() ? 10 : 4);
     EXPECT_LT(solved, asked);
   }
 }
