@@ -37,6 +37,7 @@ async function ask() {
   asking = true;
   await taken;  // another body, another world
   askAgain = false;
+  if (!question.start || !question.goal) return void (asking = false);  // taken away meanwhile
   const began = performance.now(), asked = JSON.stringify(bodyOf(question));
   try {
     const reply = await fetch("api/query", {method: "POST", headers: {"Content-Type": "application/json"}, body: asked});

@@ -110,11 +110,13 @@ function keepLink() {
   linkWrites.left -= 1;
   history.replaceState(null, "", linkText());
 }
+let linksTaken = 0;
 async function takeLink() {
-  const words = new URLSearchParams(location.hash.slice(1));
-  const body = ["robot", "clearance"].map(part => words.get(part) || "");
+  const words = new URLSearchParams(location.hash.slice(1)), number = ++linksTaken;
+  const body = ["robot", "clearance"].map(part => world.opened_as !== "roadmap" && words.get(part) || "");  // a roadmap's body stays
   if (body.some(word => word)) fitWhole({animate: false});  // another body is drawn where it is seen
   await takeBody(...body);
+  if (number !== linksTaken) return;  // a newer one came meanwhile
   readLink(words);
   showQuestion();
 }
@@ -147,19 +149,24 @@ async function readBody() {
   if (!await takeBody(byId("robot").value.trim(), byId("clearance-asked").value.trim())) ask();
   keepLink();
 }
+/// Leaves what somebody types.
+function fillField(id, text) {
+  const field = byId(id), isTyped = field === document.activeElement && field.value !== (field.dataset.filled || "");
+  if (!isTyped || field.value.trim() === text) field.value = field.dataset.filled = text;
+}
 /// other: what of the world is of the body that is asked; of one that can't be, nothing is drawn.
 function showBody(other) {
   Object.assign(world, other);
   byId("about").textContent = [world.description, ...(world.robot ? [world.robot] : []), ...(world.clearance > 0 ? ["clearance " + shown(world.clearance)] : [])].join(", ");
-  byId("robot").value = question.robot;
-  byId("clearance-asked").value = question.clearance;
+  fillField("robot", question.robot);
+  fillField("clearance-asked", question.clearance);
   byId("planner").replaceChildren(new Option("usual", ""), ...world.planners.map(planner => new Option(planner, planner)));
   byId("planners").hidden = world.planners.length === 0;
   if (!world.planners.includes(question.planner)) question.planner = "";
   byId("planner").value = question.planner;
   for (const end of ["start", "goal"]) {
     byId(end).placeholder = turns() ? (end === "start" ? "x, y, degrees" : "x, y, degrees or none") : "x, y";
-    if (marks[end]) showEnd(end);
+    if (marks[end]) showEnd(end, byId(end) === document.activeElement);
   }
 }
 /// The world's own ends, where it has some.
@@ -183,7 +190,12 @@ function showQuestion() {
 const quoted = word => /^[-\w.,:=/+@%]+$/.test(word) ? word : "'" + word.replaceAll("'", "'\\''") + "'";
 function commandText() {
   const words = ["warren", world.opened_as === "roadmap" && !world.changed ? "query" : "solve", world.changed ? "world.scene" : world.source];
-  if (world.opened_as === "world") words.push("--robot", world.robot || question.robot, "--clearance", String(world.clearance));
+  if (world.opened_as === "world") {  // of a body that was refused: as it was asked
+    const robot = world.robot || question.robot || byId("robot").placeholder;
+    const clearance = world.robot ? String(world.clearance) : question.clearance || byId("clearance-asked").placeholder;
+    if (robot) words.push("--robot", robot);
+    words.push("--clearance", clearance);
+  }
   words.push("--start", stateOf(question.start, question.startHeading === null ? 0 : question.startHeading).join(","));
   words.push("--goal", stateOf(question.goal, question.goalHeading).join(","));
   if (question.planner) words.push("--planner", question.planner);
