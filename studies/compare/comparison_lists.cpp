@@ -190,11 +190,13 @@ std::vector<PlotSheet> line_panels(const std::vector<Family>& families) {
   for (const std::string& option : options) {
     for (const ShownFigure& figure : figures) {
       Plot plot = plot_over(option, figure);
-      for (std::size_t i = 0; i < families.size(); ++i) {
-        if (families[i].axes.size() != 1 || families[i].axes[0] != option) continue;
-        auto series = series_of(families[i], option, figure);
+      std::size_t color = 0;  // of a family the same in each plot of the option
+      for (const Family& family : families) {
+        if (family.axes.size() != 1 || family.axes[0] != option) continue;
+        auto series = series_of(family, option, figure);
+        const std::size_t own = color++;
         if (!series) continue;
-        series->color = i;
+        series->color = own;
         plot.series.push_back(std::move(*series));
       }
       if (!plot.series.empty()) panels.push_back(sheet_of(plot));
