@@ -62,11 +62,6 @@ bool provably_apart(const OccupancyMap& map, const RobotSpec& robot, const Se2& 
   return from && to && !cells_connect(map.blocked, *from, *to, false, execution);
 }
 
-void stay(Answer& answer, const WallProblem& problem) {
-  answer.outcome = Outcome::solved;
-  answer.path = {{problem.start.x, problem.start.y}, {problem.goal.x, problem.goal.y}};
-}
-
 Path<Vec2> path_over_cells(const OccupancyMap& map, Vec2 start, std::span<const Cell> cells, Vec2 goal) {
   Path<Vec2> path{start};
   const auto step = [&](std::size_t i) {

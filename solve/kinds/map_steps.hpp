@@ -48,9 +48,6 @@ bool provably_apart(const OccupancyMap& map, const Bitmap& closed, const WallPro
 bool provably_apart(const OccupancyMap& map, const RobotSpec& robot, const Se2& start, const Se2& goal,
                     const Execution& execution);
 
-/// Of a goal that is the start, which stands free: solved, whatever the middle of its cell would say.
-void stay(Answer& answer, const WallProblem& problem);
-
 /// From the start over the middles of the cells where the path turns to the goal; each cell is a neighbour of the one
 /// before.
 Path<Vec2> path_over_cells(const OccupancyMap& map, Vec2 start, std::span<const Cell> cells, Vec2 goal);

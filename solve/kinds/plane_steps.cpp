@@ -61,6 +61,12 @@ void describe_plane_planner(Answer& answer, const SolveRequest& request, const W
   if (request.options.queue) answer.options.push_back({"queue", std::string(name_of(*request.options.queue))});
 }
 
+void stay(Answer& answer, const WallProblem& problem) {
+  answer.outcome = Outcome::solved;
+  answer.path = {problem.start, problem.goal};
+  answer.path_figures.clear();
+}
+
 PlaneObstacles indexed_obstacles(const SolveRequest& request, Answer& answer) {
   const StageTimer timer(request.execution, "index", answer.seconds.index, request.scene.polygons.size());
   return plane_obstacles(request.scene, request.execution);

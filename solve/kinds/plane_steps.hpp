@@ -32,6 +32,10 @@ bool stand_on_seams(const SolveRequest& request, const WallProblem& problem, Ans
 void describe_plane_planner(Answer& answer, const SolveRequest& request, const WallProblem& problem,
                             const SearchChoice& search);
 
+/// Of a goal that is the start, which stands free: solved without a move, whatever the planner found. Figures of its
+/// path are dropped.
+void stay(Answer& answer, const WallProblem& problem);
+
 /// The scene's obstacles for planners; the time is that of the stage `index`.
 PlaneObstacles indexed_obstacles(const SolveRequest& request, Answer& answer);
 

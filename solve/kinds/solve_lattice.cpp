@@ -413,6 +413,10 @@ class LatticeSolve {
     const bool is_report = layer_options_.kind == LayerKind::report004;  // its discs say what is blocked
     if (!is_report) answer_.outcome = settled_ends();
     if (is_blocked(answer_.outcome)) return;
+    if (!is_report && stays()) {
+      answer_.outcome = Outcome::solved;
+      return take({});  // without a move, whatever the states around it would say
+    }
     const std::vector<LayerEnd> starts = ends_at("@start", start_pose(), false);
     const std::vector<LayerEnd> goals = ends_at("@goal", goal_pose(), any_heading());
     const LayerPath path = layer_search(layers_, starts, goals, search_, request_.execution);
@@ -440,16 +444,22 @@ class LatticeSolve {
     }
   }
 
+  bool stays() const {
+    const Se2 start = start_pose();
+    const Se2 goal = goal_pose();
+    return start.position() == goal.position() && (any_heading() || start.theta == goal.theta);
+  }
+  bool is_there(const Se2& end, const Se2& state, bool any_heading) const {
+    constexpr double rounding = 1e-9;  // of a cell, and of a radian
+    return distance(end.position(), state.position()) <= rounding * layers_.cell &&
+           (any_heading || std::abs(turn_between(end.theta, state.theta)) <= rounding);
+  }
+
   /// The path begins and ends where it was asked to, on the lattice or off it.
   void take_poses(const std::vector<LayerState>& states) {
     const auto pose = [&](const LayerState& s) { return frame_.in_world(pose_of(layers_, s)); };
-    const auto is_there = [&](const Se2& end, const Se2& state, bool any_heading) {
-      constexpr double rounding = 1e-9;  // of a cell, and of a radian
-      return distance(end.position(), state.position()) <= rounding * layers_.cell &&
-             (any_heading || std::abs(turn_between(end.theta, state.theta)) <= rounding);
-    };
     Se2 goal = goal_pose();
-    if (any_heading()) goal.theta = pose(states.back()).theta;
+    if (any_heading()) goal.theta = states.empty() ? start_pose().theta : pose(states.back()).theta;
     poses_.push_back(start_pose());
     for (const LayerState& s : states) {
       const Se2 next = pose(s);

@@ -9,6 +9,7 @@
 #include "planners/grid/grid_search.hpp"
 #include "planners/shorten/shortcut.hpp"
 #include "solve/kinds/map_steps.hpp"
+#include "solve/kinds/plane_steps.hpp"
 #include "solve/question/grid_choice.hpp"
 #include "solve/steps/solve_steps.hpp"
 #include "spatial/maps/distance_field.hpp"
@@ -43,10 +44,12 @@ class CellSolve {
     const auto goal = cell_at(map_, problem_.goal);
     answer_.outcome = blocked_end(start, goal);
     if (answer_.outcome != Outcome::not_connected) return;
+    index();
+    choose_method();
     if (problem_.start == problem_.goal) {
       stay(answer_, problem_);
+      count(1, 0.0);
     } else {
-      index();
       search(cells_joined_to(problem_.start, *start), cells_joined_to(problem_.goal, *goal));
       if (answer_.outcome != Outcome::solved) return prove();
     }
@@ -106,11 +109,15 @@ class CellSolve {
     return cells;
   }
 
-  void search(const std::vector<Cell>& starts, const std::vector<Cell>& goals) {
+  void choose_method() {
     const StageTimer timer(request_.execution, "search", answer_.seconds.search);
     const bool asked = request_.options.search || grid_.diagonal == Diagonal::none;
     if (!asked && !has_diagonal_steps(blocked())) grid_.method = GridMethod::bfs;  // mazes: as short, and faster
     answer_.search = name_of(grid_.method);
+  }
+
+  void search(const std::vector<Cell>& starts, const std::vector<Cell>& goals) {
+    const StageTimer timer(request_.execution, "search", answer_.seconds.search);
     GridSearch cells(blocked());
     for (const Cell start : starts) {
       for (const Cell goal : goals) {
@@ -121,10 +128,14 @@ class CellSolve {
     }
   }
 
+  void count(std::uint64_t cells, double cost) {
+    answer_.cost = cost;
+    answer_.path_figures.push_back({"cells", cells});
+  }
+
   void take(const GridPath& path) {
     answer_.outcome = Outcome::solved;
-    answer_.cost = path.cost;
-    answer_.path_figures.push_back({"cells", std::uint64_t{path.cells.size()}});
+    count(path.cells.size(), path.cost);
     answer_.path = path_over_cells(map_, problem_.start, path.cells, problem_.goal);
   }
 

@@ -60,7 +60,8 @@ class AxisSolve {
 
  private:
   void finish() {
-    if (answer_.outcome != Outcome::solved) return settle_blocked_ends();
+    if (answer_.outcome != Outcome::solved) settle_blocked_ends();
+    if (answer_.outcome != Outcome::solved) return;
     for (const Vec2 p : answer_.path) poses_.push_back({p.x, p.y, problem_.start.theta});
     turn_at_the_goal();
     judge_turning(request_.scene, problem_, poses_, request_.execution, answer_, request_.asked.judged());
@@ -86,7 +87,18 @@ class AxisSolve {
       return turning_stands_free(request_.scene, problem_, pose, request_.execution, request_.asked.judged());
     });
     if (is_settled || is_blocked(answer_.outcome)) return;
+    if (is_there()) return stay();
     answer_.figures.push_back({"cause", std::string(at_start ? "disc_blocked_at_start" : "disc_blocked_at_goal")});
+  }
+
+  bool is_there() const {
+    const Se2 goal = problem_.goal_pose();
+    return problem_.start.position() == goal.position() &&
+           (problem_.any_heading() || problem_.start.theta == goal.theta);
+  }
+  void stay() {
+    answer_.outcome = Outcome::solved;
+    answer_.path = {problem_.start.position(), problem_.goal_pose().position()};
   }
 
   const SolveRequest& request_;

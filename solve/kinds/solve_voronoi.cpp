@@ -75,7 +75,9 @@ Answer solve_on_medial_axis(const SolveRequest& request) {
                                                                  request.execution, &plan)
                                            : plan_from_nothing(request, problem, options, answer, plan));
     settle_blocked_ends(answer, request.scene, problem, request.execution, request.asked.judged());
-    if (answer.outcome == Outcome::solved) {
+    if (problem.start == problem.goal && !is_blocked(answer.outcome) && answer.outcome != Outcome::stopped) {
+      stay(answer, problem);
+    } else if (answer.outcome == Outcome::solved) {
       answer.path_figures.push_back({"axis_length", plan.axis_length});
       answer.path_figures.push_back({"axis_clearance", plan.axis_clearance});
     }
