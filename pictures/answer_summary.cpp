@@ -72,7 +72,7 @@ void add_blocked(std::string& text, const Answer& answer, const BlockedEnd& bloc
   if (blocked.depth) line(text, palette, "depth", fmt::format("{:.3g}{} in it", *blocked.depth, metres));
   if (!blocked.free_place.empty()) {
     const std::string_view unit = blocked.free_place.size() == 6 ? " rad" : metres;
-    line(text, palette, "nearest free",
+    line(text, palette, "free place",
          fmt::format("({}), {}{} away", fmt::join(blocked.free_place, ", "), human_number(blocked.distance), unit));
   }
   if (!blocked.hint.empty()) line(text, palette, "hint", printable(blocked.hint));

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -19,6 +20,7 @@
 #include "core/base/error.hpp"
 #include "core/base/trigonometry.hpp"
 #include "core/plane/geometry.hpp"
+#include "core/plane/se2.hpp"
 #include "scenes/text/human_units.hpp"
 #include "solve/steps/blocked_arm.hpp"
 #include "solve/steps/kind_of_problem.hpp"
@@ -26,6 +28,7 @@
 #include "solve/steps/obstacles_near.hpp"
 #include "solve/steps/question_of_pose.hpp"
 #include "solve/steps/settled_ends.hpp"
+#include "spatial/maps/distance_field.hpp"
 
 namespace warren {
 namespace {
@@ -169,8 +172,8 @@ class BlockedEndSearch {
       middle_ = *somewhere;
       near_reach_ = 0.0;
       place = place_near_middle({range.first, range.farthest, 1e-3 * norm(middle_ - at())});
+      if (!place) place = rounded(*somewhere);
     }
-    if (!place) return std::nullopt;
     std::vector<double> state = state_;
     std::copy(place->begin(), place->end(), state.begin());
     return state;
@@ -235,12 +238,72 @@ class BlockedEndSearch {
                                         return is_free({p[0], p[1]}, margin_ + spare);
                                       });
   }
-  /// Where all directions miss what is free: the nearest of places all over the room, of a map of its half cells.
+  /// A free place, to few digits where it is free there, too.
+  Numbers<2> rounded(Vec2 place) {
+    const double size = this->size();
+    for (double scale = size; scale > least_spare * size; scale *= 0.1) {
+      const Vec2 near{in_few_digits(place.x, scale), in_few_digits(place.y, scale)};
+      if (is_free(near, margin_ + 0.5 * least_spare * size)) return {near.x, near.y};
+    }
+    return {place.x, place.y};
+  }
+  /// Where all directions miss what is free: the nearest of places all over; of a map first of those at the middles of
+  /// its cells. At most 20,000.
   std::optional<Vec2> free_somewhere(const Box& box) {
+    const double spare = margin_ + least_spare * size();
+    const auto first_free = [&](const std::vector<Vec2>& places) {
+      const auto found = std::find_if(places.begin(), places.end(), [&](Vec2 p) { return is_free(p, spare); });
+      return found != places.end() ? std::optional(*found) : std::nullopt;
+    };
+    if (scene_.map) {
+      if (const auto found = first_free(places_over_cells(*scene_.map, spare))) return found;
+    }
+    return first_free(places_all_over(box));
+  }
+  /// Where a disc in its middle, or else the first corner of the body, is at the middle of a cell and has its room
+  /// there: the nearest. One pass over the cells.
+  std::vector<Vec2> places_over_cells(const OccupancyMap& map, double spare) const {
+    constexpr std::size_t most = 3000;
+    const RobotSpec& robot = problem_.robot;
+    const bool is_disc = robot.outline.empty();
+    const Vec2 corner = is_disc ? Vec2{} : Rotation(state_[2])(robot.outline.front());
+    const double radius = problem_.clearance + spare + (is_disc ? robot.radius : 0.0);
+    const Bitmap blocked = blocked_for_disc(map.blocked, radius / map.cell, execution_);
+    const auto place_over = [&](std::uint64_t cell) {
+      return cell_centre(map, {static_cast<std::uint32_t>(cell % map.width()),
+                               static_cast<std::uint32_t>(cell / map.width())}) -
+             corner;
+    };
+    std::vector<std::pair<double, std::uint64_t>> nearest;  // distances and cells
+    for (std::uint32_t y = 0; y < map.height(); ++y) {
+      execution_.check();
+      for (std::uint32_t x = 0; x < map.width(); ++x) {
+        if (blocked.test(x, y)) continue;
+        const std::uint64_t cell = std::uint64_t{y} * map.width() + x;
+        nearest.emplace_back(norm(place_over(cell) - middle_), cell);
+        if (nearest.size() < 2 * most) continue;
+        std::nth_element(nearest.begin(), nearest.begin() + most, nearest.end());
+        nearest.resize(most);
+      }
+    }
+    std::sort(nearest.begin(), nearest.end());
+    nearest.resize(std::min(nearest.size(), most));
+    std::vector<Vec2> places;
+    for (const auto& [distance, cell] : nearest) places.push_back(place_over(cell));
+    return places;
+  }
+  /// Evenly over the room, the nearest first: of a map of at most 64 cells a side its half cells; among many obstacles
+  /// fewer, for each is looked at from each place.
+  std::vector<Vec2> places_all_over(const Box& box) const {
     constexpr std::uint32_t most = 128;
+    constexpr double most_looks = 2e7;
+    double obstacles = 1.0 + static_cast<double>(scene_.walls.size());
+    for (const ScenePolygon& polygon : scene_.polygons) obstacles += static_cast<double>(polygon.corners.size());
+    const double a_side = std::clamp(std::sqrt(most_looks / obstacles) - 1.0, 1.0, 0.5 * most);
     const OccupancyMap* map = scene_.map ? &*scene_.map : nullptr;
-    const std::uint32_t columns = map != nullptr ? std::min(2 * map->width(), most) : most / 2;
-    const std::uint32_t rows = map != nullptr ? std::min(2 * map->height(), most) : most / 2;
+    const auto few = static_cast<std::uint32_t>(a_side);
+    const std::uint32_t columns = map != nullptr ? std::min(2 * map->width(), most) : few;
+    const std::uint32_t rows = map != nullptr ? std::min(2 * map->height(), most) : few;
     std::vector<Vec2> places;
     for (std::uint32_t y = 0; y <= rows; ++y) {
       for (std::uint32_t x = 0; x <= columns; ++x) {
@@ -251,9 +314,7 @@ class BlockedEndSearch {
     }
     std::stable_sort(places.begin(), places.end(),
                      [this](Vec2 a, Vec2 b) { return norm(a - middle_) < norm(b - middle_); });
-    const auto found = std::find_if(places.begin(), places.end(),
-                                    [this](Vec2 p) { return is_free(p, margin_ + least_spare * size()); });
-    return found != places.end() ? std::optional(*found) : std::nullopt;
+    return places;
   }
   std::optional<double> way_out() {
     const Box box = room();
@@ -283,23 +344,23 @@ std::string numbers(const Box& box) {
                      human_number(box.max.y));
 }
 
-/// Of a map of metres, where the cell is, too, and whether anything is known of it.
+/// Of a map of metres, where the cell is, and whether anything is known of it; empty of all others.
 std::string cell_in_words(const Scene& scene, const std::string& name) {
   const auto x = number_after(name, "cell ");
-  if (!x || !scene.map || scene.map->format != MapFormat::ros) return name;
+  if (!x || !scene.map || scene.map->format != MapFormat::ros) return {};
   const OccupancyMap& map = *scene.map;
   const Cell cell{static_cast<std::uint32_t>(*x),
                   static_cast<std::uint32_t>(*number_after(std::string_view(name).substr(name.rfind(' ')), " "))};
   const Vec2 middle = cell_centre(map, cell);
   const bool is_unknown = map.unknown_count > 0 && map.unknown.test(cell.x, cell.y);
-  return fmt::format("{}{}, at {}, {} m", name, is_unknown ? " (unknown)" : "", human_number(middle.x),
+  return fmt::format("the cell is {}at {}, {} m", is_unknown ? "unknown, " : "", human_number(middle.x),
                      human_number(middle.y));
 }
 
 /// Outside of all that there is, or what the judge met.
 std::string in_the_way(const Scene& scene, const Violation& met, const BlockedEndSearch& search) {
   const bool is_outside = !search.room().contains(search.at());
-  if (!is_outside) return cell_in_words(scene, met.obstacle);
+  if (!is_outside) return met.obstacle;
   return fmt::format("outside of the {} {}",
                      scene.map      ? "map"
                      : scene.bounds ? "bounds"
@@ -351,6 +412,7 @@ void explain_blocked_end(const Scene& scene, Answer& answer, const Execution& ex
     if (answer.blocked->hint.empty() && !is_in_it && answer.blocked->needed == 0.0) {
       answer.blocked->hint = "it only touches it there, and with contact blocked what touches is not free";
     }
+    if (answer.blocked->hint.empty()) answer.blocked->hint = cell_in_words(scene, answer.blocked->by);
     if (auto place = search.free_place()) {
       answer.blocked->distance = norm(Vec2{(*place)[0], (*place)[1]} - search.at());
       answer.blocked->free_place = std::move(*place);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Why a body does not fit where it shall start or end: what is in the way by the judge's word, how far it is to a place
 // nearby where it fits, and what may have been meant. Costs one pass over the obstacles and some thousand poses among
-// those nearby: for one question, not for studies.
+// those nearby, where only a pocket far away is free up to 20,000 and a pass over a map's cells: for one question, not
+// for studies.
 #pragma once
 
 #include "parallel/execution.hpp"

@@ -79,6 +79,25 @@ TEST(BlockedEnd, NamesTheCellOfAMap) {
   EXPECT_NEAR(blocked.distance, 0.25, 0.06);
 }
 
+void expect_near(const std::vector<double>& place, Vec2 middle, double reach) {
+  ASSERT_EQ(place.size(), 2U);
+  EXPECT_NEAR(place[0], middle.x, reach);
+  EXPECT_NEAR(place[1], middle.y, reach);
+}
+
+/// A square room in what is solid else, from 0 to `side`.
+Scene room_in_the_solid(Vec2 middle, double half, double side) {
+  Scene scene;
+  scene.bounds = Box{{0, 0}, {side, side}};
+  const Vec2 low{middle.x - half, middle.y - half};
+  const Vec2 high{middle.x + half, middle.y + half};
+  for (const Box& box : {Box{{0, 0}, {side, low.y}}, Box{{0, high.y}, {side, side}}, Box{{0, 0}, {low.x, side}},
+                         Box{{high.x, 0}, {side, side}}}) {
+    scene.polygons.push_back({{box.min, {box.max.x, box.min.y}, box.max, {box.min.x, box.max.y}}});
+  }
+  return scene;
+}
+
 /// Three free cells by three of a map that is blocked else, a square room among walls: no direction need lead there.
 TEST(BlockedEnd, OffersThePlaceInAPocketFarAway) {
   for (std::uint32_t y = 3; y < 28; y += 12) {
@@ -92,16 +111,29 @@ TEST(BlockedEnd, OffersThePlaceInAPocketFarAway) {
       }
       const Question question{
           .robot = RobotSpec{.kind = RobotKind::disc, .radius = 1.2}, .start = {1.5, 29.5}, .goal = {29.5, 1.5}};
-      EXPECT_EQ(told(map, question).free_place.size(), 2U);
-      Scene scene;
-      scene.bounds = Box{{0, 0}, {31, 31}};
-      for (const Box& box : {Box{{0, 0}, {31.0, y - 1.0}}, Box{{0, y + 2.0}, {31, 31}}, Box{{0, 0}, {x - 1.0, 31.0}},
-                             Box{{x + 2.0, 0}, {31, 31}}}) {
-        scene.polygons.push_back({{box.min, {box.max.x, box.min.y}, box.max, {box.min.x, box.max.y}}});
-      }
-      EXPECT_EQ(told(scene, question).free_place.size(), 2U);
+      expect_near(told(map, question).free_place, {x + 1.5, y + 1.5}, 0.3);
+      expect_near(told(room_in_the_solid({x + 0.5, y + 0.5}, 1.5, 31), question).free_place, {x + 0.5, y + 0.5}, 0.3);
     }
   }
+}
+
+TEST(BlockedEnd, OffersTheMiddleOfARoomThatIsHardlyWiderThanTheBody) {
+  const Question question{
+      .robot = RobotSpec{.kind = RobotKind::disc, .radius = 5.0}, .start = {600, 20}, .goal = {20, 600}};
+  expect_near(told(room_in_the_solid({100, 200}, 5.05, 640), question).free_place, {100, 200}, 0.05);
+}
+
+TEST(BlockedEnd, OffersTheOnlyPocketOfALargeMap) {
+  Scene map;
+  map.map.emplace().blocked = Bitmap(1000, 1000);
+  for (std::uint32_t y = 0; y < 1000; ++y) {
+    for (std::uint32_t x = 0; x < 1000; ++x) {
+      if (x - 211 >= 5 || y - 211 >= 5) map.map->blocked.set(x, y);  // below 0 is far above 5
+    }
+  }
+  const Question question{
+      .robot = RobotSpec{.kind = RobotKind::disc, .radius = 1.0}, .start = {900.5, 900.5}, .goal = {20.5, 900.5}};
+  expect_near(told(map, question).free_place, {213.5, 213.5}, 1.5);
 }
 
 TEST(BlockedEnd, NamesTheJointAndItsLimitsAndGuessesDegrees) {

@@ -25,12 +25,12 @@ TEST(RefusalsThatHelp, TooNarrowIsToldWithTheRoomAndThePlaceInFewDigits) {
   const Folder folder;
   const std::string world = folder.write("w.scene", "bounds 0 0 10 4\nwall 5 0 5 2\nstart 1 1\ngoal 9 3\n");
   expect_said(said({"solve", world, "--robot", "disc 0.3", "--goal", "5.1,1"}),
-              {"goal blocked", "in the way is wall 0", "0.1 there, 0.3 needed", "nearest free  (5.31, 1), 0.21 away"});
+              {"goal blocked", "in the way is wall 0", "0.1 there, 0.3 needed", "free place    (5.31, 1), 0.21 away"});
   const Json blocked = answered({"solve", world, "--robot", "disc 0.3", "--goal", "5.1,1"}, 1)["blocked"];
   EXPECT_NEAR(blocked["room"].get<double>(), 0.1, 1e-9);
   EXPECT_EQ(blocked["needed"], 0.3);
   expect_said(said({"solve", world, "--start", "12,1"}),
-              {"outside of the bounds 0 0 10 4", "nearest free  (9.999, 1), 2.001 away"});
+              {"outside of the bounds 0 0 10 4", "free place    (9.999, 1), 2.001 away"});
 }
 
 TEST(RefusalsThatHelp, ArmsAreToldTheirLimitsInDegreesAndTheirReach) {
@@ -49,7 +49,7 @@ TEST(RefusalsThatHelp, HowDeepIsToldBesideTheFreePlace) {
   const Json blocked = answered({"solve", world, "--start", "4.5,2"}, 1)["blocked"];
   EXPECT_NEAR(blocked["depth"].get<double>(), 0.5, 1e-3);
   expect_said(said({"solve", world_file("puma-seed.scene"), "--goal", "-0.25,-0.4,0.05"}),
-              {"in the way is sphere 2", "depth         0.15 in it", "nearest free  ("});
+              {"in the way is sphere 2", "depth         0.15 in it", "free place    ("});
 }
 
 TEST(RefusalsThatHelp, TheEndingSaysThePicturesKind) {
@@ -84,8 +84,10 @@ TEST(RefusalsThatHelp, UnknownCellsAreToldFromOccupiedOnesAndWhereTheyAre) {
   const std::string map = folder.write(
       "m.yaml",
       "image: m.pgm\nresolution: 2\norigin: [10, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n");
-  expect_said(said({"solve", map, "--start", "11,1", "--goal", "15,3"}), {"cell 2, 1 (unknown), at 15, 3 m"});
-  expect_said(said({"solve", map, "--start", "11,1", "--goal", "15,1"}), {"cell 2, 0, at 15, 1 m"});
+  expect_said(said({"solve", map, "--start", "11,1", "--goal", "15,3"}),
+              {"in the way is cell 2, 1\n", "hint          the cell is unknown, at 15, 3 m"});
+  expect_said(said({"solve", map, "--start", "11,1", "--goal", "15,1"}),
+              {"in the way is cell 2, 0\n", "hint          the cell is at 15, 1 m"});
 }
 
 TEST(RefusalsThatHelp, AMazeThatDoesNotFitIsToldWhatTakesLess) {
