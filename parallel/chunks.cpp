@@ -43,11 +43,13 @@ class Helpers {
   /// for nobody has tried so many. The first loop says how many there will be, all cores at least: oneTBB starts
   /// threads wherever its limit is raised, also where nothing may be thrown.
   unsigned usable(unsigned threads) {
-    std::call_once(is_tried_, [&] {
-      tried_ = std::max(threads, thread_count(0));
-      const unsigned possible = has_room() ? possible_threads(tried_ - 1) : 0;
+    const std::lock_guard lock(mutex_);  // call_once ends the program where it has no memory to pass on what is thrown
+    if (tried_ == 0) {
+      const unsigned asked = std::max(threads, thread_count(0));
+      const unsigned possible = has_room() ? possible_threads(asked - 1) : 0;
       came_ = possible > 0 && make(possible) ? possible : 0;
-    });
+      tried_ = asked;
+    }
     return threads > tried_ ? 0 : std::min(threads, came_ + 1);
   }
 
@@ -101,8 +103,8 @@ class Helpers {
     return is_made;
   }
 
-  std::once_flag is_tried_;
-  unsigned tried_ = 1;
+  std::mutex mutex_;    // guards what follows
+  unsigned tried_ = 0;  // 0: not yet
   unsigned came_ = 0;
   std::optional<tbb::global_control> limit_;
 };
