@@ -112,12 +112,19 @@ TEST(Compare, PlannersWhoseAnswerNoSeedChangesRunOnce) {
 std::vector<std::string> runs_without_times(const std::string& csv) {
   std::vector<std::string> runs;
   std::istringstream lines(csv);
-  for (std::string line; std::getline(lines, line);) {
-    const std::size_t status = line.find("solved,");
-    if (status == std::string::npos) continue;
-    const std::size_t time = line.find(',', status) + 1;
-    const std::size_t length = line.find(',', line.find(',', time) + 1) + 1;
-    runs.push_back(line.substr(0, time) + line.substr(length));
+  std::string line;
+  std::getline(lines, line);
+  std::vector<bool> is_time;
+  std::istringstream head(line);
+  for (std::string name; std::getline(head, name, ',');) is_time.push_back(name.ends_with("_s"));
+  while (std::getline(lines, line)) {
+    std::istringstream cells(line);
+    std::string run;
+    std::size_t column = 0;
+    for (std::string cell; std::getline(cells, cell, ','); ++column) {
+      if (column >= is_time.size() || !is_time[column]) run += cell + ",";
+    }
+    runs.push_back(run);
   }
   return runs;
 }

@@ -101,8 +101,8 @@ TEST(ScalingPage, AStageHasOneColourInAllPlots) {
     const std::size_t plot = page.find("<title>Stages of " + planner);
     const std::size_t name = page.find(">verify", plot);
     EXPECT_LT(name, page.find("</svg>", plot));
-    const std::size_t mark = page.rfind("fill=\"#", page.rfind("<circle", name) + 60);
-    return page.substr(mark, 14);
+    const std::size_t line = page.find("stroke=\"#", page.rfind("<path", name));  // marks are hollow or filled
+    return page.substr(line, 15);
   };
   EXPECT_EQ(color_of_verify("prm lattice"), color_of_verify("lazy-prm lattice"));
 }
