@@ -73,6 +73,8 @@ class StageTimer {
   /// The stage begins; `items`: how many it has, 0: not known. `seconds` and what the execution points to outlive it.
   StageTimer(const Execution& execution, const char* stage, double& seconds, std::uint64_t items = 0);
   ~StageTimer();
+  /// So many items it had, where they are known at its end alone: for a trace.
+  void set_items(std::uint64_t items) noexcept { items_ = items; }
   StageTimer(const StageTimer&) = delete;
   StageTimer& operator=(const StageTimer&) = delete;
 

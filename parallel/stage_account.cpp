@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <new>
 #include <string_view>
 
 namespace warren {
@@ -49,12 +50,16 @@ void StageAccount::add(const char* stage, double wall_s, double cpu_s) noexcept 
   add_cost(stage, std::max(0.0, rest) * wall_s, std::max(0.0, rest) * cpu_s);
 }
 
-std::vector<StageCost> StageAccount::costs() const {
-  std::vector<StageCost> told;
-  std::for_each(costs_.begin(), costs_.begin() + count_, [&](const Cost& c) {
-    told.push_back({c.name, c.wall_s, c.cpu_s});
-  });
-  return told;
+std::vector<StageCost> StageAccount::costs() const noexcept {
+  try {
+    std::vector<StageCost> told;
+    std::for_each(costs_.begin(), costs_.begin() + count_, [&](const Cost& c) {
+      told.push_back({c.name, c.wall_s, c.cpu_s});
+    });
+    return told;
+  } catch (const std::bad_alloc&) {
+    return {};
+  }
 }
 
 void StageAccount::add_cost(const char* stage, double wall_s, double cpu_s) noexcept {
@@ -71,7 +76,8 @@ void StageAccount::add_cost(const char* stage, double wall_s, double cpu_s) noex
 
 void PartClock::take(StagePart part) {
   const auto now = Clock::now();
-  ns_[static_cast<std::size_t>(part)] += std::max(0.0, nanoseconds(now - last_) - clock_ns());
+  constexpr double least_ns = 1.0;  // what was timed is there, however coarse the clock
+  ns_[static_cast<std::size_t>(part)] += std::max(least_ns, nanoseconds(now - last_) - clock_ns());
   last_ = now;
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What stages cost, wall-clock and CPU. Where the links of a chain take turns inside one loop, clocks of every few
-// turns tell their shares (PartClock), and the stage's time is dealt out by these: two looks at the clock in 32 turns
-// cost less than a hundredth of them. CPU time is the whole process's, so that of two solves at once each counts both.
+// turns tell their shares (PartClock), and the stage's time is dealt out by these: of points every 32nd, for two looks
+// at the clock each turn would cost as much as the turn; of bodies each, whose motions take microseconds. CPU time is
+// the whole process's, so that of two solves at once each counts both.
 #pragma once
 
 #include <array>
@@ -35,8 +36,8 @@ class StageAccount {
   }
   /// A stage has ended: its parts get their shares, it gets the rest.
   void add(const char* stage, double wall_s, double cpu_s) noexcept;
-  /// By name, in the order in which they first ended.
-  std::vector<StageCost> costs() const;
+  /// By name, in the order in which they first ended; none where memory is out.
+  std::vector<StageCost> costs() const noexcept;
 
  private:
   void add_cost(const char* stage, double wall_s, double cpu_s) noexcept;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Records when each stage and each chunk ran and on which thread, for the Chrome trace format. Each thread has a list
-// of its own; one mutex guards them all and is held for each append, once a stage or chunk.
+// of its own; one mutex guards them all and is held for each append, once a stage or chunk. What takes turns inside of
+// a stage (checks in queries, queries in expansion; parallel/stage_account.hpp) is a part of its event and has none of
+// its own.
 #pragma once
 
 #include <atomic>
@@ -23,7 +25,7 @@ class Trace {
     double duration_us;
     std::uint32_t thread;  ///< 0 is the thread that made the trace
     bool is_stage;
-    std::uint64_t items;  ///< that were done; 0: not known
+    std::uint64_t items;  ///< that were done, of a stopped stage that were to be; 0: not known
   };
 
   Trace() : start_(Clock::now()) { lanes_.push_back({std::this_thread::get_id(), {}}); }

@@ -55,9 +55,9 @@ struct StageTimes {
 
 /// What a stage cost in all its rounds. Where one stage has several links of a chain, each has its own.
 struct StageCost {
-  std::string name;
-  double wall_s = 0.0;
-  double cpu_s = 0.0;  ///< of all threads of the process
+  std::string name;     ///< of the link
+  double wall_s = 0.0;  ///< by the clock
+  double cpu_s = 0.0;   ///< of all threads of the process
 };
 
 }  // namespace warren

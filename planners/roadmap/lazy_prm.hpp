@@ -56,7 +56,7 @@ class LazyGraph {
         end_edges_(end_edges),
         execution_(&execution),
         query_(world.make_query()),
-        clock_(execution, expansions_per_clock) {}
+        clock_(execution, detail::bunches_per_clock<W>) {}
 
   /// Leaves milestones of dead ends unexpanded where nothing depends on them. Radius rule, in the plane.
   void leave_out(const DeadEnds& dead_ends) {
@@ -86,7 +86,6 @@ class LazyGraph {
 
  private:
   static constexpr std::uint64_t checks_per_poll = 64;
-  static constexpr std::uint32_t expansions_per_clock = 32;
 
   /// What helps is put to the world bunch by bunch: that v is joined to one neighbour does not change what it is to
   /// another.
@@ -175,7 +174,7 @@ class LazyPlan : public Rounds<W> {
     this->draw(samples);
     index_ = this->index_milestones();
     rule_ = this->rule_for(samples);
-    attach_ends();
+    join();
     return this->take(search_expanding());
   }
   void finish(PlannedRoadmap<State>* keep);
@@ -190,8 +189,9 @@ class LazyPlan : public Rounds<W> {
   using Rounds<W>::goal_vertex;
   using Rounds<W>::milestones;
 
-  void attach_ends();
+  void join();
   RawVector<VertexId> search_expanding();
+  RawVector<VertexId> search_from_start();
   RawVector<VertexId> search_from_both_ends();
   DeadEnds find_dead_ends() const;
   SearchResult expand_from(VertexId from, VertexId to, SearchState& state, std::vector<Edge>* record);
@@ -214,15 +214,14 @@ class LazyPlan : public Rounds<W> {
 };
 
 template <World W>
-void LazyPlan<W>::attach_ends() {
+void LazyPlan<W>::join() {
   candidates_ = Graph();
+  end_edges_ = this->attach_ends(index_, rule_);
+  solution_.roadmap.edges = end_edges_.size();
+  if (rule_.neighbours == 0) return;
   EdgeParts parts;
   {
-    const StageTimer timer(execution_, "queries", solution_.seconds.connect);
-    end_edges_ =
-        attach_start_and_goal(world_, milestones(), index_, rule_, this->start_, this->goal_, solution_.counters);
-    solution_.roadmap.edges = end_edges_.size();
-    if (rule_.neighbours == 0) return;
+    const StageTimer timer(execution_, "queries", solution_.seconds.connect, milestones().size());
     parts = candidate_edges(world_, milestones(), index_, rule_, execution_, solution_.counters);
   }
   const StageTimer timer(execution_, "rows", solution_.seconds.connect, states_.size());
@@ -250,15 +249,23 @@ void LazyPlan<W>::count(const LazyGraph<W>& graph) {
 
 template <World W>
 RawVector<VertexId> LazyPlan<W>::search_expanding() {
-  const StageTimer timer(execution_, "expansion", solution_.seconds.search);
+  StageTimer timer(execution_, "expansion", solution_.seconds.search);
+  const std::uint64_t before = solution_.counters.expanded;
   free_edges_.assign(end_edges_.begin(), end_edges_.end());
   const bool fits = never_overestimates(options_.heuristic);
-  if (states_.size() >= fewest_for_both_ends && fits) return search_from_both_ends();
+  const bool from_both = states_.size() >= fewest_for_both_ends && fits;
+  RawVector<VertexId> path = from_both ? search_from_both_ends() : search_from_start();
+  timer.set_items(solution_.counters.expanded - before);
+  return path;
+}
+
+template <World W>
+RawVector<VertexId> LazyPlan<W>::search_from_start() {
   execution_.reserve(states_.size() * 24);
   SearchState state;
-  const SearchResult found = expand_from(start_vertex(), goal_vertex(), state, keep_ ? &free_edges_ : nullptr);
+  SearchResult found = expand_from(start_vertex(), goal_vertex(), state, keep_ ? &free_edges_ : nullptr);
   if (keep_) tree_ = search_tree(state);
-  return found.path;
+  return std::move(found.path);
 }
 
 template <World W>

@@ -146,10 +146,12 @@ void OneWayPlan<W>::check_all() {
 
 template <World W>
 bool OneWayPlan<W>::search() {
-  const StageTimer timer(execution_, "expansion", solution_.seconds.search);
   const bool best = options_.search == SearchKind::astar || options_.search == SearchKind::dijkstra;
+  if (!best && lazy_) check_all();
+  StageTimer timer(execution_, "expansion", solution_.seconds.search);
   const SearchResult found = best ? search_best() : search_plainly();
   if (found.status == SearchStatus::stopped) execution_.check();
+  timer.set_items(found.expanded);
   this->count(found);
   solution_.roadmap.edges = free_count();
   return this->take(found.path);
@@ -160,13 +162,14 @@ SearchResult OneWayPlan<W>::search_best() {
   SearchState state;
   auto query = world_.make_query();
   Counters counters;
-  PartClock clock(execution_, 1);
+  PartClock clock(execution_, bunches_per_clock<W>);
   auto neighbours = [&](VertexId v, const AnyVisit& visit) {
     for (Way& way : ways_[v]) {
       if (!visit.wants(way.to, way.length)) continue;
-      if (lazy_) clock.begin();
+      const bool is_checked = way.state == Check::unknown;
+      if (is_checked) clock.begin();
       const bool free = is_free(v, way, query, counters);
-      if (lazy_) clock.lap(StagePart::checks);
+      if (is_checked) clock.lap(StagePart::checks);
       if (free) visit(way.to, way.length);
     }
   };
@@ -183,7 +186,6 @@ SearchResult OneWayPlan<W>::search_best() {
 /// Breadth or depth first, over the free edges.
 template <World W>
 SearchResult OneWayPlan<W>::search_plainly() {
-  if (lazy_) check_all();
   SearchState state;
   state.resize(states_.size(), [&] { execution_.check(); });
   const Graph graph = free_graph(false);

@@ -51,6 +51,11 @@ class Rounds {
     const StageTimer timer(execution_, "neighbours", solution_.seconds.neighbours, milestones().size());
     return index_of_states(world_, milestones(), execution_, options_.neighbour_index);
   }
+  /// The free edges of start and goal, whose motions are all that takes time here.
+  RawVector<Edge> attach_ends(const StateIndex<W>& index, const ConnectionRule& rule) {
+    const StageTimer timer(execution_, "checks", solution_.seconds.connect);
+    return attach_start_and_goal(world_, milestones(), index, rule, start_, goal_, solution_.counters);
+  }
   ConnectionRule rule_for(std::uint64_t samples) const { return connection_rule_for(world_, options_, samples); }
 
   std::span<const State> milestones() const { return {states_.data(), states_.size() - 2}; }

@@ -71,13 +71,14 @@ class PrmPlan : public Rounds<W> {
 template <World W>
 EdgeParts PrmPlan<W>::connect(std::uint64_t samples) {
   const StateIndex<W> index = this->index_milestones();
-  const auto milestones = this->milestones();
-  const StageTimer timer(execution_, "queries", solution_.seconds.connect, milestones.size());
   const ConnectionRule rule = this->rule_for(samples);
-  EdgeParts edges = free_edges(index, rule);
-  edges.push_back(
-      attach_start_and_goal(world_, milestones, index, rule, this->start_, this->goal_, solution_.counters));
-  steps_.reset();
+  EdgeParts edges;
+  {
+    const StageTimer timer(execution_, "queries", solution_.seconds.connect, this->milestones().size());
+    edges = free_edges(index, rule);
+    steps_.reset();
+  }
+  edges.push_back(this->attach_ends(index, rule));
   return edges;
 }
 
@@ -127,8 +128,9 @@ bool PrmPlan<W>::search() {
   }
   solution_.outcome = Outcome::not_connected;
   if (!joined()) return false;
-  const StageTimer timer(execution_, "expansion", solution_.seconds.search);
+  StageTimer timer(execution_, "expansion", solution_.seconds.search);
   const SearchResult found = reduced_ ? search_roadmap(*reduced_, asked) : search_roadmap(graph_, asked);
+  timer.set_items(found.expanded);
   reduced_.reset();
   this->count(found);
   return this->take(found.path);

@@ -80,6 +80,23 @@ TEST(PartClock, TellsTheAccountWhatSomeTurnsTookAsOfAll) {
   without.lap(StagePart::checks);
 }
 
+TEST(PartClock, WhatWasTimedIsThereHoweverShort) {
+  for (int run = 0; run < 1000; ++run) {
+    StageAccount account;
+    Execution execution;
+    execution.account = &account;
+    account.begin();
+    {
+      PartClock clock(execution, 32);
+      clock.begin();
+      clock.lap(StagePart::queries);
+      clock.lap(StagePart::checks);
+    }
+    account.add("expansion", 1e-6, 0.0);
+    ASSERT_EQ(account.costs().size(), 3U);
+  }
+}
+
 TEST(Trace, ChunksHaveTheNameOfTheirStageAndTheNumberOfItems) {
   Trace trace;
   Execution execution;
@@ -87,14 +104,17 @@ TEST(Trace, ChunksHaveTheNameOfTheirStageAndTheNumberOfItems) {
   double seconds = 0.0;
   {
     const StageTimer outer(execution, "outer", seconds, 7);
-    { const StageTimer inner(execution, "inner", seconds); }
+    {
+      StageTimer inner(execution, "inner", seconds);
+      inner.set_items(5);  // known at its end
+    }
     for_chunks(10, 10, execution, [](Range) {});
   }
   for_chunks(3, 3, execution, [](Range) {});
   std::vector<std::pair<std::string_view, std::uint64_t>> said;
   for (const Trace::Event& e : trace.events()) said.emplace_back(e.name, e.items);
   EXPECT_EQ(said, (std::vector<std::pair<std::string_view, std::uint64_t>>{
-                      {"inner", 0}, {"outer", 10}, {"outer", 7}, {"chunk", 3}}));
+                      {"inner", 5}, {"outer", 10}, {"outer", 7}, {"chunk", 3}}));
 }
 
 }  // namespace
