@@ -15,15 +15,12 @@ namespace {
 struct Link {
   std::string_view key;
   std::string_view label;
-  std::uint64_t (*count)(const Answer&);
-  std::string (*counted)(const Answer&);
+  std::uint64_t (*count)(const Answer&) = nullptr;  ///< null: nothing is counted
+  std::string (*counted)(const Answer&) = nullptr;
 };
 
-std::uint64_t nothing(const Answer&) { return 0; }
-std::string no_words(const Answer&) { return {}; }
-
 constexpr std::array links{
-    Link{"index", "index of obstacles", nothing, no_words},
+    Link{"index", "index of obstacles"},
     Link{"sample", "samples drawn", [](const Answer& a) { return a.counters.samples; },
          [](const Answer& a) { return fmt::format("samples, {} kept", grouped(a.counters.kept)); }},
     Link{"neighbours", "index built", [](const Answer& a) { return a.counters.kept; },
@@ -45,7 +42,7 @@ constexpr std::array links{
            return fmt::format("expanded, {} pushes, {} decreases", grouped(a.counters.pushes),
                               grouped(a.counters.decreases));
          }},
-    Link{"optimise", "pulled taut", nothing, no_words},
+    Link{"optimise", "pulled taut"},
     Link{"verify", "verified", path_points, [](const Answer&) { return std::string("points"); }},
 };
 constexpr std::size_t first_of_the_end = links.size() - 2;
@@ -55,19 +52,18 @@ std::size_t place_of(std::string_view key) {
   return static_cast<std::size_t>(at - links.begin());
 }
 
-}  // namespace
+bool is_sum(std::string_view key) {
+  constexpr std::array<std::string_view, 11> sums{"read",  "generate", "index",  "sample",   "neighbours", "connect",
+                                                  "graph", "reduce",   "search", "optimise", "verify"};
+  return std::find(sums.begin(), sums.end(), key) != sums.end();
+}
 
-std::vector<StageLine> stage_lines(const Answer& answer) {
+/// In the order of the work, without what was counted.
+std::vector<StageLine> plain_lines(const std::vector<StageCost>& costs) {
   std::vector<StageLine> lines;
-  for (const StageCost& cost : answer.costs) {
-    StageLine line{.key = cost.name, .label = cost.name, .wall_s = cost.wall_s, .cpu_s = cost.cpu_s, .counted = {}};
-    std::replace(line.key.begin(), line.key.end(), ' ', '_');
-    if (const std::size_t place = place_of(line.key); place < links.size()) {
-      line.label = links[place].label;
-      line.count = links[place].count(answer);
-      if (line.count > 0) line.counted = links[place].counted(answer);
-    }
-    lines.push_back(std::move(line));
+  for (const StageCost& cost : costs) {
+    lines.push_back({.key = cost.name, .label = cost.name, .wall_s = cost.wall_s, .cpu_s = cost.cpu_s, .counted = {}});
+    std::replace(lines.back().key.begin(), lines.back().key.end(), ' ', '_');
   }
   const auto rank = [](const StageLine& line) {
     const std::size_t place = place_of(line.key);
@@ -78,11 +74,29 @@ std::vector<StageLine> stage_lines(const Answer& answer) {
   return lines;
 }
 
-bool is_promised_stage(std::string_view key) {
-  constexpr std::array<std::string_view, 11> promised{"read",       "generate", "index", "sample",
-                                                      "neighbours", "connect",  "graph", "reduce",
-                                                      "search",     "optimise", "verify"};
-  return std::find(promised.begin(), promised.end(), key) != promised.end();
+}  // namespace
+
+std::vector<StageLine> stage_lines(const Answer& answer) {
+  std::vector<StageLine> lines = plain_lines(answer.costs);
+  for (StageLine& line : lines) {
+    const std::size_t place = place_of(line.key);
+    if (place == links.size()) continue;
+    const Link& link = links[place];
+    line.label = link.label;
+    if (link.count != nullptr) line.count = link.count(answer);
+    if (line.count > 0) line.counted = link.counted(answer);
+  }
+  return lines;
+}
+
+std::vector<std::pair<std::string, double>> keyed_seconds(const StageTimes& sums, const std::vector<StageCost>& costs) {
+  std::vector<std::pair<std::string, double>> keyed;
+  for (const auto& [name, seconds] : named_stages(sums)) keyed.emplace_back(name, seconds);
+  for (const StageLine& line : plain_lines(costs)) {
+    if (!is_sum(line.key)) keyed.emplace_back(line.key, line.wall_s);
+    keyed.emplace_back(line.key + "_cpu", line.cpu_s);
+  }
+  return keyed;
 }
 
 }  // namespace warren

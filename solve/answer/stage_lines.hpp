@@ -4,9 +4,8 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <string>
-#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "solve/answer/answer.hpp"
@@ -28,7 +27,7 @@ struct StageLine {
 /// In the order of the work. None of an answer that nobody kept account of: one of a kept roadmap, say.
 std::vector<StageLine> stage_lines(const Answer& answer);
 
-/// Does the key stand in stages_s for a sum that other stages are in, too?
-bool is_promised_stage(std::string_view key);
+/// The keys of stages_s: the promised sums, then what each stage has for itself, with _cpu its CPU time.
+std::vector<std::pair<std::string, double>> keyed_seconds(const StageTimes& sums, const std::vector<StageCost>& costs);
 
 }  // namespace warren

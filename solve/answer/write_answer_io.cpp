@@ -75,11 +75,7 @@ std::string counters_json(const Counters& counters) {
 
 std::string stages_json(const Answer& answer) {
   JsonObject stages;
-  for (const auto& [name, value] : named_stages(answer.seconds)) stages.add(name, value);
-  for (const StageLine& line : stage_lines(answer)) {
-    if (!is_promised_stage(line.key)) stages.add(line.key, line.wall_s);
-    stages.add(line.key + "_cpu", line.cpu_s);
-  }
+  for (const auto& [key, seconds] : keyed_seconds(answer.seconds, answer.costs)) stages.add(key, seconds);
   return stages.closed();
 }
 

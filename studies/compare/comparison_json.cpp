@@ -111,8 +111,7 @@ Json crossings_json(const Comparison& comparison) {
 
 std::string comparison_json(const Comparison& comparison) {
   Json json{{"schema", "warren.compare/1"}, {"warren_version", WARREN_VERSION}};
-  const Machine machine = this_machine();
-  json["machine"] = {{"cpu", machine.cpu}, {"cores", machine.cores}, {"memory_bytes", machine.memory_bytes}};
+  json["machine"] = machine_json(this_machine());
   if (comparison.clock_s > 0.0) json["clock_s"] = comparison.clock_s;
   if (comparison.stopped) json["stopped_by"] = name_of(*comparison.stopped);
   json["rows"] = Json::array();

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
+#include "parallel/stage_account.hpp"
 #include "pictures/plots/plot_axis.hpp"
 #include "scenes/text/human_units.hpp"
 #include "solve/solve.hpp"
@@ -18,14 +20,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The runs of one number of threads: of each stage all times.
+/// The runs of one number of threads: of each stage all times, by its key.
 struct Timed {
   std::vector<StageLine> lines;  // of the last run
-  std::vector<std::vector<double>> wall_s;
-  std::vector<std::vector<double>> cpu_s;
+  std::map<std::string, std::vector<double>> wall_s;
+  std::map<std::string, std::vector<double>> cpu_s;
 
-  /// Runs of one question have the same stages.
-  void take(const Answer& answer) {
+  void take(const Answer& answer, double solve_cpu_s) {
     lines = stage_lines(answer);
     double told_s = 0.0;
     double cpu_told_s = 0.0;
@@ -34,23 +35,23 @@ struct Timed {
       cpu_told_s += line.cpu_s;
     }
     const double rest_s = std::max(0.0, answer.solve_s - told_s);
-    lines.push_back({.key = "rest", .label = "the rest", .wall_s = rest_s, .cpu_s = rest_s, .counted = {}});
-    lines.push_back(
-        {.key = "solve", .label = "in all", .wall_s = told_s + rest_s, .cpu_s = cpu_told_s + rest_s, .counted = {}});
-    wall_s.resize(lines.size());
-    cpu_s.resize(lines.size());
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-      wall_s[i].push_back(lines[i].wall_s);
-      cpu_s[i].push_back(lines[i].cpu_s);
+    const double rest_cpu_s = std::max(0.0, solve_cpu_s - cpu_told_s);
+    lines.push_back({.key = "rest", .label = "the rest", .wall_s = rest_s, .cpu_s = rest_cpu_s, .counted = {}});
+    lines.push_back({.key = "solve",
+                     .label = "in all",
+                     .wall_s = told_s + rest_s,
+                     .cpu_s = cpu_told_s + rest_cpu_s,
+                     .counted = {}});
+    for (const StageLine& line : lines) {
+      wall_s[line.key].push_back(line.wall_s);
+      cpu_s[line.key].push_back(line.cpu_s);
     }
   }
 };
 
 std::optional<double> median_wall(const Timed& timed, const std::string& key) {
-  for (std::size_t i = 0; i < timed.lines.size(); ++i) {
-    if (timed.lines[i].key == key) return median_of(timed.wall_s[i]);
-  }
-  return std::nullopt;
+  const auto found = timed.wall_s.find(key);
+  return found == timed.wall_s.end() ? std::nullopt : std::optional(median_of(found->second));
 }
 
 std::vector<std::string> row_of(const ProfiledStage& stage, double whole_s) {
@@ -93,18 +94,21 @@ StageProfile profile_stages(const Scene& scene, const Question& question, const 
   Timed one;
   Timed all;
   const auto run = [&](const Execution& on, Timed& timed) {
+    const double before_s = process_cpu_s();
     profile.answer = solve_within(scene, question, options, on);
+    const double cpu_s = process_cpu_s() - before_s;
+    profile.answer.threads = thread_count(execution.threads);  // what was asked, also where the one-thread turn is cut
     if (profile.answer.outcome == Outcome::stopped) return false;
-    timed.take(profile.answer);
+    timed.take(profile.answer, cpu_s);
     return true;
   };
   for (; profile.runs < runs; ++profile.runs) {
     if ((both && !run(alone, one)) || !run(execution, all)) break;
   }
-  for (std::size_t i = 0; i < all.lines.size(); ++i) {
-    ProfiledStage stage{all.lines[i], median_wall(one, all.lines[i].key)};
-    stage.line.wall_s = median_of(all.wall_s[i]);
-    stage.line.cpu_s = median_of(all.cpu_s[i]);
+  for (const StageLine& line : all.lines) {
+    ProfiledStage stage{line, median_wall(one, line.key)};
+    stage.line.wall_s = median_of(all.wall_s[line.key]);
+    stage.line.cpu_s = median_of(all.cpu_s[line.key]);
     profile.stages.push_back(std::move(stage));
   }
   if (profile.stages.empty()) return profile;
@@ -117,11 +121,11 @@ std::string profile_summary(const StageProfile& profile, const Palette& palette)
   const Answer& answer = profile.answer;
   TextTable table{{"stage", "wall", "share", "CPU", "count", "ns each", "1 thread", "speed-up", ""}, 1, {}};
   for (const ProfiledStage& stage : profile.stages) table.rows.push_back(row_of(stage, profile.whole.line.wall_s));
-  table.rows.push_back(row_of(profile.whole, 0.0));
+  if (profile.runs > 0) table.rows.push_back(row_of(profile.whole, 0.0));
   return fmt::format("{}  {}, {}{}; {} on {}, medians\n{}{} {}\n", palette.strong(answer.world.source),
                      name_of(answer.outcome), answer.planner, answer.sampler.empty() ? "" : ", " + answer.sampler,
                      counted(profile.runs, "run", "runs"), counted(answer.threads, "thread", "threads"),
-                     table.text(palette), palette.faint("machine"), text_of(this_machine()));
+                     table.rows.empty() ? "" : table.text(palette), palette.faint("machine"), text_of(this_machine()));
 }
 
 std::string profile_json(const StageProfile& profile) {
@@ -131,9 +135,8 @@ std::string profile_json(const StageProfile& profile) {
             {"planner", answer.planner},    {"sampler", answer.sampler},
             {"seed", answer.seed},          {"threads", answer.threads},
             {"runs", profile.runs}};
-  const Machine machine = this_machine();
-  json["machine"] = {{"cpu", machine.cpu}, {"cores", machine.cores}, {"memory_bytes", machine.memory_bytes}};
-  json["solve"] = json_of(profile.whole);
+  json["machine"] = machine_json(this_machine());
+  json["solve"] = profile.runs > 0 ? json_of(profile.whole) : Json(nullptr);
   json["stages"] = Json::array();
   for (const ProfiledStage& stage : profile.stages) json["stages"].push_back(json_of(stage));
   return json.dump(1) + "\n";

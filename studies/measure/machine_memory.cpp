@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstdint>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "core/base/page_pool.hpp"
 #include "core/base/raw_vector.hpp"
@@ -52,6 +53,10 @@ Machine this_machine() { return {.cpu = cpu_model(), .cores = thread_count(0), .
 std::string text_of(const Machine& machine) {
   return fmt::format("{}, {} {}, {}", machine.cpu, machine.cores, machine.cores == 1 ? "core" : "cores",
                      human_bytes(static_cast<double>(machine.memory_bytes)));
+}
+
+nlohmann::ordered_json machine_json(const Machine& machine) {
+  return {{"cpu", machine.cpu}, {"cores", machine.cores}, {"memory_bytes", machine.memory_bytes}};
 }
 
 void restart_peak_memory() {

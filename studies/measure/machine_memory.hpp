@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "parallel/execution.hpp"
@@ -20,6 +21,8 @@ struct Machine {
 Machine this_machine();
 /// "Intel(R) Xeon(R), 2 cores, 31.4 GiB"
 std::string text_of(const Machine& machine);
+/// {"cpu": …, "cores": …, "memory_bytes": …}
+nlohmann::ordered_json machine_json(const Machine& machine);
 
 /// From now on peak_resident_bytes() tells the peak since now, where the system can do that.
 void restart_peak_memory();

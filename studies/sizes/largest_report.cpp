@@ -172,8 +172,7 @@ std::string largest_json(const LargestOptions& options, const LargestResult& res
   add_figures(json, result);
   const MemoryTouch& touch = result.touch;
   json["first_touch"] = {{"bytes", touch.bytes}, {"cold_s", touch.cold_s}, {"warm_s", touch.warm_s}};
-  const Machine machine = this_machine();
-  json["machine"] = {{"cpu", machine.cpu}, {"cores", machine.cores}, {"memory_bytes", machine.memory_bytes}};
+  json["machine"] = machine_json(this_machine());
   json["not_begun"] = Json::array();
   for (const UnbegunSize& size : result.unbegun) {
     json["not_begun"].push_back({{"rows", size.rows}, {"cols", size.cols}, {"expected_bytes", size.expected_bytes}});

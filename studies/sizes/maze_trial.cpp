@@ -66,11 +66,7 @@ std::string_view verdict_of(const MazeTrial& trial) {
 
 nlohmann::ordered_json trial_json(const MazeTrial& trial) {
   nlohmann::ordered_json stages = nlohmann::ordered_json::object();
-  for (const auto& [name, seconds] : named_stages(trial.seconds)) stages[name] = seconds;
-  for (const StageCost& cost : trial.costs) {
-    if (!is_promised_stage(cost.name)) stages[cost.name] = cost.wall_s;
-    stages[std::string(cost.name) + "_cpu"] = cost.cpu_s;
-  }
+  for (const auto& [key, seconds] : keyed_seconds(trial.seconds, trial.costs)) stages[key] = seconds;
   nlohmann::ordered_json json{{"rows", trial.rows},         {"cols", trial.cols},
                               {"threads", trial.threads},   {"planner", trial.planner},
                               {"sampler", trial.sampler},   {"seed", trial.seed},

@@ -70,15 +70,16 @@ std::string unsolved_text(const ScalingResult& result) {
 }  // namespace
 
 TextTable exponent_table(std::span<const ScalingRow> rows) {
-  std::map<std::string, std::vector<ScalingRow>> contenders;
+  std::vector<std::pair<std::string, std::vector<ScalingRow>>> contenders;
   for (const ScalingRow& row : rows) {
     const MazeTrial& t = row.fastest;
-    contenders[fmt::format("{}, {}", planner_text(t), counted(t.threads, "thread", "threads"))].push_back(row);
+    const std::string name = fmt::format("{}, {}", planner_text(t), counted(t.threads, "thread", "threads"));
+    auto at = std::find_if(contenders.begin(), contenders.end(), [&](const auto& own) { return own.first == name; });
+    if (at == contenders.end()) at = contenders.insert(at, {name, {}});
+    at->second.push_back(row);
   }
   TextTable table{{"contender"}, 1, {}};
-  std::vector<std::string> stages = stage_names();
-  for (std::string& link : link_names()) stages.push_back(std::move(link));
-  stages.emplace_back("solve");
+  const std::vector<std::string> stages = all_stages();
   table.head.insert(table.head.end(), stages.begin(), stages.end());
   for (const auto& [name, own] : contenders) {
     std::map<std::string, double> exponents;
@@ -131,8 +132,7 @@ std::string scaling_json(const ScalingOptions& options, const ScalingResult& res
   Json json{{"schema", "warren.scale/1"}, {"warren_version", WARREN_VERSION}, {"repeats", options.repeats}};
   json["algorithm"] = name_of(options.maze.algorithm);
   json["loops"] = options.maze.loops;
-  const Machine machine = this_machine();
-  json["machine"] = {{"cpu", machine.cpu}, {"cores", machine.cores}, {"memory_bytes", machine.memory_bytes}};
+  json["machine"] = machine_json(this_machine());
   const bool counted = result.no_hardware_counts.empty();
   json["hardware_counts"] = counted ? Json(RunCounts::hardware_names) : Json(nullptr);
   if (!counted) json["no_hardware_counts"] = result.no_hardware_counts;
@@ -163,17 +163,9 @@ std::string scaling_json(const ScalingOptions& options, const ScalingResult& res
                             {"bytes_per_cell", static_cast<double>(row.peak_memory_bytes) / t.cells()}});
   }
   json["thread_gains"] = Json::array();
-  for (const ThreadGain& gain : thread_gains(result, machine.cores)) json["thread_gains"].push_back(gain_json(gain));
+  for (const ThreadGain& gain : thread_gains(result, this_machine().cores))
+    json["thread_gains"].push_back(gain_json(gain));
   json["exponents"] = exponents_json(rows);
-  json["contender_exponents"] = Json::array();
-  const TextTable table = exponent_table(rows);
-  for (const std::vector<std::string>& row : table.rows) {
-    Json entry{{"contender", row[0]}};
-    for (std::size_t i = 1; i < row.size(); ++i) {
-      if (!row[i].empty()) entry[table.head[i]] = std::stod(row[i]);
-    }
-    json["contender_exponents"].push_back(std::move(entry));
-  }
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -213,11 +213,8 @@ std::optional<double> common_exponent(std::span<const std::vector<Vec2>> groups)
 
 std::vector<std::pair<std::string, double>> stage_exponents(std::span<const ScalingRow> rows) {
   constexpr double least_s = 20e-6;
-  std::vector<std::string> stages = stage_names();
-  for (std::string& link : link_names()) stages.push_back(std::move(link));
-  stages.emplace_back("solve");
   std::vector<std::pair<std::string, double>> exponents;
-  for (const std::string& stage : stages) {
+  for (const std::string& stage : all_stages()) {
     std::map<std::tuple<std::string, std::string, unsigned>, std::vector<Vec2>> by_way;
     for (const ScalingRow& row : rows) {
       const MazeTrial& t = row.fastest;
@@ -239,6 +236,13 @@ std::vector<std::string> stage_names() {
 }
 
 std::vector<std::string> link_names() { return {"queries", "checks", "rows", "components", "reduction", "expansion"}; }
+
+std::vector<std::string> all_stages() {
+  std::vector<std::string> stages = stage_names();
+  for (std::string& link : link_names()) stages.push_back(std::move(link));
+  stages.emplace_back("solve");
+  return stages;
+}
 
 double seconds_of(const MazeTrial& trial, std::string_view stage) {
   if (stage == "solve") return trial.solve_s;

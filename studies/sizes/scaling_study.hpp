@@ -77,6 +77,8 @@ std::vector<std::pair<std::string, double>> stage_exponents(std::span<const Scal
 std::vector<std::string> stage_names();
 /// Of the links of the chain that these stages are sums of.
 std::vector<std::string> link_names();
+/// Both, and "solve": whatever seconds_of() knows.
+std::vector<std::string> all_stages();
 /// The seconds of one stage, of one link, or of "solve".
 double seconds_of(const MazeTrial& trial, std::string_view stage);
 

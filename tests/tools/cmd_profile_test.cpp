@@ -58,6 +58,16 @@ TEST(Profile, OfAnyPlannerWithAPicture) {
   EXPECT_EQ(run({"profile", "maze:30x30", "--runs", "0"}).code, 2);
 }
 
+TEST(Profile, SaysWhatWasAskedWhereTheFirstRunIsCut) {
+  const auto ran = run({"profile", "maze:600x600", "--sampler", "uniform", "--planner", "prm", "--threads", "2",
+                        "--budget", "300ms", "--json", "-"});
+  const Json profile = Json::parse(ran.out);
+  EXPECT_EQ(profile["status"], "stopped");
+  EXPECT_EQ(profile["threads"], 2);
+  EXPECT_EQ(profile["runs"], 0);
+  EXPECT_TRUE(profile["solve"].is_null());
+}
+
 TEST(StagesOfAnAnswer, LinksAddUpToThePromisedStages) {
   const auto ran = run({"solve", "maze:40x40,seed=2", "--sampler", "uniform", "--planner", "prm", "--json", "-"});
   ASSERT_EQ(ran.code, 0) << ran.err;
