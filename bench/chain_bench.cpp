@@ -194,14 +194,20 @@ template <class Push, class Decrease, class Pop>
 void heap_steps(benchmark::State& state, std::uint32_t side, const Push& push, const Decrease& decrease,
                 const Pop& pop) {
   const auto n = static_cast<VertexId>(chain_of(side).milestones.size());
+  std::vector<double> first(n);
+  std::vector<double> second(n);
+  for (VertexId v = 0; v < n; ++v) {
+    first[v] = 1.0 + uniform(1, v, 0);
+    second[v] = uniform(1, v, 1);
+  }
   const auto fill = [&] {
-    for (VertexId v = 0; v < n; ++v) push(v, 1.0 + uniform(1, v, 0));
-    for (VertexId v = 0; v < n; ++v) decrease(v, uniform(1, v, 1));
+    for (VertexId v = 0; v < n; ++v) push(v, first[v]);
+    for (VertexId v = 0; v < n; ++v) decrease(v, second[v]);
   };
   fill();
   double last = 0.0;
   for (VertexId i = 0; i < n; ++i) {
-    const double key = uniform(1, pop(), 1);
+    const double key = second[pop()];
     check(last <= key, "order of a heap");
     last = key;
   }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // nanoflann 1.4.3 works on squares and drops points that tie with the worst one it holds. The result set below
 // therefore reports a worst square that is `slack` larger than the true one, and decides by (distance, id) itself;
-// the slack also covers the rounding of nanoflann's lower bounds, a few units in the last place.
+// the slack also covers the rounding of nanoflann's lower bounds, a few units in the last place. visit_nodes() walks
+// nanoflann's own nodes (root_node, node_type), which other versions may name otherwise.
 #include "spatial/points/kd_tree.hpp"
 
 #include <algorithm>
@@ -240,19 +241,17 @@ struct KdTree<D>::Forest {
   }
 
   /// Shows take(id, distance) all points within the radius. The cuts alone say where they may lie, and a leaf is one
-  /// run of memory: half of the time of nanoflann's own search, which keeps the distance to each box.
+  /// run of memory; nanoflann's own search keeps the distance to each box. reach: a radius, a little longer.
   template <class Take>
-  void visit_within(const Point& p, const SearchRadius& radius, const Take& take, std::size_t node = 1) const {
-    const double reach = std::sqrt(loose_square(radius.length()));
+  void visit_within(const Point& p, double square, double reach, const Take& take, std::size_t node = 1) const {
     if (node >= top.leaves) {
       const auto& tree = trees[node - top.leaves];
-      if (tree != nullptr)
-        visit_nodes(p, radius.square(), reach, first[node - top.leaves], tree->index.root_node, take);
+      if (tree != nullptr) visit_nodes(p, square, reach, first[node - top.leaves], tree->index.root_node, take);
       return;
     }
     const double ahead = coordinate<D>(p, top.cuts[node].axis) - top.cuts[node].value;
-    if (ahead <= reach) visit_within(p, radius, take, 2 * node);
-    if (-ahead <= reach) visit_within(p, radius, take, 2 * node + 1);
+    if (ahead <= reach) visit_within(p, square, reach, take, 2 * node);
+    if (-ahead <= reach) visit_within(p, square, reach, take, 2 * node + 1);
   }
   template <class Take>
   void visit_nodes(const Point& p, double square, double reach, std::size_t begin,
@@ -322,7 +321,8 @@ void KdTree<D>::nearest(const Point& p, std::size_t k, VertexId except, std::vec
 template <int D>
 void KdTree<D>::visit_within(const Point& p, const SearchRadius& radius, const void* visit, Call call) const {
   if (forest_ == nullptr || radius.square() < 0.0) return;
-  forest_->visit_within(p, radius, [&](VertexId id, double distance) { call(visit, id, distance); });
+  const double reach = std::sqrt(loose_square(radius.length()));
+  forest_->visit_within(p, radius.square(), reach, [&](VertexId id, double distance) { call(visit, id, distance); });
 }
 
 template class KdTree<2>;
