@@ -4,13 +4,13 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "solve/explain/explain_answer.hpp"
 #include "solve/question/plannable.hpp"
 #include "solve/roadmaps/blocked_end_of_roadmap.hpp"
 #include "solve/roadmaps/kept_cells.hpp"
 #include "solve/roadmaps/walls_let_go.hpp"
 #include "solve/solve.hpp"
 #include "solve/steps/blocked_end.hpp"
-#include "solve/explain/explain_answer.hpp"
 
 namespace warren::serve {
 namespace {
