@@ -190,11 +190,12 @@ std::vector<PlotSheet> line_panels(const std::vector<Family>& families) {
   for (const std::string& option : options) {
     for (const ShownFigure& figure : figures) {
       Plot plot = plot_over(option, figure);
-      std::size_t color = 0;  // of a family the same in each plot of the option
+      std::size_t color = 0;  // of a family the same in all plots
       for (const Family& family : families) {
-        if (family.axes.size() != 1 || family.axes[0] != option) continue;
-        auto series = series_of(family, option, figure);
+        if (family.axes.size() != 1) continue;
         const std::size_t own = color++;
+        if (family.axes[0] != option) continue;
+        auto series = series_of(family, option, figure);
         if (!series) continue;
         series->color = own;
         plot.series.push_back(std::move(*series));

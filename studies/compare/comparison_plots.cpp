@@ -15,7 +15,7 @@
 namespace warren::studies {
 namespace {
 
-std::string curve_name(const SweepCurve& curve) {
+std::string series_name(const SweepCurve& curve) {
   if (curve.library != "warren") return curve.library;
   return curve.queue.empty() ? curve.search : curve.queue;
 }
@@ -23,7 +23,7 @@ std::string curve_name(const SweepCurve& curve) {
 /// Its place among all names: the same in the plots of all searches.
 std::size_t color_of(const std::vector<SweepCurve>& curves, const std::string& name) {
   std::vector<std::string> names;
-  for (const SweepCurve& curve : curves) add_once(names, curve_name(curve));
+  for (const SweepCurve& curve : curves) add_once(names, series_name(curve));
   return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
@@ -37,7 +37,7 @@ Plot time_plot(const std::vector<SweepCurve>& curves, const std::string& search)
   for (const SweepCurve& curve : curves) {
     if (curve.search != search) continue;
     plot.series.push_back(
-        {.name = curve_name(curve), .points = curve.points, .color = color_of(curves, curve_name(curve))});
+        {.name = series_name(curve), .points = curve.points, .color = color_of(curves, series_name(curve))});
   }
   return plot;
 }

@@ -111,7 +111,7 @@ TEST(BlockedEnd, OffersThePlaceInAPocketFarAway) {
       }
       const Question question{
           .robot = RobotSpec{.kind = RobotKind::disc, .radius = 1.2}, .start = {1.5, 29.5}, .goal = {29.5, 1.5}};
-      expect_near(told(map, question).free_place, {x + 1.5, y + 1.5}, 0.3);
+      expect_near(told(map, question).free_place, {x + 0.5, y + 0.5}, 0.3);
       expect_near(told(room_in_the_solid({x + 0.5, y + 0.5}, 1.5, 31), question).free_place, {x + 0.5, y + 0.5}, 0.3);
     }
   }
