@@ -19,6 +19,7 @@
 #include "solve/steps/settled_ends.hpp"
 #include "tests/paths.hpp"
 #include "tests/scenes/text/temporary_directory.hpp"
+#include "tests/seeds.hpp"
 
 namespace warren {
 namespace {
@@ -244,7 +245,7 @@ TEST(Claims, AGoalThatIsTheStartIsReachedByEveryPlannerWithoutAMove) {
         {.kind = RobotKind::car, .radius = r, .turning_radius = 4 * r, .steering = SteeringKind::reeds_shepp}};
     for (const RobotSpec& body : bodies) {
       const bool turns = body.kind == RobotKind::polygon || body.kind == RobotKind::car;
-      for (std::uint64_t i = 0; i < 6; ++i) {
+      for (std::uint64_t i = 0; i < test::share(6, 3); ++i) {
         std::vector<double> place{scale * (1 + 10 * uniform(9, i, 0)), scale * (1 + 9 * uniform(9, i, 1))};
         if (turns) place.push_back(uniform(9, i, 2));
         for (const PlannerKind planner : all_planners) {
