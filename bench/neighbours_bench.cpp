@@ -164,51 +164,6 @@ void bm_within(benchmark::State& state) {
         points.size());
 }
 
-/// Of seven points one is not settled: what a search finds around a milestone.
-std::vector<double> labels_of(std::size_t count) {
-  std::vector<double> labels(count);
-  for (std::size_t i = 0; i < count; ++i) labels[i] = random_bits(3, i) % 7 == 0 ? INFINITY : -1.0;
-  return labels;
-}
-
-/// What a search relaxes from each point: by the labels, or all neighbours one after the other.
-template <bool by_labels>
-void bm_relaxable(benchmark::State& state) {
-  const auto& points = points_of(state.range(0), state.range(1));
-  const SearchRadius radius(0.01 * static_cast<double>(state.range(2)));
-  const PointGrid& index = index_of<PointGrid>(state.range(0), state.range(1));
-  const std::vector<double> labels = labels_of(points.size());
-  std::vector<Neighbour> found;
-  const auto plain = [&](VertexId i) {
-    index.for_each_within(points[i], radius, [&](VertexId j, double d) {
-      if (1.0 + d < labels[j]) found.push_back({j, d});
-    });
-  };
-  const auto sifted = [&](VertexId i) {
-    index.for_each_relaxable(points[i], radius, 1.0, labels, [&](VertexId j, double d) { found.push_back({j, d}); });
-  };
-  for (VertexId i = 0; should_check(state) && i < points.size(); i += static_cast<VertexId>(points.size() / 1000)) {
-    found.clear();
-    plain(i);
-    const std::vector<Neighbour> expected = found;
-    found.clear();
-    sifted(i);
-    check(found == expected, "for_each_relaxable");
-  }
-  constexpr std::size_t batch = 65'536;
-  std::size_t next = 0;
-  for (auto _ : state) {
-    for (std::size_t end = std::min(next + batch, points.size()); next < end; ++next) {
-      found.clear();
-      by_labels ? sifted(static_cast<VertexId>(next)) : plain(static_cast<VertexId>(next));
-      benchmark::DoNotOptimize(found.data());
-    }
-    if (next == points.size()) next = 0;
-  }
-  count(state, static_cast<std::size_t>(state.iterations()) * std::min(batch, points.size()), index.bytes(),
-        points.size());
-}
-
 /// What some points have within the radius and with a larger number.
 void check_later(const std::vector<Vec2>& points, const PointGrid& index, const SearchRadius& radius) {
   std::vector<Neighbour> near;
@@ -288,8 +243,6 @@ void bm_counting_sort(benchmark::State& state) {
   count(state, static_cast<std::size_t>(state.iterations()) * n, n * 16 + keys * 4, n);
 }
 
-BENCHMARK(bm_relaxable<false>)->ArgNames({"kind", "side", "radius%"})->Args({uniform_sorted, 2000, 252});
-BENCHMARK(bm_relaxable<true>)->ArgNames({"kind", "side", "radius%"})->Args({uniform_sorted, 2000, 252});
 BENCHMARK(bm_counting_sort)
     ->ArgNames({"n", "keys", "threads"})
     ->ArgsProduct({{1 << 20, 1 << 22}, {1 << 9, 1 << 20}, {1, 2}});

@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <span>
 
-#include "core/base/place_grid.hpp"
 #include "core/base/rng.hpp"
 
 namespace warren {
@@ -38,17 +37,6 @@ concept World = std::copyable<typename W::State> &&
 template <class W>
 concept SteerableWorld = World<W> && requires(const W& w, const typename W::State& a) {
   { w.interpolate(a, a, 0.5) } -> std::same_as<typename W::State>;
-};
-
-/// A world of the plane that knows roughly where the robot may be if all but its place stays as it is.
-/// w.free_places(a)   a coarse grid of places; none where that would take too long
-/// w.place_of(a)      where the robot is
-/// w.shifted(a, p)    the state at the place p that is else as a
-template <class W>
-concept PlaceWorld = SteerableWorld<W> && requires(const W& w, const typename W::State& a) {
-  { w.free_places(a) } -> std::same_as<PlaceGrid>;
-  { w.place_of(a) } -> std::same_as<Vec2>;
-  { w.shifted(a, Vec2{}) } -> std::same_as<typename W::State>;
 };
 
 /// A world that knows the middles of its corridors.
@@ -84,22 +72,6 @@ template <class W>
 concept BunchWorld = World<W> && requires(const W& w, typename W::Query& q) {
   { w.free_motions(std::span<const Motion<typename W::State>>(), q) } -> std::same_as<std::uint32_t>;
   { w.free_states(std::span<const typename W::State>(), q) } -> std::same_as<std::uint32_t>;
-};
-
-/// Rows of lattice points (1, y), (2, y), ..., a bit each in whole words; y = first, first + 1, ...
-struct LatticeRows {
-  double first;
-  std::size_t rows;
-  std::size_t words_a_row;
-};
-
-/// A world of the plane that looks at rows of lattice points faster than at one after the other.
-/// w.keep_free(rows, points, right, up)  of `points` clears those that are not free; of `right` and `up` those from
-///                                       which the motion to (x + 1, y), to (x, y + 1), is not free: of both or, where
-///                                       they are empty, of neither
-template <class W>
-concept RowWorld = World<W> && requires(const W& w, const LatticeRows& rows, std::span<std::uint64_t> bits) {
-  w.keep_free(rows, bits, bits, bits);
 };
 
 /// Motions that this query saw refused: neither proved free nor blocked. 0 for worlds whose checks are exact.

@@ -178,16 +178,14 @@ EdgeParts candidate_edges(const W& world, std::span<const typename W::State> mil
   return detail::edges_that(world, milestones, index, rule, unclocked, all);
 }
 
-/// The free edges among the milestones. Bit i of free(motions, query) says whether motions[i] is free; at most
-/// bunch_size of them.
-template <World W, class Free>
+/// The free edges among the milestones.
+template <World W>
 EdgeParts connect_milestones(const W& world, std::span<const typename W::State> milestones, const StateIndex<W>& index,
-                             const ConnectionRule& rule, const Execution& execution, Counters& counters,
-                             const Free& free) {
+                             const ConnectionRule& rule, const Execution& execution, Counters& counters) {
   std::vector<Counters> done(chunk_count(milestones.size(), detail::connection_grain<W>));
   const auto keep = [&](std::size_t chunk, std::span<const Motion<typename W::State>> motions,
                         typename W::Query& query) {
-    const std::uint32_t bits = free(motions, query);
+    const std::uint32_t bits = detail::free_motions(world, motions, query);
     done[chunk].edges_checked += motions.size();
     done[chunk].edges_free += static_cast<std::uint64_t>(std::popcount(bits));
     done[chunk].refused = refused_motions(query);  // one query a chunk
@@ -197,16 +195,6 @@ EdgeParts connect_milestones(const W& world, std::span<const typename W::State> 
   for (const Counters& part : done) counters += part;
   counters.neighbour_queries += milestones.size();
   return parts;
-}
-
-/// The same, put to the world.
-template <World W>
-EdgeParts connect_milestones(const W& world, std::span<const typename W::State> milestones, const StateIndex<W>& index,
-                             const ConnectionRule& rule, const Execution& execution, Counters& counters) {
-  return connect_milestones(world, milestones, index, rule, execution, counters,
-                            [&](std::span<const Motion<typename W::State>> motions, typename W::Query& query) {
-                              return detail::free_motions(world, motions, query);
-                            });
 }
 
 namespace detail {

@@ -17,7 +17,6 @@
 #include "core/base/types.hpp"
 #include "core/base/world.hpp"
 #include "parallel/chunks.hpp"
-#include "planners/roadmap/lattice_steps.hpp"
 #include "planners/roadmap/roadmap_options.hpp"
 #include "spatial/points/tile_order.hpp"
 
@@ -36,7 +35,7 @@ class LatticeBits {
  public:
   /// The free ones of the first `count` points, row by row.
   template <World W>
-  LatticeBits(const W& world, LatticeSize size, std::uint64_t count, const Execution& execution, LatticeSteps* steps);
+  LatticeBits(const W& world, LatticeSize size, std::uint64_t count, const Execution& execution);
 
   LatticeSize size() const { return size_; }
   std::uint64_t count() const { return count_; }
@@ -68,7 +67,7 @@ class LatticeBits {
   }
   /// Sets the bits of the free ones of the first `count` points in some rows.
   template <World W>
-  void fill_rows(const W& world, Range rows, std::uint64_t count, LatticeSteps* steps);
+  void fill_rows(const W& world, Range rows, std::uint64_t count);
   /// The box of a row's free points; empty where there are none.
   Box box_of_row(std::size_t row) const;
   /// The bits of word w that stand for columns first .. last - 1.
@@ -88,10 +87,8 @@ class LatticeBits {
 };
 
 template <World W>
-LatticeBits::LatticeBits(const W& world, LatticeSize size, std::uint64_t count, const Execution& execution,
-                         LatticeSteps* steps)
+LatticeBits::LatticeBits(const W& world, LatticeSize size, std::uint64_t count, const Execution& execution)
     : size_(size), words_a_row_((std::size_t{size.cols} + 63) / 64), words_(words_a_row_ * size.rows) {
-  if (steps != nullptr) steps->reset(size.rows, words_a_row_);
   const std::size_t grain = lattice_rows_a_chunk(size);
   struct Part {
     std::uint64_t count = 0;
@@ -99,7 +96,7 @@ LatticeBits::LatticeBits(const W& world, LatticeSize size, std::uint64_t count, 
   };
   std::vector<Part> parts(chunk_count(size.rows, grain));
   for_chunks(size.rows, grain, execution, [&](Range r) {
-    fill_rows(world, r, count, steps);
+    fill_rows(world, r, count);
     Part part;
     for (std::size_t row = r.first; row < r.last; ++row) {
       part.count += count_in_row(static_cast<std::uint32_t>(row), 0, size.cols);
@@ -126,27 +123,17 @@ inline Box LatticeBits::box_of_row(std::size_t row) const {
 }
 
 template <World W>
-void LatticeBits::fill_rows(const W& world, Range rows, std::uint64_t count, LatticeSteps* steps) {
+void LatticeBits::fill_rows(const W& world, Range rows, std::uint64_t count) {
   const std::span<std::uint64_t> words(&words_[rows.first * words_a_row_], rows.size() * words_a_row_);
   std::fill(words.begin(), words.end(), std::uint64_t{0});
   auto query = world.make_query();
   for (std::size_t row = rows.first; row < rows.last; ++row) {
     const std::uint64_t cols = cols_of(row, count);
     std::uint64_t* const its_words = &words_[row * words_a_row_];
-    if constexpr (RowWorld<W>) {
-      for (std::size_t w = 0; w * 64 < cols; ++w)
-        its_words[w] = columns_mask(static_cast<std::uint32_t>(w), 0, static_cast<std::uint32_t>(cols));
-    } else {
-      for (std::uint64_t col = 0; col < cols; ++col) {
-        const Vec2 point{static_cast<double>(col + 1), static_cast<double>(row) + 1.0};
-        its_words[col / 64] |= std::uint64_t{world.is_free(point, query)} << (col % 64);
-      }
+    for (std::uint64_t col = 0; col < cols; ++col) {
+      const Vec2 point{static_cast<double>(col + 1), static_cast<double>(row) + 1.0};
+      its_words[col / 64] |= std::uint64_t{world.is_free(point, query)} << (col % 64);
     }
-  }
-  if constexpr (RowWorld<W>) {
-    using Bits = std::span<std::uint64_t>;
-    world.keep_free({static_cast<double>(rows.first) + 1.0, rows.size(), words_a_row_}, words,
-                    steps != nullptr ? steps->right(rows) : Bits(), steps != nullptr ? steps->up(rows) : Bits());
   }
 }
 
@@ -240,18 +227,16 @@ inline Vec2* LatticeInTileOrder::write_row(std::uint32_t row, std::uint32_t firs
 
 }  // namespace detail
 
-/// The free ones of the first `count` points of the lattice, in tile order; room for `spare` more. steps: where given,
-/// which of a RowWorld's are free is found, too. Throws InputError
+/// The free ones of the first `count` points of the lattice, in tile order; room for `spare` more. Throws InputError
 /// for a lattice with more points than milestones can be numbered, and Stopped.
 template <World W>
 RawVector<Vec2> lattice_milestones(const W& world, LatticeSize size, std::uint64_t count, const Execution& execution,
-                                   std::size_t spare, LatticeSteps* steps = nullptr) {
+                                   std::size_t spare) {
   if (std::uint64_t{size.rows} * size.cols > std::uint64_t{1} << 31) {
     throw InputError("lattice", "has more than 2^31 cells; use the tiled pipeline");
   }
-  const std::size_t bits_a_point = steps != nullptr ? 3 : 1;
-  execution.reserve(std::size_t{size.rows} * (size.cols / 8 + 8) * bits_a_point);
-  const detail::LatticeBits free(world, size, count, execution, steps);
+  execution.reserve(std::size_t{size.rows} * (size.cols / 8 + 8));
+  const detail::LatticeBits free(world, size, count, execution);
   return detail::LatticeInTileOrder(free, execution).points(spare);
 }
 

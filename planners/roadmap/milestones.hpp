@@ -211,12 +211,12 @@ RawVector<typename W::State> cell_centre_milestones(const W& world, const Execut
 /// The free ones of samples 0 .. count - 1, in tile order.
 template <World W>
 RawVector<typename W::State> draw_milestones(const W& world, const RoadmapOptions& options, std::uint64_t count,
-                                             const Execution& execution, LatticeSteps* steps = nullptr) {
+                                             const Execution& execution) {
   constexpr std::size_t grain = std::size_t{1} << 12;
   constexpr std::size_t spare = 2;  // start and goal will follow
   if constexpr (std::same_as<typename W::State, Vec2>) {
     if (options.sampler == SamplerKind::lattice) {
-      return lattice_milestones(world, options.lattice, count, execution, spare, steps);
+      return lattice_milestones(world, options.lattice, count, execution, spare);
     }
   }
   if constexpr (CellWorld<W>) {

@@ -36,11 +36,11 @@ class Rounds {
   Solution<State>& solution() { return solution_; }
 
  protected:
-  /// Begins a round. steps: of lattices, those that are free.
-  void draw(std::uint64_t samples, LatticeSteps* steps = nullptr) {
+  /// Begins a round.
+  void draw(std::uint64_t samples) {
     ++solution_.counters.rounds;
     const StageTimer timer(execution_, "sample", solution_.seconds.sample, samples);
-    states_ = draw_milestones(world_, options_, samples, execution_, steps);
+    states_ = draw_milestones(world_, options_, samples, execution_);
     solution_.counters.samples += samples;
     solution_.counters.kept += states_.size();
     states_.push_back(start_);

@@ -14,7 +14,6 @@
 
 #include "parallel/assemble_graph.hpp"
 #include "parallel/components.hpp"
-#include "planners/roadmap/lattice_steps.hpp"
 #include "planners/roadmap/plan_in_rounds.hpp"
 #include "planners/roadmap/roadmap_search.hpp"
 
@@ -35,9 +34,7 @@ class PrmPlan : public Rounds<W> {
   bool round(std::uint64_t samples) {
     reduced_.reset();
     graph_ = Graph();
-    const bool by_rule = this->options_.neighbour_index == NeighbourIndex::by_counts;
-    if (RowWorld<W> && by_rule && are_lattice_steps(this->options_, this->rule_for(samples))) steps_.emplace();
-    this->draw(samples, steps_ ? &*steps_ : nullptr);
+    this->draw(samples);
     assemble(connect(samples));
     return search();
   }
@@ -52,7 +49,6 @@ class PrmPlan : public Rounds<W> {
   using Rounds<W>::goal_vertex;
 
   EdgeParts connect(std::uint64_t samples);
-  EdgeParts free_edges(const StateIndex<W>& index, const ConnectionRule& rule);
   void assemble(const EdgeParts& edges);
   bool search();
   bool joined() const {
@@ -61,7 +57,6 @@ class PrmPlan : public Rounds<W> {
   }
 
   bool keep_;
-  std::optional<LatticeSteps> steps_;  // where they are all the candidates
   Graph graph_;
   std::optional<TwiceReducedGraphView> reduced_;
   Components components_;  // of the graph; empty if reduced_ knows them
@@ -75,22 +70,10 @@ EdgeParts PrmPlan<W>::connect(std::uint64_t samples) {
   EdgeParts edges;
   {
     const StageTimer timer(execution_, "queries", solution_.seconds.connect, this->milestones().size());
-    edges = free_edges(index, rule);
-    steps_.reset();
+    edges = connect_milestones(world_, this->milestones(), index, rule, execution_, solution_.counters);
   }
   edges.push_back(this->attach_ends(index, rule));
   return edges;
-}
-
-template <World W>
-EdgeParts PrmPlan<W>::free_edges(const StateIndex<W>& index, const ConnectionRule& rule) {
-  if constexpr (RowWorld<W>) {
-    if (steps_) {
-      const auto free = [&](std::span<const Motion<State>> motions, auto&) { return steps_->free_motions(motions); };
-      return connect_milestones(world_, this->milestones(), index, rule, execution_, solution_.counters, free);
-    }
-  }
-  return connect_milestones(world_, this->milestones(), index, rule, execution_, solution_.counters);
 }
 
 template <World W>

@@ -86,14 +86,8 @@ class Neighbours {
   template <class Visit>
   void for_each_relaxable(const Point& p, const SearchRadius& radius, double through, std::span<const double> labels,
                           const Visit& visit) const {
-    with([&](const auto& index) {
-      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(index)>, PointGrid>) {
-        index.for_each_relaxable(p, radius, through, labels, visit);
-      } else {
-        index.for_each_within(p, radius, [&](VertexId id, double distance) {
-          if (through + distance < labels[id]) visit(id, distance);
-        });
-      }
+    for_each_within(p, radius, [&](VertexId id, double distance) {
+      if (through + distance < labels[id]) visit(id, distance);
     });
   }
   /// Calls visit(i, j) for each point i of the range, ascending, and all points j > i at a distance <= radius from it:

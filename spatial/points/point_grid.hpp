@@ -21,7 +21,6 @@
 #include "parallel/chunks.hpp"
 #include "spatial/points/near_bits.hpp"
 #include "spatial/points/neighbour.hpp"
-#include "spatial/points/relaxable_bits.hpp"
 #include "spatial/points/tile_order.hpp"
 
 namespace warren {
@@ -55,12 +54,6 @@ class PointGrid {
   /// Calls visit(id, distance) for all points at a distance <= radius from p; ascending by id if in tile order.
   template <class Visit>
   void for_each_within(Vec2 p, const SearchRadius& radius, const Visit& visit) const;
-  /// Those of them that a way through p reaches sooner than their labels say: through + distance < labels[id]. A label
-  /// that is negative is kept. In tile order the labels are read row by row, so visit may lower only those of ids that
-  /// it has been called with.
-  template <class Visit>
-  void for_each_relaxable(Vec2 p, const SearchRadius& radius, double through, std::span<const double> labels,
-                          const Visit& visit) const;
   /// Calls visit(i, j) for each point i of the range, ascending, and all points j > i at a distance <= radius from it:
   /// over all points, each pair once. Ascending by j if in tile order, where it costs least: a few
   /// cells are looked around once for all of their points.
@@ -167,29 +160,6 @@ void PointGrid::for_each_within(Vec2 p, const SearchRadius& radius, const Visit&
   Gathering gathering(*this, p, radius.square(), visit_place);
   for_each_run(window(p, radius.reach()), [&](std::uint32_t first, std::uint32_t last) { gathering.add(first, last); });
   gathering.visit_all();
-}
-
-template <class Visit>
-void PointGrid::for_each_relaxable(Vec2 p, const SearchRadius& radius, double through, std::span<const double> labels,
-                                   const Visit& visit) const {
-  if (!in_tile_order()) {
-    return for_each_within(p, radius, [&](VertexId id, double distance) {
-      if (through + distance < labels[id]) visit(id, distance);
-    });
-  }
-  if (points_.empty() || radius.square() < 0.0) return;
-  const detail::Relaxation by{p, radius.square(), through};
-  const detail::InstructionSet set = detail::best_instruction_set();
-  for_each_run(window(p, radius.reach()), [&](std::uint32_t first, std::uint32_t last) {
-    for (; first < last; first += std::min(last - first, 64U)) {
-      const std::uint32_t count = std::min(last - first, 64U);
-      std::uint64_t bits = detail::relaxable_bits(&points_[first], &labels[first], count, by, set);
-      for (; bits != 0; bits &= bits - 1) {
-        const std::uint32_t place = first + as_whole<std::uint32_t>(std::countr_zero(bits));
-        visit(place, distance(p, points_[place]));
-      }
-    }
-  });
 }
 
 /// Some points of one cell or of a few, and all later ones that may be within reach of any of them.

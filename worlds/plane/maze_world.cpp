@@ -10,7 +10,6 @@
 #include "core/base/error.hpp"
 #include "core/plane/geometry.hpp"
 #include "worlds/plane/corridor_width.hpp"
-#include "worlds/plane/lattice_rows.hpp"
 #include "worlds/plane/open_sides.hpp"
 
 namespace warren {
@@ -46,12 +45,6 @@ std::uint32_t MazeWorld::free_states(std::span<const State> states, Query& query
     in_box |= std::uint32_t{box_.contains(states[i])} << i;
   }
   return in_box & index_.keep_clearance({query.motions.data(), states.size()}, planning_clearance_);
-}
-
-void MazeWorld::keep_free(const LatticeRows& rows, std::span<std::uint64_t> points, std::span<std::uint64_t> right,
-                          std::span<std::uint64_t> up) const noexcept {
-  keep_points_in_box(box_, rows, points);
-  keep_off_walls(index_, planning_clearance_, rows, points, right, up);
 }
 
 CellSides MazeWorld::cell_sides(std::size_t most_cells, const Execution& execution) const {

@@ -40,9 +40,6 @@ class MazeWorld {
   }
   std::uint32_t free_motions(std::span<const Motion<State>> motions, Query& query) const noexcept;
   std::uint32_t free_states(std::span<const State> states, Query& query) const noexcept;
-  /// As RowWorld says. Asked wall by wall: O(walls near the rows), whatever they have points.
-  void keep_free(const LatticeRows& rows, std::span<std::uint64_t> points, std::span<std::uint64_t> right,
-                 std::span<std::uint64_t> up) const noexcept;
   /// See open_sides().
   CellSides cell_sides(std::size_t most_cells, const Execution& execution) const;
   static double distance(const State& a, const State& b) { return warren::distance(a, b); }
@@ -70,6 +67,6 @@ class MazeWorld {
   WallIndex index_;
 };
 
-static_assert(SteerableWorld<MazeWorld> && BunchWorld<MazeWorld> && RowWorld<MazeWorld>);
+static_assert(SteerableWorld<MazeWorld> && BunchWorld<MazeWorld>);
 
 }  // namespace warren

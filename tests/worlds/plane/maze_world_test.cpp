@@ -15,56 +15,6 @@
 namespace warren {
 namespace {
 
-using Bits = std::vector<std::uint64_t>;
-
-bool bit(const Bits& bits, std::size_t i) { return (bits[i / 64] >> (i % 64) & 1U) != 0; }
-
-/// Every point and step of a band of rows, asked for alone; what is out before stays out.
-void expect_band_as_points(const MazeWorld& world, const LatticeRows& rows) {
-  MazeWorld::Query query;
-  Bits before(rows.rows * rows.words_a_row, ~std::uint64_t{0});
-  before.at(0) = 0x5555;
-  Bits points = before;
-  Bits right = before;
-  Bits up = before;
-  world.keep_free(rows, points, right, up);
-  for (std::size_t i = 0; i < before.size() * 64; ++i) {
-    const std::size_t cols = rows.words_a_row * 64;
-    const Vec2 at{static_cast<double>(i % cols + 1), rows.first + static_cast<double>(i / cols)};
-    ASSERT_EQ(bit(points, i), bit(before, i) && world.is_free(at, query)) << at.x << ", " << at.y;
-    ASSERT_EQ(bit(right, i), bit(before, i) && world.is_free_motion(at, {at.x + 1.0, at.y}, query))
-        << at.x << ", " << at.y;
-    ASSERT_EQ(bit(up, i), bit(before, i) && world.is_free_motion(at, {at.x, at.y + 1.0}, query))
-        << at.x << ", " << at.y;
-  }
-}
-
-TEST(MazeWorld, LooksAtRowsOfPointsAndStepsAsAtEachAlone) {
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    SCOPED_TRACE(seed);
-    constexpr double side = 90.0;
-    std::vector<Segment> walls;
-    for (std::uint64_t i = 0; i < 60; ++i) {
-      const auto c = [&](std::uint64_t axis) { return side * uniform(seed, i, axis); };
-      Segment wall{{c(0), c(1)}, {c(2), c(3)}};
-      if (i % 4 == 1) wall.b = wall.a + 0.02 * (wall.b - wall.a);
-      if (i % 4 == 2)
-        wall = {{std::round(wall.a.x), std::round(wall.a.y)}, {std::round(wall.b.x), std::round(wall.a.y)}};
-      if (i % 4 == 3) wall.b = {wall.a.x, wall.b.y};
-      walls.push_back(wall);
-    }
-    Scene scene;
-    scene.walls = WallSet::narrowest(walls);
-    if (seed % 2 == 0) scene.bounds = Box{{10.0, 5.0}, {80.5, 70.0}};
-    for (const double clearance : {0.0, 0.1, 1.0, 3.7}) {
-      SCOPED_TRACE(clearance);
-      const MazeWorld world(scene, clearance, Execution{1});
-      for (double row = 0.0; row <= 92.0; row += 7.0) expect_band_as_points(world, {row, 7, 2});
-      expect_band_as_points(world, {40.0, 1, 1});
-    }
-  }
-}
-
 TEST(MazeWorld, StatesAndMotionsAreFreeWhereWallsAndBoundsAreFarEnough) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE(seed);
