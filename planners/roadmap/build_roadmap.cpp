@@ -63,21 +63,22 @@ Graph one_way_graph(std::size_t vertex_count, const EdgeParts& edges, const Exec
   const std::uint64_t ends = detail::total_edges(edges);
   if (ends >= std::numeric_limits<EdgeEnd>::max())
     throw InputError("roadmap", "more than 2^32 - 1 edges; ask for fewer samples or neighbours");
-  execution.reserve((vertex_count + 1) * sizeof(EdgeEnd) + ends * sizeof(VertexId));
+  execution.reserve((vertex_count + 1) * 2 * sizeof(EdgeEnd) + ends * sizeof(VertexId));
   RawVector<EdgeEnd> offsets(vertex_count + 1);
   std::fill(offsets.begin(), offsets.end(), EdgeEnd{0});
-  RawVector<VertexId> targets;
-  targets.reserve(ends);
   for (const RawVector<Edge>& part : edges) {
     execution.check();
-    for (const Edge& e : part) {
-      ++offsets[e.from + 1];
-      targets.push_back(e.to);
-    }
+    for (const Edge& e : part) ++offsets[e.from + 1];
+  }
+  for (std::size_t v = 0; v < vertex_count; ++v) offsets[v + 1] += offsets[v];
+  RawVector<EdgeEnd> next(offsets.begin(), offsets.end() - 1);
+  RawVector<VertexId> targets(ends);
+  for (const RawVector<Edge>& part : edges) {
+    execution.check();
+    for (const Edge& e : part) targets[next[e.from]++] = e.to;
   }
   for (std::size_t v = 0; v < vertex_count; ++v) {
     if (v % polled_vertices == 0) execution.check();
-    offsets[v + 1] += offsets[v];
     std::sort(targets.begin() + offsets[v], targets.begin() + offsets[v + 1]);
   }
   return {std::move(offsets), std::move(targets)};

@@ -52,11 +52,12 @@ inline std::size_t end_of_edge(const Graph& graph, VertexId v, VertexId w) {
   return graph.first_end(v) + static_cast<std::size_t>(std::lower_bound(row.begin(), row.end(), w) - row.begin());
 }
 
-/// Asks about the edges of one row; `answers` are those of the row's ends.
+/// Asks about the edges of one row that are not known; `answers` are those of the row's ends.
 template <World W>
 void check_row(const W& world, std::span<const typename W::State> states, const Graph& graph, VertexId v,
-               EdgeDirections directions, const KnownMotions<typename W::State>& known, std::span<std::uint8_t> answers,
-               typename W::Query& query, std::uint64_t& checked) {
+               EdgeDirections directions, const KnownMotions<typename W::State>& known,
+               std::span<const std::uint64_t> before, std::span<std::uint8_t> answers, typename W::Query& query,
+               std::uint64_t& checked) {
   std::array<Motion<typename W::State>, bunch_size> motions;
   std::array<std::size_t, bunch_size> ends;
   std::size_t count = 0;
@@ -71,6 +72,10 @@ void check_row(const W& world, std::span<const typename W::State> states, const 
   const auto row = graph.neighbours(v);
   for (std::size_t i = 0; i < row.size(); ++i) {
     if (directions == EdgeDirections::both && row[i] < v) continue;
+    if (!before.empty()) {
+      answers[i] = static_cast<std::uint8_t>(edge_state(before, graph.first_end(v) + i));
+      if (answers[i] != static_cast<std::uint8_t>(EdgeState::unchecked)) continue;
+    }
     if (const auto answer = known ? known(states[v], states[row[i]]) : std::nullopt) {
       answers[i] = static_cast<std::uint8_t>(*answer ? EdgeState::free : EdgeState::blocked);
       continue;
@@ -113,12 +118,15 @@ inline RawVector<std::uint64_t> packed(std::span<const std::uint8_t> states, con
 
 }  // namespace detail
 
-/// The states of all edges, as edge_states.hpp packs them: the same for any number of threads. Throws Stopped.
+/// The states of all edges, as edge_states.hpp packs them: the same for any number of threads. `known`, and what
+/// `before` says where it is given, is not asked. Throws Stopped.
 template <World W>
 RawVector<std::uint64_t> check_edges(const W& world, std::span<const typename W::State> states, const Graph& graph,
                                      EdgeDirections directions, const Execution& execution, Counters& counters,
-                                     const KnownMotions<typename W::State>& known = {}) {
+                                     const KnownMotions<typename W::State>& known = {},
+                                     std::span<const std::uint64_t> before = {}) {
   constexpr std::size_t grain = detail::connection_grain<W>;
+  constexpr std::size_t rows_per_poll = grain / 64;
   const std::size_t n = graph.vertex_count();
   const std::size_t ends = graph.targets().size();
   execution.reserve(ends + ends / 4);
@@ -130,7 +138,8 @@ RawVector<std::uint64_t> check_edges(const W& world, std::span<const typename W:
     for (std::size_t v = r.first; v < r.last; ++v) {
       const auto vertex = static_cast<VertexId>(v);
       const std::span<std::uint8_t> row(answers.data() + graph.first_end(vertex), graph.degree(vertex));
-      detail::check_row(world, states, graph, vertex, directions, known, row, query, counts.edges_checked);
+      if (v % rows_per_poll == 0) execution.check();
+      detail::check_row(world, states, graph, vertex, directions, known, before, row, query, counts.edges_checked);
     }
     counts.refused = refused_motions(query);
   });
@@ -158,7 +167,7 @@ struct BuiltRoadmap {
 };
 
 RawVector<std::uint64_t> unchecked_edges(const Graph& candidates);
-/// The graph of edges that lead one way: each stands in the row of its begin alone. The edges come row by row.
+/// The graph of edges that lead one way: each stands in the row of its begin alone, in any order.
 Graph one_way_graph(std::size_t vertex_count, const EdgeParts& edges, const Execution& execution);
 /// The edges of a graph that are free.
 Graph free_part(const Graph& candidates, std::span<const std::uint64_t> edge_states, const Execution& execution);
@@ -172,6 +181,26 @@ Graph free_part_with_lengths(const Graph& candidates, std::span<const std::uint6
 Components reached_and_reaching(const Graph& graph, VertexId from, VertexId to, const Execution& execution);
 
 namespace detail {
+
+/// The candidate edges from each of the first `begins` states, milestones before others.
+template <World W>
+EdgeParts one_way_edges(const W& world, std::span<const typename W::State> states, std::size_t begins,
+                        const StateIndex<W>& index, const ConnectionRule& rule, const Execution& execution) {
+  constexpr std::size_t grain = 64;
+  EdgeParts parts(chunk_count(begins, grain));
+  for_chunks(begins, grain, execution, [&](Range r) {
+    std::vector<Neighbour> near;
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      const auto v = static_cast<VertexId>(i);
+      const VertexId except = v < index.size() ? v : no_vertex;
+      for (const OneWayCandidate& c :
+           one_way_candidates<W>(world, states, index, rule, states[v], except, Heading::out, near)) {
+        push_asked(parts[r.first / grain], {v, c.to}, execution);
+      }
+    }
+  });
+  return parts;
+}
 
 template <World W>
 class RoadmapBuild {
@@ -239,30 +268,11 @@ void RoadmapBuild<W>::round(std::uint64_t samples, bool check) {
   }
 }
 
-/// The candidate edges from each milestone.
-template <World W>
-EdgeParts one_way_edges(const W& world, std::span<const typename W::State> states, const StateIndex<W>& index,
-                        const ConnectionRule& rule, const Execution& execution) {
-  constexpr std::size_t grain = 64;
-  EdgeParts parts(chunk_count(states.size(), grain));
-  for_chunks(states.size(), grain, execution, [&](Range r) {
-    std::vector<Neighbour> near;
-    for (std::size_t i = r.first; i < r.last; ++i) {
-      const auto v = static_cast<VertexId>(i);
-      for (const OneWayCandidate& c :
-           one_way_candidates<W>(world, states, index, rule, states[v], v, Heading::out, near)) {
-        parts[r.first / grain].push_back({v, c.to});
-      }
-    }
-  });
-  return parts;
-}
-
 template <World W>
 void RoadmapBuild<W>::find_candidates(const StateIndex<W>& index) {
   const std::span<const State> states(built_.states);
   if constexpr (edge_directions<W>() == EdgeDirections::one) {
-    const EdgeParts parts = one_way_edges(world_, states, index, built_.rule, execution_);
+    const EdgeParts parts = one_way_edges(world_, states, states.size(), index, built_.rule, execution_);
     built_.candidates = one_way_graph(states.size(), parts, execution_);
     built_.counters.neighbour_queries += states.size();
   } else {

@@ -8,13 +8,12 @@
 // Lazy: an edge is checked when the search would use it. Cost a round: n (4 k distances and k motion checks).
 #pragma once
 
-#include <algorithm>
-#include <limits>
-#include <string>
+#include <bit>
+#include <span>
 #include <utility>
 #include <vector>
 
-#include "planners/roadmap/one_way_candidates.hpp"
+#include "planners/roadmap/build_roadmap.hpp"
 #include "planners/roadmap/plan_in_rounds.hpp"
 #include "planners/roadmap/roadmap_search.hpp"
 
@@ -32,7 +31,6 @@ class OneWayPlan : public Rounds<W> {
 
   bool round(std::uint64_t samples) {
     this->draw(samples);
-    index_ = this->index_milestones();
     find_candidates(samples);
     if (!lazy_) check_all();
     return search();
@@ -49,99 +47,65 @@ class OneWayPlan : public Rounds<W> {
   using Rounds<W>::goal_vertex;
 
   static constexpr std::uint64_t checks_per_poll = 64;
-  static constexpr std::size_t ways_per_poll = 4096;
-  enum class Check : std::uint8_t { unknown, free, blocked };
-  /// An edge from a vertex.
-  struct Way {
-    double length;
-    VertexId to;
-    Check state = Check::unknown;
-  };
-  using Ways = std::vector<Way>;
 
   void find_candidates(std::uint64_t samples);
-  Ways nearest(VertexId v, const ConnectionRule& rule, Heading heading, std::vector<Neighbour>& near) const;
-  void attach_goal(const ConnectionRule& rule);
-  bool is_free(VertexId from, Way& way, typename W::Query& query, Counters& counters) const {
-    if (way.state == Check::unknown) {
+  RawVector<Edge> edges_to_goal(const StateIndex<W>& index, const ConnectionRule& rule);
+  std::span<const State> states() const { return {states_.data(), states_.size()}; }
+  bool is_free(VertexId from, VertexId to, std::size_t end, typename W::Query& query, Counters& counters) {
+    EdgeState known = edge_state(known_, end);
+    if (known == EdgeState::unchecked) {
       if (++counters.edges_checked % checks_per_poll == 0) execution_.check();
-      way.state = world_.is_free_motion(states_[from], states_[way.to], query) ? Check::free : Check::blocked;
-      counters.edges_free += way.state == Check::free ? 1 : 0;
+      known = world_.is_free_motion(states_[from], states_[to], query) ? EdgeState::free : EdgeState::blocked;
+      set_edge_state(known_, end, known);
     }
-    return way.state == Check::free;
+    return known == EdgeState::free;
   }
   void check_all();
   bool search();
   SearchResult search_best();
   SearchResult search_plainly();
   std::uint64_t free_count() const;
-  Graph free_graph(bool reversed) const;
-  void explore(const Graph& graph, VertexId from, SearchState& state) const;
 
   bool lazy_;
   bool keep_;
-  StateIndex<W> index_;
-  std::vector<Ways> ways_;  // from each vertex, ascending by vertex
+  Graph candidates_;
+  RawVector<std::uint64_t> known_;  // of each edge: core/search/edge_states.hpp
   std::vector<Edge> tree_;
 };
 
 template <World W>
-auto OneWayPlan<W>::nearest(VertexId v, const ConnectionRule& rule, Heading heading, std::vector<Neighbour>& near) const
-    -> Ways {
-  const VertexId except = v < index_.size() ? v : no_vertex;
-  const auto candidates = one_way_candidates<W>(world_, states_, index_, rule, states_[v], except, heading, near);
-  execution_.reserve(candidates.size() * sizeof(Way));
-  Ways ways;
-  ways.reserve(candidates.size());
-  for (const OneWayCandidate& c : candidates) ways.push_back({c.length, c.to});
-  return ways;
-}
-
-template <World W>
 void OneWayPlan<W>::find_candidates(std::uint64_t samples) {
-  constexpr std::size_t grain = 64;
+  const StateIndex<W> index = this->index_milestones();
   const StageTimer timer(execution_, "queries", solution_.seconds.connect, this->milestones().size());
   const ConnectionRule rule = this->rule_for(samples);
   const std::size_t begins = states_.size() - 1;  // nothing leads on from the goal
-  execution_.reserve(states_.size() * sizeof(Ways));
-  ways_.assign(states_.size(), {});
-  for_chunks(begins, grain, execution_, [&](Range r) {
-    std::vector<Neighbour> near;
-    for (std::size_t v = r.first; v < r.last; ++v) {
-      ways_[v] = nearest(static_cast<VertexId>(v), rule, Heading::out, near);
-      std::sort(ways_[v].begin(), ways_[v].end(), [](const Way& a, const Way& b) { return a.to < b.to; });
-    }
-  });
+  candidates_ = Graph();
+  EdgeParts edges = one_way_edges(world_, states(), begins, index, rule, execution_);
+  edges.push_back(edges_to_goal(index, rule));
   solution_.counters.neighbour_queries += begins + 1;
-  attach_goal(rule);  // whose vertex is the last one
+  candidates_ = one_way_graph(states_.size(), edges, execution_);
+  known_ = unchecked_edges(candidates_);
 }
 
 /// And the edge from start to goal.
 template <World W>
-void OneWayPlan<W>::attach_goal(const ConnectionRule& rule) {
+RawVector<Edge> OneWayPlan<W>::edges_to_goal(const StateIndex<W>& index, const ConnectionRule& rule) {
   std::vector<Neighbour> near;
-  for (const Way& way : nearest(goal_vertex(), rule, Heading::in, near)) {
-    ways_[way.to].push_back({way.length, goal_vertex()});
+  RawVector<Edge> edges;
+  for (const OneWayCandidate& c :
+       one_way_candidates<W>(world_, states(), index, rule, this->goal_, no_vertex, Heading::in, near)) {
+    push_asked(edges, {c.to, goal_vertex()}, execution_);
   }
-  const double length = world_.distance(this->start_, this->goal_);
-  if (length <= direct_reach(rule)) ways_[start_vertex()].push_back({length, goal_vertex()});
+  if (world_.distance(this->start_, this->goal_) <= direct_reach(rule)) {
+    edges.push_back({start_vertex(), goal_vertex()});
+  }
+  return edges;
 }
 
 template <World W>
 void OneWayPlan<W>::check_all() {
-  constexpr std::size_t grain = 64;
-  const StageTimer timer(execution_, "checks", solution_.seconds.connect, ways_.size());
-  std::vector<Counters> done(chunk_count(ways_.size(), grain));
-  for_chunks(ways_.size(), grain, execution_, [&](Range r) {
-    auto query = world_.make_query();
-    Counters& counters = done[r.first / grain];
-    for (std::size_t v = r.first; v < r.last; ++v) {
-      execution_.check();
-      for (Way& way : ways_[v]) is_free(static_cast<VertexId>(v), way, query, counters);
-    }
-    counters.refused = refused_motions(query);
-  });
-  for (const Counters& part : done) solution_.counters += part;
+  const StageTimer timer(execution_, "checks", solution_.seconds.connect, states_.size());
+  known_ = check_edges(world_, states(), candidates_, EdgeDirections::one, execution_, solution_.counters, {}, known_);
 }
 
 template <World W>
@@ -154,6 +118,7 @@ bool OneWayPlan<W>::search() {
   timer.set_items(found.expanded);
   this->count(found);
   solution_.roadmap.edges = free_count();
+  solution_.counters.edges_free += solution_.roadmap.edges;
   return this->take(found.path);
 }
 
@@ -164,13 +129,17 @@ SearchResult OneWayPlan<W>::search_best() {
   Counters counters;
   PartClock clock(execution_, bunches_per_clock<W>);
   auto neighbours = [&](VertexId v, const AnyVisit& visit) {
-    for (Way& way : ways_[v]) {
-      if (!visit.wants(way.to, way.length)) continue;
-      const bool is_checked = way.state == Check::unknown;
+    std::size_t end = candidates_.first_end(v);
+    for (const VertexId to : candidates_.neighbours(v)) {
+      const std::size_t its_end = end++;
+      if (edge_state(known_, its_end) == EdgeState::blocked || !visit.wants(to, 0.0)) continue;
+      const double length = world_.distance(states_[v], states_[to]);
+      if (!visit.wants(to, length)) continue;
+      const bool is_checked = edge_state(known_, its_end) == EdgeState::unchecked;
       if (is_checked) clock.begin();
-      const bool free = is_free(v, way, query, counters);
+      const bool free = is_free(v, to, its_end, query, counters);
       if (is_checked) clock.lap(StagePart::checks);
-      if (free) visit(way.to, way.length);
+      if (free) visit(to, length);
     }
   };
   const auto estimate = [&](VertexId v, VertexId to) { return world_.distance(states_[v], states_[to]); };
@@ -188,7 +157,7 @@ template <World W>
 SearchResult OneWayPlan<W>::search_plainly() {
   SearchState state;
   state.resize(states_.size(), [&] { execution_.check(); });
-  const Graph graph = free_graph(false);
+  const Graph graph = free_part(candidates_, known_, execution_);
   const auto should_stop = [&] { return execution_.should_stop(); };
   const SearchResult found = options_.search == SearchKind::bfs
                                  ? breadth_first(graph, start_vertex(), goal_vertex(), state, should_stop)
@@ -199,61 +168,22 @@ SearchResult OneWayPlan<W>::search_plainly() {
 
 template <World W>
 std::uint64_t OneWayPlan<W>::free_count() const {
+  constexpr std::uint64_t low = 0x5555555555555555;  // free is 01
   std::uint64_t count = 0;
-  for (std::size_t v = 0; v < ways_.size(); ++v) {
-    if (v % ways_per_poll == 0) execution_.check();
-    for (const Way& way : ways_[v]) count += way.state == Check::free ? 1 : 0;
-  }
+  for (const std::uint64_t word : known_) count += static_cast<std::uint64_t>(std::popcount(word & ~(word >> 1) & low));
   return count;
-}
-
-/// The free edges, each in the row of its begin (reversed: of its end). Throws InputError for 2^32 of them or more.
-template <World W>
-Graph OneWayPlan<W>::free_graph(bool reversed) const {
-  const std::uint64_t edges = free_count();
-  if (edges > std::numeric_limits<EdgeEnd>::max()) {
-    throw InputError("graph", "too many edges for 32-bit positions; use fewer samples or neighbours",
-                     std::to_string(edges));
-  }
-  execution_.reserve((states_.size() + 1) * 2 * sizeof(EdgeEnd) + edges * sizeof(VertexId));
-  RawVector<EdgeEnd> offsets(states_.size() + 1);
-  std::fill(offsets.begin(), offsets.end(), 0);
-  const auto each = [&](const auto& visit) {
-    for (VertexId v = 0; v < ways_.size(); ++v) {
-      if (v % ways_per_poll == 0) execution_.check();
-      for (const Way& way : ways_[v]) {
-        if (way.state == Check::free) reversed ? visit(way.to, v) : visit(v, way.to);
-      }
-    }
-  };
-  each([&](VertexId row, VertexId) { ++offsets[row + 1]; });
-  for (std::size_t v = 0; v < states_.size(); ++v) offsets[v + 1] += offsets[v];
-  RawVector<VertexId> targets(offsets[states_.size()]);
-  std::vector<EdgeEnd> next(offsets.begin(), offsets.end() - 1);
-  each([&](VertexId row, VertexId other) { targets[next[row]++] = other; });
-  return {std::move(offsets), std::move(targets)};
-}
-
-/// Reaches all that can be reached.
-template <World W>
-void OneWayPlan<W>::explore(const Graph& graph, VertexId from, SearchState& state) const {
-  state.resize(states_.size(), [&] { execution_.check(); });
-  breadth_first(graph, from, no_vertex, state, [&] { return execution_.should_stop(); });
-  execution_.check();
 }
 
 template <World W>
 void OneWayPlan<W>::finish(PlannedRoadmap<State>* keep) {
   if (this->is_apart()) {
     check_all();
-    SearchState from_start;
-    SearchState to_goal;
-    explore(free_graph(false), start_vertex(), from_start);
-    explore(free_graph(true), goal_vertex(), to_goal);
-    this->tell_separation(from_start, to_goal);
+    solution_.counters.edges_free += free_count() - solution_.roadmap.edges;
+    const Graph graph = free_part(candidates_, known_, execution_);
+    this->tell_separation(reached_and_reaching(graph, start_vertex(), goal_vertex(), execution_));
   }
   if (keep == nullptr) return;
-  *keep = {RawVector<State>(), free_graph(false), std::move(tree_)};
+  *keep = {RawVector<State>(), free_part(candidates_, known_, execution_), std::move(tree_)};
   keep->states = std::move(states_);
 }
 
