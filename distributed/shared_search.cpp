@@ -12,35 +12,13 @@
 
 #include "core/base/error.hpp"
 #include "core/search/bidirectional_search.hpp"
+#include "core/search/union_find.hpp"
 
 namespace warren::distributed {
 namespace {
 
 constexpr std::size_t below = static_cast<std::size_t>(Border::below);
 constexpr std::size_t above = static_cast<std::size_t>(Border::above);
-
-/// Union-find over the components that reach a border or an end.
-class JoinedBands {
- public:
-  explicit JoinedBands(std::size_t components) : parent_(components) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
-  std::size_t root(std::size_t v) {
-    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-    return v;
-  }
-  void join(std::size_t v, std::size_t w) {
-    v = root(v);
-    w = root(w);
-    joins_ += v != w ? 1 : 0;
-    parent_[v] = w;
-  }
-  std::size_t joins() const { return joins_; }
-
- private:
-  std::vector<std::size_t> parent_;
-  std::size_t joins_ = 0;
-};
 
 /// What all bands' components are together, start and goal among them.
 void join_bands(const std::vector<HeldBand>& bands, bool direct, const Execution& execution, ToldRoute& route) {
@@ -51,20 +29,23 @@ void join_bands(const std::vector<HeldBand>& bands, bool direct, const Execution
     route.components += band.components;
   }
   execution.reserve(first.back() * sizeof(std::size_t));
-  JoinedBands joined(first.back());
-  if (direct) joined.join(0, 1);
+  std::vector<std::size_t> parent(first.back());
+  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  const auto join = [&](std::size_t v, std::size_t w) {
+    if (unite(parent, v, w)) --route.components;
+  };
+  if (direct) join(0, 1);
   for (std::size_t b = 0; b < bands.size(); ++b) {
     execution.check();
     for (std::size_t side = 0; side < side_count; ++side) {
-      for (const std::uint32_t component : bands[b].linked[side]) joined.join(side, first[b] + component);
+      for (const std::uint32_t component : bands[b].linked[side]) join(side, first[b] + component);
     }
     if (b + 1 == bands.size()) continue;
     const auto& ours = bands[b].component_of[above];
     const auto& theirs = bands[b + 1].component_of[below];
-    for (std::size_t i = 0; i < ours.size(); ++i) joined.join(first[b] + ours[i], first[b + 1] + theirs[i]);
+    for (std::size_t i = 0; i < ours.size(); ++i) join(first[b] + ours[i], first[b + 1] + theirs[i]);
   }
-  route.components -= joined.joins();
-  route.joined = joined.root(0) == joined.root(1);
+  route.joined = root_of(parent, std::size_t{0}) == root_of(parent, std::size_t{1});
 }
 
 }  // namespace

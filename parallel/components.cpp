@@ -6,6 +6,7 @@
 #include <numeric>
 #include <vector>
 
+#include "core/search/union_find.hpp"
 #include "parallel/chunks.hpp"
 #include "parallel/union_forest.hpp"
 
@@ -15,18 +16,12 @@ namespace {
 constexpr std::size_t component_grain = std::size_t{1} << 14;
 
 void join_inside(const Graph& graph, Range block, RawVector<VertexId>& parent) {
-  const auto root = [&parent](VertexId v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
   for (auto v = static_cast<VertexId>(block.first); v < block.last; ++v) {
     parent[v] = v;
     for (const VertexId w : graph.neighbours(v)) {
       if (w > v) break;  // each edge once, from its larger end
       if (w < block.first) continue;
-      const VertexId a = root(v);
-      const VertexId b = root(w);
-      parent[std::max(a, b)] = std::min(a, b);
+      unite(parent, v, w);
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/base/error.hpp"
+#include "core/search/union_find.hpp"
 
 namespace warren {
 
@@ -40,16 +41,10 @@ Components components(const Graph& graph) {
   RawVector<VertexId>& parent = result.label;
   parent.resize(n);
   for (VertexId v = 0; v < n; ++v) parent[v] = v;
-  const auto root = [&parent](VertexId v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
   for (VertexId v = 0; v < n; ++v) {
     for (const VertexId w : graph.neighbours(v)) {
       if (w > v) break;  // each edge once, from its larger end
-      const VertexId a = root(v);
-      const VertexId b = root(w);
-      parent[std::max(a, b)] = std::min(a, b);
+      unite(parent, v, w);
     }
   }
   for (VertexId v = 0; v < n; ++v) {

@@ -15,6 +15,7 @@
 #include "core/plane/wall_set.hpp"
 #include "core/search/graph.hpp"
 #include "core/search/search.hpp"
+#include "core/search/union_find.hpp"
 #include "parallel/assemble_graph.hpp"
 #include "parallel/components.hpp"
 #include "parallel/polled_sort.hpp"
@@ -147,15 +148,11 @@ double AxisGraph::widest() const {
   });
   std::vector<VertexId> parent(vertex_count());
   std::iota(parent.begin(), parent.end(), 0U);
-  const auto root = [&](VertexId v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
   for (std::size_t n = 0; n < order.size(); ++n) {
     if (n % links_per_poll == 0) execution_.check();
     const std::uint32_t i = order[n];
-    parent[root(links_[i].from)] = root(links_[i].to);
-    if (root(start()) == root(goal())) return links_[i].clearance;
+    unite(parent, links_[i].from, links_[i].to);
+    if (root_of(parent, start()) == root_of(parent, goal())) return links_[i].clearance;
   }
   return -1.0;
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Disjoint regions of cells (union-find) for the maze generators that join regions: path halving, the smaller number
-// becomes the root; O(log n) expected for joins in random order, in practice two or three steps. One Id an element.
+// Disjoint regions of cells (union-find) for the maze generators that join regions. One Id an element.
 #pragma once
 
 #include <cstddef>
 #include <utility>
 
 #include "core/base/raw_vector.hpp"
+#include "core/search/union_find.hpp"
 #include "parallel/chunks.hpp"
 
 namespace warren::maze {
@@ -20,22 +20,9 @@ class Regions {
       for (std::size_t i = r.first; i < r.last; ++i) parents_[i] = static_cast<Id>(i);
     });
   }
-  Id root(Id i) {
-    while (parents_[i] != i) {
-      parents_[i] = parents_[parents_[i]];
-      i = parents_[i];
-    }
-    return i;
-  }
+  Id root(Id i) { return root_of(parents_, i); }
   /// Joins the regions of a and b; false if they were one already.
-  bool join(Id a, Id b) {
-    a = root(a);
-    b = root(b);
-    if (a == b) return false;
-    if (b < a) std::swap(a, b);
-    parents_[b] = a;
-    return true;
-  }
+  bool join(Id a, Id b) { return unite(parents_, a, b); }
 
  private:
   RawVector<Id> parents_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scenes/mazes/spanning_tile.hpp"
+#include "core/search/union_find.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -255,22 +256,14 @@ void SpanningTile::number_rim() {
   });
 }
 
-std::uint16_t SpanningTile::root(std::uint16_t cell) {
-  while (parent_[cell] != cell) {
-    parent_[cell] = parent_[parent_[cell]];
-    cell = parent_[cell];
-  }
-  return cell;
-}
-
 void SpanningTile::join() {
   rim_edges_.clear();
   const std::array<std::uint32_t, 2> offset{1, piece_.width};
   for (std::size_t k = 0; k < candidate_count_; ++k) {
     const std::uint32_t place = candidates_[k].place;
     const auto cell = static_cast<std::uint16_t>(place / 2);
-    const std::uint16_t a = root(cell);
-    const std::uint16_t b = root(static_cast<std::uint16_t>(cell + offset[place % 2]));
+    const std::uint16_t a = root_of(parent_, cell);
+    const std::uint16_t b = root_of(parent_, static_cast<std::uint16_t>(cell + offset[place % 2]));
     if (a == b) continue;
     open_[cell] = static_cast<std::uint8_t>(open_[cell] | (1U << (place % 2)));
     const std::uint16_t kept = std::min(a, b);

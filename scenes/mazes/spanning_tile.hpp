@@ -99,7 +99,6 @@ class SpanningTile {
   void number_rim();
   void join();
   std::uint64_t number_of(std::uint32_t place) const;
-  std::uint16_t root(std::uint16_t cell);
 
   EdgeWeights weights_;
   GridPiece piece_{};
