@@ -16,10 +16,8 @@
 #include "python/kept_roadmap.hpp"
 #include "python/keywords.hpp"
 #include "solve/explain/explain_answer.hpp"
-#include "solve/roadmaps/blocked_end_of_roadmap.hpp"
 #include "solve/roadmaps/export_of_roadmap.hpp"
 #include "solve/roadmaps/roadmap_file_io.hpp"
-#include "solve/steps/heuristic_price.hpp"
 #include "tools/words/option_values.hpp"
 #include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"
@@ -145,12 +143,6 @@ tools::Command asking() {
 tools::Command asking_pairs() { return of_verb("lengths", tools::query_command(), is_of_search); }
 tools::Command asking_matrix() { return of_verb("matrix", tools::query_command(), is_of_search); }
 
-RoadmapSearchFields how_to_search(const tools::Arguments& arguments) {
-  const SolveOptions words = tools::solve_words(arguments);
-  return {words.search,           words.queue,    words.roadmap.attach, words.optimise, words.car.cusp_cost,
-          words.car.reverse_cost, words.heuristic};
-}
-
 Kept build_roadmap(const Scene& scene, py::dict keywords) {
   CallLimits limits = take_limits(keywords);
   const tools::Arguments words = arguments_of(made_once<building>(), keywords);
@@ -193,29 +185,20 @@ KeptAnswer ask(KeptRoadmap& kept, py::dict keywords, bool keep, bool explain) {
   CallLimits limits = take_limits(keywords);
   const tools::Arguments words = arguments_of(made_once<asking>(), keywords);
   const Question question = tools::question_words(words);
-  const RoadmapSearchFields how = how_to_search(words);
+  const RoadmapSearchFields how = tools::search_words(words);
   const Asking asking(kept);
   KeptAnswer said;
   said.answer = limits.run([&](const Execution& execution) {
     QuestionScratch scratch;
     const RoadmapQuery& query = kept.query(execution);
     ByProducts* made = keep || explain ? &said.made : nullptr;
-    Answer answer = query.ask_within(question.start, question.goal, how, execution, scratch, made);
-    price_heuristic(answer, how.heuristic, [&](HeuristicKind exact) {
-      RoadmapSearchFields again = how;
-      again.heuristic = exact;
-      again.optimise = false;
-      return query.ask_within(question.start, question.goal, again, execution, scratch);
-    });
+    Answer answer = query.ask_explained(question.start, question.goal, how, execution, scratch, made);
     const Roadmap& roadmap = kept.roadmap();
-    explain_blocked_end(roadmap, answer, execution);
     if (explain) {
       const AskedWith asked{.options = roadmap.options, .samples = roadmap.samples, .is_kept = true};
       explain_in_time(answer,
                       [&] { explain_answer(roadmap.world.whole(execution), asked, answer, said.made, execution); });
     }
-    answer.threads = thread_count(execution.threads);
-    answer.peak_memory_bytes = peak_resident_bytes();
     return answer;
   });
   return finished(std::move(said), keep, limits);
@@ -224,8 +207,8 @@ KeptAnswer ask(KeptRoadmap& kept, py::dict keywords, bool keep, bool explain) {
 py::array lengths(KeptRoadmap& kept, const py::object& from, const py::object& to, bool each_to_each,
                   py::dict keywords) {
   CallLimits limits = take_limits(keywords);
-  const RoadmapSearchFields how =
-      how_to_search(arguments_of(each_to_each ? made_once<asking_matrix>() : made_once<asking_pairs>(), keywords));
+  const RoadmapSearchFields how = tools::search_words(
+      arguments_of(each_to_each ? made_once<asking_matrix>() : made_once<asking_pairs>(), keywords));
   const std::size_t width = state_size(kept.roadmap().robot);
   const NumberRows starts = rows_of(from, "starts", {width});
   const NumberRows goals = width == 3   ? rows_of(to, "goals", {3, 2})

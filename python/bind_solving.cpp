@@ -10,7 +10,6 @@
 #include "solve/answer/explanation_text.hpp"
 #include "solve/explain/explain_answer.hpp"
 #include "solve/solve.hpp"
-#include "solve/steps/blocked_end.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 #include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"
@@ -32,9 +31,7 @@ KeptAnswer solve_scene(const Scene& scene, py::dict keywords, bool keep, bool ex
   check_solver_options(options);
   KeptAnswer kept;
   kept.answer = limits.run([&](const Execution& execution) {
-    Answer answer = solve_within(scene, question, options, execution, keep || explain ? &kept.made : nullptr);
-    price_heuristic(scene, question, options, execution, answer);
-    if (is_blocked(answer.outcome)) explain_blocked_end(scene, answer, execution);
+    Answer answer = solve_explained(scene, question, options, execution, keep || explain ? &kept.made : nullptr);
     const auto complete = [&] {
       if (answer.outcome != Outcome::stopped) make_by_products(scene, question, options, execution, kept.made);
     };
@@ -45,8 +42,6 @@ KeptAnswer solve_scene(const Scene& scene, py::dict keywords, bool keep, bool ex
         explain_answer(scene, AskedWith{options}, answer, kept.made, execution);
       });
     }
-    answer.threads = thread_count(execution.threads);
-    answer.peak_memory_bytes = peak_resident_bytes();
     return answer;
   });
   return finished(std::move(kept), keep, limits);

@@ -101,6 +101,15 @@ void price_heuristic(const Scene& scene, const Question& question, const SolveOp
   });
 }
 
+Answer solve_explained(const Scene& scene, const Question& question, const SolveOptions& options,
+                       const Execution& execution, ByProducts* keep, PathTaker* taker) {
+  Answer answer = solve_within(scene, question, options, execution, keep, taker);
+  price_heuristic(scene, question, options, execution, answer);
+  explain_blocked_end(scene, answer, execution);
+  answer.peak_memory_bytes = peak_resident_bytes();
+  return answer;
+}
+
 void make_by_products(const Scene& scene, const Question& question, const SolveOptions& options,
                       const Execution& execution, ByProducts& keep) {
   const ChosenSolver solver = choose_solver(options, scene, question);
@@ -111,9 +120,7 @@ void make_by_products(const Scene& scene, const Question& question, const SolveO
 Answer solve(const Scene& scene, const Question& question, const SolveOptions& options, const Limits& limits,
              ByProducts* keep) {
   const LimitedExecution limited(limits);
-  Answer answer = solve_within(scene, question, options, limited.execution(), keep);
-  explain_blocked_end(scene, answer, limited.execution());
-  price_heuristic(scene, question, options, limited.execution(), answer);
+  Answer answer = solve_explained(scene, question, options, limited.execution(), keep);
   if (keep == nullptr || answer.outcome == Outcome::stopped) return answer;
   try {
     make_by_products(scene, question, options, limited.execution(), *keep);

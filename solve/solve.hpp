@@ -31,16 +31,20 @@ Verdict verify(const Scene& scene, const Answer& answer, const Limits& limits = 
 Verdict verify(const Scene& scene, const RecordedAnswer& answer, const Question& question = {},
                const Limits& limits = {});
 
-/// As above, with an execution that goes on: its deadline is running already. `taker`, where given, may receive the
-/// path's points while they are made, before they are verified; the answer then has `handed` instead of them.
+/// The answer alone, with an execution that goes on: its deadline is running already. `taker`, where given, may receive
+/// the path's points while they are made, before they are verified; the answer then has `handed` instead of them.
 Answer solve_within(const Scene& scene, const Question& question, const SolveOptions& options,
                     const Execution& execution, ByProducts* keep = nullptr, PathTaker* taker = nullptr);
 /// verify() with an execution that goes on.
 Verdict verify_within(const Scene& scene, const Question& question, const RecordedAnswer& answer,
                       const Execution& execution);
 
-/// Says what an estimate of options cost, where it is not the straight line (solve/steps/heuristic_price.hpp); solve()
-/// has done it.
+/// solve_within(), and what solve() says beside the path: where a blocked end is free, and what an estimate of options
+/// cost where it is not the straight line.
+Answer solve_explained(const Scene& scene, const Question& question, const SolveOptions& options,
+                       const Execution& execution, ByProducts* keep = nullptr, PathTaker* taker = nullptr);
+
+/// Says what an estimate of options cost, where it is not the straight line (solve/steps/heuristic_price.hpp).
 void price_heuristic(const Scene& scene, const Question& question, const SolveOptions& options,
                      const Execution& execution, Answer& answer);
 

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "solve/roadmaps/blocked_end_of_roadmap.hpp"
 #include "solve/roadmaps/roadmap_query.hpp"
 #include "solve/solve.hpp"
 #include "solve/steps/kind_of_problem.hpp"
@@ -38,10 +39,8 @@ void add_account(const BuildAccount& built, Answer& answer) {
   answer.seconds.connect += built.seconds.connect;
 }
 
-}  // namespace
-
-Answer solve_and_keep(Scene scene, const Question& question, const SolveOptions& options, const Execution& execution,
-                      Roadmap& roadmap, ByProducts* keep) {
+Answer kept_and_solved(Scene scene, const Question& question, const SolveOptions& options, const Execution& execution,
+                       Roadmap& roadmap, ByProducts* keep) {
   SolveOptions built_by = options_of_roadmap(options, choose_solver(options, scene, question).planner);
   check_buildable(scene, question, built_by);
   const bool by_question = is_roadmap_planner(*built_by.planner) && grows(built_by, scene, robot_of(scene, question));
@@ -69,6 +68,16 @@ Answer solve_and_keep(Scene scene, const Question& question, const SolveOptions&
   if (by_question) return solved;
   add_account(account, asked);
   return asked;
+}
+
+}  // namespace
+
+Answer solve_and_keep(Scene scene, const Question& question, const SolveOptions& options, const Execution& execution,
+                      Roadmap& roadmap, ByProducts* keep) {
+  Answer answer = kept_and_solved(std::move(scene), question, options, execution, roadmap, keep);
+  price_heuristic(roadmap.world.whole(execution), question, options, execution, answer);
+  explain_blocked_end(roadmap, answer, execution);
+  return answer;
 }
 
 }  // namespace warren

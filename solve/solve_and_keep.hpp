@@ -14,8 +14,8 @@
 
 namespace warren {
 
-/// Takes the scene. `roadmap` is whole unless the answer is `stopped`. `keep`: as for solve_within. Throws as
-/// solve_within() and build_within() do, UsageError where the planner makes no roadmap that is kept, Stopped.
+/// Takes the scene. `roadmap` is whole unless the answer is `stopped`. `keep`: as for solve_explained(). Throws as
+/// that and build_within() do, UsageError where the planner makes no roadmap that is kept, Stopped.
 Answer solve_and_keep(Scene scene, const Question& question, const SolveOptions& options, const Execution& execution,
                       Roadmap& roadmap, ByProducts* keep = nullptr);
 

@@ -6,11 +6,9 @@
 #include "core/base/error.hpp"
 #include "solve/explain/explain_answer.hpp"
 #include "solve/question/plannable.hpp"
-#include "solve/roadmaps/blocked_end_of_roadmap.hpp"
 #include "solve/roadmaps/kept_cells.hpp"
 #include "solve/roadmaps/walls_let_go.hpp"
 #include "solve/solve.hpp"
-#include "solve/steps/blocked_end.hpp"
 
 namespace warren::serve {
 namespace {
@@ -157,8 +155,7 @@ Answer ServedWorld::ask(const ServedQuestion& question, const Execution& executi
     QuestionScratch scratch;
     scratch.beside_judge = std::move(beside_judge);
     const RoadmapSearchFields how{.optimise = question.optimise};
-    Answer answer = query_->ask_within(question.start, question.goal, how, execution, scratch, keep);
-    explain_blocked_end(*roadmap_, answer, execution);
+    Answer answer = query_->ask_explained(question.start, question.goal, how, execution, scratch, keep);
     const AskedWith with{.options = roadmap_->options, .samples = roadmap_->samples, .is_kept = true};
     const auto explain = [&] { explain_answer(whole(execution), with, answer, made, execution); };
     if (keep != nullptr && roadmap_->lattice == nullptr) explain_in_time(answer, explain);
@@ -168,8 +165,7 @@ Answer ServedWorld::ask(const ServedQuestion& question, const Execution& executi
   asked.start = question.start;
   asked.goal = question.goal;
   const SolveOptions options{.planner = question.planner, .optimise = question.optimise};
-  Answer answer = solve_within(scene, asked, options, execution, keep);
-  explain_blocked_end(scene, answer, execution);
+  Answer answer = solve_explained(scene, asked, options, execution, keep);
   const auto explain = [&] {
     make_by_products(scene, asked, options, execution, made);
     explain_answer(scene, {options}, answer, made, execution);

@@ -11,6 +11,8 @@
 #include "planners/shorten/taut_path.hpp"
 #include "roadmaps/graph/free_components.hpp"
 #include "solve/question/planner_choice.hpp"
+#include "solve/roadmaps/blocked_end_of_roadmap.hpp"
+#include "solve/steps/heuristic_price.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 #include "solve/steps/planned_scene.hpp"
 #include "solve/steps/settled_ends.hpp"
@@ -135,7 +137,21 @@ Answer RoadmapQuery::ask(const std::vector<double>& start, const std::vector<dou
                          const RoadmapSearchFields& how, const Limits& limits, ByProducts* keep) const {
   const LimitedExecution limited(limits);
   QuestionScratch scratch;
-  return ask_within(start, goal, how, limited.execution(), scratch, keep);
+  return ask_explained(start, goal, how, limited.execution(), scratch, keep);
+}
+
+Answer RoadmapQuery::ask_explained(const std::vector<double>& start, const std::vector<double>& goal,
+                                   const RoadmapSearchFields& how, const Execution& execution, QuestionScratch& scratch,
+                                   ByProducts* keep) const {
+  Answer answer = ask_within(start, goal, how, execution, scratch, keep);
+  price_heuristic(answer, how.heuristic, [&](HeuristicKind exact) {
+    RoadmapSearchFields again = how;
+    again.heuristic = exact;
+    again.optimise = false;
+    return ask_within(start, goal, again, execution, scratch);
+  });
+  explain_blocked_end(roadmap_, answer, execution);
+  return finished(std::move(answer), execution);
 }
 
 Answer RoadmapQuery::ask_within(const std::vector<double>& start, const std::vector<double>& goal,

@@ -66,6 +66,10 @@ class RoadmapQuery {
   Answer ask(const std::vector<double>& start, const std::vector<double>& goal, const RoadmapSearchFields& how = {},
              const Limits& limits = {}, ByProducts* keep = nullptr) const;
   /// The same under an execution, with a scratch that the thread keeps from one question to the next.
+  Answer ask_explained(const std::vector<double>& start, const std::vector<double>& goal,
+                       const RoadmapSearchFields& how, const Execution& execution, QuestionScratch& scratch,
+                       ByProducts* keep = nullptr) const;
+  /// The answer alone: nothing is said of where a blocked end is free, nor of what an estimate cost.
   Answer ask_within(const std::vector<double>& start, const std::vector<double>& goal, const RoadmapSearchFields& how,
                     const Execution& execution, QuestionScratch& scratch, ByProducts* keep = nullptr) const;
   /// The same without the path where an index tells the length alone. Throws UsageError, Stopped.

@@ -15,9 +15,7 @@
 #include "solve/batches/ask_batch_io.hpp"
 #include "solve/batches/ask_matrix_io.hpp"
 #include "solve/explain/explain_answer.hpp"
-#include "solve/roadmaps/blocked_end_of_roadmap.hpp"
 #include "solve/roadmaps/roadmap_file_io.hpp"
-#include "solve/steps/heuristic_price.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_names.hpp"
 #include "tools/screen/roadmap_files.hpp"
@@ -41,16 +39,10 @@ constexpr OptionSpec query_specs[] = {
     {"--keep", "FILE", "write the roadmap with what this question has learnt of its edges"},
 };
 
-RoadmapSearchFields how_to_search(const Arguments& arguments) {
-  const SolveOptions words = solve_words(arguments);
-  return {words.search,           words.queue,    words.roadmap.attach, words.optimise, words.car.cusp_cost,
-          words.car.reverse_cost, words.heuristic};
-}
-
 class QueryCommand : public AnswerCommand {
  public:
   explicit QueryCommand(const Arguments& arguments)
-      : AnswerCommand(arguments, "--keep"), question_(question_words(arguments)), how_(how_to_search(arguments)) {}
+      : AnswerCommand(arguments, "--keep"), question_(question_words(arguments)), how_(search_words(arguments)) {}
 
  private:
   Answer find(const Run& run, StageTimes& before, ByProducts* keep) override {
@@ -58,14 +50,7 @@ class QueryCommand : public AnswerCommand {
     check_outputs_of(roadmap_.robot);
     const RoadmapQuery query(roadmap_, run.execution(), Questions::one);
     QuestionScratch scratch;
-    Answer answer = query.ask_within(question_.start, question_.goal, how_, run.execution(), scratch, keep);
-    price_heuristic(answer, how_.heuristic, [&](HeuristicKind exact) {
-      RoadmapSearchFields again = how_;
-      again.heuristic = exact;
-      again.optimise = false;
-      return query.ask_within(question_.start, question_.goal, again, run.execution(), scratch);
-    });
-    explain_blocked_end(roadmap_, answer, run.execution());
+    Answer answer = query.ask_explained(question_.start, question_.goal, how_, run.execution(), scratch, keep);
     if (keeps_roadmap()) learn(roadmap_, query, run.execution());
     return answer;
   }
@@ -86,7 +71,7 @@ class ManyQuestions {
  public:
   ManyQuestions(const Arguments& arguments, std::string_view of)
       : arguments_(arguments),
-        options_{how_to_search(arguments), arguments.has("--lengths-only"), arguments.has("--csv")},
+        options_{search_words(arguments), arguments.has("--lengths-only"), arguments.has("--csv")},
         keep_file_(output_file(arguments, "--keep")) {
     std::vector<std::string_view> one{"--start", "--goal", "--json", "--picture", "--explain"};
     for (const OptionSpec& spec : picture_option_specs()) one.push_back(spec.name);

@@ -11,10 +11,8 @@
 #include "solve/explain/explain_answer.hpp"
 #include "solve/mazes/resume_file_io.hpp"
 #include "solve/mazes/solve_streamed.hpp"
-#include "solve/roadmaps/blocked_end_of_roadmap.hpp"
 #include "solve/solve.hpp"
 #include "solve/solve_and_keep.hpp"
-#include "solve/steps/blocked_end.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 #include "tools/screen/output_conflicts.hpp"
 #include "tools/screen/world_files.hpp"
@@ -72,17 +70,10 @@ class SolveCommand : public AnswerCommand {
       throw UsageError("--explain: looks at walls that are held, and these are made tile by tile");
     }
     if (const auto file = arguments_.value("--resume")) return resumed(*file, run);
-    Answer answer = keeps_roadmap()
-                        ? solve_and_keep(std::move(scene_), question_, options_, run.execution(), roadmap_, keep)
-                        : solve_within(scene_, question_, options_, run.execution(), keep, path_taker());
-    price_heuristic(keeps_roadmap() ? roadmap_.world.whole(run.execution()) : scene_, question_, options_,
-                    run.execution(), answer);
-    if (keeps_roadmap()) {
-      explain_blocked_end(roadmap_, answer, run.execution());
-    } else {
-      explain_blocked_end(scene_, answer, run.execution());
+    if (!keeps_roadmap()) {
+      return solve_explained(scene_, question_, options_, run.execution(), keep, path_taker());
     }
-    return answer;
+    return solve_and_keep(std::move(scene_), question_, options_, run.execution(), roadmap_, keep);
   }
   /// Of mazes as they are usually solved, and where little follows.
   ExpectedStages expected_stages() const override {

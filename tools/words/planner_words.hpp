@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "solve/question/solve_options.hpp"
+#include "solve/roadmaps/roadmap_query.hpp"
 #include "tools/words/arguments.hpp"
 #include "tools/words/command.hpp"
 
@@ -25,6 +26,9 @@ SolveOptions roadmap_words(const Arguments& arguments);
 std::vector<OptionSpec> solve_option_specs();
 /// Throws UsageError for words and values that mean nothing; what contradicts what is not looked at.
 SolveOptions solve_words(const Arguments& arguments);
+
+/// What a question to a roadmap may say of its search. Throws as solve_words().
+RoadmapSearchFields search_words(const Arguments& arguments);
 
 /// The parts of these that have files of their own: grid_words.cpp (--cell --angles --face-motion --step-cost
 /// --turn-cost --diagonal --layers), tree_words.cpp (--step --goal-bias --nodes --trees --via).
