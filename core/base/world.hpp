@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/base/place_grid.hpp"
 #include "core/base/rng.hpp"
 
 namespace warren {
@@ -37,6 +38,17 @@ concept World = std::copyable<typename W::State> &&
 template <class W>
 concept SteerableWorld = World<W> && requires(const W& w, const typename W::State& a) {
   { w.interpolate(a, a, 0.5) } -> std::same_as<typename W::State>;
+};
+
+/// A world of the plane that knows roughly where the robot may be if all but its place stays as it is.
+/// w.free_places(a)   a coarse grid of places; none where that would take too long
+/// w.place_of(a)      where the robot is
+/// w.shifted(a, p)    the state at the place p that is else as a
+template <class W>
+concept PlaceWorld = SteerableWorld<W> && requires(const W& w, const typename W::State& a) {
+  { w.free_places(a) } -> std::same_as<PlaceGrid>;
+  { w.place_of(a) } -> std::same_as<Vec2>;
+  { w.shifted(a, Vec2{}) } -> std::same_as<typename W::State>;
 };
 
 /// A world that knows the middles of its corridors.

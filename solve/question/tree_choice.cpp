@@ -28,6 +28,7 @@ RrtOptions tree_options(const SolveOptions& asked) {
     throw UsageError(fmt::format("@sampler: {} is for roadmaps; trees take the others", name_of(*asked.sampler)));
   }
   options.sampler = asked.sampler;
+  options.places = !asked.optimise;  // trees find ways of more kinds, of which the best is wanted
   options.step = asked.trees.step;
   options.goal_bias = asked.trees.goal_bias.value_or(options.goal_bias);
   options.nodes = asked.trees.nodes.value_or(options.nodes);

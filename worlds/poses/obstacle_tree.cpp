@@ -11,6 +11,7 @@
 #include "core/base/whole.hpp"
 #include "parallel/execution.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
+#include "worlds/rasters/blocked_places.hpp"
 
 namespace warren {
 namespace {
@@ -321,6 +322,21 @@ Room ObstacleTree::room(const Footprint& body, const Move& move, double reach) c
     return end_at(swallowed ? 0.0 : std::sqrt(distance_sq(body, side)));
   });
   return room != Room::blocked && swallows(body) ? Room::blocked : room;
+}
+
+void ObstacleTree::take_blocked_places(std::span<const Vec2> mirrored_body, double reach, PlaceGrid& free) const {
+  std::array<Vec2, most_sides> corners;
+  for (const ConvexPolygon& polygon : convex_) {
+    const std::size_t count = polygon.last - polygon.first;
+    const ConvexSide* sides = convex_sides_.data() + polygon.first;
+    const bool clockwise = cross(sides->side.along, sides->outward) > 0.0;
+    for (std::size_t i = 0; i < count; ++i) corners[clockwise ? count - 1 - i : i] = sides[i].side.a;
+    warren::take_blocked_places(std::span(corners).first(count), mirrored_body, reach, free);
+  }
+  for (const Side& side : sides_) {
+    const std::array<Vec2, 2> ends{side.a, side.a + side.along};
+    warren::take_blocked_places(ends, mirrored_body, reach, free);
+  }
 }
 
 std::size_t ObstacleTree::bytes() const {

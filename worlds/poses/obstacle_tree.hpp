@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/place_grid.hpp"
 #include "core/base/types.hpp"
 #include "parallel/execution.hpp"
 #include "scenes/scene/scene.hpp"
@@ -76,6 +77,9 @@ class ObstacleTree {
 
   /// Convex obstacles, and sides of the others.
   std::size_t piece_count() const { return convex_.size() + sides_.size(); }
+  /// Takes the bits of places away at which a convex body, mirrored at its reference point, would come nearer than
+  /// `reach` to an obstacle (worlds/rasters/blocked_places.hpp); of polygons that aren't convex, to a side.
+  void take_blocked_places(std::span<const Vec2> mirrored_body, double reach, PlaceGrid& free) const;
 
   const std::optional<Box>& bounds() const { return bounds_; }
   /// The box of walls and polygons; empty without any.

@@ -61,6 +61,29 @@ Se2 Se2World::corridor_state(std::uint64_t seed, std::uint64_t index) const {
   return {p.x, p.y, state.theta};
 }
 
+PlaceGrid Se2World::free_places(const State& a) const {
+  constexpr std::size_t most_pieces = 256;
+  if (tree_.piece_count() > most_pieces) return {};
+  const Rotation turned(a.theta);
+  std::vector<Vec2> mirrored;
+  mirrored.reserve(outline_.size());
+  Box body;
+  for (const Vec2 p : outline_) {
+    const Vec2 arm = turned(p);
+    body.include(arm);
+    mirrored.push_back(Vec2{} - arm);
+  }
+  Box places = box_;
+  if (tree_.bounds()) {
+    const Box wide = body.grown(planning_clearance_);
+    places = {box_.min - wide.min, box_.max - wide.max};
+  }
+  if (places.empty()) return {};
+  PlaceGrid free = PlaceGrid::over(places);
+  tree_.take_blocked_places(convex_hull(std::move(mirrored)), planning_clearance_, free);
+  return free;
+}
+
 /// Is the body where it may be, if it touches no obstacle?
 bool Se2World::is_confined(const State& a) const {
   if (!map_) return tree_.bounds() || box_.contains(a.position());

@@ -83,6 +83,12 @@ class Se2World {
   }
   MotionVerdict judge_motion(const State& a, const State& b, Query& query) const;
 
+  /// Where the reference point may be while the body has the heading of a, on a coarse grid; no places where there are
+  /// too many obstacles to look at all. A hint: motions between them have to be checked.
+  PlaceGrid free_places(const State& a) const;
+  Vec2 place_of(const State& a) const { return a.position(); }
+  State shifted(const State& a, Vec2 to) const { return {to.x, to.y, a.theta}; }
+
   double suggested_samples(const Execution&) const { return 400.0; }
   std::uint64_t first_samples() const { return 50; }  ///< of a roadmap that is tried first
   /// Of the box times a full turn, in the metric.
@@ -108,6 +114,6 @@ class Se2World {
   std::optional<CorridorPoints> corridors_;  // only of maps
 };
 
-static_assert(SteerableWorld<Se2World> && CorridorWorld<Se2World>);
+static_assert(SteerableWorld<Se2World> && CorridorWorld<Se2World> && PlaceWorld<Se2World>);
 
 }  // namespace warren

@@ -71,7 +71,7 @@ TEST(RrtConnect, SolvesPolyEasyForEverySeed) {
   double best = 100.0;
   for (std::uint64_t seed = 1; seed <= test::share(100, 20); ++seed) {
     SCOPED_TRACE(seed);
-    const auto solution = rrt_connect(world, easy_start, std::span(&easy_goal, 1), {.seed = seed}, {});
+    const auto solution = rrt_connect(world, easy_start, std::span(&easy_goal, 1), {.places = false, .seed = seed}, {});
     ASSERT_EQ(solution.outcome, Outcome::solved);
     expect_verified(scene, kite, solution.path, {.start = easy_start, .goal = easy_goal});
     if (seed > 20) continue;
@@ -84,6 +84,38 @@ TEST(RrtConnect, SolvesPolyEasyForEverySeed) {
     best = std::min(best, length);
   }
   EXPECT_LE(best, 7.6);
+}
+
+TEST(RrtConnect, GoesOverFreePlacesBeforeAnythingIsDrawn) {
+  const Scene scene = poly_easy();
+  const Se2World world(scene, kite, {});
+  for (const double turn : {0.0, 0.3, 3.0}) {
+    for (const bool backwards : {false, true}) {
+      SCOPED_TRACE(std::to_string(turn) + (backwards ? " backwards" : ""));
+      std::vector<Se2> ends{easy_start, {easy_goal.x, easy_goal.y, turn}};
+      if (backwards) std::swap(ends[0], ends[1]);
+      const auto solution = rrt_connect(world, ends[0], std::span(&ends[1], 1), {.seed = 3}, {});
+      ASSERT_EQ(solution.outcome, Outcome::solved);
+      expect_verified(scene, kite, solution.path, {.start = ends[0], .goal = ends[1]});
+      if (turn == 0.0 && !backwards) {  // backwards the way cuts a corner, and trees go on from what was free of it
+        EXPECT_EQ(solution.counters.samples, 0U);
+      }
+      EXPECT_LT(solution.counters.edges_checked, 60U);
+      const auto drawn = rrt_connect(world, ends[0], std::span(&ends[1], 1), {.places = false, .seed = 3}, {});
+      EXPECT_GT(drawn.counters.samples, 0U);
+    }
+  }
+}
+
+TEST(RrtConnect, GoesOverFreePlacesToTheNearestGoal) {
+  const Scene scene = poly_easy();
+  const Se2World world(scene, kite, {});
+  const std::vector<Se2> goals{{3.86, 0.23, 2.0}, {3.86, 0.23, 0.0}, {3.86, 0.23, -2.0}};
+  const auto solution = rrt_connect(world, easy_start, goals, {}, {});
+  ASSERT_EQ(solution.outcome, Outcome::solved);
+  EXPECT_EQ(solution.path.back(), goals[1]);
+  EXPECT_EQ(solution.counters.samples, 0U);
+  expect_verified(scene, kite, solution.path, {.start = easy_start, .goal = goals[1]});
 }
 
 TEST(Rrt, SolvesScatteredScenesWithEverySampler) {
