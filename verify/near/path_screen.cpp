@@ -30,7 +30,7 @@ double power_of_two_above(double x) {
 
 }  // namespace
 
-PathScreen::PathScreen(const LegBoxes& legs, const Plan& plan, const Execution& execution) {
+PathScreen::PathScreen(const LegBoxes& legs, const Plan& plan, const Execution& execution) : plain_(plan.plain) {
   choose_cell(legs, plan);
   const Box box = legs.box();
   const double largest =
@@ -232,6 +232,7 @@ void PathScreen::sift_along(std::span<const Wall> walls, std::size_t first_numbe
   lanes.x_max.fill(Limits::has_infinity ? -Limits::infinity() : Limits::lowest());
   lanes.y_max = lanes.x_max;
   std::size_t budget = 65536 + 64 * walls.size();  // words of cells: for many short walls and a few long ones
+  const auto work = CoveredCells::fastest<Wall, Scale, T>(plain_);
   std::array<Wall, block_size> tail;
   for (std::size_t begin = 0; begin < walls.size(); begin += block_size) {
     const std::size_t count = std::min(block_size, walls.size() - begin);
@@ -241,7 +242,7 @@ void PathScreen::sift_along(std::span<const Wall> walls, std::size_t first_numbe
       std::copy(walls.end() - as_whole<std::ptrdiff_t>(count), walls.end(), tail.begin());
       block = tail.data();
     }
-    cells.find(block, x, y, lanes);
+    work(block, x, y, cells, lanes);
     std::array<std::uint32_t, block_size> doubtful;
     std::size_t found = 0;
     for (std::uint32_t i = 0; i < count; ++i) {

@@ -12,7 +12,7 @@
 // the walls half a cell off on both sides, which tie with the least distance, are dropped all the same. (A path that
 // touches a corner meets an edge or a cell there too, so corners need no bit.)
 //
-// Memory: 2 bits a cell, at most some 64 cells a leg. A leg costs its length in cells; a wall some instructions
+// Memory: 2 bits a cell, at most some 64 cells a leg. A leg costs its length in cells; a wall some vector instructions
 // and one lookup, or one for every 28 cells of the columns that it covers. Cells lie column by column, as the walls of
 // the maze generator do. Conservative: a wall that comes nearer is never dropped. Rounding: a coordinate is multiplied
 // by a power of two, which is exact, rounded down (or up) to a whole number by the magic number 1.5 * 2^52, which is
@@ -38,10 +38,11 @@ namespace warren {
 /// Holds nothing of the path. After set_reach any number of threads may ask.
 class PathScreen {
  public:
-  /// What is to come; it decides on the cells.
+  /// What is to come; it decides on the cells, and on the instructions.
   struct Plan {
     std::size_t walls = 0;
     double typical_wall = 0.0;  ///< the extent of most, 0 if not known
+    bool plain = false;         ///< without what this processor can do beyond the baseline
   };
   PathScreen(const LegBoxes& legs, const Plan& plan, const Execution& execution);
 
@@ -97,6 +98,7 @@ class PathScreen {
   template <class Wall>
   void sift_all(std::span<const Wall> walls, std::size_t first_number, Rest& rest) const;
 
+  bool plain_;
   double cell_ = 1.0;
   double per_cell_ = 1.0;
   bool usable_ = true;

@@ -125,6 +125,45 @@ TEST(PathScreen, SaysOfPackedWallsWhatItSaysOfTheirNumbers) {
   }
 }
 
+TEST(PathScreen, SaysTheSameInPlainInstructions) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    const World w = random_world(seed, seed % 2 == 0);
+    std::vector<DoubleWall> doubles;
+    std::vector<FloatWall> floats;
+    std::vector<PackedWall> packed;
+    for (std::uint64_t i = 0; i < 5; ++i) {
+      for (const Segment& s : w.walls) {
+        const auto at = [](double x) { return static_cast<float>(x); };
+        doubles.push_back({s.a.x, s.a.y, s.b.x, s.b.y});
+        floats.push_back({at(s.a.x), at(s.a.y), at(s.b.x), at(s.b.y)});
+        const auto steps = [&](double x) { return static_cast<std::int32_t>(x * PackedWall::per_unit); };
+        packed.push_back(i % 2 == 0 ? PackedWall::level(steps(s.a.x), steps(s.a.y), steps(s.b.x - s.a.x))
+                                    : PackedWall::upright(steps(s.a.x), steps(s.a.y), steps(s.b.y - s.a.y)));
+      }
+    }
+    const LegBoxes legs(w.path, {});
+    PathScreen fast(legs, {.walls = 1 << 16, .typical_wall = 1.0}, {});
+    PathScreen plain(legs, {.walls = 1 << 16, .typical_wall = 1.0, .plain = true}, {});
+    const auto expect_same = [&](const auto& walls) {
+      PathScreen::Rest found;
+      PathScreen::Rest expected;
+      fast.sift(std::span(walls), 3, found);
+      plain.sift(std::span(walls), 3, expected);
+      EXPECT_EQ(found.doubtful, expected.doubtful);
+      EXPECT_EQ(found.box.min, expected.box.min);
+      EXPECT_EQ(found.box.max, expected.box.max);
+    };
+    for (const double reach : {0.3, 0.5, 2.0}) {
+      fast.set_reach(reach, 0.1);
+      plain.set_reach(reach, 0.1);
+      expect_same(doubles);
+      expect_same(floats);
+      expect_same(packed);
+    }
+  }
+}
+
 TEST(PathScreen, AWallOneUlpTooNearIsNotDropped) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     SCOPED_TRACE(seed);
